@@ -1,0 +1,1 @@
+//! Frictional contact of two surfaces: search, roles, traction fields, complementarity.

@@ -1,0 +1,1 @@
+//! Decks, meshes, VTK files, histories, summaries and figures.

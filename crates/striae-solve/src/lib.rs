@@ -1,0 +1,3 @@
+//! Elements, loads, the problem and its state, Newton's method and step control.
+
+pub mod model;

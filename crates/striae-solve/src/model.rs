@@ -1,0 +1,260 @@
+//! What is to be simulated: validated, immutable data that a deck is lowered to.
+//!
+//! All quantities are in the consistent units of the user.
+
+use striae_law::{bulk::Material, friction::Friction};
+use striae_mesh::{Face, Mesh, NodeId, Vec3};
+
+/// A whole problem.
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// One line that says what the problem is.
+    pub title: String,
+    /// Deformable bodies.
+    pub bodies: Vec<Body>,
+    /// Rigid surfaces.
+    pub rigid_surfaces: Vec<RigidSurface>,
+    /// Contact pairs.
+    pub pairs: Vec<Pair>,
+    /// Steps in the order in which they are run.
+    pub steps: Vec<Step>,
+    /// Newton's method and the linear solver.
+    pub solver: Solver,
+}
+
+/// A deformable body.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// Unique name.
+    pub name: String,
+    /// Mesh with its named sets.
+    pub mesh: Mesh,
+    /// Bulk material.
+    pub material: Material,
+}
+
+/// Position of a body in [`Model::bodies`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct BodyId(pub usize);
+
+/// Position of a rigid surface in [`Model::rigid_surfaces`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct RigidId(pub usize);
+
+/// Position of a pair in [`Model::pairs`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct PairId(pub usize);
+
+/// A rigid surface that deformable bodies may touch; it moves by translation.
+#[derive(Clone, Debug)]
+pub struct RigidSurface {
+    /// Unique name.
+    pub name: String,
+    /// Its shape in the reference configuration.
+    pub shape: RigidShape,
+}
+
+/// Shape of a rigid surface.
+#[derive(Clone, Debug)]
+pub enum RigidShape {
+    /// An unbounded plane.
+    Plane {
+        /// A point of the plane.
+        point: Vec3,
+        /// Unit normal, out of the rigid half space.
+        normal: Vec3,
+    },
+    /// Facets of three or four nodes, outward by the right-hand rule.
+    Facets {
+        /// Node positions.
+        positions: Vec<Vec3>,
+        /// Corners of the facets; a triangle repeats its last corner.
+        facets: Vec<[NodeId; 4]>,
+    },
+}
+
+/// One side of a contact pair.
+#[derive(Clone, Debug)]
+pub enum Side {
+    /// Faces of a deformable body.
+    Deformable {
+        /// The body.
+        body: BodyId,
+        /// Its faces that may come into contact.
+        faces: Vec<Face>,
+    },
+    /// A rigid surface.
+    Rigid(RigidId),
+}
+
+/// Two surfaces that may touch; side `a` is always deformable.
+#[derive(Clone, Debug)]
+pub struct Pair {
+    /// Unique name.
+    pub name: String,
+    /// First side.
+    pub a: Side,
+    /// Second side.
+    pub b: Side,
+    /// Friction from the start; steps may change it.
+    pub friction: Friction,
+    /// Whether resultants of the two sides are made to balance.
+    pub balance: Balance,
+    /// Largest distance over which contact is looked for; `None`: half the local facet size.
+    pub search_distance: Option<f64>,
+}
+
+/// Treatment of the difference between the resultants of the two sides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Balance {
+    /// Six more unknowns a contact patch make forces and moments balance.
+    Resultants,
+    /// The plain interpolated fields.
+    None,
+}
+
+/// A part of the loading history.
+///
+/// A condition holds from the step that states it until a later step states
+/// the same set and component again or releases it. A stated condition takes
+/// its quantity from the present value to the target along the curve.
+#[derive(Clone, Debug)]
+pub struct Step {
+    /// Name for messages and output.
+    pub name: String,
+    /// Duration in (pseudo) time.
+    pub duration: f64,
+    /// Increment control.
+    pub increments: Increments,
+    /// Displacement conditions by component.
+    pub displacements: Vec<Displacement>,
+    /// Displacement conditions that end with the start of this step.
+    pub releases: Vec<Release>,
+    /// Loads on faces.
+    pub loads: Vec<Load>,
+    /// Displacements of rigid surfaces.
+    pub rigid_motions: Vec<RigidMotion>,
+    /// Changes of friction at the start of the step.
+    pub frictions: Vec<(PairId, Friction)>,
+}
+
+/// How a step is divided into increments, as fractions of its duration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Increments {
+    /// First increment.
+    pub initial: f64,
+    /// Smallest increment before the run is given up.
+    pub smallest: f64,
+    /// Largest increment.
+    pub largest: f64,
+}
+
+/// Prescribed displacement of nodes.
+#[derive(Clone, Debug)]
+pub struct Displacement {
+    /// Name of the node set, for reports.
+    pub set: String,
+    /// The body.
+    pub body: BodyId,
+    /// Its nodes.
+    pub nodes: Vec<NodeId>,
+    /// Target by component; `None` leaves the component as it is.
+    pub components: [Option<f64>; 3],
+    /// How the target is approached.
+    pub curve: Curve,
+}
+
+/// End of prescribed displacements.
+#[derive(Clone, Debug)]
+pub struct Release {
+    /// The body.
+    pub body: BodyId,
+    /// Its nodes.
+    pub nodes: Vec<NodeId>,
+    /// Components that become free.
+    pub components: [bool; 3],
+}
+
+/// A load on faces of a body.
+#[derive(Clone, Debug)]
+pub struct Load {
+    /// Name of the facet set; the same name and kind in a later step replaces the load.
+    pub set: String,
+    /// The body.
+    pub body: BodyId,
+    /// Its faces.
+    pub faces: Vec<Face>,
+    /// What acts on them.
+    pub kind: LoadKind,
+    /// Which part of the faces is loaded.
+    pub extent: LoadExtent,
+    /// How the target is approached.
+    pub curve: Curve,
+}
+
+/// Kinds of loads with their targets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LoadKind {
+    /// Force per reference area of fixed direction.
+    DeadTraction(Vec3),
+    /// Force per current area that turns with the facet.
+    FollowerTraction(Vec3),
+    /// Force per current area against the current normal.
+    Pressure(f64),
+}
+
+/// Part of the faces that carries a load.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LoadExtent {
+    /// All of it.
+    Whole,
+    /// Only what no other contact surface covers.
+    Exposed,
+}
+
+/// Translation of a rigid surface.
+#[derive(Clone, Debug)]
+pub struct RigidMotion {
+    /// The surface.
+    pub surface: RigidId,
+    /// Target of its displacement.
+    pub displacement: Vec3,
+    /// How the target is approached.
+    pub curve: Curve,
+}
+
+/// Share of the change that is done, over the fraction of the step.
+///
+/// A quantity that goes from `v0` to the target `v1` has the value
+/// `v0 + c(s) (v1 - v0)` at the fraction `s` of the step.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Curve {
+    /// `c(s) = s`.
+    Ramp,
+    /// `c(s) = 1`.
+    Constant,
+    /// `c(s) = s^2 (3 - 2 s)`.
+    Smooth,
+    /// Piecewise linear through points `(s, c)`, `s` rising from 0 to 1.
+    Table(Vec<(f64, f64)>),
+}
+
+/// Settings of Newton's method and the linear solver.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solver {
+    /// Factorisation.
+    pub backend: Backend,
+    /// Relative tolerance of every residual field.
+    pub tolerance: f64,
+    /// Iterations after which an increment is cut.
+    pub largest_iterations: usize,
+}
+
+/// Factorisation of the linear systems.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Backend {
+    /// Multifrontal LU on dense fronts.
+    Multifrontal,
+    /// faer's sparse LU.
+    Faer,
+}

@@ -1,0 +1,1 @@
+//! Geometry of a deforming surface: facets, nodal normals, transport, textures.

@@ -1,0 +1,1 @@
+//! Checks of derivatives, rates and closed forms; used by tests only.

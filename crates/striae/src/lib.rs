@@ -1,0 +1,1 @@
+//! Finite-element contact with anisotropic friction.

@@ -1,0 +1,2 @@
+//! The `striae` program.
+fn main() {}
