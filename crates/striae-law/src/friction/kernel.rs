@@ -1,0 +1,73 @@
+//! The common form of every friction law at a contact point.
+//!
+//! ```text
+//! -tau = L z + varpi eta ,   |z| <= varpi ,   slip du parallel to K z when |z| = varpi
+//! ```
+//!
+//! In the variable `z` the law is isotropic Coulomb friction, so stick and slip
+//! are the two sides of one projection, `z = Proj(z + r K^-1 du)` onto the disc
+//! of radius `varpi`. `L` and `K` act on vectors of the common tangent plane;
+//! they are stored as regular 3x3 matrices, `eta` as a tangent vector. `z`,
+//! `varpi` and `tau` are stresses, the rest has no unit.
+//!
+//! Source: closed form of the slip rule (36) of Jones & Papadopoulos (2006),
+//! "Simulating anisotropic frictional response using smoothly interpolated
+//! traction fields", Comput. Methods Appl. Mech. Engrg.
+
+use nalgebra::{Matrix3, Vector3};
+use num_dual::DualNum;
+
+/// Textures of the two surfaces at a contact point, as unit tangent vectors
+/// `a = n x s`, seen from the surface that carries the point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Textures<D> {
+    /// `a_a`: of the surface that carries the point; `None` where it has no texture.
+    pub own: Option<Vector3<D>>,
+    /// `a_b' = -a_b`: of the other surface, for the normal of this one.
+    pub opposite: Option<Vector3<D>>,
+}
+
+impl<D> Textures<D> {
+    /// Neither surface has a texture.
+    pub fn none() -> Self {
+        Self {
+            own: None,
+            opposite: None,
+        }
+    }
+}
+
+/// `L`, `eta` and `K` of a friction law at a contact point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Kernel<D> {
+    /// `L`, from `z` to the traction.
+    pub l: Matrix3<D>,
+    /// `eta`, the offset of the slip surface over `varpi`.
+    pub eta: Vector3<D>,
+    /// `K`, from `z` to the direction of slip; identity for laws stated in the slip direction.
+    pub k: Matrix3<D>,
+    /// The inverse of `K`.
+    pub k_inverse: Matrix3<D>,
+}
+
+impl<D: DualNum<Primitive = f64> + Copy> Kernel<D> {
+    /// Isotropic friction: `L = K = I`, `eta = 0`.
+    pub fn identity() -> Self {
+        Self::along_slip(Matrix3::identity(), Vector3::zeros())
+    }
+
+    /// A law stated in the slip direction: `K = I`.
+    pub(super) fn along_slip(l: Matrix3<D>, eta: Vector3<D>) -> Self {
+        Self {
+            l,
+            eta,
+            k: Matrix3::identity(),
+            k_inverse: Matrix3::identity(),
+        }
+    }
+
+    /// Friction traction `tau = -(L z + varpi eta)` for the cap `varpi`.
+    pub fn traction(&self, cap: D, z: &Vector3<D>) -> Vector3<D> {
+        -(self.l * z + self.eta * cap)
+    }
+}
