@@ -1,0 +1,62 @@
+//! Elastic constants of isotropic materials.
+//!
+//! ```text
+//! lambda = E nu / ((1 + nu)(1 - 2 nu)),   G = E / (2 (1 + nu))
+//! E = G (3 lambda + 2 G) / (lambda + G),  nu = lambda / (2 (lambda + G))
+//! ```
+//!
+//! The elasticity tensor is positive definite iff `E > 0` and `-1 < nu < 1/2`.
+
+/// The pair of Lame constants.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LameConstants {
+    /// First Lame constant `lambda`.
+    pub lambda: f64,
+    /// Shear modulus `G`.
+    pub shear: f64,
+}
+
+/// Elastic constants for which the material would not be stable.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum InadmissibleModuli {
+    /// Young's modulus must be positive.
+    #[error("Young's modulus is {0}, it must be positive and finite")]
+    YoungsModulus(f64),
+    /// Poisson's ratio must lie between -1 and 1/2.
+    #[error("Poisson's ratio is {0}, it must be above -1 and below 0.5")]
+    PoissonsRatio(f64),
+}
+
+impl LameConstants {
+    /// From Young's modulus `E` and Poisson's ratio `nu`.
+    ///
+    /// # Errors
+    ///
+    /// If `E` is not positive or `nu` is outside `(-1, 1/2)`.
+    pub fn from_youngs_modulus(
+        youngs_modulus: f64,
+        poissons_ratio: f64,
+    ) -> Result<Self, InadmissibleModuli> {
+        if !(youngs_modulus > 0.0 && youngs_modulus.is_finite()) {
+            return Err(InadmissibleModuli::YoungsModulus(youngs_modulus));
+        }
+        if !(poissons_ratio > -1.0 && poissons_ratio < 0.5) {
+            return Err(InadmissibleModuli::PoissonsRatio(poissons_ratio));
+        }
+        let shear = youngs_modulus / (2.0 * (1.0 + poissons_ratio));
+        Ok(Self {
+            lambda: 2.0 * shear * poissons_ratio / (1.0 - 2.0 * poissons_ratio),
+            shear,
+        })
+    }
+
+    /// Young's modulus `E`.
+    pub fn youngs_modulus(&self) -> f64 {
+        self.shear * (3.0 * self.lambda + 2.0 * self.shear) / (self.lambda + self.shear)
+    }
+
+    /// Poisson's ratio `nu`.
+    pub fn poissons_ratio(&self) -> f64 {
+        self.lambda / (2.0 * (self.lambda + self.shear))
+    }
+}
