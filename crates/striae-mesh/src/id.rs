@@ -58,3 +58,9 @@ impl Face {
         [3, 0, 4, 7],
     ];
 }
+
+impl fmt::Display for Face {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "side {} of {}", self.side, self.element)
+    }
+}

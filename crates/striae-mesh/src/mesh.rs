@@ -1,6 +1,6 @@
-//! The mesh of one body.
+//! The mesh of one body and the checks it has to pass.
 
-use crate::{ElementId, Face, NodeId, Sets, Vec3};
+use crate::{ElementId, Face, MeshError, NodeId, Sets, Vec3};
 
 /// Eight-node hexahedra over nodes in the reference configuration.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,25 +17,231 @@ pub struct Mesh {
     pub element_sets: Sets<ElementId>,
 }
 
-/// What can be wrong with a mesh.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum MeshError {
-    /// An element names a node that does not exist.
-    #[error("{element} refers to {node}, but the mesh has {nodes} nodes")]
-    MissingNode {
-        /// The element.
-        element: ElementId,
-        /// The node it names.
-        node: NodeId,
-        /// How many nodes there are.
-        nodes: usize,
-    },
-}
-
 impl Mesh {
+    /// A mesh without sets.
+    ///
+    /// # Errors
+    /// Those of [`Mesh::check`].
+    pub fn new(positions: Vec<Vec3>, elements: Vec<[NodeId; 8]>) -> Result<Self, MeshError> {
+        let mesh = Self {
+            positions,
+            elements,
+            node_sets: Sets::default(),
+            facet_sets: Sets::default(),
+            element_sets: Sets::default(),
+        };
+        mesh.check()?;
+        Ok(mesh)
+    }
+
+    /// Checks that the mesh is consistent: what is referred to exists, corners
+    /// of an element differ, every node is used, positions are finite, no
+    /// face has three elements, facet sets lie on the boundary.
+    ///
+    /// The shape of the elements is not judged here but by [`Mesh::quality`]
+    /// and [`Mesh::check_shape`].
+    ///
+    /// # Errors
+    /// The first fault found, with its ids.
+    pub fn check(&self) -> Result<(), MeshError> {
+        self.check_elements()?;
+        self.check_nodes()?;
+        self.check_sets()
+    }
+
     /// Nodes of a face, outward by the right-hand rule.
     pub fn face_nodes(&self, face: Face) -> [NodeId; 4] {
         let corners = &self.elements[face.element.index()];
         Face::CORNERS[face.side as usize].map(|corner| corners[corner])
+    }
+
+    /// Positions of the corners of a face, outward by the right-hand rule.
+    pub fn face_positions(&self, face: Face) -> [Vec3; 4] {
+        self.face_nodes(face)
+            .map(|node| self.positions[node.index()])
+    }
+
+    /// Positions of the corners of an element.
+    pub fn element_positions(&self, element: ElementId) -> [Vec3; 8] {
+        self.elements[element.index()].map(|node| self.positions[node.index()])
+    }
+
+    fn check_elements(&self) -> Result<(), MeshError> {
+        let nodes = self.positions.len();
+        for (index, corners) in self.elements.iter().enumerate() {
+            let element = ElementId::new(index);
+            if let Some(&node) = corners.iter().find(|node| node.index() >= nodes) {
+                return Err(MeshError::MissingNode {
+                    element,
+                    node,
+                    nodes,
+                });
+            }
+            for (corner, &node) in corners.iter().enumerate() {
+                if corners[..corner].contains(&node) {
+                    return Err(MeshError::RepeatedNode { element, node });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn check_nodes(&self) -> Result<(), MeshError> {
+        let mut used = vec![false; self.positions.len()];
+        for node in self.elements.iter().flatten() {
+            used[node.index()] = true;
+        }
+        let orphans: Vec<NodeId> = (0..used.len())
+            .filter(|&index| !used[index])
+            .map(NodeId::new)
+            .collect();
+        if !orphans.is_empty() {
+            return Err(MeshError::OrphanNodes { nodes: orphans });
+        }
+        match self
+            .positions
+            .iter()
+            .position(|x| x.iter().any(|c| !c.is_finite()))
+        {
+            Some(index) => Err(MeshError::NotFinite {
+                node: NodeId::new(index),
+            }),
+            None => Ok(()),
+        }
+    }
+
+    fn check_sets(&self) -> Result<(), MeshError> {
+        let (nodes, elements) = (self.positions.len(), self.elements.len());
+        for (set, members) in self.node_sets.iter() {
+            if let Some(&node) = members.iter().find(|node| node.index() >= nodes) {
+                let set = set.to_owned();
+                return Err(MeshError::MissingSetNode { set, node, nodes });
+            }
+        }
+        for (set, members) in self.element_sets.iter() {
+            if let Some(&element) = members.iter().find(|element| element.index() >= elements) {
+                let set = set.to_owned();
+                return Err(MeshError::MissingSetElement {
+                    set,
+                    element,
+                    elements,
+                });
+            }
+        }
+        let boundary = self.matched_boundary()?;
+        for (set, members) in self.facet_sets.iter() {
+            if let Some(&face) = members
+                .iter()
+                .find(|face| boundary.binary_search(face).is_err())
+            {
+                let set = set.to_owned();
+                return Err(MeshError::NotOnBoundary { set, face });
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generate::Block;
+
+    fn two_elements() -> Mesh {
+        Block {
+            divisions: [2, 1, 1],
+            ..Block::default()
+        }
+        .mesh()
+        .unwrap()
+    }
+
+    #[test]
+    fn missing_and_repeated_nodes_are_named() {
+        let mut mesh = two_elements();
+        mesh.elements[1][3] = NodeId(99);
+        assert_eq!(
+            mesh.check(),
+            Err(MeshError::MissingNode {
+                element: ElementId(1),
+                node: NodeId(99),
+                nodes: 12
+            })
+        );
+        mesh.elements[1][3] = mesh.elements[1][0];
+        let node = mesh.elements[1][0];
+        assert_eq!(
+            mesh.check(),
+            Err(MeshError::RepeatedNode {
+                element: ElementId(1),
+                node
+            })
+        );
+    }
+
+    #[test]
+    fn orphans_and_infinite_positions_are_named() {
+        let mut mesh = two_elements();
+        mesh.positions.push(Vec3::zeros());
+        let error = mesh.check().unwrap_err();
+        assert_eq!(
+            error,
+            MeshError::OrphanNodes {
+                nodes: vec![NodeId(12)]
+            }
+        );
+        assert_eq!(
+            error.to_string(),
+            "1 nodes belong to no element, the first is node 12"
+        );
+        mesh.positions.pop();
+        mesh.positions[4].y = f64::NAN;
+        assert_eq!(mesh.check(), Err(MeshError::NotFinite { node: NodeId(4) }));
+    }
+
+    #[test]
+    fn sets_refer_to_what_exists() {
+        let mut mesh = two_elements();
+        mesh.node_sets.insert("far", [NodeId(12)]);
+        assert!(matches!(
+            mesh.check(),
+            Err(MeshError::MissingSetNode { set, node: NodeId(12), nodes: 12 }) if set == "far"
+        ));
+        let mut mesh = two_elements();
+        mesh.element_sets.insert("far", [ElementId(2)]);
+        assert!(matches!(
+            mesh.check(),
+            Err(MeshError::MissingSetElement {
+                element: ElementId(2),
+                ..
+            })
+        ));
+    }
+
+    #[test]
+    fn facet_sets_lie_on_the_boundary() {
+        for (element, side) in [(0, 3), (1, 5), (2, 0), (0, 6)] {
+            let mut mesh = two_elements();
+            let face = Face {
+                element: ElementId(element),
+                side,
+            };
+            mesh.facet_sets.insert("inside", [face]);
+            assert_eq!(
+                mesh.check(),
+                Err(MeshError::NotOnBoundary {
+                    set: "inside".into(),
+                    face
+                })
+            );
+        }
+    }
+
+    #[test]
+    fn three_elements_in_one_face_are_refused() {
+        let mut mesh = two_elements();
+        let twice = mesh.elements[1];
+        mesh.elements.push(twice);
+        assert!(matches!(mesh.check(), Err(MeshError::CrowdedFace { .. })));
     }
 }

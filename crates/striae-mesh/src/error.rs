@@ -1,0 +1,134 @@
+//! What can be wrong with a mesh or with the parameters of a generator.
+
+use crate::{ElementId, Face, NodeId};
+
+/// What can be wrong with a mesh or with the parameters of a generator.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MeshError {
+    /// An element names a node that does not exist.
+    #[error("{element} refers to {node}, but the mesh has {nodes} nodes")]
+    MissingNode {
+        /// The element.
+        element: ElementId,
+        /// The node it names.
+        node: NodeId,
+        /// How many nodes there are.
+        nodes: usize,
+    },
+    /// An element names one node at two corners.
+    #[error("{element} has {node} at two of its corners; a hexahedron needs eight different nodes")]
+    RepeatedNode {
+        /// The element.
+        element: ElementId,
+        /// The node it names twice.
+        node: NodeId,
+    },
+    /// Nodes that no element uses.
+    #[error("{} nodes belong to no element, the first is {}", nodes.len(), nodes[0])]
+    OrphanNodes {
+        /// The nodes, never empty.
+        nodes: Vec<NodeId>,
+    },
+    /// A position that is not a number.
+    #[error("the position of {node} is not finite")]
+    NotFinite {
+        /// The node.
+        node: NodeId,
+    },
+    /// Three elements or more meet in one face.
+    #[error("the {face} belongs to more than two elements")]
+    CrowdedFace {
+        /// The face as seen from one of the elements.
+        face: Face,
+    },
+    /// A node set names a node that does not exist.
+    #[error("node set '{set}' refers to {node}, but the mesh has {nodes} nodes")]
+    MissingSetNode {
+        /// Name of the set.
+        set: String,
+        /// The node it names.
+        node: NodeId,
+        /// How many nodes there are.
+        nodes: usize,
+    },
+    /// An element set names an element that does not exist.
+    #[error("element set '{set}' refers to {element}, but the mesh has {elements} elements")]
+    MissingSetElement {
+        /// Name of the set.
+        set: String,
+        /// The element it names.
+        element: ElementId,
+        /// How many elements there are.
+        elements: usize,
+    },
+    /// A facet set names a face that is not on the boundary or does not exist.
+    #[error("facet set '{set}' refers to {face}, which is not on the boundary of the mesh")]
+    NotOnBoundary {
+        /// Name of the set.
+        set: String,
+        /// The face it names.
+        face: Face,
+    },
+    /// Elements whose Jacobian determinant is not positive everywhere.
+    #[error(
+        "{count} elements are turned inside out or degenerate, the first is {element} \
+         with a Jacobian determinant of {determinant:.3e}"
+    )]
+    Inverted {
+        /// How many elements.
+        count: usize,
+        /// The first of them.
+        element: ElementId,
+        /// Its smallest Jacobian determinant.
+        determinant: f64,
+    },
+    /// A parameter of a generator outside its range.
+    #[error("{name} is {value}, but {requirement}")]
+    Parameter {
+        /// Name of the parameter.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it has to be, as the end of a sentence.
+        requirement: &'static str,
+    },
+    /// A list of interval lengths that does not fit the number of divisions.
+    #[error("{lengths} interval lengths are given for {divisions} divisions")]
+    IntervalCount {
+        /// How many lengths are given.
+        lengths: usize,
+        /// How many divisions there are.
+        divisions: usize,
+    },
+    /// A list of new numbers that is not a permutation.
+    #[error(
+        "the new {what} numbers are not a permutation of 0..{count}: position {position} is wrong"
+    )]
+    NotPermutation {
+        /// `node` or `element`.
+        what: &'static str,
+        /// How many numbers there have to be.
+        count: usize,
+        /// First position that repeats a number, is out of range, missing or in excess.
+        position: usize,
+    },
+}
+
+impl MeshError {
+    /// `Ok` where `holds`, otherwise the [`MeshError::Parameter`] error.
+    pub(crate) fn require(
+        holds: bool,
+        name: &'static str,
+        value: f64,
+        requirement: &'static str,
+    ) -> Result<(), Self> {
+        if holds {
+            return Ok(());
+        }
+        Err(Self::Parameter {
+            name,
+            value,
+            requirement,
+        })
+    }
+}

@@ -1,0 +1,206 @@
+//! A box of hexahedra, in several ways less regular than a box.
+//!
+//! Starting from the graded lattice in the box `[0, a] x [0, b] x [0, c]`:
+//!
+//! 1. *irregularity* `f`: a node moves along the lattice axes that are free for
+//!    it by `f u l`, `u` uniform in `[-1, 1)`, `l` the shorter neighbouring
+//!    interval; nodes of plane sides stay in them, nodes of edges stay;
+//! 2. *mesh rotation*: in plan, a node at distance `r` from the middle turns
+//!    about it by `angle (1 - r^2/m^2)^2` inside the circle with the shorter
+//!    half side `m` as radius. The map keeps areas, hence stays one to one;
+//! 3. *slopes*: the lower and upper side become the planes
+//!    `z = s_x (x - a/2) + s_y (y - b/2)` and `z = c + ...`, columns of nodes are
+//!    stretched linearly between them, and the volume stays `a b c`;
+//! 4. rotation and shift of the whole.
+
+use super::Grading;
+use super::grid::{Closure, Grid, Side, named_mesh};
+use crate::random::Random;
+use crate::{Mesh, MeshError, Vec3};
+use nalgebra::{Rotation3, Unit};
+
+/// A box of hexahedra with sides `xmin xmax ymin ymax zmin zmax`, named before
+/// rotation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Block {
+    /// Corner with the smallest coordinates, before rotation; default 0.
+    pub origin: Vec3,
+    /// Lengths of the edges; default 1.
+    pub size: Vec3,
+    /// Number of elements along `x, y, z`; default 1.
+    pub divisions: [usize; 3],
+    /// Interval lengths along `x, y, z`; default uniform.
+    pub gradings: [Grading; 3],
+    /// Rotation of the whole block; default none.
+    pub rotation: Option<Rotation>,
+    /// Angle in degrees by which the mesh turns about `z` inside the unchanged
+    /// outline: fully at the middle, not at all at the outline; default 0,
+    /// elements stay well shaped up to about 25.
+    pub mesh_rotation: f64,
+    /// Slopes `[dz/dx, dz/dy]` of the lower side about its middle; default 0.
+    pub bottom_slopes: [f64; 2],
+    /// Slopes `[dz/dx, dz/dy]` of the upper side about its middle; default 0.
+    pub top_slopes: [f64; 2],
+    /// Random displacement of nodes as a fraction of the local interval, in
+    /// `[0, 0.5)`; default 0.
+    pub irregularity: f64,
+    /// Seed of the random displacement; default 0.
+    pub seed: u64,
+}
+
+/// A rotation of a whole body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rotation {
+    /// Axis, of any length but zero.
+    pub axis: Vec3,
+    /// Angle in degrees, by the right-hand rule.
+    pub degrees: f64,
+    /// Point that stays.
+    pub about: Pivot,
+}
+
+/// Fixed point of a rotation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pivot {
+    /// The middle of the body.
+    Centre,
+    /// A point in space.
+    Point(Vec3),
+}
+
+impl Default for Block {
+    fn default() -> Self {
+        Self {
+            origin: Vec3::zeros(),
+            size: Vec3::repeat(1.0),
+            divisions: [1; 3],
+            gradings: Default::default(),
+            rotation: None,
+            mesh_rotation: 0.0,
+            bottom_slopes: [0.0; 2],
+            top_slopes: [0.0; 2],
+            irregularity: 0.0,
+            seed: 0,
+        }
+    }
+}
+
+impl Block {
+    /// The mesh.
+    ///
+    /// # Errors
+    /// [`MeshError::Parameter`] or [`MeshError::IntervalCount`] for parameters
+    /// out of range, [`MeshError::Inverted`] where they distort the mesh too much.
+    pub fn mesh(&self) -> Result<Mesh, MeshError> {
+        self.check_parameters()?;
+        let grid = Grid {
+            divisions: self.divisions,
+            closure: Closure::Open,
+        };
+        let mut nodes: [Vec<f64>; 3] = Default::default();
+        for axis in 0..3 {
+            nodes[axis] = self.gradings[axis].nodes(self.divisions[axis])?;
+            nodes[axis].iter_mut().for_each(|x| *x *= self.size[axis]);
+        }
+        let mut random = Random::new(self.seed);
+        let positions = grid.positions(|lattice| {
+            let x = irregular(&nodes, lattice, self.irregularity, &mut random);
+            self.place(self.slope(self.turn(x)))
+        });
+        let sides = [
+            ("xmin", grid.faces(Side::FirstI)),
+            ("xmax", grid.faces(Side::LastI)),
+            ("ymin", grid.faces(Side::FirstJ)),
+            ("ymax", grid.faces(Side::LastJ)),
+            ("zmin", grid.faces(Side::FirstK)),
+            ("zmax", grid.faces(Side::LastK)),
+        ];
+        named_mesh(positions, grid.elements(), sides)
+    }
+
+    fn check_parameters(&self) -> Result<(), MeshError> {
+        for size in self.size.iter().copied() {
+            MeshError::require(size > 0.0, "size", size, "it must be positive")?;
+        }
+        let f = self.irregularity;
+        MeshError::require(
+            (0.0..0.5).contains(&f),
+            "irregularity",
+            f,
+            "it must be at least 0 and less than 0.5",
+        )?;
+        if let Some(rotation) = &self.rotation {
+            let length = rotation.axis.norm();
+            MeshError::require(
+                length > 0.0,
+                "length of the rotation axis",
+                length,
+                "it must be positive",
+            )?;
+        }
+        let [bottom, top] = [self.bottom_slopes, self.top_slopes];
+        let lost: f64 = (0..2)
+            .map(|axis| 0.5 * self.size[axis] * (top[axis] - bottom[axis]).abs())
+            .sum();
+        let height = self.size.z - lost;
+        MeshError::require(
+            height > 0.0,
+            "height of the lowest column between the oblique sides",
+            height,
+            "it must be positive",
+        )
+    }
+
+    fn turn(&self, x: Vec3) -> Vec3 {
+        let middle = 0.5 * self.size;
+        let radius = middle.x.min(middle.y);
+        let from_middle = Vec3::new(x.x - middle.x, x.y - middle.y, 0.0);
+        let inside = (1.0 - from_middle.norm_squared() / radius.powi(2)).max(0.0);
+        if inside == 0.0 || self.mesh_rotation == 0.0 {
+            return x;
+        }
+        let angle = self.mesh_rotation.to_radians() * inside.powi(2);
+        x - from_middle + Rotation3::from_axis_angle(&Vec3::z_axis(), angle) * from_middle
+    }
+
+    fn slope(&self, x: Vec3) -> Vec3 {
+        let rise = |slopes: [f64; 2]| {
+            slopes[0] * (x.x - 0.5 * self.size.x) + slopes[1] * (x.y - 0.5 * self.size.y)
+        };
+        let share = x.z / self.size.z;
+        let lift = rise(self.bottom_slopes) * (1.0 - share) + rise(self.top_slopes) * share;
+        x + Vec3::z() * lift
+    }
+
+    fn place(&self, x: Vec3) -> Vec3 {
+        let x = self.origin + x;
+        let Some(rotation) = &self.rotation else {
+            return x;
+        };
+        let fixed = match rotation.about {
+            Pivot::Centre => self.origin + 0.5 * self.size,
+            Pivot::Point(point) => point,
+        };
+        let axis = Unit::new_normalize(rotation.axis);
+        fixed + Rotation3::from_axis_angle(&axis, rotation.degrees.to_radians()) * (x - fixed)
+    }
+}
+
+/// Position of a lattice node with its random displacement.
+fn irregular(
+    nodes: &[Vec<f64>; 3],
+    lattice: [usize; 3],
+    fraction: f64,
+    random: &mut Random,
+) -> Vec3 {
+    let free = [0, 1, 2].map(|axis| (1..nodes[axis].len() - 1).contains(&lattice[axis]));
+    let on_edge = free.iter().filter(|&&free| free).count() < 2;
+    Vec3::from_fn(|axis, _| {
+        let (x, i) = (&nodes[axis], lattice[axis]);
+        if on_edge || !free[axis] {
+            return x[i];
+        }
+        let interval = (x[i] - x[i - 1]).min(x[i + 1] - x[i]);
+        x[i] + fraction * interval * random.symmetric()
+    })
+}

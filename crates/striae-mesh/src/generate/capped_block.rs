@@ -1,0 +1,125 @@
+//! A block whose lower side is part of a sphere.
+//!
+//! In plan a rectangle about the apex, from `z = 0` at the apex to the plane
+//! upper side at `z = height`. With `r` the distance from the middle axis the
+//! lower side is `z_cap = R - sqrt(R^2 - r^2)`, and a node at the share `s` of
+//! its column lies at `z = z_cap + s (height - z_cap)`: nodes of the cap are on
+//! the sphere. Elements have the wanted size at the apex and grow away from
+//! it, see [`refined_lengths`].
+
+use super::grading::{mirrored, refined_lengths, unit_partial_sums};
+use super::grid::{Closure, Grid, Side, named_mesh};
+use crate::{Mesh, MeshError, Vec3};
+
+/// A block on a spherical cap, with sides `xmin xmax ymin ymax cap zmax`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CappedBlock {
+    /// Lowest point; default the origin.
+    pub apex: Vec3,
+    /// Edges of the plan along `x` and `y`; default 10 x 10.
+    pub size: [f64; 2],
+    /// From the apex to the upper side; default 6.5.
+    pub height: f64,
+    /// Radius of the sphere; default 12.
+    pub radius: f64,
+    /// Element size at the apex; default 0.8.
+    pub element_size: f64,
+    /// Half edge of the square around the apex with elements of this size in
+    /// plan; default 1.6.
+    pub fine_half_width: f64,
+    /// Depth to which elements have this height at the apex; default 0.
+    pub fine_depth: f64,
+    /// Largest ratio of neighbouring sizes outside; default 1.3.
+    pub growth: f64,
+}
+
+impl Default for CappedBlock {
+    fn default() -> Self {
+        Self {
+            apex: Vec3::zeros(),
+            size: [10.0; 2],
+            height: 6.5,
+            radius: 12.0,
+            element_size: 0.8,
+            fine_half_width: 1.6,
+            fine_depth: 0.0,
+            growth: 1.3,
+        }
+    }
+}
+
+impl CappedBlock {
+    /// The mesh.
+    ///
+    /// # Errors
+    /// [`MeshError::Parameter`] for parameters out of range, in particular a
+    /// sphere that does not reach the edges of the plan.
+    pub fn mesh(&self) -> Result<Mesh, MeshError> {
+        self.check_parameters()?;
+        let [x_lengths, y_lengths] = self.plan_lengths()?;
+        let z_lengths =
+            refined_lengths(self.height, self.fine_depth, self.element_size, self.growth)?;
+        let grid = Grid {
+            divisions: [x_lengths.len(), y_lengths.len(), z_lengths.len()],
+            closure: Closure::Open,
+        };
+        let [x, y, s] = [&x_lengths, &y_lengths, &z_lengths].map(|l| unit_partial_sums(l));
+        let positions = grid.positions(|[i, j, k]| {
+            let x = self.size[0] * (x[i] - 0.5);
+            let y = self.size[1] * (y[j] - 0.5);
+            let cap = sagitta(self.radius, x * x + y * y);
+            self.apex + Vec3::new(x, y, cap + s[k] * (self.height - cap))
+        });
+        let sides = [
+            ("xmin", grid.faces(Side::FirstI)),
+            ("xmax", grid.faces(Side::LastI)),
+            ("ymin", grid.faces(Side::FirstJ)),
+            ("ymax", grid.faces(Side::LastJ)),
+            ("cap", grid.faces(Side::FirstK)),
+            ("zmax", grid.faces(Side::LastK)),
+        ];
+        named_mesh(positions, grid.elements(), sides)
+    }
+
+    /// Interval lengths of the plan along `x` and `y`, for a commensurate
+    /// foundation under the block.
+    ///
+    /// # Errors
+    /// [`MeshError::Parameter`] as [`refined_lengths`].
+    pub fn plan_lengths(&self) -> Result<[Vec<f64>; 2], MeshError> {
+        let half = |size: f64| -> Result<Vec<f64>, MeshError> {
+            let lengths = refined_lengths(
+                0.5 * size,
+                self.fine_half_width,
+                self.element_size,
+                self.growth,
+            )?;
+            Ok(mirrored(&lengths))
+        };
+        Ok([half(self.size[0])?, half(self.size[1])?])
+    }
+
+    fn check_parameters(&self) -> Result<(), MeshError> {
+        for size in self.size {
+            MeshError::require(size > 0.0, "size", size, "it must be positive")?;
+        }
+        let half_diagonal = 0.5 * self.size[0].hypot(self.size[1]);
+        MeshError::require(
+            self.radius > half_diagonal,
+            "radius",
+            self.radius,
+            "it must exceed half the diagonal of the plan",
+        )?;
+        MeshError::require(
+            self.height > sagitta(self.radius, half_diagonal.powi(2)),
+            "height",
+            self.height,
+            "it must exceed the rise of the cap at the corners",
+        )
+    }
+}
+
+/// `R - sqrt(R^2 - r^2)` without cancellation.
+fn sagitta(radius: f64, r_squared: f64) -> f64 {
+    r_squared / (radius + (radius * radius - r_squared).sqrt())
+}

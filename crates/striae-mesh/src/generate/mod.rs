@@ -1,0 +1,26 @@
+//! Generators: plain parameter structs with a `mesh()` method.
+//!
+//! | generator | body |
+//! | --- | --- |
+//! | [`Block`] | box, graded, turned, with oblique faces, turned or irregular mesh inside |
+//! | [`CappedBlock`] | block with a spherical lower face, fine at its lowest point |
+//! | [`HalfCylinder`] | slice of a half cylinder, fine at the end of its middle radius |
+//! | [`Annulus`] | ring of rectangular section, a tyre |
+//!
+//! Faces of the outline are named both as facet sets and as node sets; node
+//! set and element set `all` hold everything. Every mesh has passed
+//! [`Mesh::check`](crate::Mesh::check) and
+//! [`Mesh::check_shape`](crate::Mesh::check_shape). Angles are in degrees.
+
+mod annulus;
+mod block;
+mod capped_block;
+mod grading;
+mod grid;
+mod half_cylinder;
+
+pub use annulus::{Annulus, Refinement};
+pub use block::{Block, Pivot, Rotation};
+pub use capped_block::CappedBlock;
+pub use grading::{Grading, refined_lengths};
+pub use half_cylinder::{Half, HalfCylinder};
