@@ -16,6 +16,30 @@ pub enum FrictionError {
         /// What it has to be, to complete "it must be ...".
         expected: &'static str,
     },
+    /// Friction between two textured surfaces would create energy.
+    #[error(
+        "friction would create energy: textures with a_a . a_b' = I0 = {i0:.6} and slip with \
+         a_ba . d = I1 = {i1:.6} give a dissipation -tau . d / varpi = {dissipation:.6}"
+    )]
+    CreatesEnergy {
+        /// Cosine of the angle between the textures.
+        i0: f64,
+        /// Slip direction, `a_ba . d`.
+        i1: f64,
+        /// Dissipation over `varpi |du|`, zero or negative.
+        dissipation: f64,
+    },
+    /// Friction on one textured surface would create energy.
+    #[error(
+        "friction would create energy: slip at {degrees:.3} degrees from the texture `a` gives a \
+         dissipation -tau . d / p = {dissipation:.6}"
+    )]
+    CreatesEnergyAlong {
+        /// Angle of slip from the texture, in degrees.
+        degrees: f64,
+        /// Dissipation over `p |du|`, zero or negative.
+        dissipation: f64,
+    },
 }
 
 /// Accepts a finite value that is positive.
@@ -26,6 +50,11 @@ pub(super) fn positive(name: &'static str, value: f64) -> Result<f64, FrictionEr
 /// Accepts a finite value that is not negative.
 pub(super) fn not_negative(name: &'static str, value: f64) -> Result<f64, FrictionError> {
     within(name, value, "zero or positive, and finite", value >= 0.0)
+}
+
+/// Accepts a finite value.
+pub(super) fn finite(name: &'static str, value: f64) -> Result<f64, FrictionError> {
+    within(name, value, "finite", true)
 }
 
 fn within(

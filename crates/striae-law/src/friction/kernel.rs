@@ -37,6 +37,18 @@ impl<D> Textures<D> {
     }
 }
 
+impl<D: Copy> Textures<D> {
+    /// The texture of the only textured surface.
+    pub(super) fn only(&self) -> Option<Vector3<D>> {
+        self.own.xor(self.opposite)
+    }
+
+    /// The textures of both surfaces.
+    pub(super) fn both(&self) -> Option<(Vector3<D>, Vector3<D>)> {
+        self.own.zip(self.opposite)
+    }
+}
+
 /// `L`, `eta` and `K` of a friction law at a contact point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kernel<D> {

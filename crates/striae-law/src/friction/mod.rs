@@ -10,20 +10,36 @@
 //! carries the point relative to the other one; the traction acts on the
 //! surface that carries the point.
 
+mod analysis;
 mod coefficient;
+mod coulomb;
 mod error;
 mod kernel;
+mod nap;
+mod orthotropic;
+mod published;
+mod slip_surface;
+mod two_textures;
 
+#[cfg(test)]
+mod tests;
+
+pub use analysis::Analysis;
 pub use coefficient::Coefficient;
 pub use error::FrictionError;
 pub use kernel::{Kernel, Textures};
+pub use nap::Nap;
+pub use orthotropic::Orthotropic;
+pub use published::Published;
+pub use slip_surface::{Extremes, SlipRule, SlipSample, SlipSurface};
+pub use two_textures::{LeastDissipation, TwoTextures};
 
 use error::positive;
 use nalgebra::Vector3;
 use num_dual::DualNum;
 
 /// Friction between two surfaces.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Friction {
     law: Law,
     coefficient: Coefficient,
@@ -31,13 +47,19 @@ pub struct Friction {
 }
 
 /// Shape of the slip surface, and slip rule.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Law {
     /// No friction.
     Frictionless,
     /// Isotropic Coulomb friction.
     Coulomb,
+    /// Two textured surfaces.
+    TwoTextures(TwoTextures),
+    /// One textured surface, two coefficients.
+    Orthotropic(Orthotropic),
+    /// One textured surface with a nap, three coefficients.
+    Nap(Nap),
 }
 
 /// Which of the two surfaces must carry a texture.
@@ -64,6 +86,48 @@ impl Friction {
     /// When `mu` is negative or not finite.
     pub fn coulomb(mu: f64) -> Result<Self, FrictionError> {
         Ok(Self::new(Law::Coulomb, Coefficient::constant(mu)?))
+    }
+
+    /// Two textured surfaces, the law of Jones & Papadopoulos; see [`TwoTextures`].
+    ///
+    /// # Errors
+    /// When `mu` is negative, a constant is not finite, or friction would create
+    /// energy for some pair of textures and some slip direction.
+    pub fn two_textures(
+        mu: f64,
+        c_mag: f64,
+        c_ang: f64,
+        c_cen: f64,
+    ) -> Result<Self, FrictionError> {
+        let law = TwoTextures::new(c_mag, c_ang, c_cen)?;
+        Ok(Self::new(Law::TwoTextures(law), Coefficient::constant(mu)?))
+    }
+
+    /// One textured surface with different friction along and across its grooves;
+    /// see [`Orthotropic`]. The coefficient of the result is the larger one.
+    ///
+    /// # Errors
+    /// When a coefficient is not positive.
+    pub fn orthotropic(
+        mu_along: f64,
+        mu_across: f64,
+        rule: SlipRule,
+    ) -> Result<Self, FrictionError> {
+        let law = Orthotropic::new(mu_along, mu_across, rule)?;
+        let mu = mu_along.max(mu_across);
+        Ok(Self::new(Law::Orthotropic(law), Coefficient::constant(mu)?))
+    }
+
+    /// One textured surface with different friction with, against and across its
+    /// nap; see [`Nap`]. The coefficient of the result is the largest one.
+    ///
+    /// # Errors
+    /// When a coefficient is not positive, or friction would create energy for some
+    /// slip direction.
+    pub fn nap(mu_forward: f64, mu_backward: f64, mu_lateral: f64) -> Result<Self, FrictionError> {
+        let law = Nap::new(mu_forward, mu_backward, mu_lateral)?;
+        let mu = mu_forward.max(mu_backward).max(mu_lateral);
+        Ok(Self::new(Law::Nap(law), Coefficient::constant(mu)?))
     }
 
     /// Lets all coefficients decay with the slip rate, from the stated values
@@ -107,6 +171,8 @@ impl Friction {
     pub fn required_textures(&self) -> RequiredTextures {
         match self.law {
             Law::Frictionless | Law::Coulomb => RequiredTextures::Any,
+            Law::Orthotropic(_) | Law::Nap(_) => RequiredTextures::One,
+            Law::TwoTextures(_) => RequiredTextures::Both,
         }
     }
 
@@ -126,19 +192,38 @@ impl Friction {
         }
     }
 
-    /// `L`, `eta` and `K` at a point with the unit normal `n` of the surface
-    /// that carries it.
+    /// `L`, `eta` and `K` at a point with the unit normal `n` of the surface that
+    /// carries it, and the unit textures there. The laws so far see the normal
+    /// through the textures only.
     ///
     /// # Panics
-    /// When a texture the law requires is missing; see
+    /// When the textures are not those the law requires; see
     /// [`Friction::required_textures`].
     pub fn kernel<D: DualNum<Primitive = f64> + Copy>(
         &self,
         _normal: &Vector3<D>,
-        _textures: &Textures<D>,
+        textures: &Textures<D>,
     ) -> Kernel<D> {
+        let only = || textures.only().expect("exactly one surface has a texture");
         match &self.law {
-            Law::Frictionless | Law::Coulomb => Kernel::identity(),
+            Law::Frictionless | Law::Coulomb => coulomb::kernel(),
+            Law::TwoTextures(law) => {
+                let (own, opposite) = textures.both().expect("both surfaces have a texture");
+                law.kernel(&own, &opposite)
+            }
+            Law::Orthotropic(law) => law.kernel(&only()),
+            Law::Nap(law) => law.kernel(&only()),
+        }
+    }
+
+    /// The slip surface over `varpi` for textures at the angle `theta` (radians),
+    /// which has no effect on laws for a single texture.
+    pub fn slip_surface(&self, theta: f64) -> SlipSurface {
+        match &self.law {
+            Law::Frictionless | Law::Coulomb => coulomb::slip_surface(),
+            Law::TwoTextures(law) => law.slip_surface(theta),
+            Law::Orthotropic(law) => law.slip_surface(),
+            Law::Nap(law) => law.slip_surface(),
         }
     }
 
