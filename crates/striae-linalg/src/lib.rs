@@ -1,1 +1,40 @@
 //! Sparse linear algebra: patterns, orderings, factorisations; no mechanics.
+//!
+//! The unknowns are grouped in [`Supervariable`]s (all that lives at one mesh
+//! node). A [`Structure`] says which supervariables share an equation, a
+//! [`SparseMatrix`] holds values on that fixed pattern, and a [`LinearSolver`]
+//! analyses the structure once and factors and solves as often as needed:
+//!
+//! ```
+//! use striae_linalg::{FaerLu, LinearSolver, SparseMatrix, Structure, Supervariable};
+//!
+//! let (a, b) = (Supervariable(0), Supervariable(1));
+//! let structure = Structure::from_cliques(vec![0, 1, 2], &[[a, b]])?;
+//! let mut matrix = SparseMatrix::zero(&structure);
+//! matrix.add(&[0, 1], &[0, 1], &[2.0, 1.0, 1.0, 0.0])?;
+//!
+//! let mut solver = FaerLu::new();
+//! solver.analyse(&structure)?;
+//! solver.factor(&matrix)?;
+//! let mut x = [0.0; 2];
+//! let report = solver.solve(&matrix, &[3.0, 1.0], &mut x)?;
+//! assert_eq!(x, [1.0, 1.0]);
+//! assert!(report.backward_error < 1e-15);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod equilibration;
+mod error;
+mod faer_lu;
+mod gmres;
+mod matrix;
+mod refinement;
+mod singularity;
+mod solver;
+mod structure;
+
+pub use error::{OutsidePattern, SolveError, StructureError};
+pub use faer_lu::FaerLu;
+pub use matrix::SparseMatrix;
+pub use solver::{Analysis, FactorReport, LinearSolver, SolveReport};
+pub use structure::{Structure, Supervariable, Tier};

@@ -1,0 +1,160 @@
+//! Sparse LU of the `faer` crate (supernodal, column ordering COLAMD): an
+//! independent check of the other solvers and enough for small problems.
+
+use crate::{
+    equilibration::Equilibration,
+    error::SolveError,
+    matrix::SparseMatrix,
+    refinement,
+    singularity::{self, Factors},
+    solver::{Analysis, FactorReport, LinearSolver, SolveReport},
+    structure::Structure,
+};
+use faer::{
+    Conj,
+    linalg::solvers::SolveCore,
+    mat::MatMut,
+    sparse::{SparseColMatRef, SymbolicSparseColMat, linalg::solvers},
+};
+
+/// Shift of the diagonal of an equilibrated singular matrix.
+const SHIFT: f64 = 1e-10;
+
+/// faer's sparse LU behind the common interface.
+#[derive(Default)]
+pub struct FaerLu {
+    analysis: Option<Symbolic>,
+    factors: Option<Numeric>,
+}
+
+struct Symbolic {
+    structure: Structure,
+    /// Pattern by rows, which is that of the transposed matrix by columns.
+    pattern: SymbolicSparseColMat<usize>,
+    symbolic: solvers::SymbolicLu<usize>,
+}
+
+struct Numeric {
+    scaling: Equilibration,
+    transposed: solvers::Lu<usize, f64>,
+}
+
+impl FaerLu {
+    /// A solver that has seen no matrix yet.
+    pub fn new() -> Self {
+        Self::default()
+    }
+}
+
+impl LinearSolver for FaerLu {
+    fn analyse(&mut self, structure: &Structure) -> Result<Analysis, SolveError> {
+        self.factors = None;
+        self.analysis = None;
+        let pattern = pattern(structure);
+        let symbolic =
+            solvers::SymbolicLu::try_new(pattern.as_ref()).map_err(|_| SolveError::Library {
+                library: "faer",
+                code: 0,
+            })?;
+        self.analysis = Some(Symbolic {
+            structure: structure.clone(),
+            pattern,
+            symbolic,
+        });
+        Ok(Analysis::default())
+    }
+
+    fn factor(&mut self, matrix: &SparseMatrix) -> Result<FactorReport, SolveError> {
+        self.factors = None;
+        let analysis = self.analysis.as_ref().ok_or(SolveError::NotAnalysed)?;
+        if !analysis.structure.same_as(matrix.structure()) {
+            return Err(SolveError::NotAnalysed);
+        }
+        let scaling = Equilibration::of(matrix)?;
+        self.factors = Some(factor_regular(analysis, matrix, &scaling)?);
+        Ok(FactorReport::default())
+    }
+
+    fn solve(
+        &self,
+        matrix: &SparseMatrix,
+        rhs: &[f64],
+        x: &mut [f64],
+    ) -> Result<SolveReport, SolveError> {
+        let factors = self.factors.as_ref().ok_or(SolveError::NotFactored)?;
+        refinement::solve(matrix, &factors.scaling, factors, rhs, x)
+    }
+}
+
+impl Numeric {
+    fn are_finite(&self) -> bool {
+        let mut probe = vec![1.0; self.scaling.rows.len()];
+        self.solve_in_place(&mut probe);
+        probe.iter().all(|x| x.is_finite())
+    }
+}
+
+impl Factors for Numeric {
+    fn solve_in_place(&self, x: &mut [f64]) {
+        let rows = x.len();
+        let x = MatMut::from_column_major_slice_mut(x, rows, 1);
+        self.transposed
+            .solve_transpose_in_place_with_conj(Conj::No, x);
+    }
+
+    fn solve_transposed_in_place(&self, x: &mut [f64]) {
+        let rows = x.len();
+        let x = MatMut::from_column_major_slice_mut(x, rows, 1);
+        self.transposed.solve_in_place_with_conj(Conj::No, x);
+    }
+}
+
+/// Factors of a regular matrix, or the error that names the undetermined unknown.
+///
+/// faer divides by zero pivots, so a matrix whose factors are not finite is
+/// shifted a little off singularity to find its null vector.
+fn factor_regular(
+    analysis: &Symbolic,
+    matrix: &SparseMatrix,
+    scaling: &Equilibration,
+) -> Result<Numeric, SolveError> {
+    let mut scaled = matrix.clone();
+    scaled.scale(&scaling.rows, &scaling.columns);
+    for shift in [0.0, SHIFT] {
+        scaled.shift_diagonal(shift);
+        let values = SparseColMatRef::new(analysis.pattern.as_ref(), scaled.values());
+        let symbolic = analysis.symbolic.clone();
+        let Ok(transposed) = solvers::Lu::try_new_with_symbolic(symbolic, values) else {
+            continue;
+        };
+        let factors = Numeric {
+            scaling: scaling.clone(),
+            transposed,
+        };
+        if !factors.are_finite() {
+            continue;
+        }
+        singularity::check_regular(matrix, scaling, &factors)?;
+        if shift == 0.0 {
+            return Ok(factors);
+        }
+    }
+    Err(SolveError::Library {
+        library: "faer",
+        code: 0,
+    })
+}
+
+/// Columns of the transposed matrix.
+fn pattern(structure: &Structure) -> SymbolicSparseColMat<usize> {
+    let n = structure.unknowns();
+    let mut starts = vec![0];
+    let mut columns = Vec::with_capacity(structure.entries());
+    for i in 0..structure.supervariables() {
+        for _ in structure.group(i) {
+            columns.extend(structure.row_columns(i));
+            starts.push(columns.len());
+        }
+    }
+    SymbolicSparseColMat::new_checked(n, n, starts, None, columns)
+}

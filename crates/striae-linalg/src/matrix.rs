@@ -1,0 +1,353 @@
+//! Values on the fixed pattern of a [`Structure`], by rows.
+//!
+//! The rows of one supervariable have the same columns, so a row is addressed
+//! by its supervariable and needs no column indices of its own.
+
+use crate::{
+    error::OutsidePattern,
+    structure::{Structure, Supervariable},
+};
+use rayon::prelude::*;
+
+/// A square matrix on the pattern of a [`Structure`].
+#[derive(Clone, Debug)]
+pub struct SparseMatrix {
+    structure: Structure,
+    values: Vec<f64>,
+}
+
+impl SparseMatrix {
+    /// The zero matrix.
+    pub fn zero(structure: &Structure) -> Self {
+        Self {
+            structure: structure.clone(),
+            values: vec![0.0; structure.entries()],
+        }
+    }
+
+    /// The pattern.
+    pub fn structure(&self) -> &Structure {
+        &self.structure
+    }
+
+    /// Sets all values to zero.
+    pub fn clear(&mut self) {
+        self.values.fill(0.0);
+    }
+
+    /// Adds a dense block, `block[r * columns.len() + c]` to entry `(rows[r], columns[c])`.
+    ///
+    /// Nothing is added when one of the entries is outside the pattern.
+    /// Repeated rows or columns add up.
+    ///
+    /// # Panics
+    /// When the block does not have `rows.len() * columns.len()` values.
+    pub fn add(
+        &mut self,
+        rows: &[usize],
+        columns: &[usize],
+        block: &[f64],
+    ) -> Result<(), OutsidePattern> {
+        assert_eq!(
+            block.len(),
+            rows.len() * columns.len(),
+            "size of a dense block"
+        );
+        let row_runs = runs(&self.structure, rows);
+        let column_runs = runs(&self.structure, columns);
+        let edges = self.edges(rows, columns, &row_runs, &column_runs)?;
+        for (a, row_run) in row_runs.iter().enumerate() {
+            for r in row_run.begin..row_run.end {
+                let local = rows[r] - self.structure.group(row_run.owner).start;
+                let row = &mut self.values[self.structure.row(row_run.owner, local)];
+                let dense = &block[r * columns.len()..][..columns.len()];
+                for (b, run) in column_runs.iter().enumerate() {
+                    let first = self.structure.column(edges[a * column_runs.len() + b]);
+                    let offset = self.structure.group(run.owner).start;
+                    for c in run.begin..run.end {
+                        row[first + columns[c] - offset] += dense[c];
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds a dense row-major block that couples all unknowns of two supervariables.
+    ///
+    /// # Panics
+    /// When the block does not have the size of the two supervariables.
+    pub fn add_block(
+        &mut self,
+        row: Supervariable,
+        column: Supervariable,
+        block: &[f64],
+    ) -> Result<(), OutsidePattern> {
+        let (rows, columns) = (self.structure.group(row.0), self.structure.group(column.0));
+        assert_eq!(
+            block.len(),
+            rows.len() * columns.len(),
+            "size of a dense block"
+        );
+        let outside = OutsidePattern {
+            row: rows.start,
+            column: columns.start,
+        };
+        let edge = self.structure.edge(row.0, column.0).ok_or(outside)?;
+        let first = self.structure.column(edge);
+        for (local, dense) in block.chunks_exact(columns.len().max(1)).enumerate() {
+            let range = self.structure.row(row.0, local);
+            for (value, d) in self.values[range][first..].iter_mut().zip(dense) {
+                *value += d;
+            }
+        }
+        Ok(())
+    }
+
+    /// Positions of the entries of a dense block among the values, for [`add_at`](Self::add_at).
+    ///
+    /// Worth keeping for terms that are added again and again to matrices of one structure.
+    pub fn positions(
+        structure: &Structure,
+        rows: &[usize],
+        columns: &[usize],
+    ) -> Result<Vec<u32>, OutsidePattern> {
+        let mut positions = Vec::with_capacity(rows.len() * columns.len());
+        for &row in rows {
+            for &column in columns {
+                let position = position(structure, row, column);
+                positions.push(position.ok_or(OutsidePattern { row, column })? as u32);
+            }
+        }
+        Ok(positions)
+    }
+
+    /// Adds values at known positions.
+    pub fn add_at(&mut self, positions: &[u32], values: &[f64]) {
+        for (&position, value) in positions.iter().zip(values) {
+            self.values[position as usize] += value;
+        }
+    }
+
+    /// An entry, `None` outside the pattern.
+    pub fn get(&self, row: usize, column: usize) -> Option<f64> {
+        position(&self.structure, row, column).map(|p| self.values[p])
+    }
+
+    /// Entries of a row with their columns, in rising order of the columns.
+    pub fn row(&self, row: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let i = self.structure.owner(row).0;
+        let range = self.structure.row(i, row - self.structure.group(i).start);
+        self.structure
+            .row_columns(i)
+            .zip(self.values[range].iter().copied())
+    }
+
+    /// `y = A x`.
+    ///
+    /// # Panics
+    /// When a vector does not have one entry per unknown.
+    pub fn multiply(&self, x: &[f64], y: &mut [f64]) {
+        assert_eq!(
+            (x.len(), y.len()),
+            (self.structure.unknowns(), self.structure.unknowns())
+        );
+        y.par_iter_mut()
+            .enumerate()
+            .with_min_len(1024)
+            .for_each(|(row, y)| {
+                *y = self.row_product(row, x);
+            });
+    }
+
+    /// `A x` in row `row`.
+    fn row_product(&self, row: usize, x: &[f64]) -> f64 {
+        let structure = &self.structure;
+        let i = structure.owner(row).0;
+        let values = &self.values[structure.row(i, row - structure.group(i).start)];
+        let mut sum = 0.0;
+        for edge in structure.edges(i) {
+            let group = structure.group(structure.target(edge));
+            let block = &values[structure.column(edge)..];
+            for (a, x) in block.iter().zip(&x[group]) {
+                sum += a * x;
+            }
+        }
+        sum
+    }
+
+    /// The transposed matrix, on the same pattern.
+    pub fn transpose(&self) -> Self {
+        let mut transposed = Self::zero(&self.structure);
+        let structure = &self.structure;
+        for i in 0..structure.supervariables() {
+            for edge in structure.edges(i) {
+                let j = structure.target(edge);
+                // The pattern is symmetric, so the mirrored edge exists.
+                let Some(mirror) = structure.edge(j, i) else {
+                    continue;
+                };
+                for a in 0..structure.group(i).len() {
+                    let from = structure.row(i, a).start + structure.column(edge);
+                    for b in 0..structure.group(j).len() {
+                        let to = structure.row(j, b).start + structure.column(mirror) + a;
+                        transposed.values[to] = self.values[from + b];
+                    }
+                }
+            }
+        }
+        transposed
+    }
+
+    /// Largest magnitude in each row.
+    pub fn row_maxima(&self) -> Vec<f64> {
+        self.scaled_maxima(|_, _| 1.0).0
+    }
+
+    /// Largest magnitude in each column.
+    pub fn column_maxima(&self) -> Vec<f64> {
+        self.scaled_maxima(|_, _| 1.0).1
+    }
+
+    /// Largest row sum of magnitudes.
+    pub fn infinity_norm(&self) -> f64 {
+        let rows = 0..self.structure.unknowns();
+        rows.map(|row| self.row(row).map(|(_, a)| a.abs()).sum::<f64>())
+            .fold(0.0, f64::max)
+    }
+
+    /// Multiplies row `i` by `rows[i]` and column `j` by `columns[j]`.
+    pub fn scale(&mut self, rows: &[f64], columns: &[f64]) {
+        for i in 0..self.structure.supervariables() {
+            for (local, row) in self.structure.group(i).enumerate() {
+                let range = self.structure.row(i, local);
+                for (value, column) in self.values[range]
+                    .iter_mut()
+                    .zip(self.structure.row_columns(i))
+                {
+                    *value *= rows[row] * columns[column];
+                }
+            }
+        }
+    }
+
+    /// Largest magnitudes by row and by column of the entries times `scale(row, column)`.
+    pub(crate) fn scaled_maxima(
+        &self,
+        scale: impl Fn(usize, usize) -> f64,
+    ) -> (Vec<f64>, Vec<f64>) {
+        let n = self.structure.unknowns();
+        let (mut rows, mut columns) = (vec![0.0_f64; n], vec![0.0_f64; n]);
+        for row in 0..n {
+            for (column, a) in self.row(row) {
+                let size = a.abs() * scale(row, column);
+                rows[row] = rows[row].max(size);
+                columns[column] = columns[column].max(size);
+            }
+        }
+        (rows, columns)
+    }
+
+    /// `b - A x` and its componentwise backward error.
+    pub(crate) fn residual(&self, x: &[f64], b: &[f64]) -> Residual {
+        let largest = x.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let round_off = 1000.0 * x.len() as f64 * f64::EPSILON;
+        let rows = (0..b.len()).into_par_iter().with_min_len(1024);
+        let (values, errors): (Vec<f64>, Vec<f64>) = rows
+            .map(|row| {
+                let (mut sum, mut terms, mut norm) = (0.0, 0.0, 0.0);
+                for (column, a) in self.row(row) {
+                    sum += a * x[column];
+                    terms += (a * x[column]).abs();
+                    norm += a.abs();
+                }
+                let r = b[row] - sum;
+                let bound = norm * largest + b[row].abs();
+                let size = terms + b[row].abs();
+                let size = if size > round_off * bound {
+                    size
+                } else {
+                    terms + norm * largest
+                };
+                (r, if r == 0.0 { 0.0 } else { r.abs() / size })
+            })
+            .unzip();
+        // `f64::max` would drop an error that is not a number.
+        let worse = |m: f64, &e: &f64| if e > m || e.is_nan() { e } else { m };
+        Residual {
+            backward_error: errors.iter().fold(0.0, worse),
+            values,
+        }
+    }
+
+    /// Adds `shift` to every diagonal entry.
+    pub(crate) fn shift_diagonal(&mut self, shift: f64) {
+        for row in 0..self.structure.unknowns() {
+            if let Some(diagonal) = position(&self.structure, row, row) {
+                self.values[diagonal] += shift;
+            }
+        }
+    }
+
+    /// All values, row by row.
+    pub(crate) fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// Edges between all runs of rows and columns.
+    fn edges(
+        &self,
+        rows: &[usize],
+        columns: &[usize],
+        row_runs: &[Run],
+        column_runs: &[Run],
+    ) -> Result<Vec<usize>, OutsidePattern> {
+        let mut edges = Vec::with_capacity(row_runs.len() * column_runs.len());
+        for a in row_runs {
+            for b in column_runs {
+                let outside = OutsidePattern {
+                    row: rows[a.begin],
+                    column: columns[b.begin],
+                };
+                edges.push(self.structure.edge(a.owner, b.owner).ok_or(outside)?);
+            }
+        }
+        Ok(edges)
+    }
+}
+
+/// Residual of a linear system.
+pub(crate) struct Residual {
+    pub(crate) values: Vec<f64>,
+    pub(crate) backward_error: f64,
+}
+
+/// Consecutive unknowns of a list that belong to one supervariable.
+struct Run {
+    owner: usize,
+    begin: usize,
+    end: usize,
+}
+
+fn runs(structure: &Structure, unknowns: &[usize]) -> Vec<Run> {
+    let mut runs: Vec<Run> = Vec::new();
+    for (k, &unknown) in unknowns.iter().enumerate() {
+        let owner = structure.owner(unknown).0;
+        match runs.last_mut() {
+            Some(run) if run.owner == owner => run.end = k + 1,
+            _ => runs.push(Run {
+                owner,
+                begin: k,
+                end: k + 1,
+            }),
+        }
+    }
+    runs
+}
+
+fn position(structure: &Structure, row: usize, column: usize) -> Option<usize> {
+    let (i, j) = (structure.owner(row).0, structure.owner(column).0);
+    let edge = structure.edge(i, j)?;
+    let start = structure.row(i, row - structure.group(i).start).start;
+    Some(start + structure.column(edge) + column - structure.group(j).start)
+}
