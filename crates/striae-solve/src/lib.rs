@@ -1,3 +1,4 @@
 //! Elements, loads, the problem and its state, Newton's method and step control.
 
+pub mod element;
 pub mod model;

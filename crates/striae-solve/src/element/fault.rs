@@ -1,0 +1,36 @@
+//! What can be wrong with an element.
+
+use striae_mesh::ElementId;
+
+/// An element that is turned inside out at a Gauss point.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum ElementError {
+    /// In the reference configuration: the mesh is at fault.
+    #[error(
+        "the reference shape is degenerate: Jacobian {determinant:.6e} at Gauss point {gauss_point}"
+    )]
+    Degenerate {
+        /// Local number of the Gauss point, `0..8`.
+        gauss_point: usize,
+        /// Determinant of `dX/dxi`.
+        determinant: f64,
+    },
+    /// In the current configuration: the step is at fault.
+    #[error("turned inside out: det F = {determinant:.6e} at Gauss point {gauss_point}")]
+    Inverted {
+        /// Local number of the Gauss point, `0..8`.
+        gauss_point: usize,
+        /// Determinant of the deformation gradient.
+        determinant: f64,
+    },
+}
+
+/// An [`ElementError`] and the element it befell.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("{element}: {error}")]
+pub struct ElementFault {
+    /// The element.
+    pub element: ElementId,
+    /// What is wrong with it.
+    pub error: ElementError,
+}

@@ -1,0 +1,79 @@
+//! What an element knows from its reference configuration alone.
+
+use super::shape::{gauss_point, shape_gradients};
+use super::{ElementError, ElementFault};
+use nalgebra::Matrix3;
+use striae_mesh::{ElementId, Mesh, Vec3};
+
+/// Reference gradients and volumes at the Gauss points of an element.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReferenceElement {
+    /// `G_a = dN_a/dX` by Gauss point, corner and component.
+    pub(super) gradients: [[[f64; 3]; 8]; 8],
+    /// Reference volume that belongs to each Gauss point.
+    pub(super) weights: [f64; 8],
+}
+
+/// The reference elements of a mesh, in the order of its elements.
+///
+/// # Errors
+///
+/// The first element whose reference shape is degenerate.
+pub fn reference_elements(mesh: &Mesh) -> Result<Vec<ReferenceElement>, ElementFault> {
+    mesh.elements
+        .iter()
+        .enumerate()
+        .map(|(index, corners)| {
+            let positions = corners.map(|node| mesh.positions[node.index()]);
+            ReferenceElement::new(&positions).map_err(|error| ElementFault {
+                element: ElementId::new(index),
+                error,
+            })
+        })
+        .collect()
+}
+
+impl ReferenceElement {
+    /// From the reference positions `X` of the corners.
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError::Degenerate`] where `dX/dxi` is not positive at a Gauss point.
+    pub fn new(reference: &[Vec3; 8]) -> Result<Self, ElementError> {
+        let mut gradients = [[[0.0; 3]; 8]; 8];
+        let mut weights = [0.0; 8];
+        for g in 0..8 {
+            let local = shape_gradients(&gauss_point(g));
+            let jacobian: Matrix3<f64> = (0..8).map(|a| reference[a] * local[a].transpose()).sum();
+            let determinant = jacobian.determinant();
+            let Some(inverse) = jacobian.try_inverse().filter(|_| determinant > 0.0) else {
+                return Err(ElementError::Degenerate {
+                    gauss_point: g,
+                    determinant,
+                });
+            };
+            let inverse_transposed = inverse.transpose();
+            gradients[g] = local.map(|gradient| (inverse_transposed * gradient).into());
+            weights[g] = determinant;
+        }
+        Ok(Self { gradients, weights })
+    }
+
+    /// Reference volume.
+    pub fn volume(&self) -> f64 {
+        self.weights.iter().sum()
+    }
+
+    /// Deformation gradient `F` at Gauss point `g`, `0..8`, for current corners `x`.
+    pub(super) fn deformation_gradient(&self, g: usize, current: &[Vec3; 8]) -> Matrix3<f64> {
+        let mut f = Matrix3::zeros();
+        for (x, gradient) in current.iter().zip(&self.gradients[g]) {
+            for j in 0..3 {
+                for i in 0..3 {
+                    f[(i, j)] += x[i] * gradient[j];
+                }
+            }
+        }
+        f
+    }
+}
