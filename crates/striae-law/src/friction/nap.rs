@@ -17,7 +17,7 @@
 //! Source: the slip rule of [`TwoTextures`](super::TwoTextures) with its constants
 //! fitted to the three coefficients. Forward, backward and lateral are the usual
 //! terms for snake scales, Hu, Nirody, Scott & Shelley (2009), "The mechanics of
-//! slithering locomotion", PNAS 106, 10081-10085.
+//! slithering locomotion", PNAS 106, 10081-10085, doi:10.1073/pnas.0812533106.
 //!
 //! Admissible iff slip dissipates in all directions, see
 //! [`SlipSurface::least_dissipation`]: with `P = (mu_b + mu_f)/2`,

@@ -1,11 +1,11 @@
 //! The slip function (37) as published, for comparison only.
 //!
-//! The paper derives its slip function from `|w|^2 = alpha_0^2 + alpha_0 alpha_1 I1
-//! + alpha_1^2 m^2`, (30)_2, where the middle term lacks a factor 2. With
-//! `alpha_0 = A`, `alpha_1 = B (c_cen + I1)`, `J1 = a_ba . v` and `v = -tau` this
-//! becomes
+//! The paper derives its slip function from its (30)_2, where the middle term
+//! lacks a factor 2. With `alpha_0 = A`, `alpha_1 = B (c_cen + I1)`,
+//! `J1 = a_ba . v` and `v = -tau` this becomes
 //!
 //! ```text
+//! |w|^2 = alpha_0^2 + alpha_0 alpha_1 I1 + alpha_1^2 m^2                      (30)_2
 //! |v|^2 = A^2 Gamma^2 + (A B c_cen / P) J1 Gamma + (B / P) J1^2 ,
 //! Gamma(v) = [-(B c_cen/P) J1 + sqrt((B c_cen/P)^2 J1^2 + 4 (|v|^2 - B J1^2/P))]/(2 A) .
 //! ```
@@ -20,12 +20,12 @@
 use nalgebra::Vector2;
 
 use super::TwoTextures;
-use super::slip_surface::SlipSample;
+use super::slip_surface::{SlipSample, SlipSurface};
 
 /// The published slip function at one contact point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Published {
-    exact: super::SlipSurface,
+    exact: SlipSurface,
 }
 
 impl Published {
@@ -41,7 +41,7 @@ impl Published {
     pub fn gauge(&self, v: &Vector2<f64>) -> f64 {
         let (P, A, h) = (self.exact.along, self.exact.across, self.exact.offset);
         let linear = h / P * v.x;
-        let square = v.norm_squared() - (P - A) / P * v.x * v.x;
+        let square = A / P * v.x * v.x + v.y * v.y;
         ((linear * linear + 4.0 * square).sqrt() - linear) / (2.0 * A)
     }
 

@@ -114,9 +114,14 @@ impl SlipSurface {
     #[allow(non_snake_case)]
     pub fn gauge(&self, v: &Vector2<f64>) -> f64 {
         let (P, A, h) = (self.along, self.across, self.offset);
-        let inside = P * P - h * h;
-        let root = (h * v.x).powi(2) + inside * (v.x * v.x + (P * v.y / A).powi(2));
-        (root.sqrt() - h * v.x) / inside
+        let inside = (P - h) * (P + h);
+        let stretched = v.x * v.x + (P * v.y / A).powi(2);
+        let root = ((h * v.x).powi(2) + inside * stretched).sqrt();
+        if h * v.x > 0.0 {
+            stretched / (root + h * v.x) // the same, without cancellation
+        } else {
+            (root - h * v.x) / inside
+        }
     }
 
     /// The angle `phi` at which the ray along `v = -tau` meets the slip surface;

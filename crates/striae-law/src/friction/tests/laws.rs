@@ -5,7 +5,9 @@ use proptest::prelude::*;
 use striae_verify::Random;
 
 use super::battery;
-use crate::friction::{Friction, FrictionError, Kernel, Law, RequiredTextures, SlipRule, Textures};
+use crate::friction::{
+    Friction, FrictionError, Kernel, Law, Nap, RequiredTextures, SlipRule, Textures, TwoTextures,
+};
 
 #[test]
 fn coulomb_passes_the_battery() {
@@ -250,8 +252,17 @@ proptest! {
     fn admissible_two_textures_pass_the_battery(
         c in (-0.9..0.9f64, -0.3..1.0f64, -3.0..3.0f64),
     ) {
-        if let Ok(friction) = Friction::two_textures(0.4, c.0, c.1, c.2) {
-            battery::check(&friction);
-        }
+        let clearly = |law: TwoTextures| law.least_dissipation().value > 0.02;
+        prop_assume!(TwoTextures::new(c.0, c.1, c.2).is_ok_and(clearly));
+        battery::check(&Friction::two_textures(0.4, c.0, c.1, c.2).unwrap());
+    }
+
+    #[test]
+    fn admissible_naps_pass_the_battery(
+        mu in (0.05..1.0f64, 0.05..1.0f64, 0.05..1.0f64),
+    ) {
+        let clearly = |law: Nap| law.slip_surface().least_dissipation().dissipation() > 0.02;
+        prop_assume!(Nap::new(mu.0, mu.1, mu.2).is_ok_and(clearly));
+        battery::check(&Friction::nap(mu.0, mu.1, mu.2).unwrap());
     }
 }

@@ -1,8 +1,8 @@
 //! Printed reference numbers.
 
 use super::assert_reads;
-use crate::friction::{SlipSurface, TwoTextures};
-use nalgebra::Rotation2;
+use crate::friction::{Friction, SlipRule, SlipSurface, Textures, TwoTextures};
+use nalgebra::{Rotation2, Vector3};
 
 /// `theta` in degrees, then `A`, `P`, `h`, the largest `|w|` and the largest angle
 /// between slip and `-tau` in degrees, each with its number of decimals.
@@ -71,4 +71,34 @@ fn free_lateral_motion_drifts_at_the_reference_angle() {
         }) = middle;
     }
     assert_reads(-low.to_degrees(), 13.05, 2);
+}
+
+#[test]
+fn point_mass_stops_where_and_when_the_closed_form_says() {
+    // A = .5, P = 1, h = 0, mu g = v0 = 1, launched at 60 degrees to the texture.
+    let friction = Friction::orthotropic(0.5, 1.0, SlipRule::Opposing).unwrap();
+    let textures = Textures {
+        own: Some(Vector3::x()),
+        opposite: None,
+    };
+    let kernel = friction.kernel(&Vector3::z(), &textures);
+    let acceleration = |v: &Vector3<f64>| kernel.traction(1.0, &v.normalize());
+    let launch = 60f64.to_radians();
+    let mut v = Vector3::new(launch.cos(), launch.sin(), 0.0);
+    let (mut x, mut t, h) = (Vector3::zeros(), 0.0, 2e-4);
+    while v.norm() > 2e-3 {
+        let k1 = acceleration(&v);
+        let k2 = acceleration(&(v + k1 * (0.5 * h)));
+        let k3 = acceleration(&(v + k2 * (0.5 * h)));
+        let k4 = acceleration(&(v + k3 * h));
+        x += v * h + (k1 + k2 + k3) * (h * h / 6.0);
+        v += (k1 + k2 * 2.0 + k3 * 2.0 + k4) * (h / 6.0);
+        t += h;
+    }
+    let rest = v.norm() / acceleration(&v).norm();
+    x += v * (0.5 * rest);
+    assert_reads(t + rest, 1.823959, 6);
+    assert!((1.0 + 0.75 * 3f64.ln() - t - rest).abs() < 1e-7);
+    assert_reads(x.x, 0.316015, 6);
+    assert_reads(x.y, 0.809401, 6);
 }
