@@ -1,0 +1,83 @@
+//! What can be wrong with a texture.
+
+use striae_mesh::FacetId;
+
+/// Why a texture cannot be painted or convected; nodes are numbered as in the surface.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum TextureError {
+    /// A list has another length than the surface has nodes.
+    #[error("{found} {what} for a surface of {nodes} nodes")]
+    Count {
+        /// What is listed.
+        what: &'static str,
+        /// How many are given.
+        found: usize,
+        /// Nodes of the surface.
+        nodes: usize,
+    },
+    /// A facet or a painted place names a node that does not exist.
+    #[error("surface node {node} does not exist: the surface has {nodes} nodes")]
+    MissingNode {
+        /// The node that is named.
+        node: u32,
+        /// Nodes of the surface.
+        nodes: usize,
+    },
+    /// A corner of a facet is flat, or folded against the nodal normal.
+    #[error(
+        "{facet} is degenerate or folded at surface node {node}: its edges there span no area facing along the nodal normal"
+    )]
+    DegenerateFacet {
+        /// The facet.
+        facet: FacetId,
+        /// The corner.
+        node: u32,
+    },
+    /// No facet has this node.
+    #[error("surface node {node} belongs to no facet, so it has no tangent plane")]
+    LooseNode {
+        /// The node.
+        node: u32,
+    },
+    /// Interpolation from no places at all.
+    #[error("no direction is painted anywhere")]
+    NothingPainted,
+    /// Two painted places fall on the same node.
+    #[error(
+        "surface node {node} is painted twice: it is the nearest node of two painted places; drop one of them or refine the surface"
+    )]
+    PaintedTwice {
+        /// The node.
+        node: u32,
+    },
+    /// A part of the surface is not connected with any painted place.
+    #[error("surface node {node} is in a part of the surface on which no direction is painted")]
+    Unpainted {
+        /// First node of that part.
+        node: u32,
+    },
+    /// The width of the interpolation is not a positive number.
+    #[error("the width of the interpolation must be positive, not {width}")]
+    Width {
+        /// The width.
+        width: f64,
+    },
+    /// The interpolation is not positive definite, so it would oscillate.
+    #[error(
+        "the interpolation of width {width} is not positive definite (smallest eigenvalue {smallest_eigenvalue:.1e}) and would oscillate; a width of {advice} is safe"
+    )]
+    IndefiniteKernel {
+        /// The width.
+        width: f64,
+        /// Smallest eigenvalue of the kernel matrix.
+        smallest_eigenvalue: f64,
+        /// A width for which the kernel is positive definite.
+        advice: f64,
+    },
+    /// The direction is zero or along the normal.
+    #[error("the direction at surface node {node} has no tangential part")]
+    Vanishing {
+        /// The node.
+        node: u32,
+    },
+}

@@ -1,0 +1,8 @@
+//! Tests of textures by what they check.
+
+mod convection;
+mod interpolation;
+mod refinement;
+mod refusals;
+mod rest;
+mod shapes;
