@@ -1,0 +1,191 @@
+//! The part of a facet that an opposing facet covers.
+//!
+//! Both are projected on the plane of the facet's mean normal, where the facet
+//! is clipped by the edges of the opposing one (Sutherland & Hodgman, Commun.
+//! ACM 17, 1974) and the rest is cut into a fan of triangles. Everything is
+//! generic over dual numbers, so quadrature points and weights carry their
+//! derivatives by the corners of both facets.
+
+use nalgebra::{Matrix2, Vector2, Vector3};
+use striae_surface::{
+    facet::{Shape, area_vector},
+    scalar::{Real, combination, cross, dot, normalised, scaled},
+};
+
+use crate::quadrature::collapsed_triangle;
+
+/// A quadrature point on a quadrilateral facet.
+#[derive(Clone, Copy, Debug)]
+pub struct QuadraturePoint<D> {
+    /// Facet coordinates.
+    pub xi: D,
+    /// Facet coordinates.
+    pub eta: D,
+    /// Weight to integrate over `d xi d eta`: the share of the parameter area.
+    pub weight: D,
+}
+
+/// Quadrature points on the part of the quadrilateral `facet` that the convex
+/// polygon `cover` of three or four corners, facing it, covers.
+pub fn covered_points<D: Real>(
+    facet: &[Vector3<D>; 4],
+    cover: &[Vector3<D>],
+) -> Vec<QuadraturePoint<D>> {
+    let centre = Shape::Quadrilateral.weights(D::from(0.0), D::from(0.0));
+    let origin = combination(&centre.value, facet);
+    let m = normalised(&area_vector(&centre, facet));
+    let edge = facet[1] - facet[0];
+    let e1 = normalised(&(edge - scaled(&m, dot(&edge, &m))));
+    let e2 = cross(&m, &e1);
+    let flat = |x: &Vector3<D>| {
+        let r = x - origin;
+        Vector2::new(dot(&r, &e1), dot(&r, &e2))
+    };
+    let own = facet.each_ref().map(flat);
+    let mut window: Vec<Vector2<D>> = cover.iter().map(flat).collect();
+    window.reverse();
+    let polygon = clipped(&own, &window);
+    let scale = own
+        .iter()
+        .map(|p| p.x.re().abs() + p.y.re().abs())
+        .fold(0.0, f64::max);
+    let mut points = Vec::with_capacity(16 * polygon.len());
+    for at in 2..polygon.len() {
+        let (u, v) = (polygon[at - 1] - polygon[0], polygon[at] - polygon[0]);
+        let area = (u.x * v.y - u.y * v.x) * 0.5;
+        if area.re() <= 1e-14 * scale * scale {
+            continue;
+        }
+        for ([r, s], share) in collapsed_triangle() {
+            let target = polygon[0] + u * D::from(r) + v * D::from(s);
+            let Some([xi, eta]) = inverse_bilinear(&own, &target) else {
+                continue;
+            };
+            let weights = Shape::Quadrilateral.weights(xi, eta);
+            let projected = dot(&area_vector(&weights, facet), &m);
+            points.push(QuadraturePoint {
+                xi,
+                eta,
+                weight: area * share / projected,
+            });
+        }
+    }
+    points
+}
+
+/// The part of the convex polygon `subject` inside the convex polygon `window`,
+/// both counter-clockwise.
+fn clipped<D: Real>(subject: &[Vector2<D>], window: &[Vector2<D>]) -> Vec<Vector2<D>> {
+    let mut polygon = subject.to_vec();
+    for (at, start) in window.iter().enumerate() {
+        let edge = window[(at + 1) % window.len()] - start;
+        let signed = |p: &Vector2<D>| edge.x * (p.y - start.y) - edge.y * (p.x - start.x);
+        let mut inside = Vec::with_capacity(polygon.len() + 1);
+        for (index, point) in polygon.iter().enumerate() {
+            let next = &polygon[(index + 1) % polygon.len()];
+            let (d, d_next) = (signed(point), signed(next));
+            if d.re() >= 0.0 {
+                inside.push(*point);
+            }
+            if (d.re() >= 0.0) != (d_next.re() >= 0.0) {
+                let share = d / (d - d_next);
+                inside.push(point + (next - point) * share);
+            }
+        }
+        polygon = inside;
+    }
+    polygon
+}
+
+/// Coordinates of a point of a plane quadrilateral.
+fn inverse_bilinear<D: Real>(corners: &[Vector2<D>; 4], target: &Vector2<D>) -> Option<[D; 2]> {
+    let real = |p: &Vector2<D>| Vector2::new(p.x.re(), p.y.re());
+    let positions = corners.each_ref().map(real);
+    let goal = real(target);
+    let at = |xi: f64, eta: f64| {
+        let w = Shape::Quadrilateral.weights(xi, eta);
+        let sum = |weights: &[f64; 4]| -> Vector2<f64> {
+            (0..4).map(|c| positions[c] * weights[c]).sum()
+        };
+        let jacobian = Matrix2::from_columns(&[sum(&w.d_xi), sum(&w.d_eta)]);
+        (sum(&w.value) - goal, jacobian)
+    };
+    let (mut xi, mut eta) = (0.0, 0.0);
+    for _ in 0..20 {
+        let (residual, jacobian) = at(xi, eta);
+        let step = jacobian.try_inverse()? * residual;
+        xi -= step.x;
+        eta -= step.y;
+        if step.amax() < 1e-14 {
+            break;
+        }
+    }
+    let inverse = at(xi, eta).1.try_inverse()?;
+    let weights = Shape::Quadrilateral.weights(xi, eta).value;
+    let mut residual = -*target;
+    for corner in 0..4 {
+        residual += corners[corner] * D::from(weights[corner]);
+    }
+    Some([0, 1].map(|row| {
+        let change = residual.x * inverse[(row, 0)] + residual.y * inverse[(row, 1)];
+        -change + [xi, eta][row]
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    type V = Vector3<f64>;
+
+    fn area(facet: &[V; 4], cover: &[V]) -> f64 {
+        covered_points(facet, cover)
+            .iter()
+            .map(|point| {
+                let weights = Shape::Quadrilateral.weights(point.xi, point.eta);
+                point.weight * area_vector(&weights, facet).norm()
+            })
+            .sum()
+    }
+
+    fn irregular() -> [V; 4] {
+        [
+            V::new(0.0, 0.0, 0.0),
+            V::new(1.0, 0.1, 0.0),
+            V::new(1.3, 1.2, 0.0),
+            V::new(-0.1, 0.9, 0.0),
+        ]
+    }
+
+    #[test]
+    fn parts_of_a_distorted_facet_add_up() {
+        let facet = irregular();
+        let half = |low: f64, high: f64| {
+            let at = |x: f64, y: f64| V::new(x, y, 0.01);
+            area(
+                &facet,
+                &[at(low, 5.0), at(high, 5.0), at(high, -5.0), at(low, -5.0)],
+            )
+        };
+        let whole = half(-5.0, 5.0);
+        let exact = 0.5 * (facet[2] - facet[0]).cross(&(facet[3] - facet[1])).norm();
+        assert!((whole - exact).abs() < 1e-14);
+        assert!((half(-5.0, 0.4) + half(0.4, 0.7) + half(0.7, 5.0) - whole).abs() < 1e-14);
+        assert_eq!(half(2.0, 5.0), 0.0);
+    }
+
+    #[test]
+    fn coordinates_lie_on_the_facet_and_first_moments_are_exact() {
+        let facet = irregular();
+        let at = |x: f64, y: f64| V::new(x, y, 0.0);
+        let cover = [at(0.2, 0.8), at(0.7, 0.8), at(0.7, 0.3)];
+        let mut moment = V::zeros();
+        for point in covered_points(&facet, &cover) {
+            let weights = Shape::Quadrilateral.weights(point.xi, point.eta);
+            let x = combination(&weights.value, &facet);
+            moment += x * point.weight * area_vector(&weights, &facet).norm();
+        }
+        let exact = (cover[0] + cover[1] + cover[2]) / 3.0 * 0.125;
+        assert!((moment - exact).norm() < 1e-14);
+    }
+}

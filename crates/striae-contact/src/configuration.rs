@@ -1,0 +1,127 @@
+//! Where the two sides of a pair are: positions, normals and search trees.
+
+use striae_mesh::{FacetId, Vec3};
+use striae_surface::{
+    normal::nodal_normals,
+    topology::{Surface, distinct_corners},
+};
+
+use crate::{
+    pair::{ContactPair, Geometry, local_sizes},
+    search::{Bounds, Tree},
+};
+
+/// Both sides of a pair in one configuration.
+#[derive(Clone, Debug)]
+pub struct Configuration<'a> {
+    /// The pair.
+    pub pair: &'a ContactPair,
+    /// Snapshots of the sides; a plane has none.
+    pub sides: [Option<Snapshot<'a>>; 2],
+    /// Displacement of a rigid side `b` from its reference configuration.
+    pub rigid_displacement: Vec3,
+}
+
+/// A surface of facets in one configuration.
+#[derive(Clone, Debug)]
+pub struct Snapshot<'a> {
+    /// Topology.
+    pub surface: &'a Surface,
+    /// Current positions of the surface nodes.
+    pub x: Vec<Vec3>,
+    /// Unit outward nodal normals.
+    pub normals: Vec<Vec3>,
+    /// Local facet size at every node.
+    pub sizes: Vec<f64>,
+    /// Tree over the facets.
+    pub tree: Tree,
+    /// Tree over the boundary edges.
+    pub edge_tree: Tree,
+}
+
+impl<'a> Configuration<'a> {
+    /// The configuration with the surface nodes of side `s` at `positions[s]`;
+    /// for a rigid side the reference positions, which are displaced here.
+    pub fn new(pair: &'a ContactPair, positions: [Vec<Vec3>; 2], rigid_displacement: Vec3) -> Self {
+        let [a, mut b] = positions;
+        if pair.is_rigid() {
+            b.iter_mut().for_each(|x| *x += rigid_displacement);
+        }
+        let snapshot = |side: usize, x: Vec<Vec3>| {
+            pair.sides[side]
+                .surface()
+                .map(|surface| Snapshot::new(surface, x))
+        };
+        Self {
+            pair,
+            sides: [snapshot(0, a), snapshot(1, b)],
+            rigid_displacement,
+        }
+    }
+
+    /// The snapshot of a side that has facets.
+    ///
+    /// # Panics
+    /// For a rigid plane.
+    pub fn side(&self, side: usize) -> &Snapshot<'a> {
+        self.sides[side].as_ref().expect("a plane has no facets")
+    }
+
+    /// Distance within which the node looks for the other side.
+    pub fn reach(&self, side: usize, node: u32) -> f64 {
+        let size = self.side(side).sizes[node as usize];
+        self.pair.search_distance.unwrap_or(0.5 * size)
+    }
+
+    /// Point and unit normal of the plane that is side `b`, if it is one.
+    pub fn plane(&self) -> Option<(Vec3, Vec3)> {
+        match self.pair.sides[1].geometry {
+            Geometry::Plane { point, normal } => Some((point + self.rigid_displacement, normal)),
+            Geometry::Deformable(_) | Geometry::Rigid(_) => None,
+        }
+    }
+}
+
+impl<'a> Snapshot<'a> {
+    fn new(surface: &'a Surface, x: Vec<Vec3>) -> Self {
+        let facet_boxes = surface
+            .facets()
+            .iter()
+            .map(|facet| Bounds::around(distinct_corners(facet).iter().map(|&n| x[n as usize])));
+        let edge_boxes = surface
+            .boundary_edges()
+            .iter()
+            .map(|edge| Bounds::around(edge.nodes.map(|n| x[n as usize])));
+        Self {
+            surface,
+            normals: nodal_normals(surface, &x),
+            sizes: local_sizes(surface, &x),
+            tree: Tree::new(facet_boxes.collect()),
+            edge_tree: Tree::new(edge_boxes.collect()),
+            x,
+        }
+    }
+
+    /// Surface-local corners of a facet.
+    pub fn corners(&self, facet: FacetId) -> [u32; 4] {
+        self.surface.facets()[facet.index()]
+    }
+
+    /// Current positions of the corners of a facet.
+    pub fn corner_positions(&self, facet: FacetId) -> [Vec3; 4] {
+        self.corners(facet).map(|node| self.x[node as usize])
+    }
+
+    /// Box around a facet.
+    pub fn bounds(&self, facet: FacetId) -> Bounds {
+        Bounds::around(self.corner_positions(facet))
+    }
+
+    /// Longest distance of a corner from the first one.
+    pub fn facet_size(&self, facet: FacetId) -> f64 {
+        let x = self.corner_positions(facet);
+        (1..4)
+            .map(|corner| (x[corner] - x[0]).norm())
+            .fold(0.0, f64::max)
+    }
+}

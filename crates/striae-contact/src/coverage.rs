@@ -1,0 +1,126 @@
+//! Which nodes of a side see the other side, and at what distance.
+
+use nalgebra::Vector3;
+use striae_mesh::Vec3;
+
+use crate::{
+    configuration::Configuration,
+    projection::{Hit, Margin, Ray, project},
+};
+
+/// What a node sees along its normal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Coverage {
+    /// The other side within reach.
+    Near(Contact),
+    /// The other side, but out of reach.
+    Far,
+    /// Nothing.
+    Missed,
+}
+
+/// The point opposite to a node.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// Gap, positive when open.
+    pub gap: f64,
+    /// Where the point is.
+    pub place: Place,
+}
+
+/// A place on the other side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Place {
+    /// On a facet.
+    Facet(Hit),
+    /// On a plane.
+    Plane(Vec3),
+}
+
+/// How many reaches away a surface counts as seen, though out of reach.
+const HORIZON: f64 = 20.0;
+
+impl Configuration<'_> {
+    /// The point opposite to a node of a deformable side within `reach`.
+    pub fn contact(&self, side: usize, node: u32, reach: f64, margin: Margin) -> Option<Contact> {
+        let own = self.side(side);
+        self.contact_at(
+            side,
+            own.x[node as usize],
+            own.normals[node as usize],
+            reach,
+            margin,
+        )
+    }
+
+    /// The point opposite to the point `x` with the normal `n` of a deformable side.
+    pub fn contact_at(
+        &self,
+        side: usize,
+        x: Vec3,
+        n: Vec3,
+        reach: f64,
+        margin: Margin,
+    ) -> Option<Contact> {
+        if let Some((point, normal)) = self.plane() {
+            let gap = (x - point).dot(&normal);
+            return (gap.abs() <= reach).then(|| Contact {
+                gap,
+                place: Place::Plane(x - normal * gap),
+            });
+        }
+        let ray = if self.pair.is_rigid() {
+            Ray::Opposite
+        } else {
+            Ray::Own(n)
+        };
+        let hit = project(self.side(1 - side), &x, ray, reach, margin)?;
+        Some(Contact {
+            gap: hit.gap,
+            place: Place::Facet(hit),
+        })
+    }
+
+    /// What a node of a deformable side sees.
+    pub fn coverage(&self, side: usize, node: u32) -> Coverage {
+        let reach = self.reach(side, node);
+        match self.contact(side, node, HORIZON * reach, Margin::Inside) {
+            Some(contact) if contact.gap.abs() <= reach => Coverage::Near(contact),
+            Some(_) => Coverage::Far,
+            None if self.plane().is_some() => Coverage::Far,
+            None => Coverage::Missed,
+        }
+    }
+}
+
+impl Place {
+    /// Weights of the corners of the facet, zero elsewhere on the surface.
+    pub fn weights(
+        &self,
+        configuration: &Configuration,
+        side: usize,
+    ) -> Option<([u32; 4], [f64; 4])> {
+        match self {
+            Place::Facet(hit) => {
+                let corners = configuration.side(1 - side).corners(hit.facet);
+                let shape = striae_surface::facet::Shape::of(&corners);
+                Some((corners, shape.weights(hit.xi, hit.eta).value))
+            }
+            Place::Plane(_) => None,
+        }
+    }
+
+    /// The point in space.
+    pub fn point(&self, configuration: &Configuration, side: usize) -> Vec3 {
+        match self {
+            Place::Plane(point) => *point,
+            Place::Facet(_) => self.weights(configuration, side).map_or_else(
+                Vector3::zeros,
+                |(corners, weights)| {
+                    let x = &configuration.side(1 - side).x;
+                    (0..4).map(|c| x[corners[c] as usize] * weights[c]).sum()
+                },
+            ),
+        }
+    }
+}

@@ -1,0 +1,311 @@
+//! Residual and tangent of a contact pair at given unknowns.
+//!
+//! A pure function of the configuration, the roles and the traction unknowns.
+
+use nalgebra::{Matrix3, Matrix6};
+use rayon::prelude::*;
+use striae_mesh::{FacetId, Vec3};
+
+use crate::{
+    complementarity::{Iteration, KinematicNode, Prescribed, rows},
+    configuration::Configuration,
+    coverage::Place,
+    field::{BalanceRows, FacetForces, facet_terms},
+    frame::{LostProjection, frames},
+    projection::Margin,
+    selection::{Partner, Role, Selection},
+    term::LocalTerm,
+    traction::nodal_tractions,
+    transfer::{Fields, extended_rows, traction_rows},
+    unknowns::{NodeResult, Status, Tractions},
+};
+
+/// Everything a pair contributes, and what it looks like.
+#[derive(Clone, Debug)]
+pub struct Evaluation {
+    /// Rows of the residual; momentum rows are internal minus external force.
+    pub terms: Vec<LocalTerm>,
+    /// Results of every node, by side.
+    pub nodes: [Vec<NodeResult>; 2],
+    /// Forces on the facets of each side.
+    pub facets: [Vec<(FacetId, FacetForces)>; 2],
+}
+
+/// Evaluates a pair.
+///
+/// # Errors
+/// When a node no longer sees the other side.
+pub fn evaluate(
+    configuration: &Configuration,
+    selection: &Selection,
+    tractions: &Tractions,
+    prescribed: &Prescribed,
+    iteration: Iteration,
+) -> Result<Evaluation, LostProjection> {
+    let frames = frames(configuration, selection)?;
+    let tau = nodal_tractions(configuration, selection, &frames, tractions);
+    let fields = Fields {
+        configuration,
+        selection,
+        frames: &frames,
+        tractions,
+        tau: &tau,
+    };
+    let mut evaluation = Evaluation {
+        terms: Vec::new(),
+        nodes: [0, 1].map(|side| vec![NodeResult::default(); selection.roles[side].len()]),
+        facets: [Vec::new(), Vec::new()],
+    };
+    let balance = balance_rows(&fields);
+    evaluation.terms.extend(held_balance(&balance, tractions));
+    for &side in configuration.pair.deformable_sides() {
+        evaluation.add_nodes(&fields, side, prescribed, iteration)?;
+        evaluation.add_facets(&fields, side, &balance);
+    }
+    evaluation.follow_status(configuration, selection);
+    Ok(evaluation)
+}
+
+impl Evaluation {
+    fn add_nodes(
+        &mut self,
+        fields: &Fields,
+        side: usize,
+        prescribed: &Prescribed,
+        iteration: Iteration,
+    ) -> Result<(), LostProjection> {
+        let roles = &fields.selection.roles[side];
+        let results: Result<Vec<_>, _> = (0..roles.len())
+            .into_par_iter()
+            .with_min_len(8)
+            .filter(|&node| roles[node] != Role::Idle)
+            .map(|node| node_rows(fields, side, node as u32, prescribed, iteration))
+            .collect();
+        for (node, term, result) in results? {
+            self.terms.push(term);
+            self.nodes[side][node as usize] = result;
+        }
+        Ok(())
+    }
+
+    fn add_facets(&mut self, fields: &Fields, side: usize, balance: &[BalanceRows]) {
+        let selection = fields.selection;
+        let facets = fields.configuration.side(side).surface.facets();
+        let results: Vec<_> = (0..facets.len())
+            .into_par_iter()
+            .with_min_len(8)
+            .filter_map(|index| {
+                let active = facets[index]
+                    .iter()
+                    .find(|&&n| selection.is_active(side, n))?;
+                let patch = selection.patch_of[side][*active as usize];
+                let rows = patch.map(|patch| &balance[patch as usize]);
+                let facet = FacetId::new(index);
+                Some((facet, facet_terms(fields, side, facet, rows)))
+            })
+            .collect();
+        for (facet, (terms, forces)) in results {
+            self.terms.extend(terms);
+            self.facets[side].push((facet, forces));
+        }
+    }
+
+    /// Traction and extended nodes take the status of the heaviest opposing
+    /// corner or of their leader.
+    fn follow_status(&mut self, configuration: &Configuration, selection: &Selection) {
+        let known = self
+            .nodes
+            .each_ref()
+            .map(|side| side.iter().map(|result| result.status).collect::<Vec<_>>());
+        for side in 0..2 {
+            for (node, role) in selection.roles[side].iter().enumerate() {
+                let result = &mut self.nodes[side][node];
+                let source = match role {
+                    Role::Traction(Partner::Corners(corners, weights)) => {
+                        let heaviest = (0..4).max_by(|&a, &b| weights[a].total_cmp(&weights[b]));
+                        heaviest.map(|corner| (1 - side, corners[corner]))
+                    }
+                    Role::Extended { side, node } => Some((*side, *node)),
+                    _ => None,
+                };
+                if let Some((other, corner)) = source {
+                    let kinematic =
+                        matches!(selection.roles[other][corner as usize], Role::Kinematic(_));
+                    let cap = configuration.pair.friction.cap(result.pressure, 0.0);
+                    result.status = match known[other][corner as usize] {
+                        _ if result.pressure <= 0.0 => Status::Open,
+                        status if kinematic => status,
+                        _ if result.tau.norm() < cap * (1.0 - 1e-6) => Status::Stick,
+                        _ => Status::Slip,
+                    };
+                }
+            }
+        }
+    }
+}
+
+fn node_rows(
+    fields: &Fields,
+    side: usize,
+    node: u32,
+    prescribed: &Prescribed,
+    iteration: Iteration,
+) -> Result<(u32, LocalTerm, NodeResult), LostProjection> {
+    let lost = LostProjection { side, node };
+    let frame = fields.frames[side][node as usize].as_ref().ok_or(lost)?;
+    let unknowns = fields.tractions.nodes[side][node as usize];
+    let tau = fields.tau[side][node as usize].value;
+    let mut result = NodeResult {
+        pressure: unknowns[0],
+        tau,
+        normal: frame.n.value,
+        ..NodeResult::default()
+    };
+    match fields.selection.roles[side][node as usize] {
+        Role::Kinematic(partner) => {
+            let kinematic = KinematicNode {
+                side,
+                node,
+                partner,
+                frame,
+                unknowns,
+                tau,
+            };
+            let (term, result) = rows(fields.configuration, &kinematic, prescribed, iteration)?;
+            Ok((node, term, result))
+        }
+        Role::Traction(partner) => {
+            let (term, gap) = traction_rows(fields, side, node)?;
+            result.gap = gap;
+            result.slip = slip(fields.configuration, side, node, partner, &frame.n.value);
+            Ok((node, term, result))
+        }
+        Role::Extended {
+            side: side_k,
+            node: node_k,
+        } => {
+            let term = extended_rows(fields, side, node, (side_k, node_k));
+            Ok((node, term, result))
+        }
+        Role::Idle => Err(lost),
+    }
+}
+
+/// `(I - n n)(x_I - xbar)`.
+fn slip(configuration: &Configuration, side: usize, node: u32, partner: Partner, n: &Vec3) -> Vec3 {
+    let opposite: Vec3 = match partner {
+        Partner::Rigid(point) => point + configuration.rigid_displacement,
+        Partner::Corners(corners, weights) => {
+            let x = &configuration.side(1 - side).x;
+            (0..4).map(|c| x[corners[c] as usize] * weights[c]).sum()
+        }
+    };
+    let relative = configuration.side(side).x[node as usize] - opposite;
+    relative - n * n.dot(&relative)
+}
+
+/// Share of the largest eigenvalue below which a patch cannot be balanced in a direction.
+const BALANCEABLE: f64 = 1e-8;
+
+/// Which resultants of every patch its traction nodes can balance.
+///
+/// The correction `p_b (c + omega x r/l)` of the traction nodes spans all six
+/// resultants unless there are too few of them under pressure; the eigenvectors
+/// of `sum p B^T B`, `B = [I, -[r/l]_x]`, tell which.
+fn balance_rows(fields: &Fields) -> Vec<BalanceRows> {
+    let numbering = fields.configuration.pair.numbering();
+    let mut gram = vec![Matrix6::<f64>::zeros(); fields.selection.patches.len()];
+    for &side in fields.configuration.pair.deformable_sides() {
+        for (node, role) in fields.selection.roles[side].iter().enumerate() {
+            let (Role::Traction(_), Some(patch)) = (role, fields.selection.patch_of[side][node])
+            else {
+                continue;
+            };
+            let geometry = &fields.selection.patches[patch as usize];
+            let arm = (fields.configuration.side(side).x[node] - geometry.centre) / geometry.radius;
+            let pressure = fields.tractions.nodes[side][node][0].max(0.0);
+            let mut b = nalgebra::Matrix3x6::<f64>::zeros();
+            b.fixed_view_mut::<3, 3>(0, 0)
+                .copy_from(&Matrix3::identity());
+            b.fixed_view_mut::<3, 3>(0, 3)
+                .copy_from(&-arm.cross_matrix());
+            gram[patch as usize] += b.transpose() * b * pressure;
+        }
+    }
+    let rows = |(patch, gram): (usize, &Matrix6<f64>)| {
+        let geometry = &fields.selection.patches[patch];
+        let eigen = gram.symmetric_eigen();
+        let largest = eigen.eigenvalues.max();
+        let mut order: Vec<usize> = (0..6).collect();
+        order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
+        let strong = |at: &&usize| largest > 0.0 && eigen.eigenvalues[**at] > BALANCEABLE * largest;
+        let active = order.iter().filter(strong).count();
+        let modes = if active == 6 {
+            Matrix6::identity()
+        } else {
+            Matrix6::from_fn(|row, column| eigen.eigenvectors[(row, order[column])])
+        };
+        BalanceRows {
+            first: numbering.balance(patch),
+            centre: geometry.centre,
+            radius: geometry.radius,
+            modes,
+            active,
+        }
+    };
+    gram.iter().enumerate().map(rows).collect()
+}
+
+/// Rows that hold the components of `(c, omega l)` that cannot be balanced at zero.
+fn held_balance(balance: &[BalanceRows], tractions: &Tractions) -> Vec<LocalTerm> {
+    let mut terms = Vec::new();
+    for (patch, rows) in balance.iter().enumerate() {
+        let values = nalgebra::Vector6::from(tractions.balance[patch]);
+        for mode in rows.active..6 {
+            let weights = rows.modes.column(mode);
+            terms.push(LocalTerm {
+                rows: vec![rows.first + mode as u32],
+                residual: vec![weights.dot(&values)],
+                columns: (0..6).map(|at| rows.first + at).collect(),
+                tangent: weights.iter().copied().collect(),
+            });
+        }
+    }
+    terms
+}
+
+/// Nodes outside the selection that have run into the other side.
+pub fn missed_contacts(configuration: &Configuration, selection: &Selection) -> Vec<(usize, u32)> {
+    let mut missed = Vec::new();
+    for &side in configuration.pair.deformable_sides() {
+        for node in 0..selection.roles[side].len() as u32 {
+            if selection.roles[side][node as usize] != Role::Idle {
+                continue;
+            }
+            let reach = configuration.reach(side, node);
+            let contact = configuration.contact(side, node, reach, Margin::Inside);
+            if let Some(contact) = contact
+                && contact.gap < -0.05 * reach
+                && !matches!(contact.place, Place::Facet(hit) if beside_active(configuration, selection, side, hit.facet))
+            {
+                missed.push((side, node));
+            }
+        }
+    }
+    missed
+}
+
+/// Whether a facet of the other side carries traction at all its corners.
+fn beside_active(
+    configuration: &Configuration,
+    selection: &Selection,
+    side: usize,
+    facet: FacetId,
+) -> bool {
+    !configuration.pair.is_rigid()
+        && configuration
+            .side(1 - side)
+            .corners(facet)
+            .iter()
+            .all(|&corner| selection.is_active(1 - side, corner))
+}

@@ -1,0 +1,79 @@
+//! Whether a facet is covered by the other side: wholly, partly or not at all.
+
+use striae_mesh::{FacetId, Vec3};
+use striae_surface::{
+    facet::{Shape, area_vector},
+    scalar::combination,
+    topology::distinct_corners,
+};
+
+use crate::{configuration::Configuration, projection::Margin};
+
+/// How much of a facet the other side covers.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FacetCoverage {
+    /// Nothing.
+    Bare,
+    /// All of it.
+    Whole,
+    /// Parts of it, by these opposing facets.
+    Cut(Vec<FacetId>),
+}
+
+impl Configuration<'_> {
+    /// Coverage of a facet of a deformable side.
+    pub fn facet_coverage(&self, side: usize, facet: FacetId) -> FacetCoverage {
+        let own = self.side(side);
+        let corners = own.corners(facet);
+        let reach = corners
+            .map(|node| self.reach(side, node))
+            .into_iter()
+            .fold(0.0, f64::max);
+        let positions = own.corner_positions(facet);
+        let centre = Shape::Quadrilateral.weights(0.0, 0.0);
+        let middle = combination(&centre.value, &positions);
+        let m = area_vector(&centre, &positions).normalize();
+        let bounds = own.bounds(facet).inflated(reach);
+        if self.plane().is_none() && self.side(1 - side).edge_tree.meets(&bounds) {
+            return self.cut(side, &bounds, &middle, &m, 2.0 * reach);
+        }
+        match self.contact_at(side, middle, m, 2.0 * reach, Margin::Inside) {
+            Some(_) => FacetCoverage::Whole,
+            None => FacetCoverage::Bare,
+        }
+    }
+
+    fn cut(
+        &self,
+        side: usize,
+        bounds: &crate::search::Bounds,
+        middle: &Vec3,
+        m: &Vec3,
+        distance: f64,
+    ) -> FacetCoverage {
+        let other = self.side(1 - side);
+        let faces = |facet: &FacetId| {
+            let positions = other.corner_positions(*facet);
+            let corners = distinct_corners(&other.surface.facets()[facet.index()]).len();
+            let normal = if corners == 3 {
+                (positions[1] - positions[0]).cross(&(positions[2] - positions[0]))
+            } else {
+                (positions[2] - positions[0]).cross(&(positions[3] - positions[1]))
+            };
+            let away = (positions[0] - middle).dot(m).abs();
+            normal.dot(m) < 0.0 && away <= distance + 0.5 * other.facet_size(*facet)
+        };
+        let facets: Vec<FacetId> = other
+            .tree
+            .meeting(bounds)
+            .into_iter()
+            .map(FacetId)
+            .filter(faces)
+            .collect();
+        if facets.is_empty() {
+            FacetCoverage::Bare
+        } else {
+            FacetCoverage::Cut(facets)
+        }
+    }
+}

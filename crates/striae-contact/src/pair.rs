@@ -1,0 +1,112 @@
+//! A contact pair: what does not change during a run.
+
+use striae_law::friction::Friction;
+use striae_mesh::Vec3;
+use striae_surface::{topology::Surface, topology::distinct_corners};
+
+use crate::unknown::Numbering;
+
+/// Two surfaces that may touch. Side 0 (`a`) is deformable.
+#[derive(Clone, Debug)]
+pub struct ContactPair {
+    /// Name for reports.
+    pub name: String,
+    /// The two sides.
+    pub sides: [Side; 2],
+    /// Friction law.
+    pub friction: Friction,
+    /// Whether the resultants of the two sides are made to balance.
+    pub balance: Balance,
+    /// Largest distance over which contact is looked for; `None`: half the local facet size.
+    pub search_distance: Option<f64>,
+}
+
+/// One side of a pair.
+#[derive(Clone, Debug)]
+pub struct Side {
+    /// Shape and kind.
+    pub geometry: Geometry,
+    /// Young's modulus of the body behind a deformable side, for the scaling of the complementarity.
+    pub stiffness: f64,
+    /// Rank that breaks ties between sides of equal mesh size; independent of which side is called `a`.
+    pub rank: usize,
+}
+
+/// Shape of a side.
+#[derive(Clone, Debug)]
+pub enum Geometry {
+    /// Surface of a deformable body.
+    Deformable(Surface),
+    /// Rigid facets.
+    Rigid(Surface),
+    /// Unbounded rigid plane.
+    Plane {
+        /// A point of the plane in the reference configuration.
+        point: Vec3,
+        /// Unit normal out of the rigid half space.
+        normal: Vec3,
+    },
+}
+
+/// Treatment of the difference between the resultants of the two sides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Balance {
+    /// Six more unknowns a contact patch make forces and moments balance.
+    Resultants,
+    /// The plain interpolated fields.
+    None,
+}
+
+impl ContactPair {
+    /// Numbers of the pair's unknowns.
+    pub fn numbering(&self) -> Numbering {
+        Numbering::new([0, 1].map(|side| match &self.sides[side].geometry {
+            Geometry::Deformable(surface) => surface.nodes().len(),
+            Geometry::Rigid(_) | Geometry::Plane { .. } => 0,
+        }))
+    }
+
+    /// Whether side `b` is rigid.
+    pub fn is_rigid(&self) -> bool {
+        !matches!(self.sides[1].geometry, Geometry::Deformable(_))
+    }
+
+    /// Sides that carry traction unknowns.
+    pub fn deformable_sides(&self) -> &'static [usize] {
+        if self.is_rigid() { &[0] } else { &[0, 1] }
+    }
+}
+
+impl Side {
+    /// Facets of the side; `None` for a plane.
+    pub fn surface(&self) -> Option<&Surface> {
+        match &self.geometry {
+            Geometry::Deformable(surface) | Geometry::Rigid(surface) => Some(surface),
+            Geometry::Plane { .. } => None,
+        }
+    }
+}
+
+/// Square root of the mean area of the facets around every node.
+pub fn local_sizes(surface: &Surface, x: &[Vec3]) -> Vec<f64> {
+    let areas: Vec<f64> = surface
+        .facets()
+        .iter()
+        .map(|facet| {
+            let corners = distinct_corners(facet);
+            let origin = x[corners[0] as usize];
+            let fan: Vec3 = corners[1..]
+                .windows(2)
+                .map(|pair| (x[pair[0] as usize] - origin).cross(&(x[pair[1] as usize] - origin)))
+                .sum();
+            0.5 * fan.norm()
+        })
+        .collect();
+    (0..x.len() as u32)
+        .map(|node| {
+            let corners = surface.corners(node);
+            let sum: f64 = corners.iter().map(|c| areas[c.facet.index()]).sum();
+            (sum / corners.len() as f64).sqrt()
+        })
+        .collect()
+}

@@ -1,0 +1,229 @@
+//! Projection of a node onto the other side.
+//!
+//! Between deformable sides a node looks along its own normal `n_I`, Jones &
+//! Papadopoulos (2006), eq. (58):
+//!
+//! ```text
+//! sum_J N_J(xi, eta) x_J - x_I - g n_I = 0
+//! ```
+//!
+//! Against a rigid surface the normal is the rigid surface's, `N(xi, eta)`
+//! interpolated from its nodal normals, and `x_I - sum N_J x_J - g N = 0`.
+//! Of all hits the one with the smallest `|g|` counts.
+
+use nalgebra::{Matrix3, Vector3};
+use striae_mesh::{FacetId, Vec3};
+use striae_surface::{
+    facet::{Shape, area_vector},
+    scalar::{Real, combination, constant3, normalised, scaled},
+};
+
+use crate::{configuration::Snapshot, search::Bounds};
+
+/// A point of a facet and the gap to it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// The facet.
+    pub facet: FacetId,
+    /// Its coordinates.
+    pub xi: f64,
+    /// Its coordinates.
+    pub eta: f64,
+    /// Gap, positive when open.
+    pub gap: f64,
+}
+
+/// Along which normal a projection goes.
+#[derive(Clone, Copy, Debug)]
+pub enum Ray {
+    /// Along this unit normal of the projected point.
+    Own(Vec3),
+    /// Along the interpolated normal of the surface projected onto.
+    Opposite,
+}
+
+/// How far outside a facet a hit may lie, in facet coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Margin {
+    /// Round-off only.
+    Inside,
+    /// Half a facet beyond the edge of the surface, where nothing is hit inside.
+    Extrapolated,
+}
+
+const ROUND_OFF: f64 = 1e-8;
+const EXTRAPOLATION: f64 = 0.5;
+
+/// Projects the point `x` onto `target` within the distance `reach`.
+pub fn project(target: &Snapshot, x: &Vec3, ray: Ray, reach: f64, margin: Margin) -> Option<Hit> {
+    let bounds = match ray {
+        Ray::Own(n) => Bounds::around([x - n * reach, x + n * reach]).inflated(1e-6 * reach),
+        Ray::Opposite => Bounds::around([*x]).inflated(reach),
+    };
+    let inside = nearest(target, x, ray, reach, &bounds, ROUND_OFF);
+    match margin {
+        Margin::Inside => inside,
+        Margin::Extrapolated => inside.or_else(|| {
+            let size = target.sizes.iter().copied().fold(0.0, f64::max);
+            let wide = bounds.inflated(EXTRAPOLATION * size);
+            nearest(target, x, ray, reach, &wide, EXTRAPOLATION)
+        }),
+    }
+}
+
+fn nearest(
+    target: &Snapshot,
+    x: &Vec3,
+    ray: Ray,
+    reach: f64,
+    bounds: &Bounds,
+    tolerance: f64,
+) -> Option<Hit> {
+    let mut best: Option<(f64, f64, Hit)> = None;
+    for item in target.tree.meeting(bounds) {
+        let facet = FacetId(item);
+        let Some(hit) = on_facet(target, facet, x, ray) else {
+            continue;
+        };
+        let excess = Shape::of(&target.corners(facet)).excess(hit.xi, hit.eta);
+        if excess > tolerance || hit.gap.abs() > reach {
+            continue;
+        }
+        let slack = 1e-9 * reach;
+        let better = match &best {
+            None => true,
+            Some((known, _, _)) if tolerance > ROUND_OFF => excess < *known,
+            Some((known, _, other)) => {
+                let difference = hit.gap.abs() - other.gap.abs();
+                difference < -slack || (difference < slack && excess < *known)
+            }
+        };
+        if better {
+            best = Some((excess, hit.gap, hit));
+        }
+    }
+    best.map(|(_, _, hit)| hit)
+}
+
+fn on_facet(target: &Snapshot, facet: FacetId, x: &Vec3, ray: Ray) -> Option<Hit> {
+    let corners = target.corners(facet);
+    let shape = Shape::of(&corners);
+    let positions = target.corner_positions(facet);
+    let normals = corners.map(|node| target.normals[node as usize]);
+    let [mut xi, mut eta] = shape.centre();
+    let mut gap = 0.0;
+    let scale = target.facet_size(facet);
+    for _ in 0..25 {
+        let (residual, jacobian) = system(shape, &positions, &normals, x, ray, [xi, eta, gap]);
+        let step = jacobian.lu().solve(&residual)?;
+        xi -= step.x;
+        eta -= step.y;
+        gap -= step.z;
+        if !(xi.abs() < 50.0 && eta.abs() < 50.0) {
+            return None;
+        }
+        if step.x.abs().max(step.y.abs()) < 1e-13 && step.z.abs() < 1e-13 * scale {
+            break;
+        }
+    }
+    let weights = shape.weights(xi, eta);
+    let m = area_vector(&weights, &positions);
+    let facing = match ray {
+        Ray::Own(n) => m.dot(&n) < 0.0,
+        Ray::Opposite => m.dot(&combination(&weights.value, &normals)) > 0.0,
+    };
+    facing.then_some(Hit {
+        facet,
+        xi,
+        eta,
+        gap,
+    })
+}
+
+/// Residual of the projection equations and its derivative by `(xi, eta, g)`.
+fn system(
+    shape: Shape,
+    positions: &[Vec3; 4],
+    normals: &[Vec3; 4],
+    x: &Vec3,
+    ray: Ray,
+    [xi, eta, gap]: [f64; 3],
+) -> (Vec3, Matrix3<f64>) {
+    let weights = shape.weights(xi, eta);
+    let point = combination(&weights.value, positions);
+    let d_xi = combination(&weights.d_xi, positions);
+    let d_eta = combination(&weights.d_eta, positions);
+    match ray {
+        Ray::Own(n) => (
+            point - x - n * gap,
+            Matrix3::from_columns(&[d_xi, d_eta, -n]),
+        ),
+        Ray::Opposite => {
+            let sum = combination(&weights.value, normals);
+            let length = sum.norm();
+            let n = sum / length;
+            let tangential = |v: Vec3| (v - n * n.dot(&v)) / length;
+            let n_xi = tangential(combination(&weights.d_xi, normals));
+            let n_eta = tangential(combination(&weights.d_eta, normals));
+            (
+                point + n * gap - x,
+                Matrix3::from_columns(&[d_xi + n_xi * gap, d_eta + n_eta * gap, n]),
+            )
+        }
+    }
+}
+
+/// A converged projection along the node's own normal with its derivatives:
+/// `(xi, eta, g)` as functions of the node, its normal and the facet's corners.
+pub fn differentiated<D: Real>(
+    shape: Shape,
+    hit: &Hit,
+    x: &Vector3<D>,
+    n: &Vector3<D>,
+    corners: &[Vector3<D>; 4],
+) -> [D; 3] {
+    let real = |v: &Vector3<D>| v.map(|component| component.re());
+    let positions = corners.each_ref().map(real);
+    let at = [hit.xi, hit.eta, hit.gap];
+    let ray = Ray::Own(real(n));
+    let (_, jacobian) = system(shape, &positions, &positions, &real(x), ray, at);
+    let weights = shape.weights(hit.xi, hit.eta).value.map(D::from);
+    let residual = combination(&weights, corners) - x - scaled(n, D::from(hit.gap));
+    implicit(at, &jacobian, &residual)
+}
+
+/// The same along the interpolated normal of a rigid facet, as functions of
+/// the node alone, with the rigid normal at the projection.
+pub fn differentiated_rigid<D: Real>(
+    target: &Snapshot,
+    hit: &Hit,
+    x: &Vector3<D>,
+) -> ([D; 3], Vector3<D>) {
+    let corners = target.corners(hit.facet);
+    let shape = Shape::of(&corners);
+    let positions = target.corner_positions(hit.facet);
+    let normals = corners.map(|node| target.normals[node as usize]);
+    let at = [hit.xi, hit.eta, hit.gap];
+    let real = x.map(|component| component.re());
+    let (value, jacobian) = system(shape, &positions, &normals, &real, Ray::Opposite, at);
+    let residual = constant3::<D>(&(value + real)) - x;
+    let solution = implicit(at, &jacobian, &residual);
+    let weights = shape.weights(solution[0], solution[1]).value;
+    let normal = normalised(&combination(&weights, &normals.each_ref().map(constant3)));
+    (solution, normal)
+}
+
+/// `u - J^-1 r` for a root `u` of `r`: equal to `u`, with the derivatives of
+/// the implicit function.
+fn implicit<D: Real>(at: [f64; 3], jacobian: &Matrix3<f64>, residual: &Vector3<D>) -> [D; 3] {
+    let inverse = jacobian
+        .try_inverse()
+        .expect("a converged projection has a regular Jacobian");
+    std::array::from_fn(|row| {
+        let mut value = D::from(at[row]);
+        for column in 0..3 {
+            value -= residual[column] * inverse[(row, column)];
+        }
+        value
+    })
+}

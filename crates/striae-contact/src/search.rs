@@ -1,0 +1,168 @@
+//! Bounding-volume tree over axis-aligned boxes.
+
+use striae_mesh::Vec3;
+
+/// An axis-aligned box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// Smallest coordinates.
+    pub low: Vec3,
+    /// Largest coordinates.
+    pub high: Vec3,
+}
+
+impl Bounds {
+    /// The smallest box around the points.
+    pub fn around(points: impl IntoIterator<Item = Vec3>) -> Self {
+        let empty = Self {
+            low: Vec3::repeat(f64::INFINITY),
+            high: Vec3::repeat(f64::NEG_INFINITY),
+        };
+        points.into_iter().fold(empty, |bounds, point| Self {
+            low: bounds.low.inf(&point),
+            high: bounds.high.sup(&point),
+        })
+    }
+
+    /// The box with all faces moved out by `margin`.
+    pub fn inflated(&self, margin: f64) -> Self {
+        Self {
+            low: self.low.add_scalar(-margin),
+            high: self.high.add_scalar(margin),
+        }
+    }
+
+    fn union(&self, other: &Self) -> Self {
+        Self {
+            low: self.low.inf(&other.low),
+            high: self.high.sup(&other.high),
+        }
+    }
+
+    /// Whether the boxes have a point in common.
+    pub fn meets(&self, other: &Self) -> bool {
+        (0..3).all(|axis| self.low[axis] <= other.high[axis] && other.low[axis] <= self.high[axis])
+    }
+}
+
+/// A binary tree over boxes, split at the median of their centres.
+#[derive(Clone, Debug)]
+pub struct Tree {
+    nodes: Vec<TreeNode>,
+    items: Vec<u32>,
+    boxes: Vec<Bounds>,
+}
+
+#[derive(Clone, Debug)]
+struct TreeNode {
+    bounds: Bounds,
+    range: [usize; 2],
+    children: Option<[usize; 2]>,
+}
+
+const LEAF: usize = 4;
+
+impl Tree {
+    /// A tree over the boxes; items are named by their position.
+    pub fn new(boxes: Vec<Bounds>) -> Self {
+        let mut tree = Self {
+            nodes: Vec::new(),
+            items: (0..boxes.len() as u32).collect(),
+            boxes,
+        };
+        if !tree.items.is_empty() {
+            tree.split(0, tree.items.len());
+        }
+        tree
+    }
+
+    fn split(&mut self, start: usize, end: usize) -> usize {
+        let bounds = self.items[start..end]
+            .iter()
+            .map(|&item| self.boxes[item as usize])
+            .reduce(|a, b| a.union(&b))
+            .unwrap_or_else(|| Bounds::around([]));
+        let index = self.nodes.len();
+        self.nodes.push(TreeNode {
+            bounds,
+            range: [start, end],
+            children: None,
+        });
+        if end - start > LEAF {
+            let axis = (bounds.high - bounds.low).imax();
+            let boxes = &self.boxes;
+            let centre = |item: &u32| {
+                let bounds = &boxes[*item as usize];
+                (bounds.low[axis] + bounds.high[axis], *item)
+            };
+            self.items[start..end].sort_unstable_by(|a, b| {
+                let (a, b) = (centre(a), centre(b));
+                a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))
+            });
+            let middle = start + (end - start) / 2;
+            let children = [self.split(start, middle), self.split(middle, end)];
+            self.nodes[index].children = Some(children);
+        }
+        index
+    }
+
+    /// Items whose boxes meet `bounds`, ascending.
+    pub fn meeting(&self, bounds: &Bounds) -> Vec<u32> {
+        let mut found = Vec::new();
+        let mut stack = Vec::with_capacity(32);
+        if !self.nodes.is_empty() {
+            stack.push(0);
+        }
+        while let Some(index) = stack.pop() {
+            let node = &self.nodes[index];
+            if !node.bounds.meets(bounds) {
+                continue;
+            }
+            match node.children {
+                Some(children) => stack.extend(children),
+                None => found.extend(
+                    self.items[node.range[0]..node.range[1]]
+                        .iter()
+                        .copied()
+                        .filter(|&item| self.boxes[item as usize].meets(bounds)),
+                ),
+            }
+        }
+        found.sort_unstable();
+        found
+    }
+
+    /// Whether any item's box meets `bounds`.
+    pub fn meets(&self, bounds: &Bounds) -> bool {
+        !self.meeting(bounds).is_empty()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn boxes() -> impl Strategy<Value = Vec<Bounds>> {
+        let coordinate = || -1.0..1.0_f64;
+        let one =
+            (coordinate(), coordinate(), coordinate(), 0.0..0.4_f64).prop_map(|(x, y, z, size)| {
+                Bounds {
+                    low: Vec3::new(x, y, z),
+                    high: Vec3::new(x + size, y + 0.5 * size, z + 0.1),
+                }
+            });
+        prop::collection::vec(one, 0..60)
+    }
+
+    proptest! {
+        #[test]
+        fn equals_brute_force(boxes in boxes(), x in -1.0..1.0_f64, y in -1.0..1.0_f64) {
+            let query = Bounds::around([Vec3::new(x, y, -0.2), Vec3::new(x + 0.3, y + 0.1, 0.3)]);
+            let expected: Vec<u32> = (0..boxes.len() as u32)
+                .filter(|&item| boxes[item as usize].meets(&query))
+                .collect();
+            prop_assert_eq!(Tree::new(boxes).meeting(&query), expected);
+        }
+    }
+}

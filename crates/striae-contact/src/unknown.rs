@@ -1,0 +1,132 @@
+//! Pair-local numbering of the unknowns of one contact pair.
+//!
+//! ```text
+//! positions of side a | positions of side b | tractions of a | tractions of b | balance
+//! 3 a node            | 3 a node            | (p, z1, z2)    | (p, z1, z2)    | 6 a patch
+//! ```
+//!
+//! Sides are numbered 0 (`a`) and 1 (`b`); the other side of `s` is `1 - s`.
+//! A rigid side has no unknowns.
+
+/// Numbers of the unknowns of one contact pair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Numbering {
+    nodes: [u32; 2],
+}
+
+/// What a pair-local unknown is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unknown {
+    /// Component of the position of a surface node.
+    Position {
+        /// Side of the pair.
+        side: usize,
+        /// Surface-local node.
+        node: u32,
+        /// Component.
+        axis: usize,
+    },
+    /// Traction unknown of a surface node: pressure, then two tangential components.
+    Traction {
+        /// Side of the pair.
+        side: usize,
+        /// Surface-local node.
+        node: u32,
+        /// `0`: pressure, `1`, `2`: along the nodal tangents.
+        component: usize,
+    },
+    /// Balance unknown of a patch: `c`, then `omega` times the patch radius.
+    Balance {
+        /// The patch.
+        patch: usize,
+        /// Component, `0..6`.
+        component: usize,
+    },
+}
+
+impl Numbering {
+    /// Numbers for sides with so many surface nodes; zero for a rigid side.
+    pub fn new(nodes: [usize; 2]) -> Self {
+        Self {
+            nodes: nodes.map(|count| count as u32),
+        }
+    }
+
+    /// First of the three position unknowns of a node.
+    pub fn position(&self, side: usize, node: u32) -> u32 {
+        3 * (node + side as u32 * self.nodes[0])
+    }
+
+    /// First of the three traction unknowns of a node.
+    pub fn traction(&self, side: usize, node: u32) -> u32 {
+        3 * (self.nodes[0] + self.nodes[1]) + self.position(side, node)
+    }
+
+    /// First of the six balance unknowns of a patch.
+    pub fn balance(&self, patch: usize) -> u32 {
+        6 * (self.nodes[0] + self.nodes[1]) + 6 * patch as u32
+    }
+
+    /// What the unknown `number` is.
+    pub fn unknown(&self, number: u32) -> Unknown {
+        let count = self.nodes[0] + self.nodes[1];
+        if number >= 6 * count {
+            let rest = (number - 6 * count) as usize;
+            return Unknown::Balance {
+                patch: rest / 6,
+                component: rest % 6,
+            };
+        }
+        let traction = number >= 3 * count;
+        let within = if traction { number - 3 * count } else { number };
+        let (node, component) = (within / 3, (within % 3) as usize);
+        let side = usize::from(node >= self.nodes[0]);
+        let node = node - side as u32 * self.nodes[0];
+        if traction {
+            Unknown::Traction {
+                side,
+                node,
+                component,
+            }
+        } else {
+            Unknown::Position {
+                side,
+                node,
+                axis: component,
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_and_meanings_agree() {
+        let numbering = Numbering::new([4, 3]);
+        assert_eq!(
+            numbering.unknown(numbering.position(1, 2) + 1),
+            Unknown::Position {
+                side: 1,
+                node: 2,
+                axis: 1
+            }
+        );
+        assert_eq!(
+            numbering.unknown(numbering.traction(0, 3) + 2),
+            Unknown::Traction {
+                side: 0,
+                node: 3,
+                component: 2
+            }
+        );
+        assert_eq!(
+            numbering.unknown(numbering.balance(2) + 5),
+            Unknown::Balance {
+                patch: 2,
+                component: 5
+            }
+        );
+    }
+}

@@ -1,0 +1,53 @@
+//! Values of the traction unknowns of a pair.
+
+use striae_mesh::Vec3;
+
+/// Traction unknowns of a pair; the same shape whatever the roles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tractions {
+    /// Pressure `p` and two tangential components of every node, by side. The
+    /// components are of `z` at kinematic nodes and of `tau` elsewhere, along
+    /// the nodal tangents.
+    pub nodes: [Vec<[f64; 3]>; 2],
+    /// `c` and `omega` times the patch radius of every patch.
+    pub balance: Vec<[f64; 6]>,
+}
+
+impl Tractions {
+    /// No traction on sides with so many nodes.
+    pub fn zero(nodes: [usize; 2]) -> Self {
+        Self {
+            nodes: nodes.map(|count| vec![[0.0; 3]; count]),
+            balance: Vec::new(),
+        }
+    }
+}
+
+/// Contact status of a node.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Status {
+    /// Not in contact.
+    #[default]
+    Open,
+    /// In contact without slip.
+    Stick,
+    /// In contact and slipping.
+    Slip,
+}
+
+/// What is known of a contact node in one configuration.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct NodeResult {
+    /// Gap to the other side.
+    pub gap: f64,
+    /// Pressure.
+    pub pressure: f64,
+    /// Friction traction `tau` on the surface that carries the node.
+    pub tau: Vec3,
+    /// Slip `du` since the last converged configuration, relative to the other side.
+    pub slip: Vec3,
+    /// Unit normal.
+    pub normal: Vec3,
+    /// Status; of traction nodes from their own traction.
+    pub status: Status,
+}

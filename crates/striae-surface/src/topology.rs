@@ -1,0 +1,149 @@
+//! Facets and nodes of a surface and how they hang together.
+
+use std::collections::BTreeMap;
+
+use striae_mesh::{FacetId, NodeId};
+
+/// A surface of facets with three or four corners, in local numbering.
+///
+/// Corners run counter-clockwise seen from outside. A triangle repeats its
+/// last corner.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    nodes: Vec<NodeId>,
+    facets: Vec<[u32; 4]>,
+    corners_of_node: Vec<Vec<Corner>>,
+    boundary_edges: Vec<BoundaryEdge>,
+    on_boundary: Vec<bool>,
+}
+
+/// A corner of a facet at a node: the node's neighbours along the facet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Corner {
+    /// The facet.
+    pub facet: FacetId,
+    /// Surface-local neighbour that follows the node counter-clockwise.
+    pub next: u32,
+    /// Surface-local neighbour that precedes the node.
+    pub previous: u32,
+}
+
+/// An edge that belongs to one facet only.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BoundaryEdge {
+    /// Surface-local end nodes in the facet's sense of rotation.
+    pub nodes: [u32; 2],
+    /// The facet.
+    pub facet: FacetId,
+}
+
+impl Surface {
+    /// A surface from the corners of its facets.
+    pub fn new(facets: &[[NodeId; 4]]) -> Self {
+        let mut nodes: Vec<NodeId> = facets.iter().flatten().copied().collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let local = |node: &NodeId| nodes.partition_point(|other| other < node) as u32;
+        let facets: Vec<[u32; 4]> = facets.iter().map(|f| f.each_ref().map(local)).collect();
+        let corners_of_node = corners_of_node(nodes.len(), &facets);
+        let boundary_edges = boundary_edges(&facets);
+        let mut on_boundary = vec![false; nodes.len()];
+        for edge in &boundary_edges {
+            for node in edge.nodes {
+                on_boundary[node as usize] = true;
+            }
+        }
+        Self {
+            nodes,
+            facets,
+            corners_of_node,
+            boundary_edges,
+            on_boundary,
+        }
+    }
+
+    /// Mesh node of every surface node, ascending.
+    pub fn nodes(&self) -> &[NodeId] {
+        &self.nodes
+    }
+
+    /// Corners of every facet in surface-local numbering.
+    pub fn facets(&self) -> &[[u32; 4]] {
+        &self.facets
+    }
+
+    /// Facet corners that meet at a surface node.
+    pub fn corners(&self, node: u32) -> &[Corner] {
+        &self.corners_of_node[node as usize]
+    }
+
+    /// Edges with a facet on one side only.
+    pub fn boundary_edges(&self) -> &[BoundaryEdge] {
+        &self.boundary_edges
+    }
+
+    /// Whether the surface node lies on an edge of the surface.
+    pub fn is_on_boundary(&self, node: u32) -> bool {
+        self.on_boundary[node as usize]
+    }
+}
+
+/// Distinct corners of a facet: three or four.
+pub fn distinct_corners(facet: &[u32; 4]) -> &[u32] {
+    if facet[2] == facet[3] {
+        &facet[..3]
+    } else {
+        facet
+    }
+}
+
+fn corners_of_node(node_count: usize, facets: &[[u32; 4]]) -> Vec<Vec<Corner>> {
+    let mut corners = vec![Vec::new(); node_count];
+    for (index, facet) in facets.iter().enumerate() {
+        let ring = distinct_corners(facet);
+        for (position, &node) in ring.iter().enumerate() {
+            corners[node as usize].push(Corner {
+                facet: FacetId::new(index),
+                next: ring[(position + 1) % ring.len()],
+                previous: ring[(position + ring.len() - 1) % ring.len()],
+            });
+        }
+    }
+    corners
+}
+
+fn boundary_edges(facets: &[[u32; 4]]) -> Vec<BoundaryEdge> {
+    let mut uses: BTreeMap<[u32; 2], Vec<BoundaryEdge>> = BTreeMap::new();
+    for (index, facet) in facets.iter().enumerate() {
+        let ring = distinct_corners(facet);
+        for (position, &start) in ring.iter().enumerate() {
+            let end = ring[(position + 1) % ring.len()];
+            uses.entry([start.min(end), start.max(end)])
+                .or_default()
+                .push(BoundaryEdge {
+                    nodes: [start, end],
+                    facet: FacetId::new(index),
+                });
+        }
+    }
+    uses.into_values()
+        .filter(|edges| edges.len() == 1)
+        .map(|edges| edges[0])
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_facets_share_an_edge() {
+        let n = NodeId::new;
+        let surface = Surface::new(&[[n(3), n(7), n(8), n(4)], [n(7), n(9), n(8), n(8)]]);
+        assert_eq!(surface.nodes(), [n(3), n(4), n(7), n(8), n(9)]);
+        assert_eq!(surface.boundary_edges().len(), 5);
+        assert_eq!(surface.corners(2).len(), 2);
+        assert_eq!(surface.corners(2)[0].next, 3);
+        assert_eq!(surface.corners(2)[0].previous, 0);
+    }
+}
