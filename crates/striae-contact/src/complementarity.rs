@@ -34,7 +34,7 @@ use crate::{
     frame::{FOLLOW, Frame, LostProjection},
     projection::{Margin, differentiated, differentiated_rigid},
     selection::Partner,
-    term::{Lanes, LocalTerm, Source, gradient, variable, variable3, variables3},
+    term::{Field, Lanes, LocalTerm, Row, Source, gradient, variable, variable3, variables3},
     unknowns::{NodeResult, Status},
 };
 
@@ -67,6 +67,9 @@ pub struct KinematicNode<'a> {
 /// Which position unknowns are prescribed, by side, three a node.
 pub type Prescribed = [Vec<bool>; 2];
 
+/// What a tangential row states, its residual and its gradient over the lanes.
+type TangentialRow = (Field, f64, [f64; N]);
+
 const N: usize = 39;
 type D = DualSVec64<N>;
 const X_OPPOSITE: usize = 12;
@@ -93,25 +96,30 @@ pub fn rows(
     let held = |component: usize, value: f64| {
         let mut row = [0.0; N];
         row[TRACTION + component] = 1.0;
-        (value, row)
+        (Field::Traction, value, row)
     };
     let mut result = state.result(node);
     let rows = if !closed {
         [held(0, p), held(1, z1), held(2, z2)]
     } else {
-        let (status, [first, second]) =
-            state.tangential(configuration, [p, z1, z2], 10.0 * stiffness, iteration);
+        let (status, [first, second]) = state.tangential(
+            configuration,
+            [p, z1, z2],
+            10.0 * stiffness,
+            size,
+            iteration,
+        );
         result.status = status;
-        [(g, gradient(&state.gap)), first, second]
+        [(Field::Gap(size), g, gradient(&state.gap)), first, second]
     };
     let first = configuration
         .pair
         .numbering()
         .traction(node.side, node.node);
-    let numbered: Vec<(u32, f64, [f64; N])> = rows
+    let numbered: Vec<Row<N>> = rows
         .iter()
         .enumerate()
-        .map(|(at, (residual, row))| (first + at as u32, *residual, *row))
+        .map(|(at, (field, residual, row))| (first + at as u32, *field, *residual, *row))
         .collect();
     Ok((LocalTerm::from_lanes(&state.lanes, &numbered), result))
 }
@@ -260,48 +268,52 @@ impl<'a> NodeState<'a> {
         configuration: &Configuration,
         [p, z1, z2]: [f64; 3],
         r: f64,
+        size: f64,
         iteration: Iteration,
-    ) -> (Status, [(f64, [f64; N]); 2]) {
+    ) -> (Status, [TangentialRow; 2]) {
         let pressure: D = variable(p, TRACTION);
         let z: [D; 2] = [variable(z1, TRACTION + 1), variable(z2, TRACTION + 2)];
         let friction = &configuration.pair.friction;
         if friction.cap(1.0, 0.0) == 0.0 {
-            return (Status::Slip, z.map(|z| (z.re, gradient(&z))));
+            return (
+                Status::Slip,
+                z.map(|z| (Field::Traction, z.re, gradient(&z))),
+            );
         }
         let varpi = friction.cap(pressure, D::from_re(0.0));
         let y = [z[0] + self.slip[0] * r, z[1] + self.slip[1] * r];
         let length = y[0].re.hypot(y[1].re);
         if iteration == Iteration::First || length <= varpi.re {
-            (Status::Stick, self.stick(&z))
+            (Status::Stick, self.stick(&z, size))
         } else {
             (Status::Slip, slip(&z, &y, &varpi))
         }
     }
 
     /// `du = 0`, with `z = 0` in directions in which the node cannot move.
-    fn stick(&self, z: &[D; 2]) -> [(f64, [f64; N]); 2] {
+    fn stick(&self, z: &[D; 2], size: f64) -> [TangentialRow; 2] {
         let free = [0, 1].map(|at| self.free_gradient(&self.slip[at], X_PARTNER));
         let product =
             |i: usize, j: usize| -> f64 { free[i].iter().zip(&free[j]).map(|(a, b)| a * b).sum() };
         let gram = Matrix2::new(product(0, 0), product(0, 1), product(1, 0), product(1, 1));
-        let row = |value: D| (value.re, gradient(&value));
+        let row = |field: Field, value: D| (field, value.re, gradient(&value));
         let eigen = gram.symmetric_eigen();
         if eigen.eigenvalues.min() > 1e-12 {
-            return self.slip.map(row);
+            return self.slip.map(|slip| row(Field::Stick(size), slip));
         }
         [0, 1].map(|at| {
             let q: Vector2<f64> = eigen.eigenvectors.column(at).into();
-            let of = if eigen.eigenvalues[at] > 1e-12 {
-                &self.slip
+            let (field, of) = if eigen.eigenvalues[at] > 1e-12 {
+                (Field::Stick(size), &self.slip)
             } else {
-                z
+                (Field::Traction, z)
             };
-            row(of[0] * q[0] + of[1] * q[1])
+            row(field, of[0] * q[0] + of[1] * q[1])
         })
     }
 }
 
-fn slip(z: &[D; 2], y: &[D; 2], varpi: &D) -> [(f64, [f64; N]); 2] {
+fn slip(z: &[D; 2], y: &[D; 2], varpi: &D) -> [TangentialRow; 2] {
     let zv = Vector2::new(z[0].re, z[1].re);
     let yv = Vector2::new(y[0].re, y[1].re);
     let (length, radius) = (yv.norm(), varpi.re);
@@ -325,6 +337,7 @@ fn slip(z: &[D; 2], y: &[D; 2], varpi: &D) -> [(f64, [f64; N]); 2] {
     let m = (Matrix2::identity() - f * beta) * (radius / length);
     [0, 1].map(|at| {
         let row = z[at] - y[0] * m[(at, 0)] - y[1] * m[(at, 1)] - *varpi * direction[at];
-        (zv[at] - radius * direction[at], gradient(&row))
+        let residual = zv[at] - radius * direction[at];
+        (Field::Traction, residual, gradient(&row))
     })
 }

@@ -14,7 +14,7 @@ use crate::{
     frame::{LostProjection, frames},
     projection::Margin,
     selection::{Partner, Role, Selection},
-    term::LocalTerm,
+    term::{Field, LocalTerm},
     traction::nodal_tractions,
     transfer::{Fields, extended_rows, traction_rows},
     unknowns::{NodeResult, Status, Tractions},
@@ -265,6 +265,7 @@ fn held_balance(balance: &[BalanceRows], tractions: &Tractions) -> Vec<LocalTerm
             let weights = rows.modes.column(mode);
             terms.push(LocalTerm {
                 rows: vec![rows.first + mode as u32],
+                fields: vec![Field::Number],
                 residual: vec![weights.dot(&values)],
                 columns: (0..6).map(|at| rows.first + at).collect(),
                 tangent: weights.iter().copied().collect(),

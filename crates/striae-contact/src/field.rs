@@ -26,7 +26,7 @@ use crate::{
     clip::{QuadraturePoint, covered_points},
     facet_coverage::FacetCoverage,
     quadrature::GAUSS_2,
-    term::{Lanes, LocalTerm, Source, gradient, variable, variables3},
+    term::{Field, Lanes, LocalTerm, Source, gradient, variable, variables3},
     transfer::Fields,
 };
 
@@ -241,7 +241,12 @@ impl<'a, const N: usize> Kernel<'a, N> {
         for corner in 0..4 {
             for axis in 0..3 {
                 let row = -force[corner][axis];
-                rows.push((self.rows[corner] + axis as u32, row.re, gradient(&row)));
+                rows.push((
+                    self.rows[corner] + axis as u32,
+                    Field::Momentum,
+                    row.re,
+                    gradient(&row),
+                ));
             }
         }
         if let Some(balance) = balance {
@@ -259,7 +264,12 @@ impl<'a, const N: usize> Kernel<'a, N> {
                 for (component, value) in resultant.iter().enumerate() {
                     row += *value * balance.modes[(component, mode)];
                 }
-                rows.push((balance.first + mode as u32, row.re, gradient(&row)));
+                rows.push((
+                    balance.first + mode as u32,
+                    Field::Resultant,
+                    row.re,
+                    gradient(&row),
+                ));
             }
         }
         LocalTerm::from_lanes(&self.lanes, &rows)
@@ -327,7 +337,12 @@ pub fn covered_load<L: SurfaceLoad>(
         let rows: Vec<_> = (0..12)
             .map(|at| {
                 let row = force[at / 3][at % 3];
-                (first[at / 3] + (at % 3) as u32, row.re, gradient(&row))
+                (
+                    first[at / 3] + (at % 3) as u32,
+                    Field::Momentum,
+                    row.re,
+                    gradient(&row),
+                )
             })
             .collect();
         terms.push(LocalTerm::from_lanes(&lanes, &rows));

@@ -370,7 +370,7 @@ fn zone(configuration: &Configuration, side: usize, coverage: &[Vec<Coverage>; 2
         for facet in snapshot.surface.facets() {
             if facet.iter().any(|&node| before[node as usize]) {
                 for node in facet {
-                    inside[node as usize] = true;
+                    inside[*node as usize] = true;
                 }
             }
         }

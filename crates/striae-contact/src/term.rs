@@ -12,6 +12,8 @@ use striae_mesh::Vec3;
 pub struct LocalTerm {
     /// Pair-local unknowns whose equations the rows belong to.
     pub rows: Vec<u32>,
+    /// What the rows state.
+    pub fields: Vec<Field>,
     /// Residual of each row.
     pub residual: Vec<f64>,
     /// Pair-local unknowns the rows depend on, ascending.
@@ -19,6 +21,27 @@ pub struct LocalTerm {
     /// `d residual / d unknown`, row-major.
     pub tangent: Vec<f64>,
 }
+
+/// What a row states, and the scale of its residual where it has one of its own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Field {
+    /// Equilibrium of forces at a node.
+    Momentum,
+    /// No gap; the scale is the local facet size.
+    Gap(f64),
+    /// No slip; the scale is the local facet size.
+    Stick(f64),
+    /// Equality of stresses: an open node, the slip law, balance with the other side.
+    Traction,
+    /// Balance of resultants of a patch.
+    Resultant,
+    /// A quantity without unit.
+    Number,
+}
+
+/// A row: the equation it belongs to, what it states, its residual and its
+/// gradient over the lanes.
+pub type Row<const N: usize> = (u32, Field, f64, [f64; N]);
 
 /// Derivatives of a vector: `(unknown, d vector / d unknown)`.
 pub type Jacobian = Vec<(u32, Vec3)>;
@@ -96,28 +119,19 @@ impl<'a> Lanes<'a> {
 }
 
 impl LocalTerm {
-    /// A term from rows `(equation, residual, gradient over the lanes)`.
-    pub fn from_lanes<const N: usize>(lanes: &Lanes, rows: &[(u32, f64, [f64; N])]) -> Self {
+    /// A term from rows over lanes.
+    pub fn from_lanes<const N: usize>(lanes: &Lanes, rows: &[Row<N>]) -> Self {
         let columns = lanes.columns();
         let mut tangent = vec![0.0; rows.len() * columns.len()];
-        for (row, (_, _, gradient)) in tangent.chunks_mut(columns.len().max(1)).zip(rows) {
+        for (row, (_, _, _, gradient)) in tangent.chunks_mut(columns.len().max(1)).zip(rows) {
             lanes.chain(gradient, &columns, row);
         }
         Self {
             rows: rows.iter().map(|row| row.0).collect(),
-            residual: rows.iter().map(|row| row.1).collect(),
+            fields: rows.iter().map(|row| row.1).collect(),
+            residual: rows.iter().map(|row| row.2).collect(),
             columns,
             tangent,
-        }
-    }
-
-    /// The row `unknown = value`, given the present value.
-    pub fn held(unknown: u32, present: f64, value: f64) -> Self {
-        Self {
-            rows: vec![unknown],
-            residual: vec![present - value],
-            columns: vec![unknown],
-            tangent: vec![1.0],
         }
     }
 }

@@ -26,7 +26,7 @@ use crate::{
     frame::{FOLLOW, Frames, LostProjection},
     projection::{Margin, differentiated},
     selection::Selection,
-    term::{Jacobian, Lanes, LocalTerm, Source, gradient, variable, variable3, variables3},
+    term::{Field, Jacobian, Lanes, LocalTerm, Source, gradient, variable, variable3, variables3},
     traction::NodalTractions,
     unknowns::Tractions,
 };
@@ -190,7 +190,7 @@ pub fn traction_rows(
         .map(|at| {
             let own: D = variable(unknowns[at], 52 + at);
             let row = own - rows[at];
-            (first + at as u32, row.re, gradient(&row))
+            (first + at as u32, Field::Traction, row.re, gradient(&row))
         })
         .collect();
     Ok((LocalTerm::from_lanes(&lanes, &rows), gap.re))
@@ -238,7 +238,7 @@ pub fn extended_rows(fields: &Fields, side: usize, node: u32, leader: (usize, u3
         .map(|at| {
             let own: D = variable(unknowns[at], 15 + at);
             let row = own - targets[at];
-            (first + at as u32, row.re, gradient(&row))
+            (first + at as u32, Field::Traction, row.re, gradient(&row))
         })
         .collect();
     LocalTerm::from_lanes(&lanes, &rows)
