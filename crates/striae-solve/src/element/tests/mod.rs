@@ -1,5 +1,8 @@
 //! Checks of the element, alone and in small assemblies.
 
+mod assembly;
+mod patch;
+mod rates;
 mod single;
 
 use striae_law::bulk::{LameConstants, Material};

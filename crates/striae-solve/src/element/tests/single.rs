@@ -134,7 +134,7 @@ fn a_homogeneous_deformation_has_the_energy_and_stress_of_the_law() {
 
 #[test]
 fn the_mass_is_that_of_the_closed_form_on_a_parallelepiped() {
-    // m_ab = rho V / 27 prod_j (1 + xi_aj xi_bj / 3) * 27 / 8 ... per axis int N N = (1 +- 1/3) / 2 / 2.
+    // m_ab = rho V prod_j (1 + xi_aj xi_bj / 3) / 4.
     let mut random = Random::new(18);
     let map = random.near_identity(0.3);
     let element =

@@ -1,0 +1,102 @@
+//! Nodal forces of a load over a whole face, and their derivative.
+
+use super::UNKNOWNS;
+use super::integrand::{Tangents, lift, parametric_traction, shape, shape_slopes, tangents};
+use crate::model::LoadKind;
+use nalgebra::Vector3;
+use num_dual::DualSVec64;
+use striae_mesh::Vec3;
+
+/// External nodal forces on the corners of a face.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FaceLoad {
+    /// Force on the corners.
+    pub force: [f64; UNKNOWNS],
+    /// Derivative of the force by the corner positions, row by row.
+    pub tangent: [f64; UNKNOWNS * UNKNOWNS],
+}
+
+/// A load that cannot be evaluated.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum LoadError {
+    /// The face has no normal, or is turned by 180 degrees under a follower traction.
+    #[error(
+        "the load has no direction at Gauss point {gauss_point}: \
+         the face is degenerate or turned by 180 degrees"
+    )]
+    Undirected {
+        /// Local number of the Gauss point, `0..4`.
+        gauss_point: usize,
+    },
+}
+
+/// A scalar with its derivatives by the two current tangents.
+type Dual = DualSVec64<6>;
+
+/// Load of the given kind on the face with reference corners `X` and current
+/// corners `x`, with its present value (a factor on the load is a factor on
+/// the value in its kind).
+///
+/// # Errors
+///
+/// [`LoadError::Undirected`].
+pub fn response(
+    kind: &LoadKind,
+    reference: &[Vec3; 4],
+    current: &[Vec3; 4],
+) -> Result<FaceLoad, LoadError> {
+    let at = 1.0 / 3f64.sqrt();
+    let points = [[-at, -at], [at, -at], [at, at], [-at, at]];
+    let mut load = FaceLoad {
+        force: [0.0; UNKNOWNS],
+        tangent: [0.0; UNKNOWNS * UNKNOWNS],
+    };
+    for (gauss_point, [xi, eta]) in points.into_iter().enumerate() {
+        let slopes = shape_slopes(xi, eta);
+        let reference = tangents(reference, &slopes).map(lift);
+        let current = variable(&tangents(current, &slopes));
+        let traction = parametric_traction(kind, &reference, &current);
+        if !traction.iter().all(is_finite) {
+            return Err(LoadError::Undirected { gauss_point });
+        }
+        load.add(&traction, &shape(xi, eta), &slopes);
+    }
+    Ok(load)
+}
+
+impl FaceLoad {
+    /// Adds the share of a Gauss point of weight one.
+    fn add(&mut self, traction: &Vector3<Dual>, shape: &[f64; 4], slopes: &[[f64; 2]; 4]) {
+        for i in 0..3 {
+            let Some(derivative) = traction[i].eps.0 else {
+                (0..4).for_each(|a| self.force[3 * a + i] += shape[a] * traction[i].re);
+                continue;
+            };
+            for a in 0..4 {
+                let row = 3 * a + i;
+                self.force[row] += shape[a] * traction[i].re;
+                for b in 0..4 {
+                    for k in 0..3 {
+                        self.tangent[UNKNOWNS * row + 3 * b + k] += shape[a]
+                            * (derivative[k] * slopes[b][0] + derivative[3 + k] * slopes[b][1]);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The current tangents as the variables to differentiate by.
+fn variable(tangents: &Tangents<f64>) -> Tangents<Dual> {
+    [0, 1].map(|direction| {
+        Vector3::from_fn(|k, _| Dual::from_re(tangents[direction][k]).derivative(3 * direction + k))
+    })
+}
+
+fn is_finite(component: &Dual) -> bool {
+    component.re.is_finite()
+        && component
+            .eps
+            .0
+            .is_none_or(|derivative| derivative.iter().all(|v| v.is_finite()))
+}
