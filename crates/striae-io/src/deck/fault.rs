@@ -1,0 +1,371 @@
+//! What can be wrong with a deck, in the words shown to its author.
+
+use striae_mesh::{ElementId, NodeId};
+
+/// One kind of fault with the names and numbers that explain it.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FaultKind {
+    /// The file cannot be read at all.
+    #[error("the deck cannot be read: {cause}")]
+    Unreadable {
+        /// What the operating system says.
+        cause: String,
+    },
+    /// The text is not TOML.
+    #[error("not valid TOML: {message}")]
+    Syntax {
+        /// What the parser says.
+        message: String,
+    },
+    /// A key that no table of this place has.
+    #[error("unknown key `{key}` in {place}{}", did_you_mean(.nearest))]
+    UnknownKey {
+        /// The key as written.
+        key: String,
+        /// The table.
+        place: String,
+        /// The most similar valid key.
+        nearest: Option<String>,
+    },
+    /// A required key is absent.
+    #[error("missing key `{key}` in {place}; expected {expected}")]
+    MissingKey {
+        /// The key.
+        key: String,
+        /// The table.
+        place: String,
+        /// What its value would be.
+        expected: String,
+    },
+    /// A value of the wrong type or outside its range.
+    #[error("{place} must be {expected}, but is {found}")]
+    Unexpected {
+        /// The key and its table.
+        place: String,
+        /// What it must be.
+        expected: String,
+        /// What it is.
+        found: String,
+    },
+    /// A text that is none of the words allowed.
+    #[error("{place} cannot be `{found}`; expected one of {}{}", quoted(.allowed), did_you_mean(.nearest))]
+    UnknownWord {
+        /// The key and its table.
+        place: String,
+        /// The text as written.
+        found: String,
+        /// The words allowed.
+        allowed: Vec<String>,
+        /// The most similar of them.
+        nearest: Option<String>,
+    },
+    /// None of several exclusive groups of keys is given.
+    #[error("{place} needs either {}", .choices.join(" or "))]
+    NoneOf {
+        /// The table.
+        place: String,
+        /// The groups.
+        choices: Vec<String>,
+    },
+    /// Keys of exclusive groups are given together.
+    #[error("`{first}` and `{second}` exclude each other in {place}; give either {}", .choices.join(" or "))]
+    Exclusive {
+        /// A key of one group.
+        first: String,
+        /// A key of another group.
+        second: String,
+        /// The table.
+        place: String,
+        /// The groups.
+        choices: Vec<String>,
+    },
+    /// Two things of one kind have the same name.
+    #[error("{kind} `{name}` is already defined in line {line}")]
+    DuplicateName {
+        /// Body, material, ...
+        kind: &'static str,
+        /// The name.
+        name: String,
+        /// Line of the first definition.
+        line: usize,
+    },
+    /// A curve takes the name of a built-in one.
+    #[error("`{name}` is a built-in curve; give this one another name")]
+    ReservedName {
+        /// The name.
+        name: String,
+    },
+    /// A name that nothing has.
+    #[error("no {kind} is named `{name}`; {}{}", existing(.known), did_you_mean(.nearest))]
+    UnknownName {
+        /// Body, material, ...
+        kind: &'static str,
+        /// The name.
+        name: String,
+        /// What there is.
+        known: Vec<String>,
+        /// The most similar of them.
+        nearest: Option<String>,
+    },
+    /// A set that a body does not have.
+    #[error("body `{body}` has no {kind} set `{name}`; {}{}", it_has(.known), did_you_mean(.nearest))]
+    UnknownSet {
+        /// The body.
+        body: String,
+        /// Node or facet.
+        kind: &'static str,
+        /// The set.
+        name: String,
+        /// The sets it has.
+        known: Vec<String>,
+        /// The most similar of them.
+        nearest: Option<String>,
+    },
+    /// A set without members.
+    #[error("{kind} set `{name}` of body `{body}` is empty")]
+    EmptySet {
+        /// The body.
+        body: String,
+        /// Node or facet.
+        kind: &'static str,
+        /// The set.
+        name: String,
+    },
+    /// A mesh cannot be generated or read.
+    #[error("the mesh of {owner} cannot be made: {cause}")]
+    Mesh {
+        /// The body or rigid surface.
+        owner: String,
+        /// What its maker says.
+        cause: String,
+    },
+    /// A mesh larger than any that can be solved.
+    #[error("the mesh of {owner} would have {elements} elements; at most {most} are possible")]
+    TooLarge {
+        /// The body.
+        owner: String,
+        /// Elements asked for.
+        elements: u128,
+        /// Most that are possible.
+        most: u128,
+    },
+    /// A facet of a surface written in the deck names a node that is not there.
+    #[error(
+        "facet {facet} of rigid surface `{surface}` refers to node {node}, but there are {nodes} nodes counted from 0"
+    )]
+    MissingNode {
+        /// The rigid surface.
+        surface: String,
+        /// Position of the facet, from 0.
+        facet: usize,
+        /// The node it names.
+        node: usize,
+        /// How many nodes there are.
+        nodes: usize,
+    },
+    /// Elements are turned inside out.
+    #[error("the mesh of body `{body}` has {count} inverted element(s): {}", listed(.elements, .count))]
+    Inverted {
+        /// The body.
+        body: String,
+        /// The first of them.
+        elements: Vec<ElementId>,
+        /// How many there are.
+        count: usize,
+    },
+    /// A pair without a deformable side.
+    #[error("pair `{pair}` joins two rigid surfaces; at least one side must be a body")]
+    TwoRigid {
+        /// The pair.
+        pair: String,
+    },
+    /// A pair joins a body to itself.
+    #[error(
+        "pair `{pair}` joins body `{body}` to itself{}; contact of a body with itself is not supported: \
+         mesh its two parts as two bodies", sharing(.shared)
+    )]
+    SelfContact {
+        /// The pair.
+        pair: String,
+        /// The body.
+        body: String,
+        /// Nodes on both sides.
+        shared: usize,
+    },
+    /// Two pairs join the same surfaces.
+    #[error("pair `{pair}` joins the same two surfaces as pair `{other}`")]
+    SamePair {
+        /// The pair.
+        pair: String,
+        /// The earlier pair.
+        other: String,
+    },
+    /// A displacement condition without a component.
+    #[error(
+        "the displacement of `{set}` of body `{body}` prescribes nothing; give at least one of `x`, `y`, `z`"
+    )]
+    NoComponent {
+        /// The body.
+        body: String,
+        /// The node set.
+        set: String,
+    },
+    /// One component of a node is prescribed twice in one step.
+    #[error(
+        "step `{step}` prescribes component `{component}` of {node} of body `{body}` twice: \
+         {first} by `{first_set}`, {second} by `{second_set}`"
+    )]
+    PrescribedTwice {
+        /// The step.
+        step: String,
+        /// The body.
+        body: String,
+        /// A node for which that is so.
+        node: NodeId,
+        /// `x`, `y` or `z`.
+        component: char,
+        /// The earlier target and curve.
+        first: String,
+        /// The earlier set.
+        first_set: String,
+        /// The later target and curve.
+        second: String,
+        /// The later set.
+        second_set: String,
+    },
+    /// A release of something that is free.
+    #[error(
+        "step `{step}` releases {component} of `{set}` of body `{body}`, which is not prescribed"
+    )]
+    NotPrescribed {
+        /// The step.
+        step: String,
+        /// The body.
+        body: String,
+        /// The node set.
+        set: String,
+        /// A component, or that there is none.
+        component: String,
+    },
+    /// The same thing is stated twice in one step.
+    #[error("step `{step}` states {what} twice")]
+    StatedTwice {
+        /// The step.
+        step: String,
+        /// What is stated.
+        what: String,
+    },
+    /// Sizes of increments that contradict each other.
+    #[error(
+        "increments of step `{step}` must satisfy smallest <= initial <= largest, but {smallest}, {initial}, {largest} do not"
+    )]
+    IncrementOrder {
+        /// The step.
+        step: String,
+        /// Smallest increment.
+        smallest: f64,
+        /// First increment.
+        initial: f64,
+        /// Largest increment.
+        largest: f64,
+    },
+    /// Points that do not make a curve.
+    #[error("the points of curve `{curve}` must rise in their first number from 0 to 1, {found}")]
+    BadCurve {
+        /// The curve.
+        curve: String,
+        /// What is wrong.
+        found: String,
+    },
+    /// Elastic constants of a material that is not stable.
+    #[error(
+        "`lambda` = {lambda} and `shear_modulus` = {shear} give a bulk modulus that is not positive"
+    )]
+    BulkModulus {
+        /// First Lame constant.
+        lambda: f64,
+        /// Shear modulus.
+        shear: f64,
+    },
+    /// Friction constants that the law refuses.
+    #[error("this friction is not possible: {cause}")]
+    Friction {
+        /// What the law says.
+        cause: String,
+    },
+    /// A direction of no length.
+    #[error("{place} must not be the zero vector")]
+    ZeroVector {
+        /// The key and its table.
+        place: String,
+    },
+    /// A deck without bodies or steps.
+    #[error("the deck has no [[{key}]]; {need}")]
+    Nothing {
+        /// `body` or `step`.
+        key: &'static str,
+        /// Why one is needed.
+        need: &'static str,
+    },
+    /// A body that can move without resistance.
+    #[error(
+        "body `{body}` is in no contact pair and {} in step `{step}`; prescribe displacements that hold it", leaves(.motions)
+    )]
+    Free {
+        /// The body.
+        body: String,
+        /// The first step in which it is free.
+        step: String,
+        /// How many of the six rigid motions are free.
+        motions: usize,
+    },
+}
+
+fn did_you_mean(nearest: &Option<String>) -> String {
+    nearest
+        .as_ref()
+        .map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
+}
+
+fn quoted(words: &[String]) -> String {
+    let words: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
+    words.join(", ")
+}
+
+fn existing(known: &[String]) -> String {
+    if known.is_empty() {
+        "there is none".into()
+    } else {
+        format!("there is {}", quoted(known))
+    }
+}
+
+fn it_has(known: &[String]) -> String {
+    if known.is_empty() {
+        "it has none".into()
+    } else {
+        format!("it has {}", quoted(known))
+    }
+}
+
+fn listed(elements: &[ElementId], count: &usize) -> String {
+    let names: Vec<String> = elements.iter().map(ElementId::to_string).collect();
+    let rest = if *count > elements.len() { ", ..." } else { "" };
+    names.join(", ") + rest
+}
+
+fn sharing(shared: &usize) -> String {
+    if *shared == 0 {
+        String::new()
+    } else {
+        format!(" (the two sides share {shared} nodes)")
+    }
+}
+
+fn leaves(motions: &usize) -> String {
+    match motions {
+        6 => "nothing holds it".into(),
+        1 => "one rigid motion of it is left free".into(),
+        _ => format!("{motions} rigid motions of it are left free"),
+    }
+}

@@ -1,0 +1,159 @@
+//! Forms of the values a deck may contain: what the reader accepts, what it
+//! says it expects, what the JSON schema and the reference list.
+
+/// The form of a value.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Form {
+    /// A text that is not empty.
+    Text,
+    /// A finite number within bounds.
+    Number(&'static [Bound]),
+    /// A whole number not below a least one.
+    Whole(usize),
+    /// One of several words.
+    Words(Vec<(&'static str, &'static str)>),
+    /// A list, of a fixed length or any.
+    List(Box<Form>, Option<usize>),
+    /// A table of one of several compositions.
+    Table(Vec<Alternative>),
+    /// Any of several forms.
+    Any(Vec<Form>),
+}
+
+/// A bound of a number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Bound {
+    /// Larger than.
+    Above(f64),
+    /// Not smaller than.
+    AtLeast(f64),
+    /// Smaller than.
+    Below(f64),
+    /// Not larger than.
+    AtMost(f64),
+}
+
+/// One composition of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Alternative {
+    /// What it describes.
+    pub(crate) doc: String,
+    /// Its keys.
+    pub(crate) keys: Vec<Key>,
+}
+
+/// A key of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Key {
+    pub(crate) name: &'static str,
+    pub(crate) doc: String,
+    pub(crate) need: Need,
+    pub(crate) form: Form,
+}
+
+/// Whether a key may be absent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Need {
+    /// It may not.
+    Required,
+    /// It may.
+    Optional,
+}
+
+impl Form {
+    /// What to say that is expected, with an article.
+    pub(crate) fn expected(&self) -> String {
+        match self {
+            Self::Text => "a text".into(),
+            Self::Number(bounds) => format!("a number{}", bounded(bounds)),
+            Self::Whole(0) => "a whole number".into(),
+            Self::Whole(least) => format!("a whole number of at least {least}"),
+            Self::Words(words) => format!("one of {}", ticked(words.iter().map(|(word, _)| *word))),
+            Self::List(of, None) => format!("a list of {}", of.plural()),
+            Self::List(of, Some(length)) => format!("a list of {length} {}", of.plural()),
+            Self::Table(_) => "a table".into(),
+            Self::Any(forms) => {
+                let forms: Vec<String> = forms.iter().map(Form::expected).collect();
+                forms.join(" or ")
+            }
+        }
+    }
+
+    fn plural(&self) -> String {
+        match self {
+            Self::Text => "texts".into(),
+            Self::Number(bounds) => format!("numbers{}", bounded(bounds)),
+            Self::Whole(0) => "whole numbers".into(),
+            Self::Whole(least) => format!("whole numbers of at least {least}"),
+            Self::Words(words) => {
+                format!("the words {}", ticked(words.iter().map(|(word, _)| *word)))
+            }
+            Self::List(of, Some(2)) => format!("pairs of {}", of.plural()),
+            Self::List(of, _) => format!("lists of {}", of.plural()),
+            Self::Table(_) => "tables".into(),
+            Self::Any(forms) => {
+                let forms: Vec<String> = forms.iter().map(Form::plural).collect();
+                forms.join(" or ")
+            }
+        }
+    }
+}
+
+impl Bound {
+    /// Whether a number respects the bound.
+    pub(crate) fn admits(self, value: f64) -> bool {
+        match self {
+            Self::Above(limit) => value > limit,
+            Self::AtLeast(limit) => value >= limit,
+            Self::Below(limit) => value < limit,
+            Self::AtMost(limit) => value <= limit,
+        }
+    }
+}
+
+impl Alternative {
+    /// An alternative without keys yet.
+    pub(crate) fn new(doc: &[&str]) -> Self {
+        Self {
+            doc: joined(doc),
+            keys: Vec::new(),
+        }
+    }
+
+    /// Names of the keys that must be given.
+    pub(crate) fn required(&self) -> impl Iterator<Item = &'static str> {
+        self.keys
+            .iter()
+            .filter(|key| key.need == Need::Required)
+            .map(|key| key.name)
+    }
+}
+
+/// Lines of a doc comment as one.
+pub(crate) fn joined(lines: &[&str]) -> String {
+    let lines: Vec<&str> = lines.iter().map(|line| line.trim()).collect();
+    lines.join(" ")
+}
+
+/// Words in ticks, separated by commas.
+pub(crate) fn ticked<'w>(words: impl IntoIterator<Item = &'w str>) -> String {
+    let words: Vec<String> = words.into_iter().map(|word| format!("`{word}`")).collect();
+    words.join(", ")
+}
+
+fn bounded(bounds: &[Bound]) -> String {
+    let bounds: Vec<String> = bounds
+        .iter()
+        .map(|bound| match bound {
+            Bound::Above(limit) => format!("greater than {limit}"),
+            Bound::AtLeast(limit) => format!("of at least {limit}"),
+            Bound::Below(limit) => format!("less than {limit}"),
+            Bound::AtMost(limit) => format!("of at most {limit}"),
+        })
+        .collect();
+    if bounds.is_empty() {
+        String::new()
+    } else {
+        format!(" {}", bounds.join(" and "))
+    }
+}

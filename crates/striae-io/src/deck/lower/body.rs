@@ -1,0 +1,248 @@
+//! Materials, bodies and rigid surfaces.
+
+use super::{generator::nonzero, mesh};
+use crate::deck::{
+    fault::FaultKind,
+    faults::FaultList,
+    names::{Names, nearest},
+    raw,
+    read::At,
+    value::{Text, vector},
+};
+use std::path::Path;
+use striae_law::bulk::{LameConstants, Material};
+use striae_mesh::{Face, Mesh, NodeId, Sets};
+use striae_solve::model::{Body, BodyId, RigidShape, RigidSurface};
+
+/// All materials of the deck.
+pub(super) struct Materials {
+    names: Names,
+    materials: Vec<Option<Material>>,
+}
+
+/// All bodies of the deck, of which some may be faulty.
+pub(super) struct Bodies {
+    names: Names,
+    bodies: Vec<RawBody>,
+}
+
+struct RawBody {
+    name: String,
+    mesh: Option<Mesh>,
+    material: Option<Material>,
+}
+
+impl Materials {
+    pub(super) fn new(raw: &[At<raw::Material>], faults: &mut FaultList<'_>) -> Self {
+        let names = Names::new(
+            "material",
+            raw.iter().map(|material| material.value.name.as_ref()),
+            faults,
+        );
+        let materials = raw
+            .iter()
+            .map(|material| lower_material(&material.value, faults))
+            .collect();
+        Self { names, materials }
+    }
+
+    fn find(&self, name: &At<Text>, faults: &mut FaultList<'_>) -> Option<Material> {
+        self.materials[self.names.find(name, faults)?]
+    }
+}
+
+impl Bodies {
+    pub(super) fn new(
+        raw: &[At<raw::Body>],
+        materials: &Materials,
+        base: &Path,
+        faults: &mut FaultList<'_>,
+    ) -> Self {
+        let names = Names::new(
+            "body",
+            raw.iter().map(|body| body.value.name.as_ref()),
+            faults,
+        );
+        let bodies = raw
+            .iter()
+            .map(|body| {
+                let body = &body.value;
+                let name = body
+                    .name
+                    .as_ref()
+                    .map_or("", |name| &name.value.0)
+                    .to_owned();
+                let material = body
+                    .material
+                    .as_ref()
+                    .and_then(|name| materials.find(name, faults));
+                let mesh = body
+                    .mesh
+                    .as_ref()
+                    .and_then(|mesh| mesh::body_mesh(mesh, &name, base, faults));
+                RawBody {
+                    name,
+                    mesh,
+                    material,
+                }
+            })
+            .collect();
+        Self { names, bodies }
+    }
+
+    /// The body of that name.
+    pub(super) fn find(
+        &self,
+        name: Option<&At<Text>>,
+        faults: &mut FaultList<'_>,
+    ) -> Option<BodyId> {
+        self.names.find(name?, faults).map(BodyId)
+    }
+
+    /// Name of a body.
+    pub(super) fn name(&self, body: BodyId) -> &str {
+        &self.bodies[body.0].name
+    }
+
+    /// Mesh of a body, if it could be made.
+    pub(super) fn mesh(&self, body: BodyId) -> Option<&Mesh> {
+        self.bodies[body.0].mesh.as_ref()
+    }
+
+    /// Ids of all bodies.
+    pub(super) fn ids(&self) -> impl Iterator<Item = BodyId> {
+        (0..self.bodies.len()).map(BodyId)
+    }
+
+    /// Nodes of a set of a body.
+    pub(super) fn nodes(
+        &self,
+        body: BodyId,
+        set: Option<&At<Text>>,
+        faults: &mut FaultList<'_>,
+    ) -> Option<Vec<NodeId>> {
+        self.members(body, "node", &self.mesh(body)?.node_sets, set?, faults)
+    }
+
+    /// Faces of a set of a body.
+    pub(super) fn faces(
+        &self,
+        body: BodyId,
+        set: Option<&At<Text>>,
+        faults: &mut FaultList<'_>,
+    ) -> Option<Vec<Face>> {
+        self.members(body, "facet", &self.mesh(body)?.facet_sets, set?, faults)
+    }
+
+    /// The bodies of the model, if none is faulty.
+    pub(super) fn finished(self) -> Option<Vec<Body>> {
+        self.bodies
+            .into_iter()
+            .map(|body| {
+                Some(Body {
+                    name: body.name,
+                    mesh: body.mesh?,
+                    material: body.material?,
+                })
+            })
+            .collect()
+    }
+
+    fn members<T: Ord + Copy>(
+        &self,
+        body: BodyId,
+        kind: &'static str,
+        sets: &Sets<T>,
+        set: &At<Text>,
+        faults: &mut FaultList<'_>,
+    ) -> Option<Vec<T>> {
+        let name = set.value.0.clone();
+        let body = self.name(body).to_owned();
+        let kind = match sets.get(&name) {
+            Some([]) => FaultKind::EmptySet { body, kind, name },
+            Some(members) => return Some(members.to_vec()),
+            None => FaultKind::UnknownSet {
+                body,
+                kind,
+                nearest: nearest(&name, sets.names()),
+                name,
+                known: sets.names().map(str::to_owned).collect(),
+            },
+        };
+        faults.push(&set.span, kind);
+        None
+    }
+}
+
+/// The rigid surfaces; `None` for the faulty ones.
+pub(super) fn rigid_surfaces(
+    raw: &[At<raw::Rigid>],
+    base: &Path,
+    faults: &mut FaultList<'_>,
+) -> Vec<Option<RigidSurface>> {
+    raw.iter()
+        .map(|rigid| {
+            let rigid = &rigid.value;
+            let name = rigid
+                .name
+                .as_ref()
+                .map_or("", |name| &name.value.0)
+                .to_owned();
+            let shape = match rigid.shape.as_ref()? {
+                raw::RigidShape::Plane(plane) => plane_shape(&plane.plane.as_ref()?.value, faults)?,
+                raw::RigidShape::Mesh(surface) => {
+                    let (positions, facets) =
+                        mesh::surface(surface.mesh.as_ref()?, &name, base, faults)?;
+                    RigidShape::Facets { positions, facets }
+                }
+            };
+            Some(RigidSurface { name, shape })
+        })
+        .collect()
+}
+
+fn plane_shape(plane: &raw::Plane, faults: &mut FaultList<'_>) -> Option<RigidShape> {
+    let normal = nonzero(plane.normal.as_ref()?, "the normal of a plane", faults)?.normalize();
+    let point = vector(&plane.point.as_ref()?.value);
+    Some(RigidShape::Plane { point, normal })
+}
+
+fn lower_material(material: &raw::Material, faults: &mut FaultList<'_>) -> Option<Material> {
+    let law = material.law.as_ref()?;
+    let (raw::BulkLaw::NeoHookean(raw::NeoHookean { constants, .. })
+    | raw::BulkLaw::LinearElastic(raw::LinearElastic { constants, .. })) = law;
+    let constants = lame_constants(constants.as_ref()?, faults)?;
+    Some(match law {
+        raw::BulkLaw::NeoHookean(_) => Material::neo_hookean(constants),
+        raw::BulkLaw::LinearElastic(_) => Material::linear_elastic(constants),
+    })
+}
+
+fn lame_constants(
+    constants: &raw::ElasticConstants,
+    faults: &mut FaultList<'_>,
+) -> Option<LameConstants> {
+    match constants {
+        raw::ElasticConstants::Engineering(raw) => {
+            let (modulus, ratio) = (raw.youngs_modulus.as_ref()?, raw.poissons_ratio.as_ref()?);
+            // The reader has checked the ranges already.
+            LameConstants::from_youngs_modulus(modulus.value.0, ratio.value.0).ok()
+        }
+        raw::ElasticConstants::Lame(raw) => {
+            let lambda = raw.lambda.as_ref()?;
+            let shear = raw.shear_modulus.as_ref()?.value.0;
+            if 3.0 * lambda.value.0 + 2.0 * shear <= 0.0 {
+                let kind = FaultKind::BulkModulus {
+                    lambda: lambda.value.0,
+                    shear,
+                };
+                faults.push(&lambda.span, kind);
+                return None;
+            }
+            Some(LameConstants {
+                lambda: lambda.value.0,
+                shear,
+            })
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! From the tables of a deck to the model: names become ids, sets their
+//! members, defaults their values; what contradicts itself is refused.
+
+mod body;
+mod condition;
+mod contact;
+mod curve;
+mod generator;
+mod hold;
+mod mesh;
+mod step;
+
+use super::{
+    Deck, FieldOutput, Output,
+    fault::FaultKind,
+    faults::{FaultList, Span},
+    names::Names,
+    raw,
+    read::At,
+};
+use body::Bodies;
+use std::{num::NonZeroUsize, path::Path};
+use striae_solve::model::{Backend, Model, Solver};
+
+/// What the parts of a deck refer to by name.
+struct Scope<'r> {
+    bodies: &'r Bodies,
+    rigid: &'r Names,
+    pairs: &'r Names,
+    curves: &'r curve::Curves,
+}
+
+/// The deck, or `None` after its faults have been noted.
+pub(super) fn deck(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_>) -> Option<Deck> {
+    let materials = body::Materials::new(list(&raw.material), faults);
+    let bodies = Bodies::new(list(&raw.body), &materials, base, faults);
+    let rigid_names = Names::new(
+        "rigid surface",
+        list(&raw.rigid)
+            .iter()
+            .map(|rigid| rigid.value.name.as_ref()),
+        faults,
+    );
+    let rigid_surfaces = body::rigid_surfaces(list(&raw.rigid), base, faults);
+    let pair_names = Names::new(
+        "pair",
+        list(&raw.pair).iter().map(|pair| pair.value.name.as_ref()),
+        faults,
+    );
+    let pairs = contact::pairs(list(&raw.pair), &bodies, &rigid_names, faults);
+    let curves = curve::Curves::new(list(&raw.curve), faults);
+    let scope = Scope {
+        bodies: &bodies,
+        rigid: &rigid_names,
+        pairs: &pair_names,
+        curves: &curves,
+    };
+    let steps = step::steps(list(&raw.step), &scope, faults);
+    hold::check(&bodies, &pairs, &steps, list(&raw.step), faults);
+    nothing_missing(raw, faults);
+
+    let model = Model {
+        title: raw.title.as_ref()?.value.0.clone(),
+        bodies: bodies.finished()?,
+        rigid_surfaces: whole(rigid_surfaces)?,
+        pairs: whole(pairs)?,
+        steps: whole(steps)?,
+        solver: solver(raw.solver.as_ref().map(|solver| &solver.value)),
+    };
+    Some(Deck {
+        model,
+        output: output(raw.output.as_ref().map(|output| &output.value)),
+    })
+}
+
+/// The elements of a list that may be absent.
+fn list<T>(list: &Option<At<Vec<At<T>>>>) -> &[At<T>] {
+    list.as_ref().map_or(&[], |list| &list.value)
+}
+
+/// All of a list or nothing.
+fn whole<T>(list: Vec<Option<T>>) -> Option<Vec<T>> {
+    list.into_iter().collect()
+}
+
+fn nothing_missing(raw: &raw::Simulation, faults: &mut FaultList<'_>) {
+    const START: Span = 0..0;
+    if raw.body.is_none() || list(&raw.body).is_empty() && raw.body.is_some() {
+        faults.push(
+            &START,
+            FaultKind::Nothing {
+                key: "body",
+                need: "there is nothing to simulate",
+            },
+        );
+    }
+    if list(&raw.step).is_empty() {
+        faults.push(
+            &START,
+            FaultKind::Nothing {
+                key: "step",
+                need: "there is nothing to do",
+            },
+        );
+    }
+}
+
+fn solver(raw: Option<&raw::SolverSettings>) -> Solver {
+    let backend = raw.and_then(|raw| raw.backend.as_ref());
+    let tolerance = raw.and_then(|raw| raw.tolerance.as_ref());
+    let iterations = raw.and_then(|raw| raw.largest_iterations.as_ref());
+    Solver {
+        backend: match backend.map(|backend| backend.value) {
+            None | Some(raw::Backend::Multifrontal) => Backend::Multifrontal,
+            Some(raw::Backend::Faer) => Backend::Faer,
+        },
+        tolerance: tolerance.map_or(1e-10, |tolerance| tolerance.value.0),
+        largest_iterations: iterations.map_or(20, |iterations| iterations.value.0),
+    }
+}
+
+fn output(raw: Option<&raw::OutputSettings>) -> Output {
+    let every = raw
+        .and_then(|raw| raw.fields_every.as_ref())
+        .map_or(1, |every| every.value.0);
+    Output {
+        fields: NonZeroUsize::new(every).map_or(FieldOutput::Last, FieldOutput::Every),
+    }
+}

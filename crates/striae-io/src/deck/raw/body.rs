@@ -1,0 +1,143 @@
+//! `[[material]]`, `[[body]]` and `[[rigid]]`.
+
+use super::{
+    super::declare::{choice, either, table},
+    Mesh,
+};
+use crate::deck::value::{Number, PoissonsRatio, Positive, Text};
+
+table! {
+    /// A bulk material.
+    Material {
+        /// Unique name.
+        required name: Text,
+        /// Law and elastic constants.
+        include law: BulkLaw,
+    }
+}
+
+choice! {
+    /// Bulk law.
+    BulkLaw by law {
+        "neo-hookean" => NeoHookean(NeoHookean),
+        "linear-elastic" => LinearElastic(LinearElastic),
+    }
+}
+
+table! {
+    /// Compressible neo-Hookean solid for large strains.
+    NeoHookean {
+        /// Elastic constants.
+        include constants: ElasticConstants,
+    }
+}
+
+table! {
+    /// Linear elasticity for small strains and small rotations.
+    LinearElastic {
+        /// Elastic constants.
+        include constants: ElasticConstants,
+    }
+}
+
+either! {
+    /// Two elastic constants.
+    ElasticConstants {
+        Engineering(EngineeringConstants),
+        Lame(LameConstants),
+    }
+}
+
+table! {
+    /// Young's modulus and Poisson's ratio.
+    EngineeringConstants {
+        /// Young's modulus.
+        required youngs_modulus: Positive,
+        /// Poisson's ratio.
+        required poissons_ratio: PoissonsRatio,
+    }
+}
+
+table! {
+    /// Lame's constants.
+    LameConstants {
+        /// First Lame constant; the bulk modulus, `lambda + 2/3 shear_modulus`, must be positive.
+        required lambda: Number,
+        /// Shear modulus.
+        required shear_modulus: Positive,
+    }
+}
+
+table! {
+    /// A deformable body.
+    Body {
+        /// Unique name.
+        required name: Text,
+        /// Name of its material.
+        required material: Text,
+        /// Its mesh of eight-node hexahedra, read from a file or generated.
+        required mesh: Mesh,
+    }
+}
+
+table! {
+    /// A rigid surface that moves by translation only.
+    Rigid {
+        /// Unique name.
+        required name: Text,
+        /// Its shape.
+        include shape: RigidShape,
+    }
+}
+
+either! {
+    /// Shape of a rigid surface.
+    RigidShape {
+        Plane(RigidPlane),
+        Mesh(RigidMesh),
+    }
+}
+
+table! {
+    /// An unbounded plane.
+    RigidPlane {
+        /// The plane by a point of it and its normal.
+        required plane: Plane,
+    }
+}
+
+table! {
+    /// A point and a normal.
+    Plane {
+        /// A point of the plane.
+        required point: [Number; 3],
+        /// Normal of any length, out of the rigid half space.
+        required normal: [Number; 3],
+    }
+}
+
+table! {
+    /// A surface of triangles and quadrilaterals.
+    RigidMesh {
+        /// Its facets, outward by the right-hand rule.
+        required mesh: SurfaceMesh,
+    }
+}
+
+either! {
+    /// A surface mesh.
+    SurfaceMesh {
+        File(super::MeshFile),
+        Inline(InlineSurface),
+    }
+}
+
+table! {
+    /// A surface mesh written in the deck.
+    InlineSurface {
+        /// Positions of the nodes.
+        required positions: Vec<crate::deck::read::At<[Number; 3]>>,
+        /// Nodes of the facets, counted from 0, outward by the right-hand rule; a triangle repeats its last node.
+        required facets: Vec<crate::deck::read::At<[crate::deck::value::Whole<0>; 4]>>,
+    }
+}

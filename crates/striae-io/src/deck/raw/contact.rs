@@ -1,0 +1,154 @@
+//! `[[pair]]` and its friction.
+
+use crate::deck::{
+    declare::{choice, either, table, words},
+    value::{NonNegative, Number, Positive, Text},
+};
+
+table! {
+    /// Two surfaces that may touch; neither is master or slave.
+    Pair {
+        /// Unique name.
+        required name: Text,
+        /// First side.
+        required a: Side,
+        /// Second side.
+        required b: Side,
+        /// Friction from the start; steps may change it. Default: frictionless.
+        optional friction: Friction,
+        /// Whether the resultants on the two sides are made to balance. Default: `resultants`.
+        optional balance: Balance,
+        /// Largest distance over which contact is looked for. Default: half the local facet size.
+        optional search_distance: Positive,
+    }
+}
+
+either! {
+    /// One side of a pair.
+    Side {
+        Deformable(DeformableSide),
+        Rigid(RigidSide),
+    }
+}
+
+table! {
+    /// Facets of a body.
+    DeformableSide {
+        /// Name of the body.
+        required body: Text,
+        /// Name of its facet set.
+        required facets: Text,
+    }
+}
+
+table! {
+    /// A rigid surface.
+    RigidSide {
+        /// Name of the rigid surface.
+        required rigid: Text,
+    }
+}
+
+words! {
+    /// Treatment of the difference between the resultants of the two sides.
+    Balance {
+        /// Six more unknowns a contact patch make forces and moments balance.
+        Resultants = "resultants",
+        /// The plain interpolated fields.
+        None = "none",
+    }
+}
+
+table! {
+    /// Friction between the two sides of a pair.
+    Friction {
+        /// Law and its constants.
+        include law: FrictionLaw,
+        /// Largest shear stress that friction can carry. Default: none.
+        optional shear_cap: Positive,
+        /// Fall of all coefficients with the slip rate. Default: none.
+        optional decay: Decay,
+    }
+}
+
+table! {
+    /// Exponential fall from the stated coefficients at rest to a share of them in fast slip.
+    Decay {
+        /// Kinetic over static coefficient.
+        required kinetic_over_static: NonNegative,
+        /// Slip rate over which the difference falls by the factor e.
+        required rate: Positive,
+    }
+}
+
+choice! {
+    /// Friction law.
+    FrictionLaw by law {
+        "frictionless" => Frictionless(Frictionless),
+        "coulomb" => Coulomb(Coulomb),
+        "two-textures" => TwoTextures(TwoTextures),
+        "orthotropic" => Orthotropic(Orthotropic),
+        "nap" => Nap(Nap),
+    }
+}
+
+table! {
+    /// No friction.
+    Frictionless {}
+}
+
+table! {
+    /// Isotropic Coulomb friction.
+    Coulomb {
+        /// Coefficient of friction.
+        required mu: NonNegative,
+    }
+}
+
+table! {
+    /// Two textured surfaces.
+    TwoTextures {
+        /// Coefficient of friction.
+        required mu: NonNegative,
+        /// Dependence of the magnitude on the angle between the textures.
+        required c_mag: Number,
+        /// Dependence on the angle between slip and textures.
+        required c_ang: Number,
+        /// Difference between slip with and against the textures.
+        required c_cen: Number,
+    }
+}
+
+table! {
+    /// One textured surface with different friction along and across its texture.
+    Orthotropic {
+        /// Coefficient of friction along the texture.
+        required mu_along: NonNegative,
+        /// Coefficient of friction across the texture.
+        required mu_across: NonNegative,
+        /// Direction of slip. Default: `opposing`.
+        optional slip_rule: SlipRule,
+    }
+}
+
+words! {
+    /// Direction of slip.
+    SlipRule {
+        /// Each component of friction opposes that component of slip.
+        Opposing = "opposing",
+        /// Slip is normal to the slip surface.
+        Associated = "associated",
+    }
+}
+
+table! {
+    /// One textured surface with different friction with, against and across its nap.
+    Nap {
+        /// Coefficient of friction of slip with the nap.
+        required mu_forward: NonNegative,
+        /// Coefficient of friction of slip against the nap.
+        required mu_backward: NonNegative,
+        /// Coefficient of friction of slip across the nap.
+        required mu_lateral: NonNegative,
+    }
+}

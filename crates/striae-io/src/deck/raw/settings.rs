@@ -1,0 +1,36 @@
+//! `[output]` and `[solver]`.
+
+use crate::deck::{
+    declare::{table, words},
+    value::{Count, Positive, Whole},
+};
+
+table! {
+    /// What is written.
+    OutputSettings {
+        /// Increments between files of fields; 0: only the last. Default: 1.
+        optional fields_every: Whole<0>,
+    }
+}
+
+table! {
+    /// Newton's method and the linear solver.
+    SolverSettings {
+        /// Factorisation of the linear systems. Default: `multifrontal`.
+        optional backend: Backend,
+        /// Relative tolerance of every residual field. Default: 1e-10.
+        optional tolerance: Positive,
+        /// Iterations after which an increment is cut. Default: 20.
+        optional largest_iterations: Count,
+    }
+}
+
+words! {
+    /// Factorisation of the linear systems.
+    Backend {
+        /// Multifrontal LU on dense fronts.
+        Multifrontal = "multifrontal",
+        /// Sparse LU of the library faer.
+        Faer = "faer",
+    }
+}

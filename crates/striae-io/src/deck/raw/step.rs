@@ -1,0 +1,198 @@
+//! `[[curve]]` and `[[step]]` with its conditions.
+
+use super::Friction;
+use crate::deck::{
+    declare::{table, words},
+    faults::FaultList,
+    form::Form,
+    read::{At, Place, Read, Value, read_table, unexpected},
+    value::{Count, Fraction, Number, Positive, Text},
+};
+use toml::de::DeValue;
+
+table! {
+    /// A piecewise linear curve for conditions to change along.
+    NamedCurve {
+        /// Unique name, other than `ramp`, `constant` and `smooth`, which are built in.
+        required name: Text,
+        /// Pairs of the fraction of the step, rising from 0 to 1, and the share of the change that is done then.
+        required points: Vec<At<[Number; 2]>>,
+    }
+}
+
+table! {
+    /// A part of the loading history. A condition holds until a later step states it again or releases it.
+    Step {
+        /// Unique name.
+        required name: Text,
+        /// Duration in (pseudo) time. Default: 1.
+        optional duration: Positive,
+        /// How the step is divided: a number of equal increments, or their sizes. Default: 10.
+        optional increments: Increments,
+        /// Prescribed displacements of nodes.
+        optional displacement: Vec<At<Displacement>>,
+        /// Prescribed displacements that end with the start of the step.
+        optional release: Vec<At<Release>>,
+        /// Tractions on facets.
+        optional traction: Vec<At<Traction>>,
+        /// Pressures on facets.
+        optional pressure: Vec<At<Pressure>>,
+        /// Translations of rigid surfaces.
+        optional rigid: Vec<At<RigidMotion>>,
+        /// Changes of friction at the start of the step.
+        optional friction: Vec<At<FrictionChange>>,
+    }
+}
+
+/// How a step is divided.
+#[derive(Clone, Debug)]
+pub(crate) enum Increments {
+    /// Equal increments of this number, cut where needed.
+    Number(Count),
+    /// Sizes as fractions of the step.
+    Sizes(IncrementSizes),
+}
+
+impl Read for Increments {
+    fn read(value: &Value<'_>, place: &Place, faults: &mut FaultList<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::Integer(_) => Count::read(value, place, faults).map(Self::Number),
+            DeValue::Table(_) => read_table(value, place, faults).map(Self::Sizes),
+            _ => unexpected(value, place, faults, &Self::form()),
+        }
+    }
+
+    fn form() -> Form {
+        Form::Any(vec![Count::form(), IncrementSizes::form()])
+    }
+}
+
+table! {
+    /// Sizes of increments as fractions of the step.
+    IncrementSizes {
+        /// First increment. Default: a tenth, or the largest where that is smaller.
+        optional initial: Fraction,
+        /// Smallest increment before the run is given up. Default: a thousandth of the first.
+        optional smallest: Fraction,
+        /// Largest increment. Default: the first.
+        optional largest: Fraction,
+    }
+}
+
+table! {
+    /// Prescribed displacement of nodes, from the present value to the target.
+    Displacement {
+        /// Name of the body.
+        required body: Text,
+        /// Name of its node set.
+        required nodes: Text,
+        /// Target of the first component; an absent component is left as it is.
+        optional x: Number,
+        /// Target of the second component.
+        optional y: Number,
+        /// Target of the third component.
+        optional z: Number,
+        /// How the target is approached: `ramp`, `constant`, `smooth` or the name of a curve. Default: `ramp`.
+        optional curve: Text,
+    }
+}
+
+table! {
+    /// End of prescribed displacements.
+    Release {
+        /// Name of the body.
+        required body: Text,
+        /// Name of its node set.
+        required nodes: Text,
+        /// Components that become free. Default: all that are prescribed.
+        optional components: Vec<At<Component>>,
+    }
+}
+
+words! {
+    /// A component of a vector.
+    Component {
+        /// First component.
+        X = "x",
+        /// Second component.
+        Y = "y",
+        /// Third component.
+        Z = "z",
+    }
+}
+
+table! {
+    /// Force per area on facets.
+    Traction {
+        /// Name of the body.
+        required body: Text,
+        /// Name of its facet set.
+        required facets: Text,
+        /// Target of the traction.
+        required vector: [Number; 3],
+        /// Whether it keeps its direction. Default: `dead`.
+        optional direction: Direction,
+        /// Which part of the facets is loaded. Default: `whole`.
+        optional extent: Extent,
+        /// How the target is approached: `ramp`, `constant`, `smooth` or the name of a curve. Default: `ramp`.
+        optional curve: Text,
+    }
+}
+
+words! {
+    /// Behaviour of a traction while the facets move.
+    Direction {
+        /// Force per reference area of fixed direction.
+        Dead = "dead",
+        /// Force per current area that turns with the facet.
+        Follower = "follower",
+    }
+}
+
+words! {
+    /// Part of the facets that carries a load.
+    Extent {
+        /// All of it.
+        Whole = "whole",
+        /// Only what no other contact surface covers.
+        Exposed = "exposed",
+    }
+}
+
+table! {
+    /// Pressure on facets: force per current area against the current normal.
+    Pressure {
+        /// Name of the body.
+        required body: Text,
+        /// Name of its facet set.
+        required facets: Text,
+        /// Target of the pressure, positive inwards.
+        required value: Number,
+        /// Which part of the facets is loaded. Default: `whole`.
+        optional extent: Extent,
+        /// How the target is approached: `ramp`, `constant`, `smooth` or the name of a curve. Default: `ramp`.
+        optional curve: Text,
+    }
+}
+
+table! {
+    /// Translation of a rigid surface, from the present value to the target.
+    RigidMotion {
+        /// Name of the rigid surface.
+        required surface: Text,
+        /// Target of its displacement.
+        required displacement: [Number; 3],
+        /// How the target is approached: `ramp`, `constant`, `smooth` or the name of a curve. Default: `ramp`.
+        optional curve: Text,
+    }
+}
+
+table! {
+    /// Friction of a pair from the start of the step.
+    FrictionChange {
+        /// Name of the pair.
+        required pair: Text,
+        /// Its new friction.
+        include friction: Friction,
+    }
+}
