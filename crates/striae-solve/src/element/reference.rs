@@ -8,8 +8,8 @@ use striae_mesh::{ElementId, Mesh, Vec3};
 /// Reference gradients and volumes at the Gauss points of an element.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReferenceElement {
-    /// `G_a = dN_a/dX` by Gauss point, corner and component.
-    pub(super) gradients: [[[f64; 3]; 8]; 8],
+    /// `G_a,J = dN_a/dX_J` by Gauss point, component `J` and corner `a`.
+    pub(super) gradients: [[[f64; 8]; 3]; 8],
     /// Reference volume that belongs to each Gauss point.
     pub(super) weights: [f64; 8],
 }
@@ -40,7 +40,7 @@ impl ReferenceElement {
     ///
     /// [`ElementError::Degenerate`] where `dX/dxi` is not positive at a Gauss point.
     pub fn new(reference: &[Vec3; 8]) -> Result<Self, ElementError> {
-        let mut gradients = [[[0.0; 3]; 8]; 8];
+        let mut gradients = [[[0.0; 8]; 3]; 8];
         let mut weights = [0.0; 8];
         for g in 0..8 {
             let local = shape_gradients(&gauss_point(g));
@@ -53,7 +53,10 @@ impl ReferenceElement {
                 });
             };
             let inverse_transposed = inverse.transpose();
-            gradients[g] = local.map(|gradient| (inverse_transposed * gradient).into());
+            for a in 0..8 {
+                let gradient = inverse_transposed * local[a];
+                (0..3).for_each(|j| gradients[g][j][a] = gradient[j]);
+            }
             weights[g] = determinant;
         }
         Ok(Self { gradients, weights })
@@ -66,14 +69,7 @@ impl ReferenceElement {
 
     /// Deformation gradient `F` at Gauss point `g`, `0..8`, for current corners `x`.
     pub(super) fn deformation_gradient(&self, g: usize, current: &[Vec3; 8]) -> Matrix3<f64> {
-        let mut f = Matrix3::zeros();
-        for (x, gradient) in current.iter().zip(&self.gradients[g]) {
-            for j in 0..3 {
-                for i in 0..3 {
-                    f[(i, j)] += x[i] * gradient[j];
-                }
-            }
-        }
-        f
+        let gradients = &self.gradients[g];
+        Matrix3::from_fn(|i, j| (0..8).map(|a| current[a][i] * gradients[j][a]).sum())
     }
 }

@@ -1,6 +1,7 @@
 //! Stored energy, internal force and consistent stiffness of an element.
 
 use super::{ElementError, ReferenceElement, UNKNOWNS};
+use nalgebra::Matrix3;
 use striae_law::bulk::{Inverted, Material, Tangent};
 use striae_mesh::Vec3;
 
@@ -11,7 +12,7 @@ pub struct ElementResponse {
     pub energy: f64,
     /// Internal force, the derivative of the energy by the corner positions.
     pub force: [f64; UNKNOWNS],
-    /// Derivative of the force, row by row; symmetric.
+    /// Derivative of the force, row by row; symmetric to the last bit.
     pub stiffness: [f64; UNKNOWNS * UNKNOWNS],
 }
 
@@ -28,9 +29,6 @@ pub fn response(
     ReferenceElement::new(reference)?.response(current, material)
 }
 
-/// `w A_iJkL G_b,L` with row `3 i + J` and column `3 b + k`.
-type WeightedTangent = [[f64; UNKNOWNS]; 9];
-
 impl ReferenceElement {
     /// Response to current corner positions `x`.
     ///
@@ -44,19 +42,13 @@ impl ReferenceElement {
     ) -> Result<ElementResponse, ElementError> {
         let mut energy = 0.0;
         let mut force = [0.0; UNKNOWNS];
-        let mut tangents = [[[0.0; UNKNOWNS]; 9]; 8];
+        let mut tangents = [Tangent::zeros(); 8];
         for g in 0..8 {
-            let (weight, gradients) = (self.weights[g], &self.gradients[g]);
             let f = self.deformation_gradient(g, current);
             let response = material.response(&f).map_err(inverted_at(g))?;
-            energy += weight * response.energy;
-            let stress = response.first_piola * weight;
-            for (a, gradient) in gradients.iter().enumerate() {
-                for i in 0..3 {
-                    force[3 * a + i] += (0..3).map(|j| stress[(i, j)] * gradient[j]).sum::<f64>();
-                }
-            }
-            tangents[g] = weighted_tangent(weight, &response.tangent, gradients);
+            energy += self.weights[g] * response.energy;
+            self.add_force(g, &response.first_piola, &mut force);
+            tangents[g] = response.tangent * self.weights[g];
         }
         Ok(ElementResponse {
             energy,
@@ -65,23 +57,57 @@ impl ReferenceElement {
         })
     }
 
-    /// `K_aibk = sum_gJ G_a,J T_iJ,bk`: whole rows of `K` are summed in
-    /// registers over all Gauss points.
-    fn stiffness(&self, tangents: &[WeightedTangent; 8]) -> [f64; UNKNOWNS * UNKNOWNS] {
+    /// `f_ai += w P_iJ G_a,J` at Gauss point `g`.
+    fn add_force(&self, g: usize, first_piola: &Matrix3<f64>, force: &mut [f64; UNKNOWNS]) {
+        let [x, y, z] = &self.gradients[g];
+        let stress = first_piola * self.weights[g];
+        for a in 0..8 {
+            for i in 0..3 {
+                force[3 * a + i] +=
+                    stress[(i, 0)] * x[a] + stress[(i, 1)] * y[a] + stress[(i, 2)] * z[a];
+            }
+        }
+    }
+
+    /// Stiffness from the tangents `w A`, by its symmetric half: of the blocks
+    /// `K_ik` over the corners those with `i <= k`.
+    fn stiffness(&self, tangents: &[Tangent; 8]) -> [f64; UNKNOWNS * UNKNOWNS] {
         let mut stiffness = [0.0; UNKNOWNS * UNKNOWNS];
-        for (row, target) in stiffness.chunks_exact_mut(UNKNOWNS).enumerate() {
-            let (a, i) = (row / 3, row % 3);
-            let mut sum = [0.0; UNKNOWNS];
-            for (gradients, tangent) in self.gradients.iter().zip(tangents) {
-                let [x, y, z] = gradients[a];
-                let [t_x, t_y, t_z] = [&tangent[3 * i], &tangent[3 * i + 1], &tangent[3 * i + 2]];
-                for column in 0..UNKNOWNS {
-                    sum[column] += x * t_x[column] + y * t_y[column] + z * t_z[column];
+        for (i, k) in [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)] {
+            let block = self.block(tangents, i, k);
+            for a in 0..8 {
+                for b in 0..8 {
+                    stiffness[UNKNOWNS * (3 * a + i) + 3 * b + k] = block[a][b];
+                    stiffness[UNKNOWNS * (3 * b + k) + 3 * a + i] = block[a][b];
                 }
             }
-            target.copy_from_slice(&sum);
         }
         stiffness
+    }
+
+    /// `K_ab = sum_gJ G_a,J (sum_L w A_iJkL G_b,L)` for two components `i`, `k`:
+    /// a product of an 8x24 and a 24x8 matrix, summed row by row in registers.
+    fn block(&self, tangents: &[Tangent; 8], i: usize, k: usize) -> [[f64; 8]; 8] {
+        let mut right = [[[0.0; 8]; 3]; 8];
+        for ((right, tangent), [x, y, z]) in right.iter_mut().zip(tangents).zip(&self.gradients) {
+            for j in 0..3 {
+                let [t_x, t_y, t_z] = [0, 1, 2].map(|l| tangent[(3 * i + j, 3 * k + l)]);
+                for b in 0..8 {
+                    right[j][b] = t_x * x[b] + t_y * y[b] + t_z * z[b];
+                }
+            }
+        }
+        std::array::from_fn(|a| {
+            let mut row = [0.0; 8];
+            for (left, right) in self.gradients.iter().zip(&right) {
+                for j in 0..3 {
+                    for b in 0..8 {
+                        row[b] += left[j][a] * right[j][b];
+                    }
+                }
+            }
+            row
+        })
     }
 }
 
@@ -91,19 +117,4 @@ pub(super) fn inverted_at(g: usize) -> impl Fn(Inverted) -> ElementError {
         gauss_point: g,
         determinant: inverted.determinant,
     }
-}
-
-fn weighted_tangent(weight: f64, tangent: &Tangent, gradients: &[[f64; 3]; 8]) -> WeightedTangent {
-    let weighted = tangent * weight;
-    let mut product = [[0.0; UNKNOWNS]; 9];
-    for (b, gradient) in gradients.iter().enumerate() {
-        for k in 0..3 {
-            for row in 0..9 {
-                product[row][3 * b + k] = (0..3)
-                    .map(|l| weighted[(row, 3 * k + l)] * gradient[l])
-                    .sum();
-            }
-        }
-    }
-    product
 }
