@@ -31,11 +31,23 @@
 //! ```
 //!
 //! which has to be positive for all textures and slip directions. The range the
-//! paper prints, `|c_mag| < 1`, `|c_ang| c_cen^2 < 4`, does not ensure that. In
-//! `m`, with `I0 = m^2/2 - 1`, the least `D` over `I1` is linear in `m^2` where it
-//! lies at `I1 = -c_cen/2`, and a quartic where it lies at `I1 = -/+ m`; so the
-//! least of all is at an end of these ranges or at the quartic's stationary
-//! point, and [`TwoTextures::least_dissipation`] is exact.
+//! paper prints, `|c_mag| < 1`, `|c_ang| c_cen^2 < 4`, does not ensure that. With
+//! `m^2 = 2 + 2 I0`,
+//!
+//! ```text
+//! D = 1 - c_mag + (m^2/2) q(I1) ,   q = c_mag + c_ang (c_cen + I1) I1 ,   |I1| <= m .
+//! ```
+//!
+//! The least `q` falls as `m`, and with it the range of `I1`, grows. If it is
+//! negative for `m = 2`, the least `D` is found there; if not, at `m = 0`. So
+//! only opposed and aligned textures have to be looked at, and the constants are
+//! admissible iff `c_mag < 1` and
+//!
+//! ```text
+//! 1 + c_mag > c_ang c_cen^2 / 2            for c_ang >= 0, |c_cen| <= 4
+//! 1 + c_mag > c_ang (4 |c_cen| - 8)        for c_ang >= 0, |c_cen| > 4
+//! 1 + c_mag > |c_ang| (8 + 4 |c_cen|)      for c_ang < 0
+//! ```
 
 use nalgebra::{Matrix3, Vector3};
 use num_dual::DualNum;
@@ -118,29 +130,16 @@ impl TwoTextures {
         1.0 + self.c_mag * i0 + self.c_ang * (1.0 + i0) * (self.c_cen + i1) * i1
     }
 
-    /// The least dissipation over all textures and slip directions.
+    /// The least dissipation over all textures and slip directions: that of
+    /// opposed or of aligned textures.
     pub fn least_dissipation(&self) -> LeastDissipation {
         let opposed = self.least_over_slip(0.0);
-        self.turning_points()
-            .into_iter()
-            .filter(|m| (0.0..=2.0).contains(m))
-            .map(|m| self.least_over_slip(m))
-            .fold(opposed, |least, other| {
-                if other.value < least.value {
-                    other
-                } else {
-                    least
-                }
-            })
-    }
-
-    /// Values of `m` at which the least dissipation over `I1` can have its own
-    /// least: the aligned textures, the change between the two branches of `I1`,
-    /// and the stationary point of the quartic (not a number where there is none).
-    fn turning_points(&self) -> [f64; 3] {
-        let c = self.c_cen.abs();
-        let discriminant = 2.25 * c * c - 8.0 * self.c_mag / self.c_ang;
-        [2.0, 0.5 * c, 0.25 * (1.5 * c + discriminant.sqrt())]
+        let aligned = self.least_over_slip(2.0);
+        if aligned.value < opposed.value {
+            aligned
+        } else {
+            opposed
+        }
     }
 
     /// The least dissipation over the slip directions for textures with `|a_ba| = m`.
