@@ -2,7 +2,9 @@
 
 pub mod deck;
 pub mod expected;
+pub mod figure;
 pub mod history;
+pub mod mesh_file;
 mod output;
 pub mod summary;
 pub mod vtk;
