@@ -4,7 +4,6 @@ use thiserror::Error;
 
 /// A friction law whose constants are refused.
 #[derive(Clone, Debug, Error, PartialEq)]
-#[non_exhaustive]
 pub enum FrictionError {
     /// A constant lies outside its range.
     #[error("{name} = {value} is refused: it must be {expected}")]

@@ -48,7 +48,6 @@ pub struct Friction {
 
 /// Shape of the slip surface, and slip rule.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
 pub enum Law {
     /// No friction.
     Frictionless,
