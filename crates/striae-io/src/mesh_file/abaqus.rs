@@ -1,0 +1,246 @@
+//! Abaqus `.inp` files.
+//!
+//! A file is a sequence of keywords with parameters, each followed by its
+//! lines of numbers or names. Read are nodes, `C3D8` elements of any variant
+//! (`C3D8R`, `C3D8H`, ...), node and element sets (with `GENERATE`, names of other
+//! sets, `NSET` of an `ELSET`) and element-based surfaces; other keywords are
+//! passed over. Abaqus numbers the corners of hexahedra as VTK does; its faces
+//! `S1` to `S6` are the sides 0 to 5 of [`striae_mesh::Face`]. Labels are the same in capital and
+//! small letters and keep the spelling of their first use. A file may have one
+//! part and one instance of it in its own place; nodes of the assembly itself
+//! (reference points) are passed over.
+
+mod keywords;
+mod sets;
+
+use super::MeshFileFault;
+use super::collected::{Collected, FileFace, Hexahedron};
+use super::lines::parsed;
+use keywords::{Keyword, Row, keywords};
+use sets::LabelSets;
+use std::collections::HashSet;
+use striae_mesh::{Mesh, Vec3};
+
+/// The mesh of a body.
+pub(super) fn body(text: &str) -> Result<Mesh, MeshFileFault> {
+    let mut reader = Reader::default();
+    for keyword in keywords(text)? {
+        reader.read(&keyword)?;
+    }
+    reader.finish()
+}
+
+#[derive(Default)]
+struct Reader {
+    mesh: Collected,
+    node_sets: LabelSets,
+    element_sets: LabelSets,
+    surfaces: LabelSets,
+    faces: Vec<Vec<(usize, FileFace)>>,
+    parts: usize,
+    instances: usize,
+    scope: Scope,
+}
+
+/// Where in the hierarchy of the file a keyword stands.
+#[derive(Default, PartialEq)]
+enum Scope {
+    #[default]
+    Part,
+    Assembly,
+}
+
+impl Reader {
+    fn read(&mut self, keyword: &Keyword<'_>) -> Result<(), MeshFileFault> {
+        match keyword.name.as_str() {
+            "PART" => {
+                self.parts += 1;
+                self.single(keyword, self.parts)
+            }
+            "ASSEMBLY" => {
+                self.scope = Scope::Assembly;
+                Ok(())
+            }
+            "INSTANCE" => {
+                self.instances += 1;
+                self.scope = Scope::Part;
+                self.in_place(keyword)?;
+                self.single(keyword, self.instances)
+            }
+            "END INSTANCE" => {
+                self.scope = Scope::Assembly;
+                Ok(())
+            }
+            "END ASSEMBLY" => {
+                self.scope = Scope::Part;
+                Ok(())
+            }
+            "NODE" if self.scope == Scope::Assembly => Ok(()),
+            "NODE" => self.nodes(keyword),
+            "ELEMENT" => self.elements(keyword),
+            "NSET" => self.node_set(keyword),
+            "ELSET" => {
+                let name = keyword.required("ELSET")?;
+                self.element_sets.extend(name, keyword)
+            }
+            "SURFACE" => self.surface(keyword),
+            "NGEN" | "NFILL" | "NCOPY" | "NMAP" | "ELGEN" | "ELCOPY" | "INCLUDE" | "SYSTEM" => {
+                let fault = keyword.fault("nodes and elements written out one by one");
+                Err(fault.with_remedy("write the mesh out flat with its preprocessor"))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn single(&self, keyword: &Keyword<'_>, count: usize) -> Result<(), MeshFileFault> {
+        if count < 2 {
+            return Ok(());
+        }
+        let fault = keyword.fault("a single part with a single instance");
+        Err(fault.with_remedy("write each body into a file of its own"))
+    }
+
+    fn in_place(&self, keyword: &Keyword<'_>) -> Result<(), MeshFileFault> {
+        let moves = |row: &&Row<'_>| {
+            row.words
+                .iter()
+                .any(|word| number(word).is_none_or(|value| value != 0.0))
+        };
+        match keyword.rows.iter().find(moves) {
+            None => Ok(()),
+            Some(row) => Err(row
+                .fault("an instance in its own place")
+                .with_remedy("move the part itself")),
+        }
+    }
+
+    /// Rows `number, x, y, z`; missing coordinates are zero.
+    fn nodes(&mut self, keyword: &Keyword<'_>) -> Result<(), MeshFileFault> {
+        if keyword
+            .parameter("SYSTEM")
+            .is_some_and(|system| system != "R")
+        {
+            return Err(keyword.fault("Cartesian coordinates"));
+        }
+        keyword.refuse_input()?;
+        for row in &keyword.rows {
+            let tag: u64 = parsed(row.line, row.words[0], "a node number")?;
+            let mut x = Vec3::zeros();
+            for axis in 0..3 {
+                let word = row.words.get(axis + 1).copied().unwrap_or("");
+                if !word.is_empty() {
+                    x[axis] = number(word).ok_or_else(|| row.fault("a coordinate"))?;
+                }
+            }
+            if self.mesh.nodes.insert(tag, x).is_some() {
+                return Err(row.fault("a node number that has not been used"));
+            }
+            if let Some(set) = keyword.parameter("NSET") {
+                self.node_sets.push(set, row.line, tag);
+            }
+        }
+        Ok(())
+    }
+
+    /// Rows `number, corners..`.
+    fn elements(&mut self, keyword: &Keyword<'_>) -> Result<(), MeshFileFault> {
+        let kind = keyword.required("TYPE")?.to_uppercase();
+        if !is_hexahedron(&kind) {
+            return Err(keyword
+                .fault("TYPE=C3D8 or one of its variants (only 8-node hexahedra are supported)")
+                .with_remedy("mesh the part with linear hexahedra"));
+        }
+        keyword.refuse_input()?;
+        for row in keyword.joined_rows() {
+            let numbers: Vec<u64> = row
+                .words
+                .iter()
+                .map(|word| parsed(row.line, word, "an element number and eight node numbers"))
+                .collect::<Result<_, _>>()?;
+            let [number, corners @ ..] = numbers.as_slice() else {
+                return Err(row.fault("an element number and eight node numbers"));
+            };
+            let corners = <[u64; 8]>::try_from(corners)
+                .map_err(|_| row.fault("an element number and eight node numbers"))?;
+            if let Some(set) = keyword.parameter("ELSET") {
+                self.element_sets.push(set, row.line, *number);
+            }
+            self.mesh.hexahedra.push(Hexahedron {
+                line: row.line,
+                number: *number,
+                corners,
+            });
+        }
+        Ok(())
+    }
+
+    fn node_set(&mut self, keyword: &Keyword<'_>) -> Result<(), MeshFileFault> {
+        let name = keyword.required("NSET")?;
+        let Some(elements) = keyword.parameter("ELSET") else {
+            return self.node_sets.extend(name, keyword);
+        };
+        let members = self.element_sets.get(elements);
+        let members = members.ok_or_else(|| keyword.fault("an element set defined before"))?;
+        let chosen: HashSet<u64> = members.iter().map(|member| member.1).collect();
+        for element in &self.mesh.hexahedra {
+            if chosen.contains(&element.number) {
+                for corner in element.corners {
+                    self.node_sets.push(name, keyword.line, corner);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Rows `element or element set, S1..S6`.
+    fn surface(&mut self, keyword: &Keyword<'_>) -> Result<(), MeshFileFault> {
+        let kind = keyword.parameter("TYPE").unwrap_or("ELEMENT");
+        if !kind.eq_ignore_ascii_case("ELEMENT") {
+            return Ok(());
+        }
+        let mut faces = Vec::new();
+        for row in &keyword.rows {
+            let side = row.words.get(1).and_then(|word| side(word));
+            let side = side.ok_or_else(|| row.fault("a face S1 to S6 of an element or set"))?;
+            let elements = self.element_sets.members(row, row.words[0])?;
+            faces.extend(
+                elements
+                    .into_iter()
+                    .map(|element| (row.line, FileFace::Side(element, side))),
+            );
+        }
+        let index = self.faces.len() as u64;
+        self.surfaces
+            .push(keyword.required("NAME")?, keyword.line, index);
+        self.faces.push(faces);
+        Ok(())
+    }
+
+    fn finish(mut self) -> Result<Mesh, MeshFileFault> {
+        for (name, indices) in self.surfaces.into_sets() {
+            let faces = indices
+                .into_iter()
+                .flat_map(|(_, index)| std::mem::take(&mut self.faces[index as usize]));
+            self.mesh.facet_sets.insert(name, faces.collect());
+        }
+        self.mesh.node_sets = self.node_sets.into_sets();
+        self.mesh.element_sets = self.element_sets.into_sets();
+        self.mesh.mesh()
+    }
+}
+
+/// `C3D8` and letters, such as `C3D8R` or `C3D8IH`.
+fn is_hexahedron(kind: &str) -> bool {
+    let variant = kind.strip_prefix("C3D8");
+    variant.is_some_and(|variant| variant.chars().all(|c| c.is_ascii_alphabetic()))
+}
+
+fn side(word: &str) -> Option<u8> {
+    let number: u8 = word.strip_prefix(['S', 's'])?.parse().ok()?;
+    (1..=6).contains(&number).then(|| number - 1)
+}
+
+/// A number, its exponent also marked with `D`.
+fn number(word: &str) -> Option<f64> {
+    word.replace(['D', 'd'], "e").parse().ok()
+}

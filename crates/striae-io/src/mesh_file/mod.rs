@@ -1,0 +1,92 @@
+//! Meshes of bodies and rigid surfaces from files.
+//!
+//! | ending | format | what is read |
+//! | --- | --- | --- |
+//! | `.msh` | Gmsh, ASCII, versions 2 and 4.1 | hexahedra; physical volumes as element sets, surfaces as facet and node sets, curves and points as node sets |
+//! | `.inp` | Abaqus | `C3D8` elements of any variant, `*NSET`, `*ELSET`, `*SURFACE` |
+//! | `.stl` | STL, ASCII and binary | triangles of a rigid surface |
+//!
+//! Nodes that no element uses are left out, also of sets; sets that become
+//! empty vanish. Each facet set gives its name to the set of its nodes unless the
+//! file has a node set of that name; node set and element set `all` hold
+//! everything. Physical groups of Gmsh without a name are called by their number.
+//!
+//! Formats: Gmsh reference manual, "Gmsh file formats"; Abaqus keywords
+//! reference guide.
+
+mod abaqus;
+mod collected;
+mod error;
+mod gmsh;
+mod lines;
+mod stl;
+#[cfg(test)]
+mod tests;
+
+pub use error::{MeshFileError, MeshFileFault};
+
+use std::path::Path;
+use striae_mesh::{Mesh, NodeId, Vec3};
+
+/// A rigid surface as it is read from a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RigidSurfaceMesh {
+    /// Node positions.
+    pub positions: Vec<Vec3>,
+    /// Corners of the facets in the order of the file; a triangle repeats its
+    /// last corner.
+    pub facets: Vec<[NodeId; 4]>,
+}
+
+/// Reads the mesh of a body from a `.msh` or `.inp` file.
+///
+/// # Errors
+/// [`MeshFileError`] names the file and, where there is one, the line. Every
+/// mesh returned has passed [`Mesh::check`] and [`Mesh::check_shape`].
+pub fn read(path: impl AsRef<Path>) -> Result<Mesh, MeshFileError> {
+    let path = path.as_ref();
+    match ending(path).as_str() {
+        "msh" => text(path).and_then(|text| gmsh::body(&text)),
+        "inp" => text(path).and_then(|text| abaqus::body(&text)),
+        _ => Err(MeshFileFault::UnknownEnding {
+            expected: ".msh (Gmsh) or .inp (Abaqus)",
+        }),
+    }
+    .map_err(|fault| fault.of(path))
+}
+
+/// Reads the triangles and quadrangles of a rigid surface from a `.msh` or
+/// `.stl` file.
+///
+/// Points, curves and volumes of a Gmsh file are passed over. Triangles of an
+/// STL file share corners at equal positions; triangles with two corners at
+/// the same position have no area and are left out.
+///
+/// # Errors
+/// [`MeshFileError`] names the file and, where there is one, the line.
+pub fn read_rigid_surface(path: impl AsRef<Path>) -> Result<RigidSurfaceMesh, MeshFileError> {
+    let path = path.as_ref();
+    match ending(path).as_str() {
+        "msh" => text(path).and_then(|text| gmsh::rigid_surface(&text)),
+        "stl" => bytes(path).and_then(|bytes| stl::rigid_surface(&bytes)),
+        _ => Err(MeshFileFault::UnknownEnding {
+            expected: ".msh (Gmsh) or .stl",
+        }),
+    }
+    .map_err(|fault| fault.of(path))
+}
+
+fn ending(path: &Path) -> String {
+    path.extension()
+        .map(|ending| ending.to_string_lossy().to_lowercase())
+        .unwrap_or_default()
+}
+
+fn bytes(path: &Path) -> Result<Vec<u8>, MeshFileFault> {
+    std::fs::read(path).map_err(MeshFileFault::Unreadable)
+}
+
+/// The text of a file; bytes that are not UTF-8 can only matter in names.
+fn text(path: &Path) -> Result<String, MeshFileFault> {
+    Ok(String::from_utf8_lossy(&bytes(path)?).into_owned())
+}

@@ -1,0 +1,181 @@
+//! Mesh files as other programs write them, with numbers unlike our ids.
+
+use std::fmt::Write;
+use striae_mesh::{ElementId, Mesh, NodeId, Vec3};
+
+/// Number of a node in the file.
+fn node(id: NodeId) -> u32 {
+    10 * id.0 + 7
+}
+
+/// Number of an element in the file.
+fn element(id: ElementId) -> u32 {
+    3 * id.0 + 1001
+}
+
+fn joined(numbers: impl IntoIterator<Item = u32>, separator: &str) -> String {
+    let words: Vec<String> = numbers
+        .into_iter()
+        .map(|number| number.to_string())
+        .collect();
+    words.join(separator)
+}
+
+fn elements(mesh: &Mesh) -> impl Iterator<Item = (ElementId, String)> {
+    let corners = mesh.elements.iter().enumerate();
+    corners.map(|(index, corners)| (ElementId::new(index), joined(corners.map(node), " ")))
+}
+
+/// Version 2.2: an element of two groups is written twice.
+pub(super) fn gmsh2(mesh: &Mesh) -> String {
+    let mut text = String::from("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
+    let mut cells = Vec::new();
+    let mut names = Vec::new();
+    for (group, (name, faces)) in mesh.facet_sets.iter().enumerate() {
+        names.push(format!("2 {} \"{name}\"", group + 1));
+        for &face in faces {
+            let corners = joined(mesh.face_nodes(face).map(node), " ");
+            cells.push(format!("3 2 {} 1 {corners}", group + 1));
+        }
+    }
+    names.push("3 98 \"all\"".into());
+    names.push("3 99 \"lower half\"".into());
+    for (id, corners) in elements(mesh) {
+        cells.push(format!("5 3 98 1 0 {corners}"));
+        let lower = mesh.element_sets.get("lower half");
+        if lower.is_some_and(|set| set.contains(&id)) {
+            cells.push(format!("5 2 99 1 {corners}"));
+        }
+    }
+    let _ = write!(
+        text,
+        "$PhysicalNames\n{}\n{}\n$EndPhysicalNames\n",
+        names.len(),
+        names.join("\n")
+    );
+    let _ = writeln!(text, "$Nodes\n{}", mesh.positions.len());
+    for (index, x) in mesh.positions.iter().enumerate() {
+        let _ = writeln!(
+            text,
+            "{} {:e} {} {}",
+            node(NodeId::new(index)),
+            x.x,
+            x.y,
+            x.z
+        );
+    }
+    let _ = writeln!(text, "$EndNodes\n$Elements\n{}", cells.len());
+    for (number, cell) in cells.iter().enumerate() {
+        let _ = writeln!(text, "{} {cell}", number + 1);
+    }
+    text + "$EndElements\n"
+}
+
+/// Version 4.1: one surface for each facet set, a volume for either half.
+pub(super) fn gmsh4(mesh: &Mesh) -> String {
+    let mut text = String::from("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n");
+    let sides: Vec<_> = mesh.facet_sets.iter().collect();
+    let _ = writeln!(text, "{}", sides.len() + 2);
+    for (group, (name, _)) in sides.iter().enumerate() {
+        let _ = writeln!(text, "2 {} \"{name}\"", group + 1);
+    }
+    text += "3 98 \"all\"\n3 99 \"lower half\"\n$EndPhysicalNames\n$Entities\n";
+    let _ = writeln!(text, "1 0 {} 2\n1 0 0 0 0", sides.len());
+    for group in 1..=sides.len() {
+        let _ = writeln!(text, "{} 0 0 0 1 1 1 1 -{group} 0", group + 20);
+    }
+    text += "1 0 0 0 1 1 1 2 98 99 0\n2 0 0 0 1 1 1 1 98 0\n$EndEntities\n";
+    let count = mesh.positions.len();
+    let _ = writeln!(text, "$Nodes\n2 {count} 7 9999\n0 1 0 0\n3 1 0 {count}");
+    for index in 0..count {
+        let _ = writeln!(text, "{}", node(NodeId::new(index)));
+    }
+    for x in &mesh.positions {
+        let _ = writeln!(text, "{} {} {}", x.x, x.y, x.z);
+    }
+    text += "$EndNodes\n$Elements\n";
+    let _ = writeln!(text, "{} 0 1 9999", sides.len() + 2);
+    let mut number = 1;
+    for (group, (_, faces)) in sides.iter().enumerate() {
+        let _ = writeln!(text, "2 {} 3 {}", group + 21, faces.len());
+        for &face in *faces {
+            let _ = writeln!(
+                text,
+                "{number} {}",
+                joined(mesh.face_nodes(face).map(node), " ")
+            );
+            number += 1;
+        }
+    }
+    let lower = mesh.element_sets.get("lower half").unwrap_or(&[]).to_vec();
+    for (volume, part) in [(1, true), (2, false)] {
+        let rows: Vec<String> = elements(mesh)
+            .filter(|(id, _)| lower.contains(id) == part)
+            .map(|(id, corners)| format!("{} {corners}\n", element(id)))
+            .collect();
+        let _ = write!(text, "3 {volume} 5 {}\n{}", rows.len(), rows.concat());
+    }
+    text + "$EndElements\n"
+}
+
+/// Abaqus with element and face based sets.
+pub(super) fn abaqus(mesh: &Mesh) -> String {
+    let mut text = String::from("*HEADING\n block\n*NODE\n");
+    for (index, x) in mesh.positions.iter().enumerate() {
+        let _ = writeln!(
+            text,
+            " {}, {}, {:e}, {}",
+            node(NodeId::new(index)),
+            x.x,
+            x.y,
+            x.z
+        );
+    }
+    text += "*ELEMENT, TYPE=C3D8H\n";
+    for (id, corners) in elements(mesh) {
+        let _ = writeln!(text, "{}, {}", element(id), corners.replace(' ', ", "));
+    }
+    for (name, members) in mesh.element_sets.iter() {
+        let members = joined(members.iter().map(|&id| element(id)), ",\n");
+        let _ = writeln!(text, "*ELSET, ELSET=\"{name}\"\n{members}");
+    }
+    for (name, members) in mesh.node_sets.iter() {
+        let members = joined(members.iter().map(|&id| node(id)), ", ");
+        let _ = writeln!(text, "*NSET, NSET={name}\n{members},");
+    }
+    for (name, faces) in mesh.facet_sets.iter() {
+        let _ = writeln!(text, "*SURFACE, TYPE=ELEMENT, NAME={name}");
+        for face in faces {
+            let _ = writeln!(text, "{}, S{}", element(face.element), face.side + 1);
+        }
+    }
+    text
+}
+
+/// ASCII STL.
+pub(super) fn stl_ascii(triangles: &[[Vec3; 3]]) -> Vec<u8> {
+    let mut text = String::from("solid cube\n");
+    for triangle in triangles {
+        text += "  facet normal 0 0 0\n    outer loop\n";
+        for x in triangle {
+            let _ = writeln!(text, "      vertex {:e} {} {}", x.x, x.y, x.z);
+        }
+        text += "    endloop\n  endfacet\n";
+    }
+    (text + "endsolid cube\n").into_bytes()
+}
+
+/// Binary STL whose header starts as an ASCII file would.
+pub(super) fn stl_binary(triangles: &[[Vec3; 3]]) -> Vec<u8> {
+    let mut bytes = b"solid by another program".to_vec();
+    bytes.resize(80, b' ');
+    bytes.extend((triangles.len() as u32).to_le_bytes());
+    for triangle in triangles {
+        bytes.extend([0; 12]);
+        for value in triangle.iter().flat_map(|x| x.iter()) {
+            bytes.extend((*value as f32).to_le_bytes());
+        }
+        bytes.extend([0; 2]);
+    }
+    bytes
+}
