@@ -1,6 +1,6 @@
 //! What can be wrong with a deck, in the words shown to its author.
 
-use striae_mesh::{ElementId, NodeId};
+use striae_mesh::NodeId;
 
 /// One kind of fault with the names and numbers that explain it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -162,16 +162,6 @@ pub enum FaultKind {
         node: usize,
         /// How many nodes there are.
         nodes: usize,
-    },
-    /// Elements are turned inside out.
-    #[error("the mesh of body `{body}` has {count} inverted element(s): {}", listed(.elements, .count))]
-    Inverted {
-        /// The body.
-        body: String,
-        /// The first of them.
-        elements: Vec<ElementId>,
-        /// How many there are.
-        count: usize,
     },
     /// A pair without a deformable side.
     #[error("pair `{pair}` joins two rigid surfaces; at least one side must be a body")]
@@ -346,12 +336,6 @@ fn it_has(known: &[String]) -> String {
     } else {
         format!("it has {}", quoted(known))
     }
-}
-
-fn listed(elements: &[ElementId], count: &usize) -> String {
-    let names: Vec<String> = elements.iter().map(ElementId::to_string).collect();
-    let rest = if *count > elements.len() { ", ..." } else { "" };
-    names.join(", ") + rest
 }
 
 fn sharing(shared: &usize) -> String {

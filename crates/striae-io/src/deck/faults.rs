@@ -121,6 +121,13 @@ impl<'s> FaultList<'s> {
         }
     }
 
+    /// Whether a fault has been found inside the range.
+    pub(crate) fn within(&self, range: &Span) -> bool {
+        self.found
+            .iter()
+            .any(|(span, _)| range.start <= span.start && span.end <= range.end)
+    }
+
     pub(crate) fn is_empty(&self) -> bool {
         self.found.is_empty()
     }

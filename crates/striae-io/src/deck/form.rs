@@ -66,7 +66,6 @@ impl Form {
         match self {
             Self::Text => "a text".into(),
             Self::Number(bounds) => format!("a number{}", bounded(bounds)),
-            Self::Whole(0) => "a whole number".into(),
             Self::Whole(least) => format!("a whole number of at least {least}"),
             Self::Words(words) => format!("one of {}", ticked(words.iter().map(|(word, _)| *word))),
             Self::List(of, None) => format!("a list of {}", of.plural()),
@@ -83,7 +82,6 @@ impl Form {
         match self {
             Self::Text => "texts".into(),
             Self::Number(bounds) => format!("numbers{}", bounded(bounds)),
-            Self::Whole(0) => "whole numbers".into(),
             Self::Whole(least) => format!("whole numbers of at least {least}"),
             Self::Words(words) => {
                 format!("the words {}", ticked(words.iter().map(|(word, _)| *word)))

@@ -6,7 +6,7 @@ use super::{
     read::At,
     value::Text,
 };
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The names of all things of one kind, by position.
 pub(crate) struct Names {
@@ -57,12 +57,12 @@ impl Names {
         let position = self.position(&name.value.0);
         // Where a thing has no readable name, this may be the one meant.
         if position.is_none() && self.names.iter().all(Option::is_some) {
-            let known: Vec<String> = self.names.iter().flatten().cloned().collect();
+            let known: BTreeSet<String> = self.names.iter().flatten().cloned().collect();
             let kind = FaultKind::UnknownName {
                 kind: self.kind,
                 name: name.value.0.clone(),
                 nearest: nearest(&name.value.0, known.iter().map(String::as_str)),
-                known,
+                known: known.into_iter().collect(),
             };
             faults.push(&name.span, kind);
         }

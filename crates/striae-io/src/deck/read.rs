@@ -77,10 +77,11 @@ impl Place {
 
 impl std::fmt::Display for Place {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let element = if self.in_list { "an element of " } else { "" };
         match (self.table.as_str(), self.key) {
             (_, "") => write!(f, "the deck"),
-            ("the deck", key) => write!(f, "`{key}`"),
-            (table, key) => write!(f, "`{key}` in {table}"),
+            ("the deck", key) => write!(f, "{element}`{key}`"),
+            (table, key) => write!(f, "{element}`{key}` in {table}"),
         }
     }
 }
@@ -91,6 +92,7 @@ pub(crate) struct TableReader<'r, 'i, 's> {
     span: Span,
     name: String,
     known: Vec<&'static str>,
+    missing: Vec<(&'static str, String)>,
     pub(crate) faults: &'r mut FaultList<'s>,
 }
 
@@ -120,6 +122,7 @@ pub(crate) fn read_keys<T: Part>(
         span,
         name,
         known: Vec::new(),
+        missing: Vec::new(),
         faults,
     };
     let part = T::part(&mut reader);
@@ -137,7 +140,7 @@ pub(crate) fn unexpected<T>(
     let kind = FaultKind::Unexpected {
         place: place.to_string(),
         expected: form.expected(),
-        found: described(value.get_ref()),
+        found: described(value.get_ref()) + &remedy(value.get_ref(), place, form),
     };
     faults.push(&value.span(), kind);
     None
@@ -177,14 +180,8 @@ impl TableReader<'_, '_, '_> {
 
     /// The value of a key that must be present.
     pub(crate) fn required<T: Read>(&mut self, key: &'static str) -> Option<At<T>> {
-        if self.table.get(key).is_none() {
-            let expected = T::form().expected();
-            let kind = FaultKind::MissingKey {
-                key: key.into(),
-                place: self.name.clone(),
-                expected,
-            };
-            self.faults.push(&self.span.clone(), kind);
+        if !self.table.contains_key(key) {
+            self.missing.push((key, T::form().expected()));
         }
         self.optional(key)
     }
@@ -235,18 +232,36 @@ impl TableReader<'_, '_, '_> {
         keys.find(|key| self.table.contains_key(*key))
     }
 
-    fn finish(self) {
-        for key in self
+    /// Notes unknown keys, and missing ones that none of those is a misspelling of.
+    fn finish(mut self) {
+        let unknown = self
             .table
             .keys()
-            .filter(|key| !self.known.contains(&key.get_ref().as_ref()))
-        {
-            let kind = FaultKind::UnknownKey {
-                key: key.get_ref().to_string(),
-                place: self.name.clone(),
-                nearest: nearest(key.get_ref(), self.known.iter().copied()),
-            };
-            self.faults.push(&key.span(), kind);
+            .filter(|key| !self.known.contains(&key.get_ref().as_ref()));
+        for key in unknown {
+            let nearest = nearest(key.get_ref(), self.known.iter().copied());
+            self.missing
+                .retain(|(missing, _)| nearest.as_deref() != Some(missing));
+            let (key_name, place) = (key.get_ref().to_string(), self.name.clone());
+            self.faults.push(
+                &key.span(),
+                FaultKind::UnknownKey {
+                    key: key_name,
+                    place,
+                    nearest,
+                },
+            );
+        }
+        for (key, expected) in self.missing {
+            let place = self.name.clone();
+            self.faults.push(
+                &self.span,
+                FaultKind::MissingKey {
+                    key: key.into(),
+                    place,
+                    expected,
+                },
+            );
         }
     }
 }
@@ -289,6 +304,20 @@ fn leading(group: &[Alternative]) -> String {
     });
     let common: Vec<&str> = common.collect();
     ticked(common).replace(", ", " and ")
+}
+
+/// What to do about a table where a list of tables is expected.
+fn remedy(value: &DeValue<'_>, place: &Place, form: &Form) -> String {
+    match (value, form) {
+        (DeValue::Table(_), Form::List(of, _)) if matches!(**of, Form::Table(_)) => {
+            if place.table == "the deck" {
+                format!("; begin it with [[{}]]", place.key)
+            } else {
+                "; put it into brackets, [{ ... }]".into()
+            }
+        }
+        _ => String::new(),
+    }
 }
 
 fn described(value: &DeValue<'_>) -> String {

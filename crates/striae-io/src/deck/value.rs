@@ -7,6 +7,7 @@ use super::{
     names::nearest,
     read::{At, Place, Read, Value, unexpected},
 };
+use std::slice;
 use striae_mesh::Vec3;
 use toml::de::DeValue;
 
@@ -112,6 +113,11 @@ impl<T: Read> Read for Vec<At<T>> {
     fn read(value: &Value<'_>, place: &Place, faults: &mut FaultList<'_>) -> Option<Self> {
         match value.get_ref() {
             DeValue::Array(array) => Some(elements(array, place, faults)),
+            // The table is read all the same, as if it were the only one of the list.
+            DeValue::Table(_) if matches!(T::form(), Form::Table(_)) => {
+                unexpected::<Self>(value, place, faults, &Self::form());
+                Some(elements(slice::from_ref(value), place, faults))
+            }
             _ => unexpected(value, place, faults, &Self::form()),
         }
     }

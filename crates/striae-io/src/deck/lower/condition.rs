@@ -1,6 +1,6 @@
 //! Displacement conditions, releases and loads of a step.
 
-use super::{Scope, list};
+use super::{Read, Scope, list};
 use crate::deck::{
     fault::FaultKind,
     faults::FaultList,
@@ -19,9 +19,19 @@ const COMPONENTS: [char; 3] = ['x', 'y', 'z'];
 type Freedom = (BodyId, NodeId, usize);
 
 /// Which components are prescribed after the steps so far.
-#[derive(Default)]
 pub(super) struct History {
     prescribed: BTreeSet<Freedom>,
+    read: Read,
+}
+
+impl History {
+    /// Nothing is prescribed before the first step.
+    pub(super) fn new(read: Read) -> Self {
+        Self {
+            prescribed: BTreeSet::new(),
+            read,
+        }
+    }
 }
 
 /// What a step has stated for a component so far.
@@ -60,7 +70,7 @@ pub(super) fn releases(
             [false, false, false] => Some(None),
             _ => (0..3).find(|c| components[*c] && !prescribed(*c)).map(Some),
         };
-        if let Some(component) = wrong {
+        if let Some(component) = wrong.filter(|_| history.read == Read::Whole) {
             faults.push(
                 &release.span,
                 FaultKind::NotPrescribed {
@@ -111,6 +121,7 @@ pub(super) fn displacements(
                 set: set.into(),
             };
             faults.push(&displacement.span, kind);
+            continue;
         }
         let Some(curve) = curve else { continue };
         let condition = Displacement {
@@ -126,7 +137,11 @@ pub(super) fn displacements(
         all.push(condition);
     }
     history.prescribed.extend(stated.into_keys());
-    (all.len() == raw.len()).then_some(all)
+    if all.len() < raw.len() {
+        history.read = Read::InPart;
+        return None;
+    }
+    Some(all)
 }
 
 /// Notes what a condition states; the first contradiction to an earlier one is returned.

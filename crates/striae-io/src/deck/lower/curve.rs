@@ -88,7 +88,10 @@ fn built_in(name: &str) -> Option<Curve> {
 }
 
 fn table(raw: &raw::NamedCurve, faults: &mut FaultList<'_>) -> Option<Curve> {
-    let points = raw.points.as_ref()?;
+    let points = raw
+        .points
+        .as_ref()
+        .filter(|points| !faults.within(&points.span))?;
     let pairs: Vec<(f64, f64)> = points
         .value
         .iter()

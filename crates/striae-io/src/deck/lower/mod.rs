@@ -30,8 +30,22 @@ struct Scope<'r> {
     curves: &'r curve::Curves,
 }
 
+/// How the first stage went.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Read {
+    /// Without faults.
+    Whole,
+    /// With faults, so that what seems to be missing may be there.
+    InPart,
+}
+
 /// The deck, or `None` after its faults have been noted.
 pub(super) fn deck(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_>) -> Option<Deck> {
+    let read = if faults.is_empty() {
+        Read::Whole
+    } else {
+        Read::InPart
+    };
     let materials = body::Materials::new(list(&raw.material), faults);
     let bodies = Bodies::new(list(&raw.body), &materials, base, faults);
     let rigid_names = Names::new(
@@ -55,8 +69,10 @@ pub(super) fn deck(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_
         pairs: &pair_names,
         curves: &curves,
     };
-    let steps = step::steps(list(&raw.step), &scope, faults);
-    hold::check(&bodies, &pairs, &steps, list(&raw.step), faults);
+    let steps = step::steps(list(&raw.step), &scope, read, faults);
+    if read == Read::Whole {
+        hold::check(&bodies, &pairs, &steps, list(&raw.step), faults);
+    }
     nothing_missing(raw, faults);
 
     let model = Model {
@@ -85,7 +101,7 @@ fn whole<T>(list: Vec<Option<T>>) -> Option<Vec<T>> {
 
 fn nothing_missing(raw: &raw::Simulation, faults: &mut FaultList<'_>) {
     const START: Span = 0..0;
-    if raw.body.is_none() || list(&raw.body).is_empty() && raw.body.is_some() {
+    if list(&raw.body).is_empty() {
         faults.push(
             &START,
             FaultKind::Nothing {

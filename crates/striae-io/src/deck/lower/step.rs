@@ -1,6 +1,6 @@
 //! Steps: increments and what each step states.
 
-use super::{Scope, condition, contact, list};
+use super::{Read, Scope, condition, contact, list};
 use crate::deck::{
     fault::FaultKind, faults::FaultList, names::Names, raw, read::At, value::vector,
 };
@@ -14,6 +14,7 @@ const SMALLEST_OVER_INITIAL: f64 = 1e-3;
 pub(super) fn steps(
     raw: &[At<raw::Step>],
     scope: &Scope<'_>,
+    read: Read,
     faults: &mut FaultList<'_>,
 ) -> Vec<Option<Step>> {
     Names::new(
@@ -21,7 +22,7 @@ pub(super) fn steps(
         raw.iter().map(|step| step.value.name.as_ref()),
         faults,
     );
-    let mut history = condition::History::default();
+    let mut history = condition::History::new(read);
     raw.iter()
         .map(|step| lower_step(&step.value, scope, &mut history, faults))
         .collect()

@@ -1,0 +1,386 @@
+//! Faults found while a deck is lowered: what it says is well formed but not possible.
+//!
+//! Longer than other files, as it is a table of decks and the exact messages they get.
+
+mod deck;
+
+use deck::changed;
+
+#[test]
+fn constants() {
+    changed(
+        "bulk modulus that is negative",
+        &[(
+            "youngs_modulus = 1e6\npoissons_ratio = 0.3",
+            "lambda = -1\nshear_modulus = 1",
+        )],
+        &["5:10: `lambda` = -1 and `shear_modulus` = 1 give a bulk modulus that is not positive"],
+    );
+    changed(
+        "friction that creates energy",
+        &[(
+            r#"law = "coulomb", mu = 0.3"#,
+            r#"law = "two-textures", mu = 0.3, c_mag = 0, c_ang = -1, c_cen = 0"#,
+        )],
+        &[
+            "22:12: this friction is not possible: friction would create energy: textures with a_a . a_b' = I0 = 1.000000 and slip with a_ba . d = I1 = 2.000000 give a dissipation -tau . d / varpi = -7.000000",
+        ],
+    );
+    changed(
+        "normal of no length",
+        &[("normal = [0, 0, 1]", "normal = [0, 0, 0]")],
+        &["17:39: the normal of a plane must not be the zero vector"],
+    );
+}
+
+#[test]
+fn meshes() {
+    changed(
+        "mesh file of unknown kind",
+        &[(
+            r#"{ generator = "block", size = [1, 1, 0.5], divisions = [4, 4, 2] }"#,
+            r#"{ file = "part.docx" }"#,
+        )],
+        &[
+            "10:8: the mesh of body `lower` cannot be made: part.docx: unknown kind of file; expected .msh (Gmsh) or .inp (Abaqus)",
+        ],
+    );
+    changed(
+        "mesh too large",
+        &[("divisions = [4, 4, 2]", "divisions = [4000, 4000, 2000]")],
+        &[
+            "10:63: the mesh of body `lower` would have 32000000000 elements; at most 20000000 are possible",
+        ],
+    );
+    changed(
+        "elements turned inside out",
+        &[(
+            "divisions = [4, 4, 2]",
+            "divisions = [4, 4, 2], irregularity = 0.49, mesh_rotation = 170",
+        )],
+        &[
+            "10:8: the mesh of body `lower` cannot be made: 20 elements are turned inside out or degenerate, the first is element 1 with a Jacobian determinant of -3.769e-3",
+        ],
+    );
+    changed(
+        "sides that cross",
+        &[(
+            "divisions = [4, 4, 2]",
+            "divisions = [4, 4, 2], top_slopes = [-2, 0]",
+        )],
+        &[
+            "10:8: the mesh of body `lower` cannot be made: height of the lowest column between the oblique sides is -0.5, but it must be positive",
+        ],
+    );
+    changed(
+        "lengths that do not fit the divisions",
+        &[(
+            "divisions = [4, 4, 2]",
+            "divisions = [4, 4, 2], grading = { z = { lengths = [1, 2, 3] } }",
+        )],
+        &[
+            "10:8: the mesh of body `lower` cannot be made: 3 interval lengths are given for 2 divisions",
+        ],
+    );
+    changed(
+        "facet with a node that is not there",
+        &[(
+            "plane = { point = [0, 0, 0], normal = [0, 0, 1] }",
+            "mesh = { positions = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], facets = [[0, 1, 2, 2], [0, 1, 3, 3]] }",
+        )],
+        &[
+            "17:81: facet 1 of rigid surface `floor` refers to node 3, but there are 3 nodes counted from 0",
+        ],
+    );
+}
+
+#[test]
+fn names() {
+    changed(
+        "two bodies of one name",
+        &[(r#"name = "upper""#, r#"name = "lower""#)],
+        &[
+            "12:8: body `lower` is already defined in line 8",
+            "21:14: no body is named `upper`; there is `lower`",
+            "32:12: no body is named `upper`; there is `lower`",
+            "34:22: no body is named `upper`; there is `lower`",
+            "38:21: no body is named `upper`; there is `lower`",
+        ],
+    );
+    changed(
+        "two steps of one name",
+        &[(r#"name = "slide""#, r#"name = "press""#)],
+        &["37:8: step `press` is already defined in line 27"],
+    );
+    changed(
+        "unknown material",
+        &[(
+            r#"name = "upper"
+material = "rubber""#,
+            r#"name = "upper"
+material = "ruber""#,
+        )],
+        &["13:12: no material is named `ruber`; there is `rubber`; did you mean `rubber`?"],
+    );
+    changed(
+        "unknown body",
+        &[(r#"a = { body = "lower""#, r#"a = { body = "lowr""#)],
+        &["20:14: no body is named `lowr`; there is `lower`, `upper`; did you mean `lower`?"],
+    );
+    changed(
+        "unknown rigid surface",
+        &[(
+            r#"b = { body = "upper", facets = "zmin" }"#,
+            r#"b = { rigid = "flor" }"#,
+        )],
+        &["21:15: no rigid surface is named `flor`; there is `floor`; did you mean `floor`?"],
+    );
+    changed(
+        "unknown pair",
+        &[(r#"pair = "interface""#, r#"pair = "inteface""#)],
+        &["40:22: no pair is named `inteface`; there is `interface`; did you mean `interface`?"],
+    );
+    changed(
+        "unknown curve",
+        &[(r#"curve = "there-and-back""#, r#"curve = "there-and-bak""#)],
+        &[
+            "32:56: no curve is named `there-and-bak`; there is `ramp`, `constant`, `smooth`, `there-and-back`; did you mean `there-and-back`?",
+        ],
+    );
+    changed(
+        "unknown facet set",
+        &[(r#"facets = "zmin""#, r#"facets = "zmn""#)],
+        &[
+            "21:32: body `upper` has no facet set `zmn`; it has `xmax`, `xmin`, `ymax`, `ymin`, `zmax`, `zmin`; did you mean `zmin`?",
+        ],
+    );
+    changed(
+        "unknown node set",
+        &[(r#"nodes = "zmin""#, r#"nodes = "bottom""#)],
+        &[
+            "31:29: body `lower` has no node set `bottom`; it has `all`, `xmax`, `xmin`, `ymax`, `ymin`, `zmax`, `zmin`",
+        ],
+    );
+    changed(
+        "several faults at once",
+        &[
+            ("poissons_ratio = 0.3", "poissons_ratio = 3"),
+            ("divisions = [4, 4, 2]", "divsions = [4, 4, 2]"),
+            (r#"facets = "zmin""#, r#"facets = "botom""#),
+            (r#"pair = "interface""#, r#"pair = "face""#),
+        ],
+        &[
+            "6:18: `poissons_ratio` in [[material]] must be a number greater than -1 and less than 0.5, but is 3",
+            "10:51: unknown key `divsions` in [[body]] mesh; did you mean `divisions`?",
+            "21:32: body `upper` has no facet set `botom`; it has `xmax`, `xmin`, `ymax`, `ymin`, `zmax`, `zmin`",
+            "40:22: no pair is named `face`; there is `interface`",
+        ],
+    );
+}
+
+#[test]
+fn pairs() {
+    changed(
+        "rigid surface against rigid surface",
+        &[(
+            r#"a = { body = "lower", facets = "zmax" }
+b = { body = "upper", facets = "zmin" }"#,
+            r#"a = { rigid = "floor" }
+b = { rigid = "floor" }"#,
+        )],
+        &["18:1: pair `interface` joins two rigid surfaces; at least one side must be a body"],
+    );
+    changed(
+        "body against itself",
+        &[(
+            r#"b = { body = "upper", facets = "zmin" }"#,
+            r#"b = { body = "lower", facets = "zmin" }"#,
+        )],
+        &[
+            "18:1: pair `interface` joins body `lower` to itself; contact of a body with itself is not supported: mesh its two parts as two bodies",
+        ],
+    );
+    changed(
+        "body against itself with shared nodes",
+        &[(
+            r#"b = { body = "upper", facets = "zmin" }"#,
+            r#"b = { body = "lower", facets = "xmin" }"#,
+        )],
+        &[
+            "18:1: pair `interface` joins body `lower` to itself (the two sides share 5 nodes); contact of a body with itself is not supported: mesh its two parts as two bodies",
+        ],
+    );
+    changed(
+        "the same pair twice",
+        &[(
+            "[[curve]]",
+            r#"[[pair]]
+name = "again"
+a = { body = "upper", facets = "zmin" }
+b = { body = "lower", facets = "zmax" }
+[[curve]]"#,
+        )],
+        &["23:1: pair `again` joins the same two surfaces as pair `interface`"],
+    );
+}
+
+#[test]
+fn curves() {
+    changed(
+        "curve with a built-in name",
+        &[
+            (r#"name = "there-and-back""#, r#"name = "smooth""#),
+            (r#"curve = "there-and-back""#, r#"curve = "smooth""#),
+        ],
+        &["24:8: `smooth` is a built-in curve; give this one another name"],
+    );
+    changed(
+        "curve with one point",
+        &[("[[0, 0], [0.5, 1], [1, 0]]", "[[0, 0]]")],
+        &[
+            "25:10: the points of curve `there-and-back` must rise in their first number from 0 to 1, but there are only 1",
+        ],
+    );
+    changed(
+        "curve that starts late",
+        &[("[[0, 0], [0.5, 1], [1, 0]]", "[[0.1, 0], [1, 0]]")],
+        &[
+            "25:10: the points of curve `there-and-back` must rise in their first number from 0 to 1, but start at 0.1",
+        ],
+    );
+    changed(
+        "curve that ends early",
+        &[("[[0, 0], [0.5, 1], [1, 0]]", "[[0, 0], [0.9, 0]]")],
+        &[
+            "25:10: the points of curve `there-and-back` must rise in their first number from 0 to 1, but end at 0.9",
+        ],
+    );
+    changed(
+        "curve that turns back",
+        &[(
+            "[[0, 0], [0.5, 1], [1, 0]]",
+            "[[0, 0], [0.5, 1], [0.5, 2], [1, 0]]",
+        )],
+        &[
+            "25:10: the points of curve `there-and-back` must rise in their first number from 0 to 1, but 0.5 is followed by 0.5",
+        ],
+    );
+}
+
+#[test]
+fn conditions() {
+    changed(
+        "smallest increment above the largest",
+        &[("smallest = 1e-3", "smallest = 0.5")],
+        &[
+            "29:14: increments of step `press` must satisfy smallest <= initial <= largest, but 0.5, 0.1, 0.2 do not",
+        ],
+    );
+    changed(
+        "condition without a component",
+        &[(
+            r#"z = -0.02, curve = "there-and-back""#,
+            r#"curve = "there-and-back""#,
+        )],
+        &[
+            "32:3: the displacement of `zmax` of body `upper` prescribes nothing; give at least one of `x`, `y`, `z`",
+        ],
+    );
+    changed(
+        "component prescribed twice",
+        &[(
+            r#"curve = "there-and-back" },"#,
+            r#"curve = "there-and-back" },
+  { body = "upper", nodes = "all", z = 0.5, curve = "there-and-back" },"#,
+        )],
+        &[
+            "33:3: step `press` prescribes component `z` of node 32 of body `upper` twice: -0.02 by `zmax`, 0.5 by `all`",
+        ],
+    );
+    changed(
+        "component prescribed along two curves",
+        &[(
+            r#"curve = "there-and-back" },"#,
+            r#"curve = "there-and-back" },
+  { body = "upper", nodes = "xmax", z = -0.02, curve = "smooth" },"#,
+        )],
+        &[
+            "33:3: step `press` prescribes component `z` of node 35 of body `upper` twice: -0.02 along a curve by `zmax`, -0.02 along `smooth` by `xmax`",
+        ],
+    );
+    changed(
+        "release of what is free",
+        &[(r#"components = ["z"]"#, r#"components = ["x"]"#)],
+        &[
+            "38:12: step `slide` releases component `x` of `zmax` of body `upper`, which is not prescribed",
+        ],
+    );
+    changed(
+        "release of nothing",
+        &[(r#"nodes = "zmax", components = ["z"]"#, r#"nodes = "zmin""#)],
+        &[
+            "38:12: step `slide` releases all components of `zmin` of body `upper`, which is not prescribed",
+        ],
+    );
+    changed(
+        "the same load twice",
+        &[(
+            r#"value = 3, extent = "exposed" }"#,
+            r#"value = 3, extent = "exposed" }, { body = "lower", facets = "xmin", value = 4 }"#,
+        )],
+        &["35:81: step `press` states the pressure on `xmin` of body `lower` twice"],
+    );
+    changed(
+        "the same rigid motion twice",
+        &[(
+            "displacement = [0, 0, 0.1] }",
+            r#"displacement = [0, 0, 0.1] }, { surface = "floor", displacement = [0, 0, 1] }"#,
+        )],
+        &["39:61: step `slide` states the displacement of rigid surface `floor` twice"],
+    );
+    changed(
+        "the same friction twice",
+        &[(
+            r#"law = "frictionless" }"#,
+            r#"law = "frictionless" }, { pair = "interface", law = "coulomb", mu = 1 }"#,
+        )],
+        &["40:59: step `slide` states the friction of pair `interface` twice"],
+    );
+    changed(
+        "a body that nothing holds",
+        &[
+            (
+                r#"a = { body = "lower", facets = "zmax" }
+b = { body = "upper", facets = "zmin" }"#,
+                r#"a = { body = "lower", facets = "zmax" }
+b = { rigid = "floor" }"#,
+            ),
+            (r#", z = -0.02, curve = "there-and-back""#, ", z = -0.02"),
+            (
+                r#"  { body = "upper", nodes = "zmax", z = -0.02 },
+"#,
+                "",
+            ),
+            (
+                r#"release = [{ body = "upper", nodes = "zmax", components = ["z"] }]
+"#,
+                "",
+            ),
+        ],
+        &[
+            "26:1: body `upper` is in no contact pair and nothing holds it in step `press`; prescribe displacements that hold it",
+        ],
+    );
+    changed(
+        "a body that can still slide",
+        &[(
+            r#"a = { body = "lower", facets = "zmax" }
+b = { body = "upper", facets = "zmin" }"#,
+            r#"a = { body = "lower", facets = "zmax" }
+b = { rigid = "floor" }"#,
+        )],
+        &[
+            "26:1: body `upper` is in no contact pair and 3 rigid motions of it are left free in step `press`; prescribe displacements that hold it",
+        ],
+    );
+}
