@@ -92,6 +92,14 @@ pub enum MeshError {
         /// What it has to be, as the end of a sentence.
         requirement: &'static str,
     },
+    /// More elements than a generator makes.
+    #[error("the mesh would have {elements} elements, {most} are the most that is made")]
+    TooLarge {
+        /// How many elements there would be.
+        elements: u128,
+        /// How many there may be.
+        most: u128,
+    },
     /// A list of interval lengths that does not fit the number of divisions.
     #[error("{lengths} interval lengths are given for {divisions} divisions")]
     IntervalCount {

@@ -242,6 +242,37 @@ fn too_much_distortion_is_an_error() {
     assert!(matches!(wound_up.mesh(), Err(MeshError::Inverted { .. })));
 }
 
+#[test]
+fn meshes_beyond_all_bounds_are_refused_at_once() {
+    let block = Block {
+        divisions: [usize::MAX; 3],
+        ..Block::default()
+    };
+    assert!(matches!(block.mesh(), Err(MeshError::TooLarge { .. })));
+    let ring = Annulus {
+        divisions: [1, 1 << 40, 1],
+        ..Annulus::default()
+    };
+    assert!(matches!(ring.mesh(), Err(MeshError::TooLarge { .. })));
+    let slice = HalfCylinder {
+        layers: 1 << 40,
+        ..HalfCylinder::default()
+    };
+    assert!(matches!(slice.mesh(), Err(MeshError::TooLarge { .. })));
+    for element_size in [1e-12, f64::NAN] {
+        let cap = CappedBlock {
+            element_size,
+            ..CappedBlock::default()
+        };
+        assert!(matches!(cap.mesh(), Err(MeshError::Parameter { .. })));
+    }
+    let endless = CappedBlock {
+        height: f64::INFINITY,
+        ..CappedBlock::default()
+    };
+    assert!(endless.mesh().is_err());
+}
+
 const CAP_SIDES: [&str; 6] = ["xmin", "xmax", "ymin", "ymax", "cap", "zmax"];
 
 #[test]

@@ -72,10 +72,7 @@ impl Annulus {
     pub fn mesh(&self) -> Result<Mesh, MeshError> {
         self.check_parameters()?;
         let [radial, around, axial] = self.divisions;
-        let grid = Grid {
-            divisions: [radial, axial, around],
-            closure: Closure::Ring,
-        };
+        let grid = Grid::new([radial, axial, around], Closure::Ring)?;
         let radii = self.radial_grading.nodes(radial)?;
         let depths = self.axial_grading.nodes(axial)?;
         let angles = self.angles();

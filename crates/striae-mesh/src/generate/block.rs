@@ -93,10 +93,7 @@ impl Block {
     /// out of range, [`MeshError::Inverted`] where they distort the mesh too much.
     pub fn mesh(&self) -> Result<Mesh, MeshError> {
         self.check_parameters()?;
-        let grid = Grid {
-            divisions: self.divisions,
-            closure: Closure::Open,
-        };
+        let grid = Grid::new(self.divisions, Closure::Open)?;
         let mut nodes: [Vec<f64>; 3] = Default::default();
         for axis in 0..3 {
             nodes[axis] = self.gradings[axis].nodes(self.divisions[axis])?;

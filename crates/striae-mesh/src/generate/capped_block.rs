@@ -59,10 +59,10 @@ impl CappedBlock {
         let [x_lengths, y_lengths] = self.plan_lengths()?;
         let z_lengths =
             refined_lengths(self.height, self.fine_depth, self.element_size, self.growth)?;
-        let grid = Grid {
-            divisions: [x_lengths.len(), y_lengths.len(), z_lengths.len()],
-            closure: Closure::Open,
-        };
+        let grid = Grid::new(
+            [x_lengths.len(), y_lengths.len(), z_lengths.len()],
+            Closure::Open,
+        )?;
         let [x, y, s] = [&x_lengths, &y_lengths, &z_lengths].map(|l| unit_partial_sums(l));
         let positions = grid.positions(|[i, j, k]| {
             let x = self.size[0] * (x[i] - 0.5);

@@ -78,7 +78,7 @@ impl Grading {
 ///
 /// # Errors
 /// [`MeshError::Parameter`] when `length` or `size` is not positive, `fine`
-/// negative or `growth` less than 1.
+/// negative, `growth` less than 1, or `size` less than a ten-thousandth of `length`.
 pub fn refined_lengths(
     length: f64,
     fine: f64,
@@ -89,16 +89,26 @@ pub fn refined_lengths(
     MeshError::require(size > 0.0, "element size", size, "it must be positive")?;
     MeshError::require(fine >= 0.0, "fine zone", fine, "it must not be negative")?;
     MeshError::require(growth >= 1.0, "growth", growth, "it must be at least 1")?;
+    MeshError::require(
+        length / size <= 1e4,
+        "element size",
+        size,
+        "it must be at least a ten-thousandth of the length",
+    )?;
     let fine_count = whole(fine / size).max(1);
     let rest = length - fine_count as f64 * size;
     if rest < size {
         let count = whole(length / size).max(1);
         return Ok(vec![length / count as f64; count]);
     }
-    let mut count = 1;
-    while geometric_sum(growth, count) * size < rest * (1.0 - ROUNDING) {
-        count += 1;
-    }
+    let count = (1..)
+        .scan((1.0, 0.0), |(length, sum), count| {
+            *length *= growth;
+            *sum += *length * size;
+            Some((count, *sum))
+        })
+        .find(|&(_, sum)| sum >= rest * (1.0 - ROUNDING))
+        .map_or(1, |(count, _)| count);
     let (first, factor) = if count as f64 * size > rest {
         (rest / count as f64, 1.0)
     } else {

@@ -7,8 +7,8 @@ use crate::{ElementId, Face, Mesh, MeshError, NodeId, Vec3};
 
 /// A lattice of `divisions[0] x divisions[1] x divisions[2]` elements.
 pub(super) struct Grid {
-    pub(super) divisions: [usize; 3],
-    pub(super) closure: Closure,
+    divisions: [usize; 3],
+    closure: Closure,
 }
 
 /// Whether the last layer of nodes along `k` is the first one.
@@ -30,6 +30,11 @@ pub(super) enum Side {
 }
 
 impl Grid {
+    pub(super) fn new(divisions: [usize; 3], closure: Closure) -> Result<Self, MeshError> {
+        check_element_count(divisions)?;
+        Ok(Self { divisions, closure })
+    }
+
     /// Positions of all nodes from their lattice coordinates, `i` running fastest.
     pub(super) fn positions(&self, mut position: impl FnMut([usize; 3]) -> Vec3) -> Vec<Vec3> {
         let [ni, nj, nk] = self.node_counts();
@@ -100,6 +105,22 @@ impl Grid {
         };
         [ni + 1, nj + 1, last]
     }
+}
+
+/// Checks that a product of divisions is not beyond all that can be solved for.
+pub(super) fn check_element_count(
+    divisions: impl IntoIterator<Item = usize>,
+) -> Result<(), MeshError> {
+    const MOST: u128 = 20_000_000;
+    let divisions = divisions.into_iter().map(|count| count as u128);
+    let elements = divisions.fold(1, u128::saturating_mul);
+    if elements <= MOST {
+        return Ok(());
+    }
+    Err(MeshError::TooLarge {
+        elements,
+        most: MOST,
+    })
 }
 
 /// The checked mesh with its sides named as facet and node sets.

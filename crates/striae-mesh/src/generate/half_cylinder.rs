@@ -16,7 +16,7 @@
 //! towards the core by [`refined_lengths`]; nodes of the arc lie on the circle.
 
 use super::grading::{mirrored, refined_lengths, unit_partial_sums, whole};
-use super::grid::named_mesh;
+use super::grid::{check_element_count, named_mesh};
 use crate::{ElementId, Face, Mesh, MeshError, NodeId, Vec3};
 use std::f64::consts::FRAC_PI_4;
 
@@ -91,6 +91,7 @@ impl HalfCylinder {
         )?;
         MeshError::require(self.layers > 0, "layers", 0.0, "at least 1 is needed")?;
         let disc = HalfDisc::new(self)?;
+        check_element_count([disc.cell_count(), self.layers])?;
         let positions = (0..=self.layers)
             .flat_map(|layer| {
                 let y = thickness * layer as f64 / self.layers as f64;
@@ -133,7 +134,7 @@ impl HalfCylinder {
     /// [`HalfCylinder::mesh`].
     fn sides(&self, disc: &HalfDisc) -> [(&'static str, Vec<Face>); 4] {
         let [flat, arc] = disc.outline();
-        let sheet = disc.quadrangles().len();
+        let sheet = disc.cell_count();
         let faces = |cells: &[(usize, u8)], layers: std::ops::Range<usize>| -> Vec<Face> {
             layers
                 .flat_map(|layer| cells.iter().map(move |&(cell, side)| (layer, cell, side)))
@@ -198,6 +199,10 @@ impl HalfDisc {
             across,
             down,
         })
+    }
+
+    fn cell_count(&self) -> usize {
+        self.across * self.down + (self.angles.len() - 1) * self.deep()
     }
 
     fn node_count(&self) -> usize {
