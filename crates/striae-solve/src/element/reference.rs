@@ -20,15 +20,11 @@ pub struct ReferenceElement {
 ///
 /// The first element whose reference shape is degenerate.
 pub fn reference_elements(mesh: &Mesh) -> Result<Vec<ReferenceElement>, ElementFault> {
-    mesh.elements
-        .iter()
-        .enumerate()
-        .map(|(index, corners)| {
-            let positions = corners.map(|node| mesh.positions[node.index()]);
-            ReferenceElement::new(&positions).map_err(|error| ElementFault {
-                element: ElementId::new(index),
-                error,
-            })
+    (0..mesh.elements.len())
+        .map(ElementId::new)
+        .map(|element| {
+            ReferenceElement::new(&mesh.element_positions(element))
+                .map_err(|error| ElementFault { element, error })
         })
         .collect()
 }

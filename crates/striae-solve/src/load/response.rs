@@ -3,7 +3,7 @@
 use super::UNKNOWNS;
 use super::integrand::{Tangents, lift, parametric_traction, shape, shape_slopes, tangents};
 use crate::model::LoadKind;
-use nalgebra::Vector3;
+use nalgebra::{U1, U6, Vector3};
 use num_dual::DualSVec64;
 use striae_mesh::Vec3;
 
@@ -68,10 +68,7 @@ impl FaceLoad {
     /// Adds the share of a Gauss point of weight one.
     fn add(&mut self, traction: &Vector3<Dual>, shape: &[f64; 4], slopes: &[[f64; 2]; 4]) {
         for i in 0..3 {
-            let Some(derivative) = traction[i].eps.0 else {
-                (0..4).for_each(|a| self.force[3 * a + i] += shape[a] * traction[i].re);
-                continue;
-            };
+            let derivative = traction[i].eps.unwrap_generic(U6, U1);
             for a in 0..4 {
                 let row = 3 * a + i;
                 self.force[row] += shape[a] * traction[i].re;
@@ -94,9 +91,6 @@ fn variable(tangents: &Tangents<f64>) -> Tangents<Dual> {
 }
 
 fn is_finite(component: &Dual) -> bool {
-    component.re.is_finite()
-        && component
-            .eps
-            .0
-            .is_none_or(|derivative| derivative.iter().all(|v| v.is_finite()))
+    let derivative = component.eps.unwrap_generic(U6, U1);
+    component.re.is_finite() && derivative.iter().all(|v| v.is_finite())
 }

@@ -3,62 +3,36 @@
 use super::*;
 use crate::element::{ReferenceElement, reference_elements};
 use nalgebra::{DMatrix, DVector};
-use striae_mesh::{Mesh, NodeId, Sets};
+use striae_mesh::{Mesh, NodeId, generate};
 
 /// A block of `n^3` elements over the unit cube.
 pub(super) struct Block {
     pub(super) mesh: Mesh,
     pub(super) reference: Vec<ReferenceElement>,
-    pub(super) n: usize,
 }
 
 /// A nodal force with its derivative by the node positions.
 pub(super) type Force = (DVector<f64>, DMatrix<f64>);
 
 impl Block {
-    /// The block with nodes disturbed by at most `amplitude` mesh sizes; those
-    /// on faces and edges of the cube stay on them.
-    pub(super) fn new(n: usize, amplitude: f64) -> Self {
-        let mut random = Random::new(n as u64);
-        let mut positions = Vec::new();
-        let mut elements = Vec::new();
-        for_each_cell(n + 1, |cell| {
-            let shift = random.vector3() * amplitude;
-            positions.push(Vec3::from_fn(|j, _| {
-                let inner = cell[j] > 0 && cell[j] < n;
-                (cell[j] as f64 + if inner { shift[j] } else { 0.0 }) / n as f64
-            }));
-        });
-        for_each_cell(n, |[i, j, k]| {
-            let node = |i, j, k| NodeId::new((k * (n + 1) + j) * (n + 1) + i);
-            let layer = |k| {
-                let (right, back) = (i + 1, j + 1);
-                [
-                    node(i, j, k),
-                    node(right, j, k),
-                    node(right, back, k),
-                    node(i, back, k),
-                ]
-            };
-            let [[a, b, c, d], [e, f, g, h]] = [layer(k), layer(k + 1)];
-            elements.push([a, b, c, d, e, f, g, h]);
-        });
-        let mesh = Mesh {
-            positions,
-            elements,
-            node_sets: Sets::default(),
-            facet_sets: Sets::default(),
-            element_sets: Sets::default(),
+    /// The block with nodes disturbed by up to the fraction `irregularity` of a
+    /// mesh size; those on faces and edges of the cube stay on them.
+    pub(super) fn new(n: usize, irregularity: f64) -> Self {
+        let block = generate::Block {
+            divisions: [n; 3],
+            irregularity,
+            seed: n as u64,
+            ..generate::Block::default()
         };
+        let mesh = block.mesh().unwrap();
         let reference = reference_elements(&mesh).unwrap();
-        Self { mesh, reference, n }
+        Self { mesh, reference }
     }
 
     /// Whether an unknown belongs to a node on the surface of the cube.
     pub(super) fn on_boundary(&self, unknown: usize) -> bool {
-        let (node, m) = (unknown / 3, self.n + 1);
-        let place = [node % m, node / m % m, node / (m * m)];
-        place.iter().any(|&l| l == 0 || l == self.n)
+        let position = self.mesh.positions[unknown / 3];
+        position.iter().any(|&x| x == 0.0 || x == 1.0)
     }
 
     /// No force at all.
@@ -113,16 +87,6 @@ pub(super) fn scatter(nodes: &[NodeId], force: &[f64], tangent: &[f64], total: &
         total.0[global(row)] += force[row];
         for column in 0..force.len() {
             total.1[(global(row), global(column))] += tangent[force.len() * row + column];
-        }
-    }
-}
-
-fn for_each_cell(n: usize, mut visit: impl FnMut([usize; 3])) {
-    for k in 0..n {
-        for j in 0..n {
-            for i in 0..n {
-                visit([i, j, k]);
-            }
         }
     }
 }

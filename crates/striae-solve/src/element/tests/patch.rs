@@ -6,7 +6,6 @@ use crate::element::nodal_cauchy_stress;
 use crate::load;
 use crate::model::LoadKind;
 use nalgebra::Matrix3;
-use striae_mesh::{Face, NodeId};
 
 /// A stretch without rotation.
 fn stretch() -> Matrix3<f64> {
@@ -15,31 +14,27 @@ fn stretch() -> Matrix3<f64> {
 
 /// Forces of a load on the sides of the cube; `kind` is given a side's outward normal.
 fn surface_load(block: &Block, x: &[Vec3], kind: impl Fn(Vec3) -> LoadKind) -> Force {
-    let reference = &block.mesh.positions;
     let mut total = block.zero();
-    for corners in &block.mesh.elements {
-        for side in Face::CORNERS {
-            let nodes: [NodeId; 4] = side.map(|corner| corners[corner]);
-            let face = nodes.map(|node| reference[node.index()]);
-            let on = |j: usize, value: f64| face.iter().all(|x| x[j] == value);
-            if !(0..3).any(|j| on(j, 0.0) || on(j, 1.0)) {
-                continue;
-            }
-            let normal = (face[2] - face[0]).cross(&(face[3] - face[1])).normalize();
-            let current = nodes.map(|node| x[node.index()]);
-            let local = load::response(&kind(normal), &face, &current).unwrap();
-            scatter(&nodes, &local.force, &local.tangent, &mut total);
-        }
+    for face in block.mesh.boundary_faces() {
+        let nodes = block.mesh.face_nodes(face);
+        let reference = block.mesh.face_positions(face);
+        let current = nodes.map(|node| x[node.index()]);
+        let [a, b, c, d] = reference;
+        let normal = (c - a).cross(&(d - b)).normalize();
+        let local = load::response(&kind(normal), &reference, &current).unwrap();
+        scatter(&nodes, &local.force, &local.tangent, &mut total);
     }
     total
 }
 
-/// Six unknowns that hold the block: three at the origin, two at `(1, 0, 0)`, one at `(0, 1, 0)`.
-fn holding(block: &Block) -> impl Fn(usize) -> bool + use<> {
-    let n = block.n;
-    move |unknown| {
-        let (node, component) = (unknown / 3, unknown % 3);
-        node == 0 || (node == n && component > 0) || (node == n * (n + 1) && component == 2)
+/// The six unknowns that hold the block: three at the origin, two at `(1, 0, 0)`,
+/// one at `(0, 1, 0)`.
+fn holding(block: &Block) -> impl Fn(usize) -> bool + '_ {
+    |unknown| {
+        let (position, component) = (block.mesh.positions[unknown / 3], unknown % 3);
+        position == Vec3::zeros()
+            || (position == Vec3::x() && component > 0)
+            || (position == Vec3::y() && component == 2)
     }
 }
 
@@ -117,6 +112,28 @@ fn pressure_gives_uniform_compression() {
         holding(&block),
     );
     assert!(largest_difference(&x, &exact) < 1e-12);
+}
+
+#[test]
+fn a_linear_field_of_stress_is_recovered_exactly_at_the_nodes() {
+    // u = (x y, 0, 0)/10: e_xx = y/10, e_xy = x/20.
+    let block = Block::new(2, 0.0);
+    let positions = &block.mesh.positions;
+    let current: Vec<Vec3> = positions
+        .iter()
+        .map(|x| x + Vec3::x() * (x.x * x.y / 10.0))
+        .collect();
+    let LameConstants { lambda, shear } = linear_elastic().lame_constants();
+    let stress =
+        nodal_cauchy_stress(&block.mesh, &block.reference, &current, &linear_elastic()).unwrap();
+    for (x, sigma) in positions.iter().zip(stress) {
+        let (normal, across) = (lambda * x.y / 10.0, shear * x.x / 10.0);
+        let mut exact = Matrix3::identity() * normal;
+        exact[(0, 0)] += 2.0 * shear * x.y / 10.0;
+        exact[(0, 1)] = across;
+        exact[(1, 0)] = across;
+        assert!((sigma - exact).norm() < 1e-14);
+    }
 }
 
 /// The reference positions with the exact ones at the unknowns that hold the block.
