@@ -4,21 +4,21 @@
 
 mod deck;
 
-use deck::{changed, whole};
+use deck::{faulty, misread};
 
 #[test]
 fn syntax() {
-    changed(
+    misread(
         "syntax: unclosed text",
         &[(r#"title = "Two blocks""#, r#"title = "Two blocks"#)],
         &[r#"1:20: not valid TOML: invalid basic string, expected `"`"#],
     );
-    changed(
+    misread(
         "syntax: key without value",
         &[("fields_every = 2", "fields_every =")],
         &["42:15: not valid TOML: string values must be quoted, expected literal string"],
     );
-    changed(
+    misread(
         "syntax: key given twice",
         &[("fields_every = 2", "fields_every = 2\nfields_every = 3")],
         &["43:1: not valid TOML: duplicate key"],
@@ -27,7 +27,7 @@ fn syntax() {
 
 #[test]
 fn keys() {
-    changed(
+    misread(
         "missing title",
         &[(
             r#"title = "Two blocks"
@@ -36,12 +36,12 @@ fn keys() {
         )],
         &["1:1: missing key `title` in the deck; expected a text"],
     );
-    changed(
+    misread(
         "unknown key of the deck",
         &[("[output]", "[outputs]")],
         &["41:2: unknown key `outputs` in the deck; did you mean `output`?"],
     );
-    changed(
+    misread(
         "unknown key like no other",
         &[(
             "fields_every = 2",
@@ -50,22 +50,22 @@ colour = "red""#,
         )],
         &["43:1: unknown key `colour` in [output]"],
     );
-    changed(
+    misread(
         "misspelled required key is not also missing",
         &[("divisions = [4, 4, 2]", "divsions = [4, 4, 2]")],
         &["10:51: unknown key `divsions` in [[body]] mesh; did you mean `divisions`?"],
     );
-    changed(
+    misread(
         "misspelled key of a list element",
         &[(r#"components = ["z"]"#, r#"component = ["z"]"#)],
         &["38:46: unknown key `component` in [[step]] release; did you mean `components`?"],
     );
-    changed(
+    misread(
         "key of another law",
         &[("mu = 0.3", "mu = 0.3, c_mag = 0.1")],
         &["22:41: unknown key `c_mag` in [[pair]] friction"],
     );
-    changed(
+    misread(
         "missing material law",
         &[(
             r#"law = "neo-hookean"
@@ -76,19 +76,19 @@ colour = "red""#,
             "2:1: missing key `law` in [[material]]; expected one of `neo-hookean`, `linear-elastic`",
         ],
     );
-    changed(
+    misread(
         "half of the elastic constants",
         &[("poissons_ratio = 0.3\n", "")],
         &[
             "2:1: missing key `poissons_ratio` in [[material]]; expected a number greater than -1 and less than 0.5",
         ],
     );
-    changed(
+    misread(
         "missing coefficient of friction",
         &[(r#"law = "coulomb", mu = 0.3"#, r#"law = "coulomb""#)],
         &["22:12: missing key `mu` in [[pair]] friction; expected a number of at least 0"],
     );
-    changed(
+    misread(
         "too many elastic constants",
         &[(
             "poissons_ratio = 0.3",
@@ -98,14 +98,14 @@ colour = "red""#,
             "7:1: `youngs_modulus` and `shear_modulus` exclude each other in [[material]]; give either `youngs_modulus` and `poissons_ratio` or `lambda` and `shear_modulus`",
         ],
     );
-    changed(
+    misread(
         "no elastic constants",
         &[("youngs_modulus = 1e6\npoissons_ratio = 0.3\n", "")],
         &[
             "2:1: [[material]] needs either `youngs_modulus` and `poissons_ratio` or `lambda` and `shear_modulus`",
         ],
     );
-    changed(
+    misread(
         "file and generator",
         &[(
             r#"generator = "block", size"#,
@@ -115,7 +115,7 @@ colour = "red""#,
             "10:29: `file` and `generator` exclude each other in [[body]] mesh; give either `file` or `generator`",
         ],
     );
-    changed(
+    misread(
         "neither file nor generator",
         &[(
             r#"mesh = { generator = "block", size = [1, 1, 0.5], divisions = [4, 4, 2] }"#,
@@ -123,7 +123,7 @@ colour = "red""#,
         )],
         &["10:8: [[body]] mesh needs either `file` or `generator`"],
     );
-    changed(
+    misread(
         "side with body and rigid surface",
         &[(
             r#"b = { body = "upper", facets = "zmin" }"#,
@@ -133,12 +133,12 @@ colour = "red""#,
             "21:40: `body` and `rigid` exclude each other in [[pair]] b; give either `body` and `facets` or `rigid`",
         ],
     );
-    changed(
+    misread(
         "rigid surface without a shape",
         &[("plane = { point = [0, 0, 0], normal = [0, 0, 1] }\n", "")],
         &["15:1: [[rigid]] needs either `plane` or `mesh`"],
     );
-    whole(
+    faulty(
         "empty deck",
         "",
         &[
@@ -147,31 +147,36 @@ colour = "red""#,
             "1:1: the deck has no [[step]]; there is nothing to do",
         ],
     );
-    whole(
-        "no body",
-        "title = \"Nothing\"\n[[step]]\nname = \"wait\"\n",
-        &["1:1: the deck has no [[body]]; there is nothing to simulate"],
-    );
-    whole(
-        "no step",
-        "title = \"t\"\n[[material]]\nname = \"m\"\nlaw = \"linear-elastic\"\nlambda = 1\nshear_modulus = 1\n[[body]]\nname = \"b\"\nmaterial = \"m\"\nmesh = { generator = \"block\", size = [1, 1, 1], divisions = [1, 1, 1] }\n",
-        &["1:1: the deck has no [[step]]; there is nothing to do"],
+    misread(
+        "several faults at once",
+        &[
+            ("poissons_ratio = 0.3", "poissons_ratio = 3"),
+            ("divisions = [4, 4, 2]", "divsions = [4, 4, 2]"),
+            (r#"facets = "zmin""#, r#"facets = "botom""#),
+            (r#"pair = "interface""#, r#"pair = "face""#),
+        ],
+        &[
+            "6:18: `poissons_ratio` in [[material]] must be a number greater than -1 and less than 0.5, but is 3",
+            "10:51: unknown key `divsions` in [[body]] mesh; did you mean `divisions`?",
+            "21:32: body `upper` has no facet set `botom`; it has `xmax`, `xmin`, `ymax`, `ymin`, `zmax`, `zmin`",
+            "40:22: no pair is named `face`; there is `interface`",
+        ],
     );
 }
 
 #[test]
 fn types() {
-    changed(
+    misread(
         "empty title",
         &[(r#""Two blocks""#, r#""  ""#)],
         &[r#"1:9: `title` must be a text, but is the text "  ""#],
     );
-    changed(
+    misread(
         "one table where a list is expected",
         &[("[[rigid]]", "[rigid]")],
         &["15:1: `rigid` must be a list of tables, but is a table; begin it with [[rigid]]"],
     );
-    changed(
+    misread(
         "one condition where a list is expected",
         &[(
             r#"release = [{ body = "upper", nodes = "zmax", components = ["z"] }]"#,
@@ -181,33 +186,33 @@ fn types() {
             "38:11: `release` in [[step]] must be a list of tables, but is a table; put it into brackets, [{ ... }]",
         ],
     );
-    changed(
+    misread(
         "list of tables where one is expected",
         &[("[output]", "[[output]]")],
         &["41:1: `output` must be a table, but is a list of 1"],
     );
-    changed(
+    misread(
         "text where a number is expected",
         &[("youngs_modulus = 1e6", r#"youngs_modulus = "1e6""#)],
         &[
             r#"5:18: `youngs_modulus` in [[material]] must be a number greater than 0, but is the text "1e6""#,
         ],
     );
-    changed(
+    misread(
         "friction law that is no text",
         &[(r#"law = "coulomb", mu = 0.3"#, "law = 1")],
         &[
             "22:20: `law` in [[pair]] friction must be one of `frictionless`, `coulomb`, `two-textures`, `orthotropic`, `nap`, but is 1",
         ],
     );
-    changed(
+    misread(
         "divisions that are not whole",
         &[("divisions = [4, 4, 2]", "divisions = [4, 4.5, 2]")],
         &[
             "10:67: an element of `divisions` in [[body]] mesh must be a whole number of at least 1, but is 4.5",
         ],
     );
-    changed(
+    misread(
         "too few components",
         &[(
             "size = [1, 1, 0.5], divisions = [4",
@@ -217,7 +222,7 @@ fn types() {
             "10:38: `size` in [[body]] mesh must be a list of 3 numbers greater than 0, but is a list of 2",
         ],
     );
-    changed(
+    misread(
         "increments of the wrong type",
         &[(
             "increments = { initial = 0.1, smallest = 1e-3, largest = 0.2 }",
@@ -231,48 +236,48 @@ fn types() {
 
 #[test]
 fn ranges() {
-    changed(
+    misread(
         "not a number",
         &[("mu = 0.3", "mu = nan")],
         &["22:36: `mu` in [[pair]] friction must be a number of at least 0, but is nan"],
     );
-    changed(
+    misread(
         "infinite number",
         &[("value = 3", "value = inf")],
         &["35:56: `value` in [[step]] pressure must be a number, but is inf"],
     );
-    changed(
+    misread(
         "Young's modulus of zero",
         &[("youngs_modulus = 1e6", "youngs_modulus = 0")],
         &["5:18: `youngs_modulus` in [[material]] must be a number greater than 0, but is 0"],
     );
-    changed(
+    misread(
         "Poisson's ratio of one half",
         &[("poissons_ratio = 0.3", "poissons_ratio = 0.5")],
         &[
             "6:18: `poissons_ratio` in [[material]] must be a number greater than -1 and less than 0.5, but is 0.5",
         ],
     );
-    changed(
+    misread(
         "Poisson's ratio of minus one",
         &[("poissons_ratio = 0.3", "poissons_ratio = -1")],
         &[
             "6:18: `poissons_ratio` in [[material]] must be a number greater than -1 and less than 0.5, but is -1",
         ],
     );
-    changed(
+    misread(
         "negative coefficient of friction",
         &[("mu = 0.3", "mu = -0.3")],
         &["22:36: `mu` in [[pair]] friction must be a number of at least 0, but is -0.3"],
     );
-    changed(
+    misread(
         "no divisions",
         &[("divisions = [4, 4, 2]", "divisions = [4, 0, 2]")],
         &[
             "10:67: an element of `divisions` in [[body]] mesh must be a whole number of at least 1, but is 0",
         ],
     );
-    changed(
+    misread(
         "negative size",
         &[(
             "size = [1, 1, 0.5], divisions = [4",
@@ -282,12 +287,12 @@ fn ranges() {
             "10:42: an element of `size` in [[body]] mesh must be a number greater than 0, but is -1",
         ],
     );
-    changed(
+    misread(
         "duration of zero",
         &[("duration = 2.0", "duration = 0")],
         &["28:12: `duration` in [[step]] must be a number greater than 0, but is 0"],
     );
-    changed(
+    misread(
         "no increments",
         &[(
             "increments = { initial = 0.1, smallest = 1e-3, largest = 0.2 }",
@@ -295,24 +300,24 @@ fn ranges() {
         )],
         &["29:14: `increments` in [[step]] must be a whole number of at least 1, but is 0"],
     );
-    changed(
+    misread(
         "increment longer than the step",
         &[("largest = 0.2", "largest = 1.5")],
         &[
             "29:58: `largest` in [[step]] increments must be a number greater than 0 and of at most 1, but is 1.5",
         ],
     );
-    changed(
+    misread(
         "tolerance of zero",
         &[("tolerance = 1e-9", "tolerance = 0")],
         &["45:13: `tolerance` in [solver] must be a number greater than 0, but is 0"],
     );
-    changed(
+    misread(
         "no iterations",
         &[("largest_iterations = 15", "largest_iterations = 0")],
         &["46:22: `largest_iterations` in [solver] must be a whole number of at least 1, but is 0"],
     );
-    changed(
+    misread(
         "negative number of increments between files",
         &[("fields_every = 2", "fields_every = -2")],
         &["42:16: `fields_every` in [output] must be a whole number of at least 0, but is -2"],
@@ -321,14 +326,14 @@ fn ranges() {
 
 #[test]
 fn words() {
-    changed(
+    misread(
         "unknown material law",
         &[(r#""neo-hookean""#, r#""neohookean""#)],
         &[
             "4:7: `law` in [[material]] cannot be `neohookean`; expected one of `neo-hookean`, `linear-elastic`; did you mean `neo-hookean`?",
         ],
     );
-    changed(
+    misread(
         "unknown generator",
         &[(
             r#"generator = "block", size"#,
@@ -338,7 +343,7 @@ fn words() {
             "10:22: `generator` in [[body]] mesh cannot be `blck`; expected one of `block`, `capped-block`, `half-cylinder`, `annulus`; did you mean `block`?",
         ],
     );
-    changed(
+    misread(
         "unknown balance",
         &[(
             "mu = 0.3 }",
@@ -349,14 +354,14 @@ balance = "resultant""#,
             "23:11: `balance` in [[pair]] cannot be `resultant`; expected one of `resultants`, `none`; did you mean `resultants`?",
         ],
     );
-    changed(
+    misread(
         "unknown component",
         &[(r#"components = ["z"]"#, r#"components = ["w"]"#)],
         &[
             "38:60: an element of `components` in [[step]] release cannot be `w`; expected one of `x`, `y`, `z`",
         ],
     );
-    changed(
+    misread(
         "unknown backend",
         &[(r#""faer""#, r#""pardiso""#)],
         &[

@@ -281,10 +281,9 @@ pub(crate) fn combined(outer: &[Alternative], inner: &[Alternative]) -> Vec<Alte
     let mut all = Vec::new();
     for one in outer {
         for other in inner {
-            let doc = if inner.len() == 1 {
-                one.doc.clone()
-            } else {
-                other.doc.clone()
+            let doc = match inner {
+                [_] => one.doc.clone(),
+                _ => format!("{} {}", one.doc, other.doc),
             };
             let keys = one.keys.iter().chain(&other.keys).cloned().collect();
             all.push(Alternative { doc, keys });

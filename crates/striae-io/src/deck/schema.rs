@@ -18,25 +18,30 @@ pub fn json_schema() -> Value {
 /// The reference of all keys in Markdown.
 pub fn reference() -> String {
     let mut text = String::from("# Reference of the deck\n");
-    let alternatives = Simulation::alternatives();
-    let mut sections = Vec::new();
-    for one in &alternatives {
-        text += &format!("\n{}\n", one.doc);
-        text += &key_table(one, "", &mut sections);
-    }
-    while let Some((title, form)) = (!sections.is_empty()).then(|| sections.remove(0)) {
+    let mut waiting: Vec<Section> = vec![(String::new(), Simulation::alternatives())];
+    let mut written: Vec<Section> = Vec::new();
+    while !waiting.is_empty() {
+        let (title, alternatives) = waiting.remove(0);
+        if !title.is_empty() {
+            text += &format!("\n## `{title}`\n");
+        }
+        if let Some((twin, _)) = written.iter().find(|(_, known)| *known == alternatives) {
+            text += &format!("\nAs `{twin}`.\n");
+            continue;
+        }
         let mut inner = Vec::new();
-        text += &format!("\n## `{title}`\n");
-        for one in &form {
+        for one in &alternatives {
             text += &format!("\n{}\n", one.doc);
             text += &key_table(one, &title, &mut inner);
         }
-        inner.append(&mut sections);
-        sections = inner;
+        written.push((title, alternatives));
+        inner.append(&mut waiting);
+        waiting = inner;
     }
     text
 }
 
+/// Title and contents of a section of the reference.
 type Section = (String, Vec<Alternative>);
 
 fn key_table(alternative: &Alternative, parent: &str, sections: &mut Vec<Section>) -> String {
@@ -104,7 +109,7 @@ fn meaning(key: &Key) -> String {
 
 fn form_schema(form: &Form) -> Value {
     match form {
-        Form::Text => json!({ "type": "string", "minLength": 1 }),
+        Form::Text => json!({ "type": "string", "pattern": r"\S" }),
         Form::Number(bounds) => {
             let mut schema = json!({ "type": "number" });
             for bound in *bounds {

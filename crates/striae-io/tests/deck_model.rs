@@ -1,0 +1,258 @@
+//! A good deck is lowered to the model it describes.
+
+mod deck;
+
+use deck::BASE;
+use std::{num::NonZeroUsize, path::Path};
+use striae_io::deck::{Deck, FieldOutput, parse, read};
+use striae_law::{
+    bulk::{LameConstants, Material},
+    friction::Friction,
+};
+use striae_mesh::{NodeId, Vec3, generate::Block};
+use striae_solve::model::{
+    Backend, Balance, BodyId, Curve, Increments, LoadExtent, LoadKind, PairId, RigidId, RigidShape,
+    Side, Solver,
+};
+
+fn lowered(text: &str) -> Deck {
+    parse(text, "deck.toml", Path::new("")).unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+#[test]
+fn bodies_have_their_meshes_and_materials() {
+    let model = lowered(BASE).model;
+    assert_eq!(model.title, "Two blocks");
+    let constants = LameConstants::from_youngs_modulus(1e6, 0.3).unwrap();
+    let size = Vec3::new(1.0, 1.0, 0.5);
+    let lower = Block {
+        size,
+        divisions: [4, 4, 2],
+        ..Block::default()
+    };
+    let upper = Block {
+        origin: Vec3::new(0.0, 0.0, 0.5),
+        size,
+        divisions: [3, 3, 2],
+        ..Block::default()
+    };
+    for (body, (name, block)) in model
+        .bodies
+        .iter()
+        .zip([("lower", lower), ("upper", upper)])
+    {
+        assert_eq!(body.name, name);
+        assert_eq!(body.mesh, block.mesh().unwrap());
+        assert_eq!(body.material, Material::neo_hookean(constants));
+    }
+    let RigidShape::Plane { point, normal } = &model.rigid_surfaces[0].shape else {
+        panic!("a plane")
+    };
+    assert_eq!(
+        (model.rigid_surfaces[0].name.as_str(), *point, *normal),
+        ("floor", Vec3::zeros(), Vec3::z())
+    );
+}
+
+#[test]
+fn pairs_name_ids_and_faces() {
+    let model = lowered(BASE).model;
+    let pair = &model.pairs[0];
+    for (side, (id, set)) in [&pair.a, &pair.b]
+        .into_iter()
+        .zip([(0, "zmax"), (1, "zmin")])
+    {
+        let Side::Deformable { body, faces } = side else {
+            panic!("deformable")
+        };
+        assert_eq!(*body, BodyId(id));
+        assert_eq!(faces, model.bodies[id].mesh.facet_sets.get(set).unwrap());
+    }
+    assert_eq!(pair.friction, Friction::coulomb(0.3).unwrap());
+    assert_eq!(
+        (pair.balance, pair.search_distance),
+        (Balance::Resultants, None)
+    );
+}
+
+#[test]
+fn a_rigid_side_becomes_the_second_one() {
+    let text = BASE.replace(
+        r#"a = { body = "lower", facets = "zmax" }"#,
+        r#"a = { rigid = "floor" }"#,
+    );
+    let text = text.replace(
+        "mu = 0.3 }",
+        "mu = 0.3 }\nbalance = \"none\"\nsearch_distance = 0.1",
+    );
+    let pair = &lowered(&text).model.pairs[0];
+    assert!(matches!(
+        pair.a,
+        Side::Deformable {
+            body: BodyId(1),
+            ..
+        }
+    ));
+    assert!(matches!(pair.b, Side::Rigid(RigidId(0))));
+    assert_eq!(
+        (pair.balance, pair.search_distance),
+        (Balance::None, Some(0.1))
+    );
+}
+
+#[test]
+fn steps_state_what_they_change() {
+    let model = lowered(BASE).model;
+    let [press, slide] = &model.steps[..] else {
+        panic!("two steps")
+    };
+    assert_eq!((press.name.as_str(), press.duration), ("press", 2.0));
+    assert_eq!(
+        press.increments,
+        Increments {
+            initial: 0.1,
+            smallest: 1e-3,
+            largest: 0.2
+        }
+    );
+    let [bottom, top] = &press.displacements[..] else {
+        panic!("two conditions")
+    };
+    assert_eq!(
+        (bottom.set.as_str(), bottom.body, bottom.components),
+        ("zmin", BodyId(0), [Some(0.0); 3])
+    );
+    assert_eq!(bottom.curve, Curve::Ramp);
+    assert_eq!(
+        (top.body, top.components),
+        (BodyId(1), [None, None, Some(-0.02)])
+    );
+    assert_eq!(
+        top.curve,
+        Curve::Table(vec![(0.0, 0.0), (0.5, 1.0), (1.0, 0.0)])
+    );
+    let expected: Vec<NodeId> = model.bodies[1].mesh.node_sets.get("zmax").unwrap().to_vec();
+    assert_eq!(top.nodes, expected);
+    let [traction, pressure] = &press.loads[..] else {
+        panic!("two loads")
+    };
+    assert_eq!(traction.kind, LoadKind::FollowerTraction(Vec3::x()));
+    assert_eq!(
+        (traction.body, traction.extent),
+        (BodyId(1), LoadExtent::Whole)
+    );
+    assert_eq!(
+        (pressure.kind, pressure.extent),
+        (LoadKind::Pressure(3.0), LoadExtent::Exposed)
+    );
+
+    assert_eq!(slide.duration, 1.0);
+    assert_eq!(
+        slide.increments,
+        Increments {
+            initial: 0.1,
+            smallest: 1e-4,
+            largest: 0.1
+        }
+    );
+    assert_eq!(slide.releases[0].components, [false, false, true]);
+    assert_eq!(
+        slide.rigid_motions[0].displacement,
+        Vec3::new(0.0, 0.0, 0.1)
+    );
+    assert_eq!(slide.frictions, [(PairId(0), Friction::frictionless())]);
+}
+
+#[test]
+fn settings_have_defaults() {
+    let deck = lowered(BASE);
+    let stated = Solver {
+        backend: Backend::Faer,
+        tolerance: 1e-9,
+        largest_iterations: 15,
+    };
+    assert_eq!(deck.model.solver, stated);
+    assert_eq!(
+        deck.output.fields,
+        FieldOutput::Every(NonZeroUsize::new(2).unwrap())
+    );
+    let bare = lowered(&BASE[..BASE.find("[output]").unwrap()]);
+    let default = Solver {
+        backend: Backend::Multifrontal,
+        tolerance: 1e-10,
+        largest_iterations: 20,
+    };
+    assert_eq!(bare.model.solver, default);
+    assert_eq!(
+        bare.output.fields,
+        FieldOutput::Every(NonZeroUsize::new(1).unwrap())
+    );
+    let last = lowered(&BASE.replace("fields_every = 2", "fields_every = 0"));
+    assert_eq!(last.output.fields, FieldOutput::Last);
+}
+
+#[test]
+fn friction_takes_decay_and_cap() {
+    let law = r#"{ law = "nap", mu_forward = 0.2, mu_backward = 0.3, mu_lateral = 0.25, shear_cap = 5, decay = { kinetic_over_static = 0.8, rate = 2 } }"#;
+    let text = BASE.replace(r#"{ law = "coulomb", mu = 0.3 }"#, law);
+    let expected = Friction::nap(0.2, 0.3, 0.25)
+        .unwrap()
+        .with_decay(0.8, 2.0)
+        .unwrap()
+        .with_shear_cap(5.0)
+        .unwrap();
+    assert_eq!(lowered(&text).model.pairs[0].friction, expected);
+}
+
+#[test]
+fn every_generator_makes_its_mesh() {
+    for mesh in [
+        r#"generator = "block", size = [1, 2, 3], divisions = [2, 3, 4], grading = { x = { one_sided = 3 }, y = { symmetric = 2 }, z = { lengths = [1, 2, 2, 1] } }, rotation = { axis = [0, 0, 2], degrees = 30, about = [0, 0, 0] }, mesh_rotation = 10, bottom_slopes = [0.1, 0], top_slopes = [0, 0.1], irregularity = 0.1, seed = 4"#,
+        r#"generator = "capped-block", size = [10, 10], height = 6.5, radius = 12, element_size = 1.6, apex = [0, 0, 1], fine_half_width = 2, fine_depth = 1, growth = 1.5"#,
+        r#"generator = "half-cylinder", radius = 8, thickness = 1, element_size = 1, half = "upper", layers = 2"#,
+        r#"generator = "annulus", inner_radius = 0.2, outer_radius = 0.5, width = 0.4, divisions = [2, 24, 2], refinement = { half_angle = 20, ratio = 3 }"#,
+    ] {
+        let deck = format!(
+            "title = \"t\"\n[[material]]\nname = \"m\"\nlaw = \"linear-elastic\"\nlambda = 1\nshear_modulus = 1\n\
+             [[body]]\nname = \"b\"\nmaterial = \"m\"\nmesh = {{ {mesh} }}\n\
+             [[step]]\nname = \"s\"\ndisplacement = [{{ body = \"b\", nodes = \"ymin\", x = 0, y = 0, z = 0 }}]\n"
+        );
+        assert!(lowered(&deck).model.bodies[0].mesh.elements.len() >= 24);
+    }
+}
+
+#[test]
+fn paths_are_relative_to_the_deck() {
+    let folder = tempfile::tempdir().unwrap();
+    let triangle = "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid s\n";
+    std::fs::write(folder.path().join("road.stl"), triangle).unwrap();
+    let text = BASE.replace(
+        "plane = { point = [0, 0, 0], normal = [0, 0, 1] }",
+        r#"mesh = { file = "road.stl" }"#,
+    );
+    let path = folder.path().join("deck.toml");
+    std::fs::write(&path, text).unwrap();
+    let deck = read(&path).unwrap_or_else(|faults| panic!("{faults}"));
+    let RigidShape::Facets { positions, facets } = &deck.model.rigid_surfaces[0].shape else {
+        panic!("facets")
+    };
+    assert_eq!((positions.len(), facets.len()), (3, 1));
+
+    let absent = read(&folder.path().join("absent.toml")).unwrap_err();
+    assert_eq!(absent.iter().len(), 1);
+    assert_eq!(absent.iter().next().unwrap().position, None);
+}
+
+#[test]
+fn faults_are_shown_with_the_line_underlined() {
+    let text = "title = \"t\u{e9}st\"\n[solver]\n\ttolerance = \"small\" # why\n";
+    let shown = parse(text, "a.toml", Path::new(""))
+        .unwrap_err()
+        .to_string();
+    let expected = "\
+a.toml:3:14: `tolerance` in [solver] must be a number greater than 0, but is the text \"small\"
+    3 |  tolerance = \"small\" # why
+      |              ^^^^^^^
+3 faults";
+    assert!(shown.ends_with(expected), "{shown}");
+}
