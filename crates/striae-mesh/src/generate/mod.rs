@@ -11,6 +11,21 @@
 //! set and element set `all` hold everything. Every mesh has passed
 //! [`Mesh::check`](crate::Mesh::check) and
 //! [`Mesh::check_shape`](crate::Mesh::check_shape). Angles are in degrees.
+//!
+//! ```
+//! use striae_mesh::{MeshError, Vec3, generate::Block};
+//!
+//! let mesh = Block {
+//!     size: Vec3::new(2.0, 1.0, 1.0),
+//!     divisions: [4, 2, 2],
+//!     top_slopes: [0.1, 0.0],
+//!     ..Block::default()
+//! }
+//! .mesh()?;
+//! assert_eq!(mesh.facet_sets.get("zmax").map(<[_]>::len), Some(8));
+//! assert!((mesh.volume() - 2.0).abs() < 1e-14);
+//! # Ok::<(), MeshError>(())
+//! ```
 
 mod annulus;
 mod block;
@@ -18,6 +33,7 @@ mod capped_block;
 mod grading;
 mod grid;
 mod half_cylinder;
+mod half_disc;
 
 pub use annulus::{Annulus, Refinement};
 pub use block::{Block, Pivot, Rotation};

@@ -1,0 +1,35 @@
+//! Parameters that no mesh can be made of.
+
+use striae_mesh::MeshError;
+use striae_mesh::generate::{Annulus, Block, CappedBlock, HalfCylinder};
+
+#[test]
+fn meshes_beyond_all_bounds_are_refused_at_once() {
+    let block = Block {
+        divisions: [usize::MAX; 3],
+        ..Block::default()
+    };
+    assert!(matches!(block.mesh(), Err(MeshError::TooLarge { .. })));
+    let ring = Annulus {
+        divisions: [1, 1 << 40, 1],
+        ..Annulus::default()
+    };
+    assert!(matches!(ring.mesh(), Err(MeshError::TooLarge { .. })));
+    let slice = HalfCylinder {
+        layers: 1 << 40,
+        ..HalfCylinder::default()
+    };
+    assert!(matches!(slice.mesh(), Err(MeshError::TooLarge { .. })));
+    for element_size in [1e-12, f64::NAN] {
+        let cap = CappedBlock {
+            element_size,
+            ..CappedBlock::default()
+        };
+        assert!(matches!(cap.mesh(), Err(MeshError::Parameter { .. })));
+    }
+    let endless = CappedBlock {
+        height: f64::INFINITY,
+        ..CappedBlock::default()
+    };
+    assert!(endless.mesh().is_err());
+}
