@@ -1,12 +1,15 @@
 //! Arrows: one length for all vectors of a unit, and the key that explains it.
 
+use super::color::Rgb;
 use super::description::{Content, Panel};
 use super::shape::{Place, Shape};
-use super::color::Rgb;
 use super::ticks::round_below;
 
-/// Length of the longest arrow over the mean distance of their tails.
-const REACH: f64 = 1.6;
+/// Length of the longest arrow over the mean distance of the tails.
+const REACH: f64 = 1.25;
+
+/// Least and largest length of the longest arrow on the page.
+const LENGTHS: std::ops::Range<f64> = 8.0..36.0;
 const WIDTH: f64 = 0.7;
 
 /// The lengths of arrows with one unit.
@@ -19,29 +22,68 @@ pub(super) struct ArrowScale {
     pub key: f64,
 }
 
-/// The scale of every unit in a panel, on a page with `area` to draw on.
-pub(super) fn scales(panel: &Panel, area: f64) -> Vec<ArrowScale> {
-    let mut largest: Vec<(String, f64, usize)> = Vec::new();
+/// The scale of every unit in a panel where a unit of the axes is `unit_length` long.
+pub(super) fn scales(panel: &Panel, unit_length: f64) -> Vec<ArrowScale> {
+    let mut groups: Vec<(&str, f64, f64)> = Vec::new();
     for series in &panel.series {
-        if let Content::Arrows { vectors, unit, .. } = &series.content {
-            let norms = vectors.iter().map(|v| v[0].hypot(v[1])).filter(|n| n.is_finite());
-            let longest = norms.fold(0.0, f64::max);
-            match largest.iter_mut().find(|entry| entry.0 == *unit) {
-                Some(entry) => *entry = (unit.clone(), entry.1.max(longest), entry.2.max(vectors.len())),
-                None => largest.push((unit.clone(), longest, vectors.len())),
+        if let Content::Arrows {
+            origins,
+            vectors,
+            unit,
+        } = &series.content
+        {
+            let (longest, reach) = (longest(vectors), reach(origins));
+            match groups.iter_mut().find(|group| group.0 == unit) {
+                Some(group) => *group = (unit, group.1.max(longest), group.2.min(reach)),
+                None => groups.push((unit, longest, reach)),
             }
         }
     }
-    let scale = |(unit, longest, count): (String, f64, usize)| {
-        let spacing = (area / count.max(1) as f64).sqrt();
-        let reach = (REACH * spacing).clamp(8.0, 42.0);
+    let scale = |(unit, longest, reach): (&str, f64, f64)| {
+        let length = (reach * unit_length).clamp(LENGTHS.start, LENGTHS.end);
+        let moving = longest > 0.0;
         ArrowScale {
-            unit,
-            length: if longest > 0.0 { reach / longest } else { 0.0 },
-            key: if longest > 0.0 { round_below(longest) } else { 0.0 },
+            unit: unit.to_owned(),
+            length: if moving { length / longest } else { 0.0 },
+            key: if moving { round_below(longest) } else { 0.0 },
         }
     };
-    largest.into_iter().map(scale).collect()
+    groups.into_iter().map(scale).collect()
+}
+
+/// Tails, and about where the heads will be, in units of the axes.
+pub(super) fn ends(origins: &[[f64; 2]], vectors: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let (longest, reach) = (longest(vectors), reach(origins));
+    let head = |(origin, vector): (&[f64; 2], &[f64; 2])| {
+        [0, 1].map(|axis| origin[axis] + vector[axis] / longest * reach)
+    };
+    let heads = origins.iter().zip(vectors).map(head);
+    origins.iter().copied().chain(heads).collect()
+}
+
+fn longest(vectors: &[[f64; 2]]) -> f64 {
+    let norms = vectors
+        .iter()
+        .map(|v| v[0].hypot(v[1]))
+        .filter(|norm| norm.is_finite());
+    norms.fold(0.0, f64::max)
+}
+
+/// Length of the longest arrow, in units of the axes.
+fn reach(origins: &[[f64; 2]]) -> f64 {
+    let span = |axis: usize| {
+        let tails = || {
+            origins
+                .iter()
+                .map(|origin| origin[axis])
+                .filter(|c| c.is_finite())
+        };
+        tails().fold(f64::NEG_INFINITY, f64::max) - tails().fold(f64::INFINITY, f64::min)
+    };
+    let [x, y] = [span(0), span(1)];
+    let count = origins.len().max(1) as f64;
+    let area_each = (x * y / count).sqrt();
+    REACH * area_each.max(x.max(y) / count)
 }
 
 /// An arrow from `tail` along `reach`, both on the page.
@@ -50,7 +92,10 @@ pub(super) fn arrow(tail: Place, reach: Place, color: Rgb) -> Vec<Shape> {
     if length < 0.3 {
         let r = 0.5;
         let places = [[-r, -r], [r, -r], [r, r], [-r, r]].map(|d| [tail[0] + d[0], tail[1] + d[1]]);
-        return vec![Shape::Fill { places: places.into(), color }];
+        return vec![Shape::Fill {
+            places: places.into(),
+            color,
+        }];
     }
     let along = reach.map(|c| c / length);
     let head = (0.42 * length).min(4.2);
@@ -68,7 +113,11 @@ pub(super) fn arrow(tail: Place, reach: Place, color: Rgb) -> Vec<Shape> {
             color,
         },
         Shape::Fill {
-            places: vec![at(length, 0.0), at(neck, 0.36 * head), at(neck, -0.36 * head)],
+            places: vec![
+                at(length, 0.0),
+                at(neck, 0.36 * head),
+                at(neck, -0.36 * head),
+            ],
             color,
         },
     ]

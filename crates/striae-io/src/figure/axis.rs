@@ -69,9 +69,13 @@ impl Axis {
     fn checked(&self, first: f64, last: f64) -> Result<(f64, f64), String> {
         let label = &self.label;
         if !(first.is_finite() && last.is_finite()) || first == last {
-            Err(format!("axis `{label}` cannot reach from {first} to {last}"))
+            Err(format!(
+                "axis `{label}` cannot reach from {first} to {last}"
+            ))
         } else if self.scale == Scale::Logarithmic && (first <= 0.0 || last <= 0.0) {
-            Err(format!("logarithmic axis `{label}` cannot reach from {first} to {last}"))
+            Err(format!(
+                "logarithmic axis `{label}` cannot reach from {first} to {last}"
+            ))
         } else {
             Ok((first, last))
         }
@@ -98,7 +102,14 @@ impl Axis {
                     (0.5 * high.abs()).max(1e-12)
                 };
                 let first = if low == 0.0 { 0.0 } else { low - room };
-                (first, if high == 0.0 { 0.0_f64.max(first + span) } else { high + room })
+                (
+                    first,
+                    if high == 0.0 {
+                        0.0_f64.max(first + span)
+                    } else {
+                        high + room
+                    },
+                )
             }
         }
     }

@@ -3,7 +3,10 @@
 //! Source: M. Okabe, K. Ito, "Color universal design" (2008),
 //! <https://jfly.uni-koeln.de/color/>.
 
-use plotters::style::{RGBColor, colors::colormaps::{ColorMap, ViridisRGB}};
+use plotters::style::{
+    RGBColor,
+    colors::colormaps::{ColorMap, ViridisRGB},
+};
 
 /// Colour of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,6 +61,7 @@ impl Color {
 
 /// Viridis at `fraction` of the bar, 0 to 1.
 pub(super) fn viridis(fraction: f64) -> Rgb {
-    let RGBColor(red, green, blue) = ViridisRGB.get_color_normalized(fraction.clamp(0.0, 1.0), 0.0, 1.0);
+    let RGBColor(red, green, blue) =
+        ViridisRGB.get_color_normalized(fraction.clamp(0.0, 1.0), 0.0, 1.0);
     (red, green, blue)
 }

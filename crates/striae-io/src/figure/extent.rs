@@ -4,9 +4,10 @@ use super::arrows::{self, ArrowScale};
 use super::axis::Mapping;
 use super::description::{Aspect, Axis, Content, Frame, Panel, Scale};
 use super::font::{self, DIGIT_HEIGHT};
-use super::frame::{self, BOTTOM_ROOM, LABEL, Margins, POLAR_ROOM, SPACING, TICK_LABEL};
+use super::frame::{self, BOTTOM_ROOM, LABEL, Margins, SPACING, TICK_LABEL};
 use super::legend;
 use super::panel::{Coordinates, bar_mapping, layers};
+use super::polar;
 use super::shape::{Anchor, Rectangle, Shape};
 
 /// Height of a title.
@@ -26,7 +27,12 @@ pub(super) struct Extent<'a> {
 impl<'a> Extent<'a> {
     /// The limits of a panel; the error is a sentence.
     pub fn of(panel: &'a Panel) -> Result<Self, String> {
-        let points = |axis: usize| panel.series.iter().flat_map(move |s| s.content.coordinates(axis));
+        let points = |axis: usize| {
+            panel
+                .series
+                .iter()
+                .flat_map(move |s| s.content.coordinates(axis))
+        };
         let limits = match &panel.frame {
             Frame::Cartesian { x, y, .. } => [x.limits(points(0))?, y.limits(points(1))?],
             Frame::Polar { radius } => {
@@ -36,8 +42,14 @@ impl<'a> Extent<'a> {
         };
         let mut bar = None;
         for series in &panel.series {
-            series.content.check(&panel.frame).map_err(|cause| format!("`{}`: {cause}", series.name))?;
-            if let Content::Facets { values, bar: axis, .. } = &series.content {
+            series
+                .content
+                .check(&panel.frame)
+                .map_err(|cause| format!("`{}`: {cause}", series.name))?;
+            if let Content::Facets {
+                values, bar: axis, ..
+            } = &series.content
+            {
                 bar = Some((axis, axis.bar_limits(values)?));
             }
         }
@@ -49,13 +61,22 @@ impl<'a> Extent<'a> {
         let [x, y] = self.limits.map(|(first, last)| (last - first).abs());
         match &self.panel.frame {
             Frame::Polar { .. } => width,
-            Frame::Cartesian { aspect: Aspect::Equal, .. } => width * (y / x).clamp(0.35, 1.3),
+            Frame::Cartesian {
+                aspect: Aspect::Equal,
+                ..
+            } => width * (y / x).clamp(0.35, 1.3),
             Frame::Cartesian { .. } => FLATNESS * width,
         }
     }
 
     fn coordinates(&self, frame: Rectangle) -> Coordinates {
-        let mapping = |scale, (first, last), from, to| Mapping { scale, first, last, from, to };
+        let mapping = |scale, (first, last), from, to| Mapping {
+            scale,
+            first,
+            last,
+            from,
+            to,
+        };
         let [mut x_limits, mut y_limits] = self.limits;
         match &self.panel.frame {
             Frame::Cartesian { x, y, aspect } => {
@@ -71,7 +92,10 @@ impl<'a> Extent<'a> {
                 }
             }
             Frame::Polar { .. } => {
-                let centre = [frame.left + frame.width / 2.0, frame.top + frame.height / 2.0];
+                let centre = [
+                    frame.left + frame.width / 2.0,
+                    frame.top + frame.height / 2.0,
+                ];
                 let full = frame.width.min(frame.height) / 2.0;
                 Coordinates::Polar {
                     centre,
@@ -82,27 +106,40 @@ impl<'a> Extent<'a> {
     }
 
     fn arrow_scales(&self, frame: Rectangle) -> Vec<ArrowScale> {
-        arrows::scales(self.panel, frame.width * frame.height)
+        match self.coordinates(frame) {
+            Coordinates::Cartesian { x, .. } => {
+                let point = frame.width / (x.last - x.first).abs();
+                arrows::scales(self.panel, point)
+            }
+            Coordinates::Polar { .. } => Vec::new(),
+        }
     }
 
     fn legend(&self, frame: Rectangle, cell: f64) -> Vec<Vec<legend::Entry>> {
-        legend::rows(legend::entries(self.panel, &self.arrow_scales(frame)), cell - 4.0)
+        legend::rows(
+            legend::entries(self.panel, &self.arrow_scales(frame)),
+            cell - 4.0,
+        )
     }
 
     /// Room needed around a frame.
     pub fn margins(&self, frame: Rectangle, cell: f64) -> Margins {
         let legend = legend::ROW * self.legend(frame, cell).len() as f64;
-        let title = if self.panel.title.is_empty() { 0.0 } else { TITLE };
+        let title = if self.panel.title.is_empty() {
+            0.0
+        } else {
+            TITLE
+        };
         let top = title + legend + 4.0;
         let bar = self.bar.map_or(0.0, |(_, limits)| {
             frame::bar_room(&bar_mapping(limits, frame).ticks(SPACING[1]))
         });
         match self.coordinates(frame) {
             Coordinates::Polar { .. } => Margins {
-                left: POLAR_ROOM[0],
-                right: POLAR_ROOM[0],
-                top: top + POLAR_ROOM[1],
-                bottom: POLAR_ROOM[1] + LABEL + 6.0,
+                left: polar::ROOM[0],
+                right: polar::ROOM[0],
+                top: top + polar::ROOM[1],
+                bottom: polar::ROOM[1] + LABEL + 6.0,
             },
             Coordinates::Cartesian { x, y } => {
                 let ticks = frame::horizontal_ticks(&x);
@@ -133,13 +170,17 @@ impl<'a> Extent<'a> {
                     shapes.extend(frame::grid(frame, (&right, &ticks[0]), (&up, &ticks[1])));
                 }
                 shapes.extend(layers.front);
-                shapes.extend(frame::axes(frame, (x, &right, &ticks[0]), (y, &up, &ticks[1])));
+                shapes.extend(frame::axes(
+                    frame,
+                    (x, &right, &ticks[0]),
+                    (y, &up, &ticks[1]),
+                ));
             }
             (Frame::Polar { radius: axis }, Coordinates::Polar { centre, radius }) => {
-                let ticks = radius.ticks(SPACING[1]);
-                shapes.extend(frame::polar_grid(centre, &radius, &ticks));
+                let ticks = radius.ticks(polar::SPACING);
+                shapes.extend(polar::grid(centre, &radius, &ticks));
                 shapes.extend(layers.front);
-                shapes.extend(frame::polar_axes(centre, axis, &radius, &ticks));
+                shapes.extend(polar::axes(centre, axis, &radius, &ticks));
             }
             _ => unreachable!("coordinates are made from the frame"),
         }
@@ -156,12 +197,17 @@ impl<'a> Extent<'a> {
         let widths = rows.iter().map(|row| legend::row_width(row));
         let widest = widths.fold(0.0, f64::max);
         let polar = matches!(self.panel.frame, Frame::Polar { .. });
-        let above = if polar { POLAR_ROOM[1] } else { 0.0 };
-        let left = frame.left.min(cell.right() - widest).max(cell.left);
+        let above = if polar { polar::ROOM[1] } else { 0.0 };
+        let middle = frame.left + (frame.width - widest) / 2.0;
+        let wanted = if polar { middle } else { frame.left };
+        let left = wanted.min(cell.right() - widest).max(cell.left);
         let top = frame.top - above - 3.0 - legend::ROW * rows.len() as f64;
         let mut shapes = legend::shapes(&rows, [left, top]);
         if !self.panel.title.is_empty() {
-            let place = [frame.left + frame.width / 2.0, cell.top + DIGIT_HEIGHT * LABEL + 1.0];
+            let place = [
+                frame.left + frame.width / 2.0,
+                cell.top + DIGIT_HEIGHT * LABEL + 1.0,
+            ];
             shapes.push(frame::text(&self.panel.title, place, LABEL, Anchor::Middle));
         }
         shapes

@@ -30,7 +30,10 @@ pub fn power_law(points: &[[f64; 2]]) -> Option<PowerLaw> {
     let mean = |axis: usize| logarithms.iter().map(|p| p[axis]).sum::<f64>() / count;
     let (x_mean, y_mean) = (mean(0), mean(1));
     let sum = |f: &dyn Fn(f64, f64) -> f64| -> f64 {
-        logarithms.iter().map(|p| f(p[0] - x_mean, p[1] - y_mean)).sum()
+        logarithms
+            .iter()
+            .map(|p| f(p[0] - x_mean, p[1] - y_mean))
+            .sum()
     };
     let spread = sum(&|x, _| x * x);
     (spread > 1e-12).then(|| {

@@ -48,7 +48,10 @@ impl BackendTextStyle for TextStyle {
     type FontError = Infallible;
 
     fn color(&self) -> BackendColor {
-        BackendColor { alpha: 1.0, rgb: BLACK }
+        BackendColor {
+            alpha: 1.0,
+            rgb: BLACK,
+        }
     }
 
     fn size(&self) -> f64 {
@@ -96,7 +99,10 @@ impl BackendTextStyle for TextStyle {
             if let Some(outline) = FONT.outline_glyph(glyph) {
                 let corner = outline.px_bounds().min;
                 outline.draw(|x, y, coverage| {
-                    let at = (left + corner.x as i32 + x as i32, base + corner.y as i32 + y as i32);
+                    let at = (
+                        left + corner.x as i32 + x as i32,
+                        base + corner.y as i32 + y as i32,
+                    );
                     pixels.push((at, f64::from(coverage).min(1.0)));
                 });
             }
@@ -112,7 +118,9 @@ impl BackendTextStyle for TextStyle {
 
 /// Glyphs in a row from the origin, and where the row ends.
 fn glyphs(words: &str, size: f64) -> (Vec<Glyph>, f64) {
-    let em = FONT.units_per_em().map_or(1.0, |units| FONT.height_unscaled() / units);
+    let em = FONT
+        .units_per_em()
+        .map_or(1.0, |units| FONT.height_unscaled() / units);
     let scale = PxScale::from(size as f32 * em);
     let font = FONT.as_scaled(scale);
     let (mut row, mut x): (Vec<Glyph>, f32) = (Vec::new(), 0.0);

@@ -1,9 +1,7 @@
 //! Axes on the page: grid, ticks, labels and colour bar, and the room they need.
 
-use std::f64::consts::FRAC_PI_6;
-
 use super::axis::Mapping;
-use super::color::{FRAME, GRID, Rgb, WHITE, viridis};
+use super::color::{FRAME, GRID, Rgb, viridis};
 use super::description::Axis;
 use super::font::{self, DIGIT_HEIGHT};
 use super::panel::bar_mapping;
@@ -14,7 +12,7 @@ pub(super) const LABEL: f64 = 8.5;
 pub(super) const TICK_LABEL: f64 = 8.0;
 const THIN: f64 = 0.45;
 const TICK: f64 = 2.6;
-const GAP: f64 = 2.5;
+pub(super) const GAP: f64 = 2.5;
 const BAR_GAP: f64 = 6.0;
 const BAR: f64 = 7.0;
 const BAR_STEPS: usize = 96;
@@ -29,7 +27,7 @@ pub(super) struct Margins {
 }
 
 /// Spacing of ticks: along a horizontal axis, along a vertical one.
-pub(super) const SPACING: [f64; 2] = [34.0, 24.0];
+pub(super) const SPACING: [f64; 2] = [26.0, 24.0];
 
 /// Ticks of a horizontal axis whose labels do not touch.
 pub(super) fn horizontal_ticks(mapping: &Mapping) -> Ticks {
@@ -65,11 +63,14 @@ pub(super) const BOTTOM_ROOM: f64 = TICK + GAP + TICK_LABEL + GAP + LABEL + 2.0;
 
 /// Room needed right of the frame for a colour bar.
 pub(super) fn bar_room(ticks: &Ticks) -> f64 {
-    BAR_GAP + BAR + TICK + GAP + widest(ticks) + GAP + LABEL + 1.0
+    BAR_GAP + BAR + TICK + GAP + widest(ticks) + 2.0 * GAP + LABEL + 1.0
 }
 
 fn widest(ticks: &Ticks) -> f64 {
-    let widths = ticks.major.iter().map(|(_, words)| font::width(words, TICK_LABEL));
+    let widths = ticks
+        .major
+        .iter()
+        .map(|(_, words)| font::width(words, TICK_LABEL));
     widths.fold(0.0, f64::max)
 }
 
@@ -93,19 +94,32 @@ pub(super) fn axes(
     let mut shapes = vec![outline(frame)];
     let (bottom, left) = (frame.bottom(), frame.left);
     for (number, words) in &x.2.major {
-        let Some(at) = x.1.place(*number) else { continue };
+        let Some(at) = x.1.place(*number) else {
+            continue;
+        };
         shapes.push(stroke(vec![[at, bottom], [at, bottom + TICK]], FRAME));
         let base = bottom + TICK + GAP + DIGIT_HEIGHT * TICK_LABEL;
         shapes.push(text(words, [at, base], TICK_LABEL, Anchor::Middle));
     }
     for (number, words) in &y.2.major {
-        let Some(at) = y.1.place(*number) else { continue };
+        let Some(at) = y.1.place(*number) else {
+            continue;
+        };
         shapes.push(stroke(vec![[left, at], [left - TICK, at]], FRAME));
         let base = at + DIGIT_HEIGHT * TICK_LABEL / 2.0;
-        shapes.push(text(words, [left - TICK - GAP, base], TICK_LABEL, Anchor::End));
+        shapes.push(text(
+            words,
+            [left - TICK - GAP, base],
+            TICK_LABEL,
+            Anchor::End,
+        ));
     }
     let minors = |ticks: &Ticks, mapping: &Mapping| -> Vec<f64> {
-        ticks.minor.iter().filter_map(|n| mapping.place(*n)).collect()
+        ticks
+            .minor
+            .iter()
+            .filter_map(|n| mapping.place(*n))
+            .collect()
     };
     for at in minors(x.2, x.1) {
         shapes.push(stroke(vec![[at, bottom], [at, bottom + TICK / 2.0]], FRAME));
@@ -114,8 +128,16 @@ pub(super) fn axes(
         shapes.push(stroke(vec![[left, at], [left - TICK / 2.0, at]], FRAME));
     }
     let base = bottom + BOTTOM_ROOM - 2.5;
-    let middle = [frame.left + frame.width / 2.0, frame.top + frame.height / 2.0];
-    shapes.push(text(&x.0.text(x.2.exponent), [middle[0], base], LABEL, Anchor::Middle));
+    let middle = [
+        frame.left + frame.width / 2.0,
+        frame.top + frame.height / 2.0,
+    ];
+    shapes.push(text(
+        &x.0.text(x.2.exponent),
+        [middle[0], base],
+        LABEL,
+        Anchor::Middle,
+    ));
     let base = left - TICK - GAP - widest(y.2) - GAP - 1.5;
     shapes.push(upwards(&y.0.text(y.2.exponent), [base, middle[1]]));
     shapes
@@ -126,14 +148,23 @@ pub(super) fn bar(frame: Rectangle, axis: &Axis, limits: (f64, f64)) -> Vec<Shap
     let mapping = bar_mapping(limits, frame);
     let ticks = mapping.ticks(SPACING[1]);
     let left = frame.right() + BAR_GAP;
-    let strip = Rectangle { left, width: BAR, ..frame };
+    let strip = Rectangle {
+        left,
+        width: BAR,
+        ..frame
+    };
     let step = frame.height / BAR_STEPS as f64;
     let mut shapes: Vec<Shape> = (0..BAR_STEPS)
         .map(|index| {
             let high = frame.bottom() - (index + 1) as f64 * step;
             let low = frame.bottom() - index as f64 * step;
             Shape::Fill {
-                places: vec![[left, low], [strip.right(), low], [strip.right(), high], [left, high]],
+                places: vec![
+                    [left, low],
+                    [strip.right(), low],
+                    [strip.right(), high],
+                    [left, high],
+                ],
                 color: viridis((index as f64 + 0.5) / BAR_STEPS as f64),
             }
         })
@@ -141,64 +172,23 @@ pub(super) fn bar(frame: Rectangle, axis: &Axis, limits: (f64, f64)) -> Vec<Shap
     shapes.push(outline(strip));
     let right = strip.right();
     for (number, words) in &ticks.major {
-        let Some(at) = mapping.place(*number) else { continue };
+        let Some(at) = mapping.place(*number) else {
+            continue;
+        };
         shapes.push(stroke(vec![[right, at], [right + TICK, at]], FRAME));
         let base = at + DIGIT_HEIGHT * TICK_LABEL / 2.0;
-        shapes.push(text(words, [right + TICK + GAP, base], TICK_LABEL, Anchor::Start));
+        shapes.push(text(
+            words,
+            [right + TICK + GAP, base],
+            TICK_LABEL,
+            Anchor::Start,
+        ));
     }
-    let base = right + TICK + GAP + widest(&ticks) + GAP + DIGIT_HEIGHT * LABEL;
+    let base = right + TICK + GAP + widest(&ticks) + 2.0 * GAP + DIGIT_HEIGHT * LABEL;
     let middle = frame.top + frame.height / 2.0;
     shapes.push(upwards(&axis.text(ticks.exponent), [base, middle]));
     shapes
 }
-
-/// Circles and rays of a polar panel.
-pub(super) fn polar_grid(centre: Place, radius: &Mapping, ticks: &Ticks) -> Vec<Shape> {
-    let full = radius.to - radius.from;
-    let rays = (0..12).map(|i| around(centre, full, f64::from(i) * FRAC_PI_6));
-    let mut shapes: Vec<Shape> = rays.map(|end| stroke(vec![centre, end], GRID)).collect();
-    for (number, _) in &ticks.major {
-        if let Some(at) = radius.place(*number) {
-            shapes.push(stroke(circle(centre, at - centre[0]), GRID));
-        }
-    }
-    shapes
-}
-
-/// Outline and labels of a polar panel.
-pub(super) fn polar_axes(centre: Place, axis: &Axis, radius: &Mapping, ticks: &Ticks) -> Vec<Shape> {
-    let full = radius.to - radius.from;
-    let lower = DIGIT_HEIGHT * TICK_LABEL / 2.0;
-    let mut shapes = vec![stroke(circle(centre, full), FRAME)];
-    for step in 0..12 {
-        let angle = f64::from(step) * FRAC_PI_6;
-        let words = format!("{}°", 30 * step);
-        let wide = font::width(&words, TICK_LABEL);
-        let room = 4.0 + (wide / 2.0 * angle.cos().abs()).max(lower * angle.sin().abs());
-        let at = around(centre, full + room, angle);
-        shapes.push(text(&words, [at[0], at[1] + lower], TICK_LABEL, Anchor::Middle));
-    }
-    for (number, words) in ticks.major.iter().filter(|(n, _)| *n > 0.0) {
-        let Some(at) = radius.place(*number) else { continue };
-        let place = around(centre, at - centre[0], 2.5 * FRAC_PI_6);
-        let half = font::width(words, TICK_LABEL) / 2.0 + 1.0;
-        let (up, down) = (lower + 1.0, lower + 1.0);
-        let corners = [[-half, -up], [half, -up], [half, down], [-half, down]];
-        if at - centre[0] + half < full {
-            shapes.push(Shape::Fill {
-                places: corners.map(|d| [place[0] + d[0], place[1] + d[1]]).into(),
-                color: WHITE,
-            });
-            shapes.push(text(words, [place[0], place[1] + lower], TICK_LABEL, Anchor::Middle));
-        }
-    }
-    let base = centre[1] + full + POLAR_ROOM[1] + LABEL + GAP;
-    shapes.push(text(&axis.text(ticks.exponent), [centre[0], base], LABEL, Anchor::Middle));
-    shapes
-}
-
-/// Room beside and above a circle for the labels of its angles.
-pub(super) const POLAR_ROOM: [f64; 2] = [24.0, 13.0];
 
 /// A horizontal text.
 pub(super) fn text(words: &str, place: Place, size: f64, anchor: Anchor) -> Shape {
@@ -223,19 +213,25 @@ fn upwards(words: &str, place: Place) -> Shape {
 
 fn outline(frame: Rectangle) -> Shape {
     let (left, top, right, bottom) = (frame.left, frame.top, frame.right(), frame.bottom());
-    let corners = vec![[left, top], [right, top], [right, bottom], [left, bottom], [left, top]];
-    Shape::Stroke { places: corners, width: 1.3 * THIN, color: FRAME }
+    let corners = vec![
+        [left, top],
+        [right, top],
+        [right, bottom],
+        [left, bottom],
+        [left, top],
+    ];
+    Shape::Stroke {
+        places: corners,
+        width: 1.3 * THIN,
+        color: FRAME,
+    }
 }
 
-fn stroke(places: Vec<Place>, color: Rgb) -> Shape {
-    Shape::Stroke { places, width: THIN, color }
-}
-
-fn circle(centre: Place, radius: f64) -> Vec<Place> {
-    let angles = (0..=120).map(|i| f64::from(i) * std::f64::consts::TAU / 120.0);
-    angles.map(|angle| around(centre, radius, angle)).collect()
-}
-
-fn around(centre: Place, radius: f64, angle: f64) -> Place {
-    [centre[0] + radius * angle.cos(), centre[1] - radius * angle.sin()]
+/// A thin line.
+pub(super) fn stroke(places: Vec<Place>, color: Rgb) -> Shape {
+    Shape::Stroke {
+        places,
+        width: THIN,
+        color,
+    }
 }

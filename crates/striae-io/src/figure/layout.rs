@@ -26,7 +26,11 @@ pub(super) fn page(figure: &Figure) -> Result<Page, String> {
     if figure.panels.is_empty() {
         return Err("there is no panel".into());
     }
-    let contents: Vec<Extent> = figure.panels.iter().map(Extent::of).collect::<Result<_, _>>()?;
+    let contents: Vec<Extent> = figure
+        .panels
+        .iter()
+        .map(Extent::of)
+        .collect::<Result<_, _>>()?;
     let columns = figure.columns.clamp(1, figure.panels.len());
     let width = figure.width.points();
     let cell = (width - 2.0 * EDGE - GAP * (columns - 1) as f64) / columns as f64;
@@ -119,7 +123,9 @@ impl Frames {
 
     fn row_top(&self, index: usize) -> f64 {
         let rows = 0..index / self.columns;
-        EDGE + rows.map(|row| self.row_height(row * self.columns) + GAP).sum::<f64>()
+        EDGE + rows
+            .map(|row| self.row_height(row * self.columns) + GAP)
+            .sum::<f64>()
     }
 
     /// All room a panel has.

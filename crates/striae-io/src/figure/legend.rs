@@ -7,7 +7,7 @@ use super::fit::power_law;
 use super::font::{self, DIGIT_HEIGHT};
 use super::panel::{curve_shapes, marker_shapes};
 use super::shape::{Anchor, Direction, Place, Shape, Text};
-use super::ticks::signed;
+use super::ticks::{round_words, signed};
 
 pub(super) const ROW: f64 = 11.0;
 const SIZE: f64 = 8.0;
@@ -25,6 +25,8 @@ pub(super) struct Entry {
 enum Sample {
     Curve(Line, Marker),
     Arrow(f64),
+    /// Room alone, before words that go on from the line above.
+    Blank(f64),
 }
 
 impl Sample {
@@ -33,6 +35,7 @@ impl Sample {
             Self::Curve(Line::None, _) => 7.0,
             Self::Curve(..) => SAMPLE,
             Self::Arrow(length) => length.max(4.0),
+            Self::Blank(width) => *width,
         }
     }
 }
@@ -46,8 +49,12 @@ pub(super) fn entries(panel: &Panel, scales: &[ArrowScale]) -> Vec<Entry> {
                 Content::Facets { .. } => return None,
                 Content::Arrows { unit, .. } => {
                     let scale = scales.iter().find(|scale| scale.unit == *unit)?;
-                    let words = format!("{} ({} {unit})", series.name, scale.key);
-                    (words.trim().replace(" )", ")"), Sample::Arrow(scale.key * scale.length))
+                    let key = format!("{} {unit}", round_words(scale.key));
+                    let words = format!("{} ({})", series.name, key.trim());
+                    (
+                        words.trim().to_owned(),
+                        Sample::Arrow(scale.key * scale.length),
+                    )
                 }
                 _ if series.name.is_empty() => return None,
                 Content::Curve { line, marker, .. } => {
@@ -57,19 +64,26 @@ pub(super) fn entries(panel: &Panel, scales: &[ArrowScale]) -> Vec<Entry> {
                     let slope = power_law(points).map_or(String::new(), |law| {
                         format!(" (slope {})", signed(format!("{:.2}", law.exponent)))
                     });
-                    (series.name.clone() + &slope, Sample::Curve(Line::Dashed, *marker))
+                    (
+                        series.name.clone() + &slope,
+                        Sample::Curve(Line::Dashed, *marker),
+                    )
                 }
             };
-            Some(Entry { words, sample, color })
+            Some(Entry {
+                words,
+                sample,
+                color,
+            })
         })
         .collect()
 }
 
-/// Entries in rows no wider than `width`.
+/// Entries in rows no wider than `width`, as far as single words allow.
 pub(super) fn rows(entries: Vec<Entry>, width: f64) -> Vec<Vec<Entry>> {
     let mut rows: Vec<Vec<Entry>> = Vec::new();
     let mut end = 0.0;
-    for entry in entries {
+    for entry in entries.into_iter().flat_map(|entry| entry.wrapped(width)) {
         let wide = entry.width();
         match rows.last_mut() {
             Some(row) if end + BETWEEN + wide <= width => {
@@ -109,9 +123,33 @@ impl Entry {
         self.sample.width() + SPACE + font::width(&self.words, SIZE)
     }
 
+    /// The entry in lines no wider than `width`.
+    fn wrapped(mut self, width: f64) -> Vec<Self> {
+        let mut words: Vec<&str> = self.words.split(' ').collect();
+        let room = width - self.sample.width() - SPACE;
+        let mut rest = Vec::new();
+        while words.len() > 1 && font::width(&words.join(" "), SIZE) > room {
+            rest.extend(words.pop());
+        }
+        rest.reverse();
+        let (first, rest) = (words.join(" "), rest.join(" "));
+        let next = Self {
+            words: rest,
+            sample: Sample::Blank(self.sample.width()),
+            color: self.color,
+        };
+        self.words = first;
+        let mut lines = vec![self];
+        if !next.words.is_empty() {
+            lines.extend(next.wrapped(width));
+        }
+        lines
+    }
+
     fn shapes(&self, [x, middle]: Place) -> Vec<Shape> {
         let wide = self.sample.width();
         let mut shapes = match self.sample {
+            Sample::Blank(_) => Vec::new(),
             Sample::Arrow(length) => arrow([x, middle], [length, 0.0], self.color),
             Sample::Curve(line, marker) => {
                 let mut shapes = curve_shapes(&[[x, middle], [x + wide, middle]], line, self.color);

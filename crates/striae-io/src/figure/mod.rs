@@ -32,6 +32,7 @@ mod frame;
 mod layout;
 mod legend;
 mod panel;
+mod polar;
 mod render;
 mod shape;
 mod table;

@@ -1,6 +1,6 @@
 //! What the series of a panel look like on the page.
 
-use super::arrows::{ArrowScale, arrow};
+use super::arrows::{ArrowScale, arrow, ends};
 use super::axis::Mapping;
 use super::color::{Rgb, viridis};
 use super::description::{Content, Frame, Line, Marker, Panel, Scale};
@@ -13,9 +13,15 @@ const MARKER: f64 = 2.3;
 /// From the numbers of a panel to places on the page.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Coordinates {
-    Cartesian { x: Mapping, y: Mapping },
+    Cartesian {
+        x: Mapping,
+        y: Mapping,
+    },
     /// The radius is mapped from the centre to the right.
-    Polar { centre: Place, radius: Mapping },
+    Polar {
+        centre: Place,
+        radius: Mapping,
+    },
 }
 
 impl Coordinates {
@@ -58,13 +64,9 @@ impl Content {
             Self::Facets { polygons, .. } => {
                 polygons.iter().flatten().map(|point| point[axis]).collect()
             }
-            Self::Arrows { origins, .. } => {
-                let tails = || origins.iter().map(|origin| origin[axis]);
-                let low = tails().fold(f64::INFINITY, f64::min);
-                let high = tails().fold(f64::NEG_INFINITY, f64::max);
-                let room = 0.08 * (high - low);
-                vec![low - room, high + room]
-            }
+            Self::Arrows {
+                origins, vectors, ..
+            } => ends(origins, vectors).iter().map(|end| end[axis]).collect(),
         }
     }
 
@@ -72,14 +74,21 @@ impl Content {
     pub(super) fn check(&self, frame: &Frame) -> Result<(), String> {
         let polar = matches!(frame, Frame::Polar { .. });
         let (counts, what) = match self {
-            Self::Arrows { origins, vectors, .. } => ([origins.len(), vectors.len()], "vectors"),
-            Self::Facets { polygons, values, .. } => ([polygons.len(), values.len()], "values"),
+            Self::Arrows {
+                origins, vectors, ..
+            } => ([origins.len(), vectors.len()], "vectors"),
+            Self::Facets {
+                polygons, values, ..
+            } => ([polygons.len(), values.len()], "values"),
             _ => return Ok(()),
         };
         if polar {
             Err(format!("{what} have no place in a polar panel"))
         } else if counts[0] != counts[1] {
-            Err(format!("{} {what} where {} are needed", counts[1], counts[0]))
+            Err(format!(
+                "{} {what} where {} are needed",
+                counts[1], counts[0]
+            ))
         } else {
             Ok(())
         }
@@ -103,25 +112,54 @@ pub(super) fn layers(
     let (mut back, mut front) = (Vec::new(), Vec::new());
     for (series, color) in panel.series.iter().zip(panel.colors()) {
         match &series.content {
-            Content::Curve { points, line, marker } => {
+            Content::Curve {
+                points,
+                line,
+                marker,
+            } => {
                 front.extend(curve(points, *line, *marker, color, frame, coordinates));
             }
             Content::PowerLaw { points, marker } => {
                 let fitted = fitted_line(points);
-                front.extend(curve(&fitted, Line::Dashed, Marker::None, color, frame, coordinates));
-                front.extend(curve(points, Line::None, *marker, color, frame, coordinates));
+                front.extend(curve(
+                    &fitted,
+                    Line::Dashed,
+                    Marker::None,
+                    color,
+                    frame,
+                    coordinates,
+                ));
+                front.extend(curve(
+                    points,
+                    Line::None,
+                    *marker,
+                    color,
+                    frame,
+                    coordinates,
+                ));
             }
-            Content::Arrows { origins, vectors, unit } => {
-                let length = scales.iter().find(|s| s.unit == *unit).map_or(0.0, |s| s.length);
+            Content::Arrows {
+                origins,
+                vectors,
+                unit,
+            } => {
+                let length = scales
+                    .iter()
+                    .find(|s| s.unit == *unit)
+                    .map_or(0.0, |s| s.length);
                 for (&origin, vector) in origins.iter().zip(vectors) {
-                    let tail = coordinates.place(origin).filter(|t| frame.contains(*t, 0.1));
+                    let tail = coordinates
+                        .place(origin)
+                        .filter(|t| frame.contains(*t, 0.1));
                     let reach = [vector[0] * length, -vector[1] * length];
                     if let (Some(tail), true) = (tail, reach.iter().all(|c| c.is_finite())) {
                         front.extend(arrow(tail, reach, color));
                     }
                 }
             }
-            Content::Facets { polygons, values, .. } => {
+            Content::Facets {
+                polygons, values, ..
+            } => {
                 let limits = bar.unwrap_or((0.0, 1.0));
                 for (polygon, value) in polygons.iter().zip(values) {
                     back.extend(facet(polygon, *value, limits, frame, coordinates));
@@ -140,7 +178,11 @@ pub(super) fn curve_shapes(places: &[Place], line: Line, color: Rgb) -> Vec<Shap
         Line::Dashed => dashes(places, [4.0, 2.2]),
         Line::Dotted => dashes(places, [1.2, 1.8]),
     };
-    let stroke = |places| Shape::Stroke { places, width: LINE, color };
+    let stroke = |places| Shape::Stroke {
+        places,
+        width: LINE,
+        color,
+    };
     pieces.into_iter().map(stroke).collect()
 }
 
@@ -148,7 +190,10 @@ pub(super) fn curve_shapes(places: &[Place], line: Line, color: Rgb) -> Vec<Shap
 pub(super) fn marker_shapes(place: Place, marker: Marker, color: Rgb) -> Vec<Shape> {
     let at = |d: [f64; 2]| [place[0] + MARKER * d[0], place[1] + MARKER * d[1]];
     let fill = |corners: &[[f64; 2]]| {
-        vec![Shape::Fill { places: corners.iter().map(|&d| at(d)).collect(), color }]
+        vec![Shape::Fill {
+            places: corners.iter().map(|&d| at(d)).collect(),
+            color,
+        }]
     };
     match marker {
         Marker::None => Vec::new(),
@@ -161,7 +206,11 @@ pub(super) fn marker_shapes(place: Place, marker: Marker, color: Rgb) -> Vec<Sha
         Marker::Triangle => fill(&[[0.0, -1.25], [1.1, 0.75], [-1.1, 0.75]]),
         Marker::Diamond => fill(&[[0.0, -1.25], [1.25, 0.0], [0.0, 1.25], [-1.25, 0.0]]),
         Marker::Cross => [[[-1.0, -1.0], [1.0, 1.0]], [[-1.0, 1.0], [1.0, -1.0]]]
-            .map(|ends| Shape::Stroke { places: ends.map(at).into(), width: LINE, color })
+            .map(|ends| Shape::Stroke {
+                places: ends.map(at).into(),
+                width: LINE,
+                color,
+            })
             .into(),
     }
 }
@@ -181,7 +230,10 @@ fn curve(
         frame.clip_line(&run)
     });
     let mut shapes: Vec<Shape> = lines.flat_map(|l| curve_shapes(&l, line, color)).collect();
-    let visible = places.iter().flatten().filter(|place| frame.contains(**place, 0.1));
+    let visible = places
+        .iter()
+        .flatten()
+        .filter(|place| frame.contains(**place, 0.1));
     shapes.extend(visible.flat_map(|place| marker_shapes(*place, marker, color)));
     shapes
 }
@@ -203,7 +255,10 @@ fn facet(
 
 fn fitted_line(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let positive = || points.iter().map(|p| p[0]).filter(|x| *x > 0.0);
-    let (low, high) = (positive().fold(f64::INFINITY, f64::min), positive().fold(0.0, f64::max));
+    let (low, high) = (
+        positive().fold(f64::INFINITY, f64::min),
+        positive().fold(0.0, f64::max),
+    );
     power_law(points).map_or(Vec::new(), |law| {
         let steps = (0..=32).map(|i| low * (high / low).powf(f64::from(i) / 32.0));
         steps.map(|x| [x, law.at(x)]).collect()

@@ -45,7 +45,12 @@ impl Figure {
 pub(super) fn svg(page: &Page) -> Result<String, String> {
     let size = [page.width, page.height].map(|length| (length * SVG_PIXELS).round() as u32);
     let mut text = String::new();
-    draw(page, SVGBackend::with_string(&mut text, (size[0], size[1])), SVG_PIXELS, Strokes::Lines)?;
+    draw(
+        page,
+        SVGBackend::with_string(&mut text, (size[0], size[1])),
+        SVG_PIXELS,
+        Strokes::Lines,
+    )?;
     let millimetres = |pixels: u32| f64::from(pixels) / SVG_PIXELS * 25.4 / 72.0;
     let plain = format!(r#"width="{}" height="{}""#, size[0], size[1]);
     let true_size = format!(
@@ -97,21 +102,46 @@ fn draw<B: DrawingBackend>(
 ) -> Result<(), String> {
     let (width, height) = backend.get_size();
     let all = (width as i32, height as i32);
-    backend.draw_rect((0, 0), all, &opaque(WHITE), true).map_err(sentence)?;
+    backend
+        .draw_rect((0, 0), all, &opaque(WHITE), true)
+        .map_err(sentence)?;
     let pixel = |place: &Place| place.map(|c| (c * scale).round() as i32).into();
     for shape in &page.shapes {
         match shape {
             Shape::Fill { places, color } => {
-                fill(&mut backend, places.iter().map(pixel).collect(), *color, strokes)?;
+                fill(
+                    &mut backend,
+                    places.iter().map(pixel).collect(),
+                    *color,
+                    strokes,
+                )?;
             }
-            Shape::Stroke { places, width, color } if strokes == Strokes::Lines => {
+            Shape::Stroke {
+                places,
+                width,
+                color,
+            } if strokes == Strokes::Lines => {
                 let width = (width * scale).round().max(1.0) as u32;
-                let style = Stroke { color: *color, width };
-                backend.draw_path(places.iter().map(pixel), &style).map_err(sentence)?;
+                let style = Stroke {
+                    color: *color,
+                    width,
+                };
+                backend
+                    .draw_path(places.iter().map(pixel), &style)
+                    .map_err(sentence)?;
             }
-            Shape::Stroke { places, width, color } => {
+            Shape::Stroke {
+                places,
+                width,
+                color,
+            } => {
                 for polygon in outlines(places, *width) {
-                    fill(&mut backend, polygon.iter().map(pixel).collect(), *color, strokes)?;
+                    fill(
+                        &mut backend,
+                        polygon.iter().map(pixel).collect(),
+                        *color,
+                        strokes,
+                    )?;
                 }
             }
             Shape::Text(text) => {
@@ -125,7 +155,9 @@ fn draw<B: DrawingBackend>(
                     anchor: text.anchor,
                     direction: text.direction,
                 };
-                backend.draw_text(&text.words, &style, pixel(&place)).map_err(sentence)?;
+                backend
+                    .draw_text(&text.words, &style, pixel(&place))
+                    .map_err(sentence)?;
             }
         }
     }
@@ -145,7 +177,9 @@ fn fill<B: DrawingBackend>(
         let hairline = Stroke { color, width: 3 };
         backend.draw_path(around, &hairline).map_err(sentence)?;
     }
-    backend.fill_polygon(corners, &opaque(color)).map_err(sentence)
+    backend
+        .fill_polygon(corners, &opaque(color))
+        .map_err(sentence)
 }
 
 /// A line as polygons: one a segment, and a disc at every bend.
@@ -157,13 +191,20 @@ fn outlines(places: &[Place], width: f64) -> Vec<Vec<Place>> {
         let [across, up] = [-step[1] / length * half, step[0] / length * half];
         let side = |end: Place, sign: f64| [end[0] + sign * across, end[1] + sign * up];
         (length > 0.0).then(|| {
-            vec![side(ends[0], 1.0), side(ends[1], 1.0), side(ends[1], -1.0), side(ends[0], -1.0)]
+            vec![
+                side(ends[0], 1.0),
+                side(ends[1], 1.0),
+                side(ends[1], -1.0),
+                side(ends[0], -1.0),
+            ]
         })
     });
     let bends = places.iter().take(places.len().saturating_sub(1)).skip(1);
     let discs = bends.map(|bend| {
         let angles = (0..12).map(|i| f64::from(i) * std::f64::consts::TAU / 12.0);
-        angles.map(|a| [bend[0] + half * a.cos(), bend[1] + half * a.sin()]).collect()
+        angles
+            .map(|a| [bend[0] + half * a.cos(), bend[1] + half * a.sin()])
+            .collect()
     });
     segments.chain(discs).collect()
 }

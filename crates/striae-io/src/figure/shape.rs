@@ -130,7 +130,10 @@ fn clip_side(polygon: &[Place], inside: impl Fn(Place) -> f64) -> Vec<Place> {
         let (before, after) = (inside(from), inside(to));
         if (before < 0.0) != (after < 0.0) {
             let s = before / (before - after);
-            kept.push([from[0] + s * (to[0] - from[0]), from[1] + s * (to[1] - from[1])]);
+            kept.push([
+                from[0] + s * (to[0] - from[0]),
+                from[1] + s * (to[1] - from[1]),
+            ]);
         }
         if after >= 0.0 {
             kept.push(to);

@@ -13,7 +13,10 @@ const HEADER: &str = "panel,title,series,item,x,y,arrow_x,arrow_y,value\n";
 pub(super) fn text(figure: &Figure) -> String {
     let panels = figure.panels.iter().enumerate();
     let series = panels.flat_map(|(number, panel)| {
-        panel.series.iter().flat_map(move |series| rows(number + 1, panel, series))
+        panel
+            .series
+            .iter()
+            .flat_map(move |series| rows(number + 1, panel, series))
     });
     std::iter::once(HEADER.to_owned()).chain(series).collect()
 }
@@ -23,15 +26,23 @@ fn rows(number: usize, panel: &Panel, series: &Series) -> Vec<String> {
     match &series.content {
         Content::Curve { points, .. } | Content::PowerLaw { points, .. } => {
             let points = points.iter().enumerate();
-            points.map(|(item, [x, y])| format!("{start},{item},{x:?},{y:?},,,\n")).collect()
-        }
-        Content::Arrows { origins, vectors, .. } => {
-            let arrows = origins.iter().zip(vectors).enumerate();
-            arrows
-                .map(|(item, ([x, y], [u, v]))| format!("{start},{item},{x:?},{y:?},{u:?},{v:?},\n"))
+            points
+                .map(|(item, [x, y])| format!("{start},{item},{x:?},{y:?},,,\n"))
                 .collect()
         }
-        Content::Facets { polygons, values, .. } => {
+        Content::Arrows {
+            origins, vectors, ..
+        } => {
+            let arrows = origins.iter().zip(vectors).enumerate();
+            arrows
+                .map(|(item, ([x, y], [u, v]))| {
+                    format!("{start},{item},{x:?},{y:?},{u:?},{v:?},\n")
+                })
+                .collect()
+        }
+        Content::Facets {
+            polygons, values, ..
+        } => {
             let facets = polygons.iter().zip(values).enumerate();
             facets
                 .flat_map(|(item, (corners, value))| corners.iter().map(move |c| (item, c, value)))

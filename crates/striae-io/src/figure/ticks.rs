@@ -56,9 +56,17 @@ pub(super) fn logarithmic(first: f64, last: f64, count: usize) -> Ticks {
             .collect()
     };
     let decades = multiples(&[1]);
+    let stride = decades.len().div_ceil(count.max(1)) as i32;
+    let between = if stride > 1 {
+        decades.clone()
+    } else {
+        multiples(&[2, 3, 4, 5, 6, 7, 8, 9])
+    };
     let labelled = if decades.len() >= 3 {
-        let stride = decades.len().div_ceil(count.max(1)) as i32;
-        decades.into_iter().filter(|(_, power)| power % stride == 0).collect()
+        decades
+            .into_iter()
+            .filter(|(_, power)| power % stride == 0)
+            .collect()
     } else {
         [&[1, 2, 3, 4, 5, 6, 8][..], &[1, 2, 5], &[1, 3], &[1]]
             .into_iter()
@@ -67,34 +75,49 @@ pub(super) fn logarithmic(first: f64, last: f64, count: usize) -> Ticks {
             .unwrap_or(decades)
     };
     let number = |&(digit, power): &(i32, i32)| f64::from(digit) * 10_f64.powi(power);
-    let plain = labelled.iter().all(|label| (1e-3..1e4).contains(&number(label)));
+    let plain = labelled
+        .iter()
+        .all(|label| (1e-3..1e4).contains(&number(label)));
     let major = labelled
         .iter()
         .map(|label| (number(label), power_label(*label, plain)))
         .collect();
     Ticks {
         major,
-        minor: multiples(&[2, 3, 4, 5, 6, 7, 8, 9]).iter().map(number).collect(),
+        minor: between.iter().map(number).collect(),
         exponent: 0,
     }
 }
 
 /// Ten to a power, with raised digits.
 pub(super) fn power_of_ten(power: i32) -> String {
-    let raised = power.to_string().chars().map(|letter| match letter {
-        '-' => '⁻',
-        '1' => '¹',
-        '2' => '²',
-        '3' => '³',
-        digit => char::from_u32('⁰' as u32 + digit as u32 - '0' as u32).unwrap_or(digit),
-    }).collect::<String>();
+    let raised = power
+        .to_string()
+        .chars()
+        .map(|letter| match letter {
+            '-' => '⁻',
+            '1' => '¹',
+            '2' => '²',
+            '3' => '³',
+            digit => char::from_u32('⁰' as u32 + digit as u32 - '0' as u32).unwrap_or(digit),
+        })
+        .collect::<String>();
     format!("10{raised}")
 }
 
-/// The largest of 1, 2, 2.5 and 5 times a power of ten not above `number`.
+/// A round number in words.
+pub(super) fn round_words(number: f64) -> String {
+    let power = (number.abs() * 1.000_001).log10().floor() as i32;
+    let digit = (number / 10_f64.powi(power)).round() as i32;
+    power_label((digit, power), (1e-3..1e4).contains(&number))
+}
+
+/// The largest of 1, 2 and 5 times a power of ten not above `number`.
 pub(super) fn round_below(number: f64) -> f64 {
     let power = 10_f64.powf(number.log10().floor());
-    let factor = [5.0, 2.0, 1.0].into_iter().find(|f| f * power <= number * (1.0 + 1e-9));
+    let factor = [5.0, 2.0, 1.0]
+        .into_iter()
+        .find(|f| f * power <= number * (1.0 + 1e-9));
     factor.unwrap_or(1.0) * power
 }
 
@@ -119,7 +142,11 @@ fn power_label((digit, power): (i32, i32), plain: bool) -> String {
 
 /// A number with a true minus sign; zero has none.
 pub(super) fn signed(number: String) -> String {
-    if number.trim_start_matches('-').chars().all(|c| c == '0' || c == '.') {
+    if number
+        .trim_start_matches('-')
+        .chars()
+        .all(|c| c == '0' || c == '.')
+    {
         number.trim_start_matches('-').to_owned()
     } else {
         number.replace('-', "−")
