@@ -2,9 +2,11 @@
 //!
 //! Starting from the graded lattice in the box `[0, a] x [0, b] x [0, c]`:
 //!
-//! 1. *irregularity* `f`: a node moves along the lattice axes that are free for
-//!    it by `f u l`, `u` uniform in `[-1, 1)`, `l` the shorter neighbouring
-//!    interval; nodes of plane sides stay in them, nodes of edges stay;
+//! 1. *irregularity* `f`: a node moves along each of the `m` lattice axes that are
+//!    free for it by `f u l / sqrt(m)`, `u` uniform in `[-1, 1)`, `l` the shorter
+//!    neighbouring interval; nodes of plane sides stay in them, nodes of edges
+//!    stay. The edges at a corner of a cube then change by at most `2 f` of their
+//!    length, and `f < 1 / (2 sqrt(3))` keeps its Jacobian positive;
 //! 2. *mesh rotation*: in plan, a node at distance `r` from the middle turns
 //!    about it by `angle (1 - r^2/m^2)^2` inside the circle with the shorter
 //!    half side `m` as radius. The map keeps areas, hence stays one to one;
@@ -41,8 +43,8 @@ pub struct Block {
     pub bottom_slopes: [f64; 2],
     /// Slopes `[dz/dx, dz/dy]` of the upper side about its middle; default 0.
     pub top_slopes: [f64; 2],
-    /// Random displacement of nodes as a fraction of the local interval, in
-    /// `[0, 0.5)`; default 0, elements stay well shaped up to about 0.2.
+    /// Largest random displacement of nodes as a fraction of the local interval,
+    /// in `[0, 0.5)`; default 0, elements stay well shaped up to about 0.25.
     pub irregularity: f64,
     /// Seed of the random displacement; default 0.
     pub seed: u64,
@@ -191,10 +193,11 @@ fn irregular(
     random: &mut Random,
 ) -> Vec3 {
     let free = [0, 1, 2].map(|axis| (1..nodes[axis].len() - 1).contains(&lattice[axis]));
-    let on_edge = free.iter().filter(|&&free| free).count() < 2;
+    let free_count = free.iter().filter(|&&free| free).count();
+    let fraction = fraction / (free_count as f64).sqrt();
     Vec3::from_fn(|axis, _| {
         let (x, i) = (&nodes[axis], lattice[axis]);
-        if on_edge || !free[axis] {
+        if free_count < 2 || !free[axis] {
             return x[i];
         }
         let interval = (x[i] - x[i - 1]).min(x[i + 1] - x[i]);
