@@ -5,6 +5,7 @@ use crate::{
     equilibration::Equilibration,
     error::SolveError,
     matrix::SparseMatrix,
+    multifrontal::MultifrontalLu,
     refinement,
     singularity::{self, Factors},
     solver::{Analysis, FactorReport, LinearSolver, SolveReport},
@@ -16,9 +17,6 @@ use faer::{
     mat::MatMut,
     sparse::{SparseColMatRef, SymbolicSparseColMat, linalg::solvers},
 };
-
-/// Shift of the diagonal of an equilibrated singular matrix.
-const SHIFT: f64 = 1e-10;
 
 /// faer's sparse LU behind the common interface.
 #[derive(Default)]
@@ -71,7 +69,7 @@ impl LinearSolver for FaerLu {
             return Err(SolveError::NotAnalysed);
         }
         let scaling = Equilibration::of(matrix)?;
-        self.factors = Some(factor_regular(analysis, matrix, &scaling)?);
+        self.factors = Some(factor_regular(analysis, matrix, scaling)?);
         Ok(FactorReport::default())
     }
 
@@ -111,34 +109,30 @@ impl Factors for Numeric {
 
 /// Factors of a regular matrix, or the error that names the undetermined unknown.
 ///
-/// faer divides by zero pivots, so a matrix whose factors are not finite is
-/// shifted a little off singularity to find its null vector.
+/// faer divides by zero pivots and is left without usable factors; the null
+/// vector is then found by the multifrontal solver, which replaces them.
 fn factor_regular(
     analysis: &Symbolic,
     matrix: &SparseMatrix,
-    scaling: &Equilibration,
+    scaling: Equilibration,
 ) -> Result<Numeric, SolveError> {
     let mut scaled = matrix.clone();
     scaled.scale(&scaling.rows, &scaling.columns);
-    for shift in [0.0, SHIFT] {
-        scaled.shift_diagonal(shift);
-        let values = SparseColMatRef::new(analysis.pattern.as_ref(), scaled.values());
-        let symbolic = analysis.symbolic.clone();
-        let Ok(transposed) = solvers::Lu::try_new_with_symbolic(symbolic, values) else {
-            continue;
-        };
+    let values = SparseColMatRef::new(analysis.pattern.as_ref(), scaled.values());
+    let symbolic = analysis.symbolic.clone();
+    if let Ok(transposed) = solvers::Lu::try_new_with_symbolic(symbolic, values) {
         let factors = Numeric {
-            scaling: scaling.clone(),
+            scaling,
             transposed,
         };
-        if !factors.are_finite() {
-            continue;
-        }
-        singularity::check_regular(matrix, scaling, &factors)?;
-        if shift == 0.0 {
+        if factors.are_finite() {
+            singularity::check_regular(matrix, &factors.scaling, &factors)?;
             return Ok(factors);
         }
     }
+    let mut other = MultifrontalLu::new();
+    other.analyse(matrix.structure())?;
+    other.factor(matrix)?;
     Err(SolveError::Library {
         library: "faer",
         code: 0,

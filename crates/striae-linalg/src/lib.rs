@@ -6,14 +6,14 @@
 //! analyses the structure once and factors and solves as often as needed:
 //!
 //! ```
-//! use striae_linalg::{FaerLu, LinearSolver, SparseMatrix, Structure, Supervariable};
+//! use striae_linalg::{LinearSolver, MultifrontalLu, SparseMatrix, Structure, Supervariable};
 //!
 //! let (a, b) = (Supervariable(0), Supervariable(1));
 //! let structure = Structure::from_cliques(vec![0, 1, 2], &[[a, b]])?;
 //! let mut matrix = SparseMatrix::zero(&structure);
 //! matrix.add(&[0, 1], &[0, 1], &[2.0, 1.0, 1.0, 0.0])?;
 //!
-//! let mut solver = FaerLu::new();
+//! let mut solver = MultifrontalLu::new();
 //! solver.analyse(&structure)?;
 //! solver.factor(&matrix)?;
 //! let mut x = [0.0; 2];
@@ -23,18 +23,28 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod dense;
 mod equilibration;
 mod error;
 mod faer_lu;
+mod front;
 mod gmres;
 mod matrix;
+mod metis;
+mod multifrontal;
+mod numeric;
+mod ordering;
 mod refinement;
 mod singularity;
 mod solver;
 mod structure;
+mod substitution;
+mod supernodes;
+mod tree;
 
 pub use error::{OutsidePattern, SolveError, StructureError};
 pub use faer_lu::FaerLu;
 pub use matrix::SparseMatrix;
+pub use multifrontal::MultifrontalLu;
 pub use solver::{Analysis, FactorReport, LinearSolver, SolveReport};
 pub use structure::{Structure, Supervariable, Tier};

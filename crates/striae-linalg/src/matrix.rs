@@ -248,9 +248,10 @@ impl SparseMatrix {
         (rows, columns)
     }
 
-    /// `b - A x` and its componentwise backward error.
-    pub(crate) fn residual(&self, x: &[f64], b: &[f64]) -> Residual {
-        let largest = x.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    /// `b - A x` and its componentwise backward error, unknowns measured in `units`.
+    pub(crate) fn residual(&self, x: &[f64], b: &[f64], units: &[f64]) -> Residual {
+        let sizes = x.iter().zip(units).map(|(x, unit)| x.abs() / unit);
+        let largest = sizes.fold(0.0, f64::max);
         let round_off = 1000.0 * x.len() as f64 * f64::EPSILON;
         let rows = (0..b.len()).into_par_iter().with_min_len(1024);
         let (values, errors): (Vec<f64>, Vec<f64>) = rows
@@ -259,7 +260,7 @@ impl SparseMatrix {
                 for (column, a) in self.row(row) {
                     sum += a * x[column];
                     terms += (a * x[column]).abs();
-                    norm += a.abs();
+                    norm += a.abs() * units[column];
                 }
                 let r = b[row] - sum;
                 let bound = norm * largest + b[row].abs();
@@ -277,15 +278,6 @@ impl SparseMatrix {
         Residual {
             backward_error: errors.iter().fold(0.0, worse),
             values,
-        }
-    }
-
-    /// Adds `shift` to every diagonal entry.
-    pub(crate) fn shift_diagonal(&mut self, shift: f64) {
-        for row in 0..self.structure.unknowns() {
-            if let Some(diagonal) = position(&self.structure, row, row) {
-                self.values[diagonal] += shift;
-            }
         }
     }
 

@@ -2,8 +2,8 @@
 //!
 //! Iterative refinement, measured by the componentwise backward error
 //! `max_i |r|_i / (|A| |x| + |b|)_i` with the safeguard for rows where the
-//! denominator vanishes of Arioli, Demmel & Duff (doi:10.1137/0610013). When
-//! it stalls above [`ACCEPTED`], GMRES preconditioned by the factors takes over.
+//! denominator vanishes of Arioli, Demmel & Duff (doi:10.1137/0610013), which
+//! compares unknowns in the units of the equilibrated system. When it stalls above [`ACCEPTED`], GMRES preconditioned by the factors takes over.
 
 use crate::{
     equilibration::Equilibration, error::SolveError, gmres, matrix::SparseMatrix,
@@ -34,12 +34,12 @@ pub(crate) fn solve(
     };
     x.copy_from_slice(rhs);
     precondition(x);
-    let mut residual = matrix.residual(x, rhs);
+    let mut residual = matrix.residual(x, rhs, &scaling.columns);
     while residual.backward_error > TARGET && report.refinements < REFINEMENTS {
         let mut correction = residual.values.clone();
         precondition(&mut correction);
         let improved: Vec<f64> = x.iter().zip(&correction).map(|(x, d)| x + d).collect();
-        let next = matrix.residual(&improved, rhs);
+        let next = matrix.residual(&improved, rhs, &scaling.columns);
         report.refinements += 1;
         let gained = next.backward_error < 0.5 * residual.backward_error;
         if next.backward_error < residual.backward_error {
@@ -59,7 +59,7 @@ pub(crate) fn solve(
         x.iter_mut()
             .zip(&correction.solution)
             .for_each(|(x, d)| *x += d);
-        residual = matrix.residual(x, rhs);
+        residual = matrix.residual(x, rhs, &scaling.columns);
     }
     report.backward_error = residual.backward_error;
     if report.backward_error <= ACCEPTED {

@@ -5,6 +5,9 @@
 //! singular value: `|A v| <= 16 eps |A| |v|` (maximum norms) means singular to
 //! working precision. The largest components of `v` and `w` name an unknown
 //! that is not determined and an equation that depends on others.
+//!
+//! When tiny pivots were replaced the factors are those of a matrix `M` near
+//! `A`; the step `v := v - M^-1 A v` then projects on the null space of `A`.
 
 use crate::{equilibration::Equilibration, error::SolveError, matrix::SparseMatrix};
 
@@ -18,6 +21,8 @@ pub(crate) trait Factors {
 
 /// Multiple of the round-off unit at which a matrix counts as singular.
 const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
+/// Projections on the null space.
+const PROJECTIONS: usize = 2;
 
 /// Error that names the undetermined unknown when the matrix is singular.
 pub(crate) fn check_regular(
@@ -31,40 +36,53 @@ pub(crate) fn check_regular(
     normalise(&mut left);
     let mut right = left.clone();
     factors.solve_in_place(&mut right);
-    normalise(&mut right);
-    if scaled_residual(matrix, scaling, &right) > ROUND_OFF {
-        return Ok(());
+    for _ in 0..=PROJECTIONS {
+        if normalise(&mut right) == 0.0 {
+            break;
+        }
+        let (image, size) = scaled_image(matrix, scaling, &right);
+        if size <= ROUND_OFF {
+            return Err(SolveError::Singular {
+                unknown: largest(&right),
+                equation: largest(&left),
+            });
+        }
+        let mut correction = image;
+        factors.solve_in_place(&mut correction);
+        right.iter_mut().zip(&correction).for_each(|(v, c)| *v -= c);
     }
-    Err(SolveError::Singular {
-        unknown: largest(&right),
-        equation: largest(&left),
-    })
+    Ok(())
 }
 
-/// `|R A C v| / |R A C|` in maximum norms; infinite if `v` is not finite.
-fn scaled_residual(matrix: &SparseMatrix, scaling: &Equilibration, v: &[f64]) -> f64 {
-    if v.iter().any(|v| !v.is_finite()) {
-        return f64::INFINITY;
-    }
-    let (mut residual, mut norm) = (0.0_f64, 0.0_f64);
+/// `R A C v` and its size relative to `R A C`, in maximum norms.
+fn scaled_image(matrix: &SparseMatrix, scaling: &Equilibration, v: &[f64]) -> (Vec<f64>, f64) {
+    let mut image = vec![0.0; v.len()];
+    let (mut largest, mut norm) = (0.0_f64, 0.0_f64);
     for row in 0..v.len() {
-        let (mut sum, mut size) = (0.0, 0.0);
+        let mut size = 0.0;
         for (column, a) in matrix.row(row) {
             let a = a * scaling.rows[row] * scaling.columns[column];
-            sum += a * v[column];
+            image[row] += a * v[column];
             size += a.abs();
         }
-        residual = residual.max(sum.abs());
+        largest = if image[row].is_nan() {
+            f64::NAN
+        } else {
+            largest.max(image[row].abs())
+        };
         norm = norm.max(size);
     }
-    if norm == 0.0 { 0.0 } else { residual / norm }
+    let relative = if norm == 0.0 { 0.0 } else { largest / norm };
+    (image, relative)
 }
 
-fn normalise(v: &mut [f64]) {
+/// Divides by the largest magnitude, which is returned.
+fn normalise(v: &mut [f64]) -> f64 {
     let size = v.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     if size > 0.0 {
         v.iter_mut().for_each(|v| *v /= size);
     }
+    size
 }
 
 /// First position whose component is within one per cent of the largest.

@@ -133,6 +133,11 @@ impl Structure {
         self.0.starts[i]..self.0.starts[i + 1]
     }
 
+    /// Number of edges, each counted at both ends.
+    pub(crate) fn edges_total(&self) -> usize {
+        self.0.neighbours.len()
+    }
+
     /// Supervariable at the far end of an edge.
     pub(crate) fn target(&self, edge: usize) -> usize {
         self.0.neighbours[edge] as usize

@@ -1,0 +1,250 @@
+//! Multifrontal LU over the whole assembly tree.
+//!
+//! Small subtrees are factored in sequence with one stack of contributions;
+//! above them children are factored in parallel. Contributions are added in
+//! the order of the children, so threads do not change the result.
+
+use crate::{
+    dense::Leftover,
+    front::{self, Child, Contribution, FrontFactor, System},
+};
+use rayon::prelude::*;
+use std::sync::Mutex;
+
+/// A subtree below this share of the whole work is factored in sequence.
+const SEQUENTIAL_SHARE: f64 = 1.0 / 48.0;
+/// Work below which a subtree is factored in sequence in any case.
+const SEQUENTIAL_FLOPS: f64 = 2e7;
+
+/// Factors of a matrix; storage is kept for the next factorisation.
+#[derive(Debug, Default)]
+pub(crate) struct Numeric {
+    pub(crate) fronts: Vec<FrontFactor>,
+    /// Planned storage of all fronts, one after the other.
+    pub(crate) values: Vec<f64>,
+    pool: Pool,
+}
+
+/// Buffers for contributions, so that large ones are not asked of the system again and again.
+#[derive(Debug, Default)]
+struct Pool(Mutex<Vec<Vec<f64>>>);
+
+/// Contribution of a subtree in a buffer of its own.
+struct Delivered {
+    contribution: Contribution,
+    values: Vec<f64>,
+}
+
+impl Numeric {
+    /// Factors a system, over the storage of earlier factorisations.
+    pub(crate) fn factor(&mut self, system: System<'_>) {
+        let tree = system.tree;
+        self.values.resize(tree.entries(), 0.0);
+        self.fronts.clear();
+        self.fronts
+            .resize(tree.fronts.len(), FrontFactor::default());
+        let run = Run {
+            system,
+            pool: &self.pool,
+            small: (tree.flops() * SEQUENTIAL_SHARE).max(SEQUENTIAL_FLOPS),
+        };
+        let (_, subtrees) = run.split(&tree.roots, &mut self.values, &mut self.fronts);
+        subtrees.into_par_iter().for_each(|subtree| {
+            let delivered = run.subtree(subtree);
+            run.pool.give(delivered.values);
+        });
+    }
+}
+
+struct Run<'a> {
+    system: System<'a>,
+    pool: &'a Pool,
+    small: f64,
+}
+
+/// A subtree and the storage of its fronts.
+struct Subtree<'a> {
+    root: usize,
+    values: &'a mut [f64],
+    fronts: &'a mut [FrontFactor],
+}
+
+impl Run<'_> {
+    /// Storage of the subtrees with the given roots, in front of what is left of it.
+    fn split<'b>(
+        &self,
+        roots: &[u32],
+        mut values: &'b mut [f64],
+        mut fronts: &'b mut [FrontFactor],
+    ) -> (Subtree<'b>, Vec<Subtree<'b>>) {
+        let tree = self.system.tree;
+        let mut subtrees = Vec::with_capacity(roots.len());
+        for &root in roots {
+            let range = tree.subtree(root as usize);
+            let entries = tree.fronts[range.clone()]
+                .iter()
+                .map(|front| front.entries())
+                .sum();
+            let (own, rest) = values.split_at_mut(entries);
+            values = rest;
+            let (own_fronts, rest) = fronts.split_at_mut(range.len());
+            fronts = rest;
+            subtrees.push(Subtree {
+                root: root as usize,
+                values: own,
+                fronts: own_fronts,
+            });
+        }
+        (
+            Subtree {
+                root: usize::MAX,
+                values,
+                fronts,
+            },
+            subtrees,
+        )
+    }
+
+    /// Factors a subtree.
+    fn subtree(&self, subtree: Subtree<'_>) -> Delivered {
+        let tree = self.system.tree;
+        let front = &tree.fronts[subtree.root];
+        if front.subtree_flops <= self.small || front.children.is_empty() {
+            return self.sequential(subtree);
+        }
+        let root = subtree.root;
+        let (own, below) = self.split(&front.children, subtree.values, subtree.fronts);
+        let delivered: Vec<Delivered> = below
+            .into_par_iter()
+            .map(|child| self.subtree(child))
+            .collect();
+        let children: Vec<Child<'_>> = front
+            .children
+            .iter()
+            .zip(&delivered)
+            .map(|(&c, delivered)| Child {
+                front: &tree.fronts[c as usize],
+                contribution: &delivered.contribution,
+                values: &delivered.values,
+            })
+            .collect();
+        let mut rest = self.pool.take(front.rest() * front.rest());
+        let leftover = self.leftover(root);
+        let factor = front::factor(
+            self.system,
+            root,
+            leftover,
+            &children,
+            own.values,
+            &mut rest,
+        );
+        drop(children);
+        delivered
+            .into_iter()
+            .for_each(|child| self.pool.give(child.values));
+        let contribution = front::contribution(&factor);
+        if contribution.delayed > 0 {
+            let mut all = self.pool.take(contribution.size() * contribution.size());
+            front::with_delayed(&factor, own.values, &rest, &mut all);
+            self.pool.give(std::mem::replace(&mut rest, all));
+        }
+        own.fronts[0] = factor;
+        Delivered {
+            contribution,
+            values: rest,
+        }
+    }
+
+    /// Factors a subtree front by front, contributions on a stack.
+    fn sequential(&self, subtree: Subtree<'_>) -> Delivered {
+        let tree = self.system.tree;
+        let mut stack = self.pool.take_empty(tree.fronts[subtree.root].stack);
+        let mut waiting: Vec<(usize, Contribution)> = Vec::new();
+        let mut storage = subtree.values;
+        for (f, slot) in tree.subtree(subtree.root).zip(subtree.fronts) {
+            let front = &tree.fronts[f];
+            let (planned, others) = storage.split_at_mut(front.entries());
+            storage = others;
+            let first = waiting.len() - front.children.len();
+            let top = stack.len();
+            stack.resize(top + front.rest() * front.rest(), 0.0);
+            let (old, rest) = stack.split_at_mut(top);
+            let waiting_here = front.children.iter().zip(&waiting[first..]);
+            let children: Vec<Child<'_>> = waiting_here
+                .map(|(&c, (offset, contribution))| Child {
+                    front: &tree.fronts[c as usize],
+                    contribution,
+                    values: &old[*offset..][..contribution.size() * contribution.size()],
+                })
+                .collect();
+            let factor = front::factor(self.system, f, self.leftover(f), &children, planned, rest);
+            let contribution = front::contribution(&factor);
+            let mut begin = top;
+            if contribution.delayed > 0 {
+                begin = stack.len();
+                stack.resize(begin + contribution.size() * contribution.size(), 0.0);
+                let (old, all) = stack.split_at_mut(begin);
+                front::with_delayed(&factor, planned, &old[top..], all);
+            }
+            let base = waiting.get(first).map_or(top, |&(offset, _)| offset);
+            let end = stack.len();
+            stack.copy_within(begin..end, base);
+            stack.truncate(base + end - begin);
+            waiting.truncate(first);
+            waiting.push((base, contribution));
+            *slot = factor;
+        }
+        let contribution = waiting
+            .pop()
+            .map(|(_, contribution)| contribution)
+            .unwrap_or_default();
+        let mut values = self.pool.take_empty(stack.len());
+        values.extend_from_slice(&stack);
+        self.pool.give(stack);
+        Delivered {
+            contribution,
+            values,
+        }
+    }
+
+    fn leftover(&self, f: usize) -> Leftover {
+        if self.system.tree.roots.binary_search(&(f as u32)).is_ok() {
+            Leftover::Replace
+        } else {
+            Leftover::Delay
+        }
+    }
+}
+
+impl Pool {
+    /// A buffer of zeros.
+    fn take(&self, length: usize) -> Vec<f64> {
+        let mut buffer = self.take_empty(length);
+        buffer.resize(length, 0.0);
+        buffer
+    }
+
+    /// An empty buffer with some capacity: the smallest that fits, or a new one.
+    fn take_empty(&self, capacity: usize) -> Vec<f64> {
+        let Ok(mut free) = self.0.lock() else {
+            return Vec::with_capacity(capacity);
+        };
+        // Sorted by rising capacity; a much too large one is worth more elsewhere.
+        let found = free.partition_point(|buffer| buffer.capacity() < capacity);
+        match free.get(found) {
+            Some(buffer) if buffer.capacity() / 4 <= capacity => return free.remove(found),
+            _ if found > 0 => drop(free.remove(found - 1)),
+            _ => {}
+        }
+        Vec::with_capacity(capacity)
+    }
+
+    /// Takes a buffer back.
+    fn give(&self, mut buffer: Vec<f64>) {
+        buffer.clear();
+        if let Ok(mut free) = self.0.lock() {
+            let place = free.partition_point(|other| other.capacity() < buffer.capacity());
+            free.insert(place, buffer);
+        }
+    }
+}
