@@ -4,6 +4,7 @@ use crate::{
     dense::{self, Leftover},
     equilibration::Equilibration,
     matrix::SparseMatrix,
+    numeric::{Child, Contribution, Kernel},
     tree::{AssemblyTree, ELSEWHERE, Front},
 };
 
@@ -23,24 +24,6 @@ pub(crate) struct FrontFactor {
     pub(crate) smallest: f64,
     /// Values, where delayed pivots made the front larger than planned.
     pub(crate) enlarged: Vec<f64>,
-}
-
-/// What a front adds to its parent; the values are kept apart.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Contribution {
-    /// Unknowns of the rows: delayed ones, then the border.
-    pub(crate) rows: Vec<u32>,
-    /// Unknowns of the columns.
-    pub(crate) columns: Vec<u32>,
-    /// How many are delayed.
-    pub(crate) delayed: usize,
-}
-
-/// A child's contribution ready for assembly.
-pub(crate) struct Child<'a> {
-    pub(crate) front: &'a Front,
-    pub(crate) contribution: &'a Contribution,
-    pub(crate) values: &'a [f64],
 }
 
 /// What all fronts of a factorisation share.
@@ -78,20 +61,44 @@ impl FrontFactor {
     }
 }
 
-impl Contribution {
-    /// Rows and columns.
-    pub(crate) fn size(&self) -> usize {
-        self.rows.len()
+impl Kernel for System<'_> {
+    type Factor = FrontFactor;
+
+    fn tree(&self) -> &AssemblyTree {
+        self.tree
+    }
+
+    fn entries(&self, front: &Front) -> usize {
+        front.entries()
+    }
+
+    fn factor(
+        &self,
+        f: usize,
+        children: &[Child<'_>],
+        planned: &mut [f64],
+        rest: &mut [f64],
+    ) -> (FrontFactor, Contribution) {
+        let factor = factor(*self, f, children, planned, rest);
+        let contribution = contribution(&factor);
+        (factor, contribution)
+    }
+
+    fn with_delayed(
+        &self,
+        factor: &FrontFactor,
+        planned: &[f64],
+        rest: &[f64],
+        contribution: &mut [f64],
+    ) {
+        with_delayed(factor, planned, rest, contribution);
     }
 }
 
-/// Assembles and factors front `f`, whose contribution without delayed pivots goes to `rest`.
-///
-/// `planned` is the storage for a front without inherited pivots, `rest` is zero.
-pub(crate) fn factor(
+/// Assembles and factors front `f`; `planned` is the storage for a front that inherits no pivots.
+fn factor(
     system: System<'_>,
     f: usize,
-    leftover: Leftover,
     children: &[Child<'_>],
     planned: &mut [f64],
     rest: &mut [f64],
@@ -119,8 +126,14 @@ pub(crate) fn factor(
     let mut next = front.pivots;
     for child in children {
         target.extend_add(child, next);
-        next += child.contribution.delayed;
+        next += child.contribution.delayed();
     }
+    let is_root = system.tree.roots.binary_search(&(f as u32)).is_ok();
+    let leftover = if is_root {
+        Leftover::Replace
+    } else {
+        Leftover::Delay
+    };
     let done = dense::eliminate(
         target.left,
         target.above,
@@ -134,21 +147,16 @@ pub(crate) fn factor(
 }
 
 /// Names of what the parent receives.
-pub(crate) fn contribution(factor: &FrontFactor) -> Contribution {
+fn contribution(factor: &FrontFactor) -> Contribution {
     Contribution {
-        rows: factor.rows[factor.pivots..].to_vec(),
-        columns: factor.columns[factor.pivots..].to_vec(),
-        delayed: factor.delayed(),
+        size: factor.size() - factor.pivots,
+        delayed_rows: factor.rows[factor.pivots..factor.summed].to_vec(),
+        delayed_columns: factor.columns[factor.pivots..factor.summed].to_vec(),
     }
 }
 
 /// Contribution with the delayed pivots, from the factors and the part on the border.
-pub(crate) fn with_delayed(
-    factor: &FrontFactor,
-    planned: &[f64],
-    rest: &[f64],
-    contribution: &mut [f64],
-) {
+fn with_delayed(factor: &FrontFactor, planned: &[f64], rest: &[f64], contribution: &mut [f64]) {
     let (left, above) = factor.values(planned);
     let (size, summed, pivots) = (factor.size(), factor.summed, factor.pivots);
     let (width, delayed) = (size - summed, summed - pivots);
@@ -175,9 +183,8 @@ fn unknowns(system: System<'_>, front: &Front, children: &[Child<'_>]) -> FrontF
     of(&front.members, &mut rows);
     columns.extend_from_slice(&rows);
     for child in children {
-        let delayed = child.contribution.delayed;
-        rows.extend_from_slice(&child.contribution.rows[..delayed]);
-        columns.extend_from_slice(&child.contribution.columns[..delayed]);
+        rows.extend_from_slice(&child.contribution.delayed_rows);
+        columns.extend_from_slice(&child.contribution.delayed_columns);
     }
     let summed = rows.len();
     of(&front.border, &mut rows);
@@ -293,20 +300,9 @@ impl Target<'_> {
 
     /// Place in this front of each row and column of a contribution.
     fn places(&self, child: &Child<'_>, delayed_at: usize) -> Vec<u32> {
-        let delayed = child.contribution.delayed;
-        let mut places: Vec<u32> = (delayed_at..delayed_at + delayed)
-            .map(|p| p as u32)
-            .collect();
-        let border = &child.contribution.rows[delayed..];
-        let mut next = 0;
-        for (k, &start) in child.front.relative.iter().enumerate() {
-            let end = child.front.ends[k] as usize;
-            let start = self.shifted(start as usize) as u32;
-            places.extend((0..(end - next) as u32).map(|u| start + u));
-            next = end;
-        }
-        debug_assert_eq!(next, border.len());
-        places
+        let delayed = delayed_at..delayed_at + child.contribution.delayed();
+        let border = child.front.places().map(|place| self.shifted(place));
+        delayed.chain(border).map(|place| place as u32).collect()
     }
 }
 

@@ -10,7 +10,7 @@
 use crate::{
     equilibration::Equilibration,
     error::SolveError,
-    front::System,
+    front::{FrontFactor, System},
     matrix::SparseMatrix,
     numeric::Numeric,
     ordering, refinement,
@@ -29,7 +29,7 @@ const SUSPICIOUS: f64 = 1e-6;
 pub struct MultifrontalLu {
     symbolic: Option<Symbolic>,
     scaling: Equilibration,
-    numeric: Numeric,
+    numeric: Numeric<FrontFactor>,
     state: State,
 }
 
@@ -57,8 +57,8 @@ impl MultifrontalLu {
 impl LinearSolver for MultifrontalLu {
     fn analyse(&mut self, structure: &Structure) -> Result<Analysis, SolveError> {
         *self = Self::default();
-        let order = ordering::order(structure)?;
-        let tree = AssemblyTree::new(structure, &order, 0);
+        let order = ordering::order(structure, structure.tiers())?;
+        let tree = AssemblyTree::new(structure, structure.tiers(), &order, 0);
         let analysis = Analysis {
             factor_entries: tree.entries(),
             flops: tree.flops(),
@@ -83,7 +83,7 @@ impl LinearSolver for MultifrontalLu {
             matrix,
             scaling: &self.scaling,
         };
-        self.numeric.factor(system);
+        self.numeric.factor(&system);
         let fronts = &self.numeric.fronts;
         let report = FactorReport {
             factor_entries: fronts.iter().map(|front| front.entries()).sum(),
@@ -126,7 +126,7 @@ impl LinearSolver for MultifrontalLu {
 
 struct Substitution<'a> {
     tree: &'a AssemblyTree,
-    numeric: &'a Numeric,
+    numeric: &'a Numeric<FrontFactor>,
 }
 
 impl Factors for Substitution<'_> {

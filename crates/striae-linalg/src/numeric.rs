@@ -1,13 +1,10 @@
-//! Multifrontal LU over the whole assembly tree.
+//! Multifrontal factorisation over the whole assembly tree.
 //!
 //! Small subtrees are factored in sequence with one stack of contributions;
 //! above them children are factored in parallel. Contributions are added in
 //! the order of the children, so threads do not change the result.
 
-use crate::{
-    dense::Leftover,
-    front::{self, Child, Contribution, FrontFactor, System},
-};
+use crate::tree::{AssemblyTree, Front};
 use rayon::prelude::*;
 use std::sync::Mutex;
 
@@ -16,10 +13,66 @@ const SEQUENTIAL_SHARE: f64 = 1.0 / 48.0;
 /// Work below which a subtree is factored in sequence in any case.
 const SEQUENTIAL_FLOPS: f64 = 2e7;
 
+/// What a factorisation does at one front.
+pub(crate) trait Kernel: Sync {
+    /// What it keeps of a front apart from the values.
+    type Factor: Clone + Default + Send;
+
+    /// The plan.
+    fn tree(&self) -> &AssemblyTree;
+
+    /// Entries of the factors of a front, as planned.
+    fn entries(&self, front: &Front) -> usize;
+
+    /// Assembles and factors front `f`; the contribution, without delayed
+    /// pivots, goes to `rest`, which is zero.
+    fn factor(
+        &self,
+        f: usize,
+        children: &[Child<'_>],
+        planned: &mut [f64],
+        rest: &mut [f64],
+    ) -> (Self::Factor, Contribution);
+
+    /// Completes a contribution with delayed pivots.
+    fn with_delayed(
+        &self,
+        factor: &Self::Factor,
+        planned: &[f64],
+        rest: &[f64],
+        contribution: &mut [f64],
+    );
+}
+
+/// What a front adds to its parent; the values are kept apart.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Contribution {
+    /// Number of rows and columns: delayed pivots, then the border.
+    pub(crate) size: usize,
+    /// Unknowns of the delayed rows.
+    pub(crate) delayed_rows: Vec<u32>,
+    /// Unknowns of the delayed columns.
+    pub(crate) delayed_columns: Vec<u32>,
+}
+
+impl Contribution {
+    /// Pivots left to the parent.
+    pub(crate) fn delayed(&self) -> usize {
+        self.delayed_rows.len()
+    }
+}
+
+/// A child's contribution ready for assembly.
+pub(crate) struct Child<'a> {
+    pub(crate) front: &'a Front,
+    pub(crate) contribution: &'a Contribution,
+    pub(crate) values: &'a [f64],
+}
+
 /// Factors of a matrix; storage is kept for the next factorisation.
 #[derive(Debug, Default)]
-pub(crate) struct Numeric {
-    pub(crate) fronts: Vec<FrontFactor>,
+pub(crate) struct Numeric<F> {
+    pub(crate) fronts: Vec<F>,
     /// Planned storage of all fronts, one after the other.
     pub(crate) values: Vec<f64>,
     pool: Pool,
@@ -35,18 +88,19 @@ struct Delivered {
     values: Vec<f64>,
 }
 
-impl Numeric {
+impl<F: Clone + Default + Send> Numeric<F> {
     /// Factors a system, over the storage of earlier factorisations.
-    pub(crate) fn factor(&mut self, system: System<'_>) {
-        let tree = system.tree;
-        self.values.resize(tree.entries(), 0.0);
+    pub(crate) fn factor(&mut self, kernel: &impl Kernel<Factor = F>) {
+        let tree = kernel.tree();
+        let entries = tree.fronts.iter().map(|front| kernel.entries(front)).sum();
+        self.values.resize(entries, 0.0);
         self.fronts.clear();
-        self.fronts
-            .resize(tree.fronts.len(), FrontFactor::default());
+        self.fronts.resize(tree.fronts.len(), F::default());
+        let small = (tree.flops() * SEQUENTIAL_SHARE).max(SEQUENTIAL_FLOPS);
         let run = Run {
-            system,
+            kernel,
             pool: &self.pool,
-            small: (tree.flops() * SEQUENTIAL_SHARE).max(SEQUENTIAL_FLOPS),
+            small,
         };
         let (_, subtrees) = run.split(&tree.roots, &mut self.values, &mut self.fronts);
         subtrees.into_par_iter().for_each(|subtree| {
@@ -56,34 +110,34 @@ impl Numeric {
     }
 }
 
-struct Run<'a> {
-    system: System<'a>,
+struct Run<'a, K> {
+    kernel: &'a K,
     pool: &'a Pool,
     small: f64,
 }
 
 /// A subtree and the storage of its fronts.
-struct Subtree<'a> {
+struct Subtree<'a, F> {
     root: usize,
     values: &'a mut [f64],
-    fronts: &'a mut [FrontFactor],
+    fronts: &'a mut [F],
 }
 
-impl Run<'_> {
+impl<K: Kernel> Run<'_, K> {
     /// Storage of the subtrees with the given roots, in front of what is left of it.
     fn split<'b>(
         &self,
         roots: &[u32],
         mut values: &'b mut [f64],
-        mut fronts: &'b mut [FrontFactor],
-    ) -> (Subtree<'b>, Vec<Subtree<'b>>) {
-        let tree = self.system.tree;
+        mut fronts: &'b mut [K::Factor],
+    ) -> (Subtree<'b, K::Factor>, Vec<Subtree<'b, K::Factor>>) {
+        let tree = self.kernel.tree();
         let mut subtrees = Vec::with_capacity(roots.len());
         for &root in roots {
             let range = tree.subtree(root as usize);
             let entries = tree.fronts[range.clone()]
                 .iter()
-                .map(|front| front.entries())
+                .map(|front| self.kernel.entries(front))
                 .sum();
             let (own, rest) = values.split_at_mut(entries);
             values = rest;
@@ -106,8 +160,8 @@ impl Run<'_> {
     }
 
     /// Factors a subtree.
-    fn subtree(&self, subtree: Subtree<'_>) -> Delivered {
-        let tree = self.system.tree;
+    fn subtree(&self, subtree: Subtree<'_, K::Factor>) -> Delivered {
+        let tree = self.kernel.tree();
         let front = &tree.fronts[subtree.root];
         if front.subtree_flops <= self.small || front.children.is_empty() {
             return self.sequential(subtree);
@@ -129,23 +183,15 @@ impl Run<'_> {
             })
             .collect();
         let mut rest = self.pool.take(front.rest() * front.rest());
-        let leftover = self.leftover(root);
-        let factor = front::factor(
-            self.system,
-            root,
-            leftover,
-            &children,
-            own.values,
-            &mut rest,
-        );
+        let (factor, contribution) = self.kernel.factor(root, &children, own.values, &mut rest);
         drop(children);
         delivered
             .into_iter()
             .for_each(|child| self.pool.give(child.values));
-        let contribution = front::contribution(&factor);
-        if contribution.delayed > 0 {
-            let mut all = self.pool.take(contribution.size() * contribution.size());
-            front::with_delayed(&factor, own.values, &rest, &mut all);
+        if contribution.delayed() > 0 {
+            let mut all = self.pool.take(contribution.size * contribution.size);
+            self.kernel
+                .with_delayed(&factor, own.values, &rest, &mut all);
             self.pool.give(std::mem::replace(&mut rest, all));
         }
         own.fronts[0] = factor;
@@ -156,14 +202,14 @@ impl Run<'_> {
     }
 
     /// Factors a subtree front by front, contributions on a stack.
-    fn sequential(&self, subtree: Subtree<'_>) -> Delivered {
-        let tree = self.system.tree;
+    fn sequential(&self, subtree: Subtree<'_, K::Factor>) -> Delivered {
+        let tree = self.kernel.tree();
         let mut stack = self.pool.take_empty(tree.fronts[subtree.root].stack);
         let mut waiting: Vec<(usize, Contribution)> = Vec::new();
         let mut storage = subtree.values;
         for (f, slot) in tree.subtree(subtree.root).zip(subtree.fronts) {
             let front = &tree.fronts[f];
-            let (planned, others) = storage.split_at_mut(front.entries());
+            let (planned, others) = storage.split_at_mut(self.kernel.entries(front));
             storage = others;
             let first = waiting.len() - front.children.len();
             let top = stack.len();
@@ -174,17 +220,16 @@ impl Run<'_> {
                 .map(|(&c, (offset, contribution))| Child {
                     front: &tree.fronts[c as usize],
                     contribution,
-                    values: &old[*offset..][..contribution.size() * contribution.size()],
+                    values: &old[*offset..][..contribution.size * contribution.size],
                 })
                 .collect();
-            let factor = front::factor(self.system, f, self.leftover(f), &children, planned, rest);
-            let contribution = front::contribution(&factor);
+            let (factor, contribution) = self.kernel.factor(f, &children, planned, rest);
             let mut begin = top;
-            if contribution.delayed > 0 {
+            if contribution.delayed() > 0 {
                 begin = stack.len();
-                stack.resize(begin + contribution.size() * contribution.size(), 0.0);
+                stack.resize(begin + contribution.size * contribution.size, 0.0);
                 let (old, all) = stack.split_at_mut(begin);
-                front::with_delayed(&factor, planned, &old[top..], all);
+                self.kernel.with_delayed(&factor, planned, &old[top..], all);
             }
             let base = waiting.get(first).map_or(top, |&(offset, _)| offset);
             let end = stack.len();
@@ -204,14 +249,6 @@ impl Run<'_> {
         Delivered {
             contribution,
             values,
-        }
-    }
-
-    fn leftover(&self, f: usize) -> Leftover {
-        if self.system.tree.roots.binary_search(&(f as u32)).is_ok() {
-            Leftover::Replace
-        } else {
-            Leftover::Delay
         }
     }
 }

@@ -8,15 +8,15 @@ use crate::{
 };
 
 /// Supervariables in order of elimination.
-pub(crate) fn order(structure: &Structure) -> Result<Vec<u32>, SolveError> {
+pub(crate) fn order(structure: &Structure, tiers: &[Tier]) -> Result<Vec<u32>, SolveError> {
     let count = structure.supervariables();
-    let tier = |i: u32| structure.tier(Supervariable(i as usize));
+    let tier = |i: u32| tiers[i as usize];
     let mut members: Vec<u32> = (0..count as u32).collect();
     members.sort_by_key(|&i| tier(i));
     let mut order = Vec::with_capacity(count);
     let mut index = vec![0; count];
     for group in members.chunk_by(|&a, &b| tier(a) == tier(b)) {
-        let graph = induced(structure, group, tier(group[0]), &mut index);
+        let graph = induced(structure, tiers, group, &mut index);
         order.extend(
             metis::nested_dissection(graph)?
                 .into_iter()
@@ -27,7 +27,7 @@ pub(crate) fn order(structure: &Structure) -> Result<Vec<u32>, SolveError> {
 }
 
 /// Graph on the members of one tier.
-fn induced(structure: &Structure, members: &[u32], tier: Tier, index: &mut [i32]) -> Graph {
+fn induced(structure: &Structure, tiers: &[Tier], members: &[u32], index: &mut [i32]) -> Graph {
     for (k, &i) in members.iter().enumerate() {
         index[i as usize] = k as i32;
     }
@@ -38,7 +38,7 @@ fn induced(structure: &Structure, members: &[u32], tier: Tier, index: &mut [i32]
     };
     for &i in members {
         for j in structure.neighbours(Supervariable(i as usize)) {
-            if j.0 != i as usize && structure.tier(j) == tier {
+            if j.0 != i as usize && tiers[j.0] == tiers[i as usize] {
                 graph.neighbours.push(index[j.0]);
             }
         }

@@ -112,6 +112,11 @@ impl Structure {
         self.0.tiers[supervariable.0]
     }
 
+    /// Ordering tiers of all supervariables.
+    pub(crate) fn tiers(&self) -> &[Tier] {
+        &self.0.tiers
+    }
+
     /// Supervariables adjacent to one, itself among them, in rising order.
     pub fn neighbours(
         &self,

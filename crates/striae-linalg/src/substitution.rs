@@ -9,7 +9,7 @@ use faer::{
 };
 
 /// `x := A^-1 x`.
-pub(crate) fn solve(tree: &AssemblyTree, numeric: &Numeric, x: &mut [f64]) {
+pub(crate) fn solve(tree: &AssemblyTree, numeric: &Numeric<FrontFactor>, x: &mut [f64]) {
     let storage = storage(tree);
     let mut solution = vec![0.0; x.len()];
     for (f, factor) in numeric.fronts.iter().enumerate() {
@@ -24,7 +24,7 @@ pub(crate) fn solve(tree: &AssemblyTree, numeric: &Numeric, x: &mut [f64]) {
 }
 
 /// `x := A^-T x`.
-pub(crate) fn solve_transposed(tree: &AssemblyTree, numeric: &Numeric, x: &mut [f64]) {
+pub(crate) fn solve_transposed(tree: &AssemblyTree, numeric: &Numeric<FrontFactor>, x: &mut [f64]) {
     let storage = storage(tree);
     let mut solution = vec![0.0; x.len()];
     for (f, factor) in numeric.fronts.iter().enumerate() {

@@ -5,7 +5,7 @@
 //! a child is merged into its parent while the explicit zeros this stores stay
 //! a small share of the front (Duff & Reid, doi:10.1145/356044.356047).
 
-use crate::structure::{Structure, Supervariable};
+use crate::structure::{Structure, Supervariable, Tier};
 
 /// No parent.
 pub(crate) const NONE: u32 = u32::MAX;
@@ -31,11 +31,16 @@ const RELAXATION: [(usize, f64); 4] = [(16, 0.7), (48, 0.25), (128, 0.1), (usize
 /// Amalgamated supernodes; a parent comes after its children.
 ///
 /// The last `kept` supervariables of the order end up alone in one supernode.
-pub(crate) fn supernodes(structure: &Structure, order: &[u32], kept: usize) -> Vec<Supernode> {
+pub(crate) fn supernodes(
+    structure: &Structure,
+    tiers: &[Tier],
+    order: &[u32],
+    kept: usize,
+) -> Vec<Supernode> {
     let parents = elimination_tree(structure, order, kept);
     let counts = counts(structure, order, &parents, kept);
-    let mut nodes = maximal(structure, order, &parents, &counts, kept);
-    amalgamate(structure, &mut nodes, kept);
+    let mut nodes = maximal(structure, tiers, order, &parents, &counts, kept);
+    amalgamate(tiers, &mut nodes, kept);
     nodes
 }
 
@@ -111,6 +116,7 @@ fn counts(structure: &Structure, order: &[u32], parents: &[u32], kept: usize) ->
 /// Maximal supernodes in postorder.
 fn maximal(
     structure: &Structure,
+    tiers: &[Tier],
     order: &[u32],
     parents: &[u32],
     counts: &[usize],
@@ -118,7 +124,7 @@ fn maximal(
 ) -> Vec<Supernode> {
     let interior = order.len() - kept;
     let size = |k: usize| structure.group(order[k] as usize).len();
-    let tier = |k: usize| structure.tier(Supervariable(order[k] as usize));
+    let tier = |k: usize| tiers[order[k] as usize];
     let mut node_of = vec![NONE; order.len()];
     let mut nodes: Vec<Supernode> = Vec::new();
     let mut last = NONE;
@@ -187,18 +193,14 @@ pub(crate) fn postorder(parents: &[u32]) -> Vec<u32> {
 }
 
 /// Merges children into parents where that stores few zeros.
-fn amalgamate(structure: &Structure, nodes: &mut Vec<Supernode>, kept: usize) {
+fn amalgamate(tiers: &[Tier], nodes: &mut Vec<Supernode>, kept: usize) {
     let mut children = vec![Vec::new(); nodes.len()];
     for (index, node) in nodes.iter().enumerate() {
         if node.parent != NONE {
             children[node.parent as usize].push(index);
         }
     }
-    let tier = |node: &Supernode| {
-        node.members
-            .first()
-            .map(|&i| structure.tier(Supervariable(i as usize)))
-    };
+    let tier = |node: &Supernode| node.members.first().map(|&i| tiers[i as usize]);
     let root = if kept > 0 {
         nodes.len() - 1
     } else {

@@ -7,7 +7,7 @@
 //! ordered for the least working storage (Liu, doi:10.1145/7921.11325).
 
 use crate::{
-    structure::Structure,
+    structure::{Structure, Tier},
     supernodes::{self, NONE, Supernode},
 };
 use std::{cmp::Reverse, ops::Range};
@@ -59,6 +59,14 @@ impl Front {
         self.size - self.pivots
     }
 
+    /// Place in the parent's front of each unknown of the border, as planned.
+    pub(crate) fn places(&self) -> impl Iterator<Item = usize> + '_ {
+        let begins = std::iter::once(&0).chain(&self.ends);
+        let sizes = self.ends.iter().zip(begins).map(|(end, begin)| end - begin);
+        let starts = self.relative.iter().zip(sizes);
+        starts.flat_map(|(&start, size)| start as usize..(start + size) as usize)
+    }
+
     /// Entries of both factors.
     pub(crate) fn entries(&self) -> usize {
         self.pivots * (self.pivots + 2 * self.rest())
@@ -67,8 +75,8 @@ impl Front {
 
 impl AssemblyTree {
     /// Tree for an order of elimination whose last `kept` supervariables form one root.
-    pub(crate) fn new(structure: &Structure, order: &[u32], kept: usize) -> Self {
-        let nodes = sorted(supernodes::supernodes(structure, order, kept));
+    pub(crate) fn new(structure: &Structure, tiers: &[Tier], order: &[u32], kept: usize) -> Self {
+        let nodes = sorted(supernodes::supernodes(structure, tiers, order, kept));
         let mut node_of = vec![NONE; structure.supervariables()];
         for (index, node) in nodes.iter().enumerate() {
             node.members
