@@ -49,17 +49,7 @@ fn meshes() {
         "mesh too large",
         &[("divisions = [4, 4, 2]", "divisions = [4000, 4000, 2000]")],
         &[
-            "10:63: the mesh of body `lower` would have 32000000000 elements; at most 20000000 are possible",
-        ],
-    );
-    misstated(
-        "elements turned inside out",
-        &[(
-            "divisions = [4, 4, 2]",
-            "divisions = [4, 4, 2], irregularity = 0.49, mesh_rotation = 170",
-        )],
-        &[
-            "10:8: the mesh of body `lower` cannot be made: 20 elements are turned inside out or degenerate, the first is element 1 with a Jacobian determinant of -3.769e-3",
+            "10:8: the mesh of body `lower` cannot be made: the mesh would have 32000000000 elements, 20000000 are the most that is made",
         ],
     );
     misstated(
@@ -375,6 +365,83 @@ b = { body = "upper", facets = "zmin" }"#,
 b = { rigid = "floor" }"#,
         )],
         &[
+            "26:1: body `upper` is in no contact pair and 3 rigid motions of it are left free in step `press`; prescribe displacements that hold it",
+        ],
+    );
+}
+
+#[test]
+fn textures() {
+    misstated(
+        "friction without a texture it needs",
+        &[
+            (
+                r#"law = "coulomb", mu = 0.3"#,
+                r#"law = "two-textures", mu = 0.3, c_mag = 0.1, c_ang = 0.1, c_cen = 0.5"#,
+            ),
+            (
+                r#"a = { body = "lower", facets = "zmax" }"#,
+                r#"a = { body = "lower", facets = "zmax", texture = { uniform = [1, 0, 0] } }"#,
+            ),
+        ],
+        &[
+            "22:12: the friction of pair `interface` needs a texture on both sides; sides that have one: 1",
+        ],
+    );
+    misstated(
+        "friction with one texture too many",
+        &[
+            (
+                r#"law = "coulomb", mu = 0.3"#,
+                r#"law = "nap", mu_forward = 0.2, mu_backward = 0.3, mu_lateral = 0.25"#,
+            ),
+            (
+                r#"a = { body = "lower", facets = "zmax" }"#,
+                r#"a = { body = "lower", facets = "zmax", texture = { uniform = [1, 0, 0] } }"#,
+            ),
+            (
+                r#"b = { body = "upper", facets = "zmin" }"#,
+                r#"b = { body = "upper", facets = "zmin", texture = { axial = { direction = [1, 0, 0] } } }"#,
+            ),
+        ],
+        &[
+            "22:12: the friction of pair `interface` needs a texture on one side; sides that have one: 2",
+        ],
+    );
+    misstated(
+        "later friction without a texture it needs",
+        &[(
+            r#"law = "frictionless""#,
+            r#"law = "orthotropic", mu_along = 0.1, mu_across = 0.2"#,
+        )],
+        &[
+            "40:13: the friction of pair `interface` needs a texture on one side; sides that have one: 0",
+        ],
+    );
+    misstated(
+        "texture of no direction",
+        &[(
+            r#"a = { body = "lower", facets = "zmax" }"#,
+            r#"a = { body = "lower", facets = "zmax", texture = { uniform = [0, 0, 0] } }"#,
+        )],
+        &["20:62: the direction of a texture must not be the zero vector"],
+    );
+    misstated(
+        "texture about an axis of no direction",
+        &[(
+            r#"a = { body = "lower", facets = "zmax" }"#,
+            r#"a = { body = "lower", facets = "zmax", texture = { radial = { direction = [0, 0, 0] } } }"#,
+        )],
+        &["20:75: the direction of an axis must not be the zero vector"],
+    );
+    misstated(
+        "texture at points of a plane",
+        &[(
+            r#"b = { body = "upper", facets = "zmin" }"#,
+            r#"b = { rigid = "floor", texture = { points = [{ at = [0, 0, 0], direction = [1, 0, 0] }] } }"#,
+        )],
+        &[
+            "21:34: rigid surface `floor` is a plane without nodes, so its texture cannot be given at points",
             "26:1: body `upper` is in no contact pair and 3 rigid motions of it are left free in step `press`; prescribe displacements that hold it",
         ],
     );

@@ -15,6 +15,8 @@ use striae_solve::model::{
     Side, Solver,
 };
 
+use striae_surface::texture::{Field, Lines, Paint};
+
 fn lowered(text: &str) -> Deck {
     parse(text, "deck.toml", Path::new("")).unwrap_or_else(|faults| panic!("{faults}"))
 }
@@ -193,15 +195,47 @@ fn settings_have_defaults() {
 
 #[test]
 fn friction_takes_decay_and_cap() {
-    let law = r#"{ law = "nap", mu_forward = 0.2, mu_backward = 0.3, mu_lateral = 0.25, shear_cap = 5, decay = { kinetic_over_static = 0.8, rate = 2 } }"#;
+    let law = r#"{ law = "coulomb", mu = 0.2, shear_cap = 5, decay = { kinetic_over_static = 0.8, rate = 2 } }"#;
     let text = BASE.replace(r#"{ law = "coulomb", mu = 0.3 }"#, law);
-    let expected = Friction::nap(0.2, 0.3, 0.25)
+    let expected = Friction::coulomb(0.2)
         .unwrap()
         .with_decay(0.8, 2.0)
         .unwrap()
         .with_shear_cap(5.0)
         .unwrap();
     assert_eq!(lowered(&text).model.pairs[0].friction, expected);
+}
+
+#[test]
+fn textures_go_with_their_sides() {
+    let text = BASE
+        .replace(
+            r#"a = { body = "lower", facets = "zmax" }"#,
+            r#"a = { rigid = "floor", texture = { uniform = [0, 2, 0], turn = 180 } }"#,
+        )
+        .replace(
+            r#"facets = "zmin" }"#,
+            r#"facets = "zmin", texture = { points = [{ at = [0, 0, 0], direction = [1, 0, 0] }], width = 2 } }"#,
+        )
+        .replace(
+            r#"law = "coulomb", mu = 0.3"#,
+            r#"law = "two-textures", mu = 0.3, c_mag = 0.1, c_ang = 0.1, c_cen = 0.5"#,
+        );
+    let pair = &lowered(&text).model.pairs[0];
+    assert_eq!(
+        pair.friction,
+        Friction::two_textures(0.3, 0.1, 0.1, 0.5).unwrap()
+    );
+    let points = Paint::Points {
+        directions: vec![(Vec3::zeros(), Vec3::x())],
+        width: Some(2.0),
+    };
+    let lines = Lines::Uniform(2.0 * Vec3::y());
+    let field = Paint::Field(Field {
+        lines,
+        turn: std::f64::consts::PI,
+    });
+    assert_eq!(pair.textures, [Some(points), Some(field)]);
 }
 
 #[test]
@@ -219,6 +253,20 @@ fn every_generator_makes_its_mesh() {
         );
         assert!(lowered(&deck).model.bodies[0].mesh.elements.len() >= 24);
     }
+}
+
+#[test]
+fn elements_turned_inside_out_are_named() {
+    let twisted = "divisions = [4, 4, 2], mesh_rotation = 170";
+    let text = BASE.replace("divisions = [4, 4, 2]", twisted);
+    let faults = parse(&text, "deck.toml", Path::new("")).unwrap_err();
+    let said: Vec<String> = faults.iter().map(ToString::to_string).collect();
+    assert_eq!(said.len(), 1, "{said:?}");
+    assert!(said[0].starts_with("deck.toml:10:8: the mesh of body `lower` cannot be made: "));
+    assert!(
+        said[0].contains("turned inside out") && said[0].contains("element "),
+        "{said:?}"
+    );
 }
 
 #[test]

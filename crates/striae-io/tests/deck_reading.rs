@@ -369,3 +369,17 @@ balance = "resultant""#,
         ],
     );
 }
+
+#[test]
+fn exclusive() {
+    misread(
+        "two textures on one side",
+        &[(
+            r#"a = { body = "lower", facets = "zmax" }"#,
+            r#"a = { body = "lower", facets = "zmax", texture = { uniform = [1, 0, 0], axial = { direction = [1, 0, 0] } } }"#,
+        )],
+        &[
+            "20:73: `uniform` and `axial` exclude each other in [[pair]] a texture; give either `uniform` or `circumferential` or `axial` or `radial` or `points`",
+        ],
+    );
+}

@@ -4,6 +4,7 @@
 
 use striae_law::{bulk::Material, friction::Friction};
 use striae_mesh::{Face, Mesh, NodeId, Vec3};
+use striae_surface::texture::Paint;
 
 /// A whole problem.
 #[derive(Clone, Debug)]
@@ -96,6 +97,8 @@ pub struct Pair {
     pub a: Side,
     /// Second side.
     pub b: Side,
+    /// Textures of the two sides, painted on their reference surfaces.
+    pub textures: [Option<Paint>; 2],
     /// Friction from the start; steps may change it.
     pub friction: Friction,
     /// Whether resultants of the two sides are made to balance.

@@ -60,6 +60,8 @@ macro_rules! table {
 macro_rules! choice {
     ($(#[doc = $doc:literal])+ $name:ident by $tag:ident { $($word:literal => $variant:ident($table:ty),)+ }) => {
         $(#[doc = $doc])+
+        // Tables without keys are chosen, but have nothing to read.
+        #[allow(dead_code)]
         #[derive(Clone, Debug)]
         pub(crate) enum $name { $($variant($table),)+ }
 

@@ -139,16 +139,6 @@ pub enum FaultKind {
         /// What its maker says.
         cause: String,
     },
-    /// A mesh larger than any that can be solved.
-    #[error("the mesh of {owner} would have {elements} elements; at most {most} are possible")]
-    TooLarge {
-        /// The body.
-        owner: String,
-        /// Elements asked for.
-        elements: u128,
-        /// Most that are possible.
-        most: u128,
-    },
     /// A facet of a surface written in the deck names a node that is not there.
     #[error(
         "facet {facet} of rigid surface `{surface}` refers to node {node}, but there are {nodes} nodes counted from 0"
@@ -282,6 +272,26 @@ pub enum FaultKind {
     Friction {
         /// What the law says.
         cause: String,
+    },
+    /// Textures do not fit the friction law.
+    #[error(
+        "the friction of pair `{pair}` needs a texture on {required}; sides that have one: {found}"
+    )]
+    Textures {
+        /// The pair.
+        pair: String,
+        /// How many sides must have one.
+        required: &'static str,
+        /// How many do.
+        found: usize,
+    },
+    /// A texture given at places of a plane.
+    #[error(
+        "rigid surface `{surface}` is a plane without nodes, so its texture cannot be given at points"
+    )]
+    PointsOnPlane {
+        /// The rigid surface.
+        surface: String,
     },
     /// A direction of no length.
     #[error("{place} must not be the zero vector")]

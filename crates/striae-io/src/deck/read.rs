@@ -152,11 +152,6 @@ impl TableReader<'_, '_, '_> {
         self.span.clone()
     }
 
-    /// How the table is called.
-    pub(crate) fn name(&self) -> &str {
-        &self.name
-    }
-
     /// The place of a key as written in the deck, where it is present.
     pub(crate) fn key_span(&self, key: &str) -> Option<Span> {
         self.table.get_key_value(key).map(|(key, _)| key.span())
@@ -188,11 +183,7 @@ impl TableReader<'_, '_, '_> {
 
     /// Finds nothing wrong with any key of these alternatives, as it is not known which applies.
     pub(crate) fn tolerate(&mut self, alternatives: &[Alternative]) {
-        self.known.extend(
-            alternatives
-                .iter()
-                .flat_map(|one| one.keys.iter().map(|key| key.name)),
-        );
+        self.known.extend(key_names(alternatives));
     }
 
     /// Which of several exclusive groups of keys is present.
@@ -200,7 +191,7 @@ impl TableReader<'_, '_, '_> {
         let present: Vec<(usize, &str)> = groups
             .iter()
             .enumerate()
-            .filter_map(|(index, group)| Some((index, self.first_present(group)?)))
+            .filter_map(|(index, _)| Some((index, self.first_present(groups, index)?)))
             .collect();
         let choices = || groups.iter().map(|group| leading(group)).collect();
         let kind = match present[..] {
@@ -225,11 +216,14 @@ impl TableReader<'_, '_, '_> {
         None
     }
 
-    fn first_present(&self, group: &[Alternative]) -> Option<&'static str> {
-        let mut keys = group
+    /// The first key present that belongs to this group alone.
+    fn first_present(&self, groups: &[Vec<Alternative>], index: usize) -> Option<&'static str> {
+        let others = groups
             .iter()
-            .flat_map(|one| one.keys.iter().map(|key| key.name));
-        keys.find(|key| self.table.contains_key(*key))
+            .enumerate()
+            .filter(|(other, _)| *other != index);
+        let shared: Vec<&str> = others.flat_map(|(_, group)| key_names(group)).collect();
+        key_names(&groups[index]).find(|key| self.table.contains_key(*key) && !shared.contains(key))
     }
 
     /// Notes unknown keys, and missing ones that none of those is a misspelling of.
@@ -290,6 +284,13 @@ pub(crate) fn combined(outer: &[Alternative], inner: &[Alternative]) -> Vec<Alte
         }
     }
     all
+}
+
+/// All keys of a group, some more than once.
+fn key_names(group: &[Alternative]) -> impl Iterator<Item = &'static str> {
+    group
+        .iter()
+        .flat_map(|one| one.keys.iter().map(|key| key.name))
 }
 
 /// The keys that every alternative of a group requires: its name in messages.

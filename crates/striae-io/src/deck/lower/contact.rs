@@ -1,6 +1,6 @@
 //! Contact pairs and friction.
 
-use super::body::Bodies;
+use super::{Read, body::Bodies, friction::friction, texture};
 use crate::deck::{
     fault::FaultKind,
     faults::{FaultList, Span},
@@ -9,20 +9,28 @@ use crate::deck::{
     read::At,
 };
 use std::collections::BTreeSet;
-use striae_law::friction::{Friction, FrictionError, SlipRule};
+use striae_law::friction::Friction;
 use striae_mesh::{Face, Mesh, NodeId};
-use striae_solve::model::{Balance, Pair, RigidId, Side};
+use striae_solve::model::{Balance, Pair, RigidId, RigidSurface, Side};
+use striae_surface::texture::Paint;
+
+/// What a side of a pair may refer to.
+pub(super) struct Surfaces<'r> {
+    pub(super) bodies: &'r Bodies,
+    pub(super) rigid_names: &'r Names,
+    pub(super) rigid: &'r [Option<RigidSurface>],
+    pub(super) read: Read,
+}
 
 /// The pairs; `None` for the faulty ones. A rigid surface becomes side `b`.
 pub(super) fn pairs(
     raw: &[At<raw::Pair>],
-    bodies: &Bodies,
-    rigid: &Names,
+    surfaces: &Surfaces<'_>,
     faults: &mut FaultList<'_>,
 ) -> Vec<Option<Pair>> {
     let mut pairs: Vec<Option<Pair>> = Vec::new();
     for raw in raw {
-        let pair = lower_pair(raw, bodies, rigid, faults);
+        let pair = lower_pair(raw, surfaces, faults);
         if let Some(pair) = &pair {
             let twin = pairs.iter().flatten().find(|other| same_sides(other, pair));
             if let Some(other) = twin {
@@ -38,28 +46,9 @@ pub(super) fn pairs(
     pairs
 }
 
-/// A friction law, or `None` after its faults have been noted.
-pub(super) fn friction(
-    raw: &raw::Friction,
-    span: &Span,
-    faults: &mut FaultList<'_>,
-) -> Option<Friction> {
-    lowered(raw)?
-        .map_err(|error| {
-            faults.push(
-                span,
-                FaultKind::Friction {
-                    cause: error.to_string(),
-                },
-            )
-        })
-        .ok()
-}
-
 fn lower_pair(
     raw: &At<raw::Pair>,
-    bodies: &Bodies,
-    rigid: &Names,
+    surfaces: &Surfaces<'_>,
     faults: &mut FaultList<'_>,
 ) -> Option<Pair> {
     let pair = &raw.value;
@@ -71,29 +60,34 @@ fn lower_pair(
     let a = pair
         .a
         .as_ref()
-        .and_then(|side| lower_side(&side.value, bodies, rigid, faults));
+        .and_then(|side| lower_side(&side.value, surfaces, faults));
     let b = pair
         .b
         .as_ref()
-        .and_then(|side| lower_side(&side.value, bodies, rigid, faults));
-    let friction = match &pair.friction {
-        Some(raw) => friction(&raw.value, &raw.span, faults),
-        None => Some(Friction::frictionless()),
+        .and_then(|side| lower_side(&side.value, surfaces, faults));
+    let (friction, at) = match &pair.friction {
+        Some(raw) => (friction(&raw.value, &raw.span, faults), &raw.span),
+        None => (Some(Friction::frictionless()), &raw.span),
     };
-    let (a, b) = match (a?, b?) {
-        (Side::Rigid(_), Side::Rigid(_)) => {
+    let ((a, texture_a), (b, texture_b)) = match (a?, b?) {
+        ((Side::Rigid(_), _), (Side::Rigid(_), _)) => {
             faults.push(&raw.span, FaultKind::TwoRigid { pair: name });
             return None;
         }
-        (a @ Side::Rigid(_), b) => (b, a),
+        (a @ (Side::Rigid(_), _), b) => (b, a),
         sides => sides,
     };
-    no_self_contact(&name, &raw.span, &a, &b, bodies, faults)?;
+    no_self_contact(&name, &raw.span, &a, &b, surfaces.bodies, faults)?;
+    let (friction, textures) = (friction?, [texture_a, texture_b]);
+    if surfaces.read == Read::Whole {
+        texture::check_friction(&name, &friction, &textures, at, faults);
+    }
     Some(Pair {
         name,
         a,
         b,
-        friction: friction?,
+        textures,
+        friction,
         balance: match pair.balance.as_ref().map(|balance| balance.value) {
             None | Some(raw::Balance::Resultants) => Balance::Resultants,
             Some(raw::Balance::None) => Balance::None,
@@ -105,22 +99,31 @@ fn lower_pair(
     })
 }
 
+/// A side with its texture.
 fn lower_side(
     raw: &raw::Side,
-    bodies: &Bodies,
-    rigid: &Names,
+    surfaces: &Surfaces<'_>,
     faults: &mut FaultList<'_>,
-) -> Option<Side> {
-    match raw {
-        raw::Side::Deformable(side) => {
-            let body = bodies.find(side.body.as_ref(), faults)?;
-            let faces = bodies.faces(body, side.facets.as_ref(), faults)?;
-            Some(Side::Deformable { body, faces })
+) -> Option<(Side, Option<Paint>)> {
+    let texture = match &raw.texture {
+        Some(raw) => texture::paint(&raw.value, faults).map(Some),
+        None => Some(None),
+    };
+    let side = match raw.surface.as_ref()? {
+        raw::SideSurface::Deformable(side) => {
+            let body = surfaces.bodies.find(side.body.as_ref(), faults)?;
+            let faces = surfaces.bodies.faces(body, side.facets.as_ref(), faults)?;
+            Side::Deformable { body, faces }
         }
-        raw::Side::Rigid(side) => rigid
-            .find(side.rigid.as_ref()?, faults)
-            .map(|id| Side::Rigid(RigidId(id))),
-    }
+        raw::SideSurface::Rigid(side) => {
+            let rigid = surfaces.rigid_names.find(side.rigid.as_ref()?, faults)?;
+            if let Some(texture) = &raw.texture {
+                texture::check_plane(surfaces.rigid[rigid].as_ref(), texture, faults);
+            }
+            Side::Rigid(RigidId(rigid))
+        }
+    };
+    Some((side, texture?))
 }
 
 fn no_self_contact(
@@ -179,43 +182,4 @@ fn same_sides(one: &Pair, other: &Pair) -> bool {
     };
     same(&one.a, &other.a) && same(&one.b, &other.b)
         || same(&one.a, &other.b) && same(&one.b, &other.a)
-}
-
-/// The friction, or `None` where a constant could not be read.
-fn lowered(raw: &raw::Friction) -> Option<Result<Friction, FrictionError>> {
-    let mut friction = match raw.law.as_ref()? {
-        raw::FrictionLaw::Frictionless(_) => Ok(Friction::frictionless()),
-        raw::FrictionLaw::Coulomb(law) => Friction::coulomb(law.mu.as_ref()?.value.0),
-        raw::FrictionLaw::TwoTextures(law) => Friction::two_textures(
-            law.mu.as_ref()?.value.0,
-            law.c_mag.as_ref()?.value.0,
-            law.c_ang.as_ref()?.value.0,
-            law.c_cen.as_ref()?.value.0,
-        ),
-        raw::FrictionLaw::Orthotropic(law) => {
-            let rule = match law.slip_rule.as_ref().map(|rule| rule.value) {
-                None | Some(raw::SlipRule::Opposing) => SlipRule::Opposing,
-                Some(raw::SlipRule::Associated) => SlipRule::Associated,
-            };
-            Friction::orthotropic(
-                law.mu_along.as_ref()?.value.0,
-                law.mu_across.as_ref()?.value.0,
-                rule,
-            )
-        }
-        raw::FrictionLaw::Nap(law) => Friction::nap(
-            law.mu_forward.as_ref()?.value.0,
-            law.mu_backward.as_ref()?.value.0,
-            law.mu_lateral.as_ref()?.value.0,
-        ),
-    };
-    if let Some(decay) = &raw.decay {
-        let ratio = decay.value.kinetic_over_static.as_ref()?.value.0;
-        let rate = decay.value.rate.as_ref()?.value.0;
-        friction = friction.and_then(|friction| friction.with_decay(ratio, rate));
-    }
-    if let Some(cap) = &raw.shear_cap {
-        friction = friction.and_then(|friction| friction.with_shear_cap(cap.value.0));
-    }
-    Some(friction)
 }

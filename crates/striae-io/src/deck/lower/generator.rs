@@ -1,8 +1,8 @@
-//! Parameters of mesh generators, and how large their meshes would be.
+//! Parameters of mesh generators.
 
 use crate::deck::{
     fault::FaultKind,
-    faults::{FaultList, Span},
+    faults::FaultList,
     raw,
     read::At,
     value::{Count, Number, vector},
@@ -11,12 +11,8 @@ use striae_mesh::{
     Mesh, MeshError, Vec3,
     generate::{
         Annulus, Block, CappedBlock, Grading, Half, HalfCylinder, Pivot, Refinement, Rotation,
-        refined_lengths,
     },
 };
-
-/// Intervals along an edge beyond which its lengths are not even listed.
-const MOST_INTERVALS: f64 = 1e6;
 
 /// A generator with its parameters.
 pub(super) enum Generator {
@@ -46,48 +42,6 @@ impl Generator {
             Self::Annulus(ring) => ring.mesh(),
         }
     }
-
-    /// Number of elements, about right for the half cylinder, and the value in
-    /// the deck that decides it.
-    pub(super) fn elements(&self, raw: &raw::Generator) -> Option<(Span, u128)> {
-        let span = match raw {
-            raw::Generator::Block(raw) => &raw.divisions.as_ref()?.span,
-            raw::Generator::CappedBlock(raw) => &raw.element_size.as_ref()?.span,
-            raw::Generator::HalfCylinder(raw) => &raw.element_size.as_ref()?.span,
-            raw::Generator::Annulus(raw) => &raw.divisions.as_ref()?.span,
-        };
-        let elements = match self {
-            Self::Block(Block { divisions, .. }) | Self::Annulus(Annulus { divisions, .. }) => {
-                divisions
-                    .iter()
-                    .map(|count| *count as u128)
-                    .fold(1, u128::saturating_mul)
-            }
-            Self::CappedBlock(block) => {
-                let (size, growth) = (block.element_size, block.growth);
-                let plan = block
-                    .size
-                    .map(|edge| intervals(0.5 * edge, block.fine_half_width, size, growth));
-                4 * plan[0] * plan[1] * intervals(block.height, block.fine_depth, size, growth)
-            }
-            Self::HalfCylinder(slice) => {
-                let (size, growth) = (slice.element_size, slice.growth);
-                let arc = intervals(slice.radius, slice.fine_half_width, size, growth);
-                let depth = intervals(slice.radius, slice.fine_depth, size, growth);
-                4 * arc * depth * slice.layers as u128
-            }
-        };
-        Some((span.clone(), elements))
-    }
-}
-
-fn intervals(length: f64, fine: f64, size: f64, growth: f64) -> u128 {
-    let most = length / size;
-    if most > MOST_INTERVALS {
-        return most.min(1e9) as u128;
-    }
-    refined_lengths(length, fine.min(length), size, growth)
-        .map_or(0, |lengths| lengths.len() as u128)
 }
 
 fn block(raw: &raw::Block, faults: &mut FaultList<'_>) -> Option<Block> {

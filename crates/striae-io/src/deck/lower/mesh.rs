@@ -14,9 +14,6 @@ use crate::{
 use std::path::{Path, PathBuf};
 use striae_mesh::{Mesh, NodeId, Vec3};
 
-/// Elements of a mesh beyond which no machine could solve for it.
-const MOST_ELEMENTS: u128 = 20_000_000;
-
 /// The mesh of a body; `None` after its faults have been noted.
 ///
 /// What generators and files give has been checked to be consistent and to
@@ -31,20 +28,8 @@ pub(super) fn body_mesh(
     match &raw.value {
         raw::Mesh::File(file) => made(mesh_file::read(path(file, base)?), owner, &raw.span, faults),
         raw::Mesh::Generated(generator) => {
-            let generated = generator::Generator::new(generator, faults)?;
-            let (span, elements) = generated.elements(generator)?;
-            if elements > MOST_ELEMENTS {
-                faults.push(
-                    &span,
-                    FaultKind::TooLarge {
-                        owner,
-                        elements,
-                        most: MOST_ELEMENTS,
-                    },
-                );
-                return None;
-            }
-            made(generated.mesh(), owner, &raw.span, faults)
+            let generator = generator::Generator::new(generator, faults)?;
+            made(generator.mesh(), owner, &raw.span, faults)
         }
     }
 }

@@ -5,10 +5,12 @@ mod body;
 mod condition;
 mod contact;
 mod curve;
+mod friction;
 mod generator;
 mod hold;
 mod mesh;
 mod step;
+mod texture;
 
 use super::{
     Deck, FieldOutput, Output,
@@ -20,13 +22,14 @@ use super::{
 };
 use body::Bodies;
 use std::{num::NonZeroUsize, path::Path};
-use striae_solve::model::{Backend, Model, Solver};
+use striae_solve::model::{Backend, Model, Pair, Solver};
 
 /// What the parts of a deck refer to by name.
 struct Scope<'r> {
     bodies: &'r Bodies,
     rigid: &'r Names,
-    pairs: &'r Names,
+    pair_names: &'r Names,
+    pairs: &'r [Option<Pair>],
     curves: &'r curve::Curves,
 }
 
@@ -61,12 +64,19 @@ pub(super) fn deck(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_
         list(&raw.pair).iter().map(|pair| pair.value.name.as_ref()),
         faults,
     );
-    let pairs = contact::pairs(list(&raw.pair), &bodies, &rigid_names, faults);
+    let surfaces = contact::Surfaces {
+        bodies: &bodies,
+        rigid_names: &rigid_names,
+        rigid: &rigid_surfaces,
+        read,
+    };
+    let pairs = contact::pairs(list(&raw.pair), &surfaces, faults);
     let curves = curve::Curves::new(list(&raw.curve), faults);
     let scope = Scope {
         bodies: &bodies,
         rigid: &rigid_names,
-        pairs: &pair_names,
+        pair_names: &pair_names,
+        pairs: &pairs,
         curves: &curves,
     };
     let steps = step::steps(list(&raw.step), &scope, read, faults);

@@ -1,11 +1,11 @@
 //! Steps: increments and what each step states.
 
-use super::{Read, Scope, condition, contact, list};
+use super::{Read, Scope, condition, friction, list, texture};
 use crate::deck::{
     fault::FaultKind, faults::FaultList, names::Names, raw, read::At, value::vector,
 };
 use striae_law::friction::Friction;
-use striae_solve::model::{Increments, PairId, RigidId, RigidMotion, Step};
+use striae_solve::model::{Increments, Pair, PairId, RigidId, RigidMotion, Step};
 
 const INITIAL: f64 = 0.1;
 const SMALLEST_OVER_INITIAL: f64 = 1e-3;
@@ -161,13 +161,13 @@ fn frictions(
             .value
             .pair
             .as_ref()
-            .and_then(|name| scope.pairs.find(name, faults))
+            .and_then(|name| scope.pair_names.find(name, faults))
             .map(PairId);
         let friction = change
             .value
             .friction
             .as_ref()
-            .and_then(|friction| contact::friction(friction, &change.span, faults));
+            .and_then(|friction| friction::friction(friction, &change.span, faults));
         let (Some(pair), Some(friction)) = (pair, friction) else {
             continue;
         };
@@ -183,6 +183,9 @@ fn frictions(
                     what,
                 },
             );
+        }
+        if let Some(Pair { name, textures, .. }) = &scope.pairs[pair.0] {
+            texture::check_friction(name, &friction, textures, &change.span, faults);
         }
         changes.push((pair, friction));
     }

@@ -1,5 +1,6 @@
 //! `[[pair]]` and its friction.
 
+use super::Texture;
 use crate::deck::{
     declare::{choice, either, table, words},
     value::{NonNegative, Number, Positive, Text},
@@ -23,9 +24,19 @@ table! {
     }
 }
 
-either! {
+table! {
     /// One side of a pair.
     Side {
+        /// The surface.
+        include surface: SideSurface,
+        /// Texture painted on the surface at rest, which it follows as it deforms. Default: none.
+        optional texture: Texture,
+    }
+}
+
+either! {
+    /// The surface of a side.
+    SideSurface {
         Deformable(DeformableSide),
         Rigid(RigidSide),
     }

@@ -9,9 +9,10 @@ mod contact;
 mod mesh;
 mod settings;
 mod step;
+mod texture;
 
 use super::{declare::table, read::At};
-pub(crate) use {body::*, contact::*, mesh::*, settings::*, step::*};
+pub(crate) use {body::*, contact::*, mesh::*, settings::*, step::*, texture::*};
 
 use super::value::Text;
 
