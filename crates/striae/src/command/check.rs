@@ -1,0 +1,143 @@
+//! `striae check DECK`: validation and a summary of what would be simulated.
+
+use crate::failure::Failure;
+use std::{collections::BTreeSet, io::Write, path::PathBuf};
+use striae_io::deck;
+use striae_law::bulk::Material;
+use striae_mesh::NodeId;
+use striae_solve::model::{Balance, Body, Model, Pair, RigidShape, RigidSurface, Side, Step};
+
+/// Check a deck and summarise what it describes.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The deck.
+    pub deck: PathBuf,
+}
+
+/// Reads the deck and prints the summary.
+pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    let deck = deck::read(&arguments.deck)?;
+    write!(out, "{}", summary(&deck.model))?;
+    Ok(())
+}
+
+fn summary(model: &Model) -> String {
+    let mut lines = vec![model.title.clone()];
+    lines.extend(model.bodies.iter().map(body_line));
+    lines.extend(model.rigid_surfaces.iter().map(rigid_line));
+    lines.extend(model.pairs.iter().map(|pair| pair_line(pair, model)));
+    lines.extend(model.steps.iter().map(step_line));
+    let unknowns = unknowns(model);
+    let gigabytes = factor_memory(unknowns) / 1e9;
+    lines.push(format!(
+        "  unknowns {unknowns}, about {gigabytes:.2} GB for the factors"
+    ));
+    lines.push("no faults".into());
+    lines.join("\n") + "\n"
+}
+
+fn body_line(body: &Body) -> String {
+    let (law, lambda, shear) = match body.material {
+        Material::NeoHookean { lambda, shear } => ("neo-Hookean", lambda, shear),
+        Material::LinearElastic { lambda, shear } => ("linear elastic", lambda, shear),
+    };
+    format!(
+        "  body `{}`: {} nodes, {} elements, smallest scaled Jacobian {:.3}; {law}, lambda = {lambda:.6e}, G = {shear:.6e}",
+        body.name,
+        body.mesh.positions.len(),
+        body.mesh.elements.len(),
+        body.mesh.quality().smallest_scaled_jacobian,
+    )
+}
+
+fn rigid_line(rigid: &RigidSurface) -> String {
+    let shape = match &rigid.shape {
+        RigidShape::Plane { .. } => "plane".into(),
+        RigidShape::Facets { positions, facets } => {
+            format!("{} nodes, {} facets", positions.len(), facets.len())
+        }
+    };
+    format!("  rigid surface `{}`: {shape}", rigid.name)
+}
+
+fn pair_line(pair: &Pair, model: &Model) -> String {
+    let [a, b] = [&pair.a, &pair.b].map(|side| match side {
+        Side::Deformable { body, faces } => {
+            let name = &model.bodies[body.0].name;
+            format!(
+                "`{name}` ({} facets, {} nodes)",
+                faces.len(),
+                side_nodes(side, model).len()
+            )
+        }
+        Side::Rigid(rigid) => format!("rigid `{}`", model.rigid_surfaces[rigid.0].name),
+    });
+    format!("  pair `{}`: {a} and {b}", pair.name)
+}
+
+fn step_line(step: &Step) -> String {
+    let increments = step.increments;
+    format!(
+        "  step `{}`: duration {}, increments from {:.3e} to {:.3e} of it, first {:.3e}",
+        step.name, step.duration, increments.smallest, increments.largest, increments.initial
+    )
+}
+
+fn side_nodes(side: &Side, model: &Model) -> BTreeSet<NodeId> {
+    match side {
+        Side::Deformable { body, faces } => {
+            let mesh = &model.bodies[body.0].mesh;
+            faces
+                .iter()
+                .flat_map(|face| mesh.face_nodes(*face))
+                .collect()
+        }
+        Side::Rigid(_) => BTreeSet::new(),
+    }
+}
+
+/// Three displacements a node, three tractions a node of a pair and six numbers
+/// that balance the resultants of a pair of bodies (with one contact patch).
+fn unknowns(model: &Model) -> usize {
+    let nodes: usize = model
+        .bodies
+        .iter()
+        .map(|body| body.mesh.positions.len())
+        .sum();
+    let contact = model.pairs.iter().map(|pair| {
+        let nodes = side_nodes(&pair.a, model).len() + side_nodes(&pair.b, model).len();
+        let balanced =
+            pair.balance == Balance::Resultants && matches!(pair.b, Side::Deformable { .. });
+        3 * nodes + if balanced { 6 } else { 0 }
+    });
+    3 * nodes + contact.sum::<usize>()
+}
+
+/// Bytes of the factors of a multifrontal LU of a three-dimensional mesh:
+/// `c n^(4/3)`, the growth under nested dissection, with the constant of 3.0 GB
+/// measured for 152 000 unknowns.
+fn factor_memory(unknowns: usize) -> f64 {
+    370.0 * (unknowns as f64).powf(4.0 / 3.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    #[test]
+    fn the_summary_counts_what_the_deck_describes() {
+        let text = include_str!("template.toml");
+        let deck = deck::parse(text, "deck.toml", Path::new("")).unwrap();
+        let said = summary(&deck.model);
+        assert!(
+            said.contains("body `lower`: 75 nodes, 32 elements, smallest scaled Jacobian 1.000"),
+            "{said}"
+        );
+        assert!(said.contains(
+            "pair `interface`: `lower` (16 facets, 25 nodes) and `upper` (9 facets, 16 nodes)"
+        ));
+        // 3 (75 + 48) displacements, 3 (25 + 16) tractions, 6 to balance.
+        assert!(said.contains("unknowns 498,"), "{said}");
+    }
+}

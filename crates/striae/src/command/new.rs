@@ -1,0 +1,62 @@
+//! `striae new NAME`: a commented deck to start from.
+
+use crate::failure::Failure;
+use std::{
+    fs,
+    io::{self, Write},
+    path::PathBuf,
+};
+
+const TEMPLATE: &str = include_str!("template.toml");
+
+/// Write NAME/deck.toml, a commented deck to start from.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// Folder to be made; it must not exist.
+    name: PathBuf,
+}
+
+/// Makes the folder and its deck.
+pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    let folder = &arguments.name;
+    let unwritable = |path: &PathBuf, cause| Failure::Unwritable {
+        path: path.clone(),
+        cause,
+    };
+    if let Some(parent) = folder.parent() {
+        fs::create_dir_all(parent).map_err(|cause| unwritable(folder, cause))?;
+    }
+    fs::create_dir(folder).map_err(|cause| match cause.kind() {
+        io::ErrorKind::AlreadyExists => Failure::Exists(folder.clone()),
+        _ => unwritable(folder, cause),
+    })?;
+    let deck = folder.join("deck.toml");
+    fs::write(&deck, TEMPLATE).map_err(|cause| unwritable(&deck, cause))?;
+    writeln!(out, "wrote {0}\nnext: striae check {0}", deck.display())?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::command::check;
+
+    #[test]
+    fn the_new_deck_passes_the_check_and_is_not_overwritten() {
+        let scratch = tempfile::tempdir().unwrap();
+        let name = scratch.path().join("group").join("blocks");
+        let arguments = Arguments { name: name.clone() };
+        let mut out = Vec::new();
+        run(&arguments, &mut out).unwrap();
+        let deck = name.join("deck.toml");
+        check::run(&check::Arguments { deck: deck.clone() }, &mut out).unwrap();
+        let said = String::from_utf8(out).unwrap();
+        assert!(said.contains("Two blocks, pressed and slid"), "{said}");
+
+        fs::write(&deck, "changed").unwrap();
+        assert!(
+            matches!(run(&arguments, &mut Vec::new()), Err(Failure::Exists(path)) if path == name)
+        );
+        assert_eq!(fs::read_to_string(&deck).unwrap(), "changed");
+    }
+}
