@@ -446,3 +446,45 @@ fn textures() {
         ],
     );
 }
+
+#[test]
+fn sets() {
+    misstated(
+        "node set with the name of another",
+        &[(
+            "divisions = [4, 4, 2] }",
+            r#"divisions = [4, 4, 2] }
+node_sets = [{ name = "zmin", nearest = [0, 0, 0] }]"#,
+        )],
+        &["11:23: body `lower` already has a node set `zmin`"],
+    );
+    misstated(
+        "node set of an unknown set",
+        &[(
+            "divisions = [4, 4, 2] }",
+            r#"divisions = [4, 4, 2] }
+node_sets = [{ name = "edge", common = ["xmin", "zmn"] }]"#,
+        )],
+        &[
+            "11:49: body `lower` has no node set `zmn`; it has `all`, `xmax`, `xmin`, `ymax`, `ymin`, `zmax`, `zmin`; did you mean `zmin`?",
+        ],
+    );
+    misstated(
+        "node set without members",
+        &[(
+            "divisions = [4, 4, 2] }",
+            r#"divisions = [4, 4, 2] }
+node_sets = [{ name = "edge", common = ["xmin", "xmax"] }]"#,
+        )],
+        &["11:23: node set `edge` of body `lower` is empty"],
+    );
+    misstated(
+        "facet set without members",
+        &[(
+            "divisions = [4, 4, 2] }",
+            r#"divisions = [4, 4, 2] }
+facet_sets = [{ name = "strip", of = "zmax", from = [0, 0, 0], to = [1, 1, 0.4] }]"#,
+        )],
+        &["11:24: facet set `strip` of body `lower` is empty"],
+    );
+}

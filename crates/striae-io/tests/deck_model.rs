@@ -57,6 +57,41 @@ fn bodies_have_their_meshes_and_materials() {
 }
 
 #[test]
+fn decks_add_sets_to_meshes() {
+    let from = "divisions = [4, 4, 2] }";
+    let sets = format!(
+        "{from}\n\
+         node_sets = [\n\
+           {{ name = \"pin\", nearest = [0.1, -1, 0.1] }},\n\
+           {{ name = \"edge\", common = [\"xmin\", \"zmin\"] }},\n\
+           {{ name = \"ends\", union = [\"xmin\", \"xmax\", \"edge\"] }},\n\
+           {{ name = \"slab\", from = [0, 0, 0.25], to = [1, 1, 0.25] }},\n\
+         ]\n\
+         facet_sets = [\n\
+           {{ name = \"sides\", union = [\"xmin\", \"ymin\"] }},\n\
+           {{ name = \"half\", of = \"sides\", from = [0, 0, 0], to = [0.5, 1, 0.5] }},\n\
+         ]"
+    );
+    let mesh = &lowered(&BASE.replace(from, &sets)).model.bodies[0].mesh;
+    let nodes = |set: &str| mesh.node_sets.get(set).unwrap();
+    let at = |node: &NodeId| mesh.positions[node.index()];
+    let [pin] = nodes("pin") else {
+        panic!("one node")
+    };
+    assert_eq!(at(pin), Vec3::zeros());
+    assert_eq!(nodes("edge").len(), 5);
+    assert!(
+        nodes("edge")
+            .iter()
+            .all(|node| at(node).x == 0.0 && at(node).z == 0.0)
+    );
+    assert_eq!(nodes("ends").len(), 2 * 15);
+    assert_eq!(nodes("slab").len(), 25);
+    // Eight faces of `xmin` and, of the eight of `ymin`, those below x = 0.5.
+    assert_eq!(mesh.facet_sets.get("half").unwrap().len(), 8 + 4);
+}
+
+#[test]
 fn pairs_name_ids_and_faces() {
     let model = lowered(BASE).model;
     let pair = &model.pairs[0];

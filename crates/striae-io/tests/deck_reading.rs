@@ -382,4 +382,15 @@ fn exclusive() {
             "20:73: `uniform` and `axial` exclude each other in [[pair]] a texture; give either `uniform` or `circumferential` or `axial` or `radial` or `points`",
         ],
     );
+    misread(
+        "node set that is made in two ways",
+        &[(
+            "divisions = [4, 4, 2] }",
+            r#"divisions = [4, 4, 2] }
+node_sets = [{ name = "edge", common = ["xmin"], union = ["xmax"] }]"#,
+        )],
+        &[
+            "11:50: `common` and `union` exclude each other in [[body]] node_sets; give either `nearest` or `common` or `union` or `from` and `to`",
+        ],
+    );
 }

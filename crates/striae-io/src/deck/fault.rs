@@ -121,6 +121,16 @@ pub enum FaultKind {
         /// The most similar of them.
         nearest: Option<String>,
     },
+    /// A set of the deck takes the name of another.
+    #[error("body `{body}` already has a {kind} set `{name}`")]
+    DuplicateSet {
+        /// The body.
+        body: String,
+        /// Node or facet.
+        kind: &'static str,
+        /// The set.
+        name: String,
+    },
     /// A set without members.
     #[error("{kind} set `{name}` of body `{body}` is empty")]
     EmptySet {

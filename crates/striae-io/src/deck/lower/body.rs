@@ -1,17 +1,17 @@
 //! Materials, bodies and rigid surfaces.
 
-use super::{generator::nonzero, mesh};
+use super::{generator::nonzero, list, mesh, sets};
 use crate::deck::{
     fault::FaultKind,
     faults::FaultList,
-    names::{Names, nearest},
+    names::Names,
     raw,
     read::At,
     value::{Text, vector},
 };
 use std::path::Path;
 use striae_law::bulk::{LameConstants, Material};
-use striae_mesh::{Face, Mesh, NodeId, Sets};
+use striae_mesh::{Face, Mesh, NodeId};
 use striae_solve::model::{Body, BodyId, RigidShape, RigidSurface};
 
 /// All materials of the deck.
@@ -65,27 +65,7 @@ impl Bodies {
         );
         let bodies = raw
             .iter()
-            .map(|body| {
-                let body = &body.value;
-                let name = body
-                    .name
-                    .as_ref()
-                    .map_or("", |name| &name.value.0)
-                    .to_owned();
-                let material = body
-                    .material
-                    .as_ref()
-                    .and_then(|name| materials.find(name, faults));
-                let mesh = body
-                    .mesh
-                    .as_ref()
-                    .and_then(|mesh| mesh::body_mesh(mesh, &name, base, faults));
-                RawBody {
-                    name,
-                    mesh,
-                    material,
-                }
-            })
+            .map(|body| lower_body(&body.value, materials, base, faults))
             .collect();
         Self { names, bodies }
     }
@@ -121,7 +101,13 @@ impl Bodies {
         set: Option<&At<Text>>,
         faults: &mut FaultList<'_>,
     ) -> Option<Vec<NodeId>> {
-        self.members(body, "node", &self.mesh(body)?.node_sets, set?, faults)
+        sets::members(
+            "node",
+            &self.mesh(body)?.node_sets,
+            self.name(body),
+            set?,
+            faults,
+        )
     }
 
     /// Faces of a set of a body.
@@ -131,7 +117,13 @@ impl Bodies {
         set: Option<&At<Text>>,
         faults: &mut FaultList<'_>,
     ) -> Option<Vec<Face>> {
-        self.members(body, "facet", &self.mesh(body)?.facet_sets, set?, faults)
+        sets::members(
+            "facet",
+            &self.mesh(body)?.facet_sets,
+            self.name(body),
+            set?,
+            faults,
+        )
     }
 
     /// The bodies of the model, if none is faulty.
@@ -147,30 +139,35 @@ impl Bodies {
             })
             .collect()
     }
+}
 
-    fn members<T: Ord + Copy>(
-        &self,
-        body: BodyId,
-        kind: &'static str,
-        sets: &Sets<T>,
-        set: &At<Text>,
-        faults: &mut FaultList<'_>,
-    ) -> Option<Vec<T>> {
-        let name = set.value.0.clone();
-        let body = self.name(body).to_owned();
-        let kind = match sets.get(&name) {
-            Some([]) => FaultKind::EmptySet { body, kind, name },
-            Some(members) => return Some(members.to_vec()),
-            None => FaultKind::UnknownSet {
-                body,
-                kind,
-                nearest: nearest(&name, sets.names()),
-                name,
-                known: sets.names().map(str::to_owned).collect(),
-            },
-        };
-        faults.push(&set.span, kind);
-        None
+fn lower_body(
+    raw: &raw::Body,
+    materials: &Materials,
+    base: &Path,
+    faults: &mut FaultList<'_>,
+) -> RawBody {
+    let name = raw
+        .name
+        .as_ref()
+        .map_or("", |name| &name.value.0)
+        .to_owned();
+    let material = raw
+        .material
+        .as_ref()
+        .and_then(|name| materials.find(name, faults));
+    let mut mesh = raw
+        .mesh
+        .as_ref()
+        .and_then(|mesh| mesh::body_mesh(mesh, &name, base, faults));
+    if let Some(mesh) = &mut mesh {
+        sets::add_node_sets(mesh, &name, list(&raw.node_sets), faults);
+        sets::add_facet_sets(mesh, &name, list(&raw.facet_sets), faults);
+    }
+    RawBody {
+        name,
+        mesh,
+        material,
     }
 }
 

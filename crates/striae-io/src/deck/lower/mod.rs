@@ -9,6 +9,7 @@ mod friction;
 mod generator;
 mod hold;
 mod mesh;
+mod sets;
 mod step;
 mod texture;
 

@@ -2,9 +2,12 @@
 
 use super::{
     super::declare::{choice, either, table},
-    Mesh,
+    FacetSet, Mesh, NodeSet,
 };
-use crate::deck::value::{Number, PoissonsRatio, Positive, Text};
+use crate::deck::{
+    read::At,
+    value::{Number, PoissonsRatio, Positive, Text, Whole},
+};
 
 table! {
     /// A bulk material.
@@ -77,6 +80,10 @@ table! {
         required material: Text,
         /// Its mesh of eight-node hexahedra, read from a file or generated.
         required mesh: Mesh,
+        /// More sets of nodes.
+        optional node_sets: Vec<At<NodeSet>>,
+        /// More sets of facets.
+        optional facet_sets: Vec<At<FacetSet>>,
     }
 }
 
@@ -136,8 +143,8 @@ table! {
     /// A surface mesh written in the deck.
     InlineSurface {
         /// Positions of the nodes.
-        required positions: Vec<crate::deck::read::At<[Number; 3]>>,
+        required positions: Vec<At<[Number; 3]>>,
         /// Nodes of the facets, counted from 0, outward by the right-hand rule; a triangle repeats its last node.
-        required facets: Vec<crate::deck::read::At<[crate::deck::value::Whole<0>; 4]>>,
+        required facets: Vec<At<[Whole<0>; 4]>>,
     }
 }

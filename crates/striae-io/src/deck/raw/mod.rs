@@ -7,12 +7,13 @@
 mod body;
 mod contact;
 mod mesh;
+mod sets;
 mod settings;
 mod step;
 mod texture;
 
 use super::{declare::table, read::At};
-pub(crate) use {body::*, contact::*, mesh::*, settings::*, step::*, texture::*};
+pub(crate) use {body::*, contact::*, mesh::*, sets::*, settings::*, step::*, texture::*};
 
 use super::value::Text;
 
