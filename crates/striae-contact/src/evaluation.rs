@@ -29,6 +29,8 @@ pub struct Evaluation {
     pub nodes: [Vec<NodeResult>; 2],
     /// Forces on the facets of each side.
     pub facets: [Vec<(FacetId, FacetForces)>; 2],
+    /// Covered area that belongs to every node, by side.
+    pub nodal_areas: [Vec<f64>; 2],
 }
 
 /// Evaluates a pair.
@@ -55,6 +57,7 @@ pub fn evaluate(
         terms: Vec::new(),
         nodes: [0, 1].map(|side| vec![NodeResult::default(); selection.roles[side].len()]),
         facets: [Vec::new(), Vec::new()],
+        nodal_areas: [0, 1].map(|side| vec![0.0; selection.roles[side].len()]),
     };
     let balance = balance_rows(&fields);
     evaluation.terms.extend(held_balance(&balance, tractions));
@@ -106,6 +109,9 @@ impl Evaluation {
             .collect();
         for (facet, (terms, forces)) in results {
             self.terms.extend(terms);
+            for (corner, area) in facets[facet.index()].iter().zip(forces.area) {
+                self.nodal_areas[side][*corner as usize] += area;
+            }
             self.facets[side].push((facet, forces));
         }
     }

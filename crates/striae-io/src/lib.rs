@@ -6,6 +6,7 @@ pub mod figure;
 pub mod history;
 pub mod mesh_file;
 mod output;
+pub mod recorder;
 pub mod summary;
 pub mod vtk;
 

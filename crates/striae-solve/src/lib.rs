@@ -1,5 +1,16 @@
 //! Elements, loads, the problem and its state, Newton's method and step control.
 
+pub mod assembly;
+mod curve;
+pub mod drive;
 pub mod element;
+pub mod layout;
 pub mod load;
 pub mod model;
+pub mod newton;
+pub mod norms;
+pub mod outcome;
+pub mod plan;
+pub mod problem;
+pub mod report;
+pub mod state;

@@ -1,2 +1,45 @@
 //! The `striae` program.
-fn main() {}
+//!
+//! Exit codes: 0 when all went well, 1 when a run or a file operation failed,
+//! 2 when what was asked for is not possible (bad arguments or a faulty deck).
+
+mod command;
+mod failure;
+mod progress;
+mod simulation;
+
+use clap::{Parser, Subcommand};
+use std::{io, process::ExitCode};
+
+/// Finite-element contact with anisotropic friction.
+#[derive(Parser)]
+#[command(version)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    New(command::new::Arguments),
+    Check(command::check::Arguments),
+    Run(command::run::Arguments),
+    Schema(command::schema::Arguments),
+}
+
+fn main() -> ExitCode {
+    let out = &mut io::stdout();
+    let result = match Arguments::parse().command {
+        Command::New(arguments) => command::new::run(&arguments, out),
+        Command::Check(arguments) => command::check::run(&arguments, out),
+        Command::Run(arguments) => command::run::run(&arguments, out),
+        Command::Schema(arguments) => command::schema::run(&arguments, out),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("{failure}");
+            failure.exit_code()
+        }
+    }
+}

@@ -1,0 +1,649 @@
+//! Residual and tangent of the whole problem at a trial state.
+
+use rayon::prelude::*;
+use striae_contact::{
+    complementarity::{Iteration, Prescribed},
+    configuration::Configuration,
+    evaluation::{Evaluation, evaluate},
+    facet_coverage::FacetCoverage,
+    field::{SurfaceLoad, covered_load},
+    pair::ContactPair,
+    selection::Selection,
+    term::LocalTerm,
+    unknown::Numbering,
+    unknowns::Tractions,
+};
+use striae_linalg::{OutsidePattern, SparseMatrix, Supervariable};
+use striae_mesh::{Face, FacetId, NodeId, Vec3};
+use striae_surface::scalar::Real;
+
+use crate::{
+    element::{ElementFault, ElementResponse, ReferenceElement},
+    layout::Layout,
+    load,
+    model::{LoadExtent, LoadKind},
+    norms::{Norms, Scales},
+    outcome::CutBack,
+    plan::StepPlan,
+    problem::Problem,
+    state::{NodalForces, State},
+};
+
+/// What does not change within a step.
+#[derive(Debug)]
+pub struct StepContext<'a> {
+    /// The problem.
+    pub problem: &'a Problem,
+    /// Number of the step.
+    pub index: usize,
+    /// What holds in it.
+    pub plan: &'a StepPlan,
+    /// State at its start.
+    pub start: &'a State,
+    /// Pairs with the friction of the step.
+    pub pairs: Vec<ContactPair>,
+    /// Whether each position component of each global node is prescribed.
+    pub fixed: Vec<bool>,
+    /// The same by pair, side and surface node.
+    pub fixed_on_pair: Vec<Prescribed>,
+}
+
+/// A state that is not converged.
+#[derive(Clone, Debug)]
+pub struct Trial {
+    /// Position of every global node.
+    pub positions: Vec<Vec3>,
+    /// Traction unknowns of every pair.
+    pub tractions: Vec<Tractions>,
+}
+
+/// What is imposed at the end of an increment.
+#[derive(Clone, Debug)]
+pub struct Imposed {
+    /// Prescribed position components: `(node, axis, position)`.
+    pub positions: Vec<(usize, usize, f64)>,
+    /// Loads with their kinds at this point.
+    pub loads: Vec<LoadKind>,
+    /// Displacements of the rigid surfaces.
+    pub rigid: Vec<Vec3>,
+}
+
+/// Residual and results at a trial state.
+#[derive(Clone, Debug)]
+pub struct Assembled {
+    /// Residual of every unknown; of prescribed components the present position
+    /// minus the prescribed one.
+    pub residual: Vec<f64>,
+    /// Norms by field.
+    pub norms: Norms,
+    /// Nodal forces.
+    pub forces: NodalForces,
+    /// Stored energy.
+    pub strain: f64,
+    /// Contact of every pair.
+    pub contacts: Vec<Evaluation>,
+}
+
+/// Why an assembly came to nothing.
+#[derive(Debug)]
+pub enum Fault {
+    /// The trial state cannot be evaluated.
+    CutBack(CutBack),
+    /// Terms outside the pattern, as cliques to grow it by.
+    Pattern(Vec<Vec<Supervariable>>),
+}
+
+impl<'a> StepContext<'a> {
+    /// The context of step `index` that starts from `start`.
+    pub fn new(problem: &'a Problem, index: usize, start: &'a State) -> Self {
+        let plan = &problem.plans[index];
+        let mut fixed = vec![false; 3 * problem.reference.len()];
+        for (body, node, axis) in plan.displacements.keys() {
+            fixed[3 * (problem.first_node[*body] + node) + axis] = true;
+        }
+        let on_pair = |pair: usize| {
+            [0, 1].map(|side| {
+                let surface = problem.pairs[pair].contact.sides[side].surface();
+                let count = surface.map_or(0, |surface| surface.nodes().len() as u32);
+                (0..count)
+                    .filter_map(|node| problem.surface_node(pair, side, node))
+                    .flat_map(|node| fixed[3 * node..3 * node + 3].to_vec())
+                    .collect()
+            })
+        };
+        let pairs = problem
+            .pairs
+            .iter()
+            .zip(&plan.frictions)
+            .map(|(pair, friction)| ContactPair {
+                friction: friction.clone(),
+                ..pair.contact.clone()
+            });
+        Self {
+            fixed_on_pair: (0..problem.pairs.len()).map(on_pair).collect(),
+            pairs: pairs.collect(),
+            problem,
+            index,
+            plan,
+            start,
+            fixed,
+        }
+    }
+
+    /// What is imposed at the fraction `s` of the step.
+    pub fn imposed(&self, s: f64) -> Imposed {
+        use crate::plan::Prescription::{Go, Hold};
+        let positions = self
+            .plan
+            .displacements
+            .iter()
+            .map(|((body, node, axis), how)| {
+                let node = self.problem.first_node[*body] + node;
+                let reference = self.problem.reference[node][*axis];
+                let start = self.start.positions[node][*axis];
+                let position = match how {
+                    Hold => start,
+                    Go { target, curve } => start + (reference + target - start) * curve.at(s),
+                };
+                (node, *axis, position)
+            });
+        Imposed {
+            positions: positions.collect(),
+            loads: self.plan.loads.iter().map(|load| load.at(s)).collect(),
+            rigid: self.plan.rigid.iter().map(|rigid| rigid.at(s)).collect(),
+        }
+    }
+
+    /// Configuration of a pair with the nodes at `positions`.
+    pub fn configuration(
+        &self,
+        pair: usize,
+        positions: &[Vec3],
+        rigid: &[Vec3],
+    ) -> Configuration<'_> {
+        let geometry = &self.problem.pairs[pair];
+        let of_side = |side: usize| -> Vec<Vec3> {
+            let count = geometry.contact.sides[side]
+                .surface()
+                .map_or(0, |s| s.nodes().len() as u32);
+            match geometry.bodies[side] {
+                Some(_) => (0..count)
+                    .filter_map(|node| self.problem.surface_node(pair, side, node))
+                    .map(|node| positions[node])
+                    .collect(),
+                None => geometry.rigid_reference.clone(),
+            }
+        };
+        let displacement = geometry
+            .rigid
+            .map_or_else(Vec3::zeros, |rigid_id| rigid[rigid_id]);
+        Configuration::new(&self.pairs[pair], [of_side(0), of_side(1)], displacement)
+    }
+}
+
+/// Evaluates the problem at a trial state and fills the matrix.
+///
+/// # Errors
+/// See [`Fault`].
+pub fn assemble(
+    context: &StepContext,
+    selections: &[Selection],
+    trial: &Trial,
+    imposed: &Imposed,
+    iteration: Iteration,
+    layout: &Layout,
+    matrix: &mut SparseMatrix,
+) -> Result<Assembled, Fault> {
+    matrix.clear();
+    let mut system = System {
+        context,
+        layout,
+        matrix,
+        residual: vec![0.0; layout.unknowns()],
+        forces: NodalForces::zero(context.problem.reference.len()),
+        force_scale: 0.0,
+        outside: Vec::new(),
+    };
+    let configurations: Vec<Configuration> = (0..context.pairs.len())
+        .map(|pair| context.configuration(pair, &trial.positions, &imposed.rigid))
+        .collect();
+    let contacts = system.contacts(&configurations, selections, trial, iteration)?;
+    if !system.outside.is_empty() {
+        return Err(Fault::Pattern(system.outside));
+    }
+    system.loads(&configurations, trial, imposed)?;
+    let strain = system.elements(trial)?;
+    let norms = system.norms(selections, trial, &contacts);
+    system.idle(selections);
+    system.prescribe(trial, imposed);
+    let System {
+        residual, forces, ..
+    } = system;
+    Ok(Assembled {
+        residual,
+        norms,
+        forces,
+        strain,
+        contacts,
+    })
+}
+
+struct System<'a> {
+    context: &'a StepContext<'a>,
+    layout: &'a Layout,
+    matrix: &'a mut SparseMatrix,
+    residual: Vec<f64>,
+    forces: NodalForces,
+    force_scale: f64,
+    outside: Vec<Vec<Supervariable>>,
+}
+
+const CHUNK: usize = 512;
+
+impl System<'_> {
+    fn contacts(
+        &mut self,
+        configurations: &[Configuration],
+        selections: &[Selection],
+        trial: &Trial,
+        iteration: Iteration,
+    ) -> Result<Vec<Evaluation>, Fault> {
+        let mut contacts = Vec::with_capacity(configurations.len());
+        for (pair, configuration) in configurations.iter().enumerate() {
+            let evaluation = evaluate(
+                configuration,
+                &selections[pair],
+                &trial.tractions[pair],
+                &self.context.fixed_on_pair[pair],
+                iteration,
+            )
+            .map_err(|lost| Fault::CutBack(self.lost(pair, lost.side, lost.node)))?;
+            let numbering = configuration.pair.numbering();
+            for term in &evaluation.terms {
+                self.add_term(pair, &numbering, term);
+            }
+            for side in 0..2 {
+                for (facet, forces) in &evaluation.facets[side] {
+                    self.contact_forces(pair, side, *facet, &forces.force);
+                }
+            }
+            contacts.push(evaluation);
+        }
+        Ok(contacts)
+    }
+
+    fn lost(&self, pair: usize, side: usize, node: u32) -> CutBack {
+        let problem = self.context.problem;
+        let global = problem.surface_node(pair, side, node).unwrap_or(0);
+        let (body, node) = problem.body_node(global);
+        CutBack::LostProjection {
+            pair: problem.model.pairs[pair].name.clone(),
+            body: problem.model.bodies[body].name.clone(),
+            node,
+        }
+    }
+
+    fn contact_forces(&mut self, pair: usize, side: usize, facet: FacetId, forces: &[Vec3; 4]) {
+        let problem = self.context.problem;
+        if let Some(surface) = problem.pairs[pair].contact.sides[side].surface() {
+            for (corner, force) in surface.facets()[facet.index()].iter().zip(forces) {
+                if let Some(node) = problem.surface_node(pair, side, *corner) {
+                    self.forces.contact[node] += force;
+                }
+            }
+        }
+    }
+
+    /// Adds a contact term; remembers its clique where it has no place.
+    fn add_term(&mut self, pair: usize, numbering: &Numbering, term: &LocalTerm) {
+        let global = |unknown: &u32| {
+            self.layout
+                .global(self.context.problem, pair, numbering.unknown(*unknown))
+                .expect("terms refer to active unknowns")
+        };
+        let rows: Vec<(usize, Supervariable)> = term.rows.iter().map(global).collect();
+        let columns: Vec<(usize, Supervariable)> = term.columns.iter().map(global).collect();
+        for (row, residual) in rows.iter().zip(&term.residual) {
+            self.residual[row.0] += residual;
+        }
+        let kept: Vec<usize> = (0..rows.len())
+            .filter(|&at| !self.is_fixed(rows[at]))
+            .collect();
+        let kept_rows: Vec<usize> = kept.iter().map(|&at| rows[at].0).collect();
+        let kept_columns: Vec<usize> = columns.iter().map(|column| column.0).collect();
+        let block: Vec<f64> = kept
+            .iter()
+            .flat_map(|at| &term.tangent[at * columns.len()..(at + 1) * columns.len()])
+            .copied()
+            .collect();
+        if self.matrix.add(&kept_rows, &kept_columns, &block).is_err() {
+            let mut clique: Vec<Supervariable> =
+                rows.iter().chain(&columns).map(|entry| entry.1).collect();
+            clique.sort_unstable();
+            clique.dedup();
+            self.outside.push(clique);
+        }
+    }
+
+    fn is_fixed(&self, (unknown, supervariable): (usize, Supervariable)) -> bool {
+        let node = supervariable.0;
+        node < self.context.problem.reference.len()
+            && unknown < self.layout.position(node) + 3
+            && self.context.fixed[3 * node + unknown - self.layout.position(node)]
+    }
+
+    fn loads(
+        &mut self,
+        configurations: &[Configuration],
+        trial: &Trial,
+        imposed: &Imposed,
+    ) -> Result<(), Fault> {
+        for (planned, kind) in self.context.plan.loads.iter().zip(&imposed.loads) {
+            for face in &planned.faces {
+                let extent = planned.extent;
+                let fault = |error| {
+                    Fault::CutBack(CutBack::Load {
+                        body: self.context.problem.model.bodies[planned.body.0]
+                            .name
+                            .clone(),
+                        set: planned.set.clone(),
+                        error,
+                    })
+                };
+                let result =
+                    self.face_load(configurations, trial, planned.body.0, *face, kind, extent);
+                match result {
+                    Ok(()) => {}
+                    Err(FaceFault::Load(error)) => return Err(fault(error)),
+                    Err(FaceFault::Pattern(outside)) => return Err(Fault::Pattern(outside)),
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn face_load(
+        &mut self,
+        configurations: &[Configuration],
+        trial: &Trial,
+        body: usize,
+        face: Face,
+        kind: &LoadKind,
+        extent: LoadExtent,
+    ) -> Result<(), FaceFault> {
+        let problem = self.context.problem;
+        let corners = problem.model.bodies[body].mesh.face_nodes(face);
+        let nodes = corners.map(|node| problem.node(body, node));
+        let reference = nodes.map(|node| problem.reference[node]);
+        let current = nodes.map(|node| trial.positions[node]);
+        let mut covered = Vec::new();
+        if extent == LoadExtent::Exposed {
+            for (pair, side, facet) in self.contact_facets(body, face) {
+                let configuration = &configurations[pair];
+                match configuration.facet_coverage(side, facet) {
+                    FacetCoverage::Whole => return Ok(()),
+                    FacetCoverage::Bare => {}
+                    FacetCoverage::Cut(covers) => {
+                        let load = LoadOnFace {
+                            kind,
+                            reference: &reference,
+                        };
+                        covered.push((
+                            pair,
+                            covered_load(configuration, side, facet, &covers, &load),
+                        ));
+                    }
+                }
+            }
+        }
+        let load = load::response(kind, &reference, &current).map_err(FaceFault::Load)?;
+        let unknowns = nodes.map(|node| self.layout.position(node));
+        let unknowns: Vec<usize> = unknowns
+            .iter()
+            .flat_map(|first| *first..first + 3)
+            .collect();
+        self.add_dense(
+            &nodes,
+            &unknowns,
+            &load.force.map(|f| -f),
+            &load.tangent.map(|k| -k),
+        )
+        .map_err(|outside| FaceFault::Pattern(vec![self.clique(&nodes, outside)]))?;
+        for (corner, node) in nodes.iter().enumerate() {
+            let force = Vec3::from_column_slice(&load.force[3 * corner..3 * corner + 3]);
+            self.forces.applied[*node] += force;
+        }
+        for (pair, terms) in covered {
+            let numbering = configurations[pair].pair.numbering();
+            for term in terms {
+                self.add_term(pair, &numbering, &term);
+                for (at, node) in nodes.iter().enumerate() {
+                    let taken = Vec3::from_column_slice(&term.residual[3 * at..3 * at + 3]);
+                    self.forces.applied[*node] -= taken;
+                }
+            }
+        }
+        if self.outside.is_empty() {
+            Ok(())
+        } else {
+            Err(FaceFault::Pattern(std::mem::take(&mut self.outside)))
+        }
+    }
+
+    fn clique(&self, nodes: &[usize], _outside: OutsidePattern) -> Vec<Supervariable> {
+        nodes
+            .iter()
+            .map(|&node| self.layout.supervariable(node))
+            .collect()
+    }
+
+    /// Contact facets that are this face of this body.
+    fn contact_facets(&self, body: usize, face: Face) -> Vec<(usize, usize, FacetId)> {
+        let mut found = Vec::new();
+        for (pair, geometry) in self.context.problem.pairs.iter().enumerate() {
+            for side in 0..2 {
+                if geometry.bodies[side] == Some(body)
+                    && let Some(at) = geometry.faces[side].iter().position(|f| *f == face)
+                {
+                    found.push((pair, side, FacetId::new(at)));
+                }
+            }
+        }
+        found
+    }
+
+    /// Internal forces and stiffness; returns the stored energy.
+    fn elements(&mut self, trial: &Trial) -> Result<f64, Fault> {
+        let problem = self.context.problem;
+        let mut energy = 0.0;
+        let mut scale = 0.0;
+        for (body, elements) in problem.elements.iter().enumerate() {
+            let model = &problem.model.bodies[body];
+            let corners = &model.mesh.elements;
+            for start in (0..elements.len()).step_by(CHUNK) {
+                let end = (start + CHUNK).min(elements.len());
+                let responses: Vec<Result<Box<ElementResponse>, _>> = (start..end)
+                    .into_par_iter()
+                    .with_min_len(16)
+                    .map(|at| {
+                        let x = corners[at].map(|n| trial.positions[problem.node(body, n)]);
+                        elements[at].response(&x, &model.material).map(Box::new)
+                    })
+                    .collect();
+                for (at, response) in (start..end).zip(responses) {
+                    let response = response.map_err(|error| {
+                        Fault::CutBack(CutBack::InvertedElement {
+                            body: model.name.clone(),
+                            element: ElementFault {
+                                element: striae_mesh::ElementId::new(at),
+                                error,
+                            },
+                        })
+                    })?;
+                    energy += response.energy;
+                    scale += response.force.iter().map(|f| f * f).sum::<f64>();
+                    let nodes = corners[at].map(|n: NodeId| problem.node(body, n));
+                    let mut unknowns = [0; 24];
+                    for (slot, unknown) in unknowns.iter_mut().enumerate() {
+                        *unknown = self.layout.position(nodes[slot / 3]) + slot % 3;
+                    }
+                    self.add_dense(&nodes, &unknowns, &response.force, &response.stiffness)
+                        .map_err(|outside| Fault::Pattern(vec![self.clique(&nodes, outside)]))?;
+                }
+            }
+        }
+        self.force_scale = scale.sqrt();
+        Ok(energy)
+    }
+
+    /// Adds a square block of position unknowns, leaving out prescribed rows.
+    fn add_dense(
+        &mut self,
+        nodes: &[usize],
+        unknowns: &[usize],
+        force: &[f64],
+        tangent: &[f64],
+    ) -> Result<(), OutsidePattern> {
+        for (unknown, force) in unknowns.iter().zip(force) {
+            self.residual[*unknown] += force;
+        }
+        let fixed = |slot: &usize| self.context.fixed[3 * nodes[slot / 3] + slot % 3];
+        if !(0..unknowns.len()).any(|slot| fixed(&slot)) {
+            return self.matrix.add(unknowns, unknowns, tangent);
+        }
+        let kept: Vec<usize> = (0..unknowns.len()).filter(|slot| !fixed(slot)).collect();
+        let rows: Vec<usize> = kept.iter().map(|&slot| unknowns[slot]).collect();
+        let width = unknowns.len();
+        let block: Vec<f64> = kept
+            .iter()
+            .flat_map(|slot| &tangent[slot * width..(slot + 1) * width])
+            .copied()
+            .collect();
+        self.matrix.add(&rows, unknowns, &block)
+    }
+
+    fn norms(&mut self, selections: &[Selection], trial: &Trial, contacts: &[Evaluation]) -> Norms {
+        let problem = self.context.problem;
+        let mut free = 0.0;
+        for node in 0..problem.reference.len() {
+            let first = self.layout.position(node);
+            self.forces.reaction[node] = Vec3::from_column_slice(&self.residual[first..first + 3]);
+            for axis in 0..3 {
+                if !self.context.fixed[3 * node + axis] {
+                    free += self.residual[first + axis].powi(2);
+                }
+            }
+        }
+        let applied: f64 = self.forces.applied.iter().map(|f| f.norm_squared()).sum();
+        let stiffness =
+            problem
+                .model
+                .bodies
+                .iter()
+                .zip(&problem.elements)
+                .map(|(body, elements)| {
+                    let volume = elements.first().map_or(0.0, ReferenceElement::volume);
+                    body.material.lame_constants().shear * volume.powf(2.0 / 3.0)
+                });
+        let smallest = 1e-9 * stiffness.fold(0.0, f64::max);
+        let force = self.force_scale.max(applied.sqrt()).max(smallest);
+        let mut norms = Norms {
+            force: free.sqrt() / force,
+            ..Norms::default()
+        };
+        for (pair, evaluation) in contacts.iter().enumerate() {
+            let sides = &self.context.pairs[pair].sides;
+            let modulus = sides[0].stiffness.min(sides[1].stiffness);
+            let active = |side: usize| {
+                let roles = 0..selections[pair].roles[side].len();
+                roles.map(move |node| trial.tractions[pair].nodes[side][node][0].abs())
+            };
+            let pressure = active(0).chain(active(1)).fold(0.0, f64::max);
+            let facets = evaluation.facets.iter().flatten();
+            let contact: f64 = facets.map(|(_, f)| f.pressure.abs() + f.friction).sum();
+            let scales = Scales {
+                force,
+                traction: pressure.max(1e-8 * modulus),
+                resultant: contact.max(1e-3 * force),
+            };
+            let numbering = self.context.pairs[pair].numbering();
+            for term in &evaluation.terms {
+                for (row, field) in term.rows.iter().zip(&term.fields) {
+                    let global = self.layout.global(problem, pair, numbering.unknown(*row));
+                    if let Some((unknown, _)) = global {
+                        norms.include(*field, self.residual[unknown], &scales);
+                    }
+                }
+            }
+        }
+        norms
+    }
+
+    /// Holds traction unknowns of idle nodes and of vanished patches at zero.
+    fn idle(&mut self, selections: &[Selection]) {
+        for (pair, selection) in selections.iter().enumerate() {
+            for side in 0..2 {
+                for node in 0..selection.roles[side].len() {
+                    if !selection.is_active(side, node as u32)
+                        && let Some(first) = self.layout.traction(pair, side, node)
+                    {
+                        (first..first + 3).for_each(|unknown| self.hold(unknown, 0.0, 1.0));
+                    }
+                }
+            }
+            for patch in selection.patches.len()..self.layout.patch_count(pair) {
+                let first = self.layout.balance(pair, patch);
+                (first..first + 6).for_each(|unknown| self.hold(unknown, 0.0, 1.0));
+            }
+        }
+    }
+
+    fn prescribe(&mut self, trial: &Trial, imposed: &Imposed) {
+        let shear = |node: usize| {
+            let (body, _) = self.context.problem.body_node(node);
+            self.context.problem.model.bodies[body]
+                .material
+                .lame_constants()
+                .shear
+        };
+        let rows: Vec<(usize, f64, f64)> = imposed
+            .positions
+            .iter()
+            .map(|(node, axis, position)| {
+                let residual = trial.positions[*node][*axis] - position;
+                (self.layout.position(*node) + axis, residual, shear(*node))
+            })
+            .collect();
+        for (unknown, residual, scale) in rows {
+            self.hold(unknown, residual * scale, scale);
+        }
+    }
+
+    fn hold(&mut self, unknown: usize, residual: f64, scale: f64) {
+        self.residual[unknown] = residual;
+        self.matrix
+            .add(&[unknown], &[unknown], &[scale])
+            .expect("the diagonal is in the pattern");
+    }
+}
+
+enum FaceFault {
+    Load(load::LoadError),
+    Pattern(Vec<Vec<Supervariable>>),
+}
+
+struct LoadOnFace<'a> {
+    kind: &'a LoadKind,
+    reference: &'a [Vec3; 4],
+}
+
+impl SurfaceLoad for LoadOnFace<'_> {
+    fn per_area<D: Real>(
+        &self,
+        x: &[nalgebra::Vector3<D>; 4],
+        xi: D,
+        eta: D,
+    ) -> nalgebra::Vector3<D> {
+        load::traction(self.kind, self.reference, x, xi, eta)
+    }
+}

@@ -1,0 +1,176 @@
+//! Global numbering of the unknowns.
+//!
+//! A node with its three position components and three traction unknowns for
+//! every contact surface it is active on is one supervariable, so that the
+//! factorisation meets gap rows and their multipliers together. The six balance
+//! unknowns of a patch are another one, kept for last.
+
+use striae_contact::unknown::Unknown;
+use striae_linalg::{Supervariable, Tier};
+
+use crate::{problem::Problem, state::PairState};
+
+/// Which surface nodes have traction unknowns, and how many patches there are.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Extent {
+    /// By pair and side.
+    nodes: Vec<[Vec<bool>; 2]>,
+    /// By pair.
+    patches: Vec<usize>,
+}
+
+/// Numbers of all unknowns.
+#[derive(Clone, Debug)]
+pub struct Layout {
+    offsets: Vec<usize>,
+    nodes: usize,
+    /// First traction unknown by pair, side and surface node.
+    tractions: Vec<[Vec<Option<usize>>; 2]>,
+    /// First supervariable of the patches of each pair.
+    patches: Vec<usize>,
+    extent: Extent,
+}
+
+impl Extent {
+    /// This extent and the roles of `pairs` together.
+    pub fn with(&self, pairs: &[PairState]) -> Self {
+        let mut grown = self.clone();
+        grown.nodes.resize_with(pairs.len(), Default::default);
+        grown.patches.resize(pairs.len(), 0);
+        for (pair, state) in pairs.iter().enumerate() {
+            let Some(selection) = &state.selection else {
+                continue;
+            };
+            for side in 0..2 {
+                let count = selection.roles[side].len();
+                grown.nodes[pair][side].resize(count, false);
+                for node in 0..count {
+                    grown.nodes[pair][side][node] |= selection.is_active(side, node as u32);
+                }
+            }
+            grown.patches[pair] = grown.patches[pair].max(selection.patches.len());
+        }
+        grown
+    }
+}
+
+impl Layout {
+    /// The layout with traction unknowns for `extent`.
+    pub fn new(problem: &Problem, extent: Extent) -> Self {
+        let nodes = problem.reference.len();
+        let mut sizes = vec![3; nodes];
+        let mut local = Vec::with_capacity(extent.nodes.len());
+        for (pair, sides) in extent.nodes.iter().enumerate() {
+            local.push([0, 1].map(|side| {
+                let active = sides[side].iter().enumerate();
+                active
+                    .map(|(node, active)| {
+                        let node = problem.surface_node(pair, side, node as u32)?;
+                        active.then(|| {
+                            sizes[node] += 3;
+                            (node, sizes[node] - 3)
+                        })
+                    })
+                    .collect::<Vec<_>>()
+            }));
+        }
+        let mut patches = Vec::with_capacity(extent.patches.len());
+        for count in &extent.patches {
+            patches.push(sizes.len());
+            sizes.extend(std::iter::repeat_n(6, *count));
+        }
+        let mut offsets = vec![0];
+        for size in &sizes {
+            offsets.push(offsets[offsets.len() - 1] + size);
+        }
+        let number = |slot: Option<(usize, usize)>| slot.map(|(node, at)| offsets[node] + at);
+        let tractions = local
+            .into_iter()
+            .map(|sides| sides.map(|side: Vec<_>| side.into_iter().map(number).collect()))
+            .collect();
+        Self {
+            offsets,
+            nodes,
+            tractions,
+            patches,
+            extent,
+        }
+    }
+
+    /// What has traction unknowns.
+    pub fn extent(&self) -> &Extent {
+        &self.extent
+    }
+
+    /// Offsets of the supervariables.
+    pub fn offsets(&self) -> &[usize] {
+        &self.offsets
+    }
+
+    /// Number of unknowns.
+    pub fn unknowns(&self) -> usize {
+        self.offsets[self.offsets.len() - 1]
+    }
+
+    /// Elimination tiers: patches last.
+    pub fn tiers(&self) -> Vec<Tier> {
+        let tier = |at: usize| Tier(u32::from(at >= self.nodes));
+        (0..self.offsets.len() - 1).map(tier).collect()
+    }
+
+    /// Supervariable of a global node.
+    pub fn supervariable(&self, node: usize) -> Supervariable {
+        Supervariable(node)
+    }
+
+    /// First position unknown of a global node.
+    pub fn position(&self, node: usize) -> usize {
+        self.offsets[node]
+    }
+
+    /// First traction unknown of a surface node, if it has any.
+    pub fn traction(&self, pair: usize, side: usize, node: usize) -> Option<usize> {
+        self.tractions[pair][side].get(node).copied().flatten()
+    }
+
+    /// First balance unknown of a patch.
+    pub fn balance(&self, pair: usize, patch: usize) -> usize {
+        self.offsets[self.patches[pair] + patch]
+    }
+
+    /// Number of patches of a pair that have unknowns.
+    pub fn patch_count(&self, pair: usize) -> usize {
+        self.extent.patches[pair]
+    }
+
+    /// Global number of a pair-local unknown and its supervariable.
+    pub fn global(
+        &self,
+        problem: &Problem,
+        pair: usize,
+        unknown: Unknown,
+    ) -> Option<(usize, Supervariable)> {
+        match unknown {
+            Unknown::Position { side, node, axis } => {
+                let node = problem.surface_node(pair, side, node)?;
+                Some((self.offsets[node] + axis, Supervariable(node)))
+            }
+            Unknown::Traction {
+                side,
+                node,
+                component,
+            } => {
+                let first = self.traction(pair, side, node as usize)?;
+                let node = problem.surface_node(pair, side, node)?;
+                Some((first + component, Supervariable(node)))
+            }
+            Unknown::Balance { patch, component } => {
+                let supervariable = self.patches[pair] + patch;
+                Some((
+                    self.offsets[supervariable] + component,
+                    Supervariable(supervariable),
+                ))
+            }
+        }
+    }
+}

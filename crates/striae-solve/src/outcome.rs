@@ -1,0 +1,151 @@
+//! How increments and runs can end.
+
+use striae_linalg::SolveError;
+
+use crate::norms::Norms;
+
+/// Why an increment did not succeed and is tried again with a smaller one.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum CutBack {
+    /// Newton's method ran out of iterations.
+    #[error(
+        "no convergence in {iterations} iterations ({}: {norms}){}",
+        norms.worst(),
+        cycling_text(cycling)
+    )]
+    NoConvergence {
+        /// Iterations made.
+        iterations: usize,
+        /// Last norms.
+        norms: Norms,
+        /// Contact nodes that kept changing their status.
+        cycling: Vec<CyclingNode>,
+    },
+    /// The residual grew out of bounds.
+    #[error("the residual grew to {norms} in iteration {iteration}")]
+    Diverged {
+        /// Iteration.
+        iteration: usize,
+        /// Norms.
+        norms: Norms,
+    },
+    /// An element was turned inside out.
+    #[error("body `{body}`, {element}")]
+    InvertedElement {
+        /// Name of the body.
+        body: String,
+        /// Which and how.
+        element: crate::element::ElementFault,
+    },
+    /// A load has no direction.
+    #[error("body `{body}`, facet set `{set}`: {error}")]
+    Load {
+        /// Name of the body.
+        body: String,
+        /// Facet set.
+        set: String,
+        /// What is wrong.
+        error: crate::load::LoadError,
+    },
+    /// A contact node no longer sees the other side.
+    #[error("pair `{pair}`: {node} of body `{body}` no longer sees the other surface")]
+    LostProjection {
+        /// Name of the pair.
+        pair: String,
+        /// Name of the body.
+        body: String,
+        /// The node.
+        node: striae_mesh::NodeId,
+    },
+    /// Nodes outside the contact zone ran into the other side.
+    #[error(
+        "pair `{pair}`: {} nodes met the other surface unnoticed, first {node} of body `{body}`",
+        count
+    )]
+    MissedContact {
+        /// Name of the pair.
+        pair: String,
+        /// Name of the body of the first node.
+        body: String,
+        /// The first node.
+        node: striae_mesh::NodeId,
+        /// How many.
+        count: usize,
+    },
+    /// The linear system could not be solved.
+    #[error("{place}: {error}")]
+    LinearSystem {
+        /// Which unknown is involved.
+        place: String,
+        /// What went wrong.
+        error: SolveError,
+    },
+}
+
+/// A contact node that changed its status in the last iterations.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CyclingNode {
+    /// Name of the pair.
+    pub pair: String,
+    /// Name of the body.
+    pub body: String,
+    /// The node.
+    pub node: striae_mesh::NodeId,
+    /// Status in the last iterations, oldest first: `o`pen, `s`tick or `S`lip.
+    pub history: String,
+}
+
+fn cycling_text(cycling: &[CyclingNode]) -> String {
+    const SHOWN: usize = 4;
+    if cycling.is_empty() {
+        return String::new();
+    }
+    let shown: Vec<String> = cycling
+        .iter()
+        .take(SHOWN)
+        .map(|c| format!("{} of `{}` in `{}` {}", c.node, c.body, c.pair, c.history))
+        .collect();
+    let more = cycling.len().saturating_sub(SHOWN);
+    let rest = if more > 0 {
+        format!(" and {more} more")
+    } else {
+        String::new()
+    };
+    format!(
+        "; changing status (o open, s stick, S slip): {}{rest}",
+        shown.join(", ")
+    )
+}
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ending {
+    /// All steps were completed.
+    Completed,
+    /// An increment of the smallest size failed.
+    Stopped {
+        /// Name of the step.
+        step: String,
+        /// Time of the last converged state.
+        time: f64,
+        /// Why the last attempt failed.
+        reason: CutBack,
+    },
+    /// The observer asked to stop.
+    Interrupted {
+        /// Time of the last converged state.
+        time: f64,
+    },
+}
+
+impl std::fmt::Display for Ending {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Ending::Completed => write!(f, "all steps completed"),
+            Ending::Stopped { step, time, reason } => {
+                write!(f, "step `{step}` stopped at time {time:.6}: {reason}")
+            }
+            Ending::Interrupted { time } => write!(f, "interrupted at time {time:.6}"),
+        }
+    }
+}

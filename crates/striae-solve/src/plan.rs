@@ -1,0 +1,198 @@
+//! What holds in each step: conditions accumulated over the steps before it.
+
+use std::collections::BTreeMap;
+
+use striae_law::friction::Friction;
+use striae_mesh::{Face, Vec3};
+
+use crate::model::{BodyId, Curve, LoadExtent, LoadKind, Model, Step};
+
+/// All that holds in one step.
+#[derive(Clone, Debug)]
+pub struct StepPlan {
+    /// Prescribed components of displacement by `(body, node, axis)`.
+    pub displacements: BTreeMap<(usize, usize, usize), Prescription>,
+    /// Loads.
+    pub loads: Vec<PlannedLoad>,
+    /// Displacement of every rigid surface.
+    pub rigid: Vec<RigidPlan>,
+    /// Friction of every pair.
+    pub frictions: Vec<Friction>,
+}
+
+/// How a displacement component is prescribed in a step.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Prescription {
+    /// It stays where the step finds it.
+    Hold,
+    /// It goes to the target along the curve.
+    Go {
+        /// Value at `c = 1`.
+        target: f64,
+        /// How it is approached.
+        curve: Curve,
+    },
+}
+
+/// A load in a step.
+#[derive(Clone, Debug)]
+pub struct PlannedLoad {
+    /// Facet set.
+    pub set: String,
+    /// The body.
+    pub body: BodyId,
+    /// Its faces.
+    pub faces: Vec<Face>,
+    /// Load at the start of the step.
+    pub from: Option<LoadKind>,
+    /// Target.
+    pub to: LoadKind,
+    /// Which part of the faces is loaded.
+    pub extent: LoadExtent,
+    /// How the target is approached.
+    pub curve: Curve,
+}
+
+/// Displacement of a rigid surface in a step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RigidPlan {
+    /// At the start.
+    pub from: Vec3,
+    /// Target.
+    pub to: Vec3,
+    /// How the target is approached.
+    pub curve: Curve,
+}
+
+impl PlannedLoad {
+    /// The load at the fraction `s` of the step.
+    pub fn at(&self, s: f64) -> LoadKind {
+        self.to.between(self.from.as_ref(), self.curve.at(s))
+    }
+}
+
+impl RigidPlan {
+    /// The displacement at the fraction `s` of the step.
+    pub fn at(&self, s: f64) -> Vec3 {
+        self.from + (self.to - self.from) * self.curve.at(s)
+    }
+}
+
+/// Plans of all steps of a model.
+pub fn plans(model: &Model) -> Vec<StepPlan> {
+    let mut plan = StepPlan {
+        displacements: BTreeMap::new(),
+        loads: Vec::new(),
+        rigid: vec![
+            RigidPlan {
+                from: Vec3::zeros(),
+                to: Vec3::zeros(),
+                curve: Curve::Constant
+            };
+            model.rigid_surfaces.len()
+        ],
+        frictions: model
+            .pairs
+            .iter()
+            .map(|pair| pair.friction.clone())
+            .collect(),
+    };
+    let mut plans = Vec::with_capacity(model.steps.len());
+    for step in &model.steps {
+        plan = next(&plan, step);
+        plans.push(plan.clone());
+    }
+    plans
+}
+
+fn next(before: &StepPlan, step: &Step) -> StepPlan {
+    StepPlan {
+        displacements: displacements(before, step),
+        loads: loads(before, step),
+        rigid: rigid(before, step),
+        frictions: frictions(before, step),
+    }
+}
+
+fn displacements(before: &StepPlan, step: &Step) -> BTreeMap<(usize, usize, usize), Prescription> {
+    let hold = |(key, _): (&(usize, usize, usize), &Prescription)| (*key, Prescription::Hold);
+    let mut all: BTreeMap<_, _> = before.displacements.iter().map(hold).collect();
+    for release in &step.releases {
+        for node in &release.nodes {
+            for axis in (0..3).filter(|&axis| release.components[axis]) {
+                all.remove(&(release.body.0, node.index(), axis));
+            }
+        }
+    }
+    for condition in &step.displacements {
+        for node in &condition.nodes {
+            for (axis, component) in condition.components.iter().enumerate() {
+                if let Some(target) = *component {
+                    let curve = condition.curve.clone();
+                    let key = (condition.body.0, node.index(), axis);
+                    all.insert(key, Prescription::Go { target, curve });
+                }
+            }
+        }
+    }
+    all
+}
+
+fn loads(before: &StepPlan, step: &Step) -> Vec<PlannedLoad> {
+    let mut all: Vec<PlannedLoad> = before.loads.iter().map(held_load).collect();
+    for load in &step.loads {
+        let same = all.iter().position(|known| {
+            known.body == load.body
+                && known.set == load.set
+                && known.extent == load.extent
+                && std::mem::discriminant(&known.to) == std::mem::discriminant(&load.kind)
+        });
+        let planned = PlannedLoad {
+            set: load.set.clone(),
+            body: load.body,
+            faces: load.faces.clone(),
+            from: same.map(|at| all[at].to),
+            to: load.kind,
+            extent: load.extent,
+            curve: load.curve.clone(),
+        };
+        match same {
+            Some(at) => all[at] = planned,
+            None => all.push(planned),
+        }
+    }
+    all
+}
+
+fn held_load(load: &PlannedLoad) -> PlannedLoad {
+    let reached = load.at(1.0);
+    PlannedLoad {
+        from: Some(reached),
+        to: reached,
+        curve: Curve::Constant,
+        ..load.clone()
+    }
+}
+
+fn rigid(before: &StepPlan, step: &Step) -> Vec<RigidPlan> {
+    let held = |plan: &RigidPlan| RigidPlan {
+        from: plan.at(1.0),
+        to: plan.at(1.0),
+        curve: Curve::Constant,
+    };
+    let mut all: Vec<RigidPlan> = before.rigid.iter().map(held).collect();
+    for motion in &step.rigid_motions {
+        let plan = &mut all[motion.surface.0];
+        plan.to = motion.displacement;
+        plan.curve = motion.curve.clone();
+    }
+    all
+}
+
+fn frictions(before: &StepPlan, step: &Step) -> Vec<Friction> {
+    let mut all = before.frictions.clone();
+    for (pair, friction) in &step.frictions {
+        all[pair.0] = friction.clone();
+    }
+    all
+}

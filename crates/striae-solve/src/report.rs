@@ -1,0 +1,128 @@
+//! Resultants, reactions and counts of a state.
+
+use striae_contact::{
+    field::FacetForces,
+    unknowns::{NodeResult, Status},
+};
+use striae_mesh::{FacetId, Vec3};
+
+use crate::{problem::Problem, state::State};
+
+/// What a contact pair amounts to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PairReport {
+    /// Name of the pair.
+    pub name: String,
+    /// Resultants of the two sides.
+    pub sides: [SideReport; 2],
+    /// Length of the sum of both resultants over the larger of them.
+    pub mismatch: f64,
+    /// Length of the sum of both moments, over the larger resultant times the size of the contact zone.
+    pub moment_mismatch: f64,
+    /// Sticking nodes of both sides.
+    pub stick: usize,
+    /// Slipping nodes.
+    pub slip: usize,
+    /// All other nodes.
+    pub open: usize,
+    /// Largest nodal pressure.
+    pub max_pressure: f64,
+    /// Friction work since the start.
+    pub dissipated: f64,
+}
+
+/// Integrals over one side of a pair.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SideReport {
+    /// Force of the contact tractions on the side.
+    pub force: Vec3,
+    /// Moment of the contact tractions about the origin.
+    pub moment: Vec3,
+    /// `integral p da`.
+    pub pressure: f64,
+    /// `integral |tau| da`.
+    pub friction: f64,
+    /// Covered area.
+    pub area: f64,
+}
+
+/// Reports of all pairs.
+pub fn pairs(problem: &Problem, state: &State) -> Vec<PairReport> {
+    (0..problem.pairs.len())
+        .map(|pair| report(problem, state, pair))
+        .collect()
+}
+
+/// Sum of the reactions at the nodes of every named node set, as
+/// `body.set`, and the force that holds every rigid surface, by its name.
+pub fn reactions(problem: &Problem, state: &State) -> Vec<(String, Vec3)> {
+    let mut all = Vec::new();
+    for (body, model) in problem.model.bodies.iter().enumerate() {
+        for (name, nodes) in model.mesh.node_sets.iter() {
+            let sum = nodes
+                .iter()
+                .map(|&n| state.forces.reaction[problem.node(body, n)])
+                .sum();
+            all.push((format!("{}.{name}", model.name), sum));
+        }
+    }
+    for (index, rigid) in problem.model.rigid_surfaces.iter().enumerate() {
+        let of_surface =
+            (0..problem.pairs.len()).filter(|&p| problem.pairs[p].rigid == Some(index));
+        let force = of_surface
+            .map(|pair| side(problem, state, pair, 0).force)
+            .sum();
+        all.push((rigid.name.clone(), force));
+    }
+    all
+}
+
+fn report(problem: &Problem, state: &State, pair: usize) -> PairReport {
+    let of_pair = &state.pairs[pair];
+    let a = side(problem, state, pair, 0);
+    let b = if problem.pairs[pair].rigid.is_some() {
+        SideReport {
+            force: -a.force,
+            moment: -a.moment,
+            ..a
+        }
+    } else {
+        side(problem, state, pair, 1)
+    };
+    let largest = a.force.norm().max(b.force.norm());
+    let arm = a.area.max(b.area).sqrt();
+    let over = |value: f64, scale: f64| if scale > 0.0 { value / scale } else { 0.0 };
+    let nodes: Vec<&NodeResult> = of_pair.nodes.iter().flatten().collect();
+    let count = |status| nodes.iter().filter(|node| node.status == status).count();
+    PairReport {
+        name: problem.model.pairs[pair].name.clone(),
+        mismatch: over((a.force + b.force).norm(), largest),
+        moment_mismatch: over((a.moment + b.moment).norm(), largest * arm),
+        sides: [a, b],
+        stick: count(Status::Stick),
+        slip: count(Status::Slip),
+        open: count(Status::Open),
+        max_pressure: nodes.iter().map(|node| node.pressure).fold(0.0, f64::max),
+        dissipated: of_pair.dissipated,
+    }
+}
+
+fn side(problem: &Problem, state: &State, pair: usize, side: usize) -> SideReport {
+    let mut sum = SideReport::default();
+    let Some(surface) = problem.pairs[pair].contact.sides[side].surface() else {
+        return sum;
+    };
+    let facets: &[(FacetId, FacetForces)] = &state.pairs[pair].facets[side];
+    for (facet, forces) in facets {
+        sum.pressure += forces.pressure;
+        sum.friction += forces.friction;
+        sum.area += forces.area.iter().sum::<f64>();
+        for (corner, force) in surface.facets()[facet.index()].iter().zip(&forces.force) {
+            if let Some(node) = problem.surface_node(pair, side, *corner) {
+                sum.force += force;
+                sum.moment += state.positions[node].cross(force);
+            }
+        }
+    }
+    sum
+}

@@ -1,0 +1,123 @@
+//! The state of a simulation at the end of an increment.
+
+use striae_contact::{
+    field::FacetForces,
+    selection::{Kinematic, Selection},
+    unknowns::{NodeResult, Tractions},
+};
+use striae_mesh::{FacetId, Vec3};
+
+use crate::problem::Problem;
+
+/// A converged state. It is never changed: an increment makes a new one.
+#[derive(Clone, Debug)]
+pub struct State {
+    /// (Pseudo) time.
+    pub time: f64,
+    /// Position of every global node.
+    pub positions: Vec<Vec3>,
+    /// Displacement of every rigid surface.
+    pub rigid_displacements: Vec<Vec3>,
+    /// State of every pair.
+    pub pairs: Vec<PairState>,
+    /// Nodal forces.
+    pub forces: NodalForces,
+    /// Energies since the start.
+    pub energies: Energies,
+}
+
+/// State of a contact pair.
+#[derive(Clone, Debug)]
+pub struct PairState {
+    /// Traction unknowns.
+    pub tractions: Tractions,
+    /// Which nodes were kinematic.
+    pub kinematic: Kinematic,
+    /// Roles of the increment that led here; `None` at the start.
+    pub selection: Option<Selection>,
+    /// What is known of every surface node, by side.
+    pub nodes: [Vec<NodeResult>; 2],
+    /// Forces on the facets in contact, by side.
+    pub facets: [Vec<(FacetId, FacetForces)>; 2],
+    /// Work dissipated by friction since the start.
+    pub dissipated: f64,
+}
+
+/// Forces on all global nodes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NodalForces {
+    /// Reactions: internal minus applied minus contact forces.
+    pub reaction: Vec<Vec3>,
+    /// Applied loads.
+    pub applied: Vec<Vec3>,
+    /// Contact forces.
+    pub contact: Vec<Vec3>,
+}
+
+/// Energies since the start of the simulation.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energies {
+    /// Stored elastic energy.
+    pub strain: f64,
+    /// Work of reactions, loads and moving rigid surfaces.
+    pub external: f64,
+    /// Work taken out by contact: minus the work of the contact forces on all sides.
+    pub contact: f64,
+}
+
+impl Energies {
+    /// External work that is neither stored nor taken out by contact. It
+    /// vanishes with the square of the increments.
+    pub fn imbalance(&self) -> f64 {
+        self.external - self.strain - self.contact
+    }
+}
+
+impl NodalForces {
+    /// No forces on so many nodes.
+    pub fn zero(nodes: usize) -> Self {
+        Self {
+            reaction: vec![Vec3::zeros(); nodes],
+            applied: vec![Vec3::zeros(); nodes],
+            contact: vec![Vec3::zeros(); nodes],
+        }
+    }
+}
+
+impl State {
+    /// The undeformed state at time zero.
+    pub fn undeformed(problem: &Problem) -> Self {
+        Self {
+            time: 0.0,
+            positions: problem.reference.clone(),
+            rigid_displacements: vec![Vec3::zeros(); problem.model.rigid_surfaces.len()],
+            pairs: problem
+                .pairs
+                .iter()
+                .map(|pair| PairState::untouched(&pair.contact))
+                .collect(),
+            forces: NodalForces::zero(problem.reference.len()),
+            energies: Energies::default(),
+        }
+    }
+}
+
+impl PairState {
+    fn untouched(pair: &striae_contact::pair::ContactPair) -> Self {
+        let counts = [0, 1].map(|side| {
+            let deformable = pair.deformable_sides().contains(&side);
+            match pair.sides[side].surface() {
+                Some(surface) if deformable => surface.nodes().len(),
+                _ => 0,
+            }
+        });
+        Self {
+            tractions: Tractions::zero(counts),
+            kinematic: counts.map(|count| vec![false; count]),
+            selection: None,
+            nodes: counts.map(|count| vec![NodeResult::default(); count]),
+            facets: [Vec::new(), Vec::new()],
+            dissipated: 0.0,
+        }
+    }
+}
