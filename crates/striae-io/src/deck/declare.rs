@@ -60,8 +60,8 @@ macro_rules! table {
 macro_rules! choice {
     ($(#[doc = $doc:literal])+ $name:ident by $tag:ident { $($word:literal => $variant:ident($table:ty),)+ }) => {
         $(#[doc = $doc])+
-        // Tables without keys are chosen, but have nothing to read.
-        #[allow(dead_code)]
+        // Tables without keys have nothing to read; few are alive, so their size does not matter.
+        #[allow(dead_code, clippy::large_enum_variant)]
         #[derive(Clone, Debug)]
         pub(crate) enum $name { $($variant($table),)+ }
 
@@ -105,6 +105,7 @@ macro_rules! choice {
 macro_rules! either {
     ($(#[doc = $doc:literal])+ $name:ident { $($variant:ident($table:ty),)+ }) => {
         $(#[doc = $doc])+
+        #[allow(clippy::large_enum_variant)]
         #[derive(Clone, Debug)]
         pub(crate) enum $name { $($variant($table),)+ }
 

@@ -217,7 +217,9 @@ pub(super) fn loads(
             scope,
             faults,
         ) {
-            once(&all, &load, step, scope).map(|kind| faults.push(span, kind));
+            if let Some(kind) = stated_twice(&all, &load, step, scope) {
+                faults.push(span, kind);
+            }
             all.push(load);
         }
     }
@@ -234,7 +236,9 @@ pub(super) fn loads(
             scope,
             faults,
         ) {
-            once(&all, &load, step, scope).map(|kind| faults.push(span, kind));
+            if let Some(kind) = stated_twice(&all, &load, step, scope) {
+                faults.push(span, kind);
+            }
             all.push(load);
         }
     }
@@ -267,7 +271,7 @@ fn load(
 }
 
 /// The fault that a load of the same kind on the same set is stated already.
-fn once(all: &[Load], load: &Load, step: &str, scope: &Scope<'_>) -> Option<FaultKind> {
+fn stated_twice(all: &[Load], load: &Load, step: &str, scope: &Scope<'_>) -> Option<FaultKind> {
     let same_kind =
         |other: &Load| std::mem::discriminant(&other.kind) == std::mem::discriminant(&load.kind);
     let twin = all
