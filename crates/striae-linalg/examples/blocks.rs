@@ -1,16 +1,19 @@
 //! Factorisation times on stacked blocks of hexahedra: `blocks [unknowns ...]`.
 //!
-//! Two systems on the same mesh: `K`, symmetric positive definite with three
-//! unknowns a node, and `U`, with three multipliers at every node of one layer
-//! in the middle that tie it to the next one, unsymmetric. The sparse Cholesky
-//! of faer (ordering AMD) on `K` is the yardstick.
+//! Systems on two blocks, one above the other: `K`, symmetric positive definite
+//! with three unknowns a node; `U`, with three multipliers at every node of one
+//! block's face that tie it to the other's, unsymmetric; `S`, the Schur
+//! complement of `K` on both faces. The sparse Cholesky of faer (ordering AMD)
+//! on `K` is the yardstick.
 
 use faer::{
     Side,
     sparse::{SparseColMat, Triplet},
 };
 use std::time::Instant;
-use striae_linalg::{LinearSolver, MultifrontalLu, SparseMatrix, Structure, Supervariable};
+use striae_linalg::{
+    LinearSolver, MultifrontalLu, SchurCholesky, SparseMatrix, Structure, Supervariable,
+};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let sizes: Vec<usize> = std::env::args()
@@ -31,6 +34,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             stiffness.structure().unknowns()
         );
         multifrontal("K", &stiffness, yardstick)?;
+        condensation(&stiffness, side, yardstick)?;
         drop(stiffness);
         multifrontal("U", &blocks(side, Ties::Layer)?, yardstick)?;
     }
@@ -73,14 +77,38 @@ fn multifrontal(
     Ok(())
 }
 
-/// Whether the middle layer carries multipliers.
+/// Schur complement on the two faces.
+fn condensation(
+    matrix: &SparseMatrix,
+    side: usize,
+    yardstick: f64,
+) -> Result<(), Box<dyn std::error::Error>> {
+    let area = side * side;
+    let kept: Vec<_> = (side / 2 * area..(side / 2 + 2) * area)
+        .map(Supervariable)
+        .collect();
+    let mut schur = SchurCholesky::analyse(matrix.structure(), &kept)?;
+    schur.factor(matrix)?;
+    let start = Instant::now();
+    let complement = schur.factor(matrix)?;
+    let factor = start.elapsed().as_secs_f64();
+    println!(
+        "S {:7}  condensed {factor:7.3} s ({:.2} x Cholesky, {:.1} Gflop/s)",
+        complement.nrows(),
+        factor / yardstick,
+        1e-9 * schur.analysis().flops / factor,
+    );
+    Ok(())
+}
+
+/// Whether the face of the lower block carries multipliers.
 #[derive(Clone, Copy, PartialEq)]
 enum Ties {
     None,
     Layer,
 }
 
-/// Cube of `side^3` nodes: cell matrices of a vector Laplacian with some coupling.
+/// Two blocks that make a cube of `side^3` nodes: cell matrices of a vector Laplacian with some coupling.
 fn blocks(side: usize, ties: Ties) -> Result<SparseMatrix, Box<dyn std::error::Error>> {
     let node = |x: usize, y: usize, z: usize| x + side * (y + side * z);
     let layer = side / 2;
@@ -93,7 +121,7 @@ fn blocks(side: usize, ties: Ties) -> Result<SparseMatrix, Box<dyn std::error::E
     for z in 0..side - 1 {
         for y in 0..side - 1 {
             for x in 0..side - 1 {
-                if ties == Ties::None || z != layer {
+                if z != layer {
                     let corner = |k: usize| node(x + (k & 1), y + (k >> 1 & 1), z + (k >> 2));
                     cells.push((0..8).map(|k| Supervariable(corner(k))).collect::<Vec<_>>());
                 }
@@ -157,7 +185,7 @@ fn add_tie(
             let weight = if k == 0 { 1.0 } else { -0.25 };
             let unknown = structure.unknowns_of(*s).start + c;
             matrix.add(&[unknown], &[multiplier + c], &[weight])?;
-            let slips = c > 0 && tie[0].0 % 2 == 0;
+            let slips = c > 0 && tie[0].0.is_multiple_of(2);
             matrix.add(
                 &[multiplier + c],
                 &[unknown],
