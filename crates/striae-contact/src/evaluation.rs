@@ -84,8 +84,8 @@ impl Evaluation {
             .filter(|&node| roles[node] != Role::Idle)
             .map(|node| node_rows(fields, side, node as u32, prescribed, iteration))
             .collect();
-        for (node, term, result) in results? {
-            self.terms.push(term);
+        for (node, terms, result) in results? {
+            self.terms.extend(terms);
             self.nodes[side][node as usize] = result;
         }
         Ok(())
@@ -131,7 +131,7 @@ impl Evaluation {
                         let heaviest = (0..4).max_by(|&a, &b| weights[a].total_cmp(&weights[b]));
                         heaviest.map(|corner| (1 - side, corners[corner]))
                     }
-                    Role::Extended { side, node } => Some((*side, *node)),
+                    Role::Extended(leaders) => Some((leaders[0].side, leaders[0].node)),
                     _ => None,
                 };
                 if let Some((other, corner)) = source {
@@ -156,7 +156,7 @@ fn node_rows(
     node: u32,
     prescribed: &Prescribed,
     iteration: Iteration,
-) -> Result<(u32, LocalTerm, NodeResult), LostProjection> {
+) -> Result<(u32, Vec<LocalTerm>, NodeResult), LostProjection> {
     let lost = LostProjection { side, node };
     let frame = fields.frames[side][node as usize].as_ref().ok_or(lost)?;
     let unknowns = fields.tractions.nodes[side][node as usize];
@@ -167,31 +167,28 @@ fn node_rows(
         normal: frame.n.value,
         ..NodeResult::default()
     };
-    match fields.selection.roles[side][node as usize] {
+    match &fields.selection.roles[side][node as usize] {
         Role::Kinematic(partner) => {
             let kinematic = KinematicNode {
                 side,
                 node,
-                partner,
+                partner: *partner,
                 frame,
                 unknowns,
                 tau,
             };
             let (term, result) = rows(fields.configuration, &kinematic, prescribed, iteration)?;
-            Ok((node, term, result))
+            Ok((node, vec![term], result))
         }
         Role::Traction(partner) => {
             let (term, gap) = traction_rows(fields, side, node)?;
             result.gap = gap;
-            result.slip = slip(fields.configuration, side, node, partner, &frame.n.value);
-            Ok((node, term, result))
+            result.slip = slip(fields.configuration, side, node, *partner, &frame.n.value);
+            Ok((node, vec![term], result))
         }
-        Role::Extended {
-            side: side_k,
-            node: node_k,
-        } => {
-            let term = extended_rows(fields, side, node, (side_k, node_k));
-            Ok((node, term, result))
+        Role::Extended(leaders) => {
+            let terms = extended_rows(fields, side, node, leaders);
+            Ok((node, terms, result))
         }
         Role::Idle => Err(lost),
     }

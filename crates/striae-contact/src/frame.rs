@@ -61,10 +61,10 @@ pub fn frames(
     for &side in configuration.pair.deformable_sides() {
         for (node, role) in selection.roles[side].iter().enumerate() {
             let node = node as u32;
-            let n = match *role {
+            let n = match role {
                 Role::Idle => continue,
-                Role::Extended { node: leader, .. } if configuration.pair.is_rigid() => {
-                    normal(configuration, side, leader)?
+                Role::Extended(leaders) if configuration.pair.is_rigid() => {
+                    normal(configuration, side, leaders[0].node)?
                 }
                 _ => normal(configuration, side, node)?,
             };

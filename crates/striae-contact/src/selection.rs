@@ -18,7 +18,7 @@
 //! side are judged together, so the choice does not depend on numbering.
 //!
 //! An uncovered node of a partly covered facet is *extended*: it takes the
-//! traction of the nearest kinematic node.
+//! traction of the nearest kinematic node, or the mean of several equally near.
 
 use striae_mesh::{FacetId, Vec3};
 use striae_surface::facet::Shape;
@@ -30,7 +30,7 @@ use crate::{
 };
 
 /// What a surface node does in an increment.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Role {
     /// No traction.
     Idle,
@@ -38,13 +38,17 @@ pub enum Role {
     Kinematic(Partner),
     /// Collocated balance with the opposing traction field.
     Traction(Partner),
-    /// The traction of another node.
-    Extended {
-        /// Side of that node.
-        side: usize,
-        /// That node.
-        node: u32,
-    },
+    /// The mean traction of other nodes, its leaders.
+    Extended(Vec<Leader>),
+}
+
+/// A kinematic node whose traction an extended node takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Leader {
+    /// Its side.
+    pub side: usize,
+    /// Its surface-local number.
+    pub node: u32,
 }
 
 /// Opposing material point at the start of the increment.
@@ -337,19 +341,19 @@ fn extend(
                 let distance = |&(other, k): &(usize, u32)| {
                     (configuration.side(other).x[k as usize] - x).norm()
                 };
-                let nearest = kinematic
+                let nearest = kinematic.iter().map(distance).fold(f64::INFINITY, f64::min);
+                let leaders = kinematic
                     .iter()
-                    .min_by(|a, b| distance(a).total_cmp(&distance(b)));
-                if let Some(&(side_k, node_k)) = nearest {
-                    roles[side][node as usize] = Role::Extended {
-                        side: side_k,
-                        node: node_k,
-                    };
-                }
+                    .filter(|entry| distance(entry) <= nearest * (1.0 + EQUALLY_NEAR))
+                    .map(|&(side, node)| Leader { side, node });
+                roles[side][node as usize] = Role::Extended(leaders.collect());
             }
         }
     }
 }
+
+/// Relative difference of distances that does not count.
+const EQUALLY_NEAR: f64 = 1e-6;
 
 /// Nodes of facets that are touched by the covered zone, and of their neighbours.
 fn zone(configuration: &Configuration, side: usize, coverage: &[Vec<Coverage>; 2]) -> Vec<u32> {

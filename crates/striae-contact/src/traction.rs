@@ -32,7 +32,7 @@ pub fn nodal_tractions(
             .map(|node| match &frames[side][node] {
                 Some(frame) => nodal_traction(
                     configuration,
-                    selection.roles[side][node],
+                    &selection.roles[side][node],
                     frame,
                     configuration.pair.numbering().traction(side, node as u32),
                     tractions.nodes[side][node],
@@ -45,7 +45,7 @@ pub fn nodal_tractions(
 
 fn nodal_traction(
     configuration: &Configuration,
-    role: Role,
+    role: &Role,
     frame: &Frame,
     first: u32,
     unknowns: [f64; 3],

@@ -25,7 +25,7 @@ use crate::{
     coverage::Place,
     frame::{FOLLOW, Frames, LostProjection},
     projection::{Margin, differentiated},
-    selection::Selection,
+    selection::{Leader, Selection},
     term::{Field, Jacobian, Lanes, LocalTerm, Source, gradient, variable, variable3, variables3},
     traction::NodalTractions,
     unknowns::Tractions,
@@ -196,13 +196,24 @@ pub fn traction_rows(
     Ok((LocalTerm::from_lanes(&lanes, &rows), gap.re))
 }
 
-/// Rows of an extended node.
-pub fn extended_rows(fields: &Fields, side: usize, node: u32, leader: (usize, u32)) -> LocalTerm {
+/// Rows of an extended node, one term a leader, each with its share.
+pub fn extended_rows(
+    fields: &Fields,
+    side: usize,
+    node: u32,
+    leaders: &[Leader],
+) -> Vec<LocalTerm> {
+    let share = 1.0 / leaders.len() as f64;
+    let term = |leader: &Leader| follower_rows(fields, side, node, *leader, share);
+    leaders.iter().map(term).collect()
+}
+
+fn follower_rows(fields: &Fields, side: usize, node: u32, leader: Leader, share: f64) -> LocalTerm {
     const N: usize = 19;
     type D = DualSVec64<N>;
     let numbering = fields.configuration.pair.numbering();
     let first = numbering.traction(side, node);
-    let (side_k, node_k) = leader;
+    let (side_k, node_k) = (leader.side, leader.node);
     let (Some(frame), Some(n_jacobian), Some(tau_jacobian)) = (
         fields.frames[side][node as usize].as_ref(),
         fields.normal_jacobian(side_k, node_k),
@@ -237,7 +248,7 @@ pub fn extended_rows(fields: &Fields, side: usize, node: u32, leader: (usize, u3
     let rows: Vec<_> = (0..3)
         .map(|at| {
             let own: D = variable(unknowns[at], 15 + at);
-            let row = own - targets[at];
+            let row = (own - targets[at]) * share;
             (first + at as u32, Field::Traction, row.re, gradient(&row))
         })
         .collect();

@@ -243,12 +243,26 @@ fn body_grid<'a>(problem: &'a Problem, state: &'a State, body: usize) -> Grid<'a
     let range = problem.first_node[body]..problem.first_node[body + 1];
     let points = &state.positions[range.clone()];
     let model = &problem.model.bodies[body];
-    let displacement = points.iter().zip(&problem.reference[range]).map(|(x, reference)| x - reference);
-    let mut point_arrays = vec![Array::new("displacement", Values::Vectors(displacement.collect()))];
-    let stress = nodal_cauchy_stress(&model.mesh, &problem.elements[body], points, &model.material);
+    let displacement = points
+        .iter()
+        .zip(&problem.reference[range])
+        .map(|(x, reference)| x - reference);
+    let mut point_arrays = vec![Array::new(
+        "displacement",
+        Values::Vectors(displacement.collect()),
+    )];
+    let stress = nodal_cauchy_stress(
+        &model.mesh,
+        &problem.elements[body],
+        points,
+        &model.material,
+    );
     if let Ok(stress) = stress {
         let equivalent = stress.iter().map(von_mises).collect();
-        point_arrays.push(Array::new("cauchy_stress", Values::SymmetricTensors(stress)));
+        point_arrays.push(Array::new(
+            "cauchy_stress",
+            Values::SymmetricTensors(stress),
+        ));
         point_arrays.push(Array::new("von_mises", Values::Scalars(equivalent)));
     }
     Grid {
@@ -273,7 +287,10 @@ fn write_surface(
     };
     let global = |node: usize| problem.surface_node(pair, side, node as u32);
     let count = surface.nodes().len();
-    let points: Vec<Vec3> = (0..count).filter_map(global).map(|n| state.positions[n]).collect();
+    let points: Vec<Vec3> = (0..count)
+        .filter_map(global)
+        .map(|n| state.positions[n])
+        .collect();
     let quads: Vec<[NodeId; 4]> = surface
         .facets()
         .iter()
@@ -291,22 +308,28 @@ fn write_surface(
         ContactStatus::Stick => 1,
         ContactStatus::Slip => 2,
     });
-    let roles = state.pairs[pair].selection.as_ref().map_or_else(Vec::new, |selection| {
-        let code = |role: &Role| match role {
-            Role::Idle => 0,
-            Role::Kinematic(_) => 1,
-            Role::Traction(_) => 2,
-            Role::Extended { .. } => 3,
-        };
-        selection.roles[side].iter().map(code).collect()
-    });
+    let roles = state.pairs[pair]
+        .selection
+        .as_ref()
+        .map_or_else(Vec::new, |selection| {
+            let code = |role: &Role| match role {
+                Role::Idle => 0,
+                Role::Kinematic(_) => 1,
+                Role::Traction(_) => 2,
+                Role::Extended(_) => 3,
+            };
+            selection.roles[side].iter().map(code).collect()
+        });
     let grid = Grid {
         points: &points,
         cells: Cells::Quadrilaterals(&quads),
         point_arrays: vec![
             Array::new("gap", scalars(|node| node.gap)),
             Array::new("pressure", scalars(|node| node.pressure)),
-            Array::new("traction", vectors(|node| node.tau - node.normal * node.pressure)),
+            Array::new(
+                "traction",
+                vectors(|node| node.tau - node.normal * node.pressure),
+            ),
             Array::new("friction_traction", vectors(|node| node.tau)),
             Array::new("slip", vectors(|node| node.slip)),
             Array::new("normal", vectors(|node| node.normal)),

@@ -13,7 +13,8 @@ use striae_contact::{
     unknowns::{Status, Tractions},
 };
 use striae_linalg::{
-    Analysis, FaerLu, LinearSolver, SolveError, SparseMatrix, Structure, Supervariable,
+    Analysis, FaerLu, LinearSolver, MultifrontalLu, SolveError, SparseMatrix, Structure,
+    Supervariable,
 };
 use striae_mesh::Vec3;
 
@@ -63,8 +64,8 @@ impl Workspace {
     /// An empty workspace with the given factorisation.
     pub fn new(backend: Backend) -> Self {
         let solver: Box<dyn LinearSolver> = match backend {
-            Backend::Multifrontal => Box::new(FaerLu::default()),
-            Backend::Faer => Box::new(FaerLu::default()),
+            Backend::Multifrontal => Box::new(MultifrontalLu::new()),
+            Backend::Faer => Box::new(FaerLu::new()),
         };
         Self {
             solver,
