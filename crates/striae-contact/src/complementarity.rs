@@ -35,6 +35,8 @@ use crate::{
     projection::{Margin, differentiated, differentiated_rigid},
     selection::Partner,
     term::{Field, Lanes, LocalTerm, Row, Source, gradient, variable, variable3, variables3},
+    texture::NodeTextures,
+    traction::{on_lanes, push_textures},
     unknowns::{NodeResult, Status},
 };
 
@@ -58,6 +60,8 @@ pub struct KinematicNode<'a> {
     pub partner: Partner,
     /// Nodal frame.
     pub frame: &'a Frame,
+    /// Textures of both sides at the node.
+    pub textures: &'a NodeTextures,
     /// `p`, `z1`, `z2`.
     pub unknowns: [f64; 3],
     /// Friction traction `tau`.
@@ -70,11 +74,12 @@ pub type Prescribed = [Vec<bool>; 2];
 /// What a tangential row states, its residual and its gradient over the lanes.
 type TangentialRow = (Field, f64, [f64; N]);
 
-const N: usize = 39;
+const N: usize = 45;
 type D = DualSVec64<N>;
 const X_OPPOSITE: usize = 12;
 const X_PARTNER: usize = 24;
 const TRACTION: usize = 36;
+const TEXTURES: usize = 39;
 
 /// Gap below which a node counts as touching at the start of an increment, over the local size.
 const TOUCHING: f64 = 1e-6;
@@ -140,7 +145,10 @@ struct NodeState<'a> {
     lanes: Lanes<'a>,
     free: [bool; N],
     gap: D,
+    /// Components of `du`.
     slip: [D; 2],
+    /// Components of `K^-1 du`.
+    turned: [D; 2],
 }
 
 impl<'a> NodeState<'a> {
@@ -225,12 +233,19 @@ impl<'a> NodeState<'a> {
             first: numbering.traction(side, node.node),
             count: 3,
         });
+        push_textures(&mut lanes, node.textures);
         let relative = x - partner;
+        let kernel = configuration
+            .pair
+            .friction
+            .kernel(&n, &on_lanes(node.textures, TEXTURES));
+        let turned = kernel.k_inverse * relative;
         Ok(Self {
             lanes,
             free,
             gap,
             slip: [dot(&t[0], &relative), dot(&t[1], &relative)],
+            turned: [dot(&t[0], &turned), dot(&t[1], &turned)],
         })
     }
 
@@ -242,6 +257,7 @@ impl<'a> NodeState<'a> {
             tau: node.tau,
             slip: t[0].value * self.slip[0].re + t[1].value * self.slip[1].re,
             normal: node.frame.n.value,
+            texture: Vec3::zeros(),
             status: Status::Open,
         }
     }
@@ -281,7 +297,7 @@ impl<'a> NodeState<'a> {
             );
         }
         let varpi = friction.cap(pressure, D::from_re(0.0));
-        let y = [z[0] + self.slip[0] * r, z[1] + self.slip[1] * r];
+        let y = [z[0] + self.turned[0] * r, z[1] + self.turned[1] * r];
         let length = y[0].re.hypot(y[1].re);
         if iteration == Iteration::First || length <= varpi.re {
             (Status::Stick, self.stick(&z, size))

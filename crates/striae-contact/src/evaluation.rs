@@ -11,10 +11,11 @@ use crate::{
     configuration::Configuration,
     coverage::Place,
     field::{BalanceRows, FacetForces, facet_terms},
-    frame::{LostProjection, frames},
+    frame::{LostProjection, Tracked, frames},
     projection::Margin,
     selection::{Partner, Role, Selection},
     term::{Field, LocalTerm},
+    texture::{CollapsedTexture, own, textures},
     traction::nodal_tractions,
     transfer::{Fields, extended_rows, traction_rows},
     unknowns::{NodeResult, Status, Tractions},
@@ -33,24 +34,47 @@ pub struct Evaluation {
     pub nodal_areas: [Vec<f64>; 2],
 }
 
+/// A configuration that cannot be evaluated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EvaluationError {
+    /// A node no longer sees the other side.
+    Lost(LostProjection),
+    /// A convected texture has no direction left.
+    Collapsed(CollapsedTexture),
+}
+
+impl From<LostProjection> for EvaluationError {
+    fn from(lost: LostProjection) -> Self {
+        Self::Lost(lost)
+    }
+}
+
+impl From<CollapsedTexture> for EvaluationError {
+    fn from(collapsed: CollapsedTexture) -> Self {
+        Self::Collapsed(collapsed)
+    }
+}
+
 /// Evaluates a pair.
 ///
 /// # Errors
-/// When a node no longer sees the other side.
+/// When a node no longer sees the other side or its texture collapses.
 pub fn evaluate(
     configuration: &Configuration,
     selection: &Selection,
     tractions: &Tractions,
     prescribed: &Prescribed,
     iteration: Iteration,
-) -> Result<Evaluation, LostProjection> {
+) -> Result<Evaluation, EvaluationError> {
     let frames = frames(configuration, selection)?;
-    let tau = nodal_tractions(configuration, selection, &frames, tractions);
+    let textures = textures(configuration, selection, &frames)?;
+    let tau = nodal_tractions(configuration, selection, &frames, &textures, tractions);
     let fields = Fields {
         configuration,
         selection,
         frames: &frames,
         tractions,
+        textures: &textures,
         tau: &tau,
     };
     let mut evaluation = Evaluation {
@@ -165,6 +189,7 @@ fn node_rows(
         pressure: unknowns[0],
         tau,
         normal: frame.n.value,
+        texture: own_texture(fields, side, node, &frame.n),
         ..NodeResult::default()
     };
     match &fields.selection.roles[side][node as usize] {
@@ -174,10 +199,15 @@ fn node_rows(
                 node,
                 partner: *partner,
                 frame,
+                textures: &fields.textures[side][node as usize],
                 unknowns,
                 tau,
             };
-            let (term, result) = rows(fields.configuration, &kinematic, prescribed, iteration)?;
+            let (term, of_rows) = rows(fields.configuration, &kinematic, prescribed, iteration)?;
+            let result = NodeResult {
+                texture: result.texture,
+                ..of_rows
+            };
             Ok((node, vec![term], result))
         }
         Role::Traction(partner) => {
@@ -191,6 +221,14 @@ fn node_rows(
             Ok((node, terms, result))
         }
         Role::Idle => Err(lost),
+    }
+}
+
+/// Direction `s = a x n` of the node's own texture, zero without one.
+fn own_texture(fields: &Fields, side: usize, node: u32, n: &Tracked) -> Vec3 {
+    match own(fields.configuration, side, node, n) {
+        Ok(Some(a)) => a.value.cross(&n.value),
+        Ok(None) | Err(_) => Vec3::zeros(),
     }
 }
 

@@ -12,22 +12,22 @@
 //! interpolated from the nodal frames. Whole facets take 2x2 Gauss points, cut
 //! ones the points of [`crate::clip`].
 
-use nalgebra::Vector3;
-use num_dual::DualSVec64;
+use nalgebra::{Matrix3, SMatrix, Vector3, Vector6};
+use num_dual::{Derivative, DualSVec64};
 use striae_mesh::{FacetId, Vec3};
 use striae_surface::{
-    facet::{Shape, area_vector},
-    scalar::{Real, combination, constant3, cross, norm, normalised, scaled},
+    facet::{Shape, Weights},
+    scalar::combination,
     topology::distinct_corners,
-    transport::transported,
 };
 
 use crate::{
     clip::{QuadraturePoint, covered_points},
     facet_coverage::FacetCoverage,
     quadrature::GAUSS_2,
-    term::{Field, Lanes, LocalTerm, Source, gradient, variable, variables3},
+    term::{Field, Lanes, LocalTerm, Row, Source, variable3, variables3},
     transfer::Fields,
+    transported::Transported,
 };
 
 /// Forces of the contact tractions on the corners of a facet.
@@ -65,60 +65,65 @@ pub fn facet_terms(
     facet: FacetId,
     balance: Option<&BalanceRows>,
 ) -> (Vec<LocalTerm>, FacetForces) {
+    let mut sum = FacetForces::default();
+    let mut terms = Vec::new();
     match fields.configuration.facet_coverage(side, facet) {
-        FacetCoverage::Bare => (Vec::new(), FacetForces::default()),
+        FacetCoverage::Bare => {}
         FacetCoverage::Whole => {
-            let points = GAUSS_2.iter().flat_map(|&(xi, w_xi)| {
-                GAUSS_2.iter().map(move |&(eta, w_eta)| QuadraturePoint {
-                    xi: DualSVec64::<40>::from_re(xi),
-                    eta: DualSVec64::from_re(eta),
-                    weight: DualSVec64::from_re(w_xi * w_eta),
-                })
-            });
-            let points: Vec<_> = points.collect();
-            let kernel = Kernel::<40>::new(fields, side, facet, None);
-            let (term, forces) = kernel.term(&points, balance);
-            (vec![term], forces)
+            let kernel = Kernel::new(fields, side, facet, None);
+            terms.push(kernel.term(&whole_points(), balance, &mut sum));
         }
         FacetCoverage::Cut(covers) => {
-            let mut sum = FacetForces::default();
-            let mut terms = Vec::with_capacity(covers.len());
             for cover in covers {
-                let kernel = Kernel::<52>::new(fields, side, facet, Some(cover));
-                let points = covered_points(&kernel.x, &kernel.cover);
+                let kernel = Kernel::new(fields, side, facet, Some(cover));
+                let points = covered_points(&kernel.corners(), &kernel.cover_corners());
                 if !points.is_empty() {
-                    let (term, forces) = kernel.term(&points, balance);
-                    terms.push(term);
-                    sum.add(&forces);
+                    terms.push(kernel.term(&points, balance, &mut sum));
                 }
             }
-            (terms, sum)
         }
     }
+    (terms, sum)
 }
 
-impl FacetForces {
-    fn add(&mut self, other: &Self) {
-        for corner in 0..4 {
-            self.force[corner] += other.force[corner];
-            self.area[corner] += other.area[corner];
+/// A dual number over the corners of a facet and of a covering one.
+type Moving = DualSVec64<24>;
+
+fn whole_points() -> Vec<QuadraturePoint<Moving>> {
+    let mut points = Vec::with_capacity(4);
+    for (xi, w_xi) in GAUSS_2 {
+        for (eta, w_eta) in GAUSS_2 {
+            points.push(QuadraturePoint {
+                xi: Moving::from_re(xi),
+                eta: Moving::from_re(eta),
+                weight: Moving::from_re(w_xi * w_eta),
+            });
         }
-        self.pressure += other.pressure;
-        self.friction += other.friction;
     }
+    points
 }
 
-/// Quantities of a facet on lanes: corner positions `0..12`, corner normals
-/// `12..24`, pressures `24..28`, friction tractions `28..40` and the corners of
-/// a covering facet `40..52`.
-struct Kernel<'a, const N: usize> {
+/// Lanes: corner positions, corner normals, pressures, friction tractions and
+/// the corners of a covering facet.
+const LANES: usize = 52;
+const X: usize = 0;
+const NORMAL: usize = 12;
+const PRESSURE: usize = 24;
+const TAU: usize = 28;
+const COVER: usize = 40;
+
+/// Derivatives of a vector over the lanes.
+type Gradient3 = SMatrix<f64, 3, LANES>;
+
+/// Quantities of a facet and where they come from.
+struct Kernel<'a> {
     lanes: Lanes<'a>,
     rows: [u32; 4],
-    x: [Vector3<DualSVec64<N>>; 4],
-    n: [Vector3<DualSVec64<N>>; 4],
-    p: [DualSVec64<N>; 4],
-    tau: [Vector3<DualSVec64<N>>; 4],
-    cover: Vec<Vector3<DualSVec64<N>>>,
+    x: [Vec3; 4],
+    n: [Vec3; 4],
+    p: [f64; 4],
+    tau: [Vec3; 4],
+    cover: Vec<Vec3>,
     normal: NormalField,
 }
 
@@ -131,9 +136,10 @@ enum NormalField {
     Nodal,
 }
 
-impl<'a, const N: usize> Kernel<'a, N> {
+impl<'a> Kernel<'a> {
     fn new(fields: &Fields<'a>, side: usize, facet: FacetId, cover: Option<FacetId>) -> Self {
         let configuration = fields.configuration;
+        let rigid = configuration.pair.is_rigid();
         let numbering = configuration.pair.numbering();
         let own = configuration.side(side);
         let corners = own.corners(facet);
@@ -154,28 +160,23 @@ impl<'a, const N: usize> Kernel<'a, N> {
         let cover = cover.map_or_else(Vec::new, |cover| {
             let other = configuration.side(1 - side);
             let opposite = other.corners(cover);
-            for corner in opposite {
-                lanes.push(if configuration.pair.is_rigid() {
-                    Source::Constant(3)
-                } else {
-                    Source::Unknowns {
-                        first: numbering.position(1 - side, corner),
-                        count: 3,
-                    }
-                });
+            for corner in opposite.into_iter().filter(|_| !rigid) {
+                let first = numbering.position(1 - side, corner);
+                lanes.push(Source::Unknowns { first, count: 3 });
             }
-            let corners = variables3(&other.corner_positions(cover), 40);
-            corners[..distinct_corners(&opposite).len()].to_vec()
+            other.corner_positions(cover)[..distinct_corners(&opposite).len()].to_vec()
         });
-        let pressure = |at: usize| variable(fields.pressure(side, corners[at]), 24 + at);
+        if cover.is_empty() || rigid {
+            lanes.push(Source::Constant(12));
+        }
         Self {
             rows,
-            x: variables3(&own.corner_positions(facet), 0),
-            n: variables3(&corners.map(|corner| fields.normal(side, corner)), 12),
-            p: std::array::from_fn(pressure),
-            tau: variables3(&corners.map(|c| fields.tau[side][c as usize].value), 28),
+            x: own.corner_positions(facet),
+            n: corners.map(|corner| fields.normal(side, corner)),
+            p: corners.map(|corner| fields.pressure(side, corner)),
+            tau: corners.map(|corner| fields.tau[side][corner as usize].value),
             cover,
-            normal: if configuration.pair.is_rigid() {
+            normal: if rigid {
                 NormalField::Nodal
             } else {
                 NormalField::Facet
@@ -184,168 +185,196 @@ impl<'a, const N: usize> Kernel<'a, N> {
         }
     }
 
-    fn term(
-        &self,
-        points: &[QuadraturePoint<DualSVec64<N>>],
-        balance: Option<&BalanceRows>,
-    ) -> (LocalTerm, FacetForces) {
-        let zero = || Vector3::repeat(DualSVec64::<N>::from_re(0.0));
-        let mut force = [(); 4].map(|()| zero());
-        let mut forces = FacetForces::default();
-        for point in points {
-            let weights = Shape::Quadrilateral.weights(point.xi, point.eta);
-            let density = self.density(&weights);
-            let weight = point.weight.re * density.area;
-            forces.pressure += weight * density.pressure;
-            forces.friction += weight * density.friction;
-            let load = scaled(&density.force, point.weight);
-            for corner in 0..4 {
-                force[corner] += scaled(&load, weights.value[corner]);
-                forces.area[corner] += weight * weights.value[corner].re;
-            }
-        }
-        forces.force = force.each_ref().map(|f| f.map(|component| component.re));
-        (self.rows(&force, balance), forces)
+    fn corners(&self) -> [Vector3<Moving>; 4] {
+        variables3(&self.x, 0)
     }
 
-    /// `t |x_,xi x x_,eta|` at a point.
-    fn density(&self, weights: &striae_surface::facet::Weights<DualSVec64<N>>) -> Density<N> {
-        let area = area_vector(weights, &self.x);
-        let size = norm(&area);
+    fn cover_corners(&self) -> Vec<Vector3<Moving>> {
+        let corners = self.cover.iter().enumerate();
+        corners.map(|(at, x)| variable3(x, 12 + 3 * at)).collect()
+    }
+
+    fn term(
+        &self,
+        points: &[QuadraturePoint<Moving>],
+        balance: Option<&BalanceRows>,
+        sum: &mut FacetForces,
+    ) -> LocalTerm {
+        let mut force = [Vec3::zeros(); 4];
+        let mut slope = [Gradient3::zeros(); 4];
+        for point in points {
+            let weights = Shape::Quadrilateral.weights(point.xi.re, point.eta.re);
+            let density = self.density(&weights);
+            let w = point.weight.re;
+            let area = w * density.area;
+            sum.pressure += area * density.pressure;
+            sum.friction += area * density.friction;
+            for corner in 0..4 {
+                let value = weights.value[corner];
+                force[corner] += density.force * (value * w);
+                slope[corner] += density.gradient * (value * w);
+                sum.area[corner] += area * value;
+                let by_xi = density.d_xi * value + density.force * weights.d_xi[corner];
+                let by_eta = density.d_eta * value + density.force * weights.d_eta[corner];
+                add_moving(&mut slope[corner], &(by_xi * w), &point.xi);
+                add_moving(&mut slope[corner], &(by_eta * w), &point.eta);
+                add_moving(&mut slope[corner], &(density.force * value), &point.weight);
+            }
+        }
+        for corner in 0..4 {
+            sum.force[corner] += force[corner];
+        }
+        self.rows(&force, &slope, balance)
+    }
+
+    /// `t |x_,xi x x_,eta|` at a point with its derivatives.
+    fn density(&self, weights: &Weights<f64>) -> Density {
+        let x_xi = combination(&weights.d_xi, &self.x);
+        let x_eta = combination(&weights.d_eta, &self.x);
+        let twist = (self.x[0] - self.x[1] + self.x[2] - self.x[3]) * 0.25;
+        let a = x_xi.cross(&x_eta);
+        let size = a.norm();
+        let d_a = [x_xi.cross(&twist), twist.cross(&x_eta)];
+        let interpolated = combination(&weights.value, &self.n);
         let n = match self.normal {
-            NormalField::Facet => normalised(&area),
-            NormalField::Nodal => normalised(&combination(&weights.value, &self.n)),
+            NormalField::Facet => a / size,
+            NormalField::Nodal => interpolated.normalize(),
         };
-        let turned: [Vector3<DualSVec64<N>>; 4] =
-            std::array::from_fn(|corner| transported(&self.tau[corner], &self.n[corner], &n));
-        let tau = combination(&weights.value, &turned);
-        let mut p = self.p[0] * weights.value[0];
-        for corner in 1..4 {
-            p += self.p[corner] * weights.value[corner];
+        let p: f64 = (0..4)
+            .map(|corner| weights.value[corner] * self.p[corner])
+            .sum();
+        let turned: [Transported; 4] =
+            std::array::from_fn(|corner| Transported::new(&self.tau[corner], &self.n[corner], &n));
+        let tau: Vec3 = (0..4).map(|c| turned[c].value * weights.value[c]).sum();
+        let traction = tau - n * p;
+
+        let mut by_n = Matrix3::identity() * (-p * size);
+        for corner in 0..4 {
+            by_n += turned[corner].by_n * (size * weights.value[corner]);
+        }
+        let mut by_a = traction * (a / size).transpose();
+        let mut gradient = Gradient3::zeros();
+        let slope = |weights: &[f64; 4]| -> Vec3 {
+            (0..4)
+                .map(|c| (turned[c].value - n * self.p[c]) * (size * weights[c]))
+                .sum()
+        };
+        let (mut d_xi, mut d_eta) = (slope(&weights.d_xi), slope(&weights.d_eta));
+        match self.normal {
+            NormalField::Facet => by_a += by_n * (Matrix3::identity() - n * n.transpose()) / size,
+            NormalField::Nodal => {
+                let tangential = (Matrix3::identity() - n * n.transpose()) / interpolated.norm();
+                let by_sum = by_n * tangential;
+                for corner in 0..4 {
+                    let mut block = gradient.fixed_view_mut::<3, 3>(0, NORMAL + 3 * corner);
+                    block += by_sum * weights.value[corner];
+                }
+                d_xi += by_sum * combination(&weights.d_xi, &self.n);
+                d_eta += by_sum * combination(&weights.d_eta, &self.n);
+            }
+        }
+        d_xi += by_a * d_a[0];
+        d_eta += by_a * d_a[1];
+        let (cross_xi, cross_eta) = (x_xi.cross_matrix(), x_eta.cross_matrix());
+        for corner in 0..4 {
+            let share = size * weights.value[corner];
+            let by_x = cross_xi * weights.d_eta[corner] - cross_eta * weights.d_xi[corner];
+            let mut add = |lane: usize, block: Matrix3<f64>| {
+                let mut view = gradient.fixed_view_mut::<3, 3>(0, lane + 3 * corner);
+                view += block;
+            };
+            add(X, by_a * by_x);
+            add(NORMAL, turned[corner].by_from * share);
+            add(TAU, turned[corner].by_vector * share);
+            gradient.set_column(PRESSURE + corner, &(n * -share));
         }
         Density {
-            force: scaled(&(tau - scaled(&n, p)), size),
-            area: size.re,
-            pressure: p.re,
-            friction: tau.map(|component| component.re).norm(),
+            force: traction * size,
+            gradient,
+            d_xi,
+            d_eta,
+            area: size,
+            pressure: p,
+            friction: tau.norm(),
         }
     }
 
     /// Momentum rows `-f` and balance rows.
     fn rows(
         &self,
-        force: &[Vector3<DualSVec64<N>>; 4],
+        force: &[Vec3; 4],
+        slope: &[Gradient3; 4],
         balance: Option<&BalanceRows>,
     ) -> LocalTerm {
-        let mut rows = Vec::with_capacity(18);
+        let mut rows: Vec<Row<LANES>> = Vec::with_capacity(18);
         for corner in 0..4 {
             for axis in 0..3 {
-                let row = -force[corner][axis];
-                rows.push((
-                    self.rows[corner] + axis as u32,
-                    Field::Momentum,
-                    row.re,
-                    gradient(&row),
-                ));
+                let gradient = std::array::from_fn(|lane| -slope[corner][(axis, lane)]);
+                let unknown = self.rows[corner] + axis as u32;
+                rows.push((unknown, Field::Momentum, -force[corner][axis], gradient));
             }
         }
         if let Some(balance) = balance {
-            let mut resultant = [DualSVec64::<N>::from_re(0.0); 6];
-            for corner in 0..4 {
-                let arm = self.x[corner] - constant3::<DualSVec64<N>>(&balance.centre);
-                let moment = cross(&arm, &force[corner]);
-                for axis in 0..3 {
-                    resultant[axis] += force[corner][axis];
-                    resultant[3 + axis] += moment[axis] / balance.radius;
-                }
-            }
+            let (resultant, gradient) = self.resultant(force, slope, balance);
             for mode in 0..balance.active {
-                let mut row = DualSVec64::<N>::from_re(0.0);
-                for (component, value) in resultant.iter().enumerate() {
-                    row += *value * balance.modes[(component, mode)];
-                }
+                let weights = balance.modes.column(mode);
+                let row = weights.transpose() * gradient;
                 rows.push((
                     balance.first + mode as u32,
                     Field::Resultant,
-                    row.re,
-                    gradient(&row),
+                    weights.dot(&resultant),
+                    std::array::from_fn(|lane| row[lane]),
                 ));
             }
         }
         LocalTerm::from_lanes(&self.lanes, &rows)
     }
+
+    /// Force and moment over the patch radius about the patch centre, with derivatives.
+    fn resultant(
+        &self,
+        force: &[Vec3; 4],
+        slope: &[Gradient3; 4],
+        balance: &BalanceRows,
+    ) -> (Vector6<f64>, SMatrix<f64, 6, LANES>) {
+        let mut resultant = Vector6::zeros();
+        let mut gradient = SMatrix::<f64, 6, LANES>::zeros();
+        for corner in 0..4 {
+            let arm = (self.x[corner] - balance.centre) / balance.radius;
+            let mut sum = resultant.fixed_view_mut::<3, 1>(0, 0);
+            sum += force[corner];
+            let mut sum = resultant.fixed_view_mut::<3, 1>(3, 0);
+            sum += arm.cross(&force[corner]);
+            let mut sum = gradient.fixed_view_mut::<3, LANES>(0, 0);
+            sum += slope[corner];
+            let mut sum = gradient.fixed_view_mut::<3, LANES>(3, 0);
+            sum += arm.cross_matrix() * slope[corner];
+            let mut sum = gradient.fixed_view_mut::<3, 3>(3, X + 3 * corner);
+            sum -= force[corner].cross_matrix() / balance.radius;
+        }
+        (resultant, gradient)
+    }
 }
 
-struct Density<const N: usize> {
-    force: Vector3<DualSVec64<N>>,
+/// Adds `vector` times the gradient of a quantity that moves with the corners.
+fn add_moving(slope: &mut Gradient3, vector: &Vec3, quantity: &Moving) {
+    let Derivative(Some(gradient)) = &quantity.eps else {
+        return;
+    };
+    for lane in 0..12 {
+        let mut own = slope.column_mut(X + lane);
+        own += vector * gradient[lane];
+        let mut cover = slope.column_mut(COVER + lane);
+        cover += vector * gradient[12 + lane];
+    }
+}
+
+struct Density {
+    force: Vec3,
+    gradient: Gradient3,
+    d_xi: Vec3,
+    d_eta: Vec3,
     area: f64,
     pressure: f64,
     friction: f64,
-}
-
-/// A load on the surface, as force per current area.
-pub trait SurfaceLoad {
-    /// The load at a point of the facet with these current corners.
-    fn per_area<D: Real>(&self, x: &[Vector3<D>; 4], xi: D, eta: D) -> Vector3<D>;
-}
-
-/// Nodal forces of a load on the covered part of a cut facet: rows of the
-/// corners' positions with the residual *plus* force (what is taken away from
-/// the external load).
-pub fn covered_load<L: SurfaceLoad>(
-    configuration: &crate::configuration::Configuration,
-    side: usize,
-    facet: FacetId,
-    covers: &[FacetId],
-    load: &L,
-) -> Vec<LocalTerm> {
-    const N: usize = 24;
-    let numbering = configuration.pair.numbering();
-    let (own, other) = (configuration.side(side), configuration.side(1 - side));
-    let first = own
-        .corners(facet)
-        .map(|corner| numbering.position(side, corner));
-    let x: [Vector3<DualSVec64<N>>; 4] = variables3(&own.corner_positions(facet), 0);
-    let mut terms = Vec::with_capacity(covers.len());
-    for &cover in covers {
-        let mut lanes = Lanes::default();
-        for first in first {
-            lanes.push(Source::Unknowns { first, count: 3 });
-        }
-        let opposite = other.corners(cover);
-        for corner in opposite {
-            lanes.push(if configuration.pair.is_rigid() {
-                Source::Constant(3)
-            } else {
-                Source::Unknowns {
-                    first: numbering.position(1 - side, corner),
-                    count: 3,
-                }
-            });
-        }
-        let corners = variables3(&other.corner_positions(cover), 12);
-        let window = &corners[..distinct_corners(&opposite).len()];
-        let mut force = [(); 4].map(|()| Vector3::repeat(DualSVec64::<N>::from_re(0.0)));
-        for point in covered_points(&x, window) {
-            let weights = Shape::Quadrilateral.weights(point.xi, point.eta);
-            let area = norm(&area_vector(&weights, &x)) * point.weight;
-            let density = scaled(&load.per_area(&x, point.xi, point.eta), area);
-            for corner in 0..4 {
-                force[corner] += scaled(&density, weights.value[corner]);
-            }
-        }
-        let rows: Vec<_> = (0..12)
-            .map(|at| {
-                let row = force[at / 3][at % 3];
-                (
-                    first[at / 3] + (at % 3) as u32,
-                    Field::Momentum,
-                    row.re,
-                    gradient(&row),
-                )
-            })
-            .collect();
-        terms.push(LocalTerm::from_lanes(&lanes, &rows));
-    }
-    terms
 }

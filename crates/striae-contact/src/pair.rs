@@ -4,7 +4,7 @@ use striae_law::friction::Friction;
 use striae_mesh::Vec3;
 use striae_surface::{topology::Surface, topology::distinct_corners};
 
-use crate::unknown::Numbering;
+use crate::{texture::SideTexture, unknown::Numbering};
 
 /// Two surfaces that may touch. Side 0 (`a`) is deformable.
 #[derive(Clone, Debug)]
@@ -28,6 +28,8 @@ pub struct Side {
     pub geometry: Geometry,
     /// Young's modulus of the body behind a deformable side, for the scaling of the complementarity.
     pub stiffness: f64,
+    /// Texture, if the side has one.
+    pub texture: Option<SideTexture>,
     /// Rank that breaks ties between sides of equal mesh size; independent of which side is called `a`.
     pub rank: usize,
 }

@@ -5,7 +5,7 @@
 
 use nalgebra::Vector3;
 use num_dual::DualSVec64;
-use striae_law::friction::Textures;
+use striae_law::friction::Textures as LawTextures;
 use striae_mesh::Vec3;
 use striae_surface::scalar::scaled;
 
@@ -14,6 +14,7 @@ use crate::{
     frame::{Frame, Frames, Tracked},
     selection::{Role, Selection},
     term::{Lanes, Source, jacobian, variable, variable3},
+    texture::{NodeTextures, Textures},
     unknowns::Tractions,
 };
 
@@ -25,6 +26,7 @@ pub fn nodal_tractions(
     configuration: &Configuration,
     selection: &Selection,
     frames: &Frames,
+    textures: &Textures,
     tractions: &Tractions,
 ) -> NodalTractions {
     [0, 1].map(|side| {
@@ -34,6 +36,7 @@ pub fn nodal_tractions(
                     configuration,
                     &selection.roles[side][node],
                     frame,
+                    &textures[side][node],
                     configuration.pair.numbering().traction(side, node as u32),
                     tractions.nodes[side][node],
                 ),
@@ -47,10 +50,11 @@ fn nodal_traction(
     configuration: &Configuration,
     role: &Role,
     frame: &Frame,
+    textures: &NodeTextures,
     first: u32,
     unknowns: [f64; 3],
 ) -> Tracked {
-    type D = DualSVec64<12>;
+    type D = DualSVec64<18>;
     let t: [Vector3<D>; 2] = [
         variable3(&frame.t[0].value, 3),
         variable3(&frame.t[1].value, 6),
@@ -59,7 +63,7 @@ fn nodal_traction(
     let tau = if matches!(role, Role::Kinematic(_)) {
         let friction = &configuration.pair.friction;
         let pressure: D = variable(unknowns[0], 0);
-        let kernel = friction.kernel(&variable3(&frame.n.value, 9), &Textures::none());
+        let kernel = friction.kernel(&variable3(&frame.n.value, 9), &on_lanes(textures, 12));
         kernel.traction(friction.cap(pressure, D::from_re(0.0)), &vector)
     } else {
         vector
@@ -69,9 +73,36 @@ fn nodal_traction(
     lanes.push(Source::Vector(&frame.t[0].jacobian));
     lanes.push(Source::Vector(&frame.t[1].jacobian));
     lanes.push(Source::Vector(&frame.n.jacobian));
+    push_textures(&mut lanes, textures);
     Tracked {
         value: tau.map(|component| component.re),
         jacobian: jacobian(&lanes, &tau),
+    }
+}
+
+/// Textures of a node as variables from lane `lane` on.
+pub fn on_lanes<const N: usize>(
+    textures: &NodeTextures,
+    lane: usize,
+) -> LawTextures<DualSVec64<N>> {
+    let variable = |texture: &Option<Tracked>, lane: usize| {
+        texture
+            .as_ref()
+            .map(|texture| variable3(&texture.value, lane))
+    };
+    LawTextures {
+        own: variable(&textures.own, lane),
+        opposite: variable(&textures.opposite, lane + 3),
+    }
+}
+
+/// Appends the six lanes of the textures of a node.
+pub fn push_textures<'a>(lanes: &mut Lanes<'a>, textures: &'a NodeTextures) {
+    for texture in [&textures.own, &textures.opposite] {
+        lanes.push(match texture {
+            Some(texture) => Source::Vector(&texture.jacobian),
+            None => Source::Constant(3),
+        });
     }
 }
 

@@ -27,6 +27,7 @@ use crate::{
     projection::{Margin, differentiated},
     selection::{Leader, Selection},
     term::{Field, Jacobian, Lanes, LocalTerm, Source, gradient, variable, variable3, variables3},
+    texture::Textures,
     traction::NodalTractions,
     unknowns::Tractions,
 };
@@ -42,6 +43,8 @@ pub struct Fields<'a> {
     pub frames: &'a Frames,
     /// Unknowns.
     pub tractions: &'a Tractions,
+    /// Nodal textures.
+    pub textures: &'a Textures,
     /// Nodal friction tractions.
     pub tau: &'a NodalTractions,
 }

@@ -48,6 +48,8 @@ pub struct NodeResult {
     pub slip: Vec3,
     /// Unit normal.
     pub normal: Vec3,
+    /// Direction `s` of the node's own texture, zero without one.
+    pub texture: Vec3,
     /// Status; of traction nodes from their own traction.
     pub status: Status,
 }

@@ -333,6 +333,7 @@ fn write_surface(
             Array::new("friction_traction", vectors(|node| node.tau)),
             Array::new("slip", vectors(|node| node.slip)),
             Array::new("normal", vectors(|node| node.normal)),
+            Array::new("texture", vectors(|node| node.texture)),
             Array::new("status", Values::Codes(status.collect())),
             Array::new("role", Values::Codes(roles)),
         ],

@@ -4,9 +4,9 @@ use rayon::prelude::*;
 use striae_contact::{
     complementarity::{Iteration, Prescribed},
     configuration::Configuration,
-    evaluation::{Evaluation, evaluate},
+    evaluation::{Evaluation, EvaluationError, evaluate},
+    exposed::{SurfaceLoad, covered_load},
     facet_coverage::FacetCoverage,
-    field::{SurfaceLoad, covered_load},
     pair::ContactPair,
     selection::Selection,
     term::LocalTerm,
@@ -257,7 +257,7 @@ impl System<'_> {
                 &self.context.fixed_on_pair[pair],
                 iteration,
             )
-            .map_err(|lost| Fault::CutBack(self.lost(pair, lost.side, lost.node)))?;
+            .map_err(|error| Fault::CutBack(self.not_evaluated(pair, error)))?;
             let numbering = configuration.pair.numbering();
             for term in &evaluation.terms {
                 self.add_term(pair, &numbering, term);
@@ -272,14 +272,19 @@ impl System<'_> {
         Ok(contacts)
     }
 
-    fn lost(&self, pair: usize, side: usize, node: u32) -> CutBack {
+    fn not_evaluated(&self, pair: usize, error: EvaluationError) -> CutBack {
         let problem = self.context.problem;
+        let (side, node) = match error {
+            EvaluationError::Lost(lost) => (lost.side, lost.node),
+            EvaluationError::Collapsed(collapsed) => (collapsed.side, collapsed.node),
+        };
         let global = problem.surface_node(pair, side, node).unwrap_or(0);
         let (body, node) = problem.body_node(global);
-        CutBack::LostProjection {
-            pair: problem.model.pairs[pair].name.clone(),
-            body: problem.model.bodies[body].name.clone(),
-            node,
+        let pair = problem.model.pairs[pair].name.clone();
+        let body = problem.model.bodies[body].name.clone();
+        match error {
+            EvaluationError::Lost(_) => CutBack::LostProjection { pair, body, node },
+            EvaluationError::Collapsed(_) => CutBack::CollapsedTexture { pair, body, node },
         }
     }
 

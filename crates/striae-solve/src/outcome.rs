@@ -57,6 +57,18 @@ pub enum CutBack {
         /// The node.
         node: striae_mesh::NodeId,
     },
+    /// A convected texture has no direction left at a node.
+    #[error(
+        "pair `{pair}`: the texture at {node} of body `{body}`, or opposite to it, has no direction left"
+    )]
+    CollapsedTexture {
+        /// Name of the pair.
+        pair: String,
+        /// Name of the body.
+        body: String,
+        /// The node.
+        node: striae_mesh::NodeId,
+    },
     /// Nodes outside the contact zone ran into the other side.
     #[error(
         "pair `{pair}`: {} nodes met the other surface unnoticed, first {node} of body `{body}`",

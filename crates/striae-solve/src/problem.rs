@@ -1,8 +1,15 @@
 //! A validated model, ready to be solved: everything that is the same in all increments.
 
-use striae_contact::pair::{ContactPair, Geometry, Side as ContactSide};
+use striae_contact::{
+    pair::{ContactPair, Geometry, Side as ContactSide},
+    texture::SideTexture,
+};
 use striae_mesh::{Face, NodeId, Vec3};
-use striae_surface::topology::Surface;
+use striae_surface::{
+    normal::nodal_normals,
+    texture::{Conditioning, Paint, Texture, TextureError},
+    topology::Surface,
+};
 
 use crate::{
     element::{ElementFault, ReferenceElement, reference_elements},
@@ -40,6 +47,8 @@ pub struct PairGeometry {
     pub rigid: Option<usize>,
     /// Faces of each deformable side, in the order of the facets.
     pub faces: [Vec<Face>; 2],
+    /// How well conditioned the painting of each textured surface was.
+    pub conditionings: [Option<Conditioning>; 2],
 }
 
 /// A model that cannot be solved.
@@ -53,12 +62,34 @@ pub enum ProblemError {
         /// What is wrong.
         fault: ElementFault,
     },
+    /// A side cannot be textured.
+    #[error("pair `{pair}`, texture of {surface}{}: {error}", at_node(*node))]
+    Texture {
+        /// Name of the pair.
+        pair: String,
+        /// Name of the body or rigid surface.
+        surface: String,
+        /// Node of its mesh.
+        node: Option<NodeId>,
+        /// What is wrong.
+        error: TextureError,
+    },
+    /// A rigid plane has no nodes to paint.
+    #[error("pair `{pair}`: a rigid plane takes a uniform, circumferential or radial texture")]
+    PlaneTexture {
+        /// Name of the pair.
+        pair: String,
+    },
     /// A pair has a rigid first side or two rigid sides.
     #[error("pair `{pair}`: side `a` must be deformable")]
     RigidSide {
         /// Name of the pair.
         pair: String,
     },
+}
+
+fn at_node(node: Option<NodeId>) -> String {
+    node.map_or_else(String::new, |node| format!(", {node}"))
 }
 
 impl Problem {
@@ -147,10 +178,32 @@ fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, ProblemErro
                 ContactSide {
                     geometry,
                     stiffness: f64::INFINITY,
+                    texture: None,
                     rank: usize::MAX,
                 }
             }
         });
+    }
+    let mut conditionings = [None, None];
+    for (index, paint) in pair.textures.iter().enumerate() {
+        if let Some(paint) = paint {
+            let positions = side_positions(
+                model,
+                bodies[index],
+                &sides[index].geometry,
+                &rigid_reference,
+            );
+            let (texture, conditioning) = painted(
+                model,
+                pair,
+                index,
+                &sides[index].geometry,
+                &positions,
+                paint,
+            )?;
+            sides[index].texture = Some(texture);
+            conditionings[index] = conditioning;
+        }
     }
     let (Some(b), Some(a)) = (sides.pop(), sides.pop()) else {
         unreachable!("two sides were pushed");
@@ -175,7 +228,64 @@ fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, ProblemErro
         rigid_reference,
         rigid,
         faces,
+        conditionings,
     })
+}
+
+/// Reference positions of the surface nodes of a side; none for a plane.
+fn side_positions(
+    model: &Model,
+    body: Option<usize>,
+    geometry: &Geometry,
+    rigid_reference: &[Vec3],
+) -> Vec<Vec3> {
+    match (geometry, body) {
+        (Geometry::Deformable(surface), Some(body)) => {
+            let mesh = &model.bodies[body].mesh;
+            surface
+                .nodes()
+                .iter()
+                .map(|node| mesh.positions[node.index()])
+                .collect()
+        }
+        (Geometry::Rigid(_), _) => rigid_reference.to_vec(),
+        _ => Vec::new(),
+    }
+}
+
+fn painted(
+    model: &Model,
+    pair: &Pair,
+    index: usize,
+    geometry: &Geometry,
+    positions: &[Vec3],
+    paint: &Paint,
+) -> Result<(SideTexture, Option<Conditioning>), ProblemError> {
+    let surface = match (geometry, paint) {
+        (Geometry::Plane { .. }, Paint::Field(field)) => {
+            return Ok((SideTexture::Plane(*field), None));
+        }
+        (Geometry::Plane { .. }, _) => {
+            return Err(ProblemError::PlaneTexture {
+                pair: pair.name.clone(),
+            });
+        }
+        (Geometry::Deformable(surface) | Geometry::Rigid(surface), _) => surface,
+    };
+    let normals = nodal_normals(surface, positions);
+    let painted = Texture::new(positions, surface.facets(), &normals, paint);
+    let (texture, conditioning) = painted.map_err(|error| ProblemError::Texture {
+        pair: pair.name.clone(),
+        surface: match [&pair.a, &pair.b][index] {
+            Side::Deformable { body, .. } => format!("body `{}`", model.bodies[body.0].name),
+            Side::Rigid(rigid) => format!("rigid surface `{}`", model.rigid_surfaces[rigid.0].name),
+        },
+        node: error
+            .node()
+            .and_then(|node| surface.nodes().get(node as usize).copied()),
+        error,
+    })?;
+    Ok((SideTexture::Nodal(texture), Some(conditioning)))
 }
 
 fn deformable(model: &Model, body: usize, faces: &[Face]) -> ContactSide {
@@ -189,6 +299,7 @@ fn deformable(model: &Model, body: usize, faces: &[Face]) -> ContactSide {
     ContactSide {
         geometry: Geometry::Deformable(Surface::new(&facets)),
         stiffness: shear * (3.0 * lambda + 2.0 * shear) / (lambda + shear),
+        texture: None,
         rank: body,
     }
 }

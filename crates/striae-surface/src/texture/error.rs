@@ -81,3 +81,21 @@ pub enum TextureError {
         node: u32,
     },
 }
+
+impl TextureError {
+    /// The surface node it is about, if it is about one.
+    pub fn node(&self) -> Option<u32> {
+        match *self {
+            Self::MissingNode { node, .. }
+            | Self::DegenerateFacet { node, .. }
+            | Self::LooseNode { node }
+            | Self::PaintedTwice { node }
+            | Self::Unpainted { node }
+            | Self::Vanishing { node } => Some(node),
+            Self::Count { .. }
+            | Self::NothingPainted
+            | Self::Width { .. }
+            | Self::IndefiniteKernel { .. } => None,
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! Loads on the exposed part of cut facets: what the covered part takes away.
+
+use nalgebra::Vector3;
+use num_dual::DualSVec64;
+use striae_mesh::FacetId;
+use striae_surface::{
+    facet::{Shape, area_vector},
+    scalar::{Real, norm, scaled},
+    topology::distinct_corners,
+};
+
+use crate::{
+    clip::covered_points,
+    configuration::Configuration,
+    term::{Field, Lanes, LocalTerm, Source, gradient, variables3},
+};
+
+/// A load on the surface, as force per current area.
+pub trait SurfaceLoad {
+    /// The load at a point of the facet with these current corners.
+    fn per_area<D: Real>(&self, x: &[Vector3<D>; 4], xi: D, eta: D) -> Vector3<D>;
+}
+
+/// Nodal forces of a load on the covered part of a cut facet: rows of the
+/// corners' positions with the residual *plus* force (what is taken away from
+/// the external load).
+pub fn covered_load<L: SurfaceLoad>(
+    configuration: &Configuration,
+    side: usize,
+    facet: FacetId,
+    covers: &[FacetId],
+    load: &L,
+) -> Vec<LocalTerm> {
+    const N: usize = 24;
+    let numbering = configuration.pair.numbering();
+    let (own, other) = (configuration.side(side), configuration.side(1 - side));
+    let first = own
+        .corners(facet)
+        .map(|corner| numbering.position(side, corner));
+    let x: [Vector3<DualSVec64<N>>; 4] = variables3(&own.corner_positions(facet), 0);
+    let mut terms = Vec::with_capacity(covers.len());
+    for &cover in covers {
+        let mut lanes = Lanes::default();
+        for first in first {
+            lanes.push(Source::Unknowns { first, count: 3 });
+        }
+        let opposite = other.corners(cover);
+        for corner in opposite {
+            lanes.push(if configuration.pair.is_rigid() {
+                Source::Constant(3)
+            } else {
+                Source::Unknowns {
+                    first: numbering.position(1 - side, corner),
+                    count: 3,
+                }
+            });
+        }
+        let corners = variables3(&other.corner_positions(cover), 12);
+        let window = &corners[..distinct_corners(&opposite).len()];
+        let mut force = [(); 4].map(|()| Vector3::repeat(DualSVec64::<N>::from_re(0.0)));
+        for point in covered_points(&x, window) {
+            let weights = Shape::Quadrilateral.weights(point.xi, point.eta);
+            let area = norm(&area_vector(&weights, &x)) * point.weight;
+            let density = scaled(&load.per_area(&x, point.xi, point.eta), area);
+            for corner in 0..4 {
+                force[corner] += scaled(&density, weights.value[corner]);
+            }
+        }
+        let rows: Vec<_> = (0..12)
+            .map(|at| {
+                let row = force[at / 3][at % 3];
+                (
+                    first[at / 3] + (at % 3) as u32,
+                    Field::Momentum,
+                    row.re,
+                    gradient(&row),
+                )
+            })
+            .collect();
+        terms.push(LocalTerm::from_lanes(&lanes, &rows));
+    }
+    terms
+}

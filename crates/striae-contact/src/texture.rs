@@ -1,0 +1,275 @@
+//! Textures of the two sides at a contact node, with their derivatives.
+//!
+//! Every node carries the unit tangent vector `a = n x s` of its own surface,
+//! convected with the edges. The texture of the other side is brought to the
+//! node like the opposing traction, node to node,
+//!
+//! ```text
+//! a_b' ~ -sum N_J R(n_I, -n_J) a_J
+//! ```
+//!
+//! made of unit length; the sign expresses it for the normal of the node's own
+//! side, Jones & Papadopoulos (2006), eq. (17).
+
+use nalgebra::Vector3;
+use num_dual::DualSVec64;
+use striae_law::friction::RequiredTextures;
+use striae_mesh::Vec3;
+use striae_surface::{
+    facet::Shape,
+    scalar::{constant3, dot, normalised, scaled},
+    texture::{Axes, Field, Texture},
+    transport::transported,
+};
+
+use crate::{
+    configuration::Configuration,
+    coverage::Place,
+    frame::{FOLLOW, Frame, Frames, Tracked},
+    projection::{Margin, differentiated, differentiated_rigid},
+    selection::{Role, Selection},
+    term::{Jacobian, Lanes, Source, jacobian, variable3, variables3},
+};
+
+/// Texture of one side of a pair.
+#[derive(Clone, Debug)]
+pub enum SideTexture {
+    /// On the nodes of a surface of facets, deformable or rigid.
+    Nodal(Texture),
+    /// On a rigid plane, in its reference configuration.
+    Plane(Field),
+}
+
+/// Textures at a node: its own and the opposing one, seen from its side.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct NodeTextures {
+    /// `a_a`.
+    pub own: Option<Tracked>,
+    /// `a_b'`.
+    pub opposite: Option<Tracked>,
+}
+
+/// Textures of all kinematic nodes, by side; empty where the law needs none.
+pub type Textures = [Vec<NodeTextures>; 2];
+
+/// A texture without direction at a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CollapsedTexture {
+    /// Side of the pair.
+    pub side: usize,
+    /// Surface-local node.
+    pub node: u32,
+}
+
+/// Textures of all nodes that the friction law looks at.
+///
+/// # Errors
+/// When a convected texture has no direction left.
+pub fn textures(
+    configuration: &Configuration,
+    selection: &Selection,
+    frames: &Frames,
+) -> Result<Textures, CollapsedTexture> {
+    let mut textures =
+        [0, 1].map(|side| vec![NodeTextures::default(); selection.roles[side].len()]);
+    if configuration.pair.friction.required_textures() == RequiredTextures::Any {
+        return Ok(textures);
+    }
+    for &side in configuration.pair.deformable_sides() {
+        for (node, role) in selection.roles[side].iter().enumerate() {
+            if let (Role::Kinematic(_), Some(frame)) = (role, &frames[side][node]) {
+                let node = node as u32;
+                textures[side][node as usize] = NodeTextures {
+                    own: own(configuration, side, node, &frame.n)?,
+                    opposite: opposite(configuration, side, node, frame, frames)?,
+                };
+            }
+        }
+    }
+    Ok(textures)
+}
+
+/// The node's own `a`, for the normal `n`.
+pub fn own(
+    configuration: &Configuration,
+    side: usize,
+    node: u32,
+    n: &Tracked,
+) -> Result<Option<Tracked>, CollapsedTexture> {
+    let Some(SideTexture::Nodal(texture)) = &configuration.pair.sides[side].texture else {
+        return Ok(None);
+    };
+    let snapshot = configuration.side(side);
+    let numbering = configuration.pair.numbering();
+    let ordinates = texture.ordinates(node);
+    let mut direction = Tracked::default();
+    let mut total = 0.0;
+    let mut add = |other: u32, weight: f64| {
+        direction.value += snapshot.x[other as usize] * weight;
+        let first = numbering.position(side, other);
+        direction
+            .jacobian
+            .extend((0..3).map(|axis| (first + axis as u32, Vec3::ith(axis, weight))));
+    };
+    for (&other, &weight) in ordinates.ring.iter().zip(ordinates.weights) {
+        add(other, weight);
+        total += weight;
+    }
+    add(node, -total);
+    type D = DualSVec64<6>;
+    let axes: Option<Axes<D>> = Axes::along(variable3(&direction.value, 0), variable3(&n.value, 3));
+    let a = axes.ok_or(CollapsedTexture { side, node })?.a;
+    let mut lanes = Lanes::default();
+    lanes.push(Source::Vector(&direction.jacobian));
+    lanes.push(Source::Vector(&n.jacobian));
+    Ok(Some(tracked(&lanes, &a)))
+}
+
+/// The opposing `a_b'` at a node.
+fn opposite(
+    configuration: &Configuration,
+    side: usize,
+    node: u32,
+    frame: &Frame,
+    frames: &Frames,
+) -> Result<Option<Tracked>, CollapsedTexture> {
+    let collapsed = CollapsedTexture { side, node };
+    let Some(texture) = &configuration.pair.sides[1 - side].texture else {
+        return Ok(None);
+    };
+    let reach = FOLLOW * configuration.reach(side, node);
+    let Some(contact) = configuration.contact(side, node, reach, Margin::Extrapolated) else {
+        return Err(collapsed);
+    };
+    match (texture, contact.place) {
+        (SideTexture::Plane(field), Place::Plane(_)) => on_plane(configuration, side, node, field)
+            .ok_or(collapsed)
+            .map(Some),
+        (SideTexture::Nodal(_), Place::Facet(hit)) if configuration.pair.is_rigid() => {
+            on_rigid(configuration, node, &hit).map(Some)
+        }
+        (SideTexture::Nodal(_), Place::Facet(hit)) => {
+            on_deformable(configuration, side, node, frame, frames, &hit).map(Some)
+        }
+        _ => Err(collapsed),
+    }
+}
+
+fn on_plane(
+    configuration: &Configuration,
+    side: usize,
+    node: u32,
+    field: &Field,
+) -> Option<Tracked> {
+    let (point, normal) = configuration.plane()?;
+    let n = constant3(&normal);
+    let x: Vector3<DualSVec64<3>> = variable3(&configuration.side(side).x[node as usize], 0);
+    let gap = dot(&(x - constant3(&point)), &n);
+    let place = x - scaled(&n, gap) - constant3(&configuration.rigid_displacement);
+    let axes = field.axes(place, n)?;
+    let mut lanes = Lanes::default();
+    lanes.push(Source::Unknowns {
+        first: configuration.pair.numbering().position(side, node),
+        count: 3,
+    });
+    Some(tracked(&lanes, &-axes.a))
+}
+
+fn on_rigid(
+    configuration: &Configuration,
+    node: u32,
+    hit: &crate::projection::Hit,
+) -> Result<Tracked, CollapsedTexture> {
+    let target = configuration.side(1);
+    let corners = target.corners(hit.facet);
+    let x: Vector3<DualSVec64<3>> = variable3(&configuration.side(0).x[node as usize], 0);
+    let ([xi, eta, _], normal) = differentiated_rigid(target, hit, &x);
+    let weights = Shape::of(&corners).weights(xi, eta).value;
+    let mut sum: Vector3<DualSVec64<3>> = Vector3::zeros();
+    for corner in 0..4 {
+        let a = own(
+            configuration,
+            1,
+            corners[corner],
+            &fixed_normal(configuration, corners[corner]),
+        )?
+        .unwrap_or_default();
+        let n_j = target.normals[corners[corner] as usize];
+        let turned = transported(&constant3(&a.value), &constant3(&n_j), &normal);
+        sum -= scaled(&turned, weights[corner]);
+    }
+    let mut lanes = Lanes::default();
+    lanes.push(Source::Unknowns {
+        first: configuration.pair.numbering().position(0, node),
+        count: 3,
+    });
+    Ok(tracked(&lanes, &normalised(&sum)))
+}
+
+fn fixed_normal(configuration: &Configuration, node: u32) -> Tracked {
+    Tracked {
+        value: configuration.side(1).normals[node as usize],
+        jacobian: Jacobian::new(),
+    }
+}
+
+fn on_deformable(
+    configuration: &Configuration,
+    side: usize,
+    node: u32,
+    frame: &Frame,
+    frames: &Frames,
+    hit: &crate::projection::Hit,
+) -> Result<Tracked, CollapsedTexture> {
+    type D = DualSVec64<42>;
+    let (own_side, other) = (configuration.side(side), configuration.side(1 - side));
+    let numbering = configuration.pair.numbering();
+    let corners = other.corners(hit.facet);
+    let normals = corners.map(|corner| match &frames[1 - side][corner as usize] {
+        Some(frame) => frame.n.clone(),
+        None => Tracked {
+            value: other.normals[corner as usize],
+            jacobian: Jacobian::new(),
+        },
+    });
+    let mut a = Vec::with_capacity(4);
+    for (corner, n) in corners.iter().zip(&normals) {
+        a.push(own(configuration, 1 - side, *corner, n)?.unwrap_or_default());
+    }
+    let mut lanes = Lanes::default();
+    let position = |side: usize, node: u32| Source::Unknowns {
+        first: numbering.position(side, node),
+        count: 3,
+    };
+    lanes.push(position(side, node));
+    lanes.push(Source::Vector(&frame.n.jacobian));
+    for corner in corners {
+        lanes.push(position(1 - side, corner));
+    }
+    for n in &normals {
+        lanes.push(Source::Vector(&n.jacobian));
+    }
+    for texture in &a {
+        lanes.push(Source::Vector(&texture.jacobian));
+    }
+    let x: Vector3<D> = variable3(&own_side.x[node as usize], 0);
+    let n: Vector3<D> = variable3(&frame.n.value, 3);
+    let x_opposite = variables3(&other.corner_positions(hit.facet), 6);
+    let shape = Shape::of(&corners);
+    let [xi, eta, _] = differentiated(shape, hit, &x, &n, &x_opposite);
+    let weights = shape.weights(xi, eta).value;
+    let mut sum: Vector3<D> = Vector3::zeros();
+    for corner in 0..4 {
+        let n_j: Vector3<D> = variable3(&normals[corner].value, 18 + 3 * corner);
+        let a_j: Vector3<D> = variable3(&a[corner].value, 30 + 3 * corner);
+        sum -= scaled(&transported(&a_j, &-n_j, &n), weights[corner]);
+    }
+    Ok(tracked(&lanes, &normalised(&sum)))
+}
+
+fn tracked<const N: usize>(lanes: &Lanes, vector: &Vector3<DualSVec64<N>>) -> Tracked {
+    Tracked {
+        value: vector.map(|component| component.re),
+        jacobian: jacobian(lanes, vector),
+    }
+}
