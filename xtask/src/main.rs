@@ -1,2 +1,35 @@
-//! Development tasks.
-fn main() {}
+//! Development tasks, run as `cargo xtask TASK`.
+//!
+//! | task | what it does |
+//! | --- | --- |
+//! | `check` | all that has to hold before a change goes in; see [`check`] |
+//! | `borders` | the border check alone, in a second; see [`borders`] |
+//!
+//! Exit codes: 0 when all is well, 1 when a check failed, 2 for an unknown task.
+
+mod borders;
+mod check;
+mod fault;
+
+use std::{env, process::ExitCode};
+
+const USAGE: &str = "usage: cargo xtask check | borders";
+
+fn main() -> ExitCode {
+    let tasks: Vec<String> = env::args().skip(1).collect();
+    let result = match tasks.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        ["check"] => check::check(),
+        ["borders"] => borders::check(),
+        _ => {
+            eprintln!("{USAGE}");
+            return ExitCode::from(2);
+        }
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(fault) => {
+            eprintln!("{fault}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! Which crate may depend on which.
+//!
+//! The table is the ladder of `ARCHITECTURE.md`: a crate knows only what stands
+//! in its row. Tests may use more, except that [`FOR_TESTS`] serves nothing else.
+
+use super::{
+    Breach,
+    metadata::{Kind, Package},
+};
+
+/// What a crate may depend on.
+struct Row {
+    name: &'static str,
+    own: &'static [&'static str],
+    outside: &'static [&'static str],
+}
+
+/// The crate that only tests may use.
+const FOR_TESTS: &str = "striae-verify";
+
+const LADDER: [Row; 10] = [
+    Row {
+        name: "striae-mesh",
+        own: &[],
+        outside: &["nalgebra", "thiserror"],
+    },
+    Row {
+        name: "striae-law",
+        own: &[],
+        outside: &["nalgebra", "num-dual", "thiserror"],
+    },
+    Row {
+        name: "striae-surface",
+        own: &["striae-mesh"],
+        outside: &["nalgebra", "num-dual", "rayon", "thiserror"],
+    },
+    Row {
+        name: "striae-contact",
+        own: &["striae-law", "striae-mesh", "striae-surface"],
+        outside: &["nalgebra", "num-dual", "rayon", "thiserror"],
+    },
+    Row {
+        name: "striae-linalg",
+        own: &[],
+        outside: &["faer", "metis-sys", "rayon", "thiserror"],
+    },
+    Row {
+        name: "striae-solve",
+        own: &[
+            "striae-contact",
+            "striae-law",
+            "striae-linalg",
+            "striae-mesh",
+            "striae-surface",
+        ],
+        outside: &["nalgebra", "num-dual", "rayon", "thiserror"],
+    },
+    Row {
+        name: "striae-io",
+        own: &[
+            "striae-contact",
+            "striae-law",
+            "striae-mesh",
+            "striae-solve",
+            "striae-surface",
+        ],
+        outside: &[
+            "ab_glyph",
+            "dejavu",
+            "flate2",
+            "nalgebra",
+            "plotters",
+            "plotters-backend",
+            "png",
+            "serde",
+            "serde_json",
+            "strsim",
+            "thiserror",
+            "toml",
+        ],
+    },
+    Row {
+        name: "striae",
+        own: &[
+            "striae-contact",
+            "striae-io",
+            "striae-law",
+            "striae-linalg",
+            "striae-mesh",
+            "striae-solve",
+            "striae-surface",
+        ],
+        outside: &[
+            "clap",
+            "ctrlc",
+            "indicatif",
+            "nalgebra",
+            "rayon",
+            "serde",
+            "serde_json",
+            "thiserror",
+            "toml",
+        ],
+    },
+    Row {
+        name: FOR_TESTS,
+        own: &[],
+        outside: &["nalgebra"],
+    },
+    Row {
+        name: "xtask",
+        own: &[],
+        outside: &["serde_json", "thiserror"],
+    },
+];
+
+/// Dependencies that the table does not allow.
+pub fn breaches(packages: &[Package]) -> Vec<Breach> {
+    packages.iter().flat_map(of_package).collect()
+}
+
+fn of_package(package: &Package) -> Vec<Breach> {
+    let breach = |wrong: String| Breach {
+        place: package.name.clone(),
+        wrong,
+    };
+    let Some(row) = LADDER.iter().find(|row| row.name == package.name) else {
+        return vec![breach(
+            "has no row in xtask/src/borders/dependencies.rs".into(),
+        )];
+    };
+    package
+        .dependencies
+        .iter()
+        .filter(|dependency| dependency.kind == Kind::Product)
+        .map(|dependency| dependency.name.as_str())
+        .filter(|name| !row.own.contains(name) && !row.outside.contains(name))
+        .map(|name| breach(format!("must not depend on `{name}`")))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::borders::metadata::Dependency;
+
+    fn package(name: &str, dependencies: &[(&str, Kind)]) -> Package {
+        let dependency = |(name, kind): &(&str, Kind)| Dependency {
+            name: (*name).into(),
+            kind: *kind,
+        };
+        Package {
+            name: name.into(),
+            folder: "crates".into(),
+            dependencies: dependencies.iter().map(dependency).collect(),
+        }
+    }
+
+    fn found(name: &str, dependencies: &[(&str, Kind)]) -> Vec<String> {
+        let breaches = breaches(&[package(name, dependencies)]);
+        breaches.iter().map(Breach::to_string).collect()
+    }
+
+    #[test]
+    fn a_crate_may_look_down_but_not_up_or_sideways() {
+        use Kind::Product;
+        assert!(found("striae-contact", &[("striae-surface", Product)]).is_empty());
+        assert_eq!(
+            found("striae-surface", &[("striae-contact", Product)]),
+            ["striae-surface: must not depend on `striae-contact`"]
+        );
+        assert_eq!(
+            found("striae-law", &[("striae-mesh", Product), ("toml", Product)]),
+            [
+                "striae-law: must not depend on `striae-mesh`",
+                "striae-law: must not depend on `toml`"
+            ]
+        );
+    }
+
+    #[test]
+    fn tests_may_use_more_and_products_never_the_crate_for_tests() {
+        for row in &LADDER {
+            assert!(found(row.name, &[(FOR_TESTS, Kind::Development)]).is_empty());
+            assert_eq!(found(row.name, &[(FOR_TESTS, Kind::Product)]).len(), 1);
+        }
+    }
+
+    #[test]
+    fn a_crate_without_a_row_is_refused() {
+        assert_eq!(found("striae-new", &[]).len(), 1);
+    }
+
+    #[test]
+    fn rows_name_only_crates_that_stand_below_them() {
+        // The ladder has no cycles: every crate can be reached by going down only.
+        fn depth(name: &str, left: usize) -> usize {
+            assert!(left > 0, "cycle through {name}");
+            let row = LADDER.iter().find(|row| row.name == name).unwrap();
+            let below = row.own.iter().map(|own| depth(own, left - 1));
+            1 + below.max().unwrap_or(0)
+        }
+        for row in &LADDER {
+            assert!(depth(row.name, LADDER.len()) <= 6, "{}", row.name);
+        }
+    }
+}

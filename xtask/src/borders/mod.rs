@@ -1,0 +1,99 @@
+//! Borders between the crates: what each part must not know.
+//!
+//! [`dependencies`] compares the manifests, as `cargo metadata` reports them,
+//! with the table of what each crate may depend on; [`source`] reads the text of
+//! every source file for what a dependency cannot tell: files touched outside
+//! `striae-io`, output below the program, unsafe code, files that are too long.
+
+mod dependencies;
+mod metadata;
+mod source;
+mod text;
+
+use std::{
+    collections::HashSet,
+    fmt, fs,
+    path::{Path, PathBuf},
+};
+
+use crate::fault::Fault;
+use source::{Code, Place};
+
+/// A rule that is broken, and where.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Breach {
+    /// A crate, or a file with the number of a line.
+    pub place: String,
+    /// What is wrong.
+    pub wrong: String,
+}
+
+impl fmt::Display for Breach {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.place, self.wrong)
+    }
+}
+
+/// Checks the dependencies and the sources of all crates.
+///
+/// # Errors
+/// All breaches together, or why the crates cannot be read.
+pub fn check() -> Result<(), Fault> {
+    let workspace = metadata::workspace()?;
+    let mut breaches = dependencies::breaches(&workspace.packages);
+    let mut count = 0;
+    for package in &workspace.packages {
+        let files = sources(&package.folder)?;
+        let tests: HashSet<PathBuf> = files
+            .iter()
+            .flat_map(|(path, text)| text::test_files(path, text))
+            .collect();
+        for (path, text) in &files {
+            let within = path.strip_prefix(&workspace.root).unwrap_or(path);
+            let code = if tests.contains(path) {
+                Code::Test
+            } else {
+                Code::of(&package.name, within)
+            };
+            breaches.extend(source::breaches(
+                &Place::new(&package.name, within, code),
+                text,
+            ));
+        }
+        count += files.len();
+    }
+    if breaches.is_empty() {
+        println!("{} crates, {count} source files", workspace.packages.len());
+        Ok(())
+    } else {
+        Err(Fault::Breaches(breaches))
+    }
+}
+
+/// Path and text of all Rust files below a folder.
+fn sources(folder: &Path) -> Result<Vec<(PathBuf, String)>, Fault> {
+    let read = |path: PathBuf| match fs::read_to_string(&path) {
+        Ok(text) => Ok((path, text)),
+        Err(cause) => Err(Fault::Unreadable { path, cause }),
+    };
+    rust_files(folder)?.into_iter().map(read).collect()
+}
+
+/// All Rust files below a folder, sorted by path.
+fn rust_files(folder: &Path) -> Result<Vec<PathBuf>, Fault> {
+    let unreadable = |cause| Fault::Unreadable {
+        path: folder.to_owned(),
+        cause,
+    };
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder).map_err(unreadable)? {
+        let path = entry.map_err(unreadable)?.path();
+        if path.is_dir() {
+            files.extend(rust_files(&path)?);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            files.push(path);
+        }
+    }
+    files.sort();
+    Ok(files)
+}

@@ -1,0 +1,194 @@
+//! Rules that the text of the sources has to keep.
+//!
+//! | rule | where |
+//! | --- | --- |
+//! | files are touched by `striae-io` only | other libraries |
+//! | nothing prints | libraries |
+//! | no `unwrap`, `panic!`, `todo!`, `dbg!` | all product code |
+//! | no unsafe code | everywhere but the METIS binding |
+//! | at most 400 lines, or a line that says `// Long because ...` | every file |
+
+use std::path::{Component, Path};
+
+use super::{Breach, text::product_lines};
+
+/// Where a source file stands.
+pub struct Place {
+    path: String,
+    layer: Layer,
+    code: Code,
+}
+
+/// What a crate may do with the world outside.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Layer {
+    /// Neither touches files nor prints.
+    Pure,
+    /// Touches files.
+    Files,
+    /// Touches files and prints.
+    Program,
+}
+
+/// What a file is for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Code {
+    /// The library or the program.
+    Product,
+    /// Tests, examples and benchmarks.
+    Test,
+}
+
+impl Place {
+    /// A file of a crate, by its path within the workspace.
+    pub fn new(package: &str, path: &Path, code: Code) -> Self {
+        Self {
+            path: path.display().to_string(),
+            layer: match package {
+                "striae" | "xtask" => Layer::Program,
+                "striae-io" => Layer::Files,
+                _ => Layer::Pure,
+            },
+            code,
+        }
+    }
+
+    fn breach(&self, line: usize, wrong: impl Into<String>) -> Breach {
+        Breach {
+            place: format!("{}:{line}", self.path),
+            wrong: wrong.into(),
+        }
+    }
+}
+
+impl Code {
+    /// What a file in the folder `tests` or the like is for, or of the crate for tests.
+    pub fn of(package: &str, path: &Path) -> Self {
+        const FOLDERS: [&str; 3] = ["tests", "examples", "benches"];
+        let in_folder = |component: Component| {
+            FOLDERS
+                .map(|name| Component::Normal(name.as_ref()))
+                .contains(&component)
+        };
+        if package == "striae-verify" || path.components().any(in_folder) {
+            Self::Test
+        } else {
+            Self::Product
+        }
+    }
+}
+
+const FILES: [&str; 4] = ["std::fs", "std::io", "File::open", "File::create"];
+const PRINTS: [&str; 4] = ["println!", "print!", "io::stdout", "io::stderr"];
+const PANICS: [&str; 5] = [".unwrap()", "panic!(", "todo!(", "unimplemented!(", "dbg!("];
+const UNSAFE: [&str; 4] = ["unsafe {", "unsafe fn", "unsafe impl", "allow(unsafe_code)"];
+const BINDING: &str = "crates/striae-linalg/src/metis.rs";
+const LONG: usize = 400;
+const REASON: &str = "// Long because ";
+
+/// Rules that a file breaks.
+pub fn breaches(place: &Place, text: &str) -> Vec<Breach> {
+    // This file spells out what it looks for.
+    if place.path.ends_with("xtask/src/borders/source.rs") {
+        return Vec::new();
+    }
+    let mut found = Vec::new();
+    found.extend(too_long(place, text));
+    for (number, line) in product_lines(text) {
+        for wrong in wrongs(place, line) {
+            found.push(place.breach(number, wrong));
+        }
+    }
+    found
+}
+
+fn wrongs(place: &Place, line: &str) -> Vec<&'static str> {
+    let has = |words: &[&str]| words.iter().any(|word| line.contains(word));
+    let mut wrongs = Vec::new();
+    if place.path != BINDING && has(&UNSAFE) {
+        wrongs.push("unsafe code outside the METIS binding");
+    }
+    if place.code == Code::Test {
+        return wrongs;
+    }
+    if has(&PANICS) {
+        wrongs.push("product code must not panic; use an error, or `expect` for an invariant");
+    }
+    if place.layer == Layer::Pure && has(&FILES) {
+        wrongs.push("only striae-io touches files");
+    }
+    if place.layer != Layer::Program && has(&PRINTS) {
+        wrongs.push("nothing below the program prints");
+    }
+    wrongs
+}
+
+fn too_long(place: &Place, text: &str) -> Option<Breach> {
+    let count = text.lines().count();
+    let excused = text.lines().any(|line| line.starts_with(REASON));
+    (count > LONG && !excused).then(|| {
+        let wrong = format!("{count} lines; split it or give a line `{REASON}...`");
+        place.breach(count, wrong)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(package: &str, path: &str, text: &str) -> Vec<String> {
+        let path = Path::new(path);
+        let place = Place::new(package, path, Code::of(package, path));
+        let breaches = breaches(&place, text);
+        breaches.iter().map(Breach::to_string).collect()
+    }
+
+    #[test]
+    fn only_io_and_the_program_touch_files() {
+        let text = "use std::fs::read;\n";
+        let pure = found("striae-mesh", "crates/striae-mesh/src/mesh.rs", text);
+        assert_eq!(
+            pure,
+            ["crates/striae-mesh/src/mesh.rs:1: only striae-io touches files"]
+        );
+        assert!(found("striae-io", "crates/striae-io/src/lib.rs", text).is_empty());
+        assert!(found("striae", "crates/striae/src/main.rs", text).is_empty());
+        assert!(found("striae-mesh", "crates/striae-mesh/tests/files.rs", text).is_empty());
+    }
+
+    #[test]
+    fn only_the_program_prints() {
+        let text = "fn f() {\n    eprintln!(\"here\");\n}\n";
+        assert_eq!(
+            found("striae-io", "crates/striae-io/src/a.rs", text).len(),
+            1
+        );
+        assert!(found("striae", "crates/striae/src/a.rs", text).is_empty());
+    }
+
+    #[test]
+    fn product_code_does_not_panic_but_tests_may() {
+        let text = "fn f() {\n    g().unwrap();\n}\n";
+        assert_eq!(found("striae", "crates/striae/src/a.rs", text).len(), 1);
+        let tests = "crates/striae-law/src/friction/tests/laws.rs";
+        assert!(found("striae-law", tests, text).is_empty());
+    }
+
+    #[test]
+    fn unsafe_code_stays_in_the_binding() {
+        let text = "#![allow(unsafe_code)]\nfn f() {\n    unsafe { g() }\n}\n";
+        assert!(found("striae-linalg", BINDING, text).is_empty());
+        let elsewhere = found("striae-linalg", "crates/striae-linalg/tests/a.rs", text);
+        assert_eq!(elsewhere.len(), 2);
+    }
+
+    #[test]
+    fn long_files_owe_a_reason() {
+        let path = "crates/striae-law/src/a.rs";
+        let line = "const A: f64 = 1.0;\n";
+        assert!(found("striae-law", path, &line.repeat(LONG)).is_empty());
+        assert_eq!(found("striae-law", path, &line.repeat(LONG + 1)).len(), 1);
+        let excused = format!("{REASON}it is one table.\n{}", line.repeat(LONG));
+        assert!(found("striae-law", path, &excused).is_empty());
+    }
+}

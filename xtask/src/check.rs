@@ -1,0 +1,95 @@
+//! `cargo xtask check`: formatting, borders, lints, tests and documentation.
+//!
+//! Cheap checks come first. Everything is built in the release profile, so that
+//! one compilation of the dependencies serves tests and programs, and another,
+//! of types only, serves lints and documentation.
+
+use std::{
+    process::Command,
+    time::{Duration, Instant},
+};
+
+use crate::{borders, fault::Fault};
+
+/// A check that is one call of cargo.
+struct Stage {
+    name: &'static str,
+    arguments: &'static [&'static str],
+    environment: &'static [(&'static str, &'static str)],
+}
+
+const FORMAT: Stage = Stage {
+    name: "formatting",
+    arguments: &["fmt", "--all", "--check"],
+    environment: &[],
+};
+
+const BUILT: [Stage; 3] = [
+    Stage {
+        name: "lints",
+        arguments: &[
+            "clippy",
+            "--release",
+            "--workspace",
+            "--all-targets",
+            "--",
+            "--deny",
+            "warnings",
+        ],
+        environment: &[],
+    },
+    Stage {
+        name: "tests",
+        arguments: &["test", "--release", "--workspace"],
+        environment: &[],
+    },
+    Stage {
+        name: "documentation",
+        arguments: &["doc", "--release", "--workspace", "--no-deps"],
+        environment: &[("RUSTDOCFLAGS", "--deny warnings")],
+    },
+];
+
+/// Runs all checks, up to the first that fails.
+///
+/// # Errors
+/// What that check found.
+pub fn check() -> Result<(), Fault> {
+    let started = Instant::now();
+    timed(FORMAT.name, || run(&FORMAT))?;
+    timed("borders", borders::check)?;
+    for stage in &BUILT {
+        timed(stage.name, || run(stage))?;
+    }
+    println!("all checks passed in {}", seconds(started.elapsed()));
+    Ok(())
+}
+
+fn timed(name: &str, check: impl FnOnce() -> Result<(), Fault>) -> Result<(), Fault> {
+    println!("== {name}");
+    let started = Instant::now();
+    check()?;
+    println!("== {name} passed in {}", seconds(started.elapsed()));
+    Ok(())
+}
+
+fn run(stage: &Stage) -> Result<(), Fault> {
+    let command = format!("cargo {}", stage.arguments.join(" "));
+    let status = Command::new("cargo")
+        .args(stage.arguments)
+        .envs(stage.environment.iter().copied())
+        .status()
+        .map_err(|cause| Fault::Start {
+            command: command.clone(),
+            cause,
+        })?;
+    if status.success() {
+        Ok(())
+    } else {
+        Err(Fault::Failed { command, status })
+    }
+}
+
+fn seconds(duration: Duration) -> String {
+    format!("{:.0} s", duration.as_secs_f64())
+}

@@ -1,0 +1,45 @@
+//! Ways in which a task fails.
+
+use std::{io, path::PathBuf, process::ExitStatus};
+
+use crate::borders::Breach;
+
+/// Why a task failed.
+#[derive(Debug, thiserror::Error)]
+pub enum Fault {
+    /// A program could not be started.
+    #[error("`{command}` cannot be started: {cause}")]
+    Start {
+        /// The command line.
+        command: String,
+        /// What the operating system says.
+        cause: io::Error,
+    },
+    /// A program ended with a failure.
+    #[error("`{command}` failed ({status})")]
+    Failed {
+        /// The command line.
+        command: String,
+        /// How it ended.
+        status: ExitStatus,
+    },
+    /// `cargo metadata` printed something else than expected.
+    #[error("the output of `cargo metadata` is not understood: {0}")]
+    Metadata(String),
+    /// A source file or folder cannot be read.
+    #[error("{} cannot be read: {cause}", path.display())]
+    Unreadable {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the operating system says.
+        cause: io::Error,
+    },
+    /// The source text breaks rules of the architecture.
+    #[error("{}\n{} breaches; ARCHITECTURE.md and CONVENTIONS.md give the reasons", lines(.0), .0.len())]
+    Breaches(Vec<Breach>),
+}
+
+fn lines(breaches: &[Breach]) -> String {
+    let lines: Vec<String> = breaches.iter().map(Breach::to_string).collect();
+    lines.join("\n")
+}
