@@ -62,6 +62,8 @@ pub struct KinematicNode<'a> {
     pub frame: &'a Frame,
     /// Textures of both sides at the node.
     pub textures: &'a NodeTextures,
+    /// Whether it slipped in the last converged increment.
+    pub slipped: bool,
     /// `p`, `z1`, `z2`.
     pub unknowns: [f64; 3],
     /// Friction traction `tau`.
@@ -145,6 +147,7 @@ struct NodeState<'a> {
     lanes: Lanes<'a>,
     free: [bool; N],
     gap: D,
+    slipped: bool,
     /// Components of `du`.
     slip: [D; 2],
     /// Components of `K^-1 du`.
@@ -244,6 +247,7 @@ impl<'a> NodeState<'a> {
             lanes,
             free,
             gap,
+            slipped: node.slipped,
             slip: [dot(&t[0], &relative), dot(&t[1], &relative)],
             turned: [dot(&t[0], &turned), dot(&t[1], &turned)],
         })
@@ -299,7 +303,11 @@ impl<'a> NodeState<'a> {
         let varpi = friction.cap(pressure, D::from_re(0.0));
         let y = [z[0] + self.turned[0] * r, z[1] + self.turned[1] * r];
         let length = y[0].re.hypot(y[1].re);
-        if iteration == Iteration::First || length <= varpi.re {
+        let sticks = match iteration {
+            Iteration::First => !self.slipped || z1.hypot(z2) < 0.5 * varpi.re,
+            Iteration::Later => length <= varpi.re,
+        };
+        if sticks {
             (Status::Stick, self.stick(&z, size))
         } else {
             (Status::Slip, slip(&z, &y, &varpi))

@@ -200,6 +200,7 @@ fn node_rows(
                 partner: *partner,
                 frame,
                 textures: &fields.textures[side][node as usize],
+                slipped: fields.tractions.slipped[side][node as usize],
                 unknowns,
                 tau,
             };

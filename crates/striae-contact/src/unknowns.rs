@@ -11,6 +11,8 @@ pub struct Tractions {
     pub nodes: [Vec<[f64; 3]>; 2],
     /// `c` and `omega` times the patch radius of every patch.
     pub balance: Vec<[f64; 6]>,
+    /// Whether each kinematic node slipped in the last converged increment, by side.
+    pub slipped: [Vec<bool>; 2],
 }
 
 impl Tractions {
@@ -18,6 +20,7 @@ impl Tractions {
     pub fn zero(nodes: [usize; 2]) -> Self {
         Self {
             nodes: nodes.map(|count| vec![[0.0; 3]; count]),
+            slipped: nodes.map(|count| vec![false; count]),
             balance: Vec::new(),
         }
     }

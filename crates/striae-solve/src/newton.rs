@@ -246,6 +246,13 @@ fn selected(context: &StepContext, state: &State) -> (Vec<Selection>, Vec<PairSt
         if pair_state.tractions.balance.len() != selection.patches.len() {
             pair_state.tractions.balance = vec![[0.0; 6]; selection.patches.len()];
         }
+        pair_state.tractions.slipped = [0, 1].map(|side| {
+            let results = pair_state.nodes[side].iter();
+            results
+                .zip(&pair_state.kinematic[side])
+                .map(|(node, was)| *was && node.status == Status::Slip)
+                .collect()
+        });
         pair_state.kinematic = kinematic;
         pair_state.selection = Some(selection.clone());
         selections.push(selection);
