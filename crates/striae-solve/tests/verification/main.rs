@@ -1,0 +1,5 @@
+//! Whole problems held against closed forms, invariances and each other.
+
+mod scene;
+
+mod patch_frictionless;

@@ -1,0 +1,290 @@
+//! Models made in code and run without output.
+
+use striae_contact::evaluation::Evaluation;
+use striae_law::{
+    bulk::{LameConstants, Material},
+    friction::Friction,
+};
+use striae_mesh::{Face, Mesh, NodeId, Vec3, generate::Block};
+use striae_solve::{
+    drive::{Continue, Observer, Progress, run},
+    model::{
+        Backend, Balance, Body, BodyId, Curve, Displacement, Increments, Load, LoadExtent,
+        LoadKind, Model, Pair, PairId, RigidId, RigidShape, RigidSurface, Side, Solver, Step,
+    },
+    newton::{Increment, IterationObserver},
+    norms::Norms,
+    outcome::{CutBack, Ending},
+    problem::Problem,
+    state::State,
+};
+
+/// Everything a run went through.
+pub struct Run {
+    pub problem: Problem,
+    /// Converged states with the initial one in front.
+    pub states: Vec<State>,
+    /// Norms of all iterations of every increment.
+    pub iterations: Vec<Vec<Norms>>,
+    /// Where every increment ended.
+    pub progress: Vec<Progress>,
+    /// Failed attempts: where they were to end and why they failed.
+    pub cuts: Vec<(Progress, CutBack)>,
+    pub ending: Ending,
+}
+
+impl Run {
+    pub fn of(model: Model) -> Self {
+        let problem = Problem::new(model).unwrap();
+        let start = State::undeformed(&problem);
+        let mut record = Record::default();
+        let (_, ending) = run(&problem, start.clone(), &mut record);
+        record.states.insert(0, start);
+        Self {
+            problem,
+            states: record.states,
+            iterations: record.iterations,
+            progress: record.progress,
+            cuts: record.cuts,
+            ending,
+        }
+    }
+
+    /// The run of a model that gets through all steps.
+    pub fn completed(model: Model) -> Self {
+        let run = Self::of(model);
+        let cuts: Vec<String> = run.cuts.iter().map(|(_, cut)| cut.to_string()).collect();
+        assert_eq!(run.ending, Ending::Completed, "{}\n{cuts:#?}", run.ending);
+        run
+    }
+
+    pub fn last(&self) -> &State {
+        &self.states[self.states.len() - 1]
+    }
+
+    /// Positions of the nodes of a body.
+    pub fn positions(&self, body: usize) -> &[Vec3] {
+        let first = &self.problem.first_node;
+        &self.last().positions[first[body]..first[body + 1]]
+    }
+}
+
+#[derive(Default)]
+struct Record {
+    states: Vec<State>,
+    iterations: Vec<Vec<Norms>>,
+    progress: Vec<Progress>,
+    cuts: Vec<(Progress, CutBack)>,
+}
+
+impl IterationObserver for Record {
+    fn iteration(&mut self, _: usize, _: &Norms, _: &[Evaluation]) {}
+}
+
+impl Observer for Record {
+    fn step(&mut self, _: usize, _: &str) {}
+
+    fn increment(&mut self, progress: Progress, increment: &Increment) -> Continue {
+        self.states.push(increment.state.clone());
+        self.iterations.push(increment.iterations.clone());
+        self.progress.push(progress);
+        Continue::Yes
+    }
+
+    fn cut_back(&mut self, progress: Progress, reason: &CutBack) {
+        self.cuts.push((progress, reason.clone()));
+    }
+}
+
+/// A neo-Hookean solid.
+pub fn rubber(youngs_modulus: f64, poissons_ratio: f64) -> Material {
+    let constants = LameConstants::from_youngs_modulus(youngs_modulus, poissons_ratio);
+    Material::neo_hookean(constants.unwrap())
+}
+
+pub fn coulomb(mu: f64) -> Friction {
+    Friction::coulomb(mu).unwrap()
+}
+
+pub fn block(origin: [f64; 3], size: [f64; 3], divisions: [usize; 3]) -> Block {
+    Block {
+        origin: origin.into(),
+        size: size.into(),
+        divisions,
+        ..Block::default()
+    }
+}
+
+pub fn body(name: &str, mesh: Mesh, material: Material) -> Body {
+    Body {
+        name: name.to_owned(),
+        mesh,
+        material,
+    }
+}
+
+/// A model without contact and steps.
+pub fn model(bodies: Vec<Body>) -> Model {
+    Model {
+        title: String::new(),
+        bodies,
+        rigid_surfaces: Vec::new(),
+        pairs: Vec::new(),
+        steps: Vec::new(),
+        solver: Solver {
+            backend: Backend::Multifrontal,
+            tolerance: 1e-11,
+            largest_iterations: 15,
+        },
+    }
+}
+
+/// A step of one increment without conditions.
+pub fn step() -> Step {
+    Step {
+        name: "step".to_owned(),
+        duration: 1.0,
+        increments: whole(),
+        displacements: Vec::new(),
+        releases: Vec::new(),
+        loads: Vec::new(),
+        rigid_motions: Vec::new(),
+        frictions: Vec::new(),
+    }
+}
+
+/// One increment that is not cut.
+pub fn whole() -> Increments {
+    increments(1.0, 0.9)
+}
+
+/// Increments of at most `size`.
+pub fn increments(size: f64, smallest: f64) -> Increments {
+    Increments {
+        initial: size,
+        smallest,
+        largest: size,
+    }
+}
+
+/// Where things are in a model.
+pub trait Places {
+    fn body(&self, name: &str) -> usize;
+    fn nodes(&self, body: &str, set: &str) -> Vec<NodeId>;
+    fn faces(&self, body: &str, set: &str) -> Vec<Face>;
+    /// The node at a reference position.
+    fn node_at(&self, body: &str, x: [f64; 3]) -> NodeId;
+    fn touch(&mut self, a: (&str, &str), b: (&str, &str), friction: Friction) -> PairId;
+    fn touch_rigid(&mut self, a: (&str, &str), shape: RigidShape, friction: Friction) -> PairId;
+    fn hold(&self, body: &str, set: &str, components: [Option<f64>; 3]) -> Displacement;
+    fn pin(&self, body: &str, x: [f64; 3], components: [Option<f64>; 3]) -> Displacement;
+    fn load(&self, body: &str, set: &str, kind: LoadKind, extent: LoadExtent) -> Load;
+}
+
+impl Places for Model {
+    fn body(&self, name: &str) -> usize {
+        let found = self.bodies.iter().position(|body| body.name == name);
+        found.unwrap_or_else(|| panic!("no body {name}"))
+    }
+
+    fn nodes(&self, body: &str, set: &str) -> Vec<NodeId> {
+        let mesh = &self.bodies[self.body(body)].mesh;
+        mesh.node_sets.get(set).unwrap().to_vec()
+    }
+
+    fn faces(&self, body: &str, set: &str) -> Vec<Face> {
+        let mesh = &self.bodies[self.body(body)].mesh;
+        mesh.facet_sets.get(set).unwrap().to_vec()
+    }
+
+    fn node_at(&self, body: &str, x: [f64; 3]) -> NodeId {
+        let positions = &self.bodies[self.body(body)].mesh.positions;
+        let distance = |node: &usize| (positions[*node] - Vec3::from(x)).norm();
+        let nearest = (0..positions.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let nearest = nearest.unwrap();
+        assert!(distance(&nearest) < 1e-9, "no node at {x:?}");
+        NodeId::new(nearest)
+    }
+
+    fn touch(&mut self, a: (&str, &str), b: (&str, &str), friction: Friction) -> PairId {
+        let side = |(body, set): (&str, &str)| Side::Deformable {
+            body: BodyId(self.body(body)),
+            faces: self.faces(body, set),
+        };
+        let pair = pair("interface", side(a), side(b), friction);
+        self.pairs.push(pair);
+        PairId(self.pairs.len() - 1)
+    }
+
+    fn touch_rigid(&mut self, a: (&str, &str), shape: RigidShape, friction: Friction) -> PairId {
+        let side = Side::Deformable {
+            body: BodyId(self.body(a.0)),
+            faces: self.faces(a.0, a.1),
+        };
+        self.rigid_surfaces.push(RigidSurface {
+            name: "floor".to_owned(),
+            shape,
+        });
+        let rigid = Side::Rigid(RigidId(self.rigid_surfaces.len() - 1));
+        self.pairs.push(pair("interface", side, rigid, friction));
+        PairId(self.pairs.len() - 1)
+    }
+
+    fn hold(&self, body: &str, set: &str, components: [Option<f64>; 3]) -> Displacement {
+        Displacement {
+            set: set.to_owned(),
+            body: BodyId(self.body(body)),
+            nodes: self.nodes(body, set),
+            components,
+            curve: Curve::Ramp,
+        }
+    }
+
+    fn pin(&self, body: &str, x: [f64; 3], components: [Option<f64>; 3]) -> Displacement {
+        Displacement {
+            set: "pin".to_owned(),
+            body: BodyId(self.body(body)),
+            nodes: vec![self.node_at(body, x)],
+            components,
+            curve: Curve::Ramp,
+        }
+    }
+
+    fn load(&self, body: &str, set: &str, kind: LoadKind, extent: LoadExtent) -> Load {
+        Load {
+            set: set.to_owned(),
+            body: BodyId(self.body(body)),
+            faces: self.faces(body, set),
+            kind,
+            extent,
+            curve: Curve::Ramp,
+        }
+    }
+}
+
+fn pair(name: &str, a: Side, b: Side, friction: Friction) -> Pair {
+    Pair {
+        name: name.to_owned(),
+        a,
+        b,
+        textures: [None, None],
+        friction,
+        balance: Balance::Resultants,
+        search_distance: None,
+    }
+}
+
+/// The plane through `point`.
+pub fn plane(point: [f64; 3], normal: [f64; 3]) -> RigidShape {
+    RigidShape::Plane {
+        point: point.into(),
+        normal: normal.into(),
+    }
+}
+
+/// Largest distance between corresponding points.
+pub fn largest_distance(a: &[Vec3], b: &[Vec3]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    let distances = a.iter().zip(b).map(|(a, b)| (a - b).norm());
+    distances.fold(0.0, f64::max)
+}
