@@ -32,7 +32,7 @@ const LADDER: [Row; 10] = [
     Row {
         name: "striae-surface",
         own: &["striae-mesh"],
-        outside: &["nalgebra", "num-dual", "rayon", "thiserror"],
+        outside: &["nalgebra", "num-dual", "thiserror"],
     },
     Row {
         name: "striae-contact",
@@ -85,7 +85,6 @@ const LADDER: [Row; 10] = [
             "striae-contact",
             "striae-io",
             "striae-law",
-            "striae-linalg",
             "striae-mesh",
             "striae-solve",
             "striae-surface",
@@ -96,10 +95,8 @@ const LADDER: [Row; 10] = [
             "indicatif",
             "nalgebra",
             "rayon",
-            "serde",
             "serde_json",
             "thiserror",
-            "toml",
         ],
     },
     Row {
