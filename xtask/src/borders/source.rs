@@ -6,7 +6,7 @@
 //! | nothing prints | libraries |
 //! | no `unwrap`, `panic!`, `todo!`, `dbg!` | all product code |
 //! | no unsafe code | everywhere but the METIS binding |
-//! | at most 400 lines, or a line that says `// Long because ...` | every file |
+//! | at most 400 lines, or module docs with a line `//! Longer than other files, ...` | every file |
 
 use std::path::{Component, Path};
 
@@ -84,7 +84,7 @@ const PANICS: [&str; 5] = [".unwrap()", "panic!(", "todo!(", "unimplemented!(", 
 const UNSAFE: [&str; 4] = ["unsafe {", "unsafe fn", "unsafe impl", "allow(unsafe_code)"];
 const BINDING: &str = "crates/striae-linalg/src/metis.rs";
 const LONG: usize = 400;
-const REASON: &str = "// Long because ";
+const REASON: &str = "//! Longer than other files, ";
 
 /// Rules that a file breaks.
 pub fn breaches(place: &Place, text: &str) -> Vec<Breach> {
@@ -188,7 +188,7 @@ mod tests {
         let line = "const A: f64 = 1.0;\n";
         assert!(found("striae-law", path, &line.repeat(LONG)).is_empty());
         assert_eq!(found("striae-law", path, &line.repeat(LONG + 1)).len(), 1);
-        let excused = format!("{REASON}it is one table.\n{}", line.repeat(LONG));
+        let excused = format!("{REASON}as it is one table.\n{}", line.repeat(LONG));
         assert!(found("striae-law", path, &excused).is_empty());
     }
 }
