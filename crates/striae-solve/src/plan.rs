@@ -94,7 +94,7 @@ pub fn plans(model: &Model) -> Vec<StepPlan> {
         frictions: model
             .pairs
             .iter()
-            .map(|pair| pair.friction.clone())
+            .map(|pair| pair.friction)
             .collect(),
     };
     let mut plans = Vec::with_capacity(model.steps.len());
@@ -192,7 +192,7 @@ fn rigid(before: &StepPlan, step: &Step) -> Vec<RigidPlan> {
 fn frictions(before: &StepPlan, step: &Step) -> Vec<Friction> {
     let mut all = before.frictions.clone();
     for (pair, friction) in &step.frictions {
-        all[pair.0] = friction.clone();
+        all[pair.0] = *friction;
     }
     all
 }
