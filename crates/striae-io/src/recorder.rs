@@ -96,7 +96,7 @@ impl Recorder {
         self.unknowns = increment.unknowns;
         self.row(problem, progress, increment)?;
         match self.fields {
-            FieldOutput::Every(every) if progress.increment % every.get() == 0 => {
+            FieldOutput::Every(every) if progress.increment.is_multiple_of(every.get()) => {
                 self.write_fields(problem, &increment.state)
             }
             FieldOutput::Every(_) | FieldOutput::Last => Ok(()),
@@ -294,7 +294,7 @@ fn write_surface(
     let quads: Vec<[NodeId; 4]> = surface
         .facets()
         .iter()
-        .map(|corners| corners.map(|corner| NodeId(corner)))
+        .map(|corners| corners.map(NodeId))
         .collect();
     let nodes = &state.pairs[pair].nodes[side];
     let scalars = |f: fn(&striae_contact::unknowns::NodeResult) -> f64| {
