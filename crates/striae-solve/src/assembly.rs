@@ -25,7 +25,7 @@ use crate::{
     norms::{Norms, Scales},
     outcome::CutBack,
     plan::StepPlan,
-    problem::Problem,
+    problem::{ContactFacet, Problem},
     state::{NodalForces, State},
 };
 
@@ -116,7 +116,7 @@ impl<'a> StepContext<'a> {
             .iter()
             .zip(&plan.frictions)
             .map(|(pair, friction)| ContactPair {
-                friction: friction.clone(),
+                friction: *friction,
                 ..pair.contact.clone()
             });
         Self {
@@ -383,7 +383,8 @@ impl System<'_> {
         let current = nodes.map(|node| trial.positions[node]);
         let mut covered = Vec::new();
         if extent == LoadExtent::Exposed {
-            for (pair, side, facet) in self.contact_facets(body, face) {
+            let facets = problem.contact_facets.get(&(body, face));
+            for &ContactFacet { pair, side, facet } in facets.into_iter().flatten() {
                 let configuration = &configurations[pair];
                 match configuration.facet_coverage(side, facet) {
                     FacetCoverage::Whole => return Ok(()),
@@ -413,7 +414,7 @@ impl System<'_> {
             &load.force.map(|f| -f),
             &load.tangent.map(|k| -k),
         )
-        .map_err(|outside| FaceFault::Pattern(vec![self.clique(&nodes, outside)]))?;
+        .map_err(|_| FaceFault::Pattern(vec![self.clique(&nodes)]))?;
         for (corner, node) in nodes.iter().enumerate() {
             let force = Vec3::from_column_slice(&load.force[3 * corner..3 * corner + 3]);
             self.forces.applied[*node] += force;
@@ -435,26 +436,11 @@ impl System<'_> {
         }
     }
 
-    fn clique(&self, nodes: &[usize], _outside: OutsidePattern) -> Vec<Supervariable> {
+    fn clique(&self, nodes: &[usize]) -> Vec<Supervariable> {
         nodes
             .iter()
             .map(|&node| self.layout.supervariable(node))
             .collect()
-    }
-
-    /// Contact facets that are this face of this body.
-    fn contact_facets(&self, body: usize, face: Face) -> Vec<(usize, usize, FacetId)> {
-        let mut found = Vec::new();
-        for (pair, geometry) in self.context.problem.pairs.iter().enumerate() {
-            for side in 0..2 {
-                if geometry.bodies[side] == Some(body)
-                    && let Some(at) = geometry.faces[side].iter().position(|f| *f == face)
-                {
-                    found.push((pair, side, FacetId::new(at)));
-                }
-            }
-        }
-        found
     }
 
     /// Internal forces and stiffness; returns the stored energy.
@@ -493,7 +479,7 @@ impl System<'_> {
                         *unknown = self.layout.position(nodes[slot / 3]) + slot % 3;
                     }
                     self.add_dense(&nodes, &unknowns, &response.force, &response.stiffness)
-                        .map_err(|outside| Fault::Pattern(vec![self.clique(&nodes, outside)]))?;
+                        .map_err(|_| Fault::Pattern(vec![self.clique(&nodes)]))?;
                 }
             }
         }

@@ -155,6 +155,42 @@ impl Workspace {
     }
 }
 
+/// Size of the linear systems at the start of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    /// Number of unknowns.
+    pub unknowns: usize,
+    /// Predicted cost of a factorisation.
+    pub analysis: Analysis,
+}
+
+/// Predicts the cost of the first linear system of a problem.
+///
+/// # Errors
+/// Why the undeformed state cannot be evaluated.
+pub fn estimate(problem: &Problem) -> Result<Estimate, CutBack> {
+    let state = State::undeformed(problem);
+    let context = StepContext::new(problem, 0, &state);
+    let (selections, pairs) = selected(&context, &state);
+    let mut workspace = Workspace::new(Backend::Multifrontal);
+    workspace.prepare(problem, &pairs);
+    let trial = Trial {
+        positions: state.positions.clone(),
+        tractions: pairs.iter().map(|pair| pair.tractions.clone()).collect(),
+    };
+    let imposed = context.imposed(0.0);
+    workspace.assemble(&context, &selections, &trial, &imposed, Iteration::First)?;
+    let structure = workspace.system().matrix.structure().clone();
+    let analysis = workspace
+        .solver
+        .analyse(&structure)
+        .map_err(|error| linear_system(problem, &workspace.system().layout, error))?;
+    Ok(Estimate {
+        unknowns: structure.unknowns(),
+        analysis,
+    })
+}
+
 /// Advances from `state` to the fraction `s` of the step.
 ///
 /// # Errors

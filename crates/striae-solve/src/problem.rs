@@ -1,10 +1,12 @@
 //! A validated model, ready to be solved: everything that is the same in all increments.
 
+use std::collections::HashMap;
+
 use striae_contact::{
     pair::{ContactPair, Geometry, Side as ContactSide},
     texture::SideTexture,
 };
-use striae_mesh::{Face, NodeId, Vec3};
+use striae_mesh::{Face, FacetId, NodeId, Vec3};
 use striae_surface::{
     normal::nodal_normals,
     texture::{Conditioning, Paint, Texture, TextureError},
@@ -32,6 +34,19 @@ pub struct Problem {
     pub pairs: Vec<PairGeometry>,
     /// What holds in each step.
     pub plans: Vec<StepPlan>,
+    /// Contact facets that each face of each body is.
+    pub contact_facets: HashMap<(usize, Face), Vec<ContactFacet>>,
+}
+
+/// A facet of a side of a pair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ContactFacet {
+    /// The pair.
+    pub pair: usize,
+    /// Its side.
+    pub side: usize,
+    /// The facet.
+    pub facet: FacetId,
 }
 
 /// A contact pair with its place in the problem.
@@ -112,8 +127,10 @@ impl Problem {
             elements.push(of_body);
         }
         let pairs = model.pairs.iter().map(|pair| pair_geometry(&model, pair));
+        let pairs: Vec<PairGeometry> = pairs.collect::<Result<_, _>>()?;
         Ok(Self {
-            pairs: pairs.collect::<Result<_, _>>()?,
+            contact_facets: contact_facets(&pairs),
+            pairs,
             plans: plans(&model),
             first_node,
             reference,
@@ -140,6 +157,25 @@ impl Problem {
         let body = geometry.bodies[side]?;
         Some(self.node(body, surface.nodes()[node as usize]))
     }
+}
+
+fn contact_facets(pairs: &[PairGeometry]) -> HashMap<(usize, Face), Vec<ContactFacet>> {
+    let mut facets: HashMap<_, Vec<_>> = HashMap::new();
+    for (pair, geometry) in pairs.iter().enumerate() {
+        for side in 0..2 {
+            let Some(body) = geometry.bodies[side] else {
+                continue;
+            };
+            for (at, face) in geometry.faces[side].iter().enumerate() {
+                facets.entry((body, *face)).or_default().push(ContactFacet {
+                    pair,
+                    side,
+                    facet: FacetId::new(at),
+                });
+            }
+        }
+    }
+    facets
 }
 
 fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, ProblemError> {
@@ -217,7 +253,7 @@ fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, ProblemErro
         contact: ContactPair {
             name: pair.name.clone(),
             sides: [a, b],
-            friction: pair.friction.clone(),
+            friction: pair.friction,
             balance: match pair.balance {
                 Balance::Resultants => striae_contact::pair::Balance::Resultants,
                 Balance::None => striae_contact::pair::Balance::None,
