@@ -1,6 +1,6 @@
 //! Grids and results for ParaView and VTK.
 //!
-//! [`write`] makes one `.vtu` file: a `VTKFile` of type `UnstructuredGrid`,
+//! [`write()`] makes one `.vtu` file: a `VTKFile` of type `UnstructuredGrid`,
 //! version 1.0, whose arrays are raw appended binary in blocks compressed by
 //! zlib (`vtkZLibDataCompressor`), little endian, with `UInt64` headers. Real
 //! numbers are `Float64` and survive a round trip bit by bit. The time of the
