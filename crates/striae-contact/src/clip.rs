@@ -73,6 +73,10 @@ pub fn covered_points<D: Real>(
     points
 }
 
+/// Distance from an edge of the window, over its length, that counts as on it:
+/// where edges coincide but for round-off, their crossing has no derivative.
+const ON_EDGE: f64 = 1e-7;
+
 /// The part of the convex polygon `subject` inside the convex polygon `window`,
 /// both counter-clockwise.
 fn clipped<D: Real>(subject: &[Vector2<D>], window: &[Vector2<D>]) -> Vec<Vector2<D>> {
@@ -80,14 +84,15 @@ fn clipped<D: Real>(subject: &[Vector2<D>], window: &[Vector2<D>]) -> Vec<Vector
     for (at, start) in window.iter().enumerate() {
         let edge = window[(at + 1) % window.len()] - start;
         let signed = |p: &Vector2<D>| edge.x * (p.y - start.y) - edge.y * (p.x - start.x);
+        let outside = -ON_EDGE * (edge.x.re() * edge.x.re() + edge.y.re() * edge.y.re());
         let mut inside = Vec::with_capacity(polygon.len() + 1);
         for (index, point) in polygon.iter().enumerate() {
             let next = &polygon[(index + 1) % polygon.len()];
             let (d, d_next) = (signed(point), signed(next));
-            if d.re() >= 0.0 {
+            if d.re() >= outside {
                 inside.push(*point);
             }
-            if (d.re() >= 0.0) != (d_next.re() >= 0.0) {
+            if (d.re() >= outside) != (d_next.re() >= outside) {
                 let share = d / (d - d_next);
                 inside.push(point + (next - point) * share);
             }
