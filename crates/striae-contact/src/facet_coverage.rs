@@ -7,7 +7,7 @@ use striae_surface::{
     topology::distinct_corners,
 };
 
-use crate::{configuration::Configuration, projection::Margin};
+use crate::{configuration::Configuration, projection::Margin, search::Bounds};
 
 /// How much of a facet the other side covers.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -34,7 +34,11 @@ impl Configuration<'_> {
         let middle = combination(&centre.value, &positions);
         let m = area_vector(&centre, &positions).normalize();
         let bounds = own.bounds(facet).inflated(reach);
-        if self.plane().is_none() && self.side(1 - side).edge_tree.meets(&bounds) {
+        let radius = positions
+            .map(|x| (x - middle).norm())
+            .into_iter()
+            .fold(0.0, f64::max);
+        if self.plane().is_none() && self.is_near_edge(1 - side, &middle, radius + reach) {
             return self.cut(side, &bounds, &middle, &m, 2.0 * reach);
         }
         match self.contact_at(side, middle, m, 2.0 * reach, Margin::Inside) {
@@ -43,10 +47,26 @@ impl Configuration<'_> {
         }
     }
 
+    /// Whether an edge of the surface passes within `distance` of the point. Boxes
+    /// only sort out: the choice of quadrature must not depend on the axes.
+    fn is_near_edge(&self, side: usize, x: &Vec3, distance: f64) -> bool {
+        let snapshot = self.side(side);
+        let edges = snapshot.surface.boundary_edges();
+        let around = Bounds::around([*x]).inflated(distance);
+        snapshot.edge_tree.meeting(&around).into_iter().any(|edge| {
+            let [a, b] = edges[edge as usize]
+                .nodes
+                .map(|node| snapshot.x[node as usize]);
+            let along = b - a;
+            let share = (along.dot(&(x - a)) / along.norm_squared()).clamp(0.0, 1.0);
+            (a + along * share - x).norm() <= distance
+        })
+    }
+
     fn cut(
         &self,
         side: usize,
-        bounds: &crate::search::Bounds,
+        bounds: &Bounds,
         middle: &Vec3,
         m: &Vec3,
         distance: f64,
