@@ -4,11 +4,13 @@
 //! to node, Jones & Papadopoulos (2006), eq. (43), plus the correction of its patch:
 //!
 //! ```text
-//! p_I   = sum N_J p_J - p_b q . n_I
-//! tau_I = -sum N_J R(n_I, -n_J) tau_J + p_b (I - n n) q,   q = c + omega x (x_I - x_c)/l
+//! p_I   = (1 - q . n_I) p_b
+//! tau_I = (1 - q . n_I) tau_b + p_b (I - n n) q,   q = c + omega x (x_I - x_c)/l
 //! ```
 //!
-//! with `p_b = sum N_J p_J`; `c` and `omega` are the balance unknowns of the
+//! with `p_b = sum N_J p_J` and `tau_b = -sum N_J R(n_I, -n_J) tau_J`: friction changes
+//! with the pressure, so that a field that obeys Coulomb's law and slips in one
+//! direction still does; `c` and `omega` are the balance unknowns of the
 //! patch of radius `l`. An extended node takes the traction of its leader.
 
 use nalgebra::Vector3;
@@ -184,8 +186,9 @@ pub fn traction_rows(
             D::from(1.0 / geometry.radius),
         );
         let q = c + cross(&omega, &arm);
-        tau += scaled(&q, pressure);
-        pressure -= pressure * dot(&q, &n);
+        let share = -dot(&q, &n) + 1.0;
+        tau = scaled(&tau, share) + scaled(&q, pressure);
+        pressure *= share;
     }
     let unknowns = fields.tractions.nodes[side][node as usize];
     let rows = [pressure, dot(&tau, &t[0]), dot(&tau, &t[1])];
