@@ -2,4 +2,12 @@
 
 mod scene;
 
+mod driver;
+mod energies;
+mod invariance;
 mod patch_frictionless;
+mod patch_stick;
+mod rigid_facets;
+mod sliding;
+mod tangent;
+mod tangent_of_system;

@@ -1,0 +1,75 @@
+//! Balance of energy and sign of dissipation.
+
+use crate::scene::{Places, Run, block, body, coulomb, increments, model, plane, rubber, step};
+use striae_solve::model::{Curve, Model};
+use striae_verify::fitted_rate;
+
+/// A block on a plane, pressed, slid to and fro in so many increments a step.
+fn to_and_fro(count: usize) -> Model {
+    let mesh = block([0.0; 3], [1.0, 1.0, 0.5], [2, 2, 1]).mesh().unwrap();
+    let mut model = model(vec![body("block", mesh, rubber(1.0, 0.3))]);
+    model.touch_rigid(
+        ("block", "zmin"),
+        plane([0.0; 3], [0.0, 0.0, 1.0]),
+        coulomb(0.3),
+    );
+    for target in [[0.0, 0.0, -0.03], [0.1, 0.05, -0.03], [-0.1, 0.0, -0.04]] {
+        let mut step = step();
+        step.increments = increments(1.0 / count as f64, 0.4 / count as f64);
+        step.displacements = vec![model.hold("block", "zmax", target.map(Some))];
+        step.displacements[0].curve = Curve::Smooth;
+        model.steps.push(step);
+    }
+    model
+}
+
+/// Two blocks, one sliding over the other.
+fn two_blocks(count: usize) -> Model {
+    let lower = block([0.0; 3], [1.0, 1.0, 0.5], [3, 3, 1]).mesh().unwrap();
+    let upper = block([0.2, 0.2, 0.5], [0.6, 0.6, 0.5], [2, 2, 1])
+        .mesh()
+        .unwrap();
+    let mut model = model(vec![
+        body("lower", lower, rubber(3.0, 0.3)),
+        body("upper", upper, rubber(1.0, 0.3)),
+    ]);
+    model.touch(("lower", "zmax"), ("upper", "zmin"), coulomb(0.3));
+    for target in [[0.0, 0.0, -0.03], [0.05, 0.02, -0.03]] {
+        let mut step = step();
+        step.increments = increments(1.0 / count as f64, 0.4 / count as f64);
+        step.displacements = vec![
+            model.hold("lower", "zmin", [Some(0.0); 3]),
+            model.hold("upper", "zmax", target.map(Some)),
+        ];
+        model.steps.push(step);
+    }
+    model
+}
+
+#[test]
+fn friction_dissipates_in_every_increment() {
+    for model in [to_and_fro(5), two_blocks(4)] {
+        let run = Run::completed(model);
+        let dissipated: Vec<f64> = run.states.iter().map(|s| s.pairs[0].dissipated).collect();
+        assert!(
+            dissipated.windows(2).all(|pair| pair[1] >= pair[0]),
+            "{dissipated:?}"
+        );
+        let last = dissipated[dissipated.len() - 1];
+        assert!(last > 0.0);
+        assert!(run.last().energies.contact > 0.0);
+    }
+}
+
+#[test]
+fn the_imbalance_of_energy_falls_with_the_square_of_the_increment() {
+    let counts = [5, 10, 20];
+    let imbalance = counts.map(|count| {
+        let run = Run::completed(to_and_fro(count));
+        let energies = run.last().energies;
+        energies.imbalance().abs() / energies.external
+    });
+    let sizes = counts.map(|count| 1.0 / count as f64);
+    let rate = fitted_rate(&sizes, &imbalance);
+    assert!(rate > 1.8, "rate {rate}: {imbalance:?}");
+}

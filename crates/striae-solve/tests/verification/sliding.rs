@@ -1,0 +1,149 @@
+//! Blocks that slide: the law at every node and for the resultants.
+
+use crate::scene::{Places, Run, block, body, coulomb, increments, model, plane, rubber, step};
+use striae_contact::{selection::Role, unknowns::Status};
+use striae_mesh::Vec3;
+use striae_solve::{
+    model::Model,
+    report::{PairReport, pairs},
+};
+use striae_verify::fitted_rate;
+
+const MU: f64 = 0.3;
+
+fn report(run: &Run, state: usize) -> PairReport {
+    pairs(&run.problem, &run.states[state]).swap_remove(0)
+}
+
+/// A block pressed on a plane, then moved far in a direction.
+fn on_plane(degrees: f64) -> Model {
+    let mesh = block([0.0; 3], [1.0, 1.0, 0.5], [3, 3, 1]).mesh().unwrap();
+    let mut model = model(vec![body("block", mesh, rubber(1.0, 0.3))]);
+    model.touch_rigid(
+        ("block", "zmin"),
+        plane([0.0; 3], [0.0, 0.0, 1.0]),
+        coulomb(MU),
+    );
+    let mut press = step();
+    press.displacements = vec![model.hold("block", "zmax", [Some(0.0), Some(0.0), Some(-0.02)])];
+    let mut slide = step();
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    slide.displacements =
+        vec![model.hold("block", "zmax", [Some(2.0 * cos), Some(2.0 * sin), None])];
+    slide.increments = increments(0.125, 0.1);
+    model.steps = vec![press, slide];
+    model
+}
+
+#[test]
+fn on_a_plane_the_resultant_and_every_node_obey_the_law() {
+    for degrees in [0.0_f64, 37.0, 90.0, 180.0] {
+        let run = Run::completed(on_plane(degrees));
+        let force = report(&run, run.states.len() - 1).sides[0].force;
+        let ratio = force.xy().norm() / force.z;
+        assert!((ratio / MU - 1.0).abs() < 1e-9, "{degrees}: T/N = {ratio}");
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let against = force.normalize().xy() / (MU / (1.0 + MU * MU).sqrt());
+        assert!((against.x + cos).abs() < 1e-8 && (against.y + sin).abs() < 1e-8);
+        for state in 2..run.states.len() {
+            nodes_obey_the_law(&run, state);
+        }
+    }
+}
+
+fn nodes_obey_the_law(run: &Run, state: usize) {
+    let pair = &run.states[state].pairs[0];
+    let nodes = || pair.nodes.iter().flatten();
+    let largest = nodes().map(|node| node.pressure).fold(0.0, f64::max);
+    let mut slipping = 0;
+    for (side, roles) in pair.selection.as_ref().unwrap().roles.iter().enumerate() {
+        for (role, node) in roles.iter().zip(&pair.nodes[side]) {
+            let kinematic = matches!(role, Role::Kinematic(_));
+            if kinematic && node.status == Status::Slip {
+                let error = (node.tau.norm() - MU * node.pressure).abs();
+                assert!(
+                    error <= 1e-10 * largest,
+                    "off the law by {:.1e}",
+                    error / largest
+                );
+                assert!(node.tau.dot(&node.slip) <= 0.0);
+                slipping += 1;
+            }
+        }
+    }
+    assert!(slipping > 0);
+}
+
+/// A smaller block pressed on a larger one and slid over it.
+fn two_blocks(order: [usize; 2], depth: f64, slide: [f64; 2]) -> Model {
+    let lower = block([0.0; 3], [1.0, 1.0, 0.5], [4, 4, 1]).mesh().unwrap();
+    let upper = block([0.2, 0.2, 0.5], [0.6, 0.6, 0.5], [3, 3, 1])
+        .mesh()
+        .unwrap();
+    let mut model = model(vec![
+        body("lower", lower, rubber(10.0, 0.3)),
+        body("upper", upper, rubber(1.0, 0.3)),
+    ]);
+    let sides = [("lower", "zmax"), ("upper", "zmin")];
+    model.touch(sides[order[0]], sides[order[1]], coulomb(MU));
+    let mut press = step();
+    press.displacements = vec![
+        model.hold("lower", "zmin", [Some(0.0); 3]),
+        model.hold("upper", "zmax", [Some(0.0), Some(0.0), Some(-depth)]),
+    ];
+    let mut move_on = step();
+    move_on.displacements =
+        vec![model.hold("upper", "zmax", [Some(slide[0]), Some(slide[1]), None])];
+    move_on.increments = increments(0.25, 0.01);
+    model.steps = vec![press, move_on];
+    model
+}
+
+#[test]
+fn between_deformable_blocks_the_integrals_obey_the_law_and_balance() {
+    for (order, depth) in [([0, 1], 0.02), ([1, 0], 0.002)] {
+        let run = Run::completed(two_blocks(order, depth, [0.1, 0.03]));
+        let last = run.states.len() - 1;
+        let report = report(&run, last);
+        for side in report.sides {
+            let ratio = side.friction / side.pressure;
+            // What is left is the tilt of the surfaces, of the order of the strain.
+            assert!((ratio / MU - 1.0).abs() < 0.5 * depth, "{order:?}: {ratio}");
+        }
+        assert_eq!(report.stick, 0);
+        nodes_obey_the_law(&run, last);
+        for state in 1..=last {
+            let report = self::report(&run, state);
+            assert!(report.mismatch < 1e-10, "{:.1e}", report.mismatch);
+            assert!(
+                report.moment_mismatch < 1e-10,
+                "{:.1e}",
+                report.moment_mismatch
+            );
+        }
+        let forces = &run.states[last].forces;
+        let reactions: Vec3 = forces.reaction.iter().sum();
+        let largest = forces.reaction.iter().map(|f| f.norm()).fold(0.0, f64::max);
+        assert!(reactions.norm() < 1e-9 * largest);
+    }
+}
+
+#[test]
+fn convergence_ends_quadratically() {
+    let run = Run::completed(two_blocks([0, 1], 0.02, [0.1, 0.03]));
+    let mut told = 0;
+    for norms in &run.iterations[1..] {
+        let forces: Vec<f64> = norms.iter().map(|n| n.largest()).collect();
+        let tail: Vec<f64> = forces.into_iter().filter(|f| *f > 1e-12).collect();
+        let [.., a, b, c] = tail.as_slice() else {
+            continue;
+        };
+        if *a < 1e-2 {
+            let order = fitted_rate(&[*a, *b], &[*b, *c]);
+            assert!(order > 1.8, "order {order} in {tail:?}");
+            told += 1;
+        }
+        assert!(norms.len() <= 12, "{} iterations", norms.len());
+    }
+    assert!(told > 0, "{:?}", run.iterations);
+}
