@@ -1,52 +1,31 @@
 //! Residual and tangent of the whole problem at a trial state.
 
+mod context;
+mod loads;
+mod measure;
+
+pub use context::{Imposed, StepContext};
+
 use rayon::prelude::*;
 use striae_contact::{
-    complementarity::{Iteration, Prescribed},
+    complementarity::Iteration,
     configuration::Configuration,
     evaluation::{Evaluation, EvaluationError, evaluate},
-    exposed::{SurfaceLoad, covered_load},
-    facet_coverage::FacetCoverage,
-    pair::ContactPair,
     selection::Selection,
     term::LocalTerm,
     unknown::Numbering,
     unknowns::Tractions,
 };
 use striae_linalg::{OutsidePattern, SparseMatrix, Supervariable};
-use striae_mesh::{Face, FacetId, NodeId, Vec3};
-use striae_surface::scalar::Real;
+use striae_mesh::{FacetId, NodeId, Vec3};
 
 use crate::{
-    element::{ElementFault, ElementResponse, ReferenceElement},
+    element::{ElementFault, ElementResponse},
     layout::Layout,
-    load,
-    model::{LoadExtent, LoadKind},
-    norms::{Norms, Scales},
+    norms::Norms,
     outcome::CutBack,
-    plan::StepPlan,
-    problem::{ContactFacet, Problem},
-    state::{NodalForces, State},
+    state::NodalForces,
 };
-
-/// What does not change within a step.
-#[derive(Debug)]
-pub struct StepContext<'a> {
-    /// The problem.
-    pub problem: &'a Problem,
-    /// Number of the step.
-    pub index: usize,
-    /// What holds in it.
-    pub plan: &'a StepPlan,
-    /// State at its start.
-    pub start: &'a State,
-    /// Pairs with the friction of the step.
-    pub pairs: Vec<ContactPair>,
-    /// Whether each position component of each global node is prescribed.
-    pub fixed: Vec<bool>,
-    /// The same by pair, side and surface node.
-    pub fixed_on_pair: Vec<Prescribed>,
-}
 
 /// A state that is not converged.
 #[derive(Clone, Debug)]
@@ -55,17 +34,6 @@ pub struct Trial {
     pub positions: Vec<Vec3>,
     /// Traction unknowns of every pair.
     pub tractions: Vec<Tractions>,
-}
-
-/// What is imposed at the end of an increment.
-#[derive(Clone, Debug)]
-pub struct Imposed {
-    /// Prescribed position components: `(node, axis, position)`.
-    pub positions: Vec<(usize, usize, f64)>,
-    /// Loads with their kinds at this point.
-    pub loads: Vec<LoadKind>,
-    /// Displacements of the rigid surfaces.
-    pub rigid: Vec<Vec3>,
 }
 
 /// Residual and results at a trial state.
@@ -91,94 +59,6 @@ pub enum Fault {
     CutBack(CutBack),
     /// Terms outside the pattern, as cliques to grow it by.
     Pattern(Vec<Vec<Supervariable>>),
-}
-
-impl<'a> StepContext<'a> {
-    /// The context of step `index` that starts from `start`.
-    pub fn new(problem: &'a Problem, index: usize, start: &'a State) -> Self {
-        let plan = &problem.plans[index];
-        let mut fixed = vec![false; 3 * problem.reference.len()];
-        for (body, node, axis) in plan.displacements.keys() {
-            fixed[3 * (problem.first_node[*body] + node) + axis] = true;
-        }
-        let on_pair = |pair: usize| {
-            [0, 1].map(|side| {
-                let surface = problem.pairs[pair].contact.sides[side].surface();
-                let count = surface.map_or(0, |surface| surface.nodes().len() as u32);
-                (0..count)
-                    .filter_map(|node| problem.surface_node(pair, side, node))
-                    .flat_map(|node| fixed[3 * node..3 * node + 3].to_vec())
-                    .collect()
-            })
-        };
-        let pairs = problem
-            .pairs
-            .iter()
-            .zip(&plan.frictions)
-            .map(|(pair, friction)| ContactPair {
-                friction: *friction,
-                ..pair.contact.clone()
-            });
-        Self {
-            fixed_on_pair: (0..problem.pairs.len()).map(on_pair).collect(),
-            pairs: pairs.collect(),
-            problem,
-            index,
-            plan,
-            start,
-            fixed,
-        }
-    }
-
-    /// What is imposed at the fraction `s` of the step.
-    pub fn imposed(&self, s: f64) -> Imposed {
-        use crate::plan::Prescription::{Go, Hold};
-        let positions = self
-            .plan
-            .displacements
-            .iter()
-            .map(|((body, node, axis), how)| {
-                let node = self.problem.first_node[*body] + node;
-                let reference = self.problem.reference[node][*axis];
-                let start = self.start.positions[node][*axis];
-                let position = match how {
-                    Hold => start,
-                    Go { target, curve } => start + (reference + target - start) * curve.at(s),
-                };
-                (node, *axis, position)
-            });
-        Imposed {
-            positions: positions.collect(),
-            loads: self.plan.loads.iter().map(|load| load.at(s)).collect(),
-            rigid: self.plan.rigid.iter().map(|rigid| rigid.at(s)).collect(),
-        }
-    }
-
-    /// Configuration of a pair with the nodes at `positions`.
-    pub fn configuration(
-        &self,
-        pair: usize,
-        positions: &[Vec3],
-        rigid: &[Vec3],
-    ) -> Configuration<'_> {
-        let geometry = &self.problem.pairs[pair];
-        let of_side = |side: usize| -> Vec<Vec3> {
-            let count = geometry.contact.sides[side]
-                .surface()
-                .map_or(0, |s| s.nodes().len() as u32);
-            match geometry.bodies[side] {
-                Some(_) => (0..count)
-                    .filter_map(|node| self.problem.surface_node(pair, side, node))
-                    .map(|node| positions[node])
-                    .collect(),
-                None => geometry.rigid_reference.clone(),
-            }
-        };
-        let displacement = geometry
-            .rigid
-            .map_or_else(Vec3::zeros, |rigid_id| rigid[rigid_id]);
-        Configuration::new(&self.pairs[pair], [of_side(0), of_side(1)], displacement)
-    }
 }
 
 /// Evaluates the problem at a trial state and fills the matrix.
@@ -337,105 +217,6 @@ impl System<'_> {
             && self.context.fixed[3 * node + unknown - self.layout.position(node)]
     }
 
-    fn loads(
-        &mut self,
-        configurations: &[Configuration],
-        trial: &Trial,
-        imposed: &Imposed,
-    ) -> Result<(), Fault> {
-        for (planned, kind) in self.context.plan.loads.iter().zip(&imposed.loads) {
-            for face in &planned.faces {
-                let extent = planned.extent;
-                let fault = |error| {
-                    Fault::CutBack(CutBack::Load {
-                        body: self.context.problem.model.bodies[planned.body.0]
-                            .name
-                            .clone(),
-                        set: planned.set.clone(),
-                        error,
-                    })
-                };
-                let result =
-                    self.face_load(configurations, trial, planned.body.0, *face, kind, extent);
-                match result {
-                    Ok(()) => {}
-                    Err(FaceFault::Load(error)) => return Err(fault(error)),
-                    Err(FaceFault::Pattern(outside)) => return Err(Fault::Pattern(outside)),
-                }
-            }
-        }
-        Ok(())
-    }
-
-    fn face_load(
-        &mut self,
-        configurations: &[Configuration],
-        trial: &Trial,
-        body: usize,
-        face: Face,
-        kind: &LoadKind,
-        extent: LoadExtent,
-    ) -> Result<(), FaceFault> {
-        let problem = self.context.problem;
-        let corners = problem.model.bodies[body].mesh.face_nodes(face);
-        let nodes = corners.map(|node| problem.node(body, node));
-        let reference = nodes.map(|node| problem.reference[node]);
-        let current = nodes.map(|node| trial.positions[node]);
-        let mut covered = Vec::new();
-        if extent == LoadExtent::Exposed {
-            let facets = problem.contact_facets.get(&(body, face));
-            for &ContactFacet { pair, side, facet } in facets.into_iter().flatten() {
-                let configuration = &configurations[pair];
-                match configuration.facet_coverage(side, facet) {
-                    FacetCoverage::Whole => return Ok(()),
-                    FacetCoverage::Bare => {}
-                    FacetCoverage::Cut(covers) => {
-                        let load = LoadOnFace {
-                            kind,
-                            reference: &reference,
-                        };
-                        covered.push((
-                            pair,
-                            covered_load(configuration, side, facet, &covers, &load),
-                        ));
-                    }
-                }
-            }
-        }
-        let load = load::response(kind, &reference, &current).map_err(FaceFault::Load)?;
-        let unknowns = nodes.map(|node| self.layout.position(node));
-        let unknowns: Vec<usize> = unknowns
-            .iter()
-            .flat_map(|first| *first..first + 3)
-            .collect();
-        self.add_dense(
-            &nodes,
-            &unknowns,
-            &load.force.map(|f| -f),
-            &load.tangent.map(|k| -k),
-        )
-        .map_err(|_| FaceFault::Pattern(vec![self.clique(&nodes)]))?;
-        for (corner, node) in nodes.iter().enumerate() {
-            let force = Vec3::from_column_slice(&load.force[3 * corner..3 * corner + 3]);
-            self.forces.applied[*node] += force;
-        }
-        for (pair, terms) in covered {
-            let numbering = configurations[pair].pair.numbering();
-            for term in terms {
-                self.add_term(pair, &numbering, &term);
-                for (at, node) in nodes.iter().enumerate() {
-                    let taken = Vec3::from_column_slice(&term.residual[3 * at..3 * at + 3]);
-                    self.forces.applied[*node] -= taken;
-                }
-            }
-        }
-        if self.outside.is_empty() {
-            Ok(())
-        } else {
-            Err(FaceFault::Pattern(std::mem::take(&mut self.outside)))
-        }
-    }
-
     fn clique(&self, nodes: &[usize]) -> Vec<Supervariable> {
         nodes
             .iter()
@@ -513,63 +294,6 @@ impl System<'_> {
         self.matrix.add(&rows, unknowns, &block)
     }
 
-    fn norms(&mut self, selections: &[Selection], trial: &Trial, contacts: &[Evaluation]) -> Norms {
-        let problem = self.context.problem;
-        let mut free = 0.0;
-        for node in 0..problem.reference.len() {
-            let first = self.layout.position(node);
-            self.forces.reaction[node] = Vec3::from_column_slice(&self.residual[first..first + 3]);
-            for axis in 0..3 {
-                if !self.context.fixed[3 * node + axis] {
-                    free += self.residual[first + axis].powi(2);
-                }
-            }
-        }
-        let applied: f64 = self.forces.applied.iter().map(|f| f.norm_squared()).sum();
-        let stiffness =
-            problem
-                .model
-                .bodies
-                .iter()
-                .zip(&problem.elements)
-                .map(|(body, elements)| {
-                    let volume = elements.first().map_or(0.0, ReferenceElement::volume);
-                    body.material.lame_constants().shear * volume.powf(2.0 / 3.0)
-                });
-        let smallest = 1e-9 * stiffness.fold(0.0, f64::max);
-        let force = self.force_scale.max(applied.sqrt()).max(smallest);
-        let mut norms = Norms {
-            force: free.sqrt() / force,
-            ..Norms::default()
-        };
-        for (pair, evaluation) in contacts.iter().enumerate() {
-            let sides = &self.context.pairs[pair].sides;
-            let modulus = sides[0].stiffness.min(sides[1].stiffness);
-            let active = |side: usize| {
-                let roles = 0..selections[pair].roles[side].len();
-                roles.map(move |node| trial.tractions[pair].nodes[side][node][0].abs())
-            };
-            let pressure = active(0).chain(active(1)).fold(0.0, f64::max);
-            let facets = evaluation.facets.iter().flatten();
-            let contact: f64 = facets.map(|(_, f)| f.pressure.abs() + f.friction).sum();
-            let scales = Scales {
-                force,
-                traction: pressure.max(1e-8 * modulus),
-                resultant: contact.max(1e-3 * force),
-            };
-            let numbering = self.context.pairs[pair].numbering();
-            for term in &evaluation.terms {
-                for (row, field) in term.rows.iter().zip(&term.fields) {
-                    let global = self.layout.global(problem, pair, numbering.unknown(*row));
-                    if let Some((unknown, _)) = global {
-                        norms.include(*field, self.residual[unknown], &scales);
-                    }
-                }
-            }
-        }
-        norms
-    }
-
     /// Holds traction unknowns of idle nodes and of vanished patches at zero.
     fn idle(&mut self, selections: &[Selection]) {
         for (pair, selection) in selections.iter().enumerate() {
@@ -615,26 +339,5 @@ impl System<'_> {
         self.matrix
             .add(&[unknown], &[unknown], &[scale])
             .expect("the diagonal is in the pattern");
-    }
-}
-
-enum FaceFault {
-    Load(load::LoadError),
-    Pattern(Vec<Vec<Supervariable>>),
-}
-
-struct LoadOnFace<'a> {
-    kind: &'a LoadKind,
-    reference: &'a [Vec3; 4],
-}
-
-impl SurfaceLoad for LoadOnFace<'_> {
-    fn per_area<D: Real>(
-        &self,
-        x: &[nalgebra::Vector3<D>; 4],
-        xi: D,
-        eta: D,
-    ) -> nalgebra::Vector3<D> {
-        load::traction(self.kind, self.reference, x, xi, eta)
     }
 }

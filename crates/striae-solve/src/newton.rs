@@ -5,6 +5,12 @@
 //! From then on the residual alone decides: labels of nodes at the kink of the
 //! friction law may flip at round-off and are not required to rest.
 
+mod acceptance;
+mod cycling;
+mod workspace;
+
+pub use workspace::Workspace;
+
 use striae_contact::{
     complementarity::Iteration,
     evaluation::{Evaluation, missed_contacts},
@@ -12,34 +18,21 @@ use striae_contact::{
     traction::reinterpreted,
     unknowns::{Status, Tractions},
 };
-use striae_linalg::{
-    Analysis, FaerLu, LinearSolver, MultifrontalLu, SolveError, SparseMatrix, Structure,
-    Supervariable,
-};
+use striae_linalg::{Analysis, SolveError};
 use striae_mesh::Vec3;
 
 use crate::{
-    assembly::{Assembled, Fault, Imposed, StepContext, Trial, assemble},
+    assembly::{Assembled, Imposed, StepContext, Trial},
     layout::Layout,
     model::Backend,
     norms::Norms,
-    outcome::{CutBack, CyclingNode},
+    outcome::CutBack,
     problem::Problem,
-    state::{Energies, PairState, State},
+    state::{PairState, State},
 };
-
-/// What survives between increments to save work; it holds no results.
-pub struct Workspace {
-    solver: Box<dyn LinearSolver>,
-    system: Option<SystemStorage>,
-}
-
-struct SystemStorage {
-    layout: Layout,
-    matrix: SparseMatrix,
-    analysis: Analysis,
-    analysed: bool,
-}
+use acceptance::accepted;
+use cycling::History;
+use workspace::SystemStorage;
 
 /// A converged increment.
 #[derive(Clone, Debug)]
@@ -58,101 +51,6 @@ pub struct Increment {
 pub trait IterationObserver {
     /// An iteration of Newton's method has been evaluated.
     fn iteration(&mut self, number: usize, norms: &Norms, contacts: &[Evaluation]);
-}
-
-impl Workspace {
-    /// An empty workspace with the given factorisation.
-    pub fn new(backend: Backend) -> Self {
-        let solver: Box<dyn LinearSolver> = match backend {
-            Backend::Multifrontal => Box::new(MultifrontalLu::new()),
-            Backend::Faer => Box::new(FaerLu::new()),
-        };
-        Self {
-            solver,
-            system: None,
-        }
-    }
-
-    /// Makes sure the layout covers all roles of the increment.
-    fn prepare(&mut self, problem: &Problem, pairs: &[PairState]) {
-        let known = self
-            .system
-            .as_ref()
-            .map(|system| system.layout.extent().clone());
-        let extent = known.clone().unwrap_or_default().with(pairs);
-        if known.as_ref() == Some(&extent) {
-            return;
-        }
-        let layout = Layout::new(problem, extent);
-        let mut cliques: Vec<Vec<Supervariable>> = Vec::new();
-        for (body, model) in problem.model.bodies.iter().enumerate() {
-            for corners in &model.mesh.elements {
-                let nodes = corners.map(|node| layout.supervariable(problem.node(body, node)));
-                cliques.push(nodes.to_vec());
-            }
-        }
-        cliques.extend((0..layout.offsets().len() - 1).map(|at| vec![Supervariable(at)]));
-        let structure = Structure::from_cliques(layout.offsets().to_vec(), &cliques)
-            .and_then(|structure| structure.with_tiers(layout.tiers()))
-            .expect("the layout names its own supervariables");
-        self.system = Some(SystemStorage {
-            matrix: SparseMatrix::zero(&structure),
-            layout,
-            analysis: Analysis::default(),
-            analysed: false,
-        });
-    }
-
-    fn system(&mut self) -> &mut SystemStorage {
-        self.system.as_mut().expect("the workspace was prepared")
-    }
-
-    fn assemble(
-        &mut self,
-        context: &StepContext,
-        selections: &[Selection],
-        trial: &Trial,
-        imposed: &Imposed,
-        iteration: Iteration,
-    ) -> Result<Assembled, CutBack> {
-        let system = self.system();
-        loop {
-            let assembled = assemble(
-                context,
-                selections,
-                trial,
-                imposed,
-                iteration,
-                &system.layout,
-                &mut system.matrix,
-            );
-            match assembled {
-                Ok(assembled) => return Ok(assembled),
-                Err(Fault::CutBack(reason)) => return Err(reason),
-                Err(Fault::Pattern(cliques)) => {
-                    let grown = system.matrix.structure().grown(&cliques);
-                    let structure = grown.expect("cliques name known supervariables");
-                    system.matrix = SparseMatrix::zero(&structure);
-                    system.analysed = false;
-                }
-            }
-        }
-    }
-
-    /// Solves for the correction, `J correction = -residual`.
-    fn correction(&mut self, residual: &[f64]) -> Result<Vec<f64>, SolveError> {
-        let solver = &mut self.solver;
-        let system = self.system.as_mut().expect("the workspace was prepared");
-        if !system.analysed {
-            system.analysis = solver.analyse(system.matrix.structure())?;
-            system.analysed = true;
-        }
-        solver.factor(&system.matrix)?;
-        let rhs: Vec<f64> = residual.iter().map(|r| -r).collect();
-        let mut correction = vec![0.0; rhs.len()];
-        solver.solve(&system.matrix, &rhs, &mut correction)?;
-        Ok(correction)
-    }
 }
 
 /// Size of the linear systems at the start of a run.
@@ -407,167 +305,5 @@ fn place(problem: &Problem, layout: &Layout, unknown: usize) -> String {
             format!("body `{name}` is not held: {node} is free to move in {axis}")
         }
         _ => format!("the contact traction at {node} of body `{name}` is not determined"),
-    }
-}
-
-/// Status of all kinematic nodes in every iteration.
-#[derive(Default)]
-struct History(Vec<Vec<[Vec<Status>; 2]>>);
-
-impl History {
-    fn push(&mut self, contacts: &[Evaluation]) {
-        let statuses = |evaluation: &Evaluation| {
-            evaluation
-                .nodes
-                .each_ref()
-                .map(|side| side.iter().map(|node| node.status).collect())
-        };
-        self.0.push(contacts.iter().map(statuses).collect());
-    }
-
-    /// Kinematic nodes whose status changed within the last iterations.
-    fn cycling(&self, problem: &Problem, selections: &[Selection]) -> Vec<CyclingNode> {
-        const WINDOW: usize = 6;
-        let last = &self.0[self.0.len().saturating_sub(WINDOW)..];
-        let mut cycling = Vec::new();
-        for (pair, selection) in selections.iter().enumerate() {
-            for side in 0..2 {
-                for (node, role) in selection.roles[side].iter().enumerate() {
-                    let statuses: Vec<Status> = last
-                        .iter()
-                        .map(|contacts| contacts[pair][side][node])
-                        .collect();
-                    let changes = statuses.windows(2).any(|pair| pair[0] != pair[1]);
-                    let kinematic = matches!(role, Role::Kinematic(_));
-                    if let Some(global) = problem.surface_node(pair, side, node as u32)
-                        && kinematic
-                        && changes
-                    {
-                        let (body, node) = problem.body_node(global);
-                        cycling.push(CyclingNode {
-                            pair: problem.model.pairs[pair].name.clone(),
-                            body: problem.model.bodies[body].name.clone(),
-                            node,
-                            history: statuses.iter().map(letter).collect(),
-                        });
-                    }
-                }
-            }
-        }
-        cycling
-    }
-}
-
-fn letter(status: &Status) -> char {
-    match status {
-        Status::Open => 'o',
-        Status::Stick => 's',
-        Status::Slip => 'S',
-    }
-}
-
-fn accepted(
-    context: &StepContext,
-    state: &State,
-    time: f64,
-    trial: Trial,
-    imposed: Imposed,
-    selections: Vec<Selection>,
-    assembled: Assembled,
-) -> State {
-    let energies = energies(context.problem, state, &trial, &imposed, &assembled);
-    let pairs = trial
-        .tractions
-        .into_iter()
-        .zip(selections)
-        .zip(assembled.contacts)
-        .zip(&state.pairs)
-        .map(|(((tractions, selection), evaluation), before)| PairState {
-            dissipated: before.dissipated + dissipation(&selection, &evaluation),
-            kinematic: selection.kinematic(),
-            selection: Some(selection),
-            tractions,
-            nodes: evaluation.nodes,
-            facets: evaluation.facets,
-        })
-        .collect();
-    State {
-        time,
-        positions: trial.positions,
-        rigid_displacements: imposed.rigid,
-        pairs,
-        forces: assembled.forces,
-        energies,
-    }
-}
-
-/// Frictional work of an increment from the kinematic nodes, each of whose
-/// contributions `-tau . du` is not negative, scaled from the pressure they
-/// carry to the whole normal force.
-fn dissipation(selection: &Selection, evaluation: &Evaluation) -> f64 {
-    let mut work = 0.0;
-    let mut carried = 0.0;
-    let mut whole = 0.0;
-    let sides = evaluation
-        .facets
-        .iter()
-        .filter(|side| !side.is_empty())
-        .count();
-    for side in 0..2 {
-        let areas = &evaluation.nodal_areas[side];
-        whole += evaluation.facets[side]
-            .iter()
-            .map(|(_, f)| f.pressure)
-            .sum::<f64>();
-        for (node, role) in selection.roles[side].iter().enumerate() {
-            if matches!(role, Role::Kinematic(_)) {
-                let result = &evaluation.nodes[side][node];
-                work -= areas[node] * result.tau.dot(&result.slip);
-                carried += areas[node] * result.pressure;
-            }
-        }
-    }
-    if carried > 0.0 {
-        work * whole / (carried * sides as f64)
-    } else {
-        0.0
-    }
-}
-
-/// Energies by the trapezoidal rule over the increment.
-fn energies(
-    problem: &Problem,
-    state: &State,
-    trial: &Trial,
-    imposed: &Imposed,
-    assembled: &Assembled,
-) -> Energies {
-    let (before, after) = (&state.forces, &assembled.forces);
-    let mut external = 0.0;
-    let mut contact = 0.0;
-    for node in 0..problem.reference.len() {
-        let motion = trial.positions[node] - state.positions[node];
-        let mean = |a: &[Vec3], b: &[Vec3]| (a[node] + b[node]) * 0.5;
-        external += motion.dot(&mean(&before.applied, &after.applied));
-        external += motion.dot(&mean(&before.reaction, &after.reaction));
-        contact -= motion.dot(&mean(&before.contact, &after.contact));
-    }
-    for (pair, geometry) in problem.pairs.iter().enumerate() {
-        if let Some(rigid) = geometry.rigid {
-            let motion = imposed.rigid[rigid] - state.rigid_displacements[rigid];
-            let sum = |facets: &[(striae_mesh::FacetId, striae_contact::field::FacetForces)]| {
-                facets.iter().flat_map(|(_, f)| f.force).sum::<Vec3>()
-            };
-            let force = (sum(&state.pairs[pair].facets[0])
-                + sum(&assembled.contacts[pair].facets[0]))
-                * 0.5;
-            external += motion.dot(&force);
-            contact += motion.dot(&force);
-        }
-    }
-    Energies {
-        strain: assembled.strain,
-        external: state.energies.external + external,
-        contact: state.energies.contact + contact,
     }
 }

@@ -91,11 +91,7 @@ pub fn plans(model: &Model) -> Vec<StepPlan> {
             };
             model.rigid_surfaces.len()
         ],
-        frictions: model
-            .pairs
-            .iter()
-            .map(|pair| pair.friction)
-            .collect(),
+        frictions: model.pairs.iter().map(|pair| pair.friction).collect(),
     };
     let mut plans = Vec::with_capacity(model.steps.len());
     for step in &model.steps {

@@ -1,0 +1,126 @@
+//! What does not change within a step, and what is imposed in it.
+
+use striae_contact::{
+    complementarity::Prescribed, configuration::Configuration, pair::ContactPair,
+};
+use striae_mesh::Vec3;
+
+use crate::{model::LoadKind, plan::StepPlan, problem::Problem, state::State};
+
+/// What does not change within a step.
+#[derive(Debug)]
+pub struct StepContext<'a> {
+    /// The problem.
+    pub problem: &'a Problem,
+    /// Number of the step.
+    pub index: usize,
+    /// What holds in it.
+    pub plan: &'a StepPlan,
+    /// State at its start.
+    pub start: &'a State,
+    /// Pairs with the friction of the step.
+    pub pairs: Vec<ContactPair>,
+    /// Whether each position component of each global node is prescribed.
+    pub fixed: Vec<bool>,
+    /// The same by pair, side and surface node.
+    pub fixed_on_pair: Vec<Prescribed>,
+}
+
+/// What is imposed at the end of an increment.
+#[derive(Clone, Debug)]
+pub struct Imposed {
+    /// Prescribed position components: `(node, axis, position)`.
+    pub positions: Vec<(usize, usize, f64)>,
+    /// Loads with their kinds at this point.
+    pub loads: Vec<LoadKind>,
+    /// Displacements of the rigid surfaces.
+    pub rigid: Vec<Vec3>,
+}
+
+impl<'a> StepContext<'a> {
+    /// The context of step `index` that starts from `start`.
+    pub fn new(problem: &'a Problem, index: usize, start: &'a State) -> Self {
+        let plan = &problem.plans[index];
+        let mut fixed = vec![false; 3 * problem.reference.len()];
+        for (body, node, axis) in plan.displacements.keys() {
+            fixed[3 * (problem.first_node[*body] + node) + axis] = true;
+        }
+        let on_pair = |pair: usize| {
+            [0, 1].map(|side| {
+                let surface = problem.pairs[pair].contact.sides[side].surface();
+                let count = surface.map_or(0, |surface| surface.nodes().len() as u32);
+                (0..count)
+                    .filter_map(|node| problem.surface_node(pair, side, node))
+                    .flat_map(|node| fixed[3 * node..3 * node + 3].to_vec())
+                    .collect()
+            })
+        };
+        let pairs = problem
+            .pairs
+            .iter()
+            .zip(&plan.frictions)
+            .map(|(pair, friction)| ContactPair {
+                friction: *friction,
+                ..pair.contact.clone()
+            });
+        Self {
+            fixed_on_pair: (0..problem.pairs.len()).map(on_pair).collect(),
+            pairs: pairs.collect(),
+            problem,
+            index,
+            plan,
+            start,
+            fixed,
+        }
+    }
+
+    /// What is imposed at the fraction `s` of the step.
+    pub fn imposed(&self, s: f64) -> Imposed {
+        use crate::plan::Prescription::{Go, Hold};
+        let positions = self
+            .plan
+            .displacements
+            .iter()
+            .map(|((body, node, axis), how)| {
+                let node = self.problem.first_node[*body] + node;
+                let reference = self.problem.reference[node][*axis];
+                let start = self.start.positions[node][*axis];
+                let position = match how {
+                    Hold => start,
+                    Go { target, curve } => start + (reference + target - start) * curve.at(s),
+                };
+                (node, *axis, position)
+            });
+        Imposed {
+            positions: positions.collect(),
+            loads: self.plan.loads.iter().map(|load| load.at(s)).collect(),
+            rigid: self.plan.rigid.iter().map(|rigid| rigid.at(s)).collect(),
+        }
+    }
+
+    /// Configuration of a pair with the nodes at `positions`.
+    pub fn configuration(
+        &self,
+        pair: usize,
+        positions: &[Vec3],
+        rigid: &[Vec3],
+    ) -> Configuration<'_> {
+        let geometry = &self.problem.pairs[pair];
+        let of_side = |side: usize| -> Vec<Vec3> {
+            let count = geometry.contact.sides[side]
+                .surface()
+                .map_or(0, |s| s.nodes().len() as u32);
+            match geometry.bodies[side] {
+                Some(_) => (0..count)
+                    .filter_map(|node| self.problem.surface_node(pair, side, node))
+                    .map(|node| positions[node])
+                    .collect(),
+                None => geometry.rigid_reference.clone(),
+            }
+        };
+        let displacement = geometry
+            .rigid
+            .map_or_else(Vec3::zeros, |rigid_id| rigid[rigid_id]);
+        Configuration::new(&self.pairs[pair], [of_side(0), of_side(1)], displacement)
+    }
+}

@@ -1,0 +1,140 @@
+//! Loads on faces, whole or where no contact surface covers them.
+
+use striae_contact::{
+    configuration::Configuration,
+    exposed::{SurfaceLoad, covered_load},
+    facet_coverage::FacetCoverage,
+};
+use striae_linalg::Supervariable;
+use striae_mesh::{Face, Vec3};
+use striae_surface::scalar::Real;
+
+use super::{Fault, Imposed, System, Trial};
+use crate::{
+    load,
+    model::{LoadExtent, LoadKind},
+    outcome::CutBack,
+    problem::ContactFacet,
+};
+
+impl System<'_> {
+    pub(super) fn loads(
+        &mut self,
+        configurations: &[Configuration],
+        trial: &Trial,
+        imposed: &Imposed,
+    ) -> Result<(), Fault> {
+        for (planned, kind) in self.context.plan.loads.iter().zip(&imposed.loads) {
+            for face in &planned.faces {
+                let extent = planned.extent;
+                let fault = |error| {
+                    Fault::CutBack(CutBack::Load {
+                        body: self.context.problem.model.bodies[planned.body.0]
+                            .name
+                            .clone(),
+                        set: planned.set.clone(),
+                        error,
+                    })
+                };
+                let result =
+                    self.face_load(configurations, trial, planned.body.0, *face, kind, extent);
+                match result {
+                    Ok(()) => {}
+                    Err(FaceFault::Load(error)) => return Err(fault(error)),
+                    Err(FaceFault::Pattern(outside)) => return Err(Fault::Pattern(outside)),
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn face_load(
+        &mut self,
+        configurations: &[Configuration],
+        trial: &Trial,
+        body: usize,
+        face: Face,
+        kind: &LoadKind,
+        extent: LoadExtent,
+    ) -> Result<(), FaceFault> {
+        let problem = self.context.problem;
+        let corners = problem.model.bodies[body].mesh.face_nodes(face);
+        let nodes = corners.map(|node| problem.node(body, node));
+        let reference = nodes.map(|node| problem.reference[node]);
+        let current = nodes.map(|node| trial.positions[node]);
+        let mut covered = Vec::new();
+        if extent == LoadExtent::Exposed {
+            let facets = problem.contact_facets.get(&(body, face));
+            for &ContactFacet { pair, side, facet } in facets.into_iter().flatten() {
+                let configuration = &configurations[pair];
+                match configuration.facet_coverage(side, facet) {
+                    FacetCoverage::Whole => return Ok(()),
+                    FacetCoverage::Bare => {}
+                    FacetCoverage::Cut(covers) => {
+                        let load = LoadOnFace {
+                            kind,
+                            reference: &reference,
+                        };
+                        covered.push((
+                            pair,
+                            covered_load(configuration, side, facet, &covers, &load),
+                        ));
+                    }
+                }
+            }
+        }
+        let load = load::response(kind, &reference, &current).map_err(FaceFault::Load)?;
+        let unknowns = nodes.map(|node| self.layout.position(node));
+        let unknowns: Vec<usize> = unknowns
+            .iter()
+            .flat_map(|first| *first..first + 3)
+            .collect();
+        self.add_dense(
+            &nodes,
+            &unknowns,
+            &load.force.map(|f| -f),
+            &load.tangent.map(|k| -k),
+        )
+        .map_err(|_| FaceFault::Pattern(vec![self.clique(&nodes)]))?;
+        for (corner, node) in nodes.iter().enumerate() {
+            let force = Vec3::from_column_slice(&load.force[3 * corner..3 * corner + 3]);
+            self.forces.applied[*node] += force;
+        }
+        for (pair, terms) in covered {
+            let numbering = configurations[pair].pair.numbering();
+            for term in terms {
+                self.add_term(pair, &numbering, &term);
+                for (at, node) in nodes.iter().enumerate() {
+                    let taken = Vec3::from_column_slice(&term.residual[3 * at..3 * at + 3]);
+                    self.forces.applied[*node] -= taken;
+                }
+            }
+        }
+        if self.outside.is_empty() {
+            Ok(())
+        } else {
+            Err(FaceFault::Pattern(std::mem::take(&mut self.outside)))
+        }
+    }
+}
+
+enum FaceFault {
+    Load(load::LoadError),
+    Pattern(Vec<Vec<Supervariable>>),
+}
+
+struct LoadOnFace<'a> {
+    kind: &'a LoadKind,
+    reference: &'a [Vec3; 4],
+}
+
+impl SurfaceLoad for LoadOnFace<'_> {
+    fn per_area<D: Real>(
+        &self,
+        x: &[nalgebra::Vector3<D>; 4],
+        xi: D,
+        eta: D,
+    ) -> nalgebra::Vector3<D> {
+        load::traction(self.kind, self.reference, x, xi, eta)
+    }
+}

@@ -1,0 +1,75 @@
+//! Norms of the residual, field by field.
+
+use striae_contact::{evaluation::Evaluation, selection::Selection};
+use striae_mesh::Vec3;
+
+use super::{System, Trial};
+use crate::{
+    element::ReferenceElement,
+    norms::{Norms, Scales},
+};
+
+impl System<'_> {
+    /// Norms of all fields; notes the reactions.
+    pub(super) fn norms(
+        &mut self,
+        selections: &[Selection],
+        trial: &Trial,
+        contacts: &[Evaluation],
+    ) -> Norms {
+        let problem = self.context.problem;
+        let mut free = 0.0;
+        for node in 0..problem.reference.len() {
+            let first = self.layout.position(node);
+            self.forces.reaction[node] = Vec3::from_column_slice(&self.residual[first..first + 3]);
+            for axis in 0..3 {
+                if !self.context.fixed[3 * node + axis] {
+                    free += self.residual[first + axis].powi(2);
+                }
+            }
+        }
+        let applied: f64 = self.forces.applied.iter().map(|f| f.norm_squared()).sum();
+        let stiffness =
+            problem
+                .model
+                .bodies
+                .iter()
+                .zip(&problem.elements)
+                .map(|(body, elements)| {
+                    let volume = elements.first().map_or(0.0, ReferenceElement::volume);
+                    body.material.lame_constants().shear * volume.powf(2.0 / 3.0)
+                });
+        let smallest = 1e-9 * stiffness.fold(0.0, f64::max);
+        let force = self.force_scale.max(applied.sqrt()).max(smallest);
+        let mut norms = Norms {
+            force: free.sqrt() / force,
+            ..Norms::default()
+        };
+        for (pair, evaluation) in contacts.iter().enumerate() {
+            let sides = &self.context.pairs[pair].sides;
+            let modulus = sides[0].stiffness.min(sides[1].stiffness);
+            let active = |side: usize| {
+                let roles = 0..selections[pair].roles[side].len();
+                roles.map(move |node| trial.tractions[pair].nodes[side][node][0].abs())
+            };
+            let pressure = active(0).chain(active(1)).fold(0.0, f64::max);
+            let facets = evaluation.facets.iter().flatten();
+            let contact: f64 = facets.map(|(_, f)| f.pressure.abs() + f.friction).sum();
+            let scales = Scales {
+                force,
+                traction: pressure.max(1e-8 * modulus),
+                resultant: contact.max(1e-3 * force),
+            };
+            let numbering = self.context.pairs[pair].numbering();
+            for term in &evaluation.terms {
+                for (row, field) in term.rows.iter().zip(&term.fields) {
+                    let global = self.layout.global(problem, pair, numbering.unknown(*row));
+                    if let Some((unknown, _)) = global {
+                        norms.include(*field, self.residual[unknown], &scales);
+                    }
+                }
+            }
+        }
+        norms
+    }
+}

@@ -1,0 +1,124 @@
+//! The linear system of an increment, kept for the next ones.
+
+use striae_contact::{complementarity::Iteration, selection::Selection};
+use striae_linalg::{
+    Analysis, FaerLu, LinearSolver, MultifrontalLu, SolveError, SparseMatrix, Structure,
+    Supervariable,
+};
+
+use crate::{
+    assembly::{Assembled, Fault, Imposed, StepContext, Trial, assemble},
+    layout::Layout,
+    model::Backend,
+    outcome::CutBack,
+    problem::Problem,
+    state::PairState,
+};
+
+/// What survives between increments to save work; it holds no results.
+pub struct Workspace {
+    pub(super) solver: Box<dyn LinearSolver>,
+    system: Option<SystemStorage>,
+}
+
+pub(super) struct SystemStorage {
+    pub(super) layout: Layout,
+    pub(super) matrix: SparseMatrix,
+    pub(super) analysis: Analysis,
+    analysed: bool,
+}
+
+impl Workspace {
+    /// An empty workspace with the given factorisation.
+    pub fn new(backend: Backend) -> Self {
+        let solver: Box<dyn LinearSolver> = match backend {
+            Backend::Multifrontal => Box::new(MultifrontalLu::new()),
+            Backend::Faer => Box::new(FaerLu::new()),
+        };
+        Self {
+            solver,
+            system: None,
+        }
+    }
+
+    /// Makes sure the layout covers all roles of the increment.
+    pub(super) fn prepare(&mut self, problem: &Problem, pairs: &[PairState]) {
+        let known = self
+            .system
+            .as_ref()
+            .map(|system| system.layout.extent().clone());
+        let extent = known.clone().unwrap_or_default().with(pairs);
+        if known.as_ref() == Some(&extent) {
+            return;
+        }
+        let layout = Layout::new(problem, extent);
+        let mut cliques: Vec<Vec<Supervariable>> = Vec::new();
+        for (body, model) in problem.model.bodies.iter().enumerate() {
+            for corners in &model.mesh.elements {
+                let nodes = corners.map(|node| layout.supervariable(problem.node(body, node)));
+                cliques.push(nodes.to_vec());
+            }
+        }
+        cliques.extend((0..layout.offsets().len() - 1).map(|at| vec![Supervariable(at)]));
+        let structure = Structure::from_cliques(layout.offsets().to_vec(), &cliques)
+            .and_then(|structure| structure.with_tiers(layout.tiers()))
+            .expect("the layout names its own supervariables");
+        self.system = Some(SystemStorage {
+            matrix: SparseMatrix::zero(&structure),
+            layout,
+            analysis: Analysis::default(),
+            analysed: false,
+        });
+    }
+
+    pub(super) fn system(&mut self) -> &mut SystemStorage {
+        self.system.as_mut().expect("the workspace was prepared")
+    }
+
+    pub(super) fn assemble(
+        &mut self,
+        context: &StepContext,
+        selections: &[Selection],
+        trial: &Trial,
+        imposed: &Imposed,
+        iteration: Iteration,
+    ) -> Result<Assembled, CutBack> {
+        let system = self.system();
+        loop {
+            let assembled = assemble(
+                context,
+                selections,
+                trial,
+                imposed,
+                iteration,
+                &system.layout,
+                &mut system.matrix,
+            );
+            match assembled {
+                Ok(assembled) => return Ok(assembled),
+                Err(Fault::CutBack(reason)) => return Err(reason),
+                Err(Fault::Pattern(cliques)) => {
+                    let grown = system.matrix.structure().grown(&cliques);
+                    let structure = grown.expect("cliques name known supervariables");
+                    system.matrix = SparseMatrix::zero(&structure);
+                    system.analysed = false;
+                }
+            }
+        }
+    }
+
+    /// Solves for the correction, `J correction = -residual`.
+    pub(super) fn correction(&mut self, residual: &[f64]) -> Result<Vec<f64>, SolveError> {
+        let solver = &mut self.solver;
+        let system = self.system.as_mut().expect("the workspace was prepared");
+        if !system.analysed {
+            system.analysis = solver.analyse(system.matrix.structure())?;
+            system.analysed = true;
+        }
+        solver.factor(&system.matrix)?;
+        let rhs: Vec<f64> = residual.iter().map(|r| -r).collect();
+        let mut correction = vec![0.0; rhs.len()];
+        solver.solve(&system.matrix, &rhs, &mut correction)?;
+        Ok(correction)
+    }
+}
