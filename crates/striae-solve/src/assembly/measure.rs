@@ -7,6 +7,7 @@ use super::{System, Trial};
 use crate::{
     element::ReferenceElement,
     norms::{Norms, Scales},
+    problem::Problem,
 };
 
 impl System<'_> {
@@ -29,17 +30,8 @@ impl System<'_> {
             }
         }
         let applied: f64 = self.forces.applied.iter().map(|f| f.norm_squared()).sum();
-        let stiffness =
-            problem
-                .model
-                .bodies
-                .iter()
-                .zip(&problem.elements)
-                .map(|(body, elements)| {
-                    let volume = elements.first().map_or(0.0, ReferenceElement::volume);
-                    body.material.lame_constants().shear * volume.powf(2.0 / 3.0)
-                });
-        let smallest = 1e-9 * stiffness.fold(0.0, f64::max);
+        let unavoidable = round_off(problem, &trial.positions);
+        let smallest = unavoidable / problem.model.solver.tolerance;
         let force = self.force_scale.max(applied.sqrt()).max(smallest);
         let mut norms = Norms {
             force: free.sqrt() / force,
@@ -72,4 +64,19 @@ impl System<'_> {
         }
         norms
     }
+}
+
+/// Residual force that round-off of the positions leaves in bodies without
+/// stress: about `eps G h |x|` an element of size `h`.
+fn round_off(problem: &Problem, positions: &[Vec3]) -> f64 {
+    let extent = positions.iter().map(|x| x.norm()).fold(0.0, f64::max);
+    let bodies = problem.model.bodies.iter().zip(&problem.elements);
+    let sum: f64 = bodies
+        .map(|(body, elements)| {
+            let volume = elements.first().map_or(0.0, ReferenceElement::volume);
+            let shear = body.material.lame_constants().shear;
+            elements.len() as f64 * (shear * volume.cbrt() * extent).powi(2)
+        })
+        .sum();
+    10.0 * f64::EPSILON * sum.sqrt()
 }
