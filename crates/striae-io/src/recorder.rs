@@ -3,7 +3,8 @@
 //! ```text
 //! DIR/history.csv           a row an increment
 //! DIR/bodies.pvd            displacement, Cauchy stress, von Mises stress
-//! DIR/contact.pvd           gap, pressure, tractions, slip, status, role, normal
+//! DIR/contact.pvd           gap, pressure, tractions, slip, normal, texture `s`,
+//!                           structural vector `a = n x s`, status, role
 //! DIR/fields/*.vtu          what the collections list
 //! DIR/summary.json          how the run ended
 //! ```
@@ -334,6 +335,10 @@ fn write_surface(
             Array::new("slip", vectors(|node| node.slip)),
             Array::new("normal", vectors(|node| node.normal)),
             Array::new("texture", vectors(|node| node.texture)),
+            Array::new(
+                "structural_vector",
+                vectors(|node| node.normal.cross(&node.texture)),
+            ),
             Array::new("status", Values::Codes(status.collect())),
             Array::new("role", Values::Codes(roles)),
         ],

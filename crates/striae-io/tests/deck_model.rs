@@ -229,12 +229,10 @@ fn settings_have_defaults() {
 }
 
 #[test]
-fn friction_takes_decay_and_cap() {
-    let law = r#"{ law = "coulomb", mu = 0.2, shear_cap = 5, decay = { kinetic_over_static = 0.8, rate = 2 } }"#;
+fn friction_takes_a_cap() {
+    let law = r#"{ law = "coulomb", mu = 0.2, shear_cap = 5 }"#;
     let text = BASE.replace(r#"{ law = "coulomb", mu = 0.3 }"#, law);
     let expected = Friction::coulomb(0.2)
-        .unwrap()
-        .with_decay(0.8, 2.0)
         .unwrap()
         .with_shear_cap(5.0)
         .unwrap();

@@ -27,6 +27,17 @@ pub enum Failure {
     /// The run did not reach its end.
     #[error("{0}")]
     Ended(Ending),
+    /// There is no case of this name.
+    #[error("there is no case `{name}`; known are {known}")]
+    UnknownCase {
+        /// What was asked for.
+        name: String,
+        /// All names.
+        known: String,
+    },
+    /// Cases did not give what is known of them.
+    #[error("outside the tolerances: {0}")]
+    Deviates(String),
     /// Results cannot be written.
     #[error("{0}")]
     Results(#[from] OutputError),
@@ -42,9 +53,12 @@ impl Failure {
     /// The exit code: 2 for bad input, 1 for everything else.
     pub fn exit_code(&self) -> ExitCode {
         match self {
-            Self::Deck(_) | Self::Exists(_) | Self::Problem(_) => ExitCode::from(2),
+            Self::Deck(_) | Self::Exists(_) | Self::Problem(_) | Self::UnknownCase { .. } => {
+                ExitCode::from(2)
+            }
             Self::Unwritable { .. }
             | Self::Ended(_)
+            | Self::Deviates(_)
             | Self::Results(_)
             | Self::Threads(_)
             | Self::Output(_) => ExitCode::from(1),

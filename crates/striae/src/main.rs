@@ -3,6 +3,7 @@
 //! Exit codes: 0 when all went well, 1 when a run or a file operation failed,
 //! 2 when what was asked for is not possible (bad arguments or a faulty deck).
 
+mod cases;
 mod command;
 mod failure;
 mod progress;
@@ -24,7 +25,10 @@ enum Command {
     New(command::new::Arguments),
     Check(command::check::Arguments),
     Run(command::run::Arguments),
+    Reproduce(command::reproduce::Arguments),
+    Law(command::law::Arguments),
     Schema(command::schema::Arguments),
+    Texture(command::texture::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -33,7 +37,10 @@ fn main() -> ExitCode {
         Command::New(arguments) => command::new::run(&arguments, out),
         Command::Check(arguments) => command::check::run(&arguments, out),
         Command::Run(arguments) => command::run::run(&arguments, out),
+        Command::Reproduce(arguments) => command::reproduce::run(&arguments, out),
+        Command::Law(arguments) => command::law::run(&arguments, out),
         Command::Schema(arguments) => command::schema::run(&arguments, out),
+        Command::Texture(arguments) => command::texture::run(&arguments, out),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

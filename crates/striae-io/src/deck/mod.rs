@@ -24,6 +24,7 @@ pub use schema::{json_schema, reference};
 
 use faults::FaultList;
 use std::path::Path;
+use striae_law::friction::Friction;
 use striae_solve::model::Model;
 use toml::de::DeTable;
 
@@ -70,14 +71,31 @@ pub fn read(path: &Path) -> Result<Deck, Faults> {
 /// All faults of the deck.
 pub fn parse(text: &str, file: &str, base: &Path) -> Result<Deck, Faults> {
     let mut faults = FaultList::new(file, text);
-    let deck = simulation(text, &mut faults).and_then(|raw| lower::deck(&raw, base, &mut faults));
+    let deck = tables(text, &mut faults).and_then(|raw| lower::deck(&raw, base, &mut faults));
     match deck {
         Some(deck) if faults.is_empty() => Ok(deck),
         _ => Err(faults.into_faults()),
     }
 }
 
-fn simulation(text: &str, faults: &mut FaultList<'_>) -> Option<raw::Simulation> {
+/// Reads the keys of a `friction` table on their own, without a deck.
+///
+/// `file` is what faults call the text.
+///
+/// # Errors
+/// All faults of the keys and what the law refuses.
+pub fn friction(text: &str, file: &str) -> Result<Friction, Faults> {
+    let mut faults = FaultList::new(file, text);
+    let friction = tables::<raw::Friction>(text, &mut faults)
+        .and_then(|raw| lower::friction(&raw, &raw.span, &mut faults));
+    match friction {
+        Some(friction) if faults.is_empty() => Ok(friction),
+        _ => Err(faults.into_faults()),
+    }
+}
+
+/// The tables of a text.
+fn tables<T: read::Part>(text: &str, faults: &mut FaultList<'_>) -> Option<T> {
     let (tree, errors) = DeTable::parse_recoverable(text);
     for error in &errors {
         let message = error.message().to_owned();

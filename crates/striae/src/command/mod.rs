@@ -1,6 +1,9 @@
 //! The subcommands, one module each.
 
 pub mod check;
+pub mod law;
 pub mod new;
+pub mod reproduce;
 pub mod run;
 pub mod schema;
+pub mod texture;

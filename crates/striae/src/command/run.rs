@@ -80,7 +80,7 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
 }
 
 /// The folder of a `deck.toml`, otherwise the name of the file.
-fn case_name(deck: &Path) -> String {
+pub fn case_name(deck: &Path) -> String {
     let stem = deck
         .file_stem()
         .map(|name| name.to_string_lossy().into_owned());

@@ -8,7 +8,7 @@ use crate::deck::{
 use striae_law::friction::{Friction, FrictionError, SlipRule};
 
 /// A friction law, or `None` after its faults have been noted.
-pub(super) fn friction(
+pub(in crate::deck) fn friction(
     raw: &raw::Friction,
     span: &Span,
     faults: &mut FaultList<'_>,
@@ -53,11 +53,6 @@ fn lowered(raw: &raw::Friction) -> Option<Result<Friction, FrictionError>> {
             law.mu_lateral.as_ref()?.value.0,
         ),
     };
-    if let Some(decay) = &raw.decay {
-        let ratio = decay.value.kinetic_over_static.as_ref()?.value.0;
-        let rate = decay.value.rate.as_ref()?.value.0;
-        friction = friction.and_then(|friction| friction.with_decay(ratio, rate));
-    }
     if let Some(cap) = &raw.shear_cap {
         friction = friction.and_then(|friction| friction.with_shear_cap(cap.value.0));
     }

@@ -22,6 +22,7 @@ use super::{
     read::At,
 };
 use body::Bodies;
+pub(super) use friction::friction;
 use std::{num::NonZeroUsize, path::Path};
 use striae_solve::model::{Backend, Model, Pair, Solver};
 

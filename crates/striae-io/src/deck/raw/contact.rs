@@ -77,18 +77,6 @@ table! {
         include law: FrictionLaw,
         /// Largest shear stress that friction can carry. Default: none.
         optional shear_cap: Positive,
-        /// Fall of all coefficients with the slip rate. Default: none.
-        optional decay: Decay,
-    }
-}
-
-table! {
-    /// Exponential fall from the stated coefficients at rest to a share of them in fast slip.
-    Decay {
-        /// Kinetic over static coefficient.
-        required kinetic_over_static: NonNegative,
-        /// Slip rate over which the difference falls by the factor e.
-        required rate: Positive,
     }
 }
 

@@ -1,0 +1,12 @@
+//! Anisotropic friction between textured surfaces, held against closed forms,
+//! invariances and finite differences.
+
+mod oblique;
+#[path = "../verification/scene.rs"]
+#[allow(dead_code, reason = "shared with another test program")]
+mod scene;
+
+mod convergence;
+mod patch;
+mod sliding;
+mod tangent;

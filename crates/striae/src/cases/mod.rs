@@ -1,0 +1,107 @@
+//! Published and closed-form cases that the program can reproduce.
+//!
+//! A case is a folder of `cases/` with decks, a README and an `expected.toml`,
+//! all of them embedded here, and a function that runs the decks, measures
+//! quantities and draws figures. [`CASES`] lists them.
+
+/// The text of a file in `cases/`.
+macro_rules! embedded {
+    ($($path:tt)*) => {
+        include_str!(concat!("../../../../cases/", $($path)*))
+    };
+}
+
+/// Decks of a case with their names.
+macro_rules! decks {
+    ($case:literal: $($name:literal),+ $(,)?) => {
+        [$(($name, embedded!($case, "/", $name, ".toml"))),+]
+    };
+}
+
+mod measure;
+mod pad_on_incline;
+mod patch_frictionless;
+mod patch_stick;
+mod plate_on_rigid_plane;
+pub mod study;
+mod two_blocks;
+
+use crate::failure::Failure;
+use study::Study;
+
+/// A case.
+pub struct Case {
+    /// Name, that of its folder.
+    pub name: &'static str,
+    /// What it shows, in one line.
+    pub title: &'static str,
+    /// What it must give: its `expected.toml`.
+    pub expected: &'static str,
+    /// What a reader should know: its README.
+    pub readme: &'static str,
+    /// Runs the decks, measures quantities and draws figures.
+    pub run: fn(&mut Study) -> Result<(), Failure>,
+}
+
+/// A case from the name of its folder and its function.
+macro_rules! case {
+    ($name:literal, $title:literal, $run:path) => {
+        Case {
+            name: $name,
+            title: $title,
+            expected: embedded!($name, "/expected.toml"),
+            readme: embedded!($name, "/README.md"),
+            run: $run,
+        }
+    };
+}
+
+/// All cases.
+pub const CASES: &[Case] = &[
+    case!(
+        "two-blocks",
+        "Two blocks, pressed and slid, beside two other codes",
+        two_blocks::run
+    ),
+    case!(
+        "patch-frictionless",
+        "Uniform pressure across arbitrary overlaps and meshes",
+        patch_frictionless::run
+    ),
+    case!(
+        "patch-stick",
+        "Stick on an oblique interface up to the load of the closed form",
+        patch_stick::run
+    ),
+    case!(
+        "plate-on-rigid-plane",
+        "A plate pushed along a rigid floor (code_aster SSNV128)",
+        plate_on_rigid_plane::run
+    ),
+    case!(
+        "pad-on-incline",
+        "A pad on an incline at the limit of friction (code_aster SSNV503)",
+        pad_on_incline::run
+    ),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+    use striae_io::expected::Expected;
+
+    #[test]
+    fn every_case_expects_something_and_judges_newton() {
+        let names: BTreeSet<&str> = CASES.iter().map(|case| case.name).collect();
+        assert_eq!(names.len(), CASES.len());
+        for case in CASES {
+            let expected = Expected::parse(case.expected).unwrap();
+            for name in ["newton.median", "newton.max", "cutbacks"] {
+                let judged = expected.quantities.iter().any(|q| q.name == name);
+                assert!(judged, "{} judges no {name}", case.name);
+            }
+            assert!(case.readme.starts_with(&format!("# {}", case.name)));
+        }
+    }
+}

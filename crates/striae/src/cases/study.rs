@@ -1,0 +1,151 @@
+//! What a case works with: it runs decks and collects what they give.
+
+use std::path::{Path, PathBuf};
+
+use striae_io::{
+    deck::{self, Deck},
+    figure::Figure,
+    history::Table,
+    summary::Summary,
+};
+use striae_solve::outcome::Ending;
+
+use crate::{
+    failure::Failure,
+    progress::Verbosity,
+    simulation::{Interrupt, Simulation, simulate},
+};
+
+/// How much of a case is run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// Everything.
+    Full,
+    /// Without what takes long.
+    Quick,
+}
+
+/// A case under way.
+pub struct Study<'a> {
+    /// Name of the case.
+    pub case: &'a str,
+    /// How much is run.
+    pub extent: Extent,
+    /// Where everything is written.
+    pub folder: PathBuf,
+    /// How much is said.
+    pub verbosity: Verbosity,
+    /// Stops runs.
+    pub interrupt: &'a Interrupt,
+    /// What was measured.
+    pub quantities: Vec<(String, f64)>,
+    /// Quantities that are not measured in this extent.
+    pub left_out: Vec<&'static str>,
+    /// Summaries of the runs that are judged, by name of the deck.
+    pub summaries: Vec<(String, Summary)>,
+    interrupted: bool,
+}
+
+/// A finished run with its history.
+pub struct Run {
+    /// Problem, last state and ending.
+    pub simulation: Simulation,
+    /// `history.csv`.
+    pub history: Table,
+}
+
+impl<'a> Study<'a> {
+    /// A case of which nothing is known yet.
+    pub fn new(
+        case: &'a str,
+        extent: Extent,
+        folder: PathBuf,
+        verbosity: Verbosity,
+        interrupt: &'a Interrupt,
+    ) -> Self {
+        Self {
+            case,
+            extent,
+            folder,
+            verbosity,
+            interrupt,
+            quantities: Vec::new(),
+            left_out: Vec::new(),
+            summaries: Vec::new(),
+            interrupted: false,
+        }
+    }
+
+    /// Reads an embedded deck.
+    pub fn deck(&self, name: &str, text: &str) -> Result<Deck, Failure> {
+        let file = format!("cases/{}/{name}.toml", self.case);
+        Ok(deck::parse(text, &file, Path::new(""))?)
+    }
+
+    /// Runs a deck to its end; how Newton's method did is judged.
+    pub fn run(&mut self, name: &str, deck: Deck) -> Result<Run, Failure> {
+        let run = self.run_to_limit(name, deck)?;
+        match &run.simulation.ending {
+            Ending::Completed => {
+                let summary = run.simulation.summary.clone();
+                self.summaries.push((name.to_owned(), summary));
+                Ok(run)
+            }
+            ending => Err(Failure::Ended(ending.clone())),
+        }
+    }
+
+    /// Runs a deck that may stop where equilibrium ends; the increments cut
+    /// there are the measurement and not judged.
+    pub fn run_to_limit(&mut self, name: &str, deck: Deck) -> Result<Run, Failure> {
+        let folder = self.folder.join(name);
+        if self.verbosity != Verbosity::Quiet {
+            eprintln!("{}: {name}", self.case);
+        }
+        let simulation = simulate(deck, name, &folder, self.verbosity, self.interrupt)?;
+        if let Ending::Interrupted { .. } = simulation.ending {
+            self.interrupted = true;
+            return Err(Failure::Ended(simulation.ending));
+        }
+        Ok(Run {
+            history: Table::read(&folder.join("history.csv"))?,
+            simulation,
+        })
+    }
+
+    /// Whether a run was stopped from outside.
+    pub fn was_interrupted(&self) -> bool {
+        self.interrupted
+    }
+
+    /// Notes a measured quantity.
+    pub fn measured(&mut self, name: impl Into<String>, value: f64) {
+        self.quantities.push((name.into(), value));
+    }
+
+    /// Writes a figure.
+    pub fn draw(&self, figure: &Figure, name: &str) -> Result<(), Failure> {
+        Ok(figure.write(&self.folder, name)?)
+    }
+}
+
+impl Run {
+    /// A column of the history, empty if there is none of this name.
+    pub fn column(&self, name: &str) -> Vec<f64> {
+        self.history.column(name).unwrap_or_default()
+    }
+
+    /// A quantity at the end of a step, counted from 1; NaN if it is not known.
+    pub fn at_end_of(&self, step: usize, name: &str) -> f64 {
+        let steps = self.column("step");
+        let row = steps.iter().rposition(|&known| known == step as f64);
+        row.and_then(|row| self.column(name).get(row).copied())
+            .unwrap_or(f64::NAN)
+    }
+
+    /// Largest absolute value in a column, NaN if it is empty.
+    pub fn largest(&self, name: &str) -> f64 {
+        let sizes = self.column(name).into_iter().map(f64::abs);
+        sizes.reduce(f64::max).unwrap_or(f64::NAN)
+    }
+}
