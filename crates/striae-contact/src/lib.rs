@@ -17,6 +17,7 @@ pub mod configuration;
 pub mod coverage;
 pub mod evaluation;
 pub mod exposed;
+pub mod extension;
 pub mod facet_coverage;
 pub mod field;
 pub mod frame;

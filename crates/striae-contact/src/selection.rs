@@ -19,6 +19,8 @@
 //!
 //! An uncovered node of a partly covered facet is *extended*: it takes the
 //! traction of the nearest kinematic node, or the mean of several equally near.
+//! So are traction nodes in a group without any kinematic node, all of whose
+//! members look at others of the group: their balance alone leaves them undetermined.
 
 use striae_mesh::{FacetId, Vec3};
 use striae_surface::facet::Shape;
@@ -26,6 +28,7 @@ use striae_surface::facet::Shape;
 use crate::{
     configuration::Configuration,
     coverage::{Coverage, Place},
+    extension::extend,
     patch::{Patch, patches},
 };
 
@@ -38,7 +41,7 @@ pub enum Role {
     Kinematic(Partner),
     /// Collocated balance with the opposing traction field.
     Traction(Partner),
-    /// The mean traction of other nodes, its leaders.
+    /// The mean traction of kinematic nodes, its leaders.
     Extended(Vec<Leader>),
 }
 
@@ -312,74 +315,4 @@ fn on_boundary(
                 .sum();
             off_edge < 1e-6
         })
-}
-
-/// Gives uncovered nodes of facets in or next to the covered zone the traction
-/// of the nearest kinematic node.
-fn extend(
-    configuration: &Configuration,
-    coverage: &[Vec<Coverage>; 2],
-    roles: &mut [Vec<Role>; 2],
-) {
-    let kinematic: Vec<(usize, u32)> = (0..2)
-        .flat_map(|side| {
-            let is = |node: &u32| matches!(roles[side][*node as usize], Role::Kinematic(_));
-            (0..roles[side].len() as u32)
-                .filter(is)
-                .map(move |node| (side, node))
-                .collect::<Vec<_>>()
-        })
-        .collect();
-    if configuration.plane().is_some() || kinematic.is_empty() {
-        return;
-    }
-    for &side in configuration.pair.deformable_sides() {
-        let snapshot = configuration.side(side);
-        for node in zone(configuration, side, coverage) {
-            if coverage[side][node as usize] == Coverage::Missed {
-                let x = snapshot.x[node as usize];
-                let distance = |&(other, k): &(usize, u32)| {
-                    (configuration.side(other).x[k as usize] - x).norm()
-                };
-                let nearest = kinematic.iter().map(distance).fold(f64::INFINITY, f64::min);
-                let leaders = kinematic
-                    .iter()
-                    .filter(|entry| distance(entry) <= nearest * (1.0 + EQUALLY_NEAR))
-                    .map(|&(side, node)| Leader { side, node });
-                roles[side][node as usize] = Role::Extended(leaders.collect());
-            }
-        }
-    }
-}
-
-/// Relative difference of distances that does not count.
-const EQUALLY_NEAR: f64 = 1e-6;
-
-/// Nodes of facets that are touched by the covered zone, and of their neighbours.
-fn zone(configuration: &Configuration, side: usize, coverage: &[Vec<Coverage>; 2]) -> Vec<u32> {
-    let snapshot = configuration.side(side);
-    let near = |c: &Coverage| matches!(c, Coverage::Near(_));
-    let mut inside: Vec<bool> = coverage[side].iter().map(near).collect();
-    for covered in &coverage[1 - side] {
-        if let Coverage::Near(contact) = covered
-            && let Place::Facet(hit) = contact.place
-        {
-            for node in snapshot.corners(hit.facet) {
-                inside[node as usize] = true;
-            }
-        }
-    }
-    for _ in 0..2 {
-        let before = inside.clone();
-        for facet in snapshot.surface.facets() {
-            if facet.iter().any(|&node| before[node as usize]) {
-                for node in facet {
-                    inside[*node as usize] = true;
-                }
-            }
-        }
-    }
-    (0..inside.len() as u32)
-        .filter(|&node| inside[node as usize])
-        .collect()
 }
