@@ -13,7 +13,7 @@
 //! interface gives way where `|t - n n.t| = mu |n.t|`.
 
 use nalgebra::Matrix3;
-use striae_io::figure::{Axis, Color, Content, Figure, Line, Marker, Panel, Series, Width};
+use striae_io::figure::{Axis, Color, Content, Figure, Marker, Panel, Series, Width};
 use striae_mesh::Vec3;
 
 use super::{
@@ -179,21 +179,19 @@ fn figure(curves: &[(&str, Run)], limit: f64) -> Figure {
         x().within(near[0], near[1]),
         Axis::linear("share of sticking nodes", "").within(-0.1, 1.1),
     );
-    let markers = [
-        Marker::Circle,
-        Marker::Square,
-        Marker::Triangle,
-        Marker::Cross,
+    let looks = [
+        (Marker::Circle, Color::Blue),
+        (Marker::Square, Color::Vermillion),
+        (Marker::Triangle, Color::Green),
+        (Marker::Cross, Color::Black),
     ];
-    for ((name, run), marker) in curves.iter().zip(markers) {
+    for ((name, run), (marker, color)) in curves.iter().zip(looks) {
         let elastic = elastic_shear(run);
         let shear = run.column(SHEAR).into_iter().map(|force| force / AREA);
         let points = elastic.iter().copied().zip(shear).map(|(x, y)| [x, y]);
         let name = name.replace('-', " ");
-        forces = forces.with(Series::new(
-            name.clone(),
-            Content::markers(scaled(points.collect()), marker),
-        ));
+        let content = Content::markers(scaled(points.collect()), marker);
+        forces = forces.with(Series::new(name.clone(), content).colored(color));
         let (stick, slip) = (
             run.column("pair.interface.stick"),
             run.column("pair.interface.slip"),
@@ -203,12 +201,8 @@ fn figure(curves: &[(&str, Run)], limit: f64) -> Figure {
             .zip(&slip)
             .map(|(stick, slip)| stick / (stick + slip));
         let points = elastic.iter().copied().zip(shares).map(|(x, y)| [x, y]);
-        let content = Content::Curve {
-            points: scaled(points.collect()),
-            line: Line::None,
-            marker,
-        };
-        counts = counts.with(Series::new(name, content));
+        let content = Content::markers(scaled(points.collect()), marker);
+        counts = counts.with(Series::new(name, content).colored(color));
     }
     let at_limit = [[displacement(limit), -1.0], [displacement(limit), 2.0]];
     counts = counts
