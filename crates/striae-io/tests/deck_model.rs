@@ -232,10 +232,7 @@ fn settings_have_defaults() {
 fn friction_takes_a_cap() {
     let law = r#"{ law = "coulomb", mu = 0.2, shear_cap = 5 }"#;
     let text = BASE.replace(r#"{ law = "coulomb", mu = 0.3 }"#, law);
-    let expected = Friction::coulomb(0.2)
-        .unwrap()
-        .with_shear_cap(5.0)
-        .unwrap();
+    let expected = Friction::coulomb(0.2).unwrap().with_shear_cap(5.0).unwrap();
     assert_eq!(lowered(&text).model.pairs[0].friction, expected);
 }
 

@@ -336,6 +336,10 @@ fn deformable(model: &Model, body: usize, faces: &[Face]) -> ContactSide {
         geometry: Geometry::Deformable(Surface::new(&facets)),
         stiffness: shear * (3.0 * lambda + 2.0 * shear) / (lambda + shear),
         texture: None,
-        rank: body,
+        rank: model
+            .bodies
+            .iter()
+            .filter(|other| other.name < body_model.name)
+            .count(),
     }
 }
