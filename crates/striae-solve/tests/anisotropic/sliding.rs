@@ -2,7 +2,10 @@
 
 use crate::{
     oblique::{Formula, Oblique, along, irregular_block, uniform},
-    scene::{Places, Run, block, body, dissipates, increments, largest_distance, model, plane, rubber, step},
+    scene::{
+        Places, Run, block, body, dissipates, increments, largest_distance, model, plane, rubber,
+        step,
+    },
 };
 use nalgebra::{Matrix2x4, Vector2};
 use striae_contact::unknowns::Status;
@@ -29,15 +32,26 @@ fn nodal_areas(run: &Run, state: &State) -> Vec<f64> {
             let node = run.problem.surface_node(0, 0, node).unwrap();
             state.positions[node]
         });
-        for (xi, eta) in [(-place, -place), (place, -place), (place, place), (-place, place)] {
+        for (xi, eta) in [
+            (-place, -place),
+            (place, -place),
+            (place, place),
+            (-place, place),
+        ] {
             let signs = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
             let weights = signs.map(|(a, b)| 0.25 * (1.0 + a * xi) * (1.0 + b * eta));
             let slopes = Matrix2x4::from_fn(|axis, corner| {
                 let (a, b) = signs[corner];
-                0.25 * if axis == 0 { a * (1.0 + b * eta) } else { b * (1.0 + a * xi) }
+                0.25 * if axis == 0 {
+                    a * (1.0 + b * eta)
+                } else {
+                    b * (1.0 + a * xi)
+                }
             });
             let [du, dv] = [0, 1].map(|axis| -> Vec3 {
-                (0..4).map(|corner| x[corner] * slopes[(axis, corner)]).sum()
+                (0..4)
+                    .map(|corner| x[corner] * slopes[(axis, corner)])
+                    .sum()
             });
             for (corner, weight) in corners.iter().zip(weights) {
                 areas[*corner as usize] += weight * du.cross(&dv).norm();
@@ -69,7 +83,11 @@ fn check_nodal_law(run: &Run, law: Formula, floor: Option<f64>) {
         }
         let found = report::pairs(&run.problem, state)[0].sides[0].force;
         let error = (found - sum).norm() / found.norm();
-        assert!(error < 1e-10, "{law:?}: resultant off by {error:.1e} at {}", state.time);
+        assert!(
+            error < 1e-10,
+            "{law:?}: resultant off by {error:.1e} at {}",
+            state.time
+        );
     }
     assert!(slipping > 0);
     dissipates(run);
@@ -92,7 +110,11 @@ fn resultants_follow_the_law_in_24_directions() {
         let run = Run::completed(model);
         check_nodal_law(&run, CONSTANTS, oblique.angles[1]);
         for (at, degrees) in directions.into_iter().enumerate() {
-            let settled = run.progress.iter().rposition(|p| p.step == 4 * at + 3).unwrap();
+            let settled = run
+                .progress
+                .iter()
+                .rposition(|p| p.step == 4 * at + 3)
+                .unwrap();
             let state = &run.states[settled + 1];
             let found = report::pairs(&run.problem, state)[0].sides[0].force;
             let sliding = oblique.sliding(degrees);
@@ -149,7 +171,9 @@ fn dragged(body_block: &Block, law: Formula, turn: &Turn, floor: RigidShape) -> 
     let mesh = body_block.mesh().unwrap();
     let mut model = model(vec![body("block", mesh, rubber(1.0, 0.3))]);
     model.touch_rigid(("block", "zmin"), floor, law.friction());
-    model.pairs[0].textures = turn.textures.map(|angle| angle.map(|angle| turn.paint(angle)));
+    model.pairs[0].textures = turn
+        .textures
+        .map(|angle| angle.map(|angle| turn.paint(angle)));
     let motions = [
         (2, Vec3::new(0.0, 0.0, -0.04)),
         (3, Vec3::new(0.3, 0.1, -0.04)),
@@ -264,7 +288,7 @@ fn meshed_floor(divisions: usize, triangles: bool, order: impl Fn(usize) -> usiz
 
 #[test]
 fn meshes_of_the_floor_do_not_matter() {
-    for (law, textures) in laws() {
+    for (law, textures) in [laws()[1], laws()[3]] {
         let turn = Turn::none(textures);
         let on_plane = Run::completed(dragged(&irregular_block(), law, &turn, horizontal()));
         let floors = [
@@ -281,15 +305,22 @@ fn meshes_of_the_floor_do_not_matter() {
     }
 }
 
+fn coarse_block() -> Block {
+    Block {
+        divisions: [2, 2, 1],
+        ..irregular_block()
+    }
+}
+
 /// A block dragged over another one, in either order of the pair.
 fn two_blocks(law: Formula, textures: [Option<f64>; 2], order: [usize; 2]) -> Model {
     let lower = Block {
         irregularity: 0.15,
-        ..block([-0.3, -0.3, -0.5], [1.6, 1.6, 0.5], [4, 4, 1])
+        ..block([-0.3, -0.3, -0.5], [1.6, 1.6, 0.5], [3, 3, 1])
     };
     let bodies = vec![
         body("lower", lower.mesh().unwrap(), rubber(2.0, 0.3)),
-        body("upper", irregular_block().mesh().unwrap(), rubber(1.0, 0.3)),
+        body("upper", coarse_block().mesh().unwrap(), rubber(1.0, 0.3)),
     ];
     let mut model = model(bodies);
     let sides = [("lower", "zmax"), ("upper", "zmin")];
@@ -310,8 +341,8 @@ fn two_blocks(law: Formula, textures: [Option<f64>; 2], order: [usize; 2]) -> Mo
 #[test]
 fn the_order_of_the_sides_does_not_matter() {
     for (law, textures) in laws() {
-        let [one, other] = [[0, 1], [1, 0]]
-            .map(|order| Run::completed(two_blocks(law, textures, order)));
+        let [one, other] =
+            [[0, 1], [1, 0]].map(|order| Run::completed(two_blocks(law, textures, order)));
         for body in 0..2 {
             let error = largest_distance(one.positions(body), other.positions(body));
             assert!(error < 1e-9, "{law:?}, body {body}: {error:.1e}");
