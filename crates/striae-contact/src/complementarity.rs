@@ -20,7 +20,7 @@
 //!
 //! which is the exact one where the row is satisfied.
 
-use nalgebra::{Matrix2, Vector2, Vector3};
+use nalgebra::{Const, Matrix2, SymmetricEigen, Vector2, Vector3};
 use num_dual::DualSVec64;
 use striae_mesh::Vec3;
 use striae_surface::{
@@ -43,7 +43,8 @@ use crate::{
 /// Which iteration of an increment is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Iteration {
-    /// The first: touching nodes are closed, closed nodes stick.
+    /// The first: touching nodes are closed; closed nodes stick or, if they slipped
+    /// before, go on slipping in their direction.
     First,
     /// A later one: the state decides.
     Later,
@@ -82,6 +83,9 @@ const X_OPPOSITE: usize = 12;
 const X_PARTNER: usize = 24;
 const TRACTION: usize = 36;
 const TEXTURES: usize = 39;
+
+/// Squared mobility below which a node cannot slip in a direction.
+const IMMOBILE: f64 = 1e-12;
 
 /// Gap below which a node counts as touching at the start of an increment, over the local size.
 const TOUCHING: f64 = 1e-6;
@@ -303,31 +307,55 @@ impl<'a> NodeState<'a> {
         let varpi = friction.cap(pressure, D::from_re(0.0));
         let y = [z[0] + self.turned[0] * r, z[1] + self.turned[1] * r];
         let length = y[0].re.hypot(y[1].re);
-        let sticks = match iteration {
-            Iteration::First => !self.slipped || z1.hypot(z2) < 0.5 * varpi.re,
-            Iteration::Later => length <= varpi.re,
-        };
-        if sticks {
+        if iteration == Iteration::First {
+            return if self.slipped && z1.hypot(z2) > 0.5 * varpi.re {
+                (Status::Slip, self.continued_slip(&z, &varpi, size))
+            } else {
+                (Status::Stick, self.stick(&z, size))
+            };
+        }
+        if length <= varpi.re {
             (Status::Stick, self.stick(&z, size))
         } else {
             (Status::Slip, slip(&z, &y, &varpi))
         }
     }
 
-    /// `du = 0`, with `z = 0` in directions in which the node cannot move.
-    fn stick(&self, z: &[D; 2], size: f64) -> [TangentialRow; 2] {
+    /// Slip that goes on in the direction of `z`: `|z| = varpi` and no slip
+    /// across, or no `z` across where the node cannot move that way.
+    fn continued_slip(&self, z: &[D; 2], varpi: &D, size: f64) -> [TangentialRow; 2] {
+        let direction = Vector2::new(z[0].re, z[1].re).normalize();
+        let along = z[0] * direction.x + z[1] * direction.y - *varpi;
+        let across = |v: &[D; 2]| v[1] * direction.x - v[0] * direction.y;
+        let turned = across(&self.turned);
+        let second = if self.is_free(&turned, X_PARTNER) {
+            (Field::Stick(size), turned.re, gradient(&turned))
+        } else {
+            let z_across = across(z);
+            (Field::Traction, z_across.re, gradient(&z_across))
+        };
+        [(Field::Traction, along.re, gradient(&along)), second]
+    }
+
+    /// Squared mobility of the slip in its principal directions: eigenvalues of
+    /// the products of its derivatives by the free positions.
+    fn mobility(&self) -> SymmetricEigen<f64, Const<2>> {
         let free = [0, 1].map(|at| self.free_gradient(&self.slip[at], X_PARTNER));
         let product =
             |i: usize, j: usize| -> f64 { free[i].iter().zip(&free[j]).map(|(a, b)| a * b).sum() };
-        let gram = Matrix2::new(product(0, 0), product(0, 1), product(1, 0), product(1, 1));
+        Matrix2::new(product(0, 0), product(0, 1), product(1, 0), product(1, 1)).symmetric_eigen()
+    }
+
+    /// `du = 0`, with `z = 0` in directions in which the node cannot move.
+    fn stick(&self, z: &[D; 2], size: f64) -> [TangentialRow; 2] {
         let row = |field: Field, value: D| (field, value.re, gradient(&value));
-        let eigen = gram.symmetric_eigen();
-        if eigen.eigenvalues.min() > 1e-12 {
+        let eigen = self.mobility();
+        if eigen.eigenvalues.min() > IMMOBILE {
             return self.slip.map(|slip| row(Field::Stick(size), slip));
         }
         [0, 1].map(|at| {
             let q: Vector2<f64> = eigen.eigenvectors.column(at).into();
-            let (field, of) = if eigen.eigenvalues[at] > 1e-12 {
+            let (field, of) = if eigen.eigenvalues[at] > IMMOBILE {
                 (Field::Stick(size), &self.slip)
             } else {
                 (Field::Traction, z)
