@@ -82,7 +82,7 @@ fn figure(floor: &[SurfaceNode]) -> Figure {
             )
             .colored(Color::Black),
         );
-    let tractions = Panel::new(x(), Axis::linear("traction", "MPa"))
+    let tractions = Panel::new(x(), Axis::linear("traction", "MPa").within(0.0, 100.0))
         .with(Series::new("pressure", along(|node| node.result.pressure)))
         .with(Series::new(
             "friction",
@@ -91,7 +91,7 @@ fn figure(floor: &[SurfaceNode]) -> Figure {
         .with(
             Series::new(
                 "published start of stick",
-                Content::dashed(vec![[29.4, 0.0], [29.4, 1000.0]]),
+                Content::dashed(vec![[29.4, 0.0], [29.4, 100.0]]),
             )
             .colored(Color::Grey),
         );
