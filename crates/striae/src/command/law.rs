@@ -7,6 +7,8 @@
 //! the only textured side), and prints the axes `A`, `P` and offset `h` of the slip
 //! surface, its extremes and where friction dissipates least; see
 //! [`striae_law::friction`].
+//!
+//! Longer than other files, as the parsing of constants, the table and the figures belong together.
 
 use std::{
     io::Write,
