@@ -21,8 +21,10 @@ macro_rules! decks {
 mod measure;
 mod pad_on_incline;
 mod patch_frictionless;
+mod patch_slip;
 mod patch_stick;
 mod plate_on_rigid_plane;
+mod snake_scale;
 pub mod study;
 mod two_blocks;
 
@@ -82,6 +84,16 @@ pub const CASES: &[Case] = &[
         "pad-on-incline",
         "A pad on an incline at the limit of friction (code_aster SSNV503)",
         pad_on_incline::run
+    ),
+    case!(
+        "patch-slip",
+        "Uniform slip of an oblique parallelepiped under every friction law",
+        patch_slip::run
+    ),
+    case!(
+        "snake-scale",
+        "A scaled block dragged forwards drifts sideways (quasi-static)",
+        snake_scale::run
     ),
 ];
 
