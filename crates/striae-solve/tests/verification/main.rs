@@ -1,5 +1,6 @@
 //! Whole problems held against closed forms, invariances and each other.
 
+#[allow(dead_code, reason = "shared with the tests of textured friction")]
 mod scene;
 
 mod driver;
