@@ -75,7 +75,7 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
         (None, Some((law, constants))) => {
             let friction = deck::friction(&in_deck_words(law, constants), &format!("--{law}"))?;
             let named = Named {
-                title: law.to_owned(),
+                title: "constants".to_owned(),
                 file: law.to_owned(),
                 friction,
             };
@@ -111,12 +111,8 @@ pub struct Curve {
     pub samples: Vec<SlipSample>,
 }
 
-/// Polar panel of slip surfaces: `|tau|/varpi` over the direction of `-tau`.
-pub fn slip_surface_panel(curves: &[Curve]) -> Panel {
-    let largest = curves.iter().flat_map(|curve| &curve.samples);
-    let largest = largest.fold(0.0, |largest: f64, sample| {
-        largest.max(sample.traction.norm())
-    });
+/// Polar panel of slip surfaces up to `largest`: `|tau|/varpi` over the direction of `-tau`.
+pub fn slip_surface_panel(curves: &[Curve], largest: f64) -> Panel {
     let radius = Axis::linear("|τ| / ϖ over the direction of −τ", "").within(0.0, 1.05 * largest);
     let series = curves.iter().map(|curve| {
         let closed = curve.samples.iter().chain(curve.samples.first());
@@ -131,19 +127,32 @@ pub fn slip_surface_panel(curves: &[Curve]) -> Panel {
 
 /// Panel of the angle from slip to `-tau` over the direction of slip, in degrees.
 pub fn deviation_panel(curves: &[Curve]) -> Panel {
-    let x = Axis::linear("direction of slip", "°").within(-180.0, 180.0);
     let y = Axis::linear("angle from slip to −τ", "°");
     let series = curves.iter().map(|curve| {
-        let angle = |sample: &SlipSample| sample.slip.y.atan2(sample.slip.x).to_degrees();
-        let mut points: Vec<[f64; 2]> = curve
-            .samples
-            .iter()
-            .map(|sample| [angle(sample), sample.deviation.to_degrees()])
-            .collect();
-        points.sort_by(|one, other| one[0].total_cmp(&other[0]));
-        Series::new(&curve.name, Content::line(points))
+        let deviation = |sample: &SlipSample| sample.deviation.to_degrees();
+        Series::new(&curve.name, over_slip(&curve.samples, deviation))
     });
-    series.fold(Panel::new(x, y), Panel::with)
+    series.fold(Panel::new(slip_axis(), y), Panel::with)
+}
+
+/// Axis of the direction of slip, in degrees from `e`.
+pub fn slip_axis() -> Axis {
+    Axis::linear("direction of slip from e", "°").within(-180.0, 180.0)
+}
+
+/// A value of samples over their direction of slip, as a line along [`slip_axis`].
+pub fn over_slip(samples: &[SlipSample], value: impl Fn(&SlipSample) -> f64) -> Content {
+    let angle = |sample: &SlipSample| sample.slip.y.atan2(sample.slip.x).to_degrees();
+    let points = samples.iter().map(|sample| [angle(sample), value(sample)]);
+    let mut points: Vec<[f64; 2]> = points.collect();
+    points.sort_by(|one, other| one[0].total_cmp(&other[0]));
+    // Half a turn is one end of the line; it is the other one, too.
+    if let Some(&[end, value]) = points.last()
+        && end > 180.0 - 1e-6
+    {
+        points.insert(0, [end - 360.0, value]);
+    }
+    Content::line(points)
 }
 
 impl Constants {
@@ -253,8 +262,10 @@ fn figure(friction: &Friction, analyses: &[Analysis]) -> Figure {
         samples: analysis.samples.clone(),
     };
     let curves: Vec<Curve> = analyses.iter().map(curve).collect();
+    let sizes = analyses.iter().map(|analysis| analysis.extremes.traction);
+    let largest = sizes.fold(0.0, f64::max);
     let panels = vec![
-        slip_surface_panel(&curves).titled("slip surface"),
+        slip_surface_panel(&curves, largest).titled("slip surface"),
         deviation_panel(&curves).titled("slip and traction"),
     ];
     Figure::new(Width::Page, panels)
@@ -293,7 +304,9 @@ fn verdict(analyses: &[Analysis]) -> String {
     match &first.least_over_textures {
         Some(least) => format!(
             "  admissible: -tau . d / varpi is at least {:.6} over all textures and slips (at I0 = {:.6}, I1 = {:.6})",
-            least.value, least.i0, least.i1
+            least.value,
+            least.i0 + 0.0,
+            least.i1 + 0.0
         ),
         None => format!(
             "  admissible: -tau . d / varpi is at least {:.6} over all slips (at {:.3} degrees from e)",
