@@ -187,7 +187,7 @@ fn of_model(model: &Model) -> Vec<Named> {
     let first = model.pairs.iter().map(|pair| Named {
         title: format!("pair `{}`", pair.name),
         file: format!("law-{}", pair.name),
-        friction: pair.friction.clone(),
+        friction: pair.friction,
     });
     let later = model.steps.iter().flat_map(|step| {
         step.frictions.iter().map(|(pair, friction)| {
@@ -195,7 +195,7 @@ fn of_model(model: &Model) -> Vec<Named> {
             Named {
                 title: format!("pair `{pair}` from step `{}`", step.name),
                 file: format!("law-{pair}-{}", step.name),
-                friction: friction.clone(),
+                friction: *friction,
             }
         })
     });
