@@ -441,7 +441,7 @@ fn textures() {
             r#"b = { rigid = "floor", texture = { points = [{ at = [0, 0, 0], direction = [1, 0, 0] }] } }"#,
         )],
         &[
-            "21:34: rigid surface `floor` is a plane without nodes, so its texture cannot be given at points",
+            "21:34: rigid surface `floor` is a plane without nodes, so its texture cannot be given at points or nodes",
             "26:1: body `upper` is in no contact pair and 3 rigid motions of it are left free in step `press`; prescribe displacements that hold it",
         ],
     );

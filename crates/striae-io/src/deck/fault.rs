@@ -295,13 +295,21 @@ pub enum FaultKind {
         /// How many do.
         found: usize,
     },
-    /// A texture given at places of a plane.
+    /// A texture given at nodes of a plane.
     #[error(
-        "rigid surface `{surface}` is a plane without nodes, so its texture cannot be given at points"
+        "rigid surface `{surface}` is a plane without nodes, so its texture cannot be given at points or nodes"
     )]
-    PointsOnPlane {
+    NodesOnPlane {
         /// The rigid surface.
         surface: String,
+    },
+    /// A texture that cannot be read from its file.
+    #[error("the texture of {owner} cannot be read: {cause}")]
+    NodalTexture {
+        /// The body or rigid surface.
+        owner: String,
+        /// What its reader says.
+        cause: String,
     },
     /// A direction of no length.
     #[error("{place} must not be the zero vector")]

@@ -23,11 +23,16 @@ use striae_mesh::{Mesh, Vec3};
 
 /// The mesh of a body.
 pub(super) fn body(text: &str) -> Result<Mesh, MeshFileFault> {
+    collected(text)?.mesh()
+}
+
+/// What the file says of the mesh of a body.
+pub(super) fn collected(text: &str) -> Result<Collected, MeshFileFault> {
     let mut reader = Reader::default();
     for keyword in keywords(text)? {
         reader.read(&keyword)?;
     }
-    reader.finish()
+    Ok(reader.finish())
 }
 
 #[derive(Default)]
@@ -216,7 +221,7 @@ impl Reader {
         Ok(())
     }
 
-    fn finish(mut self) -> Result<Mesh, MeshFileFault> {
+    fn finish(mut self) -> Collected {
         for (name, indices) in self.surfaces.into_sets() {
             let faces = indices
                 .into_iter()
@@ -225,7 +230,7 @@ impl Reader {
         }
         self.mesh.node_sets = self.node_sets.into_sets();
         self.mesh.element_sets = self.element_sets.into_sets();
-        self.mesh.mesh()
+        self.mesh
     }
 }
 

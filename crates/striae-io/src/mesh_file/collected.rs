@@ -61,6 +61,11 @@ impl Collected {
         Ok(mesh)
     }
 
+    /// Numbers of the nodes that elements use, in the order of their ids.
+    pub(super) fn node_numbers(&self) -> Result<Vec<u64>, MeshFileFault> {
+        Ok(self.node_ids()?.into_keys().collect())
+    }
+
     /// New ids of the nodes that elements use, in ascending order of their numbers.
     fn node_ids(&self) -> Result<BTreeMap<u64, NodeId>, MeshFileFault> {
         let mut ids = BTreeMap::new();

@@ -54,6 +54,20 @@ pub enum MeshFileFault {
         /// What to do about it.
         remedy: &'static str,
     },
+    /// Node data that are not there, or one of several that are.
+    #[error("{}", node_data(name, known))]
+    NodeData {
+        /// The name asked for.
+        name: Option<String>,
+        /// Names of all node data of the file.
+        known: Vec<String>,
+    },
+    /// A node without a vector.
+    #[error("it gives no vector to node {number} of the mesh")]
+    NoVector {
+        /// Number of the node in the file of the mesh.
+        number: u64,
+    },
     /// The mesh is inconsistent.
     #[error(transparent)]
     Mesh(#[from] MeshError),
@@ -79,11 +93,24 @@ impl MeshFileFault {
     }
 
     /// The fault together with its file.
-    pub(super) fn of(self, path: &Path) -> MeshFileError {
+    pub(crate) fn of(self, path: &Path) -> MeshFileError {
         MeshFileError {
             path: path.to_owned(),
             fault: self,
         }
+    }
+}
+
+fn node_data(name: &Option<String>, known: &[String]) -> String {
+    let named: Vec<String> = known.iter().map(|name| format!("`{name}`")).collect();
+    let known = match known.len() {
+        0 => "there is none".to_owned(),
+        _ => format!("there is {}", named.join(", ")),
+    };
+    match name {
+        Some(name) => format!("expected node data `{name}` once; {known}"),
+        None if named.is_empty() => format!("expected node data; {known}"),
+        None => format!("expected the name of one of the node data; {known}"),
     }
 }
 

@@ -45,6 +45,11 @@ impl<'a> Lines<'a> {
         None
     }
 
+    /// Number of the last line read, from 1.
+    pub(super) fn last(&self) -> usize {
+        self.last
+    }
+
     /// The next line, a fault at the end of the file.
     pub(super) fn expect(&mut self, expected: &str) -> Result<Line<'a>, MeshFileFault> {
         let line = self.next();

@@ -5,6 +5,7 @@
 //! | `.msh` | Gmsh, ASCII, versions 2 and 4.1 | hexahedra; physical volumes as element sets, surfaces as facet and node sets, curves and points as node sets |
 //! | `.inp` | Abaqus | `C3D8` elements of any variant, `*NSET`, `*ELSET`, `*SURFACE` |
 //! | `.stl` | STL, ASCII and binary | triangles of a rigid surface |
+//! | `.csv` | lines `node,x,y,z` | vectors at nodes; so do `$NodeData` of three components in `.msh` |
 //!
 //! Nodes that no element uses are left out, also of sets; sets that become
 //! empty vanish. Each facet set gives its name to the set of its nodes unless the
@@ -19,11 +20,13 @@ mod collected;
 mod error;
 mod gmsh;
 mod lines;
+mod node_vectors;
 mod stl;
 #[cfg(test)]
 mod tests;
 
 pub use error::{MeshFileError, MeshFileFault};
+pub use node_vectors::NodeVectors;
 
 use std::path::Path;
 use striae_mesh::{Mesh, NodeId, Vec3};
@@ -48,9 +51,7 @@ pub fn read(path: impl AsRef<Path>) -> Result<Mesh, MeshFileError> {
     match ending(path).as_str() {
         "msh" => text(path).and_then(|text| gmsh::body(&text)),
         "inp" => text(path).and_then(|text| abaqus::body(&text)),
-        _ => Err(MeshFileFault::UnknownEnding {
-            expected: ".msh (Gmsh) or .inp (Abaqus)",
-        }),
+        _ => Err(MeshFileFault::UnknownEnding { expected: BODY }),
     }
     .map_err(|fault| fault.of(path))
 }
@@ -75,6 +76,64 @@ pub fn read_rigid_surface(path: impl AsRef<Path>) -> Result<RigidSurfaceMesh, Me
     }
     .map_err(|fault| fault.of(path))
 }
+
+/// Reads vectors at nodes from a `.msh` or `.csv` file.
+///
+/// Of the node data of a Gmsh file those called `name` are read, or the only ones.
+/// A list has a line `node,x,y,z` for every node, below these words; its name is
+/// not looked at.
+///
+/// # Errors
+/// [`MeshFileError`] names the file and, where there is one, the line.
+pub fn read_node_vectors(
+    path: impl AsRef<Path>,
+    name: Option<&str>,
+) -> Result<NodeVectors, MeshFileError> {
+    let path = path.as_ref();
+    match ending(path).as_str() {
+        "msh" => text(path).and_then(|text| gmsh::node_data(&text, name)),
+        "csv" => text(path).and_then(|text| node_vectors::list(&text)),
+        _ => Err(MeshFileFault::UnknownEnding {
+            expected: ".msh (Gmsh) or .csv",
+        }),
+    }
+    .map_err(|fault| fault.of(path))
+}
+
+/// Numbers in the file of the nodes of what [`read`] returns, in the order of their ids.
+///
+/// # Errors
+/// As [`read`].
+pub fn node_numbers(path: impl AsRef<Path>) -> Result<Vec<u64>, MeshFileError> {
+    let path = path.as_ref();
+    let collected = match ending(path).as_str() {
+        "msh" => text(path).and_then(|text| gmsh::collected(&text)),
+        "inp" => text(path).and_then(|text| abaqus::collected(&text)),
+        _ => Err(MeshFileFault::UnknownEnding { expected: BODY }),
+    };
+    collected
+        .and_then(|collected| collected.node_numbers())
+        .map_err(|fault| fault.of(path))
+}
+
+/// Numbers in the file of the nodes of what [`read_rigid_surface`] returns, in the
+/// order of their ids; the nodes of an STL file have none and are counted from 0.
+///
+/// # Errors
+/// As [`read_rigid_surface`].
+pub fn rigid_node_numbers(path: impl AsRef<Path>) -> Result<Vec<u64>, MeshFileError> {
+    let path = path.as_ref();
+    match ending(path).as_str() {
+        "msh" => text(path)
+            .and_then(|text| gmsh::numbered_rigid_surface(&text))
+            .map(|(_, numbers)| numbers)
+            .map_err(|fault| fault.of(path)),
+        _ => read_rigid_surface(path).map(|surface| (0..surface.positions.len() as u64).collect()),
+    }
+}
+
+/// Endings of meshes of bodies.
+const BODY: &str = ".msh (Gmsh) or .inp (Abaqus)";
 
 fn ending(path: &Path) -> String {
     path.extension()

@@ -2,8 +2,9 @@
 //! in eight increments, by 5 % of the edge an increment.
 
 use crate::{
+    dissipation::dissipates,
     oblique::uniform,
-    scene::{Places, Run, block, body, dissipates, increments, model, plane, rubber, step},
+    scene::{Places, Run, block, body, increments, model, plane, rubber, step},
 };
 use striae_law::friction::Friction;
 use striae_mesh::{Mesh, generate::CappedBlock};

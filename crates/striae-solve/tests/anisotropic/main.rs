@@ -1,6 +1,7 @@
 //! Anisotropic friction between textured surfaces, held against closed forms,
 //! invariances and finite differences.
 
+mod dissipation;
 mod oblique;
 #[path = "../verification/scene.rs"]
 #[allow(dead_code, reason = "shared with another test program")]

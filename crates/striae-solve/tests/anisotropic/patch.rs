@@ -1,8 +1,9 @@
 //! Uniform slip and homogeneous stress of an oblique parallelepiped, for all laws.
 
 use crate::{
+    dissipation::dissipates,
     oblique::{Formula, Oblique, Sliding, irregular_block},
-    scene::{Run, dissipates, largest_distance},
+    scene::{Run, largest_distance},
 };
 use nalgebra::Vector2;
 use striae_contact::unknowns::Status;

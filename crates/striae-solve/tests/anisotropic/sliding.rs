@@ -1,11 +1,9 @@
 //! Steady sliding on a rigid textured plane: resultants, invariances.
 
 use crate::{
+    dissipation::dissipates,
     oblique::{Formula, Oblique, along, irregular_block, uniform},
-    scene::{
-        Places, Run, block, body, dissipates, increments, largest_distance, model, plane, rubber,
-        step,
-    },
+    scene::{Places, Run, block, body, increments, largest_distance, model, plane, rubber, step},
 };
 use nalgebra::{Matrix2x4, Vector2};
 use striae_contact::unknowns::Status;

@@ -158,6 +158,9 @@ fn compared(case: &Case, study: &mut Study) -> Result<Vec<Comparison>, Failure> 
 
 /// How Newton's method did, a line a deck.
 fn runs(study: &Study) -> String {
+    if study.summaries.is_empty() {
+        return String::new();
+    }
     let names = study.summaries.iter().map(|(name, _)| name.len());
     let width = names.max().unwrap_or(0).max("deck".len());
     let mut text = format!(

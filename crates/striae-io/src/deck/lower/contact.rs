@@ -8,7 +8,7 @@ use crate::deck::{
     raw,
     read::At,
 };
-use std::collections::BTreeSet;
+use std::{collections::BTreeSet, path::Path};
 use striae_law::friction::Friction;
 use striae_mesh::{Face, Mesh, NodeId};
 use striae_solve::model::{Balance, Pair, RigidId, RigidSurface, Side};
@@ -20,6 +20,10 @@ pub(super) struct Surfaces<'r> {
     pub(super) rigid_names: &'r Names,
     pub(super) rigid: &'r [Option<RigidSurface>],
     pub(super) read: Read,
+    /// The deck as written, whose meshes know the numbers of their nodes.
+    pub(super) written: &'r raw::Simulation,
+    /// Folder that paths are relative to.
+    pub(super) base: &'r Path,
 }
 
 /// The pairs; `None` for the faulty ones. A rigid surface becomes side `b`.
@@ -105,25 +109,33 @@ fn lower_side(
     surfaces: &Surfaces<'_>,
     faults: &mut FaultList<'_>,
 ) -> Option<(Side, Option<Paint>)> {
+    let side = lower_surface(raw, surfaces, faults);
     let texture = match &raw.texture {
-        Some(raw) => texture::paint(&raw.value, faults).map(Some),
+        Some(raw) => texture::paint(&raw.value, side.as_ref(), surfaces, faults).map(Some),
         None => Some(None),
     };
-    let side = match raw.surface.as_ref()? {
+    Some((side?, texture?))
+}
+
+fn lower_surface(
+    raw: &raw::Side,
+    surfaces: &Surfaces<'_>,
+    faults: &mut FaultList<'_>,
+) -> Option<Side> {
+    match raw.surface.as_ref()? {
         raw::SideSurface::Deformable(side) => {
             let body = surfaces.bodies.find(side.body.as_ref(), faults)?;
             let faces = surfaces.bodies.faces(body, side.facets.as_ref(), faults)?;
-            Side::Deformable { body, faces }
+            Some(Side::Deformable { body, faces })
         }
         raw::SideSurface::Rigid(side) => {
             let rigid = surfaces.rigid_names.find(side.rigid.as_ref()?, faults)?;
             if let Some(texture) = &raw.texture {
                 texture::check_plane(surfaces.rigid[rigid].as_ref(), texture, faults);
             }
-            Side::Rigid(RigidId(rigid))
+            Some(Side::Rigid(RigidId(rigid)))
         }
-    };
-    Some((side, texture?))
+    }
 }
 
 fn no_self_contact(

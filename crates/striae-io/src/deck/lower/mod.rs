@@ -9,6 +9,7 @@ mod friction;
 mod generator;
 mod hold;
 mod mesh;
+mod nodal;
 mod sets;
 mod step;
 mod texture;
@@ -71,6 +72,8 @@ pub(super) fn deck(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_
         rigid_names: &rigid_names,
         rigid: &rigid_surfaces,
         read,
+        written: raw,
+        base,
     };
     let pairs = contact::pairs(list(&raw.pair), &surfaces, faults);
     let curves = curve::Curves::new(list(&raw.curve), faults);

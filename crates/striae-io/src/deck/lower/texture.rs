@@ -1,6 +1,6 @@
 //! Textures of the sides of a pair, and whether friction finds those it needs.
 
-use super::generator::nonzero;
+use super::{contact::Surfaces, generator::nonzero, nodal};
 use crate::deck::{
     fault::FaultKind,
     faults::{FaultList, Span},
@@ -10,11 +10,16 @@ use crate::deck::{
 };
 use striae_law::friction::{Friction, RequiredTextures};
 use striae_mesh::Vec3;
-use striae_solve::model::{RigidShape, RigidSurface};
+use striae_solve::model::{RigidShape, RigidSurface, Side};
 use striae_surface::texture::{Axis, Field, Lines, Paint};
 
-/// The paint of a side, `None` after its faults have been noted.
-pub(super) fn paint(raw: &raw::Texture, faults: &mut FaultList<'_>) -> Option<Paint> {
+/// The paint of a side, `None` after its faults or those of the side have been noted.
+pub(super) fn paint(
+    raw: &raw::Texture,
+    side: Option<&Side>,
+    surfaces: &Surfaces<'_>,
+    faults: &mut FaultList<'_>,
+) -> Option<Paint> {
     let (lines, turn) = match raw {
         raw::Texture::Uniform(raw) => {
             let direction = nonzero(raw.uniform.as_ref()?, "the direction of a texture", faults)?;
@@ -30,6 +35,7 @@ pub(super) fn paint(raw: &raw::Texture, faults: &mut FaultList<'_>) -> Option<Pa
             &raw.turn,
         ),
         raw::Texture::Points(raw) => return points(raw, faults),
+        raw::Texture::Nodal(raw) => return nodal::paint(raw, side?, surfaces, faults),
     };
     Some(Paint::Field(Field {
         lines,
@@ -61,7 +67,7 @@ pub(super) fn check_friction(
     );
 }
 
-/// Notes a texture given at places on a plane, which has no nodes.
+/// Notes a texture given at points or nodes of a plane, which has no nodes.
 pub(super) fn check_plane(
     surface: Option<&RigidSurface>,
     raw: &At<raw::Texture>,
@@ -74,10 +80,10 @@ pub(super) fn check_plane(
     else {
         return;
     };
-    if matches!(raw.value, raw::Texture::Points(_)) {
+    if matches!(raw.value, raw::Texture::Points(_) | raw::Texture::Nodal(_)) {
         faults.push(
             &raw.span,
-            FaultKind::PointsOnPlane {
+            FaultKind::NodesOnPlane {
                 surface: name.clone(),
             },
         );

@@ -3,7 +3,7 @@
 use crate::deck::{
     declare::{either, table},
     read::At,
-    value::{Number, Positive},
+    value::{Number, Positive, Text},
 };
 
 either! {
@@ -14,6 +14,7 @@ either! {
         Axial(AxialTexture),
         Radial(RadialTexture),
         Points(PointTexture),
+        Nodal(NodalTexture),
     }
 }
 
@@ -64,6 +65,16 @@ table! {
         required points: Vec<At<PaintedPoint>>,
         /// Width of the interpolation. Default: a quarter of the largest distance over the surface.
         optional width: Positive,
+    }
+}
+
+table! {
+    /// A direction at every node of the surface, from a file.
+    NodalTexture {
+        /// Path relative to the deck of a Gmsh file (`.msh`) with `$NodeData` of three components, or of a list (`.csv`) with lines `node,x,y,z`. Nodes have the numbers of the file of the mesh; those of other meshes are counted from 0.
+        required nodal: Text,
+        /// Name of the node data of a Gmsh file. Default: the only ones.
+        optional name: Text,
     }
 }
 

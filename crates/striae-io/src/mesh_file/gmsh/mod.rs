@@ -5,6 +5,7 @@
 //! Gmsh numbers the corners of quadrangles and hexahedra as VTK does.
 
 mod kind;
+mod node_data;
 mod version2;
 mod version4;
 
@@ -12,11 +13,17 @@ use super::collected::{Collected, FileFace, Hexahedron};
 use super::lines::{Line, Lines};
 use super::{MeshFileFault, RigidSurfaceMesh};
 use kind::Kind;
+pub(super) use node_data::node_data;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use striae_mesh::{Mesh, NodeId, Vec3};
 
 /// The mesh of a body.
 pub(super) fn body(text: &str) -> Result<Mesh, MeshFileFault> {
+    collected(text)?.mesh()
+}
+
+/// What the file says of the mesh of a body.
+pub(super) fn collected(text: &str) -> Result<Collected, MeshFileFault> {
     let file = File::read(text)?;
     let mut mesh = Collected::default();
     let mut known = HashMap::new();
@@ -56,13 +63,21 @@ pub(super) fn body(text: &str) -> Result<Mesh, MeshFileFault> {
         }
     }
     mesh.nodes = file.nodes;
-    mesh.mesh()
+    Ok(mesh)
 }
 
 /// The triangles and quadrangles of a rigid surface.
 pub(super) fn rigid_surface(text: &str) -> Result<RigidSurfaceMesh, MeshFileFault> {
+    Ok(numbered_rigid_surface(text)?.0)
+}
+
+/// The same, and the number of every node in the file.
+pub(super) fn numbered_rigid_surface(
+    text: &str,
+) -> Result<(RigidSurfaceMesh, Vec<u64>), MeshFileFault> {
     let file = File::read(text)?;
     let mut ids: BTreeMap<u64, NodeId> = BTreeMap::new();
+    let mut numbers = Vec::new();
     let mut positions = Vec::new();
     let mut facets = Vec::new();
     let mut known = HashSet::new();
@@ -78,6 +93,7 @@ pub(super) fn rigid_surface(text: &str) -> Result<RigidSurfaceMesh, MeshFileFaul
             })?;
             *node = *ids.entry(number).or_insert_with(|| {
                 positions.push(*position);
+                numbers.push(number);
                 NodeId::new(positions.len() - 1)
             });
         }
@@ -89,7 +105,7 @@ pub(super) fn rigid_surface(text: &str) -> Result<RigidSurfaceMesh, MeshFileFaul
             remedy: "mesh the surfaces (gmsh -2) and save them",
         });
     }
-    Ok(RigidSurfaceMesh { positions, facets })
+    Ok((RigidSurfaceMesh { positions, facets }, numbers))
 }
 
 /// The content of a file.

@@ -2,6 +2,7 @@
 
 mod abaqus;
 mod gmsh;
+mod node_vectors;
 mod stl;
 mod written;
 
