@@ -73,9 +73,10 @@ pub fn covered_points<D: Real>(
     points
 }
 
-/// Distance from an edge of the window, over its length, that counts as on it:
-/// where edges coincide but for round-off, their crossing has no derivative.
-const ON_EDGE: f64 = 1e-7;
+/// Change of the distance from an edge of the window, over its length, below
+/// which a side runs along it and is not cut: the place of the crossing would be
+/// round-off, and either end is as good.
+const ALONG: f64 = 1e-10;
 
 /// The part of the convex polygon `subject` inside the convex polygon `window`,
 /// both counter-clockwise.
@@ -84,15 +85,16 @@ fn clipped<D: Real>(subject: &[Vector2<D>], window: &[Vector2<D>]) -> Vec<Vector
     for (at, start) in window.iter().enumerate() {
         let edge = window[(at + 1) % window.len()] - start;
         let signed = |p: &Vector2<D>| edge.x * (p.y - start.y) - edge.y * (p.x - start.x);
-        let outside = -ON_EDGE * (edge.x.re() * edge.x.re() + edge.y.re() * edge.y.re());
+        let along = ALONG * (edge.x.re() * edge.x.re() + edge.y.re() * edge.y.re());
         let mut inside = Vec::with_capacity(polygon.len() + 1);
         for (index, point) in polygon.iter().enumerate() {
             let next = &polygon[(index + 1) % polygon.len()];
             let (d, d_next) = (signed(point), signed(next));
-            if d.re() >= outside {
+            if d.re() >= 0.0 {
                 inside.push(*point);
             }
-            if (d.re() >= outside) != (d_next.re() >= outside) {
+            let crosses = (d.re() >= 0.0) != (d_next.re() >= 0.0);
+            if crosses && (d.re() - d_next.re()).abs() > along {
                 let share = d / (d - d_next);
                 inside.push(point + (next - point) * share);
             }
@@ -177,6 +179,30 @@ mod tests {
         assert!((whole - exact).abs() < 1e-14);
         assert!((half(-5.0, 0.4) + half(0.4, 0.7) + half(0.7, 5.0) - whole).abs() < 1e-14);
         assert_eq!(half(2.0, 5.0), 0.0);
+    }
+
+    #[test]
+    fn the_area_is_continuous_where_outlines_nearly_coincide() {
+        let facet = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        let facet = facet.map(|[x, y]| V::new(x, y, 0.0));
+        for shift in (5..16).map(|digits| 10_f64.powi(-digits)) {
+            for [left, right] in [[-1.0, -1.0], [-0.5, -2.0], [-2.0, 0.5], [0.9, -1.1]] {
+                let top = |x: f64| 1.0 + shift * (left + (right - left) * x);
+                let at = |x: f64, y: f64| V::new(x, y, 0.0);
+                let cover = |from: f64, to: f64| {
+                    let corners = [at(from, top(from)), at(to, top(to)), at(to, -1.0)];
+                    area(
+                        &facet,
+                        &[corners[0], corners[1], corners[2], at(from, -1.0)],
+                    )
+                };
+                let parts = cover(-1.0, 0.3) + cover(0.3, 0.6) + cover(0.6, 2.0);
+                assert!(
+                    (parts - 1.0).abs() <= 2.0 * shift + 1e-12,
+                    "{shift}: {parts}"
+                );
+            }
+        }
     }
 
     #[test]
