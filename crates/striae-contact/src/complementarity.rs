@@ -2,7 +2,7 @@
 //!
 //! Unknowns `p` and `z = z1 t1 + z2 t2`. With the gap `g`, the slip
 //! `du = (I - n n)(x_I - xbar)` since the last converged configuration,
-//! `varpi = varpi(max(p, 0))` and `y = z + r_t K^-1 du`:
+//! `varpi = varpi(max(p, 0), |du|/dt)` and `y = z + r_t K^-1 du`:
 //!
 //! ```text
 //! p - r_n g > 0 : g = 0    else p = 0, z = 0
@@ -34,6 +34,7 @@ use crate::{
     frame::{FOLLOW, Frame, LostProjection},
     projection::{Margin, differentiated, differentiated_rigid},
     selection::Partner,
+    slip_rate::rate,
     term::{Field, Lanes, LocalTerm, Row, Source, gradient, variable, variable3, variables3},
     texture::NodeTextures,
     traction::{on_lanes, push_textures},
@@ -304,7 +305,7 @@ impl<'a> NodeState<'a> {
                 z.map(|z| (Field::Traction, z.re, gradient(&z))),
             );
         }
-        let varpi = friction.cap(pressure, D::from_re(0.0));
+        let varpi = friction.cap(pressure, rate(&self.slip) / configuration.elapsed);
         let y = [z[0] + self.turned[0] * r, z[1] + self.turned[1] * r];
         let length = y[0].re.hypot(y[1].re);
         if iteration == Iteration::First {

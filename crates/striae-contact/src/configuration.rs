@@ -20,6 +20,8 @@ pub struct Configuration<'a> {
     pub sides: [Option<Snapshot<'a>>; 2],
     /// Displacement of a rigid side `b` from its reference configuration.
     pub rigid_displacement: Vec3,
+    /// Time since the last converged configuration; infinite where it does not matter.
+    pub elapsed: f64,
 }
 
 /// A surface of facets in one configuration.
@@ -56,7 +58,13 @@ impl<'a> Configuration<'a> {
             pair,
             sides: [snapshot(0, a), snapshot(1, b)],
             rigid_displacement,
+            elapsed: f64::INFINITY,
         }
+    }
+
+    /// The same configuration reached in the time `elapsed`.
+    pub fn lasting(self, elapsed: f64) -> Self {
+        Self { elapsed, ..self }
     }
 
     /// The snapshot of a side that has facets.

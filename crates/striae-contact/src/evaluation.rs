@@ -14,9 +14,10 @@ use crate::{
     frame::{LostProjection, Tracked, frames},
     projection::Margin,
     selection::{Partner, Role, Selection},
+    slip_rate::slip_velocities,
     term::{Field, LocalTerm},
     texture::{CollapsedTexture, own, textures},
-    traction::nodal_tractions,
+    traction::{Surroundings, nodal_tractions},
     transfer::{Fields, extended_rows, traction_rows},
     unknowns::{NodeResult, Status, Tractions},
 };
@@ -68,7 +69,13 @@ pub fn evaluate(
 ) -> Result<Evaluation, EvaluationError> {
     let frames = frames(configuration, selection)?;
     let textures = textures(configuration, selection, &frames)?;
-    let tau = nodal_tractions(configuration, selection, &frames, &textures, tractions);
+    let velocities = slip_velocities(configuration, selection, &frames);
+    let surroundings = Surroundings {
+        frames: &frames,
+        textures: &textures,
+        velocities: &velocities,
+    };
+    let tau = nodal_tractions(configuration, selection, &surroundings, tractions);
     let fields = Fields {
         configuration,
         selection,
@@ -161,7 +168,8 @@ impl Evaluation {
                 if let Some((other, corner)) = source {
                     let kinematic =
                         matches!(selection.roles[other][corner as usize], Role::Kinematic(_));
-                    let cap = configuration.pair.friction.cap(result.pressure, 0.0);
+                    let rate = result.slip.norm() / configuration.elapsed;
+                    let cap = configuration.pair.friction.cap(result.pressure, rate);
                     result.status = match known[other][corner as usize] {
                         _ if result.pressure <= 0.0 => Status::Open,
                         status if kinematic => status,

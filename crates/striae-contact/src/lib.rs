@@ -27,6 +27,7 @@ pub mod projection;
 pub mod quadrature;
 pub mod search;
 pub mod selection;
+pub mod slip_rate;
 pub mod term;
 pub mod texture;
 pub mod traction;

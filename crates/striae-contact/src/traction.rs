@@ -1,6 +1,6 @@
 //! Nodal friction tractions `tau` from the unknowns, with their derivatives.
 //!
-//! At kinematic nodes `tau = -(L z + varpi eta)`, elsewhere the unknowns are the
+//! At kinematic nodes `tau = -(L z + varpi eta)` with `varpi` at the present slip rate, elsewhere the unknowns are the
 //! components of `tau` itself.
 
 use nalgebra::Vector3;
@@ -13,6 +13,7 @@ use crate::{
     configuration::Configuration,
     frame::{Frame, Frames, Tracked},
     selection::{Role, Selection},
+    slip_rate::{SlipVelocities, rate},
     term::{Lanes, Source, jacobian, variable, variable3},
     texture::{NodeTextures, Textures},
     unknowns::Tractions,
@@ -21,22 +22,33 @@ use crate::{
 /// Nodal friction tractions by side; zero at idle nodes.
 pub type NodalTractions = [Vec<Tracked>; 2];
 
+/// What tractions depend on at every node.
+#[derive(Clone, Copy, Debug)]
+pub struct Surroundings<'a> {
+    /// Nodal frames.
+    pub frames: &'a Frames,
+    /// Textures of both sides.
+    pub textures: &'a Textures,
+    /// Slip velocities.
+    pub velocities: &'a SlipVelocities,
+}
+
 /// Friction tractions of all nodes.
 pub fn nodal_tractions(
     configuration: &Configuration,
     selection: &Selection,
-    frames: &Frames,
-    textures: &Textures,
+    surroundings: &Surroundings,
     tractions: &Tractions,
 ) -> NodalTractions {
     [0, 1].map(|side| {
         (0..selection.roles[side].len())
-            .map(|node| match &frames[side][node] {
+            .map(|node| match &surroundings.frames[side][node] {
                 Some(frame) => nodal_traction(
                     configuration,
                     &selection.roles[side][node],
                     frame,
-                    &textures[side][node],
+                    &surroundings.textures[side][node],
+                    &surroundings.velocities[side][node],
                     configuration.pair.numbering().traction(side, node as u32),
                     tractions.nodes[side][node],
                 ),
@@ -51,10 +63,11 @@ fn nodal_traction(
     role: &Role,
     frame: &Frame,
     textures: &NodeTextures,
+    velocity: &Tracked,
     first: u32,
     unknowns: [f64; 3],
 ) -> Tracked {
-    type D = DualSVec64<18>;
+    type D = DualSVec64<21>;
     let t: [Vector3<D>; 2] = [
         variable3(&frame.t[0].value, 3),
         variable3(&frame.t[1].value, 6),
@@ -64,7 +77,8 @@ fn nodal_traction(
         let friction = &configuration.pair.friction;
         let pressure: D = variable(unknowns[0], 0);
         let kernel = friction.kernel(&variable3(&frame.n.value, 9), &on_lanes(textures, 12));
-        kernel.traction(friction.cap(pressure, D::from_re(0.0)), &vector)
+        let velocity: Vector3<D> = variable3(&velocity.value, 18);
+        kernel.traction(friction.cap(pressure, rate(velocity.as_slice())), &vector)
     } else {
         vector
     };
@@ -74,6 +88,7 @@ fn nodal_traction(
     lanes.push(Source::Vector(&frame.t[1].jacobian));
     lanes.push(Source::Vector(&frame.n.jacobian));
     push_textures(&mut lanes, textures);
+    lanes.push(Source::Vector(&velocity.jacobian));
     Tracked {
         value: tau.map(|component| component.re),
         jacobian: jacobian(&lanes, &tau),

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! DIR/history.csv           a row an increment
-//! DIR/bodies.pvd            displacement, Cauchy stress, von Mises stress
+//! DIR/bodies.pvd            displacement, velocity in dynamic steps, Cauchy stress, von Mises stress
 //! DIR/contact.pvd           gap, pressure, tractions, slip, normal, texture `s`,
 //!                           structural vector `a = n x s`, status, role
 //! DIR/fields/*.vtu          what the collections list
@@ -25,7 +25,7 @@ use striae_solve::{
     newton::Increment,
     outcome::Ending,
     problem::Problem,
-    report::{PairReport, pairs, reactions},
+    report::{PairReport, bodies, pairs, reactions},
     state::State,
 };
 
@@ -159,10 +159,16 @@ impl Recorder {
         add("time", state.time);
         add("iterations", increment.iterations.len() as f64);
         add("cutbacks", self.cut_backs as f64);
+        add("energy.kinetic", state.energies.kinetic);
         add("energy.strain", state.energies.strain);
         add("energy.external", state.energies.external);
-        add("energy.contact", state.energies.contact);
+        add("energy.friction", state.energies.friction);
+        add("energy.numerical", state.energies.numerical);
         add("energy.imbalance", state.energies.imbalance());
+        for body in bodies(problem, state) {
+            add_vector(&mut row, &format!("centre.{}", body.name), &body.centre);
+            add_vector(&mut row, &format!("velocity.{}", body.name), &body.velocity);
+        }
         for report in pairs(problem, state) {
             add_pair(&mut row, &report);
         }
@@ -252,6 +258,12 @@ fn body_grid<'a>(problem: &'a Problem, state: &'a State, body: usize) -> Grid<'a
         "displacement",
         Values::Vectors(displacement.collect()),
     )];
+    let range = problem.first_node[body]..problem.first_node[body + 1];
+    let velocities = &state.velocities[range];
+    if velocities.iter().any(|velocity| *velocity != Vec3::zeros()) {
+        let velocities = Values::Vectors(velocities.to_vec());
+        point_arrays.push(Array::new("velocity", velocities));
+    }
     let stress = nodal_cauchy_stress(
         &model.mesh,
         &problem.elements[body],

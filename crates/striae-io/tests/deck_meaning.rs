@@ -34,6 +34,48 @@ fn constants() {
 }
 
 #[test]
+fn inertia() {
+    misstated(
+        "velocity without inertia",
+        &[(
+            "duration = 2.0\n",
+            "duration = 2.0\nvelocity = [{ body = \"upper\", vector = [1, 0, 0] }]\n",
+        )],
+        &[
+            "29:13: step `press` states a velocity but has no inertia; give it `dynamics = {}` or take the velocity out",
+        ],
+    );
+    misstated(
+        "inertia and gravity without density",
+        &[
+            ("duration = 2.0\n", "duration = 2.0\ndynamics = {}\n"),
+            (
+                "name = \"slide\"",
+                "name = \"slide\"\ngravity = { vector = [0, 0, -9.81] }",
+            ),
+        ],
+        &[
+            "26:1: body `lower` has inertia or weight in step `press`, but its material has no `density`; give it one",
+            "26:1: body `upper` has inertia or weight in step `press`, but its material has no `density`; give it one",
+        ],
+    );
+    misstated(
+        "two velocities of a body",
+        &[
+            (
+                "youngs_modulus = 1e6",
+                "density = 1000\nyoungs_modulus = 1e6",
+            ),
+            (
+                "duration = 2.0\n",
+                "duration = 2.0\ndynamics = {}\nvelocity = [{ body = \"upper\", vector = [1, 0, 0] }, { body = \"upper\", spin = [1, 0, 0] }]\n",
+            ),
+        ],
+        &["31:53: step `press` states the velocity of body `upper` twice"],
+    );
+}
+
+#[test]
 fn meshes() {
     misstated(
         "mesh file of unknown kind",

@@ -11,8 +11,8 @@ use striae_law::{
 };
 use striae_mesh::{NodeId, Vec3, generate::Block};
 use striae_solve::model::{
-    Backend, Balance, BodyId, Curve, Increments, LoadExtent, LoadKind, PairId, RigidId, RigidShape,
-    Side, Solver,
+    Backend, Balance, BodyId, Curve, Increments, LoadExtent, LoadKind, PairId, Procedure, RigidId,
+    RigidShape, Side, Solver, Velocity,
 };
 
 use striae_surface::texture::{Field, Lines, Paint};
@@ -297,6 +297,44 @@ fn elements_turned_inside_out_are_named() {
         said[0].contains("turned inside out") && said[0].contains("element "),
         "{said:?}"
     );
+}
+
+#[test]
+fn inertia_gravity_and_decaying_friction() {
+    let text = BASE
+        .replace("youngs_modulus = 1e6", "density = 1000\nyoungs_modulus = 1e6")
+        .replace(
+            "duration = 2.0\n",
+            "duration = 2.0\ndynamics = { spectral_radius = 0.5 }\ngravity = { vector = [0, 0, -9.81], curve = \"constant\" }\nvelocity = [{ body = \"upper\", vector = [1, 2, 3], spin = [0, 0, 4], about = [5, 6, 7] }]\n",
+        )
+        .replace(
+            r#"{ law = "coulomb", mu = 0.3 }"#,
+            r#"{ law = "coulomb", mu = 0.3, decay = { kinetic_over_static = 0.5, slip_rate = 2 } }"#,
+        );
+    let model = parse(&text, "deck.toml", Path::new("")).unwrap().model;
+    assert!(model.bodies.iter().all(|body| body.density == 1000.0));
+    let [press, slide] = &model.steps[..] else {
+        panic!("two steps")
+    };
+    assert_eq!(
+        press.procedure,
+        Procedure::Dynamic {
+            spectral_radius: 0.5
+        }
+    );
+    assert_eq!(slide.procedure, Procedure::QuasiStatic);
+    let gravity = press.gravity.as_ref().unwrap();
+    assert_eq!(gravity.acceleration, Vec3::new(0.0, 0.0, -9.81));
+    assert_eq!(gravity.curve, Curve::Constant);
+    let expected = Velocity {
+        body: BodyId(1),
+        velocity: Vec3::new(1.0, 2.0, 3.0),
+        spin: Vec3::new(0.0, 0.0, 4.0),
+        about: Vec3::new(5.0, 6.0, 7.0),
+    };
+    assert_eq!(press.velocities, [expected]);
+    let fast = model.pairs[0].friction.cap(1.0, 2.0);
+    assert!((fast - 0.15 * (1.0 + (-1.0_f64).exp())).abs() < 1e-15);
 }
 
 #[test]

@@ -1,11 +1,13 @@
 //! Residual and tangent of the whole problem at a trial state.
 
 mod context;
+mod inertia;
 mod loads;
 mod measure;
 
-pub use context::{Imposed, StepContext};
+pub use context::{Imposed, ImposedRate, StepContext};
 
+use inertia::Inertia;
 use rayon::prelude::*;
 use striae_contact::{
     complementarity::Iteration,
@@ -82,10 +84,15 @@ pub fn assemble(
         residual: vec![0.0; layout.unknowns()],
         forces: NodalForces::zero(context.problem.reference.len()),
         force_scale: 0.0,
+        inertia: Inertia::new(trial, imposed),
         outside: Vec::new(),
     };
     let configurations: Vec<Configuration> = (0..context.pairs.len())
-        .map(|pair| context.configuration(pair, &trial.positions, &imposed.rigid))
+        .map(|pair| {
+            let rigid = &imposed.rigid;
+            let configuration = context.configuration(pair, &trial.positions, rigid);
+            configuration.lasting(imposed.elapsed)
+        })
         .collect();
     let contacts = system.contacts(&configurations, selections, trial, iteration)?;
     if !system.outside.is_empty() {
@@ -93,6 +100,7 @@ pub fn assemble(
     }
     system.loads(&configurations, trial, imposed)?;
     let strain = system.elements(trial)?;
+    system.carried(imposed);
     let norms = system.norms(selections, trial, &contacts);
     system.idle(selections);
     system.prescribe(trial, imposed);
@@ -115,6 +123,7 @@ struct System<'a> {
     residual: Vec<f64>,
     forces: NodalForces,
     force_scale: f64,
+    inertia: Inertia,
     outside: Vec<Vec<Supervariable>>,
 }
 
@@ -252,9 +261,12 @@ impl System<'_> {
                             },
                         })
                     })?;
+                    let mut response = response;
                     energy += response.energy;
-                    scale += response.force.iter().map(|f| f * f).sum::<f64>();
                     let nodes = corners[at].map(|n: NodeId| problem.node(body, n));
+                    let mass = (model.density > 0.0).then(|| elements[at].mass(model.density));
+                    self.weigh(&nodes, mass.as_ref(), &mut response);
+                    scale += response.force.iter().map(|f| f * f).sum::<f64>();
                     let mut unknowns = [0; 24];
                     for (slot, unknown) in unknowns.iter_mut().enumerate() {
                         *unknown = self.layout.position(nodes[slot / 3]) + slot % 3;

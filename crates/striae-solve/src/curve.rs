@@ -1,4 +1,4 @@
-//! Values of curves and of loads along them.
+//! Values of curves, their derivatives, and loads along them.
 
 use crate::model::{Curve, LoadKind};
 
@@ -11,6 +11,34 @@ impl Curve {
             Curve::Smooth => s * s * (3.0 - 2.0 * s),
             Curve::Table(points) => table(points, s),
         }
+    }
+}
+
+/// Change over the fraction of the step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rate {
+    /// `dc/ds`.
+    pub first: f64,
+    /// `d^2c/ds^2`.
+    pub second: f64,
+}
+
+impl Curve {
+    /// Derivatives of `c` at `s`; at a kink those before it, at the start those after it.
+    pub fn rate(&self, s: f64) -> Rate {
+        let (first, second) = match self {
+            Curve::Ramp => (1.0, 0.0),
+            Curve::Constant => (0.0, 0.0),
+            Curve::Smooth => (6.0 * s * (1.0 - s), 6.0 - 12.0 * s),
+            Curve::Table(points) => {
+                let at = |point: &[(f64, f64)]| point[0].0 < s && s <= point[1].0;
+                let section = points.windows(2).find(|section| at(section));
+                let section = section.or_else(|| points.windows(2).next());
+                let slope = |p: &[(f64, f64)]| (p[1].1 - p[0].1) / (p[1].0 - p[0].0);
+                (section.map_or(0.0, slope), 0.0)
+            }
+        };
+        Rate { first, second }
     }
 }
 
@@ -47,6 +75,24 @@ impl LoadKind {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn rates_are_the_derivatives() {
+        let table = Curve::Table(vec![(0.0, 0.0), (0.5, 1.0), (1.0, -1.0)]);
+        for curve in [&Curve::Ramp, &Curve::Constant, &Curve::Smooth, &table] {
+            for s in [0.2, 0.4, 0.7] {
+                let h = 1e-4;
+                let [a, b, c] = [s - h, s, s + h].map(|s| curve.at(s));
+                let rate = curve.rate(s);
+                assert!((rate.first - (c - a) / (2.0 * h)).abs() < 1e-7);
+                assert!((rate.second - (a - 2.0 * b + c) / (h * h)).abs() < 1e-6);
+            }
+        }
+        assert_eq!(
+            [0.0, 0.5, 0.6].map(|s| table.rate(s).first),
+            [2.0, 2.0, -4.0]
+        );
+    }
 
     #[test]
     fn curves_start_and_end_where_they_should() {

@@ -2,6 +2,7 @@
 
 use crate::{
     assembly::StepContext,
+    dynamics::begin,
     newton::{Increment, IterationObserver, Workspace, advance},
     outcome::{CutBack, Ending},
     problem::Problem,
@@ -52,7 +53,15 @@ pub fn run(problem: &Problem, state: State, observer: &mut dyn Observer) -> (Sta
     let mut count = 0;
     for index in 0..problem.model.steps.len() {
         observer.step(index, &problem.model.steps[index].name);
-        let start = state.clone();
+        let start = match begin(problem, index, &state, &mut workspace) {
+            Ok(start) => start,
+            Err(reason) => {
+                let step = problem.model.steps[index].name.clone();
+                let time = state.time;
+                return (state, Ending::Stopped { step, time, reason });
+            }
+        };
+        state.clone_from(&start);
         let context = StepContext::new(problem, index, &start);
         let ending = run_step(&context, &mut state, &mut count, &mut workspace, observer);
         if let Some(ending) = ending {

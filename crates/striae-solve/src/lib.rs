@@ -3,6 +3,7 @@
 pub mod assembly;
 mod curve;
 pub mod drive;
+pub mod dynamics;
 pub mod element;
 pub mod layout;
 pub mod load;

@@ -32,6 +32,8 @@ pub struct Body {
     pub mesh: Mesh,
     /// Bulk material.
     pub material: Material,
+    /// Mass per reference volume; zero where neither inertia nor gravity asks for it.
+    pub density: f64,
 }
 
 /// Position of a body in [`Model::bodies`].
@@ -127,8 +129,14 @@ pub struct Step {
     pub name: String,
     /// Duration in (pseudo) time.
     pub duration: f64,
+    /// Whether there is inertia.
+    pub procedure: Procedure,
     /// Increment control.
     pub increments: Increments,
+    /// Velocities of whole bodies from the start of the step on.
+    pub velocities: Vec<Velocity>,
+    /// Acceleration of gravity, on all bodies.
+    pub gravity: Option<Gravity>,
     /// Displacement conditions by component.
     pub displacements: Vec<Displacement>,
     /// Displacement conditions that end with the start of this step.
@@ -139,6 +147,40 @@ pub struct Step {
     pub rigid_motions: Vec<RigidMotion>,
     /// Changes of friction at the start of the step.
     pub frictions: Vec<(PairId, Friction)>,
+}
+
+/// Whether a step has inertia.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Procedure {
+    /// A sequence of equilibria.
+    QuasiStatic,
+    /// Implicit dynamics, see [`crate::dynamics`].
+    Dynamic {
+        /// Spectral radius at infinite frequency: 1 keeps all of it, small values damp it at once.
+        spectral_radius: f64,
+    },
+}
+
+/// Velocity of a body, `v + w x (x - x0)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Velocity {
+    /// The body.
+    pub body: BodyId,
+    /// `v`.
+    pub velocity: Vec3,
+    /// `w`.
+    pub spin: Vec3,
+    /// `x0`.
+    pub about: Vec3,
+}
+
+/// Acceleration of gravity that a step goes to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gravity {
+    /// Target.
+    pub acceleration: Vec3,
+    /// How the target is approached.
+    pub curve: Curve,
 }
 
 /// How a step is divided into increments, as fractions of its duration.

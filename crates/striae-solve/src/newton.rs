@@ -28,7 +28,7 @@ use crate::{
     norms::Norms,
     outcome::CutBack,
     problem::Problem,
-    state::{PairState, State},
+    state::{NodalForces, PairState, State},
 };
 use acceptance::accepted;
 use cycling::History;
@@ -69,15 +69,8 @@ pub struct Estimate {
 pub fn estimate(problem: &Problem) -> Result<Estimate, CutBack> {
     let state = State::undeformed(problem);
     let context = StepContext::new(problem, 0, &state);
-    let (selections, pairs) = selected(&context, &state);
     let mut workspace = Workspace::new(Backend::Multifrontal);
-    workspace.prepare(problem, &pairs);
-    let trial = Trial {
-        positions: state.positions.clone(),
-        tractions: pairs.iter().map(|pair| pair.tractions.clone()).collect(),
-    };
-    let imposed = context.imposed(0.0);
-    workspace.assemble(&context, &selections, &trial, &imposed, Iteration::First)?;
+    forces_at_start(&context, &state, &mut workspace)?;
     let structure = workspace.system().matrix.structure().clone();
     let analysis = workspace
         .solver
@@ -87,6 +80,26 @@ pub fn estimate(problem: &Problem) -> Result<Estimate, CutBack> {
         unknowns: structure.unknowns(),
         analysis,
     })
+}
+
+/// Forces in `state`, with the loads at the start of the step.
+///
+/// # Errors
+/// Why the state cannot be evaluated.
+pub fn forces_at_start(
+    context: &StepContext,
+    state: &State,
+    workspace: &mut Workspace,
+) -> Result<NodalForces, CutBack> {
+    let (selections, pairs) = selected(context, state);
+    workspace.prepare(context.problem, &pairs);
+    let trial = Trial {
+        positions: state.positions.clone(),
+        tractions: pairs.iter().map(|pair| pair.tractions.clone()).collect(),
+    };
+    let imposed = context.imposed(0.0);
+    let assembled = workspace.assemble(context, &selections, &trial, &imposed, Iteration::First)?;
+    Ok(assembled.forces)
 }
 
 /// Advances from `state` to the fraction `s` of the step.
@@ -101,7 +114,7 @@ pub fn advance(
     workspace: &mut Workspace,
     observer: &mut dyn IterationObserver,
 ) -> Result<Increment, CutBack> {
-    let imposed = context.imposed(s);
+    let imposed = context.imposed_after(state, s, time);
     let (selections, pairs) = selected(context, state);
     workspace.prepare(context.problem, &pairs);
     let mut trial = Trial {

@@ -15,9 +15,11 @@ pub struct StepPlan {
     /// Loads.
     pub loads: Vec<PlannedLoad>,
     /// Displacement of every rigid surface.
-    pub rigid: Vec<RigidPlan>,
+    pub rigid: Vec<VectorPlan>,
     /// Friction of every pair.
     pub frictions: Vec<Friction>,
+    /// Acceleration of gravity.
+    pub gravity: VectorPlan,
 }
 
 /// How a displacement component is prescribed in a step.
@@ -53,9 +55,9 @@ pub struct PlannedLoad {
     pub curve: Curve,
 }
 
-/// Displacement of a rigid surface in a step.
+/// A vector in a step.
 #[derive(Clone, Debug, PartialEq)]
-pub struct RigidPlan {
+pub struct VectorPlan {
     /// At the start.
     pub from: Vec3,
     /// Target.
@@ -71,10 +73,27 @@ impl PlannedLoad {
     }
 }
 
-impl RigidPlan {
-    /// The displacement at the fraction `s` of the step.
+impl VectorPlan {
+    /// The vector at the fraction `s` of the step.
     pub fn at(&self, s: f64) -> Vec3 {
         self.from + (self.to - self.from) * self.curve.at(s)
+    }
+
+    fn zero() -> Self {
+        Self {
+            from: Vec3::zeros(),
+            to: Vec3::zeros(),
+            curve: Curve::Constant,
+        }
+    }
+
+    /// What is reached at the end of the step, kept.
+    fn held(&self) -> Self {
+        Self {
+            from: self.at(1.0),
+            to: self.at(1.0),
+            curve: Curve::Constant,
+        }
     }
 }
 
@@ -83,14 +102,8 @@ pub fn plans(model: &Model) -> Vec<StepPlan> {
     let mut plan = StepPlan {
         displacements: BTreeMap::new(),
         loads: Vec::new(),
-        rigid: vec![
-            RigidPlan {
-                from: Vec3::zeros(),
-                to: Vec3::zeros(),
-                curve: Curve::Constant
-            };
-            model.rigid_surfaces.len()
-        ],
+        rigid: vec![VectorPlan::zero(); model.rigid_surfaces.len()],
+        gravity: VectorPlan::zero(),
         frictions: model.pairs.iter().map(|pair| pair.friction).collect(),
     };
     let mut plans = Vec::with_capacity(model.steps.len());
@@ -106,6 +119,7 @@ fn next(before: &StepPlan, step: &Step) -> StepPlan {
         displacements: displacements(before, step),
         loads: loads(before, step),
         rigid: rigid(before, step),
+        gravity: gravity(before, step),
         frictions: frictions(before, step),
     }
 }
@@ -170,13 +184,20 @@ fn held_load(load: &PlannedLoad) -> PlannedLoad {
     }
 }
 
-fn rigid(before: &StepPlan, step: &Step) -> Vec<RigidPlan> {
-    let held = |plan: &RigidPlan| RigidPlan {
-        from: plan.at(1.0),
-        to: plan.at(1.0),
-        curve: Curve::Constant,
-    };
-    let mut all: Vec<RigidPlan> = before.rigid.iter().map(held).collect();
+fn gravity(before: &StepPlan, step: &Step) -> VectorPlan {
+    let held = before.gravity.held();
+    match &step.gravity {
+        None => held,
+        Some(gravity) => VectorPlan {
+            to: gravity.acceleration,
+            curve: gravity.curve.clone(),
+            ..held
+        },
+    }
+}
+
+fn rigid(before: &StepPlan, step: &Step) -> Vec<VectorPlan> {
+    let mut all: Vec<VectorPlan> = before.rigid.iter().map(VectorPlan::held).collect();
     for motion in &step.rigid_motions {
         let plan = &mut all[motion.surface.0];
         plan.to = motion.displacement;

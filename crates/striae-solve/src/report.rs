@@ -77,6 +77,42 @@ pub fn reactions(problem: &Problem, state: &State) -> Vec<(String, Vec3)> {
     all
 }
 
+/// Middle of mass of a body and its velocity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyReport {
+    /// Name of the body.
+    pub name: String,
+    /// Middle of mass.
+    pub centre: Vec3,
+    /// Its velocity.
+    pub velocity: Vec3,
+}
+
+/// Reports of all bodies.
+pub fn bodies(problem: &Problem, state: &State) -> Vec<BodyReport> {
+    let names = problem.model.bodies.iter().enumerate();
+    names
+        .map(|(body, model)| {
+            let (mut mass, mut centre, mut velocity) = (0.0, Vec3::zeros(), Vec3::zeros());
+            let elements = model.mesh.elements.iter().zip(&problem.elements[body]);
+            for (corners, element) in elements {
+                for (corner, share) in corners.iter().zip(element.mass(1.0)) {
+                    let node = problem.node(body, *corner);
+                    let share: f64 = share.iter().sum();
+                    mass += share;
+                    centre += state.positions[node] * share;
+                    velocity += state.velocities[node] * share;
+                }
+            }
+            BodyReport {
+                name: model.name.clone(),
+                centre: centre / mass,
+                velocity: velocity / mass,
+            }
+        })
+        .collect()
+}
+
 fn report(problem: &Problem, state: &State, pair: usize) -> PairReport {
     let of_pair = &state.pairs[pair];
     let a = side(problem, state, pair, 0);

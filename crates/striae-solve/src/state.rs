@@ -16,6 +16,10 @@ pub struct State {
     pub time: f64,
     /// Position of every global node.
     pub positions: Vec<Vec3>,
+    /// Velocity of every global node, zero without inertia.
+    pub velocities: Vec<Vec3>,
+    /// Acceleration of every global node.
+    pub accelerations: Vec<Vec3>,
     /// Displacement of every rigid surface.
     pub rigid_displacements: Vec<Vec3>,
     /// State of every pair.
@@ -46,7 +50,11 @@ pub struct PairState {
 /// Forces on all global nodes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NodalForces {
-    /// Reactions: internal minus applied minus contact forces.
+    /// Internal forces.
+    pub internal: Vec<Vec3>,
+    /// Inertia forces `M a_alpha`.
+    pub inertia: Vec<Vec3>,
+    /// Reactions: what internal, inertia, applied and contact forces leave.
     pub reaction: Vec<Vec3>,
     /// Applied loads.
     pub applied: Vec<Vec3>,
@@ -57,19 +65,26 @@ pub struct NodalForces {
 /// Energies since the start of the simulation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Energies {
+    /// Kinetic energy.
+    pub kinetic: f64,
     /// Stored elastic energy.
     pub strain: f64,
-    /// Work of reactions, loads and moving rigid surfaces.
+    /// Work of reactions, loads and moving rigid surfaces, and of what changes
+    /// velocities at once at the start of a step.
     pub external: f64,
-    /// Work taken out by contact: minus the work of the contact forces on all sides.
-    pub contact: f64,
+    /// Work dissipated by friction in all pairs.
+    pub friction: f64,
+    /// Work lost to the discretisation: to time integration and its quadrature, to
+    /// impacts, and to the difference between the forces of traction fields and
+    /// tractions at nodes. It vanishes with increments and mesh.
+    pub numerical: f64,
 }
 
 impl Energies {
-    /// External work that is neither stored nor taken out by contact. It
-    /// vanishes with the square of the increments.
+    /// External work that is found nowhere: the work of the residual forces that
+    /// Newton's method leaves.
     pub fn imbalance(&self) -> f64 {
-        self.external - self.strain - self.contact
+        self.external - self.kinetic - self.strain - self.friction - self.numerical
     }
 }
 
@@ -77,6 +92,8 @@ impl NodalForces {
     /// No forces on so many nodes.
     pub fn zero(nodes: usize) -> Self {
         Self {
+            internal: vec![Vec3::zeros(); nodes],
+            inertia: vec![Vec3::zeros(); nodes],
             reaction: vec![Vec3::zeros(); nodes],
             applied: vec![Vec3::zeros(); nodes],
             contact: vec![Vec3::zeros(); nodes],
@@ -90,6 +107,8 @@ impl State {
         Self {
             time: 0.0,
             positions: problem.reference.clone(),
+            velocities: vec![Vec3::zeros(); problem.reference.len()],
+            accelerations: vec![Vec3::zeros(); problem.reference.len()],
             rigid_displacements: vec![Vec3::zeros(); problem.model.rigid_surfaces.len()],
             pairs: problem
                 .pairs

@@ -259,6 +259,24 @@ pub enum FaultKind {
         /// Largest increment.
         largest: f64,
     },
+    /// A velocity in a step in which nothing has one.
+    #[error(
+        "step `{step}` states a velocity but has no inertia; give it `dynamics = {{}}` or take the velocity out"
+    )]
+    VelocityWithoutInertia {
+        /// The step.
+        step: String,
+    },
+    /// A body without density where there is inertia or gravity.
+    #[error(
+        "body `{body}` has inertia or weight in step `{step}`, but its material has no `density`; give it one"
+    )]
+    NoDensity {
+        /// The body.
+        body: String,
+        /// The first step that needs it.
+        step: String,
+    },
     /// Points that do not make a curve.
     #[error("the points of curve `{curve}` must rise in their first number from 0 to 1, {found}")]
     BadCurve {

@@ -60,6 +60,11 @@ impl Coefficient {
         self.at_rest
     }
 
+    /// Whether it depends on the slip rate.
+    pub fn decays(&self) -> bool {
+        self.decay.is_some()
+    }
+
     /// Value at the slip rate `v >= 0`.
     pub fn at_slip_rate<D: DualNum<Primitive = f64> + Copy>(&self, slip_rate: D) -> D {
         let mu_s = D::from(self.at_rest);

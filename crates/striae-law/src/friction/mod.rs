@@ -161,6 +161,11 @@ impl Friction {
         &self.coefficient
     }
 
+    /// Whether `varpi` depends on the slip rate.
+    pub fn decays(&self) -> bool {
+        self.coefficient.decays()
+    }
+
     /// The bound on `varpi`, if any.
     pub fn shear_cap(&self) -> Option<f64> {
         self.shear_cap

@@ -5,7 +5,7 @@ use striae_contact::{
 };
 use striae_mesh::Vec3;
 
-use crate::{model::LoadKind, plan::StepPlan, problem::Problem, state::State};
+use crate::{dynamics::Motion, model::LoadKind, plan::StepPlan, problem::Problem, state::State};
 
 /// What does not change within a step.
 #[derive(Debug)]
@@ -35,6 +35,27 @@ pub struct Imposed {
     pub loads: Vec<LoadKind>,
     /// Displacements of the rigid surfaces.
     pub rigid: Vec<Vec3>,
+    /// Acceleration of gravity.
+    pub gravity: Vec3,
+    /// Velocities and accelerations of the prescribed components.
+    pub rates: Vec<ImposedRate>,
+    /// Time since the last converged state; infinite where nothing depends on it.
+    pub elapsed: f64,
+    /// Inertia, if the step has it.
+    pub motion: Option<Motion>,
+}
+
+/// Velocity and acceleration of a prescribed component.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImposedRate {
+    /// Global node.
+    pub node: usize,
+    /// Component.
+    pub axis: usize,
+    /// Velocity.
+    pub velocity: f64,
+    /// Acceleration.
+    pub acceleration: f64,
 }
 
 impl<'a> StepContext<'a> {
@@ -74,9 +95,20 @@ impl<'a> StepContext<'a> {
         }
     }
 
-    /// What is imposed at the fraction `s` of the step.
+    /// What is imposed at the fraction `s` of the step, at `time`, after `state`.
+    pub fn imposed_after(&self, state: &State, s: f64, time: f64) -> Imposed {
+        let elapsed = time - state.time;
+        Imposed {
+            elapsed,
+            motion: Motion::new(self, state, elapsed),
+            ..self.imposed(s)
+        }
+    }
+
+    /// What is imposed at the fraction `s` of the step, whatever was before.
     pub fn imposed(&self, s: f64) -> Imposed {
         use crate::plan::Prescription::{Go, Hold};
+        let duration = self.problem.model.steps[self.index].duration;
         let positions = self
             .plan
             .displacements
@@ -91,10 +123,39 @@ impl<'a> StepContext<'a> {
                 };
                 (node, *axis, position)
             });
+        let rates = self
+            .plan
+            .displacements
+            .iter()
+            .map(|((body, node, axis), how)| {
+                let node = self.problem.first_node[*body] + node;
+                let (velocity, acceleration) = match how {
+                    Hold => (0.0, 0.0),
+                    Go { target, curve } => {
+                        let start = self.start.positions[node][*axis];
+                        let way = self.problem.reference[node][*axis] + target - start;
+                        let rate = curve.rate(s);
+                        (
+                            way * rate.first / duration,
+                            way * rate.second / (duration * duration),
+                        )
+                    }
+                };
+                ImposedRate {
+                    node,
+                    axis: *axis,
+                    velocity,
+                    acceleration,
+                }
+            });
         Imposed {
             positions: positions.collect(),
             loads: self.plan.loads.iter().map(|load| load.at(s)).collect(),
             rigid: self.plan.rigid.iter().map(|rigid| rigid.at(s)).collect(),
+            gravity: self.plan.gravity.at(s),
+            rates: rates.collect(),
+            elapsed: f64::INFINITY,
+            motion: None,
         }
     }
 

@@ -83,6 +83,7 @@ impl System<'_> {
                 }
             }
         }
+        let share = self.inertia.share_of_end;
         let load = load::response(kind, &reference, &current).map_err(FaceFault::Load)?;
         let unknowns = nodes.map(|node| self.layout.position(node));
         let unknowns: Vec<usize> = unknowns
@@ -92,8 +93,8 @@ impl System<'_> {
         self.add_dense(
             &nodes,
             &unknowns,
-            &load.force.map(|f| -f),
-            &load.tangent.map(|k| -k),
+            &load.force.map(|f| -f * share),
+            &load.tangent.map(|k| -k * share),
         )
         .map_err(|_| FaceFault::Pattern(vec![self.clique(&nodes)]))?;
         for (corner, node) in nodes.iter().enumerate() {
@@ -102,12 +103,14 @@ impl System<'_> {
         }
         for (pair, terms) in covered {
             let numbering = configurations[pair].pair.numbering();
-            for term in terms {
-                self.add_term(pair, &numbering, &term);
+            for mut term in terms {
                 for (at, node) in nodes.iter().enumerate() {
                     let taken = Vec3::from_column_slice(&term.residual[3 * at..3 * at + 3]);
                     self.forces.applied[*node] -= taken;
                 }
+                term.residual.iter_mut().for_each(|r| *r *= share);
+                term.tangent.iter_mut().for_each(|k| *k *= share);
+                self.add_term(pair, &numbering, &term);
             }
         }
         if self.outside.is_empty() {

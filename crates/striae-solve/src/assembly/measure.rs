@@ -30,7 +30,7 @@ impl System<'_> {
             }
         }
         let applied: f64 = self.forces.applied.iter().map(|f| f.norm_squared()).sum();
-        let unavoidable = round_off(problem, &trial.positions);
+        let unavoidable = round_off(problem, &trial.positions, self.inertia.stiffness);
         let smallest = unavoidable / problem.model.solver.tolerance;
         let force = self.force_scale.max(applied.sqrt()).max(smallest);
         let mut norms = Norms {
@@ -67,15 +67,16 @@ impl System<'_> {
 }
 
 /// Residual force that round-off of the positions leaves in bodies without
-/// stress: about `eps G h |x|` an element of size `h`.
-fn round_off(problem: &Problem, positions: &[Vec3]) -> f64 {
+/// stress: about `eps (G h + m da_alpha/dx) |x|` an element of size `h` and mass `m`.
+fn round_off(problem: &Problem, positions: &[Vec3], inertia: f64) -> f64 {
     let extent = positions.iter().map(|x| x.norm()).fold(0.0, f64::max);
     let bodies = problem.model.bodies.iter().zip(&problem.elements);
     let sum: f64 = bodies
         .map(|(body, elements)| {
             let volume = elements.first().map_or(0.0, ReferenceElement::volume);
             let shear = body.material.lame_constants().shear;
-            elements.len() as f64 * (shear * volume.cbrt() * extent).powi(2)
+            let stiffness = shear * volume.cbrt() + body.density * volume * inertia;
+            elements.len() as f64 * (stiffness * extent).powi(2)
         })
         .sum();
     10.0 * f64::EPSILON * sum.sqrt()

@@ -6,6 +6,8 @@ use striae_linalg::{
     Supervariable,
 };
 
+use striae_mesh::Vec3;
+
 use crate::{
     assembly::{Assembled, Fault, Imposed, StepContext, Trial, assemble},
     layout::Layout,
@@ -14,6 +16,11 @@ use crate::{
     problem::Problem,
     state::PairState,
 };
+
+/// Corners `a`, `b` of an element and the components they share.
+fn corner_pairs() -> impl Iterator<Item = (usize, usize, usize)> {
+    (0..192).map(|at| (at / 24, at / 3 % 8, at % 3))
+}
 
 /// What survives between increments to save work; it holds no results.
 pub struct Workspace {
@@ -105,6 +112,53 @@ impl Workspace {
                 }
             }
         }
+    }
+
+    /// Solves `M a = forces` for the components that are not prescribed.
+    pub(crate) fn accelerations(
+        &mut self,
+        context: &StepContext,
+        forces: &[Vec3],
+    ) -> Result<Vec<Vec3>, SolveError> {
+        let problem = context.problem;
+        let SystemStorage { layout, matrix, .. } = self.system();
+        let mut residual = vec![0.0; layout.unknowns()];
+        matrix.clear();
+        let mut add = |row: usize, column: usize, value: f64| {
+            matrix
+                .add(&[row], &[column], &[value])
+                .expect("elements are in the pattern");
+        };
+        for (node, force) in forces.iter().enumerate() {
+            for axis in (0..3).filter(|axis| !context.fixed[3 * node + axis]) {
+                residual[layout.position(node) + axis] = -force[axis];
+            }
+        }
+        let mut held = vec![true; residual.len()];
+        for (body, model) in problem.model.bodies.iter().enumerate() {
+            for (corners, element) in model.mesh.elements.iter().zip(&problem.elements[body]) {
+                let mass = element.mass(model.density);
+                let nodes = corners.map(|node| problem.node(body, node));
+                for (a, b, axis) in corner_pairs() {
+                    let free = |node: usize| !context.fixed[3 * node + axis];
+                    if free(nodes[a]) && free(nodes[b]) {
+                        let [row, column] = [a, b].map(|c| layout.position(nodes[c]) + axis);
+                        add(row, column, mass[a][b]);
+                        held[row] = false;
+                    }
+                }
+            }
+        }
+        for unknown in (0..held.len()).filter(|&unknown| held[unknown]) {
+            add(unknown, unknown, 1.0);
+        }
+        let solution = self.correction(&residual)?;
+        let layout = &self.system().layout;
+        let of_node = |node: usize| {
+            let first = layout.position(node);
+            Vec3::from_column_slice(&solution[first..first + 3])
+        };
+        Ok((0..forces.len()).map(of_node).collect())
     }
 
     /// Solves for the correction, `J correction = -residual`.

@@ -86,7 +86,9 @@ impl<'a> Slipping<'a> {
             }
         }
         let rigid = &self.context.start.rigid_displacements;
-        self.context.configuration(0, &positions, rigid)
+        self.context
+            .configuration(0, &positions, rigid)
+            .lasting(ELAPSED)
     }
 
     fn tractions(&self, at: &DVector<f64>) -> Tractions {
@@ -165,7 +167,8 @@ impl<'a> Slipping<'a> {
                 let kernel = pair.friction.kernel(&frame.n.value, &law_textures);
                 let first = pair.numbering().traction(side, node as u32) as usize;
                 let direction = (kernel.k_inverse * nodes[side][node].slip).normalize();
-                let z = direction * pair.friction.cap(at[first], 0.0);
+                let rate = nodes[side][node].slip.norm() / ELAPSED;
+                let z = direction * pair.friction.cap(at[first], rate);
                 at[first + 1] = z.dot(&frame.t[0].value);
                 at[first + 2] = z.dot(&frame.t[1].value);
             }
@@ -203,6 +206,9 @@ impl<'a> Slipping<'a> {
         }
     }
 }
+
+/// Time in which the slip came about.
+const ELAPSED: f64 = 0.5;
 
 const BOTH: [Option<f64>; 2] = [Some(15.0), Some(70.0)];
 
@@ -255,11 +261,18 @@ fn slide(side: usize, x: &Vec3) -> Vec3 {
     }
 }
 
+/// Checks a model as it is and with friction that decays with the slip rate.
 fn check(name: &str, mut model: Model) {
     model.steps.push(step());
-    let problem = Problem::new(model).unwrap();
-    let state = State::undeformed(&problem);
-    Slipping::new(&problem, &state, slide).check(name);
+    let mut decaying = model.clone();
+    for pair in &mut decaying.pairs {
+        pair.friction = pair.friction.with_decay(0.4, 0.15).unwrap();
+    }
+    for model in [model, decaying] {
+        let problem = Problem::new(model).unwrap();
+        let state = State::undeformed(&problem);
+        Slipping::new(&problem, &state, slide).check(name);
+    }
 }
 
 fn on_rigid(law: Formula, paints: [Option<Paint>; 2], floor: RigidShape) -> Model {

@@ -4,6 +4,7 @@
 mod scene;
 
 mod driver;
+mod dynamics;
 mod energies;
 mod invariance;
 mod patch_frictionless;

@@ -10,7 +10,8 @@ use striae_solve::{
     drive::{Continue, Observer, Progress, run},
     model::{
         Backend, Balance, Body, BodyId, Curve, Displacement, Increments, Load, LoadExtent,
-        LoadKind, Model, Pair, PairId, RigidId, RigidShape, RigidSurface, Side, Solver, Step,
+        LoadKind, Model, Pair, PairId, Procedure, RigidId, RigidShape, RigidSurface, Side, Solver,
+        Step,
     },
     newton::{Increment, IterationObserver},
     norms::Norms,
@@ -120,6 +121,7 @@ pub fn body(name: &str, mesh: Mesh, material: Material) -> Body {
         name: name.to_owned(),
         mesh,
         material,
+        density: 0.0,
     }
 }
 
@@ -144,7 +146,10 @@ pub fn step() -> Step {
     Step {
         name: "step".to_owned(),
         duration: 1.0,
+        procedure: Procedure::QuasiStatic,
         increments: whole(),
+        velocities: Vec::new(),
+        gravity: None,
         displacements: Vec::new(),
         releases: Vec::new(),
         loads: Vec::new(),

@@ -18,6 +18,7 @@ macro_rules! decks {
     };
 }
 
+mod bar_impact;
 mod measure;
 mod pad_on_incline;
 mod patch_frictionless;
@@ -93,8 +94,13 @@ pub const CASES: &[Case] = &[
     ),
     case!(
         "snake-scale",
-        "A scaled block dragged forwards drifts sideways (quasi-static)",
+        "Scaled blocks that drift when dragged, and stop when launched",
         snake_scale::run
+    ),
+    case!(
+        "bar-impact",
+        "An elastic bar flies against a rigid wall",
+        bar_impact::run
     ),
     case!(
         "slip-surface",

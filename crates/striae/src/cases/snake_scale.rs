@@ -2,7 +2,14 @@
 //!
 //! Slip along `d = (cos delta, sin delta)` meets the friction `-varpi w(d)`. Free
 //! sideways, the block takes the direction in which `w_y = 0`; held sideways,
-//! `F_y/F_x = w_y/w_x` for `d = e_x`.
+//! `F_y/F_x = w_y/w_x` for `d = e_x`. Launched blocks follow the path of a point mass,
+//!
+//! ```text
+//! dv/dt = -g (mu_2 + (mu_1 - mu_2) cos^2 phi),   v dphi/dt = g (mu_1 - mu_2) sin phi cos phi
+//! ```
+//!
+//! with `phi` from the axis along which the coefficient is `mu_1`, or stop after
+//! `v^2/(2 mu g)` where they are guided.
 
 use striae_io::figure::{Axis, Color, Content, Figure, Marker, Panel, Series, Width};
 use striae_mesh::Vec3;
@@ -14,7 +21,16 @@ use super::{
 };
 use crate::failure::Failure;
 
-const DECKS: [(&str, &str); 2] = decks!("snake-scale": "drift", "held");
+const DECKS: [(&str, &str); 4] = decks!("snake-scale": "drift", "held", "launched", "stop");
+/// Coefficients along and across the texture under the launched block.
+const ELLIPSE: [f64; 2] = [1.0, 0.5];
+const LAUNCH: f64 = 60.0;
+/// Name, direction of launch and coefficient of the nap.
+const WAYS: [(&str, [f64; 2], f64); 3] = [
+    ("forward", [0.0, 1.0], 0.3),
+    ("backward", [0.0, -1.0], 0.6),
+    ("lateral", [1.0, 0.0], 0.4),
+];
 const CONSTANTS: [f64; 3] = [0.1, 0.1, 0.5];
 /// Angles of the scales as seen from the block, in degrees.
 const SCALES: [f64; 2] = [0.0, 45.0];
@@ -45,7 +61,167 @@ pub fn run(study: &mut Study) -> Result<(), Failure> {
     }
     path.push(middle(&drift));
     let figure = Figure::new(Width::Page, vec![paths(path, &held), tractions(&drift)]);
-    study.draw(&figure, "drift")
+    study.draw(&figure, "drift")?;
+    launched(study)
+}
+
+/// Blocks that are launched and come to rest.
+fn launched(study: &mut Study) -> Result<(), Failure> {
+    let run = ran(study, DECKS[2])?;
+    let (found, expected) = (path(&run), point_mass());
+    let (end, rest) = (found[found.len() - 1], expected[expected.len() - 1]);
+    study.measured("launched.x", end[1]);
+    study.measured("launched.y", end[2]);
+    study.measured("launched.time", stop(&found));
+    let off = found.iter().map(|at| distance(at, &expected));
+    let way = rest[1].hypot(rest[2]);
+    study.measured("launched.deviation", off.fold(0.0, f64::max) / way);
+    let mut accounts = vec![account(&run)];
+    let mut speeds = Vec::new();
+    for (name, [x, y], mu) in WAYS {
+        let run = guided(study, name, [x, y])?;
+        let path = path(&run);
+        let end = path[path.len() - 1];
+        study.measured(format!("stop.{name}"), end[1].hypot(end[2]));
+        accounts.push(account(&run));
+        speeds.push((name, path, mu));
+    }
+    let worst = |at: usize| {
+        accounts
+            .iter()
+            .map(|account| account[at])
+            .fold(0.0, f64::max)
+    };
+    study.measured("energy.imbalance", worst(0));
+    study.measured("energy.growth", worst(1));
+    let figure = Figure::new(
+        Width::Page,
+        vec![sliding(&found, &expected), stopping(&speeds)],
+    );
+    study.draw(&figure, "launched")
+}
+
+/// Largest imbalance of energy, and largest growth of mechanical energy in an
+/// increment beyond the work done, over the launching energy.
+fn account(run: &Run) -> [f64; 2] {
+    let external = run.column("energy.external");
+    let scale = run.largest("energy.external");
+    let (kinetic, strain) = (run.column("energy.kinetic"), run.column("energy.strain"));
+    let surplus: Vec<f64> = (0..external.len())
+        .map(|at| kinetic[at] + strain[at] - external[at])
+        .collect();
+    let growth = surplus.windows(2).map(|pair| pair[1] - pair[0]);
+    [
+        run.largest("energy.imbalance") / scale,
+        growth.fold(0.0, f64::max) / scale,
+    ]
+}
+
+/// Time, x and y of the middle of the launched block since its launch.
+fn path(run: &Run) -> Vec<[f64; 3]> {
+    let (time, step) = (run.column("time"), run.column("step"));
+    let (x, y) = (run.column("centre.block.x"), run.column("centre.block.y"));
+    let start = step.iter().rposition(|&step| step == 1.0).unwrap_or(0);
+    (start..time.len())
+        .map(|at| [time[at] - time[start], x[at] - x[start], y[at] - y[start]])
+        .collect()
+}
+
+/// When the block first stops going on along y.
+fn stop(path: &[[f64; 3]]) -> f64 {
+    let back = path.windows(2).find(|pair| pair[1][2] <= pair[0][2]);
+    back.map_or(f64::NAN, |pair| pair[0][0])
+}
+
+fn guided(study: &mut Study, name: &str, direction: [f64; 2]) -> Result<Run, Failure> {
+    let (deck, text) = DECKS[3];
+    let mut deck = study.deck(deck, text)?;
+    let step = &mut deck.model.steps[1];
+    step.velocities[0].velocity = Vec3::new(direction[0], direction[1], 0.0);
+    step.displacements[0].components = match direction {
+        [0.0, _] => [Some(0.0), None, None],
+        _ => [None, Some(0.0), None],
+    };
+    study.run(name, deck)
+}
+
+/// Time, x and y of the point mass until it rests, by Heun's method in steps small
+/// enough not to matter.
+fn point_mass() -> Vec<[f64; 3]> {
+    const STEP: f64 = 1e-4;
+    let [along, across] = ELLIPSE;
+    let rates = |[speed, angle]: [f64; 2]| {
+        let (sin, cos) = angle.sin_cos();
+        [
+            -(across + (along - across) * cos * cos),
+            (along - across) * sin * cos / speed,
+        ]
+    };
+    let mut at = [1.0, LAUNCH.to_radians()];
+    let mut path = vec![[0.0; 3]];
+    while at[0] > STEP {
+        let first = rates(at);
+        let guess = [at[0] + STEP * first[0], at[1] + STEP * first[1]];
+        let second = rates(guess);
+        let next = [0, 1].map(|i| at[i] + 0.5 * STEP * (first[i] + second[i]));
+        let [time, x, y] = path[path.len() - 1];
+        let mean = |f: fn(f64) -> f64| 0.5 * STEP * (at[0] * f(at[1]) + next[0] * f(next[1]));
+        path.push([time + STEP, x + mean(f64::cos), y + mean(f64::sin)]);
+        at = next;
+    }
+    path
+}
+
+/// Distance of a place from where the point mass is at that time.
+fn distance(at: &[f64; 3], path: &[[f64; 3]]) -> f64 {
+    let next = path
+        .partition_point(|known| known[0] < at[0])
+        .min(path.len() - 1);
+    (at[1] - path[next][1]).hypot(at[2] - path[next][2])
+}
+
+fn sliding(found: &[[f64; 3]], expected: &[[f64; 3]]) -> Panel {
+    let points = |path: &[[f64; 3]], every: usize| {
+        let kept = path.iter().step_by(every).chain(path.last());
+        kept.map(|at| [at[1], at[2]]).collect::<Vec<_>>()
+    };
+    let axis = |label: &str| Axis::linear(label, "v²/g").within(-0.05, 0.9);
+    Panel::plane(axis("x"), axis("y"))
+        .titled("launched at 60 degrees")
+        .with(Series::new("point mass", Content::line(points(expected, 50))).colored(Color::Grey))
+        .with(
+            Series::new("block", Content::markers(points(found, 20), Marker::Circle))
+                .colored(Color::Blue),
+        )
+}
+
+fn stopping(runs: &[(&str, Vec<[f64; 3]>, f64)]) -> Panel {
+    let colors = [Color::Green, Color::Vermillion, Color::Blue];
+    let mut panel = Panel::new(
+        Axis::linear("time", "v/g").within(0.0, 4.0),
+        Axis::linear("way", "v²/g").within(0.0, 1.8),
+    )
+    .titled("with, against and across the nap");
+    for ((name, path, mu), color) in runs.iter().zip(colors) {
+        let way = |time: f64| {
+            let time = time.min(1.0 / mu);
+            time - 0.5 * mu * time * time
+        };
+        let exact = (0..=100)
+            .map(|at| 0.04 * f64::from(at))
+            .map(|t| [t, way(t)]);
+        let found = path
+            .iter()
+            .step_by(40)
+            .map(|at| [at[0], at[1].hypot(at[2])]);
+        panel = panel
+            .with(Series::new("", Content::line(exact.collect())).colored(Color::Grey))
+            .with(
+                Series::new(*name, Content::markers(found.collect(), Marker::Circle))
+                    .colored(color),
+            );
+    }
+    panel
 }
 
 fn ran(study: &mut Study, (name, text): (&str, &str)) -> Result<Run, Failure> {

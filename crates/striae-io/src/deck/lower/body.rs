@@ -18,6 +18,7 @@ use striae_solve::model::{Body, BodyId, RigidShape, RigidSurface};
 pub(super) struct Materials {
     names: Names,
     materials: Vec<Option<Material>>,
+    densities: Vec<Option<f64>>,
 }
 
 /// All bodies of the deck, of which some may be faulty.
@@ -30,6 +31,7 @@ struct RawBody {
     name: String,
     mesh: Option<Mesh>,
     material: Option<Material>,
+    density: Option<f64>,
 }
 
 impl Materials {
@@ -43,11 +45,23 @@ impl Materials {
             .iter()
             .map(|material| lower_material(&material.value, faults))
             .collect();
-        Self { names, materials }
+        let density = |material: &At<raw::Material>| {
+            let density = material.value.density.as_ref();
+            density.map(|density| density.value.0)
+        };
+        Self {
+            names,
+            materials,
+            densities: raw.iter().map(density).collect(),
+        }
     }
 
-    fn find(&self, name: &At<Text>, faults: &mut FaultList<'_>) -> Option<Material> {
-        self.materials[self.names.find(name, faults)?]
+    /// The material of that name, if it is sound, and its density, if it has one.
+    fn find(&self, name: &At<Text>, faults: &mut FaultList<'_>) -> (Option<Material>, Option<f64>) {
+        match self.names.find(name, faults) {
+            Some(at) => (self.materials[at], self.densities[at]),
+            None => (None, None),
+        }
     }
 }
 
@@ -87,6 +101,11 @@ impl Bodies {
     /// Mesh of a body, if it could be made.
     pub(super) fn mesh(&self, body: BodyId) -> Option<&Mesh> {
         self.bodies[body.0].mesh.as_ref()
+    }
+
+    /// Density of a body, if its material states one.
+    pub(super) fn density(&self, body: BodyId) -> Option<f64> {
+        self.bodies[body.0].density
     }
 
     /// Ids of all bodies.
@@ -135,6 +154,7 @@ impl Bodies {
                     name: body.name,
                     mesh: body.mesh?,
                     material: body.material?,
+                    density: body.density.unwrap_or(0.0),
                 })
             })
             .collect()
@@ -152,10 +172,10 @@ fn lower_body(
         .as_ref()
         .map_or("", |name| &name.value.0)
         .to_owned();
-    let material = raw
-        .material
-        .as_ref()
-        .and_then(|name| materials.find(name, faults));
+    let (material, density) = match &raw.material {
+        Some(name) => materials.find(name, faults),
+        None => (None, None),
+    };
     let mut mesh = raw
         .mesh
         .as_ref()
@@ -168,6 +188,7 @@ fn lower_body(
         name,
         mesh,
         material,
+        density,
     }
 }
 

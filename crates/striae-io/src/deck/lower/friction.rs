@@ -56,5 +56,10 @@ fn lowered(raw: &raw::Friction) -> Option<Result<Friction, FrictionError>> {
     if let Some(cap) = &raw.shear_cap {
         friction = friction.and_then(|friction| friction.with_shear_cap(cap.value.0));
     }
+    if let Some(decay) = &raw.decay {
+        let ratio = decay.value.kinetic_over_static.as_ref()?.value.0;
+        let rate = decay.value.slip_rate.as_ref()?.value.0;
+        friction = friction.and_then(|friction| friction.with_decay(ratio, rate));
+    }
     Some(friction)
 }

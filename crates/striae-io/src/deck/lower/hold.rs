@@ -1,5 +1,5 @@
 //! Whether every body is held: a body that is in no contact pair must have all
-//! six rigid motions stopped by displacement conditions, in every step.
+//! six rigid motions stopped by displacement conditions, in every step without inertia.
 //!
 //! A condition on component `i` of a node at `X` sees of the rigid motions
 //! `u = c + w x (X - X0)` the number `r . (c, w)` with the row
@@ -11,7 +11,7 @@ use crate::deck::{fault::FaultKind, faults::FaultList, raw, read::At};
 use nalgebra::{Matrix6, Vector6};
 use std::collections::BTreeSet;
 use striae_mesh::{Mesh, NodeId, Vec3};
-use striae_solve::model::{BodyId, Pair, Side, Step};
+use striae_solve::model::{BodyId, Pair, Procedure, Side, Step};
 
 /// Eigenvalue of the normal matrix, relative to the largest, that counts as zero.
 const SINGULAR: f64 = 1e-9;
@@ -38,6 +38,9 @@ pub(super) fn check(
         let mut prescribed = BTreeSet::new();
         for (step, at) in steps.iter().zip(raw) {
             prescribe(&mut prescribed, step, body);
+            if step.procedure != Procedure::QuasiStatic {
+                continue;
+            }
             let motions = free_motions(mesh, &prescribed);
             if motions > 0 {
                 let body = bodies.name(body).to_owned();

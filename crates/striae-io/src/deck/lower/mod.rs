@@ -8,6 +8,7 @@ mod curve;
 mod friction;
 mod generator;
 mod hold;
+mod inertia;
 mod mesh;
 mod nodal;
 mod sets;
@@ -87,6 +88,7 @@ pub(super) fn deck(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_
     let steps = step::steps(list(&raw.step), &scope, read, faults);
     if read == Read::Whole {
         hold::check(&bodies, &pairs, &steps, list(&raw.step), faults);
+        inertia::check(&bodies, &steps, list(&raw.step), faults);
     }
     nothing_missing(raw, faults);
 

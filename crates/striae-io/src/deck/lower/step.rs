@@ -1,6 +1,6 @@
 //! Steps: increments and what each step states.
 
-use super::{Read, Scope, condition, friction, list, texture};
+use super::{Read, Scope, condition, friction, inertia, list, texture};
 use crate::deck::{
     fault::FaultKind, faults::FaultList, names::Names, raw, read::At, value::vector,
 };
@@ -43,6 +43,8 @@ fn lower_step(
     let displacements =
         condition::displacements(list(&raw.displacement), name, scope, history, faults);
     let loads = condition::loads(raw, name, scope, faults);
+    let velocities = inertia::velocities(raw, name, scope, faults);
+    let gravity = inertia::gravity(raw, scope, faults);
     let rigid_motions = rigid_motions(list(&raw.rigid), name, scope, faults);
     let frictions = frictions(list(&raw.friction), name, scope, faults);
     Some(Step {
@@ -51,7 +53,10 @@ fn lower_step(
             .duration
             .as_ref()
             .map_or(1.0, |duration| duration.value.0),
+        procedure: inertia::procedure(raw),
         increments,
+        velocities: velocities?,
+        gravity: gravity?,
         displacements: displacements?,
         releases: releases?,
         loads: loads?,

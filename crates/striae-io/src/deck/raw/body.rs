@@ -14,6 +14,8 @@ table! {
     Material {
         /// Unique name.
         required name: Text,
+        /// Mass per volume at rest. Needed where there is inertia or gravity.
+        optional density: Positive,
         /// Law and elastic constants.
         include law: BulkLaw,
     }

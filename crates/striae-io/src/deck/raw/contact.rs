@@ -77,6 +77,18 @@ table! {
         include law: FrictionLaw,
         /// Largest shear stress that friction can carry. Default: none.
         optional shear_cap: Positive,
+        /// Decay of all coefficients with the rate of slip. Default: none.
+        optional decay: Decay,
+    }
+}
+
+table! {
+    /// Decay of friction from rest to fast slip, `kinetic + (static - kinetic) exp(-rate/slip_rate)`.
+    Decay {
+        /// Coefficients in fast slip over those at rest, which the law states.
+        required kinetic_over_static: NonNegative,
+        /// Rate of slip, length per time, at which the difference has fallen to 1/e.
+        required slip_rate: Positive,
     }
 }
 

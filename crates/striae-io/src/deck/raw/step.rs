@@ -27,8 +27,14 @@ table! {
         required name: Text,
         /// Duration in (pseudo) time. Default: 1.
         optional duration: Positive,
+        /// Implicit dynamics; an empty table takes the defaults. Default: a sequence of equilibria without inertia.
+        optional dynamics: Dynamics,
         /// How the step is divided: a number of equal increments, or their sizes. Default: 10.
         optional increments: Increments,
+        /// Velocities of whole bodies at the start of the step. Default: those they have.
+        optional velocity: Vec<At<Velocity>>,
+        /// Acceleration of gravity on all bodies; it stays until a later step states it again.
+        optional gravity: Gravity,
         /// Prescribed displacements of nodes.
         optional displacement: Vec<At<Displacement>>,
         /// Prescribed displacements that end with the start of the step.
@@ -41,6 +47,38 @@ table! {
         optional rigid: Vec<At<RigidMotion>>,
         /// Changes of friction at the start of the step.
         optional friction: Vec<At<FrictionChange>>,
+    }
+}
+
+table! {
+    /// Implicit dynamics by the generalised-alpha method.
+    Dynamics {
+        /// Spectral radius at infinite frequency: 1 keeps oscillations that the increments do not resolve, small values damp them. Default: 0.8.
+        optional spectral_radius: Fraction,
+    }
+}
+
+table! {
+    /// Velocity of a body, `vector + spin x (x - about)`.
+    Velocity {
+        /// Name of the body.
+        required body: Text,
+        /// Velocity. Default: none.
+        optional vector: [Number; 3],
+        /// Angular velocity. Default: none.
+        optional spin: [Number; 3],
+        /// Point of the axis of the spin, in space. Default: the origin.
+        optional about: [Number; 3],
+    }
+}
+
+table! {
+    /// Acceleration of gravity, from the present value to the target.
+    Gravity {
+        /// Target of the acceleration.
+        required vector: [Number; 3],
+        /// How the target is approached: `ramp`, `constant`, `smooth` or the name of a curve. Default: `ramp`.
+        optional curve: Text,
     }
 }
 

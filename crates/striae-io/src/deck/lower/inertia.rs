@@ -1,0 +1,97 @@
+//! Inertia and gravity of a step.
+
+use super::{Scope, body::Bodies, list};
+use crate::deck::{fault::FaultKind, faults::FaultList, raw, read::At, value::vector};
+use striae_mesh::Vec3;
+use striae_solve::model::{Gravity, Procedure, Step, Velocity};
+
+const SPECTRAL_RADIUS: f64 = 0.8;
+
+/// Whether the step has inertia.
+pub(super) fn procedure(raw: &raw::Step) -> Procedure {
+    match &raw.dynamics {
+        None => Procedure::QuasiStatic,
+        Some(dynamics) => Procedure::Dynamic {
+            spectral_radius: dynamics
+                .value
+                .spectral_radius
+                .as_ref()
+                .map_or(SPECTRAL_RADIUS, |radius| radius.value.0),
+        },
+    }
+}
+
+/// Velocities that the step states, or `None` after faults.
+pub(super) fn velocities(
+    raw: &raw::Step,
+    step: &str,
+    scope: &Scope<'_>,
+    faults: &mut FaultList<'_>,
+) -> Option<Vec<Velocity>> {
+    let stated = list(&raw.velocity);
+    let mut all: Vec<Velocity> = Vec::new();
+    for velocity in stated {
+        if raw.dynamics.is_none() {
+            let kind = FaultKind::VelocityWithoutInertia { step: step.into() };
+            faults.push(&velocity.span, kind);
+        }
+        let Some(body) = scope.bodies.find(velocity.value.body.as_ref(), faults) else {
+            continue;
+        };
+        if all.iter().any(|other| other.body == body) {
+            let what = format!("the velocity of body `{}`", scope.bodies.name(body));
+            let step = step.into();
+            faults.push(&velocity.span, FaultKind::StatedTwice { step, what });
+        }
+        let part = |part: &Option<At<[_; 3]>>| {
+            part.as_ref()
+                .map_or_else(Vec3::zeros, |part| vector(&part.value))
+        };
+        all.push(Velocity {
+            body,
+            velocity: part(&velocity.value.vector),
+            spin: part(&velocity.value.spin),
+            about: part(&velocity.value.about),
+        });
+    }
+    (all.len() == stated.len()).then_some(all)
+}
+
+/// Gravity that the step states; the outer `None` after faults.
+pub(super) fn gravity(
+    raw: &raw::Step,
+    scope: &Scope<'_>,
+    faults: &mut FaultList<'_>,
+) -> Option<Option<Gravity>> {
+    let Some(gravity) = &raw.gravity else {
+        return Some(None);
+    };
+    let curve = scope.curves.find(gravity.value.curve.as_ref(), faults)?;
+    let acceleration = vector(&gravity.value.vector.as_ref()?.value);
+    Some(Some(Gravity {
+        acceleration,
+        curve,
+    }))
+}
+
+/// Notes every body without density in the first step that needs it.
+pub(super) fn check(
+    bodies: &Bodies,
+    steps: &[Option<Step>],
+    raw: &[At<raw::Step>],
+    faults: &mut FaultList<'_>,
+) {
+    let needs = |step: &Step| step.gravity.is_some() || step.procedure != Procedure::QuasiStatic;
+    let first = steps.iter().zip(raw).find_map(|(step, at)| {
+        let step = step.as_ref()?;
+        needs(step).then_some((step, at))
+    });
+    let Some((step, at)) = first else { return };
+    for body in bodies.ids().filter(|body| bodies.density(*body).is_none()) {
+        let kind = FaultKind::NoDensity {
+            body: bodies.name(body).into(),
+            step: step.name.clone(),
+        };
+        faults.push(&at.span, kind);
+    }
+}

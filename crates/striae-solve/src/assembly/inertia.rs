@@ -1,0 +1,105 @@
+//! Mass, gravity and the weights of time integration.
+//!
+//! An element contributes
+//!
+//! ```text
+//! (1 - a_f) (f_int - m g) + m a_alpha,    tangent (1 - a_f) K + m da_alpha/dx,
+//! ```
+//!
+//! and every node the part `a_f (f_int - f_ext)_0` of the last converged state.
+//! Without inertia `a_f = 0` and `a_alpha = 0`.
+
+use striae_mesh::Vec3;
+
+use super::{Imposed, System, Trial};
+use crate::element::ElementResponse;
+
+/// What elements need of the increment.
+pub(super) struct Inertia {
+    /// `1 - a_f`.
+    pub(super) share_of_end: f64,
+    gravity: Vec3,
+    /// `a_alpha` of every node; none without inertia.
+    accelerations: Option<Vec<Vec3>>,
+    /// `d a_alpha / d x`.
+    pub(super) stiffness: f64,
+}
+
+impl Inertia {
+    pub(super) fn new(trial: &Trial, imposed: &Imposed) -> Self {
+        let motion = imposed.motion.as_ref();
+        Self {
+            share_of_end: 1.0 - motion.map_or(0.0, |motion| motion.scheme().alpha_f),
+            gravity: imposed.gravity,
+            accelerations: motion
+                .map(|motion| motion.weighted_accelerations(&trial.positions, imposed)),
+            stiffness: motion.map_or(0.0, |motion| motion.stiffness()),
+        }
+    }
+}
+
+impl System<'_> {
+    /// Weighs the response of an element and adds its mass and weight.
+    pub(super) fn weigh(
+        &mut self,
+        nodes: &[usize; 8],
+        mass: Option<&[[f64; 8]; 8]>,
+        response: &mut ElementResponse,
+    ) {
+        let share = self.inertia.share_of_end;
+        for (corner, &node) in nodes.iter().enumerate() {
+            let force = Vec3::from_column_slice(&response.force[3 * corner..3 * corner + 3]);
+            self.forces.internal[node] += force;
+        }
+        if share != 1.0 {
+            response.force.iter_mut().for_each(|f| *f *= share);
+            response.stiffness.iter_mut().for_each(|k| *k *= share);
+        }
+        let Some(mass) = mass else { return };
+        for a in 0..8 {
+            let total: f64 = mass[a].iter().sum();
+            let weight = self.inertia.gravity * total;
+            self.forces.applied[nodes[a]] += weight;
+            let mut force = -weight * share;
+            if let Some(accelerations) = &self.inertia.accelerations {
+                let inertia: Vec3 = (0..8).map(|b| accelerations[nodes[b]] * mass[a][b]).sum();
+                self.forces.inertia[nodes[a]] += inertia;
+                force += inertia;
+            }
+            for axis in 0..3 {
+                response.force[3 * a + axis] += force[axis];
+            }
+        }
+        if self.inertia.stiffness > 0.0 {
+            self.add_mass(nodes, mass, response);
+        }
+    }
+
+    fn add_mass(&self, nodes: &[usize; 8], mass: &[[f64; 8]; 8], response: &mut ElementResponse) {
+        for b in 0..8 {
+            for axis in 0..3 {
+                if self.context.fixed[3 * nodes[b] + axis] {
+                    continue;
+                }
+                for a in 0..8 {
+                    response.stiffness[(3 * a + axis) * 24 + 3 * b + axis] +=
+                        mass[a][b] * self.inertia.stiffness;
+                }
+            }
+        }
+    }
+
+    /// Forces carried over from the last converged state.
+    pub(super) fn carried(&mut self, imposed: &Imposed) {
+        let Some(motion) = &imposed.motion else {
+            return;
+        };
+        for node in 0..self.context.problem.reference.len() {
+            let first = self.layout.position(node);
+            let force = motion.carried(node);
+            for axis in 0..3 {
+                self.residual[first + axis] += force[axis];
+            }
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! Time integration: order, conserved quantities, balance of energy.
+
+use crate::scene::{Places, Run, block, body, coulomb, increments, model, plane, rubber, step};
+use striae_mesh::Vec3;
+use striae_solve::{
+    dynamics::momentum,
+    model::{BodyId, Curve, Gravity, Model, Procedure, Step, Velocity},
+};
+use striae_verify::fitted_rate;
+
+/// A dynamic step of `duration` in `count` increments.
+fn moving(duration: f64, count: usize) -> Step {
+    let size = 1.0 / count as f64;
+    Step {
+        duration,
+        procedure: Procedure::Dynamic {
+            spectral_radius: 0.8,
+        },
+        increments: increments(size, 0.4 * size),
+        ..step()
+    }
+}
+
+fn launched(velocity: [f64; 3], spin: [f64; 3], about: [f64; 3]) -> Vec<Velocity> {
+    vec![Velocity {
+        body: BodyId(0),
+        velocity: velocity.into(),
+        spin: spin.into(),
+        about: about.into(),
+    }]
+}
+
+/// A beam of rubber with the density 1 and its left end at `x = 0`.
+fn beam(youngs_modulus: f64) -> Model {
+    let mesh = block([0.0; 3], [2.0, 0.5, 0.5], [4, 1, 1]).mesh().unwrap();
+    let mut beam = body("beam", mesh, rubber(youngs_modulus, 0.3));
+    beam.density = 1.0;
+    model(vec![beam])
+}
+
+/// Position of the last node after a beam clamped on its left has been shaken by it.
+fn shaken(count: usize) -> Vec3 {
+    let mut model = beam(4.0);
+    let mut step = moving(1.0, count);
+    step.displacements = vec![model.hold("beam", "xmin", [Some(0.0), Some(0.0), Some(0.2)])];
+    step.displacements[0].curve = Curve::Smooth;
+    step.gravity = Some(Gravity {
+        acceleration: Vec3::new(0.0, -0.3, 0.0),
+        curve: Curve::Smooth,
+    });
+    model.steps.push(step);
+    let run = Run::completed(model);
+    run.positions(0)[run.positions(0).len() - 1]
+}
+
+#[test]
+fn smooth_motion_converges_with_the_square_of_the_increment() {
+    let exact = shaken(640);
+    let counts = [40, 80, 160];
+    let errors = counts.map(|count| (shaken(count) - exact).norm());
+    let rate = fitted_rate(&counts.map(|count| 1.0 / count as f64), &errors);
+    assert!((rate - 2.0).abs() < 0.15, "rate {rate}: {errors:?}");
+}
+
+#[test]
+fn free_flight_conserves_momentum_and_energy() {
+    let mut model = beam(10.0);
+    let mut step = moving(3.0, 30);
+    step.velocities = launched([1.0, -2.0, 0.5], [0.0; 3], [0.0; 3]);
+    model.steps.push(step);
+    let run = Run::completed(model);
+    let (p_0, l_0) = momentum(&run.problem, &run.states[1]);
+    assert!((p_0 - Vec3::new(0.5, -1.0, 0.25)).norm() < 1e-12);
+    for state in &run.states[1..] {
+        let (p, l) = momentum(&run.problem, state);
+        assert!(
+            (p - p_0).norm() < 1e-11 && (l - l_0).norm() < 1e-10,
+            "{p} {l}"
+        );
+        assert!((state.energies.kinetic - 0.5 * 5.25 * 0.5).abs() < 1e-11);
+        assert!(state.energies.strain < 1e-12);
+    }
+}
+
+/// Angular momentum and total energy of a spinning beam after two turns, over
+/// what they were; linear momentum stays exactly.
+fn spun(count: usize) -> [f64; 2] {
+    let mut model = beam(200.0);
+    let turn = std::f64::consts::TAU;
+    let mut step = moving(2.0, count);
+    step.velocities = launched([0.3, 0.0, 0.0], [0.0, 0.0, turn], [1.0, 0.25, 0.25]);
+    model.steps.push(step);
+    let run = Run::completed(model);
+    let (p_0, l_0) = momentum(&run.problem, &run.states[1]);
+    let (p, l) = momentum(&run.problem, run.last());
+    assert!((p - p_0).norm() < 1e-10 * l_0.norm(), "{p} {p_0}");
+    let energies = run.last().energies;
+    let total = energies.kinetic + energies.strain;
+    assert!(total <= energies.external, "{energies:?}");
+    [
+        (l - l_0).norm() / l_0.norm(),
+        1.0 - total / energies.external,
+    ]
+}
+
+#[test]
+fn free_rotation_conserves_linear_momentum_and_the_rest_in_the_limit() {
+    let [coarse, fine] = [200, 400].map(spun);
+    for (coarse, fine) in coarse.into_iter().zip(fine) {
+        assert!(fine < 0.3 * coarse && fine < 0.02, "{coarse} {fine}");
+    }
+}
+
+/// A block thrown onto a plane at an angle.
+fn thrown(spectral_radius: f64) -> Model {
+    let mesh = block([0.0; 3], [1.0, 1.0, 0.5], [2, 2, 2]).mesh().unwrap();
+    let mut falling = body("block", mesh, rubber(100.0, 0.3));
+    falling.density = 1.0;
+    let mut model = model(vec![falling]);
+    let floor = plane([0.0, 0.0, -0.05], [0.0, 0.0, 1.0]);
+    model.touch_rigid(("block", "zmin"), floor, coulomb(0.3));
+    let mut step = moving(0.6, 120);
+    step.procedure = Procedure::Dynamic { spectral_radius };
+    step.velocities = launched([0.5, 0.2, -1.0], [0.0; 3], [0.0; 3]);
+    step.gravity = Some(Gravity {
+        acceleration: Vec3::new(0.0, 0.0, -1.0),
+        curve: Curve::Constant,
+    });
+    model.steps.push(step);
+    model
+}
+
+#[test]
+fn impacts_take_energy_out_and_all_work_is_accounted_for() {
+    for spectral_radius in [0.8, 0.5] {
+        let run = Run::completed(thrown(spectral_radius));
+        let scale = run.states[1].energies.external;
+        for state in &run.states[1..] {
+            assert!(
+                state.energies.imbalance().abs() < 1e-8 * scale,
+                "{:?}",
+                state.energies
+            );
+        }
+        for pair in run.states.windows(2) {
+            let [before, after] = [pair[0].energies, pair[1].energies];
+            assert!(after.friction >= before.friction);
+        }
+        let energies = run.last().energies;
+        assert!(energies.friction > 0.01 * scale, "{energies:?}");
+        assert!(
+            energies.numerical > 0.0 && energies.numerical < 0.3 * scale,
+            "{energies:?}"
+        );
+        let turned = run.last().velocities.iter().map(|v| v.z).sum::<f64>();
+        assert!(turned > 0.0, "the block bounces");
+    }
+}
