@@ -11,7 +11,7 @@ pub struct Tractions {
     pub nodes: [Vec<[f64; 3]>; 2],
     /// `c` and `omega` times the patch radius of every patch.
     pub balance: Vec<[f64; 6]>,
-    /// Whether each kinematic node slipped in the last converged increment, by side.
+    /// Whether each node slipped in the last converged increment, by side.
     pub slipped: [Vec<bool>; 2],
 }
 

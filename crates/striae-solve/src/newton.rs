@@ -195,10 +195,7 @@ fn selected(context: &StepContext, state: &State) -> (Vec<Selection>, Vec<PairSt
         }
         pair_state.tractions.slipped = [0, 1].map(|side| {
             let results = pair_state.nodes[side].iter();
-            results
-                .zip(&pair_state.kinematic[side])
-                .map(|(node, was)| *was && node.status == Status::Slip)
-                .collect()
+            results.map(|node| node.status == Status::Slip).collect()
         });
         pair_state.kinematic = kinematic;
         pair_state.selection = Some(selection.clone());
