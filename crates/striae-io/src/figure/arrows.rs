@@ -1,7 +1,7 @@
 //! Arrows: one length for all vectors of a unit, and the key that explains it.
 
 use super::color::Rgb;
-use super::description::{Content, Panel};
+use super::description::{Content, Panel, Series};
 use super::shape::{Place, Shape};
 use super::ticks::round_below;
 
@@ -12,17 +12,23 @@ const REACH: f64 = 1.25;
 const LENGTHS: std::ops::Range<f64> = 8.0..36.0;
 const WIDTH: f64 = 0.7;
 
-/// The lengths of arrows with one unit.
+/// The lengths of arrows of one group.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct ArrowScale {
-    pub unit: String,
+    /// See [`group`].
+    pub group: String,
     /// Points on the page for one unit.
     pub length: f64,
     /// A round number for the key.
     pub key: f64,
 }
 
-/// The scale of every unit in a panel where a unit of the axes is `unit_length` long.
+/// What arrows share their scale by: the unit or, without one, the series.
+pub(super) fn group<'a>(series: &'a Series, unit: &'a str) -> &'a str {
+    if unit.is_empty() { &series.name } else { unit }
+}
+
+/// The scale of every group in a panel where a unit of the axes is `unit_length` long.
 pub(super) fn scales(panel: &Panel, unit_length: f64) -> Vec<ArrowScale> {
     let mut groups: Vec<(&str, f64, f64)> = Vec::new();
     for series in &panel.series {
@@ -33,17 +39,18 @@ pub(super) fn scales(panel: &Panel, unit_length: f64) -> Vec<ArrowScale> {
         } = &series.content
         {
             let (longest, reach) = (longest(vectors), reach(origins));
-            match groups.iter_mut().find(|group| group.0 == unit) {
-                Some(group) => *group = (unit, group.1.max(longest), group.2.min(reach)),
-                None => groups.push((unit, longest, reach)),
+            let name = group(series, unit);
+            match groups.iter_mut().find(|group| group.0 == name) {
+                Some(group) => *group = (name, group.1.max(longest), group.2.min(reach)),
+                None => groups.push((name, longest, reach)),
             }
         }
     }
-    let scale = |(unit, longest, reach): (&str, f64, f64)| {
+    let scale = |(group, longest, reach): (&str, f64, f64)| {
         let length = (reach * unit_length).clamp(LENGTHS.start, LENGTHS.end);
         let moving = longest > 0.0;
         ArrowScale {
-            unit: unit.to_owned(),
+            group: group.to_owned(),
             length: if moving { length / longest } else { 0.0 },
             key: if moving { round_below(longest) } else { 0.0 },
         }

@@ -127,7 +127,8 @@ pub enum Content {
         marker: Marker,
     },
     /// Arrows in the plane; Cartesian panels only. The legend holds a key. All
-    /// arrows of a panel with one unit have one scale.
+    /// arrows of a panel with one unit have one scale; series without a unit have
+    /// their own.
     Arrows {
         /// Tails of the arrows.
         origins: Vec<[f64; 2]>,

@@ -1,6 +1,6 @@
 //! The legend: samples and names in rows above the frame.
 
-use super::arrows::{ArrowScale, arrow};
+use super::arrows::{ArrowScale, arrow, group};
 use super::color::Rgb;
 use super::description::{Content, Line, Marker, Panel};
 use super::fit::power_law;
@@ -48,7 +48,9 @@ pub(super) fn entries(panel: &Panel, scales: &[ArrowScale]) -> Vec<Entry> {
             let (words, sample) = match &series.content {
                 Content::Facets { .. } => return None,
                 Content::Arrows { unit, .. } => {
-                    let scale = scales.iter().find(|scale| scale.unit == *unit)?;
+                    let scale = scales
+                        .iter()
+                        .find(|scale| scale.group == group(series, unit))?;
                     let key = format!("{} {unit}", round_words(scale.key));
                     let words = format!("{} ({})", series.name, key.trim());
                     (

@@ -1,6 +1,6 @@
 //! What the series of a panel look like on the page.
 
-use super::arrows::{ArrowScale, arrow, ends};
+use super::arrows::{ArrowScale, arrow, ends, group};
 use super::axis::Mapping;
 use super::color::{Rgb, viridis};
 use super::description::{Content, Frame, Line, Marker, Panel, Scale};
@@ -145,8 +145,8 @@ pub(super) fn layers(
             } => {
                 let length = scales
                     .iter()
-                    .find(|s| s.unit == *unit)
-                    .map_or(0.0, |s| s.length);
+                    .find(|scale| scale.group == group(series, unit))
+                    .map_or(0.0, |scale| scale.length);
                 for (&origin, vector) in origins.iter().zip(vectors) {
                     let tail = coordinates
                         .place(origin)
