@@ -22,7 +22,7 @@ use striae_mesh::{NodeId, Vec3};
 use striae_solve::{
     drive::Progress,
     element::{nodal_cauchy_stress, von_mises},
-    newton::Increment,
+    newton::{Increment, LinearWork},
     outcome::Ending,
     problem::Problem,
     report::{PairReport, bodies, pairs, reactions},
@@ -33,7 +33,7 @@ use crate::{
     OutputError,
     deck::{FieldOutput, Output},
     history::History,
-    summary::{PairSummary, Status, Summary, newton_counts, peak_rss_mib},
+    summary::{PairSummary, SolverSummary, Status, Summary, newton_counts, peak_rss_mib},
     vtk::{Array, Cells, Grid, Series, Snapshot, Values, write},
 };
 
@@ -49,6 +49,7 @@ pub struct Recorder {
     iterations: Vec<usize>,
     cut_backs: usize,
     unknowns: usize,
+    solver: SolverSummary,
     written: Option<usize>,
 }
 
@@ -74,6 +75,7 @@ impl Recorder {
             iterations: Vec::new(),
             cut_backs: 0,
             unknowns: 0,
+            solver: SolverSummary::default(),
             written: None,
         })
     }
@@ -95,6 +97,7 @@ impl Recorder {
     ) -> Result<(), OutputError> {
         self.iterations.push(increment.iterations.len());
         self.unknowns = increment.unknowns;
+        self.note_work(&increment.work);
         self.row(problem, progress, increment)?;
         match self.fields {
             FieldOutput::Every(every) if progress.increment.is_multiple_of(every.get()) => {
@@ -133,6 +136,7 @@ impl Recorder {
             newton_max,
             newton_median,
             unknowns: self.unknowns,
+            solver: self.solver.clone(),
             wall_s: self.started.elapsed().as_secs_f64(),
             peak_rss_mib: peak_rss_mib(),
             pairs: pairs(problem, state).iter().map(pair_summary).collect(),
@@ -143,6 +147,15 @@ impl Recorder {
         };
         summary.write(&self.folder.join("summary.json"))?;
         Ok(summary)
+    }
+
+    fn note_work(&mut self, work: &LinearWork) {
+        self.solver.method = work.method.to_string();
+        self.solver.factorisations += work.factorisations;
+        if let Some(reason) = work.fall_back {
+            self.solver.fall_backs += 1;
+            self.solver.reason = Some(reason.to_string());
+        }
     }
 
     fn row(

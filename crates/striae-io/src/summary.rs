@@ -35,6 +35,8 @@ pub struct Summary {
     pub newton_median: f64,
     /// Unknowns of the system.
     pub unknowns: usize,
+    /// The linear solver.
+    pub solver: SolverSummary,
     /// Time on the wall clock, s.
     pub wall_s: f64,
     /// Largest resident memory, MiB, where the system tells.
@@ -43,6 +45,19 @@ pub struct Summary {
     pub pairs: Vec<PairSummary>,
     /// Reaction of every node set with prescribed displacements.
     pub reactions: BTreeMap<String, [f64; 3]>,
+}
+
+/// What the linear systems took.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SolverSummary {
+    /// How the last one was factored: `condensed`, `multifrontal` or `faer`.
+    pub method: String,
+    /// Factorisations in all accepted increments.
+    pub factorisations: usize,
+    /// Accepted increments in which the multifrontal LU stood in for the condensed solver.
+    pub fall_backs: usize,
+    /// Why it last did.
+    pub reason: Option<String>,
 }
 
 /// How a run ended.
@@ -161,6 +176,12 @@ mod tests {
             newton_max: 7,
             newton_median: 4.5,
             unknowns: 1234,
+            solver: SolverSummary {
+                method: "condensed".into(),
+                factorisations: 80,
+                fall_backs: 0,
+                reason: None,
+            },
             wall_s: 0.75,
             peak_rss_mib: None,
             pairs: vec![PairSummary {
@@ -189,6 +210,9 @@ mod tests {
             "case": "two-blocks", "version": "0.1.0", "status": "completed",
             "reason": "The end time was reached.", "increments": 20, "cutbacks": 1,
             "newton_total": 85, "newton_max": 7, "newton_median": 4.5, "unknowns": 1234,
+            "solver": {
+                "method": "condensed", "factorisations": 80, "fall_backs": 0, "reason": null
+            },
             "wall_s": 0.75, "peak_rss_mib": null,
             "pairs": [{
                 "name": "interface", "resultant_a": [0.1, 0.0, 15_712.0],

@@ -215,7 +215,7 @@ fn settings_have_defaults() {
     );
     let bare = lowered(&BASE[..BASE.find("[output]").unwrap()]);
     let default = Solver {
-        backend: Backend::Multifrontal,
+        backend: Backend::Condensed,
         tolerance: 1e-10,
         largest_iterations: 20,
     };

@@ -5,7 +5,7 @@
 //! rounded to powers of two so that scaling itself makes no round-off and a
 //! symmetric matrix stays symmetric.
 
-use crate::{error::SolveError, matrix::SparseMatrix};
+use crate::{error::SolveError, matrix::SparseMatrix, structure::Supervariable};
 
 /// Most sweeps over the matrix; each halves the exponents that are left.
 const SWEEPS: usize = 12;
@@ -47,6 +47,64 @@ impl Equilibration {
         Ok(scaling)
     }
 
+    /// Factors from the diagonal of the bulk, for the condensed solver.
+    ///
+    /// Bulk unknowns and their rows get `1/sqrt|a_ii|`. Multipliers are scaled to
+    /// the largest entry that bulk rows have in their column, their rows to the
+    /// largest entry; multipliers that only other multipliers know come last.
+    pub(crate) fn by_diagonal(matrix: &SparseMatrix) -> Result<Self, SolveError> {
+        check_finite(matrix)?;
+        let structure = matrix.structure();
+        let n = structure.unknowns();
+        let mut scaling = Self {
+            rows: vec![1.0; n],
+            columns: vec![1.0; n],
+        };
+        let mut multipliers = Vec::new();
+        for i in 0..structure.supervariables() {
+            let bulk = structure.bulk_group(i);
+            multipliers.extend(bulk.end..structure.group(i).end);
+            for u in bulk {
+                let scale = root(matrix.get(u, u).unwrap_or(0.0).abs());
+                (scaling.rows[u], scaling.columns[u]) = (scale, scale);
+            }
+        }
+        let mut is_multiplier = vec![false; n];
+        multipliers.iter().for_each(|&m| is_multiplier[m] = true);
+        let mut largest = vec![0.0_f64; n];
+        for i in (0..structure.supervariables()).filter(|&i| structure.is_kept(Supervariable(i))) {
+            for u in structure.bulk_group(i) {
+                for (v, a) in matrix.row(u).filter(|&(v, _)| is_multiplier[v]) {
+                    largest[v] = largest[v].max(a.abs() * scaling.rows[u]);
+                }
+            }
+        }
+        multipliers
+            .iter()
+            .for_each(|&m| scaling.columns[m] = inverse(largest[m]));
+        for &m in &multipliers {
+            let known = |v: usize| !is_multiplier[v] || largest[v] > 0.0;
+            let entries = matrix.row(m).filter(|&(v, _)| known(v));
+            let size = entries.map(|(v, a)| a.abs() * scaling.columns[v]);
+            scaling.rows[m] = inverse(size.fold(0.0, f64::max));
+        }
+        let unknown = |v: usize| is_multiplier[v] && largest[v] == 0.0;
+        let mut late = vec![0.0_f64; n];
+        for &m in &multipliers {
+            for (v, a) in matrix.row(m).filter(|&(v, _)| unknown(v)) {
+                late[v] = late[v].max(a.abs() * scaling.rows[m]);
+            }
+        }
+        for &m in multipliers.iter().filter(|&&m| unknown(m)) {
+            scaling.columns[m] = inverse(late[m]);
+        }
+        for &m in &multipliers {
+            let sizes = matrix.row(m).map(|(v, a)| a.abs() * scaling.columns[v]);
+            scaling.rows[m] = inverse(sizes.fold(0.0, f64::max));
+        }
+        Ok(scaling)
+    }
+
     /// `b := R b`, from the equations of `A` to those of `R A C`.
     pub(crate) fn scale_rows(&self, b: &mut [f64]) {
         b.iter_mut().zip(&self.rows).for_each(|(b, r)| *b *= r);
@@ -64,6 +122,14 @@ fn root(maximum: f64) -> f64 {
         return 1.0;
     }
     (-(0.5 * maximum.log2()).round()).exp2()
+}
+
+/// Power of two nearest to `1/maximum` in the exponent; one for zero.
+fn inverse(maximum: f64) -> f64 {
+    if maximum == 0.0 {
+        return 1.0;
+    }
+    (-maximum.log2().round()).exp2()
 }
 
 fn check_finite(matrix: &SparseMatrix) -> Result<(), SolveError> {

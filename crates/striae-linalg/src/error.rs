@@ -28,6 +28,14 @@ pub enum StructureError {
         /// Number of supervariables.
         count: usize,
     },
+    /// The list of bulk unknowns has the wrong length.
+    #[error("{found} numbers of bulk unknowns for {expected} supervariables")]
+    Bulk {
+        /// Length of the list.
+        found: usize,
+        /// Number of supervariables.
+        expected: usize,
+    },
     /// The list of tiers has the wrong length.
     #[error("{found} tiers for {expected} supervariables")]
     Tiers {

@@ -7,8 +7,8 @@ use crate::{
     matrix::SparseMatrix,
     multifrontal::MultifrontalLu,
     refinement,
-    singularity::{self, Factors},
-    solver::{Analysis, FactorReport, LinearSolver, SolveReport},
+    singularity::{self, Factors, TransposedFactors},
+    solver::{Analysis, FactorReport, LinearSolver, Method, SolveReport},
     structure::Structure,
 };
 use faer::{
@@ -59,7 +59,10 @@ impl LinearSolver for FaerLu {
             pattern,
             symbolic,
         });
-        Ok(Analysis::default())
+        Ok(Analysis {
+            method: Method::Faer,
+            ..Analysis::default()
+        })
     }
 
     fn factor(&mut self, matrix: &SparseMatrix) -> Result<FactorReport, SolveError> {
@@ -70,11 +73,14 @@ impl LinearSolver for FaerLu {
         }
         let scaling = Equilibration::of(matrix)?;
         self.factors = Some(factor_regular(analysis, matrix, scaling)?);
-        Ok(FactorReport::default())
+        Ok(FactorReport {
+            method: Method::Faer,
+            ..FactorReport::default()
+        })
     }
 
     fn solve(
-        &self,
+        &mut self,
         matrix: &SparseMatrix,
         rhs: &[f64],
         x: &mut [f64],
@@ -99,7 +105,9 @@ impl Factors for Numeric {
         self.transposed
             .solve_transpose_in_place_with_conj(Conj::No, x);
     }
+}
 
+impl TransposedFactors for Numeric {
     fn solve_transposed_in_place(&self, x: &mut [f64]) {
         let rows = x.len();
         let x = MatMut::from_column_major_slice_mut(x, rows, 1);

@@ -23,12 +23,16 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod automatic;
+mod bulk;
+mod condensed;
 mod dense;
 mod equilibration;
 mod error;
 mod faer_lu;
 mod front;
 mod gmres;
+mod interface;
 mod matrix;
 mod metis;
 mod multifrontal;
@@ -38,17 +42,19 @@ mod refinement;
 mod schur;
 mod singularity;
 mod solver;
+mod sparse_elimination;
 mod structure;
 mod substitution;
 mod supernodes;
 mod symmetric;
 mod tree;
 
+pub use automatic::Automatic;
 pub use error::{OutsidePattern, SolveError, StructureError};
 pub use faer::Mat;
 pub use faer_lu::FaerLu;
 pub use matrix::SparseMatrix;
 pub use multifrontal::MultifrontalLu;
 pub use schur::SchurCholesky;
-pub use solver::{Analysis, FactorReport, LinearSolver, SolveReport};
+pub use solver::{Analysis, FactorReport, FallBack, LinearSolver, Method, SolveReport};
 pub use structure::{Structure, Supervariable, Tier};

@@ -286,6 +286,11 @@ impl SparseMatrix {
         &self.values
     }
 
+    /// All values, row by row.
+    pub(crate) fn values_mut(&mut self) -> &mut [f64] {
+        &mut self.values
+    }
+
     /// Edges between all runs of rows and columns.
     fn edges(
         &self,

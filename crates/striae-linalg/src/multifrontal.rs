@@ -1,4 +1,4 @@
-//! Multifrontal LU for unsymmetric values on a symmetric pattern: the default solver.
+//! Multifrontal LU for unsymmetric values on a symmetric pattern.
 //!
 //! Nested dissection of the graph of supervariables, an assembly tree of dense
 //! fronts, threshold pivoting inside the fronts with delayed pivots (Duff &
@@ -14,8 +14,8 @@ use crate::{
     matrix::SparseMatrix,
     numeric::Numeric,
     ordering, refinement,
-    singularity::{self, Factors},
-    solver::{Analysis, FactorReport, LinearSolver, SolveReport},
+    singularity::{self, Factors, TransposedFactors},
+    solver::{Analysis, FactorReport, LinearSolver, Method, SolveReport},
     structure::Structure,
     substitution,
     tree::AssemblyTree,
@@ -63,6 +63,7 @@ impl LinearSolver for MultifrontalLu {
             factor_entries: tree.entries(),
             flops: tree.flops(),
             peak_bytes: size_of::<f64>() * (tree.entries() + tree.stack()),
+            method: Method::Multifrontal,
         };
         self.symbolic = Some(Symbolic {
             structure: structure.clone(),
@@ -89,6 +90,8 @@ impl LinearSolver for MultifrontalLu {
             factor_entries: fronts.iter().map(|front| front.entries()).sum(),
             delayed_pivots: fronts.iter().map(|front| front.delayed()).sum(),
             perturbed_pivots: fronts.iter().map(|front| front.replaced).sum(),
+            method: Method::Multifrontal,
+            ..FactorReport::default()
         };
         let smallest = fronts
             .iter()
@@ -106,7 +109,7 @@ impl LinearSolver for MultifrontalLu {
     }
 
     fn solve(
-        &self,
+        &mut self,
         matrix: &SparseMatrix,
         rhs: &[f64],
         x: &mut [f64],
@@ -133,7 +136,9 @@ impl Factors for Substitution<'_> {
     fn solve_in_place(&self, x: &mut [f64]) {
         substitution::solve(self.tree, self.numeric, x);
     }
+}
 
+impl TransposedFactors for Substitution<'_> {
     fn solve_transposed_in_place(&self, x: &mut [f64]) {
         substitution::solve_transposed(self.tree, self.numeric, x);
     }

@@ -13,7 +13,7 @@ use crate::{
     matrix::SparseMatrix,
     numeric::{Child, Contribution, Kernel, Numeric},
     ordering,
-    solver::Analysis,
+    solver::{Analysis, Method},
     structure::{Structure, Supervariable, Tier},
     symmetric,
     tree::{AssemblyTree, ELSEWHERE, Front},
@@ -79,6 +79,7 @@ impl SchurCholesky {
             factor_entries,
             flops,
             peak_bytes,
+            method: Method::Condensed,
         }
     }
 
@@ -90,7 +91,7 @@ impl SchurCholesky {
     /// Eliminates the interior; returns the Schur complement, both triangles.
     ///
     /// Of the matrix only one of each pair of mirrored entries is used.
-    pub fn factor(&mut self, matrix: &SparseMatrix) -> Result<Mat<f64>, SolveError> {
+    pub fn factor(&mut self, matrix: &SparseMatrix) -> Result<MatRef<'_, f64>, SolveError> {
         self.scales.clear();
         if !self.structure.same_as(matrix.structure()) {
             return Err(SolveError::NotAnalysed);
@@ -110,24 +111,28 @@ impl SchurCholesky {
         }
         self.scales = scales;
         let n = self.kept.len();
-        let lower = &self.numeric.values[self.numeric.values.len() - n * n..];
-        Ok(Mat::from_fn(n, n, |i, j| lower[i.min(j) * n + i.max(j)]))
+        let begin = self.numeric.values.len() - n * n;
+        mirror_lower(&mut self.numeric.values[begin..], n);
+        Ok(self.complement())
     }
 
-    /// Right-hand side `b_k - A_ki A_ii^-1 b_i` of the kept unknowns.
+    /// The Schur complement of the last factorisation.
+    pub fn complement(&self) -> MatRef<'_, f64> {
+        let n = self.kept.len();
+        let begin = self.numeric.values.len().saturating_sub(n * n);
+        MatRef::from_column_major_slice(&self.numeric.values[begin..], n, n)
+    }
+
+    /// Eliminates the interior from a right-hand side; the kept unknowns hold
+    /// `b_k - A_ki A_ii^-1 b_i`, the others what [`expand`](Self::expand) needs.
     pub fn condense(&self, rhs: &[f64]) -> Result<Vec<f64>, SolveError> {
-        let y = self.forward(rhs)?;
-        Ok(self.kept.iter().map(|&unknown| y[unknown]).collect())
+        self.forward(rhs)
     }
 
-    /// All unknowns, from the right-hand side and the kept ones.
-    pub fn expand(&self, rhs: &[f64], kept: &[f64]) -> Result<Vec<f64>, SolveError> {
-        check_length(kept, self.kept.len())?;
-        let mut x = self.forward(rhs)?;
-        self.kept
-            .iter()
-            .zip(kept)
-            .for_each(|(&unknown, value)| x[unknown] = *value);
+    /// All unknowns, from a condensed right-hand side with the solution at the kept ones.
+    pub fn expand(&self, condensed: Vec<f64>) -> Result<Vec<f64>, SolveError> {
+        check_length(&condensed, self.structure.unknowns())?;
+        let mut x = condensed;
         let mut end: usize = self
             .tree
             .fronts
@@ -323,6 +328,20 @@ fn entries(front: &Front) -> usize {
 fn column(v: &mut [f64]) -> MatMut<'_, f64> {
     let rows = v.len();
     MatMut::from_column_major_slice_mut(v, rows, 1)
+}
+
+/// Copies the lower triangle to the upper one, block by block.
+fn mirror_lower(values: &mut [f64], n: usize) {
+    const BLOCK: usize = 32;
+    for left in (0..n).step_by(BLOCK) {
+        for top in (left..n).step_by(BLOCK) {
+            for j in left..(left + BLOCK).min(n) {
+                for i in top.max(j + 1)..(top + BLOCK).min(n) {
+                    values[i * n + j] = values[j * n + i];
+                }
+            }
+        }
+    }
 }
 
 fn check_length(v: &[f64], expected: usize) -> Result<(), SolveError> {

@@ -15,6 +15,10 @@ use crate::{equilibration::Equilibration, error::SolveError, matrix::SparseMatri
 pub(crate) trait Factors {
     /// `x := (R A C)^-1 x`.
     fn solve_in_place(&self, x: &mut [f64]);
+}
+
+/// The same for the transposed matrix.
+pub(crate) trait TransposedFactors: Factors {
     /// `x := (R A C)^-T x`.
     fn solve_transposed_in_place(&self, x: &mut [f64]);
 }
@@ -28,7 +32,7 @@ const PROJECTIONS: usize = 2;
 pub(crate) fn check_regular(
     matrix: &SparseMatrix,
     scaling: &Equilibration,
-    factors: &dyn Factors,
+    factors: &dyn TransposedFactors,
 ) -> Result<(), SolveError> {
     let n = matrix.structure().unknowns();
     let mut left: Vec<f64> = pseudo_random().take(n).collect();

@@ -1,6 +1,7 @@
 //! What every direct solver offers: analyse once, factor per matrix, solve per right-hand side.
 
 use crate::{error::SolveError, matrix::SparseMatrix, structure::Structure};
+use thiserror::Error;
 
 /// A direct solver of square sparse systems.
 ///
@@ -19,7 +20,7 @@ pub trait LinearSolver: Send {
     /// `matrix` is the factored one or one close to it: the residual is that of
     /// `matrix`. The old content of `x` is not used.
     fn solve(
-        &self,
+        &mut self,
         matrix: &SparseMatrix,
         rhs: &[f64],
         x: &mut [f64],
@@ -35,6 +36,8 @@ pub struct Analysis {
     pub flops: f64,
     /// Memory of factors and working space at its highest, in bytes.
     pub peak_bytes: usize,
+    /// How matrices will be factored, if nothing forbids it.
+    pub method: Method,
 }
 
 /// What a factorisation met.
@@ -46,6 +49,60 @@ pub struct FactorReport {
     pub delayed_pivots: usize,
     /// Pivots too small to divide by that were replaced.
     pub perturbed_pivots: usize,
+    /// Order of the dense contact system of the condensed solver.
+    pub dense_order: usize,
+    /// How the matrix was factored.
+    pub method: Method,
+    /// Why the condensed solver was not used, where it was asked for.
+    pub fall_back: Option<FallBack>,
+}
+
+/// Ways to factor a matrix.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Method {
+    /// Cholesky factorisation of the bodies, dense algebra for contact.
+    Condensed,
+    /// Multifrontal LU.
+    #[default]
+    Multifrontal,
+    /// faer's sparse LU.
+    Faer,
+}
+
+impl std::fmt::Display for Method {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Condensed => "condensed",
+            Self::Multifrontal => "multifrontal",
+            Self::Faer => "faer",
+        })
+    }
+}
+
+/// Why the multifrontal LU was used in the place of the condensed solver.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+pub enum FallBack {
+    /// Dense algebra on the interface would cost more.
+    #[error("the interface has {unknowns} unknowns, too many for dense algebra")]
+    LargeInterface {
+        /// Bulk unknowns of the interface.
+        unknowns: usize,
+    },
+    /// The interior of a body is not positive definite.
+    #[error("the interior of a body is not positive definite (unknown {unknown})")]
+    IndefiniteInterior {
+        /// Unknown whose pivot failed.
+        unknown: usize,
+    },
+    /// The condensed contact system has no accurate factors.
+    #[error("the condensed contact system is singular")]
+    SingularContact,
+    /// The bulk is too far from symmetric, or its factors are too inaccurate.
+    #[error("the condensed solver left a backward error of {backward_error:.1e}")]
+    Inaccurate {
+        /// Componentwise backward error that remained.
+        backward_error: f64,
+    },
 }
 
 /// How accurate a solution is and what it took.

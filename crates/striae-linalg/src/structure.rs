@@ -4,6 +4,11 @@
 //! contiguous unknowns `offsets[I]..offsets[I + 1]` (possibly none). Two
 //! supervariables are adjacent when a clique contains both; every one is
 //! adjacent to itself. The pattern is symmetric and made of dense blocks.
+//!
+//! The *bulk* is what the first cliques couple: of every supervariable the
+//! leading unknowns. What is added later by [`Structure::grown`] is the
+//! *interface*: its supervariables are kept when the rest of the bulk is
+//! condensed.
 
 use crate::error::StructureError;
 use std::{ops::Range, sync::Arc};
@@ -20,7 +25,7 @@ pub struct Tier(pub u32);
 #[derive(Clone, Debug)]
 pub struct Structure(Arc<Pattern>);
 
-#[derive(Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 struct Pattern {
     offsets: Vec<usize>,
     owner: Vec<u32>,
@@ -32,6 +37,12 @@ struct Pattern {
     columns: Vec<u32>,
     /// First value of each supervariable's rows in a matrix.
     values: Vec<usize>,
+    /// Leading unknowns of each supervariable that belong to the bulk.
+    bulk: Vec<u32>,
+    /// Whether each edge belongs to the bulk.
+    bulk_edges: Vec<bool>,
+    /// Whether each supervariable belongs to the interface.
+    kept: Vec<bool>,
 }
 
 impl Structure {
@@ -45,10 +56,17 @@ impl Structure {
         check_offsets(&offsets)?;
         let count = offsets.len() - 1;
         let (starts, neighbours) = adjacency(count, cliques, None)?;
-        let tiers = vec![Tier(0); count];
-        Ok(Self(Arc::new(Pattern::new(
-            offsets, tiers, starts, neighbours,
-        ))))
+        Ok(Self::from_adjacency(offsets, starts, neighbours))
+    }
+
+    /// Structure with a given symmetric adjacency in compressed sorted rows, with the diagonal.
+    pub(crate) fn from_adjacency(
+        offsets: Vec<usize>,
+        starts: Vec<usize>,
+        neighbours: Vec<u32>,
+    ) -> Self {
+        let tiers = vec![Tier(0); offsets.len() - 1];
+        Self(Arc::new(Pattern::new(offsets, tiers, starts, neighbours)))
     }
 
     /// The same structure with other ordering tiers, one per supervariable.
@@ -60,26 +78,49 @@ impl Structure {
                 expected,
             });
         }
-        let p = &*self.0;
-        let (offsets, starts) = (p.offsets.clone(), p.starts.clone());
-        Ok(Self(Arc::new(Pattern::new(
-            offsets,
+        Ok(Self(Arc::new(Pattern {
             tiers,
-            starts,
-            p.neighbours.clone(),
-        ))))
+            ..(*self.0).clone()
+        })))
     }
 
-    /// The same structure with more cliques.
+    /// The same structure in which only so many leading unknowns of each
+    /// supervariable belong to the bulk; those with others are kept.
+    pub fn with_bulk(&self, bulk: &[usize]) -> Result<Self, StructureError> {
+        let expected = self.supervariables();
+        if bulk.len() != expected {
+            return Err(StructureError::Bulk {
+                found: bulk.len(),
+                expected,
+            });
+        }
+        let mut pattern = (*self.0).clone();
+        for (i, &count) in bulk.iter().enumerate() {
+            let size = self.group(i).len();
+            pattern.bulk[i] = count.min(size) as u32;
+            pattern.kept[i] |= count < size;
+        }
+        Ok(Self(Arc::new(pattern)))
+    }
+
+    /// The same structure with more cliques, whose supervariables are kept.
     pub fn grown<C: AsRef<[Supervariable]>>(&self, cliques: &[C]) -> Result<Self, StructureError> {
         let p = &*self.0;
         let (starts, neighbours) = adjacency(self.supervariables(), cliques, Some(p))?;
-        Ok(Self(Arc::new(Pattern::new(
-            p.offsets.clone(),
-            p.tiers.clone(),
-            starts,
-            neighbours,
-        ))))
+        let (offsets, tiers) = (p.offsets.clone(), p.tiers.clone());
+        let mut pattern = Pattern::new(offsets, tiers, starts, neighbours);
+        for i in 0..p.tiers.len() {
+            for edge in pattern.starts[i]..pattern.starts[i + 1] {
+                let older = self.edge(i, pattern.neighbours[edge] as usize);
+                pattern.bulk_edges[edge] = older.is_some_and(|older| p.bulk_edges[older]);
+            }
+        }
+        pattern.bulk.clone_from(&p.bulk);
+        pattern.kept.clone_from(&p.kept);
+        for s in cliques.iter().flat_map(|clique| clique.as_ref()) {
+            pattern.kept[s.0] = true;
+        }
+        Ok(Self(Arc::new(pattern)))
     }
 
     /// Number of scalar unknowns.
@@ -110,6 +151,22 @@ impl Structure {
     /// Ordering tier of a supervariable.
     pub fn tier(&self, supervariable: Supervariable) -> Tier {
         self.0.tiers[supervariable.0]
+    }
+
+    /// Whether a supervariable belongs to the interface.
+    pub fn is_kept(&self, supervariable: Supervariable) -> bool {
+        self.0.kept[supervariable.0]
+    }
+
+    /// Unknowns of supervariable `i` that belong to the bulk.
+    pub(crate) fn bulk_group(&self, i: usize) -> Range<usize> {
+        let start = self.0.offsets[i];
+        start..start + self.0.bulk[i] as usize
+    }
+
+    /// Whether an edge belongs to the bulk.
+    pub(crate) fn is_bulk_edge(&self, edge: usize) -> bool {
+        self.0.bulk_edges[edge]
     }
 
     /// Ordering tiers of all supervariables.
@@ -210,6 +267,9 @@ impl Pattern {
             values.push(values[i] + size(i) * column);
         }
         Self {
+            bulk: (0..tiers.len()).map(|i| size(i) as u32).collect(),
+            bulk_edges: vec![true; neighbours.len()],
+            kept: vec![false; tiers.len()],
             offsets,
             owner,
             tiers,

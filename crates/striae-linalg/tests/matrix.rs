@@ -31,8 +31,13 @@ fn growing_adds_to_the_pattern() {
         vec![0, 3, 4, 4, 6],
         &[s(&[0, 1]), s(&[3, 1, 2]), s(&[3, 0])],
     );
-    assert!(grown.same_as(&direct.unwrap()));
-    assert!(!grown.same_as(&structure()));
+    let direct = direct.unwrap();
+    for i in (0..4).map(Supervariable) {
+        assert!(grown.neighbours(i).eq(direct.neighbours(i)));
+        assert_eq!(grown.is_kept(i), [0, 3].contains(&i.0));
+    }
+    assert_eq!(grown.entries(), direct.entries());
+    assert!(!grown.same_as(&structure()) && !grown.same_as(&direct));
 }
 
 #[test]

@@ -210,9 +210,11 @@ impl System<'_> {
             .flat_map(|at| &term.tangent[at * columns.len()..(at + 1) * columns.len()])
             .copied()
             .collect();
-        if self.matrix.add(&kept_rows, &kept_columns, &block).is_err() {
-            let mut clique: Vec<Supervariable> =
-                rows.iter().chain(&columns).map(|entry| entry.1).collect();
+        let mut clique: Vec<Supervariable> =
+            rows.iter().chain(&columns).map(|entry| entry.1).collect();
+        let structure = self.matrix.structure();
+        let known = clique.iter().all(|&s| structure.is_kept(s));
+        if !known || self.matrix.add(&kept_rows, &kept_columns, &block).is_err() {
             clique.sort_unstable();
             clique.dedup();
             self.outside.push(clique);

@@ -118,6 +118,12 @@ impl Layout {
         (0..self.offsets.len() - 1).map(tier).collect()
     }
 
+    /// Leading unknowns of every supervariable that elements couple: the positions.
+    pub fn bulk(&self) -> Vec<usize> {
+        let positions = |at: usize| if at < self.nodes { 3 } else { 0 };
+        (0..self.offsets.len() - 1).map(positions).collect()
+    }
+
     /// Supervariable of a global node.
     pub fn supervariable(&self, node: usize) -> Supervariable {
         Supervariable(node)

@@ -298,6 +298,9 @@ pub struct Solver {
 /// Factorisation of the linear systems.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Backend {
+    /// Cholesky factorisation of the bodies with dense contact; multifrontal LU
+    /// where that does not work or pay.
+    Condensed,
     /// Multifrontal LU on dense fronts.
     Multifrontal,
     /// faer's sparse LU.

@@ -9,7 +9,7 @@ mod acceptance;
 mod cycling;
 mod workspace;
 
-pub use workspace::Workspace;
+pub use workspace::{LinearWork, Workspace};
 
 use striae_contact::{
     complementarity::Iteration,
@@ -24,7 +24,6 @@ use striae_mesh::Vec3;
 use crate::{
     assembly::{Assembled, Imposed, StepContext, Trial},
     layout::Layout,
-    model::Backend,
     norms::Norms,
     outcome::CutBack,
     problem::Problem,
@@ -45,6 +44,8 @@ pub struct Increment {
     pub unknowns: usize,
     /// Predicted memory of the factorisation in bytes.
     pub peak_bytes: usize,
+    /// What the linear systems took.
+    pub work: LinearWork,
 }
 
 /// Told of every iteration.
@@ -69,7 +70,7 @@ pub struct Estimate {
 pub fn estimate(problem: &Problem) -> Result<Estimate, CutBack> {
     let state = State::undeformed(problem);
     let context = StepContext::new(problem, 0, &state);
-    let mut workspace = Workspace::new(Backend::Multifrontal);
+    let mut workspace = Workspace::new(problem.model.solver.backend);
     forces_at_start(&context, &state, &mut workspace)?;
     let structure = workspace.system().matrix.structure().clone();
     let analysis = workspace
@@ -117,6 +118,7 @@ pub fn advance(
     let imposed = context.imposed_after(state, s, time);
     let (selections, pairs) = selected(context, state);
     workspace.prepare(context.problem, &pairs);
+    workspace.take_work();
     let mut trial = Trial {
         positions: state.positions.clone(),
         tractions: pairs.iter().map(|pair| pair.tractions.clone()).collect(),
@@ -130,7 +132,8 @@ pub fn advance(
         let correction = workspace
             .correction(&assembled.residual)
             .map_err(|error| linear_system(context.problem, &workspace.system().layout, error))?;
-        (trial, assembled) = step(
+        let taken;
+        (trial, assembled, taken) = step(
             workspace,
             context,
             &selections,
@@ -142,7 +145,8 @@ pub fn advance(
         iterations.push(norms);
         history.push(&assembled.contacts);
         observer.iteration(number, &norms, &assembled.contacts);
-        if norms.largest() <= solver.tolerance {
+        // A part of a correction leaves prescribed displacements on their way.
+        if norms.largest() <= solver.tolerance && taken == Taken::Whole {
             break;
         }
         if !norms.largest().is_finite() || norms.force > 1e8 {
@@ -162,8 +166,10 @@ pub fn advance(
     if let Some(missed) = missed(context, &selections, &trial, &imposed) {
         return Err(missed);
     }
+    let work = workspace.take_work();
     let system = workspace.system();
     Ok(Increment {
+        work,
         unknowns: system.layout.unknowns(),
         peak_bytes: system.analysis.peak_bytes,
         state: accepted(context, state, time, trial, imposed, selections, assembled),
@@ -206,6 +212,13 @@ fn selected(context: &StepContext, state: &State) -> (Vec<Selection>, Vec<PairSt
 
 const HALVINGS: usize = 4;
 
+/// How much of a correction was applied.
+#[derive(Clone, Copy, PartialEq)]
+enum Taken {
+    Whole,
+    Part,
+}
+
 /// Applies a correction, halved while it turns elements inside out.
 fn step(
     workspace: &mut Workspace,
@@ -214,19 +227,22 @@ fn step(
     trial: &Trial,
     imposed: &Imposed,
     correction: &[f64],
-) -> Result<(Trial, Assembled), CutBack> {
+) -> Result<(Trial, Assembled, Taken), CutBack> {
     let mut factor = 1.0;
+    let mut taken = Taken::Whole;
     for _ in 0..HALVINGS {
         let next = corrected(workspace.system(), trial, correction, factor);
         match workspace.assemble(context, selections, &next, imposed, Iteration::Later) {
-            Ok(assembled) => return Ok((next, assembled)),
-            Err(CutBack::InvertedElement { .. } | CutBack::LostProjection { .. }) => factor *= 0.5,
+            Ok(assembled) => return Ok((next, assembled, taken)),
+            Err(CutBack::InvertedElement { .. } | CutBack::LostProjection { .. }) => {
+                (factor, taken) = (0.5 * factor, Taken::Part);
+            }
             Err(other) => return Err(other),
         }
     }
     let next = corrected(workspace.system(), trial, correction, factor);
     let assembled = workspace.assemble(context, selections, &next, imposed, Iteration::Later)?;
-    Ok((next, assembled))
+    Ok((next, assembled, Taken::Part))
 }
 
 fn corrected(system: &SystemStorage, trial: &Trial, correction: &[f64], factor: f64) -> Trial {

@@ -88,6 +88,11 @@ impl Progress {
             position.time,
             increment.iterations.len(),
         );
+        if let Some(reason) = increment.work.fall_back
+            && self.verbosity == Verbosity::Iterations
+        {
+            self.line(&format!("    multifrontal LU: {reason}"));
+        }
         if let Some(bar) = &self.bar {
             let done = (position.step as f64 + position.fraction) * RESOLUTION;
             bar.set_position(done as u64);

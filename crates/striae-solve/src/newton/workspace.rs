@@ -2,8 +2,8 @@
 
 use striae_contact::{complementarity::Iteration, selection::Selection};
 use striae_linalg::{
-    Analysis, FaerLu, LinearSolver, MultifrontalLu, SolveError, SparseMatrix, Structure,
-    Supervariable,
+    Analysis, Automatic, FaerLu, FallBack, LinearSolver, Method, MultifrontalLu, SolveError,
+    SparseMatrix, Structure, Supervariable,
 };
 
 use striae_mesh::Vec3;
@@ -26,6 +26,18 @@ fn corner_pairs() -> impl Iterator<Item = (usize, usize, usize)> {
 pub struct Workspace {
     pub(super) solver: Box<dyn LinearSolver>,
     system: Option<SystemStorage>,
+    work: LinearWork,
+}
+
+/// What the linear systems of an increment took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LinearWork {
+    /// Number of factorisations.
+    pub factorisations: usize,
+    /// How the last one was made.
+    pub method: Method,
+    /// Why the condensed solver was not used in the last one, where it was asked for.
+    pub fall_back: Option<FallBack>,
 }
 
 pub(super) struct SystemStorage {
@@ -39,12 +51,14 @@ impl Workspace {
     /// An empty workspace with the given factorisation.
     pub fn new(backend: Backend) -> Self {
         let solver: Box<dyn LinearSolver> = match backend {
+            Backend::Condensed => Box::new(Automatic::new()),
             Backend::Multifrontal => Box::new(MultifrontalLu::new()),
             Backend::Faer => Box::new(FaerLu::new()),
         };
         Self {
             solver,
             system: None,
+            work: LinearWork::default(),
         }
     }
 
@@ -69,6 +83,7 @@ impl Workspace {
         cliques.extend((0..layout.offsets().len() - 1).map(|at| vec![Supervariable(at)]));
         let structure = Structure::from_cliques(layout.offsets().to_vec(), &cliques)
             .and_then(|structure| structure.with_tiers(layout.tiers()))
+            .and_then(|structure| structure.with_bulk(&layout.bulk()))
             .expect("the layout names its own supervariables");
         self.system = Some(SystemStorage {
             matrix: SparseMatrix::zero(&structure),
@@ -161,6 +176,11 @@ impl Workspace {
         Ok((0..forces.len()).map(of_node).collect())
     }
 
+    /// What was done since the last call.
+    pub(super) fn take_work(&mut self) -> LinearWork {
+        std::mem::take(&mut self.work)
+    }
+
     /// Solves for the correction, `J correction = -residual`.
     pub(super) fn correction(&mut self, residual: &[f64]) -> Result<Vec<f64>, SolveError> {
         let solver = &mut self.solver;
@@ -169,7 +189,12 @@ impl Workspace {
             system.analysis = solver.analyse(system.matrix.structure())?;
             system.analysed = true;
         }
-        solver.factor(&system.matrix)?;
+        let report = solver.factor(&system.matrix)?;
+        self.work = LinearWork {
+            factorisations: self.work.factorisations + 1,
+            method: report.method,
+            fall_back: report.fall_back,
+        };
         let rhs: Vec<f64> = residual.iter().map(|r| -r).collect();
         let mut correction = vec![0.0; rhs.len()];
         solver.solve(&system.matrix, &rhs, &mut correction)?;

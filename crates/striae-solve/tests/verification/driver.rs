@@ -130,7 +130,7 @@ fn an_inverted_element_is_named() {
     let mut step = step();
     step.displacements = vec![
         held(&model),
-        model.hold("cube", "zmax", [None, None, Some(-2.0)]),
+        model.hold("cube", "zmax", [None, None, Some(-2.3)]),
     ];
     model.steps = vec![step];
     let run = Run::of(model);

@@ -17,7 +17,7 @@ use striae_solve::{
     norms::Norms,
     outcome::{CutBack, Ending},
     problem::Problem,
-    state::State,
+    state::{PairState, State},
 };
 
 /// Everything a run went through.
@@ -51,12 +51,43 @@ impl Run {
         }
     }
 
-    /// The run of a model that gets through all steps.
+    /// The run of a model that gets through all steps, with the same answers by
+    /// the condensed solver and by the multifrontal LU.
     pub fn completed(model: Model) -> Self {
-        let run = Self::of(model);
+        let mut other = model.clone();
+        other.solver.backend = Backend::Multifrontal;
+        let (run, other) = (Self::of(model), Self::of(other));
+        run.assert_agrees(&other);
         let cuts: Vec<String> = run.cuts.iter().map(|(_, cut)| cut.to_string()).collect();
         assert_eq!(run.ending, Ending::Completed, "{}\n{cuts:#?}", run.ending);
         run
+    }
+
+    /// Asserts that all states agree to nine digits.
+    fn assert_agrees(&self, other: &Self) {
+        assert_eq!(self.states.len(), other.states.len());
+        for (a, b) in self.states.iter().zip(&other.states) {
+            let extent = a.positions.iter().map(|x| x.norm()).fold(0.0, f64::max);
+            let distance = largest_distance(&a.positions, &b.positions);
+            assert!(distance <= 1e-9 * extent, "{distance:e} of {extent}");
+            for (a, b) in a.pairs.iter().zip(&b.pairs) {
+                let pressures = |pair: &PairState| -> Vec<f64> {
+                    pair.nodes
+                        .iter()
+                        .flatten()
+                        .map(|node| node.pressure)
+                        .collect()
+                };
+                let (p, q) = (pressures(a), pressures(b));
+                let largest = p.iter().fold(0.0_f64, |m, p| m.max(p.abs()));
+                for (p, q) in p.iter().zip(&q) {
+                    assert!(
+                        (p - q).abs() <= 1e-9 * largest,
+                        "{p:e} {q:e} of {largest:e}"
+                    );
+                }
+            }
+        }
     }
 
     pub fn last(&self) -> &State {
@@ -134,7 +165,7 @@ pub fn model(bodies: Vec<Body>) -> Model {
         pairs: Vec::new(),
         steps: Vec::new(),
         solver: Solver {
-            backend: Backend::Multifrontal,
+            backend: Backend::Condensed,
             tolerance: 1e-11,
             largest_iterations: 15,
         },

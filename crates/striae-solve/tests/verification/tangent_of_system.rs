@@ -32,7 +32,9 @@ impl<'a> Whole<'a> {
     fn new(context: &'a StepContext<'a>, state: &'a State) -> Self {
         let layout = Layout::new(context.problem, Extent::default().with(&state.pairs));
         let every: Vec<_> = (0..layout.offsets().len() - 1).map(Supervariable).collect();
-        let structure = Structure::from_cliques(layout.offsets().to_vec(), &[every]).unwrap();
+        let structure = Structure::from_cliques(layout.offsets().to_vec(), &[&every])
+            .and_then(|structure| structure.grown(&[&every]))
+            .unwrap();
         let selections = state
             .pairs
             .iter()

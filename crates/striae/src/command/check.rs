@@ -101,8 +101,9 @@ fn size_line(model: &Model) -> Result<String, Failure> {
     let problem = Problem::new(model.clone())?;
     Ok(match estimate(&problem) {
         Ok(estimate) => format!(
-            "  unknowns {} at the start; a factorisation takes about {:.2} GB and {:.1e} operations",
+            "  unknowns {} at the start; a factorisation ({}) takes about {:.2} GB and {:.1e} operations",
             estimate.unknowns,
+            estimate.analysis.method,
             estimate.analysis.peak_bytes as f64 / 1e9,
             estimate.analysis.flops
         ),

@@ -144,7 +144,8 @@ fn solver(raw: Option<&raw::SolverSettings>) -> Solver {
     let iterations = raw.and_then(|raw| raw.largest_iterations.as_ref());
     Solver {
         backend: match backend.map(|backend| backend.value) {
-            None | Some(raw::Backend::Multifrontal) => Backend::Multifrontal,
+            None | Some(raw::Backend::Condensed) => Backend::Condensed,
+            Some(raw::Backend::Multifrontal) => Backend::Multifrontal,
             Some(raw::Backend::Faer) => Backend::Faer,
         },
         tolerance: tolerance.map_or(1e-10, |tolerance| tolerance.value.0),

@@ -16,7 +16,7 @@ table! {
 table! {
     /// Newton's method and the linear solver.
     SolverSettings {
-        /// Factorisation of the linear systems. Default: `multifrontal`.
+        /// Factorisation of the linear systems. Default: `condensed`.
         optional backend: Backend,
         /// Relative tolerance of every residual field. Default: 1e-10.
         optional tolerance: Positive,
@@ -28,6 +28,8 @@ table! {
 words! {
     /// Factorisation of the linear systems.
     Backend {
+        /// Bodies by Cholesky and contact by dense algebra; multifrontal LU where that does not work or pay.
+        Condensed = "condensed",
         /// Multifrontal LU on dense fronts.
         Multifrontal = "multifrontal",
         /// Sparse LU of the library faer.

@@ -1,0 +1,152 @@
+//! Bodies: connected parts of the bulk, each with a matrix of its own.
+
+use crate::{
+    equilibration::Equilibration,
+    error::SolveError,
+    matrix::SparseMatrix,
+    schur::SchurCholesky,
+    solver::Analysis,
+    structure::{Structure, Supervariable},
+};
+
+/// A connected part of the bulk and the factors of its interior.
+#[derive(Debug)]
+pub(crate) struct Body {
+    structure: Structure,
+    /// Global supervariable of each of its own.
+    members: Vec<u32>,
+    /// Global edge of each edge.
+    edges: Vec<u32>,
+    /// Global unknown of each unknown.
+    pub(crate) unknowns: Vec<u32>,
+    pub(crate) schur: SchurCholesky,
+}
+
+impl Body {
+    /// All bodies of a structure.
+    pub(crate) fn all(structure: &Structure) -> Result<Vec<Self>, SolveError> {
+        let parts = parts(structure);
+        let mut local = vec![0; structure.supervariables()];
+        let body = |members: Vec<u32>| Self::new(structure, members, &mut local);
+        parts.into_iter().map(body).collect()
+    }
+
+    fn new(
+        structure: &Structure,
+        members: Vec<u32>,
+        local: &mut [u32],
+    ) -> Result<Self, SolveError> {
+        for (k, &i) in members.iter().enumerate() {
+            local[i as usize] = k as u32;
+        }
+        let (mut offsets, mut starts) = (vec![0], vec![0]);
+        let (mut neighbours, mut edges, mut unknowns) = (Vec::new(), Vec::new(), Vec::new());
+        for &i in &members {
+            unknowns.extend(structure.bulk_group(i as usize).map(|u| u as u32));
+            offsets.push(unknowns.len());
+            for edge in structure.edges(i as usize) {
+                if structure.is_bulk_edge(edge) {
+                    neighbours.push(local[structure.target(edge)]);
+                    edges.push(edge as u32);
+                }
+            }
+            starts.push(neighbours.len());
+        }
+        let kept: Vec<Supervariable> = (0..members.len())
+            .filter(|&k| structure.is_kept(Supervariable(members[k] as usize)))
+            .map(Supervariable)
+            .collect();
+        let own = Structure::from_adjacency(offsets, starts, neighbours);
+        let schur = SchurCholesky::analyse(&own, &kept)?;
+        Ok(Self {
+            structure: own,
+            members,
+            edges,
+            unknowns,
+            schur,
+        })
+    }
+
+    /// Predicted cost of factoring the interior.
+    pub(crate) fn analysis(&self) -> Analysis {
+        self.schur.analysis()
+    }
+
+    /// Factors the interior of the scaled matrix, without prescribed unknowns.
+    pub(crate) fn factor(
+        &mut self,
+        matrix: &SparseMatrix,
+        scaling: &Equilibration,
+        prescribed: &[bool],
+    ) -> Result<(), SolveError> {
+        let own = self.extract(matrix, scaling, prescribed);
+        let named = |error: SolveError| match error {
+            SolveError::NotPositiveDefinite { unknown, pivot } => SolveError::NotPositiveDefinite {
+                unknown: self.unknowns[unknown] as usize,
+                pivot,
+            },
+            other => other,
+        };
+        self.schur.factor(&own).map(|_| ()).map_err(named)
+    }
+
+    /// The body's part of the matrix; entries between kept unknowns are left to the interface.
+    fn extract(
+        &self,
+        matrix: &SparseMatrix,
+        scaling: &Equilibration,
+        prescribed: &[bool],
+    ) -> SparseMatrix {
+        let full = matrix.structure();
+        let mut own = SparseMatrix::zero(&self.structure);
+        let kept = |i: u32| full.is_kept(Supervariable(i as usize));
+        for (k, &i) in self.members.iter().enumerate() {
+            for edge in self.structure.edges(k) {
+                let j = self.members[self.structure.target(edge)];
+                if kept(i) && kept(j) {
+                    continue;
+                }
+                let from = full.column(self.edges[edge] as usize);
+                let columns = full.bulk_group(j as usize);
+                for (a, row) in full.bulk_group(i as usize).enumerate() {
+                    let source = &matrix.values()[full.row(i as usize, a).start + from..];
+                    let target = self.structure.row(k, a).start + self.structure.column(edge);
+                    for (b, column) in columns.clone().enumerate() {
+                        if row == column || !prescribed[row] && !prescribed[column] {
+                            let scale = scaling.rows[row] * scaling.columns[column];
+                            own.values_mut()[target + b] = scale * source[b];
+                        }
+                    }
+                }
+            }
+        }
+        own
+    }
+}
+
+/// Connected parts of the bulk, members rising; supervariables without bulk unknowns are in none.
+fn parts(structure: &Structure) -> Vec<Vec<u32>> {
+    let mut seen = vec![false; structure.supervariables()];
+    let mut parts = Vec::new();
+    for first in 0..seen.len() {
+        if seen[first] || structure.bulk_group(first).is_empty() {
+            continue;
+        }
+        seen[first] = true;
+        let mut members = vec![first as u32];
+        let mut next = 0;
+        while let Some(&i) = members.get(next) {
+            next += 1;
+            for edge in structure.edges(i as usize) {
+                let j = structure.target(edge);
+                if structure.is_bulk_edge(edge) && !seen[j] {
+                    seen[j] = true;
+                    members.push(j as u32);
+                }
+            }
+        }
+        members.sort_unstable();
+        parts.push(members);
+    }
+    parts
+}

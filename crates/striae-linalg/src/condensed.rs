@@ -1,0 +1,289 @@
+//! The condensed solver: bodies by Cholesky, contact by dense algebra.
+//!
+//! Where the bulk is symmetric and positive definite, its interior is
+//! eliminated body by body at the price of a Cholesky factorisation
+//! ([`SchurCholesky`](crate::SchurCholesky)); the contact system on what was
+//! kept is solved exactly ([`Interface`]). Rows with nothing but a diagonal
+//! (prescribed unknowns) are solved for first. A bulk that is not quite
+//! symmetric is taken as symmetric, and refinement makes up for it; one that is
+//! not definite is refused.
+
+use crate::{
+    bulk::Body,
+    equilibration::Equilibration,
+    error::SolveError,
+    interface::{Block, Interface, Kind, Places},
+    matrix::SparseMatrix,
+    refinement,
+    singularity::Factors,
+    solver::{Analysis, FactorReport, Method, SolveReport},
+    sparse_elimination::Row,
+    structure::{Structure, Supervariable},
+};
+use rayon::prelude::*;
+
+/// Not kept.
+const NONE: u32 = u32::MAX;
+
+/// Factors of the interior of every body and of the contact system.
+#[derive(Debug)]
+pub(crate) struct Condensed {
+    structure: Structure,
+    bodies: Vec<Body>,
+    /// Unknowns that are kept, rising, and the place of every unknown among them.
+    kept: Vec<u32>,
+    place: Vec<u32>,
+    /// Place of the kept unknowns of every body.
+    blocks: Vec<Vec<u32>>,
+    numeric: Option<Numeric>,
+}
+
+#[derive(Debug)]
+struct Numeric {
+    scaling: Equilibration,
+    prescribed: Vec<bool>,
+    interface: Interface,
+}
+
+impl Condensed {
+    /// Plans the elimination of what is not kept.
+    pub(crate) fn analyse(structure: &Structure) -> Result<Self, SolveError> {
+        let bodies = Body::all(structure)?;
+        let kept: Vec<u32> = (0..structure.supervariables())
+            .filter(|&i| structure.is_kept(Supervariable(i)))
+            .flat_map(|i| structure.group(i).map(|u| u as u32))
+            .collect();
+        let mut place = vec![NONE; structure.unknowns()];
+        for (k, &unknown) in kept.iter().enumerate() {
+            place[unknown as usize] = k as u32;
+        }
+        let blocks = bodies.iter().map(|body| {
+            let local = body.schur.kept_unknowns().iter();
+            local
+                .map(|&u| place[body.unknowns[u] as usize])
+                .collect::<Vec<u32>>()
+        });
+        Ok(Self {
+            blocks: blocks.collect(),
+            structure: structure.clone(),
+            bodies,
+            kept,
+            place,
+            numeric: None,
+        })
+    }
+
+    /// Bulk unknowns of the interface.
+    pub(crate) fn interface(&self) -> usize {
+        self.blocks.iter().map(Vec::len).sum()
+    }
+
+    /// Predicted cost, with a dense system on all bulk unknowns of the interface.
+    pub(crate) fn analysis(&self) -> Analysis {
+        let order = self.interface();
+        let mut sum = Analysis {
+            factor_entries: order * order,
+            flops: 2.0 / 3.0 * (order as f64).powi(3),
+            peak_bytes: 2 * size_of::<f64>() * order * order,
+            method: Method::Condensed,
+        };
+        for body in self.bodies.iter().map(Body::analysis) {
+            sum.factor_entries += body.factor_entries;
+            sum.flops += body.flops;
+            sum.peak_bytes += body.peak_bytes;
+        }
+        sum
+    }
+
+    /// Factors a matrix of the analysed structure.
+    pub(crate) fn factor(&mut self, matrix: &SparseMatrix) -> Result<FactorReport, SolveError> {
+        self.numeric = None;
+        if !self.structure.same_as(matrix.structure()) {
+            return Err(SolveError::NotAnalysed);
+        }
+        let scaling = Equilibration::by_diagonal(matrix)?;
+        let prescribed = prescribed(matrix);
+        let bodies = self.bodies.par_iter_mut();
+        bodies.try_for_each(|body| body.factor(matrix, &scaling, &prescribed))?;
+        let places = self.places(&prescribed);
+        let rows = self.rows(matrix, &scaling, &prescribed);
+        let interface = Interface::factor(&places, rows, &self.blocks())?;
+        let bodies = self.bodies.iter().map(|body| body.analysis());
+        let report = FactorReport {
+            factor_entries: interface.entries() + bodies.map(|a| a.factor_entries).sum::<usize>(),
+            dense_order: interface.dense_order(),
+            method: Method::Condensed,
+            ..FactorReport::default()
+        };
+        self.numeric = Some(Numeric {
+            scaling,
+            prescribed,
+            interface,
+        });
+        Ok(report)
+    }
+
+    /// Solves with the last factorisation and refines.
+    pub(crate) fn solve(
+        &self,
+        matrix: &SparseMatrix,
+        rhs: &[f64],
+        x: &mut [f64],
+    ) -> Result<SolveReport, SolveError> {
+        let numeric = self.numeric.as_ref().ok_or(SolveError::NotFactored)?;
+        let factors = Substitution {
+            condensed: self,
+            numeric,
+            matrix,
+        };
+        refinement::solve(matrix, &numeric.scaling, &factors, rhs, x)
+    }
+
+    fn blocks(&self) -> Vec<Block<'_>> {
+        let blocks = self.blocks.iter().zip(&self.bodies);
+        blocks
+            .map(|(places, body)| Block {
+                places,
+                values: body.schur.complement(),
+            })
+            .collect()
+    }
+
+    /// Kinds of the kept unknowns.
+    fn places(&self, prescribed: &[bool]) -> Places {
+        let mut kinds = vec![Kind::Multiplier; self.kept.len()];
+        for (block, places) in self.blocks.iter().enumerate() {
+            for (row, &k) in places.iter().enumerate() {
+                let (block, row) = (block as u32, row as u32);
+                kinds[k as usize] = match prescribed[self.kept[k as usize] as usize] {
+                    true => Kind::Prescribed,
+                    false => Kind::Bulk { block, row },
+                };
+            }
+        }
+        Places { kinds }
+    }
+
+    /// Scaled entries between the kept unknowns, but for prescribed ones.
+    fn rows(
+        &self,
+        matrix: &SparseMatrix,
+        scaling: &Equilibration,
+        prescribed: &[bool],
+    ) -> Vec<Row> {
+        let row = |&u: &u32| {
+            let u = u as usize;
+            if prescribed[u] {
+                return Row::new();
+            }
+            matrix
+                .row(u)
+                .filter(|&(v, a)| a != 0.0 && self.place[v] != NONE && !prescribed[v])
+                .map(|(v, a)| (self.place[v], a * scaling.rows[u] * scaling.columns[v]))
+                .collect()
+        };
+        self.kept.par_iter().map(row).collect()
+    }
+}
+
+/// Bulk unknowns whose rows have no entry but the diagonal.
+fn prescribed(matrix: &SparseMatrix) -> Vec<bool> {
+    let structure = matrix.structure();
+    (0..structure.unknowns())
+        .into_par_iter()
+        .with_min_len(1024)
+        .map(|u| {
+            let i = structure.owner(u).0;
+            structure.bulk_group(i).contains(&u)
+                && matrix.row(u).all(|(v, a)| (u == v) == (a != 0.0))
+        })
+        .collect()
+}
+
+/// Factors together with the matrix, whose columns of prescribed unknowns are needed.
+struct Substitution<'a> {
+    condensed: &'a Condensed,
+    numeric: &'a Numeric,
+    matrix: &'a SparseMatrix,
+}
+
+impl Factors for Substitution<'_> {
+    fn solve_in_place(&self, x: &mut [f64]) {
+        self.prescribed(x);
+        let Condensed { bodies, kept, .. } = self.condensed;
+        let mut condensed: Vec<Vec<f64>> = bodies
+            .par_iter()
+            .map(|body| {
+                let rhs: Vec<f64> = body.unknowns.iter().map(|&u| x[u as usize]).collect();
+                let factored = "the bodies were factored with the interface";
+                body.schur.condense(&rhs).expect(factored)
+            })
+            .collect();
+        let mut rhs: Vec<f64> = kept.iter().map(|&u| x[u as usize]).collect();
+        let solved: Vec<f64> = rhs.clone();
+        for ((body, places), y) in bodies.iter().zip(&self.condensed.blocks).zip(&condensed) {
+            for (&k, &u) in places.iter().zip(body.schur.kept_unknowns()) {
+                rhs[k as usize] = y[u];
+            }
+        }
+        let mut z = self.numeric.interface.solve(&self.condensed.blocks(), &rhs);
+        for (k, &u) in kept.iter().enumerate() {
+            if self.numeric.prescribed[u as usize] {
+                z[k] = solved[k];
+            }
+            x[u as usize] = z[k];
+        }
+        let blocks = bodies.iter().zip(&self.condensed.blocks);
+        for ((body, places), y) in blocks.zip(&mut condensed) {
+            for (&k, &u) in places.iter().zip(body.schur.kept_unknowns()) {
+                y[u] = z[k as usize];
+            }
+        }
+        let expanded: Vec<Vec<f64>> = bodies
+            .par_iter()
+            .zip(condensed)
+            .map(|(body, y)| {
+                body.schur
+                    .expand(y)
+                    .expect("a condensed vector of the body")
+            })
+            .collect();
+        for (body, y) in bodies.iter().zip(expanded) {
+            for (&u, value) in body.unknowns.iter().zip(y) {
+                x[u as usize] = value;
+            }
+        }
+    }
+}
+
+impl Substitution<'_> {
+    /// Solves for the prescribed unknowns and takes them to the right-hand side.
+    fn prescribed(&self, x: &mut [f64]) {
+        let structure = self.matrix.structure();
+        let Equilibration { rows, columns } = &self.numeric.scaling;
+        for i in 0..structure.supervariables() {
+            for (local, u) in structure.bulk_group(i).enumerate() {
+                if !self.numeric.prescribed[u] {
+                    continue;
+                }
+                let diagonal = self.matrix.get(u, u).unwrap_or(1.0);
+                x[u] /= diagonal * rows[u] * columns[u];
+                if x[u] == 0.0 {
+                    continue;
+                }
+                for j in structure.neighbours(Supervariable(i)) {
+                    let Some(edge) = structure.edge(j.0, i) else {
+                        continue;
+                    };
+                    for (a, row) in structure.group(j.0).enumerate() {
+                        let at = structure.row(j.0, a).start + structure.column(edge) + local;
+                        let entry = self.matrix.values()[at];
+                        if row != u {
+                            x[row] -= entry * rows[row] * columns[u] * x[u];
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

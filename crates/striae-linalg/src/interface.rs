@@ -1,0 +1,266 @@
+//! The contact system on a condensed bulk: `(A_kk + S) z = b`, solved exactly.
+//!
+//! The kept unknowns are bulk unknowns `x` and multipliers `m`. `S` couples the
+//! bulk unknowns of one body densely; all else is sparse. With the rows of the
+//! multipliers first, the system is
+//!
+//! ```text
+//! [ G_x    G_m ] [x]
+//! [ K + S   C  ] [m]
+//! ```
+//!
+//! Three steps: the rows of `G` are eliminated sparsely, so that a node that
+//! sticks or touches loses its own position and a prescribed traction itself;
+//! the multipliers that are left are sparse columns of `C`, which are
+//! eliminated against rows of momentum, in the same way transposed; a dense LU
+//! of the order of one side's unknowns remains. Threads do not change a bit.
+
+mod assembled;
+
+use crate::{
+    dense::{self, Leftover},
+    error::SolveError,
+    sparse_elimination::{Row, SparseElimination},
+};
+use assembled::Assembled;
+pub(crate) use assembled::{Block, Kind, Places};
+use faer::{
+    Par,
+    linalg::triangular_solve as triangular,
+    mat::{MatMut, MatRef},
+};
+use rayon::prelude::*;
+
+/// Entries above which a row or a column of the multipliers counts as dense.
+const LONG: usize = 512;
+/// Entries of a row of `C^T` above which it is left to the dense part.
+const LONGEST: usize = 2048;
+/// Dense rows that are worked on at a time.
+const LANES: usize = 16;
+/// Smallest pivot of a regular dense matrix.
+const SINGULAR: f64 = 1e-12;
+
+/// A factored contact system.
+#[derive(Debug, Default)]
+pub(crate) struct Interface {
+    assembled: Assembled,
+    /// Elimination of the rows `G`: rows as in `assembled.short`, columns are kept unknowns.
+    constraints: SparseElimination,
+    /// Elimination of the columns `C`: rows as in `columns`, columns are dense rows.
+    tractions: SparseElimination,
+    /// Kept unknowns that are multipliers with a sparse column after the first step.
+    columns: Vec<u32>,
+    rest: Dense,
+}
+
+/// What is left for dense algebra.
+#[derive(Debug, Default)]
+struct Dense {
+    /// Dense rows, as numbered in `assembled`.
+    rows: Vec<u32>,
+    /// Kept unknowns.
+    columns: Vec<u32>,
+    lu: Vec<f64>,
+    /// Rows and columns in the order of the pivots.
+    row_order: Vec<u32>,
+    column_order: Vec<u32>,
+}
+
+impl Interface {
+    /// Factors the system of the kept unknowns.
+    pub(crate) fn factor(
+        places: &Places,
+        rows: Vec<Row>,
+        blocks: &[Block<'_>],
+    ) -> Result<Self, SolveError> {
+        let mut assembled = Assembled::new(places, rows, LONG);
+        let ranks = assembled.ranks();
+        let constraints = SparseElimination::new(assembled.take_short(), &ranks, LONG);
+        assembled.defer(&constraints.deferred);
+        let (dense, columns) = assembled.survivors(&constraints);
+        let panels = assembled.panels(blocks, &constraints, &dense, &columns);
+        let ranks = vec![0; assembled.long.len()];
+        let transposed = panels.transposed(columns.len());
+        let tractions = SparseElimination::new(transposed.clone(), &ranks, LONGEST);
+        let rest = Dense::new(&panels, &tractions, transposed, &dense, &columns)?;
+        Ok(Self {
+            assembled,
+            constraints,
+            tractions,
+            columns,
+            rest,
+        })
+    }
+
+    /// Order of the dense matrix.
+    pub(crate) fn dense_order(&self) -> usize {
+        self.rest.columns.len()
+    }
+
+    /// Entries of all factors.
+    pub(crate) fn entries(&self) -> usize {
+        self.rest.lu.len() + self.constraints.entries() + self.tractions.entries()
+    }
+
+    /// Solves for all kept unknowns.
+    pub(crate) fn solve(&self, blocks: &[Block<'_>], rhs: &[f64]) -> Vec<f64> {
+        let assembled = &self.assembled;
+        let mut short: Vec<f64> = assembled.short.iter().map(|&k| rhs[k as usize]).collect();
+        self.constraints.forward(&mut short);
+        let mut z = vec![0.0; rhs.len()];
+        self.constraints.backward(&short, &mut z);
+        let mut combined = self.combined(blocks, rhs, &z);
+        let known: Vec<f64> = self.rest.solve(&combined);
+        for (&column, value) in self.rest.columns.iter().zip(&known) {
+            z[column as usize] = *value;
+        }
+        self.constraints.backward(&short, &mut z);
+        combined = self.combined(blocks, rhs, &z);
+        let mut multipliers = vec![0.0; self.columns.len()];
+        self.tractions
+            .backward_transposed(&combined, &mut multipliers);
+        for pivot in &self.tractions.pivots {
+            let place = self.columns[pivot.row as usize];
+            z[place as usize] = multipliers[pivot.row as usize];
+        }
+        self.constraints.backward(&short, &mut z);
+        z
+    }
+
+    /// Residual of the dense rows with the columns of `C` eliminated.
+    fn combined(&self, blocks: &[Block<'_>], rhs: &[f64], z: &[f64]) -> Vec<f64> {
+        let residual = self.assembled.residual(blocks, rhs, z);
+        let mut columns: Vec<[f64; 1]> = residual.into_iter().map(|r| [r]).collect();
+        self.tractions.combine_columns(&mut columns);
+        columns.into_iter().map(|[r]| r).collect()
+    }
+}
+
+/// Dense rows after the first step, in panels of [`LANES`].
+pub(crate) struct Panels {
+    /// Number of rows.
+    rows: usize,
+    /// Values of the dense columns, panel by panel, lanes contiguous.
+    dense: Vec<f64>,
+    /// Number of dense columns.
+    width: usize,
+    /// Entries `(column, row, value)` of the sparse columns, by rising row.
+    sparse: Vec<(u32, u32, f64)>,
+}
+
+impl Panels {
+    /// Rows of `C^T`.
+    fn transposed(&self, count: usize) -> Vec<Row> {
+        let mut rows = vec![Row::new(); count];
+        for &(column, row, value) in &self.sparse {
+            rows[column as usize].push((row, value));
+        }
+        rows
+    }
+
+    /// Value of a dense column in all rows, to one lane of a vector.
+    fn column(&self, column: usize, lane: usize, target: &mut [[f64; LANES]]) {
+        let panels = self.dense.chunks_exact(self.width * LANES);
+        for (panel, rows) in panels.zip(target.chunks_mut(LANES)) {
+            let values = &panel[column * LANES..][..LANES];
+            rows.iter_mut()
+                .zip(values)
+                .for_each(|(row, v)| row[lane] = *v);
+        }
+    }
+}
+
+impl Dense {
+    /// Eliminates the sparse columns from the dense ones and factors the rest.
+    fn new(
+        panels: &Panels,
+        tractions: &SparseElimination,
+        transposed: Vec<Row>,
+        dense: &[u32],
+        sparse: &[u32],
+    ) -> Result<Self, SolveError> {
+        let mut pivotal = vec![false; panels.rows];
+        tractions
+            .pivots
+            .iter()
+            .for_each(|pivot| pivotal[pivot.column as usize] = true);
+        let rows: Vec<u32> = (0..panels.rows as u32)
+            .filter(|&row| !pivotal[row as usize])
+            .collect();
+        let deferred = tractions.deferred.iter();
+        let columns: Vec<u32> = dense
+            .iter()
+            .copied()
+            .chain(deferred.map(|&c| sparse[c as usize]))
+            .collect();
+        let order = rows.len();
+        if columns.len() != order {
+            return Err(SolveError::NotFactored);
+        }
+        let mut lu = vec![0.0; order * order];
+        lu.par_chunks_mut((order * LANES).max(1))
+            .enumerate()
+            .for_each(|(k, target)| {
+                let mut vectors = vec![[0.0; LANES]; panels.rows];
+                let first = k * LANES;
+                let count = target.len() / order;
+                for lane in 0..count {
+                    match (first + lane).checked_sub(dense.len()) {
+                        None => panels.column(first + lane, lane, &mut vectors),
+                        Some(c) => {
+                            let row = &transposed[tractions.deferred[c] as usize];
+                            row.iter().for_each(|&(r, a)| vectors[r as usize][lane] = a);
+                        }
+                    }
+                }
+                tractions.combine_columns(&mut vectors);
+                for (lane, column) in target.chunks_exact_mut(order).enumerate() {
+                    for (value, &row) in column.iter_mut().zip(&rows) {
+                        *value = vectors[row as usize][lane];
+                    }
+                }
+            });
+        Self::factored(rows, columns, lu)
+    }
+
+    fn factored(rows: Vec<u32>, columns: Vec<u32>, mut lu: Vec<f64>) -> Result<Self, SolveError> {
+        let mut row_order: Vec<u32> = (0..rows.len() as u32).collect();
+        let mut column_order = row_order.clone();
+        let done = dense::eliminate(
+            &mut lu,
+            &mut [],
+            &mut [],
+            &mut row_order,
+            &mut column_order,
+            Leftover::Replace,
+        );
+        let suspicious = done.smallest.is_nan() || done.smallest < SINGULAR;
+        if done.replaced > 0 || !rows.is_empty() && suspicious {
+            let (unknown, equation) = (0, 0);
+            return Err(SolveError::Singular { unknown, equation });
+        }
+        Ok(Self {
+            rows,
+            columns,
+            lu,
+            row_order,
+            column_order,
+        })
+    }
+
+    /// Values of the dense columns, from the dense rows of a right-hand side.
+    fn solve(&self, rhs: &[f64]) -> Vec<f64> {
+        let n = self.rows.len();
+        let value = |&k: &u32| rhs[self.rows[k as usize] as usize];
+        let mut y: Vec<f64> = self.row_order.iter().map(value).collect();
+        let lu = MatRef::from_column_major_slice(&self.lu, n, n);
+        let mut v = MatMut::from_column_major_slice_mut(&mut y, n, 1);
+        triangular::solve_unit_lower_triangular_in_place(lu, v.as_mut(), Par::Seq);
+        triangular::solve_upper_triangular_in_place(lu, v.as_mut(), Par::Seq);
+        let mut x = vec![0.0; n];
+        for (&k, value) in self.column_order.iter().zip(&y) {
+            x[k as usize] = *value;
+        }
+        x
+    }
+}

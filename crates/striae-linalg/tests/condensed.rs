@@ -1,0 +1,276 @@
+//! The condensed solver on two blocks tied by multipliers, against the LU.
+
+use striae_linalg::{
+    Automatic, FallBack, LinearSolver, Method, MultifrontalLu, SolveError, SparseMatrix, Structure,
+    Supervariable,
+};
+
+/// What the lower block's face does on the upper one's.
+#[derive(Clone, Copy, PartialEq)]
+enum Contact {
+    Stick,
+    /// Every other node.
+    Slip,
+    Open,
+}
+
+/// Two grids of `side x side x height` nodes each, one above the other; the
+/// lower one carries three multipliers at each node of its upper face.
+struct Blocks {
+    side: usize,
+    height: usize,
+    structure: Structure,
+}
+
+impl Blocks {
+    fn new(side: usize, height: usize) -> Self {
+        let node = |x: usize, y: usize, z: usize| x + side * (y + side * z);
+        let mut cells = Vec::new();
+        for z in (0..2 * height - 1).filter(|z| z + 1 != height) {
+            for y in 0..side - 1 {
+                for x in 0..side - 1 {
+                    let corner = |k: usize| node(x + (k & 1), y + (k >> 1 & 1), z + (k >> 2));
+                    cells.push((0..8).map(|k| Supervariable(corner(k))).collect::<Vec<_>>());
+                }
+            }
+        }
+        let nodes = 2 * height * side * side;
+        let face = |k: usize| k / (side * side) == height - 1;
+        let mut offsets = vec![0];
+        for k in 0..nodes {
+            offsets.push(offsets[k] + if face(k) { 6 } else { 3 });
+        }
+        let mut blocks = Self {
+            side,
+            height,
+            structure: Structure::from_cliques(offsets, &cells).unwrap(),
+        };
+        let ties: Vec<Vec<Supervariable>> = blocks.ties().collect();
+        let structure = blocks.structure.with_bulk(&vec![3; nodes]).unwrap();
+        blocks.structure = structure.grown(&ties).unwrap();
+        blocks
+    }
+
+    /// Each node of the lower face with four of the upper one.
+    fn ties(&self) -> impl Iterator<Item = Vec<Supervariable>> {
+        let (side, area, height) = (self.side, self.side * self.side, self.height);
+        (0..area).map(move |k| {
+            let (x, y) = ((k % side).min(side - 2), (k / side).min(side - 2));
+            let above = |dx: usize, dy: usize| x + dx + side * (y + dy) + height * area;
+            let own = k + (height - 1) * area;
+            [own, above(0, 0), above(1, 0), above(0, 1), above(1, 1)]
+                .map(Supervariable)
+                .to_vec()
+        })
+    }
+
+    fn first(&self, s: Supervariable) -> usize {
+        self.structure.unknowns_of(s).start
+    }
+
+    /// Stiffness of both blocks; bottom and top are prescribed, as rows without other entries.
+    fn matrix(&self, stiffness: [f64; 2], contact: Contact) -> SparseMatrix {
+        let mut matrix = SparseMatrix::zero(&self.structure);
+        let area = self.side * self.side;
+        let nodes = 2 * self.height * area;
+        let held = |s: Supervariable| s.0 < area || s.0 >= nodes - area;
+        for (k, modulus) in stiffness.into_iter().enumerate() {
+            for cell in self.cells(k) {
+                let columns: Vec<usize> = cell
+                    .iter()
+                    .flat_map(|&s| (0..3).map(move |c| (s, c)))
+                    .map(|(s, c)| self.first(s) + c)
+                    .collect();
+                let kept: Vec<usize> = (0..24).filter(|&a| !held(cell[a / 3])).collect();
+                let rows: Vec<usize> = kept.iter().map(|&a| columns[a]).collect();
+                let block = kept.iter().flat_map(|&a| (0..24).map(move |b| entry(a, b)));
+                let block: Vec<f64> = block.map(|e| modulus * e).collect();
+                matrix.add(&rows, &columns, &block).unwrap();
+            }
+        }
+        for s in (0..nodes).map(Supervariable).filter(|&s| held(s)) {
+            for c in 0..3 {
+                let u = self.first(s) + c;
+                matrix.add(&[u], &[u], &[stiffness[0]]).unwrap();
+            }
+        }
+        for tie in self.ties() {
+            self.tie(&mut matrix, &tie, contact);
+        }
+        matrix
+    }
+
+    fn cells(&self, block: usize) -> impl Iterator<Item = [Supervariable; 8]> {
+        let (side, height) = (self.side, self.height);
+        let per_layer = (side - 1) * (side - 1);
+        (0..per_layer * (height - 1)).map(move |k| {
+            let (z, k) = (block * height + k / per_layer, k % per_layer);
+            let (x, y) = (k % (side - 1), k / (side - 1));
+            [0, 1, 2, 3, 4, 5, 6, 7].map(|c| {
+                let (x, y, z) = (x + (c & 1), y + (c >> 1 & 1), z + (c >> 2));
+                Supervariable(x + side * (y + side * z))
+            })
+        })
+    }
+
+    fn tie(&self, matrix: &mut SparseMatrix, tie: &[Supervariable], contact: Contact) {
+        let multiplier = self.first(tie[0]) + 3;
+        let slips = contact == Contact::Slip && tie[0].0.is_multiple_of(2);
+        for c in 0..3 {
+            let row = multiplier + c;
+            if contact == Contact::Open || slips && c > 0 {
+                matrix.add(&[row], &[row], &[1.0]).unwrap();
+            }
+            if slips && c > 0 {
+                matrix.add(&[row], &[multiplier], &[-0.3]).unwrap();
+            }
+            for (k, &s) in tie.iter().enumerate() {
+                let weight = if k == 0 { 1.0 } else { -0.25 };
+                let u = self.first(s) + c;
+                matrix.add(&[u], &[row], &[0.01 * weight]).unwrap();
+                if contact != Contact::Open && !(slips && c > 0) {
+                    matrix.add(&[row], &[u], &[weight]).unwrap();
+                } else if slips {
+                    matrix.add(&[row], &[u], &[-0.2 * weight]).unwrap();
+                }
+            }
+        }
+    }
+}
+
+/// Entry of a semidefinite cell matrix: constants cost nothing.
+fn entry(a: usize, b: usize) -> f64 {
+    let coupling = [[1.0, 0.2, 0.1], [0.2, 1.2, 0.3], [0.1, 0.3, 0.9]];
+    let graph = if a / 3 == b / 3 { 7.0 } else { -1.0 };
+    graph * coupling[a % 3][b % 3] / 8.0
+}
+
+fn solution(
+    solver: &mut dyn LinearSolver,
+    matrix: &SparseMatrix,
+    rhs: &[f64],
+) -> (Vec<f64>, Method) {
+    let mut x = vec![0.0; rhs.len()];
+    solver.analyse(matrix.structure()).unwrap();
+    let report = solver.factor(matrix).unwrap();
+    let solved = solver.solve(matrix, rhs, &mut x).unwrap();
+    assert!(solved.backward_error < 1e-14, "{solved:?}");
+    (x, report.method)
+}
+
+fn load(n: usize) -> Vec<f64> {
+    (0..n).map(|k| ((k * 7) % 13) as f64 - 6.0).collect()
+}
+
+/// Largest difference, each kind of unknown by its own size.
+fn difference(blocks: &Blocks, a: &[f64], b: &[f64]) -> f64 {
+    let kind = |u: usize| usize::from(u - blocks.first(blocks.structure.owner(u)) >= 3);
+    let mut sizes = [0.0_f64; 2];
+    let mut largest = [0.0_f64; 2];
+    for u in 0..a.len() {
+        sizes[kind(u)] = sizes[kind(u)].max(b[u].abs());
+        largest[kind(u)] = largest[kind(u)].max((a[u] - b[u]).abs());
+    }
+    (largest[0] / sizes[0]).max(largest[1] / sizes[1].max(f64::MIN_POSITIVE))
+}
+
+#[test]
+fn the_answers_are_those_of_the_lu() {
+    for (side, height) in [(2, 2), (5, 3), (7, 4)] {
+        let blocks = Blocks::new(side, height);
+        let rhs = load(blocks.structure.unknowns());
+        for contact in [Contact::Stick, Contact::Slip, Contact::Open] {
+            // Steel on rubber and equal blocks.
+            for stiffness in [[1.0, 1.0], [1e5, 1.0], [1.0, 1e5]] {
+                let matrix = blocks.matrix(stiffness, contact);
+                let (x, method) = solution(&mut Automatic::new(), &matrix, &rhs);
+                let (expected, _) = solution(&mut MultifrontalLu::new(), &matrix, &rhs);
+                let error = difference(&blocks, &x, &expected);
+                assert_eq!(method, Method::Condensed);
+                assert!(error < 1e-9, "{side} {height} {stiffness:?}: {error:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_dense_system_has_the_order_of_one_side_when_all_nodes_stick() {
+    let blocks = Blocks::new(6, 4);
+    let mut solver = Automatic::new();
+    solver.analyse(&blocks.structure).unwrap();
+    let report = solver
+        .factor(&blocks.matrix([1.0, 2.0], Contact::Stick))
+        .unwrap();
+    assert_eq!(report.dense_order, 3 * 36);
+    // A slipping node keeps two displacements of its own.
+    let report = solver
+        .factor(&blocks.matrix([1.0, 2.0], Contact::Slip))
+        .unwrap();
+    assert_eq!(report.dense_order, 3 * 36 + 2 * 18);
+}
+
+#[test]
+fn an_indefinite_interior_is_left_to_the_lu() {
+    let blocks = Blocks::new(5, 4);
+    let mut matrix = blocks.matrix([1.0, 1.0], Contact::Stick);
+    let node = Supervariable(25 + 12);
+    let u = blocks.first(node);
+    matrix.add(&[u], &[u], &[-20.0]).unwrap();
+    let rhs = load(blocks.structure.unknowns());
+    let mut solver = Automatic::new();
+    solver.analyse(&blocks.structure).unwrap();
+    let report = solver.factor(&matrix).unwrap();
+    assert_eq!(report.method, Method::Multifrontal);
+    let reason = report.fall_back;
+    assert!(matches!(reason, Some(FallBack::IndefiniteInterior { unknown }) if unknown >= u));
+    let (x, _) = solution(&mut solver, &matrix, &rhs);
+    let (expected, _) = solution(&mut MultifrontalLu::new(), &matrix, &rhs);
+    assert!(difference(&blocks, &x, &expected) < 1e-9);
+}
+
+#[test]
+fn a_bulk_that_is_not_quite_symmetric_is_refined() {
+    let blocks = Blocks::new(5, 4);
+    let mut matrix = blocks.matrix([1.0, 1.0], Contact::Slip);
+    let (a, b) = (
+        blocks.first(Supervariable(30)),
+        blocks.first(Supervariable(31)),
+    );
+    matrix.add(&[a], &[b], &[0.05]).unwrap();
+    let rhs = load(blocks.structure.unknowns());
+    let (x, method) = solution(&mut Automatic::new(), &matrix, &rhs);
+    let (expected, _) = solution(&mut MultifrontalLu::new(), &matrix, &rhs);
+    assert_eq!(method, Method::Condensed);
+    assert!(difference(&blocks, &x, &expected) < 1e-9);
+}
+
+#[test]
+fn a_block_that_nothing_holds_is_named() {
+    let blocks = Blocks::new(4, 3);
+    let mut matrix = blocks.matrix([1.0, 1.0], Contact::Open);
+    // Take the supports of the upper block away.
+    let nodes = 2 * 3 * 16;
+    for s in (nodes - 16..nodes).map(Supervariable) {
+        let u = blocks.first(s);
+        (u..u + 3).for_each(|u| matrix.add(&[u], &[u], &[-1.0]).unwrap());
+    }
+    let mut solver = Automatic::new();
+    solver.analyse(&blocks.structure).unwrap();
+    let failed = solver.factor(&matrix).unwrap_err();
+    assert!(matches!(failed, SolveError::Singular { .. }), "{failed:?}");
+}
+
+#[test]
+fn threads_do_not_change_a_bit() {
+    let blocks = Blocks::new(12, 6);
+    let matrix = blocks.matrix([1.0, 3.0], Contact::Slip);
+    let rhs = load(blocks.structure.unknowns());
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| solution(&mut Automatic::new(), &matrix, &rhs).0)
+    };
+    assert!(with(1) == with(2));
+}
