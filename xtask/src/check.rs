@@ -65,6 +65,16 @@ pub fn check() -> Result<(), Fault> {
     Ok(())
 }
 
+/// Runs the benchmarks with the given arguments.
+///
+/// # Errors
+/// When they cannot be built or fail.
+pub fn bench(arguments: &[String]) -> Result<(), Fault> {
+    let mut all: Vec<&str> = ["run", "--release", "-p", "striae-bench", "--"].into();
+    all.extend(arguments.iter().map(String::as_str));
+    cargo(&all, &[])
+}
+
 fn timed(name: &str, check: impl FnOnce() -> Result<(), Fault>) -> Result<(), Fault> {
     println!("== {name}");
     let started = Instant::now();
@@ -74,10 +84,14 @@ fn timed(name: &str, check: impl FnOnce() -> Result<(), Fault>) -> Result<(), Fa
 }
 
 fn run(stage: &Stage) -> Result<(), Fault> {
-    let command = format!("cargo {}", stage.arguments.join(" "));
+    cargo(stage.arguments, stage.environment)
+}
+
+fn cargo(arguments: &[&str], environment: &[(&str, &str)]) -> Result<(), Fault> {
+    let command = format!("cargo {}", arguments.join(" "));
     let status = Command::new("cargo")
-        .args(stage.arguments)
-        .envs(stage.environment.iter().copied())
+        .args(arguments)
+        .envs(environment.iter().copied())
         .status()
         .map_err(|cause| Fault::Start {
             command: command.clone(),

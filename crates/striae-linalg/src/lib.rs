@@ -55,6 +55,7 @@ pub use faer::Mat;
 pub use faer_lu::FaerLu;
 pub use matrix::SparseMatrix;
 pub use multifrontal::MultifrontalLu;
+pub use ordering::nested_dissection;
 pub use schur::SchurCholesky;
 pub use solver::{Analysis, FactorReport, FallBack, LinearSolver, Method, SolveReport};
 pub use structure::{Structure, Supervariable, Tier};

@@ -7,6 +7,16 @@ use crate::{
     structure::{Structure, Supervariable, Tier},
 };
 
+/// Order of elimination that the solvers would choose without tiers, for comparisons.
+///
+/// # Errors
+/// When the library for orderings fails.
+pub fn nested_dissection(structure: &Structure) -> Result<Vec<Supervariable>, SolveError> {
+    let order = order(structure, &vec![Tier(0); structure.supervariables()])?;
+    let supervariable = |i: u32| Supervariable(i as usize);
+    Ok(order.into_iter().map(supervariable).collect())
+}
+
 /// Supervariables in order of elimination.
 pub(crate) fn order(structure: &Structure, tiers: &[Tier]) -> Result<Vec<u32>, SolveError> {
     let count = structure.supervariables();

@@ -9,7 +9,7 @@ mod acceptance;
 mod cycling;
 mod workspace;
 
-pub use workspace::{LinearWork, Workspace};
+pub use workspace::{LinearWork, Times, Workspace};
 
 use striae_contact::{
     complementarity::Iteration,

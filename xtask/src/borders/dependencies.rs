@@ -19,7 +19,7 @@ struct Row {
 /// The crate of closed forms, rates and checks of derivatives.
 const VERIFICATION: &str = "striae-verify";
 
-const LADDER: [Row; 10] = [
+const LADDER: [Row; 11] = [
     Row {
         name: "striae-mesh",
         own: &[],
@@ -100,6 +100,19 @@ const LADDER: [Row; 10] = [
             "serde_json",
             "thiserror",
         ],
+    },
+    Row {
+        name: "striae-bench",
+        own: &[
+            "striae-contact",
+            "striae-io",
+            "striae-law",
+            "striae-linalg",
+            "striae-mesh",
+            "striae-solve",
+            "striae-surface",
+        ],
+        outside: &["faer", "nalgebra", "serde_json"],
     },
     Row {
         name: VERIFICATION,

@@ -1,5 +1,7 @@
 //! The linear system of an increment, kept for the next ones.
 
+use std::time::{Duration, Instant};
+
 use striae_contact::{complementarity::Iteration, selection::Selection};
 use striae_linalg::{
     Analysis, Automatic, FaerLu, FallBack, LinearSolver, Method, MultifrontalLu, SolveError,
@@ -38,6 +40,21 @@ pub struct LinearWork {
     pub method: Method,
     /// Why the condensed solver was not used in the last one, where it was asked for.
     pub fall_back: Option<FallBack>,
+    /// Where the time went.
+    pub times: Times,
+}
+
+/// Time on the wall clock, for profiles only.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Times {
+    /// Residuals and matrices.
+    pub assembly: Duration,
+    /// Orderings and plans.
+    pub analysis: Duration,
+    /// Factorisations.
+    pub factorisation: Duration,
+    /// Solutions with refinement.
+    pub solution: Duration,
 }
 
 pub(super) struct SystemStorage {
@@ -105,7 +122,8 @@ impl Workspace {
         imposed: &Imposed,
         iteration: Iteration,
     ) -> Result<Assembled, CutBack> {
-        let system = self.system();
+        let (started, assembly) = (Instant::now(), self.work.times.assembly);
+        let system = self.system.as_mut().expect("the workspace was prepared");
         loop {
             let assembled = assemble(
                 context,
@@ -116,6 +134,7 @@ impl Workspace {
                 &system.layout,
                 &mut system.matrix,
             );
+            self.work.times.assembly = assembly + started.elapsed();
             match assembled {
                 Ok(assembled) => return Ok(assembled),
                 Err(Fault::CutBack(reason)) => return Err(reason),
@@ -185,19 +204,23 @@ impl Workspace {
     pub(super) fn correction(&mut self, residual: &[f64]) -> Result<Vec<f64>, SolveError> {
         let solver = &mut self.solver;
         let system = self.system.as_mut().expect("the workspace was prepared");
+        let times = &mut self.work.times;
+        let started = Instant::now();
         if !system.analysed {
             system.analysis = solver.analyse(system.matrix.structure())?;
             system.analysed = true;
         }
+        let analysed = Instant::now();
+        times.analysis += analysed - started;
         let report = solver.factor(&system.matrix)?;
-        self.work = LinearWork {
-            factorisations: self.work.factorisations + 1,
-            method: report.method,
-            fall_back: report.fall_back,
-        };
+        let factored = Instant::now();
+        times.factorisation += factored - analysed;
+        self.work.factorisations += 1;
+        (self.work.method, self.work.fall_back) = (report.method, report.fall_back);
         let rhs: Vec<f64> = residual.iter().map(|r| -r).collect();
         let mut correction = vec![0.0; rhs.len()];
         solver.solve(&system.matrix, &rhs, &mut correction)?;
+        self.work.times.solution += factored.elapsed();
         Ok(correction)
     }
 }

@@ -1,0 +1,45 @@
+//! Median times of repeated work.
+
+use serde_json::{Value, json};
+use std::time::Instant;
+
+/// Time in which repetitions are made, s.
+const BUDGET: f64 = 1.0;
+const FEWEST: usize = 3;
+const MOST: usize = 200;
+
+/// Median and spread of the time of `work`, which handles so many `items`.
+pub fn timed(group: &str, name: &str, items: usize, mut work: impl FnMut()) -> Value {
+    let mut times = Vec::new();
+    let begin = Instant::now();
+    work();
+    while times.len() < FEWEST || times.len() < MOST && begin.elapsed().as_secs_f64() < BUDGET {
+        let started = Instant::now();
+        work();
+        times.push(started.elapsed().as_secs_f64());
+    }
+    times.sort_by(f64::total_cmp);
+    let quantile = |share: f64| times[((times.len() - 1) as f64 * share).round() as usize];
+    let (median, low, high) = (quantile(0.5), quantile(0.1), quantile(0.9));
+    println!(
+        "{group:9} {name:32} {:>12} an item  {:>12} in all  +-{:.0} %  ({} times)",
+        words(median / items.max(1) as f64),
+        words(median),
+        50.0 * (high - low) / median,
+        times.len(),
+    );
+    json!({
+        "group": group, "name": name, "items": items, "median_s": median,
+        "low_s": low, "high_s": high, "times": times.len(),
+    })
+}
+
+/// A time in the unit that suits it.
+pub fn words(seconds: f64) -> String {
+    match seconds {
+        s if s < 1e-6 => format!("{:.1} ns", s * 1e9),
+        s if s < 1e-3 => format!("{:.2} us", s * 1e6),
+        s if s < 1.0 => format!("{:.2} ms", s * 1e3),
+        s => format!("{s:.2} s"),
+    }
+}

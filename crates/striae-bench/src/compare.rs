@@ -1,0 +1,170 @@
+//! Whole runs with two solvers beside each other, each in its own process.
+
+use crate::{scene, yardstick};
+use serde_json::{Value, json};
+use std::{
+    error::Error,
+    process::{Command, Stdio},
+    time::Instant,
+};
+use striae_contact::evaluation::Evaluation;
+use striae_io::summary::peak_rss_mib;
+use striae_solve::{
+    drive::{Continue, Observer, Progress, run},
+    model::Backend,
+    newton::{Increment, IterationObserver, LinearWork},
+    norms::Norms,
+    outcome::{CutBack, Ending},
+    problem::Problem,
+    state::State,
+};
+
+const SIZES: [usize; 3] = [3_000, 13_000, 52_000];
+
+/// Ratios for all scenes and sizes.
+pub fn all(names: &[String], sizes: &[usize]) -> Result<Vec<Value>, Box<dyn Error>> {
+    let names: Vec<&str> = match names {
+        [] => scene::NAMES.into(),
+        some => some.iter().map(String::as_str).collect(),
+    };
+    let sizes = if sizes.is_empty() { &SIZES } else { sizes };
+    let mut results = Vec::new();
+    for name in names {
+        for &size in sizes {
+            let yardstick = child(name, size, "yardstick")?;
+            let own = child(name, size, "condensed")?;
+            let other = child(name, size, "multifrontal")?;
+            report(name, &yardstick, &own, &other);
+            results.push(json!({
+                "scene": name, "yardstick": yardstick, "condensed": own, "multifrontal": other,
+            }));
+        }
+    }
+    Ok(results)
+}
+
+fn number(value: &Value, key: &str) -> f64 {
+    value[key].as_f64().unwrap_or(f64::NAN)
+}
+
+fn report(name: &str, yardstick: &Value, own: &Value, other: &Value) {
+    let iteration = |v: &Value| number(v, "iteration_s");
+    let cholesky = number(yardstick, "cholesky_s");
+    println!("{name}, {} unknowns:", own["unknowns"]);
+    for (solver, v) in [("condensed", own), ("multifrontal", other)] {
+        println!(
+            "  {solver:12} run {:7.2} s, {} iterations of {:.3} s (assembly {:.3}, factorisation {:.3}, solution {:.3}), analyses {:.2} s, {} factorisations (median {} an increment), {:.0} MiB, by {}",
+            number(v, "run_s"),
+            v["iterations"],
+            iteration(v),
+            number(v, "assembly_s"),
+            number(v, "factorisation_s"),
+            number(v, "solution_s"),
+            number(v, "analysis_s"),
+            v["factorisations"],
+            v["factorisations_median"],
+            number(v, "peak_mib"),
+            v["method"].as_str().unwrap_or("-"),
+        );
+    }
+    println!(
+        "  faer Cholesky of the stiffness {cholesky:.3} s\n  ratios: iteration condensed/LU {:.2}, iteration/Cholesky {:.2}, memory condensed/LU {:.2}, run/Cholesky {:.1}, outside factorisation and solution {:.0} %",
+        iteration(own) / iteration(other),
+        iteration(own) / cholesky,
+        number(own, "peak_mib") / number(other, "peak_mib"),
+        number(own, "run_s") / cholesky,
+        100.0 * (1.0 - number(own, "factored_share")),
+    );
+}
+
+fn child(name: &str, size: usize, what: &str) -> Result<Value, Box<dyn Error>> {
+    let output = Command::new(std::env::current_exe()?)
+        .args(["--one", name, &size.to_string(), what])
+        .stderr(Stdio::inherit())
+        .output()?;
+    if !output.status.success() {
+        return Err(format!("{name} {size} {what} failed").into());
+    }
+    Ok(serde_json::from_slice(&output.stdout)?)
+}
+
+/// One measurement, printed as JSON: scene, size, and the solver or the yardstick.
+pub fn one(words: &[String]) -> Result<(), Box<dyn Error>> {
+    let [name, size, what] = words else {
+        return Err("a scene, a size and a solver are needed".into());
+    };
+    let size = size.parse()?;
+    let result = match what.as_str() {
+        "yardstick" => {
+            let matrix = scene::stiffness(&scene::model(name, size, Backend::Condensed)?)?;
+            let seconds = yardstick::cholesky(&matrix)?;
+            json!({ "unknowns": matrix.structure().unknowns(), "cholesky_s": seconds })
+        }
+        "condensed" => whole(name, size, Backend::Condensed)?,
+        "multifrontal" => whole(name, size, Backend::Multifrontal)?,
+        other => return Err(format!("no solver `{other}`").into()),
+    };
+    println!("{result}");
+    Ok(())
+}
+
+fn whole(name: &str, size: usize, backend: Backend) -> Result<Value, Box<dyn Error>> {
+    let problem = Problem::new(scene::model(name, size, backend)?)?;
+    let started = Instant::now();
+    let mut log = Log::default();
+    let (_, ending) = run(&problem, State::undeformed(&problem), &mut log);
+    let seconds = started.elapsed().as_secs_f64();
+    if ending != Ending::Completed {
+        return Err(ending.to_string().into());
+    }
+    let sum = |part: fn(&LinearWork) -> f64| log.work.iter().map(part).sum::<f64>();
+    let count: usize = log.work.iter().map(|work| work.factorisations).sum();
+    let assembly = sum(|work| work.times.assembly.as_secs_f64());
+    let factorisation = sum(|work| work.times.factorisation.as_secs_f64());
+    let solution = sum(|work| work.times.solution.as_secs_f64());
+    let iterations = log.iterations as f64;
+    let mut counts: Vec<usize> = log.work.iter().map(|work| work.factorisations).collect();
+    counts.sort_unstable();
+    Ok(json!({
+        "unknowns": log.unknowns,
+        "iterations": log.iterations,
+        "factorisations": count,
+        "factorisations_median": counts[counts.len() / 2],
+        "run_s": seconds,
+        "iteration_s": (assembly + factorisation + solution) / iterations,
+        "assembly_s": assembly / iterations,
+        "factorisation_s": factorisation / iterations,
+        "solution_s": solution / iterations,
+        "analysis_s": sum(|work| work.times.analysis.as_secs_f64()),
+        "factored_share": (factorisation + solution) / seconds,
+        "peak_mib": peak_rss_mib(),
+        "method": log.work.last().map(|work| work.method.to_string()),
+    }))
+}
+
+/// What the increments took.
+#[derive(Default)]
+struct Log {
+    work: Vec<LinearWork>,
+    iterations: usize,
+    unknowns: usize,
+}
+
+impl IterationObserver for Log {
+    fn iteration(&mut self, _: usize, _: &Norms, _: &[Evaluation]) {}
+}
+
+impl Observer for Log {
+    fn step(&mut self, _: usize, _: &str) {}
+
+    fn increment(&mut self, _: Progress, increment: &Increment) -> Continue {
+        self.work.push(increment.work);
+        self.iterations += increment.iterations.len();
+        self.unknowns = increment.unknowns;
+        Continue::Yes
+    }
+
+    fn cut_back(&mut self, progress: Progress, reason: &CutBack) {
+        eprintln!("cut back at {:.3}: {reason}", progress.time);
+    }
+}

@@ -1,0 +1,63 @@
+//! Benchmarks: `striae-bench [GROUP ...] [--size UNKNOWNS ...] [--json FILE] [--compare]`.
+//!
+//! Groups are `law`, `surface`, `search`, `assembly`, `factor` and `cases`; all
+//! of them without arguments. `--compare` runs scenes with the condensed solver
+//! and with the multifrontal LU, each in a process of its own, and prints the
+//! ratios of times and memory, and to a sparse Cholesky factorisation of the
+//! stiffness alone by the library faer with the same ordering. README.md says
+//! what each group covers.
+
+mod clock;
+mod compare;
+mod parts;
+mod scene;
+mod yardstick;
+
+use serde_json::{Value, json};
+use std::{error::Error, process::ExitCode};
+
+/// What is asked for on the command line.
+#[derive(Default)]
+struct Arguments {
+    groups: Vec<String>,
+    sizes: Vec<usize>,
+    json: Option<String>,
+    compare: bool,
+}
+
+fn main() -> ExitCode {
+    match run(std::env::args().skip(1)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(mut words: impl Iterator<Item = String>) -> Result<(), Box<dyn Error>> {
+    let mut arguments = Arguments::default();
+    while let Some(word) = words.next() {
+        match word.as_str() {
+            "--one" => return compare::one(&words.collect::<Vec<_>>()),
+            "--compare" => arguments.compare = true,
+            "--json" => arguments.json = words.next(),
+            "--size" => arguments
+                .sizes
+                .push(words.next().ok_or("--size needs a number")?.parse()?),
+            group => arguments.groups.push(group.to_owned()),
+        }
+    }
+    let results = if arguments.compare {
+        compare::all(&arguments.groups, &arguments.sizes)?
+    } else {
+        parts::all(&arguments.groups, &arguments.sizes)?
+    };
+    if let Some(path) = arguments.json {
+        let threads = std::thread::available_parallelism()?.get();
+        let file =
+            json!({ "version": env!("CARGO_PKG_VERSION"), "threads": threads, "results": results });
+        std::fs::write(path, serde_json::to_string_pretty::<Value>(&file)? + "\n")?;
+    }
+    Ok(())
+}

@@ -1,0 +1,161 @@
+//! Times of the parts of an iteration.
+
+use crate::{clock::timed, compare, scene, yardstick};
+use nalgebra::Matrix3;
+use serde_json::{Value, json};
+use std::{error::Error, hint::black_box};
+use striae_contact::{
+    complementarity::Iteration, evaluation::evaluate, selection::Selection, unknowns::Tractions,
+};
+use striae_law::{bulk::Material, friction::Friction};
+use striae_linalg::{Automatic, LinearSolver, MultifrontalLu};
+use striae_solve::{
+    assembly::{StepContext, Trial, assemble},
+    layout::{Extent, Layout},
+    model::Backend,
+    problem::Problem,
+    state::State,
+};
+use striae_surface::normal::nodal_normals;
+
+type Results = Result<Vec<Value>, Box<dyn Error>>;
+
+const GROUPS: [&str; 6] = ["law", "surface", "search", "assembly", "factor", "cases"];
+const SIZES: [usize; 3] = [3_000, 13_000, 52_000];
+
+/// Times of some groups, all without any.
+pub fn all(groups: &[String], sizes: &[usize]) -> Results {
+    let groups: Vec<&str> = match groups {
+        [] => GROUPS.into(),
+        some => some.iter().map(String::as_str).collect(),
+    };
+    let sizes = if sizes.is_empty() { &SIZES } else { sizes };
+    let mut results = Vec::new();
+    for group in groups {
+        match group {
+            "law" => results.extend(law()?),
+            "surface" | "search" | "assembly" | "factor" => {
+                for &size in sizes {
+                    results.extend(of_scene(group, size)?);
+                }
+            }
+            "cases" => results.extend(compare::all(&[], sizes)?),
+            other => return Err(format!("no group `{other}`; there are {GROUPS:?}").into()),
+        }
+    }
+    Ok(results)
+}
+
+/// Responses of the laws at a point.
+fn law() -> Results {
+    const COUNT: usize = 1000;
+    let rubber = Material::NeoHookean {
+        lambda: 0.657,
+        shear: 0.164,
+    };
+    let gradient = |k: usize| {
+        let mut f = Matrix3::identity();
+        f[(0, 1)] = 1e-4 * k as f64;
+        f
+    };
+    let bulk = timed("law", "neo-Hookean response", COUNT, || {
+        for k in 0..COUNT {
+            black_box(rubber.response(&gradient(k)).is_ok());
+        }
+    });
+    let friction = Friction::coulomb(0.3)?;
+    let cap = timed("law", "cap of Coulomb friction", COUNT, || {
+        for k in 0..COUNT {
+            black_box(friction.cap(k as f64, 0.0));
+        }
+    });
+    Ok(vec![bulk, cap])
+}
+
+/// Parts of the first iteration of the stacked blocks.
+fn of_scene(group: &str, size: usize) -> Results {
+    let model = scene::model("stacked", size, Backend::Condensed)?;
+    if group == "factor" {
+        return factor(&scene::stiffness(&model)?);
+    }
+    let problem = Problem::new(model.clone())?;
+    let state = State::undeformed(&problem);
+    let context = StepContext::new(&problem, 0, &state);
+    let configuration = context.configuration(0, &state.positions, &state.rigid_displacements);
+    let kinematic = &state.pairs[0].kinematic;
+    let selection = Selection::new(&configuration, kinematic);
+    let nodes: usize = selection.roles.iter().map(Vec::len).sum();
+    Ok(match group {
+        "surface" => {
+            let surface = configuration.side(0);
+            vec![timed("surface", "nodal normals", surface.x.len(), || {
+                black_box(nodal_normals(surface.surface, &surface.x));
+            })]
+        }
+        "search" => {
+            let roles = timed("search", "selection of roles", nodes, || {
+                black_box(Selection::new(&configuration, kinematic));
+            });
+            let tractions: Tractions = state.pairs[0].tractions.clone();
+            let prescribed = &context.fixed_on_pair[0];
+            let terms = timed("search", "projections and local terms", nodes, || {
+                let first = Iteration::First;
+                black_box(
+                    evaluate(&configuration, &selection, &tractions, prescribed, first).is_ok(),
+                );
+            });
+            vec![roles, terms]
+        }
+        _ => vec![assembly(&model)?],
+    })
+}
+
+/// Elements of the bodies without contact.
+fn assembly(model: &striae_solve::model::Model) -> Result<Value, Box<dyn Error>> {
+    let mut matrix = scene::stiffness(model)?;
+    let mut bodies = model.clone();
+    bodies.pairs.clear();
+    let problem = Problem::new(bodies)?;
+    let state = State::undeformed(&problem);
+    let context = StepContext::new(&problem, 0, &state);
+    let layout = Layout::new(&problem, Extent::default());
+    let imposed = context.imposed(0.0);
+    let trial = Trial {
+        positions: state.positions.clone(),
+        tractions: Vec::new(),
+    };
+    let elements = model
+        .bodies
+        .iter()
+        .map(|body| body.mesh.elements.len())
+        .sum();
+    Ok(timed("assembly", "elements", elements, || {
+        let first = Iteration::First;
+        black_box(assemble(&context, &[], &trial, &imposed, first, &layout, &mut matrix).is_ok());
+    }))
+}
+
+/// Factorisations of the stiffness alone.
+fn factor(matrix: &striae_linalg::SparseMatrix) -> Results {
+    let unknowns = matrix.structure().unknowns();
+    let mut results = Vec::new();
+    let solvers: [(&str, Box<dyn LinearSolver>); 2] = [
+        ("condensed", Box::new(Automatic::new())),
+        ("multifrontal LU", Box::new(MultifrontalLu::new())),
+    ];
+    for (name, mut solver) in solvers {
+        solver.analyse(matrix.structure())?;
+        results.push(timed("factor", name, unknowns, || {
+            black_box(solver.factor(matrix).is_ok());
+        }));
+    }
+    let seconds = yardstick::cholesky(matrix)?;
+    println!(
+        "factor    faer Cholesky, same ordering     {}",
+        crate::clock::words(seconds)
+    );
+    results.push(json!({
+        "group": "factor", "name": "faer Cholesky", "items": unknowns, "median_s": seconds,
+    }));
+    Ok(results)
+}

@@ -1,0 +1,147 @@
+//! Problems of about a given number of unknowns.
+
+use std::{error::Error, path::Path};
+use striae_contact::complementarity::Iteration;
+use striae_io::deck;
+use striae_linalg::{SparseMatrix, Structure, Supervariable};
+use striae_solve::{
+    assembly::{Fault, StepContext, Trial, assemble},
+    layout::{Extent, Layout},
+    model::{Backend, Model},
+    problem::Problem,
+    state::State,
+};
+
+/// The scenes by name.
+pub const NAMES: [&str; 2] = ["stacked", "hertz"];
+
+/// A scene.
+pub fn model(name: &str, unknowns: usize, backend: Backend) -> Result<Model, Box<dyn Error>> {
+    let text = match name {
+        "stacked" => stacked(unknowns),
+        "hertz" => hertz(unknowns),
+        other => return Err(format!("no scene `{other}`; there are {NAMES:?}").into()),
+    };
+    let mut model = deck::parse(&text, name, Path::new(""))?.model;
+    model.solver.backend = backend;
+    Ok(model)
+}
+
+const MATERIAL: &str = r#"
+[[material]]
+name = "rubber"
+law = "neo-hookean"
+lambda = 0.657
+shear_modulus = 0.164
+"#;
+
+/// Two blocks with meshes that do not match, in contact all over, pressed and sheared.
+fn stacked(unknowns: usize) -> String {
+    // A cube of n elements an edge has about 3 n^3 displacements.
+    let n = (unknowns as f64 / 3.3).cbrt().round() as usize;
+    let height = n.div_ceil(2);
+    format!(
+        r#"title = "Stacked blocks"
+{MATERIAL}
+[[body]]
+name = "lower"
+material = "rubber"
+mesh = {{ generator = "block", size = [1, 1, 0.5], divisions = [{n}, {n}, {height}] }}
+[[body]]
+name = "upper"
+material = "rubber"
+mesh = {{ generator = "block", origin = [0, 0, 0.5], size = [1, 1, 0.5], divisions = [{m}, {m}, {height}] }}
+[[pair]]
+name = "interface"
+a = {{ body = "lower", facets = "zmax" }}
+b = {{ body = "upper", facets = "zmin" }}
+friction = {{ law = "coulomb", mu = 0.2 }}
+[[step]]
+name = "press and shear"
+increments = 2
+displacement = [
+    {{ body = "lower", nodes = "zmin", x = 0, y = 0, z = 0 }},
+    {{ body = "upper", nodes = "zmax", x = 0.02, y = 0, z = -0.02 }},
+]
+"#,
+        m = n - 1
+    )
+}
+
+/// A block with a spherical face, pressed onto a rigid plane and sheared.
+fn hertz(unknowns: usize) -> String {
+    let size = match unknowns {
+        0..6_000 => 0.8,
+        6_000..25_000 => 0.4,
+        25_000..90_000 => 0.2,
+        _ => 0.14,
+    };
+    format!(
+        r#"title = "Block with a spherical face on a rigid plane"
+{MATERIAL}
+[[body]]
+name = "block"
+material = "rubber"
+mesh = {{ generator = "capped-block", part = "half", size = [10, 10], height = 6.5, radius = 12, element_size = {size}, fine_half_width = 1.6, fine_depth = 0.5 }}
+[[rigid]]
+name = "foundation"
+plane = {{ point = [0, 0, 0], normal = [0, 0, 1] }}
+[[pair]]
+name = "contact"
+a = {{ body = "block", facets = "cap" }}
+b = {{ rigid = "foundation" }}
+[[step]]
+name = "press"
+increments = 5
+displacement = [
+    {{ body = "block", nodes = "ymin", y = 0 }},
+    {{ body = "block", nodes = "zmax", x = 0, y = 0, z = -0.15 }},
+]
+[[step]]
+name = "shear"
+increments = 5
+friction = [{{ pair = "contact", law = "coulomb", mu = 0.1 }}]
+displacement = [{{ body = "block", nodes = "zmax", x = 0.015 }}]
+"#
+    )
+}
+
+/// Stiffness of the bodies alone, at rest; rows of prescribed components hold a diagonal only.
+pub fn stiffness(model: &Model) -> Result<SparseMatrix, Box<dyn Error>> {
+    let mut model = model.clone();
+    model.pairs.clear();
+    for step in &mut model.steps {
+        step.frictions.clear();
+    }
+    let problem = Problem::new(model)?;
+    let state = State::undeformed(&problem);
+    let context = StepContext::new(&problem, 0, &state);
+    let layout = Layout::new(&problem, Extent::default());
+    let mut cliques = Vec::new();
+    for (body, model) in problem.model.bodies.iter().enumerate() {
+        let nodes = |corners: &[striae_mesh::NodeId; 8]| {
+            corners.map(|node| Supervariable(problem.node(body, node)))
+        };
+        cliques.extend(model.mesh.elements.iter().map(nodes));
+    }
+    let structure = Structure::from_cliques(layout.offsets().to_vec(), &cliques)?;
+    let mut matrix = SparseMatrix::zero(&structure);
+    let trial = Trial {
+        positions: state.positions.clone(),
+        tractions: Vec::new(),
+    };
+    let imposed = context.imposed(0.0);
+    match assemble(
+        &context,
+        &[],
+        &trial,
+        &imposed,
+        Iteration::First,
+        &layout,
+        &mut matrix,
+    ) {
+        Ok(_) => Ok(matrix),
+        Err(Fault::CutBack(reason)) => Err(reason.to_string().into()),
+        Err(Fault::Pattern(_)) => Err("an element is outside the pattern".into()),
+    }
+}
