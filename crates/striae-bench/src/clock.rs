@@ -8,6 +8,40 @@ const BUDGET: f64 = 1.0;
 const FEWEST: usize = 3;
 const MOST: usize = 200;
 
+/// Time on the wall clock and of all threads together, s.
+#[derive(Clone, Copy)]
+pub struct Seconds {
+    /// On the wall clock.
+    pub wall: f64,
+    /// Of all threads, which another program does not lengthen; Linux only.
+    pub cpu: f64,
+}
+
+impl Seconds {
+    /// The time since the start of the machine and of the process.
+    pub fn now(started: Instant) -> Self {
+        let wall = started.elapsed().as_secs_f64();
+        let cpu = ticks().unwrap_or(f64::NAN) / 100.0;
+        Self { wall, cpu }
+    }
+
+    /// The time between two moments.
+    pub fn since(self, earlier: Self) -> Self {
+        Self {
+            wall: self.wall - earlier.wall,
+            cpu: self.cpu - earlier.cpu,
+        }
+    }
+}
+
+/// User and system time of this process in hundredths of a second.
+fn ticks() -> Option<f64> {
+    let text = std::fs::read_to_string("/proc/self/stat").ok()?;
+    let fields: Vec<&str> = text.rsplit(')').next()?.split_whitespace().collect();
+    let field = |k: usize| fields.get(k)?.parse::<f64>().ok();
+    Some(field(11)? + field(12)?)
+}
+
 /// Median and spread of the time of `work`, which handles so many `items`.
 pub fn timed(group: &str, name: &str, items: usize, mut work: impl FnMut()) -> Value {
     let mut times = Vec::new();

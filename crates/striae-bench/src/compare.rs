@@ -1,6 +1,6 @@
 //! Whole runs with two solvers beside each other, each in its own process.
 
-use crate::{scene, yardstick};
+use crate::{clock::Seconds, scene, yardstick};
 use serde_json::{Value, json};
 use std::{
     error::Error,
@@ -50,11 +50,13 @@ fn number(value: &Value, key: &str) -> f64 {
 fn report(name: &str, yardstick: &Value, own: &Value, other: &Value) {
     let iteration = |v: &Value| number(v, "iteration_s");
     let cholesky = number(yardstick, "cholesky_s");
+    let cpu = |v: &Value| number(v, "run_cpu_s") / number(yardstick, "cholesky_cpu_s");
     println!("{name}, {} unknowns:", own["unknowns"]);
     for (solver, v) in [("condensed", own), ("multifrontal", other)] {
         println!(
-            "  {solver:12} run {:7.2} s, {} iterations of {:.3} s (assembly {:.3}, factorisation {:.3}, solution {:.3}), analyses {:.2} s, {} factorisations (median {} an increment), {:.0} MiB, by {}",
+            "  {solver:12} run {:7.2} s ({:.2} s of processors), {} iterations of {:.3} s (assembly {:.3}, factorisation {:.3}, solution {:.3}), analyses {:.2} s, {} factorisations (median {} an increment), {:.0} MiB, by {}",
             number(v, "run_s"),
+            number(v, "run_cpu_s"),
             v["iterations"],
             iteration(v),
             number(v, "assembly_s"),
@@ -68,13 +70,16 @@ fn report(name: &str, yardstick: &Value, own: &Value, other: &Value) {
         );
     }
     println!(
-        "  faer Cholesky of the stiffness {cholesky:.3} s\n  ratios: iteration condensed/LU {:.2}, iteration/Cholesky {:.2}, memory condensed/LU {:.2}, run/Cholesky {:.1}, outside factorisation and solution {:.0} %",
+        "  faer Cholesky of the stiffness {cholesky:.3} s\n  ratios: iteration condensed/LU {:.2}, iteration/Cholesky {:.2}, memory condensed/LU {:.2}, run/Cholesky {:.1} (processors {:.1}), run condensed/LU by processors {:.2}, outside factorisation and solution {:.0} %",
         iteration(own) / iteration(other),
         iteration(own) / cholesky,
         number(own, "peak_mib") / number(other, "peak_mib"),
         number(own, "run_s") / cholesky,
+        cpu(own),
+        cpu(own) / cpu(other),
         100.0 * (1.0 - number(own, "factored_share")),
     );
+    println!("  answers differ by {:.1e}", difference(own, other));
 }
 
 fn child(name: &str, size: usize, what: &str) -> Result<Value, Box<dyn Error>> {
@@ -98,7 +103,10 @@ pub fn one(words: &[String]) -> Result<(), Box<dyn Error>> {
         "yardstick" => {
             let matrix = scene::stiffness(&scene::model(name, size, Backend::Condensed)?)?;
             let seconds = yardstick::cholesky(&matrix)?;
-            json!({ "unknowns": matrix.structure().unknowns(), "cholesky_s": seconds })
+            json!({
+                "unknowns": matrix.structure().unknowns(),
+                "cholesky_s": seconds.wall, "cholesky_cpu_s": seconds.cpu,
+            })
         }
         "condensed" => whole(name, size, Backend::Condensed)?,
         "multifrontal" => whole(name, size, Backend::Multifrontal)?,
@@ -111,9 +119,11 @@ pub fn one(words: &[String]) -> Result<(), Box<dyn Error>> {
 fn whole(name: &str, size: usize, backend: Backend) -> Result<Value, Box<dyn Error>> {
     let problem = Problem::new(scene::model(name, size, backend)?)?;
     let started = Instant::now();
+    let first = Seconds::now(started);
     let mut log = Log::default();
-    let (_, ending) = run(&problem, State::undeformed(&problem), &mut log);
-    let seconds = started.elapsed().as_secs_f64();
+    let (state, ending) = run(&problem, State::undeformed(&problem), &mut log);
+    let time = Seconds::now(started).since(first);
+    let seconds = time.wall;
     if ending != Ending::Completed {
         return Err(ending.to_string().into());
     }
@@ -131,6 +141,8 @@ fn whole(name: &str, size: usize, backend: Backend) -> Result<Value, Box<dyn Err
         "factorisations": count,
         "factorisations_median": counts[counts.len() / 2],
         "run_s": seconds,
+        "run_cpu_s": time.cpu,
+        "answers": answers(&problem, &state),
         "iteration_s": (assembly + factorisation + solution) / iterations,
         "assembly_s": assembly / iterations,
         "factorisation_s": factorisation / iterations,
@@ -140,6 +152,28 @@ fn whole(name: &str, size: usize, backend: Backend) -> Result<Value, Box<dyn Err
         "peak_mib": peak_rss_mib(),
         "method": log.work.last().map(|work| work.method.to_string()),
     }))
+}
+
+/// Displacements of some hundred nodes.
+fn answers(problem: &Problem, state: &State) -> Vec<f64> {
+    let stride = (problem.reference.len() / 300).max(1);
+    let displacements = state.positions.iter().zip(&problem.reference);
+    let every = displacements.step_by(stride);
+    every
+        .flat_map(|(x, reference)| <[f64; 3]>::from(x - reference))
+        .collect()
+}
+
+/// Largest difference of two answers over the largest of them.
+fn difference(a: &Value, b: &Value) -> f64 {
+    let list = |v: &Value| -> Vec<f64> {
+        let list = v["answers"].as_array().into_iter().flatten();
+        list.filter_map(Value::as_f64).collect()
+    };
+    let (a, b) = (list(a), list(b));
+    let size = a.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let differences = a.iter().zip(&b).map(|(a, b)| (a - b).abs());
+    differences.fold(0.0, f64::max) / size
 }
 
 /// What the increments took.

@@ -96,7 +96,8 @@ fn of_scene(group: &str, size: usize) -> Results {
             let roles = timed("search", "selection of roles", nodes, || {
                 black_box(Selection::new(&configuration, kinematic));
             });
-            let tractions: Tractions = state.pairs[0].tractions.clone();
+            let mut tractions: Tractions = state.pairs[0].tractions.clone();
+            tractions.balance = vec![[0.0; 6]; selection.patches.len()];
             let prescribed = &context.fixed_on_pair[0];
             let terms = timed("search", "projections and local terms", nodes, || {
                 let first = Iteration::First;
@@ -149,7 +150,7 @@ fn factor(matrix: &striae_linalg::SparseMatrix) -> Results {
             black_box(solver.factor(matrix).is_ok());
         }));
     }
-    let seconds = yardstick::cholesky(matrix)?;
+    let seconds = yardstick::cholesky(matrix)?.wall;
     println!(
         "factor    faer Cholesky, same ordering     {}",
         crate::clock::words(seconds)

@@ -1,5 +1,10 @@
 //! The default solver: condensed where that works and pays, multifrontal LU otherwise.
 //!
+//! Factors of the interior of the bodies are kept while they are good enough as
+//! a preconditioner: the contact system is factored anew, and GMRES makes up for
+//! the change of the bulk. They are renewed when that takes, or last took, more
+//! iterations than a factorisation is worth, by a count of operations.
+//!
 //! What it falls back on is decided by counts and signs alone, so the same
 //! matrices are always solved in the same way: when the interface is so large
 //! that its dense algebra costs more than the LU, when the interior is not
@@ -9,9 +14,10 @@
 use crate::{
     condensed::Condensed,
     error::SolveError,
+    gmres::Ends,
     matrix::SparseMatrix,
     multifrontal::MultifrontalLu,
-    solver::{Analysis, FactorReport, FallBack, LinearSolver, Method, SolveReport},
+    solver::{Analysis, FactorReport, FallBack, Interior, LinearSolver, Method, SolveReport},
     structure::Structure,
 };
 
@@ -21,6 +27,12 @@ const SMALL_INTERFACE: usize = 3000;
 const LARGEST_DENSE: usize = 6 << 30;
 /// Factorisations by LU after a failure before the condensed solver is tried again.
 const PATIENCE: usize = 8;
+/// Reduction of the residual that is asked of a solution with older factors.
+pub const REDUCTION: f64 = 1e-6;
+/// Iterations of GMRES below which older factors are not worth a try.
+const FEWEST: usize = 5;
+/// Most iterations of GMRES with older factors.
+const MOST: usize = 25;
 
 /// Chooses between the condensed solver and the multifrontal LU.
 #[derive(Debug, Default)]
@@ -31,6 +43,11 @@ pub struct Automatic {
     fall_back: Option<FallBack>,
     patience: usize,
     factored: Option<Method>,
+    /// Age of the factors of the interior.
+    interior: Interior,
+    /// Iterations of GMRES that older factors are worth, and those they last took.
+    allowance: usize,
+    taken: usize,
 }
 
 impl Automatic {
@@ -54,6 +71,28 @@ impl Automatic {
             fall_back: self.fall_back,
             ..report
         })
+    }
+
+    /// Factors everything.
+    fn factor_anew(&mut self, matrix: &SparseMatrix) -> Result<FactorReport, SolveError> {
+        (self.interior, self.taken) = (Interior::Fresh, 0);
+        let Some(condensed) = self.condensed.as_mut().filter(|_| self.patience == 0) else {
+            self.patience = self.patience.saturating_sub(1);
+            return self.factor_multifrontal(matrix);
+        };
+        match condensed.factor(matrix) {
+            Ok(report) => {
+                (self.fall_back, self.factored) = (None, Some(Method::Condensed));
+                // The LU would only hold memory now.
+                self.multifrontal = None;
+                Ok(report)
+            }
+            Err(SolveError::NotPositiveDefinite { unknown, .. }) => {
+                self.fall_back(FallBack::IndefiniteInterior { unknown }, matrix)
+            }
+            Err(SolveError::Singular { .. }) => self.fall_back(FallBack::SingularContact, matrix),
+            Err(other) => Err(other),
+        }
     }
 
     fn fall_back(
@@ -82,29 +121,24 @@ impl LinearSolver for Automatic {
                 return Ok(other);
             }
         }
+        let worth = 0.7 * condensed.solutions_per_factorisation();
+        self.allowance = (worth as usize).min(MOST);
         self.condensed = Some(condensed);
         Ok(analysis)
     }
 
     fn factor(&mut self, matrix: &SparseMatrix) -> Result<FactorReport, SolveError> {
         self.factored = None;
-        let Some(condensed) = self.condensed.as_mut().filter(|_| self.patience == 0) else {
-            self.patience = self.patience.saturating_sub(1);
-            return self.factor_multifrontal(matrix);
-        };
-        match condensed.factor(matrix) {
-            Ok(report) => {
-                (self.fall_back, self.factored) = (None, Some(Method::Condensed));
-                // The LU would only hold memory now.
-                self.multifrontal = None;
-                Ok(report)
-            }
-            Err(SolveError::NotPositiveDefinite { unknown, .. }) => {
-                self.fall_back(FallBack::IndefiniteInterior { unknown }, matrix)
-            }
-            Err(SolveError::Singular { .. }) => self.fall_back(FallBack::SingularContact, matrix),
-            Err(other) => Err(other),
+        let good = self.allowance >= FEWEST && 4 * self.taken <= 3 * self.allowance;
+        if let Some(condensed) = self.condensed.as_mut()
+            && self.patience == 0
+            && good
+            && let Ok(Some(report)) = condensed.refresh(matrix)
+        {
+            (self.interior, self.factored) = (Interior::Stale, Some(Method::Condensed));
+            return Ok(report);
         }
+        self.factor_anew(matrix)
     }
 
     fn solve(
@@ -113,6 +147,18 @@ impl LinearSolver for Automatic {
         rhs: &[f64],
         x: &mut [f64],
     ) -> Result<SolveReport, SolveError> {
+        if self.factored == Some(Method::Condensed) && self.interior == Interior::Stale {
+            let ends = Ends {
+                iterations: self.allowance,
+                reduction: REDUCTION,
+            };
+            let condensed = self.condensed.as_ref().ok_or(SolveError::NotFactored)?;
+            if let Some(report) = condensed.solve_nearby(matrix, (rhs, x), ends)? {
+                self.taken = report.krylov_iterations;
+                return Ok(report);
+            }
+            self.factor_anew(matrix)?;
+        }
         if self.factored == Some(Method::Condensed) {
             let condensed = self.condensed.as_ref().ok_or(SolveError::NotFactored)?;
             match condensed.solve(matrix, rhs, x) {

@@ -12,6 +12,7 @@ use crate::{
     bulk::Body,
     equilibration::Equilibration,
     error::SolveError,
+    gmres::Ends,
     interface::{Block, Interface, Kind, Places},
     matrix::SparseMatrix,
     refinement,
@@ -22,6 +23,8 @@ use crate::{
 };
 use rayon::prelude::*;
 
+/// Time of an operation of a substitution, which waits for memory, over that of a factorisation.
+const SUBSTITUTION: f64 = 12.0;
 /// Not kept.
 const NONE: u32 = u32::MAX;
 
@@ -101,10 +104,37 @@ impl Condensed {
         if !self.structure.same_as(matrix.structure()) {
             return Err(SolveError::NotAnalysed);
         }
-        let scaling = Equilibration::by_diagonal(matrix)?;
+        let scaling = Equilibration::by_diagonal(matrix, None)?;
         let prescribed = prescribed(matrix);
         let bodies = self.bodies.par_iter_mut();
         bodies.try_for_each(|body| body.factor(matrix, &scaling, &prescribed))?;
+        self.factor_interface(matrix, scaling, prescribed)
+    }
+
+    /// Factors the contact system of a matrix on the older interior.
+    ///
+    /// `None` when there is no interior or it has other prescribed unknowns.
+    pub(crate) fn refresh(
+        &mut self,
+        matrix: &SparseMatrix,
+    ) -> Result<Option<FactorReport>, SolveError> {
+        let Some(older) = self.numeric.take() else {
+            return Ok(None);
+        };
+        if !self.structure.same_as(matrix.structure()) || prescribed(matrix) != older.prescribed {
+            return Ok(None);
+        }
+        let scaling = Equilibration::by_diagonal(matrix, Some(&older.scaling))?;
+        self.factor_interface(matrix, scaling, older.prescribed)
+            .map(Some)
+    }
+
+    fn factor_interface(
+        &mut self,
+        matrix: &SparseMatrix,
+        scaling: Equilibration,
+        prescribed: Vec<bool>,
+    ) -> Result<FactorReport, SolveError> {
         let places = self.places(&prescribed);
         let rows = self.rows(matrix, &scaling, &prescribed);
         let interface = Interface::factor(&places, rows, &self.blocks())?;
@@ -137,6 +167,32 @@ impl Condensed {
             matrix,
         };
         refinement::solve(matrix, &numeric.scaling, &factors, rhs, x)
+    }
+
+    /// Solves with an older interior as preconditioner; `None` when it is too far from the matrix.
+    pub(crate) fn solve_nearby(
+        &self,
+        matrix: &SparseMatrix,
+        (rhs, x): (&[f64], &mut [f64]),
+        ends: Ends,
+    ) -> Result<Option<SolveReport>, SolveError> {
+        let numeric = self.numeric.as_ref().ok_or(SolveError::NotFactored)?;
+        let factors = Substitution {
+            condensed: self,
+            numeric,
+            matrix,
+        };
+        refinement::solve_nearby(matrix, &numeric.scaling, &factors, (rhs, x), ends)
+    }
+
+    /// Solutions with given factors that cost as much as new factors of the interior.
+    pub(crate) fn solutions_per_factorisation(&self) -> f64 {
+        let (mut flops, mut entries) = (0.0, 0);
+        for body in self.bodies.iter().map(Body::analysis) {
+            flops += body.flops;
+            entries += body.factor_entries;
+        }
+        flops / (4.0 * SUBSTITUTION * entries.max(1) as f64)
     }
 
     fn blocks(&self) -> Vec<Block<'_>> {

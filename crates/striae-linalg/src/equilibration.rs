@@ -52,7 +52,12 @@ impl Equilibration {
     /// Bulk unknowns and their rows get `1/sqrt|a_ii|`. Multipliers are scaled to
     /// the largest entry that bulk rows have in their column, their rows to the
     /// largest entry; multipliers that only other multipliers know come last.
-    pub(crate) fn by_diagonal(matrix: &SparseMatrix) -> Result<Self, SolveError> {
+    ///
+    /// With an `older` one the bulk unknowns keep its factors.
+    pub(crate) fn by_diagonal(
+        matrix: &SparseMatrix,
+        older: Option<&Self>,
+    ) -> Result<Self, SolveError> {
         check_finite(matrix)?;
         let structure = matrix.structure();
         let n = structure.unknowns();
@@ -65,7 +70,10 @@ impl Equilibration {
             let bulk = structure.bulk_group(i);
             multipliers.extend(bulk.end..structure.group(i).end);
             for u in bulk {
-                let scale = root(matrix.get(u, u).unwrap_or(0.0).abs());
+                let scale = match older {
+                    Some(older) => older.columns[u],
+                    None => root(matrix.get(u, u).unwrap_or(0.0).abs()),
+                };
                 (scaling.rows[u], scaling.columns[u]) = (scale, scale);
             }
         }

@@ -1,23 +1,26 @@
 //! One cycle of right-preconditioned GMRES (Saad & Schultz, doi:10.1137/0907058).
 
-use crate::matrix::SparseMatrix;
-
-/// Length of a cycle.
-const CYCLE: usize = 30;
-/// Reduction of the residual at which a cycle ends early.
-const REDUCTION: f64 = 1e-15;
-
 /// Result of a cycle.
 pub(crate) struct Correction {
     pub(crate) solution: Vec<f64>,
     pub(crate) iterations: usize,
 }
 
-/// Approximate solution of `matrix x = b` in the Krylov space of `A M^-1` from zero.
+/// When a cycle ends.
+#[derive(Clone, Copy)]
+pub(crate) struct Ends {
+    /// Number of iterations.
+    pub(crate) iterations: usize,
+    /// Size of the residual over that of the right-hand side.
+    pub(crate) reduction: f64,
+}
+
+/// Approximate solution of `A x = b` in the Krylov space of `A M^-1` from zero.
 pub(crate) fn solve(
-    matrix: &SparseMatrix,
+    multiply: &dyn Fn(&[f64], &mut [f64]),
     precondition: &dyn Fn(&mut [f64]),
     b: &[f64],
+    ends: Ends,
 ) -> Correction {
     let n = b.len();
     let size = norm(b);
@@ -31,11 +34,11 @@ pub(crate) fn solve(
     let mut hessenberg: Vec<Vec<f64>> = Vec::new();
     let mut rotations: Vec<(f64, f64)> = Vec::new();
     let mut residual = vec![size];
-    for k in 0..CYCLE.min(n) {
+    for k in 0..ends.iterations.min(n) {
         let mut direction = basis[k].clone();
         precondition(&mut direction);
         let mut image = vec![0.0; n];
-        matrix.multiply(&direction, &mut image);
+        multiply(&direction, &mut image);
         let mut column = orthogonalise(&mut image, &basis);
         let length = norm(&image);
         if !length.is_finite() {
@@ -55,7 +58,7 @@ pub(crate) fn solve(
         rotations.push((c, s));
         hessenberg.push(column);
         rotate(&mut residual, k, c, s);
-        if length == 0.0 || residual[k + 1].abs() <= REDUCTION * size {
+        if length == 0.0 || residual[k + 1].abs() <= ends.reduction * size {
             break;
         }
         basis.push(image.iter().map(|v| v / length).collect());

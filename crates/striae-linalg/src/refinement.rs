@@ -6,8 +6,12 @@
 //! compares unknowns in the units of the equilibrated system. When it stalls above [`ACCEPTED`], GMRES preconditioned by the factors takes over.
 
 use crate::{
-    equilibration::Equilibration, error::SolveError, gmres, matrix::SparseMatrix,
-    singularity::Factors, solver::SolveReport,
+    equilibration::Equilibration,
+    error::SolveError,
+    gmres,
+    matrix::SparseMatrix,
+    singularity::Factors,
+    solver::{Interior, SolveReport},
 };
 
 /// Backward error at which refinement stops.
@@ -16,6 +20,11 @@ const TARGET: f64 = 4.0 * f64::EPSILON;
 const ACCEPTED: f64 = 1e-12;
 const REFINEMENTS: usize = 30;
 const GMRES_CYCLES: usize = 4;
+/// A cycle of GMRES.
+const CYCLE: gmres::Ends = gmres::Ends {
+    iterations: 30,
+    reduction: 1e-15,
+};
 
 /// Solves `matrix x = rhs` with factors of the equilibrated matrix.
 pub(crate) fn solve(
@@ -54,7 +63,8 @@ pub(crate) fn solve(
         if residual.backward_error <= ACCEPTED {
             break;
         }
-        let correction = gmres::solve(matrix, &precondition, &residual.values);
+        let multiply = |x: &[f64], y: &mut [f64]| matrix.multiply(x, y);
+        let correction = gmres::solve(&multiply, &precondition, &residual.values, CYCLE);
         report.krylov_iterations += correction.iterations;
         x.iter_mut()
             .zip(&correction.solution)
@@ -69,6 +79,41 @@ pub(crate) fn solve(
             backward_error: report.backward_error,
         })
     }
+}
+
+/// Solves `matrix x = rhs` by one cycle of GMRES with factors of a nearby matrix.
+///
+/// `None` when the residual of the equilibrated system is not as small as asked for.
+pub(crate) fn solve_nearby(
+    matrix: &SparseMatrix,
+    scaling: &Equilibration,
+    factors: &dyn Factors,
+    (rhs, x): (&[f64], &mut [f64]),
+    ends: gmres::Ends,
+) -> Result<Option<SolveReport>, SolveError> {
+    check(matrix, rhs, x)?;
+    let multiply = |v: &[f64], image: &mut [f64]| {
+        let mut v = v.to_vec();
+        scaling.scale_columns(&mut v);
+        matrix.multiply(&v, image);
+        scaling.scale_rows(image);
+    };
+    let precondition = |v: &mut [f64]| factors.solve_in_place(v);
+    let mut b = rhs.to_vec();
+    scaling.scale_rows(&mut b);
+    let correction = gmres::solve(&multiply, &precondition, &b, ends);
+    x.copy_from_slice(&correction.solution);
+    scaling.scale_columns(x);
+    let mut residual = matrix.residual(x, rhs, &scaling.columns);
+    scaling.scale_rows(&mut residual.values);
+    let norm = |v: &[f64]| v.iter().map(|v| v * v).sum::<f64>().sqrt();
+    let small = norm(&residual.values) <= 2.0 * ends.reduction * norm(&b);
+    Ok(small.then_some(SolveReport {
+        backward_error: residual.backward_error,
+        refinements: 0,
+        krylov_iterations: correction.iterations,
+        interior: Interior::Stale,
+    }))
 }
 
 fn check(matrix: &SparseMatrix, rhs: &[f64], x: &[f64]) -> Result<(), SolveError> {

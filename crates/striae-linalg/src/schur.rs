@@ -30,6 +30,8 @@ use faer::{
 pub struct SchurCholesky {
     structure: Structure,
     tree: AssemblyTree,
+    /// Unknowns of every front.
+    unknowns: Vec<Vec<u32>>,
     /// Unknowns of the Schur complement.
     kept: Vec<usize>,
     scales: Vec<f64>,
@@ -58,7 +60,9 @@ impl SchurCholesky {
             .iter()
             .flat_map(|&i| structure.group(i as usize))
             .collect();
+        let of_front = |front: &Front| self::unknowns(structure, front);
         Ok(Self {
+            unknowns: tree.fronts.iter().map(of_front).collect(),
             structure: structure.clone(),
             tree,
             kept: unknowns,
@@ -140,12 +144,12 @@ impl SchurCholesky {
             .take(self.interior())
             .map(entries)
             .sum();
-        for front in self.tree.fronts[..self.interior()].iter().rev() {
+        for (f, front) in self.tree.fronts[..self.interior()].iter().enumerate().rev() {
             let values = &self.numeric.values[end - entries(front)..end];
             end -= entries(front);
             let lower = MatRef::from_column_major_slice(values, front.size, front.pivots);
-            let places = unknowns(&self.structure, front);
-            let mut local: Vec<f64> = places.iter().map(|&u| x[u]).collect();
+            let places = &self.unknowns[f];
+            let mut local: Vec<f64> = places.iter().map(|&u| x[u as usize]).collect();
             let (pivots, rest) = local.split_at_mut(front.pivots);
             let (diagonal, below) = lower.split_at_row(front.pivots);
             let (mut pivots, rest) = (column(pivots), column(rest));
@@ -161,7 +165,7 @@ impl SchurCholesky {
             places[..front.pivots]
                 .iter()
                 .zip(&local)
-                .for_each(|(&u, value)| x[u] = *value);
+                .for_each(|(&u, value)| x[u as usize] = *value);
         }
         x.iter_mut().zip(&self.scales).for_each(|(x, s)| *x *= s);
         Ok(x)
@@ -175,12 +179,12 @@ impl SchurCholesky {
         }
         let mut y: Vec<f64> = rhs.iter().zip(&self.scales).map(|(b, s)| b * s).collect();
         let mut begin = 0;
-        for front in &self.tree.fronts[..self.interior()] {
+        for (f, front) in self.tree.fronts[..self.interior()].iter().enumerate() {
             let values = &self.numeric.values[begin..begin + entries(front)];
             begin += entries(front);
             let lower = MatRef::from_column_major_slice(values, front.size, front.pivots);
-            let places = unknowns(&self.structure, front);
-            let mut local: Vec<f64> = places.iter().map(|&u| y[u]).collect();
+            let places = &self.unknowns[f];
+            let mut local: Vec<f64> = places.iter().map(|&u| y[u as usize]).collect();
             let (pivots, rest) = local.split_at_mut(front.pivots);
             let (diagonal, below) = lower.split_at_row(front.pivots);
             let (mut pivots, rest) = (column(pivots), column(rest));
@@ -189,7 +193,7 @@ impl SchurCholesky {
             places
                 .iter()
                 .zip(&local)
-                .for_each(|(&u, value)| y[u] = *value);
+                .for_each(|(&u, value)| y[u as usize] = *value);
         }
         Ok(y)
     }
@@ -203,11 +207,10 @@ impl SchurCholesky {
     /// Powers of two that bring the diagonal of the interior near one.
     fn unit_diagonal(&self, matrix: &SparseMatrix) -> Result<Vec<f64>, SolveError> {
         let mut scales = vec![1.0; self.structure.unknowns()];
-        for front in &self.tree.fronts[..self.interior()] {
-            for unknown in unknowns(&self.structure, front)
-                .into_iter()
-                .take(front.pivots)
-            {
+        let fronts = self.tree.fronts[..self.interior()].iter();
+        for (front, unknowns) in fronts.zip(&self.unknowns) {
+            for &unknown in &unknowns[..front.pivots] {
+                let unknown = unknown as usize;
                 let pivot = matrix.get(unknown, unknown).unwrap_or(0.0);
                 if pivot.is_nan() || pivot <= 0.0 {
                     return Err(SolveError::NotPositiveDefinite { unknown, pivot });
@@ -259,7 +262,7 @@ impl Kernel for System<'_> {
             return (None, contribution);
         }
         let failure = symmetric::eliminate(left, rest, front.size).map(|(position, pivot)| {
-            let unknown = unknowns(self.matrix.structure(), front)[position];
+            let unknown = unknowns(self.matrix.structure(), front)[position] as usize;
             Failure { unknown, pivot }
         });
         (failure, contribution)
@@ -315,9 +318,10 @@ fn extend_add(front: &Front, child: &Child<'_>, left: &mut [f64], rest: &mut [f6
 }
 
 /// Unknowns of a front in order.
-fn unknowns(structure: &Structure, front: &Front) -> Vec<usize> {
+fn unknowns(structure: &Structure, front: &Front) -> Vec<u32> {
     let groups = front.members.iter().chain(&front.border);
-    groups.flat_map(|&i| structure.group(i as usize)).collect()
+    let unknowns = groups.flat_map(|&i| structure.group(i as usize));
+    unknowns.map(|u| u as u32).collect()
 }
 
 /// Entries of the factor in a front, with the unused upper triangle of the pivots.

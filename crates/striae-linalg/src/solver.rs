@@ -7,7 +7,9 @@ use thiserror::Error;
 ///
 /// Every solution is refined with the given matrix and its residual is checked:
 /// an answer that comes back with `Ok` is accurate to
-/// [`SolveReport::backward_error`].
+/// [`SolveReport::backward_error`]. That is round-off but where the factors of
+/// the interior are [stale](Interior::Stale): there the residual is reduced by
+/// [`REDUCTION`](crate::REDUCTION), enough for a correction of Newton's method.
 pub trait LinearSolver: Send {
     /// Orders the unknowns and predicts the cost; forgets earlier factorisations.
     fn analyse(&mut self, structure: &Structure) -> Result<Analysis, SolveError>;
@@ -112,6 +114,18 @@ pub struct SolveReport {
     pub backward_error: f64,
     /// Steps of iterative refinement.
     pub refinements: usize,
-    /// Steps of GMRES, when refinement did not do.
+    /// Steps of GMRES, when refinement did not do or factors are older than the matrix.
     pub krylov_iterations: usize,
+    /// Age of the factors of the interior.
+    pub interior: Interior,
+}
+
+/// Age of the factors of the interior of the bodies.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Interior {
+    /// They are of the matrix that is solved with.
+    #[default]
+    Fresh,
+    /// They are of an earlier one and serve as a preconditioner.
+    Stale,
 }

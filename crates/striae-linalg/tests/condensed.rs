@@ -1,8 +1,8 @@
 //! The condensed solver on two blocks tied by multipliers, against the LU.
 
 use striae_linalg::{
-    Automatic, FallBack, LinearSolver, Method, MultifrontalLu, SolveError, SparseMatrix, Structure,
-    Supervariable,
+    Automatic, FallBack, Interior, LinearSolver, Method, MultifrontalLu, SolveError, SparseMatrix,
+    Structure, Supervariable,
 };
 
 /// What the lower block's face does on the upper one's.
@@ -258,6 +258,35 @@ fn a_block_that_nothing_holds_is_named() {
     solver.analyse(&blocks.structure).unwrap();
     let failed = solver.factor(&matrix).unwrap_err();
     assert!(matches!(failed, SolveError::Singular { .. }), "{failed:?}");
+}
+
+#[test]
+fn older_interiors_precondition_until_they_are_too_far() {
+    let blocks = Blocks::new(18, 9);
+    let rhs = load(blocks.structure.unknowns());
+    let mut solver = Automatic::new();
+    solver.analyse(&blocks.structure).unwrap();
+    let mut x = vec![0.0; rhs.len()];
+    let steps = [
+        ([1.0, 2.0], Contact::Stick, Interior::Fresh),
+        ([1.02, 1.97], Contact::Stick, Interior::Stale),
+        ([1.02, 1.97], Contact::Slip, Interior::Stale),
+        ([60.0, 0.01], Contact::Slip, Interior::Fresh),
+    ];
+    for (stiffness, contact, interior) in steps {
+        let matrix = blocks.matrix(stiffness, contact);
+        solver.factor(&matrix).unwrap();
+        let report = solver.solve(&matrix, &rhs, &mut x).unwrap();
+        assert_eq!(report.interior, interior, "{stiffness:?} {report:?}");
+        let (expected, _) = solution(&mut MultifrontalLu::new(), &matrix, &rhs);
+        let allowed = match interior {
+            Interior::Fresh => 1e-9,
+            // The reduction of the residual times a factor for the condition.
+            Interior::Stale => 1e3 * striae_linalg::REDUCTION,
+        };
+        let error = difference(&blocks, &x, &expected);
+        assert!(error < allowed, "{stiffness:?} {error:e} {report:?}");
+    }
 }
 
 #[test]

@@ -4,8 +4,8 @@ use std::time::{Duration, Instant};
 
 use striae_contact::{complementarity::Iteration, selection::Selection};
 use striae_linalg::{
-    Analysis, Automatic, FaerLu, FallBack, LinearSolver, Method, MultifrontalLu, SolveError,
-    SparseMatrix, Structure, Supervariable,
+    Analysis, Automatic, FaerLu, FallBack, Interior, LinearSolver, Method, MultifrontalLu,
+    SolveError, SparseMatrix, Structure, Supervariable,
 };
 
 use striae_mesh::Vec3;
@@ -34,7 +34,7 @@ pub struct Workspace {
 /// What the linear systems of an increment took.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LinearWork {
-    /// Number of factorisations.
+    /// Factorisations of the bodies; others of contact were made on older ones.
     pub factorisations: usize,
     /// How the last one was made.
     pub method: Method,
@@ -215,11 +215,13 @@ impl Workspace {
         let report = solver.factor(&system.matrix)?;
         let factored = Instant::now();
         times.factorisation += factored - analysed;
-        self.work.factorisations += 1;
         (self.work.method, self.work.fall_back) = (report.method, report.fall_back);
         let rhs: Vec<f64> = residual.iter().map(|r| -r).collect();
         let mut correction = vec![0.0; rhs.len()];
-        solver.solve(&system.matrix, &rhs, &mut correction)?;
+        let solved = solver.solve(&system.matrix, &rhs, &mut correction)?;
+        if solved.interior == Interior::Fresh {
+            self.work.factorisations += 1;
+        }
         self.work.times.solution += factored.elapsed();
         Ok(correction)
     }
