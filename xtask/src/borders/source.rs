@@ -45,7 +45,7 @@ impl Place {
         Self {
             path: path.display().to_string(),
             layer: match package {
-                "striae" | "xtask" => Layer::Program,
+                "striae" | "striae-bench" | "xtask" => Layer::Program,
                 "striae-io" => Layer::Files,
                 _ => Layer::Pure,
             },

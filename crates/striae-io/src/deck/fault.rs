@@ -1,4 +1,6 @@
 //! What can be wrong with a deck, in the words shown to its author.
+//!
+//! Longer than other files, as it lists every kind of fault with its words.
 
 use striae_mesh::NodeId;
 
