@@ -81,7 +81,7 @@ fn of_scene(group: &str, size: usize) -> Results {
     let problem = Problem::new(model.clone())?;
     let state = State::undeformed(&problem);
     let context = StepContext::new(&problem, 0, &state);
-    let configuration = context.configuration(0, &state.positions, &state.rigid_displacements);
+    let configuration = context.configuration(0, &state.positions, &state.rigid);
     let kinematic = &state.pairs[0].kinematic;
     let selection = Selection::new(&configuration, kinematic);
     let nodes: usize = selection.roles.iter().map(Vec::len).sum();
@@ -124,6 +124,7 @@ fn assembly(model: &striae_solve::model::Model) -> Result<Value, Box<dyn Error>>
     let trial = Trial {
         positions: state.positions.clone(),
         tractions: Vec::new(),
+        rigid: state.rigid.clone(),
     };
     let elements = model
         .bodies

@@ -124,6 +124,7 @@ pub fn stiffness(model: &Model) -> Result<SparseMatrix, Box<dyn Error>> {
     let trial = Trial {
         positions: state.positions.clone(),
         tractions: Vec::new(),
+        rigid: state.rigid.clone(),
     };
     let imposed = context.imposed(0.0);
     match assemble(

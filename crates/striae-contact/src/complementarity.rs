@@ -228,7 +228,7 @@ impl<'a> NodeState<'a> {
         let partner = match node.partner {
             Partner::Rigid(point) => {
                 opposite(None, &mut lanes, X_PARTNER);
-                constant3(&(point + configuration.rigid_displacement))
+                constant3(&configuration.placement.point(&point))
             }
             Partner::Corners(corners, weights) => {
                 opposite(Some(corners), &mut lanes, X_PARTNER);

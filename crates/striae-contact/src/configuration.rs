@@ -8,6 +8,7 @@ use striae_surface::{
 
 use crate::{
     pair::{ContactPair, Geometry, local_sizes},
+    placement::Placement,
     search::{Bounds, Tree},
 };
 
@@ -18,8 +19,8 @@ pub struct Configuration<'a> {
     pub pair: &'a ContactPair,
     /// Snapshots of the sides; a plane has none.
     pub sides: [Option<Snapshot<'a>>; 2],
-    /// Displacement of a rigid side `b` from its reference configuration.
-    pub rigid_displacement: Vec3,
+    /// Where a rigid side `b` is.
+    pub placement: Placement,
     /// Time since the last converged configuration; infinite where it does not matter.
     pub elapsed: f64,
 }
@@ -43,11 +44,11 @@ pub struct Snapshot<'a> {
 
 impl<'a> Configuration<'a> {
     /// The configuration with the surface nodes of side `s` at `positions[s]`;
-    /// for a rigid side the reference positions, which are displaced here.
-    pub fn new(pair: &'a ContactPair, positions: [Vec<Vec3>; 2], rigid_displacement: Vec3) -> Self {
+    /// for a rigid side the reference positions, which are placed here.
+    pub fn new(pair: &'a ContactPair, positions: [Vec<Vec3>; 2], placement: Placement) -> Self {
         let [a, mut b] = positions;
         if pair.is_rigid() {
-            b.iter_mut().for_each(|x| *x += rigid_displacement);
+            b.iter_mut().for_each(|x| *x = placement.point(x));
         }
         let snapshot = |side: usize, x: Vec<Vec3>| {
             pair.sides[side]
@@ -57,7 +58,7 @@ impl<'a> Configuration<'a> {
         Self {
             pair,
             sides: [snapshot(0, a), snapshot(1, b)],
-            rigid_displacement,
+            placement,
             elapsed: f64::INFINITY,
         }
     }
@@ -84,7 +85,10 @@ impl<'a> Configuration<'a> {
     /// Point and unit normal of the plane that is side `b`, if it is one.
     pub fn plane(&self) -> Option<(Vec3, Vec3)> {
         match self.pair.sides[1].geometry {
-            Geometry::Plane { point, normal } => Some((point + self.rigid_displacement, normal)),
+            Geometry::Plane { point, normal } => Some((
+                self.placement.point(&point),
+                self.placement.direction(&normal),
+            )),
             Geometry::Deformable(_) | Geometry::Rigid(_) => None,
         }
     }

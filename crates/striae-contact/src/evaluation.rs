@@ -244,7 +244,7 @@ fn own_texture(fields: &Fields, side: usize, node: u32, n: &Tracked) -> Vec3 {
 /// `(I - n n)(x_I - xbar)`.
 fn slip(configuration: &Configuration, side: usize, node: u32, partner: Partner, n: &Vec3) -> Vec3 {
     let opposite: Vec3 = match partner {
-        Partner::Rigid(point) => point + configuration.rigid_displacement,
+        Partner::Rigid(point) => configuration.placement.point(&point),
         Partner::Corners(corners, weights) => {
             let x = &configuration.side(1 - side).x;
             (0..4).map(|c| x[corners[c] as usize] * weights[c]).sum()

@@ -23,6 +23,7 @@ pub mod field;
 pub mod frame;
 pub mod pair;
 pub mod patch;
+pub mod placement;
 pub mod projection;
 pub mod quadrature;
 pub mod search;

@@ -150,7 +150,11 @@ fn partner(configuration: &Configuration, side: usize, place: &Place) -> Partner
         Some((corners, weights)) if !configuration.pair.is_rigid() => {
             Partner::Corners(corners, weights)
         }
-        _ => Partner::Rigid(place.point(configuration, side) - configuration.rigid_displacement),
+        _ => Partner::Rigid(
+            configuration
+                .placement
+                .back(&place.point(configuration, side)),
+        ),
     }
 }
 

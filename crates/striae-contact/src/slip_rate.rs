@@ -53,7 +53,7 @@ fn slip_velocity(
     });
     lanes.push(Source::Vector(&frame.n.jacobian));
     let opposite: Vector3<D> = match partner {
-        Partner::Rigid(point) => constant3(&(point + configuration.rigid_displacement)),
+        Partner::Rigid(point) => constant3(&configuration.placement.point(&point)),
         Partner::Corners(corners, weights) => {
             for corner in corners {
                 lanes.push(Source::Unknowns {

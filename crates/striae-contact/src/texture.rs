@@ -165,14 +165,16 @@ fn on_plane(
     let n = constant3(&normal);
     let x: Vector3<DualSVec64<3>> = variable3(&configuration.side(side).x[node as usize], 0);
     let gap = dot(&(x - constant3(&point)), &n);
-    let place = x - scaled(&n, gap) - constant3(&configuration.rigid_displacement);
-    let axes = field.axes(place, n)?;
+    let placement = &configuration.placement;
+    let place = placement.back_of(&(x - scaled(&n, gap)));
+    let at_rest = constant3(&placement.rotation.tr_mul(&normal));
+    let a = placement.direction_of(&field.axes(place, at_rest)?.a);
     let mut lanes = Lanes::default();
     lanes.push(Source::Unknowns {
         first: configuration.pair.numbering().position(side, node),
         count: 3,
     });
-    Some(tracked(&lanes, &-axes.a))
+    Some(tracked(&lanes, &-a))
 }
 
 fn on_rigid(

@@ -10,6 +10,7 @@ use proptest::prelude::*;
 use striae_contact::{
     configuration::Configuration,
     pair::{Balance, ContactPair, Geometry, Side},
+    placement::Placement,
     selection::{Partner, Role, Selection},
 };
 use striae_law::friction::Friction;
@@ -131,7 +132,7 @@ fn roles(selection: &Selection) -> Vec<(usize, u32, &Role)> {
 fn check(case: &Overlap) -> Result<(), TestCaseError> {
     let (pair, x) = flat(case);
     let numbers = Numbers([x[0].len(), x[1].len()]);
-    let configuration = Configuration::new(&pair, x.clone(), Vec3::zeros());
+    let configuration = Configuration::new(&pair, x.clone(), Placement::at_rest());
     let mut before = [0, 1].map(|side| vec![false; x[side].len()]);
     if case.was_kinematic {
         // Roles of a configuration that has since been left.
@@ -141,7 +142,7 @@ fn check(case: &Overlap) -> Result<(), TestCaseError> {
                 .map(|x| x + Vec3::new(0.07, 0.05, 0.0))
                 .collect(),
         ];
-        let there = Configuration::new(&pair, moved, Vec3::zeros());
+        let there = Configuration::new(&pair, moved, Placement::at_rest());
         before = Selection::new(&there, &before).kinematic();
     }
     let selection = Selection::new(&configuration, &before);

@@ -1,5 +1,6 @@
 //! Decks, meshes, VTK files, histories, summaries and figures.
 
+pub mod checkpoint;
 pub mod deck;
 pub mod expected;
 pub mod figure;

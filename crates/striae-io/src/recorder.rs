@@ -7,6 +7,7 @@
 //!                           structural vector `a = n x s`, status, role
 //! DIR/fields/*.vtu          what the collections list
 //! DIR/summary.json          how the run ended
+//! DIR/checkpoint.bin        where a run under way is, see [`crate::checkpoint`]
 //! ```
 //!
 //! Everything is on disk after each increment, so an interrupted run keeps all
@@ -25,12 +26,13 @@ use striae_solve::{
     newton::{Increment, LinearWork},
     outcome::Ending,
     problem::Problem,
-    report::{PairReport, bodies, pairs, reactions},
+    report::{PairReport, bodies, pairs, reactions, rigid_bodies},
     state::State,
 };
 
 use crate::{
     OutputError,
+    checkpoint::Written,
     deck::{FieldOutput, Output},
     history::History,
     summary::{PairSummary, SolverSummary, Status, Summary, newton_counts, peak_rss_mib},
@@ -41,7 +43,9 @@ use crate::{
 pub struct Recorder {
     folder: PathBuf,
     case: String,
-    fields: FieldOutput,
+    output: Output,
+    /// Seconds spent before a restart.
+    spent: f64,
     history: History,
     bodies: Series,
     contact: Series,
@@ -70,7 +74,8 @@ impl Recorder {
             contact: Series::new(folder.join("contact.pvd")),
             folder: folder.to_owned(),
             case: case.to_owned(),
-            fields: output.fields,
+            output,
+            spent: 0.0,
             started: Instant::now(),
             iterations: Vec::new(),
             cut_backs: 0,
@@ -78,6 +83,55 @@ impl Recorder {
             solver: SolverSummary::default(),
             written: None,
         })
+    }
+
+    /// Goes on where an earlier recorder was at a checkpoint.
+    ///
+    /// # Errors
+    /// When the history cannot be read or written.
+    pub fn resume(
+        folder: &Path,
+        case: &str,
+        output: Output,
+        written: &Written,
+    ) -> Result<Self, OutputError> {
+        let rows = written.iterations.len();
+        let [bodies, contact] = &written.series;
+        Ok(Self {
+            history: History::resume(folder.join("history.csv"), rows)?,
+            bodies: Series::resumed(folder.join("bodies.pvd"), bodies.clone()),
+            contact: Series::resumed(folder.join("contact.pvd"), contact.clone()),
+            folder: folder.to_owned(),
+            case: case.to_owned(),
+            output,
+            spent: written.seconds,
+            started: Instant::now(),
+            iterations: written.iterations.clone(),
+            cut_backs: written.cut_backs,
+            unknowns: 0,
+            solver: SolverSummary::default(),
+            written: None,
+        })
+    }
+
+    /// What is on disk, for a checkpoint.
+    pub fn written(&self) -> Written {
+        Written {
+            iterations: self.iterations.clone(),
+            cut_backs: self.cut_backs,
+            seconds: self.seconds(),
+            series: [&self.bodies, &self.contact].map(|series| series.snapshots().to_vec()),
+        }
+    }
+
+    /// Whether a checkpoint is due after so many increments.
+    pub fn keeps(&self, increment: usize) -> bool {
+        let every = self.output.checkpoint_every;
+        every.is_some_and(|every| increment.is_multiple_of(every.get()))
+    }
+
+    fn seconds(&self) -> f64 {
+        self.spent + self.started.elapsed().as_secs_f64()
     }
 
     /// Notes an increment that was cut.
@@ -99,7 +153,7 @@ impl Recorder {
         self.unknowns = increment.unknowns;
         self.note_work(&increment.work);
         self.row(problem, progress, increment)?;
-        match self.fields {
+        match self.output.fields {
             FieldOutput::Every(every) if progress.increment.is_multiple_of(every.get()) => {
                 self.write_fields(problem, &increment.state)
             }
@@ -137,7 +191,7 @@ impl Recorder {
             newton_median,
             unknowns: self.unknowns,
             solver: self.solver.clone(),
-            wall_s: self.started.elapsed().as_secs_f64(),
+            wall_s: self.seconds(),
             peak_rss_mib: peak_rss_mib(),
             pairs: pairs(problem, state).iter().map(pair_summary).collect(),
             reactions: reactions(problem, state)
@@ -187,6 +241,16 @@ impl Recorder {
         }
         for (name, force) in reactions(problem, state) {
             add_vector(&mut row, &format!("reaction.{name}"), &force);
+        }
+        for rigid in rigid_bodies(problem, state) {
+            let name = &rigid.name;
+            add_vector(&mut row, &format!("torque.{name}"), &rigid.torque);
+            add_vector(
+                &mut row,
+                &format!("displacement.{name}"),
+                &rigid.displacement,
+            );
+            add_vector(&mut row, &format!("angle.{name}"), &rigid.angles);
         }
         let named: Vec<(&str, f64)> = row.iter().map(|(n, v)| (n.as_str(), *v)).collect();
         self.history.append(&named)

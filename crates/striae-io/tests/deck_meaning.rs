@@ -34,6 +34,60 @@ fn constants() {
 }
 
 #[test]
+fn rigid_bodies() {
+    let floor = "plane = { point = [0, 0, 0], normal = [0, 0, 1] }";
+    let tied = r#"tied = [{ body = "upper", nodes = "zmax" }]"#;
+    misstated(
+        "mass without inertia",
+        &[(
+            floor,
+            "plane = { point = [0, 0, 0], normal = [0, 0, 1] }\nmass = 2",
+        )],
+        &[
+            "15:1: rigid body `floor` needs both `mass` and `inertia`, none of whose three moments exceeds the sum of the others",
+        ],
+    );
+    misstated(
+        "moments that no body has",
+        &[(
+            floor,
+            "plane = { point = [0, 0, 0], normal = [0, 0, 1] }\nmass = 2\ninertia = [1, 1, 3]",
+        )],
+        &[
+            "15:1: rigid body `floor` needs both `mass` and `inertia`, none of whose three moments exceeds the sum of the others",
+        ],
+    );
+    misstated(
+        "free rigid body that nothing is tied to",
+        &[(
+            r#"{ surface = "floor", displacement = [0, 0, 0.1] }"#,
+            r#"{ surface = "floor", free = ["z"] }"#,
+        )],
+        &[
+            "36:1: step `slide` frees coordinates of rigid body `floor`; only bodies that nodes are tied to or that have a mass, and that are no side of a pair, can be free",
+        ],
+    );
+    misstated(
+        "tied nodes that are prescribed",
+        &[(floor, tied)],
+        &[
+            "26:1: step `press` prescribes node 32 of body `upper`, which is tied to a rigid body; move the rigid body instead",
+        ],
+    );
+    misstated(
+        "side without a surface",
+        &[
+            (floor, r#"tied = [{ body = "upper", nodes = "xmax" }]"#),
+            (
+                r#"a = { body = "lower", facets = "zmax" }"#,
+                r#"a = { rigid = "floor" }"#,
+            ),
+        ],
+        &["20:15: rigid body `floor` has no surface to touch; give it a `plane` or a `mesh`"],
+    );
+}
+
+#[test]
 fn inertia() {
     misstated(
         "velocity without inertia",
@@ -363,7 +417,7 @@ fn conditions() {
             "displacement = [0, 0, 0.1] }",
             r#"displacement = [0, 0, 0.1] }, { surface = "floor", displacement = [0, 0, 1] }"#,
         )],
-        &["39:61: step `slide` states the displacement of rigid surface `floor` twice"],
+        &["39:61: step `slide` states the motion of rigid body `floor` twice"],
     );
     misstated(
         "the same friction twice",

@@ -11,8 +11,8 @@ use striae_law::{
 };
 use striae_mesh::{NodeId, Vec3, generate::Block};
 use striae_solve::model::{
-    Backend, Balance, BodyId, Curve, Increments, LoadExtent, LoadKind, PairId, Procedure, RigidId,
-    RigidShape, Side, Solver, Velocity,
+    Backend, Balance, BodyId, Curve, Freedom, Increments, LoadExtent, LoadKind, Mover, PairId,
+    Procedure, RigidId, RigidShape, Side, Solver, Velocity,
 };
 
 use striae_surface::texture::{Field, Lines, Paint};
@@ -194,8 +194,8 @@ fn steps_state_what_they_change() {
     );
     assert_eq!(slide.releases[0].components, [false, false, true]);
     assert_eq!(
-        slide.rigid_motions[0].displacement,
-        Vec3::new(0.0, 0.0, 0.1)
+        slide.rigid_motions[0].coordinates[..3],
+        [0.0, 0.0, 0.1].map(Freedom::To)
     );
     assert_eq!(slide.frictions, [(PairId(0), Friction::frictionless())]);
 }
@@ -327,7 +327,7 @@ fn inertia_gravity_and_decaying_friction() {
     assert_eq!(gravity.acceleration, Vec3::new(0.0, 0.0, -9.81));
     assert_eq!(gravity.curve, Curve::Constant);
     let expected = Velocity {
-        body: BodyId(1),
+        body: Mover::Deformable(BodyId(1)),
         velocity: Vec3::new(1.0, 2.0, 3.0),
         spin: Vec3::new(0.0, 0.0, 4.0),
         about: Vec3::new(5.0, 6.0, 7.0),

@@ -136,7 +136,7 @@ colour = "red""#,
     misread(
         "rigid surface without a shape",
         &[("plane = { point = [0, 0, 0], normal = [0, 0, 1] }\n", "")],
-        &["15:1: [[rigid]] needs either `plane` or `mesh`"],
+        &["15:1: [[rigid]] needs either `plane` or `mesh` or `tied`"],
     );
     faulty(
         "empty deck",

@@ -127,6 +127,13 @@ impl LinearSolver for Automatic {
         Ok(analysis)
     }
 
+    fn start_afresh(&mut self) {
+        (self.patience, self.taken) = (0, 0);
+        if let Some(condensed) = &mut self.condensed {
+            condensed.forget();
+        }
+    }
+
     fn factor(&mut self, matrix: &SparseMatrix) -> Result<FactorReport, SolveError> {
         self.factored = None;
         let good = self.allowance >= FEWEST && 4 * self.taken <= 3 * self.allowance;

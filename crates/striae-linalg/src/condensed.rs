@@ -111,6 +111,11 @@ impl Condensed {
         self.factor_interface(matrix, scaling, prescribed)
     }
 
+    /// Forgets the factors.
+    pub(crate) fn forget(&mut self) {
+        self.numeric = None;
+    }
+
     /// Factors the contact system of a matrix on the older interior.
     ///
     /// `None` when there is no interior or it has other prescribed unknowns.

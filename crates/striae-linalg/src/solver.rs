@@ -14,6 +14,9 @@ pub trait LinearSolver: Send {
     /// Orders the unknowns and predicts the cost; forgets earlier factorisations.
     fn analyse(&mut self, structure: &Structure) -> Result<Analysis, SolveError>;
 
+    /// Forgets what earlier matrices have shown, but not the analysis.
+    fn start_afresh(&mut self) {}
+
     /// Factors a matrix of the analysed structure.
     fn factor(&mut self, matrix: &SparseMatrix) -> Result<FactorReport, SolveError>;
 

@@ -4,28 +4,33 @@ mod context;
 mod inertia;
 mod loads;
 mod measure;
+mod start;
+mod ties;
 
 pub use context::{Imposed, ImposedRate, StepContext};
 
 use inertia::Inertia;
 use rayon::prelude::*;
+pub use start::initial_accelerations;
 use striae_contact::{
     complementarity::Iteration,
     configuration::Configuration,
     evaluation::{Evaluation, EvaluationError, evaluate},
     selection::Selection,
     term::LocalTerm,
-    unknown::Numbering,
+    unknown::{Numbering, Unknown},
     unknowns::Tractions,
 };
 use striae_linalg::{OutsidePattern, SparseMatrix, Supervariable};
 use striae_mesh::{FacetId, NodeId, Vec3};
+use ties::{Slot, Tie};
 
 use crate::{
     element::{ElementFault, ElementResponse},
     layout::Layout,
     norms::Norms,
     outcome::CutBack,
+    rigid::Pose,
     state::NodalForces,
 };
 
@@ -36,6 +41,8 @@ pub struct Trial {
     pub positions: Vec<Vec3>,
     /// Traction unknowns of every pair.
     pub tractions: Vec<Tractions>,
+    /// Poses of the rigid bodies.
+    pub rigid: Vec<Pose>,
 }
 
 /// Residual and results at a trial state.
@@ -76,21 +83,10 @@ pub fn assemble(
     layout: &Layout,
     matrix: &mut SparseMatrix,
 ) -> Result<Assembled, Fault> {
-    matrix.clear();
-    let mut system = System {
-        context,
-        layout,
-        matrix,
-        residual: vec![0.0; layout.unknowns()],
-        forces: NodalForces::zero(context.problem.reference.len()),
-        force_scale: 0.0,
-        inertia: Inertia::new(trial, imposed),
-        outside: Vec::new(),
-    };
+    let mut system = System::new(context, layout, matrix, trial, imposed);
     let configurations: Vec<Configuration> = (0..context.pairs.len())
         .map(|pair| {
-            let rigid = &imposed.rigid;
-            let configuration = context.configuration(pair, &trial.positions, rigid);
+            let configuration = context.configuration(pair, &trial.positions, &trial.rigid);
             configuration.lasting(imposed.elapsed)
         })
         .collect();
@@ -100,10 +96,13 @@ pub fn assemble(
     }
     system.loads(&configurations, trial, imposed)?;
     let strain = system.elements(trial)?;
+    system.point_masses();
     system.carried(imposed);
+    system.condense(imposed);
     let norms = system.norms(selections, trial, &contacts);
     system.idle(selections);
     system.prescribe(trial, imposed);
+    system.prescribe_rigid(trial, imposed);
     let System {
         residual, forces, ..
     } = system;
@@ -124,10 +123,39 @@ struct System<'a> {
     forces: NodalForces,
     force_scale: f64,
     inertia: Inertia,
+    /// Ties of all nodes; empty where nothing is tied.
+    ties: Vec<Option<Tie>>,
     outside: Vec<Vec<Supervariable>>,
 }
 
 const CHUNK: usize = 512;
+
+impl<'a> System<'a> {
+    fn new(
+        context: &'a StepContext<'a>,
+        layout: &'a Layout,
+        matrix: &'a mut SparseMatrix,
+        trial: &Trial,
+        imposed: &Imposed,
+    ) -> Self {
+        matrix.clear();
+        let problem = context.problem;
+        let nodes = problem.reference.len();
+        let mut system = Self {
+            context,
+            layout,
+            matrix,
+            residual: vec![0.0; layout.unknowns()],
+            forces: NodalForces::zero(nodes, problem.model.rigid_surfaces.len()),
+            force_scale: 0.0,
+            inertia: Inertia::new(trial, imposed),
+            ties: Vec::new(),
+            outside: Vec::new(),
+        };
+        system.find_ties(trial, imposed);
+        system
+    }
+}
 
 impl System<'_> {
     fn contacts(
@@ -195,44 +223,52 @@ impl System<'_> {
                 .global(self.context.problem, pair, numbering.unknown(*unknown))
                 .expect("terms refer to active unknowns")
         };
-        let rows: Vec<(usize, Supervariable)> = term.rows.iter().map(global).collect();
-        let columns: Vec<(usize, Supervariable)> = term.columns.iter().map(global).collect();
+        let position = |unknown: &u32| match numbering.unknown(*unknown) {
+            Unknown::Position { side, node, axis } => {
+                let node = self.context.problem.surface_node(pair, side, node)?;
+                Some((node, axis))
+            }
+            Unknown::Traction { .. } | Unknown::Balance { .. } => None,
+        };
+        let slot = |unknown: &u32| Slot {
+            unknown: global(unknown).0,
+            position: position(unknown),
+        };
+        let rows: Vec<Slot> = term.rows.iter().map(slot).collect();
+        let columns: Vec<Slot> = term.columns.iter().map(slot).collect();
+        let owners = || term.rows.iter().chain(&term.columns);
+        let mut clique: Vec<Supervariable> = owners().map(|u| global(u).1).collect();
         for (row, residual) in rows.iter().zip(&term.residual) {
-            self.residual[row.0] += residual;
+            self.residual[row.unknown] += residual;
         }
         let kept: Vec<usize> = (0..rows.len())
-            .filter(|&at| !self.is_fixed(rows[at]))
+            .filter(|&at| !self.is_fixed(&rows[at]))
             .collect();
-        let kept_rows: Vec<usize> = kept.iter().map(|&at| rows[at].0).collect();
-        let kept_columns: Vec<usize> = columns.iter().map(|column| column.0).collect();
+        let kept_rows: Vec<Slot> = kept.iter().map(|&at| rows[at]).collect();
         let block: Vec<f64> = kept
             .iter()
             .flat_map(|at| &term.tangent[at * columns.len()..(at + 1) * columns.len()])
             .copied()
             .collect();
-        let mut clique: Vec<Supervariable> =
-            rows.iter().chain(&columns).map(|entry| entry.1).collect();
         let structure = self.matrix.structure();
         let known = clique.iter().all(|&s| structure.is_kept(s));
-        if !known || self.matrix.add(&kept_rows, &kept_columns, &block).is_err() {
+        if !known || self.scatter(&kept_rows, &columns, &block).is_err() {
             clique.sort_unstable();
             clique.dedup();
             self.outside.push(clique);
         }
     }
 
-    fn is_fixed(&self, (unknown, supervariable): (usize, Supervariable)) -> bool {
-        let node = supervariable.0;
-        node < self.context.problem.reference.len()
-            && unknown < self.layout.position(node) + 3
-            && self.context.fixed[3 * node + unknown - self.layout.position(node)]
+    fn is_fixed(&self, slot: &Slot) -> bool {
+        slot.position
+            .is_some_and(|(node, axis)| self.context.fixed[3 * node + axis])
     }
 
     fn clique(&self, nodes: &[usize]) -> Vec<Supervariable> {
-        nodes
-            .iter()
-            .map(|&node| self.layout.supervariable(node))
-            .collect()
+        let mut owners: Vec<Supervariable> = nodes.iter().map(|&node| self.owner(node)).collect();
+        owners.sort_unstable();
+        owners.dedup();
+        owners
     }
 
     /// Internal forces and stiffness; returns the stored energy.
@@ -294,18 +330,24 @@ impl System<'_> {
             self.residual[*unknown] += force;
         }
         let fixed = |slot: &usize| self.context.fixed[3 * nodes[slot / 3] + slot % 3];
-        if !(0..unknowns.len()).any(|slot| fixed(&slot)) {
+        let tied = nodes.iter().any(|&node| self.tie(node).is_some());
+        if !tied && !(0..unknowns.len()).any(|slot| fixed(&slot)) {
             return self.matrix.add(unknowns, unknowns, tangent);
         }
-        let kept: Vec<usize> = (0..unknowns.len()).filter(|slot| !fixed(slot)).collect();
-        let rows: Vec<usize> = kept.iter().map(|&slot| unknowns[slot]).collect();
+        let slot = |at: usize| Slot {
+            unknown: unknowns[at],
+            position: Some((nodes[at / 3], at % 3)),
+        };
+        let kept: Vec<usize> = (0..unknowns.len()).filter(|at| !fixed(at)).collect();
+        let rows: Vec<Slot> = kept.iter().map(|&at| slot(at)).collect();
+        let columns: Vec<Slot> = (0..unknowns.len()).map(slot).collect();
         let width = unknowns.len();
         let block: Vec<f64> = kept
             .iter()
-            .flat_map(|slot| &tangent[slot * width..(slot + 1) * width])
+            .flat_map(|at| &tangent[at * width..(at + 1) * width])
             .copied()
             .collect();
-        self.matrix.add(&rows, unknowns, &block)
+        self.scatter(&rows, &columns, &block)
     }
 
     /// Holds traction unknowns of idle nodes and of vanished patches at zero.

@@ -3,7 +3,7 @@
 use crate::{
     assembly::StepContext,
     dynamics::begin,
-    newton::{Increment, IterationObserver, Workspace, advance},
+    newton::{Increment, IterationObserver, Memory, Workspace, advance},
     outcome::{CutBack, Ending},
     problem::Problem,
     state::State,
@@ -15,6 +15,8 @@ pub trait Observer: IterationObserver {
     fn step(&mut self, index: usize, name: &str);
     /// An increment has converged.
     fn increment(&mut self, progress: Progress, increment: &Increment) -> Continue;
+    /// A point that was asked for by the answer to [`Observer::increment`].
+    fn point(&mut self, _point: &Point) {}
     /// An increment has failed and is tried again with a smaller one.
     fn cut_back(&mut self, progress: Progress, reason: &CutBack);
 }
@@ -24,7 +26,9 @@ pub trait Observer: IterationObserver {
 pub enum Continue {
     /// It does.
     Yes,
-    /// It ends after this increment.
+    /// It does, and the observer is given the point it has come to.
+    Keep,
+    /// It ends after this increment, and the observer is given the point.
     Stop,
 }
 
@@ -46,27 +50,95 @@ const EASY: usize = 6;
 const GROWTH: f64 = 1.5;
 const CUT: f64 = 0.5;
 
+/// A place in a run from which it can go on as if it had not stopped.
+#[derive(Clone, Debug)]
+pub struct Point {
+    /// Number of the step.
+    pub step: usize,
+    /// Number of increments so far.
+    pub increments: usize,
+    /// Fraction of the step that is done.
+    pub fraction: f64,
+    /// Size of the next increment.
+    pub size: f64,
+    /// State in which the step began.
+    pub start: State,
+    /// Last converged state.
+    pub state: State,
+    /// What the linear system has grown to.
+    pub memory: Memory,
+}
+
 /// Runs all steps from `state`.
 pub fn run(problem: &Problem, state: State, observer: &mut dyn Observer) -> (State, Ending) {
     let mut workspace = Workspace::new(problem.model.solver.backend);
-    let mut state = state;
-    let mut count = 0;
-    for index in 0..problem.model.steps.len() {
+    run_steps(problem, 0, state, 0, &mut workspace, observer)
+}
+
+/// Goes on from a point of an earlier run, with the same results to the last bit.
+pub fn resume(problem: &Problem, point: Point, observer: &mut dyn Observer) -> (State, Ending) {
+    let mut workspace = Workspace::recalled(problem, &point.memory);
+    let context = StepContext::new(problem, point.step, &point.start);
+    let mut progress = Division {
+        count: point.increments,
+        done: point.fraction,
+        size: point.size,
+    };
+    let mut state = point.state;
+    observer.step(point.step, &problem.model.steps[point.step].name);
+    match run_step(
+        &context,
+        &mut state,
+        &mut progress,
+        &mut workspace,
+        observer,
+    ) {
+        Some(ending) => (state, ending),
+        None => {
+            let (next, count) = (point.step + 1, progress.count);
+            run_steps(problem, next, state, count, &mut workspace, observer)
+        }
+    }
+}
+
+/// How far the division of a step into increments has come.
+#[derive(Clone, Copy)]
+struct Division {
+    count: usize,
+    done: f64,
+    size: f64,
+}
+
+fn run_steps(
+    problem: &Problem,
+    first: usize,
+    mut state: State,
+    mut count: usize,
+    workspace: &mut Workspace,
+    observer: &mut dyn Observer,
+) -> (State, Ending) {
+    for index in first..problem.model.steps.len() {
         observer.step(index, &problem.model.steps[index].name);
-        let start = match begin(problem, index, &state, &mut workspace) {
+        let step = &problem.model.steps[index];
+        let start = match begin(problem, index, &state, workspace) {
             Ok(start) => start,
             Err(reason) => {
-                let step = problem.model.steps[index].name.clone();
-                let time = state.time;
+                let (step, time) = (step.name.clone(), state.time);
                 return (state, Ending::Stopped { step, time, reason });
             }
         };
         state.clone_from(&start);
         let context = StepContext::new(problem, index, &start);
-        let ending = run_step(&context, &mut state, &mut count, &mut workspace, observer);
+        let mut division = Division {
+            count,
+            done: 0.0,
+            size: step.increments.initial.min(step.increments.largest),
+        };
+        let ending = run_step(&context, &mut state, &mut division, workspace, observer);
         if let Some(ending) = ending {
             return (state, ending);
         }
+        count = division.count;
     }
     (state, Ending::Completed)
 }
@@ -74,38 +146,47 @@ pub fn run(problem: &Problem, state: State, observer: &mut dyn Observer) -> (Sta
 fn run_step(
     context: &StepContext,
     state: &mut State,
-    count: &mut usize,
+    division: &mut Division,
     workspace: &mut Workspace,
     observer: &mut dyn Observer,
 ) -> Option<Ending> {
     let step = &context.problem.model.steps[context.index];
-    let mut size = step.increments.initial.min(step.increments.largest);
-    let mut done = 0.0;
-    while done < 1.0 {
-        let fraction = target(done, size);
+    while division.done < 1.0 {
+        let fraction = target(division.done, division.size);
         let progress = Progress {
             step: context.index,
-            increment: *count + 1,
+            increment: division.count + 1,
             fraction,
             time: context.start.time + fraction * step.duration,
         };
         match advance(context, state, fraction, progress.time, workspace, observer) {
             Ok(increment) => {
-                *count += 1;
-                done = fraction;
+                division.count += 1;
+                division.done = fraction;
                 if increment.iterations.len() <= EASY {
-                    size = (size * GROWTH).min(step.increments.largest);
+                    division.size = (division.size * GROWTH).min(step.increments.largest);
                 }
                 let next = observer.increment(progress, &increment);
                 *state = increment.state;
+                if next != Continue::Yes {
+                    observer.point(&Point {
+                        step: context.index,
+                        increments: division.count,
+                        fraction,
+                        size: division.size,
+                        start: context.start.clone(),
+                        state: state.clone(),
+                        memory: workspace.memory(),
+                    });
+                }
                 if next == Continue::Stop {
                     return Some(Ending::Interrupted { time: state.time });
                 }
             }
             Err(reason) => {
                 observer.cut_back(progress, &reason);
-                size = (fraction - done) * CUT;
-                if size < step.increments.smallest {
+                division.size = (fraction - division.done) * CUT;
+                if division.size < step.increments.smallest {
                     return Some(Ending::Stopped {
                         step: step.name.clone(),
                         time: state.time,

@@ -22,10 +22,11 @@ use striae_mesh::Vec3;
 
 use crate::{
     assembly::{Imposed, StepContext},
-    model::Procedure,
+    model::{Mover, Procedure},
     newton::{Workspace, forces_at_start},
     outcome::CutBack,
     problem::Problem,
+    rigid::{Wrench, fitted_velocity},
     state::State,
 };
 
@@ -67,6 +68,8 @@ pub struct Motion {
     accelerations: Vec<Vec3>,
     /// `a_f (f_int - f_ext)_0` of every node.
     carried: Vec<Vec3>,
+    /// `a_f` times the forces that hold tied nodes at the start.
+    held: Vec<Vec3>,
 }
 
 impl Motion {
@@ -88,6 +91,7 @@ impl Motion {
             elapsed,
             predicted: predicted.collect(),
             carried: carried.collect(),
+            held: forces.reaction.iter().map(|f| f * scheme.alpha_f).collect(),
             velocities: state.velocities.clone(),
             accelerations: state.accelerations.clone(),
         })
@@ -101,6 +105,11 @@ impl Motion {
     /// `a_f (f_int - f_ext)_0` of a node.
     pub fn carried(&self, node: usize) -> Vec3 {
         self.carried[node]
+    }
+
+    /// `a_f h_0` of a tied node.
+    pub fn held(&self, node: usize) -> Vec3 {
+        self.held[node]
     }
 
     /// `d a_alpha / d x_1` of a free component.
@@ -186,16 +195,32 @@ pub fn begin(
     if scheme(&context).is_some() {
         velocities.clone_from(&state.velocities);
         for start in &problem.model.steps[index].velocities {
-            for node in problem.first_node[start.body.0]..problem.first_node[start.body.0 + 1] {
+            let nodes: Vec<usize> = match start.body {
+                Mover::Deformable(body) => {
+                    (problem.first_node[body.0]..problem.first_node[body.0 + 1]).collect()
+                }
+                Mover::Rigid(rigid) => problem.tied[rigid.0].clone(),
+            };
+            for node in nodes {
                 let arm = state.positions[node] - start.about;
                 velocities[node] = start.velocity + start.spin.cross(&arm);
             }
         }
+        follow_bodies(&context, &mut velocities);
         for rate in &imposed.rates {
             velocities[rate.node][rate.axis] = rate.velocity;
         }
-        let forces = forces_at_start(&context, state, workspace)?;
-        accelerations = initial_accelerations(&context, &imposed, &forces.reaction, workspace)?;
+        let mut forces = forces_at_start(&context, state, workspace)?;
+        let holding;
+        (accelerations, holding) =
+            workspace.accelerations(&context, state, &imposed, &velocities, &forces)?;
+        for nodes in &problem.tied {
+            nodes
+                .iter()
+                .for_each(|&node| forces.reaction[node] = holding[node]);
+        }
+        begun.forces.rigid = wrenches(problem, state, &forces.reaction);
+        begun.forces.reaction = forces.reaction;
         begun.forces.applied = forces.applied;
     } else {
         accelerations.resize(nodes, Vec3::zeros());
@@ -208,28 +233,44 @@ pub fn begin(
     Ok(begun)
 }
 
-/// Accelerations that balance `forces`, internal minus applied minus contact forces.
-fn initial_accelerations(
-    context: &StepContext,
-    imposed: &Imposed,
-    forces: &[Vec3],
-    workspace: &mut Workspace,
-) -> Result<Vec<Vec3>, CutBack> {
-    let mut accelerations = vec![Vec3::zeros(); forces.len()];
-    for rate in &imposed.rates {
-        accelerations[rate.node][rate.axis] = rate.acceleration;
+/// Gives tied nodes the velocities of their bodies: those that fit the nodes best,
+/// with the prescribed components of the bodies.
+fn follow_bodies(context: &StepContext, velocities: &mut [Vec3]) {
+    let (problem, state) = (context.problem, context.start);
+    for (rigid, rates) in context.rigid_rates(0.0).iter().enumerate() {
+        let pose = &state.rigid[rigid];
+        let point = problem.model.rigid_surfaces[rigid].reference + pose.displacement;
+        let [mut velocity, mut spin] =
+            fitted_velocity(problem, rigid, pose, &state.positions, velocities);
+        for axis in 0..3 {
+            if context.fixed_rigid[rigid][axis] {
+                velocity[axis] = rates[axis][0];
+            }
+            if context.fixed_rigid[rigid][3 + axis] {
+                spin[axis] = rates[3 + axis][0];
+            }
+        }
+        for &node in &problem.tied[rigid] {
+            velocities[node] = velocity + spin.cross(&(state.positions[node] - point));
+        }
     }
-    let inertia = mass_times(context.problem, &accelerations);
-    let missing: Vec<Vec3> = forces.iter().zip(&inertia).map(|(f, m)| -f - m).collect();
-    let free = workspace.accelerations(context, &missing);
-    let free = free.map_err(|error| CutBack::LinearSystem {
-        place: "mass at the start of the step".to_owned(),
-        error,
-    })?;
-    for (acceleration, free) in accelerations.iter_mut().zip(free) {
-        *acceleration += free;
-    }
-    Ok(accelerations)
+}
+
+/// Force and torque on every rigid body from the forces that hold its tied nodes.
+fn wrenches(problem: &Problem, state: &State, holding: &[Vec3]) -> Vec<Wrench> {
+    let bodies = problem.tied.iter().zip(&problem.model.rigid_surfaces);
+    bodies
+        .zip(&state.rigid)
+        .map(|((nodes, rigid), pose)| {
+            let point = rigid.reference + pose.displacement;
+            let mut wrench = Wrench::default();
+            for &node in nodes {
+                wrench.force += holding[node];
+                wrench.torque += (state.positions[node] - point).cross(&holding[node]);
+            }
+            wrench
+        })
+        .collect()
 }
 
 /// `M v`, node by node.
@@ -249,6 +290,9 @@ pub fn mass_times(problem: &Problem, vectors: &[Vec3]) -> Vec<Vec3> {
                 }
             }
         }
+    }
+    for &(node, mass) in &problem.mass_points {
+        product[node] += vectors[node] * mass;
     }
     product
 }

@@ -3,7 +3,8 @@
 //! A node with its three position components and three traction unknowns for
 //! every contact surface it is active on is one supervariable, so that the
 //! factorisation meets gap rows and their multipliers together. The six balance
-//! unknowns of a patch are another one, kept for last.
+//! unknowns of a patch are another one, kept for last, as are the six coordinates
+//! of a rigid body that nodes are tied to.
 
 use striae_contact::unknown::Unknown;
 use striae_linalg::{Supervariable, Tier};
@@ -14,9 +15,9 @@ use crate::{problem::Problem, state::PairState};
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Extent {
     /// By pair and side.
-    nodes: Vec<[Vec<bool>; 2]>,
+    pub nodes: Vec<[Vec<bool>; 2]>,
     /// By pair.
-    patches: Vec<usize>,
+    pub patches: Vec<usize>,
 }
 
 /// Numbers of all unknowns.
@@ -28,6 +29,8 @@ pub struct Layout {
     tractions: Vec<[Vec<Option<usize>>; 2]>,
     /// First supervariable of the patches of each pair.
     patches: Vec<usize>,
+    /// Supervariable of every rigid body that something is tied to.
+    rigids: Vec<Option<usize>>,
     extent: Extent,
 }
 
@@ -79,6 +82,13 @@ impl Layout {
             patches.push(sizes.len());
             sizes.extend(std::iter::repeat_n(6, *count));
         }
+        let rigids = problem.tied.iter().map(|nodes| {
+            (!nodes.is_empty()).then(|| {
+                sizes.push(6);
+                sizes.len() - 1
+            })
+        });
+        let rigids = rigids.collect();
         let mut offsets = vec![0];
         for size in &sizes {
             offsets.push(offsets[offsets.len() - 1] + size);
@@ -93,6 +103,7 @@ impl Layout {
             nodes,
             tractions,
             patches,
+            rigids,
             extent,
         }
     }
@@ -112,7 +123,7 @@ impl Layout {
         self.offsets[self.offsets.len() - 1]
     }
 
-    /// Elimination tiers: patches last.
+    /// Elimination tiers: patches and rigid bodies last.
     pub fn tiers(&self) -> Vec<Tier> {
         let tier = |at: usize| Tier(u32::from(at >= self.nodes));
         (0..self.offsets.len() - 1).map(tier).collect()
@@ -127,6 +138,17 @@ impl Layout {
     /// Supervariable of a global node.
     pub fn supervariable(&self, node: usize) -> Supervariable {
         Supervariable(node)
+    }
+
+    /// Supervariable of the positions of a global node: that of the rigid body it is tied to.
+    pub fn owner(&self, problem: &Problem, node: usize) -> Supervariable {
+        let rigid = problem.tie_of[node].and_then(|rigid| self.rigids[rigid]);
+        Supervariable(rigid.unwrap_or(node))
+    }
+
+    /// First unknown of a rigid body, if something is tied to it.
+    pub fn rigid(&self, rigid: usize) -> Option<usize> {
+        self.rigids[rigid].map(|supervariable| self.offsets[supervariable])
     }
 
     /// First position unknown of a global node.
@@ -159,7 +181,7 @@ impl Layout {
         match unknown {
             Unknown::Position { side, node, axis } => {
                 let node = problem.surface_node(pair, side, node)?;
-                Some((self.offsets[node] + axis, Supervariable(node)))
+                Some((self.offsets[node] + axis, self.owner(problem, node)))
             }
             Unknown::Traction {
                 side,

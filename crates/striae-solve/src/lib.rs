@@ -14,4 +14,5 @@ pub mod outcome;
 pub mod plan;
 pub mod problem;
 pub mod report;
+pub mod rigid;
 pub mod state;

@@ -48,13 +48,41 @@ pub struct RigidId(pub usize);
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PairId(pub usize);
 
-/// A rigid surface that deformable bodies may touch; it moves by translation.
+/// A rigid body: a surface that deformable bodies may touch, or what nodes are tied to.
 #[derive(Clone, Debug)]
 pub struct RigidSurface {
     /// Unique name.
     pub name: String,
     /// Its shape in the reference configuration.
     pub shape: RigidShape,
+    /// Reference point, about which it turns.
+    pub reference: Vec3,
+    /// Nodes tied to it.
+    pub ties: Vec<(BodyId, Vec<NodeId>)>,
+    /// Mass with its centre at the reference point, if it has any.
+    pub inertia: Option<RigidInertia>,
+}
+
+/// Mass and principal moments of inertia about the coordinate axes at rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RigidInertia {
+    /// Mass.
+    pub mass: f64,
+    /// Moments of inertia; none is larger than the sum of the others.
+    pub moments: [f64; 3],
+}
+
+impl RigidSurface {
+    /// A rigid surface without mass and ties that turns about the origin.
+    pub fn new(name: impl Into<String>, shape: RigidShape) -> Self {
+        Self {
+            name: name.into(),
+            shape,
+            reference: Vec3::zeros(),
+            ties: Vec::new(),
+            inertia: None,
+        }
+    }
 }
 
 /// Shape of a rigid surface.
@@ -74,6 +102,8 @@ pub enum RigidShape {
         /// Corners of the facets; a triangle repeats its last corner.
         facets: Vec<[NodeId; 4]>,
     },
+    /// Nothing to touch.
+    Bare,
 }
 
 /// One side of a contact pair.
@@ -165,13 +195,22 @@ pub enum Procedure {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Velocity {
     /// The body.
-    pub body: BodyId,
+    pub body: Mover,
     /// `v`.
     pub velocity: Vec3,
     /// `w`.
     pub spin: Vec3,
     /// `x0`.
     pub about: Vec3,
+}
+
+/// A body of either kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mover {
+    /// A deformable body.
+    Deformable(BodyId),
+    /// A rigid one, with all that is tied to it.
+    Rigid(RigidId),
 }
 
 /// Acceleration of gravity that a step goes to.
@@ -257,15 +296,30 @@ pub enum LoadExtent {
     Exposed,
 }
 
-/// Translation of a rigid surface.
+/// What a rigid body does in a step.
 #[derive(Clone, Debug)]
 pub struct RigidMotion {
-    /// The surface.
+    /// The body.
     pub surface: RigidId,
-    /// Target of its displacement.
-    pub displacement: Vec3,
-    /// How the target is approached.
+    /// Its coordinates: displacement of the reference point, angles in radians.
+    pub coordinates: [Freedom; 6],
+    /// Target of the driving force at the reference point.
+    pub force: Option<Vec3>,
+    /// Target of the driving torque.
+    pub torque: Option<Vec3>,
+    /// How the targets are approached.
     pub curve: Curve,
+}
+
+/// What a coordinate of a rigid body does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Freedom {
+    /// It stays free or where it is.
+    AsBefore,
+    /// It goes to a target.
+    To(f64),
+    /// Forces decide.
+    Free,
 }
 
 /// Share of the change that is done, over the fraction of the step.

@@ -9,7 +9,7 @@ mod acceptance;
 mod cycling;
 mod workspace;
 
-pub use workspace::{LinearWork, Times, Workspace};
+pub use workspace::{LinearWork, Memory, Times, Workspace};
 
 use striae_contact::{
     complementarity::Iteration,
@@ -97,6 +97,7 @@ pub fn forces_at_start(
     let trial = Trial {
         positions: state.positions.clone(),
         tractions: pairs.iter().map(|pair| pair.tractions.clone()).collect(),
+        rigid: state.rigid.clone(),
     };
     let imposed = context.imposed(0.0);
     let assembled = workspace.assemble(context, &selections, &trial, &imposed, Iteration::First)?;
@@ -122,6 +123,7 @@ pub fn advance(
     let mut trial = Trial {
         positions: state.positions.clone(),
         tractions: pairs.iter().map(|pair| pair.tractions.clone()).collect(),
+        rigid: workspace.first_poses(&imposed),
     };
     let solver = &context.problem.model.solver;
     let mut iterations: Vec<Norms> = Vec::new();
@@ -163,7 +165,7 @@ pub fn advance(
             });
         }
     }
-    if let Some(missed) = missed(context, &selections, &trial, &imposed) {
+    if let Some(missed) = missed(context, &selections, &trial) {
         return Err(missed);
     }
     let work = workspace.take_work();
@@ -182,8 +184,7 @@ fn selected(context: &StepContext, state: &State) -> (Vec<Selection>, Vec<PairSt
     let mut selections = Vec::with_capacity(state.pairs.len());
     let mut pairs = state.pairs.clone();
     for (pair, pair_state) in pairs.iter_mut().enumerate() {
-        let configuration =
-            context.configuration(pair, &state.positions, &state.rigid_displacements);
+        let configuration = context.configuration(pair, &state.positions, &state.rigid);
         let selection = Selection::new(&configuration, &pair_state.kinematic);
         let kinematic = selection.kinematic();
         for side in 0..2 {
@@ -231,7 +232,14 @@ fn step(
     let mut factor = 1.0;
     let mut taken = Taken::Whole;
     for _ in 0..HALVINGS {
-        let next = corrected(workspace.system(), trial, correction, factor);
+        let next = corrected(
+            context,
+            workspace.system(),
+            trial,
+            imposed,
+            correction,
+            factor,
+        );
         match workspace.assemble(context, selections, &next, imposed, Iteration::Later) {
             Ok(assembled) => return Ok((next, assembled, taken)),
             Err(CutBack::InvertedElement { .. } | CutBack::LostProjection { .. }) => {
@@ -240,15 +248,43 @@ fn step(
             Err(other) => return Err(other),
         }
     }
-    let next = corrected(workspace.system(), trial, correction, factor);
+    let next = corrected(
+        context,
+        workspace.system(),
+        trial,
+        imposed,
+        correction,
+        factor,
+    );
     let assembled = workspace.assemble(context, selections, &next, imposed, Iteration::Later)?;
     Ok((next, assembled, Taken::Part))
 }
 
-fn corrected(system: &SystemStorage, trial: &Trial, correction: &[f64], factor: f64) -> Trial {
+fn corrected(
+    context: &StepContext,
+    system: &SystemStorage,
+    trial: &Trial,
+    imposed: &Imposed,
+    correction: &[f64],
+    factor: f64,
+) -> Trial {
     let layout = &system.layout;
+    let problem = context.problem;
     let mut next = trial.clone();
+    for (rigid, pose) in next.rigid.iter_mut().enumerate() {
+        if let Some(first) = layout.rigid(rigid) {
+            let present = pose.coordinates();
+            let moved = std::array::from_fn(|at| present[at] + factor * correction[first + at]);
+            *pose = imposed.before[rigid].moved_to(&moved);
+        }
+    }
     for (node, position) in next.positions.iter_mut().enumerate() {
+        if let Some(rigid) = problem.tie_of[node] {
+            let reference = &problem.model.rigid_surfaces[rigid].reference;
+            let placement = next.rigid[rigid].placement(reference);
+            *position = placement.point(&problem.reference[node]);
+            continue;
+        }
         let first = layout.position(node);
         *position += Vec3::from_column_slice(&correction[first..first + 3]) * factor;
     }
@@ -282,15 +318,10 @@ fn add_tractions(
     }
 }
 
-fn missed(
-    context: &StepContext,
-    selections: &[Selection],
-    trial: &Trial,
-    imposed: &Imposed,
-) -> Option<CutBack> {
+fn missed(context: &StepContext, selections: &[Selection], trial: &Trial) -> Option<CutBack> {
     let problem = context.problem;
     for (pair, selection) in selections.iter().enumerate() {
-        let configuration = context.configuration(pair, &trial.positions, &imposed.rigid);
+        let configuration = context.configuration(pair, &trial.positions, &trial.rigid);
         let missed = missed_contacts(&configuration, selection);
         if let Some(&(side, node)) = missed.first() {
             let global = problem.surface_node(pair, side, node)?;
@@ -320,6 +351,13 @@ fn place(problem: &Problem, layout: &Layout, unknown: usize) -> String {
         .offsets()
         .partition_point(|&offset| offset <= unknown)
         - 1;
+    let rigid =
+        (0..problem.tied.len()).find(|&rigid| layout.rigid(rigid) == Some(layout.offsets()[at]));
+    if let Some(rigid) = rigid {
+        let name = &problem.model.rigid_surfaces[rigid].name;
+        let kind = ["x", "y", "z", "rx", "ry", "rz"][unknown - layout.offsets()[at]];
+        return format!("rigid body `{name}` is free to move in {kind}");
+    }
     if at >= problem.reference.len() {
         return "the balance of a contact patch is not determined".to_owned();
     }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use striae_law::friction::Friction;
 use striae_mesh::{Face, Vec3};
 
-use crate::model::{BodyId, Curve, LoadExtent, LoadKind, Model, Step};
+use crate::model::{BodyId, Curve, Freedom, LoadExtent, LoadKind, Model, Step};
 
 /// All that holds in one step.
 #[derive(Clone, Debug)]
@@ -14,15 +14,17 @@ pub struct StepPlan {
     pub displacements: BTreeMap<(usize, usize, usize), Prescription>,
     /// Loads.
     pub loads: Vec<PlannedLoad>,
-    /// Displacement of every rigid surface.
-    pub rigid: Vec<VectorPlan>,
+    /// Coordinates of every rigid body; `None` where they are free.
+    pub rigid: Vec<[Option<Prescription>; 6]>,
+    /// Driving force and torque of every rigid body.
+    pub driving: Vec<[VectorPlan; 2]>,
     /// Friction of every pair.
     pub frictions: Vec<Friction>,
     /// Acceleration of gravity.
     pub gravity: VectorPlan,
 }
 
-/// How a displacement component is prescribed in a step.
+/// How a displacement component or a coordinate is prescribed in a step.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Prescription {
     /// It stays where the step finds it.
@@ -66,6 +68,27 @@ pub struct VectorPlan {
     pub curve: Curve,
 }
 
+impl Prescription {
+    /// Value at the fraction `s` of a step that finds the value `start`.
+    pub fn at(&self, start: f64, s: f64) -> f64 {
+        match self {
+            Self::Hold => start,
+            Self::Go { target, curve } => start + (target - start) * curve.at(s),
+        }
+    }
+
+    /// First and second derivative of the value by the fraction.
+    pub fn rate(&self, start: f64, s: f64) -> [f64; 2] {
+        match self {
+            Self::Hold => [0.0, 0.0],
+            Self::Go { target, curve } => {
+                let rate = curve.rate(s);
+                [rate.first, rate.second].map(|rate| (target - start) * rate)
+            }
+        }
+    }
+}
+
 impl PlannedLoad {
     /// The load at the fraction `s` of the step.
     pub fn at(&self, s: f64) -> LoadKind {
@@ -102,7 +125,8 @@ pub fn plans(model: &Model) -> Vec<StepPlan> {
     let mut plan = StepPlan {
         displacements: BTreeMap::new(),
         loads: Vec::new(),
-        rigid: vec![VectorPlan::zero(); model.rigid_surfaces.len()],
+        rigid: vec![[const { Some(Prescription::Hold) }; 6]; model.rigid_surfaces.len()],
+        driving: vec![[VectorPlan::zero(), VectorPlan::zero()]; model.rigid_surfaces.len()],
         gravity: VectorPlan::zero(),
         frictions: model.pairs.iter().map(|pair| pair.friction).collect(),
     };
@@ -119,6 +143,7 @@ fn next(before: &StepPlan, step: &Step) -> StepPlan {
         displacements: displacements(before, step),
         loads: loads(before, step),
         rigid: rigid(before, step),
+        driving: driving(before, step),
         gravity: gravity(before, step),
         frictions: frictions(before, step),
     }
@@ -196,12 +221,39 @@ fn gravity(before: &StepPlan, step: &Step) -> VectorPlan {
     }
 }
 
-fn rigid(before: &StepPlan, step: &Step) -> Vec<VectorPlan> {
-    let mut all: Vec<VectorPlan> = before.rigid.iter().map(VectorPlan::held).collect();
+fn rigid(before: &StepPlan, step: &Step) -> Vec<[Option<Prescription>; 6]> {
+    let held = |coordinates: &[Option<Prescription>; 6]| {
+        coordinates
+            .each_ref()
+            .map(|how| how.as_ref().map(|_| Prescription::Hold))
+    };
+    let mut all: Vec<_> = before.rigid.iter().map(held).collect();
     for motion in &step.rigid_motions {
-        let plan = &mut all[motion.surface.0];
-        plan.to = motion.displacement;
-        plan.curve = motion.curve.clone();
+        for (known, stated) in all[motion.surface.0].iter_mut().zip(motion.coordinates) {
+            match stated {
+                Freedom::AsBefore => {}
+                Freedom::Free => *known = None,
+                Freedom::To(target) => {
+                    let curve = motion.curve.clone();
+                    *known = Some(Prescription::Go { target, curve });
+                }
+            }
+        }
+    }
+    all
+}
+
+fn driving(before: &StepPlan, step: &Step) -> Vec<[VectorPlan; 2]> {
+    let held = |plans: &[VectorPlan; 2]| plans.each_ref().map(VectorPlan::held);
+    let mut all: Vec<_> = before.driving.iter().map(held).collect();
+    for motion in &step.rigid_motions {
+        let stated = [motion.force, motion.torque];
+        for (plan, target) in all[motion.surface.0].iter_mut().zip(stated) {
+            if let Some(target) = target {
+                plan.to = target;
+                plan.curve = motion.curve.clone();
+            }
+        }
     }
     all
 }

@@ -24,7 +24,7 @@ use crate::{
 pub struct Problem {
     /// The model.
     pub model: Model,
-    /// First global node of every body; the last entry is the number of nodes.
+    /// First global node of every body; the last entry is the number of their nodes.
     pub first_node: Vec<usize>,
     /// Reference position of every global node.
     pub reference: Vec<Vec3>,
@@ -34,6 +34,12 @@ pub struct Problem {
     pub pairs: Vec<PairGeometry>,
     /// What holds in each step.
     pub plans: Vec<StepPlan>,
+    /// Nodes tied to every rigid body, with its mass points.
+    pub tied: Vec<Vec<usize>>,
+    /// Rigid body that each global node is tied to.
+    pub tie_of: Vec<Option<usize>>,
+    /// Point masses: global nodes that belong to no body, after all others.
+    pub mass_points: Vec<(usize, f64)>,
     /// Contact facets that each face of each body is.
     pub contact_facets: HashMap<(usize, Face), Vec<ContactFacet>>,
 }
@@ -95,6 +101,14 @@ pub enum ProblemError {
         /// Name of the pair.
         pair: String,
     },
+    /// A rigid body without a surface is a side of a pair.
+    #[error("pair `{pair}`: rigid body `{rigid}` has no surface")]
+    BareSide {
+        /// Name of the pair.
+        pair: String,
+        /// The rigid body.
+        rigid: String,
+    },
     /// A pair has a rigid first side or two rigid sides.
     #[error("pair `{pair}`: side `a` must be deformable")]
     RigidSide {
@@ -126,12 +140,20 @@ impl Problem {
                 })?;
             elements.push(of_body);
         }
+        let (tied, mass_points) = ties(&model, &first_node, &mut reference);
+        let mut tie_of = vec![None; reference.len()];
+        for (rigid, nodes) in tied.iter().enumerate() {
+            nodes.iter().for_each(|&node| tie_of[node] = Some(rigid));
+        }
         let pairs = model.pairs.iter().map(|pair| pair_geometry(&model, pair));
         let pairs: Vec<PairGeometry> = pairs.collect::<Result<_, _>>()?;
         Ok(Self {
             contact_facets: contact_facets(&pairs),
             pairs,
             plans: plans(&model),
+            tied,
+            tie_of,
+            mass_points,
             first_node,
             reference,
             elements,
@@ -157,6 +179,34 @@ impl Problem {
         let body = geometry.bodies[side]?;
         Some(self.node(body, surface.nodes()[node as usize]))
     }
+}
+
+/// Nodes tied to every rigid body, and mass points, which join the reference positions.
+fn ties(
+    model: &Model,
+    first_node: &[usize],
+    reference: &mut Vec<Vec3>,
+) -> (Vec<Vec<usize>>, Vec<(usize, f64)>) {
+    let mut mass_points = Vec::new();
+    let tied = model.rigid_surfaces.iter().map(|rigid| {
+        let nodes = rigid.ties.iter().flat_map(|(body, nodes)| {
+            let first = first_node[body.0];
+            nodes.iter().map(move |node| first + node.index())
+        });
+        let mut nodes: Vec<usize> = nodes.collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        if let Some(inertia) = &rigid.inertia {
+            for arm in crate::rigid::mass_points(inertia) {
+                nodes.push(reference.len());
+                mass_points.push((reference.len(), inertia.mass / 6.0));
+                reference.push(rigid.reference + arm);
+            }
+        }
+        nodes
+    });
+    let tied = tied.collect();
+    (tied, mass_points)
 }
 
 fn contact_facets(pairs: &[PairGeometry]) -> HashMap<(usize, Face), Vec<ContactFacet>> {
@@ -201,6 +251,12 @@ fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, ProblemErro
                         point: *point,
                         normal: normal.normalize(),
                     },
+                    RigidShape::Bare => {
+                        return Err(ProblemError::BareSide {
+                            pair: pair.name.clone(),
+                            rigid: model.rigid_surfaces[surface.0].name.clone(),
+                        });
+                    }
                     RigidShape::Facets { positions, facets } => {
                         let surface = Surface::new(facets);
                         rigid_reference = surface

@@ -6,7 +6,7 @@ use striae_contact::{
 };
 use striae_mesh::{FacetId, Vec3};
 
-use crate::{problem::Problem, state::State};
+use crate::{problem::Problem, rigid::Wrench, state::State};
 
 /// What a contact pair amounts to.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,12 +67,7 @@ pub fn reactions(problem: &Problem, state: &State) -> Vec<(String, Vec3)> {
         }
     }
     for (index, rigid) in problem.model.rigid_surfaces.iter().enumerate() {
-        let of_surface =
-            (0..problem.pairs.len()).filter(|&p| problem.pairs[p].rigid == Some(index));
-        let force = of_surface
-            .map(|pair| side(problem, state, pair, 0).force)
-            .sum();
-        all.push((rigid.name.clone(), force));
+        all.push((rigid.name.clone(), wrench(problem, state, index).force));
     }
     all
 }
@@ -111,6 +106,47 @@ pub fn bodies(problem: &Problem, state: &State) -> Vec<BodyReport> {
             }
         })
         .collect()
+}
+
+/// What a rigid body amounts to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RigidReport {
+    /// Name of the body.
+    pub name: String,
+    /// Displacement of the reference point.
+    pub displacement: Vec3,
+    /// Angles turned about the fixed axes, in degrees.
+    pub angles: Vec3,
+    /// Torque that drives or holds it, about the reference point.
+    pub torque: Vec3,
+}
+
+/// Reports of all rigid bodies.
+pub fn rigid_bodies(problem: &Problem, state: &State) -> Vec<RigidReport> {
+    let poses = problem.model.rigid_surfaces.iter().zip(&state.rigid);
+    poses
+        .enumerate()
+        .map(|(index, (rigid, pose))| RigidReport {
+            name: rigid.name.clone(),
+            displacement: pose.displacement,
+            angles: pose.turned.map(f64::to_degrees),
+            torque: wrench(problem, state, index).torque,
+        })
+        .collect()
+}
+
+/// Force and torque that drive or hold a rigid body: against the nodes tied to it
+/// and against contact.
+fn wrench(problem: &Problem, state: &State, index: usize) -> Wrench {
+    let mut wrench = state.forces.rigid[index];
+    let reference = problem.model.rigid_surfaces[index].reference;
+    let point = reference + state.rigid[index].displacement;
+    for pair in (0..problem.pairs.len()).filter(|&p| problem.pairs[p].rigid == Some(index)) {
+        let side = side(problem, state, pair, 0);
+        wrench.force += side.force;
+        wrench.torque += side.moment - point.cross(&side.force);
+    }
+    wrench
 }
 
 fn report(problem: &Problem, state: &State, pair: usize) -> PairReport {

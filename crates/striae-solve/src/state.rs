@@ -7,7 +7,10 @@ use striae_contact::{
 };
 use striae_mesh::{FacetId, Vec3};
 
-use crate::problem::Problem;
+use crate::{
+    problem::Problem,
+    rigid::{Pose, Wrench},
+};
 
 /// A converged state. It is never changed: an increment makes a new one.
 #[derive(Clone, Debug)]
@@ -20,8 +23,8 @@ pub struct State {
     pub velocities: Vec<Vec3>,
     /// Acceleration of every global node.
     pub accelerations: Vec<Vec3>,
-    /// Displacement of every rigid surface.
-    pub rigid_displacements: Vec<Vec3>,
+    /// Pose of every rigid body.
+    pub rigid: Vec<Pose>,
     /// State of every pair.
     pub pairs: Vec<PairState>,
     /// Nodal forces.
@@ -54,12 +57,15 @@ pub struct NodalForces {
     pub internal: Vec<Vec3>,
     /// Inertia forces `M a_alpha`.
     pub inertia: Vec<Vec3>,
-    /// Reactions: what internal, inertia, applied and contact forces leave.
+    /// Reactions: what internal, inertia, applied and contact forces leave; at
+    /// tied nodes the force of the rigid body.
     pub reaction: Vec<Vec3>,
     /// Applied loads.
     pub applied: Vec<Vec3>,
     /// Contact forces.
     pub contact: Vec<Vec3>,
+    /// Force and torque that drive or hold every rigid body that nodes are tied to.
+    pub rigid: Vec<Wrench>,
 }
 
 /// Energies since the start of the simulation.
@@ -89,14 +95,15 @@ impl Energies {
 }
 
 impl NodalForces {
-    /// No forces on so many nodes.
-    pub fn zero(nodes: usize) -> Self {
+    /// No forces on so many nodes and rigid bodies.
+    pub fn zero(nodes: usize, rigid: usize) -> Self {
         Self {
             internal: vec![Vec3::zeros(); nodes],
             inertia: vec![Vec3::zeros(); nodes],
             reaction: vec![Vec3::zeros(); nodes],
             applied: vec![Vec3::zeros(); nodes],
             contact: vec![Vec3::zeros(); nodes],
+            rigid: vec![Wrench::default(); rigid],
         }
     }
 }
@@ -109,13 +116,13 @@ impl State {
             positions: problem.reference.clone(),
             velocities: vec![Vec3::zeros(); problem.reference.len()],
             accelerations: vec![Vec3::zeros(); problem.reference.len()],
-            rigid_displacements: vec![Vec3::zeros(); problem.model.rigid_surfaces.len()],
+            rigid: vec![Pose::at_rest(); problem.model.rigid_surfaces.len()],
             pairs: problem
                 .pairs
                 .iter()
                 .map(|pair| PairState::untouched(&pair.contact))
                 .collect(),
-            forces: NodalForces::zero(problem.reference.len()),
+            forces: NodalForces::zero(problem.reference.len(), problem.model.rigid_surfaces.len()),
             energies: Energies::default(),
         }
     }

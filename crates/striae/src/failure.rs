@@ -21,6 +21,9 @@ pub enum Failure {
         /// What the operating system says.
         cause: io::Error,
     },
+    /// The deck of a checkpoint is not what it was.
+    #[error("{} has changed since the checkpoint; run it anew", .0.display())]
+    Changed(PathBuf),
     /// The model cannot be solved.
     #[error("{0}")]
     Problem(#[from] ProblemError),
@@ -53,9 +56,11 @@ impl Failure {
     /// The exit code: 2 for bad input, 1 for everything else.
     pub fn exit_code(&self) -> ExitCode {
         match self {
-            Self::Deck(_) | Self::Exists(_) | Self::Problem(_) | Self::UnknownCase { .. } => {
-                ExitCode::from(2)
-            }
+            Self::Deck(_)
+            | Self::Exists(_)
+            | Self::Changed(_)
+            | Self::Problem(_)
+            | Self::UnknownCase { .. } => ExitCode::from(2),
             Self::Unwritable { .. }
             | Self::Ended(_)
             | Self::Deviates(_)

@@ -2,7 +2,7 @@
 //!
 //! Everything goes to the standard error, so that results can be piped.
 
-use std::io::IsTerminal;
+use std::{io::IsTerminal, time::Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use striae_contact::{evaluation::Evaluation, unknowns::Status};
@@ -27,6 +27,8 @@ pub struct Progress {
     bar: Option<ProgressBar>,
     steps: Vec<(String, f64)>,
     counts: [usize; 3],
+    /// When progress was first noted, and how far the run was.
+    since: Option<(Instant, f64)>,
 }
 
 const RESOLUTION: f64 = 1000.0;
@@ -53,6 +55,7 @@ impl Progress {
                 .map(|step| (step.name.clone(), step.duration))
                 .collect(),
             counts: [0; 3],
+            since: None,
         }
     }
 
@@ -93,12 +96,24 @@ impl Progress {
         {
             self.line(&format!("    multifrontal LU: {reason}"));
         }
+        let done = (position.step as f64 + position.fraction) / self.steps.len() as f64;
         if let Some(bar) = &self.bar {
-            let done = (position.step as f64 + position.fraction) * RESOLUTION;
-            bar.set_position(done as u64);
+            bar.set_position((done * RESOLUTION * self.steps.len() as f64) as u64);
             bar.set_message(text);
         } else if self.verbosity != Verbosity::Quiet {
-            eprintln!("{:5}  {text}", position.increment);
+            eprintln!("{:5}  {text}{}", position.increment, self.left(done));
+        }
+    }
+
+    /// How long the rest will take, from what was done since the first increment.
+    fn left(&mut self, done: f64) -> String {
+        let (since, from) = *self.since.get_or_insert((Instant::now(), done));
+        let seconds = since.elapsed().as_secs_f64() * (1.0 - done) / (done - from);
+        if seconds.is_finite() {
+            let seconds = seconds.round() as u64;
+            format!("  left {}:{:02}", seconds / 60, seconds % 60)
+        } else {
+            String::new()
         }
     }
 

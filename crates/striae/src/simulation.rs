@@ -9,9 +9,15 @@ use std::{
 };
 
 use striae_contact::evaluation::Evaluation;
-use striae_io::{OutputError, deck::Deck, recorder::Recorder, summary::Summary};
+use striae_io::{
+    OutputError,
+    checkpoint::{Checkpoint, Source},
+    deck::Deck,
+    recorder::Recorder,
+    summary::Summary,
+};
 use striae_solve::{
-    drive::{Continue, Observer, Progress as Position, run},
+    drive::{Continue, Observer, Point, Progress as Position, resume, run},
     newton::{Increment, IterationObserver},
     norms::Norms,
     outcome::{CutBack, Ending},
@@ -30,6 +36,8 @@ pub struct Simulation {
     pub problem: Problem,
     /// The last converged state.
     pub state: State,
+    /// States at the ends of all completed steps.
+    pub steps: Vec<State>,
     /// How the run ended.
     pub ending: Ending,
     /// What `summary.json` says.
@@ -71,19 +79,98 @@ pub fn simulate(
     verbosity: Verbosity,
     interrupt: &Interrupt,
 ) -> Result<Simulation, Failure> {
-    let output = deck.output;
+    let recorder = Recorder::create(folder, case, deck.output)?;
+    let place = Place {
+        folder,
+        source: None,
+        point: None,
+    };
+    proceed(deck, recorder, place, verbosity, interrupt)
+}
+
+/// Runs a deck from a file, with checkpoints.
+///
+/// # Errors
+/// When the model cannot be solved or the output not be written.
+pub fn simulate_file(
+    deck: Deck,
+    source: Source,
+    folder: &Path,
+    verbosity: Verbosity,
+    interrupt: &Interrupt,
+) -> Result<Simulation, Failure> {
+    let recorder = Recorder::create(folder, &source.case, deck.output)?;
+    let place = Place {
+        folder,
+        source: Some(source),
+        point: None,
+    };
+    proceed(deck, recorder, place, verbosity, interrupt)
+}
+
+/// Goes on from a checkpoint.
+///
+/// # Errors
+/// When the model cannot be solved or the output not be written.
+pub fn go_on(
+    deck: Deck,
+    checkpoint: Checkpoint,
+    folder: &Path,
+    verbosity: Verbosity,
+    interrupt: &Interrupt,
+) -> Result<Simulation, Failure> {
+    let Checkpoint {
+        source,
+        written,
+        point,
+    } = checkpoint;
+    let recorder = Recorder::resume(folder, &source.case, deck.output, &written)?;
+    let place = Place {
+        folder,
+        source: Some(source),
+        point: Some(point),
+    };
+    proceed(deck, recorder, place, verbosity, interrupt)
+}
+
+/// Where a run is written, which deck it is of, and where it goes on.
+struct Place<'a> {
+    folder: &'a Path,
+    source: Option<Source>,
+    point: Option<Point>,
+}
+
+fn proceed(
+    deck: Deck,
+    recorder: Recorder,
+    place: Place,
+    verbosity: Verbosity,
+    interrupt: &Interrupt,
+) -> Result<Simulation, Failure> {
     let problem = Problem::new(deck.model)?;
+    let Place {
+        folder,
+        source,
+        point,
+    } = place;
     let mut watch = Watch {
         problem: &problem,
-        recorder: Recorder::create(folder, case, output)?,
+        recorder,
+        folder,
+        source,
         progress: Progress::new(&problem.model, verbosity),
         interrupt,
+        steps: Vec::new(),
         failure: None,
     };
-    let (state, ending) = run(&problem, State::undeformed(&problem), &mut watch);
+    let (state, ending) = match point {
+        None => run(&problem, State::undeformed(&problem), &mut watch),
+        Some(point) => resume(&problem, point, &mut watch),
+    };
     watch.progress.finish();
     let Watch {
         mut recorder,
+        steps,
         failure,
         ..
     } = watch;
@@ -94,6 +181,7 @@ pub fn simulate(
     Ok(Simulation {
         problem,
         state,
+        steps,
         ending,
         summary,
     })
@@ -102,8 +190,11 @@ pub fn simulate(
 struct Watch<'a> {
     problem: &'a Problem,
     recorder: Recorder,
+    folder: &'a Path,
+    source: Option<Source>,
     progress: Progress,
     interrupt: &'a Interrupt,
+    steps: Vec<State>,
     failure: Option<OutputError>,
 }
 
@@ -118,14 +209,33 @@ impl Observer for Watch<'_> {
 
     fn increment(&mut self, position: Position, increment: &Increment) -> Continue {
         self.progress.increment(position, increment);
+        if position.fraction == 1.0 {
+            self.steps.push(increment.state.clone());
+        }
         self.failure = self
             .recorder
             .increment(self.problem, position, increment)
             .err();
         if self.failure.is_some() || self.interrupt.is_set() {
             Continue::Stop
+        } else if self.recorder.keeps(position.increment) {
+            Continue::Keep
         } else {
             Continue::Yes
+        }
+    }
+
+    fn point(&mut self, point: &Point) {
+        let Some(source) = self.source.clone() else {
+            return;
+        };
+        let checkpoint = Checkpoint {
+            source,
+            written: self.recorder.written(),
+            point: point.clone(),
+        };
+        if let Err(failure) = checkpoint.write(self.folder) {
+            self.failure.get_or_insert(failure);
         }
     }
 

@@ -279,6 +279,42 @@ pub enum FaultKind {
         /// The first step that needs it.
         step: String,
     },
+    /// Mass without inertia, inertia without mass, or moments that no body has.
+    #[error(
+        "rigid body `{rigid}` needs both `mass` and `inertia`, none of whose three moments exceeds the sum of the others"
+    )]
+    RigidInertia {
+        /// The rigid body.
+        rigid: String,
+    },
+    /// A side that is a rigid body without a surface.
+    #[error("rigid body `{rigid}` has no surface to touch; give it a `plane` or a `mesh`")]
+    NoSurface {
+        /// The rigid body.
+        rigid: String,
+    },
+    /// A rigid body that nothing could move as it should.
+    #[error(
+        "step `{step}` frees coordinates of rigid body `{rigid}`; only bodies that nodes are tied to or that have a mass, and that are no side of a pair, can be free"
+    )]
+    FreeRigid {
+        /// The rigid body.
+        rigid: String,
+        /// The step.
+        step: String,
+    },
+    /// A node that follows a rigid body and is prescribed.
+    #[error(
+        "step `{step}` prescribes {node} of body `{body}`, which is tied to a rigid body; move the rigid body instead"
+    )]
+    PrescribedTied {
+        /// The step.
+        step: String,
+        /// The body.
+        body: String,
+        /// The first such node.
+        node: NodeId,
+    },
     /// Points that do not make a curve.
     #[error("the points of curve `{curve}` must rise in their first number from 0 to 1, {found}")]
     BadCurve {

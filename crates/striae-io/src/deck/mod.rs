@@ -42,6 +42,8 @@ pub struct Deck {
 pub struct Output {
     /// When fields are written.
     pub fields: FieldOutput,
+    /// Increments between checkpoints; `None`: only when interrupted.
+    pub checkpoint_every: Option<std::num::NonZeroUsize>,
 }
 
 /// When fields are written.

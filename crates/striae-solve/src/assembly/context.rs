@@ -2,10 +2,18 @@
 
 use striae_contact::{
     complementarity::Prescribed, configuration::Configuration, pair::ContactPair,
+    placement::Placement,
 };
 use striae_mesh::Vec3;
 
-use crate::{dynamics::Motion, model::LoadKind, plan::StepPlan, problem::Problem, state::State};
+use crate::{
+    dynamics::Motion,
+    model::LoadKind,
+    plan::StepPlan,
+    problem::Problem,
+    rigid::{Pose, Wrench},
+    state::State,
+};
 
 /// What does not change within a step.
 #[derive(Debug)]
@@ -22,7 +30,9 @@ pub struct StepContext<'a> {
     pub pairs: Vec<ContactPair>,
     /// Whether each position component of each global node is prescribed.
     pub fixed: Vec<bool>,
-    /// The same by pair, side and surface node.
+    /// Whether each coordinate of each rigid body is prescribed.
+    pub fixed_rigid: Vec<[bool; 6]>,
+    /// `fixed` by pair, side and surface node.
     pub fixed_on_pair: Vec<Prescribed>,
 }
 
@@ -33,8 +43,12 @@ pub struct Imposed {
     pub positions: Vec<(usize, usize, f64)>,
     /// Loads with their kinds at this point.
     pub loads: Vec<LoadKind>,
-    /// Displacements of the rigid surfaces.
-    pub rigid: Vec<Vec3>,
+    /// Coordinates of the rigid bodies; `None` where they are free.
+    pub rigid: Vec<[Option<f64>; 6]>,
+    /// Force and torque that drive each rigid body.
+    pub driving: Vec<Wrench>,
+    /// Poses at the last converged state.
+    pub before: Vec<Pose>,
     /// Acceleration of gravity.
     pub gravity: Vec3,
     /// Velocities and accelerations of the prescribed components.
@@ -91,6 +105,11 @@ impl<'a> StepContext<'a> {
             index,
             plan,
             start,
+            fixed_rigid: plan
+                .rigid
+                .iter()
+                .map(|coordinates| coordinates.each_ref().map(Option::is_some))
+                .collect(),
             fixed,
         }
     }
@@ -101,6 +120,7 @@ impl<'a> StepContext<'a> {
         Imposed {
             elapsed,
             motion: Motion::new(self, state, elapsed),
+            before: state.rigid.clone(),
             ..self.imposed(s)
         }
     }
@@ -151,7 +171,9 @@ impl<'a> StepContext<'a> {
         Imposed {
             positions: positions.collect(),
             loads: self.plan.loads.iter().map(|load| load.at(s)).collect(),
-            rigid: self.plan.rigid.iter().map(|rigid| rigid.at(s)).collect(),
+            rigid: self.coordinates(s),
+            driving: self.driving(s),
+            before: self.start.rigid.clone(),
             gravity: self.plan.gravity.at(s),
             rates: rates.collect(),
             elapsed: f64::INFINITY,
@@ -159,12 +181,48 @@ impl<'a> StepContext<'a> {
         }
     }
 
+    fn coordinates(&self, s: f64) -> Vec<[Option<f64>; 6]> {
+        let plans = self.plan.rigid.iter().zip(&self.start.rigid);
+        plans
+            .map(|(plan, pose)| {
+                let start = pose.coordinates();
+                std::array::from_fn(|at| plan[at].as_ref().map(|how| how.at(start[at], s)))
+            })
+            .collect()
+    }
+
+    /// Velocities and accelerations of the coordinates of rigid bodies, zero where free.
+    pub fn rigid_rates(&self, s: f64) -> Vec<[[f64; 2]; 6]> {
+        let duration = self.problem.model.steps[self.index].duration;
+        let plans = self.plan.rigid.iter().zip(&self.start.rigid);
+        plans
+            .map(|(plan, pose)| {
+                let start = pose.coordinates();
+                std::array::from_fn(|at| {
+                    let rate = plan[at].as_ref().map(|how| how.rate(start[at], s));
+                    let [first, second] = rate.unwrap_or_default();
+                    [first / duration, second / (duration * duration)]
+                })
+            })
+            .collect()
+    }
+
+    fn driving(&self, s: f64) -> Vec<Wrench> {
+        let plans = self.plan.driving.iter();
+        plans
+            .map(|[force, torque]| Wrench {
+                force: force.at(s),
+                torque: torque.at(s),
+            })
+            .collect()
+    }
+
     /// Configuration of a pair with the nodes at `positions`.
     pub fn configuration(
         &self,
         pair: usize,
         positions: &[Vec3],
-        rigid: &[Vec3],
+        rigid: &[Pose],
     ) -> Configuration<'_> {
         let geometry = &self.problem.pairs[pair];
         let of_side = |side: usize| -> Vec<Vec3> {
@@ -179,9 +237,9 @@ impl<'a> StepContext<'a> {
                 None => geometry.rigid_reference.clone(),
             }
         };
-        let displacement = geometry
-            .rigid
-            .map_or_else(Vec3::zeros, |rigid_id| rigid[rigid_id]);
-        Configuration::new(&self.pairs[pair], [of_side(0), of_side(1)], displacement)
+        let placement = geometry.rigid.map_or_else(Placement::at_rest, |id| {
+            rigid[id].placement(&self.problem.model.rigid_surfaces[id].reference)
+        });
+        Configuration::new(&self.pairs[pair], [of_side(0), of_side(1)], placement)
     }
 }

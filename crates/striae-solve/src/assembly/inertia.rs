@@ -89,6 +89,33 @@ impl System<'_> {
         }
     }
 
+    /// Inertia and weight of the point masses of rigid bodies.
+    pub(super) fn point_masses(&mut self) {
+        let share = self.inertia.share_of_end;
+        for &(node, mass) in &self.context.problem.mass_points {
+            let weight = self.inertia.gravity * mass;
+            self.forces.applied[node] += weight;
+            let mut force = -weight * share;
+            if let Some(accelerations) = &self.inertia.accelerations {
+                self.forces.inertia[node] = accelerations[node] * mass;
+                force += self.forces.inertia[node];
+            }
+            self.add_point(node, &force, mass * self.inertia.stiffness);
+        }
+    }
+
+    /// Adds a force and a stiffness at a node.
+    pub(super) fn add_point(&mut self, node: usize, force: &Vec3, stiffness: f64) {
+        let first = self.layout.position(node);
+        let unknowns = [first, first + 1, first + 2];
+        let mut tangent = [0.0; 9];
+        for at in [0, 4, 8] {
+            tangent[at] = stiffness;
+        }
+        self.add_dense(&[node], &unknowns, force.as_slice(), &tangent)
+            .expect("the unknowns of a body are in the pattern");
+    }
+
     /// Forces carried over from the last converged state.
     pub(super) fn carried(&mut self, imposed: &Imposed) {
         let Some(motion) = &imposed.motion else {

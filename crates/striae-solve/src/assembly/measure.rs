@@ -19,8 +19,11 @@ impl System<'_> {
         contacts: &[Evaluation],
     ) -> Norms {
         let problem = self.context.problem;
-        let mut free = 0.0;
+        let mut free = self.free_squares();
         for node in 0..problem.reference.len() {
+            if self.tie(node).is_some() {
+                continue;
+            }
             let first = self.layout.position(node);
             self.forces.reaction[node] = Vec3::from_column_slice(&self.residual[first..first + 3]);
             for axis in 0..3 {
@@ -79,5 +82,9 @@ fn round_off(problem: &Problem, positions: &[Vec3], inertia: f64) -> f64 {
             elements.len() as f64 * (stiffness * extent).powi(2)
         })
         .sum();
-    10.0 * f64::EPSILON * sum.sqrt()
+    let points = problem.mass_points.iter();
+    let points: f64 = points
+        .map(|(_, mass)| (mass * inertia * extent).powi(2))
+        .sum();
+    10.0 * f64::EPSILON * (sum + points).sqrt()
 }

@@ -6,10 +6,12 @@
 //!
 //! ```text
 //! external  += d . (a f_ext,0 + (1 - a) f_ext,1) + work of reactions and of moving surfaces
+//!            + work of the forces and torques on rigid bodies, du . F + dt . M
 //! friction  += sum A (-tau_1 . du) over the nodes at which friction is collocated
 //! numerical += d . (a f_int,0 + (1 - a) f_int,1) - change of strain energy
 //!            + d . M a_alpha - change of kinetic energy
 //!            - d . f_con - friction
+//!            + du . F + dt . M - d . h of the forces h at tied nodes
 //! ```
 //!
 //! so that external work equals kinetic, strain, friction and numerical energy up
@@ -27,6 +29,7 @@ use striae_mesh::{FacetId, Vec3};
 use crate::{
     assembly::{Assembled, Imposed, StepContext, Trial},
     dynamics::kinetic_energy,
+    problem::Problem,
     state::{Energies, PairState, State},
 };
 
@@ -75,7 +78,7 @@ pub(super) fn accepted(
         positions: trial.positions,
         velocities,
         accelerations,
-        rigid_displacements: imposed.rigid,
+        rigid: trial.rigid,
         pairs,
         forces: assembled.forces,
         energies,
@@ -123,6 +126,10 @@ struct Work {
     taken_up: f64,
     /// Minus that of contact forces on all sides.
     contact: f64,
+    /// Of the forces that hold tied nodes.
+    ties: f64,
+    /// Of the forces and torques on the bodies they are tied to.
+    bodies: f64,
 }
 
 impl Work {
@@ -152,20 +159,36 @@ impl Work {
                 }
             });
             work.external += d.dot(&mean(start, before.applied[node], after.applied[node]));
-            work.external += d.dot(&mean(holding, found, held));
+            if problem.tie_of[node].is_some() {
+                work.ties += d.dot(&mean(start, before.internal[node], after.internal[node]));
+                work.ties -= d.dot(&mean(start, before.applied[node], after.applied[node]));
+                work.ties -= d.dot(&mean(holding, before.contact[node], after.contact[node]));
+                work.ties += d.dot(&after.inertia[node]);
+            } else {
+                work.external += d.dot(&mean(holding, found, held));
+            }
             work.taken_up += d.dot(&mean(start, before.internal[node], after.internal[node]));
             work.taken_up += d.dot(&after.inertia[node]);
             work.contact -= d.dot(&mean(holding, before.contact[node], after.contact[node]));
         }
         for (pair, geometry) in problem.pairs.iter().enumerate() {
             if let Some(rigid) = geometry.rigid {
-                let way = imposed.rigid[rigid] - state.rigid_displacements[rigid];
-                let of_start = resultant(&state.pairs[pair].facets[0]);
-                let of_end = resultant(&assembled.contacts[pair].facets[0]);
-                let moved = way.dot(&mean(holding, of_start, of_end));
+                let moved = |facets: &[(FacetId, FacetForces)], end: End| {
+                    work_of_motion(problem, [pair, rigid], facets, (state, trial), end)
+                };
+                let of_start = moved(&state.pairs[pair].facets[0], End::Start);
+                let of_end = moved(&assembled.contacts[pair].facets[0], End::End);
+                let moved = of_start * holding + of_end * (1.0 - holding);
                 work.external += moved;
                 work.contact += moved;
             }
+        }
+        for (rigid, pose) in trial.rigid.iter().enumerate() {
+            let (found, reached) = (before.rigid[rigid], after.rigid[rigid]);
+            let way = pose.displacement - state.rigid[rigid].displacement;
+            let turn = pose.turned - state.rigid[rigid].turned;
+            work.bodies += way.dot(&mean(start, found.force, reached.force));
+            work.bodies += turn.dot(&mean(start, found.torque, reached.torque));
         }
         work
     }
@@ -176,13 +199,51 @@ impl Work {
         Energies {
             kinetic,
             strain,
-            external: before.external + self.external,
+            external: before.external + self.external + self.bodies,
             friction: before.friction + friction,
-            numerical: before.numerical + self.taken_up - stored + self.contact - friction,
+            numerical: before.numerical + self.taken_up - self.ties + self.bodies - stored
+                + self.contact
+                - friction,
         }
     }
 }
 
-fn resultant(facets: &[(FacetId, FacetForces)]) -> Vec3 {
-    facets.iter().flat_map(|(_, forces)| forces.force).sum()
+/// Which end of an increment forces belong to.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum End {
+    Start,
+    End,
+}
+
+/// Work of the contact forces of a pair on the motion of its rigid side, positive
+/// where that pushes.
+fn work_of_motion(
+    problem: &Problem,
+    [pair, rigid]: [usize; 2],
+    facets: &[(FacetId, FacetForces)],
+    (state, trial): (&State, &Trial),
+    end: End,
+) -> f64 {
+    let reference = &problem.model.rigid_surfaces[rigid].reference;
+    let placements =
+        [&state.rigid[rigid], &trial.rigid[rigid]].map(|pose| pose.placement(reference));
+    let (positions, present) = match end {
+        End::Start => (&state.positions, &placements[0]),
+        End::End => (&trial.positions, &placements[1]),
+    };
+    let Some(surface) = problem.pairs[pair].contact.sides[0].surface() else {
+        return 0.0;
+    };
+    let mut work = 0.0;
+    for (facet, forces) in facets {
+        let corners = surface.facets()[facet.index()];
+        for (corner, force) in corners.iter().zip(&forces.force) {
+            if let Some(node) = problem.surface_node(pair, 0, *corner) {
+                let material = present.back(&positions[node]);
+                let [from, to] = placements.map(|placement| placement.point(&material));
+                work += force.dot(&(to - from));
+            }
+        }
+    }
+    work
 }

@@ -5,24 +5,20 @@ use std::time::{Duration, Instant};
 use striae_contact::{complementarity::Iteration, selection::Selection};
 use striae_linalg::{
     Analysis, Automatic, FaerLu, FallBack, Interior, LinearSolver, Method, MultifrontalLu,
-    SolveError, SparseMatrix, Structure, Supervariable,
+    SolveError, SolveReport, SparseMatrix, Structure, Supervariable,
 };
 
 use striae_mesh::Vec3;
 
 use crate::{
-    assembly::{Assembled, Fault, Imposed, StepContext, Trial, assemble},
-    layout::Layout,
+    assembly::{Assembled, Fault, Imposed, StepContext, Trial, assemble, initial_accelerations},
+    layout::{Extent, Layout},
     model::Backend,
     outcome::CutBack,
     problem::Problem,
-    state::PairState,
+    rigid::Pose,
+    state::{NodalForces, PairState, State},
 };
-
-/// Corners `a`, `b` of an element and the components they share.
-fn corner_pairs() -> impl Iterator<Item = (usize, usize, usize)> {
-    (0..192).map(|at| (at / 24, at / 3 % 8, at % 3))
-}
 
 /// What survives between increments to save work; it holds no results.
 pub struct Workspace {
@@ -61,7 +57,19 @@ pub(super) struct SystemStorage {
     pub(super) layout: Layout,
     pub(super) matrix: SparseMatrix,
     pub(super) analysis: Analysis,
+    /// Cliques by which the pattern has grown beyond the elements.
+    grown: Vec<Vec<Supervariable>>,
     analysed: bool,
+}
+
+/// What the linear system has grown to, which decides in which order it is
+/// eliminated and so the last bits of the results.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Memory {
+    /// What has traction unknowns.
+    pub extent: Extent,
+    /// Cliques of supervariables beyond the elements.
+    pub cliques: Vec<Vec<usize>>,
 }
 
 impl Workspace {
@@ -79,33 +87,77 @@ impl Workspace {
         }
     }
 
-    /// Makes sure the layout covers all roles of the increment.
+    /// Makes sure the layout covers all roles of the increment. Which solver was the
+    /// better one in increments before is forgotten, so that it does not matter where
+    /// a run began.
     pub(super) fn prepare(&mut self, problem: &Problem, pairs: &[PairState]) {
+        self.solver.start_afresh();
         let known = self
             .system
             .as_ref()
             .map(|system| system.layout.extent().clone());
         let extent = known.clone().unwrap_or_default().with(pairs);
-        if known.as_ref() == Some(&extent) {
-            return;
+        if known.as_ref() != Some(&extent) {
+            self.lay_out(problem, extent);
         }
+    }
+
+    /// A workspace that has grown to what another had.
+    pub fn recalled(problem: &Problem, memory: &Memory) -> Self {
+        let mut workspace = Self::new(problem.model.solver.backend);
+        workspace.lay_out(problem, memory.extent.clone());
+        if !memory.cliques.is_empty() {
+            let cliques = memory.cliques.iter();
+            let cliques: Vec<Vec<Supervariable>> = cliques
+                .map(|clique| clique.iter().map(|&at| Supervariable(at)).collect())
+                .collect();
+            workspace.system().grow(cliques);
+        }
+        workspace
+    }
+
+    /// What it has grown to.
+    pub fn memory(&self) -> Memory {
+        self.system.as_ref().map_or_else(Memory::default, |system| {
+            let cliques = system.grown.iter();
+            Memory {
+                extent: system.layout.extent().clone(),
+                cliques: cliques
+                    .map(|clique| clique.iter().map(|at| at.0).collect())
+                    .collect(),
+            }
+        })
+    }
+
+    fn lay_out(&mut self, problem: &Problem, extent: Extent) {
         let layout = Layout::new(problem, extent);
         let mut cliques: Vec<Vec<Supervariable>> = Vec::new();
+        // Elements at tied nodes couple the others with the rigid body, which is no bulk.
+        let mut tied: Vec<Vec<Supervariable>> = Vec::new();
         for (body, model) in problem.model.bodies.iter().enumerate() {
             for corners in &model.mesh.elements {
-                let nodes = corners.map(|node| layout.supervariable(problem.node(body, node)));
-                cliques.push(nodes.to_vec());
+                let nodes = corners.map(|node| problem.node(body, node));
+                let mut owners = nodes.map(|node| layout.owner(problem, node)).to_vec();
+                owners.sort_unstable();
+                owners.dedup();
+                let free = nodes.iter().filter(|&&node| problem.tie_of[node].is_none());
+                cliques.push(free.map(|&node| layout.supervariable(node)).collect());
+                if nodes.iter().any(|&node| problem.tie_of[node].is_some()) {
+                    tied.push(owners);
+                }
             }
         }
         cliques.extend((0..layout.offsets().len() - 1).map(|at| vec![Supervariable(at)]));
         let structure = Structure::from_cliques(layout.offsets().to_vec(), &cliques)
             .and_then(|structure| structure.with_tiers(layout.tiers()))
             .and_then(|structure| structure.with_bulk(&layout.bulk()))
+            .and_then(|structure| structure.grown(&tied))
             .expect("the layout names its own supervariables");
         self.system = Some(SystemStorage {
             matrix: SparseMatrix::zero(&structure),
             layout,
             analysis: Analysis::default(),
+            grown: Vec::new(),
             analysed: false,
         });
     }
@@ -138,61 +190,70 @@ impl Workspace {
             match assembled {
                 Ok(assembled) => return Ok(assembled),
                 Err(Fault::CutBack(reason)) => return Err(reason),
-                Err(Fault::Pattern(cliques)) => {
-                    let grown = system.matrix.structure().grown(&cliques);
-                    let structure = grown.expect("cliques name known supervariables");
-                    system.matrix = SparseMatrix::zero(&structure);
-                    system.analysed = false;
-                }
+                Err(Fault::Pattern(cliques)) => system.grow(cliques),
             }
         }
     }
 
-    /// Solves `M a = forces` for the components that are not prescribed.
+    /// Poses to start iterating from: at the last converged state where they are
+    /// unknowns, else where they are driven to.
+    pub(super) fn first_poses(&mut self, imposed: &Imposed) -> Vec<Pose> {
+        let layout = &self.system().layout;
+        let bodies = imposed.before.iter().zip(&imposed.rigid).enumerate();
+        bodies
+            .map(|(rigid, (before, targets))| match layout.rigid(rigid) {
+                Some(_) => *before,
+                None => {
+                    let present = before.coordinates();
+                    before.moved_to(&std::array::from_fn(|at| {
+                        targets[at].unwrap_or(present[at])
+                    }))
+                }
+            })
+            .collect()
+    }
+
+    /// Accelerations in `state` and the forces that hold tied nodes, see
+    /// [`initial_accelerations`].
     pub(crate) fn accelerations(
         &mut self,
         context: &StepContext,
-        forces: &[Vec3],
-    ) -> Result<Vec<Vec3>, SolveError> {
-        let problem = context.problem;
-        let SystemStorage { layout, matrix, .. } = self.system();
-        let mut residual = vec![0.0; layout.unknowns()];
-        matrix.clear();
-        let mut add = |row: usize, column: usize, value: f64| {
-            matrix
-                .add(&[row], &[column], &[value])
-                .expect("elements are in the pattern");
+        state: &State,
+        imposed: &Imposed,
+        velocities: &[Vec3],
+        forces: &NodalForces,
+    ) -> Result<(Vec<Vec3>, Vec<Vec3>), CutBack> {
+        let trial = Trial {
+            positions: state.positions.clone(),
+            tractions: Vec::new(),
+            rigid: state.rigid.clone(),
         };
-        for (node, force) in forces.iter().enumerate() {
-            for axis in (0..3).filter(|axis| !context.fixed[3 * node + axis]) {
-                residual[layout.position(node) + axis] = -force[axis];
-            }
+        let found: Vec<Vec3> = (0..state.positions.len())
+            .map(|node| forces.internal[node] - forces.applied[node] - forces.contact[node])
+            .collect();
+        let Self { solver, system, .. } = self;
+        let system = system.as_mut().expect("the workspace was prepared");
+        if !system.analysed {
+            system.analysis = solver
+                .analyse(system.matrix.structure())
+                .map_err(without_mass)?;
+            system.analysed = true;
         }
-        let mut held = vec![true; residual.len()];
-        for (body, model) in problem.model.bodies.iter().enumerate() {
-            for (corners, element) in model.mesh.elements.iter().zip(&problem.elements[body]) {
-                let mass = element.mass(model.density);
-                let nodes = corners.map(|node| problem.node(body, node));
-                for (a, b, axis) in corner_pairs() {
-                    let free = |node: usize| !context.fixed[3 * node + axis];
-                    if free(nodes[a]) && free(nodes[b]) {
-                        let [row, column] = [a, b].map(|c| layout.position(nodes[c]) + axis);
-                        add(row, column, mass[a][b]);
-                        held[row] = false;
-                    }
-                }
-            }
-        }
-        for unknown in (0..held.len()).filter(|&unknown| held[unknown]) {
-            add(unknown, unknown, 1.0);
-        }
-        let solution = self.correction(&residual)?;
-        let layout = &self.system().layout;
-        let of_node = |node: usize| {
-            let first = layout.position(node);
-            Vec3::from_column_slice(&solution[first..first + 3])
+        let solve = |matrix: &SparseMatrix, residual: &[f64]| {
+            solver.factor(matrix).map_err(without_mass)?;
+            let (solution, _) = solved(solver.as_mut(), matrix, residual).map_err(without_mass)?;
+            Ok(solution)
         };
-        Ok((0..forces.len()).map(of_node).collect())
+        initial_accelerations(
+            context,
+            &trial,
+            imposed,
+            velocities,
+            &found,
+            &system.layout,
+            &mut system.matrix,
+            solve,
+        )
     }
 
     /// What was done since the last call.
@@ -216,13 +277,40 @@ impl Workspace {
         let factored = Instant::now();
         times.factorisation += factored - analysed;
         (self.work.method, self.work.fall_back) = (report.method, report.fall_back);
-        let rhs: Vec<f64> = residual.iter().map(|r| -r).collect();
-        let mut correction = vec![0.0; rhs.len()];
-        let solved = solver.solve(&system.matrix, &rhs, &mut correction)?;
-        if solved.interior == Interior::Fresh {
+        let (correction, solution) = solved(solver.as_mut(), &system.matrix, residual)?;
+        if solution.interior == Interior::Fresh {
             self.work.factorisations += 1;
         }
         self.work.times.solution += factored.elapsed();
         Ok(correction)
+    }
+}
+
+/// The solution of `matrix correction = -residual` with a factored matrix.
+fn solved(
+    solver: &mut dyn LinearSolver,
+    matrix: &SparseMatrix,
+    residual: &[f64],
+) -> Result<(Vec<f64>, SolveReport), SolveError> {
+    let rhs: Vec<f64> = residual.iter().map(|r| -r).collect();
+    let mut correction = vec![0.0; rhs.len()];
+    let report = solver.solve(matrix, &rhs, &mut correction)?;
+    Ok((correction, report))
+}
+
+impl SystemStorage {
+    fn grow(&mut self, cliques: Vec<Vec<Supervariable>>) {
+        let grown = self.matrix.structure().grown(&cliques);
+        let structure = grown.expect("cliques name known supervariables");
+        self.matrix = SparseMatrix::zero(&structure);
+        self.grown.extend(cliques);
+        self.analysed = false;
+    }
+}
+
+fn without_mass(error: SolveError) -> CutBack {
+    CutBack::LinearSystem {
+        place: "mass at the start of the step".to_owned(),
+        error,
     }
 }

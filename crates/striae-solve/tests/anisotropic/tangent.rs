@@ -40,8 +40,7 @@ impl<'a> Slipping<'a> {
     fn new(problem: &'a Problem, state: &'a State, motion: impl Fn(usize, &Vec3) -> Vec3) -> Self {
         let context = StepContext::new(problem, 0, state);
         let selection = {
-            let configuration =
-                context.configuration(0, &state.positions, &state.rigid_displacements);
+            let configuration = context.configuration(0, &state.positions, &state.rigid);
             Selection::new(&configuration, &state.pairs[0].kinematic)
         };
         let numbering = context.pairs[0].numbering();
@@ -85,7 +84,7 @@ impl<'a> Slipping<'a> {
                 positions[global] = at.fixed_rows::<3>(first).into();
             }
         }
-        let rigid = &self.context.start.rigid_displacements;
+        let rigid = &self.context.start.rigid;
         self.context
             .configuration(0, &positions, rigid)
             .lasting(ELAPSED)

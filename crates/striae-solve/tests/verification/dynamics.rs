@@ -4,12 +4,12 @@ use crate::scene::{Places, Run, block, body, coulomb, increments, model, plane, 
 use striae_mesh::Vec3;
 use striae_solve::{
     dynamics::momentum,
-    model::{BodyId, Curve, Gravity, Model, Procedure, Step, Velocity},
+    model::{BodyId, Curve, Gravity, Model, Mover, Procedure, Step, Velocity},
 };
 use striae_verify::fitted_rate;
 
 /// A dynamic step of `duration` in `count` increments.
-fn moving(duration: f64, count: usize) -> Step {
+pub fn moving(duration: f64, count: usize) -> Step {
     let size = 1.0 / count as f64;
     Step {
         duration,
@@ -23,7 +23,7 @@ fn moving(duration: f64, count: usize) -> Step {
 
 fn launched(velocity: [f64; 3], spin: [f64; 3], about: [f64; 3]) -> Vec<Velocity> {
     vec![Velocity {
-        body: BodyId(0),
+        body: Mover::Deformable(BodyId(0)),
         velocity: velocity.into(),
         spin: spin.into(),
         about: about.into(),

@@ -9,6 +9,7 @@ mod energies;
 mod invariance;
 mod patch_frictionless;
 mod patch_stick;
+mod rigid;
 mod rigid_facets;
 mod sliding;
 mod tangent;

@@ -257,10 +257,7 @@ impl Places for Model {
             body: BodyId(self.body(a.0)),
             faces: self.faces(a.0, a.1),
         };
-        self.rigid_surfaces.push(RigidSurface {
-            name: "floor".to_owned(),
-            shape,
-        });
+        self.rigid_surfaces.push(RigidSurface::new("floor", shape));
         let rigid = Side::Rigid(RigidId(self.rigid_surfaces.len() - 1));
         self.pairs.push(pair("interface", side, rigid, friction));
         PairId(self.pairs.len() - 1)

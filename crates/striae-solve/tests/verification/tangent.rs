@@ -7,6 +7,7 @@ use striae_contact::{
     configuration::Configuration,
     evaluation::{Evaluation, evaluate},
     frame::frames,
+    placement::Placement,
     selection::{Role, Selection},
     unknowns::{Status, Tractions},
 };
@@ -16,6 +17,7 @@ use striae_solve::{
     assembly::StepContext,
     model::{Model, RigidShape},
     problem::Problem,
+    rigid::Pose,
     state::State,
 };
 use striae_verify::{Difference, Random, derivative::directional};
@@ -27,12 +29,12 @@ struct Contact<'a> {
     context: &'a StepContext<'a>,
     selection: Selection,
     counts: [usize; 2],
-    rigid: Vec3,
+    placement: Placement,
 }
 
 impl<'a> Contact<'a> {
     fn new(context: &'a StepContext<'a>, positions: &[Vec3]) -> Self {
-        let rigid = vec![Vec3::zeros(); context.problem.model.rigid_surfaces.len()];
+        let rigid = vec![Pose::at_rest(); context.problem.model.rigid_surfaces.len()];
         let configuration = context.configuration(0, positions, &rigid);
         let counts = [0, 1].map(|side| {
             let deformable = context.problem.pairs[0].bodies[side].is_some();
@@ -44,7 +46,9 @@ impl<'a> Contact<'a> {
             selection: Selection::new(&configuration, &untouched),
             context,
             counts,
-            rigid: Vec3::new(0.01, -0.02, 0.003),
+            placement: Pose::at_rest()
+                .moved_to(&[0.01, -0.02, 0.003, 0.001, -0.002, 0.1])
+                .placement(&Vec3::zeros()),
         }
     }
 
@@ -65,9 +69,9 @@ impl<'a> Contact<'a> {
             (self.counts[0]..self.nodes()).map(at).collect()
         };
         let rigid = if self.context.pairs[0].is_rigid() {
-            self.rigid
+            self.placement
         } else {
-            Vec3::zeros()
+            Placement::at_rest()
         };
         Configuration::new(&self.context.pairs[0], [a, b], rigid)
     }

@@ -64,6 +64,7 @@ impl<'a> Whole<'a> {
                 .iter()
                 .map(|p| p.tractions.clone())
                 .collect(),
+            rigid: self.state.rigid.clone(),
         }
     }
 

@@ -53,6 +53,10 @@ fn body_line(body: &Body) -> String {
 fn rigid_line(rigid: &RigidSurface) -> String {
     let shape = match &rigid.shape {
         RigidShape::Plane { .. } => "plane".into(),
+        RigidShape::Bare => {
+            let tied: usize = rigid.ties.iter().map(|(_, nodes)| nodes.len()).sum();
+            format!("{tied} nodes tied")
+        }
         RigidShape::Facets { positions, facets } => {
             format!("{} nodes, {} facets", positions.len(), facets.len())
         }

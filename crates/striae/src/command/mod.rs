@@ -4,6 +4,7 @@ pub mod check;
 pub mod law;
 pub mod new;
 pub mod reproduce;
+pub mod resume;
 pub mod run;
 pub mod schema;
 pub mod texture;

@@ -5,13 +5,13 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use striae_io::{deck, summary::Summary};
+use striae_io::{OutputError, checkpoint::Source, deck, summary::Summary};
 use striae_solve::outcome::Ending;
 
 use crate::{
     failure::Failure,
     progress::Verbosity,
-    simulation::{Interrupt, simulate},
+    simulation::{Interrupt, Simulation, simulate_file},
 };
 
 /// Run a deck.
@@ -70,7 +70,31 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
         .unwrap_or_else(|| Path::new("results").join(&case));
     arguments.common.start_threads()?;
     let verbosity = arguments.common.verbosity();
-    let simulation = simulate(deck, &case, &folder, verbosity, &Interrupt::listen())?;
+    let source = source(&arguments.deck, case)?;
+    let simulation = simulate_file(deck, source, &folder, verbosity, &Interrupt::listen())?;
+    concluded(simulation, &folder, out)
+}
+
+/// The deck of a run, for its checkpoints.
+fn source(deck: &Path, case: String) -> Result<Source, Failure> {
+    let text = std::fs::read_to_string(deck).map_err(|cause| OutputError::Read {
+        path: deck.to_owned(),
+        cause,
+    })?;
+    let full = std::path::absolute(deck).unwrap_or_else(|_| deck.to_owned());
+    Ok(Source {
+        case,
+        path: full.to_string_lossy().into_owned(),
+        text,
+    })
+}
+
+/// Prints what came of a run.
+pub fn concluded(
+    simulation: Simulation,
+    folder: &Path,
+    out: &mut dyn Write,
+) -> Result<(), Failure> {
     write!(out, "{}", told(&simulation.summary))?;
     writeln!(out, "output in {}", folder.display())?;
     match simulation.ending {

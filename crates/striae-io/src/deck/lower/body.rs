@@ -1,18 +1,11 @@
-//! Materials, bodies and rigid surfaces.
+//! Materials and bodies.
 
-use super::{generator::nonzero, list, mesh, sets};
-use crate::deck::{
-    fault::FaultKind,
-    faults::FaultList,
-    names::Names,
-    raw,
-    read::At,
-    value::{Text, vector},
-};
+use super::{list, mesh, sets};
+use crate::deck::{fault::FaultKind, faults::FaultList, names::Names, raw, read::At, value::Text};
 use std::path::Path;
 use striae_law::bulk::{LameConstants, Material};
 use striae_mesh::{Face, Mesh, NodeId};
-use striae_solve::model::{Body, BodyId, RigidShape, RigidSurface};
+use striae_solve::model::{Body, BodyId};
 
 /// All materials of the deck.
 pub(super) struct Materials {
@@ -190,39 +183,6 @@ fn lower_body(
         material,
         density,
     }
-}
-
-/// The rigid surfaces; `None` for the faulty ones.
-pub(super) fn rigid_surfaces(
-    raw: &[At<raw::Rigid>],
-    base: &Path,
-    faults: &mut FaultList<'_>,
-) -> Vec<Option<RigidSurface>> {
-    raw.iter()
-        .map(|rigid| {
-            let rigid = &rigid.value;
-            let name = rigid
-                .name
-                .as_ref()
-                .map_or("", |name| &name.value.0)
-                .to_owned();
-            let shape = match rigid.shape.as_ref()? {
-                raw::RigidShape::Plane(plane) => plane_shape(&plane.plane.as_ref()?.value, faults)?,
-                raw::RigidShape::Mesh(surface) => {
-                    let (positions, facets) =
-                        mesh::surface(surface.mesh.as_ref()?, &name, base, faults)?;
-                    RigidShape::Facets { positions, facets }
-                }
-            };
-            Some(RigidSurface { name, shape })
-        })
-        .collect()
-}
-
-fn plane_shape(plane: &raw::Plane, faults: &mut FaultList<'_>) -> Option<RigidShape> {
-    let normal = nonzero(plane.normal.as_ref()?, "the normal of a plane", faults)?.normalize();
-    let point = vector(&plane.point.as_ref()?.value);
-    Some(RigidShape::Plane { point, normal })
 }
 
 fn lower_material(material: &raw::Material, faults: &mut FaultList<'_>) -> Option<Material> {

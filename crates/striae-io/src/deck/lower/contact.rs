@@ -11,7 +11,7 @@ use crate::deck::{
 use std::{collections::BTreeSet, path::Path};
 use striae_law::friction::Friction;
 use striae_mesh::{Face, Mesh, NodeId};
-use striae_solve::model::{Balance, Pair, RigidId, RigidSurface, Side};
+use striae_solve::model::{Balance, Pair, RigidId, RigidShape, RigidSurface, Side};
 use striae_surface::texture::Paint;
 
 /// What a side of a pair may refer to.
@@ -129,7 +129,14 @@ fn lower_surface(
             Some(Side::Deformable { body, faces })
         }
         raw::SideSurface::Rigid(side) => {
-            let rigid = surfaces.rigid_names.find(side.rigid.as_ref()?, faults)?;
+            let name = side.rigid.as_ref()?;
+            let rigid = surfaces.rigid_names.find(name, faults)?;
+            let shape = surfaces.rigid[rigid].as_ref().map(|rigid| &rigid.shape);
+            if matches!(shape, Some(RigidShape::Bare)) {
+                let rigid = name.value.0.clone();
+                faults.push(&name.span, FaultKind::NoSurface { rigid });
+                return None;
+            }
             if let Some(texture) = &raw.texture {
                 texture::check_plane(surfaces.rigid[rigid].as_ref(), texture, faults);
             }

@@ -1,4 +1,4 @@
-//! Whether every body is held: a body that is in no contact pair must have all
+//! Whether every body is held: a body that is in no contact pair and not tied must have all
 //! six rigid motions stopped by displacement conditions, in every step without inertia.
 //!
 //! A condition on component `i` of a node at `X` sees of the rigid motions
@@ -11,7 +11,7 @@ use crate::deck::{fault::FaultKind, faults::FaultList, raw, read::At};
 use nalgebra::{Matrix6, Vector6};
 use std::collections::BTreeSet;
 use striae_mesh::{Mesh, NodeId, Vec3};
-use striae_solve::model::{BodyId, Pair, Procedure, Side, Step};
+use striae_solve::model::{BodyId, Pair, Procedure, RigidSurface, Side, Step};
 
 /// Eigenvalue of the normal matrix, relative to the largest, that counts as zero.
 const SINGULAR: f64 = 1e-9;
@@ -19,6 +19,7 @@ const SINGULAR: f64 = 1e-9;
 /// Notes every body that can move freely, in the first step in which it can.
 pub(super) fn check(
     bodies: &Bodies,
+    rigid: &[Option<RigidSurface>],
     pairs: &[Option<Pair>],
     steps: &[Option<Step>],
     raw: &[At<raw::Step>],
@@ -31,6 +32,7 @@ pub(super) fn check(
     for body in bodies
         .ids()
         .filter(|body| !pairs.iter().any(|pair| touches(pair, *body)))
+        .filter(|body| !is_tied(rigid, *body))
     {
         let Some(mesh) = bodies.mesh(body) else {
             continue;
@@ -60,6 +62,11 @@ pub(super) fn check(
 
 fn known<T>(list: &[Option<T>]) -> Option<Vec<&T>> {
     list.iter().map(Option::as_ref).collect()
+}
+
+fn is_tied(rigid: &[Option<RigidSurface>], body: BodyId) -> bool {
+    let ties = rigid.iter().flatten().flat_map(|rigid| &rigid.ties);
+    ties.into_iter().any(|(tied, _)| *tied == body)
 }
 
 fn touches(pair: &Pair, body: BodyId) -> bool {

@@ -3,7 +3,7 @@
 use super::{Scope, body::Bodies, list};
 use crate::deck::{fault::FaultKind, faults::FaultList, raw, read::At, value::vector};
 use striae_mesh::Vec3;
-use striae_solve::model::{Gravity, Procedure, Step, Velocity};
+use striae_solve::model::{Gravity, Mover, Procedure, RigidId, Step, Velocity};
 
 const SPECTRAL_RADIUS: f64 = 0.8;
 
@@ -35,11 +35,11 @@ pub(super) fn velocities(
             let kind = FaultKind::VelocityWithoutInertia { step: step.into() };
             faults.push(&velocity.span, kind);
         }
-        let Some(body) = scope.bodies.find(velocity.value.body.as_ref(), faults) else {
+        let Some((body, name)) = mover(velocity, scope, faults) else {
             continue;
         };
         if all.iter().any(|other| other.body == body) {
-            let what = format!("the velocity of body `{}`", scope.bodies.name(body));
+            let what = format!("the velocity of {name}");
             let step = step.into();
             faults.push(&velocity.span, FaultKind::StatedTwice { step, what });
         }
@@ -55,6 +55,29 @@ pub(super) fn velocities(
         });
     }
     (all.len() == stated.len()).then_some(all)
+}
+
+/// What has a velocity, and its name.
+fn mover(
+    velocity: &At<raw::Velocity>,
+    scope: &Scope<'_>,
+    faults: &mut FaultList<'_>,
+) -> Option<(Mover, String)> {
+    match velocity.value.of.as_ref()? {
+        raw::VelocityOf::Body(of) => {
+            let body = scope.bodies.find(of.body.as_ref(), faults)?;
+            let name = format!("body `{}`", scope.bodies.name(body));
+            Some((Mover::Deformable(body), name))
+        }
+        raw::VelocityOf::Rigid(of) => {
+            let name = of.rigid.as_ref()?;
+            let rigid = RigidId(scope.rigid.find(name, faults)?);
+            Some((
+                Mover::Rigid(rigid),
+                format!("rigid body `{}`", name.value.0),
+            ))
+        }
+    }
 }
 
 /// Gravity that the step states; the outer `None` after faults.

@@ -11,6 +11,7 @@ mod hold;
 mod inertia;
 mod mesh;
 mod nodal;
+mod rigid;
 mod sets;
 mod step;
 mod texture;
@@ -62,7 +63,7 @@ pub(super) fn deck(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_
             .map(|rigid| rigid.value.name.as_ref()),
         faults,
     );
-    let rigid_surfaces = body::rigid_surfaces(list(&raw.rigid), base, faults);
+    let rigid_surfaces = rigid::bodies(list(&raw.rigid), &bodies, base, faults);
     let pair_names = Names::new(
         "pair",
         list(&raw.pair).iter().map(|pair| pair.value.name.as_ref()),
@@ -87,7 +88,22 @@ pub(super) fn deck(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_
     };
     let steps = step::steps(list(&raw.step), &scope, read, faults);
     if read == Read::Whole {
-        hold::check(&bodies, &pairs, &steps, list(&raw.step), faults);
+        hold::check(
+            &bodies,
+            &rigid_surfaces,
+            &pairs,
+            &steps,
+            list(&raw.step),
+            faults,
+        );
+        rigid::check(
+            &bodies,
+            &rigid_surfaces,
+            &pairs,
+            &steps,
+            list(&raw.step),
+            faults,
+        );
         inertia::check(&bodies, &steps, list(&raw.step), faults);
     }
     nothing_missing(raw, faults);
@@ -159,5 +175,8 @@ fn output(raw: Option<&raw::OutputSettings>) -> Output {
         .map_or(1, |every| every.value.0);
     Output {
         fields: NonZeroUsize::new(every).map_or(FieldOutput::Last, FieldOutput::Every),
+        checkpoint_every: raw
+            .and_then(|raw| raw.checkpoint_every.as_ref())
+            .and_then(|every| NonZeroUsize::new(every.value.0)),
     }
 }

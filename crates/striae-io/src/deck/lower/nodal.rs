@@ -60,7 +60,7 @@ fn nodes(side: &Side, surfaces: &Surfaces<'_>) -> Option<Vec<NodeId>> {
         }
         Side::Rigid(rigid) => match &surfaces.rigid[rigid.0].as_ref()?.shape {
             RigidShape::Facets { facets, .. } => facets.clone(),
-            RigidShape::Plane { .. } => return None,
+            RigidShape::Plane { .. } | RigidShape::Bare => return None,
         },
     };
     Some(Surface::new(&facets).nodes().to_vec())
@@ -82,7 +82,7 @@ fn mesh_file_of(side: &Side, surfaces: &Surfaces<'_>) -> Option<PathBuf> {
                 raw::SurfaceMesh::File(file) => file,
                 raw::SurfaceMesh::Inline(_) => return None,
             },
-            raw::RigidShape::Plane(_) => return None,
+            raw::RigidShape::Plane(_) | raw::RigidShape::Tied(_) => return None,
         },
     };
     Some(surfaces.base.join(&file.file.as_ref()?.value.0))

@@ -1,11 +1,9 @@
 //! Steps: increments and what each step states.
 
-use super::{Read, Scope, condition, friction, inertia, list, texture};
-use crate::deck::{
-    fault::FaultKind, faults::FaultList, names::Names, raw, read::At, value::vector,
-};
+use super::{Read, Scope, condition, friction, inertia, list, rigid, texture};
+use crate::deck::{fault::FaultKind, faults::FaultList, names::Names, raw, read::At};
 use striae_law::friction::Friction;
-use striae_solve::model::{Increments, Pair, PairId, RigidId, RigidMotion, Step};
+use striae_solve::model::{Increments, Pair, PairId, Step};
 
 const INITIAL: f64 = 0.1;
 const SMALLEST_OVER_INITIAL: f64 = 1e-3;
@@ -45,7 +43,7 @@ fn lower_step(
     let loads = condition::loads(raw, name, scope, faults);
     let velocities = inertia::velocities(raw, name, scope, faults);
     let gravity = inertia::gravity(raw, scope, faults);
-    let rigid_motions = rigid_motions(list(&raw.rigid), name, scope, faults);
+    let rigid_motions = rigid::motions(list(&raw.rigid), name, scope, faults);
     let frictions = frictions(list(&raw.friction), name, scope, faults);
     Some(Step {
         name: name.into(),
@@ -112,46 +110,6 @@ fn increments(
         smallest,
         largest,
     }
-}
-
-fn rigid_motions(
-    raw: &[At<raw::RigidMotion>],
-    step: &str,
-    scope: &Scope<'_>,
-    faults: &mut FaultList<'_>,
-) -> Option<Vec<RigidMotion>> {
-    let mut motions: Vec<RigidMotion> = Vec::new();
-    for motion in raw {
-        let surface = motion
-            .value
-            .surface
-            .as_ref()
-            .and_then(|name| scope.rigid.find(name, faults));
-        let curve = scope.curves.find(motion.value.curve.as_ref(), faults);
-        let (Some(surface), Some(curve)) = (surface.map(RigidId), curve) else {
-            continue;
-        };
-        if motions.iter().any(|other| other.surface == surface) {
-            let name = motion.value.surface.as_ref()?.value.0.clone();
-            let what = format!("the displacement of rigid surface `{name}`");
-            faults.push(
-                &motion.span,
-                FaultKind::StatedTwice {
-                    step: step.into(),
-                    what,
-                },
-            );
-        }
-        let Some(displacement) = &motion.value.displacement else {
-            continue;
-        };
-        motions.push(RigidMotion {
-            surface,
-            displacement: vector(&displacement.value),
-            curve,
-        });
-    }
-    (motions.len() == raw.len()).then_some(motions)
 }
 
 fn frictions(

@@ -76,6 +76,7 @@ pub(super) fn check_plane(
     let Some(RigidSurface {
         name,
         shape: RigidShape::Plane { .. },
+        ..
     }) = surface
     else {
         return;

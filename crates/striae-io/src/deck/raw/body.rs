@@ -90,12 +90,18 @@ table! {
 }
 
 table! {
-    /// A rigid surface that moves by translation only.
+    /// A rigid body: a surface to touch, or what nodes are tied to.
     Rigid {
         /// Unique name.
         required name: Text,
         /// Its shape.
         include shape: RigidShape,
+        /// Point about which it turns, centre of its mass. Default: the origin.
+        optional reference: [Number; 3],
+        /// Mass; needs `inertia`. Default: none.
+        optional mass: Positive,
+        /// Principal moments of inertia about the coordinate axes through the reference point; needs `mass`.
+        optional inertia: [Positive; 3],
     }
 }
 
@@ -104,6 +110,7 @@ either! {
     RigidShape {
         Plane(RigidPlane),
         Mesh(RigidMesh),
+        Tied(RigidTied),
     }
 }
 
@@ -112,6 +119,24 @@ table! {
     RigidPlane {
         /// The plane by a point of it and its normal.
         required plane: Plane,
+    }
+}
+
+table! {
+    /// Nodes that follow the body.
+    RigidTied {
+        /// Sets of nodes that are tied to it.
+        required tied: Vec<At<Tie>>,
+    }
+}
+
+table! {
+    /// Nodes of a deformable body.
+    Tie {
+        /// Name of the body.
+        required body: Text,
+        /// Name of its node set.
+        required nodes: Text,
     }
 }
 

@@ -10,6 +10,8 @@ table! {
     OutputSettings {
         /// Increments between files of fields; 0: only the last. Default: 1.
         optional fields_every: Whole<0>,
+        /// Increments between checkpoints, from which `striae resume` goes on. Default: only when interrupted.
+        optional checkpoint_every: Count,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::Friction;
 use crate::deck::{
-    declare::{table, words},
+    declare::{either, table, words},
     faults::FaultList,
     form::Form,
     read::{At, Place, Read, Value, read_table, unexpected},
@@ -43,7 +43,7 @@ table! {
         optional traction: Vec<At<Traction>>,
         /// Pressures on facets.
         optional pressure: Vec<At<Pressure>>,
-        /// Translations of rigid surfaces.
+        /// What rigid bodies do.
         optional rigid: Vec<At<RigidMotion>>,
         /// Changes of friction at the start of the step.
         optional friction: Vec<At<FrictionChange>>,
@@ -61,14 +61,38 @@ table! {
 table! {
     /// Velocity of a body, `vector + spin x (x - about)`.
     Velocity {
-        /// Name of the body.
-        required body: Text,
+        /// The body.
+        include of: VelocityOf,
         /// Velocity. Default: none.
         optional vector: [Number; 3],
         /// Angular velocity. Default: none.
         optional spin: [Number; 3],
         /// Point of the axis of the spin, in space. Default: the origin.
         optional about: [Number; 3],
+    }
+}
+
+either! {
+    /// What has a velocity.
+    VelocityOf {
+        Body(VelocityOfBody),
+        Rigid(VelocityOfRigid),
+    }
+}
+
+table! {
+    /// A deformable body.
+    VelocityOfBody {
+        /// Name of the body.
+        required body: Text,
+    }
+}
+
+table! {
+    /// A rigid body with the nodes tied to it.
+    VelocityOfRigid {
+        /// Name of the rigid body.
+        required rigid: Text,
     }
 }
 
@@ -214,14 +238,40 @@ table! {
 }
 
 table! {
-    /// Translation of a rigid surface, from the present value to the target.
+    /// What a rigid body does. At first all its coordinates are held.
     RigidMotion {
-        /// Name of the rigid surface.
+        /// Name of the rigid body.
         required surface: Text,
-        /// Target of its displacement.
-        required displacement: [Number; 3],
-        /// How the target is approached: `ramp`, `constant`, `smooth` or the name of a curve. Default: `ramp`.
+        /// Target of the displacement of its reference point. Default: it stays free or where it is.
+        optional displacement: [Number; 3],
+        /// Targets of the angles it has turned about the fixed axes, in degrees. Default: they stay free or what they are.
+        optional rotation: [Number; 3],
+        /// Coordinates that forces decide from now on; they have no target.
+        optional free: Vec<At<Coordinate>>,
+        /// Target of the force that drives free coordinates, at the reference point.
+        optional force: [Number; 3],
+        /// Target of the torque that drives free coordinates.
+        optional torque: [Number; 3],
+        /// How the targets are approached: `ramp`, `constant`, `smooth` or the name of a curve. Default: `ramp`.
         optional curve: Text,
+    }
+}
+
+words! {
+    /// A coordinate of a rigid body.
+    Coordinate {
+        /// Displacement along the first axis.
+        X = "x",
+        /// Displacement along the second axis.
+        Y = "y",
+        /// Displacement along the third axis.
+        Z = "z",
+        /// Angle about the first axis.
+        Rx = "rx",
+        /// Angle about the second axis.
+        Ry = "ry",
+        /// Angle about the third axis.
+        Rz = "rz",
     }
 }
 

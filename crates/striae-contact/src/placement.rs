@@ -1,0 +1,56 @@
+//! Where a rigid side is: `x = R X + s` for the point `X` of its reference configuration.
+
+use nalgebra::{Matrix3, Vector3};
+use striae_mesh::Vec3;
+use striae_surface::scalar::{Real, constant3};
+
+/// A rigid motion from the reference configuration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    /// Rotation `R`.
+    pub rotation: Matrix3<f64>,
+    /// Shift `s`.
+    pub shift: Vec3,
+}
+
+impl Placement {
+    /// Where it was at first.
+    pub fn at_rest() -> Self {
+        Self::shifted(Vec3::zeros())
+    }
+
+    /// Moved without turning.
+    pub fn shifted(shift: Vec3) -> Self {
+        Self {
+            rotation: Matrix3::identity(),
+            shift,
+        }
+    }
+
+    /// Where the point `X` is.
+    pub fn point(&self, reference: &Vec3) -> Vec3 {
+        self.rotation * reference + self.shift
+    }
+
+    /// Where the direction `V` points.
+    pub fn direction(&self, reference: &Vec3) -> Vec3 {
+        self.rotation * reference
+    }
+
+    /// The point `X` that is at `x`.
+    pub fn back(&self, x: &Vec3) -> Vec3 {
+        self.rotation.tr_mul(&(x - self.shift))
+    }
+
+    /// The same for numbers with derivatives.
+    pub fn back_of<D: Real>(&self, x: &Vector3<D>) -> Vector3<D> {
+        self.rotation
+            .map(D::from)
+            .tr_mul(&(x - constant3(&self.shift)))
+    }
+
+    /// The same for directions, from the reference configuration.
+    pub fn direction_of<D: Real>(&self, reference: &Vector3<D>) -> Vector3<D> {
+        self.rotation.map(D::from) * reference
+    }
+}

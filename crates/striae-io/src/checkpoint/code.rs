@@ -1,0 +1,164 @@
+//! Values as bytes, exactly: little-endian numbers of eight bytes, lists with their
+//! length in front, fields one after the other.
+
+use nalgebra::{Matrix3, Vector3};
+use striae_contact::{
+    field::FacetForces,
+    unknowns::{NodeResult, Status, Tractions},
+};
+use striae_mesh::FacetId;
+use striae_solve::{
+    drive::Point,
+    layout::Extent,
+    newton::Memory,
+    rigid::{Pose, Wrench},
+    state::{Energies, NodalForces, PairState, State},
+};
+
+/// What can be written as bytes and read back.
+pub(super) trait Coded: Sized {
+    /// Appends the bytes.
+    fn put(&self, bytes: &mut Vec<u8>);
+    /// Takes the value from the front; `None` where the bytes are none of it.
+    fn take(bytes: &mut &[u8]) -> Option<Self>;
+}
+
+impl Coded for u64 {
+    fn put(&self, bytes: &mut Vec<u8>) {
+        bytes.extend(self.to_le_bytes());
+    }
+
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        let (number, rest) = bytes.split_first_chunk::<8>()?;
+        *bytes = rest;
+        Some(Self::from_le_bytes(*number))
+    }
+}
+
+macro_rules! as_number {
+    ($($type:ty: $to:expr, $from:expr;)+) => { $(
+        impl Coded for $type {
+            fn put(&self, bytes: &mut Vec<u8>) {
+                let to: fn(&$type) -> u64 = $to;
+                to(self).put(bytes);
+            }
+
+            fn take(bytes: &mut &[u8]) -> Option<Self> {
+                let from: fn(u64) -> Option<$type> = $from;
+                from(u64::take(bytes)?)
+            }
+        }
+    )+ };
+}
+
+as_number! {
+    f64: |x| x.to_bits(), |n| Some(f64::from_bits(n));
+    usize: |x| *x as u64, |n| usize::try_from(n).ok();
+    bool: |x| u64::from(*x), |n| [false, true].get(n as usize).copied();
+    FacetId: |x| x.index() as u64, |n| usize::try_from(n).ok().map(FacetId::new);
+    Status: |x| match x {
+        Status::Open => 0,
+        Status::Stick => 1,
+        Status::Slip => 2,
+    }, |n| [Status::Open, Status::Stick, Status::Slip].get(n as usize).copied();
+}
+
+impl<T: Coded> Coded for Vec<T> {
+    fn put(&self, bytes: &mut Vec<u8>) {
+        self.len().put(bytes);
+        self.iter().for_each(|element| element.put(bytes));
+    }
+
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        let count = usize::take(bytes)?;
+        (0..count).map(|_| T::take(bytes)).collect()
+    }
+}
+
+impl<T: Coded, const N: usize> Coded for [T; N] {
+    fn put(&self, bytes: &mut Vec<u8>) {
+        self.iter().for_each(|element| element.put(bytes));
+    }
+
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        let all: Option<Vec<T>> = (0..N).map(|_| T::take(bytes)).collect();
+        all?.try_into().ok()
+    }
+}
+
+impl<A: Coded, B: Coded> Coded for (A, B) {
+    fn put(&self, bytes: &mut Vec<u8>) {
+        self.0.put(bytes);
+        self.1.put(bytes);
+    }
+
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        Some((A::take(bytes)?, B::take(bytes)?))
+    }
+}
+
+impl Coded for String {
+    fn put(&self, bytes: &mut Vec<u8>) {
+        self.len().put(bytes);
+        bytes.extend(self.as_bytes());
+    }
+
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        let length = usize::take(bytes)?;
+        let (text, rest) = bytes.split_at_checked(length)?;
+        *bytes = rest;
+        Self::from_utf8(text.to_vec()).ok()
+    }
+}
+
+impl Coded for Vector3<f64> {
+    fn put(&self, bytes: &mut Vec<u8>) {
+        self.iter().for_each(|component| component.put(bytes));
+    }
+
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        <[f64; 3]>::take(bytes).map(Self::from)
+    }
+}
+
+impl Coded for Matrix3<f64> {
+    fn put(&self, bytes: &mut Vec<u8>) {
+        self.iter().for_each(|component| component.put(bytes));
+    }
+
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        let columns = <[f64; 9]>::take(bytes)?;
+        Some(Self::from_column_slice(&columns))
+    }
+}
+
+macro_rules! coded {
+    ($($name:ident { $($field:ident),+ $(,)? } $(also { $($known:ident: $value:expr),+ })?;)+) => { $(
+        impl Coded for $name {
+            fn put(&self, bytes: &mut Vec<u8>) {
+                $(self.$field.put(bytes);)+
+            }
+
+            fn take(bytes: &mut &[u8]) -> Option<Self> {
+                Some(Self { $($field: Coded::take(bytes)?,)+ $($($known: $value),+)? })
+            }
+        }
+    )+ };
+}
+pub(super) use coded;
+
+coded! {
+    NodeResult { gap, pressure, tau, slip, normal, texture, status };
+    FacetForces { force, area, pressure, friction };
+    Tractions { nodes, balance, slipped };
+    // Roles are chosen anew at the start of every increment.
+    PairState { tractions, kinematic, nodes, facets, dissipated } also { selection: None };
+    Wrench { force, torque };
+    Pose { displacement, turned, rotation };
+    NodalForces { internal, inertia, reaction, applied, contact, rigid };
+    Energies { kinetic, strain, external, friction, numerical };
+    State { time, positions, velocities, accelerations, rigid, pairs, forces, energies };
+    Extent { nodes, patches };
+    Memory { extent, cliques };
+    Point { step, increments, fraction, size, start, state, memory };
+}

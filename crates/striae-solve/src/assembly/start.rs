@@ -1,0 +1,139 @@
+//! Accelerations at the start of a step.
+//!
+//! `M a = f_ext - f_int + f_con` for what is free. Nodes tied to a rigid body with
+//! the angular velocity `w` accelerate with it,
+//!
+//! ```text
+//! a = c'' + w' x r + w x (w x r).
+//! ```
+
+use striae_linalg::SparseMatrix;
+use striae_mesh::Vec3;
+
+use super::{Imposed, StepContext, System, Trial};
+use crate::{dynamics::mass_times, layout::Layout, outcome::CutBack, rigid::fitted_velocity};
+
+/// Accelerations of all nodes, and the forces that hold tied nodes; `forces` are
+/// internal minus applied minus contact forces. `solve` solves the linear system
+/// for a correction.
+///
+/// # Errors
+/// What `solve` says.
+#[allow(clippy::too_many_arguments)]
+pub fn initial_accelerations(
+    context: &StepContext,
+    trial: &Trial,
+    imposed: &Imposed,
+    velocities: &[Vec3],
+    forces: &[Vec3],
+    layout: &Layout,
+    matrix: &mut SparseMatrix,
+    solve: impl FnOnce(&SparseMatrix, &[f64]) -> Result<Vec<f64>, CutBack>,
+) -> Result<(Vec<Vec3>, Vec<Vec3>), CutBack> {
+    let mut accelerations = known(context, trial, imposed, velocities);
+    let inertia = mass_times(context.problem, &accelerations);
+    let mut system = System::new(context, layout, matrix, trial, imposed);
+    for (node, (force, inertia)) in forces.iter().zip(&inertia).enumerate() {
+        let first = layout.position(node);
+        for axis in 0..3 {
+            system.residual[first + axis] = force[axis] + inertia[axis];
+        }
+    }
+    system.masses();
+    system.condense_forces(imposed);
+    system.hold_the_rest();
+    let correction = solve(system.matrix, &system.residual)?;
+    for (node, acceleration) in accelerations.iter_mut().enumerate() {
+        *acceleration += match system.tie(node) {
+            Some(tie) => tie.followed_by(&correction),
+            None => {
+                let first = layout.position(node);
+                Vec3::from_column_slice(&correction[first..first + 3])
+            }
+        };
+    }
+    let inertia = mass_times(context.problem, &accelerations);
+    let holding = forces.iter().zip(&inertia).map(|(f, m)| f + m);
+    Ok((accelerations, holding.collect()))
+}
+
+/// What is known of the accelerations: prescribed components, and what bodies
+/// that turn and are driven impose on tied nodes.
+fn known(
+    context: &StepContext,
+    trial: &Trial,
+    imposed: &Imposed,
+    velocities: &[Vec3],
+) -> Vec<Vec3> {
+    let problem = context.problem;
+    let mut accelerations = vec![Vec3::zeros(); problem.reference.len()];
+    for rate in &imposed.rates {
+        accelerations[rate.node][rate.axis] = rate.acceleration;
+    }
+    for (rigid, rates) in context.rigid_rates(0.0).iter().enumerate() {
+        let pose = &trial.rigid[rigid];
+        let point = problem.model.rigid_surfaces[rigid].reference + pose.displacement;
+        let [_, spin] = fitted_velocity(problem, rigid, pose, &trial.positions, velocities);
+        let linear = Vec3::from_fn(|axis, _| rates[axis][1]);
+        let angular = Vec3::from_fn(|axis, _| rates[3 + axis][1]);
+        for &node in &problem.tied[rigid] {
+            let arm = trial.positions[node] - point;
+            accelerations[node] = linear + angular.cross(&arm) + spin.cross(&spin.cross(&arm));
+        }
+    }
+    accelerations
+}
+
+impl System<'_> {
+    /// The mass matrix.
+    fn masses(&mut self) {
+        let problem = self.context.problem;
+        for (body, model) in problem.model.bodies.iter().enumerate() {
+            for (corners, element) in model.mesh.elements.iter().zip(&problem.elements[body]) {
+                let mass = element.mass(model.density);
+                let nodes = corners.map(|node| problem.node(body, node));
+                let unknowns: [usize; 24] =
+                    std::array::from_fn(|at| self.layout.position(nodes[at / 3]) + at % 3);
+                let mut block = [0.0; 576];
+                for at in 0..192 {
+                    let (a, b, axis) = (at / 24, at / 3 % 8, at % 3);
+                    if !self.context.fixed[3 * nodes[b] + axis] {
+                        block[(3 * a + axis) * 24 + 3 * b + axis] = mass[a][b];
+                    }
+                }
+                self.add_dense(&nodes, &unknowns, &[0.0; 24], &block)
+                    .expect("elements are in the pattern");
+            }
+        }
+        for &(node, mass) in &problem.mass_points {
+            self.add_point(node, &Vec3::zeros(), mass);
+        }
+    }
+
+    /// Holds everything but free positions and coordinates at zero.
+    fn hold_the_rest(&mut self) {
+        let problem = self.context.problem;
+        let mut held = vec![true; self.residual.len()];
+        for node in 0..problem.reference.len() {
+            let first = self.layout.position(node);
+            for axis in 0..3 {
+                let free = !self.context.fixed[3 * node + axis];
+                // Tied positions are held when they are condensed.
+                held[first + axis] = !free && self.tie(node).is_none();
+                if self.tie(node).is_some() {
+                    self.residual[first + axis] = 0.0;
+                }
+            }
+        }
+        for rigid in 0..problem.tied.len() {
+            if let Some(first) = self.layout.rigid(rigid) {
+                for at in 0..6 {
+                    held[first + at] = self.context.fixed_rigid[rigid][at];
+                }
+            }
+        }
+        for unknown in (0..held.len()).filter(|&unknown| held[unknown]) {
+            self.hold(unknown, 0.0, 1.0);
+        }
+    }
+}

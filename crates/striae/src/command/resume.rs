@@ -1,0 +1,39 @@
+//! `striae resume DIR`: goes on with a run that was stopped, to the same results.
+
+use std::{
+    io::Write,
+    path::{Path, PathBuf},
+};
+
+use striae_io::{checkpoint::Checkpoint, deck};
+
+use super::run::{Common, concluded};
+use crate::{
+    failure::Failure,
+    simulation::{Interrupt, go_on},
+};
+
+/// Go on with a run from its last checkpoint.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// Folder of the run.
+    folder: PathBuf,
+    #[command(flatten)]
+    common: Common,
+}
+
+/// Goes on from the checkpoint in the folder and prints what came of it.
+pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    let checkpoint = Checkpoint::read(&arguments.folder)?;
+    let path = Path::new(&checkpoint.source.path);
+    let deck = deck::read(path)?;
+    let text = std::fs::read_to_string(path).unwrap_or_default();
+    if text != checkpoint.source.text {
+        return Err(Failure::Changed(path.to_owned()));
+    }
+    arguments.common.start_threads()?;
+    let verbosity = arguments.common.verbosity();
+    let interrupt = Interrupt::listen();
+    let simulation = go_on(deck, checkpoint, &arguments.folder, verbosity, &interrupt)?;
+    concluded(simulation, &arguments.folder, out)
+}
