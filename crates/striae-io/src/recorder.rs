@@ -12,6 +12,8 @@
 //!
 //! Everything is on disk after each increment, so an interrupted run keeps all
 //! that has converged.
+//!
+//! Longer than other files, as it lists all that is written.
 
 use std::{
     path::{Path, PathBuf},

@@ -83,7 +83,10 @@ fn rigid_bodies() {
                 r#"a = { rigid = "floor" }"#,
             ),
         ],
-        &["20:15: rigid body `floor` has no surface to touch; give it a `plane` or a `mesh`"],
+        &[
+            "20:15: rigid body `floor` has no surface to touch; give it a `plane` or a `mesh`",
+            "26:1: step `press` prescribes node 35 of body `upper`, which is tied to a rigid body; move the rigid body instead",
+        ],
     );
 }
 

@@ -140,7 +140,7 @@ impl Problem {
                 })?;
             elements.push(of_body);
         }
-        let (tied, mass_points) = ties(&model, &first_node, &mut reference);
+        let (tied, mass_points) = crate::rigid::ties(&model, &first_node, &mut reference);
         let mut tie_of = vec![None; reference.len()];
         for (rigid, nodes) in tied.iter().enumerate() {
             nodes.iter().for_each(|&node| tie_of[node] = Some(rigid));
@@ -179,34 +179,6 @@ impl Problem {
         let body = geometry.bodies[side]?;
         Some(self.node(body, surface.nodes()[node as usize]))
     }
-}
-
-/// Nodes tied to every rigid body, and mass points, which join the reference positions.
-fn ties(
-    model: &Model,
-    first_node: &[usize],
-    reference: &mut Vec<Vec3>,
-) -> (Vec<Vec<usize>>, Vec<(usize, f64)>) {
-    let mut mass_points = Vec::new();
-    let tied = model.rigid_surfaces.iter().map(|rigid| {
-        let nodes = rigid.ties.iter().flat_map(|(body, nodes)| {
-            let first = first_node[body.0];
-            nodes.iter().map(move |node| first + node.index())
-        });
-        let mut nodes: Vec<usize> = nodes.collect();
-        nodes.sort_unstable();
-        nodes.dedup();
-        if let Some(inertia) = &rigid.inertia {
-            for arm in crate::rigid::mass_points(inertia) {
-                nodes.push(reference.len());
-                mass_points.push((reference.len(), inertia.mass / 6.0));
-                reference.push(rigid.reference + arm);
-            }
-        }
-        nodes
-    });
-    let tied = tied.collect();
-    (tied, mass_points)
 }
 
 fn contact_facets(pairs: &[PairGeometry]) -> HashMap<(usize, Face), Vec<ContactFacet>> {

@@ -18,7 +18,10 @@ use nalgebra::{Matrix3, Rotation3};
 use striae_contact::placement::Placement;
 use striae_mesh::Vec3;
 
-use crate::{model::RigidInertia, problem::Problem};
+use crate::{
+    model::{Model, RigidInertia},
+    problem::Problem,
+};
 
 /// Where a rigid body is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -102,6 +105,34 @@ pub fn mass_points(inertia: &RigidInertia) -> [Vec3; 6] {
         let sign = if at % 2 == 0 { 1.0 } else { -1.0 };
         Vec3::ith(at / 2, sign * (3.0 * squares[at / 2].max(0.0)).sqrt())
     })
+}
+
+/// Nodes tied to every rigid body, and mass points, which join the reference positions.
+pub(crate) fn ties(
+    model: &Model,
+    first_node: &[usize],
+    reference: &mut Vec<Vec3>,
+) -> (Vec<Vec<usize>>, Vec<(usize, f64)>) {
+    let mut heavy = Vec::new();
+    let tied = model.rigid_surfaces.iter().map(|rigid| {
+        let nodes = rigid.ties.iter().flat_map(|(body, nodes)| {
+            let first = first_node[body.0];
+            nodes.iter().map(move |node| first + node.index())
+        });
+        let mut nodes: Vec<usize> = nodes.collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        if let Some(inertia) = &rigid.inertia {
+            for arm in mass_points(inertia) {
+                nodes.push(reference.len());
+                heavy.push((reference.len(), inertia.mass / 6.0));
+                reference.push(rigid.reference + arm);
+            }
+        }
+        nodes
+    });
+    let tied = tied.collect();
+    (tied, heavy)
 }
 
 /// Velocity of the reference point and angular velocity that fit the velocities

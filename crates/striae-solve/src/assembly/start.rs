@@ -127,9 +127,7 @@ impl System<'_> {
         }
         for rigid in 0..problem.tied.len() {
             if let Some(first) = self.layout.rigid(rigid) {
-                for at in 0..6 {
-                    held[first + at] = self.context.fixed_rigid[rigid][at];
-                }
+                held[first..first + 6].copy_from_slice(&self.context.fixed_rigid[rigid]);
             }
         }
         for unknown in (0..held.len()).filter(|&unknown| held[unknown]) {

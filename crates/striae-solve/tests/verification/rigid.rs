@@ -118,7 +118,7 @@ fn tumbling_converges_with_the_square_of_the_increment() {
 #[test]
 fn a_torque_spins_a_body_up() {
     let mut model = lonely();
-    let mut step = moving(2.0, 40);
+    let mut step = moving(2.0, 160);
     let mut motion = top([
         Freedom::AsBefore,
         Freedom::AsBefore,

@@ -4,6 +4,7 @@ use nalgebra::Matrix3;
 use striae_contact::unknowns::NodeResult;
 use striae_io::figure::{Axis, Color, Content, Series};
 use striae_mesh::Vec3;
+use striae_solve::state::State;
 use striae_surface::facet::Shape;
 
 use super::study::Run;
@@ -20,7 +21,12 @@ pub struct SurfaceNode<'a> {
 
 /// Nodes of a side of the first pair, in the order of the surface.
 pub fn surface_nodes(run: &Run, side: usize) -> Vec<SurfaceNode<'_>> {
-    let (problem, state) = (&run.simulation.problem, &run.simulation.state);
+    surface_nodes_in(run, &run.simulation.state, side)
+}
+
+/// The same in another state of the run.
+pub fn surface_nodes_in<'a>(run: &'a Run, state: &'a State, side: usize) -> Vec<SurfaceNode<'a>> {
+    let problem = &run.simulation.problem;
     let results = state.pairs[0].nodes[side].iter().enumerate();
     results
         .filter_map(|(index, result)| {
@@ -155,7 +161,8 @@ pub fn mesh_lines(run: &Run, side: usize, name: &str, color: Color) -> Series {
     Series::new(name, Content::line(points)).colored(color)
 }
 
-fn facets(run: &Run, side: usize) -> &[[u32; 4]] {
+/// Facets of a side of the first pair.
+pub fn facets(run: &Run, side: usize) -> &[[u32; 4]] {
     let sides = &run.simulation.problem.pairs[0].contact.sides;
     sides[side]
         .surface()

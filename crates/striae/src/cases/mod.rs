@@ -29,6 +29,10 @@ mod slip_surface;
 mod snake_scale;
 pub mod study;
 mod two_blocks;
+mod tyre;
+mod tyre_locked;
+mod tyre_pressed;
+mod tyre_rolling;
 
 use crate::failure::Failure;
 use study::Study;
@@ -96,6 +100,21 @@ pub const CASES: &[Case] = &[
         "snake-scale",
         "Scaled blocks that drift when dragged, and stop when launched",
         snake_scale::run
+    ),
+    case!(
+        "tyre-pressed",
+        "A tyre pressed onto a road and pushed over it",
+        tyre_pressed::run
+    ),
+    case!(
+        "tyre-locked",
+        "A tyre with a locked wheel that drifts as it slides",
+        tyre_locked::run
+    ),
+    case!(
+        "tyre-rolling",
+        "A tyre that rolls and hardly drifts",
+        tyre_rolling::run
     ),
     case!(
         "bar-impact",
