@@ -13,7 +13,7 @@ use striae_solve::{
         LoadKind, Model, Pair, PairId, Procedure, RigidId, RigidShape, RigidSurface, Side, Solver,
         Step,
     },
-    newton::{Increment, IterationObserver},
+    newton::{Increment, IterationObserver, LinearWork},
     norms::Norms,
     outcome::{CutBack, Ending},
     problem::Problem,
@@ -27,6 +27,8 @@ pub struct Run {
     pub states: Vec<State>,
     /// Norms of all iterations of every increment.
     pub iterations: Vec<Vec<Norms>>,
+    /// What the linear systems of every increment took.
+    pub work: Vec<LinearWork>,
     /// Where every increment ended.
     pub progress: Vec<Progress>,
     /// Failed attempts: where they were to end and why they failed.
@@ -45,6 +47,7 @@ impl Run {
             problem,
             states: record.states,
             iterations: record.iterations,
+            work: record.work,
             progress: record.progress,
             cuts: record.cuts,
             ending,
@@ -105,6 +108,7 @@ impl Run {
 struct Record {
     states: Vec<State>,
     iterations: Vec<Vec<Norms>>,
+    work: Vec<LinearWork>,
     progress: Vec<Progress>,
     cuts: Vec<(Progress, CutBack)>,
 }
@@ -119,6 +123,7 @@ impl Observer for Record {
     fn increment(&mut self, progress: Progress, increment: &Increment) -> Continue {
         self.states.push(increment.state.clone());
         self.iterations.push(increment.iterations.clone());
+        self.work.push(increment.work);
         self.progress.push(progress);
         Continue::Yes
     }
