@@ -198,7 +198,8 @@ impl Observer for Log {
         Continue::Yes
     }
 
-    fn cut_back(&mut self, progress: Progress, reason: &CutBack) {
+    fn cut_back(&mut self, progress: Progress, reason: &CutBack) -> Continue {
         eprintln!("cut back at {:.3}: {reason}", progress.time);
+        Continue::Yes
     }
 }

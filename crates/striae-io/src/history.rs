@@ -44,9 +44,16 @@ impl History {
     pub fn resume(path: impl Into<PathBuf>, rows: usize) -> Result<Self, OutputError> {
         let path = path.into();
         let mut table = Table::read(&path)?;
+        if table.rows.len() < rows {
+            let found = table.rows.len();
+            let cause = format!("{found} rows where {rows} are needed");
+            return Err(OutputError::Content { path, cause });
+        }
+        if rows == 0 {
+            return Self::create(path);
+        }
         table.rows.truncate(rows);
         table.write(&path)?;
-        let rows = table.rows.len();
         match File::options().append(true).open(&path) {
             Ok(file) => Ok(Self {
                 path,
@@ -268,6 +275,11 @@ mod tests {
         resumed.append(&[("time", 1.5)]).unwrap();
         let table = Table::read(&path).unwrap();
         assert_eq!(table.column("time").unwrap(), [0.0, 1.0, 1.5]);
+        let error = History::resume(&path, 4).unwrap_err().to_string();
+        assert!(error.ends_with("3 rows where 4 are needed"), "{error}");
+        let mut afresh = History::resume(&path, 0).unwrap();
+        afresh.append(&[("slip", 0.5)]).unwrap();
+        assert_eq!(Table::read(&path).unwrap().columns, ["slip"]);
     }
 
     #[test]

@@ -34,7 +34,7 @@ use striae_solve::{
 
 use crate::{
     OutputError,
-    checkpoint::Written,
+    checkpoint::{Checkpoint, Written},
     deck::{FieldOutput, Output},
     history::History,
     summary::{PairSummary, SolverSummary, Status, Summary, newton_counts, peak_rss_mib},
@@ -70,6 +70,8 @@ impl Recorder {
             path: fields.clone(),
             cause,
         })?;
+        // What an earlier run left behind is no part of this one.
+        Checkpoint::remove(folder)?;
         Ok(Self {
             history: History::create(folder.join("history.csv"))?,
             bodies: Series::new(folder.join("bodies.pvd")),
@@ -90,7 +92,7 @@ impl Recorder {
     /// Goes on where an earlier recorder was at a checkpoint.
     ///
     /// # Errors
-    /// When the history cannot be read or written.
+    /// When the output is not there, or cannot be written.
     pub fn resume(
         folder: &Path,
         case: &str,
@@ -98,6 +100,9 @@ impl Recorder {
         written: &Written,
     ) -> Result<Self, OutputError> {
         let rows = written.iterations.len();
+        if written.fields != Some(rows) {
+            remove_fields(&folder.join("fields"), rows)?;
+        }
         let [bodies, contact] = &written.series;
         Ok(Self {
             history: History::resume(folder.join("history.csv"), rows)?,
@@ -110,9 +115,9 @@ impl Recorder {
             started: Instant::now(),
             iterations: written.iterations.clone(),
             cut_backs: written.cut_backs,
-            unknowns: 0,
-            solver: SolverSummary::default(),
-            written: None,
+            unknowns: written.unknowns,
+            solver: written.solver.clone(),
+            written: written.fields,
         })
     }
 
@@ -121,6 +126,9 @@ impl Recorder {
         Written {
             iterations: self.iterations.clone(),
             cut_backs: self.cut_backs,
+            unknowns: self.unknowns,
+            solver: self.solver.clone(),
+            fields: self.written,
             seconds: self.seconds(),
             series: [&self.bodies, &self.contact].map(|series| series.snapshots().to_vec()),
         }
@@ -287,6 +295,22 @@ impl Recorder {
         }
         self.contact.append(Snapshot { time, parts })
     }
+}
+
+/// Removes the fields of an increment, which an interrupted run writes out of turn.
+fn remove_fields(folder: &Path, increment: usize) -> Result<(), OutputError> {
+    let refused = |cause| OutputError::Write {
+        path: folder.to_owned(),
+        cause,
+    };
+    let end = format!("-{increment:05}.vtu");
+    for entry in std::fs::read_dir(folder).map_err(refused)? {
+        let entry = entry.map_err(refused)?;
+        if entry.file_name().to_string_lossy().ends_with(&end) {
+            std::fs::remove_file(entry.path()).map_err(refused)?;
+        }
+    }
+    Ok(())
 }
 
 fn pair_summary(report: &PairReport) -> PairSummary {

@@ -15,10 +15,10 @@ pub trait Observer: IterationObserver {
     fn step(&mut self, index: usize, name: &str);
     /// An increment has converged.
     fn increment(&mut self, progress: Progress, increment: &Increment) -> Continue;
-    /// A point that was asked for by the answer to [`Observer::increment`].
-    fn point(&mut self, _point: &Point) {}
+    /// A point that was asked for by the answer to [`Observer::increment`] or [`Observer::cut_back`].
+    fn point(&mut self, _point: Point) {}
     /// An increment has failed and is tried again with a smaller one.
-    fn cut_back(&mut self, progress: Progress, reason: &CutBack);
+    fn cut_back(&mut self, progress: Progress, reason: &CutBack) -> Continue;
 }
 
 /// Whether a run goes on.
@@ -159,7 +159,8 @@ fn run_step(
             fraction,
             time: context.start.time + fraction * step.duration,
         };
-        match advance(context, state, fraction, progress.time, workspace, observer) {
+        let attempt = advance(context, state, fraction, progress.time, workspace, observer);
+        let next = match attempt {
             Ok(increment) => {
                 division.count += 1;
                 division.done = fraction;
@@ -168,23 +169,10 @@ fn run_step(
                 }
                 let next = observer.increment(progress, &increment);
                 *state = increment.state;
-                if next != Continue::Yes {
-                    observer.point(&Point {
-                        step: context.index,
-                        increments: division.count,
-                        fraction,
-                        size: division.size,
-                        start: context.start.clone(),
-                        state: state.clone(),
-                        memory: workspace.memory(),
-                    });
-                }
-                if next == Continue::Stop {
-                    return Some(Ending::Interrupted { time: state.time });
-                }
+                next
             }
             Err(reason) => {
-                observer.cut_back(progress, &reason);
+                let next = observer.cut_back(progress, &reason);
                 division.size = (fraction - division.done) * CUT;
                 if division.size < step.increments.smallest {
                     return Some(Ending::Stopped {
@@ -193,7 +181,22 @@ fn run_step(
                         reason,
                     });
                 }
+                next
             }
+        };
+        if next != Continue::Yes {
+            observer.point(Point {
+                step: context.index,
+                increments: division.count,
+                fraction: division.done,
+                size: division.size,
+                start: context.start.clone(),
+                state: state.clone(),
+                memory: workspace.memory(),
+            });
+        }
+        if next == Continue::Stop {
+            return Some(Ending::Interrupted { time: state.time });
         }
     }
     None

@@ -1,8 +1,11 @@
 //! Ways in which the program fails, and their exit codes.
 
 use std::{io, path::PathBuf, process::ExitCode};
-use striae_io::{OutputError, deck::Faults};
+use striae_io::{OutputError, checkpoint::CheckpointError, deck::Faults};
 use striae_solve::{outcome::Ending, problem::ProblemError};
+
+/// Exit code of an interrupted program: 128 and the number of the signal, as shells have it.
+pub const INTERRUPTED: u8 = 130;
 
 /// Why the program did not do what it was asked for.
 #[derive(Debug, thiserror::Error)]
@@ -21,9 +24,17 @@ pub enum Failure {
         /// What the operating system says.
         cause: io::Error,
     },
-    /// The deck of a checkpoint is not what it was.
-    #[error("{} has changed since the checkpoint; run it anew", .0.display())]
-    Changed(PathBuf),
+    /// A run cannot be taken up again.
+    #[error("{0}")]
+    Checkpoint(#[from] CheckpointError),
+    /// A run was interrupted, and a checkpoint is there to go on from.
+    #[error("{ending}; `striae resume {}` goes on from there", folder.display())]
+    Interrupted {
+        /// How it ended.
+        ending: Ending,
+        /// Its folder.
+        folder: PathBuf,
+    },
     /// The model cannot be solved.
     #[error("{0}")]
     Problem(#[from] ProblemError),
@@ -53,14 +64,17 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// The exit code: 2 for bad input, 1 for everything else.
+    /// The exit code: 2 for bad input, 130 for an interrupt, 1 for everything else.
     pub fn exit_code(&self) -> ExitCode {
         match self {
             Self::Deck(_)
             | Self::Exists(_)
-            | Self::Changed(_)
+            | Self::Checkpoint(_)
             | Self::Problem(_)
             | Self::UnknownCase { .. } => ExitCode::from(2),
+            Self::Interrupted { .. } | Self::Ended(Ending::Interrupted { .. }) => {
+                ExitCode::from(INTERRUPTED)
+            }
             Self::Unwritable { .. }
             | Self::Ended(_)
             | Self::Deviates(_)

@@ -1,11 +1,13 @@
 //! The `striae` program.
 //!
 //! Exit codes: 0 when all went well, 1 when a run or a file operation failed,
-//! 2 when what was asked for is not possible (bad arguments or a faulty deck).
+//! 2 when what was asked for is not possible (bad arguments, a faulty deck, or a
+//! checkpoint that cannot be used), 130 when a run was interrupted from the keyboard.
 
 mod cases;
 mod command;
 mod failure;
+mod forecast;
 mod progress;
 mod simulation;
 

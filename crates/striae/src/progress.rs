@@ -2,13 +2,15 @@
 //!
 //! Everything goes to the standard error, so that results can be piped.
 
-use std::{io::IsTerminal, time::Instant};
+use std::io::IsTerminal;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use striae_contact::{evaluation::Evaluation, unknowns::Status};
 use striae_solve::{
     drive::Progress as Position, model::Model, newton::Increment, norms::Norms, outcome::CutBack,
 };
+
+use crate::forecast::{Forecast, clock};
 
 /// How much is said.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,8 +29,7 @@ pub struct Progress {
     bar: Option<ProgressBar>,
     steps: Vec<(String, f64)>,
     counts: [usize; 3],
-    /// When progress was first noted, and how far the run was.
-    since: Option<(Instant, f64)>,
+    forecast: Forecast,
 }
 
 const RESOLUTION: f64 = 1000.0;
@@ -40,9 +41,7 @@ impl Progress {
         let length = RESOLUTION as u64 * model.steps.len() as u64;
         let bar = live.then(|| {
             let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::stderr());
-            let style = ProgressStyle::with_template(
-                "{bar:24} {percent:>3}% {elapsed} (left {eta})  {msg}",
-            );
+            let style = ProgressStyle::with_template("{bar:24} {percent:>3}% {elapsed}  {msg}");
             bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
             bar
         });
@@ -55,7 +54,7 @@ impl Progress {
                 .map(|step| (step.name.clone(), step.duration))
                 .collect(),
             counts: [0; 3],
-            since: None,
+            forecast: Forecast::new(model),
         }
     }
 
@@ -85,35 +84,24 @@ impl Progress {
         let (name, _) = &self.steps[position.step];
         let [stick, slip, open] = self.counts;
         let text = format!(
-            "{name} {}/{}  t = {:.4}  {} iterations  stick {stick} slip {slip} open {open}",
+            "{name} {}/{}  t = {:.4}  {} iterations  stick {stick} slip {slip} open {open}  left {}",
             position.step + 1,
             self.steps.len(),
             position.time,
             increment.iterations.len(),
+            clock(self.forecast.left(position)),
         );
         if let Some(reason) = increment.work.fall_back
             && self.verbosity == Verbosity::Iterations
         {
             self.line(&format!("    multifrontal LU: {reason}"));
         }
-        let done = (position.step as f64 + position.fraction) / self.steps.len() as f64;
         if let Some(bar) = &self.bar {
-            bar.set_position((done * RESOLUTION * self.steps.len() as f64) as u64);
+            let done = (position.step as f64 + position.fraction) * RESOLUTION;
+            bar.set_position(done as u64);
             bar.set_message(text);
         } else if self.verbosity != Verbosity::Quiet {
-            eprintln!("{:5}  {text}{}", position.increment, self.left(done));
-        }
-    }
-
-    /// How long the rest will take, from what was done since the first increment.
-    fn left(&mut self, done: f64) -> String {
-        let (since, from) = *self.since.get_or_insert((Instant::now(), done));
-        let seconds = since.elapsed().as_secs_f64() * (1.0 - done) / (done - from);
-        if seconds.is_finite() {
-            let seconds = seconds.round() as u64;
-            format!("  left {}:{:02}", seconds / 60, seconds % 60)
-        } else {
-            String::new()
+            eprintln!("{:5}  {text}", position.increment);
         }
     }
 

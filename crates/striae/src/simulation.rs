@@ -11,7 +11,7 @@ use std::{
 use striae_contact::evaluation::Evaluation;
 use striae_io::{
     OutputError,
-    checkpoint::{Checkpoint, Source},
+    checkpoint::{Checkpoint, CheckpointError, Source},
     deck::Deck,
     recorder::Recorder,
     summary::Summary,
@@ -26,7 +26,7 @@ use striae_solve::{
 };
 
 use crate::{
-    failure::Failure,
+    failure::{Failure, INTERRUPTED},
     progress::{Progress, Verbosity},
 };
 
@@ -56,7 +56,7 @@ impl Interrupt {
         // Without a handler an interrupt ends the program at once; results on disk stay valid.
         let _ = ctrlc::set_handler(move || {
             if set.swap(true, Ordering::Relaxed) {
-                std::process::exit(130);
+                std::process::exit(i32::from(INTERRUPTED));
             }
             eprintln!("stopping after this increment; interrupt again to stop at once");
         });
@@ -124,7 +124,8 @@ pub fn go_on(
         written,
         point,
     } = checkpoint;
-    let recorder = Recorder::resume(folder, &source.case, deck.output, &written)?;
+    let recorder = Recorder::resume(folder, &source.case, deck.output, &written);
+    let recorder = recorder.map_err(CheckpointError::Output)?;
     let place = Place {
         folder,
         source: Some(source),
@@ -178,6 +179,9 @@ fn proceed(
         return Err(failure.into());
     }
     let summary = recorder.finish(&problem, &state, &ending)?;
+    if ending == Ending::Completed {
+        Checkpoint::remove(folder)?;
+    }
     Ok(Simulation {
         problem,
         state,
@@ -212,35 +216,44 @@ impl Observer for Watch<'_> {
         if position.fraction == 1.0 {
             self.steps.push(increment.state.clone());
         }
-        self.failure = self
-            .recorder
-            .increment(self.problem, position, increment)
-            .err();
-        if self.failure.is_some() || self.interrupt.is_set() {
-            Continue::Stop
-        } else if self.recorder.keeps(position.increment) {
-            Continue::Keep
+        let recorded = self.recorder.increment(self.problem, position, increment);
+        self.failure = self.failure.take().or(recorded.err());
+        if self.source.is_some() && self.recorder.keeps(position.increment) {
+            self.next(Continue::Keep)
         } else {
-            Continue::Yes
+            self.next(Continue::Yes)
         }
     }
 
-    fn point(&mut self, point: &Point) {
-        let Some(source) = self.source.clone() else {
+    fn point(&mut self, point: Point) {
+        let Some(source) = self.source.clone().filter(|_| self.failure.is_none()) else {
             return;
         };
         let checkpoint = Checkpoint {
             source,
             written: self.recorder.written(),
-            point: point.clone(),
+            point,
         };
-        if let Err(failure) = checkpoint.write(self.folder) {
-            self.failure.get_or_insert(failure);
-        }
+        self.failure = checkpoint.write(self.folder).err();
     }
 
-    fn cut_back(&mut self, position: Position, reason: &CutBack) {
+    fn cut_back(&mut self, position: Position, reason: &CutBack) -> Continue {
         self.recorder.cut_back();
         self.progress.cut_back(position, reason);
+        self.next(Continue::Yes)
     }
 }
+
+impl Watch<'_> {
+    /// What comes next if nothing stops the run.
+    fn next(&self, otherwise: Continue) -> Continue {
+        if self.failure.is_some() || self.interrupt.is_set() {
+            Continue::Stop
+        } else {
+            otherwise
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

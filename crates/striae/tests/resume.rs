@@ -1,120 +1,204 @@
-//! A run that goes on from a checkpoint gives the same files as one that did not stop.
+//! Runs that are interrupted and taken up again, from outside: exit codes, messages, files.
+#![cfg(unix)]
 
-use std::{fs, path::Path, process::Command};
+use std::{
+    fs,
+    io::{BufRead, BufReader},
+    path::Path,
+    process::{Command, Output, Stdio},
+};
 
-/// Two blocks, pressed, then slid with inertia; the last checkpoint is in the middle.
+/// Cubes side by side as an Abaqus file, one pressed on the floor.
+const MESH: &str = "*Node
+1, 0., 0., 0.
+2, 1., 0., 0.
+3, 1., 1., 0.
+4, 0., 1., 0.
+5, 0., 0., 1.
+6, 1., 0., 1.
+7, 1., 1., 1.
+8, 0., 1., 1.
+*Element, type=C3D8
+1, 1, 2, 3, 4, 5, 6, 7, 8
+*Nset, nset=top
+5, 6, 7, 8
+*Elset, elset=all
+1,
+*Surface, type=ELEMENT, name=sole
+all, S1
+";
+
 const DECK: &str = r#"
-title = "Two blocks"
+title = "A cube from a file, pressed and slid"
 
 [[material]]
 name = "solid"
 law = "neo-hookean"
-youngs_modulus = 1e6
+youngs_modulus = 1000
 poissons_ratio = 0.3
-density = 1000
 
 [[body]]
-name = "lower"
+name = "block"
 material = "solid"
-mesh = { generator = "block", size = [1, 1, 0.5], divisions = [4, 4, 1] }
-
-[[body]]
-name = "upper"
-material = "solid"
-mesh = { generator = "block", origin = [0.2, 0.2, 0.5], size = [0.6, 0.6, 0.5], divisions = [3, 3, 1] }
+mesh = { file = "cube.inp" }
 
 [[rigid]]
-name = "plate"
-tied = [{ body = "upper", nodes = "zmax" }]
+name = "floor"
+plane = { point = [0, 0, 0], normal = [0, 0, 1] }
 
 [[pair]]
-name = "interface"
-a = { body = "lower", facets = "zmax" }
-b = { body = "upper", facets = "zmin" }
-friction = { law = "coulomb", mu = 0.3 }
+name = "sole"
+a = { body = "block", facets = "sole" }
+b = { rigid = "floor" }
+friction = { law = "coulomb", mu = 0.2 }
 
 [[step]]
 name = "press"
 increments = 2
-displacement = [{ body = "lower", nodes = "zmin", x = 0, y = 0, z = 0 }]
-rigid = [{ surface = "plate", displacement = [0, 0, -0.02] }]
+displacement = [{ body = "block", nodes = "top", x = 0, y = 0, z = -0.05 }]
 
 [[step]]
 name = "slide"
-increments = 6
-dynamics = {}
-rigid = [{ surface = "plate", displacement = [0.3, 0, -0.02], free = ["y"], curve = "smooth" }]
+increments = 2000
+displacement = [{ body = "block", nodes = "top", x = 2 }]
 
 [output]
-checkpoint_every = 5
+fields_every = 100
 "#;
 
-fn striae(folder: &Path, arguments: &[&str]) -> std::process::Output {
-    let program = env!("CARGO_BIN_EXE_striae");
-    let mut command = Command::new(program);
+fn program(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_striae"));
+    command.args(arguments).current_dir(folder);
     command
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .unwrap()
 }
 
-#[test]
-fn goes_on_to_the_last_bit() {
-    let folder = tempfile::tempdir().unwrap();
-    let place = folder.path();
-    fs::write(place.join("blocks.toml"), DECK).unwrap();
-    let whole = striae(place, &["run", "blocks.toml", "--quiet"]);
-    assert!(whole.status.success(), "{whole:?}");
-    let results = place.join("results/blocks");
-    let read = |name: &str| fs::read(results.join(name)).unwrap();
-    let names = [
-        "history.csv",
-        "bodies.pvd",
-        "contact.pvd",
-        "fields/upper-00008.vtu",
-    ];
-    let before = names.map(read);
-    // As if the run had stopped after the checkpoint.
-    fs::remove_file(results.join("fields/upper-00008.vtu")).unwrap();
-    let resumed = striae(place, &["resume", "results/blocks", "--quiet"]);
-    assert!(resumed.status.success(), "{resumed:?}");
-    for (name, before) in names.into_iter().zip(before) {
-        assert!(
-            fs::read(results.join(name)).unwrap() == before,
-            "{name} differs"
-        );
+fn striae(folder: &Path, arguments: &[&str]) -> Output {
+    program(folder, arguments).output().unwrap()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// Starts the program and interrupts it after some lines of progress; what it then said.
+fn interrupted(folder: &Path, arguments: &[&str], lines: usize) -> String {
+    let mut command = program(folder, arguments);
+    let mut child = command
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut said = BufReader::new(child.stderr.take().unwrap()).lines();
+    for _ in 0..lines {
+        said.next().unwrap().unwrap();
     }
-    let rows = String::from_utf8(fs::read(results.join("history.csv")).unwrap()).unwrap();
-    assert!(rows.lines().count() > 6, "the checkpoint is not at the end");
+    let id = child.id().to_string();
+    let sent = Command::new("kill").args(["-INT", &id]).status().unwrap();
+    assert!(sent.success());
+    let last = said.map(Result::unwrap).last().unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130), "{last}");
+    last
+}
+
+/// A folder with the deck, run to somewhere in the middle.
+fn stopped() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("cube.inp"), MESH).unwrap();
+    fs::write(folder.path().join("cube.toml"), DECK).unwrap();
+    let last = interrupted(folder.path(), &["run", "cube.toml"], 5);
+    assert!(last.starts_with("interrupted at time"), "{last}");
+    let hint = "`striae resume results/cube` goes on from there";
+    assert!(last.ends_with(hint), "{last}");
+    folder
 }
 
 #[test]
-fn refuses_what_it_cannot_go_on_with() {
-    let folder = tempfile::tempdir().unwrap();
+fn interrupted_runs_give_the_files_of_uninterrupted_ones() {
+    let folder = stopped();
     let place = folder.path();
-    let none = striae(place, &["resume", "nowhere"]);
-    assert_eq!(none.status.code(), Some(1));
-    fs::write(place.join("blocks.toml"), DECK).unwrap();
-    assert!(
-        striae(place, &["run", "blocks.toml", "--quiet"])
-            .status
-            .success()
+    let whole = striae(place, &["run", "cube.toml", "--quiet", "--out", "whole"]);
+    assert!(whole.status.success(), "{}", stderr(&whole));
+    interrupted(place, &["resume", "results/cube"], 20);
+    interrupted(place, &["resume", "results/cube", "--threads", "1"], 40);
+    // Rows that were written after the checkpoint, the last one in part.
+    let history = place.join("results/cube/history.csv");
+    let rows = fs::read_to_string(&history).unwrap();
+    let last = rows.lines().last().unwrap();
+    fs::write(&history, format!("{rows}{last}\n{}", &last[..9])).unwrap();
+    let resumed = striae(place, &["resume", "results/cube", "--quiet"]);
+    assert!(resumed.status.success(), "{}", stderr(&resumed));
+    for name in ["history.csv", "bodies.pvd", "contact.pvd"] {
+        let [a, b] = ["whole", "results/cube"].map(|run| fs::read(place.join(run).join(name)));
+        assert!(a.unwrap() == b.unwrap(), "{name} differs");
+    }
+    let again = striae(place, &["resume", "results/cube"]);
+    assert_eq!(again.status.code(), Some(2));
+    assert!(stderr(&again).contains("results/cube has no checkpoint.bin"));
+}
+
+#[test]
+fn what_cannot_be_gone_on_with_is_refused() {
+    let folder = stopped();
+    let place = folder.path();
+    let results = place.join("results/cube");
+    let checkpoint = fs::read(results.join("checkpoint.bin")).unwrap();
+    let history = fs::read_to_string(results.join("history.csv")).unwrap();
+    let with = |at: usize, byte: u8| {
+        let mut bytes = checkpoint.clone();
+        bytes[at] ^= byte;
+        bytes
+    };
+    let cut = |length: usize| checkpoint[..length].to_vec();
+    let middle = checkpoint.len() / 2;
+    let refused = |file: &str, content: &[u8], expected: &str| {
+        let path = place.join(file);
+        let before = fs::read(&path).unwrap();
+        fs::write(&path, content).unwrap();
+        let output = striae(place, &["resume", "results/cube"]);
+        fs::write(&path, before).unwrap();
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{file}: {said}");
+        assert!(said.contains(expected), "{expected} in {said}");
+        assert_eq!(said.trim_end().lines().count(), 1, "{said}");
+    };
+    let file = "results/cube/checkpoint.bin";
+    refused(file, b"", "checkpoint.bin is no checkpoint");
+    refused(file, history.as_bytes(), "checkpoint.bin is no checkpoint");
+    refused(file, &with(0, 1), "checkpoint.bin is no checkpoint");
+    refused(file, &with(18, 64), "a checkpoint of format 65, not 1");
+    for damaged in [
+        cut(20),
+        cut(30),
+        cut(middle),
+        with(26, 1),
+        with(middle, 128),
+    ] {
+        refused(file, &damaged, "checkpoint.bin is damaged");
+    }
+    let longer = [&checkpoint[..], b"0"].concat();
+    refused(file, &longer, "checkpoint.bin is damaged");
+    let deck = DECK.replace("mu = 0.2", "mu = 0.3");
+    refused(
+        "cube.toml",
+        deck.as_bytes(),
+        "has changed since the run began",
     );
-    let changed = DECK.replace("mu = 0.3", "mu = 0.2");
-    fs::write(place.join("blocks.toml"), changed).unwrap();
-    let refused = striae(place, &["resume", "results/blocks"]);
-    assert_eq!(refused.status.code(), Some(2), "{refused:?}");
-    let message = String::from_utf8(refused.stderr).unwrap();
-    assert!(
-        message.contains("has changed since the checkpoint"),
-        "{message}"
+    let mesh = MESH.replace("7, 1., 1., 1.", "7, 1., 1., 1.01");
+    refused(
+        "cube.inp",
+        mesh.as_bytes(),
+        "has changed since the run began",
     );
-    fs::write(place.join("results/blocks/checkpoint.bin"), "no").unwrap();
-    let broken = striae(place, &["resume", "results/blocks"]);
-    let message = String::from_utf8(broken.stderr).unwrap();
-    assert!(
-        message.contains("not a checkpoint of this version"),
-        "{message}"
-    );
+    let short = history.lines().next().unwrap().to_owned() + "\n";
+    let file = "results/cube/history.csv";
+    refused(file, short.as_bytes(), "0 rows where");
+    let nowhere = striae(place, &["resume", "nowhere"]);
+    assert_eq!(nowhere.status.code(), Some(2));
+    assert!(stderr(&nowhere).contains("nowhere has no checkpoint.bin"));
+    // A comment changes nothing that is run.
+    fs::write(place.join("cube.toml"), format!("# again\n{DECK}")).unwrap();
+    interrupted(place, &["resume", "results/cube"], 3);
+    fs::remove_file(place.join("cube.toml")).unwrap();
+    let lost = striae(place, &["resume", "results/cube"]);
+    assert_eq!(lost.status.code(), Some(2), "{}", stderr(&lost));
 }

@@ -67,6 +67,7 @@ const LADDER: [Row; 11] = [
         ],
         outside: &[
             "ab_glyph",
+            "crc32fast",
             "dejavu",
             "flate2",
             "nalgebra",

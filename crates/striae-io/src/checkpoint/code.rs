@@ -4,6 +4,8 @@
 use nalgebra::{Matrix3, Vector3};
 use striae_contact::{
     field::FacetForces,
+    patch::Patch,
+    selection::{Leader, Partner, Role, Selection},
     unknowns::{NodeResult, Status, Tractions},
 };
 use striae_mesh::FacetId;
@@ -14,6 +16,8 @@ use striae_solve::{
     rigid::{Pose, Wrench},
     state::{Energies, NodalForces, PairState, State},
 };
+
+use crate::summary::SolverSummary;
 
 /// What can be written as bytes and read back.
 pub(super) trait Coded: Sized {
@@ -54,6 +58,7 @@ macro_rules! as_number {
 as_number! {
     f64: |x| x.to_bits(), |n| Some(f64::from_bits(n));
     usize: |x| *x as u64, |n| usize::try_from(n).ok();
+    u32: |x| u64::from(*x), |n| u32::try_from(n).ok();
     bool: |x| u64::from(*x), |n| [false, true].get(n as usize).copied();
     FacetId: |x| x.index() as u64, |n| usize::try_from(n).ok().map(FacetId::new);
     Status: |x| match x {
@@ -111,6 +116,59 @@ impl Coded for String {
     }
 }
 
+impl<T: Coded> Coded for Option<T> {
+    fn put(&self, bytes: &mut Vec<u8>) {
+        self.is_some().put(bytes);
+        self.iter().for_each(|value| value.put(bytes));
+    }
+
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        if bool::take(bytes)? {
+            T::take(bytes).map(Some)
+        } else {
+            Some(None)
+        }
+    }
+}
+
+impl Coded for Role {
+    fn put(&self, bytes: &mut Vec<u8>) {
+        match self {
+            Self::Idle => 0_u64.put(bytes),
+            Self::Kinematic(partner) => (1_u64, *partner).put(bytes),
+            Self::Traction(partner) => (2_u64, *partner).put(bytes),
+            Self::Extended(leaders) => (3_u64, leaders.clone()).put(bytes),
+        }
+    }
+
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        match u64::take(bytes)? {
+            0 => Some(Self::Idle),
+            1 => Partner::take(bytes).map(Self::Kinematic),
+            2 => Partner::take(bytes).map(Self::Traction),
+            3 => Coded::take(bytes).map(Self::Extended),
+            _ => None,
+        }
+    }
+}
+
+impl Coded for Partner {
+    fn put(&self, bytes: &mut Vec<u8>) {
+        match self {
+            Self::Corners(corners, weights) => (0_u64, (*corners, *weights)).put(bytes),
+            Self::Rigid(point) => (1_u64, *point).put(bytes),
+        }
+    }
+
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        match u64::take(bytes)? {
+            0 => Coded::take(bytes).map(|(corners, weights)| Self::Corners(corners, weights)),
+            1 => Vector3::take(bytes).map(Self::Rigid),
+            _ => None,
+        }
+    }
+}
+
 impl Coded for Vector3<f64> {
     fn put(&self, bytes: &mut Vec<u8>) {
         self.iter().for_each(|component| component.put(bytes));
@@ -133,14 +191,14 @@ impl Coded for Matrix3<f64> {
 }
 
 macro_rules! coded {
-    ($($name:ident { $($field:ident),+ $(,)? } $(also { $($known:ident: $value:expr),+ })?;)+) => { $(
+    ($($name:ident { $($field:ident),+ $(,)? };)+) => { $(
         impl Coded for $name {
             fn put(&self, bytes: &mut Vec<u8>) {
                 $(self.$field.put(bytes);)+
             }
 
             fn take(bytes: &mut &[u8]) -> Option<Self> {
-                Some(Self { $($field: Coded::take(bytes)?,)+ $($($known: $value),+)? })
+                Some(Self { $($field: Coded::take(bytes)?),+ })
             }
         }
     )+ };
@@ -151,8 +209,11 @@ coded! {
     NodeResult { gap, pressure, tau, slip, normal, texture, status };
     FacetForces { force, area, pressure, friction };
     Tractions { nodes, balance, slipped };
-    // Roles are chosen anew at the start of every increment.
-    PairState { tractions, kinematic, nodes, facets, dissipated } also { selection: None };
+    SolverSummary { method, factorisations, fall_backs, reason };
+    Leader { side, node };
+    Patch { centre, radius };
+    Selection { roles, patches, patch_of };
+    PairState { tractions, kinematic, selection, nodes, facets, dissipated };
     Wrench { force, torque };
     Pose { displacement, turned, rotation };
     NodalForces { internal, inertia, reaction, applied, contact, rigid };

@@ -1,22 +1,37 @@
 //! A run under way in a file, exactly, so that it can go on as if it had not stopped.
 //!
-//! `DIR/checkpoint.bin` holds the deck, the point the run has come to and what the
-//! recorder knows. It is written whole or not at all.
+//! ```text
+//! DIR/checkpoint.bin = "striae checkpoint\n", format, CRC-32 of the rest,
+//!                      version of the program, source, what is on disk, point of the run
+//! ```
+//!
+//! Numbers are little-endian and have eight bytes. The file is written whole or not
+//! at all. The deck is known by a fingerprint of what it means, generated and read
+//! meshes included, so that a run never goes on with another one than it began with.
 
 mod code;
+mod error;
 
-use std::path::{Path, PathBuf};
+use std::{
+    fmt::{self, Write},
+    io::ErrorKind,
+    path::{Path, PathBuf},
+};
 
 use striae_solve::drive::Point;
 
-use crate::{OutputError, output::write_atomically, vtk::Snapshot};
+use crate::{OutputError, deck::Deck, output::write_atomically, vtk::Snapshot};
 use code::{Coded, coded};
+pub use error::CheckpointError;
 
 /// Name of the file in the folder of a run.
 pub const FILE: &str = "checkpoint.bin";
 
 /// First bytes of the file.
-const MAGIC: &str = "striae checkpoint 1";
+const MAGIC: &[u8] = b"striae checkpoint\n";
+
+/// Number of the format, to be raised when the content changes.
+pub const FORMAT: u64 = 1;
 
 /// A run under way.
 #[derive(Clone, Debug)]
@@ -35,9 +50,9 @@ pub struct Source {
     /// Name of the case.
     pub case: String,
     /// Path of the deck.
-    pub path: String,
-    /// Its text.
-    pub text: String,
+    pub path: PathBuf,
+    /// What the deck means, see [`fingerprint`].
+    pub fingerprint: u64,
 }
 
 /// What a recorder has written.
@@ -47,10 +62,33 @@ pub struct Written {
     pub iterations: Vec<usize>,
     /// Increments that were cut.
     pub cut_backs: usize,
+    /// Unknowns of the last system.
+    pub unknowns: usize,
+    /// What the linear systems took.
+    pub solver: crate::summary::SolverSummary,
+    /// Increment of the last fields.
+    pub fields: Option<usize>,
     /// Seconds spent.
     pub seconds: f64,
     /// Files of the bodies and of the contact surfaces.
     pub series: [Vec<Snapshot>; 2],
+}
+
+/// A number that differs, but for rare coincidences, where decks differ in what
+/// they mean: in the deck itself or in a file that it reads.
+pub fn fingerprint(deck: &Deck) -> u64 {
+    let mut hash = Hash(crc32fast::Hasher::new());
+    write!(hash, "{deck:?}").expect("a hash takes any text");
+    u64::from(hash.0.finalize())
+}
+
+struct Hash(crc32fast::Hasher);
+
+impl Write for Hash {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        self.0.update(text.as_bytes());
+        Ok(())
+    }
 }
 
 impl Checkpoint {
@@ -59,33 +97,88 @@ impl Checkpoint {
     /// # Errors
     /// When the file cannot be written.
     pub fn write(&self, folder: &Path) -> Result<(), OutputError> {
-        let mut bytes = Vec::new();
-        MAGIC.to_owned().put(&mut bytes);
-        self.put(&mut bytes);
+        let mut content = Vec::new();
+        env!("CARGO_PKG_VERSION").to_owned().put(&mut content);
+        self.put(&mut content);
+        let mut bytes = MAGIC.to_vec();
+        FORMAT.put(&mut bytes);
+        u64::from(crc32fast::hash(&content)).put(&mut bytes);
+        bytes.append(&mut content);
         write_atomically(&folder.join(FILE), &bytes)
     }
 
     /// Reads the checkpoint of a folder.
     ///
     /// # Errors
-    /// When the file cannot be read or is no checkpoint of this version.
-    pub fn read(folder: &Path) -> Result<Self, OutputError> {
+    /// When there is none, or none that can be used.
+    pub fn read(folder: &Path) -> Result<Self, CheckpointError> {
         let path = folder.join(FILE);
-        let bytes = match std::fs::read(&path) {
-            Ok(bytes) => bytes,
-            Err(cause) => return Err(OutputError::Read { path, cause }),
-        };
-        let mut rest = &bytes[..];
-        let magic = String::take(&mut rest);
-        let found = Self::take(&mut rest).filter(|_| rest.is_empty());
-        match (magic.as_deref(), found) {
-            (Some(MAGIC), Some(checkpoint)) => Ok(checkpoint),
-            _ => Err(OutputError::Content {
-                path,
-                cause: "not a checkpoint of this version, or not whole".to_owned(),
+        match std::fs::read(&path) {
+            Ok(bytes) => taken(&path, &bytes),
+            Err(cause) if cause.kind() == ErrorKind::NotFound => Err(CheckpointError::Missing {
+                folder: folder.to_owned(),
             }),
+            Err(cause) => Err(CheckpointError::Unreadable { path, cause }),
         }
     }
+
+    /// Takes the checkpoint out of a folder, if there is one.
+    ///
+    /// # Errors
+    /// When the file is there and cannot be removed.
+    pub fn remove(folder: &Path) -> Result<(), OutputError> {
+        let path = folder.join(FILE);
+        match std::fs::remove_file(&path) {
+            Err(cause) if cause.kind() != ErrorKind::NotFound => {
+                Err(OutputError::Write { path, cause })
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+impl Source {
+    /// Whether this is the deck of the run.
+    ///
+    /// # Errors
+    /// When it means something else.
+    pub fn check(&self, deck: &Deck) -> Result<(), CheckpointError> {
+        if fingerprint(deck) == self.fingerprint {
+            Ok(())
+        } else {
+            Err(CheckpointError::Changed {
+                deck: self.path.clone(),
+            })
+        }
+    }
+}
+
+fn taken(path: &Path, bytes: &[u8]) -> Result<Checkpoint, CheckpointError> {
+    let path = || path.to_owned();
+    let mut rest = bytes
+        .strip_prefix(MAGIC)
+        .ok_or_else(|| CheckpointError::Foreign { path: path() })?;
+    let damaged = || CheckpointError::Damaged { path: path() };
+    let found = u64::take(&mut rest).ok_or_else(damaged)?;
+    if found != FORMAT {
+        return Err(CheckpointError::Format {
+            path: path(),
+            found,
+        });
+    }
+    let sum = u64::take(&mut rest).ok_or_else(damaged)?;
+    if sum != u64::from(crc32fast::hash(rest)) {
+        return Err(damaged());
+    }
+    let found = String::take(&mut rest).ok_or_else(damaged)?;
+    if found != env!("CARGO_PKG_VERSION") {
+        return Err(CheckpointError::Version {
+            path: path(),
+            found,
+        });
+    }
+    let checkpoint = Checkpoint::take(&mut rest).filter(|_| rest.is_empty());
+    checkpoint.ok_or_else(damaged)
 }
 
 impl Coded for PathBuf {
@@ -100,7 +193,7 @@ impl Coded for PathBuf {
 
 coded! {
     Checkpoint { source, written, point };
-    Source { case, path, text };
-    Written { iterations, cut_backs, seconds, series };
+    Source { case, path, fingerprint };
+    Written { iterations, cut_backs, unknowns, solver, fields, seconds, series };
     Snapshot { time, parts };
 }

@@ -128,8 +128,9 @@ impl Observer for Record {
         Continue::Yes
     }
 
-    fn cut_back(&mut self, progress: Progress, reason: &CutBack) {
+    fn cut_back(&mut self, progress: Progress, reason: &CutBack) -> Continue {
         self.cuts.push((progress, reason.clone()));
+        Continue::Yes
     }
 }
 

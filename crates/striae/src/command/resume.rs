@@ -1,9 +1,6 @@
 //! `striae resume DIR`: goes on with a run that was stopped, to the same results.
 
-use std::{
-    io::Write,
-    path::{Path, PathBuf},
-};
+use std::{io::Write, path::PathBuf};
 
 use striae_io::{checkpoint::Checkpoint, deck};
 
@@ -25,12 +22,8 @@ pub struct Arguments {
 /// Goes on from the checkpoint in the folder and prints what came of it.
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let checkpoint = Checkpoint::read(&arguments.folder)?;
-    let path = Path::new(&checkpoint.source.path);
-    let deck = deck::read(path)?;
-    let text = std::fs::read_to_string(path).unwrap_or_default();
-    if text != checkpoint.source.text {
-        return Err(Failure::Changed(path.to_owned()));
-    }
+    let deck = deck::read(&checkpoint.source.path)?;
+    checkpoint.source.check(&deck)?;
     arguments.common.start_threads()?;
     let verbosity = arguments.common.verbosity();
     let interrupt = Interrupt::listen();

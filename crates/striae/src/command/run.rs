@@ -5,7 +5,11 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use striae_io::{OutputError, checkpoint::Source, deck, summary::Summary};
+use striae_io::{
+    checkpoint::{Source, fingerprint},
+    deck::{self, Deck},
+    summary::Summary,
+};
 use striae_solve::outcome::Ending;
 
 use crate::{
@@ -70,23 +74,18 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
         .unwrap_or_else(|| Path::new("results").join(&case));
     arguments.common.start_threads()?;
     let verbosity = arguments.common.verbosity();
-    let source = source(&arguments.deck, case)?;
+    let source = source(&arguments.deck, case, &deck);
     let simulation = simulate_file(deck, source, &folder, verbosity, &Interrupt::listen())?;
     concluded(simulation, &folder, out)
 }
 
 /// The deck of a run, for its checkpoints.
-fn source(deck: &Path, case: String) -> Result<Source, Failure> {
-    let text = std::fs::read_to_string(deck).map_err(|cause| OutputError::Read {
-        path: deck.to_owned(),
-        cause,
-    })?;
-    let full = std::path::absolute(deck).unwrap_or_else(|_| deck.to_owned());
-    Ok(Source {
+fn source(path: &Path, case: String, deck: &Deck) -> Source {
+    Source {
         case,
-        path: full.to_string_lossy().into_owned(),
-        text,
-    })
+        path: std::path::absolute(path).unwrap_or_else(|_| path.to_owned()),
+        fingerprint: fingerprint(deck),
+    }
 }
 
 /// Prints what came of a run.
@@ -99,7 +98,11 @@ pub fn concluded(
     writeln!(out, "output in {}", folder.display())?;
     match simulation.ending {
         Ending::Completed => Ok(()),
-        ending => Err(Failure::Ended(ending)),
+        ending @ Ending::Interrupted { .. } => Err(Failure::Interrupted {
+            ending,
+            folder: folder.to_owned(),
+        }),
+        ending @ Ending::Stopped { .. } => Err(Failure::Ended(ending)),
     }
 }
 

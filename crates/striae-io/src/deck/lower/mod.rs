@@ -173,10 +173,11 @@ fn output(raw: Option<&raw::OutputSettings>) -> Output {
     let every = raw
         .and_then(|raw| raw.fields_every.as_ref())
         .map_or(1, |every| every.value.0);
+    let checkpoint_every = raw
+        .and_then(|raw| raw.checkpoint_every.as_ref())
+        .map_or(10, |every| every.value.0);
     Output {
         fields: NonZeroUsize::new(every).map_or(FieldOutput::Last, FieldOutput::Every),
-        checkpoint_every: raw
-            .and_then(|raw| raw.checkpoint_every.as_ref())
-            .and_then(|every| NonZeroUsize::new(every.value.0)),
+        checkpoint_every: NonZeroUsize::new(checkpoint_every),
     }
 }

@@ -10,8 +10,8 @@ table! {
     OutputSettings {
         /// Increments between files of fields; 0: only the last. Default: 1.
         optional fields_every: Whole<0>,
-        /// Increments between checkpoints, from which `striae resume` goes on. Default: only when interrupted.
-        optional checkpoint_every: Count,
+        /// Increments between checkpoints, from which `striae resume` goes on; 0: only when interrupted. Default: 10.
+        optional checkpoint_every: Whole<0>,
     }
 }
 

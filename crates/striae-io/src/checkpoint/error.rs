@@ -1,0 +1,73 @@
+//! Why a run cannot be taken up again.
+
+use std::{io, path::PathBuf};
+
+use super::{FILE, FORMAT};
+use crate::OutputError;
+
+/// Why a run cannot be taken up again.
+#[derive(Debug, thiserror::Error)]
+pub enum CheckpointError {
+    /// There is no checkpoint.
+    #[error(
+        "{} has no {FILE}: a run leaves one every few increments and when it is interrupted, and takes it away when it completes",
+        folder.display()
+    )]
+    Missing {
+        /// Where it was looked for.
+        folder: PathBuf,
+    },
+    /// The file system refused to read it.
+    #[error("cannot read {}: {cause}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        #[source]
+        cause: io::Error,
+    },
+    /// It is another kind of file.
+    #[error("{} is no checkpoint", path.display())]
+    Foreign {
+        /// The file.
+        path: PathBuf,
+    },
+    /// It has a format of another time.
+    #[error("{} is a checkpoint of format {found}, not {FORMAT}; run the deck anew", path.display())]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// Its format.
+        found: u64,
+    },
+    /// Another version of the program might give other digits.
+    #[error(
+        "{} was written by striae {found}, and this is {}; run the deck anew",
+        path.display(),
+        env!("CARGO_PKG_VERSION")
+    )]
+    Version {
+        /// The file.
+        path: PathBuf,
+        /// The version that wrote it.
+        found: String,
+    },
+    /// Its bytes are not those that were written.
+    #[error("{} is damaged; run the deck anew", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The deck means something else than when the run began.
+    #[error(
+        "{} or a file it reads has changed since the run began; restore it, or run it anew",
+        deck.display()
+    )]
+    Changed {
+        /// The deck.
+        deck: PathBuf,
+    },
+    /// The files beside it are not those it was written with.
+    #[error("the output beside the checkpoint does not fit it: {0}")]
+    Output(#[from] OutputError),
+}

@@ -1,0 +1,110 @@
+//! Runs that are stopped after every single attempt give the files of those that are not.
+
+use std::{collections::BTreeMap, fs, path::PathBuf};
+
+use serde_json::Value;
+use striae_io::{checkpoint::fingerprint, deck};
+
+use super::*;
+
+/// Textured blocks pressed and slid back and forth; some increments of every slide are cut.
+const QUASI_STATIC: &str = include_str!("tests/quasi-static.toml");
+/// A block on a tied plate, pressed, then slid with inertia.
+const DYNAMIC: &str = include_str!("tests/dynamic.toml");
+
+fn read(text: &str) -> Deck {
+    deck::parse(text, "deck.toml", Path::new("")).unwrap()
+}
+
+fn source(deck: &Deck) -> Source {
+    Source {
+        case: "case".to_owned(),
+        path: "deck.toml".into(),
+        fingerprint: fingerprint(deck),
+    }
+}
+
+/// An interrupt that has come already: the run ends after its first attempt.
+fn at_once() -> Interrupt {
+    let interrupt = Interrupt::default();
+    interrupt.0.store(true, Ordering::Relaxed);
+    interrupt
+}
+
+/// Every file of a run but its summary and checkpoint.
+fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let lists = [folder.to_owned(), folder.join("fields")].map(|place| {
+        let entries = fs::read_dir(place).unwrap();
+        entries.map(|entry| entry.unwrap().path())
+    });
+    let named = |path: &PathBuf| path.extension().is_some_and(|ending| ending != "json");
+    let paths = lists.into_iter().flatten().filter(named);
+    paths
+        .map(|path| {
+            let content = fs::read(&path).unwrap();
+            (path.strip_prefix(folder).unwrap().to_owned(), content)
+        })
+        .collect()
+}
+
+/// `summary.json` without what depends on the clock and on the machine.
+fn summary(folder: &Path) -> Value {
+    let text = fs::read_to_string(folder.join("summary.json")).unwrap();
+    let mut summary: Value = serde_json::from_str(&text).unwrap();
+    let object = summary.as_object_mut().unwrap();
+    assert!(object.remove("wall_s").is_some() && object.remove("peak_rss_mib").is_some());
+    summary
+}
+
+/// Runs a deck in one piece and in pieces of one attempt each.
+fn assert_same_in_pieces(text: &str, least: usize) {
+    let place = tempfile::tempdir().unwrap();
+    let [whole, pieces] = ["whole", "pieces"].map(|name| place.path().join(name));
+    let deck = read(text);
+    let (quiet, never) = (Verbosity::Quiet, Interrupt::default());
+    simulate_file(deck.clone(), source(&deck), &whole, quiet, &never).unwrap();
+    let mut ending = simulate_file(deck.clone(), source(&deck), &pieces, quiet, &at_once())
+        .unwrap()
+        .ending;
+    let mut stops = 0;
+    while let Ending::Interrupted { .. } = ending {
+        stops += 1;
+        let checkpoint = Checkpoint::read(&pieces).unwrap();
+        checkpoint.source.check(&deck).unwrap();
+        let resumed = go_on(deck.clone(), checkpoint, &pieces, quiet, &at_once());
+        ending = resumed.unwrap().ending;
+    }
+    assert_eq!(ending, Ending::Completed);
+    assert!(stops >= least, "{stops} stops");
+    assert_eq!(summary(&whole), summary(&pieces));
+    let (whole, pieces) = (files(&whole), files(&pieces));
+    assert!(whole.keys().eq(pieces.keys()), "{:?}", pieces.keys());
+    for (path, content) in whole {
+        assert!(pieces[&path] == content, "{} differs", path.display());
+    }
+}
+
+#[test]
+fn a_quasi_static_run_is_the_same_in_pieces() {
+    assert_same_in_pieces(QUASI_STATIC, 10);
+}
+
+#[test]
+fn a_dynamic_run_is_the_same_in_pieces() {
+    assert_same_in_pieces(DYNAMIC, 10);
+}
+
+#[test]
+fn checkpoints_come_when_they_are_due_and_go_when_the_run_is_done() {
+    let place = tempfile::tempdir().unwrap();
+    let (deck, never) = (read(DYNAMIC), Interrupt::default());
+    let recorder = Recorder::create(place.path(), "case", deck.output).unwrap();
+    let due: Vec<usize> = (1..=8).filter(|&count| recorder.keeps(count)).collect();
+    assert_eq!(due, [3, 6]);
+    let quiet = Verbosity::Quiet;
+    simulate_file(deck.clone(), source(&deck), place.path(), quiet, &at_once()).unwrap();
+    assert!(Checkpoint::read(place.path()).is_ok());
+    let run = simulate_file(deck.clone(), source(&deck), place.path(), quiet, &never);
+    assert_eq!(run.unwrap().ending, Ending::Completed);
+    assert!(Checkpoint::read(place.path()).is_err());
+}
