@@ -19,6 +19,8 @@
 //! ```
 //!
 //! which is the exact one where the row is satisfied.
+//!
+//! Longer than other files, as all rows of a node are made of the same derivatives.
 
 use nalgebra::{Const, Matrix2, SymmetricEigen, Vector2, Vector3};
 use num_dual::DualSVec64;
@@ -35,6 +37,7 @@ use crate::{
     projection::{Margin, differentiated, differentiated_rigid},
     selection::Partner,
     slip_rate::rate,
+    table_1::Corrector,
     term::{Field, Lanes, LocalTerm, Row, Source, gradient, variable, variable3, variables3},
     texture::NodeTextures,
     traction::{on_lanes, push_textures},
@@ -42,13 +45,15 @@ use crate::{
 };
 
 /// Which iteration of an increment is evaluated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Iteration {
     /// The first: touching nodes are closed; closed nodes stick or, if they slipped
     /// before, go on slipping in their direction.
     First,
     /// A later one: the state decides.
     Later,
+    /// A later one: the labels of the nodes decide.
+    Corrected(Corrector),
 }
 
 /// A kinematic node with all that its rows need.
@@ -66,6 +71,8 @@ pub struct KinematicNode<'a> {
     pub textures: &'a NodeTextures,
     /// Whether it slipped in the last converged increment.
     pub slipped: bool,
+    /// Status in the iteration before.
+    pub before: Status,
     /// `p`, `z1`, `z2`.
     pub unknowns: [f64; 3],
     /// Friction traction `tau`.
@@ -153,6 +160,7 @@ struct NodeState<'a> {
     free: [bool; N],
     gap: D,
     slipped: bool,
+    before: Status,
     /// Components of `du`.
     slip: [D; 2],
     /// Components of `K^-1 du`.
@@ -253,6 +261,7 @@ impl<'a> NodeState<'a> {
             free,
             gap,
             slipped: node.slipped,
+            before: node.before,
             slip: [dot(&t[0], &relative), dot(&t[1], &relative)],
             turned: [dot(&t[0], &turned), dot(&t[1], &turned)],
         })
@@ -313,6 +322,14 @@ impl<'a> NodeState<'a> {
                 (Status::Slip, self.continued_slip(&z, &varpi, size))
             } else {
                 (Status::Stick, self.stick(&z, size))
+            };
+        }
+        if let Iteration::Corrected(corrector) = iteration {
+            let radius = varpi * corrector.inflation.factor();
+            let turned = [self.turned[0].re, self.turned[1].re];
+            return match corrector.status(self.before, [z1, z2], turned, radius.re) {
+                Status::Slip => (Status::Slip, slip(&z, &y, &radius)),
+                _ => (Status::Stick, self.stick(&z, size)),
             };
         }
         if length <= varpi.re {

@@ -209,6 +209,7 @@ fn node_rows(
                 frame,
                 textures: &fields.textures[side][node as usize],
                 slipped: fields.tractions.slipped[side][node as usize],
+                before: fields.tractions.statuses[side][node as usize],
                 unknowns,
                 tau,
             };

@@ -29,6 +29,7 @@ pub mod quadrature;
 pub mod search;
 pub mod selection;
 pub mod slip_rate;
+pub mod table_1;
 pub mod term;
 pub mod texture;
 pub mod traction;

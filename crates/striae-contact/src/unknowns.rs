@@ -13,6 +13,9 @@ pub struct Tractions {
     pub balance: Vec<[f64; 6]>,
     /// Whether each node slipped in the last converged increment, by side.
     pub slipped: [Vec<bool>; 2],
+    /// Status of each node in the last iteration, by side; open before the first.
+    /// It counts with a corrector only.
+    pub statuses: [Vec<Status>; 2],
 }
 
 impl Tractions {
@@ -21,6 +24,7 @@ impl Tractions {
         Self {
             nodes: nodes.map(|count| vec![[0.0; 3]; count]),
             slipped: nodes.map(|count| vec![false; count]),
+            statuses: nodes.map(|count| vec![Status::Open; count]),
             balance: Vec::new(),
         }
     }

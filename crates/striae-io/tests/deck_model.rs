@@ -12,7 +12,7 @@ use striae_law::{
 use striae_mesh::{NodeId, Vec3, generate::Block};
 use striae_solve::model::{
     Backend, Balance, BodyId, Curve, Freedom, Increments, LoadExtent, LoadKind, Mover, PairId,
-    Procedure, RigidId, RigidShape, Side, Solver, Velocity,
+    Procedure, RigidId, RigidShape, Side, Solver, Strategy, Velocity,
 };
 
 use striae_surface::texture::{Field, Lines, Paint};
@@ -205,6 +205,9 @@ fn settings_have_defaults() {
     let deck = lowered(BASE);
     let stated = Solver {
         backend: Backend::Faer,
+        strategy: Strategy::Table1 {
+            stick_tolerance: 0.001,
+        },
         tolerance: 1e-9,
         largest_iterations: 15,
     };
@@ -216,6 +219,7 @@ fn settings_have_defaults() {
     let bare = lowered(&BASE[..BASE.find("[output]").unwrap()]);
     let default = Solver {
         backend: Backend::Condensed,
+        strategy: Strategy::Semismooth,
         tolerance: 1e-10,
         largest_iterations: 20,
     };
@@ -272,7 +276,7 @@ fn textures_go_with_their_sides() {
 fn every_generator_makes_its_mesh() {
     for mesh in [
         r#"generator = "block", size = [1, 2, 3], divisions = [2, 3, 4], grading = { x = { one_sided = 3 }, y = { symmetric = 2 }, z = { lengths = [1, 2, 2, 1] } }, rotation = { axis = [0, 0, 2], degrees = 30, about = [0, 0, 0] }, mesh_rotation = 10, bottom_slopes = [0.1, 0], top_slopes = [0, 0.1], irregularity = 0.1, seed = 4"#,
-        r#"generator = "capped-block", size = [10, 10], height = 6.5, radius = 12, element_size = 1.6, apex = [0, 0, 1], fine_half_width = 2, fine_depth = 1, growth = 1.5"#,
+        r#"generator = "capped-block", size = [10, 10], height = 6.5, radius = 12, element_size = 1.6, apex = [0, 0, 1], fine_half_width = 2, fine_depth = 1, growth = 1.5, part = "half""#,
         r#"generator = "half-cylinder", radius = 8, thickness = 1, element_size = 1, half = "upper", layers = 2"#,
         r#"generator = "annulus", inner_radius = 0.2, outer_radius = 0.5, width = 0.4, divisions = [2, 24, 2], refinement = { half_angle = 20, ratio = 3 }"#,
     ] {

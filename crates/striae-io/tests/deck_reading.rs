@@ -318,6 +318,13 @@ fn ranges() {
         &["46:22: `largest_iterations` in [solver] must be a whole number of at least 1, but is 0"],
     );
     misread(
+        "stick tolerance of zero",
+        &[("stick_tolerance = 0.001", "stick_tolerance = 0")],
+        &[
+            "47:52: `stick_tolerance` in [solver] strategy must be a number greater than 0, but is 0",
+        ],
+    );
+    misread(
         "negative number of increments between files",
         &[("fields_every = 2", "fields_every = -2")],
         &["42:16: `fields_every` in [output] must be a whole number of at least 0, but is -2"],
@@ -326,6 +333,13 @@ fn ranges() {
 
 #[test]
 fn words() {
+    misread(
+        "unknown strategy",
+        &[(r#""table-1", stick_tolerance = 0.001"#, r#""table-2""#)],
+        &[
+            "47:23: `method` in [solver] strategy cannot be `table-2`; expected one of `semismooth`, `table-1`; did you mean `table-1`?",
+        ],
+    );
     misread(
         "unknown material law",
         &[(r#""neo-hookean""#, r#""neohookean""#)],

@@ -343,10 +343,24 @@ pub enum Curve {
 pub struct Solver {
     /// Factorisation.
     pub backend: Backend,
+    /// How stick and slip are found.
+    pub strategy: Strategy,
     /// Relative tolerance of every residual field.
     pub tolerance: f64,
     /// Iterations after which an increment is cut.
     pub largest_iterations: usize,
+}
+
+/// How stick and slip are found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Strategy {
+    /// As part of the linearisation.
+    Semismooth,
+    /// By predictor and corrector between iterations, see `striae_contact::table_1`.
+    Table1 {
+        /// Overshoot of the slip surface, relative to it, at which a node leaves stick.
+        stick_tolerance: f64,
+    },
 }
 
 /// Factorisation of the linear systems.

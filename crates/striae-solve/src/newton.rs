@@ -15,8 +15,9 @@ use striae_contact::{
     complementarity::Iteration,
     evaluation::{Evaluation, missed_contacts},
     selection::{Role, Selection},
+    table_1::{Corrector, Inflation},
     traction::reinterpreted,
-    unknowns::{Status, Tractions},
+    unknowns::{NodeResult, Status, Tractions},
 };
 use striae_linalg::{Analysis, SolveError};
 use striae_mesh::Vec3;
@@ -24,6 +25,7 @@ use striae_mesh::Vec3;
 use crate::{
     assembly::{Assembled, Imposed, StepContext, Trial},
     layout::Layout,
+    model::Strategy,
     norms::Norms,
     outcome::CutBack,
     problem::Problem,
@@ -128,12 +130,18 @@ pub fn advance(
     let solver = &context.problem.model.solver;
     let mut iterations: Vec<Norms> = Vec::new();
     let mut history = History::default();
+    let mut inflation = Inflation::default();
     let mut assembled =
         workspace.assemble(context, &selections, &trial, &imposed, Iteration::First)?;
     for number in 1.. {
         let correction = workspace
             .correction(&assembled.residual)
             .map_err(|error| linear_system(context.problem, &workspace.system().layout, error))?;
+        let iteration = later(solver.strategy, inflation);
+        let labels = assembled.contacts.iter().map(statuses);
+        for (tractions, labels) in trial.tractions.iter_mut().zip(labels) {
+            tractions.statuses = labels;
+        }
         let taken;
         (trial, assembled, taken) = step(
             workspace,
@@ -141,6 +149,7 @@ pub fn advance(
             &selections,
             &trial,
             &imposed,
+            iteration,
             &correction,
         )?;
         let norms = assembled.norms;
@@ -148,9 +157,11 @@ pub fn advance(
         history.push(&assembled.contacts);
         observer.iteration(number, &norms, &assembled.contacts);
         // A part of a correction leaves prescribed displacements on their way.
-        if norms.largest() <= solver.tolerance && taken == Taken::Whole {
+        let settled = taken == Taken::Whole && is_final(iteration);
+        if norms.largest() <= solver.tolerance && settled {
             break;
         }
+        inflation = inflation.after(norms.gap);
         if !norms.largest().is_finite() || norms.force > 1e8 {
             return Err(CutBack::Diverged {
                 iteration: number,
@@ -179,6 +190,30 @@ pub fn advance(
     })
 }
 
+/// What an iteration after the first one goes by.
+fn later(strategy: Strategy, inflation: Inflation) -> Iteration {
+    match strategy {
+        Strategy::Semismooth => Iteration::Later,
+        Strategy::Table1 { stick_tolerance } => Iteration::Corrected(Corrector {
+            stick_tolerance,
+            inflation,
+        }),
+    }
+}
+
+/// Whether the friction of an iteration is the true one.
+fn is_final(iteration: Iteration) -> bool {
+    match iteration {
+        Iteration::First | Iteration::Later => true,
+        Iteration::Corrected(corrector) => corrector.inflation.is_over(),
+    }
+}
+
+fn statuses(contact: &Evaluation) -> [Vec<Status>; 2] {
+    let side = |nodes: &Vec<NodeResult>| nodes.iter().map(|node| node.status).collect();
+    contact.nodes.each_ref().map(side)
+}
+
 /// Roles in the converged state, and pair states that fit them.
 fn selected(context: &StepContext, state: &State) -> (Vec<Selection>, Vec<PairState>) {
     let mut selections = Vec::with_capacity(state.pairs.len());
@@ -204,6 +239,10 @@ fn selected(context: &StepContext, state: &State) -> (Vec<Selection>, Vec<PairSt
             let results = pair_state.nodes[side].iter();
             results.map(|node| node.status == Status::Slip).collect()
         });
+        if context.problem.model.solver.strategy != Strategy::Semismooth {
+            let sides = pair_state.tractions.slipped.iter_mut();
+            sides.for_each(|side| side.fill(false));
+        }
         pair_state.kinematic = kinematic;
         pair_state.selection = Some(selection.clone());
         selections.push(selection);
@@ -227,6 +266,7 @@ fn step(
     selections: &[Selection],
     trial: &Trial,
     imposed: &Imposed,
+    iteration: Iteration,
     correction: &[f64],
 ) -> Result<(Trial, Assembled, Taken), CutBack> {
     let mut factor = 1.0;
@@ -240,7 +280,7 @@ fn step(
             correction,
             factor,
         );
-        match workspace.assemble(context, selections, &next, imposed, Iteration::Later) {
+        match workspace.assemble(context, selections, &next, imposed, iteration) {
             Ok(assembled) => return Ok((next, assembled, taken)),
             Err(CutBack::InvertedElement { .. } | CutBack::LostProjection { .. }) => {
                 (factor, taken) = (0.5 * factor, Taken::Part);
@@ -256,7 +296,7 @@ fn step(
         correction,
         factor,
     );
-    let assembled = workspace.assemble(context, selections, &next, imposed, Iteration::Later)?;
+    let assembled = workspace.assemble(context, selections, &next, imposed, iteration)?;
     Ok((next, assembled, Taken::Part))
 }
 

@@ -208,7 +208,7 @@ pub(super) use coded;
 coded! {
     NodeResult { gap, pressure, tau, slip, normal, texture, status };
     FacetForces { force, area, pressure, friction };
-    Tractions { nodes, balance, slipped };
+    Tractions { nodes, balance, slipped, statuses };
     SolverSummary { method, factorisations, fall_backs, reason };
     Leader { side, node };
     Patch { centre, radius };

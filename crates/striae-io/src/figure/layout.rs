@@ -2,8 +2,8 @@
 //!
 //! Frames of one column share left and right edges, those of one row top and
 //! bottom, so the room beside a frame is the most any of its neighbours needs.
-//! That room depends on tick labels, and these on the frame: a second pass
-//! over the first one's frames settles it.
+//! That room depends on tick labels, and these on the frame: a few passes, each
+//! over the frames of the one before, settle it.
 
 use super::description::{Figure, Width};
 use super::extent::{Extent, FLATNESS, TITLE};
@@ -12,6 +12,7 @@ use super::shape::{Rectangle, Shape};
 
 const GAP: f64 = 10.0;
 const EDGE: f64 = 3.0;
+const PASSES: usize = 4;
 
 /// A figure laid out, in points.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,7 +36,7 @@ pub(super) fn page(figure: &Figure) -> Result<Page, String> {
     let width = figure.width.points();
     let cell = (width - 2.0 * EDGE - GAP * (columns - 1) as f64) / columns as f64;
     let mut frames = Frames::new(contents.len(), columns, cell);
-    for _ in 0..2 {
+    for _ in 0..PASSES {
         frames.settle(&contents);
     }
     let mut shapes = Vec::new();

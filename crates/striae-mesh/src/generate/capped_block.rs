@@ -31,6 +31,17 @@ pub struct CappedBlock {
     pub fine_depth: f64,
     /// Largest ratio of neighbouring sizes outside; default 1.3.
     pub growth: f64,
+    /// How much of the block is meshed; default all of it.
+    pub part: Part,
+}
+
+/// How much of a block is meshed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// All of it.
+    Whole,
+    /// What lies at `y >= 0` from the apex; the side `ymin` is the plane of symmetry.
+    Half,
 }
 
 impl Default for CappedBlock {
@@ -44,6 +55,7 @@ impl Default for CappedBlock {
             fine_half_width: 1.6,
             fine_depth: 0.0,
             growth: 1.3,
+            part: Part::Whole,
         }
     }
 }
@@ -57,6 +69,10 @@ impl CappedBlock {
     pub fn mesh(&self) -> Result<Mesh, MeshError> {
         self.check_parameters()?;
         let [x_lengths, y_lengths] = self.plan_lengths()?;
+        let (y_start, y_extent) = match self.part {
+            Part::Whole => (-0.5 * self.size[1], self.size[1]),
+            Part::Half => (0.0, 0.5 * self.size[1]),
+        };
         let z_lengths =
             refined_lengths(self.height, self.fine_depth, self.element_size, self.growth)?;
         let grid = Grid::new(
@@ -66,7 +82,7 @@ impl CappedBlock {
         let [x, y, s] = [&x_lengths, &y_lengths, &z_lengths].map(|l| unit_partial_sums(l));
         let positions = grid.positions(|[i, j, k]| {
             let x = self.size[0] * (x[i] - 0.5);
-            let y = self.size[1] * (y[j] - 0.5);
+            let y = y_start + y_extent * y[j];
             let cap = sagitta(self.radius, x * x + y * y);
             self.apex + Vec3::new(x, y, cap + s[k] * (self.height - cap))
         });
@@ -87,16 +103,18 @@ impl CappedBlock {
     /// # Errors
     /// [`MeshError::Parameter`] as [`refined_lengths`].
     pub fn plan_lengths(&self) -> Result<[Vec<f64>; 2], MeshError> {
-        let half = |size: f64| -> Result<Vec<f64>, MeshError> {
-            let lengths = refined_lengths(
+        let [x, y] = self.size.map(|size| {
+            refined_lengths(
                 0.5 * size,
                 self.fine_half_width,
                 self.element_size,
                 self.growth,
-            )?;
-            Ok(mirrored(&lengths))
-        };
-        Ok([half(self.size[0])?, half(self.size[1])?])
+            )
+        });
+        Ok(match self.part {
+            Part::Whole => [mirrored(&x?), mirrored(&y?)],
+            Part::Half => [mirrored(&x?), y?],
+        })
     }
 
     fn check_parameters(&self) -> Result<(), MeshError> {

@@ -37,6 +37,6 @@ mod half_disc;
 
 pub use annulus::{Annulus, Refinement};
 pub use block::{Block, Pivot, Rotation};
-pub use capped_block::CappedBlock;
+pub use capped_block::{CappedBlock, Part};
 pub use grading::{Grading, refined_lengths};
 pub use half_cylinder::{Half, HalfCylinder};

@@ -2,7 +2,7 @@
 
 use crate::{area, assert_close, assert_sets_share_out_the_boundary, normals, orders};
 use proptest::prelude::*;
-use striae_mesh::generate::CappedBlock;
+use striae_mesh::generate::{CappedBlock, Part};
 use striae_mesh::{MeshError, Vec3};
 
 const CAP_SIDES: [&str; 6] = ["xmin", "xmax", "ymin", "ymax", "cap", "zmax"];
@@ -63,6 +63,26 @@ fn cap_elements_have_the_wanted_size_at_the_apex() {
                 assert!((pair[1] / pair[0]).ln().abs() < 1.3f64.ln() + 1e-9);
             }
         }
+    }
+}
+
+#[test]
+fn half_a_block_is_half_of_the_whole() {
+    let whole = CappedBlock::default();
+    let half = CappedBlock {
+        part: Part::Half,
+        ..CappedBlock::default()
+    };
+    let (whole, half) = (whole.mesh().unwrap(), half.mesh().unwrap());
+    assert_sets_share_out_the_boundary(&half, &CAP_SIDES);
+    assert_eq!(2 * half.elements.len(), whole.elements.len());
+    assert_close(2.0 * half.volume(), whole.volume(), 1e-13);
+    for node in half.node_sets.get("ymin").unwrap() {
+        assert_eq!(half.positions[node.index()].y, 0.0);
+    }
+    for place in &half.positions {
+        let apart = whole.positions.iter().map(|known| (known - place).norm());
+        assert!(apart.fold(f64::INFINITY, f64::min) < 1e-14, "{place}");
     }
 }
 

@@ -13,5 +13,6 @@ mod patch_stick;
 mod rigid;
 mod rigid_facets;
 mod sliding;
+mod table_1;
 mod tangent;
 mod tangent_of_system;

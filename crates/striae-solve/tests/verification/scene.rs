@@ -11,7 +11,7 @@ use striae_solve::{
     model::{
         Backend, Balance, Body, BodyId, Curve, Displacement, Increments, Load, LoadExtent,
         LoadKind, Model, Pair, PairId, Procedure, RigidId, RigidShape, RigidSurface, Side, Solver,
-        Step,
+        Step, Strategy,
     },
     newton::{Increment, IterationObserver, LinearWork},
     norms::Norms,
@@ -172,6 +172,7 @@ pub fn model(bodies: Vec<Body>) -> Model {
         steps: Vec::new(),
         solver: Solver {
             backend: Backend::Condensed,
+            strategy: Strategy::Semismooth,
             tolerance: 1e-11,
             largest_iterations: 15,
         },

@@ -9,6 +9,7 @@ use striae_contact::{
     frame::frames,
     placement::Placement,
     selection::{Role, Selection},
+    table_1::{Corrector, Inflation},
     unknowns::{Status, Tractions},
 };
 use striae_law::friction::Friction;
@@ -30,6 +31,7 @@ struct Contact<'a> {
     selection: Selection,
     counts: [usize; 2],
     placement: Placement,
+    iteration: Iteration,
 }
 
 impl<'a> Contact<'a> {
@@ -49,6 +51,7 @@ impl<'a> Contact<'a> {
             placement: Pose::at_rest()
                 .moved_to(&[0.01, -0.02, 0.003, 0.001, -0.002, 0.1])
                 .placement(&Vec3::zeros()),
+            iteration: Iteration::Later,
         }
     }
 
@@ -87,6 +90,7 @@ impl<'a> Contact<'a> {
             ],
             balance: (0..self.selection.patches.len()).map(balance).collect(),
             slipped: self.counts.map(|count| vec![false; count]),
+            statuses: self.counts.map(|count| vec![Status::Slip; count]),
         }
     }
 
@@ -98,7 +102,7 @@ impl<'a> Contact<'a> {
             &self.selection,
             &tractions,
             &free,
-            Iteration::Later,
+            self.iteration,
         )
         .unwrap()
     }
@@ -241,7 +245,7 @@ fn of_two_curved_surfaces_that_stick_slip_and_open() {
     let context = StepContext::new(&problem, 0, &start);
     let mut random = Random::new(7);
     let before: Vec<Vec3> = start.positions.iter().map(|x| bumpy(x, 0.08)).collect();
-    let contact = Contact::new(&context, &before);
+    let mut contact = Contact::new(&context, &before);
     let after: Vec<Vec3> = before
         .iter()
         .enumerate()
@@ -262,6 +266,13 @@ fn of_two_curved_surfaces_that_stick_slip_and_open() {
             "no node is {status:?}: {statuses:?}"
         );
     }
+    contact.iteration = Iteration::Corrected(Corrector {
+        stick_tolerance: 0.01,
+        inflation: Inflation::default().after(0.0),
+    });
+    assert_eq!(contact.statuses(&u), statuses);
+    assert_order(&contact, &u);
+    contact.iteration = Iteration::Later;
     assert!(contact.has_role(|role| matches!(role, Role::Traction(_))));
     assert!(contact.has_role(|role| matches!(role, Role::Extended(_))));
     assert_eq!(contact.selection.patches.len(), 1);

@@ -19,6 +19,10 @@ macro_rules! decks {
 }
 
 mod bar_impact;
+mod comparison;
+mod hertz_mindlin;
+mod hertz_mindlin_cylinders;
+mod hertz_mindlin_two_body;
 mod measure;
 mod pad_on_incline;
 mod patch_frictionless;
@@ -27,6 +31,7 @@ mod patch_stick;
 mod plate_on_rigid_plane;
 mod slip_surface;
 mod snake_scale;
+mod stick_tolerance;
 pub mod study;
 mod two_blocks;
 mod tyre;
@@ -90,6 +95,26 @@ pub const CASES: &[Case] = &[
         "pad-on-incline",
         "A pad on an incline at the limit of friction (code_aster SSNV503)",
         pad_on_incline::run
+    ),
+    case!(
+        "hertz-mindlin",
+        "A block with a spherical face, pressed and sheared, beside Mindlin's closed form",
+        hertz_mindlin::run
+    ),
+    case!(
+        "hertz-mindlin-cylinders",
+        "Two half cylinders, pressed and sheared, beside the closed form",
+        hertz_mindlin_cylinders::run
+    ),
+    case!(
+        "hertz-mindlin-two-body",
+        "A block with a spherical face, pressed onto and slid over an equally soft one",
+        hertz_mindlin_two_body::run
+    ),
+    case!(
+        "stick-tolerance",
+        "The strategy of the paper's Table 1 with three tolerances, beside the default",
+        stick_tolerance::run
     ),
     case!(
         "patch-slip",

@@ -82,15 +82,28 @@ impl<'a> Study<'a> {
         Ok(deck::parse(text, &file, Path::new(""))?)
     }
 
+    /// Reads an embedded deck with passages replaced, each of which it holds once.
+    pub fn variant(&self, name: &str, text: &str, passages: &[[&str; 2]]) -> Result<Deck, Failure> {
+        let text = passages.iter().fold(text.to_owned(), |text, [old, new]| {
+            assert_eq!(text.matches(old).count(), 1, "`{old}` in {name}");
+            text.replace(old, new)
+        });
+        self.deck(name, &text)
+    }
+
     /// Runs a deck to its end; how Newton's method did is judged.
     pub fn run(&mut self, name: &str, deck: Deck) -> Result<Run, Failure> {
+        let run = self.run_unjudged(name, deck)?;
+        let summary = run.simulation.summary.clone();
+        self.summaries.push((name.to_owned(), summary));
+        Ok(run)
+    }
+
+    /// Runs a deck to its end with a method that is not the one to judge.
+    pub fn run_unjudged(&mut self, name: &str, deck: Deck) -> Result<Run, Failure> {
         let run = self.run_to_limit(name, deck)?;
         match &run.simulation.ending {
-            Ending::Completed => {
-                let summary = run.simulation.summary.clone();
-                self.summaries.push((name.to_owned(), summary));
-                Ok(run)
-            }
+            Ending::Completed => Ok(run),
             ending => Err(Failure::Ended(ending.clone())),
         }
     }

@@ -10,7 +10,7 @@ use crate::deck::{
 use striae_mesh::{
     Mesh, MeshError, Vec3,
     generate::{
-        Annulus, Block, CappedBlock, Grading, Half, HalfCylinder, Pivot, Refinement, Rotation,
+        Annulus, Block, CappedBlock, Grading, Half, HalfCylinder, Part, Pivot, Refinement, Rotation,
     },
 };
 
@@ -93,6 +93,10 @@ fn capped_block(raw: &raw::CappedBlock) -> Option<CappedBlock> {
             .map_or(2.0 * element_size, |width| width.value.0),
         fine_depth: raw.fine_depth.as_ref().map_or(0.0, |depth| depth.value.0),
         growth: raw.growth.as_ref().map_or(1.3, |growth| growth.value.0),
+        part: match raw.part.as_ref().map(|part| part.value) {
+            None | Some(raw::Part::Whole) => Part::Whole,
+            Some(raw::Part::Half) => Part::Half,
+        },
     })
 }
 

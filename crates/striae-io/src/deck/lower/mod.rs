@@ -27,7 +27,7 @@ use super::{
 use body::Bodies;
 pub(super) use friction::friction;
 use std::{num::NonZeroUsize, path::Path};
-use striae_solve::model::{Backend, Model, Pair, Solver};
+use striae_solve::model::{Backend, Model, Pair, Solver, Strategy};
 
 /// What the parts of a deck refer to by name.
 struct Scope<'r> {
@@ -164,8 +164,24 @@ fn solver(raw: Option<&raw::SolverSettings>) -> Solver {
             Some(raw::Backend::Multifrontal) => Backend::Multifrontal,
             Some(raw::Backend::Faer) => Backend::Faer,
         },
+        strategy: strategy(raw),
         tolerance: tolerance.map_or(1e-10, |tolerance| tolerance.value.0),
         largest_iterations: iterations.map_or(20, |iterations| iterations.value.0),
+    }
+}
+
+fn strategy(raw: Option<&raw::SolverSettings>) -> Strategy {
+    match raw.and_then(|raw| raw.strategy.as_ref()) {
+        Some(At {
+            value: raw::Strategy::Table1(raw),
+            ..
+        }) => Strategy::Table1 {
+            stick_tolerance: raw
+                .stick_tolerance
+                .as_ref()
+                .map_or(0.01, |share| share.value.0),
+        },
+        Some(_) | None => Strategy::Semismooth,
     }
 }
 

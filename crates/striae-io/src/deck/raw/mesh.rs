@@ -134,6 +134,18 @@ table! {
         optional fine_depth: NonNegative,
         /// Largest ratio of neighbouring sizes outside that zone. Default: 1.3.
         optional growth: Growth,
+        /// How much of it is meshed. Default: `whole`.
+        optional part: Part,
+    }
+}
+
+words! {
+    /// How much of a block is meshed.
+    Part {
+        /// All of it.
+        Whole = "whole",
+        /// The half on the positive side of the second axis; `ymin` is then the plane of symmetry.
+        Half = "half",
     }
 }
 

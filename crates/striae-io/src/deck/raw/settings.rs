@@ -1,7 +1,7 @@
 //! `[output]` and `[solver]`.
 
 use crate::deck::{
-    declare::{table, words},
+    declare::{choice, table, words},
     value::{Count, Positive, Whole},
 };
 
@@ -20,6 +20,8 @@ table! {
     SolverSettings {
         /// Factorisation of the linear systems. Default: `condensed`.
         optional backend: Backend,
+        /// How stick and slip are found. Default: `semismooth`.
+        optional strategy: Strategy,
         /// Relative tolerance of every residual field. Default: 1e-10.
         optional tolerance: Positive,
         /// Iterations after which an increment is cut. Default: 20.
@@ -36,5 +38,26 @@ words! {
         Multifrontal = "multifrontal",
         /// Sparse LU of the library faer.
         Faer = "faer",
+    }
+}
+
+choice! {
+    /// How stick and slip are found.
+    Strategy by method {
+        "semismooth" => Semismooth(Semismooth),
+        "table-1" => Table1(Table1),
+    }
+}
+
+table! {
+    /// As part of the linearisation.
+    Semismooth {}
+}
+
+table! {
+    /// By a predictor and a corrector between iterations, for comparison.
+    Table1 {
+        /// How far friction may exceed the law, relative to it, before a sticking node slips. Default: 0.01.
+        optional stick_tolerance: Positive,
     }
 }
