@@ -28,10 +28,10 @@ pub enum Failure {
     #[error("{0}")]
     Checkpoint(#[from] CheckpointError),
     /// A run was interrupted, and a checkpoint is there to go on from.
-    #[error("{ending}; `striae resume {}` goes on from there", folder.display())]
+    #[error("interrupted at time {time:.6}; `striae resume {}` goes on from there", folder.display())]
     Interrupted {
-        /// How it ended.
-        ending: Ending,
+        /// Time of the last converged state.
+        time: f64,
         /// Its folder.
         folder: PathBuf,
     },

@@ -42,7 +42,7 @@ impl Forecast {
         let now = Instant::now();
         let seconds = (now - self.then).as_secs_f64();
         self.then = now;
-        let increments = self.to_come(position);
+        let increments = self.ahead(position);
         let pace = self.pace_with(seconds);
         Duration::from_secs_f64(pace * increments)
     }
@@ -53,7 +53,7 @@ impl Forecast {
     }
 
     /// Increments after this one.
-    fn to_come(&mut self, position: Position) -> f64 {
+    fn ahead(&mut self, position: Position) -> f64 {
         let Position { step, fraction, .. } = position;
         let size = match self.reached {
             Some((last, done)) if last == step => fraction - done,
@@ -98,20 +98,20 @@ mod tests {
     }
 
     #[test]
-    fn increments_to_come_follow_the_present_size() {
+    fn increments_ahead_follow_the_present_size() {
         let mut forecast = forecast(&[4.0, 10.0]);
-        assert_eq!(forecast.to_come(at(0, 0.25)), 3.0 + 10.0);
-        assert_eq!(forecast.to_come(at(0, 0.5)), 2.0 + 10.0);
+        assert_eq!(forecast.ahead(at(0, 0.25)), 3.0 + 10.0);
+        assert_eq!(forecast.ahead(at(0, 0.5)), 2.0 + 10.0);
         // Twice as fine from here on.
-        assert_eq!(forecast.to_come(at(0, 0.625)), 3.0 + 10.0);
-        assert_eq!(forecast.to_come(at(1, 0.0625)), 15.0);
-        assert_eq!(forecast.to_come(at(1, 1.0)), 0.0);
+        assert_eq!(forecast.ahead(at(0, 0.625)), 3.0 + 10.0);
+        assert_eq!(forecast.ahead(at(1, 0.0625)), 15.0);
+        assert_eq!(forecast.ahead(at(1, 1.0)), 0.0);
     }
 
     #[test]
     fn a_resumed_run_takes_the_size_of_the_deck_at_first() {
         let mut forecast = forecast(&[4.0, 8.0]);
-        assert_eq!(forecast.to_come(at(1, 0.5)), 4.0);
+        assert_eq!(forecast.ahead(at(1, 0.5)), 4.0);
     }
 
     #[test]

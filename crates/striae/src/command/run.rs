@@ -98,8 +98,8 @@ pub fn concluded(
     writeln!(out, "output in {}", folder.display())?;
     match simulation.ending {
         Ending::Completed => Ok(()),
-        ending @ Ending::Interrupted { .. } => Err(Failure::Interrupted {
-            ending,
+        Ending::Interrupted { time } => Err(Failure::Interrupted {
+            time,
             folder: folder.to_owned(),
         }),
         ending @ Ending::Stopped { .. } => Err(Failure::Ended(ending)),
