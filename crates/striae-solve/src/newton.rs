@@ -4,24 +4,23 @@
 //! loads; its solution takes the prescribed displacements to their new values.
 //! From then on the residual alone decides: labels of nodes at the kink of the
 //! friction law may flip at round-off and are not required to rest.
-//!
-//! Longer than other files, as it follows an increment from its roles to its end.
 
 mod acceptance;
 mod cycling;
+mod failure;
 mod workspace;
 
 pub use workspace::{LinearWork, Memory, Times, Workspace};
 
 use striae_contact::{
     complementarity::Iteration,
-    evaluation::{Evaluation, missed_contacts},
+    evaluation::Evaluation,
     selection::{Role, Selection},
     table_1::{Corrector, Inflation},
     traction::reinterpreted,
     unknowns::{NodeResult, Status, Tractions},
 };
-use striae_linalg::{Analysis, SolveError};
+use striae_linalg::Analysis;
 use striae_mesh::Vec3;
 
 use crate::{
@@ -35,6 +34,7 @@ use crate::{
 };
 use acceptance::accepted;
 use cycling::History;
+use failure::{linear_system, missed};
 use workspace::SystemStorage;
 
 /// A converged increment.
@@ -357,59 +357,5 @@ fn add_tractions(
         for (component, unknown) in unknowns.iter_mut().enumerate() {
             *unknown += factor * correction[first + component];
         }
-    }
-}
-
-fn missed(context: &StepContext, selections: &[Selection], trial: &Trial) -> Option<CutBack> {
-    let problem = context.problem;
-    for (pair, selection) in selections.iter().enumerate() {
-        let configuration = context.configuration(pair, &trial.positions, &trial.rigid);
-        let missed = missed_contacts(&configuration, selection);
-        if let Some(&(side, node)) = missed.first() {
-            let global = problem.surface_node(pair, side, node)?;
-            let (body, node) = problem.body_node(global);
-            return Some(CutBack::MissedContact {
-                pair: problem.model.pairs[pair].name.clone(),
-                body: problem.model.bodies[body].name.clone(),
-                node,
-                count: missed.len(),
-            });
-        }
-    }
-    None
-}
-
-fn linear_system(problem: &Problem, layout: &Layout, error: SolveError) -> CutBack {
-    let place = match &error {
-        SolveError::Singular { unknown, .. } => place(problem, layout, *unknown),
-        _ => "linear system".to_owned(),
-    };
-    CutBack::LinearSystem { place, error }
-}
-
-/// Words for a global unknown.
-fn place(problem: &Problem, layout: &Layout, unknown: usize) -> String {
-    let at = layout
-        .offsets()
-        .partition_point(|&offset| offset <= unknown)
-        - 1;
-    let rigid =
-        (0..problem.tied.len()).find(|&rigid| layout.rigid(rigid) == Some(layout.offsets()[at]));
-    if let Some(rigid) = rigid {
-        let name = &problem.model.rigid_surfaces[rigid].name;
-        let kind = ["x", "y", "z", "rx", "ry", "rz"][unknown - layout.offsets()[at]];
-        return format!("rigid body `{name}` is free to move in {kind}");
-    }
-    if at >= problem.reference.len() {
-        return "the balance of a contact patch is not determined".to_owned();
-    }
-    let (body, node) = problem.body_node(at);
-    let name = &problem.model.bodies[body].name;
-    match unknown - layout.position(at) {
-        component @ 0..3 => {
-            let axis = ["x", "y", "z"][component];
-            format!("body `{name}` is not held: {node} is free to move in {axis}")
-        }
-        _ => format!("the contact traction at {node} of body `{name}` is not determined"),
     }
 }

@@ -1,0 +1,72 @@
+//! Words for what stops an increment: contact met unnoticed, linear systems
+//! without a solution.
+
+use striae_contact::{evaluation::missed_contacts, selection::Selection};
+use striae_linalg::SolveError;
+
+use crate::{
+    assembly::{StepContext, Trial},
+    layout::Layout,
+    outcome::CutBack,
+    problem::Problem,
+};
+
+/// Nodes without a role that have met the other surface.
+pub(super) fn missed(
+    context: &StepContext,
+    selections: &[Selection],
+    trial: &Trial,
+) -> Option<CutBack> {
+    let problem = context.problem;
+    for (pair, selection) in selections.iter().enumerate() {
+        let configuration = context.configuration(pair, &trial.positions, &trial.rigid);
+        let missed = missed_contacts(&configuration, selection);
+        if let Some(&(side, node)) = missed.first() {
+            let global = problem.surface_node(pair, side, node)?;
+            let (body, node) = problem.body_node(global);
+            return Some(CutBack::MissedContact {
+                pair: problem.model.pairs[pair].name.clone(),
+                body: problem.model.bodies[body].name.clone(),
+                node,
+                count: missed.len(),
+            });
+        }
+    }
+    None
+}
+
+/// A linear system that cannot be solved, with the place of its singularity.
+pub(super) fn linear_system(problem: &Problem, layout: &Layout, error: SolveError) -> CutBack {
+    let place = match &error {
+        SolveError::Singular { unknown, .. } => place(problem, layout, *unknown),
+        _ => "linear system".to_owned(),
+    };
+    CutBack::LinearSystem { place, error }
+}
+
+/// Words for a global unknown.
+fn place(problem: &Problem, layout: &Layout, unknown: usize) -> String {
+    let at = layout
+        .offsets()
+        .partition_point(|&offset| offset <= unknown)
+        - 1;
+    let rigid =
+        (0..problem.tied.len()).find(|&rigid| layout.rigid(rigid) == Some(layout.offsets()[at]));
+    if let Some(rigid) = rigid {
+        let name = &problem.model.rigid_surfaces[rigid].name;
+        let kind = ["x", "y", "z", "rx", "ry", "rz"][unknown - layout.offsets()[at]];
+        return format!("rigid body `{name}` is free to move in {kind}");
+    }
+    if at >= problem.reference.len() {
+        return "the balance of a contact patch is not determined".to_owned();
+    }
+    let (body, node) = problem.body_node(at);
+    let name = &problem.model.bodies[body].name;
+    match unknown - layout.position(at) {
+        component @ 0..3 => {
+            let axis = ["x", "y", "z"][component];
+            format!("body `{name}` is not held: {node} is free to move in {axis}")
+        }
+        _ => format!("the contact traction at {node} of body `{name}` is not determined"),
+    }
+}
