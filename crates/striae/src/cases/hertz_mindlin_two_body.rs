@@ -44,7 +44,8 @@ pub fn run(study: &mut Study) -> Result<(), Failure> {
         let fine = [
             "h-0.4.lateral",
             "h-0.4.slide.lateral",
-            "h-0.4.slide.ratio",
+            "h-0.4.slide.ratio.a",
+            "h-0.4.slide.ratio.b",
             "h-0.4.mismatch",
             "h-0.4.plain.mismatch",
             "plain.mismatch.fall",
@@ -62,8 +63,11 @@ fn judge(study: &mut Study, name: &str, run: &Run) {
     };
     study.measured(format!("{name}.lateral"), lateral(1));
     study.measured(format!("{name}.slide.lateral"), lateral(2));
-    let force = |axis: &str| run.at_end_of(3, &format!("pair.contact.resultant_a.{axis}"));
-    study.measured(format!("{name}.slide.ratio"), -force("x") / force("z"));
+    for side in ["a", "b"] {
+        let integral = |of: &str| run.at_end_of(3, &format!("pair.contact.{of}_integral_{side}"));
+        let ratio = integral("friction") / integral("pressure");
+        study.measured(format!("{name}.slide.ratio.{side}"), ratio);
+    }
     let mismatch = run.largest("pair.contact.mismatch");
     study.measured(format!("{name}.mismatch"), mismatch);
 }
