@@ -25,22 +25,20 @@
 use nalgebra::{Const, Matrix2, SymmetricEigen, Vector2, Vector3};
 use num_dual::DualSVec64;
 use striae_mesh::Vec3;
-use striae_surface::{
-    facet::Shape,
-    scalar::{combination, constant3, dot},
-};
+use striae_surface::{facet::Shape, scalar::constant3};
 
 use crate::{
     configuration::Configuration,
     coverage::Place,
     frame::{FOLLOW, Frame, LostProjection},
-    projection::{Margin, differentiated, differentiated_rigid},
+    opposing::Opposing,
+    projection::{Margin, differentiated_rigid},
+    quantity::Quantity,
     selection::Partner,
-    slip_rate::rate,
     table_1::Corrector,
-    term::{Field, Lanes, LocalTerm, Row, Source, gradient, variable, variable3, variables3},
+    term::{Field, Lanes, LocalTerm, Source, gradient, parts, variable3},
     texture::NodeTextures,
-    traction::{on_lanes, push_textures},
+    traction::{Cap, on_lanes, push_textures},
     unknowns::{NodeResult, Status},
 };
 
@@ -86,7 +84,9 @@ pub type Prescribed = [Vec<bool>; 2];
 type TangentialRow = (Field, f64, [f64; N]);
 
 const N: usize = 45;
-type D = DualSVec64<N>;
+type Q = Quantity<N>;
+const NORMAL: usize = 3;
+const TANGENTS: usize = 6;
 const X_OPPOSITE: usize = 12;
 const X_PARTNER: usize = 24;
 const TRACTION: usize = 36;
@@ -129,18 +129,16 @@ pub fn rows(
             iteration,
         );
         result.status = status;
-        [(Field::Gap(size), g, gradient(&state.gap)), first, second]
+        [(Field::Gap(size), g, state.gap.slope), first, second]
     };
     let first = configuration
         .pair
         .numbering()
         .traction(node.side, node.node);
-    let numbered: Vec<Row<N>> = rows
-        .iter()
-        .enumerate()
-        .map(|(at, (field, residual, row))| (first + at as u32, *field, *residual, *row))
-        .collect();
-    Ok((LocalTerm::from_lanes(&state.lanes, &numbered), result))
+    let numbered = [0, 1, 2].map(|at| (first + at as u32, rows[at].0, rows[at].1));
+    let gradient: [[f64; 3]; N] = std::array::from_fn(|lane| rows.map(|row| row.2[lane]));
+    let term = LocalTerm::from_lanes(&state.lanes, &numbered, &gradient);
+    Ok((term, result))
 }
 
 /// The smaller of the moduli of the two bodies.
@@ -158,13 +156,13 @@ fn stiffness(configuration: &Configuration, side: usize) -> f64 {
 struct NodeState<'a> {
     lanes: Lanes<'a>,
     free: [bool; N],
-    gap: D,
+    gap: Q,
     slipped: bool,
     before: Status,
     /// Components of `du`.
-    slip: [D; 2],
+    slip: [Q; 2],
     /// Components of `K^-1 du`.
-    turned: [D; 2],
+    turned: [Q; 2],
 }
 
 impl<'a> NodeState<'a> {
@@ -202,12 +200,7 @@ impl<'a> NodeState<'a> {
                 }
             }
         };
-        let x: Vector3<D> = variable3(&own.x[index], 0);
-        let n: Vector3<D> = variable3(&node.frame.n.value, 3);
-        let t: [Vector3<D>; 2] = [
-            variable3(&node.frame.t[0].value, 6),
-            variable3(&node.frame.t[1].value, 9),
-        ];
+        let (x, n) = (own.x[index], node.frame.n.value);
         let reach = FOLLOW * configuration.reach(side, node.node);
         let contact = configuration
             .contact(side, node.node, reach, Margin::Extrapolated)
@@ -215,34 +208,43 @@ impl<'a> NodeState<'a> {
                 side,
                 node: node.node,
             })?;
-        let gap = match (contact.place, configuration.plane()) {
-            (_, Some((point, normal))) => {
+        let mut gap = Q::constant(contact.gap);
+        match contact.place {
+            Place::Plane(_) => {
                 opposite(None, &mut lanes, X_OPPOSITE);
-                dot(&(x - constant3(&point)), &constant3(&normal))
+                if let Some((_, normal)) = configuration.plane() {
+                    gap.depend(0, &normal);
+                }
             }
-            (Place::Facet(hit), None) if configuration.pair.is_rigid() => {
+            Place::Facet(hit) if configuration.pair.is_rigid() => {
                 opposite(None, &mut lanes, X_OPPOSITE);
-                differentiated_rigid(configuration.side(1), &hit, &x).0[2]
+                let x: Vector3<DualSVec64<3>> = variable3(&x, 0);
+                let ([_, _, g], _) = differentiated_rigid(configuration.side(1), &hit, &x);
+                gap.depend(0, &gradient(&g).into());
             }
-            (Place::Facet(hit), None) => {
+            Place::Facet(hit) => {
                 let target = configuration.side(1 - side);
                 let corners = target.corners(hit.facet);
                 opposite(Some(corners), &mut lanes, X_OPPOSITE);
-                let positions = variables3(&target.corner_positions(hit.facet), X_OPPOSITE);
-                differentiated(Shape::of(&corners), &hit, &x, &n, &positions)[2]
+                let positions = target.corner_positions(hit.facet);
+                let opposing = Opposing::new(Shape::of(&corners), &hit, &n, &positions);
+                let by_r = opposing.gap_by_r;
+                gap.depend(0, &-by_r);
+                gap.depend(NORMAL, &(by_r * -hit.gap));
+                for corner in 0..4 {
+                    let lane = X_OPPOSITE + 3 * corner;
+                    gap.depend(lane, &(by_r * opposing.weights[corner]));
+                }
             }
-            (Place::Plane(_), None) => unreachable!("only a plane has places on a plane"),
-        };
-        let partner = match node.partner {
-            Partner::Rigid(point) => {
+        }
+        let weights = match node.partner {
+            Partner::Rigid(_) => {
                 opposite(None, &mut lanes, X_PARTNER);
-                constant3(&configuration.placement.point(&point))
+                [0.0; 4]
             }
             Partner::Corners(corners, weights) => {
                 opposite(Some(corners), &mut lanes, X_PARTNER);
-                let target = configuration.side(1 - side);
-                let positions = corners.map(|corner| target.x[corner as usize]);
-                combination(&weights.map(D::from), &variables3(&positions, X_PARTNER))
+                weights
             }
         };
         lanes.push(Source::Unknowns {
@@ -250,20 +252,45 @@ impl<'a> NodeState<'a> {
             count: 3,
         });
         push_textures(&mut lanes, node.textures);
-        let relative = x - partner;
-        let kernel = configuration
-            .pair
-            .friction
-            .kernel(&n, &on_lanes(node.textures, TEXTURES));
-        let turned = kernel.k_inverse * relative;
+        let relative = x - node.partner.point(configuration, side);
+        // Lanes of the law: normal and textures.
+        let normal: Vector3<DualSVec64<9>> = variable3(&n, 0);
+        let textures = on_lanes(node.textures, 3);
+        let kernel = configuration.pair.friction.kernel(&normal, &textures);
+        let (turned, by_surroundings) = parts(&(kernel.k_inverse * constant3(&relative)));
+        let k_inverse = kernel.k_inverse.map(|component| component.re);
+        // `t . v` for a vector `v` that depends on `relative` and on the law's lanes.
+        let component = |axis: usize, v: &Vec3, by_relative: Vec3| {
+            let mut component = Q::constant(node.frame.t[axis].value.dot(v));
+            component.depend(0, &by_relative);
+            component.depend(TANGENTS + 3 * axis, v);
+            for (corner, weight) in weights.iter().enumerate() {
+                component.depend(X_PARTNER + 3 * corner, &(by_relative * -weight));
+            }
+            component
+        };
+        let slip = [0, 1].map(|axis| component(axis, &relative, node.frame.t[axis].value));
+        let turned = [0, 1].map(|axis| {
+            let t = node.frame.t[axis].value;
+            let mut component = component(axis, &turned, k_inverse.tr_mul(&t));
+            for (lane, derivative) in by_surroundings.iter().enumerate() {
+                let lane = if lane < 3 {
+                    NORMAL + lane
+                } else {
+                    TEXTURES + lane - 3
+                };
+                component.slope[lane] += t.dot(&Vec3::from(*derivative));
+            }
+            component
+        });
         Ok(Self {
             lanes,
             free,
             gap,
             slipped: node.slipped,
             before: node.before,
-            slip: [dot(&t[0], &relative), dot(&t[1], &relative)],
-            turned: [dot(&t[0], &turned), dot(&t[1], &turned)],
+            slip,
+            turned,
         })
     }
 
@@ -282,18 +309,19 @@ impl<'a> NodeState<'a> {
 
     /// Derivatives of a row by the free components of the node's own position
     /// and of the four corners from lane `opposite` on.
-    fn free_gradient(&self, row: &D, opposite: usize) -> Vec<f64> {
-        let row = gradient(row);
-        (0..3)
-            .chain(opposite..opposite + 12)
-            .map(|lane| if self.free[lane] { row[lane] } else { 0.0 })
-            .collect()
+    fn free_gradient(&self, row: &Q, opposite: usize) -> impl Iterator<Item = f64> {
+        let lanes = (0..3).chain(opposite..opposite + 12);
+        lanes.map(move |lane| {
+            if self.free[lane] {
+                row.slope[lane]
+            } else {
+                0.0
+            }
+        })
     }
 
-    fn is_free(&self, row: &D, opposite: usize) -> bool {
-        self.free_gradient(row, opposite)
-            .iter()
-            .any(|d| d.abs() > 1e-9)
+    fn is_free(&self, row: &Q, opposite: usize) -> bool {
+        self.free_gradient(row, opposite).any(|d| d.abs() > 1e-9)
     }
 
     /// Status and tangential rows of a closed node.
@@ -305,17 +333,13 @@ impl<'a> NodeState<'a> {
         size: f64,
         iteration: Iteration,
     ) -> (Status, [TangentialRow; 2]) {
-        let pressure: D = variable(p, TRACTION);
-        let z: [D; 2] = [variable(z1, TRACTION + 1), variable(z2, TRACTION + 2)];
+        let z = [Q::variable(z1, TRACTION + 1), Q::variable(z2, TRACTION + 2)];
         let friction = &configuration.pair.friction;
         if friction.cap(1.0, 0.0) == 0.0 {
-            return (
-                Status::Slip,
-                z.map(|z| (Field::Traction, z.re, gradient(&z))),
-            );
+            return (Status::Slip, z.map(|z| (Field::Traction, z.re, z.slope)));
         }
-        let varpi = friction.cap(pressure, rate(&self.slip) / configuration.elapsed);
-        let y = [z[0] + self.turned[0] * r, z[1] + self.turned[1] * r];
+        let varpi = self.varpi(configuration, p);
+        let y = [0, 1].map(|at| Q::combination([(1.0, &z[at]), (r, &self.turned[at])]));
         let length = y[0].re.hypot(y[1].re);
         if iteration == Iteration::First {
             return if self.slipped && z1.hypot(z2) > 0.5 * varpi.re {
@@ -325,7 +349,7 @@ impl<'a> NodeState<'a> {
             };
         }
         if let Iteration::Corrected(corrector) = iteration {
-            let radius = varpi * corrector.inflation.factor();
+            let radius = Q::combination([(corrector.inflation.factor(), &varpi)]);
             let turned = [self.turned[0].re, self.turned[1].re];
             return match corrector.status(self.before, [z1, z2], turned, radius.re) {
                 Status::Slip => (Status::Slip, slip(&z, &y, &radius)),
@@ -339,34 +363,56 @@ impl<'a> NodeState<'a> {
         }
     }
 
+    /// `varpi` at the pressure `p` and the present slip rate, without derivatives by the
+    /// slip where it vanishes.
+    fn varpi(&self, configuration: &Configuration, p: f64) -> Q {
+        let [first, second] = &self.slip;
+        let length = first.re.hypot(second.re);
+        let rate = length / configuration.elapsed;
+        let cap = Cap::new(&configuration.pair.friction, p, rate);
+        let by_slip = if length > 0.0 {
+            cap.by_rate / (configuration.elapsed * length)
+        } else {
+            0.0
+        };
+        let mut varpi =
+            Q::combination([(by_slip * first.re, first), (by_slip * second.re, second)]);
+        varpi.slope[TRACTION] = cap.by_pressure;
+        Q {
+            re: cap.value,
+            ..varpi
+        }
+    }
+
     /// Slip that goes on in the direction of `z`: `|z| = varpi` and no slip
     /// across, or no `z` across where the node cannot move that way.
-    fn continued_slip(&self, z: &[D; 2], varpi: &D, size: f64) -> [TangentialRow; 2] {
+    fn continued_slip(&self, z: &[Q; 2], varpi: &Q, size: f64) -> [TangentialRow; 2] {
         let direction = Vector2::new(z[0].re, z[1].re).normalize();
-        let along = z[0] * direction.x + z[1] * direction.y - *varpi;
-        let across = |v: &[D; 2]| v[1] * direction.x - v[0] * direction.y;
+        let along = [(direction.x, &z[0]), (direction.y, &z[1]), (-1.0, varpi)];
+        let along = Q::combination(along);
+        let across = |v: &[Q; 2]| Q::combination([(direction.x, &v[1]), (-direction.y, &v[0])]);
         let turned = across(&self.turned);
         let second = if self.is_free(&turned, X_PARTNER) {
-            (Field::Stick(size), turned.re, gradient(&turned))
+            (Field::Stick(size), turned.re, turned.slope)
         } else {
             let z_across = across(z);
-            (Field::Traction, z_across.re, gradient(&z_across))
+            (Field::Traction, z_across.re, z_across.slope)
         };
-        [(Field::Traction, along.re, gradient(&along)), second]
+        [(Field::Traction, along.re, along.slope), second]
     }
 
     /// Squared mobility of the slip in its principal directions: eigenvalues of
     /// the products of its derivatives by the free positions.
     fn mobility(&self) -> SymmetricEigen<f64, Const<2>> {
-        let free = [0, 1].map(|at| self.free_gradient(&self.slip[at], X_PARTNER));
+        let free = |at: usize| self.free_gradient(&self.slip[at], X_PARTNER);
         let product =
-            |i: usize, j: usize| -> f64 { free[i].iter().zip(&free[j]).map(|(a, b)| a * b).sum() };
+            |i: usize, j: usize| -> f64 { free(i).zip(free(j)).map(|(a, b)| a * b).sum() };
         Matrix2::new(product(0, 0), product(0, 1), product(1, 0), product(1, 1)).symmetric_eigen()
     }
 
     /// `du = 0`, with `z = 0` in directions in which the node cannot move.
-    fn stick(&self, z: &[D; 2], size: f64) -> [TangentialRow; 2] {
-        let row = |field: Field, value: D| (field, value.re, gradient(&value));
+    fn stick(&self, z: &[Q; 2], size: f64) -> [TangentialRow; 2] {
+        let row = |field: Field, value: Q| (field, value.re, value.slope);
         let eigen = self.mobility();
         if eigen.eigenvalues.min() > IMMOBILE {
             return self.slip.map(|slip| row(Field::Stick(size), slip));
@@ -378,12 +424,12 @@ impl<'a> NodeState<'a> {
             } else {
                 (Field::Traction, z)
             };
-            row(field, of[0] * q[0] + of[1] * q[1])
+            row(field, Q::combination([(q[0], &of[0]), (q[1], &of[1])]))
         })
     }
 }
 
-fn slip(z: &[D; 2], y: &[D; 2], varpi: &D) -> [TangentialRow; 2] {
+fn slip(z: &[Q; 2], y: &[Q; 2], varpi: &Q) -> [TangentialRow; 2] {
     let zv = Vector2::new(z[0].re, z[1].re);
     let yv = Vector2::new(y[0].re, y[1].re);
     let (length, radius) = (yv.norm(), varpi.re);
@@ -406,8 +452,13 @@ fn slip(z: &[D; 2], y: &[D; 2], varpi: &D) -> [TangentialRow; 2] {
     };
     let m = (Matrix2::identity() - f * beta) * (radius / length);
     [0, 1].map(|at| {
-        let row = z[at] - y[0] * m[(at, 0)] - y[1] * m[(at, 1)] - *varpi * direction[at];
+        let row = Q::combination([
+            (1.0, &z[at]),
+            (-m[(at, 0)], &y[0]),
+            (-m[(at, 1)], &y[1]),
+            (-direction[at], varpi),
+        ]);
         let residual = zv[at] - radius * direction[at];
-        (Field::Traction, residual, gradient(&row))
+        (Field::Traction, residual, row.slope)
     })
 }

@@ -36,6 +36,8 @@ pub struct Snapshot<'a> {
     pub normals: Vec<Vec3>,
     /// Local facet size at every node.
     pub sizes: Vec<f64>,
+    /// The largest of them.
+    pub largest_size: f64,
     /// Tree over the facets.
     pub tree: Tree,
     /// Tree over the boundary edges.
@@ -104,10 +106,12 @@ impl<'a> Snapshot<'a> {
             .boundary_edges()
             .iter()
             .map(|edge| Bounds::around(edge.nodes.map(|n| x[n as usize])));
+        let sizes = local_sizes(surface, &x);
         Self {
             surface,
             normals: nodal_normals(surface, &x),
-            sizes: local_sizes(surface, &x),
+            largest_size: sizes.iter().copied().fold(0.0, f64::max),
+            sizes,
             tree: Tree::new(facet_boxes.collect()),
             edge_tree: Tree::new(edge_boxes.collect()),
             x,

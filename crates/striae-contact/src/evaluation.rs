@@ -109,13 +109,14 @@ impl Evaluation {
         iteration: Iteration,
     ) -> Result<(), LostProjection> {
         let roles = &fields.selection.roles[side];
-        let results: Result<Vec<_>, _> = (0..roles.len())
+        let results: Vec<_> = (0..roles.len())
             .into_par_iter()
             .with_min_len(8)
             .filter(|&node| roles[node] != Role::Idle)
             .map(|node| node_rows(fields, side, node as u32, prescribed, iteration))
             .collect();
-        for (node, terms, result) in results? {
+        for result in results {
+            let (node, terms, result) = result?;
             self.terms.extend(terms);
             self.nodes[side][node as usize] = result;
         }
@@ -244,14 +245,7 @@ fn own_texture(fields: &Fields, side: usize, node: u32, n: &Tracked) -> Vec3 {
 
 /// `(I - n n)(x_I - xbar)`.
 fn slip(configuration: &Configuration, side: usize, node: u32, partner: Partner, n: &Vec3) -> Vec3 {
-    let opposite: Vec3 = match partner {
-        Partner::Rigid(point) => configuration.placement.point(&point),
-        Partner::Corners(corners, weights) => {
-            let x = &configuration.side(1 - side).x;
-            (0..4).map(|c| x[corners[c] as usize] * weights[c]).sum()
-        }
-    };
-    let relative = configuration.side(side).x[node as usize] - opposite;
+    let relative = configuration.side(side).x[node as usize] - partner.point(configuration, side);
     relative - n * n.dot(&relative)
 }
 

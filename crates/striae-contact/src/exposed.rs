@@ -12,7 +12,7 @@ use striae_surface::{
 use crate::{
     clip::covered_points,
     configuration::Configuration,
-    term::{Field, Lanes, LocalTerm, Source, gradient, variables3},
+    term::{Field, Lanes, LocalTerm, Row, Source, by_lane, variables3},
 };
 
 /// A load on the surface, as force per current area.
@@ -66,18 +66,12 @@ pub fn covered_load<L: SurfaceLoad>(
                 force[corner] += scaled(&density, weights.value[corner]);
             }
         }
-        let rows: Vec<_> = (0..12)
-            .map(|at| {
-                let row = force[at / 3][at % 3];
-                (
-                    first[at / 3] + (at % 3) as u32,
-                    Field::Momentum,
-                    row.re,
-                    gradient(&row),
-                )
-            })
-            .collect();
-        terms.push(LocalTerm::from_lanes(&lanes, &rows));
+        let force: [DualSVec64<N>; 12] = std::array::from_fn(|at| force[at / 3][at % 3]);
+        let rows: [Row; 12] = std::array::from_fn(|at| {
+            let unknown = first[at / 3] + (at % 3) as u32;
+            (unknown, Field::Momentum, force[at].re)
+        });
+        terms.push(LocalTerm::from_lanes(&lanes, &rows, &by_lane(&force)));
     }
     terms
 }

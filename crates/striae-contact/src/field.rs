@@ -12,7 +12,7 @@
 //! interpolated from the nodal frames. Whole facets take 2x2 Gauss points, cut
 //! ones the points of [`crate::clip`].
 
-use nalgebra::{Matrix3, SMatrix, Vector3, Vector6};
+use nalgebra::{Matrix3, Vector3, Vector6};
 use num_dual::{Derivative, DualSVec64};
 use striae_mesh::{FacetId, Vec3};
 use striae_surface::{
@@ -25,7 +25,7 @@ use crate::{
     clip::{QuadraturePoint, covered_points},
     facet_coverage::FacetCoverage,
     quadrature::GAUSS_2,
-    term::{Field, Lanes, LocalTerm, Row, Source, variable3, variables3},
+    term::{Field, Lanes, LocalTerm, Row, Source, add_block, variable3, variables3},
     transfer::Fields,
     transported::Transported,
 };
@@ -112,8 +112,11 @@ const PRESSURE: usize = 24;
 const TAU: usize = 28;
 const COVER: usize = 40;
 
-/// Derivatives of a vector over the lanes.
-type Gradient3 = SMatrix<f64, 3, LANES>;
+/// Derivatives of a vector lane by lane.
+type Gradient3 = [[f64; 3]; LANES];
+
+/// Derivatives of the forces on the four corners lane by lane.
+type Slopes = [[f64; 12]; LANES];
 
 /// Quantities of a facet and where they come from.
 struct Kernel<'a> {
@@ -201,7 +204,7 @@ impl<'a> Kernel<'a> {
         sum: &mut FacetForces,
     ) -> LocalTerm {
         let mut force = [Vec3::zeros(); 4];
-        let mut slope = [Gradient3::zeros(); 4];
+        let mut slopes: Slopes = [[0.0; 12]; LANES];
         for point in points {
             let weights = Shape::Quadrilateral.weights(point.xi.re, point.eta.re);
             let density = self.density(&weights);
@@ -210,21 +213,22 @@ impl<'a> Kernel<'a> {
             sum.pressure += area * density.pressure;
             sum.friction += area * density.friction;
             for corner in 0..4 {
-                let value = weights.value[corner];
-                force[corner] += density.force * (value * w);
-                slope[corner] += density.gradient * (value * w);
-                sum.area[corner] += area * value;
-                let by_xi = density.d_xi * value + density.force * weights.d_xi[corner];
-                let by_eta = density.d_eta * value + density.force * weights.d_eta[corner];
-                add_moving(&mut slope[corner], &(by_xi * w), &point.xi);
-                add_moving(&mut slope[corner], &(by_eta * w), &point.eta);
-                add_moving(&mut slope[corner], &(density.force * value), &point.weight);
+                force[corner] += density.force * (weights.value[corner] * w);
+                sum.area[corner] += area * weights.value[corner];
             }
+            for (slope, by_lane) in slopes[..COVER].iter_mut().zip(&density.gradient) {
+                for corner in 0..4 {
+                    for axis in 0..3 {
+                        slope[3 * corner + axis] += by_lane[axis] * (weights.value[corner] * w);
+                    }
+                }
+            }
+            density.add_moving(&weights, point, &mut slopes);
         }
         for corner in 0..4 {
             sum.force[corner] += force[corner];
         }
-        self.rows(&force, &slope, balance)
+        self.rows(&force, &slopes, balance)
     }
 
     /// `t |x_,xi x x_,eta|` at a point with its derivatives.
@@ -253,7 +257,7 @@ impl<'a> Kernel<'a> {
             by_n += turned[corner].by_n * (size * weights.value[corner]);
         }
         let mut by_a = traction * (a / size).transpose();
-        let mut gradient = Gradient3::zeros();
+        let mut gradient: Gradient3 = [[0.0; 3]; LANES];
         let slope = |weights: &[f64; 4]| -> Vec3 {
             (0..4)
                 .map(|c| (turned[c].value - n * self.p[c]) * (size * weights[c]))
@@ -266,8 +270,8 @@ impl<'a> Kernel<'a> {
                 let tangential = (Matrix3::identity() - n * n.transpose()) / interpolated.norm();
                 let by_sum = by_n * tangential;
                 for corner in 0..4 {
-                    let mut block = gradient.fixed_view_mut::<3, 3>(0, NORMAL + 3 * corner);
-                    block += by_sum * weights.value[corner];
+                    let block = by_sum * weights.value[corner];
+                    add_block(&mut gradient, NORMAL + 3 * corner, &block);
                 }
                 d_xi += by_sum * combination(&weights.d_xi, &self.n);
                 d_eta += by_sum * combination(&weights.d_eta, &self.n);
@@ -280,13 +284,12 @@ impl<'a> Kernel<'a> {
             let share = size * weights.value[corner];
             let by_x = cross_xi * weights.d_eta[corner] - cross_eta * weights.d_xi[corner];
             let mut add = |lane: usize, block: Matrix3<f64>| {
-                let mut view = gradient.fixed_view_mut::<3, 3>(0, lane + 3 * corner);
-                view += block;
+                add_block(&mut gradient, lane + 3 * corner, &block);
             };
             add(X, by_a * by_x);
             add(NORMAL, turned[corner].by_from * share);
             add(TAU, turned[corner].by_vector * share);
-            gradient.set_column(PRESSURE + corner, &(n * -share));
+            gradient[PRESSURE + corner] = (n * -share).into();
         }
         Density {
             force: traction * size,
@@ -300,72 +303,55 @@ impl<'a> Kernel<'a> {
     }
 
     /// Momentum rows `-f` and balance rows.
-    fn rows(
-        &self,
-        force: &[Vec3; 4],
-        slope: &[Gradient3; 4],
-        balance: Option<&BalanceRows>,
-    ) -> LocalTerm {
-        let mut rows: Vec<Row<LANES>> = Vec::with_capacity(18);
+    fn rows(&self, force: &[Vec3; 4], slopes: &Slopes, balance: Option<&BalanceRows>) -> LocalTerm {
+        let mut rows: Vec<Row> = Vec::with_capacity(18);
         for corner in 0..4 {
             for axis in 0..3 {
-                let gradient = std::array::from_fn(|lane| -slope[corner][(axis, lane)]);
                 let unknown = self.rows[corner] + axis as u32;
-                rows.push((unknown, Field::Momentum, -force[corner][axis], gradient));
+                rows.push((unknown, Field::Momentum, -force[corner][axis]));
             }
         }
-        if let Some(balance) = balance {
-            let (resultant, gradient) = self.resultant(force, slope, balance);
-            for mode in 0..balance.active {
-                let weights = balance.modes.column(mode);
-                let row = weights.transpose() * gradient;
-                rows.push((
-                    balance.first + mode as u32,
-                    Field::Resultant,
-                    weights.dot(&resultant),
-                    std::array::from_fn(|lane| row[lane]),
-                ));
-            }
+        let triples = self.lanes.triples();
+        let columns = self.lanes.chained(slopes, &triples);
+        let momentum = |column: &[f64; 12]| column.map(|slope| -slope);
+        let Some(balance) = balance else {
+            let columns: Vec<[f64; 12]> = columns.iter().map(momentum).collect();
+            return LocalTerm::from_columns(&rows, &triples, &columns);
+        };
+        let resultant = self.resultant(force, balance);
+        for mode in 0..balance.active {
+            let residual = balance.modes.column(mode).dot(&resultant);
+            rows.push((balance.first + mode as u32, Field::Resultant, residual));
         }
-        LocalTerm::from_lanes(&self.lanes, &rows)
+        let mut with_balance = vec![[0.0; 18]; columns.len()];
+        for (at, (to, column)) in with_balance.iter_mut().zip(&columns).enumerate() {
+            to[..12].copy_from_slice(&momentum(column));
+            let slopes: [Vec3; 4] = std::array::from_fn(|corner| {
+                Vec3::from_column_slice(&column[3 * corner..3 * corner + 3])
+            });
+            let mut change = self.resultant(&slopes, balance);
+            // A corner that moves takes its force along.
+            for corner in (0..4).filter(|&corner| self.rows[corner] == triples[at / 3]) {
+                let turn = Vec3::ith(at % 3, 1.0 / balance.radius).cross(&force[corner]);
+                let mut moment = change.fixed_view_mut::<3, 1>(3, 0);
+                moment += turn;
+            }
+            to[12..].copy_from_slice(balance.modes.tr_mul(&change).as_slice());
+        }
+        LocalTerm::from_columns(&rows, &triples, &with_balance)
     }
 
-    /// Force and moment over the patch radius about the patch centre, with derivatives.
-    fn resultant(
-        &self,
-        force: &[Vec3; 4],
-        slope: &[Gradient3; 4],
-        balance: &BalanceRows,
-    ) -> (Vector6<f64>, SMatrix<f64, 6, LANES>) {
+    /// Force and moment over the patch radius about the patch centre.
+    fn resultant(&self, force: &[Vec3; 4], balance: &BalanceRows) -> Vector6<f64> {
         let mut resultant = Vector6::zeros();
-        let mut gradient = SMatrix::<f64, 6, LANES>::zeros();
         for corner in 0..4 {
             let arm = (self.x[corner] - balance.centre) / balance.radius;
             let mut sum = resultant.fixed_view_mut::<3, 1>(0, 0);
             sum += force[corner];
             let mut sum = resultant.fixed_view_mut::<3, 1>(3, 0);
             sum += arm.cross(&force[corner]);
-            let mut sum = gradient.fixed_view_mut::<3, LANES>(0, 0);
-            sum += slope[corner];
-            let mut sum = gradient.fixed_view_mut::<3, LANES>(3, 0);
-            sum += arm.cross_matrix() * slope[corner];
-            let mut sum = gradient.fixed_view_mut::<3, 3>(3, X + 3 * corner);
-            sum -= force[corner].cross_matrix() / balance.radius;
         }
-        (resultant, gradient)
-    }
-}
-
-/// Adds `vector` times the gradient of a quantity that moves with the corners.
-fn add_moving(slope: &mut Gradient3, vector: &Vec3, quantity: &Moving) {
-    let Derivative(Some(gradient)) = &quantity.eps else {
-        return;
-    };
-    for lane in 0..12 {
-        let mut own = slope.column_mut(X + lane);
-        own += vector * gradient[lane];
-        let mut cover = slope.column_mut(COVER + lane);
-        cover += vector * gradient[12 + lane];
+        resultant
     }
 }
 
@@ -377,4 +363,38 @@ struct Density {
     area: f64,
     pressure: f64,
     friction: f64,
+}
+
+impl Density {
+    /// Adds the derivatives of the forces by a quadrature point that moves with the corners.
+    fn add_moving(
+        &self,
+        weights: &Weights<f64>,
+        point: &QuadraturePoint<Moving>,
+        slopes: &mut Slopes,
+    ) {
+        let w = point.weight.re;
+        for corner in 0..4 {
+            let value = weights.value[corner];
+            let by_xi = (self.d_xi * value + self.force * weights.d_xi[corner]) * w;
+            let by_eta = (self.d_eta * value + self.force * weights.d_eta[corner]) * w;
+            let parts = [
+                (by_xi, &point.xi),
+                (by_eta, &point.eta),
+                (self.force * value, &point.weight),
+            ];
+            for (vector, quantity) in parts {
+                let Derivative(Some(gradient)) = &quantity.eps else {
+                    continue;
+                };
+                for lane in 0..12 {
+                    for axis in 0..3 {
+                        slopes[X + lane][3 * corner + axis] += vector[axis] * gradient[lane];
+                        slopes[COVER + lane][3 * corner + axis] +=
+                            vector[axis] * gradient[12 + lane];
+                    }
+                }
+            }
+        }
+    }
 }

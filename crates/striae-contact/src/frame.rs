@@ -6,20 +6,18 @@
 //! Jones & Papadopoulos (2006), eq. (54) with the missing normalisation; the
 //! second is `t2 = n x t1`.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use num_dual::DualSVec64;
+use rayon::prelude::*;
 use striae_mesh::Vec3;
-use striae_surface::{
-    normal::normal_jacobian,
-    scalar::{cross, dot, normalised, scaled},
-};
+use striae_surface::normal::normal_jacobian;
 
 use crate::{
     configuration::Configuration,
     coverage::Place,
     projection::{Margin, differentiated_rigid},
     selection::{Role, Selection},
-    term::{Jacobian, Lanes, Source, jacobian, variable3},
+    term::{Jacobian, Lanes, Source, add_block, parts, variable3},
 };
 
 /// A vector with its derivatives by the unknowns.
@@ -57,21 +55,32 @@ pub fn frames(
     configuration: &Configuration,
     selection: &Selection,
 ) -> Result<Frames, LostProjection> {
-    let mut frames: Frames = [0, 1].map(|side| vec![None; selection.roles[side].len()]);
-    for &side in configuration.pair.deformable_sides() {
-        for (node, role) in selection.roles[side].iter().enumerate() {
-            let node = node as u32;
-            let n = match role {
-                Role::Idle => continue,
-                Role::Extended(leaders) if configuration.pair.is_rigid() => {
-                    normal(configuration, side, leaders[0].node)?
-                }
-                _ => normal(configuration, side, node)?,
-            };
-            frames[side][node as usize] = Some(frame(configuration, side, node, n));
+    let of_side = |side: usize| -> Result<Vec<Option<Frame>>, LostProjection> {
+        let roles = &selection.roles[side];
+        let found: Vec<_> = (0..roles.len())
+            .into_par_iter()
+            .with_min_len(16)
+            .map(|node| frame_of(configuration, side, node as u32, &roles[node]))
+            .collect();
+        found.into_iter().collect()
+    };
+    Ok([of_side(0)?, of_side(1)?])
+}
+
+fn frame_of(
+    configuration: &Configuration,
+    side: usize,
+    node: u32,
+    role: &Role,
+) -> Result<Option<Frame>, LostProjection> {
+    let n = match role {
+        Role::Idle => return Ok(None),
+        Role::Extended(leaders) if configuration.pair.is_rigid() => {
+            normal(configuration, side, leaders[0].node)?
         }
-    }
-    Ok(frames)
+        _ => normal(configuration, side, node)?,
+    };
+    Ok(Some(frame(configuration, side, node, n)))
 }
 
 /// Largest distance, in reaches, over which a projection is followed within an increment.
@@ -85,10 +94,9 @@ fn normal(
     let own = configuration.side(side);
     let numbering = configuration.pair.numbering();
     if !configuration.pair.is_rigid() {
-        let mut jacobian = Vec::with_capacity(30);
-        for (other, block) in normal_jacobian(own.surface, &own.x, node) {
-            let first = numbering.position(side, other);
-            jacobian.extend((0..3).map(|axis| (first + axis as u32, block.column(axis).into())));
+        let mut jacobian = normal_jacobian(own.surface, &own.x, node);
+        for entry in &mut jacobian {
+            entry.0 = numbering.position(side, entry.0);
         }
         return Ok(Tracked {
             value: own.normals[node as usize],
@@ -115,9 +123,10 @@ fn normal(
         first: numbering.position(side, node),
         count: 3,
     });
+    let (value, gradient) = parts(&-rigid);
     Ok(Tracked {
-        value: -rigid.map(|component| component.re),
-        jacobian: jacobian(&lanes, &-rigid),
+        value,
+        jacobian: lanes.jacobian(&gradient),
     })
 }
 
@@ -125,12 +134,15 @@ fn frame(configuration: &Configuration, side: usize, node: u32, n: Tracked) -> F
     let own = configuration.side(side);
     let numbering = configuration.pair.numbering();
     let neighbour = own.surface.corners(node)[0].next;
-    let x: Vector3<DualSVec64<9>> = variable3(&own.x[node as usize], 0);
-    let x_next = variable3(&own.x[neighbour as usize], 3);
-    let normal = variable3(&n.value, 6);
-    let edge = x_next - x;
-    let t1 = normalised(&(edge - scaled(&normal, dot(&edge, &normal))));
-    let t2 = cross(&normal, &t1);
+    let edge = own.x[neighbour as usize] - own.x[node as usize];
+    let along = edge.dot(&n.value);
+    let tangential = edge - n.value * along;
+    let length = tangential.norm();
+    let t1 = tangential / length;
+    let across = (Matrix3::identity() - t1 * t1.transpose()) / length;
+    let by_edge = across * (Matrix3::identity() - n.value * n.value.transpose());
+    let by_n = -across * (Matrix3::identity() * along + n.value * edge.transpose());
+    let turn = n.value.cross_matrix();
     let mut lanes = Lanes::default();
     for other in [node, neighbour] {
         lanes.push(Source::Unknowns {
@@ -139,12 +151,22 @@ fn frame(configuration: &Configuration, side: usize, node: u32, n: Tracked) -> F
         });
     }
     lanes.push(Source::Vector(&n.jacobian));
-    let tracked = |t: &Vector3<DualSVec64<9>>| Tracked {
-        value: t.map(|component| component.re),
-        jacobian: jacobian(&lanes, t),
+    let tracked = |value: Vec3, by_edge: Matrix3<f64>, by_n: Matrix3<f64>| {
+        let mut gradient = [[0.0; 3]; 9];
+        add_block(&mut gradient, 0, &-by_edge);
+        add_block(&mut gradient, 3, &by_edge);
+        add_block(&mut gradient, 6, &by_n);
+        Tracked {
+            value,
+            jacobian: lanes.jacobian(&gradient),
+        }
     };
+    let t2 = n.value.cross(&t1);
     Frame {
-        t: [tracked(&t1), tracked(&t2)],
+        t: [
+            tracked(t1, by_edge, by_n),
+            tracked(t2, turn * by_edge, turn * by_n - t1.cross_matrix()),
+        ],
         n: n.clone(),
     }
 }

@@ -15,7 +15,7 @@ use nalgebra::{Matrix3, Vector3};
 use striae_mesh::{FacetId, Vec3};
 use striae_surface::{
     facet::{Shape, area_vector},
-    scalar::{Real, combination, constant3, normalised, scaled},
+    scalar::{Real, combination, constant3, normalised},
 };
 
 use crate::{configuration::Snapshot, search::Bounds};
@@ -64,8 +64,7 @@ pub fn project(target: &Snapshot, x: &Vec3, ray: Ray, reach: f64, margin: Margin
     match margin {
         Margin::Inside => inside,
         Margin::Extrapolated => inside.or_else(|| {
-            let size = target.sizes.iter().copied().fold(0.0, f64::max);
-            let wide = bounds.inflated(EXTRAPOLATION * size);
+            let wide = bounds.inflated(EXTRAPOLATION * target.largest_size);
             nearest(target, x, ray, reach, &wide, EXTRAPOLATION)
         }),
     }
@@ -173,27 +172,9 @@ fn system(
     }
 }
 
-/// A converged projection along the node's own normal with its derivatives:
-/// `(xi, eta, g)` as functions of the node, its normal and the facet's corners.
-pub fn differentiated<D: Real>(
-    shape: Shape,
-    hit: &Hit,
-    x: &Vector3<D>,
-    n: &Vector3<D>,
-    corners: &[Vector3<D>; 4],
-) -> [D; 3] {
-    let real = |v: &Vector3<D>| v.map(|component| component.re());
-    let positions = corners.each_ref().map(real);
-    let at = [hit.xi, hit.eta, hit.gap];
-    let ray = Ray::Own(real(n));
-    let (_, jacobian) = system(shape, &positions, &positions, &real(x), ray, at);
-    let weights = shape.weights(hit.xi, hit.eta).value.map(D::from);
-    let residual = combination(&weights, corners) - x - scaled(n, D::from(hit.gap));
-    implicit(at, &jacobian, &residual)
-}
-
-/// The same along the interpolated normal of a rigid facet, as functions of
-/// the node alone, with the rigid normal at the projection.
+/// A converged projection along the interpolated normal of a rigid facet with its
+/// derivatives: `(xi, eta, g)` as functions of the node alone, with the rigid normal
+/// at the projection. Along the node's own normal see [`Opposing`](crate::opposing::Opposing).
 pub fn differentiated_rigid<D: Real>(
     target: &Snapshot,
     hit: &Hit,

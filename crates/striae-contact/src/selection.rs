@@ -63,6 +63,19 @@ pub enum Partner {
     Rigid(Vec3),
 }
 
+impl Partner {
+    /// Where the point is now, seen from a node of `side`.
+    pub fn point(&self, configuration: &Configuration, side: usize) -> Vec3 {
+        match self {
+            Partner::Rigid(point) => configuration.placement.point(point),
+            Partner::Corners(corners, weights) => {
+                let x = &configuration.side(1 - side).x;
+                (0..4).map(|c| x[corners[c] as usize] * weights[c]).sum()
+            }
+        }
+    }
+}
+
 /// Roles of all nodes of a pair and the patches they form.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Selection {

@@ -3,15 +3,13 @@
 //! `v = (I - n n)(x_I - xbar)/dt` over the time `dt` since the last converged
 //! configuration. Only friction that decays with the slip rate `|v|` asks for it.
 
-use nalgebra::Vector3;
-use num_dual::{DualNum, DualSVec64};
-use striae_surface::scalar::{combination, constant3, dot, scaled};
+use nalgebra::Matrix3;
 
 use crate::{
     configuration::Configuration,
     frame::{Frame, Frames, Tracked},
     selection::{Partner, Role, Selection},
-    term::{Lanes, Source, jacobian, variable3, variables3},
+    term::{Lanes, Source, add_block},
 };
 
 /// Slip velocities by side; zero without derivatives where nothing asks for them.
@@ -44,45 +42,32 @@ fn slip_velocity(
     partner: Partner,
     frame: &Frame,
 ) -> Tracked {
-    type D = DualSVec64<18>;
     let numbering = configuration.pair.numbering();
+    let (x, n) = (configuration.side(side).x[node as usize], frame.n.value);
+    let per_time = 1.0 / configuration.elapsed;
+    let tangential = (Matrix3::identity() - n * n.transpose()) * per_time;
     let mut lanes = Lanes::default();
+    let mut gradient = [[0.0; 3]; 18];
     lanes.push(Source::Unknowns {
         first: numbering.position(side, node),
         count: 3,
     });
     lanes.push(Source::Vector(&frame.n.jacobian));
-    let opposite: Vector3<D> = match partner {
-        Partner::Rigid(point) => constant3(&configuration.placement.point(&point)),
-        Partner::Corners(corners, weights) => {
-            for corner in corners {
-                lanes.push(Source::Unknowns {
-                    first: numbering.position(1 - side, corner),
-                    count: 3,
-                });
-            }
-            let x = &configuration.side(1 - side).x;
-            let positions = corners.map(|corner| x[corner as usize]);
-            combination(&weights.map(D::from), &variables3(&positions, 6))
+    if let Partner::Corners(corners, weights) = partner {
+        for (at, corner) in corners.into_iter().enumerate() {
+            lanes.push(Source::Unknowns {
+                first: numbering.position(1 - side, corner),
+                count: 3,
+            });
+            add_block(&mut gradient, 6 + 3 * at, &(tangential * -weights[at]));
         }
-    };
-    let x: Vector3<D> = variable3(&configuration.side(side).x[node as usize], 0);
-    let n: Vector3<D> = variable3(&frame.n.value, 3);
-    let relative = x - opposite;
-    let along = relative - scaled(&n, dot(&relative, &n));
-    let velocity = scaled(&along, D::from(1.0 / configuration.elapsed));
-    Tracked {
-        value: velocity.map(|component| component.re),
-        jacobian: jacobian(&lanes, &velocity),
     }
-}
-
-/// The length of a vector given by components, without derivatives at zero.
-pub fn rate<D: DualNum<Primitive = f64> + Copy>(components: &[D]) -> D {
-    let square = components.iter().fold(D::zero(), |sum, &c| sum + c * c);
-    if square.re() > 0.0 {
-        square.sqrt()
-    } else {
-        D::zero()
+    let relative = x - partner.point(configuration, side);
+    let by_n = Matrix3::identity() * n.dot(&relative) + n * relative.transpose();
+    add_block(&mut gradient, 0, &tangential);
+    add_block(&mut gradient, 3, &(by_n * -per_time));
+    Tracked {
+        value: tangential * relative,
+        jacobian: lanes.jacobian(&gradient),
     }
 }

@@ -1,9 +1,11 @@
 //! Local terms: rows of the residual with their derivatives.
 //!
-//! A kernel evaluates its rows on dual numbers whose lanes are intermediate
-//! quantities (positions, normals, nodal tractions). The chain rule through the
-//! intermediate quantities to the unknowns is applied here.
+//! A kernel differentiates its rows by intermediate quantities, its lanes
+//! (positions, normals, nodal tractions), by hand or with dual numbers. The chain
+//! rule through the lanes to the unknowns is applied here, for all rows at once:
+//! gradients are stored as `gradient[lane][row]`.
 
+use nalgebra::{Matrix3, Vector3};
 use num_dual::{Derivative, DualSVec64};
 use striae_mesh::Vec3;
 
@@ -16,7 +18,7 @@ pub struct LocalTerm {
     pub fields: Vec<Field>,
     /// Residual of each row.
     pub residual: Vec<f64>,
-    /// Pair-local unknowns the rows depend on, ascending.
+    /// Pair-local unknowns the rows depend on, ascending, in whole triples.
     pub columns: Vec<u32>,
     /// `d residual / d unknown`, row-major.
     pub tangent: Vec<f64>,
@@ -39,17 +41,17 @@ pub enum Field {
     Number,
 }
 
-/// A row: the equation it belongs to, what it states, its residual and its
-/// gradient over the lanes.
-pub type Row<const N: usize> = (u32, Field, f64, [f64; N]);
+/// A row: the equation it belongs to, what it states and its residual.
+pub type Row = (u32, Field, f64);
 
-/// Derivatives of a vector: `(unknown, d vector / d unknown)`.
-pub type Jacobian = Vec<(u32, Vec3)>;
+/// Derivatives of a vector: `(first unknown of a triple, d vector / d triple)`. Unknowns of
+/// contact come in [triples](crate::unknown): positions, tractions, halves of a balance.
+pub type Jacobian = Vec<(u32, Matrix3<f64>)>;
 
-/// Where the lanes of a dual number come from.
+/// Where lanes come from.
 #[derive(Clone, Copy, Debug)]
 pub enum Source<'a> {
-    /// Consecutive unknowns.
+    /// Consecutive unknowns from the first of a triple on.
     Unknowns {
         /// The first of them.
         first: u32,
@@ -72,42 +74,55 @@ impl<'a> Lanes<'a> {
         self.0.push(source);
     }
 
-    /// Unknowns that any lane depends on, ascending.
-    pub fn columns(&self) -> Vec<u32> {
-        let mut columns = Vec::with_capacity(96);
+    /// First unknowns of the triples that any lane depends on, ascending.
+    pub fn triples(&self) -> Vec<u32> {
+        let mut triples: Vec<u32> = Vec::with_capacity(48);
+        let mut add = |first: u32| {
+            if let Err(at) = triples.binary_search(&first) {
+                triples.insert(at, first);
+            }
+        };
         for source in &self.0 {
             match source {
                 Source::Unknowns { first, count } => {
-                    columns.extend(*first..*first + *count as u32);
+                    (*first..*first + *count as u32)
+                        .step_by(3)
+                        .for_each(&mut add);
                 }
-                Source::Vector(jacobian) => columns.extend(jacobian.iter().map(|entry| entry.0)),
+                Source::Vector(jacobian) => jacobian.iter().for_each(|entry| add(entry.0)),
                 Source::Constant(_) => {}
             }
         }
-        columns.sort_unstable();
-        columns.dedup();
-        columns
+        triples
     }
 
-    /// Adds the row with the gradient `lane_gradient` over the lanes to `row`,
-    /// which runs over `columns`.
-    pub fn chain(&self, lane_gradient: &[f64], columns: &[u32], row: &mut [f64]) {
-        let position = |unknown: u32| columns.partition_point(|column| *column < unknown);
+    /// Derivatives of rows by the unknowns of `triples`, column by column.
+    pub fn chained<const R: usize>(&self, gradient: &[[f64; R]], triples: &[u32]) -> Vec<[f64; R]> {
+        let mut columns = vec![[0.0; R]; 3 * triples.len()];
+        let position = |first: u32| 3 * triples.partition_point(|triple| *triple < first);
         let mut lane = 0;
         for source in &self.0 {
             match source {
                 Source::Unknowns { first, count } => {
-                    let start = position(*first);
                     for offset in 0..*count {
-                        row[start + offset] += lane_gradient[lane + offset];
+                        let at = position(first + (offset - offset % 3) as u32) + offset % 3;
+                        let slopes = columns[at].iter_mut().zip(&gradient[lane + offset]);
+                        slopes.for_each(|(slope, by_lane)| *slope += by_lane);
                     }
                     lane += count;
                 }
                 Source::Vector(jacobian) => {
-                    let g = Vec3::from_column_slice(&lane_gradient[lane..lane + 3]);
-                    if g != Vec3::zeros() {
-                        for (unknown, derivative) in jacobian.iter() {
-                            row[position(*unknown)] += g.dot(derivative);
+                    let [x, y, z] = [0, 1, 2].map(|axis| &gradient[lane + axis]);
+                    if [x, y, z].iter().any(|by_lane| **by_lane != [0.0; R]) {
+                        for (first, block) in jacobian.iter() {
+                            let at = position(*first);
+                            for (column, [b_x, b_y, b_z]) in
+                                columns[at..].iter_mut().zip(block.data.0)
+                            {
+                                for row in 0..R {
+                                    column[row] += x[row] * b_x + y[row] * b_y + z[row] * b_z;
+                                }
+                            }
                         }
                     }
                     lane += 3;
@@ -115,42 +130,71 @@ impl<'a> Lanes<'a> {
                 Source::Constant(count) => lane += count,
             }
         }
+        columns
+    }
+
+    /// Derivatives of a vector by the unknowns.
+    pub fn jacobian(&self, gradient: &[[f64; 3]]) -> Jacobian {
+        let triples = self.triples();
+        let columns = self.chained(gradient, &triples);
+        let blocks = columns.chunks_exact(3).map(|block| {
+            Matrix3::from_columns(&[block[0].into(), block[1].into(), block[2].into()])
+        });
+        triples.iter().copied().zip(blocks).collect()
     }
 }
 
 impl LocalTerm {
-    /// A term from rows over lanes.
-    pub fn from_lanes<const N: usize>(lanes: &Lanes, rows: &[Row<N>]) -> Self {
-        let columns = lanes.columns();
-        let mut tangent = vec![0.0; rows.len() * columns.len()];
-        for (row, (_, _, _, gradient)) in tangent.chunks_mut(columns.len().max(1)).zip(rows) {
-            lanes.chain(gradient, &columns, row);
+    /// A term from rows and their gradients over lanes.
+    pub fn from_lanes<const R: usize>(
+        lanes: &Lanes,
+        rows: &[Row; R],
+        gradient: &[[f64; R]],
+    ) -> Self {
+        let triples = lanes.triples();
+        let columns = lanes.chained(gradient, &triples);
+        Self::from_columns(rows, &triples, &columns)
+    }
+
+    /// A term from rows and their derivatives by the unknowns of `triples`.
+    pub fn from_columns<const R: usize>(
+        rows: &[Row],
+        triples: &[u32],
+        columns: &[[f64; R]],
+    ) -> Self {
+        let mut tangent = Vec::with_capacity(rows.len() * columns.len());
+        for row in 0..rows.len() {
+            tangent.extend(columns.iter().map(|column| column[row]));
         }
         Self {
             rows: rows.iter().map(|row| row.0).collect(),
             fields: rows.iter().map(|row| row.1).collect(),
             residual: rows.iter().map(|row| row.2).collect(),
-            columns,
+            columns: triples.iter().flat_map(|first| *first..first + 3).collect(),
             tangent,
         }
     }
 }
 
-/// The derivatives of a dual vector as a Jacobian over unknowns.
-pub fn jacobian<const N: usize>(
-    lanes: &Lanes,
-    vector: &nalgebra::Vector3<DualSVec64<N>>,
-) -> Jacobian {
-    let columns = lanes.columns();
-    let mut rows = [(); 3].map(|()| vec![0.0; columns.len()]);
-    for (axis, row) in rows.iter_mut().enumerate() {
-        lanes.chain(&gradient(&vector[axis]), &columns, row);
+/// Adds the derivative of three rows by a vector on the lanes from `lane` on.
+pub fn add_block(gradient: &mut [[f64; 3]], lane: usize, block: &Matrix3<f64>) {
+    for (by_lane, column) in gradient[lane..].iter_mut().zip(block.data.0) {
+        for row in 0..3 {
+            by_lane[row] += column[row];
+        }
     }
-    columns
-        .iter()
-        .enumerate()
-        .map(|(at, &column)| (column, Vec3::new(rows[0][at], rows[1][at], rows[2][at])))
-        .collect()
+}
+
+/// Gradients of dual numbers over the lanes, lane by lane.
+pub fn by_lane<const R: usize, const N: usize>(rows: &[DualSVec64<N>; R]) -> [[f64; R]; N] {
+    let gradients = rows.each_ref().map(gradient);
+    std::array::from_fn(|lane| std::array::from_fn(|row| gradients[row][lane]))
+}
+
+/// A dual vector by its values and its gradients over the lanes.
+pub fn parts<const N: usize>(vector: &Vector3<DualSVec64<N>>) -> (Vec3, [[f64; 3]; N]) {
+    let value = vector.map(|component| component.re);
+    (value, by_lane(&[vector.x, vector.y, vector.z]))
 }
 
 /// A dual number that is the lane `lane`.

@@ -11,10 +11,10 @@
 //! made of unit length; the sign expresses it for the normal of the node's own
 //! side, Jones & Papadopoulos (2006), eq. (17).
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use num_dual::DualSVec64;
+use rayon::prelude::*;
 use striae_law::friction::RequiredTextures;
-use striae_mesh::Vec3;
 use striae_surface::{
     facet::Shape,
     scalar::{constant3, dot, normalised, scaled},
@@ -26,9 +26,11 @@ use crate::{
     configuration::Configuration,
     coverage::Place,
     frame::{FOLLOW, Frame, Frames, Tracked},
-    projection::{Margin, differentiated, differentiated_rigid},
+    opposing::{Opposing, PlaceLanes},
+    projection::{Hit, Margin, differentiated_rigid},
     selection::{Role, Selection},
-    term::{Jacobian, Lanes, Source, jacobian, variable3, variables3},
+    term::{Jacobian, Lanes, Source, parts, variable3},
+    transported::Transported,
 };
 
 /// Texture of one side of a pair.
@@ -70,23 +72,25 @@ pub fn textures(
     selection: &Selection,
     frames: &Frames,
 ) -> Result<Textures, CollapsedTexture> {
-    let mut textures =
-        [0, 1].map(|side| vec![NodeTextures::default(); selection.roles[side].len()]);
     if configuration.pair.friction.required_textures() == RequiredTextures::Any {
-        return Ok(textures);
+        return Ok([0, 1].map(|side| vec![NodeTextures::default(); selection.roles[side].len()]));
     }
-    for &side in configuration.pair.deformable_sides() {
-        for (node, role) in selection.roles[side].iter().enumerate() {
-            if let (Role::Kinematic(_), Some(frame)) = (role, &frames[side][node]) {
-                let node = node as u32;
-                textures[side][node as usize] = NodeTextures {
-                    own: own(configuration, side, node, &frame.n)?,
-                    opposite: opposite(configuration, side, node, frame, frames)?,
-                };
-            }
-        }
-    }
-    Ok(textures)
+    let of_side = |side: usize| -> Result<Vec<NodeTextures>, CollapsedTexture> {
+        let roles = &selection.roles[side];
+        let found: Vec<_> = (0..roles.len())
+            .into_par_iter()
+            .with_min_len(8)
+            .map(|node| match (&roles[node], &frames[side][node]) {
+                (Role::Kinematic(_), Some(frame)) => Ok(NodeTextures {
+                    own: own(configuration, side, node as u32, &frame.n)?,
+                    opposite: opposite(configuration, side, node as u32, frame, frames)?,
+                }),
+                _ => Ok(NodeTextures::default()),
+            })
+            .collect();
+        found.into_iter().collect()
+    };
+    Ok([of_side(0)?, of_side(1)?])
 }
 
 /// The node's own `a`, for the normal `n`.
@@ -107,9 +111,8 @@ pub fn own(
     let mut add = |other: u32, weight: f64| {
         direction.value += snapshot.x[other as usize] * weight;
         let first = numbering.position(side, other);
-        direction
-            .jacobian
-            .extend((0..3).map(|axis| (first + axis as u32, Vec3::ith(axis, weight))));
+        let block = Matrix3::from_diagonal_element(weight);
+        direction.jacobian.push((first, block));
     };
     for (&other, &weight) in ordinates.ring.iter().zip(ordinates.weights) {
         add(other, weight);
@@ -180,7 +183,7 @@ fn on_plane(
 fn on_rigid(
     configuration: &Configuration,
     node: u32,
-    hit: &crate::projection::Hit,
+    hit: &Hit,
 ) -> Result<Tracked, CollapsedTexture> {
     let target = configuration.side(1);
     let corners = target.corners(hit.facet);
@@ -221,10 +224,9 @@ fn on_deformable(
     node: u32,
     frame: &Frame,
     frames: &Frames,
-    hit: &crate::projection::Hit,
+    hit: &Hit,
 ) -> Result<Tracked, CollapsedTexture> {
-    type D = DualSVec64<42>;
-    let (own_side, other) = (configuration.side(side), configuration.side(1 - side));
+    let other = configuration.side(1 - side);
     let numbering = configuration.pair.numbering();
     let corners = other.corners(hit.facet);
     let normals = corners.map(|corner| match &frames[1 - side][corner as usize] {
@@ -254,24 +256,34 @@ fn on_deformable(
     for texture in &a {
         lanes.push(Source::Vector(&texture.jacobian));
     }
-    let x: Vector3<D> = variable3(&own_side.x[node as usize], 0);
-    let n: Vector3<D> = variable3(&frame.n.value, 3);
-    let x_opposite = variables3(&other.corner_positions(hit.facet), 6);
     let shape = Shape::of(&corners);
-    let [xi, eta, _] = differentiated(shape, hit, &x, &n, &x_opposite);
-    let weights = shape.weights(xi, eta).value;
-    let mut sum: Vector3<D> = Vector3::zeros();
-    for corner in 0..4 {
-        let n_j: Vector3<D> = variable3(&normals[corner].value, 18 + 3 * corner);
-        let a_j: Vector3<D> = variable3(&a[corner].value, 30 + 3 * corner);
-        sum -= scaled(&transported(&a_j, &-n_j, &n), weights[corner]);
-    }
-    Ok(tracked(&lanes, &normalised(&sum)))
+    let n = frame.n.value;
+    let opposing = Opposing::new(shape, hit, &n, &other.corner_positions(hit.facet));
+    let turned: [Transported; 4] = std::array::from_fn(|corner| {
+        Transported::new(&a[corner].value, &-normals[corner].value, &n)
+    });
+    let sum = opposing.sum(&turned);
+    let length = sum.norm();
+    let value = sum / length;
+    let across = (Matrix3::identity() - value * value.transpose()) / length;
+    let mut gradient = [[0.0; 3]; 42];
+    let by_r = opposing.spread_sum(&across, &turned, [3, 18, 30], &mut gradient);
+    let place = PlaceLanes {
+        x: 0,
+        n: 3,
+        corners: 6,
+    };
+    opposing.spread(&by_r, place, &mut gradient);
+    Ok(Tracked {
+        value,
+        jacobian: lanes.jacobian(&gradient),
+    })
 }
 
 fn tracked<const N: usize>(lanes: &Lanes, vector: &Vector3<DualSVec64<N>>) -> Tracked {
+    let (value, gradient) = parts(vector);
     Tracked {
-        value: vector.map(|component| component.re),
-        jacobian: jacobian(lanes, vector),
+        value,
+        jacobian: lanes.jacobian(&gradient),
     }
 }

@@ -3,18 +3,19 @@
 //! At kinematic nodes `tau = -(L z + varpi eta)` with `varpi` at the present slip rate, elsewhere the unknowns are the
 //! components of `tau` itself.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use num_dual::DualSVec64;
-use striae_law::friction::Textures as LawTextures;
+use rayon::prelude::*;
+use striae_law::friction::{Friction, Textures as LawTextures};
 use striae_mesh::Vec3;
-use striae_surface::scalar::scaled;
+use striae_surface::scalar::constant3;
 
 use crate::{
     configuration::Configuration,
     frame::{Frame, Frames, Tracked},
     selection::{Role, Selection},
-    slip_rate::{SlipVelocities, rate},
-    term::{Lanes, Source, jacobian, variable, variable3},
+    slip_rate::SlipVelocities,
+    term::{Lanes, Source, add_block, gradient, parts, variable, variable3},
     texture::{NodeTextures, Textures},
     unknowns::Tractions,
 };
@@ -42,6 +43,8 @@ pub fn nodal_tractions(
 ) -> NodalTractions {
     [0, 1].map(|side| {
         (0..selection.roles[side].len())
+            .into_par_iter()
+            .with_min_len(16)
             .map(|node| match &surroundings.frames[side][node] {
                 Some(frame) => nodal_traction(
                     configuration,
@@ -67,31 +70,124 @@ fn nodal_traction(
     first: u32,
     unknowns: [f64; 3],
 ) -> Tracked {
-    type D = DualSVec64<21>;
-    let t: [Vector3<D>; 2] = [
-        variable3(&frame.t[0].value, 3),
-        variable3(&frame.t[1].value, 6),
-    ];
-    let vector = scaled(&t[0], variable(unknowns[1], 1)) + scaled(&t[1], variable(unknowns[2], 2));
-    let tau = if matches!(role, Role::Kinematic(_)) {
-        let friction = &configuration.pair.friction;
-        let pressure: D = variable(unknowns[0], 0);
-        let kernel = friction.kernel(&variable3(&frame.n.value, 9), &on_lanes(textures, 12));
-        let velocity: Vector3<D> = variable3(&velocity.value, 18);
-        kernel.traction(friction.cap(pressure, rate(velocity.as_slice())), &vector)
+    let [t1, t2] = &frame.t;
+    let [pressure, z1, z2] = unknowns;
+    let vector = in_frame(frame, [z1, z2]);
+    let response = if matches!(role, Role::Kinematic(_)) {
+        let (friction, rate) = (&configuration.pair.friction, velocity.value.norm());
+        let cap = Cap::new(friction, pressure, rate);
+        if *textures == NodeTextures::default() {
+            Response::new::<4>(friction, frame, textures, cap, &vector)
+        } else {
+            Response::new::<13>(friction, frame, textures, cap, &vector)
+        }
     } else {
-        vector
+        Response::direct(vector)
     };
+    let by_vector = response.by_vector;
+    let mut gradient = [[0.0; 3]; 21];
+    let by_unknowns = [
+        response.by_pressure,
+        by_vector * t1.value,
+        by_vector * t2.value,
+    ];
+    add_block(&mut gradient, 0, &Matrix3::from_columns(&by_unknowns));
+    add_block(&mut gradient, 3, &(by_vector * z1));
+    add_block(&mut gradient, 6, &(by_vector * z2));
+    gradient[9..18].copy_from_slice(&response.by_surroundings);
+    if let Some(direction) = velocity.value.try_normalize(0.0) {
+        add_block(
+            &mut gradient,
+            18,
+            &(response.by_rate * direction.transpose()),
+        );
+    }
     let mut lanes = Lanes::default();
     lanes.push(Source::Unknowns { first, count: 3 });
-    lanes.push(Source::Vector(&frame.t[0].jacobian));
-    lanes.push(Source::Vector(&frame.t[1].jacobian));
+    lanes.push(Source::Vector(&t1.jacobian));
+    lanes.push(Source::Vector(&t2.jacobian));
     lanes.push(Source::Vector(&frame.n.jacobian));
     push_textures(&mut lanes, textures);
     lanes.push(Source::Vector(&velocity.jacobian));
     Tracked {
-        value: tau.map(|component| component.re),
-        jacobian: jacobian(&lanes, &tau),
+        value: response.tau,
+        jacobian: lanes.jacobian(&gradient),
+    }
+}
+
+/// `varpi` with its derivatives by pressure and slip rate.
+#[derive(Clone, Copy, Debug)]
+pub struct Cap {
+    /// `varpi`.
+    pub value: f64,
+    /// `d varpi / d p`.
+    pub by_pressure: f64,
+    /// `d varpi / d v`.
+    pub by_rate: f64,
+}
+
+impl Cap {
+    /// At a pressure and a slip rate.
+    pub fn new(friction: &Friction, pressure: f64, rate: f64) -> Self {
+        let varpi: DualSVec64<2> = friction.cap(variable(pressure, 0), variable(rate, 1));
+        let [by_pressure, by_rate] = gradient(&varpi);
+        Self {
+            value: varpi.re,
+            by_pressure,
+            by_rate,
+        }
+    }
+}
+
+/// A friction traction with its derivatives by what the law sees.
+struct Response {
+    tau: Vec3,
+    by_vector: Matrix3<f64>,
+    by_pressure: Vec3,
+    by_rate: Vec3,
+    /// Lane by lane, by normal and textures.
+    by_surroundings: [[f64; 3]; 9],
+}
+
+impl Response {
+    /// `tau` is the vector itself.
+    fn direct(vector: Vec3) -> Self {
+        Self {
+            tau: vector,
+            by_vector: Matrix3::identity(),
+            by_pressure: Vec3::zeros(),
+            by_rate: Vec3::zeros(),
+            by_surroundings: [[0.0; 3]; 9],
+        }
+    }
+
+    /// The law over `N` lanes: `z`, `varpi` and, if textures are looked at, the normal
+    /// and the textures.
+    fn new<const N: usize>(
+        friction: &Friction,
+        frame: &Frame,
+        textures: &NodeTextures,
+        cap: Cap,
+        z: &Vec3,
+    ) -> Self {
+        let (n, textures) = if N > 4 {
+            (variable3(&frame.n.value, 4), on_lanes(textures, 7))
+        } else {
+            (constant3(&frame.n.value), LawTextures::none())
+        };
+        let z: Vector3<DualSVec64<N>> = variable3(z, 0);
+        let kernel = friction.kernel(&n, &textures);
+        let (tau, gradient) = parts(&kernel.traction(variable(cap.value, 3), &z));
+        let by_cap = Vec3::from(gradient[3]);
+        let mut by_surroundings = [[0.0; 3]; 9];
+        by_surroundings[..N - 4].copy_from_slice(&gradient[4..]);
+        Self {
+            tau,
+            by_vector: Matrix3::from_fn(|row, column| gradient[column][row]),
+            by_pressure: by_cap * cap.by_pressure,
+            by_rate: by_cap * cap.by_rate,
+            by_surroundings,
+        }
     }
 }
 

@@ -13,24 +13,21 @@
 //! direction still does; `c` and `omega` are the balance unknowns of the
 //! patch of radius `l`. An extended node takes the traction of its leader.
 
-use nalgebra::Vector3;
-use num_dual::DualSVec64;
+use nalgebra::{Matrix3, RowVector3};
 use striae_mesh::Vec3;
-use striae_surface::{
-    facet::Shape,
-    scalar::{constant3, cross, dot, scaled},
-    transport::transported,
-};
+use striae_surface::facet::Shape;
 
 use crate::{
     configuration::Configuration,
     coverage::Place,
-    frame::{FOLLOW, Frames, LostProjection},
-    projection::{Margin, differentiated},
+    frame::{FOLLOW, Frame, Frames, LostProjection},
+    opposing::{Opposing, PlaceLanes},
+    projection::Margin,
     selection::{Leader, Selection},
-    term::{Field, Jacobian, Lanes, LocalTerm, Source, gradient, variable, variable3, variables3},
+    term::{Field, Jacobian, Lanes, LocalTerm, Row, Source, add_block},
     texture::Textures,
     traction::NodalTractions,
+    transported::Transported,
     unknowns::Tractions,
 };
 
@@ -107,8 +104,6 @@ pub fn traction_rows(
     side: usize,
     node: u32,
 ) -> Result<(LocalTerm, f64), LostProjection> {
-    const N: usize = 61;
-    type D = DualSVec64<N>;
     let Fields { configuration, .. } = *fields;
     let lost = LostProjection { side, node };
     let frame = fields.frames[side][node as usize].as_ref().ok_or(lost)?;
@@ -155,51 +150,98 @@ pub fn traction_rows(
         None => Source::Constant(6),
     });
 
-    let x: Vector3<D> = variable3(&own.x[node as usize], 0);
-    let n: Vector3<D> = variable3(&frame.n.value, 3);
-    let t: [Vector3<D>; 2] = [
-        variable3(&frame.t[0].value, 6),
-        variable3(&frame.t[1].value, 9),
-    ];
-    let x_opposite = variables3(&other.corner_positions(hit.facet), 12);
-    let n_opposite: [Vector3<D>; 4] = variables3(&corners.map(|c| fields.normal(1 - side, c)), 24);
-    let tau_opposite: [Vector3<D>; 4] =
-        variables3(&corners.map(|c| fields.tau[1 - side][c as usize].value), 40);
+    let [x, n] = [own.x[node as usize], frame.n.value];
     let shape = Shape::of(&corners);
-    let [xi, eta, gap] = differentiated(shape, &hit, &x, &n, &x_opposite);
-    let weights = shape.weights(xi, eta).value;
-    let mut pressure = D::from_re(0.0);
-    let mut tau: Vector3<D> = Vector3::zeros();
-    for corner in 0..4 {
-        let p: D = variable(fields.pressure(1 - side, corners[corner]), 36 + corner);
-        pressure += weights[corner] * p;
-        let turned = transported(&tau_opposite[corner], &-n_opposite[corner], &n);
-        tau -= scaled(&turned, weights[corner]);
-    }
+    let opposing = Opposing::new(shape, &hit, &n, &other.corner_positions(hit.facet));
+    let pressures = corners.map(|corner| fields.pressure(1 - side, corner));
+    let turned = corners.map(|corner| {
+        let tau = fields.tau[1 - side][corner as usize].value;
+        Transported::new(&tau, &-fields.normal(1 - side, corner), &n)
+    });
+    let p_b: f64 = (0..4).map(|c| opposing.weights[c] * pressures[c]).sum();
+    let tau_b = opposing.sum(&turned);
+    // The targets of the rows are `e_1 p + T tau` with `T` of rows `0`, `t_1`, `t_2`.
+    let only_pressure = Vec3::x();
+    let tangential = components(frame);
+    let mut gradient = [[0.0; 3]; LANES];
+    let (mut p, mut tau) = (p_b, tau_b);
+    let mut by_p_b = only_pressure;
+    let mut by_tau_b = tangential;
     if let Some(patch) = patch {
         let geometry = fields.selection.patches[patch as usize];
         let values = fields.tractions.balance[patch as usize];
-        let c: Vector3<D> = variable3(&Vec3::from_column_slice(&values[..3]), 55);
-        let omega: Vector3<D> = variable3(&Vec3::from_column_slice(&values[3..]), 58);
-        let arm = scaled(
-            &(x - constant3(&geometry.centre)),
-            D::from(1.0 / geometry.radius),
+        let [c, omega] = [0, 3].map(|first| Vec3::from_column_slice(&values[first..first + 3]));
+        let arm = (x - geometry.centre) / geometry.radius;
+        let q = c + omega.cross(&arm);
+        let share = 1.0 - q.dot(&n);
+        (p, tau) = (share * p_b, tau_b * share + q * p_b);
+        by_p_b = only_pressure * share + tangential * q;
+        by_tau_b = tangential * share;
+        let by_share = only_pressure * p_b + tangential * tau_b;
+        let by_q = tangential * p_b - by_share * n.transpose();
+        add_block(
+            &mut gradient,
+            X,
+            &(by_q * omega.cross_matrix() / geometry.radius),
         );
-        let q = c + cross(&omega, &arm);
-        let share = -dot(&q, &n) + 1.0;
-        tau = scaled(&tau, share) + scaled(&q, pressure);
-        pressure *= share;
+        add_block(&mut gradient, NORMAL, &(by_share * -q.transpose()));
+        add_block(&mut gradient, BALANCE, &by_q);
+        add_block(&mut gradient, BALANCE + 3, &(by_q * -arm.cross_matrix()));
     }
+    let sum_lanes = [NORMAL, N_OPPOSITE, TAU_OPPOSITE];
+    let mut by_r = opposing.spread_sum(&by_tau_b, &turned, sum_lanes, &mut gradient);
+    for corner in 0..4 {
+        by_r += by_p_b * pressures[corner] * opposing.weights_by_r[corner].transpose();
+        gradient[P_OPPOSITE + corner] = (by_p_b * opposing.weights[corner]).into();
+    }
+    let place = PlaceLanes {
+        x: X,
+        n: NORMAL,
+        corners: X_OPPOSITE,
+    };
+    opposing.spread(&by_r, place, &mut gradient);
+    add_tangents(&tau, TANGENTS, &mut gradient);
+    gradient
+        .iter_mut()
+        .flatten()
+        .for_each(|slope| *slope = -*slope);
+    add_block(&mut gradient, OWN, &Matrix3::identity());
     let unknowns = fields.tractions.nodes[side][node as usize];
-    let rows = [pressure, dot(&tau, &t[0]), dot(&tau, &t[1])];
-    let rows: Vec<_> = (0..3)
-        .map(|at| {
-            let own: D = variable(unknowns[at], 52 + at);
-            let row = own - rows[at];
-            (first + at as u32, Field::Traction, row.re, gradient(&row))
-        })
-        .collect();
-    Ok((LocalTerm::from_lanes(&lanes, &rows), gap.re))
+    let targets = only_pressure * p + tangential * tau;
+    let rows: [Row; 3] = std::array::from_fn(|at| {
+        (
+            first + at as u32,
+            Field::Traction,
+            unknowns[at] - targets[at],
+        )
+    });
+    Ok((LocalTerm::from_lanes(&lanes, &rows, &gradient), hit.gap))
+}
+
+/// Lanes of the rows of a traction node.
+const LANES: usize = 61;
+const X: usize = 0;
+const NORMAL: usize = 3;
+const TANGENTS: usize = 6;
+const X_OPPOSITE: usize = 12;
+const N_OPPOSITE: usize = 24;
+const P_OPPOSITE: usize = 36;
+const TAU_OPPOSITE: usize = 40;
+const OWN: usize = 52;
+const BALANCE: usize = 55;
+
+/// `(0, t1 . v, t2 . v)` of a vector `v`.
+fn components(frame: &Frame) -> Matrix3<f64> {
+    let [t1, t2] = [0, 1].map(|axis| frame.t[axis].value.transpose());
+    Matrix3::from_rows(&[RowVector3::zeros(), t1, t2])
+}
+
+/// Derivatives of `(0, t1 . tau, t2 . tau)` by the tangents, six lanes.
+fn add_tangents(tau: &Vec3, lane: usize, gradient: &mut [[f64; 3]]) {
+    for axis in 0..3 {
+        gradient[lane + axis][1] += tau[axis];
+        gradient[lane + 3 + axis][2] += tau[axis];
+    }
 }
 
 /// Rows of an extended node, one term a leader, each with its share.
@@ -215,8 +257,6 @@ pub fn extended_rows(
 }
 
 fn follower_rows(fields: &Fields, side: usize, node: u32, leader: Leader, share: f64) -> LocalTerm {
-    const N: usize = 19;
-    type D = DualSVec64<N>;
     let numbering = fields.configuration.pair.numbering();
     let first = numbering.traction(side, node);
     let (side_k, node_k) = (leader.side, leader.node);
@@ -236,27 +276,29 @@ fn follower_rows(fields: &Fields, side: usize, node: u32, leader: Leader, share:
     lanes.push(Source::Unknowns { first, count: 3 });
     fields.push_pressure(&mut lanes, side_k, node_k);
 
-    let n: Vector3<D> = variable3(&frame.n.value, 0);
-    let t: [Vector3<D>; 2] = [
-        variable3(&frame.t[0].value, 3),
-        variable3(&frame.t[1].value, 6),
-    ];
-    let n_k: Vector3<D> = variable3(&fields.normal(side_k, node_k), 9);
-    let tau_k: Vector3<D> = variable3(&fields.tau[side_k][node_k as usize].value, 12);
-    let tau = if side == side_k {
-        transported(&tau_k, &n_k, &n)
-    } else {
-        -transported(&tau_k, &-n_k, &n)
-    };
-    let p_k: D = variable(fields.pressure(side_k, node_k), 18);
+    // Seen from the other side normals and tractions turn around.
+    let sign = if side == side_k { 1.0 } else { -1.0 };
+    let tau_k = fields.tau[side_k][node_k as usize].value;
+    let n_k = fields.normal(side_k, node_k);
+    let turned = Transported::new(&tau_k, &(n_k * sign), &frame.n.value);
+    let tau = turned.value * sign;
+    let tangential = components(frame);
+    let mut gradient = [[0.0; 3]; 19];
+    add_block(&mut gradient, 0, &(tangential * turned.by_n * sign));
+    add_tangents(&tau, 3, &mut gradient);
+    add_block(&mut gradient, 9, &(tangential * turned.by_from));
+    add_block(&mut gradient, 12, &(tangential * turned.by_vector * sign));
+    add_block(&mut gradient, 15, &-Matrix3::identity());
+    gradient[18] = [1.0, 0.0, 0.0];
+    gradient
+        .iter_mut()
+        .flatten()
+        .for_each(|slope| *slope *= -share);
     let unknowns = fields.tractions.nodes[side][node as usize];
-    let targets = [p_k, dot(&tau, &t[0]), dot(&tau, &t[1])];
-    let rows: Vec<_> = (0..3)
-        .map(|at| {
-            let own: D = variable(unknowns[at], 15 + at);
-            let row = (own - targets[at]) * share;
-            (first + at as u32, Field::Traction, row.re, gradient(&row))
-        })
-        .collect();
-    LocalTerm::from_lanes(&lanes, &rows)
+    let targets = Vec3::x() * fields.pressure(side_k, node_k) + tangential * tau;
+    let rows: [Row; 3] = std::array::from_fn(|at| {
+        let residual = (unknowns[at] - targets[at]) * share;
+        (first + at as u32, Field::Traction, residual)
+    });
+    LocalTerm::from_lanes(&lanes, &rows, &gradient)
 }
