@@ -25,12 +25,18 @@ pub struct QuadraturePoint<D> {
     pub weight: D,
 }
 
-/// Quadrature points on the part of the quadrilateral `facet` that the convex
-/// polygon `cover` of three or four corners, facing it, covers.
-pub fn covered_points<D: Real>(
-    facet: &[Vector3<D>; 4],
-    cover: &[Vector3<D>],
-) -> Vec<QuadraturePoint<D>> {
+/// The covered part of a facet in the plane of its mean normal.
+#[derive(Clone, Debug)]
+pub struct Covered<D> {
+    /// Corners of the facet.
+    pub facet: [Vector2<D>; 4],
+    /// Triangles that make up the covered part.
+    pub triangles: Vec<[Vector2<D>; 3]>,
+}
+
+/// The part of the quadrilateral `facet` that the convex polygon `cover` of three or
+/// four corners, facing it, covers.
+pub fn covered<D: Real>(facet: &[Vector3<D>; 4], cover: &[Vector3<D>]) -> Covered<D> {
     let centre = Shape::Quadrilateral.weights(D::from(0.0), D::from(0.0));
     let origin = combination(&centre.value, facet);
     let m = normalised(&area_vector(&centre, facet));
@@ -41,24 +47,44 @@ pub fn covered_points<D: Real>(
         let r = x - origin;
         Vector2::new(dot(&r, &e1), dot(&r, &e2))
     };
-    let own = facet.each_ref().map(flat);
+    let facet = facet.each_ref().map(flat);
     let mut window: Vec<Vector2<D>> = cover.iter().map(flat).collect();
     window.reverse();
+    Covered {
+        triangles: triangles(clipped(&facet, &window)),
+        facet,
+    }
+}
+
+/// Quadrature points on the covered part. Where many quantities are integrated with
+/// derivatives by many lanes, [`moving`](crate::moving) is the faster way.
+pub fn covered_points<D: Real>(
+    facet: &[Vector3<D>; 4],
+    cover: &[Vector3<D>],
+) -> Vec<QuadraturePoint<D>> {
+    let covered = covered(facet, cover);
+    let corners = &covered.facet;
     let mut points = Vec::new();
-    for [first, second, third] in triangles(clipped(&own, &window)) {
+    for [first, second, third] in &covered.triangles {
         let (u, v) = (second - first, third - first);
         let area = perpendicular(&u, &v) * 0.5;
         for ([r, s], share) in collapsed_triangle() {
             let target = first + u * D::from(r) + v * D::from(s);
-            let Some([xi, eta]) = inverse_bilinear(&own, &target) else {
+            let Some([xi, eta]) = inverse_bilinear(corners, &target) else {
                 continue;
             };
             let weights = Shape::Quadrilateral.weights(xi, eta);
-            let projected = dot(&area_vector(&weights, facet), &m);
+            let [by_xi, by_eta] = [&weights.d_xi, &weights.d_eta].map(|slopes| {
+                let terms = slopes
+                    .iter()
+                    .zip(corners)
+                    .map(|(&slope, corner)| corner * slope);
+                terms.fold(Vector2::zeros(), |sum, term| sum + term)
+            });
             points.push(QuadraturePoint {
                 xi,
                 eta,
-                weight: area * share / projected,
+                weight: area * share / perpendicular(&by_xi, &by_eta),
             });
         }
     }
@@ -92,14 +118,18 @@ fn triangles<D: Real>(mut polygon: Vec<Vector2<D>>) -> Vec<[Vector2<D>; 3]> {
 }
 
 fn is_flat<D: Real>(before: &Vector2<D>, tip: &Vector2<D>, after: &Vector2<D>) -> bool {
-    let real = |v: Vector2<D>| Vector2::new(v.x.re(), v.y.re());
-    let (u, v) = (real(tip - before), real(after - tip));
+    let (u, v) = (real(tip) - real(before), real(after) - real(tip));
     let lengths = u.norm() * v.norm();
     u.perp(&v).abs() <= FLAT * lengths && u.dot(&v) > 0.0
 }
 
+/// Without derivatives.
+pub(crate) fn real<D: Real>(v: &Vector2<D>) -> Vector2<f64> {
+    Vector2::new(v.x.re(), v.y.re())
+}
+
 /// `u x v`.
-fn perpendicular<D: Real>(u: &Vector2<D>, v: &Vector2<D>) -> D {
+pub(crate) fn perpendicular<D: Real>(u: &Vector2<D>, v: &Vector2<D>) -> D {
     u.x * v.y - u.y * v.x
 }
 
@@ -115,16 +145,20 @@ fn clipped<D: Real>(subject: &[Vector2<D>], window: &[Vector2<D>]) -> Vec<Vector
     for (at, start) in window.iter().enumerate() {
         let edge = window[(at + 1) % window.len()] - start;
         let signed = |p: &Vector2<D>| perpendicular(&edge, &(p - start));
-        let along = ALONG * (edge.x.re() * edge.x.re() + edge.y.re() * edge.y.re());
+        let along = ALONG * real(&edge).norm_squared();
+        let distance = |p: &Vector2<D>| real(&edge).perp(&(real(p) - real(start)));
+        let distances: Vec<f64> = polygon.iter().map(distance).collect();
         let mut inside = Vec::with_capacity(polygon.len() + 1);
         for (index, point) in polygon.iter().enumerate() {
-            let next = &polygon[(index + 1) % polygon.len()];
-            let (d, d_next) = (signed(point), signed(next));
-            if d.re() >= 0.0 {
+            let after = (index + 1) % polygon.len();
+            let next = &polygon[after];
+            let [d, d_next] = [distances[index], distances[after]];
+            if d >= 0.0 {
                 inside.push(*point);
             }
-            let crosses = (d.re() >= 0.0) != (d_next.re() >= 0.0);
-            if crosses && (d.re() - d_next.re()).abs() > along {
+            let crosses = (d >= 0.0) != (d_next >= 0.0);
+            if crosses && (d - d_next).abs() > along {
+                let (d, d_next) = (signed(point), signed(next));
                 let share = d / (d - d_next);
                 inside.push(point + (next - point) * share);
             }
@@ -136,14 +170,27 @@ fn clipped<D: Real>(subject: &[Vector2<D>], window: &[Vector2<D>]) -> Vec<Vector
 
 /// Coordinates of a point of a plane quadrilateral.
 fn inverse_bilinear<D: Real>(corners: &[Vector2<D>; 4], target: &Vector2<D>) -> Option<[D; 2]> {
-    let real = |p: &Vector2<D>| Vector2::new(p.x.re(), p.y.re());
-    let positions = corners.each_ref().map(real);
-    let goal = real(target);
+    let ([xi, eta], inverse) = located(&corners.each_ref().map(real), &real(target))?;
+    let weights = Shape::Quadrilateral.weights(xi, eta).value;
+    let mut residual = -*target;
+    for corner in 0..4 {
+        residual += corners[corner] * D::from(weights[corner]);
+    }
+    Some([0, 1].map(|row| {
+        let change = residual.x * inverse[(row, 0)] + residual.y * inverse[(row, 1)];
+        -change + [xi, eta][row]
+    }))
+}
+
+/// Coordinates of a point of a plane quadrilateral and their derivatives by its place.
+pub(crate) fn located(
+    corners: &[Vector2<f64>; 4],
+    goal: &Vector2<f64>,
+) -> Option<([f64; 2], Matrix2<f64>)> {
     let at = |xi: f64, eta: f64| {
         let w = Shape::Quadrilateral.weights(xi, eta);
-        let sum = |weights: &[f64; 4]| -> Vector2<f64> {
-            (0..4).map(|c| positions[c] * weights[c]).sum()
-        };
+        let sum =
+            |weights: &[f64; 4]| -> Vector2<f64> { (0..4).map(|c| corners[c] * weights[c]).sum() };
         let jacobian = Matrix2::from_columns(&[sum(&w.d_xi), sum(&w.d_eta)]);
         (sum(&w.value) - goal, jacobian)
     };
@@ -157,16 +204,7 @@ fn inverse_bilinear<D: Real>(corners: &[Vector2<D>; 4], target: &Vector2<D>) -> 
             break;
         }
     }
-    let inverse = at(xi, eta).1.try_inverse()?;
-    let weights = Shape::Quadrilateral.weights(xi, eta).value;
-    let mut residual = -*target;
-    for corner in 0..4 {
-        residual += corners[corner] * D::from(weights[corner]);
-    }
-    Some([0, 1].map(|row| {
-        let change = residual.x * inverse[(row, 0)] + residual.y * inverse[(row, 1)];
-        -change + [xi, eta][row]
-    }))
+    Some(([xi, eta], at(xi, eta).1.try_inverse()?))
 }
 
 #[cfg(test)]

@@ -2,20 +2,20 @@
 //!
 //! A pure function of the configuration, the roles and the traction unknowns.
 
-use nalgebra::{Matrix3, Matrix6};
 use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
 
 use crate::{
+    balance::{BalanceRows, balance_rows, held_balance},
     complementarity::{Iteration, KinematicNode, Prescribed, rows},
     configuration::Configuration,
     coverage::Place,
-    field::{BalanceRows, FacetForces, facet_terms},
+    field::{FacetForces, facet_terms},
     frame::{LostProjection, Tracked, frames},
     projection::Margin,
     selection::{Partner, Role, Selection},
     slip_rate::slip_velocities,
-    term::{Field, LocalTerm},
+    term::LocalTerm,
     texture::{CollapsedTexture, own, textures},
     traction::{Surroundings, nodal_tractions},
     transfer::{Fields, extended_rows, traction_rows},
@@ -247,77 +247,6 @@ fn own_texture(fields: &Fields, side: usize, node: u32, n: &Tracked) -> Vec3 {
 fn slip(configuration: &Configuration, side: usize, node: u32, partner: Partner, n: &Vec3) -> Vec3 {
     let relative = configuration.side(side).x[node as usize] - partner.point(configuration, side);
     relative - n * n.dot(&relative)
-}
-
-/// Share of the largest eigenvalue below which a patch cannot be balanced in a direction.
-const BALANCEABLE: f64 = 1e-8;
-
-/// Which resultants of every patch its traction nodes can balance.
-///
-/// The correction `p_b (c + omega x r/l)` of the traction nodes spans all six
-/// resultants unless there are too few of them under pressure; the eigenvectors
-/// of `sum p B^T B`, `B = [I, -[r/l]_x]`, tell which.
-fn balance_rows(fields: &Fields) -> Vec<BalanceRows> {
-    let numbering = fields.configuration.pair.numbering();
-    let mut gram = vec![Matrix6::<f64>::zeros(); fields.selection.patches.len()];
-    for &side in fields.configuration.pair.deformable_sides() {
-        for (node, role) in fields.selection.roles[side].iter().enumerate() {
-            let (Role::Traction(_), Some(patch)) = (role, fields.selection.patch_of[side][node])
-            else {
-                continue;
-            };
-            let geometry = &fields.selection.patches[patch as usize];
-            let arm = (fields.configuration.side(side).x[node] - geometry.centre) / geometry.radius;
-            let pressure = fields.tractions.nodes[side][node][0].max(0.0);
-            let mut b = nalgebra::Matrix3x6::<f64>::zeros();
-            b.fixed_view_mut::<3, 3>(0, 0)
-                .copy_from(&Matrix3::identity());
-            b.fixed_view_mut::<3, 3>(0, 3)
-                .copy_from(&-arm.cross_matrix());
-            gram[patch as usize] += b.transpose() * b * pressure;
-        }
-    }
-    let rows = |(patch, gram): (usize, &Matrix6<f64>)| {
-        let geometry = &fields.selection.patches[patch];
-        let eigen = gram.symmetric_eigen();
-        let largest = eigen.eigenvalues.max();
-        let mut order: Vec<usize> = (0..6).collect();
-        order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
-        let strong = |at: &&usize| largest > 0.0 && eigen.eigenvalues[**at] > BALANCEABLE * largest;
-        let active = order.iter().filter(strong).count();
-        let modes = if active == 6 {
-            Matrix6::identity()
-        } else {
-            Matrix6::from_fn(|row, column| eigen.eigenvectors[(row, order[column])])
-        };
-        BalanceRows {
-            first: numbering.balance(patch),
-            centre: geometry.centre,
-            radius: geometry.radius,
-            modes,
-            active,
-        }
-    };
-    gram.iter().enumerate().map(rows).collect()
-}
-
-/// Rows that hold the components of `(c, omega l)` that cannot be balanced at zero.
-fn held_balance(balance: &[BalanceRows], tractions: &Tractions) -> Vec<LocalTerm> {
-    let mut terms = Vec::new();
-    for (patch, rows) in balance.iter().enumerate() {
-        let values = nalgebra::Vector6::from(tractions.balance[patch]);
-        for mode in rows.active..6 {
-            let weights = rows.modes.column(mode);
-            terms.push(LocalTerm {
-                rows: vec![rows.first + mode as u32],
-                fields: vec![Field::Number],
-                residual: vec![weights.dot(&values)],
-                columns: (0..6).map(|at| rows.first + at).collect(),
-                tangent: weights.iter().copied().collect(),
-            });
-        }
-    }
-    terms
 }
 
 /// Nodes outside the selection that have run into the other side.

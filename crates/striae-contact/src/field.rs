@@ -12,8 +12,8 @@
 //! interpolated from the nodal frames. Whole facets take 2x2 Gauss points, cut
 //! ones the points of [`crate::clip`].
 
-use nalgebra::{Matrix3, Vector3, Vector6};
-use num_dual::{Derivative, DualSVec64};
+use nalgebra::{Matrix3, Vector3};
+use num_dual::DualSVec64;
 use striae_mesh::{FacetId, Vec3};
 use striae_surface::{
     facet::{Shape, Weights},
@@ -22,8 +22,10 @@ use striae_surface::{
 };
 
 use crate::{
-    clip::{QuadraturePoint, covered_points},
+    balance::BalanceRows,
+    clip::{Covered, covered},
     facet_coverage::FacetCoverage,
+    moving::{FlatSlopes, moving_points},
     quadrature::GAUSS_2,
     term::{Field, Lanes, LocalTerm, Row, Source, add_block, variable3, variables3},
     transfer::Fields,
@@ -43,21 +45,6 @@ pub struct FacetForces {
     pub friction: f64,
 }
 
-/// Combinations of force and moment that the rows of a patch stand for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BalanceRows {
-    /// First balance unknown of the patch.
-    pub first: u32,
-    /// Patch centre.
-    pub centre: Vec3,
-    /// Patch radius.
-    pub radius: f64,
-    /// Weights of `(F, M/l)` in every active row.
-    pub modes: nalgebra::Matrix6<f64>,
-    /// Number of active rows.
-    pub active: usize,
-}
-
 /// Terms of one facet: momentum rows of its corners and balance rows of its patch.
 pub fn facet_terms(
     fields: &Fields,
@@ -71,36 +58,18 @@ pub fn facet_terms(
         FacetCoverage::Bare => {}
         FacetCoverage::Whole => {
             let kernel = Kernel::new(fields, side, facet, None);
-            terms.push(kernel.term(&whole_points(), balance, &mut sum));
+            terms.push(kernel.whole(balance, &mut sum));
         }
         FacetCoverage::Cut(covers) => {
             for cover in covers {
                 let kernel = Kernel::new(fields, side, facet, Some(cover));
-                let points = covered_points(&kernel.corners(), &kernel.cover_corners());
-                if !points.is_empty() {
-                    terms.push(kernel.term(&points, balance, &mut sum));
+                if !covered(&kernel.x, &kernel.cover).triangles.is_empty() {
+                    terms.push(kernel.covered(balance, &mut sum));
                 }
             }
         }
     }
     (terms, sum)
-}
-
-/// A dual number over the corners of a facet and of a covering one.
-type Moving = DualSVec64<24>;
-
-fn whole_points() -> Vec<QuadraturePoint<Moving>> {
-    let mut points = Vec::with_capacity(4);
-    for (xi, w_xi) in GAUSS_2 {
-        for (eta, w_eta) in GAUSS_2 {
-            points.push(QuadraturePoint {
-                xi: Moving::from_re(xi),
-                eta: Moving::from_re(eta),
-                weight: Moving::from_re(w_xi * w_eta),
-            });
-        }
-    }
-    points
 }
 
 /// Lanes: corner positions, corner normals, pressures, friction tractions and
@@ -111,9 +80,6 @@ const NORMAL: usize = 12;
 const PRESSURE: usize = 24;
 const TAU: usize = 28;
 const COVER: usize = 40;
-
-/// Derivatives of a vector lane by lane.
-type Gradient3 = [[f64; 3]; LANES];
 
 /// Derivatives of the forces on the four corners lane by lane.
 type Slopes = [[f64; 12]; LANES];
@@ -188,47 +154,43 @@ impl<'a> Kernel<'a> {
         }
     }
 
-    fn corners(&self) -> [Vector3<Moving>; 4] {
-        variables3(&self.x, 0)
+    /// The term of the whole facet.
+    fn whole(&self, balance: Option<&BalanceRows>, sum: &mut FacetForces) -> LocalTerm {
+        let mut integral = Integral::zero();
+        for (xi, w_xi) in GAUSS_2 {
+            for (eta, w_eta) in GAUSS_2 {
+                let weights = Shape::Quadrilateral.weights(xi, eta);
+                integral.add(&weights, &self.density(&weights), w_xi * w_eta, sum);
+            }
+        }
+        self.rows(&integral, balance, sum)
     }
 
-    fn cover_corners(&self) -> Vec<Vector3<Moving>> {
-        let corners = self.cover.iter().enumerate();
-        corners.map(|(at, x)| variable3(x, 12 + 3 * at)).collect()
-    }
-
-    fn term(
-        &self,
-        points: &[QuadraturePoint<Moving>],
-        balance: Option<&BalanceRows>,
-        sum: &mut FacetForces,
-    ) -> LocalTerm {
-        let mut force = [Vec3::zeros(); 4];
-        let mut slopes: Slopes = [[0.0; 12]; LANES];
-        for point in points {
-            let weights = Shape::Quadrilateral.weights(point.xi.re, point.eta.re);
-            let density = self.density(&weights);
-            let w = point.weight.re;
-            let area = w * density.area;
-            sum.pressure += area * density.pressure;
-            sum.friction += area * density.friction;
-            for corner in 0..4 {
-                force[corner] += density.force * (weights.value[corner] * w);
-                sum.area[corner] += area * weights.value[corner];
+    /// The term of its covered part.
+    fn covered(&self, balance: Option<&BalanceRows>, sum: &mut FacetForces) -> LocalTerm {
+        let x: [Vector3<DualSVec64<24>>; 4] = variables3(&self.x, 0);
+        let cover = self.cover.iter().enumerate();
+        let cover: Vec<_> = cover.map(|(at, x)| variable3(x, 12 + 3 * at)).collect();
+        let covered: Covered<DualSVec64<24>> = covered(&x, &cover);
+        let mut integral = Integral::zero();
+        for triangle in 0..covered.triangles.len() {
+            let mut flat = FlatSlopes::<12>::zero();
+            for point in moving_points(&covered, triangle) {
+                let weights = Shape::Quadrilateral.weights(point.xi, point.eta);
+                let density = self.density(&weights);
+                integral.add(&weights, &density, point.weight, sum);
+                let [by_xi, by_eta, by_weight] = density.moved(&weights);
+                let by_xi = by_xi.map(|slope| slope * point.weight);
+                let by_eta = by_eta.map(|slope| slope * point.weight);
+                flat.add(&point, [&by_xi, &by_eta, &by_weight]);
             }
-            for (slope, by_lane) in slopes[..COVER].iter_mut().zip(&density.gradient) {
-                for corner in 0..4 {
-                    for axis in 0..3 {
-                        slope[3 * corner + axis] += by_lane[axis] * (weights.value[corner] * w);
-                    }
-                }
+            let chained = flat.chained(&covered, triangle);
+            for (lane, by_lane) in (X..X + 12).chain(COVER..COVER + 12).zip(&chained) {
+                let slopes = integral.slopes[lane].iter_mut().zip(by_lane);
+                slopes.for_each(|(slope, change)| *slope += change);
             }
-            density.add_moving(&weights, point, &mut slopes);
         }
-        for corner in 0..4 {
-            sum.force[corner] += force[corner];
-        }
-        self.rows(&force, &slopes, balance)
+        self.rows(&integral, balance, sum)
     }
 
     /// `t |x_,xi x x_,eta|` at a point with its derivatives.
@@ -257,7 +219,7 @@ impl<'a> Kernel<'a> {
             by_n += turned[corner].by_n * (size * weights.value[corner]);
         }
         let mut by_a = traction * (a / size).transpose();
-        let mut gradient: Gradient3 = [[0.0; 3]; LANES];
+        let mut gradient = [[0.0; 3]; COVER];
         let slope = |weights: &[f64; 4]| -> Vec3 {
             (0..4)
                 .map(|c| (turned[c].value - n * self.p[c]) * (size * weights[c]))
@@ -303,7 +265,16 @@ impl<'a> Kernel<'a> {
     }
 
     /// Momentum rows `-f` and balance rows.
-    fn rows(&self, force: &[Vec3; 4], slopes: &Slopes, balance: Option<&BalanceRows>) -> LocalTerm {
+    fn rows(
+        &self,
+        integral: &Integral,
+        balance: Option<&BalanceRows>,
+        sum: &mut FacetForces,
+    ) -> LocalTerm {
+        let Integral { force, slopes } = integral;
+        for corner in 0..4 {
+            sum.force[corner] += force[corner];
+        }
         let mut rows: Vec<Row> = Vec::with_capacity(18);
         for corner in 0..4 {
             for axis in 0..3 {
@@ -318,7 +289,7 @@ impl<'a> Kernel<'a> {
             let columns: Vec<[f64; 12]> = columns.iter().map(momentum).collect();
             return LocalTerm::from_columns(&rows, &triples, &columns);
         };
-        let resultant = self.resultant(force, balance);
+        let resultant = balance.resultant(&self.x, force);
         for mode in 0..balance.active {
             let residual = balance.modes.column(mode).dot(&resultant);
             rows.push((balance.first + mode as u32, Field::Resultant, residual));
@@ -329,7 +300,7 @@ impl<'a> Kernel<'a> {
             let slopes: [Vec3; 4] = std::array::from_fn(|corner| {
                 Vec3::from_column_slice(&column[3 * corner..3 * corner + 3])
             });
-            let mut change = self.resultant(&slopes, balance);
+            let mut change = balance.resultant(&self.x, &slopes);
             // A corner that moves takes its force along.
             for corner in (0..4).filter(|&corner| self.rows[corner] == triples[at / 3]) {
                 let turn = Vec3::ith(at % 3, 1.0 / balance.radius).cross(&force[corner]);
@@ -340,24 +311,45 @@ impl<'a> Kernel<'a> {
         }
         LocalTerm::from_columns(&rows, &triples, &with_balance)
     }
+}
 
-    /// Force and moment over the patch radius about the patch centre.
-    fn resultant(&self, force: &[Vec3; 4], balance: &BalanceRows) -> Vector6<f64> {
-        let mut resultant = Vector6::zeros();
-        for corner in 0..4 {
-            let arm = (self.x[corner] - balance.centre) / balance.radius;
-            let mut sum = resultant.fixed_view_mut::<3, 1>(0, 0);
-            sum += force[corner];
-            let mut sum = resultant.fixed_view_mut::<3, 1>(3, 0);
-            sum += arm.cross(&force[corner]);
+/// Forces on the four corners and their derivatives.
+struct Integral {
+    force: [Vec3; 4],
+    slopes: Slopes,
+}
+
+impl Integral {
+    fn zero() -> Self {
+        Self {
+            force: [Vec3::zeros(); 4],
+            slopes: [[0.0; 12]; LANES],
         }
-        resultant
+    }
+
+    /// Adds a quadrature point of the weight `w`.
+    fn add(&mut self, weights: &Weights<f64>, density: &Density, w: f64, sum: &mut FacetForces) {
+        let area = w * density.area;
+        sum.pressure += area * density.pressure;
+        sum.friction += area * density.friction;
+        for corner in 0..4 {
+            self.force[corner] += density.force * (weights.value[corner] * w);
+            sum.area[corner] += area * weights.value[corner];
+        }
+        for (slope, by_lane) in self.slopes[..COVER].iter_mut().zip(&density.gradient) {
+            for corner in 0..4 {
+                for axis in 0..3 {
+                    slope[3 * corner + axis] += by_lane[axis] * (weights.value[corner] * w);
+                }
+            }
+        }
     }
 }
 
+/// The contact force per `d xi d eta` at a point.
 struct Density {
     force: Vec3,
-    gradient: Gradient3,
+    gradient: [[f64; 3]; COVER],
     d_xi: Vec3,
     d_eta: Vec3,
     area: f64,
@@ -366,35 +358,18 @@ struct Density {
 }
 
 impl Density {
-    /// Adds the derivatives of the forces by a quadrature point that moves with the corners.
-    fn add_moving(
-        &self,
-        weights: &Weights<f64>,
-        point: &QuadraturePoint<Moving>,
-        slopes: &mut Slopes,
-    ) {
-        let w = point.weight.re;
+    /// Derivatives of the forces on the corners by the coordinates, over the weight, and
+    /// by the weight of the point.
+    fn moved(&self, weights: &Weights<f64>) -> [[f64; 12]; 3] {
+        let mut moved = [[0.0; 12]; 3];
         for corner in 0..4 {
             let value = weights.value[corner];
-            let by_xi = (self.d_xi * value + self.force * weights.d_xi[corner]) * w;
-            let by_eta = (self.d_eta * value + self.force * weights.d_eta[corner]) * w;
-            let parts = [
-                (by_xi, &point.xi),
-                (by_eta, &point.eta),
-                (self.force * value, &point.weight),
-            ];
-            for (vector, quantity) in parts {
-                let Derivative(Some(gradient)) = &quantity.eps else {
-                    continue;
-                };
-                for lane in 0..12 {
-                    for axis in 0..3 {
-                        slopes[X + lane][3 * corner + axis] += vector[axis] * gradient[lane];
-                        slopes[COVER + lane][3 * corner + axis] +=
-                            vector[axis] * gradient[12 + lane];
-                    }
-                }
+            let by_xi = self.d_xi * value + self.force * weights.d_xi[corner];
+            let by_eta = self.d_eta * value + self.force * weights.d_eta[corner];
+            for (rows, by) in moved.iter_mut().zip([by_xi, by_eta, self.force * value]) {
+                rows[3 * corner..3 * corner + 3].copy_from_slice(by.as_slice());
             }
         }
+        moved
     }
 }

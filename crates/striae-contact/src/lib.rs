@@ -11,6 +11,7 @@
 //! frictional response using smoothly interpolated traction fields", Comput.
 //! Methods Appl. Mech. Engrg. 195 (2006).
 
+pub mod balance;
 pub mod clip;
 pub mod complementarity;
 pub mod configuration;
@@ -21,6 +22,7 @@ pub mod extension;
 pub mod facet_coverage;
 pub mod field;
 pub mod frame;
+pub mod moving;
 pub mod opposing;
 pub mod pair;
 pub mod patch;

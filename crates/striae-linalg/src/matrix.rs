@@ -56,16 +56,22 @@ impl SparseMatrix {
         let row_runs = runs(&self.structure, rows);
         let column_runs = runs(&self.structure, columns);
         let edges = self.edges(rows, columns, &row_runs, &column_runs)?;
-        for (a, row_run) in row_runs.iter().enumerate() {
+        for (row_run, edges) in row_runs.iter().zip(edges.chunks(column_runs.len().max(1))) {
             for r in row_run.begin..row_run.end {
                 let local = rows[r] - self.structure.group(row_run.owner).start;
                 let row = &mut self.values[self.structure.row(row_run.owner, local)];
                 let dense = &block[r * columns.len()..][..columns.len()];
-                for (b, run) in column_runs.iter().enumerate() {
-                    let first = self.structure.column(edges[a * column_runs.len() + b]);
-                    let offset = self.structure.group(run.owner).start;
-                    for c in run.begin..run.end {
-                        row[first + columns[c] - offset] += dense[c];
+                for (run, &edge) in column_runs.iter().zip(edges) {
+                    let (first, offset) = (self.structure.column(edge), run.first);
+                    let dense = &dense[run.begin..run.end];
+                    if run.is_consecutive {
+                        let at = first + columns[run.begin] - offset;
+                        let values = row[at..at + dense.len()].iter_mut().zip(dense);
+                        values.for_each(|(value, d)| *value += d);
+                    } else {
+                        for (column, d) in columns[run.begin..run.end].iter().zip(dense) {
+                            row[first + column - offset] += d;
+                        }
                     }
                 }
             }
@@ -299,15 +305,20 @@ impl SparseMatrix {
         row_runs: &[Run],
         column_runs: &[Run],
     ) -> Result<Vec<usize>, OutsidePattern> {
-        let mut edges = Vec::with_capacity(row_runs.len() * column_runs.len());
-        for a in row_runs {
-            for b in column_runs {
-                let outside = OutsidePattern {
-                    row: rows[a.begin],
-                    column: columns[b.begin],
-                };
-                edges.push(self.structure.edge(a.owner, b.owner).ok_or(outside)?);
-            }
+        let width = column_runs.len();
+        let mut ascending: Vec<(usize, usize)> = column_runs
+            .iter()
+            .enumerate()
+            .map(|(slot, run)| (run.owner, slot))
+            .collect();
+        ascending.sort_unstable();
+        let mut edges = vec![0; row_runs.len() * width];
+        for (run, edges) in row_runs.iter().zip(edges.chunks_mut(width.max(1))) {
+            let found = edges_to(&self.structure, run.owner, &ascending, edges);
+            found.map_err(|slot| OutsidePattern {
+                row: rows[run.begin],
+                column: columns[column_runs[slot].begin],
+            })?;
         }
         Ok(edges)
     }
@@ -324,6 +335,10 @@ struct Run {
     owner: usize,
     begin: usize,
     end: usize,
+    /// First unknown of the supervariable.
+    first: usize,
+    /// Whether each unknown is one more than the one before.
+    is_consecutive: bool,
 }
 
 fn runs(structure: &Structure, unknowns: &[usize]) -> Vec<Run> {
@@ -331,15 +346,48 @@ fn runs(structure: &Structure, unknowns: &[usize]) -> Vec<Run> {
     for (k, &unknown) in unknowns.iter().enumerate() {
         let owner = structure.owner(unknown).0;
         match runs.last_mut() {
-            Some(run) if run.owner == owner => run.end = k + 1,
+            Some(run) if run.owner == owner => {
+                run.is_consecutive &= unknown == unknowns[k - 1] + 1;
+                run.end = k + 1;
+            }
             _ => runs.push(Run {
                 owner,
                 begin: k,
                 end: k + 1,
+                first: structure.group(owner).start,
+                is_consecutive: true,
             }),
         }
     }
     runs
+}
+
+/// Edges from `i` to others, given in ascending order with the slots of `edges` where
+/// theirs belong; the slot of one that is no neighbour as the error.
+fn edges_to(
+    structure: &Structure,
+    i: usize,
+    ascending: &[(usize, usize)],
+    edges: &mut [usize],
+) -> Result<(), usize> {
+    let neighbours = structure.adjacent(i);
+    // Step by step through short lists, by bisection through long ones.
+    let is_short = neighbours.len() <= 8 * ascending.len();
+    let mut at = 0;
+    for &(j, slot) in ascending {
+        let rest = &neighbours[at..];
+        at += if is_short {
+            let before = rest.iter().take_while(|other| (**other as usize) < j);
+            before.count()
+        } else {
+            rest.partition_point(|other| (*other as usize) < j)
+        };
+        if neighbours.get(at).is_none_or(|other| *other as usize != j) {
+            return Err(slot);
+        }
+        edges[slot] = structure.edges(i).start + at;
+    }
+    Ok(())
 }
 
 fn position(structure: &Structure, row: usize, column: usize) -> Option<usize> {

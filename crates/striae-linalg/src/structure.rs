@@ -219,6 +219,11 @@ impl Structure {
         Some(range.start + found)
     }
 
+    /// Neighbours of supervariable `i`, ascending.
+    pub(crate) fn adjacent(&self, i: usize) -> &[u32] {
+        &self.0.neighbours[self.edges(i)]
+    }
+
     /// Unknowns of supervariable `i`.
     pub(crate) fn group(&self, i: usize) -> Range<usize> {
         self.0.offsets[i]..self.0.offsets[i + 1]

@@ -1,38 +1,31 @@
 //! Residual and tangent of the whole problem at a trial state.
 
 mod context;
+mod elements;
 mod inertia;
 mod loads;
 mod measure;
 mod start;
+mod terms;
 mod ties;
 
 pub use context::{Imposed, ImposedRate, StepContext};
 
 use inertia::Inertia;
-use rayon::prelude::*;
 pub use start::initial_accelerations;
 use striae_contact::{
     complementarity::Iteration,
     configuration::Configuration,
     evaluation::{Evaluation, EvaluationError, evaluate},
     selection::Selection,
-    term::LocalTerm,
-    unknown::{Numbering, Unknown},
     unknowns::Tractions,
 };
-use striae_linalg::{OutsidePattern, SparseMatrix, Supervariable};
-use striae_mesh::{FacetId, NodeId, Vec3};
-use ties::{Slot, Tie};
+use striae_linalg::{SparseMatrix, Supervariable};
+use striae_mesh::{FacetId, Vec3};
+use terms::Triple;
+use ties::Tie;
 
-use crate::{
-    element::{ElementFault, ElementResponse},
-    layout::Layout,
-    norms::Norms,
-    outcome::CutBack,
-    rigid::Pose,
-    state::NodalForces,
-};
+use crate::{layout::Layout, norms::Norms, outcome::CutBack, rigid::Pose, state::NodalForces};
 
 /// A state that is not converged.
 #[derive(Clone, Debug)]
@@ -125,10 +118,10 @@ struct System<'a> {
     inertia: Inertia,
     /// Ties of all nodes; empty where nothing is tied.
     ties: Vec<Option<Tie>>,
+    /// Unknowns of every pair.
+    triples: Vec<Vec<Option<Triple>>>,
     outside: Vec<Vec<Supervariable>>,
 }
-
-const CHUNK: usize = 512;
 
 impl<'a> System<'a> {
     fn new(
@@ -150,6 +143,7 @@ impl<'a> System<'a> {
             force_scale: 0.0,
             inertia: Inertia::new(trial, imposed),
             ties: Vec::new(),
+            triples: Vec::new(),
             outside: Vec::new(),
         };
         system.find_ties(trial, imposed);
@@ -175,9 +169,9 @@ impl System<'_> {
                 iteration,
             )
             .map_err(|error| Fault::CutBack(self.not_evaluated(pair, error)))?;
-            let numbering = configuration.pair.numbering();
+            self.find_triples(pair, configuration, selections[pair].patches.len());
             for term in &evaluation.terms {
-                self.add_term(pair, &numbering, term);
+                self.add_term(pair, term);
             }
             for side in 0..2 {
                 for (facet, forces) in &evaluation.facets[side] {
@@ -216,138 +210,11 @@ impl System<'_> {
         }
     }
 
-    /// Adds a contact term; remembers its clique where it has no place.
-    fn add_term(&mut self, pair: usize, numbering: &Numbering, term: &LocalTerm) {
-        let global = |unknown: &u32| {
-            self.layout
-                .global(self.context.problem, pair, numbering.unknown(*unknown))
-                .expect("terms refer to active unknowns")
-        };
-        let position = |unknown: &u32| match numbering.unknown(*unknown) {
-            Unknown::Position { side, node, axis } => {
-                let node = self.context.problem.surface_node(pair, side, node)?;
-                Some((node, axis))
-            }
-            Unknown::Traction { .. } | Unknown::Balance { .. } => None,
-        };
-        let slot = |unknown: &u32| Slot {
-            unknown: global(unknown).0,
-            position: position(unknown),
-        };
-        let rows: Vec<Slot> = term.rows.iter().map(slot).collect();
-        let columns: Vec<Slot> = term.columns.iter().map(slot).collect();
-        let owners = || term.rows.iter().chain(&term.columns);
-        let mut clique: Vec<Supervariable> = owners().map(|u| global(u).1).collect();
-        for (row, residual) in rows.iter().zip(&term.residual) {
-            self.residual[row.unknown] += residual;
-        }
-        let kept: Vec<usize> = (0..rows.len())
-            .filter(|&at| !self.is_fixed(&rows[at]))
-            .collect();
-        let kept_rows: Vec<Slot> = kept.iter().map(|&at| rows[at]).collect();
-        let block: Vec<f64> = kept
-            .iter()
-            .flat_map(|at| &term.tangent[at * columns.len()..(at + 1) * columns.len()])
-            .copied()
-            .collect();
-        let structure = self.matrix.structure();
-        let known = clique.iter().all(|&s| structure.is_kept(s));
-        if !known || self.scatter(&kept_rows, &columns, &block).is_err() {
-            clique.sort_unstable();
-            clique.dedup();
-            self.outside.push(clique);
-        }
-    }
-
-    fn is_fixed(&self, slot: &Slot) -> bool {
-        slot.position
-            .is_some_and(|(node, axis)| self.context.fixed[3 * node + axis])
-    }
-
     fn clique(&self, nodes: &[usize]) -> Vec<Supervariable> {
         let mut owners: Vec<Supervariable> = nodes.iter().map(|&node| self.owner(node)).collect();
         owners.sort_unstable();
         owners.dedup();
         owners
-    }
-
-    /// Internal forces and stiffness; returns the stored energy.
-    fn elements(&mut self, trial: &Trial) -> Result<f64, Fault> {
-        let problem = self.context.problem;
-        let mut energy = 0.0;
-        let mut scale = 0.0;
-        for (body, elements) in problem.elements.iter().enumerate() {
-            let model = &problem.model.bodies[body];
-            let corners = &model.mesh.elements;
-            for start in (0..elements.len()).step_by(CHUNK) {
-                let end = (start + CHUNK).min(elements.len());
-                let responses: Vec<Result<Box<ElementResponse>, _>> = (start..end)
-                    .into_par_iter()
-                    .with_min_len(16)
-                    .map(|at| {
-                        let x = corners[at].map(|n| trial.positions[problem.node(body, n)]);
-                        elements[at].response(&x, &model.material).map(Box::new)
-                    })
-                    .collect();
-                for (at, response) in (start..end).zip(responses) {
-                    let response = response.map_err(|error| {
-                        Fault::CutBack(CutBack::InvertedElement {
-                            body: model.name.clone(),
-                            element: ElementFault {
-                                element: striae_mesh::ElementId::new(at),
-                                error,
-                            },
-                        })
-                    })?;
-                    let mut response = response;
-                    energy += response.energy;
-                    let nodes = corners[at].map(|n: NodeId| problem.node(body, n));
-                    let mass = (model.density > 0.0).then(|| elements[at].mass(model.density));
-                    self.weigh(&nodes, mass.as_ref(), &mut response);
-                    scale += response.force.iter().map(|f| f * f).sum::<f64>();
-                    let mut unknowns = [0; 24];
-                    for (slot, unknown) in unknowns.iter_mut().enumerate() {
-                        *unknown = self.layout.position(nodes[slot / 3]) + slot % 3;
-                    }
-                    self.add_dense(&nodes, &unknowns, &response.force, &response.stiffness)
-                        .map_err(|_| Fault::Pattern(vec![self.clique(&nodes)]))?;
-                }
-            }
-        }
-        self.force_scale = scale.sqrt();
-        Ok(energy)
-    }
-
-    /// Adds a square block of position unknowns, leaving out prescribed rows.
-    fn add_dense(
-        &mut self,
-        nodes: &[usize],
-        unknowns: &[usize],
-        force: &[f64],
-        tangent: &[f64],
-    ) -> Result<(), OutsidePattern> {
-        for (unknown, force) in unknowns.iter().zip(force) {
-            self.residual[*unknown] += force;
-        }
-        let fixed = |slot: &usize| self.context.fixed[3 * nodes[slot / 3] + slot % 3];
-        let tied = nodes.iter().any(|&node| self.tie(node).is_some());
-        if !tied && !(0..unknowns.len()).any(|slot| fixed(&slot)) {
-            return self.matrix.add(unknowns, unknowns, tangent);
-        }
-        let slot = |at: usize| Slot {
-            unknown: unknowns[at],
-            position: Some((nodes[at / 3], at % 3)),
-        };
-        let kept: Vec<usize> = (0..unknowns.len()).filter(|at| !fixed(at)).collect();
-        let rows: Vec<Slot> = kept.iter().map(|&at| slot(at)).collect();
-        let columns: Vec<Slot> = (0..unknowns.len()).map(slot).collect();
-        let width = unknowns.len();
-        let block: Vec<f64> = kept
-            .iter()
-            .flat_map(|at| &tangent[at * width..(at + 1) * width])
-            .copied()
-            .collect();
-        self.scatter(&rows, &columns, &block)
     }
 
     /// Holds traction unknowns of idle nodes and of vanished patches at zero.

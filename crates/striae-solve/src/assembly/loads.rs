@@ -102,7 +102,6 @@ impl System<'_> {
             self.forces.applied[*node] += force;
         }
         for (pair, terms) in covered {
-            let numbering = configurations[pair].pair.numbering();
             for mut term in terms {
                 for (at, node) in nodes.iter().enumerate() {
                     let taken = Vec3::from_column_slice(&term.residual[3 * at..3 * at + 3]);
@@ -110,7 +109,7 @@ impl System<'_> {
                 }
                 term.residual.iter_mut().for_each(|r| *r *= share);
                 term.tangent.iter_mut().for_each(|k| *k *= share);
-                self.add_term(pair, &numbering, &term);
+                self.add_term(pair, &term);
             }
         }
         if self.outside.is_empty() {

@@ -16,6 +16,16 @@ pub struct ElementResponse {
     pub stiffness: [f64; UNKNOWNS * UNKNOWNS],
 }
 
+impl Default for ElementResponse {
+    fn default() -> Self {
+        Self {
+            energy: 0.0,
+            force: [0.0; UNKNOWNS],
+            stiffness: [0.0; UNKNOWNS * UNKNOWNS],
+        }
+    }
+}
+
 /// Response of the element with reference corners `X` and current corners `x`.
 ///
 /// # Errors
@@ -40,21 +50,34 @@ impl ReferenceElement {
         current: &[Vec3; 8],
         material: &Material,
     ) -> Result<ElementResponse, ElementError> {
-        let mut energy = 0.0;
-        let mut force = [0.0; UNKNOWNS];
+        let mut response = ElementResponse::default();
+        self.respond(current, material, &mut response)?;
+        Ok(response)
+    }
+
+    /// The same, written over an older response.
+    ///
+    /// # Errors
+    ///
+    /// As [`ReferenceElement::response`].
+    pub fn respond(
+        &self,
+        current: &[Vec3; 8],
+        material: &Material,
+        element: &mut ElementResponse,
+    ) -> Result<(), ElementError> {
+        element.energy = 0.0;
+        element.force = [0.0; UNKNOWNS];
         let mut tangents = [Tangent::zeros(); 8];
         for g in 0..8 {
             let f = self.deformation_gradient(g, current);
             let response = material.response(&f).map_err(inverted_at(g))?;
-            energy += self.weights[g] * response.energy;
-            self.add_force(g, &response.first_piola, &mut force);
+            element.energy += self.weights[g] * response.energy;
+            self.add_force(g, &response.first_piola, &mut element.force);
             tangents[g] = response.tangent * self.weights[g];
         }
-        Ok(ElementResponse {
-            energy,
-            force,
-            stiffness: self.stiffness(&tangents),
-        })
+        self.stiffness(&tangents, &mut element.stiffness);
+        Ok(())
     }
 
     /// `f_ai += w P_iJ G_a,J` at Gauss point `g`.
@@ -71,8 +94,7 @@ impl ReferenceElement {
 
     /// Stiffness from the tangents `w A`, by its symmetric half: of the blocks
     /// `K_ik` over the corners those with `i <= k`.
-    fn stiffness(&self, tangents: &[Tangent; 8]) -> [f64; UNKNOWNS * UNKNOWNS] {
-        let mut stiffness = [0.0; UNKNOWNS * UNKNOWNS];
+    fn stiffness(&self, tangents: &[Tangent; 8], stiffness: &mut [f64; UNKNOWNS * UNKNOWNS]) {
         for (i, k) in [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)] {
             let block = self.block(tangents, i, k);
             for a in 0..8 {
@@ -82,7 +104,6 @@ impl ReferenceElement {
                 }
             }
         }
-        stiffness
     }
 
     /// `K_ab = sum_gJ G_a,J (sum_L w A_iJkL G_b,L)` for two components `i`, `k`:
