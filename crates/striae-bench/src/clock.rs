@@ -47,24 +47,27 @@ pub fn timed(group: &str, name: &str, items: usize, mut work: impl FnMut()) -> V
     let mut times = Vec::new();
     let begin = Instant::now();
     work();
+    let first = Seconds::now(begin);
     while times.len() < FEWEST || times.len() < MOST && begin.elapsed().as_secs_f64() < BUDGET {
         let started = Instant::now();
         work();
         times.push(started.elapsed().as_secs_f64());
     }
+    let cpu = Seconds::now(begin).since(first).cpu / times.len() as f64;
     times.sort_by(f64::total_cmp);
     let quantile = |share: f64| times[((times.len() - 1) as f64 * share).round() as usize];
     let (median, low, high) = (quantile(0.5), quantile(0.1), quantile(0.9));
     println!(
-        "{group:9} {name:32} {:>12} an item  {:>12} in all  +-{:.0} %  ({} times)",
+        "{group:9} {name:32} {:>12} an item  {:>12} in all  +-{:.0} %  ({} times)  {:>12} of processors an item",
         words(median / items.max(1) as f64),
         words(median),
         50.0 * (high - low) / median,
         times.len(),
+        words(cpu / items.max(1) as f64),
     );
     json!({
         "group": group, "name": name, "items": items, "median_s": median,
-        "low_s": low, "high_s": high, "times": times.len(),
+        "low_s": low, "high_s": high, "cpu_s": cpu, "times": times.len(),
     })
 }
 

@@ -1,6 +1,9 @@
 //! Whole runs with two solvers beside each other, each in its own process.
 
-use crate::{clock::Seconds, scene, yardstick};
+use crate::{
+    clock::{Seconds, words},
+    scene, yardstick,
+};
 use serde_json::{Value, json};
 use std::{
     error::Error,
@@ -43,7 +46,24 @@ pub fn all(names: &[String], sizes: &[usize]) -> Result<Vec<Value>, Box<dyn Erro
     Ok(results)
 }
 
-fn number(value: &Value, key: &str) -> f64 {
+/// Mean time of an iteration of the stacked blocks with the condensed solver, by part.
+pub fn iteration(size: usize) -> Result<Value, Box<dyn Error>> {
+    let run = child("stacked", size, "condensed")?;
+    let whole = number(&run, "iteration_s");
+    println!(
+        "iteration stacked blocks, {} unknowns  {}",
+        run["unknowns"],
+        words(whole)
+    );
+    for part in ["assembly", "factorisation", "solution"] {
+        let seconds = number(&run, &format!("{part}_s"));
+        let share = 100.0 * seconds / whole;
+        println!("iteration   {part:30} {:>12}  {share:.0} %", words(seconds));
+    }
+    Ok(json!({ "group": "iteration", "name": "stacked", "median_s": whole, "run": run }))
+}
+
+pub(crate) fn number(value: &Value, key: &str) -> f64 {
     value[key].as_f64().unwrap_or(f64::NAN)
 }
 
@@ -70,7 +90,7 @@ fn report(name: &str, yardstick: &Value, own: &Value, other: &Value) {
         );
     }
     println!(
-        "  faer Cholesky of the stiffness {cholesky:.3} s\n  ratios: iteration condensed/LU {:.2}, iteration/Cholesky {:.2}, memory condensed/LU {:.2}, run/Cholesky {:.1} (processors {:.1}), run condensed/LU by processors {:.2}, outside factorisation and solution {:.0} %",
+        "  faer Cholesky of the stiffness {cholesky:.3} s\n  ratios: iteration condensed/LU {:.2}, iteration/Cholesky {:.2}, memory condensed/LU {:.2}, run/Cholesky {:.1} (processors {:.1}), run condensed/LU by processors {:.2}, outside factorisation and solution {:.0} %, assembly {:.0} % of an iteration",
         iteration(own) / iteration(other),
         iteration(own) / cholesky,
         number(own, "peak_mib") / number(other, "peak_mib"),
@@ -78,11 +98,12 @@ fn report(name: &str, yardstick: &Value, own: &Value, other: &Value) {
         cpu(own),
         cpu(own) / cpu(other),
         100.0 * (1.0 - number(own, "factored_share")),
+        100.0 * number(own, "assembly_share"),
     );
     println!("  answers differ by {:.1e}", difference(own, other));
 }
 
-fn child(name: &str, size: usize, what: &str) -> Result<Value, Box<dyn Error>> {
+pub(crate) fn child(name: &str, size: usize, what: &str) -> Result<Value, Box<dyn Error>> {
     let output = Command::new(std::env::current_exe()?)
         .args(["--one", name, &size.to_string(), what])
         .stderr(Stdio::inherit())
@@ -94,8 +115,8 @@ fn child(name: &str, size: usize, what: &str) -> Result<Value, Box<dyn Error>> {
 }
 
 /// One measurement, printed as JSON: scene, size, and the solver or the yardstick.
-pub fn one(words: &[String]) -> Result<(), Box<dyn Error>> {
-    let [name, size, what] = words else {
+pub fn one(arguments: &[String]) -> Result<(), Box<dyn Error>> {
+    let [name, size, what] = arguments else {
         return Err("a scene, a size and a solver are needed".into());
     };
     let size = size.parse()?;
@@ -140,6 +161,7 @@ fn whole(name: &str, size: usize, backend: Backend) -> Result<Value, Box<dyn Err
         "iterations": log.iterations,
         "factorisations": count,
         "factorisations_median": counts[counts.len() / 2],
+        "assembly_share": assembly / (assembly + factorisation + solution),
         "run_s": seconds,
         "run_cpu_s": time.cpu,
         "answers": answers(&problem, &state),

@@ -1,14 +1,15 @@
-//! Benchmarks: `striae-bench [GROUP ...] [--size UNKNOWNS ...] [--json FILE] [--compare]`.
+//! Benchmarks: `striae-bench [GROUP ...] [--size UNKNOWNS ...] [--json FILE] [--compare | --growth] [--figure FOLDER]`.
 //!
-//! Groups are `law`, `surface`, `search`, `assembly`, `factor` and `cases`; all
-//! of them without arguments. `--compare` runs scenes with the condensed solver
+//! Groups are `law`, `surface`, `search`, `assembly`, `factor`, `iteration` and
+//! `cases`; all of them without arguments. `--compare` runs scenes with the condensed solver
 //! and with the multifrontal LU, each in a process of its own, and prints the
 //! ratios of times and memory, and to a sparse Cholesky factorisation of the
-//! stiffness alone by the library faer with the same ordering. README.md says
-//! what each group covers.
+//! stiffness alone by the library faer with the same ordering. `--growth` fits time
+//! and memory against unknowns. README.md says what each group covers.
 
 mod clock;
 mod compare;
+mod growth;
 mod parts;
 mod scene;
 mod yardstick;
@@ -23,6 +24,8 @@ struct Arguments {
     sizes: Vec<usize>,
     json: Option<String>,
     compare: bool,
+    growth: bool,
+    figure: Option<String>,
 }
 
 fn main() -> ExitCode {
@@ -41,6 +44,8 @@ fn run(mut words: impl Iterator<Item = String>) -> Result<(), Box<dyn Error>> {
         match word.as_str() {
             "--one" => return compare::one(&words.collect::<Vec<_>>()),
             "--compare" => arguments.compare = true,
+            "--growth" => arguments.growth = true,
+            "--figure" => arguments.figure = words.next(),
             "--json" => arguments.json = words.next(),
             "--size" => arguments
                 .sizes
@@ -50,6 +55,9 @@ fn run(mut words: impl Iterator<Item = String>) -> Result<(), Box<dyn Error>> {
     }
     let results = if arguments.compare {
         compare::all(&arguments.groups, &arguments.sizes)?
+    } else if arguments.growth {
+        let folder = arguments.figure.as_deref();
+        growth::all(&arguments.groups, &arguments.sizes, folder)?
     } else {
         parts::all(&arguments.groups, &arguments.sizes)?
     };

@@ -20,7 +20,15 @@ use striae_surface::normal::nodal_normals;
 
 type Results = Result<Vec<Value>, Box<dyn Error>>;
 
-const GROUPS: [&str; 6] = ["law", "surface", "search", "assembly", "factor", "cases"];
+const GROUPS: [&str; 7] = [
+    "law",
+    "surface",
+    "search",
+    "assembly",
+    "factor",
+    "iteration",
+    "cases",
+];
 const SIZES: [usize; 3] = [3_000, 13_000, 52_000];
 
 /// Times of some groups, all without any.
@@ -37,6 +45,11 @@ pub fn all(groups: &[String], sizes: &[usize]) -> Results {
             "surface" | "search" | "assembly" | "factor" => {
                 for &size in sizes {
                     results.extend(of_scene(group, size)?);
+                }
+            }
+            "iteration" => {
+                for &size in sizes {
+                    results.push(compare::iteration(size)?);
                 }
             }
             "cases" => results.extend(compare::all(&[], sizes)?),

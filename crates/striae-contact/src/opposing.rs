@@ -102,3 +102,100 @@ impl Opposing {
         by_r
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{DMatrix, DVector};
+    use striae_mesh::FacetId;
+    use striae_verify::assert_derivative;
+
+    const SHAPE: Shape = Shape::Quadrilateral;
+    const LANES: PlaceLanes = PlaceLanes {
+        x: 0,
+        n: 3,
+        corners: 6,
+    };
+
+    fn vector(u: &DVector<f64>, lane: usize) -> Vec3 {
+        Vec3::new(u[lane], u[lane + 1], u[lane + 2])
+    }
+
+    fn four(u: &DVector<f64>, lane: usize) -> [Vec3; 4] {
+        [0, 3, 6, 9].map(|offset| vector(u, lane + offset))
+    }
+
+    /// The projection by Newton's method, and the vectors turned there.
+    fn at(u: &DVector<f64>) -> (Opposing, [Transported; 4]) {
+        let (x, n, corners) = (vector(u, 0), vector(u, 3), four(u, 6));
+        let [normals, vectors] = [18, 30].map(|lane| four(u, lane));
+        let mut root = Vec3::zeros();
+        for _ in 0..20 {
+            let weights = SHAPE.weights(root.x, root.y);
+            let [by_xi, by_eta] = [&weights.d_xi, &weights.d_eta].map(|w| combination(w, &corners));
+            let residual = combination(&weights.value, &corners) - x - n * root.z;
+            let jacobian = Matrix3::from_columns(&[by_xi, by_eta, -n]);
+            root -= jacobian.try_inverse().unwrap() * residual;
+        }
+        let hit = Hit {
+            facet: FacetId::new(0),
+            xi: root.x,
+            eta: root.y,
+            gap: root.z,
+        };
+        let turned = std::array::from_fn(|c| Transported::new(&vectors[c], &-normals[c], &n));
+        (Opposing::new(SHAPE, &hit, &n, &corners), turned)
+    }
+
+    fn scene() -> DVector<f64> {
+        let mut u = DVector::from_fn(42, |lane, _| 0.1 * (1.7 * lane as f64).sin());
+        u[2] += 0.2;
+        u[5] -= 1.0;
+        let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+        for (corner, [x, y]) in corners.into_iter().enumerate() {
+            u[6 + 3 * corner] += x;
+            u[7 + 3 * corner] += y;
+            u[20 + 3 * corner] += 1.0;
+        }
+        u
+    }
+
+    fn dense(gradient: &[[f64; 3]; 42]) -> DMatrix<f64> {
+        DMatrix::from_fn(3, 42, |row, lane| gradient[lane][row])
+    }
+
+    #[test]
+    fn gap_and_weights_change_with_all_that_the_projection_sees() {
+        let values = |u: &DVector<f64>| {
+            let (opposing, _) = at(u);
+            DVector::from_vec(vec![opposing.gap, opposing.weights[0], opposing.weights[2]])
+        };
+        let jacobian = |u: &DVector<f64>| {
+            let (opposing, _) = at(u);
+            let mut gradient = [[0.0; 3]; 42];
+            let [first, third] = [0, 2].map(|c: usize| opposing.weights_by_r[c]);
+            let rows = [opposing.gap_by_r, first, third].map(|row| row.transpose());
+            opposing.spread(&Matrix3::from_rows(&rows), LANES, &mut gradient);
+            dense(&gradient)
+        };
+        assert_derivative(values, jacobian, &scene());
+    }
+
+    #[test]
+    fn the_sum_changes_with_all_that_it_is_made_of() {
+        let rows = Matrix3::new(0.3, -0.2, 0.9, 0.1, 0.8, 0.4, -0.7, 0.2, 0.5);
+        let sum = |u: &DVector<f64>| {
+            let (opposing, turned) = at(u);
+            let sum = rows * opposing.sum(&turned);
+            DVector::from_column_slice(sum.as_slice())
+        };
+        let jacobian = |u: &DVector<f64>| {
+            let (opposing, turned) = at(u);
+            let mut gradient = [[0.0; 3]; 42];
+            let by_r = opposing.spread_sum(&rows, &turned, [3, 18, 30], &mut gradient);
+            opposing.spread(&by_r, LANES, &mut gradient);
+            dense(&gradient)
+        };
+        assert_derivative(sum, jacobian, &scene());
+    }
+}
