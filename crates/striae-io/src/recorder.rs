@@ -24,7 +24,9 @@ use striae_contact::{selection::Role, unknowns::Status as ContactStatus};
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::{
     drive::Progress,
+    dynamics::momentum,
     element::{nodal_cauchy_stress, von_mises},
+    model::Procedure,
     newton::{Increment, LinearWork},
     outcome::Ending,
     problem::Problem,
@@ -240,8 +242,14 @@ impl Recorder {
         add("energy.strain", state.energies.strain);
         add("energy.external", state.energies.external);
         add("energy.friction", state.energies.friction);
+        add("energy.contact", state.energies.contact);
         add("energy.numerical", state.energies.numerical);
         add("energy.imbalance", state.energies.imbalance());
+        if is_dynamic(problem) {
+            let (linear, angular) = momentum(problem, state);
+            add_vector(&mut row, "momentum", &linear);
+            add_vector(&mut row, "angular_momentum", &angular);
+        }
         for body in bodies(problem, state) {
             add_vector(&mut row, &format!("centre.{}", body.name), &body.centre);
             add_vector(&mut row, &format!("velocity.{}", body.name), &body.velocity);
@@ -311,6 +319,12 @@ fn remove_fields(folder: &Path, increment: usize) -> Result<(), OutputError> {
         }
     }
     Ok(())
+}
+
+/// Whether any step has inertia.
+fn is_dynamic(problem: &Problem) -> bool {
+    let mut steps = problem.model.steps.iter();
+    steps.any(|step| step.procedure != Procedure::QuasiStatic)
 }
 
 fn pair_summary(report: &PairReport) -> PairSummary {

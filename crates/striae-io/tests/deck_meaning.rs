@@ -33,6 +33,9 @@ fn constants() {
     );
 }
 
+/// Right-angled, with legs of length 1.
+const TETRAHEDRON: &str = "mesh = { positions = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], facets = [[1, 2, 3, 3], [0, 2, 1, 1], [0, 1, 3, 3], [0, 3, 2, 2]] }";
+
 #[test]
 fn rigid_bodies() {
     let floor = "plane = { point = [0, 0, 0], normal = [0, 0, 1] }";
@@ -44,7 +47,7 @@ fn rigid_bodies() {
             "plane = { point = [0, 0, 0], normal = [0, 0, 1] }\nmass = 2",
         )],
         &[
-            "15:1: rigid body `floor` needs both `mass` and `inertia`, none of whose three moments exceeds the sum of the others",
+            "15:1: rigid body `floor` needs both `mass` and `inertia`, none of whose three moments exceeds the sum of the others, or `density` alone",
         ],
     );
     misstated(
@@ -54,7 +57,29 @@ fn rigid_bodies() {
             "plane = { point = [0, 0, 0], normal = [0, 0, 1] }\nmass = 2\ninertia = [1, 1, 3]",
         )],
         &[
-            "15:1: rigid body `floor` needs both `mass` and `inertia`, none of whose three moments exceeds the sum of the others",
+            "15:1: rigid body `floor` needs both `mass` and `inertia`, none of whose three moments exceeds the sum of the others, or `density` alone",
+        ],
+    );
+    misstated(
+        "density and mass",
+        &[(floor, &format!("{TETRAHEDRON}\ndensity = 2\nmass = 2"))],
+        &[
+            "15:1: rigid body `floor` needs both `mass` and `inertia`, none of whose three moments exceeds the sum of the others, or `density` alone",
+        ],
+    );
+    misstated(
+        "density of a plane",
+        &[(floor, &format!("{floor}\ndensity = 2"))],
+        &["18:11: rigid body `floor` has no inertia by its density: only a `mesh` has an inside"],
+    );
+    misstated(
+        "density of an open surface",
+        &[(
+            floor,
+            &format!("{}\ndensity = 2", TETRAHEDRON.replace("[1, 2, 3, 3], ", "")),
+        )],
+        &[
+            "18:11: rigid body `floor` has no inertia by its density: the surface is not closed at the edge from node 2 to node 1; every edge must belong to two facets",
         ],
     );
     misstated(
@@ -64,7 +89,7 @@ fn rigid_bodies() {
             r#"{ surface = "floor", free = ["z"] }"#,
         )],
         &[
-            "36:1: step `slide` frees coordinates of rigid body `floor`; only bodies that nodes are tied to or that have a mass, and that are no side of a pair, can be free",
+            "36:1: step `slide` frees coordinates of rigid body `floor`; only bodies that nodes are tied to, that have a mass or that are a side of a pair can be free",
         ],
     );
     misstated(

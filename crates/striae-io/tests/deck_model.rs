@@ -342,6 +342,31 @@ fn inertia_gravity_and_decaying_friction() {
 }
 
 #[test]
+fn a_density_gives_mass_centre_and_inertia() {
+    let text = BASE.replace(
+        "plane = { point = [0, 0, 0], normal = [0, 0, 1] }",
+        "mesh = { positions = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], facets = [[1, 2, 3, 3], [0, 2, 1, 1], [0, 1, 3, 3], [0, 3, 2, 2]] }\ndensity = 6",
+    );
+    let deck = parse(&text, "deck.toml", Path::new("")).unwrap_or_else(|faults| panic!("{faults}"));
+    let rigid = &deck.model.rigid_surfaces[0];
+    let inertia = rigid.inertia.unwrap();
+    // rho/6 is 1; second moments of the coordinates about the centre 3/80, products -1/80.
+    assert!((inertia.mass - 1.0).abs() < 1e-14);
+    assert!((rigid.reference - Vec3::repeat(0.25)).norm() < 1e-14);
+    let mut moments = inertia.moments;
+    moments.sort_by(f64::total_cmp);
+    for (found, expected) in moments.into_iter().zip([0.0625, 0.0625, 0.1]) {
+        assert!((found - expected).abs() < 1e-14, "{moments:?}");
+    }
+    let stated = text.replace("density = 6", "density = 6\nreference = [0, 0, 9]");
+    let deck =
+        parse(&stated, "deck.toml", Path::new("")).unwrap_or_else(|faults| panic!("{faults}"));
+    let rigid = &deck.model.rigid_surfaces[0];
+    assert_eq!(rigid.reference, Vec3::new(0.0, 0.0, 9.0));
+    assert_eq!(rigid.inertia, Some(inertia));
+}
+
+#[test]
 fn paths_are_relative_to_the_deck() {
     let folder = tempfile::tempdir().unwrap();
     let triangle = "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid s\n";

@@ -22,8 +22,8 @@ use striae_contact::{
 };
 use striae_linalg::{SparseMatrix, Supervariable};
 use striae_mesh::{FacetId, Vec3};
-use terms::Triple;
-use ties::Tie;
+use terms::{Answer, Triple};
+use ties::{Moving, Tie};
 
 use crate::{layout::Layout, norms::Norms, outcome::CutBack, rigid::Pose, state::NodalForces};
 
@@ -118,6 +118,11 @@ struct System<'a> {
     inertia: Inertia,
     /// Ties of all nodes; empty where nothing is tied.
     ties: Vec<Option<Tie>>,
+    positions: &'a [Vec3],
+    /// Rigid bodies whose coordinates are unknowns.
+    moving: Vec<Option<Moving>>,
+    /// Longest arm of contact forces on every rigid body.
+    longest_push: Vec<f64>,
     /// Unknowns of every pair.
     triples: Vec<Vec<Option<Triple>>>,
     outside: Vec<Vec<Supervariable>>,
@@ -128,7 +133,7 @@ impl<'a> System<'a> {
         context: &'a StepContext<'a>,
         layout: &'a Layout,
         matrix: &'a mut SparseMatrix,
-        trial: &Trial,
+        trial: &'a Trial,
         imposed: &Imposed,
     ) -> Self {
         matrix.clear();
@@ -143,6 +148,9 @@ impl<'a> System<'a> {
             force_scale: 0.0,
             inertia: Inertia::new(trial, imposed),
             ties: Vec::new(),
+            positions: &trial.positions,
+            moving: Vec::new(),
+            longest_push: vec![0.0; problem.model.rigid_surfaces.len()],
             triples: Vec::new(),
             outside: Vec::new(),
         };
@@ -171,7 +179,7 @@ impl System<'_> {
             .map_err(|error| Fault::CutBack(self.not_evaluated(pair, error)))?;
             self.find_triples(pair, configuration, selections[pair].patches.len());
             for term in &evaluation.terms {
-                self.add_term(pair, term);
+                self.add_term(pair, term, Answer::Opposite);
             }
             for side in 0..2 {
                 for (facet, forces) in &evaluation.facets[side] {

@@ -26,7 +26,7 @@ use crate::{
     newton::{Workspace, forces_at_start},
     outcome::CutBack,
     problem::Problem,
-    rigid::{Wrench, fitted_velocity},
+    rigid::{Pose, Wrench, fitted_velocity},
     state::State,
 };
 
@@ -70,6 +70,8 @@ pub struct Motion {
     carried: Vec<Vec3>,
     /// `a_f` times the forces that hold tied nodes at the start.
     held: Vec<Vec3>,
+    /// `a_f` times what contact asks for of the rigid bodies at the start.
+    pushed: Vec<Wrench>,
 }
 
 impl Motion {
@@ -91,6 +93,7 @@ impl Motion {
             elapsed,
             predicted: predicted.collect(),
             carried: carried.collect(),
+            pushed: pushed(context.problem, state, scheme.alpha_f),
             held: forces.reaction.iter().map(|f| f * scheme.alpha_f).collect(),
             velocities: state.velocities.clone(),
             accelerations: state.accelerations.clone(),
@@ -110,6 +113,11 @@ impl Motion {
     /// `a_f h_0` of a tied node.
     pub fn held(&self, node: usize) -> Vec3 {
         self.held[node]
+    }
+
+    /// `a_f c_0` of a rigid body, the part of `F_0` and `M_0` that its tied nodes leave.
+    pub fn pushed(&self, rigid: usize) -> Wrench {
+        self.pushed[rigid]
     }
 
     /// `d a_alpha / d x_1` of a free component.
@@ -219,7 +227,12 @@ pub fn begin(
                 .iter()
                 .for_each(|&node| forces.reaction[node] = holding[node]);
         }
-        begun.forces.rigid = wrenches(problem, state, &forces.reaction);
+        begun.forces.rigid = wrenches(problem, &state.positions, &state.rigid, &forces.reaction);
+        for (whole, pushed) in begun.forces.rigid.iter_mut().zip(&forces.pushed) {
+            whole.force += pushed.force;
+            whole.torque += pushed.torque;
+        }
+        begun.forces.pushed = forces.pushed;
         begun.forces.reaction = forces.reaction;
         begun.forces.applied = forces.applied;
     } else {
@@ -257,18 +270,41 @@ fn follow_bodies(context: &StepContext, velocities: &mut [Vec3]) {
 }
 
 /// Force and torque on every rigid body from the forces that hold its tied nodes.
-fn wrenches(problem: &Problem, state: &State, holding: &[Vec3]) -> Vec<Wrench> {
+pub(crate) fn wrenches(
+    problem: &Problem,
+    positions: &[Vec3],
+    poses: &[Pose],
+    holding: &[Vec3],
+) -> Vec<Wrench> {
     let bodies = problem.tied.iter().zip(&problem.model.rigid_surfaces);
     bodies
-        .zip(&state.rigid)
+        .zip(poses)
         .map(|((nodes, rigid), pose)| {
             let point = rigid.reference + pose.displacement;
             let mut wrench = Wrench::default();
             for &node in nodes {
                 wrench.force += holding[node];
-                wrench.torque += (state.positions[node] - point).cross(&holding[node]);
+                wrench.torque += (positions[node] - point).cross(&holding[node]);
             }
             wrench
+        })
+        .collect()
+}
+
+/// What is left of the forces and torques on rigid bodies without those that hold
+/// tied nodes, times `weight`.
+fn pushed(problem: &Problem, state: &State, weight: f64) -> Vec<Wrench> {
+    let held = wrenches(
+        problem,
+        &state.positions,
+        &state.rigid,
+        &state.forces.reaction,
+    );
+    let whole = state.forces.rigid.iter().zip(held);
+    whole
+        .map(|(whole, held)| Wrench {
+            force: (whole.force - held.force) * weight,
+            torque: (whole.torque - held.torque) * weight,
         })
         .collect()
 }

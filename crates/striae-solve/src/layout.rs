@@ -4,7 +4,7 @@
 //! every contact surface it is active on is one supervariable, so that the
 //! factorisation meets gap rows and their multipliers together. The six balance
 //! unknowns of a patch are another one, kept for last, as are the six coordinates
-//! of a rigid body that nodes are tied to.
+//! of a rigid body that nodes are tied to or that contact may move.
 
 use striae_contact::unknown::Unknown;
 use striae_linalg::{Supervariable, Tier};
@@ -29,7 +29,7 @@ pub struct Layout {
     tractions: Vec<[Vec<Option<usize>>; 2]>,
     /// First supervariable of the patches of each pair.
     patches: Vec<usize>,
-    /// Supervariable of every rigid body that something is tied to.
+    /// Supervariable of every rigid body whose coordinates are unknowns.
     rigids: Vec<Option<usize>>,
     extent: Extent,
 }
@@ -82,8 +82,8 @@ impl Layout {
             patches.push(sizes.len());
             sizes.extend(std::iter::repeat_n(6, *count));
         }
-        let rigids = problem.tied.iter().map(|nodes| {
-            (!nodes.is_empty()).then(|| {
+        let rigids = (0..problem.tied.len()).map(|rigid| {
+            problem.has_coordinates(rigid).then(|| {
                 sizes.push(6);
                 sizes.len() - 1
             })
@@ -146,7 +146,12 @@ impl Layout {
         Supervariable(rigid.unwrap_or(node))
     }
 
-    /// First unknown of a rigid body, if something is tied to it.
+    /// Supervariable of a rigid body whose coordinates are unknowns.
+    pub fn body(&self, rigid: usize) -> Option<Supervariable> {
+        self.rigids[rigid].map(Supervariable)
+    }
+
+    /// First unknown of a rigid body, if its coordinates are unknowns.
     pub fn rigid(&self, rigid: usize) -> Option<usize> {
         self.rigids[rigid].map(|supervariable| self.offsets[supervariable])
     }

@@ -15,4 +15,5 @@ pub mod plan;
 pub mod problem;
 pub mod report;
 pub mod rigid;
+pub mod solid;
 pub mod state;

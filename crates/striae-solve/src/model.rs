@@ -2,6 +2,7 @@
 //!
 //! All quantities are in the consistent units of the user.
 
+use nalgebra::Matrix3;
 use striae_law::{bulk::Material, friction::Friction};
 use striae_mesh::{Face, Mesh, NodeId, Vec3};
 use striae_surface::texture::Paint;
@@ -59,17 +60,34 @@ pub struct RigidSurface {
     pub reference: Vec3,
     /// Nodes tied to it.
     pub ties: Vec<(BodyId, Vec<NodeId>)>,
-    /// Mass with its centre at the reference point, if it has any.
+    /// Mass, if it has any.
     pub inertia: Option<RigidInertia>,
 }
 
-/// Mass and principal moments of inertia about the coordinate axes at rest.
+/// Mass and principal moments of inertia at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigidInertia {
     /// Mass.
     pub mass: f64,
-    /// Moments of inertia; none is larger than the sum of the others.
+    /// Its centre.
+    pub centre: Vec3,
+    /// Moments of inertia about axes through the centre; none is larger than the sum
+    /// of the others.
     pub moments: [f64; 3],
+    /// Directions of these axes, in columns.
+    pub axes: Matrix3<f64>,
+}
+
+impl RigidInertia {
+    /// Inertia about axes along the coordinate axes.
+    pub fn aligned(mass: f64, centre: Vec3, moments: [f64; 3]) -> Self {
+        Self {
+            mass,
+            centre,
+            moments,
+            axes: Matrix3::identity(),
+        }
+    }
 }
 
 impl RigidSurface {

@@ -7,6 +7,7 @@
 
 mod acceptance;
 mod cycling;
+mod energy;
 mod failure;
 mod workspace;
 

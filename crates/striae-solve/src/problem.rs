@@ -161,6 +161,13 @@ impl Problem {
         })
     }
 
+    /// Whether the coordinates of a rigid body are unknowns: where nodes are tied to
+    /// it, and where contact may move it, as some are free in a step.
+    pub fn has_coordinates(&self, rigid: usize) -> bool {
+        let free = |plan: &StepPlan| plan.rigid[rigid].iter().any(Option::is_none);
+        !self.tied[rigid].is_empty() || self.plans.iter().any(free)
+    }
+
     /// Global number of a node of a body.
     pub fn node(&self, body: usize, node: NodeId) -> usize {
         self.first_node[body] + node.index()

@@ -138,7 +138,10 @@ pub fn rigid_bodies(problem: &Problem, state: &State) -> Vec<RigidReport> {
 /// Force and torque that drive or hold a rigid body: against the nodes tied to it
 /// and against contact.
 fn wrench(problem: &Problem, state: &State, index: usize) -> Wrench {
-    let mut wrench = state.forces.rigid[index];
+    if problem.has_coordinates(index) {
+        return state.forces.rigid[index];
+    }
+    let mut wrench = Wrench::default();
     let reference = problem.model.rigid_surfaces[index].reference;
     let point = reference + state.rigid[index].displacement;
     for pair in (0..problem.pairs.len()).filter(|&p| problem.pairs[p].rigid == Some(index)) {

@@ -43,6 +43,22 @@ pub struct Wrench {
     pub torque: Vec3,
 }
 
+impl Wrench {
+    /// Force, then torque.
+    pub fn components(&self) -> [f64; 6] {
+        let ([x, y, z], [a, b, c]) = (self.force.into(), self.torque.into());
+        [x, y, z, a, b, c]
+    }
+
+    /// From force, then torque.
+    pub fn from_components(components: &[f64; 6]) -> Self {
+        Self {
+            force: Vec3::from_column_slice(&components[..3]),
+            torque: Vec3::from_column_slice(&components[3..]),
+        }
+    }
+}
+
 impl Pose {
     /// Where a body is at first.
     pub fn at_rest() -> Self {
@@ -97,13 +113,14 @@ pub fn turn_tangent(turn: &Vec3) -> Matrix3<f64> {
         + turn * turn.transpose() * ((1.0 - share) / (angle * angle))
 }
 
-/// Places, relative to the reference point, of six equal masses with the inertia.
+/// Places of six equal masses with the inertia.
 pub fn mass_points(inertia: &RigidInertia) -> [Vec3; 6] {
     let [a, b, c] = inertia.moments;
     let squares = [b + c - a, c + a - b, a + b - c].map(|sum| 0.5 * sum / inertia.mass);
     std::array::from_fn(|at| {
         let sign = if at % 2 == 0 { 1.0 } else { -1.0 };
-        Vec3::ith(at / 2, sign * (3.0 * squares[at / 2].max(0.0)).sqrt())
+        let arm = sign * (3.0 * squares[at / 2].max(0.0)).sqrt();
+        inertia.centre + inertia.axes.column(at / 2) * arm
     })
 }
 
@@ -123,10 +140,10 @@ pub(crate) fn ties(
         nodes.sort_unstable();
         nodes.dedup();
         if let Some(inertia) = &rigid.inertia {
-            for arm in mass_points(inertia) {
+            for place in mass_points(inertia) {
                 nodes.push(reference.len());
                 heavy.push((reference.len(), inertia.mass / 6.0));
-                reference.push(rigid.reference + arm);
+                reference.push(place);
             }
         }
         nodes
@@ -171,19 +188,21 @@ mod tests {
 
     #[test]
     fn points_have_the_inertia() {
+        let centre = Vec3::new(0.3, -0.2, 0.5);
+        let axes = Rotation3::new(Vec3::new(0.4, 0.1, -0.3)).into_inner();
         let inertia = RigidInertia {
-            mass: 3.0,
-            moments: [2.0, 2.5, 1.5],
+            axes,
+            ..RigidInertia::aligned(3.0, centre, [2.0, 2.5, 1.5])
         };
         let points = mass_points(&inertia);
         let mass = inertia.mass / 6.0;
         let sum: Vec3 = points.iter().sum();
-        assert!(sum.norm() < 1e-15);
-        for axis in 0..3 {
-            let squares = points.iter().map(|x| x.norm_squared() - x[axis] * x[axis]);
-            let moment = mass * squares.sum::<f64>();
-            assert!((moment - inertia.moments[axis]).abs() < 1e-14);
-        }
+        assert!((sum / 6.0 - centre).norm() < 1e-15);
+        let arms = points.map(|x| x - centre);
+        let turned = arms.map(|r| Matrix3::identity() * r.norm_squared() - r * r.transpose());
+        let found = turned.iter().sum::<Matrix3<f64>>() * mass;
+        let expected = axes * Matrix3::from_diagonal(&inertia.moments.into()) * axes.transpose();
+        assert!((found - expected).norm() < 1e-14, "{found}");
     }
 
     #[test]

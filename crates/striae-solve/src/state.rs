@@ -64,8 +64,11 @@ pub struct NodalForces {
     pub applied: Vec<Vec3>,
     /// Contact forces.
     pub contact: Vec<Vec3>,
-    /// Force and torque that drive or hold every rigid body that nodes are tied to.
+    /// Force and torque that drive or hold every rigid body whose coordinates are
+    /// unknowns, against the nodes tied to it and against contact.
     pub rigid: Vec<Wrench>,
+    /// What contact asks for of it.
+    pub pushed: Vec<Wrench>,
 }
 
 /// Energies since the start of the simulation.
@@ -80,17 +83,20 @@ pub struct Energies {
     pub external: f64,
     /// Work dissipated by friction in all pairs.
     pub friction: f64,
-    /// Work lost to the discretisation: to time integration and its quadrature, to
-    /// impacts, and to the difference between the forces of traction fields and
+    /// Work of contact forces beyond friction at nodes: that of impacts, of pressure on
+    /// changing gaps, and the difference between the forces of traction fields and
     /// tractions at nodes. It vanishes with increments and mesh.
+    pub contact: f64,
+    /// Work lost to time integration and its quadrature. It vanishes with the increments.
     pub numerical: f64,
 }
 
 impl Energies {
     /// External work that is found nowhere: the work of the residual forces that
-    /// Newton's method leaves.
+    /// Newton's method leaves, if all forces are right.
     pub fn imbalance(&self) -> f64 {
-        self.external - self.kinetic - self.strain - self.friction - self.numerical
+        let found = self.kinetic + self.strain + self.friction + self.contact + self.numerical;
+        self.external - found
     }
 }
 
@@ -104,6 +110,7 @@ impl NodalForces {
             applied: vec![Vec3::zeros(); nodes],
             contact: vec![Vec3::zeros(); nodes],
             rigid: vec![Wrench::default(); rigid],
+            pushed: vec![Wrench::default(); rigid],
         }
     }
 }

@@ -216,8 +216,8 @@ coded! {
     PairState { tractions, kinematic, selection, nodes, facets, dissipated };
     Wrench { force, torque };
     Pose { displacement, turned, rotation };
-    NodalForces { internal, inertia, reaction, applied, contact, rigid };
-    Energies { kinetic, strain, external, friction, numerical };
+    NodalForces { internal, inertia, reaction, applied, contact, rigid, pushed };
+    Energies { kinetic, strain, external, friction, contact, numerical };
     State { time, positions, velocities, accelerations, rigid, pairs, forces, energies };
     Extent { nodes, patches };
     Memory { extent, cliques };

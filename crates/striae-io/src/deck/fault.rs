@@ -279,13 +279,21 @@ pub enum FaultKind {
         /// The first step that needs it.
         step: String,
     },
-    /// Mass without inertia, inertia without mass, or moments that no body has.
+    /// Mass without inertia, inertia without mass, both and density, or moments that no body has.
     #[error(
-        "rigid body `{rigid}` needs both `mass` and `inertia`, none of whose three moments exceeds the sum of the others"
+        "rigid body `{rigid}` needs both `mass` and `inertia`, none of whose three moments exceeds the sum of the others, or `density` alone"
     )]
     RigidInertia {
         /// The rigid body.
         rigid: String,
+    },
+    /// A density of what is no solid.
+    #[error("rigid body `{rigid}` has no inertia by its density: {cause}")]
+    RigidSolid {
+        /// The rigid body.
+        rigid: String,
+        /// What is wrong.
+        cause: String,
     },
     /// A side that is a rigid body without a surface.
     #[error("rigid body `{rigid}` has no surface to touch; give it a `plane` or a `mesh`")]
@@ -295,7 +303,7 @@ pub enum FaultKind {
     },
     /// A rigid body that nothing could move as it should.
     #[error(
-        "step `{step}` frees coordinates of rigid body `{rigid}`; only bodies that nodes are tied to or that have a mass, and that are no side of a pair, can be free"
+        "step `{step}` frees coordinates of rigid body `{rigid}`; only bodies that nodes are tied to, that have a mass or that are a side of a pair can be free"
     )]
     FreeRigid {
         /// The rigid body.

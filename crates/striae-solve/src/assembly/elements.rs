@@ -104,6 +104,7 @@ impl System<'_> {
         let slots = unknowns.iter().enumerate().map(|(at, &unknown)| Slot {
             unknown,
             position: Some((nodes[at / 3], at % 3)),
+            against: None,
         });
         let slots: Vec<Slot> = slots.collect();
         self.add_rows(&slots, &slots, tangent)

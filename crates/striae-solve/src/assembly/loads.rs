@@ -9,7 +9,7 @@ use striae_linalg::Supervariable;
 use striae_mesh::{Face, Vec3};
 use striae_surface::scalar::Real;
 
-use super::{Fault, Imposed, System, Trial};
+use super::{Fault, Imposed, System, Trial, terms::Answer};
 use crate::{
     load,
     model::{LoadExtent, LoadKind},
@@ -102,6 +102,10 @@ impl System<'_> {
             self.forces.applied[*node] += force;
         }
         for (pair, terms) in covered {
+            let answer = match kind {
+                LoadKind::DeadTraction(_) => Answer::Dead,
+                LoadKind::FollowerTraction(_) | LoadKind::Pressure(_) => Answer::Follower,
+            };
             for mut term in terms {
                 for (at, node) in nodes.iter().enumerate() {
                     let taken = Vec3::from_column_slice(&term.residual[3 * at..3 * at + 3]);
@@ -109,7 +113,7 @@ impl System<'_> {
                 }
                 term.residual.iter_mut().for_each(|r| *r *= share);
                 term.tangent.iter_mut().for_each(|k| *k *= share);
-                self.add_term(pair, &term);
+                self.add_term(pair, &term, answer);
             }
         }
         if self.outside.is_empty() {

@@ -11,11 +11,13 @@ use striae_linalg::SparseMatrix;
 use striae_mesh::Vec3;
 
 use super::{Imposed, StepContext, System, Trial};
-use crate::{dynamics::mass_times, layout::Layout, outcome::CutBack, rigid::fitted_velocity};
+use crate::{
+    dynamics::mass_times, layout::Layout, outcome::CutBack, rigid::fitted_velocity,
+    state::NodalForces,
+};
 
-/// Accelerations of all nodes, and the forces that hold tied nodes; `forces` are
-/// internal minus applied minus contact forces. `solve` solves the linear system
-/// for a correction.
+/// Accelerations of all nodes, and the forces that hold tied nodes, under the
+/// `found` forces without inertia. `solve` solves the linear system for a correction.
 ///
 /// # Errors
 /// What `solve` says.
@@ -25,14 +27,18 @@ pub fn initial_accelerations(
     trial: &Trial,
     imposed: &Imposed,
     velocities: &[Vec3],
-    forces: &[Vec3],
+    found: &NodalForces,
     layout: &Layout,
     matrix: &mut SparseMatrix,
     solve: impl FnOnce(&SparseMatrix, &[f64]) -> Result<Vec<f64>, CutBack>,
 ) -> Result<(Vec<Vec3>, Vec<Vec3>), CutBack> {
     let mut accelerations = known(context, trial, imposed, velocities);
     let inertia = mass_times(context.problem, &accelerations);
+    let forces: Vec<Vec3> = (0..trial.positions.len())
+        .map(|node| found.internal[node] - found.applied[node] - found.contact[node])
+        .collect();
     let mut system = System::new(context, layout, matrix, trial, imposed);
+    system.forces.pushed.clone_from(&found.pushed);
     for (node, (force, inertia)) in forces.iter().zip(&inertia).enumerate() {
         let first = layout.position(node);
         for axis in 0..3 {
@@ -128,6 +134,10 @@ impl System<'_> {
         for rigid in 0..problem.tied.len() {
             if let Some(first) = self.layout.rigid(rigid) {
                 held[first..first + 6].copy_from_slice(&self.context.fixed_rigid[rigid]);
+                // Contact alone gives a body no mass.
+                if problem.tied[rigid].is_empty() {
+                    held[first..first + 6].fill(true);
+                }
             }
         }
         for unknown in (0..held.len()).filter(|&unknown| held[unknown]) {

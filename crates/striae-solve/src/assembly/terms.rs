@@ -1,9 +1,40 @@
-//! Contact terms in the system.
+//! Contact terms in the system, and what they do to rigid bodies.
+//!
+//! The force `f` on a node at `x` pushes the rigid body on the other side of the pair,
+//! whose reference point is at `c`, back with `-f` and `-(x - c) x f`. A term knows no
+//! coordinates of the body: what it states holds relative to the body. If the body
+//! and the nodes of the term were moved alike by `du` and turned by `dphi`, gaps, slip
+//! and traction components would stay and forces turn along, so that
+//!
+//! ```text
+//! dr = dr/dx (dx - du - dphi x (x - c))                      of gaps, slip, tractions
+//! df = df/dx (dx - du - dphi x (x - c)) + dphi x f           of forces
+//! d((x - c) x f) = (dx - du) x f + (x - c) x df
+//! ```
+//!
+//! A load on what the body leaves uncovered pushes nothing; one of fixed direction
+//! does not turn.
 
+use nalgebra::Matrix3;
 use striae_contact::{configuration::Configuration, term::LocalTerm, unknown::Unknown};
 use striae_linalg::{OutsidePattern, Supervariable};
+use striae_mesh::Vec3;
 
-use super::{System, ties::Slot};
+use super::{
+    System,
+    ties::{Slot, Tie},
+};
+
+/// What answers the forces of a term.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Answer {
+    /// The other side of the pair.
+    Opposite,
+    /// Something outside; forces turn with the surface.
+    Follower,
+    /// Something outside; forces keep their direction.
+    Dead,
+}
 
 /// Where a triple of unknowns of a pair is in the system.
 #[derive(Clone, Copy, Debug)]
@@ -13,6 +44,8 @@ pub(super) struct Triple {
     owner: Supervariable,
     /// The node whose position it is.
     position: Option<usize>,
+    /// The rigid body that moves on the other side.
+    against: Option<usize>,
 }
 
 impl System<'_> {
@@ -25,6 +58,8 @@ impl System<'_> {
     ) {
         let problem = self.context.problem;
         let numbering = configuration.pair.numbering();
+        let rigid = problem.pairs[pair].rigid;
+        let moving = rigid.filter(|&rigid| self.moving[rigid].is_some());
         let triple = |at: u32| {
             let unknown = numbering.unknown(3 * at);
             let (first, owner) = self.layout.global(problem, pair, unknown)?;
@@ -36,6 +71,7 @@ impl System<'_> {
                 first,
                 owner,
                 position,
+                against: position.and(moving),
             })
         };
         let count = numbering.balance(patches) / 3;
@@ -50,33 +86,62 @@ impl System<'_> {
     }
 
     /// Adds a contact term; remembers its clique where it has no place.
-    pub(super) fn add_term(&mut self, pair: usize, term: &LocalTerm) {
+    pub(super) fn add_term(&mut self, pair: usize, term: &LocalTerm, answer: Answer) {
         let slot = |unknown: &u32| {
             let (triple, axis) = (self.triple(pair, *unknown), *unknown as usize % 3);
             Slot {
                 unknown: triple.first + axis,
                 position: triple.position.map(|node| (node, axis)),
+                against: triple.against,
             }
         };
-        let rows: Vec<Slot> = term.rows.iter().map(slot).collect();
+        let mut rows: Vec<Slot> = term.rows.iter().map(slot).collect();
         let columns: Vec<Slot> = term.columns.iter().map(slot).collect();
+        if answer != Answer::Opposite {
+            rows.iter_mut().for_each(|row| row.against = None);
+        }
         for (row, residual) in rows.iter().zip(&term.residual) {
             self.residual[row.unknown] += residual;
+            self.push_back(row, *residual);
         }
-        if !self.is_known(pair, term) || self.add_rows(&rows, &columns, &term.tangent).is_err() {
+        if !self.is_known(pair, term)
+            || self.add_rows(&rows, &columns, &term.tangent).is_err()
+            || self.turn(&rows, &columns, &term.residual, answer).is_err()
+        {
             let unknowns = term.rows.iter().chain(&term.columns);
             let mut clique: Vec<_> = unknowns.map(|u| self.triple(pair, *u).owner).collect();
+            clique.extend(self.opposite_body(pair));
             clique.sort_unstable();
             clique.dedup();
             self.outside.push(clique);
         }
     }
 
+    /// Adds the answer to the force of a row to what acts on the body on the other side.
+    fn push_back(&mut self, row: &Slot, residual: f64) {
+        if let (Some(tie), Some((_, axis))) = (self.against(row), row.position) {
+            let force = -Vec3::ith(axis, residual);
+            let pushed = &mut self.forces.pushed[tie.rigid];
+            pushed.force += force;
+            pushed.torque += tie.arm.cross(&force);
+            let longest = &mut self.longest_push[tie.rigid];
+            *longest = longest.max(tie.arm.norm());
+        }
+    }
+
+    /// Supervariable of the rigid body on the other side, if it moves.
+    fn opposite_body(&self, pair: usize) -> Option<Supervariable> {
+        let rigid = self.context.problem.pairs[pair].rigid;
+        rigid.and_then(|rigid| self.layout.body(rigid))
+    }
+
     /// Whether the supervariables of a term are among those that are kept.
     fn is_known(&self, pair: usize, term: &LocalTerm) -> bool {
         let structure = self.matrix.structure();
         let mut unknowns = term.rows.iter().chain(term.columns.iter().step_by(3));
-        unknowns.all(|unknown| structure.is_kept(self.triple(pair, *unknown).owner))
+        let mut body = self.opposite_body(pair).into_iter();
+        body.all(|body| structure.is_kept(body))
+            && unknowns.all(|unknown| structure.is_kept(self.triple(pair, *unknown).owner))
     }
 
     /// Adds rows of a block, leaving out prescribed ones.
@@ -86,11 +151,11 @@ impl System<'_> {
         columns: &[Slot],
         block: &[f64],
     ) -> Result<(), OutsidePattern> {
-        if !rows.iter().any(|row| self.is_fixed(row)) {
+        if !rows.iter().any(|row| self.is_left_out(row)) {
             return self.scatter(rows, columns, block);
         }
         let kept: Vec<usize> = (0..rows.len())
-            .filter(|&at| !self.is_fixed(&rows[at]))
+            .filter(|&at| !self.is_left_out(&rows[at]))
             .collect();
         let rows: Vec<Slot> = kept.iter().map(|&at| rows[at]).collect();
         let block: Vec<f64> = kept
@@ -101,8 +166,74 @@ impl System<'_> {
         self.scatter(&rows, columns, &block)
     }
 
-    fn is_fixed(&self, slot: &Slot) -> bool {
-        slot.position
-            .is_some_and(|(node, axis)| self.context.fixed[3 * node + axis])
+    /// Whether a row is prescribed and answered by no moving body.
+    fn is_left_out(&self, slot: &Slot) -> bool {
+        let fixed = |(node, axis): (usize, usize)| self.context.fixed[3 * node + axis];
+        slot.against.is_none() && slot.position.is_some_and(fixed)
     }
+
+    /// Tangent of the forces that turn with a moving body, and of their arms.
+    fn turn(
+        &mut self,
+        rows: &[Slot],
+        columns: &[Slot],
+        residual: &[f64],
+        answer: Answer,
+    ) -> Result<(), OutsidePattern> {
+        let Some(tie) = columns.iter().find_map(|slot| self.against(slot)) else {
+            return Ok(());
+        };
+        let first_of_node = |at: &usize| matches!(rows[*at].position, Some((_, 0)));
+        for at in (0..rows.len()).filter(first_of_node) {
+            let force = -Vec3::from_column_slice(&residual[at..at + 3]);
+            let node = [rows[at], rows[at + 1], rows[at + 2]];
+            if answer != Answer::Dead {
+                // The row states -f.
+                let turned = force.cross_matrix() * tie.tangent;
+                self.scatter(&node, &angles(&tie), &by_rows(&turned))?;
+            }
+            if answer == Answer::Opposite {
+                self.shift_arms(&node, &tie, &force)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// `(dx - du) x f` in the torque on what pushes the body.
+    fn shift_arms(
+        &mut self,
+        node: &[Slot; 3],
+        tie: &Tie,
+        force: &Vec3,
+    ) -> Result<(), OutsidePattern> {
+        let fixed = &self.context.fixed_rigid[tie.rigid];
+        let free: Vec<usize> = (0..3).filter(|axis| !fixed[3 + axis]).collect();
+        let rows: Vec<Slot> = free
+            .iter()
+            .map(|axis| Slot::plain(tie.first + 3 + axis))
+            .collect();
+        let of_node = node.map(|slot| Slot {
+            against: None,
+            ..slot
+        });
+        let of_body = [0, 1, 2].map(|axis| Slot::plain(tie.first + axis));
+        let cross = -force.cross_matrix();
+        for (columns, sign) in [(of_node, 1.0), (of_body, -1.0)] {
+            let block: Vec<f64> = free
+                .iter()
+                .flat_map(|&row| (0..3).map(move |column| sign * cross[(row, column)]))
+                .collect();
+            self.scatter(&rows, &columns, &block)?;
+        }
+        Ok(())
+    }
+}
+
+/// The angles of a body.
+fn angles(tie: &Tie) -> [Slot; 3] {
+    [3, 4, 5].map(|at| Slot::plain(tie.first + at))
+}
+
+fn by_rows(matrix: &Matrix3<f64>) -> Vec<f64> {
+    matrix.transpose().iter().copied().collect()
 }

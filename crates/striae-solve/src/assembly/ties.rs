@@ -11,14 +11,18 @@
 //! ```
 //!
 //! with the force `F` and the torque `M` that drive or hold the body. Turning the
-//! arms gives the tangent `d(r x h) = (dphi x r) x h`.
+//! arms gives the tangent `d(r x h) = (dphi x r) x h`. What contact asks for, see
+//! `pushed`, joins `F` and `M`, fully at the end.
 
 use nalgebra::Matrix3;
 use striae_linalg::{OutsidePattern, Supervariable};
 use striae_mesh::Vec3;
 
 use super::{Imposed, System, Trial};
-use crate::{problem::Problem, rigid::turn_tangent};
+use crate::{
+    problem::Problem,
+    rigid::{Wrench, turn_tangent},
+};
 
 /// An unknown or an equation before ties are eliminated.
 #[derive(Clone, Copy, Debug)]
@@ -26,15 +30,50 @@ pub(super) struct Slot {
     pub(super) unknown: usize,
     /// Node and component of a position.
     pub(super) position: Option<(usize, usize)>,
+    /// The rigid body on the other side of the pair, whose motion is subtracted.
+    pub(super) against: Option<usize>,
+}
+
+impl Slot {
+    /// What is no position.
+    pub(super) fn plain(unknown: usize) -> Self {
+        Self {
+            unknown,
+            position: None,
+            against: None,
+        }
+    }
 }
 
 /// How a tied node follows its body.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tie {
+    pub(super) rigid: usize,
+    pub(super) first: usize,
+    pub(super) arm: Vec3,
+    pub(super) tangent: Matrix3<f64>,
+}
+
+/// A rigid body whose coordinates are unknowns.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Moving {
     rigid: usize,
     first: usize,
-    arm: Vec3,
+    /// Where the reference point is.
+    point: Vec3,
     tangent: Matrix3<f64>,
+}
+
+impl Moving {
+    /// How a point at `x` follows the body.
+    pub(super) fn tie(&self, x: &Vec3) -> Tie {
+        Tie {
+            rigid: self.rigid,
+            first: self.first,
+            arm: x - self.point,
+            tangent: self.tangent,
+        }
+    }
 }
 
 /// What slots become: equations or unknowns, and their weights by slot.
@@ -58,33 +97,40 @@ impl Tie {
 }
 
 impl System<'_> {
-    /// Ties of all nodes at a trial state; empty where nothing is tied.
+    /// Moving bodies and ties of all nodes at a trial state; no ties where nothing is tied.
     pub(super) fn find_ties(&mut self, trial: &Trial, imposed: &Imposed) {
         let problem = self.context.problem;
+        let moving = (0..problem.tied.len()).map(|rigid| {
+            let pose = &trial.rigid[rigid];
+            Some(Moving {
+                rigid,
+                first: self.layout.rigid(rigid)?,
+                point: problem.model.rigid_surfaces[rigid].reference + pose.displacement,
+                tangent: turn_tangent(&(pose.turned - imposed.before[rigid].turned)),
+            })
+        });
+        self.moving = moving.collect();
         if problem.tied.iter().all(Vec::is_empty) {
             return;
         }
         self.ties = vec![None; problem.reference.len()];
-        for (rigid, nodes) in problem.tied.iter().enumerate() {
-            let Some(first) = self.layout.rigid(rigid) else {
-                continue;
-            };
-            let pose = &trial.rigid[rigid];
-            let point = problem.model.rigid_surfaces[rigid].reference + pose.displacement;
-            let tangent = turn_tangent(&(pose.turned - imposed.before[rigid].turned));
+        for (moving, nodes) in self.moving.iter().zip(&problem.tied) {
+            let Some(moving) = moving else { continue };
             for &node in nodes {
-                self.ties[node] = Some(Tie {
-                    rigid,
-                    first,
-                    arm: trial.positions[node] - point,
-                    tangent,
-                });
+                self.ties[node] = Some(moving.tie(&trial.positions[node]));
             }
         }
     }
 
     pub(super) fn tie(&self, node: usize) -> Option<&Tie> {
         self.ties.get(node).and_then(Option::as_ref)
+    }
+
+    /// How the point of the body on the other side of a position follows that body.
+    pub(super) fn against(&self, slot: &Slot) -> Option<Tie> {
+        let (node, _) = slot.position?;
+        let body = self.moving[slot.against?].as_ref()?;
+        Some(body.tie(&self.positions[node]))
     }
 
     /// Supervariable that a position of a node belongs to.
@@ -101,7 +147,7 @@ impl System<'_> {
     ) -> Result<(), OutsidePattern> {
         let tied = |slot: &Slot| {
             let position = slot.position;
-            position.is_some_and(|(node, _)| self.tie(node).is_some())
+            slot.against.is_some() || position.is_some_and(|(node, _)| self.tie(node).is_some())
         };
         if !rows.iter().chain(columns).any(tied) {
             let unknowns = |slots: &[Slot]| slots.iter().map(|s| s.unknown).collect::<Vec<_>>();
@@ -140,20 +186,31 @@ impl System<'_> {
 
     /// What a slot stands for, with weights.
     fn followed(&self, slot: &Slot, kind: Kind) -> Vec<(usize, f64)> {
-        let tie = slot
-            .position
-            .and_then(|(node, axis)| Some((self.tie(node)?, axis)));
-        let Some((tie, axis)) = tie else {
+        let Some((node, axis)) = slot.position else {
             return vec![(slot.unknown, 1.0)];
         };
+        let mut entries = match self.tie(node) {
+            Some(tie) => self.followed_tie(tie, axis, kind, 1.0),
+            None if kind == Kind::Row && self.context.fixed[3 * node + axis] => Vec::new(),
+            None => vec![(slot.unknown, 1.0)],
+        };
+        if let Some(against) = self.against(slot) {
+            entries.extend(self.followed_tie(&against, axis, kind, -1.0));
+        }
+        entries
+    }
+
+    /// The coordinates of a body that a component of a position follows, with
+    /// weights times `sign`.
+    fn followed_tie(&self, tie: &Tie, axis: usize, kind: Kind, sign: f64) -> Vec<(usize, f64)> {
         let mut entries = Vec::with_capacity(4);
-        entries.push((tie.first + axis, 1.0));
+        entries.push((tie.first + axis, sign));
         for turn in 0..3 {
             let spin = match kind {
                 Kind::Row => Vec3::ith(turn, 1.0),
                 Kind::Column => tie.tangent.column(turn).into(),
             };
-            let weight = spin.cross(&tie.arm)[axis];
+            let weight = sign * spin.cross(&tie.arm)[axis];
             if weight != 0.0 {
                 entries.push((tie.first + 3 + turn, weight));
             }
@@ -201,17 +258,27 @@ impl System<'_> {
                     self.hold(at + axis, 0.0, 1.0);
                 }
             }
-            self.forces.rigid[rigid].force = force / share;
-            self.forces.rigid[rigid].torque = torque / share;
-            let driving = imposed.driving[rigid];
-            let rows = [
-                force - driving.force * share,
-                torque - driving.torque * share,
-            ];
-            for axis in 0..3 {
-                self.residual[first + axis] = rows[0][axis];
-                self.residual[first + 3 + axis] = rows[1][axis];
+            let held = Wrench { force, torque };
+            let carried = imposed.motion.as_ref().map(|motion| motion.pushed(rigid));
+            let carried = carried.unwrap_or_default();
+            let [held, carried, pushed, driving] = [
+                held,
+                carried,
+                self.forces.pushed[rigid],
+                imposed.driving[rigid],
+            ]
+            .map(|wrench| wrench.components());
+            let mut found = [0.0; 6];
+            for at in 0..6 {
+                let whole = held[at] + pushed[at] - carried[at];
+                self.residual[first + at] = whole - driving[at] * share;
+                found[at] = if self.context.fixed_rigid[rigid][at] {
+                    held[at] / share + pushed[at]
+                } else {
+                    whole / share
+                };
             }
+            self.forces.rigid[rigid] = Wrench::from_components(&found);
             all.push((rigid, turning));
         }
         all
@@ -245,7 +312,7 @@ impl System<'_> {
             let arms = nodes.iter().filter_map(|&node| self.tie(node));
             let longest = arms
                 .map(|tie| tie.arm.norm())
-                .fold(f64::MIN_POSITIVE, f64::max);
+                .fold(self.longest_push[rigid].max(f64::MIN_POSITIVE), f64::max);
             for at in (0..6).filter(|&at| !self.context.fixed_rigid[rigid][at]) {
                 let arm = if at < 3 { 1.0 } else { longest };
                 sum += (self.residual[first + at] / arm).powi(2);

@@ -228,9 +228,6 @@ impl Workspace {
             tractions: Vec::new(),
             rigid: state.rigid.clone(),
         };
-        let found: Vec<Vec3> = (0..state.positions.len())
-            .map(|node| forces.internal[node] - forces.applied[node] - forces.contact[node])
-            .collect();
         let Self { solver, system, .. } = self;
         let system = system.as_mut().expect("the workspace was prepared");
         if !system.analysed {
@@ -249,7 +246,7 @@ impl Workspace {
             &trial,
             imposed,
             velocities,
-            &found,
+            forces,
             &system.layout,
             &mut system.matrix,
             solve,

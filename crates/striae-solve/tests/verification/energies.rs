@@ -1,7 +1,10 @@
 //! Balance of energy and sign of dissipation.
 
 use crate::scene::{Places, Run, block, body, coulomb, increments, model, plane, rubber, step};
-use striae_solve::model::{Curve, Model};
+use striae_solve::{
+    model::{Curve, Model},
+    state::Energies,
+};
 use striae_verify::fitted_rate;
 
 /// A block on a plane, pressed, slid to and fro in so many increments a step.
@@ -73,15 +76,33 @@ fn all_external_work_is_accounted_for() {
     }
 }
 
+/// Energies at the end of sliding to and fro in so many increments a step.
+fn spent(count: usize) -> Energies {
+    Run::completed(to_and_fro(count)).last().energies
+}
+
 #[test]
 fn what_is_lost_to_the_increments_falls_with_them() {
     let counts = [5, 10, 20];
-    let lost = counts.map(|count| {
-        let run = Run::completed(to_and_fro(count));
-        let energies = run.last().energies;
-        energies.numerical.abs() / energies.external
-    });
+    let spent = counts.map(spent);
     let sizes = counts.map(|count| 1.0 / count as f64);
-    let rate = fitted_rate(&sizes, &lost);
-    assert!(rate > 0.9, "rate {rate}: {lost:?}");
+    let rate = |lost: fn(&Energies) -> f64| {
+        let lost = spent
+            .each_ref()
+            .map(|energies| lost(energies).abs() / energies.external);
+        (fitted_rate(&sizes, &lost), lost)
+    };
+    let (numerical, lost) = rate(|energies| energies.numerical);
+    assert!(numerical > 1.8, "rate {numerical}: {lost:?}");
+    let (contact, lost) = rate(|energies| energies.contact);
+    assert!(contact > 0.9, "rate {contact}: {lost:?}");
+}
+
+#[test]
+fn contact_forces_do_the_work_of_friction() {
+    let energies = spent(20);
+    assert!(
+        energies.contact.abs() < 0.05 * energies.friction,
+        "{energies:?}"
+    );
 }

@@ -10,6 +10,7 @@ mod hard_systems;
 mod invariance;
 mod patch_frictionless;
 mod patch_stick;
+mod pushed;
 mod rigid;
 mod rigid_facets;
 mod sliding;

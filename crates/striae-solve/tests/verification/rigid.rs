@@ -36,10 +36,7 @@ fn lonely() -> Model {
     let mut model = model(vec![stone]);
     let mut rigid = RigidSurface::new("top", RigidShape::Bare);
     rigid.reference = Vec3::new(0.1, 0.2, 0.3);
-    rigid.inertia = Some(RigidInertia {
-        mass: 2.0,
-        moments: MOMENTS,
-    });
+    rigid.inertia = Some(RigidInertia::aligned(2.0, rigid.reference, MOMENTS));
     model.rigid_surfaces.push(rigid);
     model
 }

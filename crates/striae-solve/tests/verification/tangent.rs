@@ -279,7 +279,7 @@ fn of_two_curved_surfaces_that_stick_slip_and_open() {
     assert_order(&contact, &u);
 }
 
-fn on_rigid(shape: RigidShape) -> Model {
+pub fn on_rigid(shape: RigidShape) -> Model {
     let mut mesh = block([0.0; 3], [1.0, 1.0, 0.5], [3, 3, 1]);
     mesh.irregularity = 0.15;
     let mut model = model(vec![body(
@@ -293,7 +293,7 @@ fn on_rigid(shape: RigidShape) -> Model {
 }
 
 /// Facets over `[-0.5, 0.85] x [-0.5, 1.5]`: the block overhangs on one side.
-fn dome(corners: usize) -> RigidShape {
+pub fn dome(corners: usize) -> RigidShape {
     let count = 4;
     let positions = (0..(count + 1) * (count + 1)).map(|k| {
         let share = |i: usize| i as f64 / count as f64;

@@ -2,18 +2,21 @@
 //! differences falls with the square of the step.
 
 use crate::{
-    scene::{Places, Run, step},
-    tangent::two_blocks,
+    scene::{Places, Run, coulomb, step},
+    tangent::{dome, on_rigid, two_blocks},
 };
 use nalgebra::DVector;
-use striae_contact::{complementarity::Iteration, selection::Selection};
+use striae_contact::{complementarity::Iteration, evaluation::Evaluation, selection::Selection};
 use striae_law::friction::Friction;
 use striae_linalg::{SparseMatrix, Structure, Supervariable};
 use striae_mesh::Vec3;
 use striae_solve::{
     assembly::{Fault, Imposed, StepContext, Trial, assemble},
     layout::{Extent, Layout},
-    model::{LoadExtent, LoadKind},
+    model::{Curve, Freedom, LoadExtent, LoadKind, Model, RigidId, RigidMotion},
+    newton::{IterationObserver, Workspace, advance},
+    norms::Norms,
+    problem::Problem,
     state::State,
 };
 use striae_verify::{Difference, Random, derivative::directional};
@@ -52,6 +55,12 @@ impl<'a> Whole<'a> {
     fn trial(&self, u: &DVector<f64>) -> Trial {
         let mut trial = self.reference();
         self.each(&mut trial, |at, value| *value = u[at]);
+        for (rigid, pose) in trial.rigid.iter_mut().enumerate() {
+            if let Some(first) = self.layout.rigid(rigid) {
+                let coordinates = std::array::from_fn(|at| u[first + at]);
+                *pose = self.imposed.before[rigid].moved_to(&coordinates);
+            }
+        }
         trial
     }
 
@@ -92,6 +101,37 @@ impl<'a> Whole<'a> {
                     .iter_mut()
                     .enumerate()
                     .for_each(|(at, v)| visit(first + at, v));
+            }
+        }
+    }
+
+    fn unknowns(&self) -> DVector<f64> {
+        let mut u = DVector::zeros(self.layout.unknowns());
+        self.each(&mut self.reference(), |at, value| u[at] = *value);
+        for (rigid, pose) in self.state.rigid.iter().enumerate() {
+            if let Some(first) = self.layout.rigid(rigid) {
+                u.rows_mut(first, 6).copy_from_slice(&pose.coordinates());
+            }
+        }
+        u
+    }
+
+    fn assert_order(&self) {
+        let u = self.unknowns();
+        let (_, matrix) = self.assembled(&u);
+        for seed in 0..2 {
+            let direction = Random::new(seed).unit(u.len());
+            let mut claimed = DVector::zeros(u.len());
+            matrix.multiply(direction.as_slice(), claimed.as_mut_slice());
+            let order = directional(
+                Difference::Central,
+                |u| self.assembled(u).0,
+                &claimed,
+                &u,
+                &direction,
+            );
+            if let Err(wrong) = order {
+                panic!("{wrong}");
             }
         }
     }
@@ -148,27 +188,79 @@ fn of_the_whole_system_under_all_loads() {
         model.load("lower", "xmin", LoadKind::Pressure(0.02), LoadExtent::Whole),
     ];
     model.steps = vec![step];
+    assert_order(model);
+}
+
+#[test]
+fn of_a_rigid_body_that_contact_pushes_under_loads() {
+    for friction in [Friction::frictionless(), coulomb(0.4)] {
+        let mut model = on_rigid(dome(4));
+        model.pairs[0].friction = friction;
+        let mut first = step();
+        first.displacements = vec![model.hold("block", "zmax", [Some(0.0); 3])];
+        let mut motion = RigidMotion {
+            surface: RigidId(0),
+            coordinates: [0.02, 0.01, 0.06, 0.03, -0.04, 0.2].map(Freedom::To),
+            force: None,
+            torque: None,
+            curve: Curve::Ramp,
+        };
+        first.rigid_motions = vec![motion.clone()];
+        first.loads = vec![
+            model.load(
+                "block",
+                "zmin",
+                LoadKind::Pressure(0.03),
+                LoadExtent::Exposed,
+            ),
+            model.load(
+                "block",
+                "zmin",
+                LoadKind::DeadTraction(Vec3::new(0.0, 0.01, -0.01)),
+                LoadExtent::Exposed,
+            ),
+        ];
+        // The step at whose end the system is looked at; nothing moves in it.
+        let mut second = step();
+        motion.coordinates = [Freedom::AsBefore; 6];
+        motion.coordinates[1..].fill(Freedom::Free);
+        second.rigid_motions = vec![motion];
+        model.steps = vec![first, second];
+        let problem = Problem::new(model).unwrap();
+        let start = State::undeformed(&problem);
+        let state = after_first(&problem, &start);
+        let context = StepContext::new(&problem, 1, &start);
+        let whole = Whole::new(&context, &state);
+        assert!(whole.layout.rigid(0).is_some());
+        whole.assert_order();
+    }
+}
+
+/// State at the end of the first step.
+fn after_first(problem: &Problem, start: &State) -> State {
+    let context = StepContext::new(problem, 0, start);
+    let mut workspace = Workspace::new(problem.model.solver.backend);
+    let mut state = start.clone();
+    for s in [0.5, 1.0] {
+        let increment = advance(&context, &state, s, s, &mut workspace, &mut Silent);
+        state = increment.unwrap_or_else(|cut| panic!("{cut}")).state;
+    }
+    state
+}
+
+struct Silent;
+
+impl IterationObserver for Silent {
+    fn iteration(&mut self, _: usize, _: &Norms, _: &[Evaluation]) {}
+}
+
+/// Asserts the order at the end of a model of one step.
+fn assert_order(model: Model) {
     let run = Run::completed(model);
     let start = State::undeformed(&run.problem);
     let context = StepContext::new(&run.problem, 0, &start);
     let whole = Whole::new(&context, run.last());
-    let mut u = DVector::zeros(whole.layout.unknowns());
-    whole.each(&mut whole.reference(), |at, value| u[at] = *value);
-    let (residual, matrix) = whole.assembled(&u);
+    let (residual, _) = whole.assembled(&whole.unknowns());
     assert!(residual.norm() < 1e-9);
-    for seed in 0..2 {
-        let direction = Random::new(seed).unit(u.len());
-        let mut claimed = DVector::zeros(u.len());
-        matrix.multiply(direction.as_slice(), claimed.as_mut_slice());
-        let order = directional(
-            Difference::Central,
-            |u| whole.assembled(u).0,
-            &claimed,
-            &u,
-            &direction,
-        );
-        if let Err(wrong) = order {
-            panic!("{wrong}");
-        }
-    }
+    whole.assert_order();
 }

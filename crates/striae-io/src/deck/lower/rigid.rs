@@ -1,7 +1,9 @@
 //! Rigid bodies and what they do.
 
 use super::{Scope, body::Bodies, generator::nonzero, list, mesh};
-use crate::deck::{fault::FaultKind, faults::FaultList, raw, read::At, value::vector};
+use crate::deck::{
+    fault::FaultKind, faults::FaultList, raw, read::At, value::Positive, value::vector,
+};
 use std::{collections::BTreeSet, path::Path};
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::model::{
@@ -43,15 +45,21 @@ fn lower_body(
             RigidShape::Bare
         }
     };
+    let stated = raw.reference.as_ref().map(|point| vector(&point.value));
+    let inertia = match &raw.density {
+        Some(density) => solid(rigid, &shape, density, name, faults),
+        None => inertia(rigid, stated.unwrap_or_default(), name, faults),
+    };
+    let centre = match (&raw.density, &inertia) {
+        (Some(_), Some(inertia)) => inertia.centre,
+        _ => Vec3::zeros(),
+    };
     Some(RigidSurface {
         name: name.to_owned(),
         shape,
-        reference: raw
-            .reference
-            .as_ref()
-            .map_or_else(Vec3::zeros, |point| vector(&point.value)),
+        reference: stated.unwrap_or(centre),
         ties,
-        inertia: inertia(rigid, name, faults),
+        inertia,
     })
 }
 
@@ -61,7 +69,39 @@ fn plane_shape(plane: &raw::Plane, faults: &mut FaultList<'_>) -> Option<RigidSh
     Some(RigidShape::Plane { point, normal })
 }
 
-fn inertia(rigid: &At<raw::Rigid>, name: &str, faults: &mut FaultList<'_>) -> Option<RigidInertia> {
+/// Inertia of the solid inside a surface.
+fn solid(
+    rigid: &At<raw::Rigid>,
+    shape: &RigidShape,
+    density: &At<Positive>,
+    name: &str,
+    faults: &mut FaultList<'_>,
+) -> Option<RigidInertia> {
+    if rigid.value.mass.is_some() || rigid.value.inertia.is_some() {
+        let kind = FaultKind::RigidInertia { rigid: name.into() };
+        faults.push(&rigid.span, kind);
+        return None;
+    }
+    let found = match shape {
+        RigidShape::Facets { positions, facets } => {
+            striae_solve::solid::inertia(positions, facets, density.value.0)
+                .map_err(|error| error.to_string())
+        }
+        RigidShape::Plane { .. } | RigidShape::Bare => Err("only a `mesh` has an inside".into()),
+    };
+    let fault = |cause| {
+        let rigid = name.into();
+        faults.push(&density.span, FaultKind::RigidSolid { rigid, cause });
+    };
+    found.map_err(fault).ok()
+}
+
+fn inertia(
+    rigid: &At<raw::Rigid>,
+    centre: Vec3,
+    name: &str,
+    faults: &mut FaultList<'_>,
+) -> Option<RigidInertia> {
     let (mass, moments) = (&rigid.value.mass, &rigid.value.inertia);
     if mass.is_none() && moments.is_none() {
         return None;
@@ -73,7 +113,7 @@ fn inertia(rigid: &At<raw::Rigid>, name: &str, faults: &mut FaultList<'_>) -> Op
                 <= moments.iter().sum::<f64>() * (1.0 + 1e-12) =>
         {
             let mass = mass.value.0;
-            Some(RigidInertia { mass, moments })
+            Some(RigidInertia::aligned(mass, centre, moments))
         }
         _ => {
             let kind = FaultKind::RigidInertia { rigid: name.into() };
@@ -132,8 +172,8 @@ fn coordinates(raw: &raw::RigidMotion) -> [Freedom; 6] {
     })
 }
 
-/// Notes rigid bodies that are free though contact cannot move them or nothing is
-/// tied to them, and tied nodes that are prescribed as well.
+/// Notes rigid bodies that are free though they have no mass and nothing touches them
+/// or is tied to them, and tied nodes that are prescribed as well.
 pub(super) fn check(
     bodies: &Bodies,
     rigid: &[Option<RigidSurface>],
@@ -157,7 +197,7 @@ pub(super) fn check(
                 is(&pair.a) || is(&pair.b)
             });
             let heavy = !body.ties.is_empty() || body.inertia.is_some();
-            if motion.coordinates.contains(&Freedom::Free) && (touched || !heavy) {
+            if motion.coordinates.contains(&Freedom::Free) && !touched && !heavy {
                 let kind = FaultKind::FreeRigid {
                     rigid: body.name.clone(),
                     step: step.name.clone(),

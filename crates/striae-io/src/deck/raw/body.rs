@@ -96,8 +96,10 @@ table! {
         required name: Text,
         /// Its shape.
         include shape: RigidShape,
-        /// Point about which it turns, centre of its mass. Default: the origin.
+        /// Point about which it turns, and centre of a given `mass`. Default: the centre of the mass with `density`, else the origin.
         optional reference: [Number; 3],
+        /// Density of the solid inside a closed `mesh`, from which mass, centre and moments of inertia follow. Default: none.
+        optional density: Positive,
         /// Mass; needs `inertia`. Default: none.
         optional mass: Positive,
         /// Principal moments of inertia about the coordinate axes through the reference point; needs `mass`.

@@ -1,0 +1,333 @@
+//! Where the energy of an increment goes.
+//!
+//! With the displacements `d` of an increment, the forces at its ends 0 and 1 and
+//! the weight `a` of the start (`a_f` of the time integration, 1/2 in quasi-static
+//! steps),
+//!
+//! ```text
+//! external  += d . (a f_ext,0 + (1 - a) f_ext,1) + work of reactions and of moving surfaces
+//!            + work of the forces and torques on rigid bodies, du . F + dt . M
+//! friction  += sum A (-tau_1 . du) over the nodes at which friction is collocated
+//! contact   += -d . f_con on all sides - friction
+//! numerical += d . (a f_int,0 + (1 - a) f_int,1) - change of strain energy
+//!            + dt v . M e + d' . M a_alpha
+//!            - sum (1 - a) (dr - dt x r_1) . h_1 + a (dr - dt x r_0) . h_0 at tied nodes
+//!            - sum (dr - dt x r) . f_con over the nodes that push a moving body
+//! ```
+//!
+//! `f_con` are the contact forces that balance the others: those at the end with
+//! inertia, else the mean. The second line of `numerical` is what the work of inertia
+//! forces exceeds the change of kinetic energy by, written by the mean `v` of the
+//! velocities and the jumps that time integration makes,
+//!
+//! ```text
+//! e  = a_alpha - (v_1 - v_0)/dt = (1/2 - a_f) (a_1 - a_0)
+//! d' = d - dt v                 = (beta - gamma/2) dt^2 (a_1 - a_0)
+//! ```
+//!
+//! the right hand sides by Chung & Hulbert's formulas, see [`crate::dynamics`]; for
+//! prescribed components, which follow their curves, the left ones. The last lines
+//! are how far the chords `dr` of the arms `r` are from arcs. Neither looks at the assembled
+//! inertia forces or at the residual. So external work equals kinetic, strain, friction,
+//! contact and numerical energy up to the residual that Newton's method leaves only if
+//! mass, inertia, contact and tie forces are those of the equations that were solved. No
+//! node can dissipate less than nothing, as the law of friction holds there at the end.
+
+use std::ops::{Add, Mul};
+
+use striae_contact::field::FacetForces;
+use striae_mesh::{FacetId, Vec3};
+
+use crate::{
+    assembly::{Assembled, Imposed, StepContext, Trial},
+    dynamics::{Scheme, kinetic_energy, mass_times, wrenches},
+    problem::Problem,
+    rigid::Pose,
+    state::{Energies, State},
+};
+
+/// The ends of a converged increment.
+pub(super) struct Ends<'a> {
+    pub(super) context: &'a StepContext<'a>,
+    /// The start.
+    pub(super) state: &'a State,
+    pub(super) trial: &'a Trial,
+    pub(super) imposed: &'a Imposed,
+    pub(super) assembled: &'a Assembled,
+    /// Velocities at the end.
+    pub(super) velocities: &'a [Vec3],
+    /// Accelerations at the end.
+    pub(super) accelerations: &'a [Vec3],
+}
+
+impl Ends<'_> {
+    /// Energies at the end; `friction` is dissipated in the increment.
+    pub(super) fn energies(&self, friction: f64) -> Energies {
+        let before = &self.state.energies;
+        let strain = self.assembled.strain;
+        let lost = self.internal() - (strain - before.strain) + self.inertia() - self.arcs();
+        Energies {
+            kinetic: kinetic_energy(self.context.problem, self.velocities),
+            strain,
+            external: before.external + self.external(),
+            friction: before.friction + friction,
+            contact: before.contact + self.contact() - friction,
+            numerical: before.numerical + lost,
+        }
+    }
+
+    fn scheme(&self) -> Option<&Scheme> {
+        self.imposed.motion.as_ref().map(|motion| motion.scheme())
+    }
+
+    /// Weight of the start in loads and internal forces.
+    fn averaged_weight(&self) -> f64 {
+        self.scheme().map_or(0.5, |scheme| scheme.alpha_f)
+    }
+
+    /// Weight of the start in reactions and contact.
+    fn held_weight(&self) -> f64 {
+        self.scheme().map_or(0.5, |_| 0.0)
+    }
+
+    fn averaged(&self, start: Vec3, end: Vec3) -> Vec3 {
+        mean(self.averaged_weight(), start, end)
+    }
+
+    fn held(&self, start: Vec3, end: Vec3) -> Vec3 {
+        mean(self.held_weight(), start, end)
+    }
+
+    fn displacement(&self, node: usize) -> Vec3 {
+        self.trial.positions[node] - self.state.positions[node]
+    }
+
+    /// Sum over all nodes of the displacement times a force.
+    fn work(&self, force: impl Fn(usize) -> Vec3) -> f64 {
+        let nodes = 0..self.trial.positions.len();
+        nodes
+            .map(|node| self.displacement(node).dot(&force(node)))
+            .sum()
+    }
+
+    fn external(&self) -> f64 {
+        let (before, after) = (&self.state.forces, &self.assembled.forces);
+        let applied = self.work(|node| self.averaged(before.applied[node], after.applied[node]));
+        let reactions = self.work(|node| {
+            if self.context.problem.tie_of[node].is_some() {
+                return Vec3::zeros();
+            }
+            let found = before.internal[node] - before.applied[node] - before.contact[node];
+            let fixed = |axis: usize| f64::from(u8::from(self.context.fixed[3 * node + axis]));
+            let reaction = Vec3::from_fn(|axis, _| fixed(axis) * after.reaction[node][axis]);
+            self.held(found, reaction)
+        });
+        let driven = |rigid: usize| !self.context.problem.has_coordinates(rigid);
+        applied + reactions + self.of_surfaces(driven, Way::Whole) + self.of_bodies()
+    }
+
+    /// Work on the coordinates of rigid bodies: of what drives free ones, and of what
+    /// holds the others against tied nodes and contact.
+    fn of_bodies(&self) -> f64 {
+        let problem = self.context.problem;
+        let (before, after) = (&self.state.forces, &self.assembled.forces);
+        let ties = |positions: &[Vec3], poses: &[Pose], holding: &[Vec3]| {
+            wrenches(problem, positions, poses, holding)
+        };
+        let [from, to] = [&self.state.rigid, &self.trial.rigid];
+        let found = ties(&self.state.positions, from, &before.reaction);
+        let reached = ties(&self.trial.positions, to, &after.reaction);
+        let mut work = 0.0;
+        let moving = |rigid: &usize| problem.has_coordinates(*rigid);
+        for rigid in (0..from.len()).filter(moving) {
+            let [from, to] = [from, to].map(|poses| poses[rigid].coordinates());
+            let [
+                found,
+                reached,
+                driven_from,
+                driven_to,
+                pushed_from,
+                pushed_to,
+            ] = [
+                found[rigid],
+                reached[rigid],
+                before.rigid[rigid],
+                after.rigid[rigid],
+                before.pushed[rigid],
+                after.pushed[rigid],
+            ]
+            .map(|wrench| wrench.components());
+            let [averaged, held] = [self.averaged_weight(), self.held_weight()];
+            for at in 0..6 {
+                let force = if self.context.fixed_rigid[rigid][at] {
+                    mean(averaged, found[at], reached[at])
+                        + mean(held, pushed_from[at], pushed_to[at])
+                } else {
+                    mean(averaged, driven_from[at], driven_to[at])
+                };
+                work += force * (to[at] - from[at]);
+            }
+        }
+        work
+    }
+
+    /// Work of contact forces on the motion of some rigid surfaces, positive where that
+    /// pushes.
+    fn of_surfaces(&self, wanted: impl Fn(usize) -> bool, way: Way) -> f64 {
+        let problem = self.context.problem;
+        let mut work = 0.0;
+        for (pair, geometry) in problem.pairs.iter().enumerate() {
+            let Some(rigid) = geometry.rigid.filter(|&rigid| wanted(rigid)) else {
+                continue;
+            };
+            let poses = [&self.state.rigid[rigid], &self.trial.rigid[rigid]];
+            let [start, end] = [
+                (&self.state.pairs[pair].facets[0], &self.state.positions, 0),
+                (
+                    &self.assembled.contacts[pair].facets[0],
+                    &self.trial.positions,
+                    1,
+                ),
+            ]
+            .map(|(facets, positions, end)| Pushing {
+                pair,
+                rigid,
+                facets,
+                positions,
+                poses,
+                end,
+            });
+            let weight = self.held_weight();
+            work += mean(weight, start.work(problem, way), end.work(problem, way));
+        }
+        work
+    }
+
+    fn internal(&self) -> f64 {
+        let (before, after) = (&self.state.forces, &self.assembled.forces);
+        self.work(|node| self.averaged(before.internal[node], after.internal[node]))
+    }
+
+    /// Minus the work of contact forces on the sides of all pairs.
+    fn contact(&self) -> f64 {
+        let (before, after) = (&self.state.forces, &self.assembled.forces);
+        let on_nodes = self.work(|node| self.held(before.contact[node], after.contact[node]));
+        self.of_surfaces(|_| true, Way::Whole) - on_nodes
+    }
+
+    /// Work of inertia forces beyond the change of kinetic energy, from the jumps.
+    fn inertia(&self) -> f64 {
+        let Some(scheme) = self.scheme() else {
+            return 0.0;
+        };
+        let (state, dt) = (self.state, self.imposed.elapsed);
+        let nodes = self.trial.positions.len();
+        let (mut weighted, mut excess) = (vec![Vec3::zeros(); nodes], vec![Vec3::zeros(); nodes]);
+        let (mut way, mut shift) = (weighted.clone(), weighted.clone());
+        for node in 0..nodes {
+            for axis in 0..3 {
+                let of = |vectors: &[Vec3]| vectors[node][axis];
+                let [v_0, v_1] = [&state.velocities[..], self.velocities].map(of);
+                let [a_0, a_1] = [&state.accelerations[..], self.accelerations].map(of);
+                way[node][axis] = 0.5 * dt * (v_0 + v_1);
+                if self.context.fixed[3 * node + axis] {
+                    let a = (1.0 - scheme.alpha_f) * a_1 + scheme.alpha_f * a_0;
+                    weighted[node][axis] = a;
+                    excess[node][axis] = a - (v_1 - v_0) / dt;
+                    shift[node][axis] = self.displacement(node)[axis] - way[node][axis];
+                } else {
+                    let jump = a_1 - a_0;
+                    weighted[node][axis] = (1.0 - scheme.alpha_m) * a_1 + scheme.alpha_m * a_0;
+                    excess[node][axis] = (0.5 - scheme.alpha_f) * jump;
+                    shift[node][axis] = (scheme.beta - 0.5 * scheme.gamma) * dt * dt * jump;
+                }
+            }
+        }
+        let problem = self.context.problem;
+        product(&way, &mass_times(problem, &excess))
+            + product(&shift, &mass_times(problem, &weighted))
+    }
+
+    /// Work of tie forces, and of contact forces on moving bodies, along chords beyond
+    /// that along arcs.
+    fn arcs(&self) -> f64 {
+        let problem = self.context.problem;
+        let (before, after) = (&self.state.forces, &self.assembled.forces);
+        let moving = |rigid: usize| problem.has_coordinates(rigid);
+        let mut work = self.of_surfaces(moving, Way::BeyondArc);
+        for (rigid, nodes) in problem.tied.iter().enumerate() {
+            let [from, to] = [&self.state.rigid[rigid], &self.trial.rigid[rigid]];
+            let turn = to.turned - from.turned;
+            for &node in nodes {
+                let arm = problem.reference[node] - problem.model.rigid_surfaces[rigid].reference;
+                let [r_0, r_1] = [from, to].map(|pose| pose.rotation * arm);
+                let beyond = |r: &Vec3, h: &Vec3| (r_1 - r_0 - turn.cross(r)).dot(h);
+                let start = beyond(&r_0, &before.reaction[node]);
+                let end = beyond(&r_1, &after.reaction[node]);
+                work += mean(self.averaged_weight(), start, end);
+            }
+        }
+        work
+    }
+}
+
+fn mean<T: Mul<f64, Output = T> + Add<Output = T>>(weight: f64, start: T, end: T) -> T {
+    start * weight + end * (1.0 - weight)
+}
+
+fn product(a: &[Vec3], b: &[Vec3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
+}
+
+/// A way that a point of a rigid body goes.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Way {
+    /// The chord.
+    Whole,
+    /// What the chord has more than the arc.
+    BeyondArc,
+}
+
+/// Contact forces on the nodes that push a rigid body, at one end of an increment.
+struct Pushing<'a> {
+    pair: usize,
+    rigid: usize,
+    facets: &'a [(FacetId, FacetForces)],
+    positions: &'a [Vec3],
+    /// Of the body at both ends.
+    poses: [&'a Pose; 2],
+    /// Which end it is.
+    end: usize,
+}
+
+impl Pushing<'_> {
+    /// Work of the forces on the way of the body's points at the nodes.
+    fn work(&self, problem: &Problem, way: Way) -> f64 {
+        let Some(surface) = problem.pairs[self.pair].contact.sides[0].surface() else {
+            return 0.0;
+        };
+        let reference = &problem.model.rigid_surfaces[self.rigid].reference;
+        let placements = self.poses.map(|pose| pose.placement(reference));
+        let moved = self.poses[1].displacement - self.poses[0].displacement;
+        let turn = self.poses[1].turned - self.poses[0].turned;
+        let point = reference + self.poses[self.end].displacement;
+        let mut work = 0.0;
+        for (facet, forces) in self.facets {
+            let corners = surface.facets()[facet.index()];
+            for (corner, force) in corners.iter().zip(&forces.force) {
+                let Some(node) = problem.surface_node(self.pair, 0, *corner) else {
+                    continue;
+                };
+                let x = self.positions[node];
+                let material = placements[self.end].back(&x);
+                let [from, to] = placements.map(|placement| placement.point(&material));
+                let arc = match way {
+                    Way::Whole => Vec3::zeros(),
+                    Way::BeyondArc => moved + turn.cross(&(x - point)),
+                };
+                work += force.dot(&(to - from - arc));
+            }
+        }
+        work
+    }
+}
