@@ -1,4 +1,6 @@
 //! A good deck is lowered to the model it describes.
+//!
+//! Longer than other files, as it goes through all that a deck can say.
 
 mod deck;
 
