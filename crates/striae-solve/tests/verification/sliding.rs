@@ -128,6 +128,36 @@ fn between_deformable_blocks_the_integrals_obey_the_law_and_balance() {
     }
 }
 
+/// Increments in which a node that slipped before has become kinematic.
+fn increments_with_new_roles(run: &Run) -> Vec<usize> {
+    let has_new = |increment: &usize| {
+        let [before, after] = [0, 1].map(|at| &run.states[increment + at].pairs[0]);
+        (0..2).any(|side| {
+            let roles = before.kinematic[side].iter().zip(&after.kinematic[side]);
+            let mut nodes = roles.zip(&before.nodes[side]);
+            nodes.any(|((was, is), node)| !was && *is && node.status == Status::Slip)
+        })
+    };
+    (0..run.iterations.len()).filter(has_new).collect()
+}
+
+#[test]
+fn nodes_that_become_kinematic_while_sliding_go_on_slipping() {
+    for depth in [0.02, 0.002] {
+        let mut model = two_blocks([0, 1], depth, [0.15, 0.0]);
+        model.steps[1].increments = increments(0.1, 0.001);
+        let run = Run::completed(model);
+        assert!(run.cuts.is_empty(), "{depth}: {:?}", run.cuts);
+        let increments = increments_with_new_roles(&run);
+        assert!(!increments.is_empty(), "{depth}: no role changes");
+        for increment in increments {
+            // As many as in steady sliding; a node that sticks first takes three more.
+            let count = run.iterations[increment].len();
+            assert!(count <= 5, "{depth}, increment {increment}: {count}");
+        }
+    }
+}
+
 #[test]
 fn convergence_ends_quadratically() {
     let run = Run::completed(two_blocks([0, 1], 0.02, [0.1, 0.03]));
