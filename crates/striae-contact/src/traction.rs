@@ -1,7 +1,7 @@
 //! Nodal friction tractions `tau` from the unknowns, with their derivatives.
 //!
-//! At kinematic nodes `tau = -(L z + varpi eta)` with `varpi` at the present slip rate, elsewhere the unknowns are the
-//! components of `tau` itself.
+//! At kinematic nodes `tau = -(L z + varpi eta)`, or what else the law makes of `z`, with `varpi` at the present slip
+//! rate; elsewhere the unknowns are the components of `tau` itself.
 
 use nalgebra::{Matrix3, Vector3};
 use num_dual::DualSVec64;

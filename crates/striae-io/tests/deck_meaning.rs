@@ -27,6 +27,26 @@ fn constants() {
         ],
     );
     misstated(
+        "tabulated friction with an angle said twice around",
+        &[(
+            r#"law = "coulomb", mu = 0.3"#,
+            r#"law = "tabulated", angles = [0, 90, 270, 360], mu = [0.3, 0.2, 0.2, 0.3]"#,
+        )],
+        &[
+            "22:12: this friction is not possible: angles from 0.000 to 360.000 degrees are refused: they must span less than a turn, after which the table repeats",
+        ],
+    );
+    misstated(
+        "tabulated friction with angles out of order",
+        &[(
+            r#"law = "coulomb", mu = 0.3"#,
+            r#"law = "tabulated", angles = [0, 180, 90], mu = [0.3, 0.2, 0.2]"#,
+        )],
+        &[
+            "22:12: this friction is not possible: the angle 90.000 degrees after 180.000 degrees is refused: the angles of a table must ascend",
+        ],
+    );
+    misstated(
         "normal of no length",
         &[("normal = [0, 0, 1]", "normal = [0, 0, 0]")],
         &["17:39: the normal of a plane must not be the zero vector"],
@@ -536,7 +556,7 @@ fn textures() {
         "later friction without a texture it needs",
         &[(
             r#"law = "frictionless""#,
-            r#"law = "orthotropic", mu_along = 0.1, mu_across = 0.2"#,
+            r#"law = "tabulated", angles = [0, 120, 240], mu = [0.1, 0.2, 0.3]"#,
         )],
         &[
             "40:13: the friction of pair `interface` needs a texture on one side; sides that have one: 0",

@@ -243,6 +243,21 @@ fn friction_takes_a_cap() {
 }
 
 #[test]
+fn tables_of_friction_are_in_degrees() {
+    let law = r#"{ law = "tabulated", angles = [-90, 0, 90, 180], mu = [0.1, 0.2, 0.3, 0.4] }"#;
+    let text = BASE
+        .replace(r#"{ law = "coulomb", mu = 0.3 }"#, law)
+        .replace(
+            r#"facets = "zmin" }"#,
+            r#"facets = "zmin", texture = { uniform = [1, 0, 0] } }"#,
+        );
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let angles = [-quarter, 0.0, quarter, 2.0 * quarter];
+    let expected = Friction::tabulated(&angles, &[0.1, 0.2, 0.3, 0.4]).unwrap();
+    assert_eq!(lowered(&text).model.pairs[0].friction, expected);
+}
+
+#[test]
 fn textures_go_with_their_sides() {
     let text = BASE
         .replace(

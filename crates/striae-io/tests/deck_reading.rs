@@ -202,7 +202,18 @@ fn types() {
         "friction law that is no text",
         &[(r#"law = "coulomb", mu = 0.3"#, "law = 1")],
         &[
-            "22:20: `law` in [[pair]] friction must be one of `frictionless`, `coulomb`, `two-textures`, `orthotropic`, `nap`, but is 1",
+            "22:20: `law` in [[pair]] friction must be one of `frictionless`, `coulomb`, `two-textures`, `orthotropic`, `nap`, `tabulated`, but is 1",
+        ],
+    );
+    misread(
+        "coefficients of a table that are no coefficients",
+        &[(
+            r#"law = "coulomb", mu = 0.3"#,
+            r#"law = "tabulated", angles = [0, 90, 180], mu = [0.1, "much", 0]"#,
+        )],
+        &[
+            r#"22:67: an element of `mu` in [[pair]] friction must be a number greater than 0, but is the text "much""#,
+            "22:75: an element of `mu` in [[pair]] friction must be a number greater than 0, but is 0",
         ],
     );
     misread(

@@ -128,7 +128,11 @@ pub fn plans(model: &Model) -> Vec<StepPlan> {
         rigid: vec![[const { Some(Prescription::Hold) }; 6]; model.rigid_surfaces.len()],
         driving: vec![[VectorPlan::zero(), VectorPlan::zero()]; model.rigid_surfaces.len()],
         gravity: VectorPlan::zero(),
-        frictions: model.pairs.iter().map(|pair| pair.friction).collect(),
+        frictions: model
+            .pairs
+            .iter()
+            .map(|pair| pair.friction.clone())
+            .collect(),
     };
     let mut plans = Vec::with_capacity(model.steps.len());
     for step in &model.steps {
@@ -261,7 +265,7 @@ fn driving(before: &StepPlan, step: &Step) -> Vec<[VectorPlan; 2]> {
 fn frictions(before: &StepPlan, step: &Step) -> Vec<Friction> {
     let mut all = before.frictions.clone();
     for (pair, friction) in &step.frictions {
-        all[pair.0] = *friction;
+        all[pair.0] = friction.clone();
     }
     all
 }

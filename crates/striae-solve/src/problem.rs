@@ -288,7 +288,7 @@ fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, ProblemErro
         contact: ContactPair {
             name: pair.name.clone(),
             sides: [a, b],
-            friction: pair.friction,
+            friction: pair.friction.clone(),
             balance: match pair.balance {
                 Balance::Resultants => striae_contact::pair::Balance::Resultants,
                 Balance::None => striae_contact::pair::Balance::None,

@@ -109,6 +109,25 @@ impl<T: Read, const N: usize> Read for [T; N] {
     }
 }
 
+/// A list that is of no use if one of its elements cannot be read.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct All<T>(pub(crate) Vec<T>);
+
+impl<T: Read> Read for All<T> {
+    fn read(value: &Value<'_>, place: &Place, faults: &mut FaultList<'_>) -> Option<Self> {
+        let DeValue::Array(array) = value.get_ref() else {
+            return unexpected(value, place, faults, &Self::form());
+        };
+        let list: Vec<At<T>> = elements(array, place, faults);
+        let all = list.len() == array.len();
+        all.then(|| Self(list.into_iter().map(|element| element.value).collect()))
+    }
+
+    fn form() -> Form {
+        Form::List(Box::new(T::form()), None)
+    }
+}
+
 impl<T: Read> Read for Vec<At<T>> {
     fn read(value: &Value<'_>, place: &Place, faults: &mut FaultList<'_>) -> Option<Self> {
         match value.get_ref() {

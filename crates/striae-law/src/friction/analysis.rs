@@ -3,8 +3,9 @@
 //! margin by which slip dissipates.
 //!
 //! Shapes as in [`SlipSurface`]: over `varpi`, in the frame `(e, e_perp)` where `e`
-//! is the direction of `a_ba` (two textures) or the texture `a` (one texture); the
-//! angle between the textures has no effect on laws for a single one.
+//! is the direction of `a_ba` (two textures) or the texture `a` (one texture), and
+//! `e_perp` a quarter turn from it; the angle between the textures has no effect on
+//! laws for a single one.
 
 use super::two_textures::LeastDissipation;
 use super::{Extremes, Friction, Law, SlipSample, SlipSurface};
@@ -38,10 +39,10 @@ impl Analysis {
         };
         Self {
             theta,
-            surface,
             samples: surface.sampled(count),
             extremes: surface.extremes(),
             least: surface.least_dissipation(),
+            surface,
             least_over_textures,
         }
     }

@@ -1,8 +1,8 @@
-//! The slip surface of a law at one contact point, in closed form.
+//! The slip surface of most laws at one contact point, in closed form.
 //!
-//! In a frame `(e, e_perp)` of the tangent plane and over `varpi`, every law of
-//! this crate has an ellipse with centre `h e` and semi-axes `P` along `e`, `A`
-//! across it:
+//! In a frame `(e, e_perp)` of the tangent plane and over `varpi`, every law of the
+//! form `-tau = L z + varpi eta` has an ellipse with centre `h e` and semi-axes `P`
+//! along `e`, `A` across it:
 //!
 //! ```text
 //! w = -tau/varpi = (h + P cos phi, A sin phi) ,   z/varpi = (cos phi, sin phi)
@@ -23,18 +23,11 @@
 
 use nalgebra::Vector2;
 
-/// Which slip direction belongs to a traction on the slip surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SlipRule {
-    /// Each component of friction opposes that component of slip: `K = I`.
-    Opposing,
-    /// Slip is normal to the slip surface: `K = L^-1`.
-    Associated,
-}
+use super::slip_surface::{Extremes, SlipRule, SlipSample, sampled};
 
 /// An elliptic slip surface over `varpi`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SlipSurface {
+pub struct Ellipse {
     /// Semi-axis `P` along `e`.
     pub along: f64,
     /// Semi-axis `A` across `e`.
@@ -45,36 +38,7 @@ pub struct SlipSurface {
     pub rule: SlipRule,
 }
 
-/// One point of a slip surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SlipSample {
-    /// Angle `phi` of `z` from `e`.
-    pub angle: f64,
-    /// Slip direction `d`, a unit vector in `(e, e_perp)`.
-    pub slip: Vector2<f64>,
-    /// `w = -tau/varpi` in `(e, e_perp)`.
-    pub traction: Vector2<f64>,
-    /// Angle from `d` to `w`, positive from `e` towards `e_perp`.
-    pub deviation: f64,
-}
-
-/// Extremes of a slip surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Extremes {
-    /// Largest `|w|`.
-    pub traction: f64,
-    /// Largest angle between `d` and `w`.
-    pub deviation: f64,
-}
-
-impl SlipSample {
-    /// Dissipation `w . d` over `varpi |du|`.
-    pub fn dissipation(&self) -> f64 {
-        self.slip.dot(&self.traction)
-    }
-}
-
-impl SlipSurface {
+impl Ellipse {
     /// The ellipse with semi-axes `P` and `A` and centre `h`; the associated rule
     /// is known for `h = 0` only.
     pub(super) fn new(along: f64, across: f64, offset: f64, rule: SlipRule) -> Self {
@@ -106,8 +70,7 @@ impl SlipSurface {
 
     /// `count` points, at equal steps of `phi` from 0.
     pub fn sampled(&self, count: usize) -> Vec<SlipSample> {
-        let step = std::f64::consts::TAU / count as f64;
-        (0..count).map(|i| self.at(i as f64 * step)).collect()
+        sampled(count, |angle| self.at(angle))
     }
 
     /// `Gamma(v)`: the least `varpi` whose slip surface holds `v = -tau`.
@@ -125,7 +88,7 @@ impl SlipSurface {
     }
 
     /// The angle `phi` at which the ray along `v = -tau` meets the slip surface;
-    /// inverse of [`SlipSurface::at`].
+    /// inverse of [`Ellipse::at`].
     pub fn angle(&self, v: &Vector2<f64>) -> f64 {
         let w = v / self.gauge(v);
         (w.y / self.across).atan2((w.x - self.offset) / self.along)

@@ -39,6 +39,57 @@ pub enum FrictionError {
         /// Dissipation over `p |du|`, zero or negative.
         dissipation: f64,
     },
+    /// A table has not one coefficient an angle.
+    #[error(
+        "the table has angles: {angles}, but coefficients: {coefficients}; each angle needs one"
+    )]
+    TableLengths {
+        /// Number of angles.
+        angles: usize,
+        /// Number of coefficients.
+        coefficients: usize,
+    },
+    /// A table has too few angles.
+    #[error("a table with angles: {angles} is refused: it must have at least {least}")]
+    TableShort {
+        /// Number of angles.
+        angles: usize,
+        /// Fewest angles.
+        least: usize,
+    },
+    /// A coefficient of a table is not positive.
+    #[error(
+        "mu = {mu} at the angle {degrees:.3} degrees is refused: it must be positive and finite, \
+         for friction would create energy or vanish there"
+    )]
+    TableCoefficient {
+        /// The coefficient.
+        mu: f64,
+        /// Its angle, in degrees.
+        degrees: f64,
+    },
+    /// The angles of a table do not ascend.
+    #[error(
+        "the angle {degrees:.3} degrees after {before:.3} degrees is refused: the angles of a \
+         table must ascend"
+    )]
+    TableOrder {
+        /// The angle, in degrees.
+        degrees: f64,
+        /// The one before it, in degrees.
+        before: f64,
+    },
+    /// The angles of a table go around.
+    #[error(
+        "angles from {first:.3} to {last:.3} degrees are refused: they must span less than a turn, \
+         after which the table repeats"
+    )]
+    TableSeam {
+        /// The first angle, in degrees.
+        first: f64,
+        /// The last one, in degrees.
+        last: f64,
+    },
 }
 
 /// Accepts a finite value that is positive.

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! -tau = L z + varpi eta ,   |z| <= varpi ,   slip du parallel to K z when |z| = varpi
+//! -tau = rho(phi) z          of tabulated friction, `phi` the direction of `z`, K = I
 //! ```
 //!
 //! In the variable `z` the law is isotropic Coulomb friction, so stick and slip
@@ -16,6 +17,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 use num_dual::DualNum;
+
+use super::tabulated::Radial;
 
 /// Textures of the two surfaces at a contact point, as unit tangent vectors
 /// `a = n x s`, seen from the surface that carries the point.
@@ -37,10 +40,21 @@ impl<D> Textures<D> {
     }
 }
 
-impl<D: Copy> Textures<D> {
+impl<D: DualNum<Primitive = f64> + Copy> Textures<D> {
     /// The texture of the only textured surface.
     pub(super) fn only(&self) -> Option<Vector3<D>> {
         self.own.xor(self.opposite)
+    }
+
+    /// The texture of the only textured surface, and the direction a quarter turn from
+    /// it, counter-clockwise as seen from outside that surface; both as seen from the
+    /// surface that carries the point, whose unit normal is `n`.
+    pub(super) fn only_axes(&self, n: &Vector3<D>) -> Option<[Vector3<D>; 2]> {
+        match (self.own, self.opposite) {
+            (Some(a), None) => Some([a, n.cross(&a)]),
+            (None, Some(a)) => Some([a, a.cross(n)]),
+            _ => None,
+        }
     }
 
     /// The textures of both surfaces.
@@ -49,20 +63,32 @@ impl<D: Copy> Textures<D> {
     }
 }
 
-/// `L`, `eta` and `K` of a friction law at a contact point.
+/// From `z` to the traction.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Kernel<D> {
-    /// `L`, from `z` to the traction.
-    pub l: Matrix3<D>,
-    /// `eta`, the offset of the slip surface over `varpi`.
-    pub eta: Vector3<D>,
+pub enum Map<'a, D> {
+    /// `-tau = L z + varpi eta`.
+    Affine {
+        /// `L`.
+        l: Matrix3<D>,
+        /// `eta`, the offset of the slip surface over `varpi`.
+        eta: Vector3<D>,
+    },
+    /// `-tau = rho(phi) z`.
+    Radial(Radial<'a, D>),
+}
+
+/// A friction law at a contact point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Kernel<'a, D> {
+    /// From `z` to the traction.
+    pub map: Map<'a, D>,
     /// `K`, from `z` to the direction of slip; identity for laws stated in the slip direction.
     pub k: Matrix3<D>,
     /// The inverse of `K`.
     pub k_inverse: Matrix3<D>,
 }
 
-impl<D: DualNum<Primitive = f64> + Copy> Kernel<D> {
+impl<'a, D: DualNum<Primitive = f64> + Copy> Kernel<'a, D> {
     /// Isotropic friction: `L = K = I`, `eta = 0`.
     pub fn identity() -> Self {
         Self::along_slip(Matrix3::identity(), Vector3::zeros())
@@ -70,16 +96,27 @@ impl<D: DualNum<Primitive = f64> + Copy> Kernel<D> {
 
     /// A law stated in the slip direction: `K = I`.
     pub(super) fn along_slip(l: Matrix3<D>, eta: Vector3<D>) -> Self {
+        Self::opposing(Map::Affine { l, eta })
+    }
+
+    /// Tabulated friction: `K = I`.
+    pub(super) fn radial(radial: Radial<'a, D>) -> Self {
+        Self::opposing(Map::Radial(radial))
+    }
+
+    fn opposing(map: Map<'a, D>) -> Self {
         Self {
-            l,
-            eta,
+            map,
             k: Matrix3::identity(),
             k_inverse: Matrix3::identity(),
         }
     }
 
-    /// Friction traction `tau = -(L z + varpi eta)` for the cap `varpi`.
+    /// Friction traction `tau` for the cap `varpi`.
     pub fn traction(&self, cap: D, z: &Vector3<D>) -> Vector3<D> {
-        -(self.l * z + self.eta * cap)
+        match &self.map {
+            Map::Affine { l, eta } => -(l * z + eta * cap),
+            Map::Radial(radial) => -radial.of(z),
+        }
     }
 }

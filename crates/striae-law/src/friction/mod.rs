@@ -1,4 +1,5 @@
-//! Friction laws on the common kernel `-tau = L z + varpi eta`, `|z| <= varpi`.
+//! Friction laws on the common kernel `-tau = L z + varpi eta`, `|z| <= varpi`, and its
+//! sibling `-tau = rho(phi) z` for measured coefficients.
 //!
 //! A [`Friction`] joins a [`Law`] (the shape of the slip surface and the slip
 //! rule), a [`Coefficient`] and, if wanted, a cap on the shear stress. It gives
@@ -13,12 +14,16 @@
 mod analysis;
 mod coefficient;
 mod coulomb;
+mod ellipse;
 mod error;
 mod kernel;
 mod nap;
 mod orthotropic;
+mod periodic;
 mod published;
 mod slip_surface;
+mod star;
+mod tabulated;
 mod two_textures;
 
 #[cfg(test)]
@@ -26,12 +31,15 @@ mod tests;
 
 pub use analysis::Analysis;
 pub use coefficient::Coefficient;
+pub use ellipse::Ellipse;
 pub use error::FrictionError;
-pub use kernel::{Kernel, Textures};
+pub use kernel::{Kernel, Map, Textures};
 pub use nap::Nap;
 pub use orthotropic::Orthotropic;
 pub use published::Published;
 pub use slip_surface::{Extremes, SlipRule, SlipSample, SlipSurface};
+pub use star::Star;
+pub use tabulated::{Radial, Tabulated};
 pub use two_textures::{LeastDissipation, TwoTextures};
 
 use error::positive;
@@ -39,7 +47,7 @@ use nalgebra::Vector3;
 use num_dual::DualNum;
 
 /// Friction between two surfaces.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Friction {
     law: Law,
     coefficient: Coefficient,
@@ -47,7 +55,7 @@ pub struct Friction {
 }
 
 /// Shape of the slip surface, and slip rule.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Law {
     /// No friction.
     Frictionless,
@@ -59,6 +67,8 @@ pub enum Law {
     Orthotropic(Orthotropic),
     /// One textured surface with a nap, three coefficients.
     Nap(Nap),
+    /// One textured surface, coefficients at many angles.
+    Tabulated(Tabulated),
 }
 
 /// Which of the two surfaces must carry a texture.
@@ -129,6 +139,19 @@ impl Friction {
         Ok(Self::new(Law::Nap(law), Coefficient::constant(mu)?))
     }
 
+    /// One textured surface with the coefficients of friction `mu` for slip at `angles`
+    /// (radians) from its texture; see [`Tabulated`]. The coefficient of the result is
+    /// the largest one.
+    ///
+    /// # Errors
+    /// When there are fewer than three angles or not as many coefficients, the angles do
+    /// not ascend or go around, or a coefficient is not positive.
+    pub fn tabulated(angles: &[f64], mu: &[f64]) -> Result<Self, FrictionError> {
+        let law = Tabulated::new(angles, mu)?;
+        let mu = mu.iter().copied().fold(0.0, f64::max);
+        Ok(Self::new(Law::Tabulated(law), Coefficient::constant(mu)?))
+    }
+
     /// Lets all coefficients decay with the slip rate, from the stated values
     /// at rest to `kinetic_over_static` times them; see [`Coefficient`].
     ///
@@ -175,7 +198,7 @@ impl Friction {
     pub fn required_textures(&self) -> RequiredTextures {
         match self.law {
             Law::Frictionless | Law::Coulomb => RequiredTextures::Any,
-            Law::Orthotropic(_) | Law::Nap(_) => RequiredTextures::One,
+            Law::Orthotropic(_) | Law::Nap(_) | Law::Tabulated(_) => RequiredTextures::One,
             Law::TwoTextures(_) => RequiredTextures::Both,
         }
     }
@@ -196,19 +219,19 @@ impl Friction {
         }
     }
 
-    /// `L`, `eta` and `K` at a point with the unit normal `n` of the surface that
-    /// carries it, and the unit textures there. The laws so far see the normal
-    /// through the textures only.
+    /// The law at a point with the unit normal `n` of the surface that carries it, and
+    /// the unit textures there.
     ///
     /// # Panics
     /// When the textures are not those the law requires; see
     /// [`Friction::required_textures`].
     pub fn kernel<D: DualNum<Primitive = f64> + Copy>(
         &self,
-        _normal: &Vector3<D>,
+        normal: &Vector3<D>,
         textures: &Textures<D>,
-    ) -> Kernel<D> {
-        let only = || textures.only().expect("exactly one surface has a texture");
+    ) -> Kernel<'_, D> {
+        const ONE: &str = "exactly one surface has a texture";
+        let only = || textures.only().expect(ONE);
         match &self.law {
             Law::Frictionless | Law::Coulomb => coulomb::kernel(),
             Law::TwoTextures(law) => {
@@ -217,18 +240,20 @@ impl Friction {
             }
             Law::Orthotropic(law) => law.kernel(&only()),
             Law::Nap(law) => law.kernel(&only()),
+            Law::Tabulated(law) => law.kernel(textures.only_axes(normal).expect(ONE)),
         }
     }
 
     /// The slip surface over `varpi` for textures at the angle `theta` (radians),
     /// which has no effect on laws for a single texture.
     pub fn slip_surface(&self, theta: f64) -> SlipSurface {
-        match &self.law {
+        SlipSurface::Ellipse(match &self.law {
             Law::Frictionless | Law::Coulomb => coulomb::slip_surface(),
             Law::TwoTextures(law) => law.slip_surface(theta),
             Law::Orthotropic(law) => law.slip_surface(),
             Law::Nap(law) => law.slip_surface(),
-        }
+            Law::Tabulated(law) => return SlipSurface::Star(law.slip_surface()),
+        })
     }
 
     fn new(law: Law, coefficient: Coefficient) -> Self {

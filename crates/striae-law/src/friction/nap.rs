@@ -20,16 +20,17 @@
 //! slithering locomotion", PNAS 106, 10081-10085, doi:10.1073/pnas.0812533106.
 //!
 //! Admissible iff slip dissipates in all directions, see
-//! [`SlipSurface::least_dissipation`]: with `P = (mu_b + mu_f)/2`,
+//! [`Ellipse::least_dissipation`]: with `P = (mu_b + mu_f)/2`,
 //! `h = (mu_b - mu_f)/2` and `P > mu_t`, `|h| < 2 (P - mu_t)` this asks for
 //! `mu_t > h^2/(4 (P - mu_t))`.
 
 use nalgebra::{Matrix3, Vector3};
 use num_dual::DualNum;
 
+use super::ellipse::Ellipse;
 use super::error::{FrictionError, positive};
 use super::kernel::Kernel;
-use super::slip_surface::{SlipRule, SlipSurface};
+use super::slip_surface::SlipRule;
 
 /// Coefficients of the law over the largest one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,7 +68,7 @@ impl Nap {
 
     /// `L`, `eta` and `K` for the unit texture `e` of the textured surface.
     #[allow(non_snake_case)]
-    pub fn kernel<D: DualNum<Primitive = f64> + Copy>(&self, e: &Vector3<D>) -> Kernel<D> {
+    pub fn kernel<D: DualNum<Primitive = f64> + Copy>(&self, e: &Vector3<D>) -> Kernel<'static, D> {
         let A = D::from(self.lateral);
         let P = D::from(self.mean());
         let L = Matrix3::identity() * A + e * e.transpose() * (P - A);
@@ -75,8 +76,8 @@ impl Nap {
     }
 
     /// The slip surface in the frame `e` (against the nap) and across it.
-    pub fn slip_surface(&self) -> SlipSurface {
-        SlipSurface::new(self.mean(), self.lateral, self.offset(), SlipRule::Opposing)
+    pub fn slip_surface(&self) -> Ellipse {
+        Ellipse::new(self.mean(), self.lateral, self.offset(), SlipRule::Opposing)
     }
 
     fn mean(&self) -> f64 {

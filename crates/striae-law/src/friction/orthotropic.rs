@@ -23,9 +23,10 @@
 use nalgebra::{Matrix3, Vector3};
 use num_dual::DualNum;
 
+use super::ellipse::Ellipse;
 use super::error::{FrictionError, positive};
-use super::kernel::Kernel;
-use super::slip_surface::{SlipRule, SlipSurface};
+use super::kernel::{Kernel, Map};
+use super::slip_surface::SlipRule;
 
 /// Coefficients of the law over the larger one, and slip rule.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,7 +52,7 @@ impl Orthotropic {
 
     /// `L`, `eta` and `K` for the unit texture `a` of either surface.
     #[allow(non_snake_case)]
-    pub fn kernel<D: DualNum<Primitive = f64> + Copy>(&self, a: &Vector3<D>) -> Kernel<D> {
+    pub fn kernel<D: DualNum<Primitive = f64> + Copy>(&self, a: &Vector3<D>) -> Kernel<'static, D> {
         let aa = a * a.transpose();
         let diagonal = |along: f64, across: f64| {
             Matrix3::identity() * D::from(along) + aa * D::from(across - along)
@@ -60,8 +61,10 @@ impl Orthotropic {
         match self.rule {
             SlipRule::Opposing => Kernel::along_slip(L, Vector3::zeros()),
             SlipRule::Associated => Kernel {
-                l: L,
-                eta: Vector3::zeros(),
+                map: Map::Affine {
+                    l: L,
+                    eta: Vector3::zeros(),
+                },
                 k: diagonal(1.0 / self.along, 1.0 / self.across),
                 k_inverse: L,
             },
@@ -69,7 +72,7 @@ impl Orthotropic {
     }
 
     /// The slip surface in the frame `a` (across the grooves) and along them.
-    pub fn slip_surface(&self) -> SlipSurface {
-        SlipSurface::new(self.across, self.along, 0.0, self.rule)
+    pub fn slip_surface(&self) -> Ellipse {
+        Ellipse::new(self.across, self.along, 0.0, self.rule)
     }
 }

@@ -20,12 +20,13 @@
 use nalgebra::Vector2;
 
 use super::TwoTextures;
-use super::slip_surface::{SlipSample, SlipSurface};
+use super::ellipse::Ellipse;
+use super::slip_surface::{SlipSample, sampled};
 
 /// The published slip function at one contact point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Published {
-    exact: SlipSurface,
+    exact: Ellipse,
 }
 
 impl Published {
@@ -58,7 +59,6 @@ impl Published {
 
     /// `count` points, at equal steps of `phi` from 0.
     pub fn sampled(&self, count: usize) -> Vec<SlipSample> {
-        let step = std::f64::consts::TAU / count as f64;
-        (0..count).map(|i| self.at(i as f64 * step)).collect()
+        sampled(count, |angle| self.at(angle))
     }
 }

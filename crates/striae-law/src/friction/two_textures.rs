@@ -52,9 +52,10 @@
 use nalgebra::{Matrix3, Vector3};
 use num_dual::DualNum;
 
+use super::ellipse::Ellipse;
 use super::error::{FrictionError, finite};
 use super::kernel::Kernel;
-use super::slip_surface::{SlipRule, SlipSurface};
+use super::slip_surface::SlipRule;
 
 /// Constants of the law.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -105,7 +106,7 @@ impl TwoTextures {
         &self,
         own: &Vector3<D>,
         opposite: &Vector3<D>,
-    ) -> Kernel<D> {
+    ) -> Kernel<'static, D> {
         let a = own + opposite;
         let I0 = own.dot(opposite);
         let A = I0 * self.c_mag + 1.0;
@@ -117,12 +118,12 @@ impl TwoTextures {
     /// The slip surface for textures at the angle `theta` (radians), in the frame
     /// `e = a_ba/m` and across: `P = A + B m^2`, `A`, `h = B m c_cen`.
     #[allow(non_snake_case)]
-    pub fn slip_surface(&self, theta: f64) -> SlipSurface {
+    pub fn slip_surface(&self, theta: f64) -> Ellipse {
         let I0 = theta.cos();
         let m = (2.0 + 2.0 * I0).max(0.0).sqrt();
         let A = 1.0 + self.c_mag * I0;
         let B = self.c_ang * (1.0 + I0);
-        SlipSurface::new(A + B * m * m, A, B * m * self.c_cen, SlipRule::Opposing)
+        Ellipse::new(A + B * m * m, A, B * m * self.c_cen, SlipRule::Opposing)
     }
 
     /// Dissipation over `varpi |du|` for textures `I0` and slip direction `I1`.

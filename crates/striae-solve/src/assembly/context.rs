@@ -95,7 +95,7 @@ impl<'a> StepContext<'a> {
             .iter()
             .zip(&plan.frictions)
             .map(|(pair, friction)| ContactPair {
-                friction: *friction,
+                friction: friction.clone(),
                 ..pair.contact.clone()
             });
         Self {

@@ -3,23 +3,32 @@
 
 use crate::{
     dissipation::dissipates,
-    oblique::uniform,
+    oblique::{Formula, uniform},
     scene::{Places, Run, block, body, increments, model, plane, rubber, step},
+    table::STRONG,
 };
-use striae_law::friction::Friction;
 use striae_mesh::{Mesh, generate::CappedBlock};
 
 /// That of decks that state none.
 const TOLERANCE: f64 = 1e-10;
 
+const BOTH: [Option<f64>; 2] = [Some(20.0), Some(65.0)];
+
+const LAWS: [(Formula, [Option<f64>; 2]); 5] = [
+    (Formula::TwoTextures([0.2, 0.1, 0.1, 0.5]), BOTH),
+    (Formula::TwoTextures([0.2, 0.2, 0.15, 0.6]), BOTH),
+    (Formula::TwoTextures([0.2, 0.3, 2.0, 0.5]), BOTH),
+    (Formula::Tabulated(STRONG), [Some(20.0), None]),
+    (Formula::Tabulated(STRONG), [None, Some(65.0)]),
+];
+
 /// Presses, slides in eight increments and comes back in eight.
 fn slide_and_reverse(name: &str, mesh: Mesh, base: &str, depth: f64) {
-    for constants in [[0.1, 0.1, 0.5], [0.2, 0.15, 0.6], [0.3, 2.0, 0.5]] {
-        let [mag, ang, cen] = constants;
+    for (law, angles) in LAWS {
         let mut model = model(vec![body("block", mesh.clone(), rubber(1.0, 0.3))]);
-        let friction = Friction::two_textures(0.2, mag, ang, cen).unwrap();
-        model.touch_rigid(("block", base), plane([0.0; 3], [0.0, 0.0, 1.0]), friction);
-        model.pairs[0].textures = [Some(uniform(20.0)), Some(uniform(65.0))];
+        let floor = plane([0.0; 3], [0.0, 0.0, 1.0]);
+        model.touch_rigid(("block", base), floor, law.friction());
+        model.pairs[0].textures = angles.map(|angle| angle.map(uniform));
         for (count, motion) in [
             (2, [0.0, 0.0, -depth]),
             (8, [0.4, 0.1, -depth]),
@@ -39,16 +48,16 @@ fn slide_and_reverse(name: &str, mesh: Mesh, base: &str, depth: f64) {
             .map(|(_, norms)| norms.len())
             .collect();
         println!(
-            "{name}, c = {constants:?}: {counts:?} iterations, {} cuts",
+            "{name}, {law:?}, {angles:?}: {counts:?} iterations, {} cuts",
             run.cuts.len()
         );
-        assert!(run.cuts.is_empty(), "{name}, {constants:?}: {:?}", run.cuts);
+        assert!(run.cuts.is_empty(), "{name}, {law:?}: {:?}", run.cuts);
         assert_eq!(counts.len(), 16);
         counts.sort_unstable();
         let median = 0.5 * (counts[7] + counts[8]) as f64;
         assert!(
             median <= 5.0 && counts[15] <= 12,
-            "{name}, {constants:?}: {counts:?}"
+            "{name}, {law:?}: {counts:?}"
         );
     }
 }

@@ -6,6 +6,7 @@ mod oblique;
 #[path = "../verification/scene.rs"]
 #[allow(dead_code, reason = "shared with another test program")]
 mod scene;
+mod table;
 
 mod convergence;
 mod patch;

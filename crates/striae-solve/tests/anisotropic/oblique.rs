@@ -22,6 +22,7 @@ use striae_solve::model::{Curve, Displacement, LoadExtent, LoadKind, Model, Rigi
 use striae_surface::texture::{Field, Lines, Paint};
 
 use crate::scene::{Places, block, body, increments, model, step};
+use crate::table::{Table, coefficient};
 
 const G: f64 = 1.0;
 const LAMBDA: f64 = 1.5;
@@ -37,6 +38,8 @@ pub enum Formula {
     Associated([f64; 2]),
     /// With, against and across the nap.
     Nap([f64; 3]),
+    /// By angle from the texture.
+    Tabulated(Table),
 }
 
 impl Formula {
@@ -47,6 +50,11 @@ impl Formula {
             Self::Opposing([s, a]) => Friction::orthotropic(s, a, SlipRule::Opposing),
             Self::Associated([s, a]) => Friction::orthotropic(s, a, SlipRule::Associated),
             Self::Nap([f, b, t]) => Friction::nap(f, b, t),
+            Self::Tabulated(table) => {
+                let angles: Vec<f64> = table.iter().map(|[angle, _]| angle.to_radians()).collect();
+                let mu: Vec<f64> = table.iter().map(|[_, mu]| *mu).collect();
+                Friction::tabulated(&angles, &mu)
+            }
         };
         friction.unwrap()
     }
@@ -75,8 +83,20 @@ impl Formula {
                 let e = only();
                 t * d + (0.5 * (b + f) - t) * e.dot(&d) * e + 0.5 * (b - f) * e
             }
+            Self::Tabulated(table) => coefficient(table, angle_of_slip(d, a)) * d,
         };
         -p * w
+    }
+}
+
+/// The direction in which the textured surface slips, from its texture, in degrees.
+/// Looked at from outside the block, from below, turning is reversed.
+pub fn angle_of_slip(d: Vector2<f64>, a: [Option<Vector2<f64>>; 2]) -> f64 {
+    let angle = |a: Vector2<f64>| a.perp(&d).atan2(a.dot(&d)).to_degrees();
+    match a {
+        [Some(own), None] => -angle(own),
+        [None, Some(opposite)] => angle(opposite),
+        _ => panic!("one surface has a texture"),
     }
 }
 

@@ -4,6 +4,7 @@ use crate::{
     dissipation::dissipates,
     oblique::{Formula, Oblique, Sliding, irregular_block},
     scene::{Run, largest_distance},
+    table::STRONG,
 };
 use nalgebra::Vector2;
 use striae_contact::unknowns::Status;
@@ -97,6 +98,18 @@ fn nap() {
         for degrees in DIRECTIONS {
             let law = Formula::Nap([0.1, 0.3, 0.2]);
             check(&Oblique::new(law, angles).distorted(), degrees);
+        }
+    }
+}
+
+#[test]
+fn tabulated() {
+    for angles in [[Some(30.0), None], [None, Some(110.0)]] {
+        for degrees in DIRECTIONS {
+            check(
+                &Oblique::new(Formula::Tabulated(STRONG), angles).distorted(),
+                degrees,
+            );
         }
     }
 }

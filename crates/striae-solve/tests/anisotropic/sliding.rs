@@ -2,8 +2,9 @@
 
 use crate::{
     dissipation::dissipates,
-    oblique::{Formula, Oblique, along, irregular_block, uniform},
+    oblique::{Formula, Oblique, Sliding, along, angle_of_slip, irregular_block, uniform},
     scene::{Places, Run, block, body, increments, largest_distance, model, plane, rubber, step},
+    table::{MEASURED, STRONG},
 };
 use nalgebra::{Matrix2x4, Vector2};
 use striae_contact::unknowns::Status;
@@ -91,34 +92,58 @@ fn check_nodal_law(run: &Run, law: Formula, floor: Option<f64>) {
     dissipates(run);
 }
 
+/// Slides in 24 directions: states of steady sliding with the forces on the block.
+fn in_24_directions(oblique: &Oblique) -> Vec<(Sliding, Vec3)> {
+    let mut model = oblique.model(&block([0.0; 3], [1.0, 1.0, 0.6], [2, 2, 1]));
+    let directions = (0..24).map(|at| oblique.sliding(15.0 * f64::from(at)));
+    let directions: Vec<Sliding> = directions.collect();
+    let mut place = Vector2::zeros();
+    for sliding in &directions {
+        for length in [1.0, 8.0, 8.0, 8.0] {
+            place += sliding.direction * length;
+            model.steps.push(sliding.step(&model, place, 1));
+        }
+    }
+    let run = Run::completed(model);
+    check_nodal_law(&run, oblique.law, oblique.angles[1]);
+    let force = |at: usize| {
+        let mut steps = run.progress.iter().map(|progress| progress.step);
+        let settled = steps.rposition(|step| step == 4 * at + 3).unwrap();
+        report::pairs(&run.problem, &run.states[settled + 1])[0].sides[0].force
+    };
+    let forces: Vec<Vec3> = (0..24).map(force).collect();
+    directions.into_iter().zip(forces).collect()
+}
+
 #[test]
 fn resultants_follow_the_law_in_24_directions() {
     for relative in [0.0, 50.0, 130.0] {
         let oblique = Oblique::new(CONSTANTS, [Some(20.0), Some(20.0 + relative)]);
-        let mut model = oblique.model(&block([0.0; 3], [1.0, 1.0, 0.6], [2, 2, 1]));
-        let directions: Vec<f64> = (0..24).map(|at| 15.0 * f64::from(at)).collect();
-        let mut place = Vector2::zeros();
-        for &degrees in &directions {
-            let sliding = oblique.sliding(degrees);
-            for length in [1.0, 8.0, 8.0, 8.0] {
-                place += sliding.direction * length;
-                model.steps.push(sliding.step(&model, place, 1));
-            }
-        }
-        let run = Run::completed(model);
-        check_nodal_law(&run, CONSTANTS, oblique.angles[1]);
-        for (at, degrees) in directions.into_iter().enumerate() {
-            let settled = run
-                .progress
-                .iter()
-                .rposition(|p| p.step == 4 * at + 3)
-                .unwrap();
-            let state = &run.states[settled + 1];
-            let found = report::pairs(&run.problem, state)[0].sides[0].force;
-            let sliding = oblique.sliding(degrees);
+        for (sliding, found) in in_24_directions(&oblique) {
             let error = (found - sliding.tau.push(sliding.pressure)).norm() / found.norm();
+            let degrees = sliding.direction;
             assert!(error < 1e-6, "{relative}, {degrees}: off by {error:.1e}");
         }
+    }
+}
+
+#[test]
+fn resultants_are_those_of_the_table_in_24_directions() {
+    for angles in [[Some(30.0), None], [None, Some(-45.0)]] {
+        let oblique = Oblique::new(Formula::Tabulated(MEASURED), angles);
+        let across = angles.map(|angle| angle.map(|angle: f64| along(angle - 90.0)));
+        let mut hit = vec![0; MEASURED.len()];
+        for (sliding, found) in in_24_directions(&oblique) {
+            let d = sliding.direction;
+            let angle = angle_of_slip(d, across).rem_euclid(360.0);
+            let at = (angle / 15.0).round() as usize % 24;
+            hit[at] += 1;
+            let [_, mu] = MEASURED[at];
+            let expected = (-mu * d).push(1.0) * sliding.pressure;
+            let error = (found - expected).norm() / found.norm();
+            assert!(error < 1e-6, "{angles:?}, {angle}: off by {error:.1e}");
+        }
+        assert_eq!(hit, [1; 24]);
     }
 }
 
@@ -209,12 +234,13 @@ impl Turn {
 
 const TEXTURES: [Option<f64>; 2] = [Some(15.0), Some(70.0)];
 
-fn laws() -> [(Formula, [Option<f64>; 2]); 4] {
+fn laws() -> [(Formula, [Option<f64>; 2]); 5] {
     [
         (CONSTANTS, TEXTURES),
         (Formula::TwoTextures([0.2, 0.3, 2.0, 0.5]), TEXTURES),
         (Formula::Associated([0.3, 0.15]), [Some(15.0), None]),
         (Formula::Nap([0.1, 0.3, 0.2]), [None, Some(70.0)]),
+        (Formula::Tabulated(STRONG), [Some(15.0), None]),
     ]
 }
 

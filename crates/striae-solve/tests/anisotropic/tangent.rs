@@ -7,6 +7,7 @@
 use crate::{
     oblique::{Formula, uniform},
     scene::{Places, block, body, model, rubber, step},
+    table::STRONG,
 };
 use nalgebra::{DMatrix, DVector};
 use striae_contact::{
@@ -211,7 +212,7 @@ const ELAPSED: f64 = 0.5;
 
 const BOTH: [Option<f64>; 2] = [Some(15.0), Some(70.0)];
 
-fn laws() -> [(Formula, [Option<f64>; 2]); 6] {
+fn laws() -> [(Formula, [Option<f64>; 2]); 8] {
     [
         (Formula::TwoTextures([0.2, 0.1, 0.1, 0.5]), BOTH),
         (Formula::TwoTextures([0.2, 0.3, 2.0, 0.5]), BOTH),
@@ -219,6 +220,8 @@ fn laws() -> [(Formula, [Option<f64>; 2]); 6] {
         (Formula::Associated([0.3, 0.15]), [Some(15.0), None]),
         (Formula::Associated([0.3, 0.15]), [None, Some(70.0)]),
         (Formula::Nap([0.1, 0.3, 0.2]), [Some(15.0), None]),
+        (Formula::Tabulated(STRONG), [Some(15.0), None]),
+        (Formula::Tabulated(STRONG), [None, Some(70.0)]),
     ]
 }
 
@@ -265,7 +268,7 @@ fn check(name: &str, mut model: Model) {
     model.steps.push(step());
     let mut decaying = model.clone();
     for pair in &mut decaying.pairs {
-        pair.friction = pair.friction.with_decay(0.4, 0.15).unwrap();
+        pair.friction = pair.friction.clone().with_decay(0.4, 0.15).unwrap();
     }
     for model in [model, decaying] {
         let problem = Problem::new(model).unwrap();
@@ -323,7 +326,7 @@ fn on_rigid_facets() {
 
 #[test]
 fn between_curved_bodies() {
-    for (law, angles) in [laws()[1], laws()[3], laws()[5]] {
+    for (law, angles) in [laws()[1], laws()[3], laws()[5], laws()[6]] {
         for paint in [uniform, circles] {
             let lower = Block {
                 irregularity: 0.15,

@@ -21,15 +21,17 @@ use super::{
 };
 use crate::failure::Failure;
 
-const DECKS: [(&str, &str); 5] =
-    decks!("patch-slip": "coulomb", "two-textures", "orthotropic", "orthotropic-associated", "nap");
+const DECKS: [(&str, &str); 6] = decks!(
+    "patch-slip": "coulomb", "two-textures", "orthotropic", "orthotropic-associated", "nap", "tabulated"
+);
 /// Angles of `s` at rest of block and plane, in degrees as seen from above.
-const TEXTURES: [[Option<f64>; 2]; 5] = [
+const TEXTURES: [[Option<f64>; 2]; 6] = [
     [None, None],
     [Some(20.0), Some(95.0)],
     [Some(95.0), None],
     [Some(95.0), None],
     [None, Some(20.0)],
+    [Some(95.0), None],
 ];
 const SHEAR_MODULUS: f64 = 1.0;
 const LAMBDA: f64 = 1.5;

@@ -2,11 +2,11 @@
 //! command line, looks like.
 //!
 //! For textures at several angles `theta` it draws the slip surface `|tau|/varpi`
-//! over the direction of `-tau` and the angle between slip and `-tau` over the
-//! direction of slip, both directions from `e` (along `a_ba`, or the texture `a` of
-//! the only textured side), and prints the axes `A`, `P` and offset `h` of the slip
-//! surface, its extremes and where friction dissipates least; see
-//! [`striae_law::friction`].
+//! over the direction of `-tau` and the angle between slip and `-tau`, or friction
+//! itself where it opposes slip, over the direction of slip, both directions from `e`
+//! (along `a_ba`, or the texture `a` of the only textured side), and prints the axes
+//! `A`, `P` and offset `h` of the slip surface where it is an ellipse, its extremes and
+//! where friction dissipates least; see [`striae_law::friction`].
 //!
 //! Longer than other files, as the parsing of constants, the table and the figures belong together.
 
@@ -19,7 +19,7 @@ use striae_io::{
     deck,
     figure::{Axis, Content, Figure, Panel, Series, Width},
 };
-use striae_law::friction::{Analysis, Friction, Law, SlipSample};
+use striae_law::friction::{Analysis, Friction, Law, SlipSample, SlipSurface};
 use striae_solve::model::Model;
 
 use crate::{command::run::case_name, failure::Failure};
@@ -56,6 +56,9 @@ struct Constants {
     /// For example `mu_forward=0.2,mu_backward=0.4,mu_lateral=0.3`.
     #[arg(long, value_name = "KEY=VALUE,..")]
     nap: Option<String>,
+    /// For example `angles=[0,90,180,270],mu=[0.4,0.3,0.2,0.3]`.
+    #[arg(long, value_name = "KEY=VALUE,..")]
+    tabulated: Option<String>,
 }
 
 /// A friction and what to call it.
@@ -135,6 +138,16 @@ pub fn deviation_panel(curves: &[Curve]) -> Panel {
     series.fold(Panel::new(slip_axis(), y), Panel::with)
 }
 
+/// Panel of friction against slip over the direction of slip.
+fn opposing_panel(curves: &[Curve]) -> Panel {
+    let y = Axis::linear("−τ · d / ϖ", "").within(0.0, 1.05);
+    let series = curves.iter().map(|curve| {
+        let against = over_slip(&curve.samples, SlipSample::dissipation);
+        Series::new(&curve.name, against)
+    });
+    series.fold(Panel::new(slip_axis(), y), Panel::with)
+}
+
 /// Axis of the direction of slip, in degrees from `e`.
 pub fn slip_axis() -> Axis {
     Axis::linear("direction of slip from e", "°").within(-180.0, 180.0)
@@ -163,19 +176,32 @@ impl Constants {
             ("two-textures", &self.two_textures),
             ("orthotropic", &self.orthotropic),
             ("nap", &self.nap),
+            ("tabulated", &self.tabulated),
         ]
         .into_iter()
         .find_map(|(law, constants)| Some((law, constants.as_deref()?)))
     }
 }
 
-/// `key=value,..` as keys of a `friction` table, numbers and words as TOML wants them.
+/// `key=value,..` as keys of a `friction` table, numbers and words as TOML wants them;
+/// a value in brackets is a list and stays as it is.
 fn in_deck_words(law: &str, constants: &str) -> String {
-    let constants = constants.split(',').filter(|one| !one.trim().is_empty());
+    let mut inside = false;
+    let between = |character: char| {
+        inside = match character {
+            '[' => true,
+            ']' => false,
+            _ => inside,
+        };
+        character == ',' && !inside
+    };
+    let constants = constants.split(between);
+    let constants = constants.filter(|one| !one.trim().is_empty());
     let line = |one: &str| match one.split_once('=') {
-        Some((key, value)) => match value.trim().parse::<f64>() {
-            Ok(number) => format!("{} = {number:?}\n", key.trim()),
-            Err(_) => format!("{} = {:?}\n", key.trim(), value.trim()),
+        Some((key, value)) => match (key.trim(), value.trim(), value.trim().parse::<f64>()) {
+            (key, _, Ok(number)) => format!("{key} = {number:?}\n"),
+            (key, list, _) if list.starts_with('[') => format!("{key} = {list}\n"),
+            (key, word, _) => format!("{key} = {word:?}\n"),
         },
         None => format!("{one}\n"),
     };
@@ -187,7 +213,7 @@ fn of_model(model: &Model) -> Vec<Named> {
     let first = model.pairs.iter().map(|pair| Named {
         title: format!("pair `{}`", pair.name),
         file: format!("law-{}", pair.name),
-        friction: pair.friction,
+        friction: pair.friction.clone(),
     });
     let later = model.steps.iter().flat_map(|step| {
         step.frictions.iter().map(|(pair, friction)| {
@@ -195,7 +221,7 @@ fn of_model(model: &Model) -> Vec<Named> {
             Named {
                 title: format!("pair `{pair}` from step `{}`", step.name),
                 file: format!("law-{pair}-{}", step.name),
-                friction: *friction,
+                friction: friction.clone(),
             }
         })
     });
@@ -235,6 +261,7 @@ fn law_name(law: &Law) -> &'static str {
         Law::TwoTextures(_) => "two-textures",
         Law::Orthotropic(_) => "orthotropic",
         Law::Nap(_) => "nap",
+        Law::Tabulated(_) => "tabulated",
     }
 }
 
@@ -264,9 +291,17 @@ fn figure(friction: &Friction, analyses: &[Analysis]) -> Figure {
     let curves: Vec<Curve> = analyses.iter().map(curve).collect();
     let sizes = analyses.iter().map(|analysis| analysis.extremes.traction);
     let largest = sizes.fold(0.0, f64::max);
+    let opposing = analyses
+        .iter()
+        .all(|analysis| analysis.extremes.deviation == 0.0);
+    let second = if opposing {
+        opposing_panel(&curves).titled("friction against slip")
+    } else {
+        deviation_panel(&curves).titled("slip and traction")
+    };
     let panels = vec![
         slip_surface_panel(&curves, largest).titled("slip surface"),
-        deviation_panel(&curves).titled("slip and traction"),
+        second,
     ];
     Figure::new(Width::Page, panels)
 }
@@ -283,11 +318,15 @@ fn table(friction: &Friction, analyses: &[Analysis]) -> String {
         } else {
             "any".to_owned()
         };
+        let axes = match &analysis.surface {
+            SlipSurface::Ellipse(ellipse) => {
+                [ellipse.across, ellipse.along, ellipse.offset].map(|length| format!("{length:.4}"))
+            }
+            SlipSurface::Star(_) => [(); 3].map(|()| "-".to_owned()),
+        };
+        let [across, along, offset] = axes;
         text += &format!(
-            "  {theta:>11}  {:8.4}  {:8.4}  {:8.4}  {:8.4}  {:24.3}  {:11.4}\n",
-            analysis.surface.across,
-            analysis.surface.along,
-            analysis.surface.offset,
+            "  {theta:>11}  {across:>8}  {along:>8}  {offset:>8}  {:8.4}  {:24.3}  {:11.4}\n",
             analysis.extremes.traction,
             analysis.extremes.deviation.to_degrees(),
             analysis.least.dissipation(),
@@ -384,6 +423,11 @@ mod tests {
                 "mu_forward=0.2,mu_backward=0.4,mu_lateral=0.3",
                 "any    0.7500    0.7500    0.2500    1.0000",
             ),
+            (
+                "--tabulated",
+                "angles=[0, 120, 240],mu=[0.2,0.4,0.1],shear_cap=7",
+                "any         -         -         -    1.0000                     0.000       0.2500",
+            ),
         ] {
             let text = said(&[law, constants], scratch.path()).unwrap();
             assert!(text.contains(row), "{text}");
@@ -407,6 +451,8 @@ mod tests {
         assert!(text.contains("degrees from the texture"), "{text}");
         let text = refused("--two-textures", "mu=0.3,c_mag=0,c_ang=0,c_cne=0");
         assert!(text.contains("did you mean `c_cen`"), "{text}");
+        let text = refused("--tabulated", "angles=[0,90,360],mu=[0.1,0.2,0.1]");
+        assert!(text.contains("must span less than a turn"), "{text}");
         let text = refused("--coulomb", "mu=much");
         assert!(text.contains("must be a number of at least 0"), "{text}");
         assert_eq!(scratch.path().read_dir().unwrap().count(), 0);

@@ -52,6 +52,13 @@ fn lowered(raw: &raw::Friction) -> Option<Result<Friction, FrictionError>> {
             law.mu_backward.as_ref()?.value.0,
             law.mu_lateral.as_ref()?.value.0,
         ),
+        raw::FrictionLaw::Tabulated(law) => {
+            let angles = law.angles.as_ref()?.value.0.iter();
+            let angles: Vec<f64> = angles.map(|angle| angle.0.to_radians()).collect();
+            let mu = law.mu.as_ref()?.value.0.iter();
+            let mu: Vec<f64> = mu.map(|mu| mu.0).collect();
+            Friction::tabulated(&angles, &mu)
+        }
     };
     if let Some(cap) = &raw.shear_cap {
         friction = friction.and_then(|friction| friction.with_shear_cap(cap.value.0));

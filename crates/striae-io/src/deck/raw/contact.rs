@@ -3,7 +3,7 @@
 use super::Texture;
 use crate::deck::{
     declare::{choice, either, table, words},
-    value::{NonNegative, Number, Positive, Text},
+    value::{All, NonNegative, Number, Positive, Text},
 };
 
 table! {
@@ -100,6 +100,7 @@ choice! {
         "two-textures" => TwoTextures(TwoTextures),
         "orthotropic" => Orthotropic(Orthotropic),
         "nap" => Nap(Nap),
+        "tabulated" => Tabulated(Tabulated),
     }
 }
 
@@ -161,5 +162,15 @@ table! {
         required mu_backward: NonNegative,
         /// Coefficient of friction of slip across the nap.
         required mu_lateral: NonNegative,
+    }
+}
+
+table! {
+    /// One textured surface with coefficients measured at many angles; friction opposes slip.
+    Tabulated {
+        /// Directions in which the textured surface slips over the other one: angles in degrees from its texture `a` (across the grooves, against a nap), counter-clockwise as seen from outside it; at least three, ascending, less than a turn.
+        required angles: All<Number>,
+        /// Coefficient of friction at each angle; monotone and smooth between them.
+        required mu: All<Positive>,
     }
 }

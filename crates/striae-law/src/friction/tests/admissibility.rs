@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use striae_verify::Random;
 
 use crate::friction::{
-    Analysis, Friction, FrictionError, LeastDissipation, Nap, SlipRule, SlipSurface, TwoTextures,
+    Analysis, Ellipse, Friction, FrictionError, LeastDissipation, Nap, SlipRule, TwoTextures,
 };
 
 /// Dissipation of slip at the angle `phi` from the first of two textures at the
@@ -164,7 +164,7 @@ fn one_ellipse_dissipates_as_brute_force_and_closed_condition_say() {
     for _ in 0..4000 {
         let (p, a) = (random.uniform(0.05, 1.0), random.uniform(0.02, 1.0));
         let h = random.uniform(-1.1, 1.1) * p;
-        let surface = SlipSurface {
+        let surface = Ellipse {
             along: p,
             across: a,
             offset: h,

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector, SVector, Vector2, Vector3};
 use num_dual::{DualNum, jacobian};
 use striae_verify::{Random, assert_derivative};
 
-use crate::friction::{Friction, RequiredTextures, Textures};
+use crate::friction::{Friction, Map, RequiredTextures, Textures};
 
 /// Runs the battery on a law that is not frictionless.
 pub(super) fn check(friction: &Friction) {
@@ -62,13 +62,19 @@ impl Place {
     }
 
     /// The frame `(e, e_perp)` of the slip surface and the angle between the textures.
+    /// It turns about the outward normal of the textured surface, which is that of the
+    /// other one if only that has a texture.
     fn frame(&self) -> (Vector3<f64>, Vector3<f64>, f64) {
         let (e, theta) = match (self.textures.own, self.textures.opposite) {
             (Some(own), Some(opposite)) => ((own + opposite).normalize(), own.angle(&opposite)),
             (Some(only), None) | (None, Some(only)) => (only, 0.0),
             (None, None) => (unit_tangent(&self.normal, &mut Random::new(1)), 0.0),
         };
-        (e, self.normal.cross(&e), theta)
+        let turns_about = match (self.textures.own, self.textures.opposite) {
+            (None, Some(_)) => -self.normal,
+            _ => self.normal,
+        };
+        (e, turns_about.cross(&e), theta)
     }
 }
 
@@ -79,8 +85,11 @@ fn unit_tangent(normal: &Vector3<f64>, random: &mut Random) -> Vector3<f64> {
 /// The least cap whose slip surface holds `v`, from the kernel by bisection.
 fn least_cap(friction: &Friction, place: &Place, v: &Vector3<f64>) -> f64 {
     let kernel = friction.kernel(&place.normal, &place.textures);
-    let inverse = kernel.l.try_inverse().unwrap();
-    let outside = |cap: f64| (inverse * (v - kernel.eta * cap)).norm() > cap;
+    let Map::Affine { l, eta } = kernel.map else {
+        return v.norm() / kernel.traction(1.0, &v.normalize()).norm();
+    };
+    let inverse = l.try_inverse().unwrap();
+    let outside = |cap: f64| (inverse * (v - eta * cap)).norm() > cap;
     let (mut low, mut high) = (0.0, 1.0);
     while outside(high) {
         high *= 2.0;
@@ -161,18 +170,19 @@ fn inverts_the_slip_map(friction: &Friction, place: &Place) {
     assert!((kernel.k * kernel.k_inverse - nalgebra::Matrix3::identity()).norm() < 1e-13);
 }
 
-/// `(tau, K^-1 z, K z)` as a function of pressure, slip rate, `z` and textures.
+/// `(tau, K^-1 z, K z)` as a function of pressure, slip rate, `z`, textures and
+/// normal.
 fn response<D: DualNum<Primitive = f64> + Copy>(
     friction: &Friction,
     place: &Place,
-    x: &SVector<D, 11>,
+    x: &SVector<D, 14>,
 ) -> SVector<D, 9> {
     let vector = |i: usize| Vector3::new(x[i], x[i + 1], x[i + 2]);
     let textures = Textures {
         own: place.textures.own.map(|_| vector(5)),
         opposite: place.textures.opposite.map(|_| vector(8)),
     };
-    let kernel = friction.kernel(&place.normal.map(D::from), &textures);
+    let kernel = friction.kernel(&vector(11), &textures);
     let z = vector(2);
     let tau = kernel.traction(friction.cap(x[0], x[1]), &z);
     let (k_inverse_z, k_z) = (kernel.k_inverse * z, kernel.k * z);
@@ -188,20 +198,20 @@ fn has_exact_derivatives(friction: &Friction, place: &Place, random: &mut Random
     let own = place.textures.own.unwrap_or_default();
     let opposite = place.textures.opposite.unwrap_or_default();
     let x = DVector::from_iterator(
-        11,
+        14,
         [1.2, 0.4].into_iter().chain(
-            [z, own, opposite]
+            [z, own, opposite, place.normal]
                 .iter()
                 .flat_map(|v| v.iter().copied())
                 .collect::<Vec<_>>(),
         ),
     );
-    let fixed = |x: &DVector<f64>| SVector::<f64, 11>::from_column_slice(x.as_slice());
+    let fixed = |x: &DVector<f64>| SVector::<f64, 14>::from_column_slice(x.as_slice());
     assert_derivative(
         |x| DVector::from_column_slice(response(friction, place, &fixed(x)).as_slice()),
         |x| {
             let (_, slope) = jacobian(|x| response(friction, place, &x), &fixed(x));
-            DMatrix::from_fn(9, 11, |i, j| slope[(i, j)])
+            DMatrix::from_fn(9, 14, |i, j| slope[(i, j)])
         },
         &x,
     );

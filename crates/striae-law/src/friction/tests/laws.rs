@@ -4,9 +4,10 @@ use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 use striae_verify::Random;
 
-use super::battery;
+use super::{battery, tabulated::tabulated};
 use crate::friction::{
-    Friction, FrictionError, Kernel, Law, Nap, RequiredTextures, SlipRule, Textures, TwoTextures,
+    Friction, FrictionError, Kernel, Law, Map, Nap, Orthotropic, RequiredTextures, SlipRule,
+    Textures, TwoTextures,
 };
 
 #[test]
@@ -38,6 +39,23 @@ fn orthotropic_passes_the_battery() {
 fn nap_passes_the_battery() {
     battery::check(&Friction::nap(0.11, 0.14, 0.2).unwrap());
     battery::check(&Friction::nap(0.1, 0.3, 0.12).unwrap());
+}
+
+#[test]
+fn tabulated_friction_passes_the_battery() {
+    for (angles, mu) in [
+        (vec![0.0, 90.0, 180.0, 270.0], vec![0.3, 0.15, 0.1, 0.2]),
+        (
+            vec![-170.0, -100.0, -40.0, 10.0, 70.0, 95.0, 150.0],
+            vec![0.6, 0.2, 0.2, 0.9, 0.35, 0.3, 0.8],
+        ),
+    ] {
+        let friction = tabulated(&angles, &mu).unwrap();
+        battery::check(&friction);
+        let decaying = friction.with_decay(0.4, 0.7).unwrap();
+        battery::check(&decaying);
+        battery::check(&decaying.with_shear_cap(0.2).unwrap());
+    }
 }
 
 #[test]
@@ -87,8 +105,8 @@ fn opposed_textures_leave_isotropic_friction() {
     };
     let friction = Friction::two_textures(1.0, 0.1, 0.1, 0.5).unwrap();
     let kernel = friction.kernel(&Vector3::z(), &textures);
-    assert_eq!(kernel.l, Matrix3::identity() * 0.9);
-    assert_eq!(kernel.eta, Vector3::zeros());
+    let (l, eta) = (Matrix3::identity() * 0.9, Vector3::zeros());
+    assert_eq!(kernel.map, Map::Affine { l, eta });
 }
 
 /// `-tau . d / p` for slip along `d`.
@@ -112,9 +130,9 @@ fn orthotropic_friction_has_its_coefficients_along_and_across_the_grooves() {
 
 #[test]
 fn associated_slip_maximises_dissipation() {
-    let surface = Friction::orthotropic(0.2, 0.7, SlipRule::Associated)
+    let surface = Orthotropic::new(0.2, 0.7, SlipRule::Associated)
         .unwrap()
-        .slip_surface(0.0);
+        .slip_surface();
     let tractions = super::dense(&surface);
     for sample in surface.sampled(101) {
         let largest = tractions
@@ -264,5 +282,11 @@ proptest! {
         let clearly = |law: Nap| law.slip_surface().least_dissipation().dissipation() > 0.02;
         prop_assume!(Nap::new(mu.0, mu.1, mu.2).is_ok_and(clearly));
         battery::check(&Friction::nap(mu.0, mu.1, mu.2).unwrap());
+    }
+
+    #[test]
+    fn tables_pass_the_battery(points in super::tabulated::points()) {
+        let (angles, mu): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
+        battery::check(&tabulated(&angles, &mu).unwrap());
     }
 }

@@ -7,11 +7,12 @@ mod errata;
 mod laws;
 mod reference;
 mod slip_surface;
+mod tabulated;
 
-use super::{SlipSample, SlipSurface};
+use super::{Ellipse, SlipSample};
 
 /// Points at equal angles, dense enough for brute force.
-fn dense(surface: &SlipSurface) -> Vec<SlipSample> {
+fn dense(surface: &Ellipse) -> Vec<SlipSample> {
     surface.sampled(7200)
 }
 

@@ -1,7 +1,7 @@
 //! Printed reference numbers.
 
 use super::assert_reads;
-use crate::friction::{Friction, SlipRule, SlipSurface, Textures, TwoTextures};
+use crate::friction::{Ellipse, Friction, SlipRule, Textures, TwoTextures};
 use nalgebra::{Rotation2, Vector3};
 
 /// `theta` in degrees, then `A`, `P`, `h`, the largest `|w|` and the largest angle
@@ -25,7 +25,7 @@ const TABLE: [Row; 5] = [
     (180.0, [(0.9, 4), (0.9, 4), (0.0, 4), (0.9, 3), (0.0, 1)]),
 ];
 
-fn surface(theta_in_degrees: f64) -> SlipSurface {
+fn surface(theta_in_degrees: f64) -> Ellipse {
     let law = TwoTextures::new(0.1, 0.1, 0.5).unwrap();
     law.slip_surface(theta_in_degrees.to_radians())
 }

@@ -4,17 +4,17 @@ use nalgebra::Vector2;
 use proptest::prelude::*;
 
 use super::dense;
-use crate::friction::{SlipRule, SlipSurface};
+use crate::friction::{Ellipse, SlipRule};
 
 /// Slip surfaces that hold the origin.
-fn surfaces() -> impl Strategy<Value = SlipSurface> {
-    let opposing = (0.1..3.0f64, 0.1..3.0f64, -0.95..0.95f64).prop_map(|(p, a, h)| SlipSurface {
+fn surfaces() -> impl Strategy<Value = Ellipse> {
+    let opposing = (0.1..3.0f64, 0.1..3.0f64, -0.95..0.95f64).prop_map(|(p, a, h)| Ellipse {
         along: p,
         across: a,
         offset: h * p,
         rule: SlipRule::Opposing,
     });
-    let associated = (0.1..3.0f64, 0.1..3.0f64).prop_map(|(p, a)| SlipSurface {
+    let associated = (0.1..3.0f64, 0.1..3.0f64).prop_map(|(p, a)| Ellipse {
         along: p,
         across: a,
         offset: 0.0,
@@ -76,7 +76,7 @@ proptest! {
     fn associated_slip_is_normal_to_the_surface(
         p in 0.1..3.0f64, a in 0.1..3.0f64, phi in -3.1..3.1f64,
     ) {
-        let surface = SlipSurface { along: p, across: a, offset: 0.0, rule: SlipRule::Associated };
+        let surface = Ellipse { along: p, across: a, offset: 0.0, rule: SlipRule::Associated };
         let tangent = Vector2::new(-p * phi.sin(), a * phi.cos());
         prop_assert!(surface.at(phi).slip.dot(&tangent).abs() < 1e-13);
     }

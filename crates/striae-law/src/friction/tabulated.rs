@@ -1,0 +1,182 @@
+//! Friction from coefficients measured at many angles to the texture.
+//!
+//! Exactly one of the two surfaces carries the texture `a`. `phi` is the direction in
+//! which the textured surface slips relative to the other one: its angle from `a`,
+//! counter-clockwise as seen from outside the textured surface. So 0 is against a
+//! nap, a half turn with it, and at a quarter turn either way slip follows the grooves
+//! `-s` and `s`. With the largest coefficient `mu` of the table as scale, `varpi = mu p`,
+//!
+//! ```text
+//! -tau = rho(phi) z ,   rho(phi) = mu(phi)/mu ,   |z| <= varpi ,   du parallel to z when |z| = varpi
+//! -tau = mu(phi) p d    while slipping
+//! ```
+//!
+//! with `phi` the direction of `z` and `mu(phi)` the monotone periodic cubic through
+//! the table. Friction opposes slip in all directions: a table of coefficients says how
+//! large friction is, and knows no force across slip. The slip surface is the table
+//! itself as a polar curve, star-shaped and convex or not.
+//!
+//! Source: star-shaped slip surfaces as measured and used by Walker & Leine (2019),
+//! "Set-valued anisotropic dry friction laws: formulation, experimental verification
+//! and instability phenomenon", Nonlinear Dyn. 96, 885-920,
+//! doi:10.1007/s11071-019-04829-6; with Coulomb's slip rule instead of theirs, which
+//! asks for a second curve.
+//!
+//! # Admissible tables
+//!
+//! Slip dissipates `mu(phi) p |du|`. The interpolant stays within the least and the
+//! largest coefficient, so positive ones suffice. They also make `z -> tau` a
+//! continuous bijection that keeps directions.
+//!
+//! # Derivative
+//!
+//! With `r = z/|z|` and `t` a quarter turn from it,
+//!
+//! ```text
+//! -dtau = (rho I + rho' r t^T) dz ,    z /= 0 .
+//! ```
+//!
+//! It depends on the direction of `z` alone and is bounded, so `tau` is Lipschitz;
+//! `tau` has degree 1 in `z`, so `-tau(z) = (rho I + rho' r t^T) z` and `tau` is
+//! strongly semismooth at `z = 0` too, where it has no derivative unless `rho` is
+//! constant. There, the mean over all directions stands for it,
+//!
+//! ```text
+//! L_0 = mean(rho I + rho' r t^T) = 2 mean(rho r r^T) ,
+//! ```
+//!
+//! which is an element of the generalised Jacobian, as that is the convex hull of the
+//! derivatives nearby, and the linear map closest to `-tau` on a circle.
+
+use nalgebra::{Matrix2, Vector3};
+use num_dual::{Dual64, DualNum};
+
+use super::error::{FrictionError, finite};
+use super::kernel::Kernel;
+use super::periodic::Periodic;
+use super::star::Star;
+
+/// Coefficients over the largest one, as a function of the angle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tabulated {
+    rho: Periodic,
+    /// `L_0` in the axes of the texture.
+    at_rest: Matrix2<f64>,
+}
+
+/// `-tau = rho(phi) z` at a contact point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Radial<'a, D> {
+    law: &'a Tabulated,
+    /// Axes from which and towards which `phi` turns.
+    axes: [Vector3<D>; 2],
+}
+
+/// Fewest angles of a table.
+const LEAST: usize = 3;
+/// Difference below which two angles are the same, in radians.
+const SAME: f64 = 1e-9;
+/// Directions over which the derivative is averaged.
+const DIRECTIONS: u32 = 720;
+
+impl Tabulated {
+    /// The coefficients `mu` at `angles` (radians), which ascend and span less than a turn.
+    ///
+    /// # Errors
+    /// When there are fewer than three angles or not as many coefficients, the angles do
+    /// not ascend or go around, or a coefficient is not positive.
+    pub fn new(angles: &[f64], mu: &[f64]) -> Result<Self, FrictionError> {
+        check(angles, mu)?;
+        let largest = mu.iter().copied().fold(0.0, f64::max);
+        let shares: Vec<f64> = mu.iter().map(|mu| mu / largest).collect();
+        let rho = Periodic::through(angles, &shares);
+        let at_rest = mean_derivative(&rho);
+        Ok(Self { rho, at_rest })
+    }
+
+    /// `tau(z)` for the unit texture of the textured surface and the direction a
+    /// quarter turn from it.
+    pub fn kernel<D: DualNum<Primitive = f64> + Copy>(
+        &self,
+        axes: [Vector3<D>; 2],
+    ) -> Kernel<'_, D> {
+        Kernel::radial(Radial { law: self, axes })
+    }
+
+    /// The slip surface in the same axes.
+    pub fn slip_surface(&self) -> Star {
+        Star::new(self.rho.clone())
+    }
+}
+
+impl<D: DualNum<Primitive = f64> + Copy> Radial<'_, D> {
+    /// `rho(phi) z`, by `L_0` at `z = 0`.
+    ///
+    /// The angle is that of the value of `z`, to which its variation adds
+    /// `t . dz/|z|`; quotients of components would not do where one vanishes.
+    pub(super) fn of(&self, z: &Vector3<D>) -> Vector3<D> {
+        let [x, y] = self.axes.map(|axis| axis.dot(z));
+        let length = x.re().hypot(y.re());
+        if length < f64::MIN_POSITIVE.sqrt() {
+            let l = &self.law.at_rest;
+            return self.axes[0] * (x * l.m11 + y * l.m12) + self.axes[1] * (x * l.m21 + y * l.m22);
+        }
+        let (cosine, sine) = (x.re() / length, y.re() / length);
+        let (along, across) = (x * cosine + y * sine, y * cosine - x * sine);
+        let phi = (across / along).atan() + sine.atan2(cosine);
+        z * self.law.rho.at(phi)
+    }
+}
+
+/// `mean(rho I + rho' r t^T)`.
+fn mean_derivative(rho: &Periodic) -> Matrix2<f64> {
+    let derivative = |at: u32| {
+        let phi = f64::from(at) * std::f64::consts::TAU / f64::from(DIRECTIONS);
+        let (sine, cosine) = phi.sin_cos();
+        let rho = rho.at(Dual64::from(phi).derivative());
+        let turning = Matrix2::new(-sine * cosine, cosine * cosine, -sine * sine, sine * cosine);
+        Matrix2::identity() * rho.re + turning * rho.eps
+    };
+    let sum: Matrix2<f64> = (0..DIRECTIONS).map(derivative).sum();
+    sum / f64::from(DIRECTIONS)
+}
+
+fn check(angles: &[f64], mu: &[f64]) -> Result<(), FrictionError> {
+    if angles.len() != mu.len() {
+        return Err(FrictionError::TableLengths {
+            angles: angles.len(),
+            coefficients: mu.len(),
+        });
+    }
+    if angles.len() < LEAST {
+        return Err(FrictionError::TableShort {
+            angles: angles.len(),
+            least: LEAST,
+        });
+    }
+    for (angle, mu) in angles.iter().zip(mu) {
+        finite("angle", *angle)?;
+        if !(mu.is_finite() && *mu > 0.0) {
+            return Err(FrictionError::TableCoefficient {
+                mu: *mu,
+                degrees: angle.to_degrees(),
+            });
+        }
+    }
+    for pair in angles.windows(2) {
+        if pair[1] - pair[0] < SAME {
+            return Err(FrictionError::TableOrder {
+                degrees: pair[1].to_degrees(),
+                before: pair[0].to_degrees(),
+            });
+        }
+    }
+    let (first, last) = (angles[0], angles[angles.len() - 1]);
+    if first + std::f64::consts::TAU - last < SAME {
+        return Err(FrictionError::TableSeam {
+            first: first.to_degrees(),
+            last: last.to_degrees(),
+        });
+    }
+    Ok(())
+}
