@@ -25,35 +25,43 @@ pub struct QuadraturePoint<D> {
     pub weight: D,
 }
 
-/// The covered part of a facet in the plane of its mean normal.
+/// A quadrilateral facet in the plane of its mean normal.
 #[derive(Clone, Debug)]
-pub struct Covered<D> {
-    /// Corners of the facet.
-    pub facet: [Vector2<D>; 4],
-    /// Triangles that make up the covered part.
-    pub triangles: Vec<[Vector2<D>; 3]>,
+pub struct FlatFacet<D> {
+    origin: Vector3<D>,
+    axes: [Vector3<D>; 2],
+    /// Its corners.
+    pub corners: [Vector2<D>; 4],
 }
 
-/// The part of the quadrilateral `facet` that the convex polygon `cover` of three or
-/// four corners, facing it, covers.
-pub fn covered<D: Real>(facet: &[Vector3<D>; 4], cover: &[Vector3<D>]) -> Covered<D> {
-    let centre = Shape::Quadrilateral.weights(D::from(0.0), D::from(0.0));
-    let origin = combination(&centre.value, facet);
-    let m = normalised(&area_vector(&centre, facet));
-    let edge = facet[1] - facet[0];
-    let e1 = normalised(&(edge - scaled(&m, dot(&edge, &m))));
-    let e2 = cross(&m, &e1);
-    let flat = |x: &Vector3<D>| {
-        let r = x - origin;
-        Vector2::new(dot(&r, &e1), dot(&r, &e2))
-    };
-    let facet = facet.each_ref().map(flat);
-    let mut window: Vec<Vector2<D>> = cover.iter().map(flat).collect();
-    window.reverse();
-    Covered {
-        triangles: triangles(clipped(&facet, &window)),
-        facet,
+impl<D: Real> FlatFacet<D> {
+    /// The facet with these corners.
+    pub fn new(facet: &[Vector3<D>; 4]) -> Self {
+        let centre = Shape::Quadrilateral.weights(D::from(0.0), D::from(0.0));
+        let origin = combination(&centre.value, facet);
+        let m = normalised(&area_vector(&centre, facet));
+        let edge = facet[1] - facet[0];
+        let e1 = normalised(&(edge - scaled(&m, dot(&edge, &m))));
+        let axes = [e1, cross(&m, &e1)];
+        Self {
+            corners: facet.each_ref().map(|x| flat(x, &origin, &axes)),
+            origin,
+            axes,
+        }
     }
+
+    /// Triangles that make up what the convex polygon `cover` of three or four
+    /// corners, facing the facet, covers.
+    pub fn covered(&self, cover: &[Vector3<D>]) -> Vec<[Vector2<D>; 3]> {
+        let window = cover.iter().rev();
+        let window: Vec<_> = window.map(|x| flat(x, &self.origin, &self.axes)).collect();
+        triangles(clipped(&self.corners, &window))
+    }
+}
+
+fn flat<D: Real>(x: &Vector3<D>, origin: &Vector3<D>, axes: &[Vector3<D>; 2]) -> Vector2<D> {
+    let r = x - origin;
+    Vector2::new(dot(&r, &axes[0]), dot(&r, &axes[1]))
 }
 
 /// Quadrature points on the covered part. Where many quantities are integrated with
@@ -62,10 +70,10 @@ pub fn covered_points<D: Real>(
     facet: &[Vector3<D>; 4],
     cover: &[Vector3<D>],
 ) -> Vec<QuadraturePoint<D>> {
-    let covered = covered(facet, cover);
-    let corners = &covered.facet;
+    let flat = FlatFacet::new(facet);
+    let corners = &flat.corners;
     let mut points = Vec::new();
-    for [first, second, third] in &covered.triangles {
+    for [first, second, third] in &flat.covered(cover) {
         let (u, v) = (second - first, third - first);
         let area = perpendicular(&u, &v) * 0.5;
         for ([r, s], share) in collapsed_triangle() {

@@ -23,8 +23,9 @@ use striae_surface::{
 
 use crate::{
     balance::BalanceRows,
-    clip::{Covered, covered},
+    clip::FlatFacet,
     facet_coverage::FacetCoverage,
+    integral::{Density, Integral, LANES},
     moving::{FlatSlopes, moving_points},
     quadrature::GAUSS_2,
     term::{Field, Lanes, LocalTerm, Row, Source, add_block, variable3, variables3},
@@ -57,32 +58,49 @@ pub fn facet_terms(
     match fields.configuration.facet_coverage(side, facet) {
         FacetCoverage::Bare => {}
         FacetCoverage::Whole => {
-            let kernel = Kernel::new(fields, side, facet, None);
+            let kernel = Kernel::new(fields, side, facet);
             terms.push(kernel.whole(balance, &mut sum));
         }
         FacetCoverage::Cut(covers) => {
-            for cover in covers {
-                let kernel = Kernel::new(fields, side, facet, Some(cover));
-                if !covered(&kernel.x, &kernel.cover).triangles.is_empty() {
-                    terms.push(kernel.covered(balance, &mut sum));
-                }
-            }
+            let covers = covers.iter().map(|cover| Cover::new(fields, side, *cover));
+            let covers: Vec<Cover> = covers.collect();
+            let kernel = Kernel::new(fields, side, facet);
+            terms.extend(kernel.cut(&covers, balance, &mut sum));
         }
     }
     (terms, sum)
 }
 
-/// Lanes: corner positions, corner normals, pressures, friction tractions and
-/// the corners of a covering facet.
-const LANES: usize = 52;
+/// Lanes of the corners: positions, normals, pressures and friction tractions.
 const X: usize = 0;
 const NORMAL: usize = 12;
 const PRESSURE: usize = 24;
 const TAU: usize = 28;
-const COVER: usize = 40;
 
-/// Derivatives of the forces on the four corners lane by lane.
-type Slopes = [[f64; 12]; LANES];
+/// An opposing facet that may cover a part.
+struct Cover<'a> {
+    lanes: Lanes<'a>,
+    x: Vec<Vec3>,
+}
+
+impl Cover<'_> {
+    fn new(fields: &Fields, side: usize, facet: FacetId) -> Self {
+        let configuration = fields.configuration;
+        let other = configuration.side(1 - side);
+        let corners = other.corners(facet);
+        let mut lanes = Lanes::default();
+        if configuration.pair.is_rigid() {
+            lanes.push(Source::Constant(12));
+        } else {
+            for corner in corners {
+                let first = configuration.pair.numbering().position(1 - side, corner);
+                lanes.push(Source::Unknowns { first, count: 3 });
+            }
+        }
+        let x = other.corner_positions(facet)[..distinct_corners(&corners).len()].to_vec();
+        Self { lanes, x }
+    }
+}
 
 /// Quantities of a facet and where they come from.
 struct Kernel<'a> {
@@ -92,7 +110,6 @@ struct Kernel<'a> {
     n: [Vec3; 4],
     p: [f64; 4],
     tau: [Vec3; 4],
-    cover: Vec<Vec3>,
     normal: NormalField,
 }
 
@@ -106,7 +123,7 @@ enum NormalField {
 }
 
 impl<'a> Kernel<'a> {
-    fn new(fields: &Fields<'a>, side: usize, facet: FacetId, cover: Option<FacetId>) -> Self {
+    fn new(fields: &Fields<'a>, side: usize, facet: FacetId) -> Self {
         let configuration = fields.configuration;
         let rigid = configuration.pair.is_rigid();
         let numbering = configuration.pair.numbering();
@@ -126,25 +143,12 @@ impl<'a> Kernel<'a> {
         for corner in corners {
             fields.push_vector(&mut lanes, fields.tau_jacobian(side, corner));
         }
-        let cover = cover.map_or_else(Vec::new, |cover| {
-            let other = configuration.side(1 - side);
-            let opposite = other.corners(cover);
-            for corner in opposite.into_iter().filter(|_| !rigid) {
-                let first = numbering.position(1 - side, corner);
-                lanes.push(Source::Unknowns { first, count: 3 });
-            }
-            other.corner_positions(cover)[..distinct_corners(&opposite).len()].to_vec()
-        });
-        if cover.is_empty() || rigid {
-            lanes.push(Source::Constant(12));
-        }
         Self {
             rows,
             x: own.corner_positions(facet),
             n: corners.map(|corner| fields.normal(side, corner)),
             p: corners.map(|corner| fields.pressure(side, corner)),
             tau: corners.map(|corner| fields.tau[side][corner as usize].value),
-            cover,
             normal: if rigid {
                 NormalField::Nodal
             } else {
@@ -163,34 +167,68 @@ impl<'a> Kernel<'a> {
                 integral.add(&weights, &self.density(&weights), w_xi * w_eta, sum);
             }
         }
-        self.rows(&integral, balance, sum)
+        integral.report(sum);
+        self.term(&self.lanes, &integral.force, &integral.slopes, balance)
     }
 
-    /// The term of its covered part.
-    fn covered(&self, balance: Option<&BalanceRows>, sum: &mut FacetForces) -> LocalTerm {
-        let x: [Vector3<DualSVec64<24>>; 4] = variables3(&self.x, 0);
-        let cover = self.cover.iter().enumerate();
-        let cover: Vec<_> = cover.map(|(at, x)| variable3(x, 12 + 3 * at)).collect();
-        let covered: Covered<DualSVec64<24>> = covered(&x, &cover);
+    /// Terms of its covered parts: one with all forces, and for every cover one with
+    /// their derivatives by its corners.
+    fn cut(
+        &self,
+        covers: &[Cover],
+        balance: Option<&BalanceRows>,
+        sum: &mut FacetForces,
+    ) -> Vec<LocalTerm> {
+        let in_plane = FlatFacet::new(&self.x);
+        let mut covers = covers
+            .iter()
+            .filter(|cover| !in_plane.covered(&cover.x).is_empty())
+            .peekable();
+        if covers.peek().is_none() {
+            return Vec::new();
+        }
+        let flat: FlatFacet<DualSVec64<24>> = FlatFacet::new(&variables3(&self.x, 0));
         let mut integral = Integral::zero();
-        for triangle in 0..covered.triangles.len() {
-            let mut flat = FlatSlopes::<12>::zero();
-            for point in moving_points(&covered, triangle) {
+        let mut terms = Vec::new();
+        for cover in covers {
+            let slopes = self.covered(&flat, cover, &mut integral, sum);
+            terms.push(self.term(&cover.lanes, &[Vec3::zeros(); 4], &slopes, balance));
+        }
+        integral.report(sum);
+        terms.push(self.term(&self.lanes, &integral.force, &integral.slopes, balance));
+        terms
+    }
+
+    /// Adds the part that a facet covers; returns derivatives by the corners of that facet.
+    fn covered(
+        &self,
+        flat: &FlatFacet<DualSVec64<24>>,
+        cover: &Cover,
+        integral: &mut Integral,
+        sum: &mut FacetForces,
+    ) -> [[f64; 12]; 12] {
+        let window = cover.x.iter().enumerate();
+        let window: Vec<Vector3<_>> = window.map(|(at, x)| variable3(x, 12 + 3 * at)).collect();
+        let mut by_cover = [[0.0; 12]; 12];
+        for triangle in &flat.covered(&window) {
+            let mut slopes = FlatSlopes::<12>::zero();
+            for point in moving_points(&flat.corners, triangle) {
                 let weights = Shape::Quadrilateral.weights(point.xi, point.eta);
                 let density = self.density(&weights);
                 integral.add(&weights, &density, point.weight, sum);
                 let [by_xi, by_eta, by_weight] = density.moved(&weights);
                 let by_xi = by_xi.map(|slope| slope * point.weight);
                 let by_eta = by_eta.map(|slope| slope * point.weight);
-                flat.add(&point, [&by_xi, &by_eta, &by_weight]);
+                slopes.add(&point, [&by_xi, &by_eta, &by_weight]);
             }
-            let chained = flat.chained(&covered, triangle);
-            for (lane, by_lane) in (X..X + 12).chain(COVER..COVER + 12).zip(&chained) {
-                let slopes = integral.slopes[lane].iter_mut().zip(by_lane);
+            let chained = slopes.chained(&flat.corners, triangle);
+            let lanes = integral.slopes[X..X + 12].iter_mut().chain(&mut by_cover);
+            for (slopes, by_lane) in lanes.zip(&chained) {
+                let slopes = slopes.iter_mut().zip(by_lane);
                 slopes.for_each(|(slope, change)| *slope += change);
             }
         }
-        self.rows(&integral, balance, sum)
+        by_cover
     }
 
     /// `t |x_,xi x x_,eta|` at a point with its derivatives.
@@ -219,13 +257,20 @@ impl<'a> Kernel<'a> {
             by_n += turned[corner].by_n * (size * weights.value[corner]);
         }
         let mut by_a = traction * (a / size).transpose();
-        let mut gradient = [[0.0; 3]; COVER];
         let slope = |weights: &[f64; 4]| -> Vec3 {
             (0..4)
                 .map(|c| (turned[c].value - n * self.p[c]) * (size * weights[c]))
                 .sum()
         };
-        let (mut d_xi, mut d_eta) = (slope(&weights.d_xi), slope(&weights.d_eta));
+        let mut density = Density {
+            force: traction * size,
+            gradient: [[0.0; 3]; LANES],
+            d_xi: slope(&weights.d_xi),
+            d_eta: slope(&weights.d_eta),
+            area: size,
+            pressure: p,
+            friction: tau.norm(),
+        };
         match self.normal {
             NormalField::Facet => by_a += by_n * (Matrix3::identity() - n * n.transpose()) / size,
             NormalField::Nodal => {
@@ -233,48 +278,37 @@ impl<'a> Kernel<'a> {
                 let by_sum = by_n * tangential;
                 for corner in 0..4 {
                     let block = by_sum * weights.value[corner];
-                    add_block(&mut gradient, NORMAL + 3 * corner, &block);
+                    add_block(&mut density.gradient, NORMAL + 3 * corner, &block);
                 }
-                d_xi += by_sum * combination(&weights.d_xi, &self.n);
-                d_eta += by_sum * combination(&weights.d_eta, &self.n);
+                density.d_xi += by_sum * combination(&weights.d_xi, &self.n);
+                density.d_eta += by_sum * combination(&weights.d_eta, &self.n);
             }
         }
-        d_xi += by_a * d_a[0];
-        d_eta += by_a * d_a[1];
+        density.d_xi += by_a * d_a[0];
+        density.d_eta += by_a * d_a[1];
         let (cross_xi, cross_eta) = (x_xi.cross_matrix(), x_eta.cross_matrix());
         for corner in 0..4 {
             let share = size * weights.value[corner];
             let by_x = cross_xi * weights.d_eta[corner] - cross_eta * weights.d_xi[corner];
             let mut add = |lane: usize, block: Matrix3<f64>| {
-                add_block(&mut gradient, lane + 3 * corner, &block);
+                add_block(&mut density.gradient, lane + 3 * corner, &block);
             };
             add(X, by_a * by_x);
             add(NORMAL, turned[corner].by_from * share);
             add(TAU, turned[corner].by_vector * share);
-            gradient[PRESSURE + corner] = (n * -share).into();
+            density.gradient[PRESSURE + corner] = (n * -share).into();
         }
-        Density {
-            force: traction * size,
-            gradient,
-            d_xi,
-            d_eta,
-            area: size,
-            pressure: p,
-            friction: tau.norm(),
-        }
+        density
     }
 
     /// Momentum rows `-f` and balance rows.
-    fn rows(
+    fn term(
         &self,
-        integral: &Integral,
+        lanes: &Lanes,
+        force: &[Vec3; 4],
+        slopes: &[[f64; 12]],
         balance: Option<&BalanceRows>,
-        sum: &mut FacetForces,
     ) -> LocalTerm {
-        let Integral { force, slopes } = integral;
-        for corner in 0..4 {
-            sum.force[corner] += force[corner];
-        }
         let mut rows: Vec<Row> = Vec::with_capacity(18);
         for corner in 0..4 {
             for axis in 0..3 {
@@ -282,8 +316,8 @@ impl<'a> Kernel<'a> {
                 rows.push((unknown, Field::Momentum, -force[corner][axis]));
             }
         }
-        let triples = self.lanes.triples();
-        let columns = self.lanes.chained(slopes, &triples);
+        let triples = lanes.triples();
+        let columns = lanes.chained(slopes, &triples);
         let momentum = |column: &[f64; 12]| column.map(|slope| -slope);
         let Some(balance) = balance else {
             let columns: Vec<[f64; 12]> = columns.iter().map(momentum).collect();
@@ -310,66 +344,5 @@ impl<'a> Kernel<'a> {
             to[12..].copy_from_slice(balance.modes.tr_mul(&change).as_slice());
         }
         LocalTerm::from_columns(&rows, &triples, &with_balance)
-    }
-}
-
-/// Forces on the four corners and their derivatives.
-struct Integral {
-    force: [Vec3; 4],
-    slopes: Slopes,
-}
-
-impl Integral {
-    fn zero() -> Self {
-        Self {
-            force: [Vec3::zeros(); 4],
-            slopes: [[0.0; 12]; LANES],
-        }
-    }
-
-    /// Adds a quadrature point of the weight `w`.
-    fn add(&mut self, weights: &Weights<f64>, density: &Density, w: f64, sum: &mut FacetForces) {
-        let area = w * density.area;
-        sum.pressure += area * density.pressure;
-        sum.friction += area * density.friction;
-        for corner in 0..4 {
-            self.force[corner] += density.force * (weights.value[corner] * w);
-            sum.area[corner] += area * weights.value[corner];
-        }
-        for (slope, by_lane) in self.slopes[..COVER].iter_mut().zip(&density.gradient) {
-            for corner in 0..4 {
-                for axis in 0..3 {
-                    slope[3 * corner + axis] += by_lane[axis] * (weights.value[corner] * w);
-                }
-            }
-        }
-    }
-}
-
-/// The contact force per `d xi d eta` at a point.
-struct Density {
-    force: Vec3,
-    gradient: [[f64; 3]; COVER],
-    d_xi: Vec3,
-    d_eta: Vec3,
-    area: f64,
-    pressure: f64,
-    friction: f64,
-}
-
-impl Density {
-    /// Derivatives of the forces on the corners by the coordinates, over the weight, and
-    /// by the weight of the point.
-    fn moved(&self, weights: &Weights<f64>) -> [[f64; 12]; 3] {
-        let mut moved = [[0.0; 12]; 3];
-        for corner in 0..4 {
-            let value = weights.value[corner];
-            let by_xi = self.d_xi * value + self.force * weights.d_xi[corner];
-            let by_eta = self.d_eta * value + self.force * weights.d_eta[corner];
-            for (rows, by) in moved.iter_mut().zip([by_xi, by_eta, self.force * value]) {
-                rows[3 * corner..3 * corner + 3].copy_from_slice(by.as_slice());
-            }
-        }
-        moved
     }
 }

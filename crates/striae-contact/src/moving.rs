@@ -17,7 +17,7 @@ use num_dual::{Derivative, DualSVec64};
 use striae_surface::facet::{Shape, Weights};
 
 use crate::{
-    clip::{Covered, located, real},
+    clip::{located, real},
     quadrature::collapsed_triangle,
 };
 
@@ -38,13 +38,16 @@ pub struct MovingPoint {
     twist: Vector2<f64>,
 }
 
-/// Quadrature points of the triangle `triangle` of a facet.
+/// A point in the plane of a facet with its derivatives by the corners of two facets.
+type Place<const N: usize> = Vector2<DualSVec64<N>>;
+
+/// Quadrature points of a triangle of the facet with these corners.
 pub fn moving_points<const N: usize>(
-    covered: &Covered<DualSVec64<N>>,
-    triangle: usize,
+    corners: &[Place<N>; 4],
+    triangle: &[Place<N>; 3],
 ) -> impl Iterator<Item = MovingPoint> {
-    let facet = covered.facet.each_ref().map(real);
-    let vertices = covered.triangles[triangle].each_ref().map(real);
+    let facet = corners.each_ref().map(real);
+    let vertices = triangle.each_ref().map(real);
     let area = 0.5 * (vertices[1] - vertices[0]).perp(&(vertices[2] - vertices[0]));
     let sum =
         move |weights: &[f64; 4]| -> Vector2<f64> { (0..4).map(|c| facet[c] * weights[c]).sum() };
@@ -133,14 +136,13 @@ impl<const R: usize> FlatSlopes<R> {
         }
     }
 
-    /// The derivatives by the `N` lanes that the coordinates of the facet and of the
-    /// triangle `triangle` depend on.
+    /// The derivatives by the `N` lanes that the corners of the facet and the vertices
+    /// of the triangle depend on.
     pub fn chained<const N: usize>(
         mut self,
-        covered: &Covered<DualSVec64<N>>,
-        triangle: usize,
+        corners: &[Place<N>; 4],
+        vertices: &[Place<N>; 3],
     ) -> [[f64; R]; N] {
-        let vertices = &covered.triangles[triangle];
         for k in 0..3 {
             let [next, last] = [1, 2].map(|step| real(&vertices[(k + step) % 3]));
             let opposite = (last - next) * 0.5;
@@ -151,7 +153,7 @@ impl<const R: usize> FlatSlopes<R> {
             }
         }
         let mut slopes = [[0.0; R]; N];
-        let coordinates = covered.facet.iter().chain(vertices).flatten();
+        let coordinates = corners.iter().chain(vertices).flatten();
         for (coordinate, by_rows) in coordinates.zip(self.facet.iter().chain(&self.vertices)) {
             let Derivative(Some(gradient)) = &coordinate.eps else {
                 continue;
@@ -170,7 +172,7 @@ impl<const R: usize> FlatSlopes<R> {
 mod tests {
     use super::*;
     use crate::{
-        clip::{covered, covered_points},
+        clip::{FlatFacet, covered_points},
         term::{gradient, variables3},
     };
     use num_dual::DualNum;
@@ -203,13 +205,14 @@ mod tests {
             let values = integrands(point.xi, point.eta);
             (0..2).for_each(|row| exact[row] += values[row] * point.weight);
         }
-        let covered = covered(&facet, &cover);
-        assert!(covered.triangles.len() > 1);
+        let flat_facet = FlatFacet::new(&facet);
+        let triangles = flat_facet.covered(&cover);
+        assert!(triangles.len() > 1);
         let mut sums = [0.0; 2];
         let mut slopes = [[0.0; 2]; 24];
-        for triangle in 0..covered.triangles.len() {
+        for triangle in &triangles {
             let mut flat = FlatSlopes::zero();
-            for point in moving_points(&covered, triangle) {
+            for point in moving_points(&flat_facet.corners, triangle) {
                 type Two = DualSVec64<2>;
                 let values = integrands(
                     Two::from_re(point.xi).derivative(0),
@@ -219,7 +222,10 @@ mod tests {
                 flat.add(&point, [&by(0), &by(1), &values.map(|value| value.re)]);
                 (0..2).for_each(|row| sums[row] += values[row].re * point.weight);
             }
-            for (sum, slope) in slopes.iter_mut().zip(flat.chained(&covered, triangle)) {
+            for (sum, slope) in slopes
+                .iter_mut()
+                .zip(flat.chained(&flat_facet.corners, triangle))
+            {
                 (0..2).for_each(|row| sum[row] += slope[row]);
             }
         }
