@@ -2,7 +2,7 @@
 //! differences falls with the square of the step.
 
 use crate::{
-    scene::{Places, Run, coulomb, step},
+    scene::{Places, Run, coulomb, plane, step},
     tangent::{dome, on_rigid, two_blocks},
 };
 use nalgebra::DVector;
@@ -193,8 +193,14 @@ fn of_the_whole_system_under_all_loads() {
 
 #[test]
 fn of_a_rigid_body_that_contact_pushes_under_loads() {
-    for friction in [Friction::frictionless(), coulomb(0.4)] {
-        let mut model = on_rigid(dome(4));
+    let flat = plane([0.0; 3], [0.0, 0.0, 1.0]);
+    let cases = [
+        (dome(4), Friction::frictionless()),
+        (dome(4), coulomb(0.4)),
+        (flat, coulomb(0.4)),
+    ];
+    for (shape, friction) in cases {
+        let mut model = on_rigid(shape);
         model.pairs[0].friction = friction;
         let mut first = step();
         first.displacements = vec![model.hold("block", "zmax", [Some(0.0); 3])];

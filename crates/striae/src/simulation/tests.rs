@@ -11,6 +11,8 @@ use super::*;
 const QUASI_STATIC: &str = include_str!("tests/quasi-static.toml");
 /// A block on a tied plate, pressed, then slid with inertia.
 const DYNAMIC: &str = include_str!("tests/dynamic.toml");
+/// A free rigid body whose contact with a block starts on the way.
+const PUSHED: &str = include_str!("tests/pushed.toml");
 
 fn read(text: &str) -> Deck {
     deck::parse(text, "deck.toml", Path::new("")).unwrap()
@@ -92,6 +94,11 @@ fn a_quasi_static_run_is_the_same_in_pieces() {
 #[test]
 fn a_dynamic_run_is_the_same_in_pieces() {
     assert_same_in_pieces(DYNAMIC, 10);
+}
+
+#[test]
+fn a_run_with_a_pushed_body_is_the_same_in_pieces() {
+    assert_same_in_pieces(PUSHED, 20);
 }
 
 #[test]
