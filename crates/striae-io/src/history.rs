@@ -198,20 +198,21 @@ fn row(line: &str, columns: usize) -> Result<Vec<f64>, String> {
 }
 
 fn fields(line: &str) -> Vec<String> {
-    let mut fields = vec![String::new()];
+    let (mut fields, mut field) = (Vec::new(), String::new());
     let mut in_quotes = false;
     let mut letters = line.chars().peekable();
     while let Some(letter) = letters.next() {
         match letter {
             '"' if in_quotes && letters.peek() == Some(&'"') => {
                 letters.next();
-                fields.last_mut().expect("never empty").push('"');
+                field.push('"');
             }
             '"' => in_quotes = !in_quotes,
-            ',' if !in_quotes => fields.push(String::new()),
-            _ => fields.last_mut().expect("never empty").push(letter),
+            ',' if !in_quotes => fields.push(std::mem::take(&mut field)),
+            _ => field.push(letter),
         }
     }
+    fields.push(field);
     fields
 }
 

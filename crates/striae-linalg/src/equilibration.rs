@@ -49,9 +49,11 @@ impl Equilibration {
 
     /// Factors from the diagonal of the bulk, for the condensed solver.
     ///
-    /// Bulk unknowns and their rows get `1/sqrt|a_ii|`. Multipliers are scaled to
-    /// the largest entry that bulk rows have in their column, their rows to the
-    /// largest entry; multipliers that only other multipliers know come last.
+    /// Bulk unknowns and their rows get `1/sqrt|a_ii|`. The multipliers of a
+    /// supervariable are scaled alike, to the largest entry that bulk rows have in
+    /// their columns: one that acts on prescribed unknowns leaves no more than
+    /// round-off there. Their rows are scaled to the largest entry. Multipliers
+    /// that only other multipliers know come last.
     ///
     /// With an `older` one the bulk unknowns keep its factors.
     pub(crate) fn by_diagonal(
@@ -85,6 +87,14 @@ impl Equilibration {
                 for (v, a) in matrix.row(u).filter(|&(v, _)| is_multiplier[v]) {
                     largest[v] = largest[v].max(a.abs() * scaling.rows[u]);
                 }
+            }
+        }
+        for i in 0..structure.supervariables() {
+            let bulk = structure.bulk_group(i);
+            if !bulk.is_empty() {
+                let own = &mut largest[bulk.end..structure.group(i).end];
+                let common = own.iter().copied().fold(0.0, f64::max);
+                own.fill(common);
             }
         }
         multipliers

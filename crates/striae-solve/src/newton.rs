@@ -253,7 +253,8 @@ fn selected(context: &StepContext, state: &State) -> (Vec<Selection>, Vec<PairSt
     (selections, pairs)
 }
 
-const HALVINGS: usize = 4;
+/// Smallest part of a correction that is tried.
+const SMALLEST_PART: f64 = 1.0 / 16.0;
 
 /// How much of a correction was applied.
 #[derive(Clone, Copy, PartialEq)]
@@ -272,35 +273,20 @@ fn step(
     iteration: Iteration,
     correction: &[f64],
 ) -> Result<(Trial, Assembled, Taken), CutBack> {
-    let mut factor = 1.0;
-    let mut taken = Taken::Whole;
-    for _ in 0..HALVINGS {
-        let next = corrected(
-            context,
-            workspace.system(),
-            trial,
-            imposed,
-            correction,
-            factor,
-        );
+    let (mut factor, mut taken) = (1.0, Taken::Whole);
+    loop {
+        let system = workspace.system();
+        let next = corrected(context, system, trial, imposed, correction, factor);
         match workspace.assemble(context, selections, &next, imposed, iteration) {
             Ok(assembled) => return Ok((next, assembled, taken)),
-            Err(CutBack::InvertedElement { .. } | CutBack::LostProjection { .. }) => {
+            Err(CutBack::InvertedElement { .. } | CutBack::LostProjection { .. })
+                if factor > SMALLEST_PART =>
+            {
                 (factor, taken) = (0.5 * factor, Taken::Part);
             }
             Err(other) => return Err(other),
         }
     }
-    let next = corrected(
-        context,
-        workspace.system(),
-        trial,
-        imposed,
-        correction,
-        factor,
-    );
-    let assembled = workspace.assemble(context, selections, &next, imposed, iteration)?;
-    Ok((next, assembled, Taken::Part))
 }
 
 fn corrected(

@@ -322,6 +322,20 @@ pub fn plane(point: [f64; 3], normal: [f64; 3]) -> RigidShape {
     }
 }
 
+/// The lower side of `block` on a plane with friction, its top pressed down by 0.02.
+pub fn pressed_on_plane(mesh: Mesh, mu: f64) -> Model {
+    let mut model = model(vec![body("block", mesh, rubber(1.0, 0.3))]);
+    model.touch_rigid(
+        ("block", "zmin"),
+        plane([0.0; 3], [0.0, 0.0, 1.0]),
+        coulomb(mu),
+    );
+    let mut press = step();
+    press.displacements = vec![model.hold("block", "zmax", [Some(0.0), Some(0.0), Some(-0.02)])];
+    model.steps = vec![press];
+    model
+}
+
 /// Largest distance between corresponding points.
 pub fn largest_distance(a: &[Vec3], b: &[Vec3]) -> f64 {
     assert_eq!(a.len(), b.len());

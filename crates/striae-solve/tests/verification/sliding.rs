@@ -1,6 +1,8 @@
 //! Blocks that slide: the law at every node and for the resultants.
 
-use crate::scene::{Places, Run, block, body, coulomb, increments, model, plane, rubber, step};
+use crate::scene::{
+    Places, Run, block, body, coulomb, increments, model, pressed_on_plane, rubber, step,
+};
 use striae_contact::{selection::Role, unknowns::Status};
 use striae_mesh::Vec3;
 use striae_solve::{
@@ -18,20 +20,13 @@ fn report(run: &Run, state: usize) -> PairReport {
 /// A block pressed on a plane, then moved far in a direction.
 fn on_plane(degrees: f64) -> Model {
     let mesh = block([0.0; 3], [1.0, 1.0, 0.5], [3, 3, 1]).mesh().unwrap();
-    let mut model = model(vec![body("block", mesh, rubber(1.0, 0.3))]);
-    model.touch_rigid(
-        ("block", "zmin"),
-        plane([0.0; 3], [0.0, 0.0, 1.0]),
-        coulomb(MU),
-    );
-    let mut press = step();
-    press.displacements = vec![model.hold("block", "zmax", [Some(0.0), Some(0.0), Some(-0.02)])];
+    let mut model = pressed_on_plane(mesh, MU);
     let mut slide = step();
     let (sin, cos) = degrees.to_radians().sin_cos();
     slide.displacements =
         vec![model.hold("block", "zmax", [Some(2.0 * cos), Some(2.0 * sin), None])];
     slide.increments = increments(0.125, 0.1);
-    model.steps = vec![press, slide];
+    model.steps.push(slide);
     model
 }
 

@@ -1,8 +1,6 @@
 //! The strategy of the paper's Table 1 beside the default one.
 
-use crate::scene::{
-    Places, Run, block, body, coulomb, increments, largest_distance, model, plane, rubber, step,
-};
+use crate::scene::{Places, Run, block, increments, largest_distance, pressed_on_plane, step};
 use striae_contact::unknowns::Status;
 use striae_solve::model::{Model, Strategy};
 
@@ -11,21 +9,15 @@ const MU: f64 = 0.3;
 /// A tall block pressed on a plane, sheared until it slides, and back.
 fn sheared(strategy: Strategy) -> Model {
     let mesh = block([0.0; 3], [1.0, 1.0, 1.0], [4, 3, 3]).mesh().unwrap();
-    let mut model = model(vec![body("block", mesh, rubber(1.0, 0.3))]);
-    model.touch_rigid(
-        ("block", "zmin"),
-        plane([0.0; 3], [0.0, 0.0, 1.0]),
-        coulomb(MU),
-    );
-    let mut press = step();
-    press.displacements = vec![model.hold("block", "zmax", [Some(0.0), Some(0.0), Some(-0.02)])];
-    let way = |x: f64, y: f64| {
+    let mut model = pressed_on_plane(mesh, MU);
+    let way = |model: &Model, x: f64, y: f64| {
         let mut way = step();
         way.displacements = vec![model.hold("block", "zmax", [Some(x), Some(y), None])];
         way.increments = increments(0.25, 0.01);
         way
     };
-    model.steps = vec![press, way(0.04, 0.01), way(0.02, 0.01)];
+    let ways = [(0.04, 0.01), (0.02, 0.01)].map(|(x, y)| way(&model, x, y));
+    model.steps.extend(ways);
     model.solver.strategy = strategy;
     model.solver.largest_iterations = 30;
     model
