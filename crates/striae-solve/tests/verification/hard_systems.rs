@@ -1,10 +1,14 @@
 //! Linear systems that are hard for a solver: `Run::completed` holds the answers
 //! of the condensed one against those of the multifrontal LU.
 
-use crate::scene::{Places, Run, block, body, coulomb, model, rubber, step};
+use crate::scene::{Places, Run, block, body, coulomb, increments, model, rubber, step};
+use striae_contact::unknowns::Status;
 use striae_law::bulk::Material;
 use striae_linalg::Method;
-use striae_mesh::Vec3;
+use striae_mesh::{
+    Vec3,
+    generate::{Half, HalfCylinder},
+};
 use striae_solve::model::{LoadExtent, LoadKind, Model};
 
 /// A block of the given width, `gap` above the middle of a larger one whose bottom is held.
@@ -86,4 +90,63 @@ fn a_body_held_by_friction_alone() {
     model.steps[0].loads = vec![load];
     let run = Run::completed(model);
     assert!(touching(&run) > 0);
+}
+
+/// Half cylinders between two walls, which hold nodes of both surfaces in `y`, where friction
+/// is not determined; layers that do not match tilt the normals at the walls by a little.
+fn slices(layers: [usize; 2]) -> Model {
+    let half = |half, layers, element_size| HalfCylinder {
+        half,
+        thickness: 0.4,
+        layers,
+        element_size,
+        fine_half_width: 0.8,
+        fine_depth: 0.4,
+        growth: 1.6,
+        ..HalfCylinder::default()
+    };
+    let lower = half(Half::Upper, layers[0], 0.2).mesh().unwrap();
+    let upper = half(Half::Lower, layers[1], 0.16).mesh().unwrap();
+    let mut model = model(vec![
+        body("lower", lower, rubber(200.0, 0.3)),
+        body("upper", upper, rubber(200.0, 0.3)),
+    ]);
+    model.touch(("lower", "arc"), ("upper", "arc"), coulomb(0.2));
+    let walls = |model: &Model| {
+        let sides = [
+            ("lower", "ymin"),
+            ("lower", "ymax"),
+            ("upper", "ymin"),
+            ("upper", "ymax"),
+        ];
+        sides.map(|(body, side)| model.hold(body, side, [None, Some(0.0), None]))
+    };
+    let flats = |model: &Model, x: f64| {
+        [
+            model.hold("lower", "flat", [Some(0.0), None, Some(0.0)]),
+            model.hold("upper", "flat", [Some(x), None, Some(-0.15)]),
+        ]
+    };
+    for x in [0.0, 0.03] {
+        let mut step = step();
+        step.increments = increments(0.25, 0.2);
+        step.displacements.extend(walls(&model));
+        step.displacements.extend(flats(&model, x));
+        model.steps.push(step);
+    }
+    model
+}
+
+#[test]
+fn slices_between_walls() {
+    for layers in [[1, 1], [2, 3]] {
+        let run = Run::completed(slices(layers));
+        assert!(run.cuts.is_empty(), "{layers:?}: {:?}", run.cuts);
+        assert!(touching(&run) > 0);
+        let statuses = |status| {
+            let nodes = run.states.iter().flat_map(|state| &state.pairs[0].nodes);
+            nodes.flatten().any(|node| node.status == status)
+        };
+        assert!(statuses(Status::Stick) && statuses(Status::Slip));
+    }
 }

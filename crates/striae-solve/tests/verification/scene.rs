@@ -74,21 +74,16 @@ impl Run {
             let distance = largest_distance(&a.positions, &b.positions);
             assert!(distance <= 1e-9 * extent, "{distance:e} of {extent}");
             for (a, b) in a.pairs.iter().zip(&b.pairs) {
-                let pressures = |pair: &PairState| -> Vec<f64> {
-                    pair.nodes
-                        .iter()
-                        .flatten()
-                        .map(|node| node.pressure)
+                let tractions = |pair: &PairState| -> Vec<Vec3> {
+                    let nodes = pair.nodes.iter().flatten();
+                    nodes
+                        .map(|node| node.tau - node.normal * node.pressure)
                         .collect()
                 };
-                let (p, q) = (pressures(a), pressures(b));
-                let largest = p.iter().fold(0.0_f64, |m, p| m.max(p.abs()));
-                for (p, q) in p.iter().zip(&q) {
-                    assert!(
-                        (p - q).abs() <= 1e-9 * largest,
-                        "{p:e} {q:e} of {largest:e}"
-                    );
-                }
+                let (a, b) = (tractions(a), tractions(b));
+                let largest = a.iter().map(|t| t.norm()).fold(0.0, f64::max);
+                let distance = largest_distance(&a, &b);
+                assert!(distance <= 1e-9 * largest, "{distance:e} of {largest:e}");
             }
         }
     }
