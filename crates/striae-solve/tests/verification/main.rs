@@ -6,6 +6,7 @@ mod scene;
 mod driver;
 mod dynamics;
 mod energies;
+mod friction_history;
 mod hard_systems;
 mod invariance;
 mod patch_frictionless;
