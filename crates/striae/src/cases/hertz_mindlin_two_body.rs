@@ -1,12 +1,15 @@
 //! `hertz-mindlin-two-body`: a block with a spherical face on a deformable foundation.
 //!
 //! Shows friction and slip in the contact plane while partial slip turns into
-//! full slip, and what the unknowns that balance the resultants do.
+//! full slip, and what the unknowns that balance the resultants do. Two variants
+//! tell where friction across the motion comes from: one without friction while it
+//! is pressed, and one of the same contact zone with a hundredth of the strains.
 
 use striae_io::figure::{Axis, Color, Content, Figure, Marker, Panel, Series, Width};
 use striae_mesh::Vec3;
 
 use super::{
+    contact_face::ContactFace,
     measure::{SurfaceNode, surface_nodes_in},
     study::{Extent, Run, Study},
 };
@@ -18,58 +21,147 @@ const DECKS: [(&str, &str); 2] = decks!("hertz-mindlin-two-body": "h-0.8", "h-0.
 const WAYS: [f64; 3] = [0.0, 0.03, 0.15];
 const BALANCED: &str = r#"balance = "resultants""#;
 const PLAIN: &str = r#"balance = "none""#;
+const MU: f64 = 0.1;
+/// What the deck says of friction.
+const FRICTION: &str = r#"friction = { law = "coulomb", mu = 0.1 }"#;
+/// The step that makes all slip.
+const SLIDE: &str = r#"[[step]]
+name = "slide"
+increments = 12
+displacement = [{ body = "block", nodes = "zmax", x = 0.15 }]"#;
+/// Friction from the second step on.
+const LATE: [[&str; 2]; 3] = [
+    [FRICTION, ""],
+    [
+        r#"name = "shear""#,
+        r#"name = "shear"
+friction = [{ pair = "contact", law = "coulomb", mu = 0.1 }]"#,
+    ],
+    [SLIDE, ""],
+];
+/// A hundred times the radius, a hundredth of the displacements: a contact zone of
+/// the same size.
+const SHALLOW: [[&str; 2]; 4] = [
+    ["radius = 12,", "radius = 1200,"],
+    ["z = -0.3 }", "z = -0.003 }"],
+    ["x = 0.03 }", "x = 0.0003 }"],
+    [SLIDE, ""],
+];
+/// What a quick look does not give.
+const FULL_ONLY: [&str; 15] = [
+    "h-0.4.pressed.friction",
+    "h-0.4.lateral",
+    "h-0.4.late.lateral",
+    "h-0.4.slide.lateral",
+    "h-0.4.slide.ratio.a",
+    "h-0.4.slide.ratio.b",
+    "h-0.4.slide.tilt",
+    "h-0.4.slide.forces.a",
+    "h-0.4.slide.forces.b",
+    "h-0.4.slide.forces.a.flat",
+    "slide.forces.a.fall",
+    "slide.forces.b.fall",
+    "h-0.4.mismatch",
+    "h-0.4.plain.mismatch",
+    "plain.mismatch.fall",
+];
+
+/// What falls with the element size.
+struct Falling {
+    /// Mismatch of the resultants of plain fields.
+    mismatch: f64,
+    /// Distance of `Q'/P'` from `mu` on both sides in full slip.
+    off_law: [f64; 2],
+}
 
 /// Runs the case.
 pub fn run(study: &mut Study) -> Result<(), Failure> {
-    let mut plain_mismatches = Vec::new();
     let decks = match study.extent {
         Extent::Full => &DECKS[..],
         Extent::Quick => &DECKS[..1],
     };
+    let mut family = Vec::new();
     for &(name, text) in decks {
         let deck = study.deck(name, text)?;
         let run = study.run(name, deck)?;
-        judge(study, name, &run);
+        pressed_and_sheared(study, name, &run);
+        let off_law = slid(study, name, &run);
         study.draw(&arrows(&run), &format!("arrows-{name}"))?;
         study.draw(&reactions(&run), &format!("reactions-{name}"))?;
+        let late = study.variant(name, text, &LATE)?;
+        let late = study.run(&format!("{name}-late"), late)?;
+        study.measured(format!("{name}.late.lateral"), lateral_share(&late));
+        study.draw(&arrows(&late), &format!("arrows-{name}-late"))?;
         let plain = study.variant(name, text, &[[BALANCED, PLAIN]])?;
         let plain = study.run(&format!("{name}-plain"), plain)?;
         let mismatch = plain.at_end_of(3, "pair.contact.mismatch");
         study.measured(format!("{name}.plain.mismatch"), mismatch);
-        plain_mismatches.push(mismatch);
+        family.push(Falling { mismatch, off_law });
     }
-    if let [coarse, fine] = plain_mismatches[..] {
-        study.measured("plain.mismatch.fall", fine / coarse);
+    let (name, text) = DECKS[0];
+    let shallow = study.variant(name, text, &SHALLOW)?;
+    let shallow = study.run(&format!("{name}-shallow"), shallow)?;
+    study.measured("shallow.pressed.friction", friction_share(&shallow, 0));
+    study.measured("shallow.lateral", lateral_share(&shallow));
+    if let [coarse, fine] = &family[..] {
+        let fall = |of: fn(&Falling) -> f64| of(fine) / of(coarse);
+        study.measured("plain.mismatch.fall", fall(|of| of.mismatch));
+        study.measured("slide.forces.a.fall", fall(|of| of.off_law[0]));
+        study.measured("slide.forces.b.fall", fall(|of| of.off_law[1]));
     } else {
-        let fine = [
-            "h-0.4.lateral",
-            "h-0.4.slide.lateral",
-            "h-0.4.slide.ratio.a",
-            "h-0.4.slide.ratio.b",
-            "h-0.4.mismatch",
-            "h-0.4.plain.mismatch",
-            "plain.mismatch.fall",
-        ];
-        study.left_out.extend(fine);
+        study.left_out.extend(FULL_ONLY);
     }
     Ok(())
 }
 
-fn judge(study: &mut Study, name: &str, run: &Run) {
-    let lateral = |step: usize| {
-        let nodes = pressed(run, step);
-        let largest = |of: fn(&SurfaceNode) -> f64| nodes.iter().map(of).fold(0.0, f64::max);
-        largest(|node| node.result.tau.y.abs()) / largest(|node| node.result.tau.norm())
-    };
-    study.measured(format!("{name}.lateral"), lateral(1));
-    study.measured(format!("{name}.slide.lateral"), lateral(2));
-    for side in ["a", "b"] {
-        let integral = |of: &str| run.at_end_of(3, &format!("pair.contact.{of}_integral_{side}"));
-        let ratio = integral("friction") / integral("pressure");
-        study.measured(format!("{name}.slide.ratio.{side}"), ratio);
-    }
+/// The part that is not full slip.
+fn pressed_and_sheared(study: &mut Study, name: &str, run: &Run) {
+    study.measured(format!("{name}.pressed.friction"), friction_share(run, 0));
+    study.measured(format!("{name}.lateral"), lateral(run, 1));
+    study.measured(format!("{name}.slide.lateral"), lateral(run, 2));
     let mismatch = run.largest("pair.contact.mismatch");
     study.measured(format!("{name}.mismatch"), mismatch);
+}
+
+/// Full slip: how far the forces on both sides are off the law.
+fn slid(study: &mut Study, name: &str, run: &Run) -> [f64; 2] {
+    ["a", "b"].map(|side| {
+        let at_end = |of: &str| run.at_end_of(3, &format!("pair.contact.{of}"));
+        let integral = |of: &str| at_end(&format!("{of}_integral_{side}"));
+        let ratio = integral("friction") / integral("pressure");
+        study.measured(format!("{name}.slide.ratio.{side}"), ratio);
+        let force = ["x", "y", "z"].map(|axis| at_end(&format!("resultant_{side}.{axis}")));
+        let face = ContactFace::new(run, usize::from(side == "b"), force.into());
+        study.measured(format!("{name}.slide.forces.{side}"), face.ratio());
+        if side == "a" {
+            study.measured(format!("{name}.slide.tilt"), face.tilt());
+            study.measured(format!("{name}.slide.forces.a.flat"), face.flat_ratio());
+        }
+        (face.ratio() - MU).abs()
+    })
+}
+
+/// Largest value of the nodes of the spherical face at the end of a step.
+fn largest(run: &Run, step: usize, of: fn(&SurfaceNode) -> f64) -> f64 {
+    pressed(run, step).iter().map(of).fold(0.0, f64::max)
+}
+
+/// Largest friction across the motion over the largest.
+fn lateral(run: &Run, step: usize) -> f64 {
+    let across = largest(run, step, |node| node.result.tau.y.abs());
+    across / largest(run, step, |node| node.result.tau.norm())
+}
+
+/// Largest friction across the motion over the largest that can be, when sheared.
+fn lateral_share(run: &Run) -> f64 {
+    let across = largest(run, 1, |node| node.result.tau.y.abs());
+    across / (MU * largest(run, 1, |node| node.result.pressure))
+}
+
+/// Largest friction over the largest that can be.
+fn friction_share(run: &Run, step: usize) -> f64 {
+    let friction = largest(run, step, |node| node.result.tau.norm());
+    friction / (MU * largest(run, step, |node| node.result.pressure))
 }
 
 /// Nodes of the spherical face under pressure at the end of a step.
@@ -82,7 +174,7 @@ fn pressed(run: &Run, step: usize) -> Vec<SurfaceNode<'_>> {
 /// A vector of a node.
 type Vector = fn(&SurfaceNode) -> Vec3;
 
-/// Friction above at the ends of the steps, slip of the last increment below once
+/// Friction above at the ends of the steps, slip of the last increment below, once
 /// there is any.
 fn arrows(run: &Run) -> Figure {
     let mut panels = Vec::new();
@@ -93,8 +185,11 @@ fn arrows(run: &Run) -> Figure {
         ("slip", "mm", Color::Blue, 1, |node| node.result.slip * 1e3),
     ];
     for (name, unit, color, first, vector) in rows {
-        for (step, way) in WAYS.iter().enumerate().skip(first) {
+        for step in first..run.simulation.steps.len() {
             let nodes = pressed(run, step);
+            if nodes.iter().all(|node| vector(node) == Vec3::zeros()) {
+                continue;
+            }
             let places = |node: &SurfaceNode| [node.position.x, node.position.y];
             let vectors = nodes.iter().map(vector).map(|v| [v.x, v.y]);
             let content = Content::Arrows {
@@ -105,13 +200,13 @@ fn arrows(run: &Run) -> Figure {
             let axis = |label: &str| Axis::linear(label, "m").within(-2.5, 2.5);
             panels.push(
                 Panel::plane(axis("x"), axis("y"))
-                    .titled(format!("{way} m sideways"))
+                    .titled(format!("{} m sideways", WAYS[step]))
                     .with(Series::new(name, content).colored(color)),
             );
         }
     }
     Figure {
-        columns: WAYS.len(),
+        columns: run.simulation.steps.len(),
         ..Figure::new(Width::Page, panels)
     }
 }

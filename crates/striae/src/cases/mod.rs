@@ -20,6 +20,7 @@ macro_rules! decks {
 
 mod bar_impact;
 mod comparison;
+mod contact_face;
 mod hertz_mindlin;
 mod hertz_mindlin_cylinders;
 mod hertz_mindlin_two_body;
