@@ -89,6 +89,7 @@ impl Axis {
         });
         match (low <= high, logarithmic) {
             (false, false) => (0.0, 1.0),
+            (true, false) if low == 0.0 && high == 0.0 => (0.0, 1.0),
             (false, true) => (0.1, 1.0),
             (true, true) => {
                 let room = (high / low).powf(0.06).max(1.15);

@@ -233,6 +233,12 @@ fn awkward_numbers_are_drawn_without_fault() {
 }
 
 #[test]
+fn an_axis_of_zeros_reaches_to_one() {
+    let limits = Axis::linear("a", "").limits([0.0; 3].into_iter());
+    assert_eq!(limits, Ok((0.0, 1.0)));
+}
+
+#[test]
 fn tables_name_panel_and_series() {
     let text = table::text(&busy_figure());
     assert!(text.contains("\n3,map,slip,8,2.0,2.0,2.0,-2.0,\n"));

@@ -6,8 +6,8 @@
 //! `r = (e_i, (X - X0) x e_i)`. The motions are stopped when the rows have
 //! rank six. Lengths are scaled by the size of the body.
 
-use super::body::Bodies;
-use crate::deck::{fault::FaultKind, faults::FaultList, raw, read::At};
+use super::Parts;
+use crate::deck::{fault::FaultKind, faults::FaultList};
 use nalgebra::{Matrix6, Vector6};
 use std::collections::BTreeSet;
 use striae_mesh::{Mesh, NodeId, Vec3};
@@ -17,14 +17,14 @@ use striae_solve::model::{BodyId, Pair, Procedure, RigidSurface, Side, Step};
 const SINGULAR: f64 = 1e-9;
 
 /// Notes every body that can move freely, in the first step in which it can.
-pub(super) fn check(
-    bodies: &Bodies,
-    rigid: &[Option<RigidSurface>],
-    pairs: &[Option<Pair>],
-    steps: &[Option<Step>],
-    raw: &[At<raw::Step>],
-    faults: &mut FaultList<'_>,
-) {
+pub(super) fn check(parts: &Parts<'_>, faults: &mut FaultList<'_>) {
+    let &Parts {
+        bodies,
+        rigid,
+        pairs,
+        steps,
+        written,
+    } = parts;
     // A faulty pair or step might be what holds the body.
     let (Some(pairs), Some(steps)) = (known(pairs), known(steps)) else {
         return;
@@ -38,7 +38,7 @@ pub(super) fn check(
             continue;
         };
         let mut prescribed = BTreeSet::new();
-        for (step, at) in steps.iter().zip(raw) {
+        for (step, at) in steps.iter().zip(written) {
             prescribe(&mut prescribed, step, body);
             if step.procedure != Procedure::QuasiStatic {
                 continue;

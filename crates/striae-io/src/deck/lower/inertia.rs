@@ -1,6 +1,6 @@
 //! Inertia and gravity of a step.
 
-use super::{Scope, body::Bodies, list};
+use super::{Parts, Scope, list};
 use crate::deck::{fault::FaultKind, faults::FaultList, raw, read::At, value::vector};
 use striae_mesh::Vec3;
 use striae_solve::model::{Gravity, Mover, Procedure, RigidId, Step, Velocity};
@@ -98,14 +98,15 @@ pub(super) fn gravity(
 }
 
 /// Notes every body without density in the first step that needs it.
-pub(super) fn check(
-    bodies: &Bodies,
-    steps: &[Option<Step>],
-    raw: &[At<raw::Step>],
-    faults: &mut FaultList<'_>,
-) {
+pub(super) fn check(parts: &Parts<'_>, faults: &mut FaultList<'_>) {
+    let &Parts {
+        bodies,
+        steps,
+        written,
+        ..
+    } = parts;
     let needs = |step: &Step| step.gravity.is_some() || step.procedure != Procedure::QuasiStatic;
-    let first = steps.iter().zip(raw).find_map(|(step, at)| {
+    let first = steps.iter().zip(written).find_map(|(step, at)| {
         let step = step.as_ref()?;
         needs(step).then_some((step, at))
     });

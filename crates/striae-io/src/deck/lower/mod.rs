@@ -27,7 +27,7 @@ use super::{
 use body::Bodies;
 pub(super) use friction::friction;
 use std::{num::NonZeroUsize, path::Path};
-use striae_solve::model::{Backend, Model, Pair, Solver, Strategy};
+use striae_solve::model::{Backend, Model, Pair, RigidSurface, Solver, Step, Strategy};
 
 /// What the parts of a deck refer to by name.
 struct Scope<'r> {
@@ -88,23 +88,16 @@ pub(super) fn deck(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_
     };
     let steps = step::steps(list(&raw.step), &scope, read, faults);
     if read == Read::Whole {
-        hold::check(
-            &bodies,
-            &rigid_surfaces,
-            &pairs,
-            &steps,
-            list(&raw.step),
-            faults,
-        );
-        rigid::check(
-            &bodies,
-            &rigid_surfaces,
-            &pairs,
-            &steps,
-            list(&raw.step),
-            faults,
-        );
-        inertia::check(&bodies, &steps, list(&raw.step), faults);
+        let parts = Parts {
+            bodies: &bodies,
+            rigid: &rigid_surfaces,
+            pairs: &pairs,
+            steps: &steps,
+            written: list(&raw.step),
+        };
+        hold::check(&parts, faults);
+        rigid::check(&parts, faults);
+        inertia::check(&parts, faults);
     }
     nothing_missing(raw, faults);
 
@@ -120,6 +113,15 @@ pub(super) fn deck(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_
         model,
         output: output(raw.output.as_ref().map(|output| &output.value)),
     })
+}
+
+/// Parts of a model that have to fit together; those with faults are missing.
+struct Parts<'a> {
+    bodies: &'a Bodies,
+    rigid: &'a [Option<RigidSurface>],
+    pairs: &'a [Option<Pair>],
+    steps: &'a [Option<Step>],
+    written: &'a [At<raw::Step>],
 }
 
 /// The elements of a list that may be absent.

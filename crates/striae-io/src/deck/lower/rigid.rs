@@ -1,13 +1,13 @@
 //! Rigid bodies and what they do.
 
-use super::{Scope, body::Bodies, generator::nonzero, list, mesh};
+use super::{Parts, Scope, body::Bodies, generator::nonzero, list, mesh};
 use crate::deck::{
     fault::FaultKind, faults::FaultList, raw, read::At, value::Positive, value::vector,
 };
 use std::{collections::BTreeSet, path::Path};
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::model::{
-    BodyId, Freedom, Pair, RigidId, RigidInertia, RigidMotion, RigidShape, RigidSurface, Side, Step,
+    BodyId, Freedom, RigidId, RigidInertia, RigidMotion, RigidShape, RigidSurface, Side,
 };
 
 /// The rigid bodies; `None` for the faulty ones.
@@ -174,19 +174,19 @@ fn coordinates(raw: &raw::RigidMotion) -> [Freedom; 6] {
 
 /// Notes rigid bodies that are free though they have no mass and nothing touches them
 /// or is tied to them, and tied nodes that are prescribed as well.
-pub(super) fn check(
-    bodies: &Bodies,
-    rigid: &[Option<RigidSurface>],
-    pairs: &[Option<Pair>],
-    steps: &[Option<Step>],
-    raw: &[At<raw::Step>],
-    faults: &mut FaultList<'_>,
-) {
+pub(super) fn check(parts: &Parts<'_>, faults: &mut FaultList<'_>) {
+    let &Parts {
+        bodies,
+        rigid,
+        pairs,
+        steps,
+        written,
+    } = parts;
     let mut tied: BTreeSet<(BodyId, NodeId)> = BTreeSet::new();
     for (body, nodes) in rigid.iter().flatten().flat_map(|rigid| &rigid.ties) {
         tied.extend(nodes.iter().map(|node| (*body, *node)));
     }
-    for (step, at) in steps.iter().zip(raw) {
+    for (step, at) in steps.iter().zip(written) {
         let Some(step) = step else { continue };
         for motion in &step.rigid_motions {
             let Some(body) = &rigid[motion.surface.0] else {
