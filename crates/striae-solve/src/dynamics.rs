@@ -312,14 +312,13 @@ fn pushed(problem: &Problem, state: &State, weight: f64) -> Vec<Wrench> {
 /// `M v`, node by node.
 pub fn mass_times(problem: &Problem, vectors: &[Vec3]) -> Vec<Vec3> {
     let mut product = vec![Vec3::zeros(); vectors.len()];
-    for (body, elements) in problem.elements.iter().enumerate() {
-        let model = &problem.model.bodies[body];
+    for (body, model) in problem.model.bodies.iter().enumerate() {
         if model.density == 0.0 {
             continue;
         }
-        for (corners, element) in model.mesh.elements.iter().zip(elements) {
+        for (at, corners) in model.mesh.elements.iter().enumerate() {
             let nodes = corners.map(|node| problem.node(body, node));
-            let mass = element.mass(model.density);
+            let mass = problem.mass(body, at);
             for a in 0..8 {
                 for b in 0..8 {
                     product[nodes[a]] += vectors[nodes[b]] * mass[a][b];

@@ -35,6 +35,17 @@ pub struct Body {
     pub material: Material,
     /// Mass per reference volume; zero where neither inertia nor gravity asks for it.
     pub density: f64,
+    /// Mass of the nodes of its contact surfaces.
+    pub contact_mass: ContactMass,
+}
+
+/// Mass of the nodes of contact surfaces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ContactMass {
+    /// What the consistent mass matrix gives them.
+    Consistent,
+    /// None: it is moved to the nodes behind, so that contact neither stops nor throws mass.
+    Redistributed,
 }
 
 /// Position of a body in [`Model::bodies`].

@@ -71,8 +71,7 @@ impl System<'_> {
             })?;
             sums.energy += response.energy;
             let nodes = model.mesh.elements[at].map(|n: NodeId| problem.node(body, n));
-            let element = &problem.elements[body][at];
-            let mass = (model.density > 0.0).then(|| element.mass(model.density));
+            let mass = (model.density > 0.0).then(|| problem.mass(body, at));
             self.weigh(&nodes, mass.as_ref(), response);
             sums.square_of_forces += response.force.iter().map(|f| f * f).sum::<f64>();
             let mut unknowns = [0; 24];

@@ -95,8 +95,8 @@ impl System<'_> {
     fn masses(&mut self) {
         let problem = self.context.problem;
         for (body, model) in problem.model.bodies.iter().enumerate() {
-            for (corners, element) in model.mesh.elements.iter().zip(&problem.elements[body]) {
-                let mass = element.mass(model.density);
+            for (at, corners) in model.mesh.elements.iter().enumerate() {
+                let mass = problem.mass(body, at);
                 let nodes = corners.map(|node| problem.node(body, node));
                 let unknowns: [usize; 24] =
                     std::array::from_fn(|at| self.layout.position(nodes[at / 3]) + at % 3);
@@ -123,7 +123,7 @@ impl System<'_> {
         for node in 0..problem.reference.len() {
             let first = self.layout.position(node);
             for axis in 0..3 {
-                let free = !self.context.fixed[3 * node + axis];
+                let free = !self.context.fixed[3 * node + axis] && !problem.massless[node];
                 // Tied positions are held when they are condensed.
                 held[first + axis] = !free && self.tie(node).is_none();
                 if self.tie(node).is_some() {

@@ -5,9 +5,20 @@
 //! ```
 //!
 //! with the mass `rho0` per reference volume.
+//!
+//! Mass of corners that are to have none moves along edges: their shape functions
+//! are added in equal parts to those of the nearest corners that keep theirs,
+//!
+//! ```text
+//! N'_a = sum_b w_ab N_b,   sum_a w_ab = 1,   m' = w m w^T,
+//! ```
+//!
+//! so the whole mass and the momentum of a translation do not change. The idea is
+//! of Khenous, Laborde & Renard (Eur. J. Mech. A/Solids 27, 2008), who choose the
+//! shares otherwise; moments of inertia change by the order of the elements.
 
 use super::ReferenceElement;
-use super::shape::{gauss_point, shape};
+use super::shape::{CORNERS, gauss_point, shape};
 
 impl ReferenceElement {
     /// The scalar mass matrix `m_ab`; every component of the position has the
@@ -24,4 +35,39 @@ impl ReferenceElement {
         }
         mass
     }
+}
+
+/// The mass matrix with the mass of `massless` corners moved to the others, of which
+/// there has to be one.
+pub fn redistributed(mass: &[[f64; 8]; 8], massless: &[bool; 8]) -> [[f64; 8]; 8] {
+    let shares: [[f64; 8]; 8] = std::array::from_fn(|from| shares(from, massless));
+    let mut moved = [[0.0; 8]; 8];
+    for (a, row) in mass.iter().enumerate() {
+        for (b, m) in row.iter().enumerate() {
+            for (to_a, share_a) in shares[a].iter().enumerate() {
+                for (to_b, share_b) in shares[b].iter().enumerate() {
+                    moved[to_a][to_b] += share_a * m * share_b;
+                }
+            }
+        }
+    }
+    moved
+}
+
+/// Parts of a corner's shape function that the corners get.
+fn shares(from: usize, massless: &[bool; 8]) -> [f64; 8] {
+    let steps = |to: usize| {
+        (0..3)
+            .filter(|&j| CORNERS[from][j] != CORNERS[to][j])
+            .count()
+    };
+    let keeping = || (0..8).filter(|&to| !massless[to]);
+    let least = keeping().map(steps).min();
+    let nearest = |&to: &usize| Some(steps(to)) == least;
+    let count = keeping().filter(nearest).count();
+    let mut shares = [0.0; 8];
+    keeping()
+        .filter(nearest)
+        .for_each(|to| shares[to] = 1.0 / count as f64);
+    shares
 }

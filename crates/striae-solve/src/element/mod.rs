@@ -27,6 +27,7 @@ mod stress;
 mod tests;
 
 pub use fault::{ElementError, ElementFault};
+pub use mass::redistributed;
 pub use reference::{ReferenceElement, reference_elements};
 pub use response::{ElementResponse, response};
 pub use stress::{nodal_cauchy_stress, von_mises};

@@ -3,9 +3,10 @@
 use crate::scene::{Places, Run, block, body, coulomb, increments, model, plane, rubber, step};
 use striae_law::bulk::{LameConstants, Material};
 use striae_mesh::Vec3;
+use striae_solve::report::pairs;
 use striae_solve::{
     dynamics::{Scheme, mass_times, momentum},
-    model::{BodyId, Curve, Gravity, Model, Mover, Procedure, Step, Velocity},
+    model::{BodyId, ContactMass, Curve, Gravity, Model, Mover, Procedure, Step, Velocity},
 };
 use striae_verify::fitted_rate;
 
@@ -239,4 +240,48 @@ fn the_loss_of_a_linear_oscillation_is_that_of_the_method() {
         let missing = mechanical[0] - mechanical[1];
         assert!((missing - expected).abs() < 1e-9 * scale, "{missing}");
     }
+}
+
+/// A bar that flies lengthwise against a wall.
+fn against_a_wall(contact_mass: ContactMass) -> Model {
+    let mesh = block([0.0, 0.0, 0.01], [0.1, 0.1, 1.0], [1, 1, 20])
+        .mesh()
+        .unwrap();
+    let mut bar = body("bar", mesh, rubber(1.0, 0.0));
+    (bar.density, bar.contact_mass) = (1.0, contact_mass);
+    let mut model = model(vec![bar]);
+    model.touch_rigid(
+        ("bar", "zmin"),
+        plane([0.0; 3], [0.0, 0.0, 1.0]),
+        coulomb(0.2),
+    );
+    let mut step = moving(3.0, 120);
+    step.velocities = launched([0.0, 0.0, -0.01], [0.0; 3], [0.0; 3]);
+    model.steps.push(step);
+    model
+}
+
+#[test]
+fn contact_nodes_without_mass_calm_the_contact_force_and_change_no_momentum() {
+    let scatter = [ContactMass::Consistent, ContactMass::Redistributed].map(|contact_mass| {
+        let run = Run::completed(against_a_wall(contact_mass));
+        let (linear, _) = momentum(&run.problem, &run.states[1]);
+        assert!(
+            (linear - Vec3::new(0.0, 0.0, -1e-4)).norm() < 1e-15,
+            "{linear}"
+        );
+        let held: Vec<f64> = run
+            .states
+            .iter()
+            .filter(|state| (1.25..1.9).contains(&state.time))
+            .map(|state| pairs(&run.problem, state)[0].sides[0].pressure)
+            .collect();
+        let mean = held.iter().sum::<f64>() / held.len() as f64;
+        // rho c v A, c = 1.
+        assert!((mean / 1e-4 - 1.0).abs() < 0.02, "{mean}");
+        held.iter()
+            .map(|force| (force / mean - 1.0).abs())
+            .fold(0.0, f64::max)
+    });
+    assert!(scatter[1] < 0.5 * scatter[0], "{scatter:?}");
 }

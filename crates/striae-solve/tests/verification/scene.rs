@@ -9,9 +9,9 @@ use striae_mesh::{Face, Mesh, NodeId, Vec3, generate::Block};
 use striae_solve::{
     drive::{Continue, Observer, Progress, run},
     model::{
-        Backend, Balance, Body, BodyId, Curve, Displacement, Increments, Load, LoadExtent,
-        LoadKind, Model, Pair, PairId, Procedure, RigidId, RigidShape, RigidSurface, Side, Solver,
-        Step, Strategy,
+        Backend, Balance, Body, BodyId, ContactMass, Curve, Displacement, Increments, Load,
+        LoadExtent, LoadKind, Model, Pair, PairId, Procedure, RigidId, RigidShape, RigidSurface,
+        Side, Solver, Step, Strategy,
     },
     newton::{Increment, IterationObserver, LinearWork},
     norms::Norms,
@@ -154,6 +154,7 @@ pub fn body(name: &str, mesh: Mesh, material: Material) -> Body {
         mesh,
         material,
         density: 0.0,
+        contact_mass: ContactMass::Consistent,
     }
 }
 

@@ -4,7 +4,7 @@
 //! a rebound with the velocity and the energy of the flight.
 
 use striae_io::figure::{Axis, Color, Content, Figure, Panel, Series, Width};
-use striae_solve::model::Procedure;
+use striae_solve::model::{ContactMass, Procedure};
 
 use super::study::{Run, Study};
 use crate::failure::Failure;
@@ -22,18 +22,19 @@ const ELEMENTS: usize = 50;
 /// Runs the case.
 pub fn run(study: &mut Study) -> Result<(), Failure> {
     let runs = [
-        ran(study, "0.8", 0.8)?,
-        ran(study, "0.5", 0.5)?,
-        ran(study, "1.0", 1.0)?,
+        ran(study, "0.8", 0.8, ContactMass::Consistent)?,
+        ran(study, "0.5", 0.5, ContactMass::Consistent)?,
+        ran(study, "1.0", 1.0, ContactMass::Consistent)?,
+        ran(study, "redistributed", 0.8, ContactMass::Redistributed)?,
     ];
-    let [run, ..] = &runs;
-    let stress = stress(run);
-    let steady = stress
-        .iter()
-        .filter(|[time, _]| (TOUCH + 0.25..TOUCH + 1.75).contains(time));
-    let steady: Vec<f64> = steady.map(|[_, stress]| *stress).collect();
-    let mean = steady.iter().sum::<f64>() / steady.len() as f64;
+    let [run, .., redistributed] = &runs;
+    let (mean, scatter) = steady(run);
     study.measured("stress.mean", mean);
+    study.measured("stress.scatter", scatter);
+    let (mean, scatter) = steady(redistributed);
+    study.measured("redistributed.stress.mean", mean);
+    study.measured("redistributed.stress.scatter", scatter);
+    let stress = stress(run);
     let last = stress.iter().rposition(|[_, stress]| *stress > 0.5 * SPEED);
     study.measured("release.time", last.map_or(f64::NAN, |at| stress[at][0]));
     study.measured("rebound.velocity", run.at_end_of(1, "velocity.bar.z"));
@@ -49,10 +50,28 @@ pub fn run(study: &mut Study) -> Result<(), Failure> {
     study.draw(&figure(&runs, chain), "impact")
 }
 
-fn ran(study: &mut Study, name: &str, spectral_radius: f64) -> Result<Run, Failure> {
+/// Mean contact stress while the bar is held back, and its largest deviation, relative.
+fn steady(run: &Run) -> (f64, f64) {
+    let stress = stress(run);
+    let steady = stress
+        .iter()
+        .filter(|[time, _]| (TOUCH + 0.25..TOUCH + 1.75).contains(time));
+    let steady: Vec<f64> = steady.map(|[_, stress]| *stress).collect();
+    let mean = steady.iter().sum::<f64>() / steady.len() as f64;
+    let deviations = steady.iter().map(|stress| (stress / mean - 1.0).abs());
+    (mean, deviations.fold(0.0, f64::max))
+}
+
+fn ran(
+    study: &mut Study,
+    name: &str,
+    spectral_radius: f64,
+    contact_mass: ContactMass,
+) -> Result<Run, Failure> {
     let [(deck, text)] = DECKS;
     let mut deck = study.deck(deck, text)?;
     deck.model.steps[0].procedure = Procedure::Dynamic { spectral_radius };
+    deck.model.bodies[0].contact_mass = contact_mass;
     study.run(name, deck)
 }
 
@@ -155,8 +174,8 @@ fn tridiagonal(a: f64, k: f64, mass: &dyn Fn(usize) -> f64, rhs: &[f64]) -> Vec<
     u
 }
 
-fn figure(runs: &[Run; 3], chain: Vec<[f64; 2]>) -> Figure {
-    let [run, soft, hard] = runs;
+fn figure(runs: &[Run; 4], chain: Vec<[f64; 2]>) -> Figure {
+    let [run, soft, hard, redistributed] = runs;
     let time = || Axis::linear("time", "L/c").within(0.0, 3.0);
     let exact = [
         [0.0, 0.0],
@@ -176,6 +195,7 @@ fn figure(runs: &[Run; 3], chain: Vec<[f64; 2]>) -> Figure {
     )
     .with(Series::new("spectral radius 0.8", over(run)).colored(Color::Blue))
     .with(Series::new("0.5", over(soft)).colored(Color::Green))
+    .with(Series::new("0.8, mass redistributed", over(redistributed)).colored(Color::Vermillion))
     .with(Series::new("exact", Content::dashed(exact.to_vec())).colored(Color::Black));
     let energies = Panel::new(time(), Axis::linear("energy", "initial").within(0.9, 1.3))
         .with(Series::new("spectral radius 0.8", Content::line(energy(run))).colored(Color::Blue))

@@ -5,7 +5,7 @@ use crate::deck::{fault::FaultKind, faults::FaultList, names::Names, raw, read::
 use std::path::Path;
 use striae_law::bulk::{LameConstants, Material};
 use striae_mesh::{Face, Mesh, NodeId};
-use striae_solve::model::{Body, BodyId};
+use striae_solve::model::{Body, BodyId, ContactMass};
 
 /// All materials of the deck.
 pub(super) struct Materials {
@@ -25,6 +25,7 @@ struct RawBody {
     mesh: Option<Mesh>,
     material: Option<Material>,
     density: Option<f64>,
+    contact_mass: ContactMass,
 }
 
 impl Materials {
@@ -148,6 +149,7 @@ impl Bodies {
                     mesh: body.mesh?,
                     material: body.material?,
                     density: body.density.unwrap_or(0.0),
+                    contact_mass: body.contact_mass,
                 })
             })
             .collect()
@@ -182,6 +184,10 @@ fn lower_body(
         mesh,
         material,
         density,
+        contact_mass: match raw.contact_mass.as_ref().map(|mass| mass.value) {
+            None | Some(raw::ContactMass::Consistent) => ContactMass::Consistent,
+            Some(raw::ContactMass::Redistributed) => ContactMass::Redistributed,
+        },
     }
 }
 

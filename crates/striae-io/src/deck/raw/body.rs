@@ -1,7 +1,7 @@
 //! `[[material]]`, `[[body]]` and `[[rigid]]`.
 
 use super::{
-    super::declare::{choice, either, table},
+    super::declare::{choice, either, table, words},
     FacetSet, Mesh, NodeSet,
 };
 use crate::deck::{
@@ -82,10 +82,22 @@ table! {
         required material: Text,
         /// Its mesh of eight-node hexahedra, read from a file or generated.
         required mesh: Mesh,
+        /// Mass of the nodes of its contact surfaces in dynamic steps. Default: `consistent`.
+        optional contact_mass: ContactMass,
         /// More sets of nodes.
         optional node_sets: Vec<At<NodeSet>>,
         /// More sets of facets.
         optional facet_sets: Vec<At<FacetSet>>,
+    }
+}
+
+words! {
+    /// Mass of the nodes of contact surfaces.
+    ContactMass {
+        /// What the consistent mass matrix gives them.
+        Consistent = "consistent",
+        /// None: it is moved to the nodes behind, against oscillations of contact.
+        Redistributed = "redistributed",
     }
 }
 

@@ -1,7 +1,9 @@
 //! One element: derivatives, rigid motions, mass, stress, faults.
 
 use super::*;
-use crate::element::{ElementError, ReferenceElement, UNKNOWNS, response, von_mises};
+use crate::element::{
+    ElementError, ReferenceElement, UNKNOWNS, redistributed, response, von_mises,
+};
 use nalgebra::{DMatrix, DVector, Matrix3, SymmetricEigen};
 use striae_verify::assert_derivative;
 
@@ -173,4 +175,32 @@ fn faults_name_the_configuration() {
         response(&cube, &flipped, &neo_hookean()),
         Err(ElementError::Inverted { gauss_point: 0, determinant }) if (determinant + 1.0).abs() < 1e-15
     ));
+}
+
+#[test]
+fn corners_without_mass_leave_the_whole_mass_to_the_others() {
+    let mut random = Random::new(23);
+    let element = ReferenceElement::new(&distorted_cube(&mut random, 0.1)).unwrap();
+    let mass = element.mass(2.5);
+    let face = [true, true, true, true, false, false, false, false];
+    let (corner, mut one) = (
+        [false, true, true, true, true, true, true, true],
+        [false; 8],
+    );
+    one[5] = true;
+    for massless in [face, corner, one] {
+        let moved = redistributed(&mass, &massless);
+        let total: f64 = moved.iter().flatten().sum();
+        assert!((total - 2.5 * element.volume()).abs() < 1e-14);
+        for a in 0..8 {
+            for b in 0..8 {
+                assert!((moved[a][b] - moved[b][a]).abs() < 1e-15);
+                assert!(!(massless[a] || massless[b]) || moved[a][b] == 0.0);
+            }
+        }
+    }
+    // Along edges: the corner above gets all of the one below.
+    let moved = redistributed(&mass, &face);
+    let sum = mass[0][0] + mass[0][4] + mass[4][0] + mass[4][4];
+    assert!((moved[4][4] - sum).abs() < 1e-15);
 }
