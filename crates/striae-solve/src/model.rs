@@ -1,6 +1,8 @@
 //! What is to be simulated: validated, immutable data that a deck is lowered to.
 //!
 //! All quantities are in the consistent units of the user.
+//!
+//! Longer than other files, as it is the one list of all that a model can say.
 
 use nalgebra::Matrix3;
 use striae_law::{bulk::Material, friction::Friction};

@@ -14,8 +14,9 @@ use striae_surface::{
 };
 
 use crate::{
-    element::{ElementFault, ReferenceElement, redistributed, reference_elements},
-    model::{Balance, ContactMass, Model, Pair, RigidShape, Side},
+    contact_mass,
+    element::{ElementFault, ReferenceElement, reference_elements},
+    model::{Balance, Model, Pair, RigidShape, Side},
     plan::{StepPlan, plans},
 };
 
@@ -151,7 +152,7 @@ impl Problem {
         let pairs: Vec<PairGeometry> = pairs.collect::<Result<_, _>>()?;
         Ok(Self {
             contact_facets: contact_facets(&pairs),
-            massless: massless(&model, &first_node, reference.len()),
+            massless: contact_mass::massless(&model, &first_node, reference.len()),
             pairs,
             plans: plans(&model),
             tied,
@@ -169,19 +170,6 @@ impl Problem {
     pub fn has_coordinates(&self, rigid: usize) -> bool {
         let free = |plan: &StepPlan| plan.rigid[rigid].iter().any(Option::is_none);
         !self.tied[rigid].is_empty() || self.plans.iter().any(free)
-    }
-
-    /// Mass matrix of an element of a body.
-    pub fn mass(&self, body: usize, element: usize) -> [[f64; 8]; 8] {
-        let model = &self.model.bodies[body];
-        let mass = self.elements[body][element].mass(model.density);
-        let nodes = model.mesh.elements[element].map(|node| self.node(body, node));
-        let massless = nodes.map(|node| self.massless[node]);
-        if massless.contains(&true) {
-            redistributed(&mass, &massless)
-        } else {
-            mass
-        }
     }
 
     /// Global number of a node of a body.
@@ -202,31 +190,6 @@ impl Problem {
         let body = geometry.bodies[side]?;
         Some(self.node(body, surface.nodes()[node as usize]))
     }
-}
-
-/// Nodes of contact surfaces of bodies whose mass is redistributed, but for elements
-/// that have no other nodes.
-fn massless(model: &Model, first_node: &[usize], nodes: usize) -> Vec<bool> {
-    let mut massless = vec![false; nodes];
-    let sides = model.pairs.iter().flat_map(|pair| [&pair.a, &pair.b]);
-    for side in sides {
-        if let Side::Deformable { body, faces } = side
-            && model.bodies[body.0].contact_mass == ContactMass::Redistributed
-        {
-            for node in model.bodies[body.0].mesh.nodes_of_faces(faces) {
-                massless[first_node[body.0] + node.index()] = true;
-            }
-        }
-    }
-    for (body, first) in model.bodies.iter().zip(first_node) {
-        for corners in &body.mesh.elements {
-            let nodes = corners.map(|node| first + node.index());
-            if nodes.iter().all(|&node| massless[node]) {
-                nodes.iter().for_each(|&node| massless[node] = false);
-            }
-        }
-    }
-    massless
 }
 
 fn contact_facets(pairs: &[PairGeometry]) -> HashMap<(usize, Face), Vec<ContactFacet>> {
