@@ -22,7 +22,7 @@
 //!
 //! Longer than other files, as all rows of a node are made of the same derivatives.
 
-use nalgebra::{Matrix2, Vector2, Vector3};
+use nalgebra::{Const, Matrix2, SymmetricEigen, Vector2, Vector3};
 use num_dual::DualSVec64;
 use striae_mesh::Vec3;
 use striae_surface::{facet::Shape, scalar::constant3};
@@ -92,9 +92,8 @@ const X_PARTNER: usize = 24;
 const TRACTION: usize = 36;
 const TEXTURES: usize = 39;
 
-/// Squared mobility below which a node cannot slip in a direction: a slip that is
-/// ten thousand times smaller than the motion that it takes.
-const IMMOBILE: f64 = 1e-8;
+/// Squared mobility below which a node cannot slip in a direction.
+const IMMOBILE: f64 = 1e-12;
 
 /// Gap below which a node counts as touching at the start of an increment, over the local size.
 const TOUCHING: f64 = 1e-6;
@@ -112,7 +111,7 @@ pub fn rows(
     let stiffness = stiffness(configuration, node.side) / size;
     let g = state.gap.re;
     let touching = iteration == Iteration::First && g <= TOUCHING * size;
-    let closed = (touching || p - stiffness * g > 0.0) && state.can_close();
+    let closed = (touching || p - stiffness * g > 0.0) && state.is_free(&state.gap, X_OPPOSITE);
     let held = |component: usize, value: f64| {
         let mut row = [0.0; N];
         row[TRACTION + component] = 1.0;
@@ -160,8 +159,6 @@ struct NodeState<'a> {
     gap: Q,
     slipped: bool,
     before: Status,
-    /// Motion since the last converged configuration along the normal.
-    approach: Q,
     /// Components of `du`.
     slip: [Q; 2],
     /// Components of `K^-1 du`.
@@ -262,20 +259,14 @@ impl<'a> NodeState<'a> {
         let kernel = configuration.pair.friction.kernel(&normal, &textures);
         let (turned, by_surroundings) = parts(&(kernel.k_inverse * constant3(&relative)));
         let k_inverse = kernel.k_inverse.map(|component| component.re);
-        let by_positions = |value: f64, by_relative: &Vec3| {
-            let mut quantity = Q::constant(value);
-            quantity.depend(0, by_relative);
-            for (corner, weight) in weights.iter().enumerate() {
-                quantity.depend(X_PARTNER + 3 * corner, &(by_relative * -weight));
-            }
-            quantity
-        };
-        let mut approach = by_positions(n.dot(&relative), &n);
-        approach.depend(NORMAL, &relative);
         // `t . v` for a vector `v` that depends on `relative` and on the law's lanes.
         let component = |axis: usize, v: &Vec3, by_relative: Vec3| {
-            let mut component = by_positions(node.frame.t[axis].value.dot(v), &by_relative);
+            let mut component = Q::constant(node.frame.t[axis].value.dot(v));
+            component.depend(0, &by_relative);
             component.depend(TANGENTS + 3 * axis, v);
+            for (corner, weight) in weights.iter().enumerate() {
+                component.depend(X_PARTNER + 3 * corner, &(by_relative * -weight));
+            }
             component
         };
         let slip = [0, 1].map(|axis| component(axis, &relative, node.frame.t[axis].value));
@@ -298,7 +289,6 @@ impl<'a> NodeState<'a> {
             gap,
             slipped: node.slipped,
             before: node.before,
-            approach,
             slip,
             turned,
         })
@@ -330,9 +320,8 @@ impl<'a> NodeState<'a> {
         })
     }
 
-    fn can_close(&self) -> bool {
-        let mut gradient = self.free_gradient(&self.gap, X_OPPOSITE);
-        gradient.any(|d| d.abs() > 1e-9)
+    fn is_free(&self, row: &Q, opposite: usize) -> bool {
+        self.free_gradient(row, opposite).any(|d| d.abs() > 1e-9)
     }
 
     /// Status and tangential rows of a closed node.
@@ -402,9 +391,8 @@ impl<'a> NodeState<'a> {
         let along = [(direction.x, &z[0]), (direction.y, &z[1]), (-1.0, varpi)];
         let along = Q::combination(along);
         let across = |v: &[Q; 2]| Q::combination([(direction.x, &v[1]), (-direction.y, &v[0])]);
-        let sideways = Vector2::new(-direction.y, direction.x);
-        let second = if sideways.dot(&(self.mobility(&self.turned) * sideways)) > IMMOBILE {
-            let turned = across(&self.turned);
+        let turned = across(&self.turned);
+        let second = if self.is_free(&turned, X_PARTNER) {
             (Field::Stick(size), turned.re, turned.slope)
         } else {
             let z_across = across(z);
@@ -413,28 +401,19 @@ impl<'a> NodeState<'a> {
         [(Field::Traction, along.re, along.slope), second]
     }
 
-    /// Squared mobility of a tangential vector: products of its derivatives by the
-    /// free positions, without motions that open or close the gap.
-    ///
-    /// `G_tt - G_tn G_nt/G_nn` with the products `G` of the derivatives of the two
-    /// components `t` and of the motion along the normal `n`.
-    fn mobility(&self, vector: &[Q; 2]) -> Matrix2<f64> {
-        let free = |row| self.free_gradient(row, X_PARTNER);
-        let product = |a, b| -> f64 { free(a).zip(free(b)).map(|(a, b)| a * b).sum() };
-        let ([a, b], n) = (vector, &self.approach);
-        let (ab, nn) = (product(a, b), product(n, n));
-        let all = Matrix2::new(product(a, a), ab, ab, product(b, b));
-        if nn == 0.0 {
-            return all;
-        }
-        let along = Vector2::new(product(a, n), product(b, n));
-        all - along * along.transpose() / nn
+    /// Squared mobility of the slip in its principal directions: eigenvalues of
+    /// the products of its derivatives by the free positions.
+    fn mobility(&self) -> SymmetricEigen<f64, Const<2>> {
+        let free = |at: usize| self.free_gradient(&self.slip[at], X_PARTNER);
+        let product =
+            |i: usize, j: usize| -> f64 { free(i).zip(free(j)).map(|(a, b)| a * b).sum() };
+        Matrix2::new(product(0, 0), product(0, 1), product(1, 0), product(1, 1)).symmetric_eigen()
     }
 
     /// `du = 0`, with `z = 0` in directions in which the node cannot move.
     fn stick(&self, z: &[Q; 2], size: f64) -> [TangentialRow; 2] {
         let row = |field: Field, value: Q| (field, value.re, value.slope);
-        let eigen = self.mobility(&self.slip).symmetric_eigen();
+        let eigen = self.mobility();
         if eigen.eigenvalues.min() > IMMOBILE {
             return self.slip.map(|slip| row(Field::Stick(size), slip));
         }
