@@ -169,6 +169,8 @@ fn whole(name: &str, size: usize, backend: Backend) -> Result<Value, Box<dyn Err
         "assembly_s": assembly / iterations,
         "factorisation_s": factorisation / iterations,
         "solution_s": solution / iterations,
+        "contact_s": sum(|work| work.times.contact.as_secs_f64()) / iterations,
+        "contact_corrections": log.work.iter().map(|work| work.contact_corrections).sum::<usize>(),
         "analysis_s": sum(|work| work.times.analysis.as_secs_f64()),
         "factored_share": (factorisation + solution) / seconds,
         "peak_mib": peak_rss_mib(),

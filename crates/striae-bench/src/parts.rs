@@ -10,7 +10,7 @@ use striae_contact::{
 use striae_law::{bulk::Material, friction::Friction};
 use striae_linalg::{Automatic, LinearSolver, MultifrontalLu};
 use striae_solve::{
-    assembly::{StepContext, Trial, assemble},
+    assembly::{Contact, Setting, StepContext, Trial, assemble},
     layout::{Extent, Layout},
     model::Backend,
     problem::Problem,
@@ -139,14 +139,19 @@ fn assembly(model: &striae_solve::model::Model) -> Result<Value, Box<dyn Error>>
         tractions: Vec::new(),
         rigid: state.rigid.clone(),
     };
+    let setting = Setting {
+        context: &context,
+        selections: &[],
+        imposed: &imposed,
+    };
     let elements = model
         .bodies
         .iter()
         .map(|body| body.mesh.elements.len())
         .sum();
     Ok(timed("assembly", "elements", elements, || {
-        let first = Iteration::First;
-        black_box(assemble(&context, &[], &trial, &imposed, first, &layout, &mut matrix).is_ok());
+        let contact = Contact::Known(Vec::new());
+        black_box(assemble(&setting, &trial, contact, &layout, &mut matrix).is_ok());
     }))
 }
 

@@ -1,11 +1,10 @@
 //! Problems of about a given number of unknowns.
 
 use std::{error::Error, path::Path};
-use striae_contact::complementarity::Iteration;
 use striae_io::deck;
 use striae_linalg::{SparseMatrix, Structure, Supervariable};
 use striae_solve::{
-    assembly::{Fault, StepContext, Trial, assemble},
+    assembly::{Contact, Fault, Setting, StepContext, Trial, assemble},
     layout::{Extent, Layout},
     model::{Backend, Model},
     problem::Problem,
@@ -127,15 +126,13 @@ pub fn stiffness(model: &Model) -> Result<SparseMatrix, Box<dyn Error>> {
         rigid: state.rigid.clone(),
     };
     let imposed = context.imposed(0.0);
-    match assemble(
-        &context,
-        &[],
-        &trial,
-        &imposed,
-        Iteration::First,
-        &layout,
-        &mut matrix,
-    ) {
+    let setting = Setting {
+        context: &context,
+        selections: &[],
+        imposed: &imposed,
+    };
+    let contact = Contact::Known(Vec::new());
+    match assemble(&setting, &trial, contact, &layout, &mut matrix) {
         Ok(_) => Ok(matrix),
         Err(Fault::CutBack(reason)) => Err(reason.to_string().into()),
         Err(Fault::Pattern(_)) => Err("an element is outside the pattern".into()),

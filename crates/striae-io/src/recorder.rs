@@ -218,6 +218,7 @@ impl Recorder {
     fn note_work(&mut self, work: &LinearWork) {
         self.solver.method = work.method.to_string();
         self.solver.factorisations += work.factorisations;
+        self.solver.contact_corrections += work.contact_corrections;
         if let Some(reason) = work.fall_back {
             self.solver.fall_backs += 1;
             self.solver.reason = Some(reason.to_string());

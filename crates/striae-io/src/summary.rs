@@ -54,6 +54,8 @@ pub struct SolverSummary {
     pub method: String,
     /// Factorisations in all accepted increments.
     pub factorisations: usize,
+    /// Corrections of contact alone, on linearised bodies, in all accepted increments.
+    pub contact_corrections: usize,
     /// Accepted increments in which the multifrontal LU stood in for the condensed solver.
     pub fall_backs: usize,
     /// Why it last did.
@@ -179,6 +181,7 @@ mod tests {
             solver: SolverSummary {
                 method: "condensed".into(),
                 factorisations: 80,
+                contact_corrections: 12,
                 fall_backs: 0,
                 reason: None,
             },
@@ -211,7 +214,8 @@ mod tests {
             "reason": "The end time was reached.", "increments": 20, "cutbacks": 1,
             "newton_total": 85, "newton_max": 7, "newton_median": 4.5, "unknowns": 1234,
             "solver": {
-                "method": "condensed", "factorisations": 80, "fall_backs": 0, "reason": null
+                "method": "condensed", "factorisations": 80, "contact_corrections": 12,
+                "fall_backs": 0, "reason": null
             },
             "wall_s": 0.75, "peak_rss_mib": null,
             "pairs": [{

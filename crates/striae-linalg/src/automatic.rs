@@ -27,8 +27,9 @@ const SMALL_INTERFACE: usize = 3000;
 const LARGEST_DENSE: usize = 6 << 30;
 /// Factorisations by LU after a failure before the condensed solver is tried again.
 const PATIENCE: usize = 8;
-/// Reduction of the residual that is asked of a solution with older factors.
-pub const REDUCTION: f64 = 1e-6;
+/// Work of the contact system over that of the interior up to which it is worth
+/// correcting contact alone.
+const CHEAP: f64 = 0.1;
 /// Iterations of GMRES below which older factors are not worth a try.
 const FEWEST: usize = 5;
 /// Most iterations of GMRES with older factors.
@@ -148,16 +149,17 @@ impl LinearSolver for Automatic {
         self.factor_anew(matrix)
     }
 
-    fn solve(
+    fn solve_to(
         &mut self,
         matrix: &SparseMatrix,
         rhs: &[f64],
         x: &mut [f64],
+        reduction: f64,
     ) -> Result<SolveReport, SolveError> {
         if self.factored == Some(Method::Condensed) && self.interior == Interior::Stale {
             let ends = Ends {
                 iterations: self.allowance,
-                reduction: REDUCTION,
+                reduction,
             };
             let condensed = self.condensed.as_ref().ok_or(SolveError::NotFactored)?;
             if let Some(report) = condensed.solve_nearby(matrix, (rhs, x), ends)? {
@@ -176,8 +178,27 @@ impl LinearSolver for Automatic {
             }
         }
         match (self.multifrontal.as_mut(), self.factored) {
-            (Some(solver), Some(_)) => solver.solve(matrix, rhs, x),
+            (Some(solver), Some(_)) => solver.solve_to(matrix, rhs, x, reduction),
             _ => Err(SolveError::NotFactored),
+        }
+    }
+
+    fn has_interior(&self) -> bool {
+        let condensed = self.condensed.as_ref();
+        self.factored == Some(Method::Condensed)
+            && condensed.is_some_and(|condensed| condensed.share_of_contact() <= CHEAP)
+    }
+
+    fn solve_other_contact(
+        &mut self,
+        matrix: &SparseMatrix,
+        rhs: &[f64],
+    ) -> Result<Option<Vec<f64>>, SolveError> {
+        match (&mut self.condensed, self.factored) {
+            (Some(condensed), Some(Method::Condensed)) => {
+                condensed.solve_other_contact(matrix, rhs)
+            }
+            _ => Ok(None),
         }
     }
 }

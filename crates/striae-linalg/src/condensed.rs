@@ -190,6 +190,40 @@ impl Condensed {
         refinement::solve_nearby(matrix, &numeric.scaling, &factors, (rhs, x), ends)
     }
 
+    /// Factors the contact system of a matrix on the older interior and solves once.
+    ///
+    /// `None` as for [`refresh`](Self::refresh).
+    pub(crate) fn solve_other_contact(
+        &mut self,
+        matrix: &SparseMatrix,
+        rhs: &[f64],
+    ) -> Result<Option<Vec<f64>>, SolveError> {
+        if self.refresh(matrix)?.is_none() {
+            return Ok(None);
+        }
+        let numeric = self.numeric.as_ref().ok_or(SolveError::NotFactored)?;
+        let mut x = rhs.to_vec();
+        numeric.scaling.scale_rows(&mut x);
+        let factors = Substitution {
+            condensed: self,
+            numeric,
+            matrix,
+        };
+        factors.solve_in_place(&mut x);
+        numeric.scaling.scale_columns(&mut x);
+        Ok(Some(x))
+    }
+
+    /// Work of factoring the contact system over that of factoring the interior.
+    pub(crate) fn share_of_contact(&self) -> f64 {
+        let order = self
+            .numeric
+            .as_ref()
+            .map_or(0, |n| n.interface.dense_order());
+        let bodies: f64 = self.bodies.iter().map(|body| body.analysis().flops).sum();
+        2.0 / 3.0 * (order as f64).powi(3) / bodies
+    }
+
     /// Solutions with given factors that cost as much as new factors of the interior.
     pub(crate) fn solutions_per_factorisation(&self) -> f64 {
         let (mut flops, mut entries) = (0.0, 0);

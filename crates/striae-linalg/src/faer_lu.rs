@@ -79,11 +79,12 @@ impl LinearSolver for FaerLu {
         })
     }
 
-    fn solve(
+    fn solve_to(
         &mut self,
         matrix: &SparseMatrix,
         rhs: &[f64],
         x: &mut [f64],
+        _reduction: f64,
     ) -> Result<SolveReport, SolveError> {
         let factors = self.factors.as_ref().ok_or(SolveError::NotFactored)?;
         refinement::solve(matrix, &factors.scaling, factors, rhs, x)

@@ -49,7 +49,7 @@ mod supernodes;
 mod symmetric;
 mod tree;
 
-pub use automatic::{Automatic, REDUCTION};
+pub use automatic::Automatic;
 pub use error::{OutsidePattern, SolveError, StructureError};
 pub use faer::Mat;
 pub use faer_lu::FaerLu;
@@ -57,5 +57,7 @@ pub use matrix::SparseMatrix;
 pub use multifrontal::MultifrontalLu;
 pub use ordering::nested_dissection;
 pub use schur::SchurCholesky;
-pub use solver::{Analysis, FactorReport, FallBack, Interior, LinearSolver, Method, SolveReport};
+pub use solver::{
+    Analysis, FactorReport, FallBack, Interior, LinearSolver, Method, REDUCTION, SolveReport,
+};
 pub use structure::{Structure, Supervariable, Tier};

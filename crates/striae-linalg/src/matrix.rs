@@ -3,6 +3,8 @@
 //! The rows of one supervariable have the same columns, so a row is addressed
 //! by its supervariable and needs no column indices of its own.
 
+mod kept;
+
 use crate::{
     error::OutsidePattern,
     structure::{Structure, Supervariable},

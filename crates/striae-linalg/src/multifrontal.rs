@@ -108,11 +108,12 @@ impl LinearSolver for MultifrontalLu {
         Ok(report)
     }
 
-    fn solve(
+    fn solve_to(
         &mut self,
         matrix: &SparseMatrix,
         rhs: &[f64],
         x: &mut [f64],
+        _reduction: f64,
     ) -> Result<SolveReport, SolveError> {
         match (&self.symbolic, self.state) {
             (Some(symbolic), State::Factored) => {

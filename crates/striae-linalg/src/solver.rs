@@ -3,13 +3,16 @@
 use crate::{error::SolveError, matrix::SparseMatrix, structure::Structure};
 use thiserror::Error;
 
+/// Reduction of the residual by a solution, unless another one is asked for.
+pub const REDUCTION: f64 = 1e-6;
+
 /// A direct solver of square sparse systems.
 ///
 /// Every solution is refined with the given matrix and its residual is checked:
 /// an answer that comes back with `Ok` is accurate to
 /// [`SolveReport::backward_error`]. That is round-off but where the factors of
-/// the interior are [stale](Interior::Stale): there the residual is reduced by
-/// [`REDUCTION`](crate::REDUCTION), enough for a correction of Newton's method.
+/// the interior are [stale](Interior::Stale): there the residual is reduced as far
+/// as is asked for.
 pub trait LinearSolver: Send {
     /// Orders the unknowns and predicts the cost; forgets earlier factorisations.
     fn analyse(&mut self, structure: &Structure) -> Result<Analysis, SolveError>;
@@ -20,7 +23,7 @@ pub trait LinearSolver: Send {
     /// Factors a matrix of the analysed structure.
     fn factor(&mut self, matrix: &SparseMatrix) -> Result<FactorReport, SolveError>;
 
-    /// Solves `matrix x = rhs` with the last factorisation.
+    /// Solves `matrix x = rhs` with the last factorisation, to [`REDUCTION`] at least.
     ///
     /// `matrix` is the factored one or one close to it: the residual is that of
     /// `matrix`. The old content of `x` is not used.
@@ -29,7 +32,37 @@ pub trait LinearSolver: Send {
         matrix: &SparseMatrix,
         rhs: &[f64],
         x: &mut [f64],
+    ) -> Result<SolveReport, SolveError> {
+        self.solve_to(matrix, rhs, x, REDUCTION)
+    }
+
+    /// Solves as [`solve`](Self::solve) does, with a residual reduced by `reduction`
+    /// where it is not reduced to round-off.
+    fn solve_to(
+        &mut self,
+        matrix: &SparseMatrix,
+        rhs: &[f64],
+        x: &mut [f64],
+        reduction: f64,
     ) -> Result<SolveReport, SolveError>;
+
+    /// Whether [`solve_other_contact`](Self::solve_other_contact) is worth a call now.
+    fn has_interior(&self) -> bool {
+        false
+    }
+
+    /// Solves `matrix x = rhs` where `matrix` differs from the last factored one in
+    /// entries between kept supervariables only, on the factors of the interior there
+    /// are and without refinement: for corrections that are checked by other means.
+    ///
+    /// `None` where there are no such factors after all.
+    fn solve_other_contact(
+        &mut self,
+        _matrix: &SparseMatrix,
+        _rhs: &[f64],
+    ) -> Result<Option<Vec<f64>>, SolveError> {
+        Ok(None)
+    }
 }
 
 /// Predicted cost of a factorisation; zeros where the backend does not know.

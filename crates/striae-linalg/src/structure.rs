@@ -158,6 +158,12 @@ impl Structure {
         self.0.kept[supervariable.0]
     }
 
+    /// Supervariables that belong to the interface.
+    pub fn kept(&self) -> impl Iterator<Item = Supervariable> + '_ {
+        let all = (0..self.supervariables()).map(Supervariable);
+        all.filter(|&supervariable| self.is_kept(supervariable))
+    }
+
     /// Unknowns of supervariable `i` that belong to the bulk.
     pub(crate) fn bulk_group(&self, i: usize) -> Range<usize> {
         let start = self.0.offsets[i];

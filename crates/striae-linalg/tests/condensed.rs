@@ -290,6 +290,25 @@ fn older_interiors_precondition_until_they_are_too_far() {
 }
 
 #[test]
+fn other_contact_is_solved_on_the_same_interior() {
+    let blocks = Blocks::new(9, 6);
+    let rhs = load(blocks.structure.unknowns());
+    let mut solver = Automatic::new();
+    assert!(!solver.has_interior());
+    let mut matrix = blocks.matrix([1.0, 2.0], Contact::Stick);
+    solution(&mut solver, &matrix, &rhs);
+    assert!(solver.has_interior());
+    for contact in [Contact::Slip, Contact::Open, Contact::Stick] {
+        let other = blocks.matrix([1.0, 2.0], contact);
+        matrix.set_kept_rows(&other.kept_rows());
+        let x = solver.solve_other_contact(&matrix, &rhs).unwrap().unwrap();
+        let (expected, _) = solution(&mut MultifrontalLu::new(), &other, &rhs);
+        let error = difference(&blocks, &x, &expected);
+        assert!(error < 1e-9, "{error:e}");
+    }
+}
+
+#[test]
 fn threads_do_not_change_a_bit() {
     let blocks = Blocks::new(12, 6);
     let matrix = blocks.matrix([1.0, 3.0], Contact::Slip);

@@ -3,6 +3,7 @@
 mod context;
 mod elements;
 mod inertia;
+mod linearised;
 mod loads;
 mod measure;
 mod start;
@@ -12,6 +13,7 @@ mod ties;
 pub use context::{Imposed, ImposedRate, StepContext};
 
 use inertia::Inertia;
+pub use linearised::{Background, ContactAssembled, assemble_contact};
 pub use start::initial_accelerations;
 use striae_contact::{
     complementarity::Iteration,
@@ -38,6 +40,26 @@ pub struct Trial {
     pub rigid: Vec<Pose>,
 }
 
+/// What does not change while an increment is iterated.
+#[derive(Clone, Copy, Debug)]
+pub struct Setting<'a> {
+    /// What does not change within the step.
+    pub context: &'a StepContext<'a>,
+    /// Roles of every pair.
+    pub selections: &'a [Selection],
+    /// What is imposed at the end of the increment.
+    pub imposed: &'a Imposed,
+}
+
+/// Where contact at a trial state comes from.
+#[derive(Debug)]
+pub enum Contact {
+    /// It is evaluated.
+    Evaluated(Iteration),
+    /// It has been evaluated at this very state.
+    Known(Vec<Evaluation>),
+}
+
 /// Residual and results at a trial state.
 #[derive(Clone, Debug)]
 pub struct Assembled {
@@ -52,6 +74,8 @@ pub struct Assembled {
     pub strain: f64,
     /// Contact of every pair.
     pub contacts: Vec<Evaluation>,
+    /// All but contact.
+    pub background: Background,
 }
 
 /// Why an assembly came to nothing.
@@ -68,32 +92,35 @@ pub enum Fault {
 /// # Errors
 /// See [`Fault`].
 pub fn assemble(
-    context: &StepContext,
-    selections: &[Selection],
+    setting: &Setting,
     trial: &Trial,
-    imposed: &Imposed,
-    iteration: Iteration,
+    contact: Contact,
     layout: &Layout,
     matrix: &mut SparseMatrix,
 ) -> Result<Assembled, Fault> {
-    let mut system = System::new(context, layout, matrix, trial, imposed);
-    let configurations: Vec<Configuration> = (0..context.pairs.len())
-        .map(|pair| {
-            let configuration = context.configuration(pair, &trial.positions, &trial.rigid);
-            configuration.lasting(imposed.elapsed)
-        })
-        .collect();
-    let contacts = system.contacts(&configurations, selections, trial, iteration)?;
+    matrix.clear();
+    let imposed = setting.imposed;
+    let mut system = System::new(setting.context, layout, matrix, trial, imposed);
+    let configurations = configurations(setting, trial);
+    let contacts = match contact {
+        Contact::Known(contacts) => contacts,
+        Contact::Evaluated(iteration) => {
+            system.contacts(&configurations, setting.selections, trial, iteration)?
+        }
+    };
+    system.add_contacts(&configurations, setting.selections, &contacts);
     if !system.outside.is_empty() {
         return Err(Fault::Pattern(system.outside));
     }
+    let of_contact = system.set_contact_aside();
     system.loads(&configurations, trial, imposed)?;
     let strain = system.elements(trial)?;
     system.point_masses();
     system.carried(imposed);
+    let background = system.with_contact(&of_contact);
     system.condense(imposed);
-    let norms = system.norms(selections, trial, &contacts);
-    system.idle(selections);
+    let norms = system.norms(setting.selections, trial, &contacts);
+    system.idle(setting.selections);
     system.prescribe(trial, imposed);
     system.prescribe_rigid(trial, imposed);
     let System {
@@ -105,7 +132,20 @@ pub fn assemble(
         forces,
         strain,
         contacts,
+        background,
     })
+}
+
+/// Where the two sides of every pair are.
+fn configurations<'a>(setting: &Setting<'a>, trial: &'a Trial) -> Vec<Configuration<'a>> {
+    let pairs = 0..setting.context.pairs.len();
+    pairs
+        .map(|pair| {
+            let context = setting.context;
+            let configuration = context.configuration(pair, &trial.positions, &trial.rigid);
+            configuration.lasting(setting.imposed.elapsed)
+        })
+        .collect()
 }
 
 struct System<'a> {
@@ -136,7 +176,6 @@ impl<'a> System<'a> {
         trial: &'a Trial,
         imposed: &Imposed,
     ) -> Self {
-        matrix.clear();
         let problem = context.problem;
         let nodes = problem.reference.len();
         let mut system = Self {
@@ -160,8 +199,9 @@ impl<'a> System<'a> {
 }
 
 impl System<'_> {
+    /// Contact of every pair.
     fn contacts(
-        &mut self,
+        &self,
         configurations: &[Configuration],
         selections: &[Selection],
         trial: &Trial,
@@ -177,7 +217,21 @@ impl System<'_> {
                 iteration,
             )
             .map_err(|error| Fault::CutBack(self.not_evaluated(pair, error)))?;
-            self.find_triples(pair, configuration, selections[pair].patches.len());
+            contacts.push(evaluation);
+        }
+        Ok(contacts)
+    }
+
+    /// Adds contact to the system; what is outside the pattern is noted.
+    fn add_contacts(
+        &mut self,
+        configurations: &[Configuration],
+        selections: &[Selection],
+        contacts: &[Evaluation],
+    ) {
+        for (pair, evaluation) in contacts.iter().enumerate() {
+            let patches = selections[pair].patches.len();
+            self.find_triples(pair, &configurations[pair], patches);
             for term in &evaluation.terms {
                 self.add_term(pair, term, Answer::Opposite);
             }
@@ -186,9 +240,7 @@ impl System<'_> {
                     self.contact_forces(pair, side, *facet, &forces.force);
                 }
             }
-            contacts.push(evaluation);
         }
-        Ok(contacts)
     }
 
     fn not_evaluated(&self, pair: usize, error: EvaluationError) -> CutBack {

@@ -156,6 +156,11 @@ impl Layout {
         self.rigids[rigid].map(|supervariable| self.offsets[supervariable])
     }
 
+    /// Whether no rigid body has coordinates that are unknowns.
+    pub fn moves_no_body(&self) -> bool {
+        self.rigids.iter().all(Option::is_none)
+    }
+
     /// First position unknown of a global node.
     pub fn position(&self, node: usize) -> usize {
         self.offsets[node]

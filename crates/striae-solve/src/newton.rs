@@ -9,6 +9,7 @@ mod acceptance;
 mod cycling;
 mod energy;
 mod failure;
+mod rest;
 mod workspace;
 
 pub use workspace::{LinearWork, Memory, Times, Workspace};
@@ -21,11 +22,11 @@ use striae_contact::{
     traction::reinterpreted,
     unknowns::{NodeResult, Status, Tractions},
 };
-use striae_linalg::Analysis;
+use striae_linalg::{Analysis, REDUCTION};
 use striae_mesh::Vec3;
 
 use crate::{
-    assembly::{Assembled, Imposed, StepContext, Trial},
+    assembly::{Assembled, Setting, StepContext, Trial},
     layout::Layout,
     model::Strategy,
     norms::Norms,
@@ -36,6 +37,7 @@ use crate::{
 use acceptance::accepted;
 use cycling::History;
 use failure::{linear_system, missed};
+use rest::contact_at_rest;
 use workspace::SystemStorage;
 
 /// A converged increment.
@@ -105,7 +107,12 @@ pub fn forces_at_start(
         rigid: state.rigid.clone(),
     };
     let imposed = context.imposed(0.0);
-    let assembled = workspace.assemble(context, &selections, &trial, &imposed, Iteration::First)?;
+    let setting = Setting {
+        context,
+        selections: &selections,
+        imposed: &imposed,
+    };
+    let assembled = workspace.assemble(&setting, &trial, Iteration::First)?;
     Ok(assembled.forces)
 }
 
@@ -130,31 +137,37 @@ pub fn advance(
         tractions: pairs.iter().map(|pair| pair.tractions.clone()).collect(),
         rigid: workspace.first_poses(&imposed),
     };
+    let setting = Setting {
+        context,
+        selections: &selections,
+        imposed: &imposed,
+    };
     let solver = &context.problem.model.solver;
     let mut iterations: Vec<Norms> = Vec::new();
     let mut history = History::default();
     let mut inflation = Inflation::default();
-    let mut assembled =
-        workspace.assemble(context, &selections, &trial, &imposed, Iteration::First)?;
+    let mut assembled = workspace.assemble(&setting, &trial, Iteration::First)?;
     for number in 1.. {
+        let before = iterations.last().map(Norms::largest);
         let correction = workspace
-            .correction(&assembled.residual)
+            .correction(&assembled.residual, part(before, solver.tolerance))
             .map_err(|error| linear_system(context.problem, &workspace.system().layout, error))?;
         let iteration = later(solver.strategy, inflation);
-        let labels = assembled.contacts.iter().map(statuses);
-        for (tractions, labels) in trial.tractions.iter_mut().zip(labels) {
-            tractions.statuses = labels;
-        }
+        let at_rest = match iteration {
+            Iteration::Later => {
+                let at = (&trial, &assembled);
+                contact_at_rest(workspace, &setting, at, &correction, before)
+            }
+            Iteration::First | Iteration::Corrected(_) => None,
+        };
         let taken;
-        (trial, assembled, taken) = step(
-            workspace,
-            context,
-            &selections,
-            &trial,
-            &imposed,
-            iteration,
-            &correction,
-        )?;
+        (trial, assembled, taken) = match at_rest {
+            Some((trial, assembled)) => (trial, assembled, Taken::Whole),
+            None => {
+                labelled(&mut trial, &assembled.contacts);
+                step(workspace, &setting, &trial, iteration, &correction)?
+            }
+        };
         let norms = assembled.norms;
         iterations.push(norms);
         history.push(&assembled.contacts);
@@ -212,9 +225,23 @@ fn is_final(iteration: Iteration) -> bool {
     }
 }
 
-fn statuses(contact: &Evaluation) -> [Vec<Status>; 2] {
+/// Largest part of the residual that a correction leaves.
+const LARGEST_PART: f64 = 1e-3;
+
+/// Part of the residual that a correction may leave, after which the norm is about as
+/// small as bodies that are not linear let it be.
+fn part(norm: Option<f64>, tolerance: f64) -> f64 {
+    norm.map_or(REDUCTION, |norm| {
+        (0.01 * norm).max(0.1 * tolerance / norm).min(LARGEST_PART)
+    })
+}
+
+/// Gives the nodes of a trial state the status they have been found to have.
+fn labelled(trial: &mut Trial, contacts: &[Evaluation]) {
     let side = |nodes: &Vec<NodeResult>| nodes.iter().map(|node| node.status).collect();
-    contact.nodes.each_ref().map(side)
+    for (tractions, contact) in trial.tractions.iter_mut().zip(contacts) {
+        tractions.statuses = contact.nodes.each_ref().map(side);
+    }
 }
 
 /// Roles in the converged state, and pair states that fit them.
@@ -266,18 +293,15 @@ enum Taken {
 /// Applies a correction, halved while it turns elements inside out.
 fn step(
     workspace: &mut Workspace,
-    context: &StepContext,
-    selections: &[Selection],
+    setting: &Setting,
     trial: &Trial,
-    imposed: &Imposed,
     iteration: Iteration,
     correction: &[f64],
 ) -> Result<(Trial, Assembled, Taken), CutBack> {
     let (mut factor, mut taken) = (1.0, Taken::Whole);
     loop {
-        let system = workspace.system();
-        let next = corrected(context, system, trial, imposed, correction, factor);
-        match workspace.assemble(context, selections, &next, imposed, iteration) {
+        let next = corrected(setting, workspace.system(), trial, correction, factor);
+        match workspace.assemble(setting, &next, iteration) {
             Ok(assembled) => return Ok((next, assembled, taken)),
             Err(CutBack::InvertedElement { .. } | CutBack::LostProjection { .. })
                 if factor > SMALLEST_PART =>
@@ -290,21 +314,20 @@ fn step(
 }
 
 fn corrected(
-    context: &StepContext,
+    setting: &Setting,
     system: &SystemStorage,
     trial: &Trial,
-    imposed: &Imposed,
     correction: &[f64],
     factor: f64,
 ) -> Trial {
     let layout = &system.layout;
-    let problem = context.problem;
+    let problem = setting.context.problem;
     let mut next = trial.clone();
     for (rigid, pose) in next.rigid.iter_mut().enumerate() {
         if let Some(first) = layout.rigid(rigid) {
             let present = pose.coordinates();
             let moved = std::array::from_fn(|at| present[at] + factor * correction[first + at]);
-            *pose = imposed.before[rigid].moved_to(&moved);
+            *pose = setting.imposed.before[rigid].moved_to(&moved);
         }
     }
     for (node, position) in next.positions.iter_mut().enumerate() {

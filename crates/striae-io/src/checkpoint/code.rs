@@ -209,7 +209,7 @@ coded! {
     NodeResult { gap, pressure, tau, slip, normal, texture, status };
     FacetForces { force, area, pressure, friction };
     Tractions { nodes, balance, slipped, statuses };
-    SolverSummary { method, factorisations, fall_backs, reason };
+    SolverSummary { method, factorisations, contact_corrections, fall_backs, reason };
     Leader { side, node };
     Patch { centre, radius };
     Selection { roles, patches, patch_of };

@@ -37,6 +37,7 @@ pub fn initial_accelerations(
     let forces: Vec<Vec3> = (0..trial.positions.len())
         .map(|node| found.internal[node] - found.applied[node] - found.contact[node])
         .collect();
+    matrix.clear();
     let mut system = System::new(context, layout, matrix, trial, imposed);
     system.forces.pushed.clone_from(&found.pushed);
     for (node, (force, inertia)) in forces.iter().zip(&inertia).enumerate() {

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use striae_contact::{complementarity::Iteration, selection::Selection};
+use striae_contact::complementarity::Iteration;
 use striae_linalg::{
     Analysis, Automatic, FaerLu, FallBack, Interior, LinearSolver, Method, MultifrontalLu,
     SolveError, SolveReport, SparseMatrix, Structure, Supervariable,
@@ -11,7 +11,10 @@ use striae_linalg::{
 use striae_mesh::Vec3;
 
 use crate::{
-    assembly::{Assembled, Fault, Imposed, StepContext, Trial, assemble, initial_accelerations},
+    assembly::{
+        Assembled, Background, Contact, ContactAssembled, Fault, Imposed, Setting, StepContext,
+        Trial, assemble, assemble_contact, initial_accelerations,
+    },
     layout::{Extent, Layout},
     model::Backend,
     outcome::CutBack,
@@ -19,6 +22,9 @@ use crate::{
     rigid::Pose,
     state::{NodalForces, PairState, State},
 };
+
+/// Part of the residual that is as good as nothing.
+const EXACT: f64 = 1e-12;
 
 /// What survives between increments to save work; it holds no results.
 pub struct Workspace {
@@ -32,6 +38,8 @@ pub struct Workspace {
 pub struct LinearWork {
     /// Factorisations of the bodies; others of contact were made on older ones.
     pub factorisations: usize,
+    /// Corrections of contact alone, on linearised bodies.
+    pub contact_corrections: usize,
     /// How the last one was made.
     pub method: Method,
     /// Why the condensed solver was not used in the last one, where it was asked for.
@@ -51,6 +59,8 @@ pub struct Times {
     pub factorisation: Duration,
     /// Solutions with refinement.
     pub solution: Duration,
+    /// Contact on linearised bodies: residuals, matrices and corrections.
+    pub contact: Duration,
 }
 
 pub(super) struct SystemStorage {
@@ -166,33 +176,69 @@ impl Workspace {
         self.system.as_mut().expect("the workspace was prepared")
     }
 
+    /// Evaluates a trial state; the pattern grows as contact asks for it.
     pub(super) fn assemble(
         &mut self,
-        context: &StepContext,
-        selections: &[Selection],
+        setting: &Setting,
         trial: &Trial,
-        imposed: &Imposed,
         iteration: Iteration,
     ) -> Result<Assembled, CutBack> {
-        let (started, assembly) = (Instant::now(), self.work.times.assembly);
-        let system = self.system.as_mut().expect("the workspace was prepared");
         loop {
-            let assembled = assemble(
-                context,
-                selections,
-                trial,
-                imposed,
-                iteration,
-                &system.layout,
-                &mut system.matrix,
-            );
-            self.work.times.assembly = assembly + started.elapsed();
-            match assembled {
+            match self.assemble_once(setting, trial, Contact::Evaluated(iteration)) {
                 Ok(assembled) => return Ok(assembled),
                 Err(Fault::CutBack(reason)) => return Err(reason),
-                Err(Fault::Pattern(cliques)) => system.grow(cliques),
+                Err(Fault::Pattern(cliques)) => self.system().grow(cliques),
             }
         }
+    }
+
+    /// Evaluates a trial state, with contact that is inside the pattern.
+    pub(super) fn assemble_once(
+        &mut self,
+        setting: &Setting,
+        trial: &Trial,
+        contact: Contact,
+    ) -> Result<Assembled, Fault> {
+        let started = Instant::now();
+        let system = self.system.as_mut().expect("the workspace was prepared");
+        let assembled = assemble(setting, trial, contact, &system.layout, &mut system.matrix);
+        self.work.times.assembly += started.elapsed();
+        assembled
+    }
+
+    /// Whether contact can be corrected on linearised bodies.
+    pub(super) fn corrects_contact(&self) -> bool {
+        let system = self.system.as_ref();
+        self.solver.has_interior() && system.is_some_and(|system| system.layout.moves_no_body())
+    }
+
+    /// Evaluates contact on linearised bodies, see [`assemble_contact`].
+    pub(super) fn assemble_contact(
+        &mut self,
+        setting: &Setting,
+        background: &Background,
+        moved: (&Trial, &[f64]),
+        iteration: Iteration,
+    ) -> Result<ContactAssembled, Fault> {
+        let started = Instant::now();
+        let system = self.system.as_mut().expect("the workspace was prepared");
+        let (layout, matrix) = (&system.layout, &mut system.matrix);
+        let assembled = assemble_contact(setting, background, moved, iteration, layout, matrix);
+        self.work.times.contact += started.elapsed();
+        assembled
+    }
+
+    /// Correction on linearised bodies; `None` if the solver has no factors for that,
+    /// or none that are regular: the next iteration sees to it.
+    pub(super) fn contact_correction(&mut self, residual: &[f64]) -> Option<Vec<f64>> {
+        let started = Instant::now();
+        let system = self.system.as_ref().expect("the workspace was prepared");
+        let rhs: Vec<f64> = residual.iter().map(|r| -r).collect();
+        let correction = self.solver.solve_other_contact(&system.matrix, &rhs);
+        self.work.times.contact += started.elapsed();
+        let correction = correction.ok().flatten();
+        self.work.contact_corrections += usize::from(correction.is_some());
+        correction
     }
 
     /// Poses to start iterating from: at the last converged state where they are
@@ -238,7 +284,8 @@ impl Workspace {
         }
         let solve = |matrix: &SparseMatrix, residual: &[f64]| {
             solver.factor(matrix).map_err(without_mass)?;
-            let (solution, _) = solved(solver.as_mut(), matrix, residual).map_err(without_mass)?;
+            let solved = solved(solver.as_mut(), matrix, residual, EXACT);
+            let (solution, _) = solved.map_err(without_mass)?;
             Ok(solution)
         };
         initial_accelerations(
@@ -258,8 +305,12 @@ impl Workspace {
         std::mem::take(&mut self.work)
     }
 
-    /// Solves for the correction, `J correction = -residual`.
-    pub(super) fn correction(&mut self, residual: &[f64]) -> Result<Vec<f64>, SolveError> {
+    /// Solves for the correction, `J correction = -residual`, up to a part of the residual.
+    pub(super) fn correction(
+        &mut self,
+        residual: &[f64],
+        part: f64,
+    ) -> Result<Vec<f64>, SolveError> {
         let solver = &mut self.solver;
         let system = self.system.as_mut().expect("the workspace was prepared");
         let times = &mut self.work.times;
@@ -274,7 +325,7 @@ impl Workspace {
         let factored = Instant::now();
         times.factorisation += factored - analysed;
         (self.work.method, self.work.fall_back) = (report.method, report.fall_back);
-        let (correction, solution) = solved(solver.as_mut(), &system.matrix, residual)?;
+        let (correction, solution) = solved(solver.as_mut(), &system.matrix, residual, part)?;
         if solution.interior == Interior::Fresh {
             self.work.factorisations += 1;
         }
@@ -288,10 +339,11 @@ fn solved(
     solver: &mut dyn LinearSolver,
     matrix: &SparseMatrix,
     residual: &[f64],
+    part: f64,
 ) -> Result<(Vec<f64>, SolveReport), SolveError> {
     let rhs: Vec<f64> = residual.iter().map(|r| -r).collect();
     let mut correction = vec![0.0; rhs.len()];
-    let report = solver.solve(matrix, &rhs, &mut correction)?;
+    let report = solver.solve_to(matrix, &rhs, &mut correction, part)?;
     Ok((correction, report))
 }
 

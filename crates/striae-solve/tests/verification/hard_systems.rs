@@ -9,7 +9,7 @@ use striae_mesh::{
     Vec3,
     generate::{Half, HalfCylinder},
 };
-use striae_solve::model::{LoadExtent, LoadKind, Model};
+use striae_solve::model::{Backend, LoadExtent, LoadKind, Model};
 
 /// A block of the given width, `gap` above the middle of a larger one whose bottom is held.
 fn blocks(materials: [Material; 2], width: f64, gap: f64) -> Model {
@@ -68,6 +68,33 @@ fn contact_much_smaller_than_an_element() {
 }
 
 #[test]
+fn contact_comes_to_rest_on_linear_bodies() {
+    let mut model = blocks([rubber(1.0, 0.3); 2], 0.25, 0.0);
+    let finer = block([0.0; 3], [1.0, 1.0, 0.5], [9, 9, 9]).mesh().unwrap();
+    model.bodies[0] = body("lower", finer, rubber(1.0, 0.3));
+    model.pairs.clear();
+    model.touch(("lower", "zmax"), ("upper", "zmin"), coulomb(0.4));
+    let to = [Some(0.01), Some(0.0), Some(-0.01)];
+    model.steps[0].displacements = vec![
+        model.hold("lower", "zmin", [Some(0.0); 3]),
+        model.hold("upper", "zmax", to),
+    ];
+    let mut other = model.clone();
+    other.solver.backend = Backend::Multifrontal;
+    let iterations = |run: &Run| run.iterations.iter().map(Vec::len).sum::<usize>();
+    let (run, other) = (Run::completed(model), Run::of(other));
+    let corrections = |run: &Run| {
+        run.work
+            .iter()
+            .map(|w| w.contact_corrections)
+            .sum::<usize>()
+    };
+    assert!(touching(&run) > 0);
+    assert!(corrections(&run) > 0 && corrections(&other) == 0);
+    assert!(iterations(&run) < iterations(&other));
+}
+
+#[test]
 fn contact_over_whole_faces() {
     let soft = rubber(1.0, 0.3);
     let run = pressed([soft, soft], 1.0, 0.0, [0.002, 0.0, -0.01]);
@@ -92,8 +119,8 @@ fn a_body_held_by_friction_alone() {
     assert!(touching(&run) > 0);
 }
 
-/// Half cylinders between two walls, which hold nodes of both surfaces in `y`, where friction
-/// is not determined; layers that do not match tilt the normals at the walls by a little.
+/// Half cylinders between two walls, which hold nodes of both surfaces in `y`: friction along
+/// `y` is in no row of momentum there.
 fn slices(layers: [usize; 2]) -> Model {
     let half = |half, layers, element_size| HalfCylinder {
         half,

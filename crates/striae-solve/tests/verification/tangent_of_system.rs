@@ -11,7 +11,7 @@ use striae_law::friction::Friction;
 use striae_linalg::{SparseMatrix, Structure, Supervariable};
 use striae_mesh::Vec3;
 use striae_solve::{
-    assembly::{Fault, Imposed, StepContext, Trial, assemble},
+    assembly::{Contact, Fault, Imposed, Setting, StepContext, Trial, assemble},
     layout::{Extent, Layout},
     model::{Curve, Freedom, LoadExtent, LoadKind, Model, RigidId, RigidMotion},
     newton::{IterationObserver, Workspace, advance},
@@ -138,15 +138,14 @@ impl<'a> Whole<'a> {
 
     fn assembled(&self, u: &DVector<f64>) -> (DVector<f64>, SparseMatrix) {
         let mut matrix = SparseMatrix::zero(&self.structure);
-        let assembled = assemble(
-            self.context,
-            &self.selections,
-            &self.trial(u),
-            &self.imposed,
-            Iteration::Later,
-            &self.layout,
-            &mut matrix,
-        );
+        let setting = Setting {
+            context: self.context,
+            selections: &self.selections,
+            imposed: &self.imposed,
+        };
+        let contact = Contact::Evaluated(Iteration::Later);
+        let trial = self.trial(u);
+        let assembled = assemble(&setting, &trial, contact, &self.layout, &mut matrix);
         match assembled {
             Ok(assembled) => (DVector::from_vec(assembled.residual), matrix),
             Err(Fault::CutBack(reason)) => panic!("{reason}"),

@@ -1,0 +1,125 @@
+//! Contact on a linear background: all but contact is linearised once, contact is
+//! evaluated at one trial state after the other.
+//!
+//! With the residual `r` and the tangent `K` of all but contact at `x`, and that of
+//! contact `c`, the system at `x + d` is
+//!
+//! ```text
+//! r + K d + c(x + d),    K + dc/dx(x + d)
+//! ```
+//!
+//! Rows of supervariables that are not kept know no contact. A correction that solves
+//! the first linear system leaves nothing in them, and none that follows changes that.
+
+use striae_contact::{complementarity::Iteration, evaluation::Evaluation};
+use striae_linalg::SparseMatrix;
+use striae_mesh::Vec3;
+
+use super::{Fault, Setting, System, Trial, configurations};
+use crate::{layout::Layout, norms::Norms};
+
+/// All but contact at a trial state.
+#[derive(Clone, Debug, Default)]
+pub struct Background {
+    /// Tangent in the rows of kept supervariables.
+    rows: Vec<f64>,
+    residual: Vec<f64>,
+    applied: Vec<Vec3>,
+    force_scale: f64,
+}
+
+/// Contact at a trial state, on a linear background.
+#[derive(Clone, Debug)]
+pub struct ContactAssembled {
+    /// Residual of every unknown.
+    pub residual: Vec<f64>,
+    /// Norms by field.
+    pub norms: Norms,
+    /// Contact of every pair.
+    pub contacts: Vec<Evaluation>,
+}
+
+/// What contact has put into a system.
+pub(super) struct OfContact {
+    rows: Vec<f64>,
+    residual: Vec<f64>,
+}
+
+/// Evaluates contact at a trial state `change` away from where the background was
+/// linearised, and puts it into the matrix in the place of what contact was there.
+///
+/// No rigid body may have coordinates among the unknowns.
+///
+/// # Errors
+/// See [`Fault`].
+pub fn assemble_contact(
+    setting: &Setting,
+    background: &Background,
+    (trial, change): (&Trial, &[f64]),
+    iteration: Iteration,
+    layout: &Layout,
+    matrix: &mut SparseMatrix,
+) -> Result<ContactAssembled, Fault> {
+    let &Setting {
+        context,
+        selections,
+        imposed,
+    } = setting;
+    matrix.set_kept_rows(&background.rows);
+    let mut system = System::new(context, layout, matrix, trial, imposed);
+    system.linear_background(background, change);
+    let configurations = configurations(setting, trial);
+    let contacts = system.contacts(&configurations, selections, trial, iteration)?;
+    system.add_contacts(&configurations, selections, &contacts);
+    if !system.outside.is_empty() {
+        return Err(Fault::Pattern(system.outside));
+    }
+    let norms = system.norms(selections, trial, &contacts);
+    system.idle(selections);
+    system.prescribe(trial, imposed);
+    Ok(ContactAssembled {
+        residual: system.residual,
+        norms,
+        contacts,
+    })
+}
+
+impl System<'_> {
+    /// Takes what contact has put in out of matrix and residual.
+    pub(super) fn set_contact_aside(&mut self) -> OfContact {
+        let rows = self.matrix.kept_rows();
+        self.matrix.clear();
+        let nothing = vec![0.0; self.residual.len()];
+        OfContact {
+            rows,
+            residual: std::mem::replace(&mut self.residual, nothing),
+        }
+    }
+
+    /// Puts contact back; returns what there is without it.
+    pub(super) fn with_contact(&mut self, contact: &OfContact) -> Background {
+        let background = Background {
+            rows: self.matrix.kept_rows(),
+            residual: self.residual.clone(),
+            applied: self.forces.applied.clone(),
+            force_scale: self.force_scale,
+        };
+        self.matrix.add_kept_rows(&contact.rows);
+        let residual = self.residual.iter_mut().zip(&contact.residual);
+        residual.for_each(|(sum, part)| *sum += part);
+        background
+    }
+
+    /// Fills in the background at a state `change` away from it.
+    fn linear_background(&mut self, background: &Background, change: &[f64]) {
+        let structure = self.matrix.structure().clone();
+        for kept in structure.kept() {
+            let unknowns = structure.unknowns_of(kept);
+            self.residual[unknowns.clone()].copy_from_slice(&background.residual[unknowns]);
+        }
+        self.matrix
+            .add_product_of_kept_rows(change, &mut self.residual);
+        self.force_scale = background.force_scale;
+        self.forces.applied.clone_from(&background.applied);
+    }
+}

@@ -1,0 +1,60 @@
+//! Contact brought to rest on linearised bodies.
+//!
+//! After a correction contact has changed: nodes have closed or begun to slip. While
+//! the factors of the bodies are at hand, contact is corrected again and again with
+//! the bodies left linear, at the price of a small dense system, until it rests. What
+//! is found takes the place of the correction if the true residual is better for it.
+
+use striae_contact::complementarity::Iteration;
+
+use super::{corrected, labelled, workspace::Workspace};
+use crate::assembly::{Assembled, Contact, Setting, Trial};
+
+/// Most corrections of contact alone.
+const MOST: usize = 8;
+/// Norm at which contact rests in the first iteration.
+const AT_REST: f64 = 1e-6;
+/// Part of the square of the norm before that bodies which are not linear leave at least.
+const LEFT: f64 = 0.01;
+
+/// Corrects contact on bodies linearised at `trial`, and evaluates the state that is
+/// reached.
+///
+/// `correction` leads to the first state that contact is evaluated at, `before` is the
+/// norm at `trial` if it is known. `None` where the true norm is not better for it.
+pub(super) fn contact_at_rest(
+    workspace: &mut Workspace,
+    setting: &Setting,
+    (trial, assembled): (&Trial, &Assembled),
+    correction: &[f64],
+    before: Option<f64>,
+) -> Option<(Trial, Assembled)> {
+    if !workspace.corrects_contact() {
+        return None;
+    }
+    let tolerance = setting.context.problem.model.solver.tolerance;
+    let enough = before.map_or(AT_REST, |norm| (LEFT * norm * norm).max(0.1 * tolerance));
+    let background = &assembled.background;
+    let mut whole = correction.to_vec();
+    let mut contacts = assembled.contacts.clone();
+    for pass in 0..=MOST {
+        let mut next = corrected(setting, workspace.system(), trial, &whole, 1.0);
+        labelled(&mut next, &contacts);
+        let moved = (&next, whole.as_slice());
+        let found = workspace.assemble_contact(setting, background, moved, Iteration::Later);
+        let found = found.ok()?;
+        if pass == MOST || found.norms.largest() <= enough {
+            let contact = Contact::Known(found.contacts);
+            let assembled = workspace.assemble_once(setting, &next, contact).ok()?;
+            let is_better = assembled.norms.largest() <= before.unwrap_or(1.0);
+            return is_better.then_some((next, assembled));
+        }
+        let further = workspace.contact_correction(&found.residual)?;
+        whole
+            .iter_mut()
+            .zip(&further)
+            .for_each(|(sum, part)| *sum += part);
+        contacts = found.contacts;
+    }
+    None
+}
