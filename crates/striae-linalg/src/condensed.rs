@@ -239,7 +239,7 @@ impl Condensed {
         blocks
             .map(|(places, body)| Block {
                 places,
-                values: body.schur.complement(),
+                values: body.schur.complement_values(),
             })
             .collect()
     }

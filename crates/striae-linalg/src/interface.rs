@@ -21,14 +21,10 @@ use crate::{
     dense::{self, Leftover},
     error::SolveError,
     sparse_elimination::{Row, SparseElimination},
+    triangular::{self, Diagonal, solve_lower, solve_upper},
 };
 use assembled::Assembled;
 pub(crate) use assembled::{Block, Kind, Places};
-use faer::{
-    Par,
-    linalg::triangular_solve as triangular,
-    mat::{MatMut, MatRef},
-};
 use rayon::prelude::*;
 
 /// Entries above which a row or a column of the multipliers counts as dense.
@@ -253,10 +249,9 @@ impl Dense {
         let n = self.rows.len();
         let value = |&k: &u32| rhs[self.rows[k as usize] as usize];
         let mut y: Vec<f64> = self.row_order.iter().map(value).collect();
-        let lu = MatRef::from_column_major_slice(&self.lu, n, n);
-        let mut v = MatMut::from_column_major_slice_mut(&mut y, n, 1);
-        triangular::solve_unit_lower_triangular_in_place(lu, v.as_mut(), Par::Seq);
-        triangular::solve_upper_triangular_in_place(lu, v.as_mut(), Par::Seq);
+        let lu = triangular::Block::new(&self.lu, n);
+        solve_lower(lu, Diagonal::Unit, &mut y, n);
+        solve_upper(lu, &mut y);
         let mut x = vec![0.0; n];
         for (&k, value) in self.column_order.iter().zip(&y) {
             x[k as usize] = *value;

@@ -27,6 +27,7 @@ mod automatic;
 mod bulk;
 mod condensed;
 mod dense;
+mod descent;
 mod equilibration;
 mod error;
 mod faer_lu;
@@ -48,6 +49,7 @@ mod substitution;
 mod supernodes;
 mod symmetric;
 mod tree;
+mod triangular;
 
 pub use automatic::Automatic;
 pub use error::{OutsidePattern, SolveError, StructureError};

@@ -9,6 +9,7 @@
 //! result does not depend on the number of threads.
 
 use crate::{
+    descent::Descent,
     error::SolveError,
     matrix::SparseMatrix,
     numeric::{Child, Contribution, Kernel, Numeric},
@@ -18,20 +19,16 @@ use crate::{
     symmetric,
     tree::{AssemblyTree, ELSEWHERE, Front},
 };
-use faer::{
-    Accum, Par,
-    linalg::{matmul::matmul, triangular_solve as triangular},
-    mat::{MatMut, MatRef},
-    prelude::*,
-};
+use faer::mat::MatRef;
 
 /// Cholesky factorisation of the interior of a symmetric matrix.
 #[derive(Debug)]
 pub struct SchurCholesky {
     structure: Structure,
     tree: AssemblyTree,
-    /// Unknowns of every front.
-    unknowns: Vec<Vec<u32>>,
+    descent: Descent,
+    /// Unknowns in the order of elimination.
+    order: Vec<u32>,
     /// Unknowns of the Schur complement.
     kept: Vec<usize>,
     scales: Vec<f64>,
@@ -56,16 +53,18 @@ impl SchurCholesky {
         order.truncate(tiers.len() - kept.len());
         order.extend(&kept);
         let tree = AssemblyTree::new(structure, &tiers, &order, kept.len());
-        let unknowns = kept
-            .iter()
-            .flat_map(|&i| structure.group(i as usize))
-            .collect();
-        let of_front = |front: &Front| self::unknowns(structure, front);
+        let unknowns = |list: &[u32]| -> Vec<u32> {
+            let groups = list.iter().map(|&i| structure.group(i as usize));
+            groups.flatten().map(|u| u as u32).collect()
+        };
+        let interior = tree.fronts.len() - usize::from(!kept.is_empty());
+        let fronts = tree.fronts.iter();
         Ok(Self {
-            unknowns: tree.fronts.iter().map(of_front).collect(),
+            descent: Descent::new(&tree, interior),
+            order: fronts.flat_map(|front| unknowns(&front.members)).collect(),
             structure: structure.clone(),
             tree,
-            kept: unknowns,
+            kept: unknowns(&kept).into_iter().map(|u| u as usize).collect(),
             scales: Vec::new(),
             numeric: Numeric::default(),
         })
@@ -123,79 +122,44 @@ impl SchurCholesky {
     /// The Schur complement of the last factorisation.
     pub fn complement(&self) -> MatRef<'_, f64> {
         let n = self.kept.len();
+        MatRef::from_column_major_slice(self.complement_values(), n, n)
+    }
+
+    /// The Schur complement column by column.
+    pub(crate) fn complement_values(&self) -> &[f64] {
+        let n = self.kept.len();
         let begin = self.numeric.values.len().saturating_sub(n * n);
-        MatRef::from_column_major_slice(&self.numeric.values[begin..], n, n)
+        &self.numeric.values[begin..]
     }
 
     /// Eliminates the interior from a right-hand side; the kept unknowns hold
     /// `b_k - A_ki A_ii^-1 b_i`, the others what [`expand`](Self::expand) needs.
     pub fn condense(&self, rhs: &[f64]) -> Result<Vec<f64>, SolveError> {
-        self.forward(rhs)
+        check_length(rhs, self.structure.unknowns())?;
+        if self.scales.len() != rhs.len() {
+            return Err(SolveError::NotFactored);
+        }
+        let scaled = |&u: &u32| rhs[u as usize] * self.scales[u as usize];
+        let mut y: Vec<f64> = self.order.iter().map(scaled).collect();
+        self.descent.upwards(&self.numeric.values, &mut y);
+        let mut condensed = vec![0.0; rhs.len()];
+        for (&u, y) in self.order.iter().zip(y) {
+            condensed[u as usize] = y;
+        }
+        Ok(condensed)
     }
 
     /// All unknowns, from a condensed right-hand side with the solution at the kept ones.
     pub fn expand(&self, condensed: Vec<f64>) -> Result<Vec<f64>, SolveError> {
         check_length(&condensed, self.structure.unknowns())?;
+        let unknowns = self.order.iter().map(|&u| u as usize);
+        let mut y: Vec<f64> = unknowns.map(|u| condensed[u]).collect();
+        self.descent.downwards(&self.numeric.values, &mut y);
         let mut x = condensed;
-        let mut end: usize = self
-            .tree
-            .fronts
-            .iter()
-            .take(self.interior())
-            .map(entries)
-            .sum();
-        for (f, front) in self.tree.fronts[..self.interior()].iter().enumerate().rev() {
-            let values = &self.numeric.values[end - entries(front)..end];
-            end -= entries(front);
-            let lower = MatRef::from_column_major_slice(values, front.size, front.pivots);
-            let places = &self.unknowns[f];
-            let mut local: Vec<f64> = places.iter().map(|&u| x[u as usize]).collect();
-            let (pivots, rest) = local.split_at_mut(front.pivots);
-            let (diagonal, below) = lower.split_at_row(front.pivots);
-            let (mut pivots, rest) = (column(pivots), column(rest));
-            matmul(
-                pivots.rb_mut(),
-                Accum::Add,
-                below.transpose(),
-                rest.rb(),
-                -1.0,
-                Par::Seq,
-            );
-            triangular::solve_upper_triangular_in_place(diagonal.transpose(), pivots, Par::Seq);
-            places[..front.pivots]
-                .iter()
-                .zip(&local)
-                .for_each(|(&u, value)| x[u as usize] = *value);
+        for (&u, y) in self.order.iter().zip(y) {
+            x[u as usize] = y * self.scales[u as usize];
         }
-        x.iter_mut().zip(&self.scales).for_each(|(x, s)| *x *= s);
         Ok(x)
-    }
-
-    /// `L^-1 R b` on the interior, condensed right-hand side on the kept unknowns.
-    fn forward(&self, rhs: &[f64]) -> Result<Vec<f64>, SolveError> {
-        check_length(rhs, self.structure.unknowns())?;
-        if self.scales.len() != rhs.len() {
-            return Err(SolveError::NotFactored);
-        }
-        let mut y: Vec<f64> = rhs.iter().zip(&self.scales).map(|(b, s)| b * s).collect();
-        let mut begin = 0;
-        for (f, front) in self.tree.fronts[..self.interior()].iter().enumerate() {
-            let values = &self.numeric.values[begin..begin + entries(front)];
-            begin += entries(front);
-            let lower = MatRef::from_column_major_slice(values, front.size, front.pivots);
-            let places = &self.unknowns[f];
-            let mut local: Vec<f64> = places.iter().map(|&u| y[u as usize]).collect();
-            let (pivots, rest) = local.split_at_mut(front.pivots);
-            let (diagonal, below) = lower.split_at_row(front.pivots);
-            let (mut pivots, rest) = (column(pivots), column(rest));
-            triangular::solve_lower_triangular_in_place(diagonal, pivots.rb_mut(), Par::Seq);
-            matmul(rest, Accum::Add, below, pivots.rb(), -1.0, Par::Seq);
-            places
-                .iter()
-                .zip(&local)
-                .for_each(|(&u, value)| y[u as usize] = *value);
-        }
-        Ok(y)
     }
 
     /// Number of fronts that are eliminated.
@@ -207,16 +171,13 @@ impl SchurCholesky {
     /// Powers of two that bring the diagonal of the interior near one.
     fn unit_diagonal(&self, matrix: &SparseMatrix) -> Result<Vec<f64>, SolveError> {
         let mut scales = vec![1.0; self.structure.unknowns()];
-        let fronts = self.tree.fronts[..self.interior()].iter();
-        for (front, unknowns) in fronts.zip(&self.unknowns) {
-            for &unknown in &unknowns[..front.pivots] {
-                let unknown = unknown as usize;
-                let pivot = matrix.get(unknown, unknown).unwrap_or(0.0);
-                if pivot.is_nan() || pivot <= 0.0 {
-                    return Err(SolveError::NotPositiveDefinite { unknown, pivot });
-                }
-                scales[unknown] = (-(0.5 * pivot.log2()).round()).exp2();
+        for &unknown in &self.order[..self.order.len() - self.kept.len()] {
+            let unknown = unknown as usize;
+            let pivot = matrix.get(unknown, unknown).unwrap_or(0.0);
+            if pivot.is_nan() || pivot <= 0.0 {
+                return Err(SolveError::NotPositiveDefinite { unknown, pivot });
             }
+            scales[unknown] = (-(0.5 * pivot.log2()).round()).exp2();
         }
         Ok(scales)
     }
@@ -327,11 +288,6 @@ fn unknowns(structure: &Structure, front: &Front) -> Vec<u32> {
 /// Entries of the factor in a front, with the unused upper triangle of the pivots.
 fn entries(front: &Front) -> usize {
     front.size * front.pivots
-}
-
-fn column(v: &mut [f64]) -> MatMut<'_, f64> {
-    let rows = v.len();
-    MatMut::from_column_major_slice_mut(v, rows, 1)
 }
 
 /// Copies the lower triangle to the upper one, block by block.

@@ -1,11 +1,14 @@
 //! Forward and backward substitution with multifrontal factors, for the
 //! factored matrix and its transpose.
 
-use crate::{front::FrontFactor, numeric::Numeric, tree::AssemblyTree};
-use faer::{
-    Accum, Par,
-    linalg::{matmul::matmul, triangular_solve as triangular},
-    mat::{MatMut, MatRef},
+use crate::{
+    front::FrontFactor,
+    numeric::Numeric,
+    tree::AssemblyTree,
+    triangular::{
+        Block, Diagonal, solve_lower, solve_lower_transposed, solve_upper, solve_upper_transposed,
+        subtract, subtract_transposed,
+    },
 };
 
 /// `x := A^-1 x`.
@@ -50,102 +53,77 @@ fn storage(tree: &AssemblyTree) -> Vec<usize> {
 
 /// Factors of one front, `[L\U U_delayed U_border; L_below]`.
 struct Blocks<'a> {
-    /// `L` (unit, below the diagonal) and `U` of the pivots.
-    pivots: MatRef<'a, f64>,
-    /// Rows of `L` below the pivots.
-    below: MatRef<'a, f64>,
-    /// Columns of `U` of delayed pivots.
-    delayed: MatRef<'a, f64>,
+    /// Number of pivots, and of pivots and delayed ones.
+    count: usize,
+    summed: usize,
+    /// `L` (unit, below the diagonal) and `U` of the pivots and the delayed ones.
+    left: Block<'a>,
     /// Columns of `U` of the border.
-    border: MatRef<'a, f64>,
+    border: Block<'a>,
 }
 
 impl<'a> Blocks<'a> {
     fn new(factor: &'a FrontFactor, planned: &'a [f64]) -> Self {
-        let (size, summed, count) = (factor.size(), factor.summed, factor.pivots);
         let (left, above) = factor.values(planned);
-        let above = &above[..summed * (size - summed)];
-        let left = MatRef::from_column_major_slice(left, size, summed);
-        let above = MatRef::from_column_major_slice(above, summed, size - summed);
         Self {
-            pivots: left.submatrix(0, 0, count, count),
-            below: left.submatrix(count, 0, size - count, count),
-            delayed: left.submatrix(0, count, count, summed - count),
-            border: above.submatrix(0, 0, count, size - summed),
+            count: factor.pivots,
+            summed: factor.summed,
+            left: Block::new(left, factor.size()),
+            border: Block::new(above, factor.summed),
         }
     }
 
-    fn count(&self) -> usize {
-        self.pivots.nrows()
+    /// Columns of `U` of delayed pivots.
+    fn delayed(&self) -> Block<'a> {
+        self.left.at(0, self.count)
     }
 
     /// `y := L^-1 y` in the rows of the front.
     fn forward(&self, rows: &[u32], y: &mut [f64]) {
-        let (mut pivots, mut rest) = gather(rows, y, self.count());
-        triangular::solve_unit_lower_triangular_in_place(
-            self.pivots,
-            column(&mut pivots),
-            Par::Seq,
-        );
-        subtract(&mut rest, self.below, &pivots);
-        scatter(rows, y, &pivots, &rest);
+        let mut local = gather(rows, y);
+        solve_lower(self.left, Diagonal::Unit, &mut local, self.count);
+        scatter(rows, y, &local);
     }
 
     /// Solves for the pivot columns, from `y` by rows and `x` by columns.
     fn backward(&self, rows: &[u32], columns: &[u32], y: &[f64], x: &mut [f64]) {
-        let (mut pivots, _) = gather(&rows[..self.count()], y, self.count());
-        let (_, known) = gather(columns, x, self.count());
-        let (delayed, border) = known.split_at(self.delayed.ncols());
-        subtract(&mut pivots, self.delayed, delayed);
+        let mut pivots = gather(&rows[..self.count], y);
+        let known = gather(&columns[self.count..], x);
+        let (delayed, border) = known.split_at(self.summed - self.count);
+        subtract(&mut pivots, self.delayed(), delayed);
         subtract(&mut pivots, self.border, border);
-        triangular::solve_upper_triangular_in_place(self.pivots, column(&mut pivots), Par::Seq);
-        scatter(&columns[..self.count()], x, &pivots, &[]);
+        solve_upper(self.left, &mut pivots);
+        scatter(columns, x, &pivots);
     }
 
     /// `y := U^-T y` in the columns of the front; pivots are put into `x` by rows.
     fn forward_transposed(&self, rows: &[u32], columns: &[u32], y: &mut [f64], x: &mut [f64]) {
-        let (mut pivots, mut rest) = gather(columns, y, self.count());
-        let lower = self.pivots.transpose();
-        triangular::solve_lower_triangular_in_place(lower, column(&mut pivots), Par::Seq);
-        let (delayed, border) = rest.split_at_mut(self.delayed.ncols());
-        subtract(delayed, self.delayed.transpose(), &pivots);
-        subtract(border, self.border.transpose(), &pivots);
-        scatter(columns, y, &pivots, &rest);
-        scatter(&rows[..self.count()], x, &pivots, &[]);
+        let mut local = gather(columns, y);
+        let (pivots, rest) = local.split_at_mut(self.count);
+        solve_upper_transposed(self.left, pivots);
+        let (delayed, border) = rest.split_at_mut(self.summed - self.count);
+        subtract_transposed(delayed, self.delayed(), pivots);
+        subtract_transposed(border, self.border, pivots);
+        scatter(columns, y, &local);
+        scatter(rows, x, &local[..self.count]);
     }
 
     /// `x := L^-T x` in the rows of the front.
     fn backward_transposed(&self, rows: &[u32], x: &mut [f64]) {
-        let (mut pivots, rest) = gather(rows, x, self.count());
-        subtract(&mut pivots, self.below.transpose(), &rest);
-        let upper = self.pivots.transpose();
-        triangular::solve_unit_upper_triangular_in_place(upper, column(&mut pivots), Par::Seq);
-        scatter(&rows[..self.count()], x, &pivots, &[]);
+        let mut local = gather(rows, x);
+        solve_lower_transposed(self.left, Diagonal::Unit, &mut local, self.count);
+        scatter(rows, x, &local[..self.count]);
     }
 }
 
-/// `y -= A x`.
-fn subtract(y: &mut [f64], a: MatRef<'_, f64>, x: &[f64]) {
-    if !y.is_empty() && !x.is_empty() {
-        let x = MatRef::from_column_major_slice(x, x.len(), 1);
-        matmul(column(y), Accum::Add, a, x, -1.0, Par::Seq);
-    }
+/// Entries of a vector at some places.
+fn gather(places: &[u32], v: &[f64]) -> Vec<f64> {
+    places.iter().map(|&p| v[p as usize]).collect()
 }
 
-fn column(v: &mut [f64]) -> MatMut<'_, f64> {
-    let rows = v.len();
-    MatMut::from_column_major_slice_mut(v, rows, 1)
-}
-
-/// Entries of a vector at some places, the first `count` apart.
-fn gather(places: &[u32], v: &[f64], count: usize) -> (Vec<f64>, Vec<f64>) {
-    let (first, others) = places.split_at(count);
-    let at = |places: &[u32]| places.iter().map(|&p| v[p as usize]).collect();
-    (at(first), at(others))
-}
-
-fn scatter(places: &[u32], v: &mut [f64], first: &[f64], others: &[f64]) {
-    for (&place, value) in places.iter().zip(first.iter().chain(others)) {
+/// Puts values at the first of some places.
+fn scatter(places: &[u32], v: &mut [f64], values: &[f64]) {
+    for (&place, value) in places.iter().zip(values) {
         v[place as usize] = *value;
     }
 }

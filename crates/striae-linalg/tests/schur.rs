@@ -142,21 +142,40 @@ fn a_body_held_by_kept_unknowns_only_is_condensed() {
 }
 
 #[test]
+fn a_right_hand_side_on_what_is_kept_stays_as_it_is() {
+    let pairs: Vec<(usize, usize)> = (0..400).map(|k| (k * k % 101, k % 101)).collect();
+    let matrix = springs(101, &pairs, 3.0);
+    let kept: Vec<Supervariable> = (0..20).map(|k| Supervariable(5 * k)).collect();
+    let mut schur = SchurCholesky::analyse(matrix.structure(), &kept).unwrap();
+    schur.factor(&matrix).unwrap();
+    let mut rhs = vec![0.0; matrix.structure().unknowns()];
+    for &u in schur.kept_unknowns() {
+        rhs[u] = u as f64 - 80.5;
+    }
+    assert_eq!(schur.condense(&rhs).unwrap(), rhs);
+}
+
+#[test]
 fn threads_do_not_change_a_bit() {
     let pairs: Vec<(usize, usize)> = (0..6000)
         .map(|k| (k * k % 1201, (k * 31 + k / 7) % 1201))
         .collect();
     let matrix = springs(1201, &pairs, 3.0);
     let kept: Vec<Supervariable> = (0..100).map(|k| Supervariable(12 * k)).collect();
-    let complement = |threads: usize| {
+    let unknowns = matrix.structure().unknowns();
+    let rhs: Vec<f64> = (0..unknowns).map(|k| (k % 7) as f64 - 3.0).collect();
+    let all = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build()
             .unwrap();
         pool.install(|| {
             let mut schur = SchurCholesky::analyse(matrix.structure(), &kept).unwrap();
-            schur.factor(&matrix).unwrap().to_owned()
+            let complement = schur.factor(&matrix).unwrap().to_owned();
+            let condensed = schur.condense(&rhs).unwrap();
+            let expanded = schur.expand(condensed.clone()).unwrap();
+            (complement, condensed, expanded)
         })
     };
-    assert!(complement(1) == complement(2));
+    assert!(all(1) == all(2));
 }

@@ -43,7 +43,7 @@ const LADDER: [Row; 11] = [
     Row {
         name: "striae-linalg",
         own: &[],
-        outside: &["faer", "metis-sys", "rayon", "thiserror"],
+        outside: &["faer", "metis-sys", "pulp", "rayon", "thiserror"],
     },
     Row {
         name: "striae-solve",

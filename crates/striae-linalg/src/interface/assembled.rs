@@ -1,16 +1,18 @@
 //! Rows of the contact system, sorted by what is dense.
 
 use super::{LANES, Panels};
-use crate::sparse_elimination::{Row, SparseElimination};
-use faer::{Accum, Par, linalg::matmul::matmul, mat::MatMut, mat::MatRef};
+use crate::{
+    sparse_elimination::{Row, SparseElimination},
+    triangular::{self, subtract},
+};
 use rayon::prelude::*;
 
 /// Schur complement of one body.
 pub(crate) struct Block<'a> {
     /// Kept unknown of each row.
     pub(crate) places: &'a [u32],
-    /// Both triangles.
-    pub(crate) values: MatRef<'a, f64>,
+    /// Both triangles, column by column.
+    pub(crate) values: &'a [f64],
 }
 
 /// Kinds of the kept unknowns.
@@ -191,8 +193,8 @@ impl Assembled {
         if let Kind::Bulk { block, row } = self.kinds[self.long[row] as usize] {
             let block = &blocks[block as usize];
             // Symmetric: the column is the row, and contiguous.
-            let values = block.values.col(row as usize);
-            for (&place, value) in block.places.iter().zip(values.iter()) {
+            let values = &block.values[row as usize * block.places.len()..];
+            for (&place, value) in block.places.iter().zip(values) {
                 columns[place as usize][lane] = *value;
             }
         }
@@ -207,13 +209,9 @@ impl Assembled {
             .iter()
             .map(|block| {
                 let n = block.places.len();
-                let x: Vec<f64> = block.places.iter().map(|&k| z[k as usize]).collect();
+                let x: Vec<f64> = block.places.iter().map(|&k| -z[k as usize]).collect();
                 let mut y = vec![0.0; n];
-                if n > 0 {
-                    let x = MatRef::from_column_major_slice(&x, n, 1);
-                    let target = MatMut::from_column_major_slice_mut(&mut y, n, 1);
-                    matmul(target, Accum::Replace, block.values, x, 1.0, Par::Seq);
-                }
+                subtract(&mut y, triangular::Block::new(block.values, n), &x);
                 y
             })
             .collect();
