@@ -264,18 +264,40 @@ impl System<'_> {
 
 /// Adds the lower triangle of a child's contribution.
 fn extend_add(front: &Front, child: &Child<'_>, left: &mut [f64], rest: &mut [f64]) {
-    let places: Vec<usize> = child.front.places().collect();
+    let size = child.front.rest();
+    let runs = runs(child.front);
     let width = front.rest();
-    for (k, source) in child.values.chunks_exact(places.len().max(1)).enumerate() {
-        let place = places[k];
-        let (target, origin) = match place.checked_sub(front.pivots) {
-            None => (&mut left[place * front.size..][..front.size], 0),
-            Some(j) => (&mut rest[j * width..][..width], front.pivots),
-        };
-        for (&row, value) in places[k..].iter().zip(&source[k..]) {
-            target[row - origin] += value;
+    for (run, &(place, begin, end)) in runs.iter().enumerate() {
+        for k in begin..end {
+            let source = &child.values[k * size..][..size];
+            let column = place + k - begin;
+            let (target, origin) = match column.checked_sub(front.pivots) {
+                None => (&mut left[column * front.size..][..front.size], 0),
+                Some(j) => (&mut rest[j * width..][..width], front.pivots),
+            };
+            let others = runs[run + 1..].iter().copied();
+            for (row, begin, end) in std::iter::once((column, k, end)).chain(others) {
+                let target = &mut target[row - origin..][..end - begin];
+                let added = target.iter_mut().zip(&source[begin..end]);
+                added.for_each(|(target, value)| *target += value);
+            }
         }
     }
+}
+
+/// Consecutive places in the parent's front: the first, and where they begin and end on the border.
+fn runs(child: &Front) -> Vec<(usize, usize, usize)> {
+    let mut runs: Vec<(usize, usize, usize)> = Vec::new();
+    let mut begin = 0;
+    for (&place, &end) in child.relative.iter().zip(&child.ends) {
+        let (place, end) = (place as usize, end as usize);
+        match runs.last_mut() {
+            Some(run) if run.0 + begin - run.1 == place => run.2 = end,
+            _ => runs.push((place, begin, end)),
+        }
+        begin = end;
+    }
+    runs
 }
 
 /// Unknowns of a front in order.
