@@ -1,4 +1,14 @@
 //! One cycle of right-preconditioned GMRES (Saad & Schultz, doi:10.1137/0907058).
+//!
+//! Preconditioned directions are kept (as in doi:10.1137/0914028), which saves the
+//! last application. Inner products are sums over fixed pieces: threads do not
+//! change a bit.
+
+use crate::triangular::{Block, subtract, subtract_transposed};
+use rayon::prelude::*;
+
+/// Entries of a vector in a piece of an inner product.
+const PIECE: usize = 4096;
 
 /// Result of a cycle.
 pub(crate) struct Correction {
@@ -30,15 +40,18 @@ pub(crate) fn solve(
             iterations: 0,
         };
     }
-    let mut basis = vec![b.iter().map(|b| b / size).collect::<Vec<f64>>()];
+    // One vector after the other, and what the preconditioner makes of them.
+    let mut basis: Vec<f64> = b.iter().map(|b| b / size).collect();
+    let mut directions: Vec<f64> = Vec::new();
     let mut hessenberg: Vec<Vec<f64>> = Vec::new();
     let mut rotations: Vec<(f64, f64)> = Vec::new();
     let mut residual = vec![size];
     for k in 0..ends.iterations.min(n) {
-        let mut direction = basis[k].clone();
-        precondition(&mut direction);
+        directions.extend_from_slice(&basis[k * n..]);
+        let direction = &mut directions[k * n..];
+        precondition(direction);
         let mut image = vec![0.0; n];
-        multiply(&direction, &mut image);
+        multiply(direction, &mut image);
         let mut column = orthogonalise(&mut image, &basis);
         let length = norm(&image);
         if !length.is_finite() {
@@ -61,25 +74,37 @@ pub(crate) fn solve(
         if length == 0.0 || residual[k + 1].abs() <= ends.reduction * size {
             break;
         }
-        basis.push(image.iter().map(|v| v / length).collect());
+        basis.extend(image.iter().map(|v| v / length));
     }
-    let mut solution = combination(&basis, &hessenberg, &residual, n);
-    precondition(&mut solution);
     Correction {
-        solution,
+        solution: combination(&directions, &hessenberg, &residual, n),
         iterations: hessenberg.len(),
     }
 }
 
 /// Coefficients on the basis, which are taken off the vector (twice, for stability).
-fn orthogonalise(vector: &mut [f64], basis: &[Vec<f64>]) -> Vec<f64> {
-    let mut coefficients = vec![0.0; basis.len()];
+fn orthogonalise(vector: &mut [f64], basis: &[f64]) -> Vec<f64> {
+    let n = vector.len();
+    let count = basis.len() / n;
+    let basis = Block::new(basis, n);
+    let mut coefficients = vec![0.0; count];
     for _ in 0..2 {
-        for (coefficient, q) in coefficients.iter_mut().zip(basis) {
-            let h: f64 = vector.iter().zip(q).map(|(v, q)| v * q).sum();
-            vector.iter_mut().zip(q).for_each(|(v, q)| *v -= h * q);
-            *coefficient += h;
+        let pieces = vector.par_chunks(PIECE).enumerate();
+        let products = pieces.map(|(k, piece)| {
+            let mut products = vec![0.0; count];
+            subtract_transposed(&mut products, basis.at(k * PIECE, 0), piece);
+            products
+        });
+        let products: Vec<Vec<f64>> = products.collect();
+        let mut taken = vec![0.0; count];
+        for products in products {
+            taken.iter_mut().zip(products).for_each(|(t, p)| *t -= p);
         }
+        subtract(vector, basis, &taken);
+        coefficients
+            .iter_mut()
+            .zip(taken)
+            .for_each(|(c, t)| *c += t);
     }
     coefficients
 }
@@ -89,14 +114,15 @@ fn rotate(v: &mut [f64], i: usize, c: f64, s: f64) {
     (v[i], v[i + 1]) = (c * v[i] + s * v[i + 1], c * v[i + 1] - s * v[i]);
 }
 
-/// Basis times the solution of the triangular system.
+/// Directions times the solution of the triangular system.
 fn combination(
-    basis: &[Vec<f64>],
+    directions: &[f64],
     hessenberg: &[Vec<f64>],
     residual: &[f64],
     n: usize,
 ) -> Vec<f64> {
-    let mut y = residual[..hessenberg.len()].to_vec();
+    // With the other sign, as products are subtracted.
+    let mut y: Vec<f64> = residual[..hessenberg.len()].iter().map(|r| -r).collect();
     for k in (0..y.len()).rev() {
         y[k] /= hessenberg[k][k];
         for i in 0..k {
@@ -104,12 +130,16 @@ fn combination(
         }
     }
     let mut sum = vec![0.0; n];
-    for (y, q) in y.iter().zip(basis) {
-        sum.iter_mut().zip(q).for_each(|(sum, q)| *sum += y * q);
-    }
+    subtract(&mut sum, Block::new(directions, n), &y);
     sum
 }
 
+/// Length of a vector, the squares summed piece by piece.
 fn norm(v: &[f64]) -> f64 {
-    v.iter().map(|v| v * v).sum::<f64>().sqrt()
+    let pieces = v.chunks(PIECE).map(|piece| {
+        let mut sum = [0.0];
+        subtract_transposed(&mut sum, Block::new(piece, piece.len()), piece);
+        -sum[0]
+    });
+    pieces.sum::<f64>().sqrt()
 }

@@ -39,6 +39,7 @@ mod metis;
 mod multifrontal;
 mod numeric;
 mod ordering;
+mod products;
 mod refinement;
 mod schur;
 mod singularity;

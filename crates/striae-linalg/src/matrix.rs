@@ -9,7 +9,6 @@ use crate::{
     error::OutsidePattern,
     structure::{Structure, Supervariable},
 };
-use rayon::prelude::*;
 
 /// A square matrix on the pattern of a [`Structure`].
 #[derive(Clone, Debug)]
@@ -151,23 +150,6 @@ impl SparseMatrix {
             .zip(self.values[range].iter().copied())
     }
 
-    /// `y = A x`.
-    ///
-    /// # Panics
-    /// When a vector does not have one entry per unknown.
-    pub fn multiply(&self, x: &[f64], y: &mut [f64]) {
-        assert_eq!(
-            (x.len(), y.len()),
-            (self.structure.unknowns(), self.structure.unknowns())
-        );
-        y.par_iter_mut()
-            .enumerate()
-            .with_min_len(1024)
-            .for_each(|(row, y)| {
-                *y = self.row_product(row, x);
-            });
-    }
-
     /// `A x` in row `row`.
     fn row_product(&self, row: usize, x: &[f64]) -> f64 {
         let structure = &self.structure;
@@ -256,39 +238,6 @@ impl SparseMatrix {
         (rows, columns)
     }
 
-    /// `b - A x` and its componentwise backward error, unknowns measured in `units`.
-    pub(crate) fn residual(&self, x: &[f64], b: &[f64], units: &[f64]) -> Residual {
-        let sizes = x.iter().zip(units).map(|(x, unit)| x.abs() / unit);
-        let largest = sizes.fold(0.0, f64::max);
-        let round_off = 1000.0 * x.len() as f64 * f64::EPSILON;
-        let rows = (0..b.len()).into_par_iter().with_min_len(1024);
-        let (values, errors): (Vec<f64>, Vec<f64>) = rows
-            .map(|row| {
-                let (mut sum, mut terms, mut norm) = (0.0, 0.0, 0.0);
-                for (column, a) in self.row(row) {
-                    sum += a * x[column];
-                    terms += (a * x[column]).abs();
-                    norm += a.abs() * units[column];
-                }
-                let r = b[row] - sum;
-                let bound = norm * largest + b[row].abs();
-                let size = terms + b[row].abs();
-                let size = if size > round_off * bound {
-                    size
-                } else {
-                    terms + norm * largest
-                };
-                (r, if r == 0.0 { 0.0 } else { r.abs() / size })
-            })
-            .unzip();
-        // `f64::max` would drop an error that is not a number.
-        let worse = |m: f64, &e: &f64| if e > m || e.is_nan() { e } else { m };
-        Residual {
-            backward_error: errors.iter().fold(0.0, worse),
-            values,
-        }
-    }
-
     /// All values, row by row.
     pub(crate) fn values(&self) -> &[f64] {
         &self.values
@@ -324,12 +273,6 @@ impl SparseMatrix {
         }
         Ok(edges)
     }
-}
-
-/// Residual of a linear system.
-pub(crate) struct Residual {
-    pub(crate) values: Vec<f64>,
-    pub(crate) backward_error: f64,
 }
 
 /// Consecutive unknowns of a list that belong to one supervariable.
