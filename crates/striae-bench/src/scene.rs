@@ -3,6 +3,7 @@
 use std::{error::Error, path::Path};
 use striae_io::deck;
 use striae_linalg::{SparseMatrix, Structure, Supervariable};
+use striae_mesh::generate::CappedBlock;
 use striae_solve::{
     assembly::{Contact, Fault, Setting, StepContext, Trial, assemble},
     layout::{Extent, Layout},
@@ -69,15 +70,14 @@ displacement = [
 
 /// A block with a spherical face, pressed onto a rigid plane and sheared.
 fn hertz(unknowns: usize) -> String {
-    // Refinement is about the contact: half the size makes four times the unknowns.
-    let size = 33.4 / (unknowns as f64).sqrt();
+    let size = cap_size(unknowns);
     format!(
         r#"title = "Block with a spherical face on a rigid plane"
 {MATERIAL}
 [[body]]
 name = "block"
 material = "rubber"
-mesh = {{ generator = "capped-block", size = [10, 10], height = 6.5, radius = 12, element_size = {size} }}
+mesh = {{ generator = "capped-block", size = [10, 10], height = 6.5, radius = 12, element_size = {size}, fine_half_width = 1.6, fine_depth = 0.5 }}
 [[rigid]]
 name = "foundation"
 plane = {{ point = [0, 0, 0], normal = [0, 0, 1] }}
@@ -98,6 +98,29 @@ friction = [{{ pair = "contact", law = "coulomb", mu = 0.1 }}]
 displacement = [{{ body = "block", nodes = "zmax", x = 0.015 }}]
 "#
     )
+}
+
+/// Size of the elements at the contact of a block with about so many displacements.
+fn cap_size(unknowns: usize) -> f64 {
+    let displacements = |size: f64| {
+        let block = CappedBlock {
+            element_size: size,
+            fine_half_width: 1.6,
+            fine_depth: 0.5,
+            ..CappedBlock::default()
+        };
+        block.mesh().map_or(0, |mesh| 3 * mesh.positions.len())
+    };
+    let (mut fine, mut coarse) = (0.05, 1.0);
+    for _ in 0..12 {
+        let middle = f64::sqrt(fine * coarse);
+        if displacements(middle) > unknowns {
+            fine = middle;
+        } else {
+            coarse = middle;
+        }
+    }
+    coarse
 }
 
 /// Stiffness of the bodies alone, at rest; rows of prescribed components hold a diagonal only.

@@ -24,7 +24,7 @@ use crate::{
 use rayon::prelude::*;
 
 /// Time of an operation of a substitution, which waits for memory, over that of a factorisation.
-const SUBSTITUTION: f64 = 12.0;
+const SUBSTITUTION: f64 = 5.0;
 /// Not kept.
 const NONE: u32 = u32::MAX;
 

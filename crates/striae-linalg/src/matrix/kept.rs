@@ -14,6 +14,13 @@ impl SparseMatrix {
             .collect()
     }
 
+    /// Sets the rows of the kept supervariables to zero.
+    pub fn clear_kept_rows(&mut self) {
+        for range in kept_rows(&self.structure) {
+            self.values[range].fill(0.0);
+        }
+    }
+
     /// Overwrites the rows of the kept supervariables.
     ///
     /// # Panics

@@ -88,7 +88,7 @@ impl System<'_> {
     /// Takes what contact has put in out of matrix and residual.
     pub(super) fn set_contact_aside(&mut self) -> OfContact {
         let rows = self.matrix.kept_rows();
-        self.matrix.clear();
+        self.matrix.clear_kept_rows();
         let nothing = vec![0.0; self.residual.len()];
         OfContact {
             rows,
