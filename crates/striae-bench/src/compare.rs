@@ -131,6 +131,7 @@ pub fn one(arguments: &[String]) -> Result<(), Box<dyn Error>> {
         }
         "condensed" => whole(name, size, Backend::Condensed)?,
         "multifrontal" => whole(name, size, Backend::Multifrontal)?,
+        "iterative" => whole(name, size, Backend::Iterative)?,
         other => return Err(format!("no solver `{other}`").into()),
     };
     println!("{result}");
@@ -174,6 +175,7 @@ fn whole(name: &str, size: usize, backend: Backend) -> Result<Value, Box<dyn Err
         "analysis_s": sum(|work| work.times.analysis.as_secs_f64()),
         "factored_share": (factorisation + solution) / seconds,
         "peak_mib": peak_rss_mib(),
+        "krylov_iterations": log.work.iter().map(|work| work.krylov_iterations).sum::<usize>(),
         "method": log.work.last().map(|work| work.method.to_string()),
     }))
 }

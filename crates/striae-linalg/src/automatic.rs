@@ -15,6 +15,7 @@ use crate::{
     condensed::Condensed,
     error::SolveError,
     gmres::Ends,
+    iterative::Iterative,
     matrix::SparseMatrix,
     multifrontal::MultifrontalLu,
     solver::{Analysis, FactorReport, FallBack, Interior, LinearSolver, Method, SolveReport},
@@ -35,13 +36,34 @@ const FEWEST: usize = 3;
 /// Most iterations of GMRES with older factors.
 const MOST: usize = 25;
 
-/// Chooses between the condensed solver and the multifrontal LU.
+/// Unknowns above which no direct solver is considered.
+const MANY: usize = 450_000;
+/// Predicted memory of factors, in bytes, above which the iterative solver is taken.
+const LARGEST: usize = 12 << 30;
+/// Operations of a factorisation above which the iterative solver is taken.
+const COSTLY: f64 = 1e13;
+
+/// Which solver is tried first.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Choice {
+    /// The one that costs least by a count of operations and memory.
+    #[default]
+    ByCost,
+    /// The iterative one.
+    Iterative,
+}
+
+/// Chooses between the condensed solver, the multifrontal LU and the iterative solver.
 #[derive(Debug, Default)]
 pub struct Automatic {
+    choice: Choice,
+    iterative: Option<Iterative>,
     structure: Option<Structure>,
     condensed: Option<Condensed>,
     multifrontal: Option<MultifrontalLu>,
     fall_back: Option<FallBack>,
+    /// Why the iterative solver was chosen by cost.
+    reason: Option<FallBack>,
     patience: usize,
     factored: Option<Method>,
     /// Age of the factors of the interior.
@@ -57,12 +79,24 @@ impl Automatic {
         Self::default()
     }
 
+    /// The same, to take the iterative solver whatever it costs; a direct one where it fails.
+    pub fn iterative() -> Self {
+        Self {
+            choice: Choice::Iterative,
+            ..Self::default()
+        }
+    }
+
     /// Factors with the LU, which is analysed when first needed.
     fn factor_multifrontal(&mut self, matrix: &SparseMatrix) -> Result<FactorReport, SolveError> {
         let structure = self.structure.as_ref().ok_or(SolveError::NotAnalysed)?;
         if self.multifrontal.is_none() {
             let mut solver = MultifrontalLu::new();
-            solver.analyse(structure)?;
+            let analysis = solver.analyse(structure)?;
+            if analysis.peak_bytes > LARGEST && self.iterative.is_some() {
+                let bytes = analysis.peak_bytes;
+                return Err(SolveError::TooLarge { bytes });
+            }
             self.multifrontal = Some(solver);
         }
         let solver = self.multifrontal.as_mut().ok_or(SolveError::NotAnalysed)?;
@@ -77,6 +111,22 @@ impl Automatic {
     /// Factors everything.
     fn factor_anew(&mut self, matrix: &SparseMatrix) -> Result<FactorReport, SolveError> {
         (self.interior, self.taken) = (Interior::Fresh, 0);
+        if let Some(iterative) = self.iterative.as_mut().filter(|_| self.patience == 0) {
+            return match iterative.factor(matrix) {
+                Ok(report) => {
+                    self.factored = Some(Method::Iterative);
+                    self.multifrontal = None;
+                    Ok(FactorReport {
+                        fall_back: self.reason,
+                        ..report
+                    })
+                }
+                Err(SolveError::NotPositiveDefinite { .. } | SolveError::Singular { .. }) => {
+                    self.fall_back(FallBack::NoPreconditioner, matrix)
+                }
+                Err(other) => Err(other),
+            };
+        }
         let Some(condensed) = self.condensed.as_mut().filter(|_| self.patience == 0) else {
             self.patience = self.patience.saturating_sub(1);
             return self.factor_multifrontal(matrix);
@@ -108,19 +158,47 @@ impl Automatic {
 
 impl LinearSolver for Automatic {
     fn analyse(&mut self, structure: &Structure) -> Result<Analysis, SolveError> {
-        *self = Self::default();
+        *self = Self {
+            choice: self.choice,
+            ..Self::default()
+        };
         self.structure = Some(structure.clone());
+        let unknowns = structure.unknowns();
+        if self.choice == Choice::Iterative || unknowns > MANY {
+            self.iterative = Iterative::analyse(structure);
+        }
+        if self.iterative.is_some() {
+            if self.choice == Choice::ByCost {
+                self.reason = Some(FallBack::ManyUnknowns { unknowns });
+            }
+            return Ok(Iterative::analysis(structure));
+        }
         let condensed = Condensed::analyse(structure)?;
         let analysis = condensed.analysis();
         let order = condensed.interface();
-        if order > SMALL_INTERFACE {
+        let direct = if order > SMALL_INTERFACE {
             let mut solver = MultifrontalLu::new();
             let other = solver.analyse(structure)?;
-            if size_of::<f64>() * order * order > LARGEST_DENSE || analysis.flops > other.flops {
-                self.multifrontal = Some(solver);
-                self.fall_back = Some(FallBack::LargeInterface { unknowns: order });
-                return Ok(other);
+            let dense = size_of::<f64>() * order * order;
+            (dense > LARGEST_DENSE || analysis.flops > other.flops).then_some((solver, other))
+        } else {
+            None
+        };
+        let cheaper = direct.as_ref().map_or(analysis, |direct| direct.1);
+        if cheaper.peak_bytes > LARGEST || cheaper.flops > COSTLY {
+            self.iterative = Iterative::analyse(structure);
+            if self.iterative.is_some() {
+                self.reason = Some(FallBack::LargeBodies {
+                    bytes: cheaper.peak_bytes,
+                    flops: cheaper.flops,
+                });
+                return Ok(Iterative::analysis(structure));
             }
+        }
+        if let Some((solver, other)) = direct {
+            self.multifrontal = Some(solver);
+            self.fall_back = Some(FallBack::LargeInterface { unknowns: order });
+            return Ok(other);
         }
         let worth = 0.7 * condensed.solutions_per_factorisation();
         self.allowance = (worth as usize).min(MOST);
@@ -176,6 +254,13 @@ impl LinearSolver for Automatic {
                 }
                 other => return other,
             }
+        }
+        if self.factored == Some(Method::Iterative) {
+            let iterative = self.iterative.as_ref().ok_or(SolveError::NotFactored)?;
+            if let Some(report) = iterative.solve(matrix, rhs, x, REDUCTION)? {
+                return Ok(report);
+            }
+            self.fall_back(FallBack::NotConverged, matrix)?;
         }
         match (self.multifrontal.as_mut(), self.factored) {
             (Some(solver), Some(_)) => solver.solve_to(matrix, rhs, x, reduction),

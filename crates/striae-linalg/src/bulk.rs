@@ -125,7 +125,7 @@ impl Body {
 }
 
 /// Connected parts of the bulk, members rising; supervariables without bulk unknowns are in none.
-fn parts(structure: &Structure) -> Vec<Vec<u32>> {
+pub(crate) fn parts(structure: &Structure) -> Vec<Vec<u32>> {
     let mut seen = vec![false; structure.supervariables()];
     let mut parts = Vec::new();
     for first in 0..seen.len() {

@@ -282,7 +282,7 @@ impl Condensed {
 }
 
 /// Bulk unknowns whose rows have no entry but the diagonal.
-fn prescribed(matrix: &SparseMatrix) -> Vec<bool> {
+pub(crate) fn prescribed(matrix: &SparseMatrix) -> Vec<bool> {
     let structure = matrix.structure();
     (0..structure.unknowns())
         .into_par_iter()

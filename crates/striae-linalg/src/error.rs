@@ -36,6 +36,14 @@ pub enum StructureError {
         /// Number of supervariables.
         expected: usize,
     },
+    /// The list of points has the wrong length.
+    #[error("{found} points for {expected} supervariables")]
+    Points {
+        /// Length of the list.
+        found: usize,
+        /// Number of supervariables.
+        expected: usize,
+    },
     /// The list of tiers has the wrong length.
     #[error("{found} tiers for {expected} supervariables")]
     Tiers {
@@ -96,6 +104,12 @@ pub enum SolveError {
         unknown: usize,
         /// The pivot, after equilibration to a unit diagonal.
         pivot: f64,
+    },
+    /// The iterative solver failed, and there is no memory for a direct one.
+    #[error("the iterative solver failed, and a direct one would take {:.1} GB", *bytes as f64 / 1e9)]
+    TooLarge {
+        /// Predicted memory in bytes.
+        bytes: usize,
     },
     /// Neither refinement nor GMRES reached a small residual.
     #[error("inaccurate solution: backward error {backward_error:e}")]

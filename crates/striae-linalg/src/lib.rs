@@ -23,6 +23,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod aggregation;
 mod automatic;
 mod bulk;
 mod condensed;
@@ -34,6 +35,7 @@ mod faer_lu;
 mod front;
 mod gmres;
 mod interface;
+mod iterative;
 mod matrix;
 mod metis;
 mod multifrontal;
@@ -47,6 +49,7 @@ mod solver;
 mod sparse_elimination;
 mod structure;
 mod substitution;
+mod sums;
 mod supernodes;
 mod symmetric;
 mod tree;

@@ -52,6 +52,15 @@ impl MultifrontalLu {
     pub fn new() -> Self {
         Self::default()
     }
+
+    /// `x := A^-1 x` with the factors as they are, without refinement; nothing without factors.
+    pub(crate) fn substitute(&self, x: &mut [f64]) {
+        if let Some(symbolic) = &self.symbolic {
+            self.scaling.scale_rows(x);
+            substitution::solve(&symbolic.tree, &self.numeric, x);
+            self.scaling.scale_columns(x);
+        }
+    }
 }
 
 impl LinearSolver for MultifrontalLu {

@@ -91,7 +91,7 @@ pub struct FactorReport {
     pub dense_order: usize,
     /// How the matrix was factored.
     pub method: Method,
-    /// Why the condensed solver was not used, where it was asked for.
+    /// Why the solver that was asked for was not used.
     pub fall_back: Option<FallBack>,
 }
 
@@ -105,6 +105,8 @@ pub enum Method {
     Multifrontal,
     /// faer's sparse LU.
     Faer,
+    /// GMRES with smoothed aggregation for the bodies.
+    Iterative,
 }
 
 impl std::fmt::Display for Method {
@@ -113,11 +115,12 @@ impl std::fmt::Display for Method {
             Self::Condensed => "condensed",
             Self::Multifrontal => "multifrontal",
             Self::Faer => "faer",
+            Self::Iterative => "iterative",
         })
     }
 }
 
-/// Why the multifrontal LU was used in the place of the condensed solver.
+/// Why another solver was used in the place of the one that was asked for.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum FallBack {
     /// Dense algebra on the interface would cost more.
@@ -132,6 +135,26 @@ pub enum FallBack {
         /// Unknown whose pivot failed.
         unknown: usize,
     },
+    /// Factors of the bodies would take too much memory or time.
+    #[error("factors would take {:.1} GB and {flops:.1e} operations, too many for a direct solver", *bytes as f64 / 1e9)]
+    LargeBodies {
+        /// Predicted memory in bytes.
+        bytes: usize,
+        /// Predicted operations of a factorisation.
+        flops: f64,
+    },
+    /// There are so many unknowns that factors are not even planned.
+    #[error("{unknowns} unknowns are too many for a direct solver")]
+    ManyUnknowns {
+        /// Unknowns of the system.
+        unknowns: usize,
+    },
+    /// The preconditioner of the iterative solver could not be made.
+    #[error("there is no preconditioner for the iterative solver")]
+    NoPreconditioner,
+    /// The iterative solver did not converge.
+    #[error("the iterative solver did not converge")]
+    NotConverged,
     /// The condensed contact system has no accurate factors.
     #[error("the condensed contact system is singular")]
     SingularContact,

@@ -25,7 +25,7 @@ pub struct Tier(pub u32);
 #[derive(Clone, Debug)]
 pub struct Structure(Arc<Pattern>);
 
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 struct Pattern {
     offsets: Vec<usize>,
     owner: Vec<u32>,
@@ -43,6 +43,8 @@ struct Pattern {
     bulk_edges: Vec<bool>,
     /// Whether each supervariable belongs to the interface.
     kept: Vec<bool>,
+    /// Point of each supervariable, if they are known.
+    points: Option<Arc<[[f64; 3]]>>,
 }
 
 impl Structure {
@@ -103,6 +105,23 @@ impl Structure {
         Ok(Self(Arc::new(pattern)))
     }
 
+    /// The same structure with a point for every supervariable: where a translation or
+    /// rotation of the bulk as a whole moves it (its three unknowns are components along
+    /// the axes). The iterative solver goes by these.
+    pub fn with_points(&self, points: Vec<[f64; 3]>) -> Result<Self, StructureError> {
+        let expected = self.supervariables();
+        if points.len() != expected {
+            return Err(StructureError::Points {
+                found: points.len(),
+                expected,
+            });
+        }
+        Ok(Self(Arc::new(Pattern {
+            points: Some(points.into()),
+            ..(*self.0).clone()
+        })))
+    }
+
     /// The same structure with more cliques, whose supervariables are kept.
     pub fn grown<C: AsRef<[Supervariable]>>(&self, cliques: &[C]) -> Result<Self, StructureError> {
         let p = &*self.0;
@@ -117,6 +136,7 @@ impl Structure {
         }
         pattern.bulk.clone_from(&p.bulk);
         pattern.kept.clone_from(&p.kept);
+        pattern.points.clone_from(&p.points);
         for s in cliques.iter().flat_map(|clique| clique.as_ref()) {
             pattern.kept[s.0] = true;
         }
@@ -173,6 +193,11 @@ impl Structure {
     /// Whether an edge belongs to the bulk.
     pub(crate) fn is_bulk_edge(&self, edge: usize) -> bool {
         self.0.bulk_edges[edge]
+    }
+
+    /// Points of all supervariables.
+    pub(crate) fn points(&self) -> Option<&[[f64; 3]]> {
+        self.0.points.as_deref()
     }
 
     /// Ordering tiers of all supervariables.
@@ -281,6 +306,7 @@ impl Pattern {
             bulk: (0..tiers.len()).map(|i| size(i) as u32).collect(),
             bulk_edges: vec![true; neighbours.len()],
             kept: vec![false; tiers.len()],
+            points: None,
             offsets,
             owner,
             tiers,

@@ -135,6 +135,15 @@ impl Layout {
         (0..self.offsets.len() - 1).map(positions).collect()
     }
 
+    /// Reference position of every supervariable; those of patches and rigid bodies have none.
+    pub fn points(&self, problem: &Problem) -> Vec<[f64; 3]> {
+        let mut points = vec![[0.0; 3]; self.offsets.len() - 1];
+        for (point, position) in points.iter_mut().zip(&problem.reference) {
+            *point = [position.x, position.y, position.z];
+        }
+        points
+    }
+
     /// Supervariable of a global node.
     pub fn supervariable(&self, node: usize) -> Supervariable {
         Supervariable(node)

@@ -398,10 +398,12 @@ pub enum Strategy {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Backend {
     /// Cholesky factorisation of the bodies with dense contact; multifrontal LU
-    /// where that does not work or pay.
+    /// where that does not work or pay, the iterative solver for large bodies.
     Condensed,
     /// Multifrontal LU on dense fronts.
     Multifrontal,
     /// faer's sparse LU.
     Faer,
+    /// GMRES, the bodies by smoothed aggregation; multifrontal LU where that fails.
+    Iterative,
 }

@@ -40,9 +40,11 @@ pub struct LinearWork {
     pub factorisations: usize,
     /// Corrections of contact alone, on linearised bodies.
     pub contact_corrections: usize,
+    /// Iterations of GMRES.
+    pub krylov_iterations: usize,
     /// How the last one was made.
     pub method: Method,
-    /// Why the condensed solver was not used in the last one, where it was asked for.
+    /// Why the solver that was asked for was not used in the last one.
     pub fall_back: Option<FallBack>,
     /// Where the time went.
     pub times: Times,
@@ -87,6 +89,7 @@ impl Workspace {
     pub fn new(backend: Backend) -> Self {
         let solver: Box<dyn LinearSolver> = match backend {
             Backend::Condensed => Box::new(Automatic::new()),
+            Backend::Iterative => Box::new(Automatic::iterative()),
             Backend::Multifrontal => Box::new(MultifrontalLu::new()),
             Backend::Faer => Box::new(FaerLu::new()),
         };
@@ -161,6 +164,7 @@ impl Workspace {
         let structure = Structure::from_cliques(layout.offsets().to_vec(), &cliques)
             .and_then(|structure| structure.with_tiers(layout.tiers()))
             .and_then(|structure| structure.with_bulk(&layout.bulk()))
+            .and_then(|structure| structure.with_points(layout.points(problem)))
             .and_then(|structure| structure.grown(&tied))
             .expect("the layout names its own supervariables");
         self.system = Some(SystemStorage {
@@ -329,6 +333,7 @@ impl Workspace {
         if solution.interior == Interior::Fresh {
             self.work.factorisations += 1;
         }
+        self.work.krylov_iterations += solution.krylov_iterations;
         self.work.times.solution += factored.elapsed();
         Ok(correction)
     }

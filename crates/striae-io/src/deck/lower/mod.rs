@@ -165,6 +165,7 @@ fn solver(raw: Option<&raw::SolverSettings>) -> Solver {
             None | Some(raw::Backend::Condensed) => Backend::Condensed,
             Some(raw::Backend::Multifrontal) => Backend::Multifrontal,
             Some(raw::Backend::Faer) => Backend::Faer,
+            Some(raw::Backend::Iterative) => Backend::Iterative,
         },
         strategy: strategy(raw),
         tolerance: tolerance.map_or(1e-10, |tolerance| tolerance.value.0),

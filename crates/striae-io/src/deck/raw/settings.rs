@@ -32,12 +32,14 @@ table! {
 words! {
     /// Factorisation of the linear systems.
     Backend {
-        /// Bodies by Cholesky and contact by dense algebra; multifrontal LU where that does not work or pay.
+        /// Bodies by Cholesky and contact by dense algebra; multifrontal LU where that does not work or pay, `iterative` for large bodies.
         Condensed = "condensed",
         /// Multifrontal LU on dense fronts.
         Multifrontal = "multifrontal",
         /// Sparse LU of the library faer.
         Faer = "faer",
+        /// GMRES, the bodies by smoothed aggregation; multifrontal LU where that fails.
+        Iterative = "iterative",
     }
 }
 

@@ -1,0 +1,258 @@
+//! A level but the coarsest: matrix, smoother, interpolation.
+
+use super::{
+    MODES,
+    aggregates::Aggregates,
+    blocks::{Blocks, Mirror, add_product, add_transposed_product},
+    prolongator::Tentative,
+};
+use rayon::prelude::*;
+
+/// Steps of the power method.
+const STEPS: usize = 12;
+/// By how much its estimate of the largest eigenvalue is raised.
+const SAFETY: f64 = 1.1;
+/// Largest eigenvalue over the smallest one that smoothing reduces.
+const RATIO: f64 = 10.0;
+/// Degree of the smoothing polynomial.
+const DEGREE: usize = 2;
+
+/// A matrix of `N` by `N` blocks with all that a V-cycle needs.
+#[derive(Debug)]
+pub(crate) struct Level<const N: usize> {
+    matrix: Blocks<N, N, f32>,
+    /// Inverses of the diagonal blocks.
+    inverses: Vec<f32>,
+    /// Largest eigenvalue of the matrix times those.
+    largest: f64,
+    prolongator: Blocks<N, MODES, f32>,
+    mirror: Mirror,
+}
+
+impl<const N: usize> Level<N> {
+    /// A level without a coarser one.
+    pub(crate) fn new(matrix: &Blocks<N, N, f64>) -> Self {
+        let inverses = inverses(matrix);
+        let mut level = Self {
+            matrix: matrix.rounded(),
+            inverses: inverses.iter().map(|&a| a as f32).collect(),
+            largest: 1.0,
+            prolongator: Blocks::default(),
+            mirror: Mirror::default(),
+        };
+        level.largest = SAFETY * level.power_method();
+        level
+    }
+
+    /// Interpolates from aggregates; the coarse matrix and its near-kernel.
+    pub(crate) fn coarsen(
+        &mut self,
+        matrix: Blocks<N, N, f64>,
+        near_kernel: &[f64],
+        theta: f64,
+        may_join: impl Fn(usize, usize) -> bool + Sync,
+    ) -> (Blocks<MODES, MODES, f64>, Vec<f64>) {
+        let aggregates = Aggregates::new(&matrix, theta, may_join);
+        let tentative = Tentative::new::<N>(&aggregates, near_kernel);
+        let omega = 4.0 / 3.0 / self.largest;
+        let prolongator = tentative.smoothed(&aggregates, &matrix, &inverses(&matrix), omega);
+        let coarse = aggregates.count;
+        let image = Blocks::<N, MODES, f64>::from_rows(matrix.rows(), coarse, |i, sum| {
+            for (j, block) in matrix.row(i) {
+                for (k, p) in prolongator.row(j) {
+                    add_product::<N, N, MODES>(sum.block(k), 1.0, block, p);
+                }
+            }
+        });
+        drop(matrix);
+        self.mirror = Mirror::of(&prolongator, coarse);
+        let mirror = &self.mirror;
+        let mut product = Blocks::<MODES, MODES, f64>::from_rows(coarse, coarse, |i, sum| {
+            for (row, at) in mirror.column(i) {
+                let p = &prolongator.values[at * N * MODES..][..N * MODES];
+                for (k, a) in image.row(row) {
+                    add_transposed_product::<MODES, N, MODES>(sum.block(k), p, a);
+                }
+            }
+        });
+        without_zeros(&mut product);
+        self.prolongator = prolongator.rounded();
+        (product, tentative.coarse)
+    }
+
+    /// Whether there is no coarser level.
+    pub(crate) fn is_last(&self) -> bool {
+        self.prolongator.starts.is_empty()
+    }
+
+    /// `x` from `b` by smoothing, a correction by the coarser levels, smoothing.
+    pub(crate) fn cycle(&self, b: &[f32], x: &mut [f32], coarser: &dyn Fn(&[f32], &mut [f32])) {
+        x.fill(0.0);
+        self.smooth(b, x, Start::Zero);
+        let mut residual = b.to_vec();
+        self.matrix.combine(x, &mut residual, |ax, b| b - ax);
+        let size = MODES * self.mirror.columns();
+        let (mut restricted, mut correction) = (vec![0.0; size], vec![0.0; size]);
+        self.mirror
+            .multiply(&self.prolongator, &residual, &mut restricted);
+        drop(residual);
+        coarser(&restricted, &mut correction);
+        self.prolongator.combine(&correction, x, |p, x| x + p);
+        self.smooth(b, x, Start::Given);
+    }
+
+    /// Chebyshev iteration on the upper part of the spectrum (Saad, Iterative Methods, alg. 12.1).
+    fn smooth(&self, b: &[f32], x: &mut [f32], start: Start) {
+        let (upper, lower) = (self.largest, self.largest / RATIO);
+        let (centre, half) = (0.5 * (upper + lower), 0.5 * (upper - lower));
+        let sigma = centre / half;
+        let mut rho = 1.0 / sigma;
+        let mut step = vec![0.0; b.len()];
+        let mut residual = b.to_vec();
+        for k in 0..DEGREE {
+            if k > 0 || start == Start::Given {
+                residual.copy_from_slice(b);
+                self.matrix.combine(x, &mut residual, |ax, b| b - ax);
+            }
+            let (keep, take) = if k == 0 {
+                (0.0, 1.0 / centre)
+            } else {
+                let before = rho;
+                rho = 1.0 / (2.0 * sigma - before);
+                (rho * before, 2.0 * rho / half)
+            };
+            self.advance(&residual, (keep as f32, take as f32), &mut step, x);
+        }
+    }
+
+    /// `step := keep step + take D^-1 residual`, `x += step`.
+    fn advance(&self, residual: &[f32], weights: (f32, f32), step: &mut [f32], x: &mut [f32]) {
+        let (keep, take) = weights;
+        x.par_chunks_exact_mut(N)
+            .zip(step.par_chunks_exact_mut(N))
+            .zip(residual.par_chunks_exact(N))
+            .zip(self.inverses.par_chunks_exact(N * N))
+            .with_min_len(512)
+            .for_each(|(((x, step), residual), inverse)| {
+                for r in 0..N {
+                    let mut sum = 0.0;
+                    for c in 0..N {
+                        sum += inverse[r * N + c] * residual[c];
+                    }
+                    step[r] = keep * step[r] + take * sum;
+                    x[r] += step[r];
+                }
+            });
+    }
+
+    /// Largest eigenvalue of `D^-1 A`, from below.
+    fn power_method(&self) -> f64 {
+        let n = N * self.matrix.rows();
+        let mut x: Vec<f32> = pseudo_random(n);
+        let (mut image, mut estimate) = (vec![0.0; n], 1.0);
+        for _ in 0..STEPS {
+            self.matrix.multiply(&x, &mut image);
+            let mut next = vec![0.0; n];
+            let mut unused = vec![0.0; n];
+            self.advance(&image, (0.0, 1.0), &mut next, &mut unused);
+            let square = |v: &[f32]| v.iter().map(|&v| f64::from(v) * f64::from(v)).sum::<f64>();
+            let (before, after) = (square(&x).sqrt(), square(&next).sqrt());
+            if before == 0.0 || after == 0.0 {
+                break;
+            }
+            estimate = after / before;
+            x = next.iter().map(|v| (f64::from(*v) / after) as f32).collect();
+        }
+        estimate
+    }
+
+    /// Entries that are kept.
+    pub(crate) fn entries(&self) -> usize {
+        self.matrix.values.len() + self.prolongator.values.len() + self.inverses.len()
+    }
+}
+
+/// What is known of the solution before smoothing.
+#[derive(Clone, Copy, PartialEq)]
+enum Start {
+    Zero,
+    Given,
+}
+
+/// Numbers between minus one and one that are always the same.
+fn pseudo_random(n: usize) -> Vec<f32> {
+    let mut state = 0x9E37_79B9_7F4A_7C15_u64;
+    let next = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 40) as f32 / (1_u64 << 23) as f32 - 1.0
+    };
+    std::iter::repeat_with(next).take(n).collect()
+}
+
+/// Gives unknowns that nothing interpolates from a unit diagonal.
+fn without_zeros(matrix: &mut Blocks<MODES, MODES, f64>) {
+    for i in 0..matrix.rows() {
+        for at in matrix.starts[i]..matrix.starts[i + 1] {
+            if matrix.columns[at] as usize == i {
+                let block = &mut matrix.values[at * MODES * MODES..][..MODES * MODES];
+                for k in 0..MODES {
+                    let own = &mut block[k * MODES + k];
+                    if *own <= 0.0 {
+                        *own = 1.0;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Inverses of the diagonal blocks, by Cholesky; of the diagonal alone where that fails.
+fn inverses<const N: usize>(matrix: &Blocks<N, N, f64>) -> Vec<f64> {
+    let mut inverses = vec![0.0; matrix.rows() * N * N];
+    inverses
+        .par_chunks_exact_mut(N * N)
+        .enumerate()
+        .with_min_len(64)
+        .for_each(|(i, target)| {
+            if let Some((_, block)) = matrix.row(i).find(|&(j, _)| j == i) {
+                invert::<N>(block, target);
+            } else {
+                (0..N).for_each(|k| target[k * N + k] = 1.0);
+            }
+        });
+    inverses
+}
+
+/// Smallest pivot over its diagonal entry.
+const SMALL: f64 = 1e-10;
+
+/// Inverse of a symmetric positive definite block by Gauss-Jordan steps.
+fn invert<const N: usize>(block: &[f64], target: &mut [f64]) {
+    let mut a = block.to_vec();
+    target.fill(0.0);
+    (0..N).for_each(|k| target[k * N + k] = 1.0);
+    for k in 0..N {
+        let pivot = a[k * N + k];
+        if pivot.is_nan() || pivot <= SMALL * block[k * N + k].abs() {
+            target.fill(0.0);
+            for k in 0..N {
+                let own = block[k * N + k].abs();
+                target[k * N + k] = if own > 0.0 { 1.0 / own } else { 1.0 };
+            }
+            return;
+        }
+        for c in 0..N {
+            a[k * N + c] /= pivot;
+            target[k * N + c] /= pivot;
+        }
+        for r in (0..N).filter(|&r| r != k) {
+            let factor = a[r * N + k];
+            for c in 0..N {
+                a[r * N + c] -= factor * a[k * N + c];
+                target[r * N + c] -= factor * target[k * N + c];
+            }
+        }
+    }
+}

@@ -1,0 +1,397 @@
+//! The iterative solver: GMRES on the whole system, bodies by smoothed aggregation.
+//!
+//! With bulk unknowns `x` and multipliers `m` the system is
+//!
+//! ```text
+//! [ K    C  ] [x]   [r_x]
+//! [ G_x  G_m] [m] = [r_m]
+//! ```
+//!
+//! `K` is stiffened by the constraints among the rows of `G` ([`Constraint`]) to a
+//! definite `A`, of which one V-cycle of a [`Hierarchy`] is taken as the inverse, and
+//! `S = G_m - G_x A^-1 C` is approximated by a sparse matrix on the contact surfaces
+//! ([`Contact`]). The preconditioner is the block factorisation with both:
+//!
+//! ```text
+//! y = A^-1 r_x,   m = S^-1 (r_m - G_x y),   x = A^-1 (r_x - C m)
+//! ```
+//!
+//! With exact inverses GMRES would end after two steps, as the stiffening only acts on
+//! what violates a constraint. Rows with nothing but a diagonal (prescribed unknowns)
+//! are solved for first. The contact equations are met as all others: the residual is
+//! that of the true system. All is made anew for every matrix.
+
+mod constraints;
+mod contact;
+
+use crate::{
+    aggregation::{Hierarchy, MODES, blocks::Blocks},
+    bulk,
+    condensed::prescribed,
+    equilibration::Equilibration,
+    error::SolveError,
+    gmres::{self, Ends},
+    matrix::SparseMatrix,
+    solver::{Analysis, FactorReport, Interior, Method, SolveReport},
+    structure::Structure,
+    sums,
+};
+use constraints::Constraint;
+use contact::Contact;
+use rayon::prelude::*;
+
+/// Not a node.
+const NONE: u32 = u32::MAX;
+/// Iterations of GMRES between restarts.
+const CYCLE: usize = 120;
+/// Cycles at most.
+const CYCLES: usize = 3;
+
+/// Bodies of three unknowns a node, with contact.
+#[derive(Debug)]
+pub(crate) struct Iterative {
+    nodes: Nodes,
+    numeric: Option<Numeric>,
+}
+
+/// Supervariables with bulk unknowns.
+#[derive(Debug)]
+struct Nodes {
+    structure: Structure,
+    /// Supervariable of every node, and the other way round.
+    supervariables: Vec<u32>,
+    of: Vec<u32>,
+    /// Connected part of the bulk every node is in.
+    parts: Vec<u32>,
+    /// Unknowns that are no bulk, rising.
+    multipliers: Vec<u32>,
+}
+
+#[derive(Debug)]
+struct Numeric {
+    scaling: Equilibration,
+    prescribed: Vec<bool>,
+    hierarchy: Hierarchy,
+    contact: Contact,
+}
+
+/// A matrix with its scaling.
+struct Scaled<'a> {
+    nodes: &'a Nodes,
+    matrix: &'a SparseMatrix,
+    scaling: &'a Equilibration,
+    prescribed: &'a [bool],
+}
+
+impl Iterative {
+    /// Plans the solution; `None` where the bulk does not have three unknowns a node.
+    pub(crate) fn analyse(structure: &Structure) -> Option<Self> {
+        let mut nodes = Nodes {
+            structure: structure.clone(),
+            supervariables: Vec::new(),
+            of: vec![NONE; structure.supervariables()],
+            parts: Vec::new(),
+            multipliers: Vec::new(),
+        };
+        for i in 0..structure.supervariables() {
+            let bulk = structure.bulk_group(i);
+            let others = bulk.end..structure.group(i).end;
+            nodes.multipliers.extend(others.map(|u| u as u32));
+            match bulk.len() {
+                0 => {}
+                3 => {
+                    nodes.of[i] = nodes.supervariables.len() as u32;
+                    nodes.supervariables.push(i as u32);
+                }
+                _ => return None,
+            }
+        }
+        nodes.parts = vec![NONE; nodes.supervariables.len()];
+        for (part, members) in bulk::parts(structure).iter().enumerate() {
+            for &i in members {
+                nodes.parts[nodes.of[i as usize] as usize] = part as u32;
+            }
+        }
+        Some(Self {
+            nodes,
+            numeric: None,
+        })
+    }
+
+    /// Predicted cost, by counts.
+    pub(crate) fn analysis(structure: &Structure) -> Analysis {
+        let entries = structure.entries();
+        Analysis {
+            factor_entries: (FACTORS * entries as f64) as usize,
+            flops: OPERATIONS * entries as f64,
+            peak_bytes: size_of::<f64>() * ((PEAK * entries as f64) as usize + CYCLE * structure.unknowns()),
+            method: Method::Iterative,
+        }
+    }
+
+    /// Makes the preconditioner of a matrix of the analysed structure.
+    pub(crate) fn factor(&mut self, matrix: &SparseMatrix) -> Result<FactorReport, SolveError> {
+        self.numeric = None;
+        if !self.nodes.structure.same_as(matrix.structure()) {
+            return Err(SolveError::NotAnalysed);
+        }
+        let scaling = Equilibration::by_diagonal(matrix, None)?;
+        let prescribed = prescribed(matrix);
+        let scaled = Scaled {
+            nodes: &self.nodes,
+            matrix,
+            scaling: &scaling,
+            prescribed: &prescribed,
+        };
+        let constraints = Constraint::all(&scaled, &self.nodes.multipliers);
+        let contact = Contact::factor(&scaled, &constraints)?;
+        let bulk = scaled.stiffened(&constraints);
+        let parts = &self.nodes.parts;
+        let may_join = |i: usize, j: usize| parts[i] == parts[j];
+        let hierarchy = Hierarchy::new(bulk, &scaled.near_kernel(), may_join);
+        let indefinite = SolveError::NotPositiveDefinite {
+            unknown: 0,
+            pivot: 0.0,
+        };
+        let hierarchy = hierarchy.ok_or(indefinite)?;
+        let report = FactorReport {
+            factor_entries: hierarchy.entries() / 2 + contact.entries(),
+            method: Method::Iterative,
+            ..FactorReport::default()
+        };
+        self.numeric = Some(Numeric {
+            scaling,
+            prescribed,
+            hierarchy,
+            contact,
+        });
+        Ok(report)
+    }
+
+    /// Solves to a reduction of the scaled residual; `None` when that takes too many iterations.
+    pub(crate) fn solve(
+        &self,
+        matrix: &SparseMatrix,
+        rhs: &[f64],
+        x: &mut [f64],
+        reduction: f64,
+    ) -> Result<Option<SolveReport>, SolveError> {
+        let numeric = self.numeric.as_ref().ok_or(SolveError::NotFactored)?;
+        let scaling = &numeric.scaling;
+        let multiply = |v: &[f64], image: &mut [f64]| {
+            let mut v = v.to_vec();
+            scaling.scale_columns(&mut v);
+            matrix.multiply(&v, image);
+            scaling.scale_rows(image);
+        };
+        let precondition = |v: &mut [f64]| self.precondition(numeric, v);
+        x.fill(0.0);
+        for (u, _) in numeric.prescribed.iter().enumerate().filter(|p| *p.1) {
+            x[u] = rhs[u] / matrix.get(u, u).unwrap_or(1.0);
+        }
+        let mut residual = matrix.residual(x, rhs, &scaling.columns);
+        scaling.scale_rows(&mut residual.values);
+        let size = sums::norm(&residual.values);
+        let (mut iterations, mut present) = (0, size);
+        for _ in 0..CYCLES {
+            if present <= reduction * size {
+                break;
+            }
+            let ends = Ends {
+                iterations: CYCLE,
+                reduction: 0.9 * reduction * size / present,
+            };
+            let correction = gmres::solve(&multiply, &precondition, &residual.values, ends);
+            iterations += correction.iterations;
+            for (u, d) in correction.solution.iter().enumerate() {
+                x[u] += d * scaling.columns[u];
+            }
+            residual = matrix.residual(x, rhs, &scaling.columns);
+            scaling.scale_rows(&mut residual.values);
+            let before = present;
+            present = sums::norm(&residual.values);
+            // Not a number, or no progress.
+            if !(present < 0.5 * before) {
+                break;
+            }
+        }
+        let is_small = present <= reduction * size;
+        Ok(is_small.then_some(SolveReport {
+            backward_error: residual.backward_error,
+            refinements: 0,
+            krylov_iterations: iterations,
+            interior: Interior::Fresh,
+        }))
+    }
+
+    fn precondition(&self, numeric: &Numeric, v: &mut [f64]) {
+        let Numeric {
+            hierarchy, contact, ..
+        } = numeric;
+        let mut b = self.nodes.gather(v);
+        let mut x = vec![0.0; b.len()];
+        let mut multipliers: Vec<f64> = self
+            .nodes
+            .multipliers
+            .iter()
+            .map(|&u| v[u as usize])
+            .collect();
+        if !multipliers.is_empty() {
+            hierarchy.apply(&b, &mut x);
+            contact.solve(&x, &mut multipliers);
+            contact.subtract_forces(&multipliers, &mut b);
+        }
+        hierarchy.apply(&b, &mut x);
+        self.nodes.scatter(&x, &numeric.prescribed, v);
+        for (&u, m) in self.nodes.multipliers.iter().zip(&multipliers) {
+            v[u as usize] = *m;
+        }
+    }
+}
+
+impl Nodes {
+    /// Bulk unknowns by node.
+    fn gather(&self, v: &[f64]) -> Vec<f32> {
+        let mut b = vec![0.0; 3 * self.supervariables.len()];
+        b.par_chunks_exact_mut(3)
+            .zip(&self.supervariables)
+            .with_min_len(1024)
+            .for_each(|(b, &i)| {
+                let own = &v[self.structure.bulk_group(i as usize)];
+                b.iter_mut().zip(own).for_each(|(b, &v)| *b = v as f32);
+            });
+        b
+    }
+
+    /// The other way round, but for prescribed unknowns.
+    fn scatter(&self, x: &[f32], prescribed: &[bool], v: &mut [f64]) {
+        for (x, &i) in x.chunks_exact(3).zip(&self.supervariables) {
+            for (u, &x) in self.structure.bulk_group(i as usize).zip(x) {
+                if !prescribed[u] {
+                    v[u] = f64::from(x);
+                }
+            }
+        }
+    }
+}
+
+impl Scaled<'_> {
+    /// Scaled entries of a row, but those of prescribed unknowns.
+    fn row(&self, u: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let scale = self.scaling.rows[u];
+        let entries = self.matrix.row(u).filter(|&(v, _)| !self.prescribed[v]);
+        entries.map(move |(v, a)| (v, scale * a * self.scaling.columns[v]))
+    }
+
+    /// Node and component of a bulk unknown, [`NONE`] for a multiplier.
+    fn node(&self, u: usize) -> (u32, usize) {
+        let structure = &self.nodes.structure;
+        let i = structure.owner(u).0;
+        let component = u - structure.group(i).start;
+        if component < structure.bulk_group(i).len() {
+            (self.nodes.of[i], component)
+        } else {
+            (NONE, 0)
+        }
+    }
+
+    /// Symmetric part of the bulk with the stiffness of the constraints.
+    fn stiffened(&self, constraints: &[Constraint]) -> Blocks<3, 3, f64> {
+        let count = self.nodes.supervariables.len();
+        let mut incident = vec![Vec::new(); count];
+        for (k, constraint) in constraints.iter().enumerate() {
+            for (place, entry) in constraint.entries.iter().enumerate() {
+                incident[entry.0 as usize].push((k, place));
+            }
+        }
+        Blocks::from_rows(count, count, |node, sum| {
+            self.bulk_row(node, |other, block| {
+                let target = sum.block(other).iter_mut();
+                target.zip(block).for_each(|(t, b)| *t += b);
+            });
+            for &(k, place) in &incident[node] {
+                let Constraint {
+                    entries, stiffness, ..
+                } = &constraints[k];
+                let own = entries[place].1;
+                for (other, values) in entries {
+                    let target = sum.block(*other as usize);
+                    for r in 0..3 {
+                        for c in 0..3 {
+                            target[3 * r + c] += stiffness * own[r] * values[c];
+                        }
+                    }
+                }
+            }
+        })
+    }
+
+    /// Symmetric part of a row of the bulk, block by block.
+    fn bulk_row(&self, node: usize, mut add: impl FnMut(usize, &[f64; 9])) {
+        let structure = &self.nodes.structure;
+        let i = self.nodes.supervariables[node] as usize;
+        let values = self.matrix.values();
+        for edge in structure.edges(i).filter(|&e| structure.is_bulk_edge(e)) {
+            let j = structure.target(edge);
+            let (other, mirror) = (self.nodes.of[j], structure.edge(j, i));
+            let (true, Some(mirror)) = (other != NONE, mirror) else {
+                continue;
+            };
+            let mut block = [0.0; 9];
+            for (r, u) in structure.bulk_group(i).enumerate() {
+                let row = structure.row(i, r).start + structure.column(edge);
+                for (c, v) in structure.bulk_group(j).enumerate() {
+                    let there = structure.row(j, c).start + structure.column(mirror) + r;
+                    let scale = self.scaling.rows[u] * self.scaling.columns[v];
+                    block[3 * r + c] = if !self.prescribed[u] && !self.prescribed[v] {
+                        0.5 * scale * (values[row + c] + values[there])
+                    } else {
+                        f64::from(u == v)
+                    };
+                }
+            }
+            add(other as usize, &block);
+        }
+    }
+
+    /// Motions of a rigid body in scaled unknowns, 3 rows by six a node.
+    fn near_kernel(&self) -> Vec<f64> {
+        let structure = &self.nodes.structure;
+        let points = structure.points();
+        let own = |i: u32| points.map_or([0.0; 3], |points| points[i as usize]);
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for &i in &self.nodes.supervariables {
+            for (k, x) in own(i).into_iter().enumerate() {
+                (low[k], high[k]) = (low[k].min(x), high[k].max(x));
+            }
+        }
+        let size = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
+        let size = if size > 0.0 { size } else { 1.0 };
+        let mut kernel = Vec::with_capacity(3 * MODES * self.nodes.supervariables.len());
+        for &i in &self.nodes.supervariables {
+            let at = own(i);
+            let [x, y, z] = [0, 1, 2].map(|k| (at[k] - 0.5 * (low[k] + high[k])) / size);
+            let rows = [
+                [1.0, 0.0, 0.0, 0.0, z, -y],
+                [0.0, 1.0, 0.0, -z, 0.0, x],
+                [0.0, 0.0, 1.0, y, -x, 0.0],
+            ];
+            for (u, row) in structure.bulk_group(i as usize).zip(rows) {
+                let scale = if self.prescribed[u] {
+                    0.0
+                } else {
+                    1.0 / self.scaling.columns[u]
+                };
+                kernel.extend(row.map(|value| scale * value));
+            }
+        }
+        kernel
+    }
+}
+
+/// Entries that are kept over those of the matrix.
+const FACTORS: f64 = 1.0;
+/// Entries at the peak over those of the matrix, with it.
+const PEAK: f64 = 3.5;
+/// Operations of a solution over the entries of the matrix.
+const OPERATIONS: f64 = 500.0;
