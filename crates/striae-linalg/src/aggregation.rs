@@ -13,6 +13,7 @@ pub(crate) mod aggregates;
 pub(crate) mod blocks;
 mod coarsest;
 mod level;
+mod packed;
 mod prolongator;
 
 use blocks::Blocks;
@@ -105,3 +106,6 @@ impl Hierarchy {
         2 + self.coarser.len()
     }
 }
+
+#[cfg(test)]
+mod tests;

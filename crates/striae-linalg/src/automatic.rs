@@ -257,7 +257,7 @@ impl LinearSolver for Automatic {
         }
         if self.factored == Some(Method::Iterative) {
             let iterative = self.iterative.as_ref().ok_or(SolveError::NotFactored)?;
-            if let Some(report) = iterative.solve(matrix, rhs, x, REDUCTION)? {
+            if let Some(report) = iterative.solve(matrix, rhs, x, reduction)? {
                 return Ok(report);
             }
             self.fall_back(FallBack::NotConverged, matrix)?;

@@ -91,11 +91,6 @@ impl<const R: usize, const C: usize> Blocks<R, C, f64> {
 }
 
 impl<const R: usize, const C: usize> Blocks<R, C, f32> {
-    /// `y = A x`.
-    pub(crate) fn multiply(&self, x: &[f32], y: &mut [f32]) {
-        self.combine(x, y, |product, _| product);
-    }
-
     /// `y = f(A x, y)` in every component.
     pub(crate) fn combine(&self, x: &[f32], y: &mut [f32], f: impl Fn(f32, f32) -> f32 + Sync) {
         y.par_chunks_exact_mut(R)
@@ -229,11 +224,14 @@ impl<const R: usize, const C: usize> RowSum<R, C> {
     fn finish(&mut self, matrix: &mut Blocks<R, C, f64>) {
         self.order.clear();
         self.order.extend(0..self.columns.len() as u32);
-        self.order.sort_unstable_by_key(|&k| self.columns[k as usize]);
+        self.order
+            .sort_unstable_by_key(|&k| self.columns[k as usize]);
         for &k in &self.order {
             let k = k as usize;
             matrix.columns.push(self.columns[k]);
-            matrix.values.extend(&self.values[k * R * C..(k + 1) * R * C]);
+            matrix
+                .values
+                .extend(&self.values[k * R * C..(k + 1) * R * C]);
             self.places[self.columns[k] as usize] = u32::MAX;
         }
         matrix.starts.push(matrix.columns.len());
@@ -271,6 +269,38 @@ pub(crate) fn add_transposed_product<const M: usize, const K: usize, const N: us
         for m in 0..M {
             for n in 0..N {
                 target[m * N + n] += a[k * M + m] * b[k * N + n];
+            }
+        }
+    }
+}
+
+/// Smallest pivot over its diagonal entry.
+const SMALL: f64 = 1e-10;
+
+/// Inverse of a symmetric positive definite block by Gauss-Jordan steps; that of its diagonal where it is not definite.
+pub(crate) fn invert<const N: usize>(block: &[f64], target: &mut [f64]) {
+    let mut a = block.to_vec();
+    target.fill(0.0);
+    (0..N).for_each(|k| target[k * N + k] = 1.0);
+    for k in 0..N {
+        let pivot = a[k * N + k];
+        if pivot.is_nan() || pivot <= SMALL * block[k * N + k].abs() {
+            target.fill(0.0);
+            for k in 0..N {
+                let own = block[k * N + k].abs();
+                target[k * N + k] = if own > 0.0 { 1.0 / own } else { 1.0 };
+            }
+            return;
+        }
+        for c in 0..N {
+            a[k * N + c] /= pivot;
+            target[k * N + c] /= pivot;
+        }
+        for r in (0..N).filter(|&r| r != k) {
+            let factor = a[r * N + k];
+            for c in 0..N {
+                a[r * N + c] -= factor * a[k * N + c];
+                target[r * N + c] -= factor * target[k * N + c];
             }
         }
     }

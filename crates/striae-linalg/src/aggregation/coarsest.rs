@@ -1,11 +1,7 @@
 //! The coarsest level: dense Cholesky factors.
 
 use super::blocks::Blocks;
-use faer::{
-    Mat, Par,
-    linalg::triangular_solve as triangular,
-    mat::MatMut,
-};
+use faer::{Mat, Par, linalg::triangular_solve as triangular, mat::MatMut};
 
 /// Shares of the diagonal that are added until the matrix is definite.
 const SHIFTS: [f64; 4] = [0.0, 1e-10, 1e-6, 1e-2];

@@ -3,7 +3,8 @@
 use super::{
     MODES,
     aggregates::Aggregates,
-    blocks::{Blocks, Mirror, add_product, add_transposed_product},
+    blocks::{Blocks, Mirror, add_product, add_transposed_product, invert},
+    packed::Packed,
     prolongator::Tentative,
 };
 use rayon::prelude::*;
@@ -20,7 +21,7 @@ const DEGREE: usize = 2;
 /// A matrix of `N` by `N` blocks with all that a V-cycle needs.
 #[derive(Debug)]
 pub(crate) struct Level<const N: usize> {
-    matrix: Blocks<N, N, f32>,
+    matrix: Packed<N>,
     /// Inverses of the diagonal blocks.
     inverses: Vec<f32>,
     /// Largest eigenvalue of the matrix times those.
@@ -34,7 +35,7 @@ impl<const N: usize> Level<N> {
     pub(crate) fn new(matrix: &Blocks<N, N, f64>) -> Self {
         let inverses = inverses(matrix);
         let mut level = Self {
-            matrix: matrix.rounded(),
+            matrix: Packed::of(matrix),
             inverses: inverses.iter().map(|&a| a as f32).collect(),
             largest: 1.0,
             prolongator: Blocks::default(),
@@ -151,7 +152,7 @@ impl<const N: usize> Level<N> {
         let mut x: Vec<f32> = pseudo_random(n);
         let (mut image, mut estimate) = (vec![0.0; n], 1.0);
         for _ in 0..STEPS {
-            self.matrix.multiply(&x, &mut image);
+            self.matrix.combine(&x, &mut image, |ax, _| ax);
             let mut next = vec![0.0; n];
             let mut unused = vec![0.0; n];
             self.advance(&image, (0.0, 1.0), &mut next, &mut unused);
@@ -161,14 +162,17 @@ impl<const N: usize> Level<N> {
                 break;
             }
             estimate = after / before;
-            x = next.iter().map(|v| (f64::from(*v) / after) as f32).collect();
+            x = next
+                .iter()
+                .map(|v| (f64::from(*v) / after) as f32)
+                .collect();
         }
         estimate
     }
 
     /// Entries that are kept.
     pub(crate) fn entries(&self) -> usize {
-        self.matrix.values.len() + self.prolongator.values.len() + self.inverses.len()
+        self.matrix.entries() + self.prolongator.values.len() + self.inverses.len()
     }
 }
 
@@ -223,36 +227,4 @@ fn inverses<const N: usize>(matrix: &Blocks<N, N, f64>) -> Vec<f64> {
             }
         });
     inverses
-}
-
-/// Smallest pivot over its diagonal entry.
-const SMALL: f64 = 1e-10;
-
-/// Inverse of a symmetric positive definite block by Gauss-Jordan steps.
-fn invert<const N: usize>(block: &[f64], target: &mut [f64]) {
-    let mut a = block.to_vec();
-    target.fill(0.0);
-    (0..N).for_each(|k| target[k * N + k] = 1.0);
-    for k in 0..N {
-        let pivot = a[k * N + k];
-        if pivot.is_nan() || pivot <= SMALL * block[k * N + k].abs() {
-            target.fill(0.0);
-            for k in 0..N {
-                let own = block[k * N + k].abs();
-                target[k * N + k] = if own > 0.0 { 1.0 / own } else { 1.0 };
-            }
-            return;
-        }
-        for c in 0..N {
-            a[k * N + c] /= pivot;
-            target[k * N + c] /= pivot;
-        }
-        for r in (0..N).filter(|&r| r != k) {
-            let factor = a[r * N + k];
-            for c in 0..N {
-                a[r * N + c] -= factor * a[k * N + c];
-                target[r * N + c] -= factor * target[k * N + c];
-            }
-        }
-    }
 }

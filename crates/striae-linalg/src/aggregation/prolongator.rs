@@ -30,7 +30,9 @@ impl Tentative {
             .par_iter()
             .with_min_len(16)
             .map(|nodes| {
-                let own = nodes.iter().map(|&i| &near_kernel[i as usize * size..][..size]);
+                let own = nodes
+                    .iter()
+                    .map(|&i| &near_kernel[i as usize * size..][..size]);
                 let mut columns = own.collect::<Vec<_>>().concat();
                 let r = orthonormalised(&mut columns);
                 (columns, r)

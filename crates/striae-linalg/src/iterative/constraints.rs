@@ -8,12 +8,14 @@
 //! become definite, and `g A^-1 g^T` is near `1/s` whatever the mesh.
 
 use super::{NONE, Scaled};
+use crate::{
+    aggregation::blocks::{Blocks, invert},
+    structure::Supervariable,
+};
 use rayon::prelude::*;
 
 /// Stiffness that is added in the direction of a constraint, over that of the bulk there.
-const STIFFENING: f64 = 6.0;
-/// Part of the bulk's compliance that counts beside that of the added stiffness.
-const COMPLIANCE: f64 = 0.5;
+const STIFFENING: f64 = 2.0;
 /// Largest entry of a multiplier over the largest of positions in a constraint.
 const SMALL: f64 = 0.1;
 
@@ -62,21 +64,41 @@ impl Constraint {
             stiffness: STIFFENING / sigma,
         })
     }
+}
 
-    /// The node with the largest entries.
-    pub(crate) fn foremost(&self) -> (u32, [f64; 3]) {
-        let square = |e: &(u32, [f64; 3])| e.1.iter().map(|a| a * a).sum::<f64>();
-        let mut best = self.entries[0];
-        for entry in &self.entries {
-            if square(entry) > square(&best) {
-                best = *entry;
+/// Inverses of the diagonal blocks of the stiffened bulk at nodes with multipliers or constraints.
+pub(crate) struct Compliance {
+    /// Place of every node among the blocks.
+    places: Vec<u32>,
+    blocks: Vec<[f64; 9]>,
+}
+
+impl Compliance {
+    /// From the stiffened bulk.
+    pub(crate) fn of(scaled: &Scaled<'_>, bulk: &Blocks<3, 3, f64>) -> Self {
+        let nodes = &scaled.nodes;
+        let mut compliance = Self {
+            places: vec![NONE; nodes.supervariables.len()],
+            blocks: Vec::new(),
+        };
+        for (node, &i) in nodes.supervariables.iter().enumerate() {
+            if nodes.structure.is_kept(Supervariable(i as usize)) {
+                let mut inverse = [0.0; 9];
+                let own = bulk.row(node).find(|&(j, _)| j == node);
+                own.iter()
+                    .for_each(|(_, block)| invert::<3>(block, &mut inverse));
+                compliance.places[node] = compliance.blocks.len() as u32;
+                compliance.blocks.push(inverse);
             }
         }
-        best
+        compliance
     }
 
-    /// About `g A^-1 g^T` with the stiffened bulk `A`.
-    pub(crate) fn compliance(&self) -> f64 {
-        STIFFENING / self.stiffness / (STIFFENING + COMPLIANCE)
+    /// Component of the displacement of a node under a force.
+    pub(crate) fn along(&self, node: u32, component: usize, force: &[f64; 3]) -> f64 {
+        let block = self.blocks.get(self.places[node as usize] as usize);
+        block.map_or(0.0, |block| {
+            (0..3).map(|c| block[3 * component + c] * force[c]).sum()
+        })
     }
 }

@@ -1,12 +1,14 @@
 //! The multipliers' part of the preconditioner, sparse on the contact surfaces.
 //!
-//! In the row of a constraint `g` the matrix `g A^-1 C` is replaced by
-//! `alpha g_i C_i / |g_i|^2`, where `i` is the node with the largest entries and
-//! `alpha` is about `g A^-1 g^T`: forces on the other nodes of the row are those of
-//! the same tractions. In other rows the multipliers' own entries dominate, and the
-//! bulk yields by its scaled diagonal, which is about one.
+//! The Schur complement `G_m - G_x A^-1 C` is taken with the inverse of the node-wise
+//! diagonal of the stiffened bulk in the place of `A^-1`. As `g A^-1 g^T` lies between
+//! the yielding of the bulk and that of the added stiffness, which are of one size, that
+//! is right up to factors near one, whatever the mesh and the stiffness of the bodies.
 
-use super::{NONE, Scaled, constraints::Constraint};
+use super::{
+    NONE, Scaled,
+    constraints::{Compliance, Constraint},
+};
 use crate::{
     error::SolveError,
     matrix::SparseMatrix,
@@ -16,6 +18,9 @@ use crate::{
     structure::{Structure, Supervariable, Tier},
 };
 use rayon::prelude::*;
+
+/// What is added to the diagonal in the row of a constraint.
+const SLIGHT: f64 = 1e-4;
 
 /// Couplings with the bulk and factors of what approximates the Schur complement.
 #[derive(Debug)]
@@ -33,6 +38,7 @@ impl Contact {
     pub(crate) fn factor(
         scaled: &Scaled<'_>,
         constraints: &[Constraint],
+        compliance: &Compliance,
     ) -> Result<Self, SolveError> {
         let structure = &scaled.nodes.structure;
         let multipliers = &scaled.nodes.multipliers;
@@ -53,9 +59,9 @@ impl Contact {
                 }
             }
         }
-        let mut constraint_of = vec![NONE; multipliers.len()];
-        for (k, constraint) in constraints.iter().enumerate() {
-            constraint_of[place[constraint.unknown as usize] as usize] = k as u32;
+        let mut is_constraint = vec![false; multipliers.len()];
+        for constraint in constraints {
+            is_constraint[place[constraint.unknown as usize] as usize] = true;
         }
         let force = |at: u32| -> &[(u32, f64)] {
             let found = forces.binary_search_by_key(&at, |f| f.0);
@@ -73,23 +79,21 @@ impl Contact {
                         (node, component) => positions.push((3 * node + component as u32, a)),
                     }
                 }
-                match constraints.get(constraint_of[k] as usize) {
-                    Some(constraint) => {
-                        let (node, g) = constraint.foremost();
-                        let square: f64 = g.iter().map(|a| a * a).sum();
-                        let scale = constraint.compliance() / square;
-                        for (component, g) in g.iter().enumerate() {
-                            let row = force(3 * node + component as u32).iter();
-                            own.extend(row.map(|&(m, c)| (m, -scale * g * c)));
-                        }
+                for entries in positions.chunk_by(|a, b| a.0 / 3 == b.0 / 3) {
+                    let node = entries[0].0 / 3;
+                    let mut g = [0.0; 3];
+                    entries.iter().for_each(|&(at, a)| g[at as usize % 3] = a);
+                    for component in 0..3 {
+                        let moved = compliance.along(node, component, &g);
+                        let row = force(3 * node + component as u32).iter();
+                        own.extend(row.map(|&(m, c)| (m, -moved * c)));
                     }
-                    None => {
-                        let i = structure.owner(u as usize).0;
-                        let node = scaled.nodes.of[i];
-                        for &(at, g) in positions.iter().filter(|p| p.0 / 3 == node) {
-                            own.extend(force(at).iter().map(|&(m, c)| (m, -g * c)));
-                        }
-                    }
+                }
+                if is_constraint[k] {
+                    // Tractions may act on nothing but prescribed unknowns.
+                    let diagonal = own.iter().filter(|e| e.0 == k as u32);
+                    let diagonal: f64 = diagonal.map(|e| e.1).sum();
+                    own.push((k as u32, if diagonal > 0.0 { SLIGHT } else { -SLIGHT }));
                 }
                 (positions, own)
             })

@@ -1,5 +1,6 @@
 //! Linear systems that are hard for a solver: `Run::completed` holds the answers
-//! of the condensed one against those of the multifrontal LU.
+//! of the condensed one against those of the multifrontal LU, `Run::iterated` those of
+//! the iterative one.
 
 use crate::scene::{Places, Run, block, body, coulomb, increments, model, rubber, step};
 use striae_contact::unknowns::Status;
@@ -27,11 +28,12 @@ fn blocks(materials: [Material; 2], width: f64, gap: f64) -> Model {
     model
 }
 
-/// The same, with the upper block's top moved.
+/// The same, with the upper block's top moved; the iterative solver is held against the LU too.
 fn pressed(materials: [Material; 2], width: f64, gap: f64, to: [f64; 3]) -> Run {
     let mut model = blocks(materials, width, gap);
     let top = model.hold("upper", "zmax", to.map(Some));
     model.steps[0].displacements.push(top);
+    Run::iterated(model.clone());
     Run::completed(model)
 }
 
@@ -115,6 +117,7 @@ fn a_body_held_by_friction_alone() {
     let pull = LoadKind::DeadTraction(Vec3::new(0.001, 0.0, -0.01));
     let load = model.load("upper", "zmax", pull, LoadExtent::Whole);
     model.steps[0].loads = vec![load];
+    Run::iterated(model.clone());
     let run = Run::completed(model);
     assert!(touching(&run) > 0);
 }
@@ -167,6 +170,7 @@ fn slices(layers: [usize; 2]) -> Model {
 #[test]
 fn slices_between_walls() {
     for layers in [[1, 1], [2, 3]] {
+        Run::iterated(slices(layers));
         let run = Run::completed(slices(layers));
         assert!(run.cuts.is_empty(), "{layers:?}: {:?}", run.cuts);
         assert!(touching(&run) > 0);

@@ -5,6 +5,7 @@ use striae_law::{
     bulk::{LameConstants, Material},
     friction::Friction,
 };
+use striae_linalg::Method;
 use striae_mesh::{Face, Mesh, NodeId, Vec3, generate::Block};
 use striae_solve::{
     drive::{Continue, Observer, Progress, run},
@@ -63,6 +64,22 @@ impl Run {
         run.assert_agrees(&other);
         let cuts: Vec<String> = run.cuts.iter().map(|(_, cut)| cut.to_string()).collect();
         assert_eq!(run.ending, Ending::Completed, "{}\n{cuts:#?}", run.ending);
+        run
+    }
+
+    /// The run of a model by the iterative solver, with the same answers by the
+    /// multifrontal LU.
+    pub fn iterated(mut model: Model) -> Self {
+        let mut other = model.clone();
+        other.solver.backend = Backend::Multifrontal;
+        model.solver.backend = Backend::Iterative;
+        let (run, other) = (Self::of(model), Self::of(other));
+        let cuts: Vec<String> = run.cuts.iter().map(|(_, cut)| cut.to_string()).collect();
+        assert_eq!(run.ending, Ending::Completed, "{}\n{cuts:#?}", run.ending);
+        run.assert_agrees(&other);
+        for work in &run.work {
+            assert_eq!((work.method, work.fall_back), (Method::Iterative, None));
+        }
         run
     }
 
