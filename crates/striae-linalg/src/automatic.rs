@@ -65,6 +65,8 @@ pub struct Automatic {
     /// Why the iterative solver was chosen by cost.
     reason: Option<FallBack>,
     patience: usize,
+    /// Factorisations by direct solvers before the iterative one is tried again.
+    rest: usize,
     factored: Option<Method>,
     /// Age of the factors of the interior.
     interior: Interior,
@@ -111,32 +113,39 @@ impl Automatic {
     /// Factors everything.
     fn factor_anew(&mut self, matrix: &SparseMatrix) -> Result<FactorReport, SolveError> {
         (self.interior, self.taken) = (Interior::Fresh, 0);
-        if let Some(iterative) = self.iterative.as_mut().filter(|_| self.patience == 0) {
-            return match iterative.factor(matrix) {
+        if let Some(iterative) = self.iterative.as_mut().filter(|_| self.rest == 0) {
+            match iterative.factor(matrix) {
                 Ok(report) => {
                     self.factored = Some(Method::Iterative);
-                    self.multifrontal = None;
-                    Ok(FactorReport {
+                    (self.condensed, self.multifrontal) = (None, None);
+                    return Ok(FactorReport {
                         fall_back: self.reason,
                         ..report
-                    })
+                    });
                 }
                 Err(SolveError::NotPositiveDefinite { .. } | SolveError::Singular { .. }) => {
-                    self.fall_back(FallBack::NoPreconditioner, matrix)
+                    self.give_up(FallBack::NoPreconditioner);
                 }
-                Err(other) => Err(other),
-            };
+                Err(other) => return Err(other),
+            }
+        } else {
+            self.rest = self.rest.saturating_sub(1);
         }
+        self.plan_direct()?;
         let Some(condensed) = self.condensed.as_mut().filter(|_| self.patience == 0) else {
             self.patience = self.patience.saturating_sub(1);
             return self.factor_multifrontal(matrix);
         };
         match condensed.factor(matrix) {
             Ok(report) => {
-                (self.fall_back, self.factored) = (None, Some(Method::Condensed));
+                let reason = self.iterative.as_ref().and(self.fall_back);
+                (self.fall_back, self.factored) = (reason, Some(Method::Condensed));
                 // The LU would only hold memory now.
                 self.multifrontal = None;
-                Ok(report)
+                Ok(FactorReport {
+                    fall_back: reason,
+                    ..report
+                })
             }
             Err(SolveError::NotPositiveDefinite { unknown, .. }) => {
                 self.fall_back(FallBack::IndefiniteInterior { unknown }, matrix)
@@ -144,6 +153,28 @@ impl Automatic {
             Err(SolveError::Singular { .. }) => self.fall_back(FallBack::SingularContact, matrix),
             Err(other) => Err(other),
         }
+    }
+
+    /// Leaves matrices to a direct solver for a while.
+    fn give_up(&mut self, reason: FallBack) {
+        (self.fall_back, self.rest) = (Some(reason), PATIENCE);
+        if let Some(iterative) = &mut self.iterative {
+            iterative.forget();
+        }
+    }
+
+    /// Plans the condensed solver in the place of the iterative one, if there is memory for it.
+    fn plan_direct(&mut self) -> Result<(), SolveError> {
+        let is_planned = self.condensed.is_some() || self.multifrontal.is_some();
+        if self.iterative.is_none() || is_planned {
+            return Ok(());
+        }
+        let structure = self.structure.as_ref().ok_or(SolveError::NotAnalysed)?;
+        let condensed = Condensed::analyse(structure)?;
+        if condensed.analysis().peak_bytes <= LARGEST {
+            self.condensed = Some(condensed);
+        }
+        Ok(())
     }
 
     fn fall_back(
@@ -207,7 +238,7 @@ impl LinearSolver for Automatic {
     }
 
     fn start_afresh(&mut self) {
-        (self.patience, self.taken) = (0, 0);
+        (self.patience, self.rest, self.taken) = (0, 0, 0);
         if let Some(condensed) = &mut self.condensed {
             condensed.forget();
         }
@@ -234,6 +265,14 @@ impl LinearSolver for Automatic {
         x: &mut [f64],
         reduction: f64,
     ) -> Result<SolveReport, SolveError> {
+        if self.factored == Some(Method::Iterative) {
+            let iterative = self.iterative.as_ref().ok_or(SolveError::NotFactored)?;
+            if let Some(report) = iterative.solve(matrix, rhs, x, reduction)? {
+                return Ok(report);
+            }
+            self.give_up(FallBack::NotConverged);
+            self.factor_anew(matrix)?;
+        }
         if self.factored == Some(Method::Condensed) && self.interior == Interior::Stale {
             let ends = Ends {
                 iterations: self.allowance,
@@ -254,13 +293,6 @@ impl LinearSolver for Automatic {
                 }
                 other => return other,
             }
-        }
-        if self.factored == Some(Method::Iterative) {
-            let iterative = self.iterative.as_ref().ok_or(SolveError::NotFactored)?;
-            if let Some(report) = iterative.solve(matrix, rhs, x, reduction)? {
-                return Ok(report);
-            }
-            self.fall_back(FallBack::NotConverged, matrix)?;
         }
         match (self.multifrontal.as_mut(), self.factored) {
             (Some(solver), Some(_)) => solver.solve_to(matrix, rhs, x, reduction),

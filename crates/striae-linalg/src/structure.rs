@@ -9,6 +9,8 @@
 //! leading unknowns. What is added later by [`Structure::grown`] is the
 //! *interface*: its supervariables are kept when the rest of the bulk is
 //! condensed.
+//!
+//! Longer than other files, as all that fixes a pattern is in one place.
 
 use crate::error::StructureError;
 use std::{ops::Range, sync::Arc};

