@@ -135,7 +135,7 @@ fn combination(
 }
 
 /// Length of a vector, the squares summed piece by piece.
-fn norm(v: &[f64]) -> f64 {
+pub(crate) fn norm(v: &[f64]) -> f64 {
     let pieces = v.chunks(PIECE).map(|piece| {
         let mut sum = [0.0];
         subtract_transposed(&mut sum, Block::new(piece, piece.len()), piece);

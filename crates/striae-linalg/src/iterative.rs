@@ -35,7 +35,6 @@ use crate::{
     matrix::SparseMatrix,
     solver::{Analysis, FactorReport, Interior, Method, SolveReport},
     structure::Structure,
-    sums,
 };
 use constraints::{Compliance, Constraint};
 use contact::Contact;
@@ -194,7 +193,7 @@ impl Iterative {
         }
         let mut residual = matrix.residual(x, rhs, &scaling.columns);
         scaling.scale_rows(&mut residual.values);
-        let size = sums::norm(&residual.values);
+        let size = gmres::norm(&residual.values);
         let (mut iterations, mut present) = (0, size);
         for _ in 0..CYCLES {
             if present <= reduction * size {
@@ -212,7 +211,7 @@ impl Iterative {
             residual = matrix.residual(x, rhs, &scaling.columns);
             scaling.scale_rows(&mut residual.values);
             let before = present;
-            present = sums::norm(&residual.values);
+            present = gmres::norm(&residual.values);
             if present.is_nan() || present >= 0.5 * before {
                 break;
             }

@@ -49,7 +49,6 @@ mod solver;
 mod sparse_elimination;
 mod structure;
 mod substitution;
-mod sums;
 mod supernodes;
 mod symmetric;
 mod tree;
