@@ -19,11 +19,12 @@ const QUANTITIES: [(&str, &str, Of); 3] = [
     ("peak of memory", "MiB", |run| number(run, "peak_mib")),
 ];
 
-/// Runs scenes at several sizes with the condensed solver, fits power laws and draws them.
+/// Runs scenes at several sizes with one solver, fits power laws and draws them.
 pub fn all(
     names: &[String],
     sizes: &[usize],
     folder: Option<&str>,
+    solver: &str,
 ) -> Result<Vec<Value>, Box<dyn Error>> {
     let names = match names {
         [] => vec!["stacked"],
@@ -34,7 +35,7 @@ pub fn all(
     for name in names {
         let mut runs = Vec::new();
         for &size in sizes {
-            let run = child(name, size, "condensed")?;
+            let run = child(name, size, solver)?;
             let list = QUANTITIES
                 .iter()
                 .map(|(what, unit, of)| format!("{what} {:.3} {unit}", of(&run)));
@@ -44,11 +45,20 @@ pub fn all(
         }
         let exponents = report(name, &runs);
         if let Some(folder) = folder {
-            figure(&runs).write(Path::new(folder), &format!("growth-{name}"))?;
+            figure(&runs).write(Path::new(folder), &stem(name, solver))?;
         }
-        results.push(json!({ "scene": name, "exponents": exponents, "runs": runs }));
+        results
+            .push(json!({ "scene": name, "solver": solver, "exponents": exponents, "runs": runs }));
     }
     Ok(results)
+}
+
+/// Name of the figure; the solver by default has none in it.
+fn stem(name: &str, solver: &str) -> String {
+    match solver {
+        "condensed" => format!("growth-{name}"),
+        other => format!("growth-{name}-{other}"),
+    }
 }
 
 fn points(runs: &[Value], of: Of) -> Vec<[f64; 2]> {

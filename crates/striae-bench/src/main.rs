@@ -1,11 +1,11 @@
-//! Benchmarks: `striae-bench [GROUP ...] [--size UNKNOWNS ...] [--json FILE] [--compare | --growth] [--figure FOLDER]`.
+//! Benchmarks: `striae-bench [GROUP ...] [--size UNKNOWNS ...] [--json FILE] [--compare | --growth [--backend SOLVER]] [--figure FOLDER]`.
 //!
 //! Groups are `law`, `surface`, `search`, `assembly`, `factor`, `iteration` and
 //! `cases`; all of them without arguments. `--compare` runs scenes with the condensed solver
 //! and with the multifrontal LU, each in a process of its own, and prints the
 //! ratios of times and memory, and to a sparse Cholesky factorisation of the
 //! stiffness alone by the library faer with the same ordering. `--growth` fits time
-//! and memory against unknowns. README.md says what each group covers.
+//! and memory against unknowns, of the condensed solver or another backend. README.md says what each group covers.
 
 mod clock;
 mod compare;
@@ -26,6 +26,7 @@ struct Arguments {
     compare: bool,
     growth: bool,
     figure: Option<String>,
+    backend: Option<String>,
 }
 
 fn main() -> ExitCode {
@@ -45,6 +46,7 @@ fn run(mut words: impl Iterator<Item = String>) -> Result<(), Box<dyn Error>> {
             "--one" => return compare::one(&words.collect::<Vec<_>>()),
             "--compare" => arguments.compare = true,
             "--growth" => arguments.growth = true,
+            "--backend" => arguments.backend = words.next(),
             "--figure" => arguments.figure = words.next(),
             "--json" => arguments.json = words.next(),
             "--size" => arguments
@@ -57,7 +59,10 @@ fn run(mut words: impl Iterator<Item = String>) -> Result<(), Box<dyn Error>> {
         compare::all(&arguments.groups, &arguments.sizes)?
     } else if arguments.growth {
         let folder = arguments.figure.as_deref();
-        growth::all(&arguments.groups, &arguments.sizes, folder)?
+        {
+            let solver = arguments.backend.as_deref().unwrap_or("condensed");
+            growth::all(&arguments.groups, &arguments.sizes, folder, solver)?
+        }
     } else {
         parts::all(&arguments.groups, &arguments.sizes)?
     };
