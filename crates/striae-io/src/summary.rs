@@ -56,7 +56,7 @@ pub struct SolverSummary {
     pub factorisations: usize,
     /// Corrections of contact alone, on linearised bodies, in all accepted increments.
     pub contact_corrections: usize,
-    /// Accepted increments in which the multifrontal LU stood in for the condensed solver.
+    /// Accepted increments in which another solver stood in for the one that was asked for.
     pub fall_backs: usize,
     /// Why it last did.
     pub reason: Option<String>,

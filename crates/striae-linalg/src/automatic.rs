@@ -41,7 +41,7 @@ const MANY: usize = 450_000;
 /// Predicted memory of factors, in bytes, above which the iterative solver is taken.
 const LARGEST: usize = 12 << 30;
 /// Operations of a factorisation above which the iterative solver is taken.
-const COSTLY: f64 = 1e13;
+const COSTLY: f64 = 1e12;
 
 /// Which solver is tried first.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -404,6 +404,6 @@ pub enum Backend {
     Multifrontal,
     /// faer's sparse LU.
     Faer,
-    /// GMRES, the bodies by smoothed aggregation; multifrontal LU where that fails.
+    /// GMRES, the bodies by smoothed aggregation; direct factors where that fails.
     Iterative,
 }

@@ -94,7 +94,7 @@ impl Progress {
         if let Some(reason) = increment.work.fall_back
             && self.verbosity == Verbosity::Iterations
         {
-            self.line(&format!("    multifrontal LU: {reason}"));
+            self.line(&format!("    solver {}: {reason}", increment.work.method));
         }
         if let Some(bar) = &self.bar {
             let done = (position.step as f64 + position.fraction) * RESOLUTION;

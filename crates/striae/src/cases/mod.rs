@@ -25,6 +25,7 @@ mod hertz_mindlin;
 mod hertz_mindlin_cylinders;
 mod hertz_mindlin_two_body;
 mod measure;
+mod million_unknowns;
 mod pad_on_incline;
 mod patch_frictionless;
 mod patch_slip;
@@ -146,6 +147,11 @@ pub const CASES: &[Case] = &[
         "bar-impact",
         "An elastic bar flies against a rigid wall",
         bar_impact::run
+    ),
+    case!(
+        "million-unknowns",
+        "Two stacked blocks with a million unknowns, by the iterative solver",
+        million_unknowns::run
     ),
     case!(
         "slip-surface",

@@ -38,7 +38,7 @@ words! {
         Multifrontal = "multifrontal",
         /// Sparse LU of the library faer.
         Faer = "faer",
-        /// GMRES, the bodies by smoothed aggregation; multifrontal LU where that fails.
+        /// GMRES, the bodies by smoothed aggregation; direct factors where that fails.
         Iterative = "iterative",
     }
 }
