@@ -390,7 +390,7 @@ balance = "resultant""#,
         "unknown backend",
         &[(r#""faer""#, r#""pardiso""#)],
         &[
-            "44:11: `backend` in [solver] cannot be `pardiso`; expected one of `condensed`, `multifrontal`, `faer`",
+            "44:11: `backend` in [solver] cannot be `pardiso`; expected one of `condensed`, `multifrontal`, `faer`, `iterative`",
         ],
     );
 }

@@ -120,7 +120,7 @@ impl Iterative {
             factor_entries: (FACTORS * entries as f64) as usize,
             flops: OPERATIONS * entries as f64,
             peak_bytes: size_of::<f64>()
-                * ((PEAK * entries as f64) as usize + CYCLE * structure.unknowns()),
+                * ((PEAK * entries as f64) as usize + 2 * CYCLE * structure.unknowns()),
             method: Method::Iterative,
         }
     }
@@ -279,6 +279,6 @@ impl Nodes {
 /// Entries that are kept over those of the matrix.
 const FACTORS: f64 = 1.0;
 /// Entries at the peak over those of the matrix, with it.
-const PEAK: f64 = 3.5;
+const PEAK: f64 = 4.0;
 /// Operations of a solution over the entries of the matrix.
 const OPERATIONS: f64 = 500.0;
