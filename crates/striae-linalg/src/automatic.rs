@@ -30,7 +30,7 @@ const LARGEST_DENSE: usize = 6 << 30;
 const PATIENCE: usize = 8;
 /// Work of the contact system over that of the interior up to which it is worth
 /// correcting contact alone.
-const CHEAP: f64 = 0.2;
+const CHEAP: f64 = 0.1;
 /// Iterations of GMRES below which older factors are not worth a try.
 const FEWEST: usize = 3;
 /// Most iterations of GMRES with older factors.
