@@ -1,4 +1,5 @@
-//! The default solver: condensed where that works and pays, multifrontal LU otherwise.
+//! The default solver: condensed where that works and pays, iterative where direct
+//! factors would be too large, multifrontal LU otherwise.
 //!
 //! Factors of the interior of the bodies are kept while they are good enough as
 //! a preconditioner: the contact system is factored anew, and GMRES makes up for
@@ -9,7 +10,8 @@
 //! matrices are always solved in the same way: when the interface is so large
 //! that its dense algebra costs more than the LU, when the interior is not
 //! positive definite, when the contact system is singular (the LU then names
-//! the unknown), or when refinement does not reach an accurate answer.
+//! the unknown), or when refinement does not reach an accurate answer. The iterative
+//! solver leaves what it cannot solve to the condensed one, if that fits.
 
 use crate::{
     condensed::Condensed,
