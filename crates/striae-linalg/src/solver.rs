@@ -1,4 +1,4 @@
-//! What every direct solver offers: analyse once, factor per matrix, solve per right-hand side.
+//! What every solver offers: analyse once, factor per matrix, solve per right-hand side.
 
 use crate::{error::SolveError, matrix::SparseMatrix, structure::Structure};
 use thiserror::Error;
@@ -6,13 +6,13 @@ use thiserror::Error;
 /// Reduction of the residual by a solution, unless another one is asked for.
 pub const REDUCTION: f64 = 1e-6;
 
-/// A direct solver of square sparse systems.
+/// A solver of square sparse systems.
 ///
 /// Every solution is refined with the given matrix and its residual is checked:
 /// an answer that comes back with `Ok` is accurate to
 /// [`SolveReport::backward_error`]. That is round-off but where the factors of
-/// the interior are [stale](Interior::Stale): there the residual is reduced as far
-/// as is asked for.
+/// the interior are [stale](Interior::Stale) or the solver is iterative: there the
+/// residual is reduced as far as is asked for.
 pub trait LinearSolver: Send {
     /// Orders the unknowns and predicts the cost; forgets earlier factorisations.
     fn analyse(&mut self, structure: &Structure) -> Result<Analysis, SolveError>;

@@ -11,7 +11,9 @@ use striae_law::friction::Friction;
 use striae_linalg::{SparseMatrix, Structure, Supervariable};
 use striae_mesh::Vec3;
 use striae_solve::{
-    assembly::{Contact, Fault, Imposed, Setting, StepContext, Trial, assemble},
+    assembly::{
+        Assembled, Contact, Fault, Imposed, Setting, StepContext, Trial, assemble, assemble_contact,
+    },
     layout::{Extent, Layout},
     model::{Curve, Freedom, LoadExtent, LoadKind, Model, RigidId, RigidMotion},
     newton::{IterationObserver, Workspace, advance},
@@ -136,18 +138,56 @@ impl<'a> Whole<'a> {
         }
     }
 
-    fn assembled(&self, u: &DVector<f64>) -> (DVector<f64>, SparseMatrix) {
-        let mut matrix = SparseMatrix::zero(&self.structure);
-        let setting = Setting {
+    /// The same with all but contact linearised at `u`.
+    fn assert_order_of_contact(&self) {
+        let u = self.unknowns();
+        let (assembled, matrix) = self.evaluated(&u);
+        let setting = self.setting();
+        let direction = Random::new(2).unit(u.len());
+        let mut claimed = DVector::zeros(u.len());
+        matrix.multiply(direction.as_slice(), claimed.as_mut_slice());
+        let contact = |v: &DVector<f64>| {
+            let (trial, change) = (self.trial(v), v - &u);
+            let mut matrix = matrix.clone();
+            let found = assemble_contact(
+                &setting,
+                &assembled.background,
+                (&trial, change.as_slice()),
+                Iteration::Later,
+                &self.layout,
+                &mut matrix,
+            );
+            DVector::from_vec(found.expect("the pattern is full").residual)
+        };
+        let here = contact(&u);
+        let difference = here - DVector::from_vec(assembled.residual.clone());
+        assert!(difference.amax() <= 1e-13, "{:e}", difference.amax());
+        let order = directional(Difference::Central, contact, &claimed, &u, &direction);
+        if let Err(wrong) = order {
+            panic!("{wrong}");
+        }
+    }
+
+    fn setting(&self) -> Setting<'_> {
+        Setting {
             context: self.context,
             selections: &self.selections,
             imposed: &self.imposed,
-        };
+        }
+    }
+
+    fn assembled(&self, u: &DVector<f64>) -> (DVector<f64>, SparseMatrix) {
+        let (assembled, matrix) = self.evaluated(u);
+        (DVector::from_vec(assembled.residual), matrix)
+    }
+
+    fn evaluated(&self, u: &DVector<f64>) -> (Assembled, SparseMatrix) {
+        let mut matrix = SparseMatrix::zero(&self.structure);
         let contact = Contact::Evaluated(Iteration::Later);
         let trial = self.trial(u);
-        let assembled = assemble(&setting, &trial, contact, &self.layout, &mut matrix);
+        let assembled = assemble(&self.setting(), &trial, contact, &self.layout, &mut matrix);
         match assembled {
-            Ok(assembled) => (DVector::from_vec(assembled.residual), matrix),
+            Ok(assembled) => (assembled, matrix),
             Err(Fault::CutBack(reason)) => panic!("{reason}"),
             Err(Fault::Pattern(_)) => panic!("the pattern is full"),
         }
@@ -268,4 +308,7 @@ fn assert_order(model: Model) {
     let (residual, _) = whole.assembled(&whole.unknowns());
     assert!(residual.norm() < 1e-9);
     whole.assert_order();
+    if whole.layout.moves_no_body() {
+        whole.assert_order_of_contact();
+    }
 }
