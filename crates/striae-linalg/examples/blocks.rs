@@ -12,7 +12,7 @@ use faer::{
 };
 use std::time::Instant;
 use striae_linalg::{
-    LinearSolver, MultifrontalLu, SchurCholesky, SparseMatrix, Structure, Supervariable,
+    LinearSolver, MultifrontalLu, Precision, SchurCholesky, SparseMatrix, Structure, Supervariable,
 };
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -88,16 +88,18 @@ fn condensation(
         .map(Supervariable)
         .collect();
     let mut schur = SchurCholesky::analyse(matrix.structure(), &kept)?;
-    schur.factor(matrix)?;
-    let start = Instant::now();
-    let complement = schur.factor(matrix)?;
-    let factor = start.elapsed().as_secs_f64();
-    println!(
-        "S {:7}  condensed {factor:7.3} s ({:.2} x Cholesky, {:.1} Gflop/s)",
-        complement.nrows(),
-        factor / yardstick,
-        1e-9 * schur.analysis().flops / factor,
-    );
+    for precision in [Precision::Double, Precision::Single] {
+        schur.factor(matrix, precision)?;
+        let start = Instant::now();
+        schur.factor(matrix, precision)?;
+        let factor = start.elapsed().as_secs_f64();
+        println!(
+            "S {:7}  condensed, {precision:?} {factor:7.3} s ({:.2} x Cholesky, {:.1} Gflop/s)",
+            schur.kept_unknowns().len(),
+            factor / yardstick,
+            1e-9 * schur.analysis().flops / factor,
+        );
+    }
     Ok(())
 }
 

@@ -4,7 +4,10 @@
 //! Factors of the interior of the bodies are kept while they are good enough as
 //! a preconditioner: the contact system is factored anew, and GMRES makes up for
 //! the change of the bulk. They are renewed when that takes, or last took, more
-//! iterations than a factorisation is worth, by a count of operations.
+//! iterations than a factorisation is worth, by a count of operations. Being
+//! preconditioners, they are made in single precision: that takes half the time and
+//! half the memory. Where it is too coarse for a problem, they are made in double
+//! precision from then on.
 //!
 //! What it falls back on is decided by counts and signs alone, so the same
 //! matrices are always solved in the same way: when the interface is so large
@@ -20,7 +23,10 @@ use crate::{
     iterative::Iterative,
     matrix::SparseMatrix,
     multifrontal::MultifrontalLu,
-    solver::{Analysis, FactorReport, FallBack, Interior, LinearSolver, Method, SolveReport},
+    real::Precision,
+    solver::{
+        Analysis, Experience, FactorReport, FallBack, Interior, LinearSolver, Method, SolveReport,
+    },
     structure::Structure,
 };
 
@@ -37,6 +43,10 @@ const CHEAP: f64 = 0.1;
 const FEWEST: usize = 3;
 /// Most iterations of GMRES with older factors.
 const MOST: usize = 25;
+
+/// Part of the iterations that older factors are worth, inverted, from which on they
+/// are not used for another state.
+const AGED: usize = 2;
 
 /// Unknowns above which no direct solver is considered.
 const MANY: usize = 450_000;
@@ -75,6 +85,8 @@ pub struct Automatic {
     /// Iterations of GMRES that older factors are worth, and those they last took.
     allowance: usize,
     taken: usize,
+    /// Whether single precision has been found too coarse for this problem.
+    too_coarse: bool,
 }
 
 impl Automatic {
@@ -134,11 +146,11 @@ impl Automatic {
             self.rest = self.rest.saturating_sub(1);
         }
         self.plan_direct()?;
-        let Some(condensed) = self.condensed.as_mut().filter(|_| self.patience == 0) else {
+        if self.condensed.is_none() || self.patience > 0 {
             self.patience = self.patience.saturating_sub(1);
             return self.factor_multifrontal(matrix);
-        };
-        match condensed.factor(matrix) {
+        }
+        match self.factor_condensed(matrix) {
             Ok(report) => {
                 let reason = self.iterative.as_ref().and(self.fall_back);
                 (self.fall_back, self.factored) = (reason, Some(Method::Condensed));
@@ -155,6 +167,47 @@ impl Automatic {
             Err(SolveError::Singular { .. }) => self.fall_back(FallBack::SingularContact, matrix),
             Err(other) => Err(other),
         }
+    }
+
+    /// Factors with the condensed solver, the bodies in single precision while that does.
+    fn factor_condensed(&mut self, matrix: &SparseMatrix) -> Result<FactorReport, SolveError> {
+        let condensed = self.condensed.as_mut().ok_or(SolveError::NotAnalysed)?;
+        let single = self.allowance >= FEWEST && !self.too_coarse;
+        if single {
+            match condensed.factor(matrix, Precision::Single) {
+                Err(SolveError::NotPositiveDefinite { .. } | SolveError::Singular { .. }) => {}
+                other => return other,
+            }
+        }
+        let done = condensed.factor(matrix, Precision::Double);
+        self.too_coarse |= single && done.is_ok();
+        done
+    }
+
+    /// Solves with the condensed solver's factors; `None` when those are no good any more.
+    fn solve_condensed(
+        &mut self,
+        matrix: &SparseMatrix,
+        (rhs, x): (&[f64], &mut [f64]),
+        reduction: f64,
+    ) -> Result<Option<SolveReport>, SolveError> {
+        let condensed = self.condensed.as_ref().ok_or(SolveError::NotFactored)?;
+        if (self.interior, condensed.precision()) == (Interior::Fresh, Precision::Double) {
+            return condensed.solve(matrix, rhs, x).map(Some);
+        }
+        let ends = Ends {
+            iterations: self.allowance,
+            reduction,
+        };
+        let report = condensed.solve_nearby(matrix, (rhs, x), ends)?;
+        match &report {
+            Some(report) => self.taken = report.krylov_iterations,
+            None => self.too_coarse |= self.interior == Interior::Fresh,
+        }
+        Ok(report.map(|report| SolveReport {
+            interior: self.interior,
+            ..report
+        }))
     }
 
     /// Leaves matrices to a direct solver for a while.
@@ -193,6 +246,7 @@ impl LinearSolver for Automatic {
     fn analyse(&mut self, structure: &Structure) -> Result<Analysis, SolveError> {
         *self = Self {
             choice: self.choice,
+            too_coarse: self.too_coarse,
             ..Self::default()
         };
         self.structure = Some(structure.clone());
@@ -240,8 +294,32 @@ impl LinearSolver for Automatic {
     }
 
     fn start_afresh(&mut self) {
-        (self.patience, self.rest, self.taken) = (0, 0, 0);
+        (self.patience, self.rest) = (0, 0);
+        if AGED * self.taken > self.allowance {
+            self.forget();
+        }
+    }
+
+    fn forget(&mut self) {
+        self.taken = 0;
         if let Some(condensed) = &mut self.condensed {
+            condensed.forget();
+        }
+    }
+
+    fn experience(&self) -> Experience {
+        Experience {
+            too_coarse: self.too_coarse,
+            taken: self.taken,
+            interior: self.condensed.as_ref().and_then(Condensed::factored),
+        }
+    }
+
+    fn recall(&mut self, experience: &Experience) {
+        (self.too_coarse, self.taken) = (experience.too_coarse, experience.taken);
+        if let (Some(condensed), Some(interior)) = (&mut self.condensed, &experience.interior)
+            && condensed.factor_again(interior).is_err()
+        {
             condensed.forget();
         }
     }
@@ -275,26 +353,15 @@ impl LinearSolver for Automatic {
             self.give_up(FallBack::NotConverged);
             self.factor_anew(matrix)?;
         }
-        if self.factored == Some(Method::Condensed) && self.interior == Interior::Stale {
-            let ends = Ends {
-                iterations: self.allowance,
-                reduction,
-            };
-            let condensed = self.condensed.as_ref().ok_or(SolveError::NotFactored)?;
-            if let Some(report) = condensed.solve_nearby(matrix, (rhs, x), ends)? {
-                self.taken = report.krylov_iterations;
-                return Ok(report);
-            }
-            self.factor_anew(matrix)?;
-        }
-        if self.factored == Some(Method::Condensed) {
-            let condensed = self.condensed.as_ref().ok_or(SolveError::NotFactored)?;
-            match condensed.solve(matrix, rhs, x) {
+        while self.factored == Some(Method::Condensed) {
+            match self.solve_condensed(matrix, (rhs, &mut *x), reduction) {
+                Ok(Some(report)) => return Ok(report),
+                Ok(None) => self.factor_anew(matrix)?,
                 Err(SolveError::Inaccurate { backward_error }) => {
-                    self.fall_back(FallBack::Inaccurate { backward_error }, matrix)?;
+                    self.fall_back(FallBack::Inaccurate { backward_error }, matrix)?
                 }
-                other => return other,
-            }
+                Err(other) => return Err(other),
+            };
         }
         match (self.multifrontal.as_mut(), self.factored) {
             (Some(solver), Some(_)) => solver.solve_to(matrix, rhs, x, reduction),

@@ -4,6 +4,7 @@ use crate::{
     equilibration::Equilibration,
     error::SolveError,
     matrix::SparseMatrix,
+    real::Precision,
     schur::SchurCholesky,
     solver::Analysis,
     structure::{Structure, Supervariable},
@@ -12,7 +13,9 @@ use crate::{
 /// A connected part of the bulk and the factors of its interior.
 #[derive(Debug)]
 pub(crate) struct Body {
-    structure: Structure,
+    /// What was factored last: the body's part of the scaled matrix, but for entries
+    /// between kept unknowns, which are left to the interface.
+    own: SparseMatrix,
     /// Global supervariable of each of its own.
     members: Vec<u32>,
     /// Global edge of each edge.
@@ -59,7 +62,7 @@ impl Body {
         let own = Structure::from_adjacency(offsets, starts, neighbours);
         let schur = SchurCholesky::analyse(&own, &kept)?;
         Ok(Self {
-            structure: own,
+            own: SparseMatrix::zero(&own),
             members,
             edges,
             unknowns,
@@ -78,8 +81,32 @@ impl Body {
         matrix: &SparseMatrix,
         scaling: &Equilibration,
         prescribed: &[bool],
+        precision: Precision,
     ) -> Result<(), SolveError> {
-        let own = self.extract(matrix, scaling, prescribed);
+        self.extract(matrix, scaling, prescribed);
+        self.factor_own(precision)
+    }
+
+    /// What was factored last.
+    pub(crate) fn values(&self) -> &[f64] {
+        self.own.values()
+    }
+
+    /// Factors what another one has factored.
+    pub(crate) fn factor_again(
+        &mut self,
+        values: &[f64],
+        precision: Precision,
+    ) -> Result<(), SolveError> {
+        let (expected, found) = (self.own.values().len(), values.len());
+        if expected != found {
+            return Err(SolveError::Length { found, expected });
+        }
+        self.own.values_mut().copy_from_slice(values);
+        self.factor_own(precision)
+    }
+
+    fn factor_own(&mut self, precision: Precision) -> Result<(), SolveError> {
         let named = |error: SolveError| match error {
             SolveError::NotPositiveDefinite { unknown, pivot } => SolveError::NotPositiveDefinite {
                 unknown: self.unknowns[unknown] as usize,
@@ -87,22 +114,19 @@ impl Body {
             },
             other => other,
         };
-        self.schur.factor(&own).map(|_| ()).map_err(named)
+        self.schur.factor(&self.own, precision).map_err(named)
     }
 
-    /// The body's part of the matrix; entries between kept unknowns are left to the interface.
-    fn extract(
-        &self,
-        matrix: &SparseMatrix,
-        scaling: &Equilibration,
-        prescribed: &[bool],
-    ) -> SparseMatrix {
+    /// Copies the body's part of the matrix.
+    fn extract(&mut self, matrix: &SparseMatrix, scaling: &Equilibration, prescribed: &[bool]) {
         let full = matrix.structure();
-        let mut own = SparseMatrix::zero(&self.structure);
+        let structure = self.own.structure().clone();
+        self.own.clear();
+        let own = self.own.values_mut();
         let kept = |i: u32| full.is_kept(Supervariable(i as usize));
         for (k, &i) in self.members.iter().enumerate() {
-            for edge in self.structure.edges(k) {
-                let j = self.members[self.structure.target(edge)];
+            for edge in structure.edges(k) {
+                let j = self.members[structure.target(edge)];
                 if kept(i) && kept(j) {
                     continue;
                 }
@@ -110,17 +134,16 @@ impl Body {
                 let columns = full.bulk_group(j as usize);
                 for (a, row) in full.bulk_group(i as usize).enumerate() {
                     let source = &matrix.values()[full.row(i as usize, a).start + from..];
-                    let target = self.structure.row(k, a).start + self.structure.column(edge);
+                    let target = structure.row(k, a).start + structure.column(edge);
                     for (b, column) in columns.clone().enumerate() {
                         if row == column || !prescribed[row] && !prescribed[column] {
                             let scale = scaling.rows[row] * scaling.columns[column];
-                            own.values_mut()[target + b] = scale * source[b];
+                            own[target + b] = scale * source[b];
                         }
                     }
                 }
             }
         }
-        own
     }
 }
 

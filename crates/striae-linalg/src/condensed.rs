@@ -15,9 +15,10 @@ use crate::{
     gmres::Ends,
     interface::{Block, Interface, Kind, Places},
     matrix::SparseMatrix,
+    real::Precision,
     refinement,
     singularity::Factors,
-    solver::{Analysis, FactorReport, Method, SolveReport},
+    solver::{Analysis, FactorReport, FactoredInterior, Method, SolveReport},
     sparse_elimination::Row,
     structure::{Structure, Supervariable},
 };
@@ -25,6 +26,9 @@ use rayon::prelude::*;
 
 /// Time of an operation of a substitution, which waits for memory, over that of a factorisation.
 const SUBSTITUTION: f64 = 5.0;
+/// Smallest pivots of a regular contact system, on an interior of either precision.
+const SINGULAR: f64 = 1e-12;
+const SINGULAR_SINGLE: f64 = 1e-5;
 /// Not kept.
 const NONE: u32 = u32::MAX;
 
@@ -45,6 +49,7 @@ pub(crate) struct Condensed {
 struct Numeric {
     scaling: Equilibration,
     prescribed: Vec<bool>,
+    precision: Precision,
     interface: Interface,
 }
 
@@ -98,8 +103,12 @@ impl Condensed {
         sum
     }
 
-    /// Factors a matrix of the analysed structure.
-    pub(crate) fn factor(&mut self, matrix: &SparseMatrix) -> Result<FactorReport, SolveError> {
+    /// Factors a matrix of the analysed structure, the interior in the given precision.
+    pub(crate) fn factor(
+        &mut self,
+        matrix: &SparseMatrix,
+        precision: Precision,
+    ) -> Result<FactorReport, SolveError> {
         self.numeric = None;
         if !self.structure.same_as(matrix.structure()) {
             return Err(SolveError::NotAnalysed);
@@ -107,13 +116,46 @@ impl Condensed {
         let scaling = Equilibration::by_diagonal(matrix, None)?;
         let prescribed = prescribed(matrix);
         let bodies = self.bodies.par_iter_mut();
-        bodies.try_for_each(|body| body.factor(matrix, &scaling, &prescribed))?;
-        self.factor_interface(matrix, scaling, prescribed)
+        bodies.try_for_each(|body| body.factor(matrix, &scaling, &prescribed, precision))?;
+        self.factor_interface(matrix, scaling, prescribed, precision)
     }
 
     /// Forgets the factors.
     pub(crate) fn forget(&mut self) {
         self.numeric = None;
+    }
+
+    /// What the factors there are were made of.
+    pub(crate) fn factored(&self) -> Option<FactoredInterior> {
+        let numeric = self.numeric.as_ref()?;
+        let values = self.bodies.iter().map(|body| body.values().to_vec());
+        Some(FactoredInterior {
+            values: values.collect(),
+            scales: numeric.scaling.columns.clone(),
+            prescribed: numeric.prescribed.clone(),
+            single: numeric.precision == Precision::Single,
+        })
+    }
+
+    /// Factors the interior that another solver with the same analysis has factored.
+    pub(crate) fn factor_again(&mut self, interior: &FactoredInterior) -> Result<(), SolveError> {
+        self.numeric = None;
+        let precision = match interior.single {
+            true => Precision::Single,
+            false => Precision::Double,
+        };
+        let bodies = self.bodies.par_iter_mut().zip(&interior.values);
+        bodies.try_for_each(|(body, values)| body.factor_again(values, precision))?;
+        self.numeric = Some(Numeric {
+            scaling: Equilibration {
+                rows: interior.scales.clone(),
+                columns: interior.scales.clone(),
+            },
+            prescribed: interior.prescribed.clone(),
+            precision,
+            interface: Interface::default(),
+        });
+        Ok(())
     }
 
     /// Factors the contact system of a matrix on the older interior.
@@ -130,7 +172,7 @@ impl Condensed {
             return Ok(None);
         }
         let scaling = Equilibration::by_diagonal(matrix, Some(&older.scaling))?;
-        self.factor_interface(matrix, scaling, older.prescribed)
+        self.factor_interface(matrix, scaling, older.prescribed, older.precision)
             .map(Some)
     }
 
@@ -139,10 +181,15 @@ impl Condensed {
         matrix: &SparseMatrix,
         scaling: Equilibration,
         prescribed: Vec<bool>,
+        precision: Precision,
     ) -> Result<FactorReport, SolveError> {
         let places = self.places(&prescribed);
         let rows = self.rows(matrix, &scaling, &prescribed);
-        let interface = Interface::factor(&places, rows, &self.blocks())?;
+        let smallest = match precision {
+            Precision::Single => SINGULAR_SINGLE,
+            Precision::Double => SINGULAR,
+        };
+        let interface = Interface::factor(&places, rows, &self.blocks(), smallest)?;
         let bodies = self.bodies.iter().map(|body| body.analysis());
         let report = FactorReport {
             factor_entries: interface.entries() + bodies.map(|a| a.factor_entries).sum::<usize>(),
@@ -153,6 +200,7 @@ impl Condensed {
         self.numeric = Some(Numeric {
             scaling,
             prescribed,
+            precision,
             interface,
         });
         Ok(report)
@@ -174,7 +222,8 @@ impl Condensed {
         refinement::solve(matrix, &numeric.scaling, &factors, rhs, x)
     }
 
-    /// Solves with an older interior as preconditioner; `None` when it is too far from the matrix.
+    /// Solves with the factors as a preconditioner, of an older interior or in single
+    /// precision; `None` when they are too far from the matrix.
     pub(crate) fn solve_nearby(
         &self,
         matrix: &SparseMatrix,
@@ -204,6 +253,11 @@ impl Condensed {
         let numeric = self.numeric.as_ref().ok_or(SolveError::NotFactored)?;
         let mut x = rhs.to_vec();
         numeric.scaling.scale_rows(&mut x);
+        // Single precision has a small range.
+        let size = x.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        if size > 0.0 {
+            x.iter_mut().for_each(|x| *x /= size);
+        }
         let factors = Substitution {
             condensed: self,
             numeric,
@@ -211,7 +265,16 @@ impl Condensed {
         };
         factors.solve_in_place(&mut x);
         numeric.scaling.scale_columns(&mut x);
+        x.iter_mut().for_each(|x| *x *= size);
         Ok(Some(x))
+    }
+
+    /// Precision of the factors of the interior.
+    pub(crate) fn precision(&self) -> Precision {
+        self.numeric
+            .as_ref()
+            .map(|n| n.precision)
+            .unwrap_or_default()
     }
 
     /// Work of factoring the contact system over that of factoring the interior.

@@ -8,6 +8,7 @@
 //! the way up.
 
 use crate::{
+    real::Real,
     tree::AssemblyTree,
     triangular::{Block, Diagonal, solve_lower, solve_lower_transposed},
 };
@@ -77,7 +78,7 @@ impl Descent {
     }
 
     /// `y_i := L^-1 y_i` in the interior, `y_k := y_k - B y_i` on what is kept.
-    pub(crate) fn upwards(&self, values: &[f64], y: &mut [f64]) {
+    pub(crate) fn upwards<T: Real>(&self, values: &[T], y: &mut [T]) {
         let pass = Pass { plan: self, values };
         let (_, subtrees) = self.split(&self.roots, 0, y);
         subtrees.into_par_iter().for_each(|(f, y)| {
@@ -86,7 +87,7 @@ impl Descent {
     }
 
     /// `y_i := L^-T (y_i - B^T y_k)` in the interior.
-    pub(crate) fn downwards(&self, values: &[f64], y: &mut [f64]) {
+    pub(crate) fn downwards<T: Real>(&self, values: &[T], y: &mut [T]) {
         let pass = Pass { plan: self, values };
         let (_, subtrees) = self.split(&self.roots, 0, y);
         subtrees
@@ -95,7 +96,7 @@ impl Descent {
     }
 
     /// Ranges of the subtrees with the given roots, behind what is left of a vector.
-    fn split<'a>(&self, roots: &[u32], first: usize, mut y: &'a mut [f64]) -> Ranges<'a> {
+    fn split<'a, T>(&self, roots: &[u32], first: usize, mut y: &'a mut [T]) -> Ranges<'a, T> {
         let mut subtrees = Vec::with_capacity(roots.len());
         let mut done = first;
         for &root in roots {
@@ -115,32 +116,32 @@ impl Descent {
 }
 
 /// What is left of a vector, and roots of subtrees with their ranges of it.
-type Ranges<'a> = (&'a mut [f64], Vec<(usize, &'a mut [f64])>);
+type Ranges<'a, T> = (&'a mut [T], Vec<(usize, &'a mut [T])>);
 
 /// One way up or down.
 #[derive(Clone, Copy)]
-struct Pass<'a> {
+struct Pass<'a, T> {
     plan: &'a Descent,
-    values: &'a [f64],
+    values: &'a [T],
 }
 
-impl Pass<'_> {
+impl<T: Real> Pass<'_, T> {
     /// What the border of a subtree receives; empty when that is zero.
-    fn upwards(self, f: usize, y: &mut [f64]) -> Vec<f64> {
+    fn upwards(self, f: usize, y: &mut [T]) -> Vec<T> {
         let step = &self.plan.fronts[f];
-        if y.iter().all(|&y| y == 0.0) {
+        if y.iter().all(|&y| y == T::default()) {
             return Vec::new();
         }
         if self.is_small(step) {
             return self.upwards_in_sequence(f, y);
         }
         let (own, below) = self.plan.split(&step.children, step.first, y);
-        let delivered: Vec<Vec<f64>> = below
+        let delivered: Vec<Vec<T>> = below
             .into_par_iter()
             .map(|(child, y)| self.upwards(child, y))
             .collect();
         let mut local = own.to_vec();
-        local.resize(step.size, 0.0);
+        local.resize(step.size, T::default());
         for (&child, contribution) in step.children.iter().zip(&delivered) {
             self.add(child, contribution, &mut local);
         }
@@ -150,9 +151,9 @@ impl Pass<'_> {
         local
     }
 
-    fn upwards_in_sequence(self, f: usize, y: &mut [f64]) -> Vec<f64> {
+    fn upwards_in_sequence(self, f: usize, y: &mut [T]) -> Vec<T> {
         let fronts = &self.plan.fronts;
-        let mut stack: Vec<f64> = Vec::new();
+        let mut stack: Vec<T> = Vec::new();
         // Begin and length of the contributions that wait.
         let mut waiting: Vec<(usize, usize)> = Vec::new();
         let mut rest = y;
@@ -165,9 +166,10 @@ impl Pass<'_> {
             let top = stack.len();
             let base = here.first().map_or(top, |&(begin, _)| begin);
             let mut length = 0;
-            if here.iter().any(|&(_, length)| length > 0) || own.iter().any(|&y| y != 0.0) {
+            if here.iter().any(|&(_, length)| length > 0) || own.iter().any(|&y| y != T::default())
+            {
                 stack.extend_from_slice(own);
-                stack.resize(top + step.size, 0.0);
+                stack.resize(top + step.size, T::default());
                 let (old, local) = stack.split_at_mut(top);
                 for (&child, &(begin, length)) in step.children.iter().zip(here) {
                     self.add(child, &old[begin..begin + length], local);
@@ -185,7 +187,7 @@ impl Pass<'_> {
     }
 
     /// Solves in a subtree, whose border has been solved for.
-    fn downwards(self, f: usize, y: &mut [f64], border: &[f64]) {
+    fn downwards(self, f: usize, y: &mut [T], border: &[T]) {
         let step = &self.plan.fronts[f];
         if self.is_small(step) {
             return self.downwards_in_sequence(f, y, border);
@@ -197,15 +199,15 @@ impl Pass<'_> {
         own.copy_from_slice(&local[..step.pivots]);
         below.into_par_iter().for_each(|(child, y)| {
             let places = self.plan.places(&self.plan.fronts[child]).iter();
-            let border: Vec<f64> = places.map(|&place| local[place as usize]).collect();
+            let border: Vec<T> = places.map(|&place| local[place as usize]).collect();
             self.downwards(child, y, &border);
         });
     }
 
-    fn downwards_in_sequence(self, f: usize, y: &mut [f64], border: &[f64]) {
+    fn downwards_in_sequence(self, f: usize, y: &mut [T], border: &[T]) {
         let fronts = &self.plan.fronts;
         let mut stack = border.to_vec();
-        let mut local: Vec<f64> = Vec::new();
+        let mut local: Vec<T> = Vec::new();
         let mut rest = y;
         for g in (fronts[f].first_front..=f).rev() {
             let step = &fronts[g];
@@ -231,28 +233,28 @@ impl Pass<'_> {
     }
 
     /// Adds what a child takes off; nothing where it is empty.
-    fn add(self, child: u32, contribution: &[f64], local: &mut [f64]) {
+    fn add(self, child: u32, contribution: &[T], local: &mut [T]) {
         let places = self.plan.places(&self.plan.fronts[child as usize]);
         for (&place, value) in places.iter().zip(contribution) {
-            local[place as usize] += value;
+            local[place as usize] += *value;
         }
     }
 
-    fn solve_lower(self, f: usize, local: &mut [f64]) {
+    fn solve_lower(self, f: usize, local: &mut [T]) {
         let step = &self.plan.fronts[f];
         if f < self.plan.interior {
             solve_lower(self.block(step), Diagonal::Stored, local, step.pivots);
         }
     }
 
-    fn solve_lower_transposed(self, f: usize, local: &mut [f64]) {
+    fn solve_lower_transposed(self, f: usize, local: &mut [T]) {
         let step = &self.plan.fronts[f];
         if f < self.plan.interior {
             solve_lower_transposed(self.block(step), Diagonal::Stored, local, step.pivots);
         }
     }
 
-    fn block(&self, step: &Step) -> Block<'_> {
+    fn block(&self, step: &Step) -> Block<'_, T> {
         let values = &self.values[step.values..][..step.pivots * step.size];
         Block::new(values, step.size)
     }

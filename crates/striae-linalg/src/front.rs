@@ -63,6 +63,7 @@ impl FrontFactor {
 
 impl Kernel for System<'_> {
     type Factor = FrontFactor;
+    type Value = f64;
 
     fn tree(&self) -> &AssemblyTree {
         self.tree

@@ -33,8 +33,6 @@ const LONG: usize = 512;
 const LONGEST: usize = 2048;
 /// Dense rows that are worked on at a time.
 const LANES: usize = 16;
-/// Smallest pivot of a regular dense matrix.
-const SINGULAR: f64 = 1e-12;
 
 /// A factored contact system.
 #[derive(Debug, Default)]
@@ -63,11 +61,13 @@ struct Dense {
 }
 
 impl Interface {
-    /// Factors the system of the kept unknowns.
+    /// Factors the system of the kept unknowns, whose dense part is singular where a
+    /// pivot is below the given one.
     pub(crate) fn factor(
         places: &Places,
         rows: Vec<Row>,
         blocks: &[Block<'_>],
+        smallest: f64,
     ) -> Result<Self, SolveError> {
         let mut assembled = Assembled::new(places, rows, LONG);
         let ranks = assembled.ranks();
@@ -78,7 +78,13 @@ impl Interface {
         let ranks = vec![0; assembled.long.len()];
         let transposed = panels.transposed(columns.len());
         let tractions = SparseElimination::new(transposed.clone(), &ranks, LONGEST);
-        let rest = Dense::new(&panels, &tractions, transposed, &dense, &columns)?;
+        let rest = Dense::new(
+            &panels,
+            &tractions,
+            transposed,
+            (&dense, &columns),
+            smallest,
+        )?;
         Ok(Self {
             assembled,
             constraints,
@@ -172,8 +178,8 @@ impl Dense {
         panels: &Panels,
         tractions: &SparseElimination,
         transposed: Vec<Row>,
-        dense: &[u32],
-        sparse: &[u32],
+        (dense, sparse): (&[u32], &[u32]),
+        smallest: f64,
     ) -> Result<Self, SolveError> {
         let mut pivotal = vec![false; panels.rows];
         tractions
@@ -216,10 +222,15 @@ impl Dense {
                     }
                 }
             });
-        Self::factored(rows, columns, lu)
+        Self::factored(rows, columns, lu, smallest)
     }
 
-    fn factored(rows: Vec<u32>, columns: Vec<u32>, mut lu: Vec<f64>) -> Result<Self, SolveError> {
+    fn factored(
+        rows: Vec<u32>,
+        columns: Vec<u32>,
+        mut lu: Vec<f64>,
+        smallest: f64,
+    ) -> Result<Self, SolveError> {
         let mut row_order: Vec<u32> = (0..rows.len() as u32).collect();
         let mut column_order = row_order.clone();
         let done = dense::eliminate(
@@ -230,7 +241,7 @@ impl Dense {
             &mut column_order,
             Leftover::Replace,
         );
-        let suspicious = done.smallest.is_nan() || done.smallest < SINGULAR;
+        let suspicious = done.smallest.is_nan() || done.smallest < smallest;
         if done.replaced > 0 || !rows.is_empty() && suspicious {
             let (unknown, equation) = (0, 0);
             return Err(SolveError::Singular { unknown, equation });

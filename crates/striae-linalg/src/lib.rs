@@ -42,6 +42,7 @@ mod multifrontal;
 mod numeric;
 mod ordering;
 mod products;
+mod real;
 mod refinement;
 mod schur;
 mod singularity;
@@ -61,8 +62,10 @@ pub use faer_lu::FaerLu;
 pub use matrix::SparseMatrix;
 pub use multifrontal::MultifrontalLu;
 pub use ordering::nested_dissection;
+pub use real::Precision;
 pub use schur::SchurCholesky;
 pub use solver::{
-    Analysis, FactorReport, FallBack, Interior, LinearSolver, Method, REDUCTION, SolveReport,
+    Analysis, Experience, FactorReport, FactoredInterior, FallBack, Interior, LinearSolver, Method,
+    REDUCTION, SolveReport,
 };
 pub use structure::{Structure, Supervariable, Tier};

@@ -4,7 +4,10 @@
 //! above them children are factored in parallel. Contributions are added in
 //! the order of the children, so threads do not change the result.
 
-use crate::tree::{AssemblyTree, Front};
+use crate::{
+    real::Real,
+    tree::{AssemblyTree, Front},
+};
 use rayon::prelude::*;
 use std::sync::Mutex;
 
@@ -17,6 +20,8 @@ const SEQUENTIAL_FLOPS: f64 = 2e7;
 pub(crate) trait Kernel: Sync {
     /// What it keeps of a front apart from the values.
     type Factor: Clone + Default + Send;
+    /// Numbers that it works with.
+    type Value: Real;
 
     /// The plan.
     fn tree(&self) -> &AssemblyTree;
@@ -29,18 +34,18 @@ pub(crate) trait Kernel: Sync {
     fn factor(
         &self,
         f: usize,
-        children: &[Child<'_>],
-        planned: &mut [f64],
-        rest: &mut [f64],
+        children: &[Child<'_, Self::Value>],
+        planned: &mut [Self::Value],
+        rest: &mut [Self::Value],
     ) -> (Self::Factor, Contribution);
 
     /// Completes a contribution with delayed pivots.
     fn with_delayed(
         &self,
         factor: &Self::Factor,
-        planned: &[f64],
-        rest: &[f64],
-        contribution: &mut [f64],
+        planned: &[Self::Value],
+        rest: &[Self::Value],
+        contribution: &mut [Self::Value],
     );
 }
 
@@ -63,37 +68,37 @@ impl Contribution {
 }
 
 /// A child's contribution ready for assembly.
-pub(crate) struct Child<'a> {
+pub(crate) struct Child<'a, T = f64> {
     pub(crate) front: &'a Front,
     pub(crate) contribution: &'a Contribution,
-    pub(crate) values: &'a [f64],
+    pub(crate) values: &'a [T],
 }
 
 /// Factors of a matrix; storage is kept for the next factorisation.
 #[derive(Debug, Default)]
-pub(crate) struct Numeric<F> {
+pub(crate) struct Numeric<F, T = f64> {
     pub(crate) fronts: Vec<F>,
     /// Planned storage of all fronts, one after the other.
-    pub(crate) values: Vec<f64>,
-    pool: Pool,
+    pub(crate) values: Vec<T>,
+    pool: Pool<T>,
 }
 
 /// Buffers for contributions, so that large ones are not asked of the system again and again.
 #[derive(Debug, Default)]
-struct Pool(Mutex<Vec<Vec<f64>>>);
+struct Pool<T>(Mutex<Vec<Vec<T>>>);
 
 /// Contribution of a subtree in a buffer of its own.
-struct Delivered {
+struct Delivered<T> {
     contribution: Contribution,
-    values: Vec<f64>,
+    values: Vec<T>,
 }
 
-impl<F: Clone + Default + Send> Numeric<F> {
+impl<F: Clone + Default + Send, T: Real> Numeric<F, T> {
     /// Factors a system, over the storage of earlier factorisations.
-    pub(crate) fn factor(&mut self, kernel: &impl Kernel<Factor = F>) {
+    pub(crate) fn factor(&mut self, kernel: &impl Kernel<Factor = F, Value = T>) {
         let tree = kernel.tree();
         let entries = tree.fronts.iter().map(|front| kernel.entries(front)).sum();
-        self.values.resize(entries, 0.0);
+        self.values.resize(entries, T::default());
         self.fronts.clear();
         self.fronts.resize(tree.fronts.len(), F::default());
         let small = (tree.flops() * SEQUENTIAL_SHARE).max(SEQUENTIAL_FLOPS);
@@ -110,17 +115,17 @@ impl<F: Clone + Default + Send> Numeric<F> {
     }
 }
 
-struct Run<'a, K> {
+struct Run<'a, K: Kernel> {
     kernel: &'a K,
-    pool: &'a Pool,
+    pool: &'a Pool<K::Value>,
     small: f64,
 }
 
 /// A subtree and the storage of its fronts.
-struct Subtree<'a, F> {
+struct Subtree<'a, K: Kernel> {
     root: usize,
-    values: &'a mut [f64],
-    fronts: &'a mut [F],
+    values: &'a mut [K::Value],
+    fronts: &'a mut [K::Factor],
 }
 
 impl<K: Kernel> Run<'_, K> {
@@ -128,9 +133,9 @@ impl<K: Kernel> Run<'_, K> {
     fn split<'b>(
         &self,
         roots: &[u32],
-        mut values: &'b mut [f64],
+        mut values: &'b mut [K::Value],
         mut fronts: &'b mut [K::Factor],
-    ) -> (Subtree<'b, K::Factor>, Vec<Subtree<'b, K::Factor>>) {
+    ) -> (Subtree<'b, K>, Vec<Subtree<'b, K>>) {
         let tree = self.kernel.tree();
         let mut subtrees = Vec::with_capacity(roots.len());
         for &root in roots {
@@ -160,7 +165,7 @@ impl<K: Kernel> Run<'_, K> {
     }
 
     /// Factors a subtree.
-    fn subtree(&self, subtree: Subtree<'_, K::Factor>) -> Delivered {
+    fn subtree(&self, subtree: Subtree<'_, K>) -> Delivered<K::Value> {
         let tree = self.kernel.tree();
         let front = &tree.fronts[subtree.root];
         if front.subtree_flops <= self.small || front.children.is_empty() {
@@ -168,11 +173,11 @@ impl<K: Kernel> Run<'_, K> {
         }
         let root = subtree.root;
         let (own, below) = self.split(&front.children, subtree.values, subtree.fronts);
-        let delivered: Vec<Delivered> = below
+        let delivered: Vec<Delivered<K::Value>> = below
             .into_par_iter()
             .map(|child| self.subtree(child))
             .collect();
-        let children: Vec<Child<'_>> = front
+        let children: Vec<Child<'_, K::Value>> = front
             .children
             .iter()
             .zip(&delivered)
@@ -202,7 +207,7 @@ impl<K: Kernel> Run<'_, K> {
     }
 
     /// Factors a subtree front by front, contributions on a stack.
-    fn sequential(&self, subtree: Subtree<'_, K::Factor>) -> Delivered {
+    fn sequential(&self, subtree: Subtree<'_, K>) -> Delivered<K::Value> {
         let tree = self.kernel.tree();
         let mut stack = self.pool.take_empty(tree.fronts[subtree.root].stack);
         let mut waiting: Vec<(usize, Contribution)> = Vec::new();
@@ -213,10 +218,10 @@ impl<K: Kernel> Run<'_, K> {
             storage = others;
             let first = waiting.len() - front.children.len();
             let top = stack.len();
-            stack.resize(top + front.rest() * front.rest(), 0.0);
+            stack.resize(top + front.rest() * front.rest(), K::Value::default());
             let (old, rest) = stack.split_at_mut(top);
             let waiting_here = front.children.iter().zip(&waiting[first..]);
-            let children: Vec<Child<'_>> = waiting_here
+            let children: Vec<Child<'_, K::Value>> = waiting_here
                 .map(|(&c, (offset, contribution))| Child {
                     front: &tree.fronts[c as usize],
                     contribution,
@@ -227,7 +232,10 @@ impl<K: Kernel> Run<'_, K> {
             let mut begin = top;
             if contribution.delayed() > 0 {
                 begin = stack.len();
-                stack.resize(begin + contribution.size * contribution.size, 0.0);
+                stack.resize(
+                    begin + contribution.size * contribution.size,
+                    K::Value::default(),
+                );
                 let (old, all) = stack.split_at_mut(begin);
                 self.kernel.with_delayed(&factor, planned, &old[top..], all);
             }
@@ -253,16 +261,16 @@ impl<K: Kernel> Run<'_, K> {
     }
 }
 
-impl Pool {
+impl<T: Real> Pool<T> {
     /// A buffer of zeros.
-    fn take(&self, length: usize) -> Vec<f64> {
+    fn take(&self, length: usize) -> Vec<T> {
         let mut buffer = self.take_empty(length);
-        buffer.resize(length, 0.0);
+        buffer.resize(length, T::default());
         buffer
     }
 
     /// An empty buffer with some capacity: the smallest that fits, or a new one.
-    fn take_empty(&self, capacity: usize) -> Vec<f64> {
+    fn take_empty(&self, capacity: usize) -> Vec<T> {
         let Ok(mut free) = self.0.lock() else {
             return Vec::with_capacity(capacity);
         };
@@ -277,7 +285,7 @@ impl Pool {
     }
 
     /// Takes a buffer back.
-    fn give(&self, mut buffer: Vec<f64>) {
+    fn give(&self, mut buffer: Vec<T>) {
         buffer.clear();
         if let Ok(mut free) = self.0.lock() {
             let place = free.partition_point(|other| other.capacity() < buffer.capacity());

@@ -14,12 +14,14 @@ use crate::{
     matrix::SparseMatrix,
     numeric::{Child, Contribution, Kernel, Numeric},
     ordering,
+    real::{Precision, Real},
     solver::{Analysis, Method},
     structure::{Structure, Supervariable, Tier},
     symmetric,
     tree::{AssemblyTree, ELSEWHERE, Front},
 };
-use faer::mat::MatRef;
+use faer::Mat;
+use std::marker::PhantomData;
 
 /// Cholesky factorisation of the interior of a symmetric matrix.
 #[derive(Debug)]
@@ -32,7 +34,21 @@ pub struct SchurCholesky {
     /// Unknowns of the Schur complement.
     kept: Vec<usize>,
     scales: Vec<f64>,
-    numeric: Numeric<Option<Failure>>,
+    factors: Factors,
+}
+
+/// Factors of one precision or the other.
+#[derive(Debug)]
+enum Factors {
+    Single(Numeric<Option<Failure>, f32>),
+    Double(Numeric<Option<Failure>, f64>),
+}
+
+/// A dense matrix, column by column.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Values<'a> {
+    Single(&'a [f32]),
+    Double(&'a [f64]),
 }
 
 /// First pivot of a front that is not positive.
@@ -66,11 +82,11 @@ impl SchurCholesky {
             tree,
             kept: unknowns(&kept).into_iter().map(|u| u as usize).collect(),
             scales: Vec::new(),
-            numeric: Numeric::default(),
+            factors: Factors::of(Precision::Double),
         })
     }
 
-    /// Predicted cost of [`factor`](Self::factor).
+    /// Predicted cost of [`factor`](Self::factor) in double precision.
     pub fn analysis(&self) -> Analysis {
         let factor_entries = self.tree.fronts.iter().map(entries).sum();
         let interior = self.tree.fronts.iter().take(self.interior());
@@ -91,45 +107,63 @@ impl SchurCholesky {
         &self.kept
     }
 
-    /// Eliminates the interior; returns the Schur complement, both triangles.
+    /// Eliminates the interior.
     ///
     /// Of the matrix only one of each pair of mirrored entries is used.
-    pub fn factor(&mut self, matrix: &SparseMatrix) -> Result<MatRef<'_, f64>, SolveError> {
+    pub fn factor(
+        &mut self,
+        matrix: &SparseMatrix,
+        precision: Precision,
+    ) -> Result<(), SolveError> {
         self.scales.clear();
         if !self.structure.same_as(matrix.structure()) {
             return Err(SolveError::NotAnalysed);
         }
         let scales = self.unit_diagonal(matrix)?;
-        self.numeric.factor(&System {
+        if self.factors.precision() != precision {
+            self.factors = Factors::of(precision);
+        }
+        let plan = Plan {
             tree: &self.tree,
             matrix,
             scales: &scales,
             interior: self.interior(),
-        });
-        if let Some(failure) = self.numeric.fronts.iter().flatten().next() {
+            kept: self.kept.len(),
+        };
+        let failure = match &mut self.factors {
+            Factors::Single(numeric) => plan.factor(numeric),
+            Factors::Double(numeric) => plan.factor(numeric),
+        };
+        if let Some(failure) = failure {
             return Err(SolveError::NotPositiveDefinite {
                 unknown: failure.unknown,
                 pivot: failure.pivot,
             });
         }
         self.scales = scales;
-        let n = self.kept.len();
-        let begin = self.numeric.values.len() - n * n;
-        mirror_lower(&mut self.numeric.values[begin..], n);
-        Ok(self.complement())
+        Ok(())
     }
 
-    /// The Schur complement of the last factorisation.
-    pub fn complement(&self) -> MatRef<'_, f64> {
+    /// The Schur complement of the last factorisation, both triangles.
+    pub fn complement(&self) -> Mat<f64> {
         let n = self.kept.len();
-        MatRef::from_column_major_slice(self.complement_values(), n, n)
+        Mat::from_fn(n, n, |i, j| match self.complement_values() {
+            Values::Single(values) => values[j * n + i].double(),
+            Values::Double(values) => values[j * n + i],
+        })
     }
 
-    /// The Schur complement column by column.
-    pub(crate) fn complement_values(&self) -> &[f64] {
-        let n = self.kept.len();
-        let begin = self.numeric.values.len().saturating_sub(n * n);
-        &self.numeric.values[begin..]
+    /// The same column by column.
+    pub(crate) fn complement_values(&self) -> Values<'_> {
+        let begin = |values: usize| values.saturating_sub(self.kept.len().pow(2));
+        match &self.factors {
+            Factors::Single(numeric) => {
+                Values::Single(&numeric.values[begin(numeric.values.len())..])
+            }
+            Factors::Double(numeric) => {
+                Values::Double(&numeric.values[begin(numeric.values.len())..])
+            }
+        }
     }
 
     /// Eliminates the interior from a right-hand side; the kept unknowns hold
@@ -139,27 +173,49 @@ impl SchurCholesky {
         if self.scales.len() != rhs.len() {
             return Err(SolveError::NotFactored);
         }
-        let scaled = |&u: &u32| rhs[u as usize] * self.scales[u as usize];
-        let mut y: Vec<f64> = self.order.iter().map(scaled).collect();
-        self.descent.upwards(&self.numeric.values, &mut y);
+        Ok(match &self.factors {
+            Factors::Single(numeric) => self.condensed(&numeric.values, rhs),
+            Factors::Double(numeric) => self.condensed(&numeric.values, rhs),
+        })
+    }
+
+    /// What the interior takes off the kept unknowns joins them in double precision.
+    fn condensed<T: Real>(&self, values: &[T], rhs: &[f64]) -> Vec<f64> {
+        let interior = self.order.len() - self.kept.len();
+        let scaled = |&u: &u32| T::of(rhs[u as usize] * self.scales[u as usize]);
+        let mut y: Vec<T> = self.order[..interior].iter().map(scaled).collect();
+        y.resize(self.order.len(), T::default());
+        self.descent.upwards(values, &mut y);
         let mut condensed = vec![0.0; rhs.len()];
-        for (&u, y) in self.order.iter().zip(y) {
-            condensed[u as usize] = y;
+        for (&u, y) in self.order.iter().zip(&y) {
+            condensed[u as usize] = y.double();
         }
-        Ok(condensed)
+        for &u in &self.kept {
+            condensed[u] += rhs[u];
+        }
+        condensed
     }
 
     /// All unknowns, from a condensed right-hand side with the solution at the kept ones.
     pub fn expand(&self, condensed: Vec<f64>) -> Result<Vec<f64>, SolveError> {
         check_length(&condensed, self.structure.unknowns())?;
+        Ok(match &self.factors {
+            Factors::Single(numeric) => self.expanded(&numeric.values, condensed),
+            Factors::Double(numeric) => self.expanded(&numeric.values, condensed),
+        })
+    }
+
+    /// What is kept stays as it is, to the last bit.
+    fn expanded<T: Real>(&self, values: &[T], condensed: Vec<f64>) -> Vec<f64> {
         let unknowns = self.order.iter().map(|&u| u as usize);
-        let mut y: Vec<f64> = unknowns.map(|u| condensed[u]).collect();
-        self.descent.downwards(&self.numeric.values, &mut y);
+        let mut y: Vec<T> = unknowns.map(|u| T::of(condensed[u])).collect();
+        self.descent.downwards(values, &mut y);
         let mut x = condensed;
-        for (&u, y) in self.order.iter().zip(y) {
-            x[u as usize] = y * self.scales[u as usize];
+        let interior = self.order.len() - self.kept.len();
+        for (&u, y) in self.order[..interior].iter().zip(y) {
+            x[u as usize] = y.double() * self.scales[u as usize];
         }
-        Ok(x)
+        x
     }
 
     /// Number of fronts that are eliminated.
@@ -183,19 +239,60 @@ impl SchurCholesky {
     }
 }
 
-/// What all fronts of a factorisation share.
-struct System<'a> {
+impl Factors {
+    /// None yet.
+    fn of(precision: Precision) -> Self {
+        match precision {
+            Precision::Single => Self::Single(Numeric::default()),
+            Precision::Double => Self::Double(Numeric::default()),
+        }
+    }
+
+    fn precision(&self) -> Precision {
+        match self {
+            Self::Single(_) => Precision::Single,
+            Self::Double(_) => Precision::Double,
+        }
+    }
+}
+
+/// What a factorisation goes by.
+#[derive(Clone, Copy)]
+struct Plan<'a> {
     tree: &'a AssemblyTree,
     matrix: &'a SparseMatrix,
     scales: &'a [f64],
+    /// Fronts that are eliminated.
     interior: usize,
+    /// Unknowns of the Schur complement.
+    kept: usize,
 }
 
-impl Kernel for System<'_> {
+impl Plan<'_> {
+    /// The first bad pivot, if there is one.
+    fn factor<T: Real>(self, numeric: &mut Numeric<Option<Failure>, T>) -> Option<Failure> {
+        numeric.factor(&System {
+            plan: self,
+            numbers: PhantomData,
+        });
+        let begin = numeric.values.len() - self.kept * self.kept;
+        mirror_lower(&mut numeric.values[begin..], self.kept);
+        numeric.fronts.iter().flatten().next().copied()
+    }
+}
+
+/// What all fronts of a factorisation share.
+struct System<'a, T> {
+    plan: Plan<'a>,
+    numbers: PhantomData<T>,
+}
+
+impl<T: Real> Kernel for System<'_, T> {
     type Factor = Option<Failure>;
+    type Value = T;
 
     fn tree(&self) -> &AssemblyTree {
-        self.tree
+        self.plan.tree
     }
 
     fn entries(&self, front: &Front) -> usize {
@@ -205,12 +302,12 @@ impl Kernel for System<'_> {
     fn factor(
         &self,
         f: usize,
-        children: &[Child<'_>],
-        left: &mut [f64],
-        rest: &mut [f64],
+        children: &[Child<'_, T>],
+        left: &mut [T],
+        rest: &mut [T],
     ) -> (Option<Failure>, Contribution) {
-        let front = &self.tree.fronts[f];
-        left.fill(0.0);
+        let front = &self.plan.tree.fronts[f];
+        left.fill(T::default());
         self.assemble(front, left);
         for child in children {
             extend_add(front, child, left, rest);
@@ -219,40 +316,46 @@ impl Kernel for System<'_> {
             size: front.rest(),
             ..Contribution::default()
         };
-        if f >= self.interior {
+        if f >= self.plan.interior {
             return (None, contribution);
         }
         let failure = symmetric::eliminate(left, rest, front.size).map(|(position, pivot)| {
-            let unknown = unknowns(self.matrix.structure(), front)[position] as usize;
+            let unknown = unknowns(self.plan.matrix.structure(), front)[position] as usize;
             Failure { unknown, pivot }
         });
         (failure, contribution)
     }
 
-    fn with_delayed(&self, _: &Option<Failure>, _: &[f64], _: &[f64], _: &mut [f64]) {}
+    fn with_delayed(&self, _: &Option<Failure>, _: &[T], _: &[T], _: &mut [T]) {}
 }
 
-impl System<'_> {
+impl<T: Real> System<'_, T> {
     /// Adds the entries of the matrix in the columns of the members, lower triangle.
-    fn assemble(&self, front: &Front, left: &mut [f64]) {
-        let structure = self.matrix.structure();
+    fn assemble(&self, front: &Front, left: &mut [T]) {
+        let Plan {
+            tree,
+            matrix,
+            scales,
+            ..
+        } = self.plan;
+        let structure = matrix.structure();
         let mut start = 0;
         for &i in &front.members {
             let group = structure.group(i as usize);
             for edge in structure.edges(i as usize) {
-                let place = self.tree.local[edge];
+                let place = tree.local[edge];
                 if place == ELSEWHERE || (place as usize) < start {
                     continue;
                 }
                 let others = structure.group(structure.target(edge));
                 for (a, unknown) in group.clone().enumerate() {
                     let row = structure.row(i as usize, a).start + structure.column(edge);
-                    let values = &self.matrix.values()[row..][..others.len()];
+                    let values = &matrix.values()[row..][..others.len()];
                     let column = &mut left[(start + a) * front.size..][..front.size];
                     for (b, other) in others.clone().enumerate() {
                         if place as usize + b >= start + a {
-                            let scale = self.scales[unknown] * self.scales[other];
-                            column[place as usize + b] += scale * values[b];
+                            let scale = scales[unknown] * scales[other];
+                            column[place as usize + b] += T::of(scale * values[b]);
                         }
                     }
                 }
@@ -263,7 +366,7 @@ impl System<'_> {
 }
 
 /// Adds the lower triangle of a child's contribution.
-fn extend_add(front: &Front, child: &Child<'_>, left: &mut [f64], rest: &mut [f64]) {
+fn extend_add<T: Real>(front: &Front, child: &Child<'_, T>, left: &mut [T], rest: &mut [T]) {
     let size = child.front.rest();
     let runs = runs(child.front);
     let width = front.rest();
@@ -279,7 +382,7 @@ fn extend_add(front: &Front, child: &Child<'_>, left: &mut [f64], rest: &mut [f6
             for (row, begin, end) in std::iter::once((column, k, end)).chain(others) {
                 let target = &mut target[row - origin..][..end - begin];
                 let added = target.iter_mut().zip(&source[begin..end]);
-                added.for_each(|(target, value)| *target += value);
+                added.for_each(|(target, value)| *target += *value);
             }
         }
     }
@@ -313,7 +416,7 @@ fn entries(front: &Front) -> usize {
 }
 
 /// Copies the lower triangle to the upper one, block by block.
-fn mirror_lower(values: &mut [f64], n: usize) {
+fn mirror_lower<T: Copy>(values: &mut [T], n: usize) {
     const BLOCK: usize = 32;
     for left in (0..n).step_by(BLOCK) {
         for top in (left..n).step_by(BLOCK) {

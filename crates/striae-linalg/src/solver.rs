@@ -17,8 +17,19 @@ pub trait LinearSolver: Send {
     /// Orders the unknowns and predicts the cost; forgets earlier factorisations.
     fn analyse(&mut self, structure: &Structure) -> Result<Analysis, SolveError>;
 
-    /// Forgets what earlier matrices have shown, but not the analysis.
+    /// Gives what has failed another try: matrices of another state come.
     fn start_afresh(&mut self) {}
+
+    /// Forgets all factors, but not the analysis: matrices of another kind come.
+    fn forget(&mut self) {}
+
+    /// What earlier matrices have left that bears on the last digits of answers to come.
+    fn experience(&self) -> Experience {
+        Experience::default()
+    }
+
+    /// Takes up the experience of another solver with the same analysis.
+    fn recall(&mut self, _experience: &Experience) {}
 
     /// Factors a matrix of the analysed structure.
     fn factor(&mut self, matrix: &SparseMatrix) -> Result<FactorReport, SolveError>;
@@ -63,6 +74,30 @@ pub trait LinearSolver: Send {
     ) -> Result<Option<Vec<f64>>, SolveError> {
         Ok(None)
     }
+}
+
+/// What earlier matrices have left in a solver.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Experience {
+    /// Whether single precision has been found too coarse.
+    pub too_coarse: bool,
+    /// Iterations of GMRES that the factors took last.
+    pub taken: usize,
+    /// What the factors there are were made of.
+    pub interior: Option<FactoredInterior>,
+}
+
+/// The interior of all bodies that was factored.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FactoredInterior {
+    /// Values of the scaled matrix, body by body.
+    pub values: Vec<Vec<f64>>,
+    /// Scale of every unknown.
+    pub scales: Vec<f64>,
+    /// Which unknowns are prescribed.
+    pub prescribed: Vec<bool>,
+    /// Whether the factors are in single precision.
+    pub single: bool,
 }
 
 /// Predicted cost of a factorisation; zeros where the backend does not know.

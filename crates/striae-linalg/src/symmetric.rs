@@ -5,6 +5,7 @@
 //! columns; products are cut into pieces that depend on the sizes alone, so
 //! that threads do not change the result.
 
+use crate::real::Real;
 use faer::{
     Accum, Par,
     linalg::matmul::matmul,
@@ -12,8 +13,6 @@ use faer::{
 };
 use rayon::prelude::*;
 
-/// Pivot of a matrix with unit diagonal that counts as not positive.
-const TINY: f64 = 1e-13;
 /// Columns that are eliminated one by one.
 const NARROW: usize = 8;
 /// Columns in a piece of a product.
@@ -24,7 +23,11 @@ const PARALLEL_FLOPS: usize = 4_000_000;
 /// Eliminates all pivots; returns position and value of the first bad one.
 ///
 /// A bad pivot is replaced by one, so the factors are of no use then.
-pub(crate) fn eliminate(left: &mut [f64], rest: &mut [f64], size: usize) -> Option<(usize, f64)> {
+pub(crate) fn eliminate<T: Real>(
+    left: &mut [T],
+    rest: &mut [T],
+    size: usize,
+) -> Option<(usize, f64)> {
     let pivots = left.len().checked_div(size).unwrap_or(0);
     let failure = factor(left, size, 0, pivots);
     let width = size - pivots;
@@ -40,7 +43,7 @@ pub(crate) fn eliminate(left: &mut [f64], rest: &mut [f64], size: usize) -> Opti
                 Accum::Add,
                 below.get(first.., ..),
                 right,
-                -1.0,
+                T::of(-1.0),
                 Par::Seq,
             );
         });
@@ -49,7 +52,7 @@ pub(crate) fn eliminate(left: &mut [f64], rest: &mut [f64], size: usize) -> Opti
 }
 
 /// Factors columns `begin..end`, which have seen all earlier pivots.
-fn factor(left: &mut [f64], size: usize, begin: usize, end: usize) -> Option<(usize, f64)> {
+fn factor<T: Real>(left: &mut [T], size: usize, begin: usize, end: usize) -> Option<(usize, f64)> {
     if end - begin <= NARROW {
         return factor_narrow(left, size, begin, end);
     }
@@ -71,7 +74,7 @@ fn factor(left: &mut [f64], size: usize, begin: usize, end: usize) -> Option<(us
             Accum::Add,
             done.get(row.., ..),
             right,
-            -1.0,
+            T::of(-1.0),
             Par::Seq,
         );
     });
@@ -80,18 +83,24 @@ fn factor(left: &mut [f64], size: usize, begin: usize, end: usize) -> Option<(us
 }
 
 /// Right-looking elimination column by column.
-fn factor_narrow(left: &mut [f64], size: usize, begin: usize, end: usize) -> Option<(usize, f64)> {
+fn factor_narrow<T: Real>(
+    left: &mut [T],
+    size: usize,
+    begin: usize,
+    end: usize,
+) -> Option<(usize, f64)> {
     let mut failure = None;
     for k in begin..end {
         let (done, todo) = left.split_at_mut((k + 1) * size);
         let column = &mut done[k * size + k..];
         let mut pivot = column[0];
-        if pivot.is_nan() || pivot <= TINY {
-            failure = failure.or(Some((k, pivot)));
-            pivot = 1.0;
+        let value = pivot.double();
+        if value.is_nan() || value <= T::TINY {
+            failure = failure.or(Some((k, value)));
+            pivot = T::of(1.0);
         }
-        column[0] = pivot.sqrt();
-        let inverse = 1.0 / column[0];
+        column[0] = pivot.root();
+        let inverse = T::of(1.0) / column[0];
         column[1..].iter_mut().for_each(|l| *l *= inverse);
         for (j, target) in todo.chunks_exact_mut(size).take(end - k - 1).enumerate() {
             let lower = &column[j + 1..];
@@ -100,21 +109,21 @@ fn factor_narrow(left: &mut [f64], size: usize, begin: usize, end: usize) -> Opt
             below
                 .iter_mut()
                 .zip(lower)
-                .for_each(|(t, l)| *t -= factor * l);
+                .for_each(|(t, l)| *t -= factor * *l);
         }
     }
     failure
 }
 
 /// Calls `work` with the first column of each piece and the piece.
-fn products(
-    columns: &mut [f64],
+fn products<T: Real>(
+    columns: &mut [T],
     size: usize,
     depth: usize,
-    work: impl Fn(usize, &mut [f64]) + Send + Sync,
+    work: impl Fn(usize, &mut [T]) + Send + Sync,
 ) {
     let flops = columns.len() * depth;
-    let numbered = |(k, piece): (usize, &mut [f64])| work(k * PIECE, piece);
+    let numbered = |(k, piece): (usize, &mut [T])| work(k * PIECE, piece);
     if flops > PARALLEL_FLOPS {
         columns
             .par_chunks_mut(PIECE * size)
@@ -128,6 +137,6 @@ fn products(
     }
 }
 
-fn matrix(values: &[f64], rows: usize, columns: usize) -> MatRef<'_, f64> {
+fn matrix<T: Real>(values: &[T], rows: usize, columns: usize) -> MatRef<'_, T> {
     MatRef::from_column_major_slice(&values[..rows * columns], rows, columns)
 }

@@ -6,6 +6,7 @@
 //! the sizes alone: threads, which share rows or columns of large blocks among
 //! them, do not change a bit.
 
+use crate::real::Real;
 use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
 
@@ -23,8 +24,8 @@ const WIDTH: usize = 4;
 
 /// Columns of a column-major matrix, from some row on.
 #[derive(Clone, Copy)]
-pub(crate) struct Block<'a> {
-    values: &'a [f64],
+pub(crate) struct Block<'a, T = f64> {
+    values: &'a [T],
     stride: usize,
 }
 
@@ -37,9 +38,9 @@ pub(crate) enum Diagonal {
     Unit,
 }
 
-impl<'a> Block<'a> {
+impl<'a, T: Real> Block<'a, T> {
     /// A matrix whose columns begin so many values after each other.
-    pub(crate) fn new(values: &'a [f64], stride: usize) -> Self {
+    pub(crate) fn new(values: &'a [T], stride: usize) -> Self {
         Self { values, stride }
     }
 
@@ -53,12 +54,12 @@ impl<'a> Block<'a> {
     }
 
     /// First rows of a column.
-    fn column(self, column: usize, rows: usize) -> &'a [f64] {
+    fn column(self, column: usize, rows: usize) -> &'a [T] {
         &self.values[column * self.stride..][..rows]
     }
 
     /// `b` over an entry of the diagonal.
-    fn divide(self, k: usize, diagonal: Diagonal, b: f64) -> f64 {
+    fn divide(self, k: usize, diagonal: Diagonal, b: T) -> T {
         match diagonal {
             Diagonal::Stored => b / self.values[k * self.stride + k],
             Diagonal::Unit => b,
@@ -67,7 +68,7 @@ impl<'a> Block<'a> {
 }
 
 /// `y -= A x`.
-pub(crate) fn subtract(y: &mut [f64], a: Block<'_>, x: &[f64]) {
+pub(crate) fn subtract<T: Real>(y: &mut [T], a: Block<'_, T>, x: &[T]) {
     if y.len() * x.len() < PARALLEL {
         subtract_rows(y, a, x);
     } else {
@@ -77,7 +78,7 @@ pub(crate) fn subtract(y: &mut [f64], a: Block<'_>, x: &[f64]) {
 }
 
 /// `y -= A^T x`.
-pub(crate) fn subtract_transposed(y: &mut [f64], a: Block<'_>, x: &[f64]) {
+pub(crate) fn subtract_transposed<T: Real>(y: &mut [T], a: Block<'_, T>, x: &[T]) {
     if y.len() * x.len() < PARALLEL {
         subtract_columns(y, a, x);
     } else {
@@ -87,7 +88,12 @@ pub(crate) fn subtract_transposed(y: &mut [f64], a: Block<'_>, x: &[f64]) {
 }
 
 /// `x := L^-1 x` with a lower triangle, and `rest -= B x` with the rows `B` below it.
-pub(crate) fn solve_lower(l: Block<'_>, diagonal: Diagonal, x: &mut [f64], pivots: usize) {
+pub(crate) fn solve_lower<T: Real>(
+    l: Block<'_, T>,
+    diagonal: Diagonal,
+    x: &mut [T],
+    pivots: usize,
+) {
     for panel in (0..pivots).step_by(PANEL) {
         let end = (panel + PANEL).min(pivots);
         let (own, below) = x[panel..].split_at_mut(end - panel);
@@ -101,7 +107,7 @@ pub(crate) fn solve_lower(l: Block<'_>, diagonal: Diagonal, x: &mut [f64], pivot
                 narrow[j] = value;
                 let column = &block.column(j, narrow.len())[j + 1..];
                 let targets = narrow[j + 1..].iter_mut().zip(column);
-                targets.for_each(|(x, l)| *x -= l * value);
+                targets.for_each(|(x, l)| *x -= *l * value);
             }
             subtract(others, triangle.at(next, k), narrow);
         }
@@ -110,10 +116,10 @@ pub(crate) fn solve_lower(l: Block<'_>, diagonal: Diagonal, x: &mut [f64], pivot
 }
 
 /// The pivots of `x := L^-T (x - B^T rest)` with a lower triangle and the rows `B` below it.
-pub(crate) fn solve_lower_transposed(
-    l: Block<'_>,
+pub(crate) fn solve_lower_transposed<T: Real>(
+    l: Block<'_, T>,
     diagonal: Diagonal,
-    x: &mut [f64],
+    x: &mut [T],
     pivots: usize,
 ) {
     for panel in (0..pivots).step_by(PANEL).rev() {
@@ -136,7 +142,7 @@ pub(crate) fn solve_lower_transposed(
 }
 
 /// `x := U^-1 x` with an upper triangle.
-pub(crate) fn solve_upper(u: Block<'_>, x: &mut [f64]) {
+pub(crate) fn solve_upper<T: Real>(u: Block<'_, T>, x: &mut [T]) {
     for panel in (0..x.len()).step_by(PANEL).rev() {
         let end = (panel + PANEL).min(x.len());
         let (above, own) = x[..end].split_at_mut(panel);
@@ -149,7 +155,7 @@ pub(crate) fn solve_upper(u: Block<'_>, x: &mut [f64]) {
                 let value = block.divide(j, Diagonal::Stored, narrow[j]);
                 narrow[j] = value;
                 let targets = narrow[..j].iter_mut().zip(block.column(j, j));
-                targets.for_each(|(x, u)| *x -= u * value);
+                targets.for_each(|(x, u)| *x -= *u * value);
             }
             subtract(others, triangle.at(0, k), narrow);
         }
@@ -158,7 +164,7 @@ pub(crate) fn solve_upper(u: Block<'_>, x: &mut [f64]) {
 }
 
 /// `x := U^-T x` with an upper triangle.
-pub(crate) fn solve_upper_transposed(u: Block<'_>, x: &mut [f64]) {
+pub(crate) fn solve_upper_transposed<T: Real>(u: Block<'_, T>, x: &mut [T]) {
     for panel in (0..x.len()).step_by(PANEL) {
         let end = (panel + PANEL).min(x.len());
         let (above, own) = x[..end].split_at_mut(panel);
@@ -177,45 +183,47 @@ pub(crate) fn solve_upper_transposed(u: Block<'_>, x: &mut [f64]) {
     }
 }
 
-fn subtract_rows(y: &mut [f64], a: Block<'_>, x: &[f64]) {
+fn subtract_rows<T: Real>(y: &mut [T], a: Block<'_, T>, x: &[T]) {
     if !y.is_empty() && !x.is_empty() {
         pulp::Arch::new().dispatch(Combination { y, a, x });
     }
 }
 
-fn subtract_columns(y: &mut [f64], a: Block<'_>, x: &[f64]) {
+fn subtract_columns<T: Real>(y: &mut [T], a: Block<'_, T>, x: &[T]) {
     if !y.is_empty() && !x.is_empty() {
         pulp::Arch::new().dispatch(InnerProducts { y, a, x });
     }
 }
 
 /// `y -= A x` by columns.
-struct Combination<'a> {
-    y: &'a mut [f64],
-    a: Block<'a>,
-    x: &'a [f64],
+struct Combination<'a, T> {
+    y: &'a mut [T],
+    a: Block<'a, T>,
+    x: &'a [T],
 }
 
-impl WithSimd for Combination<'_> {
+impl<T: Real> WithSimd for Combination<'_, T> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { y, a, x } = self;
         let rows = y.len();
-        let (y, y_end) = S::as_mut_simd_f64s(y);
+        let zero = T::default();
+        let (y, y_end) = T::lanes_mut::<S>(y);
         let (fours, others) = x.as_chunks::<WIDTH>();
         for (k, x) in fours.iter().enumerate() {
-            let columns = |j: usize| S::as_simd_f64s(a.column(k * WIDTH + j, rows));
+            let columns = |j: usize| T::lanes::<S>(a.column(k * WIDTH + j, rows));
             let ((a0, e0), (a1, e1)) = (columns(0), columns(1));
             let ((a2, e2), (a3, e3)) = (columns(2), columns(3));
-            let [x0, x1, x2, x3] = x.map(|x| simd.splat_f64s(-x));
+            let [x0, x1, x2, x3] = x.map(|x| T::splat(simd, zero - x));
             let count = y.len();
             let (a0, a1, a2, a3) = (&a0[..count], &a1[..count], &a2[..count], &a3[..count]);
             for i in 0..count {
-                let first = simd.mul_add_e_f64s(a1[i], x1, simd.mul_add_e_f64s(a0[i], x0, y[i]));
-                let second = simd.mul_add_e_f64s(a3[i], x3, simd.mul_f64s(a2[i], x2));
-                y[i] = simd.add_f64s(first, second);
+                let first =
+                    T::multiply_add(simd, a1[i], x1, T::multiply_add(simd, a0[i], x0, y[i]));
+                let second = T::multiply_add(simd, a3[i], x3, T::product(simd, a2[i], x2));
+                y[i] = T::plus(simd, first, second);
             }
             for (i, y) in y_end.iter_mut().enumerate() {
                 let products = e0[i] * x[0] + e1[i] * x[1];
@@ -223,77 +231,77 @@ impl WithSimd for Combination<'_> {
             }
         }
         for (k, x) in others.iter().enumerate() {
-            let (a, end) = S::as_simd_f64s(a.column(fours.len() * WIDTH + k, rows));
-            let factor = simd.splat_f64s(-x);
+            let (a, end) = T::lanes::<S>(a.column(fours.len() * WIDTH + k, rows));
+            let factor = T::splat(simd, zero - *x);
             for (y, a) in y.iter_mut().zip(a) {
-                *y = simd.mul_add_e_f64s(*a, factor, *y);
+                *y = T::multiply_add(simd, *a, factor, *y);
             }
-            y_end.iter_mut().zip(end).for_each(|(y, a)| *y -= a * x);
+            y_end.iter_mut().zip(end).for_each(|(y, a)| *y -= *a * *x);
         }
     }
 }
 
 /// `y -= A^T x` by columns.
-struct InnerProducts<'a> {
-    y: &'a mut [f64],
-    a: Block<'a>,
-    x: &'a [f64],
+struct InnerProducts<'a, T> {
+    y: &'a mut [T],
+    a: Block<'a, T>,
+    x: &'a [T],
 }
 
-impl WithSimd for InnerProducts<'_> {
+impl<T: Real> WithSimd for InnerProducts<'_, T> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { y, a, x } = self;
         let rows = x.len();
-        let (x, x_end) = S::as_simd_f64s(x);
+        let (x, x_end) = T::lanes::<S>(x);
         let (fours, others) = y.as_chunks_mut::<WIDTH>();
         let done = fours.len() * WIDTH;
         for (k, y) in fours.iter_mut().enumerate() {
-            let columns = |j: usize| S::as_simd_f64s(a.column(k * WIDTH + j, rows));
+            let columns = |j: usize| T::lanes::<S>(a.column(k * WIDTH + j, rows));
             let ((a0, e0), (a1, e1)) = (columns(0), columns(1));
             let ((a2, e2), (a3, e3)) = (columns(2), columns(3));
             let count = x.len();
             let (a0, a1, a2, a3) = (&a0[..count], &a1[..count], &a2[..count], &a3[..count]);
-            let zero = simd.splat_f64s(0.0);
+            let zero = T::splat(simd, T::default());
             let (mut s0, mut s1, mut s2, mut s3) = (zero, zero, zero, zero);
             let (mut t0, mut t1, mut t2, mut t3) = (zero, zero, zero, zero);
             let even = count & !1;
             for i in (0..even).step_by(2) {
-                s0 = simd.mul_add_e_f64s(a0[i], x[i], s0);
-                s1 = simd.mul_add_e_f64s(a1[i], x[i], s1);
-                s2 = simd.mul_add_e_f64s(a2[i], x[i], s2);
-                s3 = simd.mul_add_e_f64s(a3[i], x[i], s3);
-                t0 = simd.mul_add_e_f64s(a0[i + 1], x[i + 1], t0);
-                t1 = simd.mul_add_e_f64s(a1[i + 1], x[i + 1], t1);
-                t2 = simd.mul_add_e_f64s(a2[i + 1], x[i + 1], t2);
-                t3 = simd.mul_add_e_f64s(a3[i + 1], x[i + 1], t3);
+                s0 = T::multiply_add(simd, a0[i], x[i], s0);
+                s1 = T::multiply_add(simd, a1[i], x[i], s1);
+                s2 = T::multiply_add(simd, a2[i], x[i], s2);
+                s3 = T::multiply_add(simd, a3[i], x[i], s3);
+                t0 = T::multiply_add(simd, a0[i + 1], x[i + 1], t0);
+                t1 = T::multiply_add(simd, a1[i + 1], x[i + 1], t1);
+                t2 = T::multiply_add(simd, a2[i + 1], x[i + 1], t2);
+                t3 = T::multiply_add(simd, a3[i + 1], x[i + 1], t3);
             }
             if even < count {
-                s0 = simd.mul_add_e_f64s(a0[even], x[even], s0);
-                s1 = simd.mul_add_e_f64s(a1[even], x[even], s1);
-                s2 = simd.mul_add_e_f64s(a2[even], x[even], s2);
-                s3 = simd.mul_add_e_f64s(a3[even], x[even], s3);
+                s0 = T::multiply_add(simd, a0[even], x[even], s0);
+                s1 = T::multiply_add(simd, a1[even], x[even], s1);
+                s2 = T::multiply_add(simd, a2[even], x[even], s2);
+                s3 = T::multiply_add(simd, a3[even], x[even], s3);
             }
             let sums = [(s0, t0), (s1, t1), (s2, t2), (s3, t3)];
             let ends = [e0, e1, e2, e3];
             for ((y, (s, t)), end) in y.iter_mut().zip(sums).zip(ends) {
-                *y -= simd.reduce_sum_f64s(simd.add_f64s(s, t)) + inner_product(end, x_end);
+                *y -= T::total(simd, T::plus(simd, s, t)) + inner_product(end, x_end);
             }
         }
         for (k, y) in others.iter_mut().enumerate() {
-            let (a, end) = S::as_simd_f64s(a.column(done + k, rows));
-            let mut sum = simd.splat_f64s(0.0);
+            let (a, end) = T::lanes::<S>(a.column(done + k, rows));
+            let mut sum = T::splat(simd, T::default());
             for (a, x) in a.iter().zip(x) {
-                sum = simd.mul_add_e_f64s(*a, *x, sum);
+                sum = T::multiply_add(simd, *a, *x, sum);
             }
-            *y -= simd.reduce_sum_f64s(sum) + inner_product(end, x_end);
+            *y -= T::total(simd, sum) + inner_product(end, x_end);
         }
     }
 }
 
 #[inline(always)]
-fn inner_product(a: &[f64], x: &[f64]) -> f64 {
-    a.iter().zip(x).map(|(a, x)| a * x).sum()
+fn inner_product<T: Real>(a: &[T], x: &[T]) -> T {
+    a.iter().zip(x).map(|(a, x)| *a * *x).sum()
 }

@@ -153,8 +153,8 @@ fn solution(
     let mut x = vec![0.0; rhs.len()];
     solver.analyse(matrix.structure()).unwrap();
     let report = solver.factor(matrix).unwrap();
-    let solved = solver.solve(matrix, rhs, &mut x).unwrap();
-    assert!(solved.backward_error < 1e-14, "{solved:?}");
+    let solved = solver.solve_to(matrix, rhs, &mut x, 1e-13).unwrap();
+    assert!(solved.backward_error < 1e-12, "{solved:?}");
     (x, report.method)
 }
 
@@ -279,13 +279,12 @@ fn older_interiors_precondition_until_they_are_too_far() {
         let report = solver.solve(&matrix, &rhs, &mut x).unwrap();
         assert_eq!(report.interior, interior, "{stiffness:?} {report:?}");
         let (expected, _) = solution(&mut MultifrontalLu::new(), &matrix, &rhs);
-        let allowed = match interior {
-            Interior::Fresh => 1e-9,
-            // The reduction of the residual times a factor for the condition.
-            Interior::Stale => 1e3 * striae_linalg::REDUCTION,
-        };
+        // The reduction of the residual times a factor for the condition.
         let error = difference(&blocks, &x, &expected);
-        assert!(error < allowed, "{stiffness:?} {error:e} {report:?}");
+        assert!(
+            error < 1e3 * striae_linalg::REDUCTION,
+            "{stiffness:?} {error:e} {report:?}"
+        );
     }
 }
 
@@ -304,7 +303,8 @@ fn other_contact_is_solved_on_the_same_interior() {
         let x = solver.solve_other_contact(&matrix, &rhs).unwrap().unwrap();
         let (expected, _) = solution(&mut MultifrontalLu::new(), &other, &rhs);
         let error = difference(&blocks, &x, &expected);
-        assert!(error < 1e-9, "{error:e}");
+        // Once through factors in single precision.
+        assert!(error < 1e-5, "{error:e}");
     }
 }
 

@@ -1,7 +1,9 @@
 //! Condensation against dense algebra.
 
 use proptest::prelude::*;
-use striae_linalg::{Mat, SchurCholesky, SolveError, SparseMatrix, Structure, Supervariable};
+use striae_linalg::{
+    Mat, Precision, SchurCholesky, SolveError, SparseMatrix, Structure, Supervariable,
+};
 
 /// Chains of springs between random pairs plus a small foundation: positive definite.
 fn springs(groups: usize, pairs: &[(usize, usize)], foundation: f64) -> SparseMatrix {
@@ -56,6 +58,9 @@ fn dense(matrix: &SparseMatrix, kept: &[usize], rhs: &[f64]) -> (Mat<f64>, Vec<f
     )
 }
 
+/// Precisions of the factors, and what they leave on matrices of springs.
+const PRECISIONS: [(Precision, f64); 2] = [(Precision::Double, 1e-9), (Precision::Single, 1e-3)];
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -65,6 +70,7 @@ proptest! {
         pairs in prop::collection::vec((any::<usize>(), any::<usize>()), 0..150),
         every in 1_usize..9,
         scale in -6..6_i32,
+        (precision, bound) in prop::sample::select(PRECISIONS.to_vec()),
     ) {
         let mut matrix = springs(groups, &pairs, 1.0);
         let structure = matrix.structure().clone();
@@ -75,7 +81,8 @@ proptest! {
         let list: Vec<Supervariable> = (0..groups).filter(|k| k % every == 1).map(Supervariable).collect();
         let rhs: Vec<f64> = (0..structure.unknowns()).map(|k| factors[k] * ((k % 5) as f64 - 2.0)).collect();
         let mut schur = SchurCholesky::analyse(&structure, &list).unwrap();
-        let s = schur.factor(&matrix).unwrap().to_owned();
+        schur.factor(&matrix, precision).unwrap();
+        let s = schur.complement();
         let kept = schur.kept_unknowns().to_vec();
         let (s_dense, g_dense, x_dense) = dense(&matrix, &kept, &rhs);
         let mut condensed = schur.condense(&rhs).unwrap();
@@ -83,14 +90,14 @@ proptest! {
         for i in 0..kept.len() {
             for j in 0..kept.len() {
                 let size = factors[kept[i]] * factors[kept[j]];
-                prop_assert!((s[(i, j)] - s_dense[(i, j)]).abs() < 1e-9 * size);
+                prop_assert!((s[(i, j)] - s_dense[(i, j)]).abs() < bound * size);
             }
-            prop_assert!((g[i] - g_dense[i]).abs() < 1e-9 * factors[kept[i]]);
+            prop_assert!((g[i] - g_dense[i]).abs() < bound * factors[kept[i]]);
         }
         kept.iter().for_each(|&k| condensed[k] = x_dense[k]);
         let x = schur.expand(condensed).unwrap();
         for k in 0..x.len() {
-            prop_assert!((x[k] - x_dense[k]).abs() < 1e-9 / factors[k]);
+            prop_assert!((x[k] - x_dense[k]).abs() < bound / factors[k]);
         }
     }
 }
@@ -100,7 +107,7 @@ fn a_loose_interior_is_named() {
     let pairs: Vec<(usize, usize)> = (0..5).map(|k| (k, k + 1)).collect();
     let matrix = springs(9, &pairs, 0.0);
     let mut schur = SchurCholesky::analyse(matrix.structure(), &[Supervariable(0)]).unwrap();
-    let found = schur.factor(&matrix).unwrap_err();
+    let found = schur.factor(&matrix, Precision::Double).unwrap_err();
     assert!(
         matches!(found, SolveError::NotPositiveDefinite { .. }),
         "{found:?}"
@@ -125,7 +132,8 @@ fn a_body_held_by_kept_unknowns_only_is_condensed() {
     }
     let ends = [Supervariable(0), Supervariable(n)];
     let mut schur = SchurCholesky::analyse(&structure, &ends).unwrap();
-    let s = schur.factor(&matrix).unwrap().to_owned();
+    schur.factor(&matrix, Precision::Double).unwrap();
+    let s = schur.complement();
     assert_eq!(schur.kept_unknowns(), [0, n]);
     let spring = 1.0 / n as f64;
     for (i, j, sign) in [(0, 0, 1.0), (0, 1, -1.0), (1, 0, -1.0), (1, 1, 1.0)] {
@@ -147,7 +155,7 @@ fn a_right_hand_side_on_what_is_kept_stays_as_it_is() {
     let matrix = springs(101, &pairs, 3.0);
     let kept: Vec<Supervariable> = (0..20).map(|k| Supervariable(5 * k)).collect();
     let mut schur = SchurCholesky::analyse(matrix.structure(), &kept).unwrap();
-    schur.factor(&matrix).unwrap();
+    schur.factor(&matrix, Precision::Double).unwrap();
     let mut rhs = vec![0.0; matrix.structure().unknowns()];
     for &u in schur.kept_unknowns() {
         rhs[u] = u as f64 - 80.5;
@@ -164,18 +172,21 @@ fn threads_do_not_change_a_bit() {
     let kept: Vec<Supervariable> = (0..100).map(|k| Supervariable(12 * k)).collect();
     let unknowns = matrix.structure().unknowns();
     let rhs: Vec<f64> = (0..unknowns).map(|k| (k % 7) as f64 - 3.0).collect();
-    let all = |threads: usize| {
+    let all = |threads: usize, precision: Precision| {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build()
             .unwrap();
         pool.install(|| {
             let mut schur = SchurCholesky::analyse(matrix.structure(), &kept).unwrap();
-            let complement = schur.factor(&matrix).unwrap().to_owned();
+            schur.factor(&matrix, precision).unwrap();
+            let complement = schur.complement();
             let condensed = schur.condense(&rhs).unwrap();
             let expanded = schur.expand(condensed.clone()).unwrap();
             (complement, condensed, expanded)
         })
     };
-    assert!(all(1) == all(2));
+    for (precision, _) in PRECISIONS {
+        assert!(all(1, precision) == all(2, precision));
+    }
 }

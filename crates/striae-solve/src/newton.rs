@@ -23,6 +23,7 @@ use striae_contact::{
     unknowns::{NodeResult, Status, Tractions},
 };
 use striae_linalg::{Analysis, REDUCTION};
+pub use striae_linalg::{Experience, FactoredInterior};
 use striae_mesh::Vec3;
 
 use crate::{

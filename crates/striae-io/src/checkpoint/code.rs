@@ -12,7 +12,7 @@ use striae_mesh::FacetId;
 use striae_solve::{
     drive::Point,
     layout::Extent,
-    newton::Memory,
+    newton::{Experience, FactoredInterior, Memory},
     rigid::{Pose, Wrench},
     state::{Energies, NodalForces, PairState, State},
 };
@@ -220,6 +220,8 @@ coded! {
     Energies { kinetic, strain, external, friction, contact, numerical };
     State { time, positions, velocities, accelerations, rigid, pairs, forces, energies };
     Extent { nodes, patches };
-    Memory { extent, cliques };
+    FactoredInterior { values, scales, prescribed, single };
+    Experience { too_coarse, taken, interior };
+    Memory { extent, cliques, solver };
     Point { step, increments, fraction, size, start, state, memory };
 }

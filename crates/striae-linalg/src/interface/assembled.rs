@@ -2,8 +2,10 @@
 
 use super::{LANES, Panels};
 use crate::{
+    real::Real,
+    schur::Values,
     sparse_elimination::{Row, SparseElimination},
-    triangular::{self, subtract},
+    triangular::{self, subtract, subtract_transposed},
 };
 use rayon::prelude::*;
 
@@ -12,7 +14,53 @@ pub(crate) struct Block<'a> {
     /// Kept unknown of each row.
     pub(crate) places: &'a [u32],
     /// Both triangles, column by column.
-    pub(crate) values: &'a [f64],
+    pub(crate) values: Values<'a>,
+}
+
+/// Columns that are taken to double precision at a time.
+const COLUMNS: usize = 16;
+
+impl Block<'_> {
+    /// Puts a row to one lane of vectors by columns.
+    fn load(&self, row: u32, lane: usize, columns: &mut [[f64; LANES]]) {
+        match self.values {
+            Values::Single(values) => self.load_from(values, row, lane, columns),
+            Values::Double(values) => self.load_from(values, row, lane, columns),
+        }
+    }
+
+    fn load_from<T: Real>(
+        &self,
+        values: &[T],
+        row: u32,
+        lane: usize,
+        columns: &mut [[f64; LANES]],
+    ) {
+        // Symmetric: the column is the row, and contiguous.
+        let values = &values[row as usize * self.places.len()..];
+        for (&place, value) in self.places.iter().zip(values) {
+            columns[place as usize][lane] = value.double();
+        }
+    }
+
+    /// `S z`, in double precision.
+    fn product(&self, z: &[f64]) -> Vec<f64> {
+        let n = self.places.len();
+        let x: Vec<f64> = self.places.iter().map(|&k| -z[k as usize]).collect();
+        let mut y = vec![0.0; n];
+        match self.values {
+            Values::Double(values) => subtract(&mut y, triangular::Block::new(values, n), &x),
+            Values::Single(values) => {
+                let chunks = y.par_chunks_mut(COLUMNS).enumerate();
+                chunks.for_each(|(k, y)| {
+                    let columns = &values[k * COLUMNS * n..][..y.len() * n];
+                    let columns: Vec<f64> = columns.iter().copied().map(f64::from).collect();
+                    subtract_transposed(y, triangular::Block::new(&columns, n), &x);
+                });
+            }
+        }
+        y
+    }
 }
 
 /// Kinds of the kept unknowns.
@@ -191,12 +239,7 @@ impl Assembled {
     /// A dense row to one lane of vectors by columns.
     fn load(&self, blocks: &[Block<'_>], row: usize, lane: usize, columns: &mut [[f64; LANES]]) {
         if let Kind::Bulk { block, row } = self.kinds[self.long[row] as usize] {
-            let block = &blocks[block as usize];
-            // Symmetric: the column is the row, and contiguous.
-            let values = &block.values[row as usize * block.places.len()..];
-            for (&place, value) in block.places.iter().zip(values) {
-                columns[place as usize][lane] = *value;
-            }
+            blocks[block as usize].load(row, lane, columns);
         }
         for &(c, a) in &self.couplings[row] {
             columns[c as usize][lane] += a;
@@ -205,16 +248,7 @@ impl Assembled {
 
     /// `b - (A + S) z` in the dense rows.
     pub(super) fn residual(&self, blocks: &[Block<'_>], rhs: &[f64], z: &[f64]) -> Vec<f64> {
-        let products: Vec<Vec<f64>> = blocks
-            .iter()
-            .map(|block| {
-                let n = block.places.len();
-                let x: Vec<f64> = block.places.iter().map(|&k| -z[k as usize]).collect();
-                let mut y = vec![0.0; n];
-                subtract(&mut y, triangular::Block::new(block.values, n), &x);
-                y
-            })
-            .collect();
+        let products: Vec<Vec<f64>> = blocks.iter().map(|block| block.product(z)).collect();
         let rows = self.long.iter().zip(&self.couplings);
         rows.map(|(&k, couplings)| {
             let sparse: f64 = couplings.iter().map(|&(c, a)| a * z[c as usize]).sum();

@@ -4,8 +4,8 @@ use std::time::{Duration, Instant};
 
 use striae_contact::complementarity::Iteration;
 use striae_linalg::{
-    Analysis, Automatic, FaerLu, FallBack, Interior, LinearSolver, Method, MultifrontalLu,
-    SolveError, SolveReport, SparseMatrix, Structure, Supervariable,
+    Analysis, Automatic, Experience, FaerLu, FallBack, Interior, LinearSolver, Method,
+    MultifrontalLu, SolveError, SolveReport, SparseMatrix, Structure, Supervariable,
 };
 
 use striae_mesh::Vec3;
@@ -75,13 +75,15 @@ pub(super) struct SystemStorage {
 }
 
 /// What the linear system has grown to, which decides in which order it is
-/// eliminated and so the last bits of the results.
+/// eliminated, and what its solver has learnt: both bear on the last bits of results.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Memory {
     /// What has traction unknowns.
     pub extent: Extent,
     /// Cliques of supervariables beyond the elements.
     pub cliques: Vec<Vec<usize>>,
+    /// What the solver has from earlier matrices, older factors above all.
+    pub solver: Experience,
 }
 
 impl Workspace {
@@ -100,9 +102,8 @@ impl Workspace {
         }
     }
 
-    /// Makes sure the layout covers all roles of the increment. Which solver was the
-    /// better one in increments before is forgotten, so that it does not matter where
-    /// a run began.
+    /// Makes sure the layout covers all roles of the increment. Solvers that failed in
+    /// increments before have another try.
     pub(super) fn prepare(&mut self, problem: &Problem, pairs: &[PairState]) {
         self.solver.start_afresh();
         let known = self
@@ -126,10 +127,36 @@ impl Workspace {
                 .collect();
             workspace.system().grow(cliques);
         }
+        workspace.recall(&memory.solver);
         workspace
     }
 
-    /// What it has grown to.
+    /// Takes up what a solver has learnt from systems of the same pattern.
+    fn recall(&mut self, experience: &Experience) {
+        let Self { solver, system, .. } = self;
+        let system = system.as_mut().expect("the workspace was laid out");
+        // What cannot be analysed now fails again, and is reported, with the first matrix.
+        if !system.analysed
+            && let Ok(analysis) = solver.analyse(system.matrix.structure())
+        {
+            (system.analysis, system.analysed) = (analysis, true);
+        }
+        solver.recall(experience);
+    }
+
+    /// What the solver has learnt; factors of another pattern are of no use.
+    fn experience(&self) -> Experience {
+        let experience = self.solver.experience();
+        match &self.system {
+            Some(system) if system.analysed => experience,
+            _ => Experience {
+                too_coarse: experience.too_coarse,
+                ..Experience::default()
+            },
+        }
+    }
+
+    /// What it has grown to and its solver has learnt.
     pub fn memory(&self) -> Memory {
         self.system.as_ref().map_or_else(Memory::default, |system| {
             let cliques = system.grown.iter();
@@ -138,6 +165,7 @@ impl Workspace {
                 cliques: cliques
                     .map(|clique| clique.iter().map(|at| at.0).collect())
                     .collect(),
+                solver: self.experience(),
             }
         })
     }
@@ -286,9 +314,11 @@ impl Workspace {
                 .map_err(without_mass)?;
             system.analysed = true;
         }
+        solver.forget();
         let solve = |matrix: &SparseMatrix, residual: &[f64]| {
             solver.factor(matrix).map_err(without_mass)?;
             let solved = solved(solver.as_mut(), matrix, residual, EXACT);
+            solver.forget();
             let (solution, _) = solved.map_err(without_mass)?;
             Ok(solution)
         };
