@@ -289,6 +289,49 @@ fn older_interiors_precondition_until_they_are_too_far() {
 }
 
 #[test]
+fn factors_are_in_double_precision_where_single_is_too_coarse() {
+    let blocks = Blocks::new(9, 6);
+    let mut matrix = blocks.matrix([1.0, 1.0], Contact::Stick);
+    let nodes = [81 + 40, 81 + 41].map(Supervariable);
+    let pair = nodes.map(|node| blocks.first(node));
+    let stiff = 1e9;
+    let spring = [stiff, -stiff, -stiff, stiff];
+    let rhs = load(blocks.structure.unknowns());
+    let mut solver = Automatic::new();
+    solution(&mut solver, &matrix, &rhs);
+    assert!(!solver.experience().too_coarse);
+    matrix.add(&pair, &pair, &spring).unwrap();
+    let (x, method) = solution(&mut solver, &matrix, &rhs);
+    assert!(solver.experience().too_coarse);
+    assert_eq!(method, Method::Condensed);
+    let (expected, _) = solution(&mut MultifrontalLu::new(), &matrix, &rhs);
+    // Round-off times the condition of the spring.
+    assert!(difference(&blocks, &x, &expected) < 1e-6);
+}
+
+#[test]
+fn a_solver_goes_on_from_the_experience_of_another_to_the_last_bit() {
+    let blocks = Blocks::new(18, 9);
+    let rhs = load(blocks.structure.unknowns());
+    let mut first = Automatic::new();
+    solution(&mut first, &blocks.matrix([1.0, 2.0], Contact::Stick), &rhs);
+    let mut second = Automatic::new();
+    second.analyse(&blocks.structure).unwrap();
+    second.recall(&first.experience());
+    let matrix = blocks.matrix([1.02, 1.97], Contact::Slip);
+    let answers = [&mut first, &mut second].map(|solver| {
+        solver.start_afresh();
+        solver.factor(&matrix).unwrap();
+        let mut x = vec![0.0; rhs.len()];
+        let report = solver.solve(&matrix, &rhs, &mut x).unwrap();
+        assert_eq!(report.interior, Interior::Stale);
+        x
+    });
+    assert_eq!(answers[0], answers[1]);
+    assert_eq!(first.experience(), second.experience());
+}
+
+#[test]
 fn other_contact_is_solved_on_the_same_interior() {
     let blocks = Blocks::new(9, 6);
     let rhs = load(blocks.structure.unknowns());
