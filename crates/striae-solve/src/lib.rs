@@ -14,6 +14,7 @@ pub mod norms;
 pub mod outcome;
 pub mod plan;
 pub mod problem;
+pub mod repetition;
 pub mod report;
 pub mod rigid;
 pub mod solid;

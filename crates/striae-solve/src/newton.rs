@@ -62,6 +62,11 @@ pub trait IterationObserver {
     fn iteration(&mut self, number: usize, norms: &Norms, contacts: &[Evaluation]);
 }
 
+/// Nobody is told.
+impl IterationObserver for () {
+    fn iteration(&mut self, _: usize, _: &Norms, _: &[Evaluation]) {}
+}
+
 /// Size of the linear systems at the start of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {

@@ -74,7 +74,8 @@ impl Norms {
     }
 }
 
-fn larger(a: f64, b: f64) -> f64 {
+/// The larger one of both; infinite where one is not a number.
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if b.is_nan() { f64::INFINITY } else { a.max(b) }
 }
 

@@ -3,14 +3,17 @@
 //! the iterative one.
 
 use crate::scene::{Places, Run, block, body, coulomb, increments, model, rubber, step};
-use striae_contact::unknowns::Status;
+use striae_contact::unknowns::{NodeResult, Status};
 use striae_law::bulk::Material;
 use striae_linalg::Method;
 use striae_mesh::{
     Vec3,
     generate::{Half, HalfCylinder},
 };
-use striae_solve::model::{Backend, LoadExtent, LoadKind, Model};
+use striae_solve::{
+    model::{Backend, LoadExtent, LoadKind, Model},
+    repetition::Difference,
+};
 
 /// A block of the given width, `gap` above the middle of a larger one whose bottom is held.
 fn blocks(materials: [Material; 2], width: f64, gap: f64) -> Model {
@@ -187,4 +190,23 @@ fn slices_between_walls() {
         };
         assert!(statuses(Status::Stick) && statuses(Status::Slip));
     }
+}
+
+#[test]
+fn differences_are_over_the_largest() {
+    let soft = rubber(1.0, 0.3);
+    let run = pressed([soft, soft], 0.6, 0.0, [0.002, 0.0, -0.01]);
+    let (state, mut other) = (run.last(), run.last().clone());
+    assert_eq!(Difference::between(state, &other), Difference::default());
+    let extent = state.positions.iter().map(|x| x.norm()).fold(0.0, f64::max);
+    other.positions[3].y += 1e-3 * extent;
+    let nodes = other.pairs[0].nodes.iter_mut().flatten();
+    let traction = |node: &NodeResult| (node.tau - node.normal * node.pressure).norm();
+    let largest = nodes.max_by(|a, b| traction(a).total_cmp(&traction(b)));
+    let largest = largest.unwrap();
+    largest.tau *= 0.5;
+    largest.pressure *= 0.5;
+    let difference = Difference::between(state, &other);
+    assert!((difference.positions - 1e-3).abs() < 1e-12);
+    assert!((difference.tractions - 0.5).abs() < 1e-12);
 }

@@ -6,7 +6,7 @@ use crate::{
     tangent::{dome, on_rigid, two_blocks},
 };
 use nalgebra::DVector;
-use striae_contact::{complementarity::Iteration, evaluation::Evaluation, selection::Selection};
+use striae_contact::{complementarity::Iteration, selection::Selection};
 use striae_law::friction::Friction;
 use striae_linalg::{SparseMatrix, Structure, Supervariable};
 use striae_mesh::Vec3;
@@ -16,8 +16,7 @@ use striae_solve::{
     },
     layout::{Extent, Layout},
     model::{Curve, Freedom, LoadExtent, LoadKind, Model, RigidId, RigidMotion},
-    newton::{IterationObserver, Workspace, advance},
-    norms::Norms,
+    newton::{Workspace, advance},
     problem::Problem,
     state::State,
 };
@@ -287,16 +286,10 @@ fn after_first(problem: &Problem, start: &State) -> State {
     let mut workspace = Workspace::new(problem.model.solver.backend);
     let mut state = start.clone();
     for s in [0.5, 1.0] {
-        let increment = advance(&context, &state, s, s, &mut workspace, &mut Silent);
+        let increment = advance(&context, &state, s, s, &mut workspace, &mut ());
         state = increment.unwrap_or_else(|cut| panic!("{cut}")).state;
     }
     state
-}
-
-struct Silent;
-
-impl IterationObserver for Silent {
-    fn iteration(&mut self, _: usize, _: &Norms, _: &[Evaluation]) {}
 }
 
 /// Asserts the order at the end of a model of one step.
