@@ -97,7 +97,7 @@ fn condensation(
             "S {:7}  condensed, {precision:?} {factor:7.3} s ({:.2} x Cholesky, {:.1} Gflop/s)",
             schur.kept_unknowns().len(),
             factor / yardstick,
-            1e-9 * schur.analysis().flops / factor,
+            1e-9 * schur.analysis(precision).flops / factor,
         );
     }
     Ok(())

@@ -169,10 +169,18 @@ impl Automatic {
         }
     }
 
+    /// Precision that factors of the bodies are tried in.
+    fn precision(&self) -> Precision {
+        match self.allowance >= FEWEST && !self.too_coarse {
+            true => Precision::Single,
+            false => Precision::Double,
+        }
+    }
+
     /// Factors with the condensed solver, the bodies in single precision while that does.
     fn factor_condensed(&mut self, matrix: &SparseMatrix) -> Result<FactorReport, SolveError> {
+        let single = self.precision() == Precision::Single;
         let condensed = self.condensed.as_mut().ok_or(SolveError::NotAnalysed)?;
-        let single = self.allowance >= FEWEST && !self.too_coarse;
         if single {
             match condensed.factor(matrix, Precision::Single) {
                 Err(SolveError::NotPositiveDefinite { .. } | SolveError::Singular { .. }) => {}
@@ -226,7 +234,7 @@ impl Automatic {
         }
         let structure = self.structure.as_ref().ok_or(SolveError::NotAnalysed)?;
         let condensed = Condensed::analyse(structure)?;
-        if condensed.analysis().peak_bytes <= LARGEST {
+        if condensed.analysis(Precision::Double).peak_bytes <= LARGEST {
             self.condensed = Some(condensed);
         }
         Ok(())
@@ -261,7 +269,8 @@ impl LinearSolver for Automatic {
             return Ok(Iterative::analysis(structure));
         }
         let condensed = Condensed::analyse(structure)?;
-        let analysis = condensed.analysis();
+        // In double precision, in case single is too coarse.
+        let analysis = condensed.analysis(Precision::Double);
         let order = condensed.interface();
         let direct = if order > SMALL_INTERFACE {
             let mut solver = MultifrontalLu::new();
@@ -289,8 +298,20 @@ impl LinearSolver for Automatic {
         }
         let worth = 0.7 * condensed.solutions_per_factorisation();
         self.allowance = (worth as usize).min(MOST);
+        let analysis = condensed.analysis(self.precision());
         self.condensed = Some(condensed);
         Ok(analysis)
+    }
+
+    fn estimates(&self, structure: &Structure) -> Result<Vec<Analysis>, SolveError> {
+        let mut all = vec![
+            Condensed::analyse(structure)?.analysis(self.precision()),
+            MultifrontalLu::new().analyse(structure)?,
+        ];
+        if Iterative::analyse(structure).is_some() {
+            all.push(Iterative::analysis(structure));
+        }
+        Ok(all)
     }
 
     fn start_afresh(&mut self) {

@@ -71,8 +71,12 @@ impl Body {
     }
 
     /// Predicted cost of factoring the interior.
-    pub(crate) fn analysis(&self) -> Analysis {
-        self.schur.analysis()
+    pub(crate) fn analysis(&self, precision: Precision) -> Analysis {
+        let own = self.schur.analysis(precision);
+        Analysis {
+            peak_bytes: own.peak_bytes + size_of_val(self.own.values()),
+            ..own
+        }
     }
 
     /// Factors the interior of the scaled matrix, without prescribed unknowns.

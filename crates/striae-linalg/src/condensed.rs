@@ -87,7 +87,7 @@ impl Condensed {
     }
 
     /// Predicted cost, with a dense system on all bulk unknowns of the interface.
-    pub(crate) fn analysis(&self) -> Analysis {
+    pub(crate) fn analysis(&self, precision: Precision) -> Analysis {
         let order = self.interface();
         let mut sum = Analysis {
             factor_entries: order * order,
@@ -95,12 +95,16 @@ impl Condensed {
             peak_bytes: 2 * size_of::<f64>() * order * order,
             method: Method::Condensed,
         };
-        for body in self.bodies.iter().map(Body::analysis) {
+        for body in self.analyses(precision) {
             sum.factor_entries += body.factor_entries;
             sum.flops += body.flops;
             sum.peak_bytes += body.peak_bytes;
         }
         sum
+    }
+
+    fn analyses(&self, precision: Precision) -> impl Iterator<Item = Analysis> + '_ {
+        self.bodies.iter().map(move |body| body.analysis(precision))
     }
 
     /// Factors a matrix of the analysed structure, the interior in the given precision.
@@ -190,7 +194,7 @@ impl Condensed {
             Precision::Double => SINGULAR,
         };
         let interface = Interface::factor(&places, rows, &self.blocks(), smallest)?;
-        let bodies = self.bodies.iter().map(|body| body.analysis());
+        let bodies = self.analyses(precision);
         let report = FactorReport {
             factor_entries: interface.entries() + bodies.map(|a| a.factor_entries).sum::<usize>(),
             dense_order: interface.dense_order(),
@@ -283,14 +287,14 @@ impl Condensed {
             .numeric
             .as_ref()
             .map_or(0, |n| n.interface.dense_order());
-        let bodies: f64 = self.bodies.iter().map(|body| body.analysis().flops).sum();
+        let bodies: f64 = self.analyses(self.precision()).map(|a| a.flops).sum();
         2.0 / 3.0 * (order as f64).powi(3) / bodies
     }
 
     /// Solutions with given factors that cost as much as new factors of the interior.
     pub(crate) fn solutions_per_factorisation(&self) -> f64 {
         let (mut flops, mut entries) = (0.0, 0);
-        for body in self.bodies.iter().map(Body::analysis) {
+        for body in self.analyses(self.precision()) {
             flops += body.flops;
             entries += body.factor_entries;
         }

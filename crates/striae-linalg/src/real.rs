@@ -17,6 +17,16 @@ pub enum Precision {
     Double,
 }
 
+impl Precision {
+    /// Bytes of a number.
+    pub(crate) fn bytes(self) -> usize {
+        match self {
+            Self::Single => size_of::<f32>(),
+            Self::Double => size_of::<f64>(),
+        }
+    }
+}
+
 /// `f32` or `f64`.
 pub(crate) trait Real:
     ComplexField

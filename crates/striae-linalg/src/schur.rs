@@ -86,14 +86,14 @@ impl SchurCholesky {
         })
     }
 
-    /// Predicted cost of [`factor`](Self::factor) in double precision.
-    pub fn analysis(&self) -> Analysis {
+    /// Predicted cost of [`factor`](Self::factor).
+    pub fn analysis(&self, precision: Precision) -> Analysis {
         let factor_entries = self.tree.fronts.iter().map(entries).sum();
         let interior = self.tree.fronts.iter().take(self.interior());
         let flops = interior
             .map(|f| 0.5 * crate::tree::elimination_flops(f.pivots, f.size))
             .sum();
-        let peak_bytes = size_of::<f64>() * (factor_entries + self.tree.stack());
+        let peak_bytes = precision.bytes() * (factor_entries + self.tree.stack());
         Analysis {
             factor_entries,
             flops,

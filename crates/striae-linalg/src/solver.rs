@@ -17,6 +17,11 @@ pub trait LinearSolver: Send {
     /// Orders the unknowns and predicts the cost; forgets earlier factorisations.
     fn analyse(&mut self, structure: &Structure) -> Result<Analysis, SolveError>;
 
+    /// Predicted costs of all methods it chooses between, in the order they are tried.
+    fn estimates(&self, _structure: &Structure) -> Result<Vec<Analysis>, SolveError> {
+        Ok(Vec::new())
+    }
+
     /// Gives what has failed another try: matrices of another state come.
     fn start_afresh(&mut self) {}
 

@@ -22,8 +22,8 @@ use striae_contact::{
     traction::reinterpreted,
     unknowns::{NodeResult, Status, Tractions},
 };
-use striae_linalg::{Analysis, REDUCTION};
-pub use striae_linalg::{Experience, FactoredInterior};
+use striae_linalg::REDUCTION;
+pub use striae_linalg::{Analysis, Experience, FactoredInterior};
 use striae_mesh::Vec3;
 
 use crate::{
@@ -68,12 +68,14 @@ impl IterationObserver for () {
 }
 
 /// Size of the linear systems at the start of a run.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
     /// Number of unknowns.
     pub unknowns: usize,
     /// Predicted cost of a factorisation.
     pub analysis: Analysis,
+    /// Predicted costs by methods that are taken where that one fails or costs more.
+    pub others: Vec<Analysis>,
 }
 
 /// Predicts the cost of the first linear system of a problem.
@@ -89,10 +91,14 @@ pub fn estimate(problem: &Problem) -> Result<Estimate, CutBack> {
     let analysis = workspace
         .solver
         .analyse(&structure)
-        .map_err(|error| linear_system(problem, &workspace.system().layout, error))?;
+        .and_then(|analysis| Ok((analysis, workspace.solver.estimates(&structure)?)));
+    let (analysis, mut others) =
+        analysis.map_err(|error| linear_system(problem, &workspace.system().layout, error))?;
+    others.retain(|other| other.method != analysis.method);
     Ok(Estimate {
         unknowns: structure.unknowns(),
         analysis,
+        others,
     })
 }
 

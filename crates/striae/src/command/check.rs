@@ -7,7 +7,7 @@ use striae_law::bulk::Material;
 use striae_mesh::NodeId;
 use striae_solve::{
     model::{Body, Model, Pair, RigidShape, RigidSurface, Side, Step},
-    newton::estimate,
+    newton::{Analysis, Estimate, estimate},
     problem::Problem,
 };
 
@@ -31,7 +31,7 @@ fn summary(model: &Model) -> Result<String, Failure> {
     lines.extend(model.rigid_surfaces.iter().map(rigid_line));
     lines.extend(model.pairs.iter().map(|pair| pair_line(pair, model)));
     lines.extend(model.steps.iter().map(step_line));
-    lines.push(size_line(model)?);
+    lines.extend(size_lines(model)?);
     lines.push("no faults".into());
     Ok(lines.join("\n") + "\n")
 }
@@ -100,19 +100,33 @@ fn side_nodes(side: &Side, model: &Model) -> BTreeSet<NodeId> {
     }
 }
 
-/// Unknowns and memory of the first linear system.
-fn size_line(model: &Model) -> Result<String, Failure> {
+/// Unknowns of the first linear system, and what solvers take for it.
+fn size_lines(model: &Model) -> Result<Vec<String>, Failure> {
     let problem = Problem::new(model.clone())?;
-    Ok(match estimate(&problem) {
-        Ok(estimate) => format!(
-            "  unknowns {} at the start; a factorisation ({}) takes about {:.2} GB and {:.1e} operations",
-            estimate.unknowns,
-            estimate.analysis.method,
-            estimate.analysis.peak_bytes as f64 / 1e9,
-            estimate.analysis.flops
-        ),
-        Err(reason) => format!("  the undeformed state cannot be evaluated: {reason}"),
-    })
+    let Estimate {
+        unknowns,
+        analysis,
+        others,
+    } = match estimate(&problem) {
+        Ok(estimate) => estimate,
+        Err(reason) => {
+            return Ok(vec![format!(
+                "  the undeformed state cannot be evaluated: {reason}"
+            )]);
+        }
+    };
+    let cost = |analysis: &Analysis| {
+        let megabytes = analysis.peak_bytes as f64 / 1e6;
+        format!("{megabytes:.1} MB and {:.1e} operations", analysis.flops)
+    };
+    let mut lines = vec![format!(
+        "  unknowns {unknowns} at the start; a factorisation ({}) takes about {}",
+        analysis.method,
+        cost(&analysis)
+    )];
+    let other = |other: &Analysis| format!("    otherwise by {}: {}", other.method, cost(other));
+    lines.extend(others.iter().map(other));
+    Ok(lines)
 }
 
 #[cfg(test)]
@@ -134,5 +148,8 @@ mod tests {
         ));
         // 3 (75 + 48) displacements, 3 (25 + 16) tractions, 6 to balance.
         assert!(said.contains("unknowns 498 at"), "{said}");
+        for method in ["(condensed) takes", "by multifrontal: ", "by iterative: "] {
+            assert!(said.contains(method), "{said}");
+        }
     }
 }
