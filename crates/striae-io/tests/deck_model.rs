@@ -212,6 +212,7 @@ fn settings_have_defaults() {
         },
         tolerance: 1e-9,
         largest_iterations: 15,
+        further_iterations: 0,
     };
     assert_eq!(deck.model.solver, stated);
     assert_eq!(
@@ -224,6 +225,7 @@ fn settings_have_defaults() {
         strategy: Strategy::Semismooth,
         tolerance: 1e-10,
         largest_iterations: 20,
+        further_iterations: 0,
     };
     assert_eq!(bare.model.solver, default);
     assert_eq!(

@@ -380,6 +380,8 @@ pub struct Solver {
     pub tolerance: f64,
     /// Iterations after which an increment is cut.
     pub largest_iterations: usize,
+    /// Iterations after the tolerance is met, for answers that do not depend on it.
+    pub further_iterations: usize,
 }
 
 /// How stick and slip are found.

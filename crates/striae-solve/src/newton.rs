@@ -158,6 +158,7 @@ pub fn advance(
     let mut iterations: Vec<Norms> = Vec::new();
     let mut history = History::default();
     let mut inflation = Inflation::default();
+    let mut further = solver.further_iterations;
     let mut assembled = workspace.assemble(&setting, &trial, Iteration::First)?;
     for number in 1.. {
         let before = iterations.last().map(Norms::largest);
@@ -187,7 +188,10 @@ pub fn advance(
         // A part of a correction leaves prescribed displacements on their way.
         let settled = taken == Taken::Whole && is_final(iteration);
         if norms.largest() <= solver.tolerance && settled {
-            break;
+            if further == 0 {
+                break;
+            }
+            further -= 1;
         }
         inflation = inflation.after(norms.gap);
         if !norms.largest().is_finite() || norms.force > 1e8 {

@@ -125,6 +125,21 @@ fn failed_increments_are_halved_and_leave_no_trace() {
 }
 
 #[test]
+fn further_iterations_come_after_the_tolerance() {
+    let mut model = two_blocks(0.0, coulomb(0.3));
+    model.solver.tolerance = 1e-4;
+    let norms = |further| {
+        let mut model = model.clone();
+        model.solver.further_iterations = further;
+        Run::of(model).iterations.remove(0)
+    };
+    let (enough, more) = (norms(0), norms(2));
+    assert_eq!(more.len(), enough.len() + 2);
+    assert_eq!(more[..enough.len()], enough);
+    assert!(more[more.len() - 1].largest() < 1e-3 * enough[enough.len() - 1].largest());
+}
+
+#[test]
 fn an_inverted_element_is_named() {
     let mut model = cube();
     let mut step = step();

@@ -199,6 +199,7 @@ pub fn model(bodies: Vec<Body>) -> Model {
             strategy: Strategy::Semismooth,
             tolerance: 1e-11,
             largest_iterations: 15,
+            further_iterations: 0,
         },
     }
 }
