@@ -1,12 +1,15 @@
-//! Benchmarks: `striae-bench [GROUP ...] [--size UNKNOWNS ...] [--json FILE] [--compare | --growth [--backend SOLVER]] [--figure FOLDER]`.
+//! Benchmarks: `striae-bench [GROUP ...] [--size UNKNOWNS ...] [--json FILE] [--compare | --growth [--backend SOLVER] | --agree] [--figure FOLDER]`.
 //!
 //! Groups are `law`, `surface`, `search`, `assembly`, `factor`, `iteration` and
 //! `cases`; all of them without arguments. `--compare` runs scenes with the condensed solver
 //! and with the multifrontal LU, each in a process of its own, and prints the
 //! ratios of times and memory, and to a sparse Cholesky factorisation of the
 //! stiffness alone by the library faer with the same ordering. `--growth` fits time
-//! and memory against unknowns, of the condensed solver or another backend. README.md says what each group covers.
+//! and memory against unknowns, of the condensed solver or another backend. `--agree`
+//! makes every increment of decks again with the multifrontal LU and compares the
+//! answers. README.md says what each group covers.
 
+mod agree;
 mod clock;
 mod compare;
 mod growth;
@@ -25,6 +28,7 @@ struct Arguments {
     json: Option<String>,
     compare: bool,
     growth: bool,
+    agree: bool,
     figure: Option<String>,
     backend: Option<String>,
 }
@@ -46,6 +50,7 @@ fn run(mut words: impl Iterator<Item = String>) -> Result<(), Box<dyn Error>> {
             "--one" => return compare::one(&words.collect::<Vec<_>>()),
             "--compare" => arguments.compare = true,
             "--growth" => arguments.growth = true,
+            "--agree" => arguments.agree = true,
             "--backend" => arguments.backend = words.next(),
             "--figure" => arguments.figure = words.next(),
             "--json" => arguments.json = words.next(),
@@ -63,14 +68,15 @@ fn run(mut words: impl Iterator<Item = String>) -> Result<(), Box<dyn Error>> {
             let solver = arguments.backend.as_deref().unwrap_or("condensed");
             growth::all(&arguments.groups, &arguments.sizes, folder, solver)?
         }
+    } else if arguments.agree {
+        agree::all(&arguments.groups)?
     } else {
         parts::all(&arguments.groups, &arguments.sizes)?
     };
     if let Some(path) = arguments.json {
         let threads = std::thread::available_parallelism()?.get();
-        let file =
-            json!({ "version": env!("CARGO_PKG_VERSION"), "threads": threads, "results": results });
+        let file = json!({ "version": env!("CARGO_PKG_VERSION"), "threads": threads, "results": &results });
         std::fs::write(path, serde_json::to_string_pretty::<Value>(&file)? + "\n")?;
     }
-    Ok(())
+    agree::verdict(&results)
 }
