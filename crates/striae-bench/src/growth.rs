@@ -40,7 +40,9 @@ pub fn all(
                 .iter()
                 .map(|(what, unit, of)| format!("{what} {:.3} {unit}", of(&run)));
             let list: Vec<String> = list.collect();
-            println!("{name}, {} unknowns: {}", run["unknowns"], list.join(", "));
+            let method = run["method"].as_str().unwrap_or("-");
+            let list = list.join(", ");
+            println!("{name}, {} unknowns by {method}: {list}", run["unknowns"]);
             runs.push(run);
         }
         let exponents = report(name, &runs);

@@ -53,7 +53,7 @@ const MANY: usize = 450_000;
 /// Predicted memory of factors, in bytes, above which the iterative solver is taken.
 const LARGEST: usize = 12 << 30;
 /// Operations of a factorisation above which the iterative solver is taken.
-const COSTLY: f64 = 1e12;
+const COSTLY: f64 = 3.5e12;
 
 /// Which solver is tried first.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

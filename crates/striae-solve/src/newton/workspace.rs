@@ -266,7 +266,8 @@ impl Workspace {
         let started = Instant::now();
         let system = self.system.as_ref().expect("the workspace was prepared");
         let rhs: Vec<f64> = residual.iter().map(|r| -r).collect();
-        let correction = self.solver.solve_other_contact(&system.matrix, &rhs);
+        let solver = &mut self.solver;
+        let correction = rayon::scope(|_| solver.solve_other_contact(&system.matrix, &rhs));
         self.work.times.contact += started.elapsed();
         let correction = correction.ok().flatten();
         self.work.contact_corrections += usize::from(correction.is_some());
@@ -340,6 +341,8 @@ impl Workspace {
     }
 
     /// Solves for the correction, `J correction = -residual`, up to a part of the residual.
+    ///
+    /// As all linear algebra on a thread of the pool, which need not be woken then.
     pub(super) fn correction(
         &mut self,
         residual: &[f64],
@@ -355,7 +358,7 @@ impl Workspace {
         }
         let analysed = Instant::now();
         times.analysis += analysed - started;
-        let report = solver.factor(&system.matrix)?;
+        let report = rayon::scope(|_| solver.factor(&system.matrix))?;
         let factored = Instant::now();
         times.factorisation += factored - analysed;
         (self.work.method, self.work.fall_back) = (report.method, report.fall_back);
@@ -378,7 +381,7 @@ fn solved(
 ) -> Result<(Vec<f64>, SolveReport), SolveError> {
     let rhs: Vec<f64> = residual.iter().map(|r| -r).collect();
     let mut correction = vec![0.0; rhs.len()];
-    let report = solver.solve_to(matrix, &rhs, &mut correction, part)?;
+    let report = rayon::scope(|_| solver.solve_to(matrix, &rhs, &mut correction, part))?;
     Ok((correction, report))
 }
 
