@@ -48,20 +48,23 @@ pub(super) fn response(lambda: f64, G: f64, F: &Matrix3<f64>) -> Result<Response
     })
 }
 
-/// `A_iJkL = G d_ik d_JL + crossed B_iL B_kJ + direct B_iJ B_kL`.
+/// `A_iJkL = G d_ik d_JL + crossed B_iL B_kJ + direct B_iJ B_kL`, column `3 k + L` by column.
 #[allow(non_snake_case)]
 fn tangent(G: f64, crossed: f64, direct: f64, B: &Matrix3<f64>) -> Tangent {
     let mut A = Tangent::zeros();
+    let (crossed_B, direct_B) = (B * crossed, B * direct);
+    // All rows `3 i + J` of a column at once.
+    let direct_iJ: [f64; 9] = std::array::from_fn(|row| direct_B[(row / 3, row % 3)]);
     for k in 0..3 {
+        let B_kJ: [f64; 9] = std::array::from_fn(|row| B[(k, row % 3)]);
         for L in 0..3 {
-            let column = 3 * k + L;
-            for i in 0..3 {
-                for J in 0..3 {
-                    A[(3 * i + J, column)] =
-                        crossed * B[(i, L)] * B[(k, J)] + direct * B[(i, J)] * B[(k, L)];
-                }
+            let crossed_iL: [f64; 9] = std::array::from_fn(|row| crossed_B[(row / 3, L)]);
+            let (at, B_kL) = (3 * k + L, B[(k, L)]);
+            let column = &mut A.data.0[at];
+            for row in 0..9 {
+                column[row] = crossed_iL[row] * B_kJ[row] + direct_iJ[row] * B_kL;
             }
-            A[(column, column)] += G;
+            column[at] += G;
         }
     }
     A
