@@ -7,11 +7,12 @@ use std::ops::Range;
 impl SparseMatrix {
     /// Values in the rows of the kept supervariables.
     pub fn kept_rows(&self) -> Vec<f64> {
-        let ranges = kept_rows(&self.structure);
-        ranges
-            .flat_map(|range| &self.values[range])
-            .copied()
-            .collect()
+        let count = kept_rows(&self.structure).map(|range| range.len()).sum();
+        let mut values = Vec::with_capacity(count);
+        for range in kept_rows(&self.structure) {
+            values.extend_from_slice(&self.values[range]);
+        }
+        values
     }
 
     /// Sets the rows of the kept supervariables to zero.
