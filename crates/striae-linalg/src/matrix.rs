@@ -111,28 +111,51 @@ impl SparseMatrix {
         Ok(())
     }
 
-    /// Positions of the entries of a dense block among the values, for [`add_at`](Self::add_at).
+    /// Adds a dense block for every two of some supervariables, `block(a, b)` in the rows of
+    /// the first `W` unknowns of `members[a]` and the columns of those of `members[b]`.
     ///
-    /// Worth keeping for terms that are added again and again to matrices of one structure.
-    pub fn positions(
-        structure: &Structure,
-        rows: &[usize],
-        columns: &[usize],
-    ) -> Result<Vec<u32>, OutsidePattern> {
-        let mut positions = Vec::with_capacity(rows.len() * columns.len());
-        for &row in rows {
-            for &column in columns {
-                let position = position(structure, row, column);
-                positions.push(position.ok_or(OutsidePattern { row, column })? as u32);
+    /// Nothing is added when one of the blocks is outside the pattern.
+    /// Repeated members add up.
+    ///
+    /// # Panics
+    /// When a member has fewer than `W` unknowns.
+    pub fn add_blocks<const N: usize, const W: usize>(
+        &mut self,
+        members: &[Supervariable; N],
+        block: impl Fn(usize, usize) -> [[f64; W]; W],
+    ) -> Result<(), OutsidePattern> {
+        let structure = &self.structure;
+        let is_large = |member: &Supervariable| structure.group(member.0).len() >= W;
+        assert!(members.iter().all(is_large), "size of a dense block");
+        let mut ascending: [(usize, usize); N] =
+            std::array::from_fn(|slot| (members[slot].0, slot));
+        ascending.sort_unstable();
+        let mut edges = [[0; N]; N];
+        for (member, edges) in members.iter().zip(&mut edges) {
+            let found = edges_to(structure, member.0, &ascending, edges);
+            found.map_err(|slot| OutsidePattern {
+                row: structure.group(member.0).start,
+                column: structure.group(members[slot].0).start,
+            })?;
+        }
+        for (a, (member, edges)) in members.iter().zip(&edges).enumerate() {
+            let first = structure.row(member.0, 0);
+            let rows = &mut self.values[first.start..][..W * first.len()];
+            for (b, &edge) in edges.iter().enumerate() {
+                let column = structure.column(edge);
+                for (row, dense) in rows.chunks_exact_mut(first.len()).zip(block(a, b)) {
+                    let values = row[column..column + W].iter_mut().zip(dense);
+                    values.for_each(|(value, d)| *value += d);
+                }
             }
         }
-        Ok(positions)
+        Ok(())
     }
 
-    /// Adds values at known positions.
-    pub fn add_at(&mut self, positions: &[u32], values: &[f64]) {
-        for (&position, value) in positions.iter().zip(values) {
-            self.values[position as usize] += value;
+    /// Adds to an entry of the diagonal, which every pattern has.
+    pub fn add_to_diagonal(&mut self, unknown: usize, value: f64) {
+        if let Some(at) = position(&self.structure, unknown, unknown) {
+            self.values[at] += value;
         }
     }
 
@@ -287,7 +310,7 @@ struct Run {
 }
 
 fn runs(structure: &Structure, unknowns: &[usize]) -> Vec<Run> {
-    let mut runs: Vec<Run> = Vec::new();
+    let mut runs: Vec<Run> = Vec::with_capacity(unknowns.len());
     for (k, &unknown) in unknowns.iter().enumerate() {
         let owner = structure.owner(unknown).0;
         match runs.last_mut() {

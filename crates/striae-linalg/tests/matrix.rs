@@ -81,14 +81,15 @@ fn entries_outside_the_pattern_are_refused_and_change_nothing() {
     assert_eq!(outside, Err(OutsidePattern { row: 0, column: 4 }));
     let (a, b) = (Supervariable(0), Supervariable(3));
     assert!(matrix.add_block(a, b, &[0.0; 6]).is_err());
-    assert!(SparseMatrix::positions(&structure(), &[0], &[5]).is_err());
+    let outside = matrix.add_blocks(&[Supervariable(0), Supervariable(3)], |_, _| [[1.0]]);
+    assert_eq!(outside, Err(OutsidePattern { row: 0, column: 4 }));
     assert_eq!(matrix.infinity_norm(), 0.0);
     assert_eq!((matrix.get(3, 4), matrix.get(0, 4)), (Some(0.0), None));
 }
 
 proptest! {
     #[test]
-    fn all_ways_of_adding_agree(
+    fn what_is_added_is_found_again(
         values in prop::collection::vec(-1.0..1.0_f64, 9),
         rows in prop::collection::vec(3_usize..6, 3),
         columns in prop::collection::vec(3_usize..6, 3),
@@ -100,18 +101,45 @@ proptest! {
             }
         }
         let structure = structure();
-        let (mut a, mut b) = (SparseMatrix::zero(&structure), SparseMatrix::zero(&structure));
+        let mut a = SparseMatrix::zero(&structure);
         a.add(&rows, &columns, &values).unwrap();
-        let positions = SparseMatrix::positions(&structure, &rows, &columns).unwrap();
-        b.add_at(&positions, &values);
+        a.add_to_diagonal(rows[0], values[0]);
+        expected[rows[0]][rows[0]] += values[0];
         let transposed = a.transpose();
         for row in 0..6 {
             for column in 0..6 {
                 let e = expected[row][column];
                 prop_assert!((a.get(row, column).unwrap_or(0.0) - e).abs() < 1e-15);
-                prop_assert_eq!(a.get(row, column), b.get(row, column));
                 prop_assert_eq!(a.get(row, column), transposed.get(column, row));
             }
+        }
+    }
+}
+
+proptest! {
+    #[test]
+    fn blocks_are_added_as_a_dense_block_of_their_unknowns(
+        values in prop::collection::vec(-1.0..1.0_f64, 36),
+        members in prop::array::uniform3(0_usize..4),
+    ) {
+        let structure = Structure::from_cliques(
+            vec![0, 3, 5, 9, 11],
+            &[s(&[0, 1, 2]), s(&[1, 2, 3]), s(&[0, 3])],
+        );
+        let mut expected = SparseMatrix::zero(&structure.unwrap());
+        let mut found = expected.clone();
+        let unknowns: Vec<usize> = members
+            .iter()
+            .flat_map(|&member| found.structure().unknowns_of(Supervariable(member)).take(2))
+            .collect();
+        expected.add(&unknowns, &unknowns, &values).unwrap();
+        let value = |row: usize, column: usize| values[6 * row + column];
+        let block = |a: usize, b: usize| {
+            [0, 1].map(|row| [0, 1].map(|column| value(2 * a + row, 2 * b + column)))
+        };
+        found.add_blocks(&members.map(Supervariable), block).unwrap();
+        for row in 0..11 {
+            prop_assert!(expected.row(row).eq(found.row(row)));
         }
     }
 }
