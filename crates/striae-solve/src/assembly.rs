@@ -98,6 +98,17 @@ pub fn assemble(
     layout: &Layout,
     matrix: &mut SparseMatrix,
 ) -> Result<Assembled, Fault> {
+    // On a thread of the pool, as from others each parallel part would have to wake one.
+    rayon::scope(|_| on_this_thread(setting, trial, contact, layout, matrix))
+}
+
+fn on_this_thread(
+    setting: &Setting,
+    trial: &Trial,
+    contact: Contact,
+    layout: &Layout,
+    matrix: &mut SparseMatrix,
+) -> Result<Assembled, Fault> {
     matrix.clear();
     let imposed = setting.imposed;
     let mut system = System::new(setting.context, layout, matrix, trial, imposed);
@@ -319,8 +330,6 @@ impl System<'_> {
 
     fn hold(&mut self, unknown: usize, residual: f64, scale: f64) {
         self.residual[unknown] = residual;
-        self.matrix
-            .add(&[unknown], &[unknown], &[scale])
-            .expect("the diagonal is in the pattern");
+        self.matrix.add_to_diagonal(unknown, scale);
     }
 }
