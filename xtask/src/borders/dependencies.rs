@@ -54,7 +54,7 @@ const LADDER: [Row; 11] = [
             "striae-mesh",
             "striae-surface",
         ],
-        outside: &["nalgebra", "num-dual", "rayon", "thiserror"],
+        outside: &["nalgebra", "num-dual", "pulp", "rayon", "thiserror"],
     },
     Row {
         name: "striae-io",

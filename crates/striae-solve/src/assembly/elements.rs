@@ -74,14 +74,43 @@ impl System<'_> {
             let mass = (model.density > 0.0).then(|| problem.mass(body, at));
             self.weigh(&nodes, mass.as_ref(), response);
             sums.square_of_forces += response.force.iter().map(|f| f * f).sum::<f64>();
-            let mut unknowns = [0; 24];
-            for (slot, unknown) in unknowns.iter_mut().enumerate() {
-                *unknown = self.layout.position(nodes[slot / 3]) + slot % 3;
-            }
-            self.add_dense(&nodes, &unknowns, &response.force, &response.stiffness)
+            self.add_response(&nodes, response)
                 .map_err(|_| Fault::Pattern(vec![self.clique(&nodes)]))?;
         }
         Ok(())
+    }
+
+    /// Adds force and stiffness of an element, leaving out prescribed rows.
+    fn add_response(
+        &mut self,
+        nodes: &[usize; 8],
+        response: &ElementResponse,
+    ) -> Result<(), OutsidePattern> {
+        let (force, stiffness) = (&response.force, &response.stiffness);
+        if nodes.iter().any(|&node| self.tie(node).is_some()) {
+            let unknowns: [usize; 24] =
+                std::array::from_fn(|at| self.layout.position(nodes[at / 3]) + at % 3);
+            return self.add_dense(nodes, &unknowns, force, &stiffness.by_rows());
+        }
+        for (&node, force) in nodes.iter().zip(force.chunks_exact(3)) {
+            let first = self.layout.position(node);
+            let residual = &mut self.residual[first..first + 3];
+            residual
+                .iter_mut()
+                .zip(force)
+                .for_each(|(sum, f)| *sum += f);
+        }
+        let fixed = nodes.map(|node| &self.context.fixed[3 * node..3 * node + 3]);
+        let members = nodes.map(|node| self.layout.supervariable(node));
+        self.matrix.add_blocks(&members, |a, b| {
+            let mut block = stiffness.between(a, b);
+            for (row, is_fixed) in block.iter_mut().zip(fixed[a]) {
+                if *is_fixed {
+                    *row = [0.0; 3];
+                }
+            }
+            block
+        })
     }
 
     /// Adds a square block of position unknowns, leaving out prescribed rows.

@@ -53,7 +53,7 @@ impl System<'_> {
         }
         if share != 1.0 {
             response.force.iter_mut().for_each(|f| *f *= share);
-            response.stiffness.iter_mut().for_each(|k| *k *= share);
+            response.stiffness.scale(share);
         }
         let Some(mass) = mass else { return };
         for a in 0..8 {
@@ -82,8 +82,8 @@ impl System<'_> {
                     continue;
                 }
                 for a in 0..8 {
-                    response.stiffness[(3 * a + axis) * 24 + 3 * b + axis] +=
-                        mass[a][b] * self.inertia.stiffness;
+                    let value = mass[a][b] * self.inertia.stiffness;
+                    response.stiffness.add_along(axis, a, b, value);
                 }
             }
         }

@@ -22,6 +22,7 @@ mod mass;
 mod reference;
 mod response;
 mod shape;
+mod stiffness;
 mod stress;
 #[cfg(test)]
 mod tests;
@@ -30,6 +31,7 @@ pub use fault::{ElementError, ElementFault};
 pub use mass::redistributed;
 pub use reference::{ReferenceElement, reference_elements};
 pub use response::{ElementResponse, response};
+pub use stiffness::Stiffness;
 pub use stress::{nodal_cauchy_stress, von_mises};
 
 /// Unknowns of an element: three for each of its eight corners.

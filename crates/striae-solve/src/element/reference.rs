@@ -5,11 +5,14 @@ use super::{ElementError, ElementFault};
 use nalgebra::Matrix3;
 use striae_mesh::{ElementId, Mesh, Vec3};
 
+/// `G_a,J = dN_a/dX_J` by component `J` and corner `a`.
+pub(super) type Gradients = [[f64; 8]; 3];
+
 /// Reference gradients and volumes at the Gauss points of an element.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReferenceElement {
-    /// `G_a,J = dN_a/dX_J` by Gauss point, component `J` and corner `a`.
-    pub(super) gradients: [[[f64; 8]; 3]; 8],
+    /// By Gauss point.
+    pub(super) gradients: [Gradients; 8],
     /// Reference volume that belongs to each Gauss point.
     pub(super) weights: [f64; 8],
 }

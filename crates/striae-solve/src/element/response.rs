@@ -1,29 +1,24 @@
 //! Stored energy, internal force and consistent stiffness of an element.
 
-use super::{ElementError, ReferenceElement, UNKNOWNS};
+use super::{
+    ElementError, ReferenceElement, Stiffness, UNKNOWNS,
+    reference::Gradients,
+    stiffness::{Block, COMPONENTS},
+};
 use nalgebra::Matrix3;
+use pulp::{Arch, Simd, WithSimd};
 use striae_law::bulk::{Inverted, Material, Tangent};
 use striae_mesh::Vec3;
 
 /// Energy of an element with its first and second derivatives.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct ElementResponse {
     /// Stored energy.
     pub energy: f64,
     /// Internal force, the derivative of the energy by the corner positions.
     pub force: [f64; UNKNOWNS],
-    /// Derivative of the force, row by row; symmetric to the last bit.
-    pub stiffness: [f64; UNKNOWNS * UNKNOWNS],
-}
-
-impl Default for ElementResponse {
-    fn default() -> Self {
-        Self {
-            energy: 0.0,
-            force: [0.0; UNKNOWNS],
-            stiffness: [0.0; UNKNOWNS * UNKNOWNS],
-        }
-    }
+    /// Derivative of the force, symmetric to the last bit.
+    pub stiffness: Stiffness,
 }
 
 /// Response of the element with reference corners `X` and current corners `x`.
@@ -74,9 +69,13 @@ impl ReferenceElement {
             let response = material.response(&f).map_err(inverted_at(g))?;
             element.energy += self.weights[g] * response.energy;
             self.add_force(g, &response.first_piola, &mut element.force);
-            tangents[g] = response.tangent * self.weights[g];
+            tangents[g] = response.tangent;
         }
-        self.stiffness(&tangents, &mut element.stiffness);
+        Arch::new().dispatch(Sum {
+            element: self,
+            tangents: &tangents,
+            stiffness: &mut element.stiffness,
+        });
         Ok(())
     }
 
@@ -91,44 +90,79 @@ impl ReferenceElement {
             }
         }
     }
+}
 
-    /// Stiffness from the tangents `w A`, by its symmetric half: of the blocks
-    /// `K_ik` over the corners those with `i <= k`.
-    fn stiffness(&self, tangents: &[Tangent; 8], stiffness: &mut [f64; UNKNOWNS * UNKNOWNS]) {
-        for (i, k) in [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)] {
-            let block = self.block(tangents, i, k);
-            for a in 0..8 {
-                for b in 0..8 {
-                    stiffness[UNKNOWNS * (3 * a + i) + 3 * b + k] = block[a][b];
-                    stiffness[UNKNOWNS * (3 * b + k) + 3 * a + i] = block[a][b];
-                }
+/// The stiffness from the tangents, by as many lanes as the processor has: they are filled
+/// with corners, so that sums do not depend on their number.
+struct Sum<'a> {
+    element: &'a ReferenceElement,
+    tangents: &'a [Tangent; 8],
+    stiffness: &'a mut Stiffness,
+}
+
+impl WithSimd for Sum<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let gradients = &self.element.gradients;
+        for ((i, k), block) in COMPONENTS.into_iter().zip(&mut self.stiffness.0) {
+            let right = right(self.element, self.tangents, i, k);
+            product(gradients.as_flattened(), right.as_flattened(), block);
+            if i == k {
+                mirror(block);
             }
         }
     }
+}
 
-    /// `K_ab = sum_gJ G_a,J (sum_L w A_iJkL G_b,L)` for two components `i`, `k`:
-    /// a product of an 8x24 and a 24x8 matrix, summed row by row in registers.
-    fn block(&self, tangents: &[Tangent; 8], i: usize, k: usize) -> [[f64; 8]; 8] {
-        let mut right = [[[0.0; 8]; 3]; 8];
-        for ((right, tangent), [x, y, z]) in right.iter_mut().zip(tangents).zip(&self.gradients) {
-            for j in 0..3 {
-                let [t_x, t_y, t_z] = [0, 1, 2].map(|l| tangent[(3 * i + j, 3 * k + l)]);
+/// `sum_L w A_iJkL G_b,L` for two components `i`, `k` by Gauss point, `J` and corner.
+#[inline(always)]
+fn right(
+    element: &ReferenceElement,
+    tangents: &[Tangent; 8],
+    i: usize,
+    k: usize,
+) -> [Gradients; 8] {
+    let mut right = [[[0.0; 8]; 3]; 8];
+    for g in 0..8 {
+        let ([x, y, z], weight) = (&element.gradients[g], element.weights[g]);
+        for j in 0..3 {
+            let [t_x, t_y, t_z] =
+                [0, 1, 2].map(|l| tangents[g].data.0[3 * k + l][3 * i + j] * weight);
+            for b in 0..8 {
+                right[g][j][b] = t_x * x[b] + t_y * y[b] + t_z * z[b];
+            }
+        }
+    }
+    right
+}
+
+/// `K_ab = sum_gJ G_a,J R_gJ,b`, a product of an 8x24 and a 24x8 matrix, some rows at a
+/// time in registers.
+#[inline(always)]
+fn product(left: &[[f64; 8]], right: &[[f64; 8]], block: &mut Block) {
+    const ROWS: usize = 4;
+    for (first, rows) in (0..8).step_by(ROWS).zip(block.chunks_exact_mut(ROWS)) {
+        let mut sums = [[0.0; 8]; ROWS];
+        for (left, right) in left.iter().zip(right) {
+            for a in 0..ROWS {
                 for b in 0..8 {
-                    right[j][b] = t_x * x[b] + t_y * y[b] + t_z * z[b];
+                    sums[a][b] += left[first + a] * right[b];
                 }
             }
         }
-        std::array::from_fn(|a| {
-            let mut row = [0.0; 8];
-            for (left, right) in self.gradients.iter().zip(&right) {
-                for j in 0..3 {
-                    for b in 0..8 {
-                        row[b] += left[j][a] * right[j][b];
-                    }
-                }
-            }
-            row
-        })
+        rows.copy_from_slice(&sums);
+    }
+}
+
+/// Makes a block symmetric to the last bit.
+#[inline(always)]
+fn mirror(block: &mut Block) {
+    for a in 0..8 {
+        for b in 0..a {
+            block[b][a] = block[a][b];
+        }
     }
 }
 

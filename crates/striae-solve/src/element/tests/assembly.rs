@@ -47,7 +47,12 @@ impl Block {
         for (corners, element) in self.mesh.elements.iter().zip(&self.reference) {
             let current = corners.map(|node| x[node.index()]);
             let local = element.response(&current, material).unwrap();
-            scatter(corners, &local.force, &local.stiffness, &mut total);
+            scatter(
+                corners,
+                &local.force,
+                &local.stiffness.by_rows(),
+                &mut total,
+            );
         }
         total
     }
