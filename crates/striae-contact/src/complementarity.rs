@@ -136,7 +136,8 @@ pub fn rows(
         .numbering()
         .traction(node.side, node.node);
     let numbered = [0, 1, 2].map(|at| (first + at as u32, rows[at].0, rows[at].1));
-    let gradient: [[f64; 3]; N] = std::array::from_fn(|lane| rows.map(|row| row.2[lane]));
+    let gradient: [[f64; 3]; N] =
+        std::array::from_fn(|lane| rows.each_ref().map(|row| row.2[lane]));
     let term = LocalTerm::from_lanes(&state.lanes, &numbered, &gradient);
     Ok((term, result))
 }
