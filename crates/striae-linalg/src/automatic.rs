@@ -15,6 +15,8 @@
 //! positive definite, when the contact system is singular (the LU then names
 //! the unknown), or when refinement does not reach an accurate answer. The iterative
 //! solver leaves what it cannot solve to the condensed one, if that fits.
+//!
+//! Longer than other files, as all choices are in one place.
 
 use crate::{
     condensed::Condensed,
