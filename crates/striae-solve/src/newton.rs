@@ -10,9 +10,11 @@ mod cycling;
 mod energy;
 mod failure;
 mod rest;
+mod work;
 mod workspace;
 
-pub use workspace::{LinearWork, Memory, Times, Workspace};
+pub use work::{LinearWork, Times};
+pub use workspace::{Memory, Workspace};
 
 use striae_contact::{
     complementarity::Iteration,

@@ -1,6 +1,6 @@
 //! The linear system of an increment, kept for the next ones.
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use striae_contact::complementarity::Iteration;
 use striae_linalg::{
@@ -10,6 +10,7 @@ use striae_linalg::{
 
 use striae_mesh::Vec3;
 
+use super::work::LinearWork;
 use crate::{
     assembly::{
         Assembled, Background, Contact, ContactAssembled, Fault, Imposed, Setting, StepContext,
@@ -31,38 +32,6 @@ pub struct Workspace {
     pub(super) solver: Box<dyn LinearSolver>,
     system: Option<SystemStorage>,
     work: LinearWork,
-}
-
-/// What the linear systems of an increment took.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LinearWork {
-    /// Factorisations of the bodies; others of contact were made on older ones.
-    pub factorisations: usize,
-    /// Corrections of contact alone, on linearised bodies.
-    pub contact_corrections: usize,
-    /// Iterations of GMRES.
-    pub krylov_iterations: usize,
-    /// How the last one was made.
-    pub method: Method,
-    /// Why the solver that was asked for was not used in the last one.
-    pub fall_back: Option<FallBack>,
-    /// Where the time went.
-    pub times: Times,
-}
-
-/// Time on the wall clock, for profiles only.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Times {
-    /// Residuals and matrices.
-    pub assembly: Duration,
-    /// Orderings and plans.
-    pub analysis: Duration,
-    /// Factorisations.
-    pub factorisation: Duration,
-    /// Solutions with refinement.
-    pub solution: Duration,
-    /// Contact on linearised bodies: residuals, matrices and corrections.
-    pub contact: Duration,
 }
 
 pub(super) struct SystemStorage {

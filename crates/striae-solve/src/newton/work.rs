@@ -1,0 +1,37 @@
+//! What linear systems take, for reports and profiles.
+
+use std::time::Duration;
+
+use striae_linalg::{FallBack, Method};
+
+/// What the linear systems of an increment took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LinearWork {
+    /// Factorisations of the bodies; others of contact were made on older ones.
+    pub factorisations: usize,
+    /// Corrections of contact alone, on linearised bodies.
+    pub contact_corrections: usize,
+    /// Iterations of GMRES.
+    pub krylov_iterations: usize,
+    /// How the last one was made.
+    pub method: Method,
+    /// Why the solver that was asked for was not used in the last one.
+    pub fall_back: Option<FallBack>,
+    /// Where the time went.
+    pub times: Times,
+}
+
+/// Time on the wall clock, for profiles only.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Times {
+    /// Residuals and matrices.
+    pub assembly: Duration,
+    /// Orderings and plans.
+    pub analysis: Duration,
+    /// Factorisations.
+    pub factorisation: Duration,
+    /// Solutions with refinement.
+    pub solution: Duration,
+    /// Contact on linearised bodies: residuals, matrices and corrections.
+    pub contact: Duration,
+}
