@@ -4,8 +4,8 @@ use std::time::Instant;
 
 use striae_contact::complementarity::Iteration;
 use striae_linalg::{
-    Analysis, Automatic, Experience, FaerLu, FallBack, Interior, LinearSolver, Method,
-    MultifrontalLu, SolveError, SolveReport, SparseMatrix, Structure, Supervariable,
+    Analysis, Automatic, Experience, FaerLu, Interior, LinearSolver, MultifrontalLu, SolveError,
+    SolveReport, SparseMatrix, Structure, Supervariable,
 };
 
 use striae_mesh::Vec3;
