@@ -30,6 +30,10 @@ const REPLACEMENT: f64 = 1.0 / ((1_u64 << 26) as f64);
 const NARROW: usize = 8;
 /// Work below which threads are not worth their overhead.
 const PARALLEL_FLOPS: usize = 4_000_000;
+const PARALLEL_SWAPS: usize = 1 << 15;
+/// Fewest columns in a piece of a product, and the work in a piece of rows.
+const COLUMNS: usize = 96;
+const ROWS_FLOPS: usize = 500_000;
 
 /// What becomes of columns that cannot be eliminated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -194,11 +198,15 @@ impl Panel<'_> {
         if steps.is_empty() {
             return;
         }
-        for c in columns {
-            let column = &mut self.values[c * self.size..][..self.size];
-            for k in steps.clone() {
-                column.swap(k, self.swaps[k]);
-            }
+        let swaps = &self.swaps;
+        let swap = |column: &mut [f64]| steps.clone().for_each(|k| column.swap(k, swaps[k]));
+        let work = steps.len() * columns.len();
+        let columns = &mut self.values[columns.start * self.size..columns.end * self.size];
+        if work > PARALLEL_SWAPS {
+            let columns = columns.par_chunks_exact_mut(self.size);
+            columns.with_min_len(COLUMNS).for_each(swap);
+        } else {
+            columns.chunks_exact_mut(self.size).for_each(swap);
         }
     }
 
@@ -229,9 +237,26 @@ impl Panel<'_> {
             let (_, piece) = piece.split_at_row_mut(pivots.start);
             let (mut upper, rest) = piece.split_at_row_mut(count);
             solve_unit_lower_triangular_in_place(lower, upper.rb_mut(), Par::Seq);
-            matmul(rest, Accum::Add, below, upper.rb(), -1.0, Par::Seq);
+            if columns.len() <= COLUMNS {
+                subtract_by_rows(rest, below, upper.rb());
+            } else {
+                matmul(rest, Accum::Add, below, upper.rb(), -1.0, Par::Seq);
+            }
         });
     }
+}
+
+/// `c -= a b` where there are few columns: threads share the rows.
+fn subtract_by_rows(c: MatMut<'_, f64>, a: MatRef<'_, f64>, b: MatRef<'_, f64>) {
+    if c.nrows() * b.nrows() * b.ncols() < 2 * ROWS_FLOPS {
+        return matmul(c, Accum::Add, a, b, -1.0, Par::Seq);
+    }
+    let half = (c.nrows() / 2).next_multiple_of(NARROW);
+    let ((c, c_below), (a, a_below)) = (c.split_at_row_mut(half), a.split_at_row(half));
+    rayon::join(
+        || subtract_by_rows(c, a, b),
+        || subtract_by_rows(c_below, a_below, b),
+    );
 }
 
 /// Border columns: row swaps, `above := L^-1 above`, `rest -= L_below above`.
@@ -294,7 +319,7 @@ fn for_pieces(
 
 /// Columns in a piece of a product with so many columns.
 fn piece(columns: usize) -> usize {
-    (columns / 8).clamp(96, 512)
+    (columns / 8).clamp(COLUMNS, 512)
 }
 
 fn matrix(values: &[f64], rows: usize, columns: usize) -> MatRef<'_, f64> {

@@ -26,6 +26,7 @@ use crate::{
 use assembled::Assembled;
 pub(crate) use assembled::{Block, Kind, Places};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Entries above which a row or a column of the multipliers counts as dense.
 const LONG: usize = 512;
@@ -160,14 +161,15 @@ impl Panels {
         rows
     }
 
-    /// Value of a dense column in all rows, to one lane of a vector.
-    fn column(&self, column: usize, lane: usize, target: &mut [[f64; LANES]]) {
-        let panels = self.dense.chunks_exact(self.width * LANES);
+    /// Values of some dense columns in all rows, each to a lane of vectors.
+    fn columns(&self, columns: Range<usize>, target: &mut [[f64; LANES]]) {
+        let panels = self.dense.chunks_exact((self.width * LANES).max(1));
         for (panel, rows) in panels.zip(target.chunks_mut(LANES)) {
-            let values = &panel[column * LANES..][..LANES];
-            rows.iter_mut()
-                .zip(values)
-                .for_each(|(row, v)| row[lane] = *v);
+            let columns = panel[columns.start * LANES..columns.end * LANES].chunks_exact(LANES);
+            for (lane, values) in columns.enumerate() {
+                let rows = rows.iter_mut().zip(values);
+                rows.for_each(|(row, value)| row[lane] = *value);
+            }
         }
     }
 }
@@ -206,19 +208,18 @@ impl Dense {
                 let mut vectors = vec![[0.0; LANES]; panels.rows];
                 let first = k * LANES;
                 let count = target.len() / order;
-                for lane in 0..count {
-                    match (first + lane).checked_sub(dense.len()) {
-                        None => panels.column(first + lane, lane, &mut vectors),
-                        Some(c) => {
-                            let row = &transposed[tractions.deferred[c] as usize];
-                            row.iter().for_each(|&(r, a)| vectors[r as usize][lane] = a);
-                        }
-                    }
+                let end = first + count;
+                panels.columns(first.min(dense.len())..end.min(dense.len()), &mut vectors);
+                for c in dense.len().max(first)..end {
+                    let row = &transposed[tractions.deferred[c - dense.len()] as usize];
+                    row.iter()
+                        .for_each(|&(r, a)| vectors[r as usize][c - first] = a);
                 }
                 tractions.combine_columns(&mut vectors);
-                for (lane, column) in target.chunks_exact_mut(order).enumerate() {
-                    for (value, &row) in column.iter_mut().zip(&rows) {
-                        *value = vectors[row as usize][lane];
+                for (at, rows) in rows.chunks(LANES).enumerate() {
+                    for (lane, column) in target.chunks_exact_mut(order).enumerate() {
+                        let column = column[at * LANES..].iter_mut().zip(rows);
+                        column.for_each(|(value, &row)| *value = vectors[row as usize][lane]);
                     }
                 }
             });
