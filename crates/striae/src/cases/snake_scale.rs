@@ -127,10 +127,25 @@ fn path(run: &Run) -> Vec<[f64; 3]> {
         .collect()
 }
 
-/// When the block first stops going on along y.
+/// When the block comes to rest, by its deceleration from a tenth to a twentieth of the
+/// launching speed, one: the very end is lost in vibrations of the elastic block.
 fn stop(path: &[[f64; 3]]) -> f64 {
-    let back = path.windows(2).find(|pair| pair[1][2] <= pair[0][2]);
-    back.map_or(f64::NAN, |pair| pair[0][0])
+    let speeds: Vec<[f64; 2]> = path
+        .windows(2)
+        .map(|pair| {
+            let [from, to] = [pair[0], pair[1]];
+            let way = (to[1] - from[1]).hypot(to[2] - from[2]);
+            [0.5 * (from[0] + to[0]), way / (to[0] - from[0])]
+        })
+        .collect();
+    let reached = |speed: f64| {
+        let pair = speeds.windows(2).find(|pair| pair[1][1] < speed);
+        pair.map_or(f64::NAN, |pair| {
+            let [[t, v], [next, slower]] = [pair[0], pair[1]];
+            t + (next - t) * (v - speed) / (v - slower)
+        })
+    };
+    2.0 * reached(0.05) - reached(0.1)
 }
 
 fn guided(study: &mut Study, name: &str, direction: [f64; 2]) -> Result<Run, Failure> {
