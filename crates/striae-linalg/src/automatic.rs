@@ -321,6 +321,9 @@ impl LinearSolver for Automatic {
         if AGED * self.taken > self.allowance {
             self.forget();
         }
+        if let Some(condensed) = &mut self.condensed {
+            condensed.forget_idle();
+        }
     }
 
     fn forget(&mut self) {

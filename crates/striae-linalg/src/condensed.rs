@@ -4,10 +4,12 @@
 //! eliminated body by body at the price of a Cholesky factorisation
 //! ([`SchurCholesky`](crate::SchurCholesky)); the contact system on what was
 //! kept is solved exactly ([`Interface`]). Rows with nothing but a diagonal
-//! (prescribed unknowns) are solved for first. A bulk that is not quite
-//! symmetric is taken as symmetric, and refinement makes up for it; one that is
-//! not definite is refused.
+//! (prescribed unknowns and tractions) are solved for first, and what contact does
+//! not touch for now is eliminated with its body ([`Idle`]). A bulk that is not
+//! quite symmetric is taken as symmetric, and refinement makes up for it; one that
+//! is not definite is refused.
 
+mod idle;
 mod substitution;
 
 use crate::{
@@ -24,6 +26,7 @@ use crate::{
     sparse_elimination::Row,
     structure::{Structure, Supervariable},
 };
+use idle::Idle;
 use rayon::prelude::*;
 use substitution::Substitution;
 
@@ -53,6 +56,18 @@ struct Numeric {
     scaling: Equilibration,
     prescribed: Vec<bool>,
     precision: Precision,
+    contact: ContactSystem,
+}
+
+/// Factors of the contact system.
+#[derive(Debug, Default)]
+struct ContactSystem {
+    /// Unknowns whose rows have nothing but a diagonal.
+    known: Vec<bool>,
+    /// Kept unknowns that contact has touched since others were eliminated.
+    touched: Vec<bool>,
+    /// Those that it has not, body by body.
+    idle: Vec<Option<Idle>>,
     interface: Interface,
 }
 
@@ -124,7 +139,15 @@ impl Condensed {
         let prescribed = prescribed(matrix);
         let bodies = self.bodies.par_iter_mut();
         bodies.try_for_each(|body| body.factor(matrix, &scaling, &prescribed, precision))?;
-        self.factor_interface(matrix, scaling, prescribed, precision)
+        let idle = ContactSystem::default();
+        self.factor_contact(matrix, scaling, (prescribed, precision), idle)
+    }
+
+    /// Eliminates what contact does not touch anew with the next matrix.
+    pub(crate) fn forget_idle(&mut self) {
+        if let Some(numeric) = &mut self.numeric {
+            numeric.contact = ContactSystem::default();
+        }
     }
 
     /// Forgets the factors.
@@ -160,7 +183,7 @@ impl Condensed {
             },
             prescribed: interior.prescribed.clone(),
             precision,
-            interface: Interface::default(),
+            contact: ContactSystem::default(),
         });
         Ok(())
     }
@@ -179,27 +202,59 @@ impl Condensed {
             return Ok(None);
         }
         let scaling = Equilibration::by_diagonal(matrix, Some(&older.scaling))?;
-        self.factor_interface(matrix, scaling, older.prescribed, older.precision)
+        let interior = (older.prescribed, older.precision);
+        self.factor_contact(matrix, scaling, interior, older.contact)
             .map(Some)
     }
 
-    fn factor_interface(
+    /// Factors the contact system, on the elimination there is if contact does not touch
+    /// more than then.
+    fn factor_contact(
         &mut self,
         matrix: &SparseMatrix,
         scaling: Equilibration,
-        prescribed: Vec<bool>,
-        precision: Precision,
+        (prescribed, precision): (Vec<bool>, Precision),
+        older: ContactSystem,
     ) -> Result<FactorReport, SolveError> {
-        let places = self.places(&prescribed);
-        let rows = self.rows(matrix, &scaling, &prescribed);
+        let known = known(matrix, &prescribed);
+        let mut kinds = self.kinds(&known);
+        let mut rows = self.rows(matrix, &scaling, &known);
+        let mut touched = idle::touched(&kinds, &rows);
+        let (mut idle, before) = (older.idle, older.touched);
+        let is_more = |(&now, &before): (&bool, &bool)| now && !before;
+        if before.is_empty() || touched.iter().zip(&before).any(is_more) {
+            let sum = touched.iter_mut().zip(&before);
+            sum.for_each(|(now, before)| *now |= before);
+            let blocks = self.complements();
+            let eliminated = blocks.iter().map(|block| Idle::new(block, &rows, &touched));
+            idle = eliminated.collect();
+        } else {
+            touched = before;
+        }
+        for idle in idle.iter().flatten() {
+            for &k in idle.eliminated() {
+                kinds[k as usize] = Kind::Apart;
+                rows[k as usize].clear();
+            }
+            for (row, &k) in idle.block().places.iter().enumerate() {
+                if let Kind::Bulk { row: own, .. } = &mut kinds[k as usize] {
+                    *own = row as u32;
+                }
+            }
+        }
+        let is_apart = |k: u32| kinds[k as usize] == Kind::Apart;
+        let rest = rows.par_iter_mut();
+        rest.for_each(|row| row.retain(|&(k, _)| !is_apart(k)));
         let smallest = match precision {
             Precision::Single => SINGULAR_SINGLE,
             Precision::Double => SINGULAR,
         };
-        let interface = Interface::factor(&places, rows, &self.blocks(), smallest)?;
-        let bodies = self.analyses(precision);
+        let places = Places { kinds };
+        let interface = Interface::factor(&places, rows, &self.blocks(&idle), smallest)?;
+        let bodies = self.analyses(precision).map(|a| a.factor_entries);
+        let eliminated = idle.iter().flatten().map(Idle::entries);
         let report = FactorReport {
-            factor_entries: interface.entries() + bodies.map(|a| a.factor_entries).sum::<usize>(),
+            factor_entries: interface.entries() + bodies.chain(eliminated).sum::<usize>(),
             dense_order: interface.dense_order(),
             method: Method::Condensed,
             ..FactorReport::default()
@@ -208,7 +263,12 @@ impl Condensed {
             scaling,
             prescribed,
             precision,
-            interface,
+            contact: ContactSystem {
+                known,
+                touched,
+                idle,
+                interface,
+            },
         });
         Ok(report)
     }
@@ -286,12 +346,13 @@ impl Condensed {
 
     /// Work of factoring the contact system over that of factoring the interior.
     pub(crate) fn share_of_contact(&self) -> f64 {
-        let order = self
-            .numeric
-            .as_ref()
-            .map_or(0, |n| n.interface.dense_order());
+        let work = |contact: &ContactSystem| {
+            let idle: f64 = contact.idle.iter().flatten().map(Idle::flops).sum();
+            idle + 2.0 / 3.0 * (contact.interface.dense_order() as f64).powi(3)
+        };
+        let contact = self.numeric.as_ref().map(|numeric| &numeric.contact);
         let bodies: f64 = self.analyses(self.precision()).map(|a| a.flops).sum();
-        2.0 / 3.0 * (order as f64).powi(3) / bodies
+        contact.map_or(0.0, work) / bodies
     }
 
     /// Solutions with given factors that cost as much as new factors of the interior.
@@ -304,7 +365,8 @@ impl Condensed {
         flops / (4.0 * SUBSTITUTION * entries.max(1) as f64)
     }
 
-    fn blocks(&self) -> Vec<Block<'_>> {
+    /// Schur complements of all bodies.
+    fn complements(&self) -> Vec<Block<'_>> {
         let blocks = self.blocks.iter().zip(&self.bodies);
         blocks
             .map(|(places, body)| Block {
@@ -314,41 +376,59 @@ impl Condensed {
             .collect()
     }
 
+    /// What is left of them.
+    fn blocks<'a>(&'a self, idle: &'a [Option<Idle>]) -> Vec<Block<'a>> {
+        let left = |(whole, idle): (Block<'a>, &'a Option<Idle>)| match idle {
+            Some(idle) => idle.block(),
+            None => whole,
+        };
+        self.complements().into_iter().zip(idle).map(left).collect()
+    }
+
     /// Kinds of the kept unknowns.
-    fn places(&self, prescribed: &[bool]) -> Places {
+    fn kinds(&self, known: &[bool]) -> Vec<Kind> {
         let mut kinds = vec![Kind::Multiplier; self.kept.len()];
         for (block, places) in self.blocks.iter().enumerate() {
             for (row, &k) in places.iter().enumerate() {
                 let (block, row) = (block as u32, row as u32);
-                kinds[k as usize] = match prescribed[self.kept[k as usize] as usize] {
-                    true => Kind::Prescribed,
-                    false => Kind::Bulk { block, row },
-                };
+                kinds[k as usize] = Kind::Bulk { block, row };
             }
         }
-        Places { kinds }
+        for (kind, &unknown) in kinds.iter_mut().zip(&self.kept) {
+            if known[unknown as usize] {
+                *kind = Kind::Apart;
+            }
+        }
+        kinds
     }
 
-    /// Scaled entries between the kept unknowns, but for prescribed ones.
-    fn rows(
-        &self,
-        matrix: &SparseMatrix,
-        scaling: &Equilibration,
-        prescribed: &[bool],
-    ) -> Vec<Row> {
+    /// Scaled entries between the kept unknowns, but for known ones.
+    fn rows(&self, matrix: &SparseMatrix, scaling: &Equilibration, known: &[bool]) -> Vec<Row> {
         let row = |&u: &u32| {
             let u = u as usize;
-            if prescribed[u] {
+            if known[u] {
                 return Row::new();
             }
             matrix
                 .row(u)
-                .filter(|&(v, a)| a != 0.0 && self.place[v] != NONE && !prescribed[v])
+                .filter(|&(v, a)| a != 0.0 && self.place[v] != NONE && !known[v])
                 .map(|(v, a)| (self.place[v], a * scaling.rows[u] * scaling.columns[v]))
                 .collect()
         };
         self.kept.par_iter().map(row).collect()
     }
+}
+
+/// Prescribed unknowns, and kept multipliers whose rows have no entry but the diagonal.
+fn known(matrix: &SparseMatrix, prescribed: &[bool]) -> Vec<bool> {
+    let structure = matrix.structure();
+    let mut known = prescribed.to_vec();
+    for i in structure.kept().map(|Supervariable(i)| i) {
+        for u in structure.bulk_group(i).end..structure.group(i).end {
+            known[u] = matrix.row(u).all(|(v, a)| (u == v) == (a != 0.0));
+        }
+    }
+    known
 }
 
 /// Bulk unknowns whose rows have no entry but the diagonal.

@@ -22,6 +22,7 @@ use crate::{
     tree::AssemblyTree,
 };
 use faer::Mat;
+pub(crate) use fronts::mirror_lower;
 use fronts::{Failure, Plan, entries};
 
 /// Cholesky factorisation of the interior of a symmetric matrix.

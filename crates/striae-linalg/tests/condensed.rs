@@ -12,6 +12,8 @@ enum Contact {
     /// Every other node.
     Slip,
     Open,
+    /// So many rows of nodes stick.
+    Part(usize),
 }
 
 /// Two grids of `side x side x height` nodes each, one above the other; the
@@ -115,6 +117,11 @@ impl Blocks {
 
     fn tie(&self, matrix: &mut SparseMatrix, tie: &[Supervariable], contact: Contact) {
         let multiplier = self.first(tie[0]) + 3;
+        let contact = match contact {
+            Contact::Part(rows) if tie[0].0 % self.side < rows => Contact::Stick,
+            Contact::Part(_) => Contact::Open,
+            whole => whole,
+        };
         let slips = contact == Contact::Slip && tie[0].0.is_multiple_of(2);
         for c in 0..3 {
             let row = multiplier + c;
@@ -179,7 +186,12 @@ fn the_answers_are_those_of_the_lu() {
     for (side, height) in [(2, 2), (5, 3), (7, 4)] {
         let blocks = Blocks::new(side, height);
         let rhs = load(blocks.structure.unknowns());
-        for contact in [Contact::Stick, Contact::Slip, Contact::Open] {
+        for contact in [
+            Contact::Stick,
+            Contact::Slip,
+            Contact::Open,
+            Contact::Part(1),
+        ] {
             // Steel on rubber and equal blocks.
             for stiffness in [[1.0, 1.0], [1e5, 1.0], [1.0, 1e5]] {
                 let matrix = blocks.matrix(stiffness, contact);
@@ -207,6 +219,34 @@ fn the_dense_system_has_the_order_of_one_side_when_all_nodes_stick() {
         .factor(&blocks.matrix([1.0, 2.0], Contact::Slip))
         .unwrap();
     assert_eq!(report.dense_order, 3 * 36 + 2 * 18);
+}
+
+#[test]
+fn nodes_that_nothing_touches_are_eliminated_with_their_body() {
+    let blocks = Blocks::new(9, 6);
+    let rhs = load(blocks.structure.unknowns());
+    let mut solver = Automatic::new();
+    solver.analyse(&blocks.structure).unwrap();
+    // Rows of nine nodes: those that stick, below, and one more, above, are touched,
+    // and stay so. Those that stick now have no unknowns of their own.
+    let order = |touched: usize, stick: usize| 27 * (2 * touched + 1 - stick);
+    let mut order_of = |rows: usize| {
+        let matrix = blocks.matrix([1.0, 2.0], Contact::Part(rows));
+        let order = solver.factor(&matrix).unwrap().dense_order;
+        let mut x = vec![0.0; rhs.len()];
+        let solved = solver.solve_to(&matrix, &rhs, &mut x, 1e-13).unwrap();
+        let (expected, _) = solution(&mut MultifrontalLu::new(), &matrix, &rhs);
+        let error = difference(&blocks, &x, &expected);
+        assert!(error < 1e-9, "{error:e}");
+        (order, solved.interior)
+    };
+    assert_eq!(order_of(2), (order(2, 2), Interior::Fresh));
+    assert_eq!(order_of(1), (order(2, 1), Interior::Stale));
+    assert_eq!(order_of(4), (order(4, 4), Interior::Stale));
+    assert_eq!(order_of(1), (order(4, 1), Interior::Stale));
+    solver.start_afresh();
+    let matrix = blocks.matrix([1.0, 2.0], Contact::Part(1));
+    assert_eq!(solver.factor(&matrix).unwrap().dense_order, order(1, 1));
 }
 
 #[test]
@@ -340,7 +380,12 @@ fn other_contact_is_solved_on_the_same_interior() {
     let mut matrix = blocks.matrix([1.0, 2.0], Contact::Stick);
     solution(&mut solver, &matrix, &rhs);
     assert!(solver.has_interior());
-    for contact in [Contact::Slip, Contact::Open, Contact::Stick] {
+    for contact in [
+        Contact::Slip,
+        Contact::Part(3),
+        Contact::Open,
+        Contact::Stick,
+    ] {
         let other = blocks.matrix([1.0, 2.0], contact);
         matrix.set_kept_rows(&other.kept_rows());
         let x = solver.solve_other_contact(&matrix, &rhs).unwrap().unwrap();

@@ -1,13 +1,13 @@
 //! Substitution with the factors of the condensed solver.
 
-use super::{Condensed, Numeric};
+use super::{Condensed, ContactSystem, Numeric};
 use crate::{
     equilibration::Equilibration, matrix::SparseMatrix, singularity::Factors,
     structure::Supervariable,
 };
 use rayon::prelude::*;
 
-/// Factors together with the matrix, whose columns of prescribed unknowns are needed.
+/// Factors together with the matrix, whose columns of known unknowns are needed.
 pub(super) struct Substitution<'a> {
     pub(super) condensed: &'a Condensed,
     pub(super) numeric: &'a Numeric,
@@ -16,7 +16,7 @@ pub(super) struct Substitution<'a> {
 
 impl Factors for Substitution<'_> {
     fn solve_in_place(&self, x: &mut [f64]) {
-        self.prescribed(x);
+        self.eliminate_known(x);
         let Condensed { bodies, kept, .. } = self.condensed;
         let mut condensed: Vec<Vec<f64>> = bodies
             .par_iter()
@@ -33,9 +33,22 @@ impl Factors for Substitution<'_> {
                 rhs[k as usize] = y[u];
             }
         }
-        let mut z = self.numeric.interface.solve(&self.condensed.blocks(), &rhs);
+        let ContactSystem {
+            known,
+            idle,
+            interface,
+            ..
+        } = &self.numeric.contact;
+        let eliminated = idle.iter().flatten();
+        eliminated.clone().for_each(|idle| idle.condense(&mut rhs));
+        let mut z = interface.solve(&self.condensed.blocks(idle), &rhs);
+        for idle in eliminated {
+            let own = idle.eliminated().iter();
+            own.for_each(|&k| z[k as usize] = rhs[k as usize]);
+            idle.expand(&mut z);
+        }
         for (k, &u) in kept.iter().enumerate() {
-            if self.numeric.prescribed[u as usize] {
+            if known[u as usize] {
                 z[k] = solved[k];
             }
             x[u as usize] = z[k];
@@ -64,13 +77,13 @@ impl Factors for Substitution<'_> {
 }
 
 impl Substitution<'_> {
-    /// Solves for the prescribed unknowns and takes them to the right-hand side.
-    fn prescribed(&self, x: &mut [f64]) {
+    /// Solves for the known unknowns and takes them to the right-hand side.
+    fn eliminate_known(&self, x: &mut [f64]) {
         let structure = self.matrix.structure();
         let Equilibration { rows, columns } = &self.numeric.scaling;
         for i in 0..structure.supervariables() {
-            for (local, u) in structure.bulk_group(i).enumerate() {
-                if !self.numeric.prescribed[u] {
+            for (local, u) in structure.group(i).enumerate() {
+                if !self.numeric.contact.known[u] {
                     continue;
                 }
                 let diagonal = self.matrix.get(u, u).unwrap_or(1.0);

@@ -73,8 +73,8 @@ pub(crate) struct Places {
 /// What a kept unknown is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
-    /// Prescribed: solved for before all others.
-    Prescribed,
+    /// Solved for by other means; it has no entries.
+    Apart,
     /// A bulk unknown, with its Schur complement and the row there.
     Bulk {
         /// Number of the block.
@@ -86,7 +86,7 @@ pub(crate) enum Kind {
     Multiplier,
 }
 
-/// All rows but those of prescribed unknowns.
+/// All rows but those of unknowns that are solved for apart.
 #[derive(Debug, Default)]
 pub(crate) struct Assembled {
     kinds: Vec<Kind>,
@@ -119,7 +119,7 @@ impl Assembled {
         };
         for (k, row) in rows.into_iter().enumerate() {
             match kinds[k] {
-                Kind::Prescribed => {}
+                Kind::Apart => {}
                 Kind::Multiplier if row.len() <= long => {
                     assembled.short.push(k as u32);
                     assembled.rows.push(row);
@@ -162,11 +162,7 @@ impl Assembled {
     ///
     /// A pivot with a dense column makes those of its row dense.
     pub(super) fn survivors(&mut self, constraints: &SparseElimination) -> (Vec<u32>, Vec<u32>) {
-        let mut left: Vec<bool> = self
-            .kinds
-            .iter()
-            .map(|kind| *kind != Kind::Prescribed)
-            .collect();
+        let mut left: Vec<bool> = self.kinds.iter().map(|kind| *kind != Kind::Apart).collect();
         for pivot in &constraints.pivots {
             left[pivot.column as usize] = false;
             if self.dense[pivot.column as usize] {

@@ -179,7 +179,7 @@ pub(super) fn entries(front: &Front) -> usize {
 }
 
 /// Copies the lower triangle to the upper one, block by block.
-fn mirror_lower<T: Copy>(values: &mut [T], n: usize) {
+pub(crate) fn mirror_lower<T: Copy>(values: &mut [T], n: usize) {
     const BLOCK: usize = 32;
     for left in (0..n).step_by(BLOCK) {
         for top in (left..n).step_by(BLOCK) {

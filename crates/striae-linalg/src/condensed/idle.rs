@@ -1,0 +1,219 @@
+//! Kept unknowns that contact does not touch now.
+//!
+//! Nodes are kept where contact may touch them. Those it does not touch belong to
+//! the bodies: their unknowns `f` are eliminated from the Schur complement of their
+//! body once, and contact is solved on the others, `p`, while it touches no more than
+//! those. With `S` the complement and `A` the body's entries between kept unknowns,
+//!
+//! ```text
+//! L L^T = (S + A)_ff,   W = (S + A)_pf L^-T,   S_pp - W W^T
+//! ```
+
+use super::NONE;
+use crate::{
+    interface::{Block, Kind},
+    real::Real,
+    schur::{Values, mirror_lower},
+    sparse_elimination::Row,
+    symmetric,
+    triangular::{self, Diagonal, solve_lower, solve_lower_transposed},
+};
+use rayon::prelude::*;
+
+/// Part by which two mirrored entries of a scaled matrix differ where contact is in them.
+const ASYMMETRIC: f64 = 1e-8;
+/// Columns of a matrix that a thread takes to the next one at a time.
+const COLUMNS: usize = 32;
+
+/// Eliminated unknowns of one body.
+#[derive(Debug)]
+pub(super) struct Idle {
+    /// Kept unknowns that are eliminated, and those of the body that are left.
+    eliminated: Vec<u32>,
+    left: Vec<u32>,
+    factors: Factors,
+}
+
+/// Factors in the precision of the complement.
+#[derive(Debug)]
+enum Factors {
+    Single(Parts<f32>),
+    Double(Parts<f64>),
+}
+
+/// `L` above `W`, and both triangles of the complement that is left.
+#[derive(Debug)]
+struct Parts<T> {
+    columns: Vec<T>,
+    complement: Vec<T>,
+}
+
+impl Idle {
+    /// Eliminates what is not touched; `None` when there is nothing or it is not
+    /// positive definite.
+    ///
+    /// `rows` are the scaled entries between kept unknowns.
+    pub(super) fn new(block: &Block<'_>, rows: &[Row], touched: &[bool]) -> Option<Self> {
+        let within = 0..block.places.len() as u32;
+        let is_left = |&row: &u32| touched[block.places[row as usize] as usize];
+        let (left, eliminated): (Vec<u32>, Vec<u32>) = within.partition(is_left);
+        if eliminated.is_empty() {
+            return None;
+        }
+        let order = [&eliminated[..], &left].concat();
+        let factors = match block.values {
+            Values::Single(values) => {
+                Factors::Single(Parts::new(block, values, rows, &order, left.len())?)
+            }
+            Values::Double(values) => {
+                Factors::Double(Parts::new(block, values, rows, &order, left.len())?)
+            }
+        };
+        let places = |rows: Vec<u32>| rows.iter().map(|&r| block.places[r as usize]).collect();
+        Some(Self {
+            eliminated: places(eliminated),
+            left: places(left),
+            factors,
+        })
+    }
+
+    /// Kept unknowns that are eliminated.
+    pub(super) fn eliminated(&self) -> &[u32] {
+        &self.eliminated
+    }
+
+    /// What is left of the complement.
+    pub(super) fn block(&self) -> Block<'_> {
+        Block {
+            places: &self.left,
+            values: match &self.factors {
+                Factors::Single(parts) => Values::Single(&parts.complement),
+                Factors::Double(parts) => Values::Double(&parts.complement),
+            },
+        }
+    }
+
+    /// Operations of the elimination.
+    pub(super) fn flops(&self) -> f64 {
+        let (f, p) = (self.eliminated.len() as f64, self.left.len() as f64);
+        f * (f * f / 3.0 + f * p + p * p)
+    }
+
+    /// Entries of `L` and `W`.
+    pub(super) fn entries(&self) -> usize {
+        self.eliminated.len() * (self.eliminated.len() + self.left.len())
+    }
+
+    /// `y_f := L^-1 y_f`, `y_p := y_p - W y_f`, by kept unknowns.
+    pub(super) fn condense(&self, y: &mut [f64]) {
+        match &self.factors {
+            Factors::Single(parts) => parts.condense(&self.eliminated, &self.left, y),
+            Factors::Double(parts) => parts.condense(&self.eliminated, &self.left, y),
+        }
+    }
+
+    /// `y_f := L^-T (y_f - W^T y_p)`, by kept unknowns.
+    pub(super) fn expand(&self, y: &mut [f64]) {
+        match &self.factors {
+            Factors::Single(parts) => parts.expand(&self.eliminated, &self.left, y),
+            Factors::Double(parts) => parts.expand(&self.eliminated, &self.left, y),
+        }
+    }
+}
+
+impl<T: Real> Parts<T> {
+    /// `order` are the rows of the block, those that stay last.
+    fn new(
+        block: &Block<'_>,
+        values: &[T],
+        rows: &[Row],
+        order: &[u32],
+        left: usize,
+    ) -> Option<Self> {
+        let (size, pivots) = (order.len(), order.len() - left);
+        let mut position = vec![NONE; rows.len()];
+        for (at, &row) in order.iter().enumerate() {
+            position[block.places[row as usize] as usize] = at as u32;
+        }
+        let source = |at: usize| &values[order[at] as usize * size..][..size];
+        let mut columns = vec![T::default(); size * pivots];
+        let targets = columns.par_chunks_mut(size.max(1)).with_min_len(COLUMNS);
+        targets.enumerate().for_each(|(at, target)| {
+            let source = source(at);
+            let values = order.iter().map(|&row| source[row as usize]);
+            target.iter_mut().zip(values).for_each(|(t, s)| *t = s);
+            for &(k, a) in &rows[block.places[order[at] as usize] as usize] {
+                if position[k as usize] != NONE {
+                    target[position[k as usize] as usize] += T::of(a);
+                }
+            }
+        });
+        let mut complement = vec![T::default(); left * left];
+        let targets = complement.par_chunks_mut(left.max(1)).with_min_len(COLUMNS);
+        targets.enumerate().for_each(|(at, target)| {
+            let source = source(pivots + at);
+            let values = order[pivots..].iter().map(|&row| source[row as usize]);
+            target.iter_mut().zip(values).for_each(|(t, s)| *t = s);
+        });
+        if symmetric::eliminate(&mut columns, &mut complement, size).is_some() {
+            return None;
+        }
+        mirror_lower(&mut complement, left);
+        Some(Self {
+            columns,
+            complement,
+        })
+    }
+
+    fn condense(&self, eliminated: &[u32], left: &[u32], y: &mut [f64]) {
+        let mut x: Vec<T> = eliminated.iter().map(|&k| T::of(y[k as usize])).collect();
+        x.resize(eliminated.len() + left.len(), T::default());
+        let columns = triangular::Block::new(&self.columns, x.len());
+        solve_lower(columns, Diagonal::Stored, &mut x, eliminated.len());
+        let (own, taken) = x.split_at(eliminated.len());
+        for (&k, x) in eliminated.iter().zip(own) {
+            y[k as usize] = x.double();
+        }
+        for (&k, x) in left.iter().zip(taken) {
+            y[k as usize] += x.double();
+        }
+    }
+
+    fn expand(&self, eliminated: &[u32], left: &[u32], y: &mut [f64]) {
+        let known = eliminated.iter().chain(left);
+        let mut x: Vec<T> = known.map(|&k| T::of(y[k as usize])).collect();
+        let columns = triangular::Block::new(&self.columns, x.len());
+        solve_lower_transposed(columns, Diagonal::Stored, &mut x, eliminated.len());
+        for (&k, x) in eliminated.iter().zip(&x) {
+            y[k as usize] = x.double();
+        }
+    }
+}
+
+/// Which kept unknowns contact touches: bulk unknowns that share an entry with a
+/// multiplier, with another body, or one whose mirror image is not the same. What is
+/// solved for apart is not idle either.
+pub(super) fn touched(kinds: &[Kind], rows: &[Row]) -> Vec<bool> {
+    let entry = |i: u32, j: u32| {
+        let row = &rows[i as usize];
+        let found = row.binary_search_by_key(&j, |e| e.0);
+        found.map_or(0.0, |at| row[at].1)
+    };
+    let by_row = rows.par_iter().enumerate().with_min_len(64);
+    let coupled = by_row.flat_map_iter(|(k, row)| {
+        let own = k as u32;
+        let couples = move |&&(c, a): &&(u32, f64)| match (kinds[k], kinds[c as usize]) {
+            (Kind::Bulk { block, .. }, Kind::Bulk { block: other, .. }) => {
+                block != other || (a - entry(c, own)).abs() > ASYMMETRIC
+            }
+            _ => true,
+        };
+        let entries = row.iter().filter(couples);
+        entries.flat_map(move |&(c, _)| [own, c])
+    });
+    let apart = kinds.iter().map(|&kind| kind == Kind::Apart);
+    let mut touched: Vec<bool> = apart.collect();
+    let coupled: Vec<u32> = coupled.collect();
+    coupled.into_iter().for_each(|k| touched[k as usize] = true);
+    touched
+}
