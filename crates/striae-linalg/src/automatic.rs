@@ -322,7 +322,7 @@ impl LinearSolver for Automatic {
             self.forget();
         }
         if let Some(condensed) = &mut self.condensed {
-            condensed.forget_idle();
+            condensed.forget_untouched();
         }
     }
 

@@ -5,12 +5,12 @@
 //! ([`SchurCholesky`](crate::SchurCholesky)); the contact system on what was
 //! kept is solved exactly ([`Interface`]). Rows with nothing but a diagonal
 //! (prescribed unknowns and tractions) are solved for first, and what contact does
-//! not touch for now is eliminated with its body ([`Idle`]). A bulk that is not
+//! not touch for now is eliminated with its body ([`Untouched`]). A bulk that is not
 //! quite symmetric is taken as symmetric, and refinement makes up for it; one that
 //! is not definite is refused.
 
-mod idle;
 mod substitution;
+mod untouched;
 
 use crate::{
     bulk::Body,
@@ -26,9 +26,9 @@ use crate::{
     sparse_elimination::Row,
     structure::{Structure, Supervariable},
 };
-use idle::Idle;
 use rayon::prelude::*;
 use substitution::Substitution;
+use untouched::Untouched;
 
 /// Time of an operation of a substitution, which waits for memory, over that of a factorisation.
 const SUBSTITUTION: f64 = 5.0;
@@ -66,8 +66,8 @@ struct ContactSystem {
     known: Vec<bool>,
     /// Kept unknowns that contact has touched since others were eliminated.
     touched: Vec<bool>,
-    /// Those that it has not, body by body.
-    idle: Vec<Option<Idle>>,
+    /// The others, body by body.
+    untouched: Vec<Option<Untouched>>,
     interface: Interface,
 }
 
@@ -139,12 +139,12 @@ impl Condensed {
         let prescribed = prescribed(matrix);
         let bodies = self.bodies.par_iter_mut();
         bodies.try_for_each(|body| body.factor(matrix, &scaling, &prescribed, precision))?;
-        let idle = ContactSystem::default();
-        self.factor_contact(matrix, scaling, (prescribed, precision), idle)
+        let nothing = ContactSystem::default();
+        self.factor_contact(matrix, scaling, (prescribed, precision), nothing)
     }
 
     /// Eliminates what contact does not touch anew with the next matrix.
-    pub(crate) fn forget_idle(&mut self) {
+    pub(crate) fn forget_untouched(&mut self) {
         if let Some(numeric) = &mut self.numeric {
             numeric.contact = ContactSystem::default();
         }
@@ -207,8 +207,7 @@ impl Condensed {
             .map(Some)
     }
 
-    /// Factors the contact system, on the elimination there is if contact does not touch
-    /// more than then.
+    /// Factors the contact system, with what there was in an older one.
     fn factor_contact(
         &mut self,
         matrix: &SparseMatrix,
@@ -219,40 +218,18 @@ impl Condensed {
         let known = known(matrix, &prescribed);
         let mut kinds = self.kinds(&known);
         let mut rows = self.rows(matrix, &scaling, &known);
-        let mut touched = idle::touched(&kinds, &rows);
-        let (mut idle, before) = (older.idle, older.touched);
-        let is_more = |(&now, &before): (&bool, &bool)| now && !before;
-        if before.is_empty() || touched.iter().zip(&before).any(is_more) {
-            let sum = touched.iter_mut().zip(&before);
-            sum.for_each(|(now, before)| *now |= before);
-            let blocks = self.complements();
-            let eliminated = blocks.iter().map(|block| Idle::new(block, &rows, &touched));
-            idle = eliminated.collect();
-        } else {
-            touched = before;
-        }
-        for idle in idle.iter().flatten() {
-            for &k in idle.eliminated() {
-                kinds[k as usize] = Kind::Apart;
-                rows[k as usize].clear();
-            }
-            for (row, &k) in idle.block().places.iter().enumerate() {
-                if let Kind::Bulk { row: own, .. } = &mut kinds[k as usize] {
-                    *own = row as u32;
-                }
-            }
-        }
-        let is_apart = |k: u32| kinds[k as usize] == Kind::Apart;
-        let rest = rows.par_iter_mut();
-        rest.for_each(|row| row.retain(|&(k, _)| !is_apart(k)));
         let smallest = match precision {
             Precision::Single => SINGULAR_SINGLE,
             Precision::Double => SINGULAR,
         };
+        let (touched, untouched) = self.untouched((&kinds, &rows), smallest, older);
+        for own in untouched.iter().flatten() {
+            own.set_apart(&mut kinds, &mut rows);
+        }
         let places = Places { kinds };
-        let interface = Interface::factor(&places, rows, &self.blocks(&idle), smallest)?;
+        let interface = Interface::factor(&places, rows, &self.blocks(&untouched), smallest)?;
         let bodies = self.analyses(precision).map(|a| a.factor_entries);
-        let eliminated = idle.iter().flatten().map(Idle::entries);
+        let eliminated = untouched.iter().flatten().map(Untouched::entries);
         let report = FactorReport {
             factor_entries: interface.entries() + bodies.chain(eliminated).sum::<usize>(),
             dense_order: interface.dense_order(),
@@ -266,11 +243,34 @@ impl Condensed {
             contact: ContactSystem {
                 known,
                 touched,
-                idle,
+                untouched,
                 interface,
             },
         });
         Ok(report)
+    }
+
+    /// What contact touches, and the elimination of what it does not: the one there is,
+    /// unless contact touches more than then.
+    fn untouched(
+        &self,
+        (kinds, rows): (&[Kind], &[Row]),
+        smallest: f64,
+        older: ContactSystem,
+    ) -> (Vec<bool>, Vec<Option<Untouched>>) {
+        let mut touched = untouched::touched(kinds, rows);
+        let before = older.touched;
+        let is_more = |(&now, &before): (&bool, &bool)| now && !before;
+        if !before.is_empty() && !touched.iter().zip(&before).any(is_more) {
+            return (before, older.untouched);
+        }
+        let sum = touched.iter_mut().zip(&before);
+        sum.for_each(|(now, before)| *now |= before);
+        let blocks = self.complements();
+        let blocks = blocks.iter();
+        let eliminated = blocks.map(|block| Untouched::new(block, rows, &touched, smallest));
+        let eliminated = eliminated.collect();
+        (touched, eliminated)
     }
 
     /// Solves with the last factorisation and refines.
@@ -347,8 +347,9 @@ impl Condensed {
     /// Work of factoring the contact system over that of factoring the interior.
     pub(crate) fn share_of_contact(&self) -> f64 {
         let work = |contact: &ContactSystem| {
-            let idle: f64 = contact.idle.iter().flatten().map(Idle::flops).sum();
-            idle + 2.0 / 3.0 * (contact.interface.dense_order() as f64).powi(3)
+            let eliminated = contact.untouched.iter().flatten();
+            eliminated.map(Untouched::flops).sum::<f64>()
+                + 2.0 / 3.0 * (contact.interface.dense_order() as f64).powi(3)
         };
         let contact = self.numeric.as_ref().map(|numeric| &numeric.contact);
         let bodies: f64 = self.analyses(self.precision()).map(|a| a.flops).sum();
@@ -377,12 +378,16 @@ impl Condensed {
     }
 
     /// What is left of them.
-    fn blocks<'a>(&'a self, idle: &'a [Option<Idle>]) -> Vec<Block<'a>> {
-        let left = |(whole, idle): (Block<'a>, &'a Option<Idle>)| match idle {
-            Some(idle) => idle.block(),
+    fn blocks<'a>(&'a self, untouched: &'a [Option<Untouched>]) -> Vec<Block<'a>> {
+        let left = |(whole, own): (Block<'a>, &'a Option<Untouched>)| match own {
+            Some(own) => own.block(),
             None => whole,
         };
-        self.complements().into_iter().zip(idle).map(left).collect()
+        self.complements()
+            .into_iter()
+            .zip(untouched)
+            .map(left)
+            .collect()
     }
 
     /// Kinds of the kept unknowns.

@@ -35,17 +35,17 @@ impl Factors for Substitution<'_> {
         }
         let ContactSystem {
             known,
-            idle,
+            untouched,
             interface,
             ..
         } = &self.numeric.contact;
-        let eliminated = idle.iter().flatten();
-        eliminated.clone().for_each(|idle| idle.condense(&mut rhs));
-        let mut z = interface.solve(&self.condensed.blocks(idle), &rhs);
-        for idle in eliminated {
-            let own = idle.eliminated().iter();
-            own.for_each(|&k| z[k as usize] = rhs[k as usize]);
-            idle.expand(&mut z);
+        let eliminated = untouched.iter().flatten();
+        eliminated.clone().for_each(|own| own.condense(&mut rhs));
+        let mut z = interface.solve(&self.condensed.blocks(untouched), &rhs);
+        for own in eliminated {
+            let places = own.eliminated().iter();
+            places.for_each(|&k| z[k as usize] = rhs[k as usize]);
+            own.expand(&mut z);
         }
         for (k, &u) in kept.iter().enumerate() {
             if known[u as usize] {

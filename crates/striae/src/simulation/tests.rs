@@ -104,6 +104,13 @@ fn a_run_on_older_factors_is_the_same_in_pieces() {
 }
 
 #[test]
+fn a_run_of_the_iterative_solver_is_the_same_in_pieces() {
+    let text = KEPT.replace("element_size = 0.6", "element_size = 1");
+    let summary = assert_same_in_pieces(&(text + "[solver]\nbackend = \"iterative\"\n"), 5);
+    assert_eq!(summary["solver"]["method"], "iterative");
+}
+
+#[test]
 fn a_dynamic_run_is_the_same_in_pieces() {
     assert_same_in_pieces(DYNAMIC, 10);
 }

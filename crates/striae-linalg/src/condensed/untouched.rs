@@ -27,7 +27,7 @@ const COLUMNS: usize = 32;
 
 /// Eliminated unknowns of one body.
 #[derive(Debug)]
-pub(super) struct Idle {
+pub(super) struct Untouched {
     /// Kept unknowns that are eliminated, and those of the body that are left.
     eliminated: Vec<u32>,
     left: Vec<u32>,
@@ -48,12 +48,17 @@ struct Parts<T> {
     complement: Vec<T>,
 }
 
-impl Idle {
-    /// Eliminates what is not touched; `None` when there is nothing or it is not
-    /// positive definite.
+impl Untouched {
+    /// Eliminates what is not touched; `None` when there is nothing or a pivot is below
+    /// the smallest of a regular system.
     ///
     /// `rows` are the scaled entries between kept unknowns.
-    pub(super) fn new(block: &Block<'_>, rows: &[Row], touched: &[bool]) -> Option<Self> {
+    pub(super) fn new(
+        block: &Block<'_>,
+        rows: &[Row],
+        touched: &[bool],
+        smallest: f64,
+    ) -> Option<Self> {
         let within = 0..block.places.len() as u32;
         let is_left = |&row: &u32| touched[block.places[row as usize] as usize];
         let (left, eliminated): (Vec<u32>, Vec<u32>) = within.partition(is_left);
@@ -63,10 +68,12 @@ impl Idle {
         let order = [&eliminated[..], &left].concat();
         let factors = match block.values {
             Values::Single(values) => {
-                Factors::Single(Parts::new(block, values, rows, &order, left.len())?)
+                let parts = Parts::new((block, values), rows, &order, left.len(), smallest);
+                Factors::Single(parts?)
             }
             Values::Double(values) => {
-                Factors::Double(Parts::new(block, values, rows, &order, left.len())?)
+                let parts = Parts::new((block, values), rows, &order, left.len(), smallest);
+                Factors::Double(parts?)
             }
         };
         let places = |rows: Vec<u32>| rows.iter().map(|&r| block.places[r as usize]).collect();
@@ -80,6 +87,21 @@ impl Idle {
     /// Kept unknowns that are eliminated.
     pub(super) fn eliminated(&self) -> &[u32] {
         &self.eliminated
+    }
+
+    /// Takes the eliminated unknowns out of the contact system, and numbers the rows of
+    /// the others.
+    pub(super) fn set_apart(&self, kinds: &mut [Kind], rows: &mut [Row]) {
+        for &k in &self.eliminated {
+            kinds[k as usize] = Kind::Apart;
+            rows[k as usize].clear();
+        }
+        for (at, &k) in self.left.iter().enumerate() {
+            if let Kind::Bulk { row, .. } = &mut kinds[k as usize] {
+                *row = at as u32;
+            }
+            rows[k as usize].retain(|&(to, _)| kinds[to as usize] != Kind::Apart);
+        }
     }
 
     /// What is left of the complement.
@@ -124,11 +146,11 @@ impl Idle {
 impl<T: Real> Parts<T> {
     /// `order` are the rows of the block, those that stay last.
     fn new(
-        block: &Block<'_>,
-        values: &[T],
+        (block, values): (&Block<'_>, &[T]),
         rows: &[Row],
         order: &[u32],
         left: usize,
+        smallest: f64,
     ) -> Option<Self> {
         let (size, pivots) = (order.len(), order.len() - left);
         let mut position = vec![NONE; rows.len()];
@@ -155,7 +177,8 @@ impl<T: Real> Parts<T> {
             let values = order[pivots..].iter().map(|&row| source[row as usize]);
             target.iter_mut().zip(values).for_each(|(t, s)| *t = s);
         });
-        if symmetric::eliminate(&mut columns, &mut complement, size).is_some() {
+        let failure = symmetric::eliminate(&mut columns, &mut complement, size);
+        if failure.is_some() || smallest_pivot(&columns, size) < smallest {
             return None;
         }
         mirror_lower(&mut complement, left);
@@ -190,9 +213,17 @@ impl<T: Real> Parts<T> {
     }
 }
 
+/// Smallest of the squares on the diagonal of `L`.
+fn smallest_pivot<T: Real>(columns: &[T], size: usize) -> f64 {
+    let diagonal = columns.iter().step_by(size + 1);
+    diagonal
+        .map(|l| l.double().powi(2))
+        .fold(f64::INFINITY, f64::min)
+}
+
 /// Which kept unknowns contact touches: bulk unknowns that share an entry with a
 /// multiplier, with another body, or one whose mirror image is not the same. What is
-/// solved for apart is not idle either.
+/// solved for apart counts as touched.
 pub(super) fn touched(kinds: &[Kind], rows: &[Row]) -> Vec<bool> {
     let entry = |i: u32, j: u32| {
         let row = &rows[i as usize];
