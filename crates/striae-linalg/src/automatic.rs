@@ -32,8 +32,9 @@ use crate::{
     structure::Structure,
 };
 
-/// Bulk unknowns of the interface up to which dense algebra is taken without comparing costs.
-const SMALL_INTERFACE: usize = 3000;
+/// Part of a factorisation of the bodies that an iteration of Newton's method takes: in
+/// single precision half the time, and for every other iteration at most.
+const REUSED: f64 = 0.25;
 /// Largest dense matrix, in bytes.
 const LARGEST_DENSE: usize = 6 << 30;
 /// Factorisations by LU after a failure before the condensed solver is tried again.
@@ -274,11 +275,14 @@ impl LinearSolver for Automatic {
         // In double precision, in case single is too coarse.
         let analysis = condensed.analysis(Precision::Double);
         let order = condensed.interface();
-        let direct = if order > SMALL_INTERFACE {
+        let (contact, bodies) = condensed.work();
+        // Where the bodies outweigh the interface, the LU of both costs more.
+        let direct = if contact > bodies {
             let mut solver = MultifrontalLu::new();
             let other = solver.analyse(structure)?;
             let dense = size_of::<f64>() * order * order;
-            (dense > LARGEST_DENSE || analysis.flops > other.flops).then_some((solver, other))
+            let is_dearer = contact + REUSED * bodies > other.flops;
+            (dense > LARGEST_DENSE || is_dearer).then_some((solver, other))
         } else {
             None
         };

@@ -109,7 +109,7 @@ impl Condensed {
         let order = self.interface();
         let mut sum = Analysis {
             factor_entries: order * order,
-            flops: 2.0 / 3.0 * (order as f64).powi(3),
+            flops: self.work().0,
             peak_bytes: 2 * size_of::<f64>() * order * order,
             method: Method::Condensed,
         };
@@ -119,6 +119,13 @@ impl Condensed {
             sum.peak_bytes += body.peak_bytes;
         }
         sum
+    }
+
+    /// Operations of a dense system on all bulk unknowns of the interface, and of
+    /// factoring the bodies.
+    pub(crate) fn work(&self) -> (f64, f64) {
+        let bodies = self.analyses(Precision::Double).map(|a| a.flops);
+        (2.0 / 3.0 * (self.interface() as f64).powi(3), bodies.sum())
     }
 
     fn analyses(&self, precision: Precision) -> impl Iterator<Item = Analysis> + '_ {

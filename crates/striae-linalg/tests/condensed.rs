@@ -250,6 +250,24 @@ fn nodes_that_nothing_touches_are_eliminated_with_their_body() {
 }
 
 #[test]
+fn thin_bodies_in_contact_all_over_are_left_to_the_lu() {
+    let blocks = Blocks::new(16, 3);
+    let matrix = blocks.matrix([1.0, 2.0], Contact::Stick);
+    let mut solver = Automatic::new();
+    let analysis = solver.analyse(&blocks.structure).unwrap();
+    let estimates = solver.estimates(&blocks.structure).unwrap();
+    let condensed = estimates.iter().find(|e| e.method == Method::Condensed);
+    assert_eq!(analysis.method, Method::Multifrontal);
+    assert!(condensed.unwrap().flops > analysis.flops);
+    let report = solver.factor(&matrix).unwrap();
+    let expected = FallBack::LargeInterface {
+        unknowns: 2 * 3 * 16 * 16,
+    };
+    assert_eq!(report.method, Method::Multifrontal);
+    assert_eq!(report.fall_back, Some(expected));
+}
+
+#[test]
 fn an_indefinite_interior_is_left_to_the_lu() {
     let blocks = Blocks::new(5, 4);
     let mut matrix = blocks.matrix([1.0, 1.0], Contact::Stick);
