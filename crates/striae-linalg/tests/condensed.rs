@@ -1,4 +1,6 @@
 //! The condensed solver on two blocks tied by multipliers, against the LU.
+//!
+//! Longer than other files, as all tests are of the same blocks.
 
 use striae_linalg::{
     Automatic, FallBack, Interior, LinearSolver, Method, MultifrontalLu, SolveError, SparseMatrix,

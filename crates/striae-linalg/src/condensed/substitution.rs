@@ -1,6 +1,6 @@
 //! Substitution with the factors of the condensed solver.
 
-use super::{Condensed, ContactSystem, Numeric};
+use super::{Condensed, Numeric, contact::ContactSystem};
 use crate::{
     equilibration::Equilibration, matrix::SparseMatrix, singularity::Factors,
     structure::Supervariable,
