@@ -419,14 +419,16 @@ fn other_contact_is_solved_on_the_same_interior() {
 #[test]
 fn threads_do_not_change_a_bit() {
     let blocks = Blocks::new(12, 6);
-    let matrix = blocks.matrix([1.0, 3.0], Contact::Slip);
     let rhs = load(blocks.structure.unknowns());
-    let with = |threads: usize| {
+    let with = |contact: Contact, threads: usize| {
+        let matrix = blocks.matrix([1.0, 3.0], contact);
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build()
             .unwrap();
         pool.install(|| solution(&mut Automatic::new(), &matrix, &rhs).0)
     };
-    assert!(with(1) == with(2));
+    for contact in [Contact::Slip, Contact::Part(4)] {
+        assert!(with(contact, 1) == with(contact, 2));
+    }
 }
