@@ -426,7 +426,9 @@ fn threads_do_not_change_a_bit() {
             .num_threads(threads)
             .build()
             .unwrap();
-        pool.install(|| solution(&mut Automatic::new(), &matrix, &rhs).0)
+        let (x, method) = pool.install(|| solution(&mut Automatic::new(), &matrix, &rhs));
+        assert_eq!(method, Method::Condensed);
+        x
     };
     for contact in [Contact::Slip, Contact::Part(4)] {
         assert!(with(contact, 1) == with(contact, 2));
