@@ -3,11 +3,11 @@
 //! Where the bulk is symmetric and positive definite, its interior is
 //! eliminated body by body at the price of a Cholesky factorisation
 //! ([`SchurCholesky`](crate::SchurCholesky)); the contact system on what was
-//! kept is solved exactly ([`Interface`](crate::interface::Interface)). Rows with nothing but a diagonal
-//! (prescribed unknowns and tractions) are solved for first, and what contact does
-//! not touch for now is eliminated with its body ([`Untouched`]). A bulk that is not
-//! quite symmetric is taken as symmetric, and refinement makes up for it; one that
-//! is not definite is refused.
+//! kept is solved exactly ([`Interface`](crate::interface::Interface)). Rows with
+//! nothing but a diagonal (prescribed unknowns and tractions) are solved for first, and
+//! what contact does not touch for now is eliminated with its body ([`Untouched`]). A
+//! bulk that is not quite symmetric is taken as symmetric, and refinement makes up for
+//! it; one that is not definite is refused.
 
 mod contact;
 mod substitution;

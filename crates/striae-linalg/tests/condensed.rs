@@ -397,13 +397,14 @@ fn other_contact_is_solved_on_the_same_interior() {
     let rhs = load(blocks.structure.unknowns());
     let mut solver = Automatic::new();
     assert!(!solver.has_interior());
-    let mut matrix = blocks.matrix([1.0, 2.0], Contact::Stick);
+    let mut matrix = blocks.matrix([1.0, 2.0], Contact::Part(2));
     solution(&mut solver, &matrix, &rhs);
     assert!(solver.has_interior());
     for contact in [
-        Contact::Slip,
-        Contact::Part(3),
+        Contact::Part(1),
         Contact::Open,
+        Contact::Part(3),
+        Contact::Slip,
         Contact::Stick,
     ] {
         let other = blocks.matrix([1.0, 2.0], contact);

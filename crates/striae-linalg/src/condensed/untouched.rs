@@ -248,3 +248,25 @@ pub(super) fn touched(kinds: &[Kind], rows: &[Row]) -> Vec<bool> {
     coupled.into_iter().for_each(|k| touched[k as usize] = true);
     touched
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn touched_are_those_with_multipliers_other_bodies_or_unlike_mirror_images() {
+        let bulk = |block: u32, row: u32| Kind::Bulk { block, row };
+        let mut kinds: Vec<Kind> = (0..6).map(|row| bulk(0, row)).collect();
+        kinds.extend([bulk(1, 0), Kind::Multiplier, Kind::Apart]);
+        let mut rows: Vec<Row> = (0..9).map(|k| vec![(k, 1.0)]).collect();
+        // Alike, to round-off.
+        rows[0].push((1, 0.2));
+        rows[1].insert(0, (0, 0.2 + 1e-15));
+        // Not alike: only one of them has the entry.
+        rows[2].push((3, 0.1));
+        rows[4].push((6, -0.1));
+        rows[7].insert(0, (5, 1.0));
+        let expected = [false, false, true, true, true, true, true, true, true];
+        assert_eq!(touched(&kinds, &rows), expected);
+    }
+}
