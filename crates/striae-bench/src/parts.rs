@@ -95,9 +95,9 @@ fn of_scene(group: &str, size: usize) -> Results {
     let state = State::undeformed(&problem);
     let context = StepContext::new(&problem, 0, &state);
     let configuration = context.configuration(0, &state.positions, &state.rigid);
-    let kinematic = &state.pairs[0].kinematic;
-    let selection = Selection::new(&configuration, kinematic);
-    let nodes: usize = selection.roles.iter().map(Vec::len).sum();
+    let kept = &state.pairs[0].kept;
+    let selection = Selection::new(&configuration, None, kept);
+    let nodes: usize = (0..2).map(|side| selection.nodes(side)).sum();
     Ok(match group {
         "surface" => {
             let surface = configuration.side(0);
@@ -107,16 +107,15 @@ fn of_scene(group: &str, size: usize) -> Results {
         }
         "search" => {
             let roles = timed("search", "selection of roles", nodes, || {
-                black_box(Selection::new(&configuration, kinematic));
+                black_box(Selection::new(&configuration, None, kept));
             });
-            let mut tractions: Tractions = state.pairs[0].tractions.clone();
-            tractions.balance = vec![[0.0; 6]; selection.patches.len()];
+            let tractions: &Tractions = &state.pairs[0].tractions;
             let prescribed = &context.fixed_on_pair[0];
-            let terms = timed("search", "projections and local terms", nodes, || {
+            let at = &configuration;
+            let terms = timed("search", "segments and local terms", nodes, || {
                 let first = Iteration::First;
-                black_box(
-                    evaluate(&configuration, &selection, &tractions, prescribed, first).is_ok(),
-                );
+                let evaluation = evaluate(at, at, &selection, tractions, prescribed, first);
+                black_box(evaluation.is_ok());
             });
             vec![roles, terms]
         }
@@ -141,6 +140,7 @@ fn assembly(model: &striae_solve::model::Model) -> Result<Value, Box<dyn Error>>
     };
     let setting = Setting {
         context: &context,
+        state: &state,
         selections: &[],
         imposed: &imposed,
     };

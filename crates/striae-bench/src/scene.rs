@@ -151,6 +151,7 @@ pub fn stiffness(model: &Model) -> Result<SparseMatrix, Box<dyn Error>> {
     let imposed = context.imposed(0.0);
     let setting = Setting {
         context: &context,
+        state: &state,
         selections: &[],
         imposed: &imposed,
     };

@@ -1,7 +1,7 @@
-//! Collocated contact and friction at a kinematic node.
+//! Contact and friction at a kept node.
 //!
-//! Unknowns `p` and `z = z1 t1 + z2 t2`. With the gap `g`, the slip
-//! `du = (I - n n)(x_I - xbar)` since the last converged configuration,
+//! Unknowns `p` and `z = z1 t1 + z2 t2`. With the gap `g` and the slip `du` since the last
+//! converged configuration (see [`crate::kinematics`]),
 //! `varpi = varpi(max(p, 0), |du|/dt)` and `y = z + r_t K^-1 du`:
 //!
 //! ```text
@@ -19,26 +19,22 @@
 //! ```
 //!
 //! which is the exact one where the row is satisfied.
-//!
-//! Longer than other files, as all rows of a node are made of the same derivatives.
 
 use nalgebra::{Const, Matrix2, SymmetricEigen, Vector2, Vector3};
 use num_dual::DualSVec64;
 use striae_mesh::Vec3;
-use striae_surface::{facet::Shape, scalar::constant3};
+use striae_surface::scalar::constant3;
 
 use crate::{
     configuration::Configuration,
-    coverage::Place,
-    frame::{FOLLOW, Frame, LostProjection},
-    opposing::Opposing,
-    projection::{Margin, differentiated_rigid},
+    frame::Frame,
+    kinematics::Kinematics,
     quantity::Quantity,
-    selection::Partner,
     table_1::Corrector,
-    term::{Field, Lanes, LocalTerm, Source, gradient, parts, variable3},
+    term::{Field, Lanes, LocalTerm, Source, parts, variable3},
     texture::NodeTextures,
     traction::{Cap, on_lanes, push_textures},
+    unknown::{Numbering, Unknown},
     unknowns::{NodeResult, Status},
 };
 
@@ -49,20 +45,28 @@ pub enum Iteration {
     /// before, go on slipping in their direction.
     First,
     /// A later one: the state decides.
-    Later,
+    Later {
+        /// `r_t` over its default. It changes which way cycles are left, not the solution.
+        slip_weight: f64,
+    },
     /// A later one: the labels of the nodes decide.
     Corrected(Corrector),
 }
 
-/// A kinematic node with all that its rows need.
-#[derive(Clone, Copy, Debug)]
-pub struct KinematicNode<'a> {
+impl Iteration {
+    /// A later iteration with the default `r_t`.
+    pub const LATER: Self = Self::Later { slip_weight: 1.0 };
+}
+
+/// A kept node with all that its rows need.
+#[derive(Clone, Debug)]
+pub struct ContactNode<'a> {
     /// Side of the pair.
     pub side: usize,
     /// Surface-local node.
     pub node: u32,
-    /// Opposing material point at the start of the increment.
-    pub partner: Partner,
+    /// Gap and slip.
+    pub kinematics: &'a Kinematics,
     /// Nodal frame.
     pub frame: &'a Frame,
     /// Textures of both sides at the node.
@@ -83,14 +87,17 @@ pub type Prescribed = [Vec<bool>; 2];
 /// What a tangential row states, its residual and its gradient over the lanes.
 type TangentialRow = (Field, f64, [f64; N]);
 
-const N: usize = 45;
+const N: usize = 22;
 type Q = Quantity<N>;
-const NORMAL: usize = 3;
-const TANGENTS: usize = 6;
-const X_OPPOSITE: usize = 12;
-const X_PARTNER: usize = 24;
-const TRACTION: usize = 36;
-const TEXTURES: usize = 39;
+const GAP: usize = 0;
+const SLIP: usize = 1;
+const NORMAL: usize = 4;
+const TANGENTS: usize = 7;
+const TRACTION: usize = 13;
+const TEXTURES: usize = 16;
+
+/// Derivative of the gap below which nothing can change it.
+const FIXED: f64 = 1e-9;
 
 /// Squared mobility below which a node cannot slip in a direction.
 const IMMOBILE: f64 = 1e-12;
@@ -98,26 +105,26 @@ const IMMOBILE: f64 = 1e-12;
 /// Gap below which a node counts as touching at the start of an increment, over the local size.
 const TOUCHING: f64 = 1e-6;
 
-/// The three rows of a kinematic node.
+/// The three rows of a kept node.
 pub fn rows(
     configuration: &Configuration,
-    node: &KinematicNode,
+    node: &ContactNode,
     prescribed: &Prescribed,
     iteration: Iteration,
-) -> Result<(LocalTerm, NodeResult), LostProjection> {
-    let state = NodeState::new(configuration, node, prescribed)?;
+) -> (LocalTerm, NodeResult) {
+    let state = NodeState::new(configuration, node, prescribed);
     let [p, z1, z2] = node.unknowns;
     let size = configuration.side(node.side).sizes[node.node as usize];
-    let stiffness = stiffness(configuration, node.side) / size;
+    let stiffness = node.kinematics.stiffness;
     let g = state.gap.re;
     let touching = iteration == Iteration::First && g <= TOUCHING * size;
-    let closed = (touching || p - stiffness * g > 0.0) && state.is_free(&state.gap, X_OPPOSITE);
+    let closed = (touching || p - stiffness * g > 0.0) && state.is_free();
     let held = |component: usize, value: f64| {
         let mut row = [0.0; N];
         row[TRACTION + component] = 1.0;
         (Field::Traction, value, row)
     };
-    let mut result = state.result(node);
+    let mut result = state.result();
     let rows = if !closed {
         [held(0, p), held(1, z1), held(2, z2)]
     } else {
@@ -139,27 +146,16 @@ pub fn rows(
     let gradient: [[f64; 3]; N] =
         std::array::from_fn(|lane| rows.each_ref().map(|row| row.2[lane]));
     let term = LocalTerm::from_lanes(&state.lanes, &numbered, &gradient);
-    Ok((term, result))
-}
-
-/// The smaller of the moduli of the two bodies.
-fn stiffness(configuration: &Configuration, side: usize) -> f64 {
-    let sides = &configuration.pair.sides;
-    let other = if configuration.pair.is_rigid() {
-        side
-    } else {
-        1 - side
-    };
-    sides[side].stiffness.min(sides[other].stiffness)
+    (term, result)
 }
 
 /// Gap and slip of a node as functions of the unknowns.
 struct NodeState<'a> {
+    node: &'a ContactNode<'a>,
+    numbering: Numbering,
+    prescribed: &'a Prescribed,
     lanes: Lanes<'a>,
-    free: [bool; N],
     gap: Q,
-    slipped: bool,
-    before: Status,
     /// Components of `du`.
     slip: [Q; 2],
     /// Components of `K^-1 du`.
@@ -169,108 +165,37 @@ struct NodeState<'a> {
 impl<'a> NodeState<'a> {
     fn new(
         configuration: &Configuration,
-        node: &KinematicNode<'a>,
-        prescribed: &Prescribed,
-    ) -> Result<Self, LostProjection> {
-        let (side, index) = (node.side, node.node as usize);
-        let (own, numbering) = (configuration.side(side), configuration.pair.numbering());
+        node: &'a ContactNode<'a>,
+        prescribed: &'a Prescribed,
+    ) -> Self {
+        let numbering = configuration.pair.numbering();
+        let Kinematics { gap, slip, .. } = node.kinematics;
+        let [t1, t2] = &node.frame.t;
         let mut lanes = Lanes::default();
-        lanes.push(Source::Unknowns {
-            first: numbering.position(side, node.node),
-            count: 3,
-        });
+        lanes.push(Source::Scalar(&gap.gradient));
+        lanes.push(Source::Vector(&slip.jacobian));
         lanes.push(Source::Vector(&node.frame.n.jacobian));
-        lanes.push(Source::Vector(&node.frame.t[0].jacobian));
-        lanes.push(Source::Vector(&node.frame.t[1].jacobian));
-        let mut free = [false; N];
-        for axis in 0..3 {
-            free[axis] = !prescribed[side][3 * index + axis];
-        }
-        let mut opposite = |corners: Option<[u32; 4]>, lanes: &mut Lanes<'a>, lane: usize| {
-            let Some(corners) = corners else {
-                lanes.push(Source::Constant(12));
-                return;
-            };
-            for (at, corner) in corners.into_iter().enumerate() {
-                lanes.push(Source::Unknowns {
-                    first: numbering.position(1 - side, corner),
-                    count: 3,
-                });
-                for axis in 0..3 {
-                    free[lane + 3 * at + axis] = !prescribed[1 - side][3 * corner as usize + axis];
-                }
-            }
-        };
-        let (x, n) = (own.x[index], node.frame.n.value);
-        let reach = FOLLOW * configuration.reach(side, node.node);
-        let contact = configuration
-            .contact(side, node.node, reach, Margin::Extrapolated)
-            .ok_or(LostProjection {
-                side,
-                node: node.node,
-            })?;
-        let mut gap = Q::constant(contact.gap);
-        match contact.place {
-            Place::Plane(_) => {
-                opposite(None, &mut lanes, X_OPPOSITE);
-                if let Some((_, normal)) = configuration.plane() {
-                    gap.depend(0, &normal);
-                }
-            }
-            Place::Facet(hit) if configuration.pair.is_rigid() => {
-                opposite(None, &mut lanes, X_OPPOSITE);
-                let x: Vector3<DualSVec64<3>> = variable3(&x, 0);
-                let ([_, _, g], _) = differentiated_rigid(configuration.side(1), &hit, &x);
-                gap.depend(0, &gradient(&g).into());
-            }
-            Place::Facet(hit) => {
-                let target = configuration.side(1 - side);
-                let corners = target.corners(hit.facet);
-                opposite(Some(corners), &mut lanes, X_OPPOSITE);
-                let positions = target.corner_positions(hit.facet);
-                let opposing = Opposing::new(Shape::of(&corners), &hit, &n, &positions);
-                let by_r = opposing.gap_by_r;
-                gap.depend(0, &-by_r);
-                gap.depend(NORMAL, &(by_r * -hit.gap));
-                for corner in 0..4 {
-                    let lane = X_OPPOSITE + 3 * corner;
-                    gap.depend(lane, &(by_r * opposing.weights[corner]));
-                }
-            }
-        }
-        let weights = match node.partner {
-            Partner::Rigid(_) => {
-                opposite(None, &mut lanes, X_PARTNER);
-                [0.0; 4]
-            }
-            Partner::Corners(corners, weights) => {
-                opposite(Some(corners), &mut lanes, X_PARTNER);
-                weights
-            }
-        };
+        lanes.push(Source::Vector(&t1.jacobian));
+        lanes.push(Source::Vector(&t2.jacobian));
         lanes.push(Source::Unknowns {
-            first: numbering.traction(side, node.node),
+            first: numbering.traction(node.side, node.node),
             count: 3,
         });
         push_textures(&mut lanes, node.textures);
-        let relative = x - node.partner.point(configuration, side);
         // Lanes of the law: normal and textures.
-        let normal: Vector3<DualSVec64<9>> = variable3(&n, 0);
+        let normal: Vector3<DualSVec64<9>> = variable3(&node.frame.n.value, 0);
         let textures = on_lanes(node.textures, 3);
         let kernel = configuration.pair.friction.kernel(&normal, &textures);
-        let (turned, by_surroundings) = parts(&(kernel.k_inverse * constant3(&relative)));
+        let (turned, by_surroundings) = parts(&(kernel.k_inverse * constant3(&slip.value)));
         let k_inverse = kernel.k_inverse.map(|component| component.re);
-        // `t . v` for a vector `v` that depends on `relative` and on the law's lanes.
-        let component = |axis: usize, v: &Vec3, by_relative: Vec3| {
+        // `t . v` for a vector `v` that depends on the slip and on the law's lanes.
+        let component = |axis: usize, v: &Vec3, by_slip: Vec3| {
             let mut component = Q::constant(node.frame.t[axis].value.dot(v));
-            component.depend(0, &by_relative);
+            component.depend(SLIP, &by_slip);
             component.depend(TANGENTS + 3 * axis, v);
-            for (corner, weight) in weights.iter().enumerate() {
-                component.depend(X_PARTNER + 3 * corner, &(by_relative * -weight));
-            }
             component
         };
-        let slip = [0, 1].map(|axis| component(axis, &relative, node.frame.t[axis].value));
+        let of_slip = [0, 1].map(|axis| component(axis, &slip.value, node.frame.t[axis].value));
         let turned = [0, 1].map(|axis| {
             let t = node.frame.t[axis].value;
             let mut component = component(axis, &turned, k_inverse.tr_mul(&t));
@@ -284,45 +209,57 @@ impl<'a> NodeState<'a> {
             }
             component
         });
-        Ok(Self {
+        Self {
+            node,
+            numbering,
+            prescribed,
             lanes,
-            free,
-            gap,
-            slipped: node.slipped,
-            before: node.before,
-            slip,
+            gap: Q::variable(gap.value, GAP),
+            slip: of_slip,
             turned,
-        })
+        }
     }
 
-    fn result(&self, node: &KinematicNode) -> NodeResult {
-        let t = &node.frame.t;
+    fn result(&self) -> NodeResult {
+        let ContactNode {
+            frame,
+            unknowns,
+            tau,
+            kinematics,
+            ..
+        } = self.node;
         NodeResult {
-            gap: self.gap.re,
-            pressure: node.unknowns[0],
-            tau: node.tau,
-            slip: t[0].value * self.slip[0].re + t[1].value * self.slip[1].re,
-            normal: node.frame.n.value,
+            gap: kinematics.gap.value,
+            pressure: unknowns[0],
+            tau: *tau,
+            slip: kinematics.slip.value,
+            normal: frame.n.value,
             texture: Vec3::zeros(),
             status: Status::Open,
         }
     }
 
-    /// Derivatives of a row by the free components of the node's own position
-    /// and of the four corners from lane `opposite` on.
-    fn free_gradient(&self, row: &Q, opposite: usize) -> impl Iterator<Item = f64> {
-        let lanes = (0..3).chain(opposite..opposite + 12);
-        lanes.map(move |lane| {
-            if self.free[lane] {
-                row.slope[lane]
-            } else {
-                0.0
+    /// Whether a component of a triple is a position that is not prescribed.
+    fn is_free_position(&self, first: u32, axis: usize) -> bool {
+        match self.numbering.unknown(first) {
+            Unknown::Position { side, node, .. } => {
+                !self.prescribed[side][3 * node as usize + axis]
             }
+            Unknown::Traction { .. } => false,
+        }
+    }
+
+    /// Whether a free position changes the gap.
+    fn is_free(&self) -> bool {
+        let gradient = &self.node.kinematics.gap.gradient;
+        gradient.iter().any(|(first, slope)| {
+            (0..3).any(|axis| slope[axis].abs() > FIXED && self.is_free_position(*first, axis))
         })
     }
 
-    fn is_free(&self, row: &Q, opposite: usize) -> bool {
-        self.free_gradient(row, opposite).any(|d| d.abs() > 1e-9)
+    /// Whether a free position changes the slip, turned or not.
+    fn is_mobile(&self) -> bool {
+        self.mobility().eigenvalues.min() > IMMOBILE
     }
 
     /// Status and tangential rows of a closed node.
@@ -340,10 +277,14 @@ impl<'a> NodeState<'a> {
             return (Status::Slip, z.map(|z| (Field::Traction, z.re, z.slope)));
         }
         let varpi = self.varpi(configuration, p);
+        let r = match iteration {
+            Iteration::Later { slip_weight } => r * slip_weight,
+            Iteration::First | Iteration::Corrected(_) => r,
+        };
         let y = [0, 1].map(|at| Q::combination([(1.0, &z[at]), (r, &self.turned[at])]));
         let length = y[0].re.hypot(y[1].re);
         if iteration == Iteration::First {
-            return if self.slipped && z1.hypot(z2) > 0.5 * varpi.re {
+            return if self.node.slipped && z1.hypot(z2) > 0.5 * varpi.re {
                 (Status::Slip, self.continued_slip(&z, &varpi, size))
             } else {
                 (Status::Stick, self.stick(&z, size))
@@ -352,7 +293,7 @@ impl<'a> NodeState<'a> {
         if let Iteration::Corrected(corrector) = iteration {
             let radius = Q::combination([(corrector.inflation.factor(), &varpi)]);
             let turned = [self.turned[0].re, self.turned[1].re];
-            return match corrector.status(self.before, [z1, z2], turned, radius.re) {
+            return match corrector.status(self.node.before, [z1, z2], turned, radius.re) {
                 Status::Slip => (Status::Slip, slip(&z, &y, &radius)),
                 _ => (Status::Stick, self.stick(&z, size)),
             };
@@ -393,7 +334,7 @@ impl<'a> NodeState<'a> {
         let along = Q::combination(along);
         let across = |v: &[Q; 2]| Q::combination([(direction.x, &v[1]), (-direction.y, &v[0])]);
         let turned = across(&self.turned);
-        let second = if self.is_free(&turned, X_PARTNER) {
+        let second = if self.is_mobile() {
             (Field::Stick(size), turned.re, turned.slope)
         } else {
             let z_across = across(z);
@@ -405,10 +346,16 @@ impl<'a> NodeState<'a> {
     /// Squared mobility of the slip in its principal directions: eigenvalues of
     /// the products of its derivatives by the free positions.
     fn mobility(&self) -> SymmetricEigen<f64, Const<2>> {
-        let free = |at: usize| self.free_gradient(&self.slip[at], X_PARTNER);
-        let product =
-            |i: usize, j: usize| -> f64 { free(i).zip(free(j)).map(|(a, b)| a * b).sum() };
-        Matrix2::new(product(0, 0), product(0, 1), product(1, 0), product(1, 1)).symmetric_eigen()
+        let mut products = Matrix2::zeros();
+        let [t1, t2] = [0, 1].map(|axis| self.node.frame.t[axis].value);
+        for (first, block) in &self.node.kinematics.slip.jacobian {
+            for axis in (0..3).filter(|&axis| self.is_free_position(*first, axis)) {
+                let column: Vec3 = block.column(axis).into();
+                let components = Vector2::new(t1.dot(&column), t2.dot(&column));
+                products += components * components.transpose();
+            }
+        }
+        products.symmetric_eigen()
     }
 
     /// `du = 0`, with `z = 0` in directions in which the node cannot move.

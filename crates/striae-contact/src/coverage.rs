@@ -5,7 +5,7 @@ use striae_mesh::Vec3;
 
 use crate::{
     configuration::Configuration,
-    projection::{Hit, Margin, Ray, project},
+    projection::{Hit, Margin, Ray, nearest_edge, project},
 };
 
 /// What a node sees along its normal.
@@ -37,8 +37,20 @@ pub enum Place {
     Plane(Vec3),
 }
 
+/// Where a node finds the point opposite to it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Found {
+    /// Along the normal.
+    Inside,
+    /// At the nearest place of the edge of the surface, as the normal passes beside it.
+    Edge,
+}
+
 /// How many reaches away a surface counts as seen, though out of reach.
 const HORIZON: f64 = 20.0;
+
+/// How many reaches around a node a rigid surface is looked for.
+const FOLLOW: f64 = 6.0;
 
 impl Configuration<'_> {
     /// The point opposite to a node of a deformable side within `reach`.
@@ -79,6 +91,31 @@ impl Configuration<'_> {
             gap: hit.gap,
             place: Place::Facet(hit),
         })
+    }
+
+    /// The point opposite to a node of a deformable side, clamped to the other surface.
+    pub fn opposite(&self, side: usize, node: u32) -> Option<(Contact, Found)> {
+        let far = if self.pair.is_rigid() {
+            FOLLOW
+        } else {
+            HORIZON
+        };
+        let reach = far * self.reach(side, node);
+        if self.plane().is_some() {
+            let contact = self.contact(side, node, f64::INFINITY, Margin::Inside);
+            return contact.map(|contact| (contact, Found::Inside));
+        }
+        if let Some(contact) = self.contact(side, node, reach, Margin::Inside) {
+            return Some((contact, Found::Inside));
+        }
+        let own = self.side(side);
+        let (x, n) = (&own.x[node as usize], &own.normals[node as usize]);
+        let hit = nearest_edge(self.side(1 - side), x, n, reach)?;
+        let contact = Contact {
+            gap: hit.gap,
+            place: Place::Facet(hit),
+        };
+        Some((contact, Found::Edge))
     }
 
     /// What a node of a deformable side sees.

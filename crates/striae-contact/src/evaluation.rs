@@ -1,25 +1,31 @@
 //! Residual and tangent of a contact pair at given unknowns.
 //!
-//! A pure function of the configuration, the roles and the traction unknowns.
+//! A pure function of two configurations, the last converged one and the present one, of
+//! the roles and of the traction unknowns.
 
 use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
 
 use crate::{
-    balance::{BalanceRows, balance_rows, held_balance},
-    complementarity::{Iteration, KinematicNode, Prescribed, rows},
+    collocated,
+    common_field::{CommonField, by_facet, segment_terms},
+    complementarity::{ContactNode, Iteration, Prescribed, rows},
     configuration::Configuration,
-    coverage::Place,
-    field::{FacetForces, facet_terms},
-    frame::{LostProjection, Tracked, frames},
-    projection::Margin,
-    selection::{Partner, Role, Selection},
+    field::{FacetForces, Fields, facet_terms},
+    frame::{Frame, Frames, frames},
+    kinematics::{Kinematics, Report},
+    pair::Enforcement,
+    pairing::paired_facets,
+    segment::Derivatives,
+    segment_rows::{Slip, segment_rows},
+    selection::Selection,
     slip_rate::slip_velocities,
     term::LocalTerm,
-    texture::{CollapsedTexture, own, textures},
-    traction::{Surroundings, nodal_tractions},
-    transfer::{Fields, extended_rows, traction_rows},
+    texture::{CollapsedTexture, Textures, own, textures},
+    traction::{NodalTractions, Surroundings, nodal_tractions},
+    transported::Transported,
     unknowns::{NodeResult, Status, Tractions},
+    weighted::{self, Patch, side_sign},
 };
 
 /// Everything a pair contributes, and what it looks like.
@@ -29,258 +35,283 @@ pub struct Evaluation {
     pub terms: Vec<LocalTerm>,
     /// Results of every node, by side.
     pub nodes: [Vec<NodeResult>; 2],
+    /// Pressure, and components of `-tau` along the nodal tangents, of every node, by side:
+    /// what the unknowns of a node that is kept from now on start from.
+    pub carried: [Vec<[f64; 3]>; 2],
     /// Forces on the facets of each side.
     pub facets: [Vec<(FacetId, FacetForces)>; 2],
-    /// Covered area that belongs to every node, by side.
-    pub nodal_areas: [Vec<f64>; 2],
+    /// Work that friction dissipates, `-sum_k w_k tau_k . du_k`.
+    pub dissipated: f64,
 }
 
-/// A configuration that cannot be evaluated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EvaluationError {
-    /// A node no longer sees the other side.
-    Lost(LostProjection),
-    /// A convected texture has no direction left.
-    Collapsed(CollapsedTexture),
-}
-
-impl From<LostProjection> for EvaluationError {
-    fn from(lost: LostProjection) -> Self {
-        Self::Lost(lost)
-    }
-}
-
-impl From<CollapsedTexture> for EvaluationError {
-    fn from(collapsed: CollapsedTexture) -> Self {
-        Self::Collapsed(collapsed)
-    }
-}
-
-/// Evaluates a pair.
+/// Evaluates a pair; `start` is the last converged configuration.
 ///
 /// # Errors
-/// When a node no longer sees the other side or its texture collapses.
+/// When a texture has no direction left.
 pub fn evaluate(
     configuration: &Configuration,
+    start: &Configuration,
     selection: &Selection,
     tractions: &Tractions,
     prescribed: &Prescribed,
     iteration: Iteration,
-) -> Result<Evaluation, EvaluationError> {
-    let frames = frames(configuration, selection)?;
+) -> Result<Evaluation, CollapsedTexture> {
+    let slip = if configuration.pair.friction.cap(1.0, 0.0) == 0.0 {
+        Slip::Left
+    } else {
+        Slip::Derivatives
+    };
+    let frames = frames(configuration, selection);
+    let patches = match configuration.pair.enforcement {
+        Enforcement::Weighted => patches(configuration, start, selection, slip),
+        Enforcement::Collocated => Vec::new(),
+    };
+    let mut kinematics = match configuration.pair.enforcement {
+        Enforcement::Weighted => {
+            weighted::kinematics(configuration, selection, &frames, &patches, slip)
+        }
+        Enforcement::Collocated => collocated::kinematics(configuration, selection, &frames),
+    };
     let textures = textures(configuration, selection, &frames)?;
-    let velocities = slip_velocities(configuration, selection, &frames);
+    let velocities = slip_velocities(configuration, selection, &kinematics);
     let surroundings = Surroundings {
         frames: &frames,
         textures: &textures,
         velocities: &velocities,
     };
     let tau = nodal_tractions(configuration, selection, &surroundings, tractions);
-    let fields = Fields {
+    if configuration.pair.enforcement == Enforcement::Weighted {
+        weighted::add_ramp_to_gaps(configuration, selection, tractions, &mut kinematics);
+        if slip == Slip::Derivatives {
+            weighted::add_ramp_to_slips(selection, &frames, tractions, &tau, &mut kinematics);
+        }
+    }
+    let stage = Stage {
         configuration,
         selection,
-        frames: &frames,
         tractions,
+        frames: &frames,
         textures: &textures,
+        kinematics: &kinematics,
         tau: &tau,
     };
-    let mut evaluation = Evaluation {
-        terms: Vec::new(),
-        nodes: [0, 1].map(|side| vec![NodeResult::default(); selection.roles[side].len()]),
-        facets: [Vec::new(), Vec::new()],
-        nodal_areas: [0, 1].map(|side| vec![0.0; selection.roles[side].len()]),
-    };
-    let balance = balance_rows(&fields);
-    evaluation.terms.extend(held_balance(&balance, tractions));
-    for &side in configuration.pair.deformable_sides() {
-        evaluation.add_nodes(&fields, side, prescribed, iteration)?;
-        evaluation.add_facets(&fields, side, &balance);
+    let mut evaluation = stage.nodal(&patches);
+    evaluation.add_rows(&stage, prescribed, iteration);
+    evaluation.follow_status(selection);
+    match configuration.pair.enforcement {
+        Enforcement::Weighted => evaluation.add_segments(&stage, &patches),
+        Enforcement::Collocated => evaluation.add_facets(&stage),
     }
-    evaluation.follow_status(configuration, selection);
     Ok(evaluation)
 }
 
-impl Evaluation {
-    fn add_nodes(
-        &mut self,
-        fields: &Fields,
-        side: usize,
-        prescribed: &Prescribed,
-        iteration: Iteration,
-    ) -> Result<(), LostProjection> {
-        let roles = &fields.selection.roles[side];
-        let results: Vec<_> = (0..roles.len())
-            .into_par_iter()
-            .with_min_len(8)
-            .filter(|&node| roles[node] != Role::Idle)
-            .map(|node| node_rows(fields, side, node as u32, prescribed, iteration))
-            .collect();
-        for result in results {
-            let (node, terms, result) = result?;
-            self.terms.extend(terms);
-            self.nodes[side][node as usize] = result;
+/// The segments between facets whose corners carry traction.
+fn patches(
+    configuration: &Configuration,
+    start: &Configuration,
+    selection: &Selection,
+    slip: Slip,
+) -> Vec<Patch> {
+    let own = configuration.side(0);
+    let carries = |facet: FacetId| {
+        let corners = own.corners(facet);
+        corners.iter().any(|&node| selection.carries(0, node))
+    };
+    let scope = selection.scope();
+    paired_facets(configuration, scope, Derivatives::First, carries)
+        .into_par_iter()
+        .with_min_len(4)
+        .map(|paired| {
+            let weights = scope.weights(&paired);
+            let rows = segment_rows(configuration, start, &paired, weights, slip);
+            Patch {
+                kept: Patch::kept_of(configuration, selection, &paired),
+                rows,
+                paired,
+            }
+        })
+        .collect()
+}
+
+/// All that the rows of a pair are made of.
+struct Stage<'a> {
+    configuration: &'a Configuration<'a>,
+    selection: &'a Selection,
+    tractions: &'a Tractions,
+    frames: &'a Frames,
+    textures: &'a Textures,
+    kinematics: &'a [Kinematics],
+    tau: &'a NodalTractions,
+}
+
+impl Stage<'_> {
+    /// Results of all nodes, without the status, by the transfer from kept nodes.
+    fn nodal(&self, patches: &[Patch]) -> Evaluation {
+        let selection = self.selection;
+        let counts = [0, 1].map(|side| selection.nodes(side));
+        let reports = weighted::reports(self.configuration, counts, patches);
+        let mut evaluation = Evaluation {
+            terms: Vec::new(),
+            nodes: counts.map(|count| vec![NodeResult::default(); count]),
+            carried: counts.map(|count| vec![[0.0; 3]; count]),
+            facets: [Vec::new(), Vec::new()],
+            dissipated: 0.0,
+        };
+        for side in 0..2 {
+            for node in 0..counts[side] {
+                if let Some(frame) = &self.frames[side][node] {
+                    let result = self.of_node(side, node, frame, &reports[side][node]);
+                    let [t1, t2] = [0, 1].map(|axis| -frame.t[axis].value.dot(&result.tau));
+                    evaluation.carried[side][node] = [result.pressure, t1, t2];
+                    evaluation.nodes[side][node] = result;
+                }
+            }
         }
-        Ok(())
+        evaluation
     }
 
-    fn add_facets(&mut self, fields: &Fields, side: usize, balance: &[BalanceRows]) {
-        let selection = fields.selection;
-        let facets = fields.configuration.side(side).surface.facets();
-        let results: Vec<_> = (0..facets.len())
+    fn of_node(&self, side: usize, node: usize, frame: &Frame, report: &Report) -> NodeResult {
+        let mut result = NodeResult {
+            gap: report.gap,
+            normal: frame.n.value,
+            texture: self.own_texture(side, node as u32, frame),
+            ..NodeResult::default()
+        };
+        let n = frame.n.value;
+        result.slip = report.slip - n * n.dot(&report.slip);
+        for &(k, weight) in self.selection.row(side, node as u32) {
+            let (side_k, node_k) = self.selection.kept()[k as usize].place();
+            result.pressure += weight * self.tractions.nodes[side_k][node_k][0];
+            if let Some(from) = &self.frames[side_k][node_k] {
+                let facing = side_sign(side) * side_sign(side_k);
+                let tau = &self.tau[side_k][node_k].value;
+                let turned = Transported::new(tau, &(from.n.value * facing), &n);
+                result.tau += turned.value * (weight * facing);
+            }
+        }
+        result
+    }
+
+    /// Direction `s = a x n` of the node's own texture, zero without one.
+    fn own_texture(&self, side: usize, node: u32, frame: &Frame) -> Vec3 {
+        match own(self.configuration, side, node, &frame.n) {
+            Ok(Some(a)) => a.value.cross(&frame.n.value),
+            Ok(None) | Err(_) => Vec3::zeros(),
+        }
+    }
+}
+
+impl Evaluation {
+    fn add_rows(&mut self, stage: &Stage, prescribed: &Prescribed, iteration: Iteration) {
+        let kept = stage.selection.kept();
+        let found: Vec<Option<(LocalTerm, NodeResult)>> = (0..kept.len())
             .into_par_iter()
             .with_min_len(8)
-            .filter_map(|index| {
-                let active = facets[index]
-                    .iter()
-                    .find(|&&n| selection.is_active(side, n))?;
-                let patch = selection.patch_of[side][*active as usize];
-                let rows = patch.map(|patch| &balance[patch as usize]);
-                let facet = FacetId::new(index);
-                Some((facet, facet_terms(fields, side, facet, rows)))
+            .map(|k| {
+                let (side, node) = kept[k].place();
+                let contact_node = ContactNode {
+                    side,
+                    node: node as u32,
+                    kinematics: &stage.kinematics[k],
+                    frame: stage.frames[side][node].as_ref()?,
+                    textures: &stage.textures[side][node],
+                    slipped: stage.tractions.slipped[side][node],
+                    before: stage.tractions.statuses[side][node],
+                    unknowns: stage.tractions.nodes[side][node],
+                    tau: stage.tau[side][node].value,
+                };
+                Some(rows(
+                    stage.configuration,
+                    &contact_node,
+                    prescribed,
+                    iteration,
+                ))
             })
             .collect();
-        for (facet, (terms, forces)) in results {
-            self.terms.extend(terms);
-            for (corner, area) in facets[facet.index()].iter().zip(forces.area) {
-                self.nodal_areas[side][*corner as usize] += area;
-            }
-            self.facets[side].push((facet, forces));
+        for (k, found) in found.into_iter().enumerate() {
+            let Some((term, result)) = found else {
+                continue;
+            };
+            let (side, node) = kept[k].place();
+            self.dissipated -= stage.selection.weight(k) * result.tau.dot(&result.slip);
+            let texture = self.nodes[side][node].texture;
+            self.nodes[side][node] = NodeResult { texture, ..result };
+            self.terms.push(term);
         }
     }
 
-    /// Traction and extended nodes take the status of the heaviest opposing
-    /// corner or of their leader.
-    fn follow_status(&mut self, configuration: &Configuration, selection: &Selection) {
-        let known = self
-            .nodes
-            .each_ref()
-            .map(|side| side.iter().map(|result| result.status).collect::<Vec<_>>());
+    /// Nodes that are not kept have the status of the kept node that they follow most.
+    fn follow_status(&mut self, selection: &Selection) {
         for side in 0..2 {
-            for (node, role) in selection.roles[side].iter().enumerate() {
-                let result = &mut self.nodes[side][node];
-                let source = match role {
-                    Role::Traction(Partner::Corners(corners, weights)) => {
-                        let heaviest = (0..4).max_by(|&a, &b| weights[a].total_cmp(&weights[b]));
-                        heaviest.map(|corner| (1 - side, corners[corner]))
-                    }
-                    Role::Extended(leaders) => Some((leaders[0].side, leaders[0].node)),
-                    _ => None,
-                };
-                if let Some((other, corner)) = source {
-                    let kinematic =
-                        matches!(selection.roles[other][corner as usize], Role::Kinematic(_));
-                    let rate = result.slip.norm() / configuration.elapsed;
-                    let cap = configuration.pair.friction.cap(result.pressure, rate);
-                    result.status = match known[other][corner as usize] {
-                        _ if result.pressure <= 0.0 => Status::Open,
-                        status if kinematic => status,
-                        _ if result.tau.norm() < cap * (1.0 - 1e-6) => Status::Stick,
-                        _ => Status::Slip,
+            for node in 0..selection.nodes(side) {
+                let row = selection.row(side, node as u32);
+                let most = row.iter().max_by(|a, b| a.1.total_cmp(&b.1));
+                if let Some(&(k, _)) = most
+                    && !selection.is_kept(side, node as u32)
+                {
+                    let (side_k, node_k) = selection.kept()[k as usize].place();
+                    let pressure = self.nodes[side][node].pressure;
+                    self.nodes[side][node].status = if pressure > 0.0 {
+                        self.nodes[side_k][node_k].status
+                    } else {
+                        Status::Open
                     };
                 }
             }
         }
     }
-}
 
-fn node_rows(
-    fields: &Fields,
-    side: usize,
-    node: u32,
-    prescribed: &Prescribed,
-    iteration: Iteration,
-) -> Result<(u32, Vec<LocalTerm>, NodeResult), LostProjection> {
-    let lost = LostProjection { side, node };
-    let frame = fields.frames[side][node as usize].as_ref().ok_or(lost)?;
-    let unknowns = fields.tractions.nodes[side][node as usize];
-    let tau = fields.tau[side][node as usize].value;
-    let mut result = NodeResult {
-        pressure: unknowns[0],
-        tau,
-        normal: frame.n.value,
-        texture: own_texture(fields, side, node, &frame.n),
-        ..NodeResult::default()
-    };
-    match &fields.selection.roles[side][node as usize] {
-        Role::Kinematic(partner) => {
-            let kinematic = KinematicNode {
-                side,
-                node,
-                partner: *partner,
-                frame,
-                textures: &fields.textures[side][node as usize],
-                slipped: fields.tractions.slipped[side][node as usize],
-                before: fields.tractions.statuses[side][node as usize],
-                unknowns,
-                tau,
-            };
-            let (term, of_rows) = rows(fields.configuration, &kinematic, prescribed, iteration)?;
-            let result = NodeResult {
-                texture: result.texture,
-                ..of_rows
-            };
-            Ok((node, vec![term], result))
-        }
-        Role::Traction(partner) => {
-            let (term, gap) = traction_rows(fields, side, node)?;
-            result.gap = gap;
-            result.slip = slip(fields.configuration, side, node, *partner, &frame.n.value);
-            Ok((node, vec![term], result))
-        }
-        Role::Extended(leaders) => {
-            let terms = extended_rows(fields, side, node, leaders);
-            Ok((node, terms, result))
-        }
-        Role::Idle => Err(lost),
-    }
-}
-
-/// Direction `s = a x n` of the node's own texture, zero without one.
-fn own_texture(fields: &Fields, side: usize, node: u32, n: &Tracked) -> Vec3 {
-    match own(fields.configuration, side, node, n) {
-        Ok(Some(a)) => a.value.cross(&n.value),
-        Ok(None) | Err(_) => Vec3::zeros(),
-    }
-}
-
-/// `(I - n n)(x_I - xbar)`.
-fn slip(configuration: &Configuration, side: usize, node: u32, partner: Partner, n: &Vec3) -> Vec3 {
-    let relative = configuration.side(side).x[node as usize] - partner.point(configuration, side);
-    relative - n * n.dot(&relative)
-}
-
-/// Nodes outside the selection that have run into the other side.
-pub fn missed_contacts(configuration: &Configuration, selection: &Selection) -> Vec<(usize, u32)> {
-    let mut missed = Vec::new();
-    for &side in configuration.pair.deformable_sides() {
-        for node in 0..selection.roles[side].len() as u32 {
-            if selection.roles[side][node as usize] != Role::Idle {
-                continue;
+    fn add_segments(&mut self, stage: &Stage, patches: &[Patch]) {
+        let field = CommonField {
+            configuration: stage.configuration,
+            selection: stage.selection,
+            frames: stage.frames,
+            tractions: stage.tractions,
+            tau: stage.tau,
+        };
+        let mut forces = [Vec::new(), Vec::new()];
+        for ((term, of_facets), patch) in segment_terms(field, patches).into_iter().zip(patches) {
+            self.terms.push(term);
+            for &side in stage.configuration.pair.deformable_sides() {
+                if let Some(facet) = patch.paired.facets[side] {
+                    forces[side].push((facet, of_facets[side]));
+                }
             }
-            let reach = configuration.reach(side, node);
-            let contact = configuration.contact(side, node, reach, Margin::Inside);
-            if let Some(contact) = contact
-                && contact.gap < -0.05 * reach
-                && !matches!(contact.place, Place::Facet(hit) if beside_active(configuration, selection, side, hit.facet))
-            {
-                missed.push((side, node));
+        }
+        self.facets = forces.map(|forces| by_facet(forces.into_iter()));
+    }
+
+    fn add_facets(&mut self, stage: &Stage) {
+        let nodal = collocated::nodal_fields(
+            stage.configuration,
+            stage.selection,
+            stage.frames,
+            stage.tractions,
+            stage.tau,
+        );
+        let fields = Fields {
+            configuration: stage.configuration,
+            frames: stage.frames,
+            nodal: &nodal,
+        };
+        for &side in stage.configuration.pair.deformable_sides() {
+            let facets = stage.configuration.side(side).surface.facets();
+            let results: Vec<_> = (0..facets.len())
+                .into_par_iter()
+                .with_min_len(8)
+                .filter(|&index| {
+                    let mut corners = facets[index].iter();
+                    corners.all(|&node| stage.selection.carries(side, node))
+                })
+                .map(|index| {
+                    let facet = FacetId::new(index);
+                    (facet, facet_terms(&fields, side, facet))
+                })
+                .collect();
+            for (facet, (terms, forces)) in results {
+                self.terms.extend(terms);
+                self.facets[side].push((facet, forces));
             }
         }
     }
-    missed
-}
-
-/// Whether a facet of the other side carries traction at all its corners.
-fn beside_active(
-    configuration: &Configuration,
-    selection: &Selection,
-    side: usize,
-    facet: FacetId,
-) -> bool {
-    !configuration.pair.is_rigid()
-        && configuration
-            .side(1 - side)
-            .corners(facet)
-            .iter()
-            .all(|&corner| selection.is_active(1 - side, corner))
 }

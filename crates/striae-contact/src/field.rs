@@ -22,16 +22,28 @@ use striae_surface::{
 };
 
 use crate::{
-    balance::BalanceRows,
     clip::FlatFacet,
+    collocated::NodalField,
+    configuration::Configuration,
     facet_coverage::FacetCoverage,
+    frame::Frames,
     integral::{Density, Integral, LANES},
     moving::{FlatSlopes, moving_points},
     quadrature::GAUSS_2,
     term::{Field, Lanes, LocalTerm, Row, Source, add_block, variable3, variables3},
-    transfer::Fields,
     transported::Transported,
 };
+
+/// The fields of both sides.
+#[derive(Clone, Copy, Debug)]
+pub struct Fields<'a> {
+    /// Where everything is.
+    pub configuration: &'a Configuration<'a>,
+    /// Nodal frames.
+    pub frames: &'a Frames,
+    /// Nodal pressures and frictions.
+    pub nodal: &'a [Vec<NodalField>; 2],
+}
 
 /// Forces of the contact tractions on the corners of a facet.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -46,26 +58,33 @@ pub struct FacetForces {
     pub friction: f64,
 }
 
-/// Terms of one facet: momentum rows of its corners and balance rows of its patch.
-pub fn facet_terms(
-    fields: &Fields,
-    side: usize,
-    facet: FacetId,
-    balance: Option<&BalanceRows>,
-) -> (Vec<LocalTerm>, FacetForces) {
+impl FacetForces {
+    /// Adds the forces on another part of the facet.
+    pub fn add(&mut self, other: &Self) {
+        for corner in 0..4 {
+            self.force[corner] += other.force[corner];
+            self.area[corner] += other.area[corner];
+        }
+        self.pressure += other.pressure;
+        self.friction += other.friction;
+    }
+}
+
+/// Terms of one facet: momentum rows of its corners.
+pub fn facet_terms(fields: &Fields, side: usize, facet: FacetId) -> (Vec<LocalTerm>, FacetForces) {
     let mut sum = FacetForces::default();
     let mut terms = Vec::new();
     match fields.configuration.facet_coverage(side, facet) {
         FacetCoverage::Bare => {}
         FacetCoverage::Whole => {
             let kernel = Kernel::new(fields, side, facet);
-            terms.push(kernel.whole(balance, &mut sum));
+            terms.push(kernel.whole(&mut sum));
         }
         FacetCoverage::Cut(covers) => {
             let covers = covers.iter().map(|cover| Cover::new(fields, side, *cover));
             let covers: Vec<Cover> = covers.collect();
             let kernel = Kernel::new(fields, side, facet);
-            terms.extend(kernel.cut(&covers, balance, &mut sum));
+            terms.extend(kernel.cut(&covers, &mut sum));
         }
     }
     (terms, sum)
@@ -134,21 +153,26 @@ impl<'a> Kernel<'a> {
         for first in rows {
             lanes.push(Source::Unknowns { first, count: 3 });
         }
-        for corner in corners {
-            fields.push_vector(&mut lanes, fields.normal_jacobian(side, corner));
+        let nodal = corners.map(|corner| &fields.nodal[side][corner as usize]);
+        let normals = corners.map(|corner| {
+            let frame = fields.frames[side][corner as usize].as_ref();
+            &frame.expect("all corners carry traction").n
+        });
+        for n in normals {
+            lanes.push(Source::Vector(&n.jacobian));
         }
-        for corner in corners {
-            fields.push_pressure(&mut lanes, side, corner);
+        for field in nodal {
+            lanes.push(Source::Scalar(&field.pressure.gradient));
         }
-        for corner in corners {
-            fields.push_vector(&mut lanes, fields.tau_jacobian(side, corner));
+        for field in nodal {
+            lanes.push(Source::Vector(&field.tau.jacobian));
         }
         Self {
             rows,
             x: own.corner_positions(facet),
-            n: corners.map(|corner| fields.normal(side, corner)),
-            p: corners.map(|corner| fields.pressure(side, corner)),
-            tau: corners.map(|corner| fields.tau[side][corner as usize].value),
+            n: normals.map(|n| n.value),
+            p: nodal.map(|field| field.pressure.value),
+            tau: nodal.map(|field| field.tau.value),
             normal: if rigid {
                 NormalField::Nodal
             } else {
@@ -159,7 +183,7 @@ impl<'a> Kernel<'a> {
     }
 
     /// The term of the whole facet.
-    fn whole(&self, balance: Option<&BalanceRows>, sum: &mut FacetForces) -> LocalTerm {
+    fn whole(&self, sum: &mut FacetForces) -> LocalTerm {
         let mut integral = Integral::zero();
         for (xi, w_xi) in GAUSS_2 {
             for (eta, w_eta) in GAUSS_2 {
@@ -168,17 +192,12 @@ impl<'a> Kernel<'a> {
             }
         }
         integral.report(sum);
-        self.term(&self.lanes, &integral.force, &integral.slopes, balance)
+        self.term(&self.lanes, &integral.force, &integral.slopes)
     }
 
     /// Terms of its covered parts: one with all forces, and for every cover one with
     /// their derivatives by its corners.
-    fn cut(
-        &self,
-        covers: &[Cover],
-        balance: Option<&BalanceRows>,
-        sum: &mut FacetForces,
-    ) -> Vec<LocalTerm> {
+    fn cut(&self, covers: &[Cover], sum: &mut FacetForces) -> Vec<LocalTerm> {
         let in_plane = FlatFacet::new(&self.x);
         let mut covers = covers
             .iter()
@@ -192,10 +211,10 @@ impl<'a> Kernel<'a> {
         let mut terms = Vec::new();
         for cover in covers {
             let slopes = self.covered(&flat, cover, &mut integral, sum);
-            terms.push(self.term(&cover.lanes, &[Vec3::zeros(); 4], &slopes, balance));
+            terms.push(self.term(&cover.lanes, &[Vec3::zeros(); 4], &slopes));
         }
         integral.report(sum);
-        terms.push(self.term(&self.lanes, &integral.force, &integral.slopes, balance));
+        terms.push(self.term(&self.lanes, &integral.force, &integral.slopes));
         terms
     }
 
@@ -301,15 +320,9 @@ impl<'a> Kernel<'a> {
         density
     }
 
-    /// Momentum rows `-f` and balance rows.
-    fn term(
-        &self,
-        lanes: &Lanes,
-        force: &[Vec3; 4],
-        slopes: &[[f64; 12]],
-        balance: Option<&BalanceRows>,
-    ) -> LocalTerm {
-        let mut rows: Vec<Row> = Vec::with_capacity(18);
+    /// Momentum rows `-f`.
+    fn term(&self, lanes: &Lanes, force: &[Vec3; 4], slopes: &[[f64; 12]]) -> LocalTerm {
+        let mut rows: Vec<Row> = Vec::with_capacity(12);
         for corner in 0..4 {
             for axis in 0..3 {
                 let unknown = self.rows[corner] + axis as u32;
@@ -318,31 +331,10 @@ impl<'a> Kernel<'a> {
         }
         let triples = lanes.triples();
         let columns = lanes.chained(slopes, &triples);
-        let momentum = |column: &[f64; 12]| column.map(|slope| -slope);
-        let Some(balance) = balance else {
-            let columns: Vec<[f64; 12]> = columns.iter().map(momentum).collect();
-            return LocalTerm::from_columns(&rows, &triples, &columns);
-        };
-        let resultant = balance.resultant(&self.x, force);
-        for mode in 0..balance.active {
-            let residual = balance.modes.column(mode).dot(&resultant);
-            rows.push((balance.first + mode as u32, Field::Resultant, residual));
-        }
-        let mut with_balance = vec![[0.0; 18]; columns.len()];
-        for (at, (to, column)) in with_balance.iter_mut().zip(&columns).enumerate() {
-            to[..12].copy_from_slice(&momentum(column));
-            let slopes: [Vec3; 4] = std::array::from_fn(|corner| {
-                Vec3::from_column_slice(&column[3 * corner..3 * corner + 3])
-            });
-            let mut change = balance.resultant(&self.x, &slopes);
-            // A corner that moves takes its force along.
-            for corner in (0..4).filter(|&corner| self.rows[corner] == triples[at / 3]) {
-                let turn = Vec3::ith(at % 3, 1.0 / balance.radius).cross(&force[corner]);
-                let mut moment = change.fixed_view_mut::<3, 1>(3, 0);
-                moment += turn;
-            }
-            to[12..].copy_from_slice(balance.modes.tr_mul(&change).as_slice());
-        }
-        LocalTerm::from_columns(&rows, &triples, &with_balance)
+        let columns: Vec<[f64; 12]> = columns
+            .iter()
+            .map(|column| column.map(|slope| -slope))
+            .collect();
+        LocalTerm::from_columns(&rows, &triples, &columns)
     }
 }

@@ -10,13 +10,13 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::DualSVec64;
 use rayon::prelude::*;
 use striae_mesh::Vec3;
-use striae_surface::normal::normal_jacobian;
+use striae_surface::{facet::Shape, normal::normal_jacobian};
 
 use crate::{
     configuration::Configuration,
-    coverage::Place,
-    projection::{Margin, differentiated_rigid},
-    selection::{Role, Selection},
+    coverage::{Found, Place},
+    projection::differentiated_rigid,
+    selection::Selection,
     term::{Jacobian, Lanes, Source, add_block, parts, variable3},
 };
 
@@ -41,90 +41,77 @@ pub struct Frame {
 /// Frames of the nodes that carry traction, by side; `None` elsewhere.
 pub type Frames = [Vec<Option<Frame>>; 2];
 
-/// A node lost sight of the other side.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct LostProjection {
-    /// Side of the pair.
-    pub side: usize,
-    /// Surface-local node.
-    pub node: u32,
-}
-
 /// Frames of all nodes that carry traction.
-pub fn frames(
-    configuration: &Configuration,
-    selection: &Selection,
-) -> Result<Frames, LostProjection> {
-    let of_side = |side: usize| -> Result<Vec<Option<Frame>>, LostProjection> {
-        let roles = &selection.roles[side];
-        let found: Vec<_> = (0..roles.len())
+pub fn frames(configuration: &Configuration, selection: &Selection) -> Frames {
+    [0, 1].map(|side| {
+        (0..selection.nodes(side))
             .into_par_iter()
             .with_min_len(16)
-            .map(|node| frame_of(configuration, side, node as u32, &roles[node]))
-            .collect();
-        found.into_iter().collect()
-    };
-    Ok([of_side(0)?, of_side(1)?])
+            .map(|node| {
+                let node = node as u32;
+                selection.carries(side, node).then(|| {
+                    let n = normal(configuration, side, node);
+                    frame(configuration, side, node, n)
+                })
+            })
+            .collect()
+    })
 }
 
-fn frame_of(
-    configuration: &Configuration,
-    side: usize,
-    node: u32,
-    role: &Role,
-) -> Result<Option<Frame>, LostProjection> {
-    let n = match role {
-        Role::Idle => return Ok(None),
-        Role::Extended(leaders) if configuration.pair.is_rigid() => {
-            normal(configuration, side, leaders[0].node)?
-        }
-        _ => normal(configuration, side, node)?,
-    };
-    Ok(Some(frame(configuration, side, node, n)))
+/// The normal of a node: of its surface or, against a rigid one, of that.
+fn normal(configuration: &Configuration, side: usize, node: u32) -> Tracked {
+    let rigid = configuration.pair.is_rigid();
+    let of_rigid = rigid.then(|| rigid_normal(configuration, node)).flatten();
+    of_rigid.unwrap_or_else(|| own_normal(configuration, side, node))
 }
 
-/// Largest distance, in reaches, over which a projection is followed within an increment.
-pub const FOLLOW: f64 = 6.0;
-
-fn normal(
-    configuration: &Configuration,
-    side: usize,
-    node: u32,
-) -> Result<Tracked, LostProjection> {
+/// The normal of a node's own surface.
+pub fn own_normal(configuration: &Configuration, side: usize, node: u32) -> Tracked {
     let own = configuration.side(side);
     let numbering = configuration.pair.numbering();
-    if !configuration.pair.is_rigid() {
-        let mut jacobian = normal_jacobian(own.surface, &own.x, node);
-        for entry in &mut jacobian {
-            entry.0 = numbering.position(side, entry.0);
-        }
-        return Ok(Tracked {
-            value: own.normals[node as usize],
-            jacobian,
-        });
+    let mut jacobian = normal_jacobian(own.surface, &own.x, node);
+    for entry in &mut jacobian {
+        entry.0 = numbering.position(side, entry.0);
     }
+    Tracked {
+        value: own.normals[node as usize],
+        jacobian,
+    }
+}
+
+/// The opposite of the rigid normal at the projection; `None` far away from the surface.
+fn rigid_normal(configuration: &Configuration, node: u32) -> Option<Tracked> {
     if let Some((_, normal)) = configuration.plane() {
-        return Ok(Tracked {
+        return Some(Tracked {
             value: -normal,
             jacobian: Vec::new(),
         });
     }
-    let reach = FOLLOW * configuration.reach(side, node);
-    let contact = configuration
-        .contact(side, node, reach, Margin::Extrapolated)
-        .ok_or(LostProjection { side, node })?;
+    let (contact, found) = configuration.opposite(0, node)?;
     let Place::Facet(hit) = contact.place else {
-        return Err(LostProjection { side, node });
+        return None;
     };
-    let x: Vector3<DualSVec64<3>> = variable3(&own.x[node as usize], 0);
-    let (_, rigid) = differentiated_rigid(configuration.side(1), &hit, &x);
+    let target = configuration.side(1);
+    if found == Found::Edge {
+        let corners = target.corners(hit.facet);
+        let weights = Shape::of(&corners).weights(hit.xi, hit.eta).value;
+        let sum: Vec3 = (0..4)
+            .map(|c| target.normals[corners[c] as usize] * weights[c])
+            .sum();
+        return Some(Tracked {
+            value: -sum.normalize(),
+            jacobian: Vec::new(),
+        });
+    }
+    let x: Vector3<DualSVec64<3>> = variable3(&configuration.side(0).x[node as usize], 0);
+    let (_, rigid) = differentiated_rigid(target, &hit, &x);
     let mut lanes = Lanes::default();
     lanes.push(Source::Unknowns {
-        first: numbering.position(side, node),
+        first: configuration.pair.numbering().position(0, node),
         count: 3,
     });
     let (value, gradient) = parts(&-rigid);
-    Ok(Tracked {
+    Some(Tracked {
         value,
         jacobian: lanes.jacobian(&gradient),
     })

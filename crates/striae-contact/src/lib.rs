@@ -1,44 +1,55 @@
 //! Frictional contact of two surfaces.
 //!
 //! A [`pair::ContactPair`] is what does not change. Once an increment the
-//! [`selection::Selection`] gives every node its role; in every iteration
-//! [`evaluation::evaluate`] turns positions and traction unknowns into local
-//! terms of the residual and its tangent. Nothing here knows of sparse matrices
-//! or iterates globally.
+//! [`selection::Selection`] says which nodes carry traction unknowns; in every iteration
+//! [`evaluation::evaluate`] turns positions and traction unknowns into local terms of the
+//! residual and its tangent. Nothing here knows of sparse matrices or iterates globally.
 //!
-//! The method is unbiased: traction fields live on both surfaces and each body
-//! integrates its own, after Jones & Papadopoulos, "Simulating anisotropic
-//! frictional response using smoothly interpolated traction fields", Comput.
-//! Methods Appl. Mech. Engrg. 195 (2006).
+//! The method is unbiased: neither side is master or slave. By default both sides share one
+//! traction field on their common segments and contact holds in the mean weighted with it;
+//! the collocated fields of Jones & Papadopoulos, "Simulating anisotropic frictional
+//! response using smoothly interpolated traction fields", Comput. Methods Appl. Mech. Engrg.
+//! 195 (2006), are the alternative.
 
-pub mod balance;
+mod absorption;
+mod common_mass;
+mod pivots;
+
 pub mod clip;
+pub mod collocated;
+pub mod common_field;
 pub mod complementarity;
 pub mod configuration;
 pub mod coverage;
 pub mod evaluation;
 pub mod exposed;
-pub mod extension;
 pub mod facet_coverage;
 pub mod field;
 pub mod frame;
 pub mod integral;
+pub mod interface;
+pub mod kinematics;
 pub mod moving;
 pub mod opposing;
 pub mod pair;
-pub mod patch;
+pub mod pairing;
 pub mod placement;
 pub mod projection;
 pub mod quadrature;
 pub mod quantity;
+pub mod roles;
 pub mod search;
+pub mod segment;
+pub mod segment_rows;
 pub mod selection;
 pub mod slip_rate;
 pub mod table_1;
 pub mod term;
 pub mod texture;
 pub mod traction;
-pub mod transfer;
+pub mod traction_basis;
+pub mod transfer_rows;
 pub mod transported;
 pub mod unknown;
 pub mod unknowns;
+pub mod weighted;

@@ -15,9 +15,9 @@ pub struct ContactPair {
     pub sides: [Side; 2],
     /// Friction law.
     pub friction: Friction,
-    /// Whether the resultants of the two sides are made to balance.
-    pub balance: Balance,
-    /// Largest distance over which contact is looked for; `None`: half the local facet size.
+    /// How contact is enforced.
+    pub enforcement: Enforcement,
+    /// Distance over which contact is looked for ahead; `None`: half the local facet size.
     pub search_distance: Option<f64>,
 }
 
@@ -30,8 +30,6 @@ pub struct Side {
     pub stiffness: f64,
     /// Texture, if the side has one.
     pub texture: Option<SideTexture>,
-    /// Rank that breaks ties between sides of equal mesh size; independent of which side is called `a`.
-    pub rank: usize,
 }
 
 /// Shape of a side.
@@ -50,13 +48,14 @@ pub enum Geometry {
     },
 }
 
-/// Treatment of the difference between the resultants of the two sides.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Balance {
-    /// Six more unknowns a contact patch make forces and moments balance.
-    Resultants,
-    /// The plain interpolated fields.
-    None,
+/// How contact is enforced.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Enforcement {
+    /// One traction field for both sides and rows weighted with it.
+    #[default]
+    Weighted,
+    /// A field on each side and collocated rows, as Jones & Papadopoulos.
+    Collocated,
 }
 
 impl ContactPair {

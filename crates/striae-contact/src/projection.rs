@@ -70,6 +70,50 @@ pub fn project(target: &Snapshot, x: &Vec3, ray: Ray, reach: f64, margin: Margin
     }
 }
 
+/// The point on the edge of a surface that is nearest to the line through `x` along `n`,
+/// within the distance `reach` of `x`.
+pub fn nearest_edge(target: &Snapshot, x: &Vec3, n: &Vec3, reach: f64) -> Option<Hit> {
+    let bounds = Bounds::around([*x]).inflated(reach);
+    let edges = target.surface.boundary_edges();
+    let mut best: Option<(f64, Hit)> = None;
+    for item in target.edge_tree.meeting(&bounds) {
+        let edge = edges[item as usize];
+        let [start, end] = edge.nodes.map(|node| target.x[node as usize] - x);
+        let flat = |v: Vec3| v - n * n.dot(&v);
+        let (from, along) = (flat(start), flat(end - start));
+        let share =
+            (-from.dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let point = start + (end - start) * share;
+        let distance = flat(point).norm();
+        let corners = target.corners(edge.facet);
+        let facing = area_vector(
+            &Shape::of(&corners).weights(0.25, 0.25),
+            &target.corner_positions(edge.facet),
+        );
+        if point.norm() > reach || facing.dot(n) >= 0.0 {
+            continue;
+        }
+        if best.is_none_or(|(known, _)| distance < known) {
+            let at =
+                |node: u32| Shape::of(&corners).corner(corners.iter().position(|c| *c == node));
+            let [a, b] = edge.nodes.map(at);
+            let [xi, eta] = [0, 1].map(|k| a[k] + (b[k] - a[k]) * share);
+            let gap = n.dot(&point);
+            let facet = edge.facet;
+            best = Some((
+                distance,
+                Hit {
+                    facet,
+                    xi,
+                    eta,
+                    gap,
+                },
+            ));
+        }
+    }
+    best.map(|(_, hit)| hit)
+}
+
 fn nearest(
     target: &Snapshot,
     x: &Vec3,

@@ -1,60 +1,26 @@
-//! Roles of the nodes, chosen once an increment from the converged state.
+//! Which nodes of a pair carry traction unknowns, and how the others follow them.
 //!
-//! Every covered node of a deformable side is *kinematic* (collocated
-//! impenetrability and friction) or carries *traction* only (collocated balance
-//! with the opposing field). A candidate becomes kinematic iff the opposing
-//! weights stay small both ways:
-//!
-//! ```text
-//! sum over kinematic J of the other side of N_J(pi x_I) <= 1/2,
-//! and the same for every kinematic node of the other side after adding I.
-//! ```
-//!
-//! Then the gap rows restricted to the nodes' own normals are `1 - E` with
-//! `||E||_inf <= 1/2`, of full rank, and the tractions `p_t = Z p_k` inherit
-//! constants and positivity, `Z 1 = 1`, `Z >= 0`. Candidates come in classes:
-//! those already kinematic, those on the edge of a surface that project inside
-//! the other, the locally coarser side, the rest. All members of a class on one
-//! side are judged together, so the choice does not depend on numbering.
-//!
-//! An uncovered node of a partly covered facet is *extended*: it takes the
-//! traction of the nearest kinematic node, or the mean of several equally near.
-//! So are traction nodes in a group without any kinematic node, all of whose
-//! members look at others of the group: their balance alone leaves them undetermined.
+//! Roles are chosen at the start of an increment, see [`crate::roles`], from the
+//! configuration it starts from and, where that shows too little, the one that it leads to.
+//! They are frozen in the increment, as is the transfer to nodes that are not kept, see
+//! [`crate::transfer_rows`].
 
 use striae_mesh::{FacetId, Vec3};
 use striae_surface::facet::Shape;
 
 use crate::{
     configuration::Configuration,
-    coverage::{Coverage, Place},
-    extension::extend,
-    patch::{Patch, patches},
+    coverage::Place,
+    interface::{
+        ClampedProjection, FacetMass, Interface, LastIncrement, Opponent, Overlap, SurfaceNode,
+    },
+    pair::Enforcement,
+    pairing::{PairedFacets, Scope, paired_facets},
+    segment::{Derivatives, Facet, plane_segment},
+    traction_basis::{KeptNode, TractionBasis, Weak},
 };
 
-/// What a surface node does in an increment.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Role {
-    /// No traction.
-    Idle,
-    /// Collocated impenetrability and friction.
-    Kinematic(Partner),
-    /// Collocated balance with the opposing traction field.
-    Traction(Partner),
-    /// The mean traction of kinematic nodes, its leaders.
-    Extended(Vec<Leader>),
-}
-
-/// A kinematic node whose traction an extended node takes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Leader {
-    /// Its side.
-    pub side: usize,
-    /// Its surface-local number.
-    pub node: u32,
-}
-
-/// Opposing material point at the start of the increment.
+/// Opposing material point at the start of the increment, for collocated slip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Partner {
     /// On a deformable facet, as weights of its corners.
@@ -76,260 +42,343 @@ impl Partner {
     }
 }
 
-/// Roles of all nodes of a pair and the patches they form.
+/// Nodes that were kept, by side.
+pub type Kept = [Vec<bool>; 2];
+
+/// The traction field of a pair in an increment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Selection {
-    /// Role of every node of both sides; empty for a rigid side.
-    pub roles: [Vec<Role>; 2],
-    /// Connected contact patches.
-    pub patches: Vec<Patch>,
-    /// Patch of every node.
-    pub patch_of: [Vec<Option<u32>>; 2],
+    /// Unknowns and basis.
+    pub basis: TractionBasis,
+    /// Compliance `h/E` of the facets by side.
+    pub compliances: [Vec<f64>; 2],
+    /// How far the two sides move towards each other in the increment, at most.
+    pub depth: f64,
+    /// What is opposite to the kept nodes at the start, for collocated rows.
+    pub partners: Vec<Option<Partner>>,
 }
 
-/// Roles that were kinematic at the end of the last increment.
-pub type Kinematic = [Vec<bool>; 2];
+/// Common area below which a patch is dropped, over the square of the facet size.
+const SLIVER: f64 = 1e-3;
+
+/// Gap up to which facets count as in contact, over their common size.
+const TOUCHING: f64 = 0.05;
 
 impl Selection {
-    /// Chooses the roles in the converged configuration.
-    pub fn new(configuration: &Configuration, kinematic_n: &Kinematic) -> Self {
-        let pair = configuration.pair;
-        let mut coverage = [Vec::new(), Vec::new()];
-        for &side in pair.deformable_sides() {
-            let count = configuration.side(side).x.len() as u32;
-            coverage[side] = (0..count)
-                .map(|node| configuration.coverage(side, node))
-                .collect();
-        }
-        let kinematic = if pair.is_rigid() {
-            let near = |c: &Coverage| matches!(c, Coverage::Near(_));
-            [coverage[0].iter().map(near).collect(), Vec::new()]
-        } else {
-            Candidates::new(configuration, &coverage, kinematic_n).accepted()
+    /// Chooses the kept nodes from the configuration that an increment starts from and, if
+    /// it is known, the one that it is predicted to lead to.
+    pub fn new(start: &Configuration, predicted: Option<&Configuration>, kept: &Kept) -> Self {
+        let compliances = compliances(start);
+        let depth = predicted.map_or(0.0, |predicted| approach(start, predicted));
+        let scope = Scope {
+            compliances: &compliances,
+            depth,
         };
-        let mut roles = roles(configuration, &coverage, &kinematic);
-        extend(configuration, &coverage, &mut roles);
-        let (patches, patch_of) = patches(configuration, &coverage, &roles);
+        let mut gathered = Gathered::new(start, scope);
+        if let Some(predicted) = predicted {
+            gathered.add(Gathered::new(predicted, scope));
+        }
+        let basis = gathered.basis(start, kept);
+        let partners = partners(start, &basis);
         Self {
-            roles,
-            patches,
-            patch_of,
+            basis,
+            compliances,
+            depth,
+            partners,
         }
     }
 
-    /// Which nodes are kinematic.
-    pub fn kinematic(&self) -> Kinematic {
-        [0, 1].map(|side| {
-            let is = |role: &Role| matches!(role, Role::Kinematic(_));
-            self.roles[side].iter().map(is).collect()
-        })
+    /// Kept nodes.
+    pub fn kept(&self) -> &[KeptNode] {
+        &self.basis.kept
     }
 
-    /// Whether the node carries traction unknowns.
-    pub fn is_active(&self, side: usize, node: u32) -> bool {
-        self.roles[side]
-            .get(node as usize)
-            .is_some_and(|role| *role != Role::Idle)
+    /// Which nodes are kept.
+    pub fn kept_nodes(&self) -> Kept {
+        self.basis
+            .index
+            .each_ref()
+            .map(|side| side.iter().map(Option::is_some).collect())
+    }
+
+    /// Whether the node is kept.
+    pub fn is_kept(&self, side: usize, node: u32) -> bool {
+        let index = self.basis.index[side].get(node as usize);
+        index.is_some_and(Option::is_some)
+    }
+
+    /// Whether the node has a share in the traction field.
+    pub fn carries(&self, side: usize, node: u32) -> bool {
+        let row = self.basis.rows[side].get(node as usize);
+        row.is_some_and(|row| !row.is_empty())
+    }
+
+    /// Shares of the kept nodes in the traction at a node.
+    pub fn row(&self, side: usize, node: u32) -> &[(u32, f64)] {
+        &self.basis.rows[side][node as usize]
+    }
+
+    /// Number of nodes of a side.
+    pub fn nodes(&self, side: usize) -> usize {
+        self.basis.index[side].len()
+    }
+
+    /// `integral phi_k` of a kept node at the start of the increment.
+    pub fn weight(&self, k: usize) -> f64 {
+        self.basis.weights[k]
+    }
+
+    /// `l_k` of a kept node.
+    pub fn flexibility(&self, k: usize) -> f64 {
+        self.basis.flexibility[k]
+    }
+
+    /// Weakly independent kept nodes.
+    pub fn ramp(&self) -> &[Weak] {
+        &self.basis.ramp
+    }
+
+    /// What was opposite to a kept node at the start.
+    pub fn partner(&self, k: usize) -> Option<Partner> {
+        self.partners[k]
+    }
+
+    /// Which facets are paired.
+    pub fn scope(&self) -> Scope<'_> {
+        Scope {
+            compliances: &self.compliances,
+            depth: self.depth,
+        }
+    }
+
+    /// Corners of facets that overlap with others without a share in the traction field,
+    /// as side and node.
+    pub fn left_out(&self, configuration: &Configuration) -> Vec<(usize, u32)> {
+        let paired = paired_facets(configuration, self.scope(), Derivatives::None, |_| true);
+        let mut left_out: Vec<(usize, u32)> = paired
+            .iter()
+            .filter(|paired| {
+                let size = paired.segment.area.sqrt();
+                paired.mean_gap(configuration) < TOUCHING * size
+            })
+            .flat_map(|paired| (0..8).filter_map(|corner| paired.node(configuration, corner)))
+            .filter(|&(side, node)| !self.carries(side, node))
+            .collect();
+        left_out.sort_unstable();
+        left_out.dedup();
+        left_out
     }
 }
 
-fn roles(
-    configuration: &Configuration,
-    coverage: &[Vec<Coverage>; 2],
-    kinematic: &Kinematic,
-) -> [Vec<Role>; 2] {
+/// `h/E` of the facets of deformable sides.
+fn compliances(configuration: &Configuration) -> [Vec<f64>; 2] {
     [0, 1].map(|side| {
-        let role = |(covered, kinematic): (&Coverage, &bool)| match covered {
-            Coverage::Near(contact) => {
-                let partner = partner(configuration, side, &contact.place);
-                if *kinematic {
-                    Role::Kinematic(partner)
-                } else {
-                    Role::Traction(partner)
-                }
-            }
-            Coverage::Far | Coverage::Missed => Role::Idle,
+        let of_side = &configuration.pair.sides[side];
+        let Some(surface) = of_side.surface() else {
+            return Vec::new();
         };
-        coverage[side]
-            .iter()
-            .zip(&kinematic[side])
-            .map(role)
+        let rigid = side == 1 && configuration.pair.is_rigid();
+        let facets = surface.facets().iter();
+        facets
+            .map(|corners| {
+                if rigid {
+                    return 0.0;
+                }
+                let sizes = corners.map(|node| configuration.side(side).sizes[node as usize]);
+                0.25 * sizes.iter().sum::<f64>() / of_side.stiffness
+            })
             .collect()
     })
 }
 
-fn partner(configuration: &Configuration, side: usize, place: &Place) -> Partner {
-    match place.weights(configuration, side) {
-        Some((corners, weights)) if !configuration.pair.is_rigid() => {
-            Partner::Corners(corners, weights)
-        }
-        _ => Partner::Rigid(
-            configuration
-                .placement
-                .back(&place.point(configuration, side)),
-        ),
-    }
-}
-
-/// Candidates with their opposing corners and weights.
-struct Candidates {
-    of_side: [Vec<Candidate>; 2],
-    /// Kinematic weight that every accepted node sees, by side and candidate.
-    accepted: [Vec<bool>; 2],
-    ranks: [usize; 2],
-}
-
-struct Candidate {
-    class: Option<Class>,
-    corners: [u32; 4],
-    weights: [f64; 4],
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Class {
-    AlreadyKinematic,
-    EdgeInside,
-    Coarser,
-    Rest,
-}
-
-impl Candidates {
-    fn new(
-        configuration: &Configuration,
-        coverage: &[Vec<Coverage>; 2],
-        kinematic_n: &Kinematic,
-    ) -> Self {
-        let of_side = [0, 1].map(|side| {
-            (0..coverage[side].len())
-                .map(|node| {
-                    let was = kinematic_n[side].get(node).copied().unwrap_or(false);
-                    candidate(configuration, side, node, &coverage[side][node], was)
-                })
-                .collect::<Vec<_>>()
-        });
-        Self {
-            accepted: [0, 1].map(|side| vec![false; of_side[side].len()]),
-            of_side,
-            ranks: [0, 1].map(|side| configuration.pair.sides[side].rank),
-        }
-    }
-
-    fn accepted(mut self) -> Kinematic {
-        let order = if self.ranks[0] <= self.ranks[1] {
-            [0, 1]
-        } else {
-            [1, 0]
+/// Largest motion of one side relative to the other.
+fn approach(start: &Configuration, end: &Configuration) -> f64 {
+    let moves = |side: usize| -> [Vec3; 2] {
+        let (Some(from), Some(to)) = (&start.sides[side], &end.sides[side]) else {
+            let way = start.plane().zip(end.plane());
+            let way = way.map_or_else(Vec3::zeros, |((from, _), (to, _))| to - from);
+            return [way; 2];
         };
-        use Class::{AlreadyKinematic, Coarser, EdgeInside, Rest};
-        for class in [AlreadyKinematic, EdgeInside, Coarser, Rest] {
-            for side in order {
-                self.judge(side, class);
-            }
-        }
-        self.accepted
-    }
+        let mut moves = from.x.iter().zip(&to.x).map(|(from, to)| to - from);
+        let first = moves.next().unwrap_or_default();
+        moves.fold([first; 2], |[low, high], way| {
+            [low.inf(&way), high.sup(&way)]
+        })
+    };
+    let [a, b] = [moves(0), moves(1)];
+    let apart = (a[1] - b[0]).abs().sup(&(b[1] - a[0]).abs());
+    apart.norm()
+}
 
-    /// Accepts all members of a class on one side that keep the weights small.
-    fn judge(&mut self, side: usize, class: Class) {
-        let other = 1 - side;
-        let mut tentative = self.accepted[side].clone();
-        let mut entrants = Vec::new();
-        for (node, candidate) in self.of_side[side].iter().enumerate() {
-            if candidate.class == Some(class)
-                && kinematic_weight(candidate, &self.accepted[other]) <= LIMIT
-            {
-                tentative[node] = true;
-                entrants.push(node);
-            }
-        }
-        let mut refused = vec![false; tentative.len()];
-        for (node, candidate) in self.of_side[other].iter().enumerate() {
-            if self.accepted[other][node] && kinematic_weight(candidate, &tentative) > LIMIT {
-                for corner in 0..4 {
-                    if candidate.weights[corner] > WEIGHTLESS {
-                        refused[candidate.corners[corner] as usize] = true;
-                    }
+/// What a basis is chosen from, in one or two configurations.
+struct Gathered {
+    overlaps: Vec<Overlap>,
+    opposing: [Vec<Option<ClampedProjection>>; 2],
+}
+
+impl Gathered {
+    fn new(configuration: &Configuration, scope: Scope) -> Self {
+        let paired = paired_facets(configuration, scope, Derivatives::None, |_| true);
+        let paired = without_slivers(configuration, paired);
+        let mut near = [0, 1].map(|side| {
+            let count = configuration.sides[side].as_ref().map_or(0, |s| s.x.len());
+            vec![false; count]
+        });
+        for paired in &paired {
+            for corner in 0..8 {
+                if let Some((side, node)) = paired.node(configuration, corner) {
+                    near[side][node as usize] = true;
                 }
             }
         }
-        for node in entrants {
-            self.accepted[side][node] = !refused[node];
+        let opposing = [0, 1].map(|side| {
+            let nodes = near[side].iter().enumerate();
+            nodes
+                .map(|(node, near)| {
+                    near.then(|| clamped(configuration, side, node as u32))
+                        .flatten()
+                })
+                .collect()
+        });
+        let overlaps = paired.iter().map(|paired| Overlap {
+            corners: paired.corners,
+            mass: paired.segment.mass,
+        });
+        Self {
+            overlaps: overlaps.collect(),
+            opposing,
         }
     }
-}
 
-const LIMIT: f64 = 0.5 + 1e-9;
-const WEIGHTLESS: f64 = 1e-9;
+    /// Adds what comes near in a later configuration.
+    fn add(&mut self, later: Self) {
+        self.overlaps.extend(later.overlaps);
+        for (known, later) in self.opposing.iter_mut().zip(later.opposing) {
+            for (known, later) in known.iter_mut().zip(later) {
+                *known = known.or(later);
+            }
+        }
+    }
 
-fn kinematic_weight(candidate: &Candidate, kinematic: &[bool]) -> f64 {
-    (0..4)
-        .filter(|&corner| kinematic[candidate.corners[corner] as usize])
-        .map(|corner| candidate.weights[corner])
-        .sum()
-}
-
-fn candidate(
-    configuration: &Configuration,
-    side: usize,
-    node: usize,
-    coverage: &Coverage,
-    was_kinematic: bool,
-) -> Candidate {
-    let nothing = Candidate {
-        class: None,
-        corners: [0; 4],
-        weights: [0.0; 4],
-    };
-    let Coverage::Near(contact) = coverage else {
-        return nothing;
-    };
-    let (Some((corners, weights)), Place::Facet(hit)) =
-        (contact.place.weights(configuration, side), contact.place)
-    else {
-        return nothing;
-    };
-    let (own, other) = (configuration.side(side), configuration.side(1 - side));
-    let opposite_size: f64 = (0..4)
-        .map(|c| other.sizes[corners[c] as usize] * weights[c])
-        .sum();
-    let on_opposite_boundary = on_boundary(configuration, 1 - side, hit.facet, hit.xi, hit.eta);
-    let class = if was_kinematic {
-        Class::AlreadyKinematic
-    } else if own.surface.is_on_boundary(node as u32) && !on_opposite_boundary {
-        Class::EdgeInside
-    } else if own.sizes[node] > opposite_size * (1.0 + 1e-6) {
-        Class::Coarser
-    } else {
-        Class::Rest
-    };
-    Candidate {
-        class: Some(class),
-        corners,
-        weights,
+    fn basis(&self, configuration: &Configuration, kept: &Kept) -> TractionBasis {
+        let nodes = [0, 1].map(|side| surface_nodes(configuration, side, &kept[side]));
+        let whole = if configuration.pair.is_rigid() {
+            whole_facets(configuration)
+        } else {
+            Vec::new()
+        };
+        TractionBasis::new(&Interface {
+            nodes: [&nodes[0], &nodes[1]],
+            overlaps: &self.overlaps,
+            opposing: [&self.opposing[0], &self.opposing[1]],
+            opponent: if configuration.pair.is_rigid() {
+                Opponent::Rigid { whole: &whole }
+            } else {
+                Opponent::Deformable
+            },
+        })
     }
 }
 
-/// Whether a point of a facet lies on an edge of the surface.
-fn on_boundary(
-    configuration: &Configuration,
-    side: usize,
-    facet: FacetId,
-    xi: f64,
-    eta: f64,
-) -> bool {
-    let snapshot = configuration.side(side);
-    let corners = snapshot.corners(facet);
-    let weights = Shape::of(&corners).weights(xi, eta).value;
-    snapshot
-        .surface
-        .boundary_edges()
-        .iter()
-        .filter(|edge| edge.facet == facet)
-        .any(|edge| {
-            let off_edge: f64 = (0..4)
-                .filter(|&corner| !edge.nodes.contains(&corners[corner]))
-                .map(|corner| weights[corner].abs())
-                .sum();
-            off_edge < 1e-6
+/// Paired facets without patches that share next to no area.
+fn without_slivers(configuration: &Configuration, paired: Vec<PairedFacets>) -> Vec<PairedFacets> {
+    let is_sliver = |paired: &PairedFacets| {
+        let size = |corners: &[u32; 4], side: usize| {
+            let sizes = &configuration.side(side).sizes;
+            corners
+                .iter()
+                .map(|&node| sizes[node as usize])
+                .fold(0.0, f64::max)
+        };
+        let size = size(&paired.corners[0], 0);
+        paired.segment.area < SLIVER * size * size
+    };
+    if paired.iter().all(is_sliver) {
+        Vec::new()
+    } else {
+        paired
+    }
+}
+
+/// Corners and weights at the projection of a node, clamped to the other side.
+fn clamped(configuration: &Configuration, side: usize, node: u32) -> Option<ClampedProjection> {
+    let (contact, _) = configuration.opposite(side, node)?;
+    match contact.place {
+        Place::Facet(hit) if !configuration.pair.is_rigid() => {
+            let corners = configuration.side(1 - side).corners(hit.facet);
+            let weights = Shape::of(&corners).weights(hit.xi, hit.eta).value;
+            let weights = weights.map(|weight| weight.max(0.0));
+            let sum: f64 = weights.iter().sum();
+            Some((corners, weights.map(|weight| weight / sum)))
+        }
+        _ => None,
+    }
+}
+
+fn surface_nodes(configuration: &Configuration, side: usize, kept: &[bool]) -> Vec<SurfaceNode> {
+    let Some(snapshot) = &configuration.sides[side] else {
+        return Vec::new();
+    };
+    if side == 1 && configuration.pair.is_rigid() {
+        return Vec::new();
+    }
+    let modulus = configuration.pair.sides[side].stiffness;
+    let nodes = snapshot.x.iter().zip(&snapshot.sizes).enumerate();
+    nodes
+        .map(|(node, (position, size))| SurfaceNode {
+            position: *position,
+            flexibility: size / modulus,
+            compliance: 1.0 / (modulus * size),
+            last: if kept.get(node) == Some(&true) {
+                LastIncrement::Kept
+            } else {
+                LastIncrement::NotKept
+            },
         })
+        .collect()
+}
+
+/// Masses of the facets of side `a` as if they were covered wholly.
+fn whole_facets(configuration: &Configuration) -> Vec<FacetMass> {
+    let own = configuration.side(0);
+    (0..own.surface.facets().len())
+        .filter_map(|facet| {
+            let facet = FacetId::new(facet);
+            let corners = own.corners(facet);
+            let x = own.corner_positions(facet);
+            let shape = Shape::of(&corners);
+            let n = normal(&x, shape);
+            let segment = plane_segment(&Facet { corners: x, shape }, &-n, Derivatives::None)?;
+            let mass = std::array::from_fn(|c| std::array::from_fn(|d| segment.mass[c][d]));
+            Some(FacetMass { corners, mass })
+        })
+        .collect()
+}
+
+fn normal(x: &[Vec3; 4], shape: Shape) -> Vec3 {
+    match shape {
+        Shape::Triangle => (x[1] - x[0]).cross(&(x[2] - x[0])),
+        Shape::Quadrilateral => (x[2] - x[0]).cross(&(x[3] - x[1])),
+    }
+    .normalize()
+}
+
+/// What is opposite to the kept nodes, where rows are collocated.
+fn partners(configuration: &Configuration, basis: &TractionBasis) -> Vec<Option<Partner>> {
+    if configuration.pair.enforcement == Enforcement::Weighted {
+        return vec![None; basis.kept.len()];
+    }
+    let partner = |kept: &KeptNode| {
+        let (contact, _) = configuration.opposite(kept.side, kept.node)?;
+        match contact.place.weights(configuration, kept.side) {
+            Some((corners, weights)) if !configuration.pair.is_rigid() => {
+                Some(Partner::Corners(corners, weights))
+            }
+            _ => {
+                let point = contact.place.point(configuration, kept.side);
+                Some(Partner::Rigid(configuration.placement.back(&point)))
+            }
+        }
+    };
+    basis.kept.iter().map(partner).collect()
 }

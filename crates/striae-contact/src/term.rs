@@ -33,20 +33,19 @@ pub enum Field {
     Gap(f64),
     /// No slip; the scale is the local facet size.
     Stick(f64),
-    /// Equality of stresses: an open node, the slip law, balance with the other side.
+    /// Equality of stresses: an open node, the slip law.
     Traction,
-    /// Balance of resultants of a patch.
-    Resultant,
-    /// A quantity without unit.
-    Number,
 }
 
 /// A row: the equation it belongs to, what it states and its residual.
 pub type Row = (u32, Field, f64);
 
 /// Derivatives of a vector: `(first unknown of a triple, d vector / d triple)`. Unknowns of
-/// contact come in [triples](crate::unknown): positions, tractions, halves of a balance.
+/// contact come in [triples](crate::unknown): positions and tractions.
 pub type Jacobian = Vec<(u32, Matrix3<f64>)>;
+
+/// Derivatives of a scalar: `(first unknown of a triple, d scalar / d triple)`.
+pub type Gradient = Vec<(u32, Vec3)>;
 
 /// Where lanes come from.
 #[derive(Clone, Copy, Debug)]
@@ -60,6 +59,8 @@ pub enum Source<'a> {
     },
     /// An intermediate vector, three lanes.
     Vector(&'a Jacobian),
+    /// An intermediate scalar, one lane.
+    Scalar(&'a Gradient),
     /// Lanes that stay constant.
     Constant(usize),
 }
@@ -90,6 +91,7 @@ impl<'a> Lanes<'a> {
                         .for_each(&mut add);
                 }
                 Source::Vector(jacobian) => jacobian.iter().for_each(|entry| add(entry.0)),
+                Source::Scalar(gradient) => gradient.iter().for_each(|entry| add(entry.0)),
                 Source::Constant(_) => {}
             }
         }
@@ -126,6 +128,16 @@ impl<'a> Lanes<'a> {
                         }
                     }
                     lane += 3;
+                }
+                Source::Scalar(slopes) => {
+                    for (first, slope) in slopes.iter() {
+                        let at = position(*first);
+                        for (column, slope) in columns[at..].iter_mut().zip(slope) {
+                            let rows = column.iter_mut().zip(&gradient[lane]);
+                            rows.for_each(|(row, by_lane)| *row += by_lane * slope);
+                        }
+                    }
+                    lane += 1;
                 }
                 Source::Constant(count) => lane += count,
             }

@@ -15,6 +15,7 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::DualSVec64;
 use rayon::prelude::*;
 use striae_law::friction::RequiredTextures;
+use striae_mesh::Vec3;
 use striae_surface::{
     facet::Shape,
     scalar::{constant3, dot, normalised, scaled},
@@ -24,11 +25,11 @@ use striae_surface::{
 
 use crate::{
     configuration::Configuration,
-    coverage::Place,
-    frame::{FOLLOW, Frame, Frames, Tracked},
+    coverage::{Found, Place},
+    frame::{Frame, Frames, Tracked, own_normal},
     opposing::{Opposing, PlaceLanes},
-    projection::{Hit, Margin, differentiated_rigid},
-    selection::{Role, Selection},
+    projection::{Hit, differentiated_rigid},
+    selection::Selection,
     term::{Jacobian, Lanes, Source, parts, variable3},
     transported::Transported,
 };
@@ -51,7 +52,7 @@ pub struct NodeTextures {
     pub opposite: Option<Tracked>,
 }
 
-/// Textures of all kinematic nodes, by side; empty where the law needs none.
+/// Textures of all kept nodes, by side; empty where the law needs none.
 pub type Textures = [Vec<NodeTextures>; 2];
 
 /// A texture without direction at a node.
@@ -73,15 +74,14 @@ pub fn textures(
     frames: &Frames,
 ) -> Result<Textures, CollapsedTexture> {
     if configuration.pair.friction.required_textures() == RequiredTextures::Any {
-        return Ok([0, 1].map(|side| vec![NodeTextures::default(); selection.roles[side].len()]));
+        return Ok([0, 1].map(|side| vec![NodeTextures::default(); selection.nodes(side)]));
     }
     let of_side = |side: usize| -> Result<Vec<NodeTextures>, CollapsedTexture> {
-        let roles = &selection.roles[side];
-        let found: Vec<_> = (0..roles.len())
+        let found: Vec<_> = (0..selection.nodes(side))
             .into_par_iter()
             .with_min_len(8)
-            .map(|node| match (&roles[node], &frames[side][node]) {
-                (Role::Kinematic(_), Some(frame)) => Ok(NodeTextures {
+            .map(|node| match &frames[side][node] {
+                Some(frame) if selection.is_kept(side, node as u32) => Ok(NodeTextures {
                     own: own(configuration, side, node as u32, &frame.n)?,
                     opposite: opposite(configuration, side, node as u32, frame, frames)?,
                 }),
@@ -140,8 +140,7 @@ fn opposite(
     let Some(texture) = &configuration.pair.sides[1 - side].texture else {
         return Ok(None);
     };
-    let reach = FOLLOW * configuration.reach(side, node);
-    let Some(contact) = configuration.contact(side, node, reach, Margin::Extrapolated) else {
+    let Some((contact, found)) = configuration.opposite(side, node) else {
         return Err(collapsed);
     };
     match (texture, contact.place) {
@@ -149,10 +148,10 @@ fn opposite(
             .ok_or(collapsed)
             .map(Some),
         (SideTexture::Nodal(_), Place::Facet(hit)) if configuration.pair.is_rigid() => {
-            on_rigid(configuration, node, &hit).map(Some)
+            on_rigid(configuration, node, &hit, found).map(Some)
         }
         (SideTexture::Nodal(_), Place::Facet(hit)) => {
-            on_deformable(configuration, side, node, frame, frames, &hit).map(Some)
+            on_deformable(configuration, side, node, frame, frames, (&hit, found)).map(Some)
         }
         _ => Err(collapsed),
     }
@@ -184,11 +183,26 @@ fn on_rigid(
     configuration: &Configuration,
     node: u32,
     hit: &Hit,
+    found: Found,
 ) -> Result<Tracked, CollapsedTexture> {
     let target = configuration.side(1);
     let corners = target.corners(hit.facet);
     let x: Vector3<DualSVec64<3>> = variable3(&configuration.side(0).x[node as usize], 0);
-    let ([xi, eta, _], normal) = differentiated_rigid(target, hit, &x);
+    let (xi, eta, normal) = match found {
+        Found::Inside => {
+            let ([xi, eta, _], normal) = differentiated_rigid(target, hit, &x);
+            (xi, eta, normal)
+        }
+        // The nearest place of an edge is taken as it is.
+        Found::Edge => {
+            let [xi, eta] = [hit.xi, hit.eta].map(DualSVec64::from_re);
+            let weights = Shape::of(&corners).weights(hit.xi, hit.eta).value;
+            let sum: Vec3 = (0..4)
+                .map(|c| target.normals[corners[c] as usize] * weights[c])
+                .sum();
+            (xi, eta, constant3(&sum.normalize()))
+        }
+    };
     let weights = Shape::of(&corners).weights(xi, eta).value;
     let mut sum: Vector3<DualSVec64<3>> = Vector3::zeros();
     for corner in 0..4 {
@@ -224,17 +238,14 @@ fn on_deformable(
     node: u32,
     frame: &Frame,
     frames: &Frames,
-    hit: &Hit,
+    (hit, found): (&Hit, Found),
 ) -> Result<Tracked, CollapsedTexture> {
     let other = configuration.side(1 - side);
     let numbering = configuration.pair.numbering();
     let corners = other.corners(hit.facet);
     let normals = corners.map(|corner| match &frames[1 - side][corner as usize] {
         Some(frame) => frame.n.clone(),
-        None => Tracked {
-            value: other.normals[corner as usize],
-            jacobian: Jacobian::new(),
-        },
+        None => own_normal(configuration, 1 - side, corner),
     });
     let mut a = Vec::with_capacity(4);
     for (corner, n) in corners.iter().zip(&normals) {
@@ -273,7 +284,10 @@ fn on_deformable(
         n: 3,
         corners: 6,
     };
-    opposing.spread(&by_r, place, &mut gradient);
+    // The nearest place of an edge is taken as it is.
+    if found == Found::Inside {
+        opposing.spread(&by_r, place, &mut gradient);
+    }
     Ok(Tracked {
         value,
         jacobian: lanes.jacobian(&gradient),

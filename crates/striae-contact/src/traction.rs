@@ -1,7 +1,7 @@
 //! Nodal friction tractions `tau` from the unknowns, with their derivatives.
 //!
-//! At kinematic nodes `tau = -(L z + varpi eta)`, or what else the law makes of `z`, with `varpi` at the present slip
-//! rate; elsewhere the unknowns are the components of `tau` itself.
+//! At kept nodes `tau = -(L z + varpi eta)`, or what else the law makes of `z`, with `varpi`
+//! at the present slip rate.
 
 use nalgebra::{Matrix3, Vector3};
 use num_dual::DualSVec64;
@@ -13,14 +13,15 @@ use striae_surface::scalar::constant3;
 use crate::{
     configuration::Configuration,
     frame::{Frame, Frames, Tracked},
-    selection::{Role, Selection},
+    selection::Selection,
     slip_rate::SlipVelocities,
     term::{Lanes, Source, add_block, gradient, parts, variable, variable3},
     texture::{NodeTextures, Textures},
     unknowns::Tractions,
 };
 
-/// Nodal friction tractions by side; zero at idle nodes.
+/// Nodal friction tractions by side; zero without derivatives at nodes that are not kept
+/// and without friction.
 pub type NodalTractions = [Vec<Tracked>; 2];
 
 /// What tractions depend on at every node.
@@ -34,28 +35,30 @@ pub struct Surroundings<'a> {
     pub velocities: &'a SlipVelocities,
 }
 
-/// Friction tractions of all nodes.
+/// Friction tractions of all kept nodes.
 pub fn nodal_tractions(
     configuration: &Configuration,
     selection: &Selection,
     surroundings: &Surroundings,
     tractions: &Tractions,
 ) -> NodalTractions {
+    let frictionless = configuration.pair.friction.cap(1.0, 0.0) == 0.0;
     [0, 1].map(|side| {
-        (0..selection.roles[side].len())
+        (0..selection.nodes(side))
             .into_par_iter()
             .with_min_len(16)
             .map(|node| match &surroundings.frames[side][node] {
-                Some(frame) => nodal_traction(
-                    configuration,
-                    &selection.roles[side][node],
-                    frame,
-                    &surroundings.textures[side][node],
-                    &surroundings.velocities[side][node],
-                    configuration.pair.numbering().traction(side, node as u32),
-                    tractions.nodes[side][node],
-                ),
-                None => Tracked::default(),
+                Some(frame) if selection.is_kept(side, node as u32) && !frictionless => {
+                    nodal_traction(
+                        configuration,
+                        frame,
+                        &surroundings.textures[side][node],
+                        &surroundings.velocities[side][node],
+                        configuration.pair.numbering().traction(side, node as u32),
+                        tractions.nodes[side][node],
+                    )
+                }
+                _ => Tracked::default(),
             })
             .collect()
     })
@@ -63,7 +66,6 @@ pub fn nodal_tractions(
 
 fn nodal_traction(
     configuration: &Configuration,
-    role: &Role,
     frame: &Frame,
     textures: &NodeTextures,
     velocity: &Tracked,
@@ -73,16 +75,12 @@ fn nodal_traction(
     let [t1, t2] = &frame.t;
     let [pressure, z1, z2] = unknowns;
     let vector = in_frame(frame, [z1, z2]);
-    let response = if matches!(role, Role::Kinematic(_)) {
-        let (friction, rate) = (&configuration.pair.friction, velocity.value.norm());
-        let cap = Cap::new(friction, pressure, rate);
-        if *textures == NodeTextures::default() {
-            Response::new::<4>(friction, frame, textures, cap, &vector)
-        } else {
-            Response::new::<13>(friction, frame, textures, cap, &vector)
-        }
+    let (friction, rate) = (&configuration.pair.friction, velocity.value.norm());
+    let cap = Cap::new(friction, pressure, rate);
+    let response = if *textures == NodeTextures::default() {
+        Response::new::<4>(friction, frame, textures, cap, &vector)
     } else {
-        Response::direct(vector)
+        Response::new::<13>(friction, frame, textures, cap, &vector)
     };
     let by_vector = response.by_vector;
     let mut gradient = [[0.0; 3]; 21];
@@ -150,17 +148,6 @@ struct Response {
 }
 
 impl Response {
-    /// `tau` is the vector itself.
-    fn direct(vector: Vec3) -> Self {
-        Self {
-            tau: vector,
-            by_vector: Matrix3::identity(),
-            by_pressure: Vec3::zeros(),
-            by_rate: Vec3::zeros(),
-            by_surroundings: [[0.0; 3]; 9],
-        }
-    }
-
     /// The law over `N` lanes: `z`, `varpi` and, if textures are looked at, the normal
     /// and the textures.
     fn new<const N: usize>(
@@ -215,12 +202,6 @@ pub fn push_textures<'a>(lanes: &mut Lanes<'a>, textures: &'a NodeTextures) {
             None => Source::Constant(3),
         });
     }
-}
-
-/// Components of `tau` that a node has when its role changes to or from kinematic:
-/// of `z` from `tau` for the isotropic part of the law, as a first guess.
-pub fn reinterpreted(unknowns: [f64; 3]) -> [f64; 3] {
-    [unknowns[0], -unknowns[1], -unknowns[2]]
 }
 
 /// `sum_axis component t_axis`.

@@ -1,8 +1,8 @@
 //! Pair-local numbering of the unknowns of one contact pair.
 //!
 //! ```text
-//! positions of side a | positions of side b | tractions of a | tractions of b | balance
-//! 3 a node            | 3 a node            | (p, z1, z2)    | (p, z1, z2)    | 6 a patch
+//! positions of side a | positions of side b | tractions of a | tractions of b
+//! 3 a node            | 3 a node            | (p, z1, z2)    | (p, z1, z2)
 //! ```
 //!
 //! Sides are numbered 0 (`a`) and 1 (`b`); the other side of `s` is `1 - s`.
@@ -35,13 +35,6 @@ pub enum Unknown {
         /// `0`: pressure, `1`, `2`: along the nodal tangents.
         component: usize,
     },
-    /// Balance unknown of a patch: `c`, then `omega` times the patch radius.
-    Balance {
-        /// The patch.
-        patch: usize,
-        /// Component, `0..6`.
-        component: usize,
-    },
 }
 
 impl Numbering {
@@ -62,21 +55,14 @@ impl Numbering {
         3 * (self.nodes[0] + self.nodes[1]) + self.position(side, node)
     }
 
-    /// First of the six balance unknowns of a patch.
-    pub fn balance(&self, patch: usize) -> u32 {
-        6 * (self.nodes[0] + self.nodes[1]) + 6 * patch as u32
+    /// Number of all unknowns.
+    pub fn count(&self) -> u32 {
+        6 * (self.nodes[0] + self.nodes[1])
     }
 
     /// What the unknown `number` is.
     pub fn unknown(&self, number: u32) -> Unknown {
         let count = self.nodes[0] + self.nodes[1];
-        if number >= 6 * count {
-            let rest = (number - 6 * count) as usize;
-            return Unknown::Balance {
-                patch: rest / 6,
-                component: rest % 6,
-            };
-        }
         let traction = number >= 3 * count;
         let within = if traction { number - 3 * count } else { number };
         let (node, component) = (within / 3, (within % 3) as usize);
@@ -119,13 +105,6 @@ mod tests {
                 side: 0,
                 node: 3,
                 component: 2
-            }
-        );
-        assert_eq!(
-            numbering.unknown(numbering.balance(2) + 5),
-            Unknown::Balance {
-                patch: 2,
-                component: 5
             }
         );
     }

@@ -5,12 +5,11 @@ use striae_mesh::Vec3;
 /// Traction unknowns of a pair; the same shape whatever the roles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tractions {
-    /// Pressure `p` and two tangential components of every node, by side. The
-    /// components are of `z` at kinematic nodes and of `tau` elsewhere, along
-    /// the nodal tangents.
+    /// Pressure `p` and the components of `z` along the nodal tangents, by side. Only those
+    /// of kept nodes are unknowns.
     pub nodes: [Vec<[f64; 3]>; 2],
-    /// `c` and `omega` times the patch radius of every patch.
-    pub balance: Vec<[f64; 6]>,
+    /// Components of the converged friction traction `tau_n` along the nodal tangents, by side.
+    pub tau_n: [Vec<[f64; 2]>; 2],
     /// Whether each node slipped in the last converged increment, by side.
     pub slipped: [Vec<bool>; 2],
     /// Status of each node in the last iteration, by side; open before the first.
@@ -24,8 +23,8 @@ impl Tractions {
         Self {
             nodes: nodes.map(|count| vec![[0.0; 3]; count]),
             slipped: nodes.map(|count| vec![false; count]),
+            tau_n: nodes.map(|count| vec![[0.0; 2]; count]),
             statuses: nodes.map(|count| vec![Status::Open; count]),
-            balance: Vec::new(),
         }
     }
 }
@@ -45,7 +44,7 @@ pub enum Status {
 /// What is known of a contact node in one configuration.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct NodeResult {
-    /// Gap to the other side.
+    /// Gap to the other side, as the contact rows see it.
     pub gap: f64,
     /// Pressure.
     pub pressure: f64,
@@ -57,6 +56,6 @@ pub struct NodeResult {
     pub normal: Vec3,
     /// Direction `s` of the node's own texture, zero without one.
     pub texture: Vec3,
-    /// Status; of traction nodes from their own traction.
+    /// Status; of transferred nodes that of the kept node they follow most.
     pub status: Status,
 }

@@ -4,7 +4,7 @@
 //! DIR/history.csv           a row an increment
 //! DIR/bodies.pvd            displacement, velocity in dynamic steps, Cauchy stress, von Mises stress
 //! DIR/contact.pvd           gap, pressure, tractions, slip, normal, texture `s`,
-//!                           structural vector `a = n x s`, status, role
+//!                           structural vector `a = n x s`, status, kept
 //! DIR/fields/*.vtu          what the collections list
 //! DIR/summary.json          how the run ended
 //! DIR/checkpoint.bin        where a run under way is, see [`crate::checkpoint`]
@@ -20,7 +20,7 @@ use std::{
     time::Instant,
 };
 
-use striae_contact::{selection::Role, unknowns::Status as ContactStatus};
+use striae_contact::unknowns::Status as ContactStatus;
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::{
     drive::Progress,
@@ -439,18 +439,9 @@ fn write_surface(
         ContactStatus::Stick => 1,
         ContactStatus::Slip => 2,
     });
-    let roles = state.pairs[pair]
-        .selection
-        .as_ref()
-        .map_or_else(Vec::new, |selection| {
-            let code = |role: &Role| match role {
-                Role::Idle => 0,
-                Role::Kinematic(_) => 1,
-                Role::Traction(_) => 2,
-                Role::Extended(_) => 3,
-            };
-            selection.roles[side].iter().map(code).collect()
-        });
+    let kept = state.pairs[pair].kept[side]
+        .iter()
+        .map(|kept| u8::from(*kept));
     let grid = Grid {
         points: &points,
         cells: Cells::Quadrilaterals(&quads),
@@ -470,7 +461,7 @@ fn write_surface(
                 vectors(|node| node.normal.cross(&node.texture)),
             ),
             Array::new("status", Values::Codes(status.collect())),
-            Array::new("role", Values::Codes(roles)),
+            Array::new("kept", Values::Codes(kept.collect())),
         ],
         cell_arrays: Vec::new(),
         time: state.time,

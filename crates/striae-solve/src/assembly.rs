@@ -18,8 +18,9 @@ pub use start::initial_accelerations;
 use striae_contact::{
     complementarity::Iteration,
     configuration::Configuration,
-    evaluation::{Evaluation, EvaluationError, evaluate},
+    evaluation::{Evaluation, evaluate},
     selection::Selection,
+    texture::CollapsedTexture,
     unknowns::Tractions,
 };
 use striae_linalg::{SparseMatrix, Supervariable};
@@ -27,7 +28,13 @@ use striae_mesh::{FacetId, Vec3};
 use terms::{Answer, Triple};
 use ties::{Moving, Tie};
 
-use crate::{layout::Layout, norms::Norms, outcome::CutBack, rigid::Pose, state::NodalForces};
+use crate::{
+    layout::Layout,
+    norms::Norms,
+    outcome::CutBack,
+    rigid::Pose,
+    state::{NodalForces, State},
+};
 
 /// A state that is not converged.
 #[derive(Clone, Debug)]
@@ -45,6 +52,8 @@ pub struct Trial {
 pub struct Setting<'a> {
     /// What does not change within the step.
     pub context: &'a StepContext<'a>,
+    /// The last converged state.
+    pub state: &'a State,
     /// Roles of every pair.
     pub selections: &'a [Selection],
     /// What is imposed at the end of the increment.
@@ -116,10 +125,10 @@ fn on_this_thread(
     let contacts = match contact {
         Contact::Known(contacts) => contacts,
         Contact::Evaluated(iteration) => {
-            system.contacts(&configurations, setting.selections, trial, iteration)?
+            system.contacts(&configurations, setting, trial, iteration)?
         }
     };
-    system.add_contacts(&configurations, setting.selections, &contacts);
+    system.add_contacts(&configurations, &contacts);
     if !system.outside.is_empty() {
         return Err(Fault::Pattern(system.outside));
     }
@@ -130,7 +139,7 @@ fn on_this_thread(
     system.carried(imposed);
     let background = system.with_contact(&of_contact);
     system.condense(imposed);
-    let norms = system.norms(setting.selections, trial, &contacts);
+    let norms = system.norms(trial, &contacts);
     system.idle(setting.selections);
     system.prescribe(trial, imposed);
     system.prescribe_rigid(trial, imposed);
@@ -214,15 +223,20 @@ impl System<'_> {
     fn contacts(
         &self,
         configurations: &[Configuration],
-        selections: &[Selection],
+        setting: &Setting,
         trial: &Trial,
         iteration: Iteration,
     ) -> Result<Vec<Evaluation>, Fault> {
         let mut contacts = Vec::with_capacity(configurations.len());
         for (pair, configuration) in configurations.iter().enumerate() {
+            let state = setting.state;
+            let start = self
+                .context
+                .configuration(pair, &state.positions, &state.rigid);
             let evaluation = evaluate(
                 configuration,
-                &selections[pair],
+                &start,
+                &setting.selections[pair],
                 &trial.tractions[pair],
                 &self.context.fixed_on_pair[pair],
                 iteration,
@@ -234,15 +248,9 @@ impl System<'_> {
     }
 
     /// Adds contact to the system; what is outside the pattern is noted.
-    fn add_contacts(
-        &mut self,
-        configurations: &[Configuration],
-        selections: &[Selection],
-        contacts: &[Evaluation],
-    ) {
+    fn add_contacts(&mut self, configurations: &[Configuration], contacts: &[Evaluation]) {
         for (pair, evaluation) in contacts.iter().enumerate() {
-            let patches = selections[pair].patches.len();
-            self.find_triples(pair, &configurations[pair], patches);
+            self.find_triples(pair, &configurations[pair]);
             for term in &evaluation.terms {
                 self.add_term(pair, term, Answer::Opposite);
             }
@@ -254,19 +262,15 @@ impl System<'_> {
         }
     }
 
-    fn not_evaluated(&self, pair: usize, error: EvaluationError) -> CutBack {
+    fn not_evaluated(&self, pair: usize, collapsed: CollapsedTexture) -> CutBack {
         let problem = self.context.problem;
-        let (side, node) = match error {
-            EvaluationError::Lost(lost) => (lost.side, lost.node),
-            EvaluationError::Collapsed(collapsed) => (collapsed.side, collapsed.node),
-        };
+        let CollapsedTexture { side, node } = collapsed;
         let global = problem.surface_node(pair, side, node).unwrap_or(0);
         let (body, node) = problem.body_node(global);
-        let pair = problem.model.pairs[pair].name.clone();
-        let body = problem.model.bodies[body].name.clone();
-        match error {
-            EvaluationError::Lost(_) => CutBack::LostProjection { pair, body, node },
-            EvaluationError::Collapsed(_) => CutBack::CollapsedTexture { pair, body, node },
+        CutBack::CollapsedTexture {
+            pair: problem.model.pairs[pair].name.clone(),
+            body: problem.model.bodies[body].name.clone(),
+            node,
         }
     }
 
@@ -288,21 +292,17 @@ impl System<'_> {
         owners
     }
 
-    /// Holds traction unknowns of idle nodes and of vanished patches at zero.
+    /// Holds traction unknowns of nodes that are not kept any more at zero.
     fn idle(&mut self, selections: &[Selection]) {
         for (pair, selection) in selections.iter().enumerate() {
             for side in 0..2 {
-                for node in 0..selection.roles[side].len() {
-                    if !selection.is_active(side, node as u32)
+                for node in 0..selection.nodes(side) {
+                    if !selection.is_kept(side, node as u32)
                         && let Some(first) = self.layout.traction(pair, side, node)
                     {
                         (first..first + 3).for_each(|unknown| self.hold(unknown, 0.0, 1.0));
                     }
                 }
-            }
-            for patch in selection.patches.len()..self.layout.patch_count(pair) {
-                let first = self.layout.balance(pair, patch);
-                (first..first + 6).for_each(|unknown| self.hold(unknown, 0.0, 1.0));
             }
         }
     }

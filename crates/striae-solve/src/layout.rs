@@ -2,22 +2,19 @@
 //!
 //! A node with its three position components and three traction unknowns for
 //! every contact surface it is active on is one supervariable, so that the
-//! factorisation meets gap rows and their multipliers together. The six balance
-//! unknowns of a patch are another one, kept for last, as are the six coordinates
-//! of a rigid body that nodes are tied to or that contact may move.
+//! factorisation meets gap rows and their multipliers together. The six coordinates of a
+//! rigid body that nodes are tied to or that contact may move are another one, kept for last.
 
-use striae_contact::unknown::Unknown;
+use striae_contact::{selection::Selection, unknown::Unknown};
 use striae_linalg::{Supervariable, Tier};
 
-use crate::{problem::Problem, state::PairState};
+use crate::problem::Problem;
 
-/// Which surface nodes have traction unknowns, and how many patches there are.
+/// Which surface nodes have traction unknowns.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Extent {
     /// By pair and side.
     pub nodes: Vec<[Vec<bool>; 2]>,
-    /// By pair.
-    pub patches: Vec<usize>,
 }
 
 /// Numbers of all unknowns.
@@ -27,31 +24,24 @@ pub struct Layout {
     nodes: usize,
     /// First traction unknown by pair, side and surface node.
     tractions: Vec<[Vec<Option<usize>>; 2]>,
-    /// First supervariable of the patches of each pair.
-    patches: Vec<usize>,
     /// Supervariable of every rigid body whose coordinates are unknowns.
     rigids: Vec<Option<usize>>,
     extent: Extent,
 }
 
 impl Extent {
-    /// This extent and the roles of `pairs` together.
-    pub fn with(&self, pairs: &[PairState]) -> Self {
+    /// This extent and the kept nodes of all pairs together.
+    pub fn with(&self, selections: &[Selection]) -> Self {
         let mut grown = self.clone();
-        grown.nodes.resize_with(pairs.len(), Default::default);
-        grown.patches.resize(pairs.len(), 0);
-        for (pair, state) in pairs.iter().enumerate() {
-            let Some(selection) = &state.selection else {
-                continue;
-            };
-            for side in 0..2 {
-                let count = selection.roles[side].len();
-                grown.nodes[pair][side].resize(count, false);
-                for node in 0..count {
-                    grown.nodes[pair][side][node] |= selection.is_active(side, node as u32);
-                }
+        grown.nodes.resize_with(selections.len(), Default::default);
+        for (of_pair, selection) in grown.nodes.iter_mut().zip(selections) {
+            for (side, of_side) in of_pair.iter_mut().enumerate() {
+                of_side.resize(selection.nodes(side), false);
             }
-            grown.patches[pair] = grown.patches[pair].max(selection.patches.len());
+            for kept in selection.kept() {
+                let (side, node) = kept.place();
+                of_pair[side][node] = true;
+            }
         }
         grown
     }
@@ -77,11 +67,6 @@ impl Layout {
                     .collect::<Vec<_>>()
             }));
         }
-        let mut patches = Vec::with_capacity(extent.patches.len());
-        for count in &extent.patches {
-            patches.push(sizes.len());
-            sizes.extend(std::iter::repeat_n(6, *count));
-        }
         let rigids = (0..problem.tied.len()).map(|rigid| {
             problem.has_coordinates(rigid).then(|| {
                 sizes.push(6);
@@ -102,7 +87,6 @@ impl Layout {
             offsets,
             nodes,
             tractions,
-            patches,
             rigids,
             extent,
         }
@@ -123,7 +107,7 @@ impl Layout {
         self.offsets[self.offsets.len() - 1]
     }
 
-    /// Elimination tiers: patches and rigid bodies last.
+    /// Elimination tiers: rigid bodies last.
     pub fn tiers(&self) -> Vec<Tier> {
         let tier = |at: usize| Tier(u32::from(at >= self.nodes));
         (0..self.offsets.len() - 1).map(tier).collect()
@@ -135,7 +119,7 @@ impl Layout {
         (0..self.offsets.len() - 1).map(positions).collect()
     }
 
-    /// Reference position of every supervariable; those of patches and rigid bodies have none.
+    /// Reference position of every supervariable; those of rigid bodies have none.
     pub fn points(&self, problem: &Problem) -> Vec<[f64; 3]> {
         let mut points = vec![[0.0; 3]; self.offsets.len() - 1];
         for (point, position) in points.iter_mut().zip(&problem.reference) {
@@ -180,16 +164,6 @@ impl Layout {
         self.tractions[pair][side].get(node).copied().flatten()
     }
 
-    /// First balance unknown of a patch.
-    pub fn balance(&self, pair: usize, patch: usize) -> usize {
-        self.offsets[self.patches[pair] + patch]
-    }
-
-    /// Number of patches of a pair that have unknowns.
-    pub fn patch_count(&self, pair: usize) -> usize {
-        self.extent.patches[pair]
-    }
-
     /// Global number of a pair-local unknown and its supervariable.
     pub fn global(
         &self,
@@ -210,13 +184,6 @@ impl Layout {
                 let first = self.traction(pair, side, node as usize)?;
                 let node = problem.surface_node(pair, side, node)?;
                 Some((first + component, Supervariable(node)))
-            }
-            Unknown::Balance { patch, component } => {
-                let supervariable = self.patches[pair] + patch;
-                Some((
-                    self.offsets[supervariable] + component,
-                    Supervariable(supervariable),
-                ))
             }
         }
     }

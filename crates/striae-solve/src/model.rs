@@ -5,6 +5,7 @@
 //! Longer than other files, as it is the one list of all that a model can say.
 
 use nalgebra::Matrix3;
+pub use striae_contact::pair::Enforcement;
 use striae_law::{bulk::Material, friction::Friction};
 use striae_mesh::{Face, Mesh, NodeId, Vec3};
 use striae_surface::texture::Paint;
@@ -164,19 +165,10 @@ pub struct Pair {
     pub textures: [Option<Paint>; 2],
     /// Friction from the start; steps may change it.
     pub friction: Friction,
-    /// Whether resultants of the two sides are made to balance.
-    pub balance: Balance,
-    /// Largest distance over which contact is looked for; `None`: half the local facet size.
+    /// How contact is enforced.
+    pub enforcement: Enforcement,
+    /// Distance over which contact is looked for ahead; `None`: half the local facet size.
     pub search_distance: Option<f64>,
-}
-
-/// Treatment of the difference between the resultants of the two sides.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Balance {
-    /// Six more unknowns a contact patch make forces and moments balance.
-    Resultants,
-    /// The plain interpolated fields.
-    None,
 }
 
 /// A part of the loading history.

@@ -10,6 +10,7 @@ mod cycling;
 mod energy;
 mod failure;
 mod rest;
+mod selected;
 mod work;
 mod workspace;
 
@@ -19,28 +20,28 @@ pub use workspace::{Memory, Workspace};
 use striae_contact::{
     complementarity::Iteration,
     evaluation::Evaluation,
-    selection::{Role, Selection},
+    selection::Selection,
     table_1::{Corrector, Inflation},
-    traction::reinterpreted,
-    unknowns::{NodeResult, Status, Tractions},
+    unknowns::{NodeResult, Tractions},
 };
 use striae_linalg::REDUCTION;
 pub use striae_linalg::{Analysis, Experience, FactoredInterior};
 use striae_mesh::Vec3;
 
 use crate::{
-    assembly::{Assembled, Setting, StepContext, Trial},
+    assembly::{Assembled, Imposed, Setting, StepContext, Trial},
     layout::Layout,
     model::Strategy,
     norms::Norms,
     outcome::CutBack,
     problem::Problem,
-    state::{NodalForces, PairState, State},
+    state::{NodalForces, State},
 };
 use acceptance::accepted;
 use cycling::History;
 use failure::{linear_system, missed};
 use rest::contact_at_rest;
+use selected::{Selected, reselected, selected};
 use workspace::SystemStorage;
 
 /// A converged increment.
@@ -113,16 +114,20 @@ pub fn forces_at_start(
     state: &State,
     workspace: &mut Workspace,
 ) -> Result<NodalForces, CutBack> {
-    let (selections, pairs) = selected(context, state);
-    workspace.prepare(context.problem, &pairs);
+    let Selected {
+        selections,
+        tractions,
+    } = selected(context, state);
+    workspace.prepare(context.problem, &selections);
     let trial = Trial {
         positions: state.positions.clone(),
-        tractions: pairs.iter().map(|pair| pair.tractions.clone()).collect(),
+        tractions,
         rigid: state.rigid.clone(),
     };
     let imposed = context.imposed(0.0);
     let setting = Setting {
         context,
+        state,
         selections: &selections,
         imposed: &imposed,
     };
@@ -143,91 +148,206 @@ pub fn advance(
     observer: &mut dyn IterationObserver,
 ) -> Result<Increment, CutBack> {
     let imposed = context.imposed_after(state, s, time);
-    let (selections, pairs) = selected(context, state);
-    workspace.prepare(context.problem, &pairs);
+    let Selected {
+        selections,
+        tractions,
+    } = selected(context, state);
+    workspace.prepare(context.problem, &selections);
     workspace.take_work();
-    let mut trial = Trial {
+    let trial = Trial {
         positions: state.positions.clone(),
-        tractions: pairs.iter().map(|pair| pair.tractions.clone()).collect(),
+        tractions,
         rigid: workspace.first_poses(&imposed),
     };
-    let setting = Setting {
+    let mut attempt = Attempt {
         context,
-        selections: &selections,
+        state,
         imposed: &imposed,
+        selections,
+        trial,
+        iterations: Vec::new(),
+        history: History::default(),
+        inflation: Inflation::default(),
     };
-    let solver = &context.problem.model.solver;
-    let mut iterations: Vec<Norms> = Vec::new();
-    let mut history = History::default();
-    let mut inflation = Inflation::default();
-    let mut further = solver.further_iterations;
-    let mut assembled = workspace.assemble(&setting, &trial, Iteration::First)?;
-    for number in 1.. {
-        let before = iterations.last().map(Norms::largest);
-        let correction = workspace
-            .correction(&assembled.residual, part(before, solver.tolerance))
-            .map_err(|error| linear_system(context.problem, &workspace.system().layout, error))?;
-        let iteration = later(solver.strategy, inflation);
-        let at_rest = match iteration {
-            Iteration::Later => {
-                let at = (&trial, &assembled);
-                contact_at_rest(workspace, &setting, at, &correction, before)
-            }
-            Iteration::First | Iteration::Corrected(_) => None,
+    let mut assembled = workspace.assemble(&attempt.setting(), &attempt.trial, Iteration::First)?;
+    for repetition in 0.. {
+        assembled = attempt.converge(assembled, workspace, observer)?;
+        let Some(missed) = missed(context, &attempt.selections, &attempt.trial) else {
+            break;
         };
-        let taken;
-        (trial, assembled, taken) = match at_rest {
-            Some((trial, assembled)) => (trial, assembled, Taken::Whole),
-            None => {
-                labelled(&mut trial, &assembled.contacts);
-                step(workspace, &setting, &trial, iteration, &correction)?
-            }
-        };
-        let norms = assembled.norms;
-        iterations.push(norms);
-        history.push(&assembled.contacts);
-        observer.iteration(number, &norms, &assembled.contacts);
-        // A part of a correction leaves prescribed displacements on their way.
-        let settled = taken == Taken::Whole && is_final(iteration);
-        if norms.largest() <= solver.tolerance && settled {
-            if further == 0 {
-                break;
-            }
-            further -= 1;
+        if repetition == REPETITIONS {
+            return Err(missed);
         }
-        inflation = inflation.after(norms.gap);
-        if !norms.largest().is_finite() || norms.force > 1e8 {
-            return Err(CutBack::Diverged {
-                iteration: number,
-                norms,
-            });
-        }
-        if number >= solver.largest_iterations {
-            return Err(CutBack::NoConvergence {
-                iterations: number,
-                norms,
-                cycling: history.cycling(context.problem, &selections),
-            });
-        }
-    }
-    if let Some(missed) = missed(context, &selections, &trial) {
-        return Err(missed);
+        let found = reselected(&attempt.setting(), &attempt.trial, &assembled.contacts);
+        assembled = attempt.taken_up(found, workspace)?;
     }
     let work = workspace.take_work();
+    let Attempt {
+        selections,
+        trial,
+        iterations,
+        ..
+    } = attempt;
     let system = workspace.system();
     Ok(Increment {
         work,
         unknowns: system.layout.unknowns(),
         peak_bytes: system.analysis.peak_bytes,
-        state: accepted(context, state, time, trial, imposed, selections, assembled),
+        state: accepted(
+            context,
+            state,
+            time,
+            trial,
+            imposed.clone(),
+            selections,
+            assembled,
+        ),
         iterations,
     })
 }
 
+/// How often an increment is solved again with nodes that it turned out to need.
+const REPETITIONS: usize = 3;
+
+/// An increment under way.
+struct Attempt<'a> {
+    context: &'a StepContext<'a>,
+    state: &'a State,
+    imposed: &'a Imposed,
+    selections: Vec<Selection>,
+    trial: Trial,
+    iterations: Vec<Norms>,
+    history: History,
+    inflation: Inflation,
+}
+
+impl Attempt<'_> {
+    fn setting(&self) -> Setting<'_> {
+        Setting {
+            context: self.context,
+            state: self.state,
+            selections: &self.selections,
+            imposed: self.imposed,
+        }
+    }
+
+    /// Iterates until the residual is small.
+    fn converge(
+        &mut self,
+        mut assembled: Assembled,
+        workspace: &mut Workspace,
+        observer: &mut dyn IterationObserver,
+    ) -> Result<Assembled, CutBack> {
+        let solver = &self.context.problem.model.solver;
+        let mut further = solver.further_iterations;
+        loop {
+            let before = self.iterations.last().map(Norms::largest);
+            let number = self.iterations.len() + 1;
+            let iteration = later(solver.strategy, self.inflation, number);
+            let taken;
+            (assembled, taken) = self.iterate(&assembled, before, iteration, workspace)?;
+            if let Some(selected) = self.refreshed(number, &assembled) {
+                assembled = self.taken_up(selected, workspace)?;
+            }
+            let norms = assembled.norms;
+            self.iterations.push(norms);
+            self.history.push(&assembled.contacts);
+            observer.iteration(number, &norms, &assembled.contacts);
+            // A part of a correction leaves prescribed displacements on their way.
+            let settled = taken == Taken::Whole && is_final(iteration);
+            if norms.largest() <= solver.tolerance && settled {
+                if further == 0 {
+                    return Ok(assembled);
+                }
+                further -= 1;
+            }
+            self.inflation = self.inflation.after(norms.gap);
+            self.judge(number, &norms)?;
+        }
+    }
+
+    /// One correction.
+    fn iterate(
+        &mut self,
+        assembled: &Assembled,
+        before: Option<f64>,
+        iteration: Iteration,
+        workspace: &mut Workspace,
+    ) -> Result<(Assembled, Taken), CutBack> {
+        let context = self.context;
+        let tolerance = context.problem.model.solver.tolerance;
+        let correction = workspace
+            .correction(&assembled.residual, part(before, tolerance))
+            .map_err(|error| linear_system(context.problem, &workspace.system().layout, error))?;
+        let at_rest = match iteration {
+            Iteration::Later { .. } => {
+                let at = (&self.trial, assembled);
+                contact_at_rest(workspace, &self.setting(), at, &correction, before)
+            }
+            Iteration::First | Iteration::Corrected(_) => None,
+        };
+        if let Some((trial, assembled)) = at_rest {
+            self.trial = trial;
+            return Ok((assembled, Taken::Whole));
+        }
+        labelled(&mut self.trial, &assembled.contacts);
+        let (trial, assembled, taken) = step(
+            workspace,
+            &self.setting(),
+            &self.trial,
+            iteration,
+            &correction,
+        )?;
+        self.trial = trial;
+        Ok((assembled, taken))
+    }
+
+    /// The traction field with what the first iteration shows to come into contact.
+    fn refreshed(&self, number: usize, assembled: &Assembled) -> Option<Selected> {
+        let setting = self.setting();
+        let comes = || missed(self.context, &self.selections, &self.trial).is_some();
+        (number == 1 && comes()).then(|| reselected(&setting, &self.trial, &assembled.contacts))
+    }
+
+    /// Goes on with another traction field.
+    fn taken_up(
+        &mut self,
+        selected: Selected,
+        workspace: &mut Workspace,
+    ) -> Result<Assembled, CutBack> {
+        self.selections = selected.selections;
+        self.trial.tractions = selected.tractions;
+        workspace.extend(self.context.problem, &self.selections);
+        let strategy = self.context.problem.model.solver.strategy;
+        let iteration = later(strategy, self.inflation, self.iterations.len() + 1);
+        workspace.assemble(&self.setting(), &self.trial, iteration)
+    }
+
+    /// Whether to go on.
+    fn judge(&self, number: usize, norms: &Norms) -> Result<(), CutBack> {
+        if !norms.largest().is_finite() || norms.force > 1e8 {
+            return Err(CutBack::Diverged {
+                iteration: number,
+                norms: *norms,
+            });
+        }
+        if number >= self.context.problem.model.solver.largest_iterations {
+            return Err(CutBack::NoConvergence {
+                iterations: number,
+                norms: *norms,
+                cycling: self.history.cycling(self.context.problem, &self.selections),
+            });
+        }
+        Ok(())
+    }
+}
+
 /// What an iteration after the first one goes by.
-fn later(strategy: Strategy, inflation: Inflation) -> Iteration {
+fn later(strategy: Strategy, inflation: Inflation, number: usize) -> Iteration {
     match strategy {
-        Strategy::Semismooth => Iteration::Later,
+        Strategy::Semismooth => Iteration::Later {
+            slip_weight: slip_weight(number),
+        },
         Strategy::Table1 { stick_tolerance } => Iteration::Corrected(Corrector {
             stick_tolerance,
             inflation,
@@ -235,10 +355,20 @@ fn later(strategy: Strategy, inflation: Inflation) -> Iteration {
     }
 }
 
+/// `r_t` over its default. Cycles of first contact do not end with smaller increments, but
+/// with another `r_t`, first a smaller and then a larger one.
+fn slip_weight(number: usize) -> f64 {
+    match number {
+        0..=13 => 1.0,
+        14..=26 => 0.03,
+        _ => 10.0,
+    }
+}
+
 /// Whether the friction of an iteration is the true one.
 fn is_final(iteration: Iteration) -> bool {
     match iteration {
-        Iteration::First | Iteration::Later => true,
+        Iteration::First | Iteration::Later { .. } => true,
         Iteration::Corrected(corrector) => corrector.inflation.is_over(),
     }
 }
@@ -260,42 +390,6 @@ fn labelled(trial: &mut Trial, contacts: &[Evaluation]) {
     for (tractions, contact) in trial.tractions.iter_mut().zip(contacts) {
         tractions.statuses = contact.nodes.each_ref().map(side);
     }
-}
-
-/// Roles in the converged state, and pair states that fit them.
-fn selected(context: &StepContext, state: &State) -> (Vec<Selection>, Vec<PairState>) {
-    let mut selections = Vec::with_capacity(state.pairs.len());
-    let mut pairs = state.pairs.clone();
-    for (pair, pair_state) in pairs.iter_mut().enumerate() {
-        let configuration = context.configuration(pair, &state.positions, &state.rigid);
-        let selection = Selection::new(&configuration, &pair_state.kinematic);
-        let kinematic = selection.kinematic();
-        for side in 0..2 {
-            for node in 0..selection.roles[side].len() {
-                let unknowns = &mut pair_state.tractions.nodes[side][node];
-                if selection.roles[side][node] == Role::Idle {
-                    *unknowns = [0.0; 3];
-                } else if kinematic[side][node] != pair_state.kinematic[side][node] {
-                    *unknowns = reinterpreted(*unknowns);
-                }
-            }
-        }
-        if pair_state.tractions.balance.len() != selection.patches.len() {
-            pair_state.tractions.balance = vec![[0.0; 6]; selection.patches.len()];
-        }
-        pair_state.tractions.slipped = [0, 1].map(|side| {
-            let results = pair_state.nodes[side].iter();
-            results.map(|node| node.status == Status::Slip).collect()
-        });
-        if context.problem.model.solver.strategy != Strategy::Semismooth {
-            let sides = pair_state.tractions.slipped.iter_mut();
-            sides.for_each(|side| side.fill(false));
-        }
-        pair_state.kinematic = kinematic;
-        pair_state.selection = Some(selection.clone());
-        selections.push(selection);
-    }
-    (selections, pairs)
 }
 
 /// Smallest part of a correction that is tried.
@@ -321,9 +415,7 @@ fn step(
         let next = corrected(setting, workspace.system(), trial, correction, factor);
         match workspace.assemble(setting, &next, iteration) {
             Ok(assembled) => return Ok((next, assembled, taken)),
-            Err(CutBack::InvertedElement { .. } | CutBack::LostProjection { .. })
-                if factor > SMALLEST_PART =>
-            {
+            Err(CutBack::InvertedElement { .. }) if factor > SMALLEST_PART => {
                 (factor, taken) = (0.5 * factor, Taken::Part);
             }
             Err(other) => return Err(other),
@@ -378,12 +470,6 @@ fn add_tractions(
                     *unknown += factor * correction[first + component];
                 }
             }
-        }
-    }
-    for (patch, unknowns) in tractions.balance.iter_mut().enumerate() {
-        let first = layout.balance(pair, patch);
-        for (component, unknown) in unknowns.iter_mut().enumerate() {
-            *unknown += factor * correction[first + component];
         }
     }
 }

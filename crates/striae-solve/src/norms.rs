@@ -15,8 +15,6 @@ pub struct Norms {
     pub stick: f64,
     /// Largest residual of a traction row over the largest pressure.
     pub traction: f64,
-    /// Largest mismatch of resultants over the sum of contact forces.
-    pub resultant: f64,
 }
 
 /// Scales of the fields.
@@ -26,8 +24,6 @@ pub struct Scales {
     pub force: f64,
     /// Stress.
     pub traction: f64,
-    /// Resultant of a contact patch.
-    pub resultant: f64,
 }
 
 impl Norms {
@@ -38,23 +34,15 @@ impl Norms {
             Field::Gap(size) => (&mut self.gap, size),
             Field::Stick(size) => (&mut self.stick, size),
             Field::Traction => (&mut self.traction, scales.traction),
-            Field::Resultant => (&mut self.resultant, scales.resultant),
-            Field::Number => (&mut self.resultant, 1.0),
         };
         *norm = larger(*norm, residual.abs() / scale);
     }
 
     /// The largest of all norms; infinite where one is not a number.
     pub fn largest(&self) -> f64 {
-        [
-            self.force,
-            self.gap,
-            self.stick,
-            self.traction,
-            self.resultant,
-        ]
-        .into_iter()
-        .fold(0.0, larger)
+        [self.force, self.gap, self.stick, self.traction]
+            .into_iter()
+            .fold(0.0, larger)
     }
 
     /// Name of the field with the largest norm.
@@ -64,7 +52,6 @@ impl Norms {
             ("gap", self.gap),
             ("stick", self.stick),
             ("traction", self.traction),
-            ("resultant", self.resultant),
         ];
         let largest = self.largest();
         fields
@@ -83,8 +70,8 @@ impl fmt::Display for Norms {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "force {:.1e}  gap {:.1e}  stick {:.1e}  traction {:.1e}  resultant {:.1e}",
-            self.force, self.gap, self.stick, self.traction, self.resultant
+            "force {:.1e}  gap {:.1e}  stick {:.1e}  traction {:.1e}",
+            self.force, self.gap, self.stick, self.traction
         )
     }
 }

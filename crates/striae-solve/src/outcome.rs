@@ -47,16 +47,6 @@ pub enum CutBack {
         /// What is wrong.
         error: crate::load::LoadError,
     },
-    /// A contact node no longer sees the other side.
-    #[error("pair `{pair}`: {node} of body `{body}` no longer sees the other surface")]
-    LostProjection {
-        /// Name of the pair.
-        pair: String,
-        /// Name of the body.
-        body: String,
-        /// The node.
-        node: striae_mesh::NodeId,
-    },
     /// A convected texture has no direction left at a node.
     #[error(
         "pair `{pair}`: the texture at {node} of body `{body}`, or opposite to it, has no direction left"

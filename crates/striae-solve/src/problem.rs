@@ -16,7 +16,7 @@ use striae_surface::{
 use crate::{
     contact_mass,
     element::{ElementFault, ReferenceElement, reference_elements},
-    model::{Balance, Model, Pair, RigidShape, Side},
+    model::{Model, Pair, RigidShape, Side},
     plan::{StepPlan, plans},
 };
 
@@ -254,7 +254,6 @@ fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, ProblemErro
                     geometry,
                     stiffness: f64::INFINITY,
                     texture: None,
-                    rank: usize::MAX,
                 }
             }
         });
@@ -293,10 +292,7 @@ fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, ProblemErro
             name: pair.name.clone(),
             sides: [a, b],
             friction: pair.friction.clone(),
-            balance: match pair.balance {
-                Balance::Resultants => striae_contact::pair::Balance::Resultants,
-                Balance::None => striae_contact::pair::Balance::None,
-            },
+            enforcement: pair.enforcement,
             search_distance: pair.search_distance,
         },
         bodies,
@@ -375,10 +371,5 @@ fn deformable(model: &Model, body: usize, faces: &[Face]) -> ContactSide {
         geometry: Geometry::Deformable(Surface::new(&facets)),
         stiffness: shear * (3.0 * lambda + 2.0 * shear) / (lambda + shear),
         texture: None,
-        rank: model
-            .bodies
-            .iter()
-            .filter(|other| other.name < body_model.name)
-            .count(),
     }
 }

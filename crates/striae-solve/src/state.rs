@@ -2,7 +2,7 @@
 
 use striae_contact::{
     field::FacetForces,
-    selection::{Kinematic, Selection},
+    selection::Kept,
     unknowns::{NodeResult, Tractions},
 };
 use striae_mesh::{FacetId, Vec3};
@@ -38,10 +38,10 @@ pub struct State {
 pub struct PairState {
     /// Traction unknowns.
     pub tractions: Tractions,
-    /// Which nodes were kinematic.
-    pub kinematic: Kinematic,
-    /// Roles of the increment that led here; `None` at the start.
-    pub selection: Option<Selection>,
+    /// Which nodes were kept in the increment that led here.
+    pub kept: Kept,
+    /// Pressure and components of `-tau` along the nodal tangents of all nodes, by side.
+    pub carried: [Vec<[f64; 3]>; 2],
     /// What is known of every surface node, by side.
     pub nodes: [Vec<NodeResult>; 2],
     /// Forces on the facets in contact, by side.
@@ -146,8 +146,8 @@ impl PairState {
         });
         Self {
             tractions: Tractions::zero(counts),
-            kinematic: counts.map(|count| vec![false; count]),
-            selection: None,
+            kept: counts.map(|count| vec![false; count]),
+            carried: counts.map(|count| vec![[0.0; 3]; count]),
             nodes: counts.map(|count| vec![NodeResult::default(); count]),
             facets: [Vec::new(), Vec::new()],
             dissipated: 0.0,

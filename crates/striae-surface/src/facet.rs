@@ -46,6 +46,15 @@ impl Shape {
         }
     }
 
+    /// Coordinates of the corner in place `at`; of the first one for `None`.
+    pub fn corner(self, at: Option<usize>) -> [f64; 2] {
+        let corners = match self {
+            Shape::Triangle => [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.0, 1.0]],
+            Shape::Quadrilateral => [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]],
+        };
+        corners[at.unwrap_or(0)]
+    }
+
     /// How far the point lies outside the facet in its own coordinates;
     /// negative inside.
     pub fn excess(self, xi: f64, eta: f64) -> f64 {

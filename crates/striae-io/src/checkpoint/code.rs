@@ -4,8 +4,6 @@
 use nalgebra::{Matrix3, Vector3};
 use striae_contact::{
     field::FacetForces,
-    patch::Patch,
-    selection::{Leader, Partner, Role, Selection},
     unknowns::{NodeResult, Status, Tractions},
 };
 use striae_mesh::FacetId;
@@ -131,44 +129,6 @@ impl<T: Coded> Coded for Option<T> {
     }
 }
 
-impl Coded for Role {
-    fn put(&self, bytes: &mut Vec<u8>) {
-        match self {
-            Self::Idle => 0_u64.put(bytes),
-            Self::Kinematic(partner) => (1_u64, *partner).put(bytes),
-            Self::Traction(partner) => (2_u64, *partner).put(bytes),
-            Self::Extended(leaders) => (3_u64, leaders.clone()).put(bytes),
-        }
-    }
-
-    fn take(bytes: &mut &[u8]) -> Option<Self> {
-        match u64::take(bytes)? {
-            0 => Some(Self::Idle),
-            1 => Partner::take(bytes).map(Self::Kinematic),
-            2 => Partner::take(bytes).map(Self::Traction),
-            3 => Coded::take(bytes).map(Self::Extended),
-            _ => None,
-        }
-    }
-}
-
-impl Coded for Partner {
-    fn put(&self, bytes: &mut Vec<u8>) {
-        match self {
-            Self::Corners(corners, weights) => (0_u64, (*corners, *weights)).put(bytes),
-            Self::Rigid(point) => (1_u64, *point).put(bytes),
-        }
-    }
-
-    fn take(bytes: &mut &[u8]) -> Option<Self> {
-        match u64::take(bytes)? {
-            0 => Coded::take(bytes).map(|(corners, weights)| Self::Corners(corners, weights)),
-            1 => Vector3::take(bytes).map(Self::Rigid),
-            _ => None,
-        }
-    }
-}
-
 impl Coded for Vector3<f64> {
     fn put(&self, bytes: &mut Vec<u8>) {
         self.iter().for_each(|component| component.put(bytes));
@@ -208,18 +168,15 @@ pub(super) use coded;
 coded! {
     NodeResult { gap, pressure, tau, slip, normal, texture, status };
     FacetForces { force, area, pressure, friction };
-    Tractions { nodes, balance, slipped, statuses };
+    Tractions { nodes, tau_n, slipped, statuses };
     SolverSummary { method, factorisations, contact_corrections, fall_backs, reason };
-    Leader { side, node };
-    Patch { centre, radius };
-    Selection { roles, patches, patch_of };
-    PairState { tractions, kinematic, selection, nodes, facets, dissipated };
+    PairState { tractions, kept, carried, nodes, facets, dissipated };
     Wrench { force, torque };
     Pose { displacement, turned, rotation };
     NodalForces { internal, inertia, reaction, applied, contact, rigid, pushed };
     Energies { kinetic, strain, external, friction, contact, numerical };
     State { time, positions, velocities, accelerations, rigid, pairs, forces, energies };
-    Extent { nodes, patches };
+    Extent { nodes };
     FactoredInterior { values, scales, prescribed, single };
     Experience { too_coarse, taken, interior };
     Memory { extent, cliques, solver };

@@ -64,17 +64,18 @@ pub fn assemble_contact(
         context,
         selections,
         imposed,
+        ..
     } = setting;
     matrix.set_kept_rows(&background.rows);
     let mut system = System::new(context, layout, matrix, trial, imposed);
     system.linear_background(background, change);
     let configurations = configurations(setting, trial);
-    let contacts = system.contacts(&configurations, selections, trial, iteration)?;
-    system.add_contacts(&configurations, selections, &contacts);
+    let contacts = system.contacts(&configurations, setting, trial, iteration)?;
+    system.add_contacts(&configurations, &contacts);
     if !system.outside.is_empty() {
         return Err(Fault::Pattern(system.outside));
     }
-    let norms = system.norms(selections, trial, &contacts);
+    let norms = system.norms(trial, &contacts);
     system.idle(selections);
     system.prescribe(trial, imposed);
     Ok(ContactAssembled {

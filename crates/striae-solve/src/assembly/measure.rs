@@ -1,6 +1,6 @@
 //! Norms of the residual, field by field.
 
-use striae_contact::{evaluation::Evaluation, selection::Selection};
+use striae_contact::evaluation::Evaluation;
 use striae_mesh::Vec3;
 
 use super::{System, Trial};
@@ -12,12 +12,7 @@ use crate::{
 
 impl System<'_> {
     /// Norms of all fields; notes the reactions.
-    pub(super) fn norms(
-        &mut self,
-        selections: &[Selection],
-        trial: &Trial,
-        contacts: &[Evaluation],
-    ) -> Norms {
+    pub(super) fn norms(&mut self, trial: &Trial, contacts: &[Evaluation]) -> Norms {
         let problem = self.context.problem;
         let mut free = self.free_squares();
         for node in 0..problem.reference.len() {
@@ -43,17 +38,11 @@ impl System<'_> {
         for (pair, evaluation) in contacts.iter().enumerate() {
             let sides = &self.context.pairs[pair].sides;
             let modulus = sides[0].stiffness.min(sides[1].stiffness);
-            let active = |side: usize| {
-                let roles = 0..selections[pair].roles[side].len();
-                roles.map(move |node| trial.tractions[pair].nodes[side][node][0].abs())
-            };
-            let pressure = active(0).chain(active(1)).fold(0.0, f64::max);
-            let facets = evaluation.facets.iter().flatten();
-            let contact: f64 = facets.map(|(_, f)| f.pressure.abs() + f.friction).sum();
+            let nodes = evaluation.nodes.iter().flatten();
+            let pressure = nodes.map(|node| node.pressure.abs()).fold(0.0, f64::max);
             let scales = Scales {
                 force,
-                traction: pressure.max(1e-8 * modulus),
-                resultant: contact.max(1e-3 * force),
+                traction: pressure.max(SMALLEST_PRESSURE * modulus),
             };
             let numbering = self.context.pairs[pair].numbering();
             for term in &evaluation.terms {
@@ -68,6 +57,10 @@ impl System<'_> {
         norms
     }
 }
+
+/// Pressure over the softer modulus below which pressures are not told from zero: without it
+/// contact that just closes or has just opened would never be found.
+const SMALLEST_PRESSURE: f64 = 1e-4;
 
 /// Residual force that round-off of the positions leaves in bodies without
 /// stress: about `eps (G h + m da_alpha/dx) |x|` an element of size `h` and mass `m`.

@@ -50,12 +50,7 @@ pub(super) struct Triple {
 
 impl System<'_> {
     /// Looks up where the unknowns of a pair are.
-    pub(super) fn find_triples(
-        &mut self,
-        pair: usize,
-        configuration: &Configuration,
-        patches: usize,
-    ) {
+    pub(super) fn find_triples(&mut self, pair: usize, configuration: &Configuration) {
         let problem = self.context.problem;
         let numbering = configuration.pair.numbering();
         let rigid = problem.pairs[pair].rigid;
@@ -65,7 +60,7 @@ impl System<'_> {
             let (first, owner) = self.layout.global(problem, pair, unknown)?;
             let position = match unknown {
                 Unknown::Position { side, node, .. } => problem.surface_node(pair, side, node),
-                Unknown::Traction { .. } | Unknown::Balance { .. } => None,
+                Unknown::Traction { .. } => None,
             };
             Some(Triple {
                 first,
@@ -74,7 +69,7 @@ impl System<'_> {
                 against: position.and(moving),
             })
         };
-        let count = numbering.balance(patches) / 3;
+        let count = numbering.count() / 3;
         let triples = (0..count).map(triple).collect();
         self.triples.resize(pair, Vec::new());
         self.triples.push(triples);

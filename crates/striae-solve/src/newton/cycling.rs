@@ -1,14 +1,10 @@
 //! Contact nodes that keep changing their status.
 
-use striae_contact::{
-    evaluation::Evaluation,
-    selection::{Role, Selection},
-    unknowns::Status,
-};
+use striae_contact::{evaluation::Evaluation, selection::Selection, unknowns::Status};
 
 use crate::{outcome::CyclingNode, problem::Problem};
 
-/// Status of all kinematic nodes in every iteration.
+/// Status of all nodes in every iteration.
 #[derive(Default)]
 pub(super) struct History(Vec<Vec<[Vec<Status>; 2]>>);
 
@@ -23,22 +19,22 @@ impl History {
         self.0.push(contacts.iter().map(statuses).collect());
     }
 
-    /// Kinematic nodes whose status changed within the last iterations.
+    /// Kept nodes whose status changed within the last iterations.
     pub(super) fn cycling(&self, problem: &Problem, selections: &[Selection]) -> Vec<CyclingNode> {
         const WINDOW: usize = 6;
         let last = &self.0[self.0.len().saturating_sub(WINDOW)..];
         let mut cycling = Vec::new();
         for (pair, selection) in selections.iter().enumerate() {
             for side in 0..2 {
-                for (node, role) in selection.roles[side].iter().enumerate() {
+                for node in 0..selection.nodes(side) {
                     let statuses: Vec<Status> = last
                         .iter()
                         .map(|contacts| contacts[pair][side][node])
                         .collect();
                     let changes = statuses.windows(2).any(|pair| pair[0] != pair[1]);
-                    let kinematic = matches!(role, Role::Kinematic(_));
+                    let kept = selection.is_kept(side, node as u32);
                     if let Some(global) = problem.surface_node(pair, side, node as u32)
-                        && kinematic
+                        && kept
                         && changes
                     {
                         let (body, node) = problem.body_node(global);

@@ -1,7 +1,7 @@
 //! Words for what stops an increment: contact met unnoticed, linear systems
 //! without a solution.
 
-use striae_contact::{evaluation::missed_contacts, selection::Selection};
+use striae_contact::selection::Selection;
 use striae_linalg::SolveError;
 
 use crate::{
@@ -11,7 +11,7 @@ use crate::{
     problem::Problem,
 };
 
-/// Nodes without a role that have met the other surface.
+/// Nodes without a share in the traction field that have met the other surface.
 pub(super) fn missed(
     context: &StepContext,
     selections: &[Selection],
@@ -20,7 +20,7 @@ pub(super) fn missed(
     let problem = context.problem;
     for (pair, selection) in selections.iter().enumerate() {
         let configuration = context.configuration(pair, &trial.positions, &trial.rigid);
-        let missed = missed_contacts(&configuration, selection);
+        let missed = selection.left_out(&configuration);
         if let Some(&(side, node)) = missed.first() {
             let global = problem.surface_node(pair, side, node)?;
             let (body, node) = problem.body_node(global);
@@ -56,9 +56,6 @@ fn place(problem: &Problem, layout: &Layout, unknown: usize) -> String {
         let name = &problem.model.rigid_surfaces[rigid].name;
         let kind = ["x", "y", "z", "rx", "ry", "rz"][unknown - layout.offsets()[at]];
         return format!("rigid body `{name}` is free to move in {kind}");
-    }
-    if at >= problem.reference.len() {
-        return "the balance of a contact patch is not determined".to_owned();
     }
     let (body, node) = problem.body_node(at);
     let name = &problem.model.bodies[body].name;

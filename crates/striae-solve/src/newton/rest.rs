@@ -41,7 +41,7 @@ pub(super) fn contact_at_rest(
         let mut next = corrected(setting, workspace.system(), trial, &whole, 1.0);
         labelled(&mut next, &contacts);
         let moved = (&next, whole.as_slice());
-        let found = workspace.assemble_contact(setting, background, moved, Iteration::Later);
+        let found = workspace.assemble_contact(setting, background, moved, Iteration::LATER);
         let found = found.ok()?;
         if pass == MOST || found.norms.largest() <= enough {
             let contact = Contact::Known(found.contacts);

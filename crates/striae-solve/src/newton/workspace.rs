@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use striae_contact::complementarity::Iteration;
+use striae_contact::{complementarity::Iteration, selection::Selection};
 use striae_linalg::{
     Analysis, Automatic, Experience, FaerLu, Interior, LinearSolver, MultifrontalLu, SolveError,
     SolveReport, SparseMatrix, Structure, Supervariable,
@@ -21,7 +21,7 @@ use crate::{
     outcome::CutBack,
     problem::Problem,
     rigid::Pose,
-    state::{NodalForces, PairState, State},
+    state::{NodalForces, State},
 };
 
 /// Part of the residual that is as good as nothing.
@@ -73,13 +73,18 @@ impl Workspace {
 
     /// Makes sure the layout covers all roles of the increment. Solvers that failed in
     /// increments before have another try.
-    pub(super) fn prepare(&mut self, problem: &Problem, pairs: &[PairState]) {
+    pub(super) fn prepare(&mut self, problem: &Problem, selections: &[Selection]) {
         self.solver.start_afresh();
+        self.extend(problem, selections);
+    }
+
+    /// Makes sure the layout covers all kept nodes.
+    pub(super) fn extend(&mut self, problem: &Problem, selections: &[Selection]) {
         let known = self
             .system
             .as_ref()
             .map(|system| system.layout.extent().clone());
-        let extent = known.clone().unwrap_or_default().with(pairs);
+        let extent = known.clone().unwrap_or_default().with(selections);
         if known.as_ref() != Some(&extent) {
             self.lay_out(problem, extent);
         }

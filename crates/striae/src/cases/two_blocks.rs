@@ -4,7 +4,6 @@
 //! ratio of the integrals of friction and pressure in full slip, the law at the
 //! kinematic nodes and the indifference to the order of sides and bodies.
 
-use striae_contact::selection::Role;
 use striae_io::figure::{Axis, Color, Content, Figure, Marker, Panel, Series, Width};
 
 use super::{
@@ -61,16 +60,13 @@ fn ratio(run: &Run, side: &str) -> f64 {
     at_end("friction") / at_end("pressure")
 }
 
-/// Largest `||tau| - mu p| / mu p` of the kinematic nodes at the end.
+/// Largest `||tau| - mu p| / mu p` of the kept nodes at the end.
 fn law_error(run: &Run) -> f64 {
     let pair = &run.simulation.state.pairs[0];
-    let Some(selection) = &pair.selection else {
-        return f64::NAN;
-    };
     let mut largest = 0.0_f64;
     for side in 0..2 {
-        for (node, role) in pair.nodes[side].iter().zip(&selection.roles[side]) {
-            if matches!(role, Role::Kinematic(_)) {
+        for (node, kept) in pair.nodes[side].iter().zip(&pair.kept[side]) {
+            if *kept {
                 let limit = MU * node.pressure;
                 largest = largest.max((node.tau.norm() - limit).abs() / limit);
             }

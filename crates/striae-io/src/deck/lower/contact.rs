@@ -11,7 +11,7 @@ use crate::deck::{
 use std::{collections::BTreeSet, path::Path};
 use striae_law::friction::Friction;
 use striae_mesh::{Face, Mesh, NodeId};
-use striae_solve::model::{Balance, Pair, RigidId, RigidShape, RigidSurface, Side};
+use striae_solve::model::{Enforcement, Pair, RigidId, RigidShape, RigidSurface, Side};
 use striae_surface::texture::Paint;
 
 /// What a side of a pair may refer to.
@@ -92,9 +92,13 @@ fn lower_pair(
         b,
         textures,
         friction,
-        balance: match pair.balance.as_ref().map(|balance| balance.value) {
-            None | Some(raw::Balance::Resultants) => Balance::Resultants,
-            Some(raw::Balance::None) => Balance::None,
+        enforcement: match pair
+            .enforcement
+            .as_ref()
+            .map(|enforcement| enforcement.value)
+        {
+            None | Some(raw::Enforcement::Weighted) => Enforcement::Weighted,
+            Some(raw::Enforcement::Collocated) => Enforcement::Collocated,
         },
         search_distance: pair
             .search_distance

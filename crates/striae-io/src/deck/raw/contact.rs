@@ -17,9 +17,10 @@ table! {
         required b: Side,
         /// Friction from the start; steps may change it. Default: frictionless.
         optional friction: Friction,
-        /// Whether the resultants on the two sides are made to balance. Default: `resultants`.
-        optional balance: Balance,
-        /// Largest distance over which contact is looked for. Default: half the local facet size.
+        /// How contact is enforced. Default: `weighted`.
+        optional enforcement: Enforcement,
+        /// Distance over which contact is looked for ahead. It bears on the cost, not on the
+        /// result. Default: half the local facet size.
         optional search_distance: Positive,
     }
 }
@@ -61,12 +62,12 @@ table! {
 }
 
 words! {
-    /// Treatment of the difference between the resultants of the two sides.
-    Balance {
-        /// Six more unknowns a contact patch make forces and moments balance.
-        Resultants = "resultants",
-        /// The plain interpolated fields.
-        None = "none",
+    /// How contact is enforced.
+    Enforcement {
+        /// Both sides share one traction field; gaps and slips are means weighted with it.
+        Weighted = "weighted",
+        /// Each side has a field of its own; gaps and slips are those at nodes (Jones & Papadopoulos).
+        Collocated = "collocated",
     }
 }
 

@@ -1,0 +1,288 @@
+//! Nodal forces of the traction field that both sides share.
+//!
+//! On a segment with the normal `n`
+//!
+//! ```text
+//! t = sum_k phi_k t_k,   t_k = -p_k n + R(n, n_k) tau_k
+//! f^a_c = integral N_c t da = sum_k alpha_ck t_k,   f^b_c = -f^a_c,   alpha_ck = sum_d D_cd share_kd
+//! ```
+//!
+//! where normals and tractions of the nodes of side `b` are seen from side `a`. The same
+//! integrals act on both sides, so the sum of all forces is zero to round-off.
+
+use nalgebra::Matrix3;
+use rayon::prelude::*;
+use striae_mesh::{FacetId, Vec3};
+
+use crate::{
+    configuration::Configuration,
+    field::FacetForces,
+    frame::Frames,
+    pairing::SIGNS,
+    segment::pair_index,
+    selection::Selection,
+    term::{Field, Jacobian, LocalTerm, Row},
+    traction::NodalTractions,
+    transported::Transported,
+    unknowns::Tractions,
+    weighted::{Patch, add_chained, side_sign},
+};
+
+/// What the common field depends on.
+#[derive(Clone, Copy)]
+pub struct CommonField<'a> {
+    /// Where everything is.
+    pub configuration: &'a Configuration<'a>,
+    /// Roles.
+    pub selection: &'a Selection,
+    /// Nodal frames.
+    pub frames: &'a Frames,
+    /// Unknowns.
+    pub tractions: &'a Tractions,
+    /// Friction tractions of the kept nodes.
+    pub tau: &'a NodalTractions,
+}
+
+/// Momentum rows of every segment and the forces on its two facets.
+pub fn segment_terms(field: CommonField, patches: &[Patch]) -> Vec<(LocalTerm, [FacetForces; 2])> {
+    patches
+        .par_iter()
+        .with_min_len(4)
+        .map(|patch| field.term(patch))
+        .collect()
+}
+
+/// The traction of a kept node on a segment.
+struct Traction {
+    value: Vec3,
+    /// Derivative by the segment's normal.
+    by_n: Matrix3<f64>,
+    jacobian: Jacobian,
+    pressure: f64,
+    friction: f64,
+}
+
+impl CommonField<'_> {
+    fn term(&self, patch: &Patch) -> (LocalTerm, [FacetForces; 2]) {
+        let tractions: Vec<Traction> = patch
+            .kept
+            .iter()
+            .map(|(k, _)| self.traction(patch, *k))
+            .collect();
+        // `q_d = sum_k share_kd t_k`, so that `f_c = sum_d D_cd q_d`.
+        let mut q = [Vec3::zeros(); 8];
+        for ((_, shares), traction) in patch.kept.iter().zip(&tractions) {
+            for d in 0..8 {
+                q[d] += traction.value * shares[d];
+            }
+        }
+        let mass = &patch.paired.segment.mass;
+        let forces: [Vec3; 8] = std::array::from_fn(|c| {
+            let sum: Vec3 = (0..8).map(|d| q[d] * mass[c][d]).sum();
+            sum * -SIGNS[c]
+        });
+        let term = self.momentum(patch, &q, &tractions, &forces);
+        let of_facets = [0, 1].map(|side| {
+            let mut of_facet = FacetForces::default();
+            for at in 0..4 {
+                let corner = 4 * side + at;
+                of_facet.force[at] = forces[corner];
+                of_facet.area[at] = patch.paired.area_of(corner);
+            }
+            for ((_, shares), traction) in patch.kept.iter().zip(&tractions) {
+                let area: f64 = (0..8).map(|d| shares[d] * patch.paired.area_of(d)).sum();
+                of_facet.pressure += area * traction.pressure;
+                of_facet.friction += area * traction.friction;
+            }
+            of_facet
+        });
+        (term, of_facets)
+    }
+
+    fn traction(&self, patch: &Patch, k: u32) -> Traction {
+        let (side, node) = self.selection.kept()[k as usize].place();
+        let numbering = self.configuration.pair.numbering();
+        let n = patch.paired.segment.normal;
+        let first = numbering.traction(side, node as u32);
+        let pressure = self.tractions.nodes[side][node][0];
+        let mut by_unknowns = Matrix3::zeros();
+        by_unknowns.set_column(0, &-n);
+        let mut traction = Traction {
+            value: n * -pressure,
+            by_n: Matrix3::from_diagonal_element(-pressure),
+            jacobian: vec![(first, by_unknowns)],
+            pressure,
+            friction: 0.0,
+        };
+        let tau = &self.tau[side][node];
+        if let Some(frame) = &self.frames[side][node]
+            && !tau.jacobian.is_empty()
+        {
+            let sign = side_sign(side);
+            let turned = Transported::new(&tau.value, &(frame.n.value * sign), &n);
+            traction.value += turned.value * sign;
+            traction.by_n += turned.by_n * sign;
+            traction.friction = tau.value.norm();
+            let jacobian = &mut traction.jacobian;
+            add_chained(jacobian, &(turned.by_vector * sign), &tau.jacobian);
+            // The sign of the normal cancels that of the friction.
+            add_chained(jacobian, &turned.by_from, &frame.n.jacobian);
+        }
+        traction
+    }
+
+    fn momentum(
+        &self,
+        patch: &Patch,
+        q: &[Vec3; 8],
+        tractions: &[Traction],
+        forces: &[Vec3; 8],
+    ) -> LocalTerm {
+        let (paired, segment) = (&patch.paired, &patch.paired.segment);
+        let numbering = self.configuration.pair.numbering();
+        let owners: [Option<u32>; 8] = std::array::from_fn(|corner| {
+            let node = paired.node(self.configuration, corner);
+            node.map(|(side, node)| numbering.position(side, node))
+        });
+        let corners: Vec<usize> = (0..8).filter(|&c| owners[c].is_some()).collect();
+        let rows: Vec<Row> = corners
+            .iter()
+            .flat_map(|&c| {
+                let first = owners[c].unwrap_or_default();
+                (0..3).map(move |axis| (first + axis as u32, Field::Momentum, -forces[c][axis]))
+            })
+            .collect();
+        let mut block = Columns::new(3 * corners.len());
+        for first in owners.iter().flatten() {
+            block.reserve(*first);
+        }
+        for traction in tractions {
+            traction
+                .jacobian
+                .iter()
+                .for_each(|entry| block.reserve(entry.0));
+        }
+        block.lay_out();
+        // `alpha_ck` with the sign of the rows, which state `-f`.
+        let share = |c: usize, shares: &[f64; 8]| -> f64 {
+            let sum: f64 = (0..8).map(|d| segment.mass[c][d] * shares[d]).sum();
+            SIGNS[c] * sum
+        };
+        let mut by_n = [Matrix3::zeros(); 8];
+        for ((_, shares), traction) in patch.kept.iter().zip(tractions) {
+            let alphas: Vec<f64> = corners.iter().map(|&c| share(c, shares)).collect();
+            for (&c, alpha) in corners.iter().zip(&alphas) {
+                by_n[c] += traction.by_n * *alpha;
+            }
+            for (first, inner) in &traction.jacobian {
+                block.add_multiples(*first, &alphas, inner);
+            }
+        }
+        if let Some(slopes) = &segment.slopes {
+            for (at, &c) in corners.iter().enumerate() {
+                let mut by_x = [[0.0; 24]; 3];
+                for d in 0..8 {
+                    let mass = &slopes.mass[pair_index(c, d)];
+                    for axis in 0..3 {
+                        let factor = SIGNS[c] * q[d][axis];
+                        if factor != 0.0 {
+                            let sum = by_x[axis].iter_mut().zip(mass);
+                            sum.for_each(|(sum, slope)| *sum += factor * slope);
+                        }
+                    }
+                }
+                for (e, first) in owners.iter().enumerate() {
+                    let Some(first) = first else { continue };
+                    let direct = Matrix3::from_fn(|row, axis| by_x[row][3 * e + axis]);
+                    block.add(*first, at, &(direct + by_n[c] * slopes.normal[e]));
+                }
+            }
+        }
+        block.term(&rows)
+    }
+}
+
+/// A dense block of rows over triples of columns.
+struct Columns {
+    rows: usize,
+    triples: Vec<u32>,
+    tangent: Vec<f64>,
+}
+
+impl Columns {
+    fn new(rows: usize) -> Self {
+        Self {
+            rows,
+            triples: Vec::with_capacity(48),
+            tangent: Vec::new(),
+        }
+    }
+
+    fn reserve(&mut self, first: u32) {
+        if let Err(at) = self.triples.binary_search(&first) {
+            self.triples.insert(at, first);
+        }
+    }
+
+    fn lay_out(&mut self) {
+        self.tangent = vec![0.0; self.rows * 3 * self.triples.len()];
+    }
+
+    fn column(&self, first: u32) -> usize {
+        3 * self.triples.partition_point(|triple| *triple < first)
+    }
+
+    /// Adds to the rows of the corner in place `at`.
+    fn add(&mut self, first: u32, at: usize, inner: &Matrix3<f64>) {
+        let (column, width) = (self.column(first), 3 * self.triples.len());
+        for row in 0..3 {
+            let start = (3 * at + row) * width + column;
+            for axis in 0..3 {
+                self.tangent[start + axis] += inner[(row, axis)];
+            }
+        }
+    }
+
+    /// Adds multiples of a matrix to the rows of all corners.
+    fn add_multiples(&mut self, first: u32, factors: &[f64], inner: &Matrix3<f64>) {
+        let (column, width) = (self.column(first), 3 * self.triples.len());
+        for (at, factor) in factors.iter().enumerate() {
+            for row in 0..3 {
+                let start = (3 * at + row) * width + column;
+                for axis in 0..3 {
+                    self.tangent[start + axis] += factor * inner[(row, axis)];
+                }
+            }
+        }
+    }
+
+    fn term(self, rows: &[Row]) -> LocalTerm {
+        LocalTerm {
+            rows: rows.iter().map(|row| row.0).collect(),
+            fields: rows.iter().map(|row| row.1).collect(),
+            residual: rows.iter().map(|row| row.2).collect(),
+            columns: self
+                .triples
+                .iter()
+                .flat_map(|first| *first..first + 3)
+                .collect(),
+            tangent: self.tangent,
+        }
+    }
+}
+
+/// Sums the forces on facets that are paired more than once, in the order of the facets.
+pub fn by_facet(
+    facets: impl Iterator<Item = (FacetId, FacetForces)>,
+) -> Vec<(FacetId, FacetForces)> {
+    let mut all: Vec<(FacetId, FacetForces)> = facets.collect();
+    all.sort_by_key(|entry| entry.0);
+    let mut sums: Vec<(FacetId, FacetForces)> = Vec::new();
+    for (facet, forces) in all {
+        match sums.last_mut() {
+            Some((last, sum)) if *last == facet => sum.add(&forces),
+            _ => sums.push((facet, forces)),
+        }
+    }
+    sums
+}

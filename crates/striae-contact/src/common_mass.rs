@@ -1,0 +1,332 @@
+//! Common mass of both surfaces, in an order of the nodes that depends neither on
+//! sides nor on numbers.
+//!
+//! ```text
+//! D_kJ = integral N_k N_J over all common polygons,   w_k = integral N_k
+//! ```
+//!
+//! Sums of floating-point numbers depend on their order, and so would choices made
+//! from them. Nodes are therefore ordered by position first; of two sides with nodes
+//! at the same places that one goes first whose sorted nodes come first. Only
+//! surfaces that are alike to the last bit are told apart by their label, and then
+//! nothing but the label differs.
+
+use std::cmp::Ordering;
+
+use striae_mesh::Vec3;
+
+use crate::interface::{Interface, Opponent, SurfaceNode};
+
+/// Weight below which a node carries nothing, over the area of its largest facet.
+const WEIGHTLESS: f64 = 1e-12;
+
+/// Entries of a row by column, sorted.
+pub(crate) type SparseRow = Vec<(u32, f64)>;
+
+/// Common mass and what follows from it at once.
+pub(crate) struct CommonMass {
+    /// Side and number of all nodes that matter, in order.
+    pub nodes: Vec<(usize, u32)>,
+    /// Place of a node in the order.
+    pub index: [Vec<Option<u32>>; 2],
+    /// `D_kJ`.
+    pub rows: Vec<SparseRow>,
+    /// The same over whole facets, against a rigid surface only.
+    pub whole: Vec<SparseRow>,
+    /// `w_k`.
+    pub weights: Vec<f64>,
+    /// Whether a node has weight: it is a candidate.
+    pub weighted: Vec<bool>,
+    /// Whether a node carries traction.
+    pub carries: Vec<bool>,
+    /// Patch of a node, `None` without an overlap.
+    pub patch: Vec<Option<u32>>,
+    /// The side that goes first among equals.
+    first: usize,
+}
+
+impl CommonMass {
+    /// Sums the overlaps up.
+    pub fn new(interface: &Interface) -> Self {
+        let sides = interface.sides();
+        let carried = carriers(interface);
+        let wanted = with_neighbours(interface, &carried);
+        let (nodes, first) = ordered(interface, &wanted);
+        let mut index = [0, 1].map(|side| vec![None; interface.nodes[side].len()]);
+        for (at, &(side, node)) in nodes.iter().enumerate() {
+            index[side][node as usize] = Some(at as u32);
+        }
+        let place =
+            |side: usize, node: u32| index[side][node as usize].expect("corners are in the order");
+        let corners = |overlap: usize| {
+            let of = interface.overlaps[overlap].corners;
+            sides
+                .iter()
+                .flat_map(|&side| of[side].map(|node| place(side, node)))
+                .collect()
+        };
+        let blocks = blocks(interface.overlaps.len(), corners);
+        let rows = rows(nodes.len(), &blocks, |source, c, d| {
+            interface.overlaps[source].mass[c][d]
+        });
+        let whole = match interface.opponent {
+            Opponent::Deformable => Vec::new(),
+            Opponent::Rigid { whole } => {
+                let near: Vec<_> = whole
+                    .iter()
+                    .filter(|facet| facet.corners.iter().any(|&node| carried[0][node as usize]))
+                    .collect();
+                let corners = |facet: usize| near[facet].corners.map(|node| place(0, node)).into();
+                let blocks = self::blocks(near.len(), corners);
+                self::rows(nodes.len(), &blocks, |source, c, d| near[source].mass[c][d])
+            }
+        };
+        let weights: Vec<f64> = (0..nodes.len())
+            .map(|k| {
+                let own = |&&(l, _): &&(u32, f64)| nodes[l as usize].0 == nodes[k].0;
+                rows[k].iter().filter(own).map(|(_, mass)| mass).sum()
+            })
+            .collect();
+        let areas = largest_facets(interface, &index, nodes.len());
+        Self {
+            weighted: (0..nodes.len())
+                .map(|k| weights[k] > WEIGHTLESS * areas[k])
+                .collect(),
+            carries: nodes
+                .iter()
+                .map(|&(side, node)| carried[side][node as usize])
+                .collect(),
+            patch: patches(nodes.len(), &blocks),
+            nodes,
+            index,
+            rows,
+            whole,
+            weights,
+            first,
+        }
+    }
+
+    /// Key of a node among those at the same place: its side's turn, then its own.
+    pub fn precedence(&self, k: u32) -> (bool, u32) {
+        (self.nodes[k as usize].0 != self.first, k)
+    }
+
+    /// Node at a place in the order.
+    pub fn node<'a>(&self, interface: &Interface<'a>, k: u32) -> &'a SurfaceNode {
+        let (side, node) = self.nodes[k as usize];
+        &interface.nodes[side][node as usize]
+    }
+}
+
+/// Nodes that carry traction: corners of overlaps and all within reach.
+fn carriers(interface: &Interface) -> [Vec<bool>; 2] {
+    let mut carried = [0, 1].map(|side| vec![false; interface.nodes[side].len()]);
+    for &side in interface.sides() {
+        for overlap in interface.overlaps {
+            for node in overlap.corners[side] {
+                carried[side][node as usize] = true;
+            }
+        }
+        for (node, opposing) in interface.opposing[side].iter().enumerate() {
+            carried[side][node] |= opposing.is_some();
+        }
+    }
+    carried
+}
+
+/// The same and, against a rigid surface, their neighbours.
+fn with_neighbours(interface: &Interface, carried: &[Vec<bool>; 2]) -> [Vec<bool>; 2] {
+    let mut wanted = carried.clone();
+    if let Opponent::Rigid { whole } = interface.opponent {
+        for facet in whole {
+            if facet.corners.iter().any(|&node| carried[0][node as usize]) {
+                for node in facet.corners {
+                    wanted[0][node as usize] = true;
+                }
+            }
+        }
+    }
+    wanted
+}
+
+/// Nodes by position and the side that goes first; see the module.
+fn ordered(interface: &Interface, wanted: &[Vec<bool>; 2]) -> (Vec<(usize, u32)>, usize) {
+    let traits = |&(side, node): &(usize, u32)| {
+        let node = &interface.nodes[side][node as usize];
+        let [x, y, z] = node.position.into();
+        [x, y, z, node.flexibility, node.compliance]
+    };
+    let compare = |a: &(usize, u32), b: &(usize, u32)| {
+        let (a, b) = (traits(a), traits(b));
+        let by_trait = a.iter().zip(&b).map(|(a, b)| a.total_cmp(b));
+        by_trait.fold(Ordering::Equal, Ordering::then)
+    };
+    let of_side = [0, 1].map(|side| {
+        let count = wanted[side].len() as u32;
+        let mut nodes: Vec<_> = (0..count)
+            .filter(|&node| wanted[side][node as usize])
+            .map(|node| (side, node))
+            .collect();
+        nodes.sort_by(compare);
+        nodes
+    });
+    let differ = of_side[0]
+        .iter()
+        .zip(&of_side[1])
+        .map(|(a, b)| compare(a, b));
+    let sides = differ
+        .fold(Ordering::Equal, Ordering::then)
+        .then(of_side[0].len().cmp(&of_side[1].len()));
+    let first = usize::from(sides == Ordering::Greater);
+    let mut all = [of_side[first].as_slice(), &of_side[1 - first]].concat();
+    all.sort_by(compare);
+    (all, first)
+}
+
+/// Corners of a polygon in order.
+struct Block {
+    nodes: Vec<u32>,
+    /// Where they stand in the polygon's own mass.
+    from: Vec<u8>,
+    source: usize,
+}
+
+fn blocks(count: usize, corners: impl Fn(usize) -> Vec<u32>) -> Vec<Block> {
+    let block = |source| {
+        let corners = corners(source);
+        let mut from: Vec<u8> = (0..corners.len() as u8).collect();
+        from.sort_by_key(|&c| corners[c as usize]);
+        Block {
+            nodes: from.iter().map(|&c| corners[c as usize]).collect(),
+            from,
+            source,
+        }
+    };
+    let mut blocks: Vec<_> = (0..count).map(block).collect();
+    blocks.sort_by(|a, b| a.nodes.cmp(&b.nodes));
+    blocks
+}
+
+fn rows(
+    count: usize,
+    blocks: &[Block],
+    mass: impl Fn(usize, usize, usize) -> f64,
+) -> Vec<SparseRow> {
+    let mut touching = vec![Vec::new(); count];
+    for block in blocks {
+        for (c, &node) in block.nodes.iter().enumerate() {
+            touching[node as usize].push((block, c));
+        }
+    }
+    let mut sum = SparseSum::new(count);
+    let row = |touching: &Vec<(&Block, usize)>| {
+        for &(block, c) in touching {
+            for (d, &other) in block.nodes.iter().enumerate() {
+                let value = mass(block.source, block.from[c] as usize, block.from[d] as usize);
+                if value != 0.0 {
+                    sum.add(other, value);
+                }
+            }
+        }
+        sum.take()
+    };
+    touching.iter().map(row).collect()
+}
+
+/// Area of the largest facet with an overlap at every node.
+fn largest_facets(interface: &Interface, index: &[Vec<Option<u32>>; 2], count: usize) -> Vec<f64> {
+    let mut areas = vec![0.0_f64; count];
+    for overlap in interface.overlaps {
+        for &side in interface.sides() {
+            let corners = overlap.corners[side];
+            let x: [Vec3; 4] = corners.map(|node| interface.nodes[side][node as usize].position);
+            let area = 0.5 * (x[2] - x[0]).cross(&(x[3] - x[1])).norm();
+            for node in corners {
+                if let Some(k) = index[side][node as usize] {
+                    areas[k as usize] = areas[k as usize].max(area);
+                }
+            }
+        }
+    }
+    areas
+}
+
+/// Patches: nodes that overlaps connect, named by their first node.
+fn patches(count: usize, blocks: &[Block]) -> Vec<Option<u32>> {
+    let mut parent: Vec<u32> = (0..count as u32).collect();
+    fn root(parent: &mut [u32], mut k: u32) -> u32 {
+        while parent[k as usize] != k {
+            parent[k as usize] = parent[parent[k as usize] as usize];
+            k = parent[k as usize];
+        }
+        k
+    }
+    let mut touched = vec![false; count];
+    for block in blocks {
+        let first = root(&mut parent, block.nodes[0]);
+        for &node in &block.nodes {
+            touched[node as usize] = true;
+            let other = root(&mut parent, node);
+            let first = root(&mut parent, first);
+            let (low, high) = (first.min(other), first.max(other));
+            parent[high as usize] = low;
+        }
+    }
+    (0..count as u32)
+        .map(|k| touched[k as usize].then(|| root(&mut parent, k)))
+        .collect()
+}
+
+/// Sum of sparse rows.
+pub(crate) struct SparseSum {
+    values: Vec<f64>,
+    seen: Vec<bool>,
+    touched: Vec<u32>,
+}
+
+impl SparseSum {
+    /// Nothing, of so many columns.
+    pub fn new(columns: usize) -> Self {
+        Self {
+            values: vec![0.0; columns],
+            seen: vec![false; columns],
+            touched: Vec::new(),
+        }
+    }
+
+    /// Adds to an entry.
+    pub fn add(&mut self, column: u32, value: f64) {
+        if !self.seen[column as usize] {
+            self.seen[column as usize] = true;
+            self.touched.push(column);
+        }
+        self.values[column as usize] += value;
+    }
+
+    /// The row, after which the sum is zero.
+    pub fn take(&mut self) -> SparseRow {
+        self.touched.sort_unstable();
+        let row = self.touched.iter().map(|&column| {
+            self.seen[column as usize] = false;
+            (column, std::mem::take(&mut self.values[column as usize]))
+        });
+        let row = row.collect();
+        self.touched.clear();
+        row
+    }
+}
+
+/// Number of the cluster of every value: neighbours nearer than the tolerance share one.
+pub(crate) fn ranks(values: &[f64], tolerance: f64) -> Vec<u32> {
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
+    let mut ranks = vec![0; values.len()];
+    let mut rank = 0;
+    for pair in order.windows(2) {
+        if values[pair[1]] - values[pair[0]] > tolerance {
+            rank += 1;
+        }
+        ranks[pair[1]] = rank;
+    }
+    ranks
+}

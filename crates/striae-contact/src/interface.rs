@@ -1,0 +1,88 @@
+//! What the roles and the traction field of a pair are chosen from: nodes, common
+//! integrals and projections of both surfaces, as plain values.
+//!
+//! Lengths, areas and moduli in the user's units; `h` is a size of the facets at a
+//! node, `E` a modulus of the body behind it.
+
+use striae_mesh::Vec3;
+
+/// Whether a node carried traction unknowns in the last increment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LastIncrement {
+    /// It was kept: it competes with twice its pivot.
+    Kept,
+    /// It was not.
+    NotKept,
+}
+
+/// A node of a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceNode {
+    /// Where it is.
+    pub position: Vec3,
+    /// `h/E` of the body behind it, zero if rigid or wholly prescribed.
+    pub flexibility: f64,
+    /// `1/(E h)`, zero if rigid or wholly prescribed.
+    pub compliance: f64,
+    /// What it did in the last increment.
+    pub last: LastIncrement,
+}
+
+/// Common polygon of a facet of each side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Overlap {
+    /// Corners of both facets; a triangle repeats its last one.
+    pub corners: [[u32; 4]; 2],
+    /// `integral N_c N_d` over the polygon, first the corners of side 0, then those
+    /// of side 1. A repeated corner has no mass.
+    pub mass: [[f64; 8]; 8],
+}
+
+/// A facet of the deformable surface as if it were covered wholly.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FacetMass {
+    /// Its corners; a triangle repeats its last one.
+    pub corners: [u32; 4],
+    /// `integral N_c N_d` over the whole facet. A repeated corner has no mass.
+    pub mass: [[f64; 4]; 4],
+}
+
+/// Corners of the opposing facet and their weights at the projection of a node,
+/// clamped to the opposing surface: non-negative, of sum one.
+pub type ClampedProjection = ([u32; 4], [f64; 4]);
+
+/// What side 1 is.
+#[derive(Clone, Copy, Debug)]
+pub enum Opponent<'a> {
+    /// A deformable body: nodes of both sides compete.
+    Deformable,
+    /// A rigid surface: nodes of side 0 only.
+    Rigid {
+        /// Facets of side 0: at least those that touch a node with an overlap or a
+        /// projection.
+        whole: &'a [FacetMass],
+    },
+}
+
+/// Two surfaces and what they have in common.
+#[derive(Clone, Copy, Debug)]
+pub struct Interface<'a> {
+    /// Nodes of both sides.
+    pub nodes: [&'a [SurfaceNode]; 2],
+    /// Common polygons.
+    pub overlaps: &'a [Overlap],
+    /// For every node its projection if it is within reach.
+    pub opposing: [&'a [Option<ClampedProjection>]; 2],
+    /// What side 1 is.
+    pub opponent: Opponent<'a>,
+}
+
+impl Interface<'_> {
+    /// Sides whose nodes carry the field.
+    pub(crate) fn sides(&self) -> &'static [usize] {
+        match self.opponent {
+            Opponent::Deformable => &[0, 1],
+            Opponent::Rigid { .. } => &[0],
+        }
+    }
+}

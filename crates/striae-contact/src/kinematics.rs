@@ -1,0 +1,38 @@
+//! Gap and slip of the kept nodes, with their derivatives by all unknowns.
+
+use striae_mesh::Vec3;
+
+use crate::{frame::Tracked, term::Gradient};
+
+/// A scalar with its derivatives by the unknowns.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TrackedScalar {
+    /// The scalar.
+    pub value: f64,
+    /// Its derivatives.
+    pub gradient: Gradient,
+}
+
+/// What contact and friction at a kept node depend on.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Kinematics {
+    /// Gap, positive when open.
+    pub gap: TrackedScalar,
+    /// Slip `du` of the node's own side relative to the other since the last converged
+    /// configuration, in the tangent plane of the node.
+    pub slip: Tracked,
+    /// Pressure per gap `1/l` that scales the complementarity: `l` is the thickness over
+    /// the modulus of what yields there on both sides.
+    pub stiffness: f64,
+}
+
+/// What is reported of a node, kept or not.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Report {
+    /// Gap.
+    pub gap: f64,
+    /// Slip.
+    pub slip: Vec3,
+    /// Area that belongs to the node, `integral N da`.
+    pub area: f64,
+}

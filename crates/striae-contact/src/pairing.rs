@@ -1,0 +1,201 @@
+//! Facets of the two sides that face each other, with the integrals over their segments.
+//!
+//! Two facets are paired where they face each other, have a common segment (see
+//! [`crate::segment`]) and are near: the mean gap over the segment is at most the larger
+//! reach of their corners, and they overlap by no more than that and the `depth` that the
+//! bodies move towards each other.
+
+use rayon::prelude::*;
+use striae_mesh::{FacetId, Vec3};
+use striae_surface::facet::Shape;
+
+use crate::{
+    configuration::Configuration,
+    segment::{Derivatives, Facet, Segment, plane_segment, segment},
+};
+
+/// Two facets and their segment.
+#[derive(Clone, Debug)]
+pub struct PairedFacets {
+    /// Facets of the sides `a` and `b`; a plane has none.
+    pub facets: [Option<FacetId>; 2],
+    /// Corners of side `a`, then of side `b`, as surface-local nodes.
+    pub corners: [[u32; 4]; 2],
+    /// Their current positions.
+    pub x: [Vec3; 8],
+    /// Integrals over the segment.
+    pub segment: Segment,
+}
+
+/// Which facets are paired.
+#[derive(Clone, Copy, Debug)]
+pub struct Scope<'a> {
+    /// Compliance `h/E` of the facets by side, which weighs their normals; zero if rigid.
+    pub compliances: &'a [Vec<f64>; 2],
+    /// Overlap beyond the reach up to which facets are paired.
+    pub depth: f64,
+}
+
+impl Scope<'_> {
+    /// Weights of the normals of two paired facets.
+    pub fn weights(&self, paired: &PairedFacets) -> [f64; 2] {
+        [0, 1].map(|side| match paired.facets[side] {
+            Some(facet) => self.compliances[side][facet.index()],
+            None => 0.0,
+        })
+    }
+}
+
+impl PairedFacets {
+    /// `sum_d s_d D_cd (x_d - o)` for the points `x` at the corners, with `s = -1` on side
+    /// `a` and `1` on side `b`.
+    pub fn difference(&self, corner: usize, x: &[Vec3; 8], origin: &Vec3) -> Vec3 {
+        let row = &self.segment.mass[corner];
+        (0..8).map(|d| (x[d] - origin) * (SIGNS[d] * row[d])).sum()
+    }
+
+    /// Area that belongs to a corner, `integral N_c da`.
+    pub fn area_of(&self, corner: usize) -> f64 {
+        let row = &self.segment.mass[corner];
+        let own = if row[..4].iter().any(|m| *m != 0.0) {
+            &row[..4]
+        } else {
+            &row[4..]
+        };
+        own.iter().sum()
+    }
+
+    /// A point from which positions are measured: on the plane, or near the facets.
+    pub fn origin(&self, configuration: &Configuration) -> Vec3 {
+        match configuration.plane() {
+            Some((point, _)) => point,
+            None => self.x[0],
+        }
+    }
+
+    /// Mean gap over the segment.
+    pub fn mean_gap(&self, configuration: &Configuration) -> f64 {
+        let origin = self.origin(configuration);
+        let sum: Vec3 = (0..4).map(|c| self.difference(c, &self.x, &origin)).sum();
+        self.segment.normal.dot(&sum) / self.segment.area
+    }
+
+    /// Side and surface-local node of a corner of a deformable side; `None` for the corners
+    /// of a rigid side and the repeated corner of a triangle.
+    pub fn node(&self, configuration: &Configuration, corner: usize) -> Option<(usize, u32)> {
+        let (side, at) = (corner / 4, corner % 4);
+        let corners = &self.corners[side];
+        let repeated = at == 3 && Shape::of(corners) == Shape::Triangle;
+        let rigid = side == 1 && configuration.pair.is_rigid();
+        (!rigid && !repeated).then(|| (side, corners[at]))
+    }
+}
+
+/// Sign of the corners in the gap: `b` minus `a`.
+pub const SIGNS: [f64; 8] = [-1.0, -1.0, -1.0, -1.0, 1.0, 1.0, 1.0, 1.0];
+
+/// All paired facets whose facet of side `a` is `wanted`, in the order of their facets.
+pub fn paired_facets(
+    configuration: &Configuration,
+    scope: Scope,
+    slopes: Derivatives,
+    wanted: impl Fn(FacetId) -> bool + Sync,
+) -> Vec<PairedFacets> {
+    let own = configuration.side(0);
+    let found: Vec<Vec<PairedFacets>> = (0..own.surface.facets().len())
+        .into_par_iter()
+        .with_min_len(4)
+        .map(|facet| {
+            let facet = FacetId::new(facet);
+            if wanted(facet) {
+                of_facet(configuration, scope, slopes, facet)
+            } else {
+                Vec::new()
+            }
+        })
+        .collect();
+    found.into_iter().flatten().collect()
+}
+
+fn of_facet(
+    configuration: &Configuration,
+    scope: Scope,
+    slopes: Derivatives,
+    facet: FacetId,
+) -> Vec<PairedFacets> {
+    let own = configuration.side(0);
+    let corners = own.corners(facet);
+    let positions = own.corner_positions(facet);
+    let a = Facet {
+        corners: positions,
+        shape: Shape::of(&corners),
+    };
+    let reach = reach(configuration, 0, &corners);
+    let is_near = |paired: &PairedFacets, reach: f64| {
+        let gap = paired.mean_gap(configuration);
+        gap <= reach && -gap <= reach + scope.depth
+    };
+    if let Some((point, normal)) = configuration.plane() {
+        let nothing = [point; 4];
+        let paired = plane_segment(&a, &normal, slopes).map(|segment| PairedFacets {
+            facets: [Some(facet), None],
+            corners: [corners, [0; 4]],
+            x: joined(&positions, &nothing),
+            segment,
+        });
+        return paired.into_iter().filter(|p| is_near(p, reach)).collect();
+    }
+    let other = configuration.side(1);
+    let farthest = farthest(configuration);
+    let bounds = own.bounds(facet).inflated(farthest + scope.depth);
+    let mut found = Vec::new();
+    for item in other.tree.meeting(&bounds) {
+        let opposite = FacetId(item);
+        let corners_b = other.corners(opposite);
+        let positions_b = other.corner_positions(opposite);
+        let b = Facet {
+            corners: positions_b,
+            shape: Shape::of(&corners_b),
+        };
+        let weights = [
+            scope.compliances[0][facet.index()],
+            scope.compliances[1][opposite.index()],
+        ];
+        let Some(segment) = segment(&a, &b, weights, slopes) else {
+            continue;
+        };
+        let paired = PairedFacets {
+            facets: [Some(facet), Some(opposite)],
+            corners: [corners, corners_b],
+            x: joined(&positions, &positions_b),
+            segment,
+        };
+        let reach = if configuration.pair.is_rigid() {
+            reach
+        } else {
+            reach.max(self::reach(configuration, 1, &corners_b))
+        };
+        if is_near(&paired, reach) {
+            found.push(paired);
+        }
+    }
+    found
+}
+
+fn joined(a: &[Vec3; 4], b: &[Vec3; 4]) -> [Vec3; 8] {
+    std::array::from_fn(|at| if at < 4 { a[at] } else { b[at - 4] })
+}
+
+/// Largest reach of the corners of a facet.
+fn reach(configuration: &Configuration, side: usize, corners: &[u32; 4]) -> f64 {
+    let reaches = corners.map(|node| configuration.reach(side, node));
+    reaches.into_iter().fold(0.0, f64::max)
+}
+
+/// Largest reach of any facet.
+fn farthest(configuration: &Configuration) -> f64 {
+    let sides = configuration.pair.deformable_sides().iter();
+    let largest = sides.map(|&side| configuration.side(side).largest_size);
+    let largest = largest.fold(0.0, f64::max);
+    configuration.pair.search_distance.unwrap_or(0.5 * largest)
+}

@@ -1,0 +1,342 @@
+//! Which nodes of a pair keep traction unknowns.
+//!
+//! The choice maximises pivots of a local, dimensionless surrogate of the compliance
+//! that the unknowns of both bodies see:
+//!
+//! ```text
+//! l_k  = (1/w_k) sum_J D_kJ h_J/E_J
+//! S_kl = sum_J D_kJ kappa_J D_Jl / sqrt(w_k l_k w_l l_l),   kappa_J = 1/(E_J h_J)
+//! d_k  = S_kk - S_kn S_nn^-1 S_nk,   n: kept nodes that couple with k
+//! ```
+//!
+//! with `J` over the nodes of both sides. The largest pivot is kept next while it is
+//! at least [`THETA_0`]; a node kept in the last increment competes with twice its
+//! pivot, since equals would flip otherwise. Every patch keeps at least one node.
+//!
+//! Pivots within [`TIE`] of the largest are ties and kept from the middle of all
+//! candidates (weighted by `w_k`) outwards: a regular pattern then grows from one
+//! place and meets itself nowhere, its irregularities fall on the rim, and nodes that
+//! are uncovered soon come last. Of equally distant nodes the one with the smaller
+//! coordinates goes first. Distances and coordinates within [`SAME_PLACE`] of the
+//! extent are equal, by clusters rather than by rounding, which would tear equals
+//! apart.
+//!
+//! Against a rigid surface unknowns of one side do not compete. There
+//! `d_k = 1/4 sum_i D_ki^2 / sum_i (D_ki of whole facets)^2`: 1/4 as that of an
+//! interior node above, and falling to zero as a sliver does.
+
+use std::{cmp::Ordering, collections::BinaryHeap};
+
+use striae_mesh::Vec3;
+
+use crate::{
+    common_mass::{CommonMass, SparseRow, SparseSum, ranks},
+    interface::{Interface, LastIncrement, Opponent},
+    pivots::Pivots,
+};
+
+/// Pivot from which a node is kept.
+pub const THETA_0: f64 = 0.005;
+/// Pivots that differ less, relative to the largest, are equal.
+pub const TIE: f64 = 1e-3;
+/// Distance below which two places are one, over the extent of the candidates.
+pub const SAME_PLACE: f64 = 1e-9;
+/// Factor on the pivot of a node that was kept in the last increment.
+const STAY: f64 = 2.0;
+/// Coupling below which two nodes are no neighbours.
+const UNCOUPLED: f64 = 1e-14;
+/// Pivot of an interior node.
+const INTERIOR: f64 = 0.25;
+
+/// Kept nodes, by place in the order of the common mass.
+pub(crate) struct Choice {
+    /// Sorted by side and number.
+    pub kept: Vec<u32>,
+    /// Their pivots when they were kept.
+    pub pivots: Vec<f64>,
+    /// `l_k`.
+    pub flexibility: Vec<f64>,
+}
+
+impl Choice {
+    /// Chooses.
+    pub fn new(interface: &Interface, mass: &CommonMass) -> Self {
+        let flexibility = flexibility(interface, mass);
+        let contest = Contest::new(interface, mass);
+        let mut chosen = match interface.opponent {
+            Opponent::Deformable => {
+                let surrogate = surrogate(interface, mass, &flexibility);
+                contest.greedy(Pivots::new(surrogate))
+            }
+            Opponent::Rigid { .. } => contest.all(&covered(mass)),
+        };
+        chosen.sort_by_key(|&(k, _)| mass.nodes[k as usize]);
+        Self {
+            flexibility: chosen
+                .iter()
+                .map(|&(k, _)| flexibility[k as usize])
+                .collect(),
+            pivots: chosen.iter().map(|&(_, pivot)| pivot).collect(),
+            kept: chosen.into_iter().map(|(k, _)| k).collect(),
+        }
+    }
+}
+
+/// `l_k`, zero for nodes without weight.
+fn flexibility(interface: &Interface, mass: &CommonMass) -> Vec<f64> {
+    let of = |k: usize| {
+        let seen = mass.rows[k]
+            .iter()
+            .map(|&(j, value)| value * mass.node(interface, j).flexibility);
+        if mass.weighted[k] {
+            seen.sum::<f64>() / mass.weights[k]
+        } else {
+            0.0
+        }
+    };
+    (0..mass.nodes.len()).map(of).collect()
+}
+
+/// Rows `S_k`, empty for nodes that are no candidates.
+fn surrogate(interface: &Interface, mass: &CommonMass, flexibility: &[f64]) -> Vec<SparseRow> {
+    let count = mass.nodes.len();
+    let scale: Vec<f64> = (0..count)
+        .map(|k| {
+            let square = mass.weights[k] * flexibility[k];
+            if square > 0.0 {
+                square.sqrt().recip()
+            } else {
+                0.0
+            }
+        })
+        .collect();
+    let mut sum = SparseSum::new(count);
+    let row = |k: usize| {
+        if scale[k] == 0.0 {
+            return SparseRow::new();
+        }
+        for &(j, by_k) in &mass.rows[k] {
+            let compliance = mass.node(interface, j).compliance;
+            for &(l, by_l) in &mass.rows[j as usize] {
+                if scale[l as usize] > 0.0 {
+                    sum.add(l, compliance * (by_k * by_l));
+                }
+            }
+        }
+        let mut row = sum.take();
+        for (l, value) in &mut row {
+            *value *= scale[k] * scale[*l as usize];
+        }
+        row.retain(|&(_, value)| value.abs() > UNCOUPLED);
+        row
+    };
+    (0..count).map(row).collect()
+}
+
+/// Pivots against a rigid surface.
+fn covered(mass: &CommonMass) -> Vec<f64> {
+    let square = |row: &SparseRow| row.iter().map(|(_, value)| value * value).sum::<f64>();
+    let pivot = |(row, whole): (&SparseRow, &SparseRow)| {
+        let whole = square(whole);
+        if whole > 0.0 {
+            INTERIOR * square(row) / whole
+        } else {
+            0.0
+        }
+    };
+    mass.rows.iter().zip(&mass.whole).map(pivot).collect()
+}
+
+/// Who competes, and the order among equals.
+struct Contest<'a> {
+    mass: &'a CommonMass,
+    /// Candidates, the first to win a tie first.
+    candidates: Vec<u32>,
+    /// Place among them.
+    rank: Vec<u32>,
+    /// Factor on the pivot.
+    factor: Vec<f64>,
+}
+
+/// A pivot with its factor, in a queue with the largest on top.
+#[derive(PartialEq)]
+struct Bid {
+    value: f64,
+    rank: u32,
+    node: u32,
+}
+
+impl Eq for Bid {}
+
+impl PartialOrd for Bid {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Bid {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let by_value = self.value.total_cmp(&other.value);
+        by_value.then(other.rank.cmp(&self.rank))
+    }
+}
+
+impl<'a> Contest<'a> {
+    fn new(interface: &Interface, mass: &'a CommonMass) -> Self {
+        let count = mass.nodes.len() as u32;
+        let candidates = (0..count).filter(|&k| mass.weighted[k as usize]).collect();
+        let candidates = from_the_middle(interface, mass, candidates);
+        let mut rank = vec![0; count as usize];
+        for (at, &k) in candidates.iter().enumerate() {
+            rank[k as usize] = at as u32;
+        }
+        let factor = |k| match mass.node(interface, k).last {
+            LastIncrement::Kept => STAY,
+            LastIncrement::NotKept => 1.0,
+        };
+        Self {
+            mass,
+            candidates,
+            rank,
+            factor: (0..count).map(factor).collect(),
+        }
+    }
+
+    fn bid(&self, k: u32, pivot: f64) -> Bid {
+        Bid {
+            value: pivot * self.factor[k as usize],
+            rank: self.rank[k as usize],
+            node: k,
+        }
+    }
+
+    /// Lazy greedy choice, tie by tie: kept nodes and their pivots.
+    fn greedy(&self, mut pivots: Pivots) -> Vec<(u32, f64)> {
+        let first: Vec<(u32, f64)> = self
+            .candidates
+            .iter()
+            .map(|&k| (k, pivots.bound(k)))
+            .collect();
+        let mut queue: BinaryHeap<Bid> = first.iter().map(|&(k, d)| self.bid(k, d)).collect();
+        let mut kept = Vec::new();
+        while let Some(tie) = self.next_tie(&mut queue, &mut pivots) {
+            let least = (tie.largest * (1.0 - TIE)).max(THETA_0);
+            for k in tie.nodes {
+                let bid = self.bid(k, pivots.refresh(k));
+                if bid.value >= least {
+                    kept.push((k, pivots.bound(k)));
+                    pivots.keep(k);
+                    pivots.drop(k);
+                } else if bid.value >= THETA_0 {
+                    queue.push(bid);
+                } else {
+                    pivots.drop(k);
+                }
+            }
+        }
+        self.complete(&mut kept, &first);
+        kept
+    }
+
+    /// Candidates that are equal to the largest; none once that is too small.
+    fn next_tie(&self, queue: &mut BinaryHeap<Bid>, pivots: &mut Pivots) -> Option<Tie> {
+        let mut tie: Option<Tie> = None;
+        while let Some(top) = queue.pop() {
+            let least = tie
+                .as_ref()
+                .map_or(THETA_0, |tie| tie.largest * (1.0 - TIE));
+            if top.value < least {
+                queue.push(top);
+                break;
+            }
+            if !pivots.is_fresh(top.node) {
+                let bid = self.bid(top.node, pivots.refresh(top.node));
+                if bid.value >= THETA_0 {
+                    queue.push(bid);
+                } else {
+                    pivots.drop(top.node);
+                }
+                continue;
+            }
+            let tie = tie.get_or_insert(Tie {
+                largest: top.value,
+                nodes: Vec::new(),
+            });
+            tie.nodes.push(top.node);
+        }
+        if let Some(tie) = &mut tie {
+            tie.nodes.sort_by_key(|&k| self.rank[k as usize]);
+        }
+        tie
+    }
+
+    /// All whose pivot is large enough, where none takes from another.
+    fn all(&self, pivots: &[f64]) -> Vec<(u32, f64)> {
+        let pivots: Vec<(u32, f64)> = self
+            .candidates
+            .iter()
+            .map(|&k| (k, pivots[k as usize]))
+            .collect();
+        let enough = |&&(k, pivot): &&(u32, f64)| self.bid(k, pivot).value >= THETA_0;
+        let mut kept = pivots.iter().filter(enough).copied().collect();
+        self.complete(&mut kept, &pivots);
+        kept
+    }
+
+    /// The largest pivot of every patch that has no kept node yet.
+    fn complete(&self, kept: &mut Vec<(u32, f64)>, pivots: &[(u32, f64)]) {
+        let patch =
+            |k: u32| self.mass.patch[k as usize].expect("candidates have overlaps") as usize;
+        let mut has_kept = vec![false; self.mass.nodes.len()];
+        for &(k, _) in kept.iter() {
+            has_kept[patch(k)] = true;
+        }
+        let mut largest = vec![0.0_f64; self.mass.nodes.len()];
+        for &(k, pivot) in pivots {
+            let value = self.bid(k, pivot).value;
+            largest[patch(k)] = largest[patch(k)].max(value);
+        }
+        for &(k, pivot) in pivots {
+            let enough = largest[patch(k)] * (1.0 - TIE);
+            if !has_kept[patch(k)] && self.bid(k, pivot).value >= enough {
+                has_kept[patch(k)] = true;
+                kept.push((k, pivot));
+            }
+        }
+    }
+}
+
+/// Candidates with equal pivots.
+struct Tie {
+    largest: f64,
+    nodes: Vec<u32>,
+}
+
+/// Candidates by distance from their middle, then by coordinates.
+fn from_the_middle(interface: &Interface, mass: &CommonMass, candidates: Vec<u32>) -> Vec<u32> {
+    let position = |k: u32| mass.node(interface, k).position;
+    let (mut moment, mut weight) = (Vec3::zeros(), 0.0);
+    let (mut low, mut high) = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
+    for &k in &candidates {
+        moment += position(k) * mass.weights[k as usize];
+        weight += mass.weights[k as usize];
+        low = low.inf(&position(k));
+        high = high.sup(&position(k));
+    }
+    let middle = moment / weight;
+    let tolerance = SAME_PLACE * (high - low).norm();
+    let ranked = |value: &dyn Fn(u32) -> f64| {
+        let values: Vec<f64> = candidates.iter().map(|&k| value(k)).collect();
+        ranks(&values, tolerance)
+    };
+    let keys = [
+        ranked(&|k| (position(k) - middle).norm()),
+        ranked(&|k| position(k).x),
+        ranked(&|k| position(k).y),
+        ranked(&|k| position(k).z),
+    ];
+    let mut order: Vec<usize> = (0..candidates.len()).collect();
+    let first = |at: usize| mass.precedence(candidates[at]);
+    order.sort_by_key(|&at| (keys.each_ref().map(|key| key[at]), first(at)));
+    order.into_iter().map(|at| candidates[at]).collect()
+}

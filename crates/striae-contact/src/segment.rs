@@ -1,0 +1,237 @@
+//! The common polygon of two facets, one of each side, with all that contact needs of it.
+//!
+//! ```text
+//! n = unit(c_b n_a - c_a n_b)                   c: compliances h/E, 0 if rigid
+//! D_cd = int N_c N_d dA                         c, d: 0..4 functions of a, 4..8 of b
+//! ```
+//!
+//! Both facets are seen along `n`; the polygons are clipped exactly against each other in
+//! the plane across it, where `dA` is the area, and a point of that plane has coordinates
+//! on both facets by inverting the bilinear map of each. `n_a`, `n_b` are the unit normals
+//! of the facets from their diagonals. With them come the first derivatives by the 24
+//! coordinates of the corners: through `n`, vertices, weights and inverse maps.
+//!
+//! Both facets parallelograms or triangles (distortion below [`AFFINE`]): `D` and its
+//! derivatives are exact. They need degree five, not four: the derivative of `N_c` by a
+//! corner brings in one more function. Otherwise the functions are not polynomials of
+//! the place; rules of degree 6 (distortion below [`MILD`]) and 8 leave a small error.
+//! Distortion is the largest relative departure of the Jacobian from its mean. Corners within
+//! 1e-6 of the size of the smaller facet count as on an opposing edge.
+
+mod chain;
+mod fan;
+mod normal;
+mod plane_facet;
+mod polygon;
+mod rigid_plane;
+mod rule;
+mod sums;
+
+use nalgebra::Matrix3;
+use striae_mesh::Vec3;
+use striae_surface::facet::Shape;
+
+pub use rigid_plane::plane_segment;
+
+use chain::Plane;
+use fan::{Apex, fan};
+use normal::{facet_normal, pair_normal, pair_slopes};
+use plane_facet::{PlaneFacet, Vec2};
+use polygon::{Outline, Vertex, common, twice_area};
+use sums::{PAIRS, PlaneSlopes, Triangle, add_triangle, functions};
+
+/// Facets face each other where `n_a . n_b` is not above this.
+pub const FACING: f64 = -0.2;
+/// Distance of a corner from an opposing edge, over the size of the smaller facet, up to
+/// which it counts as on it.
+pub const ON_EDGE: f64 = 1e-6;
+/// Distortion up to which a quadrilateral counts as a parallelogram.
+pub const AFFINE: f64 = 1e-6;
+/// Distortion up to which the cheaper of the rules for general facets serves.
+pub const MILD: f64 = 0.05;
+/// Distortion from which a facet, seen along the normal, is too near to not being convex.
+pub const NOT_CONVEX: f64 = 0.99;
+
+/// A facet in space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Facet {
+    /// Corners, counter-clockwise seen from outside; a triangle repeats its last one.
+    pub corners: [Vec3; 4],
+    /// Its shape.
+    pub shape: Shape,
+}
+
+/// Whether derivatives are wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Derivatives {
+    /// Values only.
+    None,
+    /// First derivatives.
+    First,
+}
+
+/// The common polygon of two facets.
+#[derive(Clone, Debug)]
+pub struct Segment {
+    /// `n`, outward of the first side.
+    pub normal: Vec3,
+    /// Area across `n`.
+    pub area: f64,
+    /// `D_cd`, symmetric.
+    pub mass: [[f64; 8]; 8],
+    /// Derivatives, if asked for.
+    pub slopes: Option<Box<Slopes>>,
+}
+
+/// Derivatives of a segment by the corners of both facets.
+#[derive(Clone, Debug)]
+pub struct Slopes {
+    /// `dn/dx_c`.
+    pub normal: [Matrix3<f64>; 8],
+    /// `dD_cd/dx`, row [`pair_index`]`(c, d)`, column `3 k + i` for `x_k . e_i`.
+    pub mass: [[f64; 24]; 36],
+}
+
+/// Row of `D_cd` in the upper triangle, packed row by row.
+pub fn pair_index(c: usize, d: usize) -> usize {
+    let (c, d) = (c.min(d), c.max(d));
+    c * (15 - c) / 2 + d
+}
+
+/// The normal of two facets with these compliances; `None` where they have none.
+pub fn normal_between(a: &Facet, b: &Facet, compliance: [f64; 2]) -> Option<Vec3> {
+    let (n_a, n_b) = (facet_normal(a)?, facet_normal(b)?);
+    pair_normal([&n_a, &n_b], compliance)
+}
+
+/// The segment of two facets with these compliances.
+///
+/// `None` where they do not face each other ([`FACING`]), have no common area (thinner
+/// than a corner's tolerance counts as none), where neither side has a compliance, or where
+/// a facet is not convex seen along `n` ([`NOT_CONVEX`]), so that its map has no inverse.
+pub fn segment(
+    a: &Facet,
+    b: &Facet,
+    compliance: [f64; 2],
+    derivatives: Derivatives,
+) -> Option<Segment> {
+    let (n_a, n_b) = (facet_normal(a)?, facet_normal(b)?);
+    let facing = n_a.dot(&n_b) <= FACING;
+    if !facing {
+        return None;
+    }
+    let normal = pair_normal([&n_a, &n_b], compliance)?;
+    let pair = PlanePair::new([a, b], normal)?;
+    let polygon = pair.polygon()?;
+    let (mass, plane_slopes) = pair.integrals(&polygon, derivatives);
+    let slopes = plane_slopes.map(|in_plane| {
+        let normal = pair_slopes([a, b], [&n_a, &n_b], compliance);
+        let mass = in_plane.in_space(&pair.plane, &pair.corners, &normal);
+        Box::new(Slopes { normal, mass })
+    });
+    Some(Segment {
+        normal,
+        area: 0.5 * twice_area(&polygon),
+        mass: symmetric(&mass),
+        slopes,
+    })
+}
+
+fn symmetric(packed: &[f64; PAIRS]) -> [[f64; 8]; 8] {
+    let mut mass = [[0.0; 8]; 8];
+    for (pair, value) in packed.iter().enumerate() {
+        let (c, d) = functions(pair);
+        (mass[c][d], mass[d][c]) = (*value, *value);
+    }
+    mass
+}
+
+/// Two facets seen along their normal.
+struct PlanePair {
+    plane: Plane,
+    corners: [Vec3; 8],
+    places: [Vec2; 8],
+    facets: [PlaneFacet; 2],
+    tolerance: f64,
+}
+
+impl PlanePair {
+    /// `None` if one is not convex, or faces the wrong way.
+    fn new(facets: [&Facet; 2], normal: Vec3) -> Option<Self> {
+        let corners: [Vec3; 8] = std::array::from_fn(|c| facets[c / 4].corners[c % 4]);
+        let plane = Plane::new(normal, corners[0]);
+        let places = corners.each_ref().map(|x| plane.place(x));
+        let seen = [0, 1].map(|side| {
+            let own = std::array::from_fn(|c| places[4 * side + c]);
+            PlaneFacet::new(facets[side].shape, &own)
+        });
+        let convex = seen.iter().all(|facet| facet.distortion() < NOT_CONVEX);
+        let faces = seen[0].area() > 0.0 && seen[1].area() < 0.0;
+        let smaller = seen[0].area().min(-seen[1].area());
+        (convex && faces).then(|| Self {
+            plane,
+            corners,
+            places,
+            facets: seen,
+            tolerance: ON_EDGE * smaller.sqrt(),
+        })
+    }
+
+    fn outline(&self, side: usize) -> Outline {
+        let count = match self.facets[side].shape {
+            Shape::Triangle => 3,
+            Shape::Quadrilateral => 4,
+        };
+        let corners: Vec<usize> = match side {
+            0 => (0..count).collect(),
+            _ => (0..count).rev().collect(),
+        };
+        let places = corners.iter().map(|c| self.places[4 * side + c]).collect();
+        Outline { corners, places }
+    }
+
+    /// The common polygon; `None` if it is thinner than the tolerance.
+    fn polygon(&self) -> Option<Vec<Vertex>> {
+        let polygon = common(&self.outline(0), &self.outline(1), self.tolerance);
+        if polygon.len() < 3 {
+            return None;
+        }
+        let first = polygon[0].place;
+        let reach = polygon.iter().map(|vertex| (vertex.place - first).norm());
+        let longest = reach.fold(0.0, f64::max);
+        (twice_area(&polygon) > 0.1 * self.tolerance * longest).then_some(polygon)
+    }
+
+    fn integrals(
+        &self,
+        polygon: &[Vertex],
+        derivatives: Derivatives,
+    ) -> ([f64; PAIRS], Option<PlaneSlopes>) {
+        let [a, b] = self.facets.each_ref().map(PlaneFacet::distortion);
+        let distortion = a.max(b);
+        let (rule, apex): (&[_], _) = if distortion <= AFFINE {
+            (&rule::DEGREE_5, Apex::Corner)
+        } else if distortion <= MILD {
+            (&rule::DEGREE_6, Apex::Centre)
+        } else {
+            (&rule::DEGREE_8, Apex::Centre)
+        };
+        let fan = fan(polygon, apex);
+        let mut mass = [0.0; PAIRS];
+        let mut slopes = match derivatives {
+            Derivatives::None => None,
+            Derivatives::First => Some(PlaneSlopes::zero(fan.places.len())),
+        };
+        for indices in &fan.triangles {
+            let triangle = Triangle {
+                places: indices.map(|at| fan.places[at]),
+                indices: *indices,
+            };
+            add_triangle(&self.facets, &triangle, rule, &mut mass, slopes.as_mut());
+        }
+        if let Some(slopes) = &mut slopes {
+            slopes.pass_on(polygon, &fan, &self.places);
+        }
+        (mass, slopes)
+    }
+}

@@ -1,0 +1,209 @@
+//! Gap and slip integrals over one segment, with their derivatives.
+//!
+//! With the integrals `D_cd` of a segment, the sign `s = -1` on side `a` and `1` on `b`, and
+//! the positions `x_d` of its eight corners,
+//!
+//! ```text
+//! G_c  = integral N_c g da  = n . sum_d s_d D_cd x_d
+//! du_c = integral N_c du da = R(n, n^n) (I - n^n n^n) sum_d s_d D_cd x^n_d
+//! ```
+//!
+//! where `x^n_d` and `n^n` are of the last converged configuration: the points that face
+//! each other now were apart by `x_b^n - x_a^n`, so side `a` has slipped by that. Nothing
+//! is stored but converged positions, and the slip is exactly zero under rigid motion.
+//! Against a rigid surface the old positions of side `a` are carried along by its motion,
+//! `y_d`, which makes the slip objective under all motions of that surface:
+//!
+//! ```text
+//! du_c = (I - n n) (sum_{d in b} D_cd x_d - sum_{d in a} D_cd y_d)
+//! ```
+
+use nalgebra::Matrix3;
+use striae_mesh::Vec3;
+
+use crate::{
+    configuration::Configuration,
+    pairing::{PairedFacets, SIGNS},
+    segment::{Facet, Slopes, normal_between, pair_index},
+    transported::Transported,
+};
+
+/// Rows a corner: the gap, then the three components of the slip of side `a`.
+pub const ROWS: usize = 4;
+
+/// `G_c` and `du_c` of the corners, and their derivatives by the corners.
+pub struct SegmentRows {
+    /// By corner.
+    pub value: [[f64; ROWS]; 8],
+    /// By corner `c`, corner `e` moved, then `3 row + axis`.
+    pub slopes: Vec<[[f64; 3 * ROWS]; 8]>,
+}
+
+/// Whether slip is asked for beside the gap.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Slip {
+    /// It is.
+    Derivatives,
+    /// There is no friction.
+    Left,
+}
+
+/// Gap and slip of a segment; `weights` are those of the facets' normals.
+pub fn segment_rows(
+    configuration: &Configuration,
+    start: &Configuration,
+    paired: &PairedFacets,
+    weights: [f64; 2],
+    slip: Slip,
+) -> SegmentRows {
+    let origin = paired.origin(configuration);
+    let n = paired.segment.normal;
+    let mut rows = SegmentRows {
+        value: [[0.0; ROWS]; 8],
+        slopes: Vec::new(),
+    };
+    let slopes = paired.segment.slopes.as_deref();
+    if slopes.is_some() {
+        rows.slopes = vec![[[0.0; 3 * ROWS]; 8]; 8];
+    }
+    let along: [f64; 8] = std::array::from_fn(|d| n.dot(&(paired.x[d] - origin)));
+    let along = Signed::scalars(&along);
+    for c in 0..8 {
+        let sum = paired.difference(c, &paired.x, &origin);
+        rows.value[c][0] = n.dot(&sum);
+        let Some(slopes) = slopes else { continue };
+        let by_mass = along.of_mass(slopes, c);
+        for e in 0..8 {
+            let direct = n * (SIGNS[e] * paired.segment.mass[c][e]);
+            let gradient = direct + slopes.normal[e].tr_mul(&sum) + by_mass[e];
+            rows.slopes[c][e][..3].copy_from_slice(gradient.as_slice());
+        }
+    }
+    if slip == Slip::Derivatives {
+        let moved = Moved::new(configuration, start, paired, weights);
+        moved.add_slip(paired, &mut rows);
+    }
+    rows
+}
+
+/// Values at the corners with their signs.
+struct Signed([f64; 8]);
+
+impl Signed {
+    fn scalars(values: &[f64; 8]) -> Self {
+        Self(std::array::from_fn(|d| SIGNS[d] * values[d]))
+    }
+
+    /// `sum_d s_d v_d dD_cd/dx_e` for all corners `e`.
+    fn of_mass(&self, slopes: &Slopes, c: usize) -> [Vec3; 8] {
+        let mut sum = [0.0; 24];
+        for (d, value) in self.0.iter().enumerate() {
+            if *value != 0.0 {
+                let by = &slopes.mass[pair_index(c, d)];
+                for (sum, slope) in sum.iter_mut().zip(by) {
+                    *sum += value * slope;
+                }
+            }
+        }
+        std::array::from_fn(|e| Vec3::new(sum[3 * e], sum[3 * e + 1], sum[3 * e + 2]))
+    }
+}
+
+/// Where the facing points were, and how what was tangential then is turned.
+struct Moved {
+    /// Old or carried positions, from a common origin.
+    y: [Vec3; 8],
+    /// `R(n, n^n) (I - n^n n^n)` or `I - n n`.
+    turn: Matrix3<f64>,
+    /// The old normal, for a deformable pair.
+    n_old: Option<Vec3>,
+    /// Whether side `b` is a plane, on which the points follow those of side `a`.
+    on_plane: bool,
+}
+
+impl Moved {
+    fn new(
+        configuration: &Configuration,
+        start: &Configuration,
+        paired: &PairedFacets,
+        weights: [f64; 2],
+    ) -> Self {
+        let n = paired.segment.normal;
+        let old = |corner: usize| start.side(0).x[paired.corners[0][corner] as usize];
+        if configuration.pair.is_rigid() {
+            let carried = |x: Vec3| {
+                let material = start.placement.back(&x);
+                configuration.placement.point(&material)
+            };
+            let tangential = Matrix3::identity() - n * n.transpose();
+            let on_plane = configuration.plane().is_some();
+            let y = std::array::from_fn(|d| match d {
+                0..4 if on_plane => paired.x[d] - carried(old(d)),
+                0..4 => carried(old(d)) - paired.x[0],
+                _ => paired.x[d] - paired.x[0],
+            });
+            return Self {
+                y,
+                turn: tangential,
+                n_old: None,
+                on_plane,
+            };
+        }
+        let origin = old(0);
+        let x: [Vec3; 8] = std::array::from_fn(|d| match d {
+            0..4 => old(d),
+            _ => start.side(1).x[paired.corners[1][d - 4] as usize],
+        });
+        let facet = |first: usize| {
+            let shape = striae_surface::facet::Shape::of(&paired.corners[first / 4]);
+            Facet {
+                corners: std::array::from_fn(|at| x[first + at]),
+                shape,
+            }
+        };
+        let n_old = normal_between(&facet(0), &facet(4), weights).unwrap_or(n);
+        let tangential = Matrix3::identity() - n_old * n_old.transpose();
+        let turned = Transported::new(&Vec3::zeros(), &n_old, &n);
+        Self {
+            y: x.map(|x| x - origin),
+            turn: turned.by_vector * tangential,
+            n_old: Some(n_old),
+            on_plane: false,
+        }
+    }
+
+    fn add_slip(&self, paired: &PairedFacets, rows: &mut SegmentRows) {
+        let slopes = paired.segment.slopes.as_deref();
+        let turned = self.y.map(|y| self.turn * y);
+        // On a plane `y` is the way of side `a` relative to it.
+        let sign = |d: usize| if self.on_plane { 1.0 } else { SIGNS[d] };
+        let components: [Signed; 3] =
+            [0, 1, 2].map(|axis| Signed(std::array::from_fn(|d| sign(d) * turned[d][axis])));
+        for c in 0..8 {
+            let mass = &paired.segment.mass[c];
+            let sum: Vec3 = (0..8).map(|d| turned[d] * (sign(d) * mass[d])).sum();
+            rows.value[c][1..].copy_from_slice(sum.as_slice());
+            let Some(slopes) = slopes else { continue };
+            let by_mass = components.each_ref().map(|of| of.of_mass(slopes, c));
+            let by_n = self.n_old.map(|n_old| {
+                let plain: Vec3 = (0..8).map(|d| self.y[d] * (sign(d) * mass[d])).sum();
+                let tangential = plain - n_old * n_old.dot(&plain);
+                Transported::new(&tangential, &n_old, &paired.segment.normal).by_n
+            });
+            for e in 0..8 {
+                let mut block = Matrix3::from_fn(|row, axis| by_mass[row][e][axis]);
+                if let Some(by_n) = by_n {
+                    block += by_n * slopes.normal[e];
+                }
+                if self.on_plane && e < 4 {
+                    block += self.turn * mass[e];
+                }
+                for row in 0..3 {
+                    for axis in 0..3 {
+                        rows.slopes[c][e][3 * (row + 1) + axis] = block[(row, axis)];
+                    }
+                }
+            }
+        }
+    }
+}

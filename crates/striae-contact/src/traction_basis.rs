@@ -1,0 +1,199 @@
+//! The traction field of a pair: its unknowns and how nodes take part in it.
+//!
+//! ```text
+//! phi_k = 1/2 (N^0 Z^0 + N^1 Z^1)_k,   against a rigid surface (N^0 Z^0)_k
+//! w_k   = integral phi_k
+//! ```
+//!
+//! `phi_k >= 0` and `sum_k phi_k = 1` on every common polygon.
+//!
+//! The *ramp* ties a kept node with a small pivot to what it would take if it were
+//! not kept, the more so the less independent it is:
+//!
+//! ```text
+//! E = sum over weak k of eps_k w_k R_k^T R_k,   R_k = e_k - M_k Z
+//! eps_k = c (h_a/E_a + h_b/E_b) (theta_1 - d_k)/(d_k - theta_0)
+//! ```
+
+use crate::{
+    common_mass::{CommonMass, SparseRow},
+    interface::{Interface, Opponent},
+    roles::{Choice, THETA_0},
+    transfer_rows::Transfer,
+};
+
+/// Pivot below which a kept node is weak.
+pub const THETA_1: f64 = 0.1;
+/// Factor of the ramp.
+const RAMP: f64 = 0.1;
+/// Smallest distance of a pivot from [`THETA_0`] over the latter.
+const CLOSEST: f64 = 1e-3;
+
+/// A node with traction unknowns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct KeptNode {
+    /// Its side.
+    pub side: usize,
+    /// Its number on that side.
+    pub node: u32,
+}
+
+impl KeptNode {
+    /// Side and node as indices.
+    pub fn place(self) -> (usize, usize) {
+        (self.side, self.node as usize)
+    }
+}
+
+/// A weak kept node.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Weak {
+    /// Its place among the kept nodes.
+    pub kept: u32,
+    /// `eps_k w_k`.
+    pub coefficient: f64,
+    /// `R_k` by place among the kept nodes, of sum zero.
+    pub row: Vec<(u32, f64)>,
+}
+
+/// Unknowns of a pair and their basis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TractionBasis {
+    /// Kept nodes, by side and number.
+    pub kept: Vec<KeptNode>,
+    /// Place of every node among them.
+    pub index: [Vec<Option<u32>>; 2],
+    /// Pivots `d_k` of the kept nodes.
+    pub pivots: Vec<f64>,
+    /// `l_k`, what `h_a/E_a + h_b/E_b` is on average around the kept nodes.
+    pub flexibility: Vec<f64>,
+    /// `integral phi_k` of the kept nodes.
+    pub weights: Vec<f64>,
+    /// `integral N_k` of all nodes over the common polygons.
+    pub node_weights: [Vec<f64>; 2],
+    /// Rows of `Z` of all nodes by place among the kept ones: `(k, 1)` for a kept
+    /// node, empty for one that carries nothing.
+    pub rows: [Vec<Vec<(u32, f64)>>; 2],
+    /// Weak kept nodes.
+    pub ramp: Vec<Weak>,
+}
+
+impl TractionBasis {
+    /// Chooses the unknowns of an increment and their basis.
+    pub fn new(interface: &Interface) -> Self {
+        let mass = CommonMass::new(interface);
+        let choice = Choice::new(interface, &mass);
+        let transfer = Transfer::new(interface, &mass, &choice.kept);
+        let kept: Vec<KeptNode> = choice
+            .kept
+            .iter()
+            .map(|&k| {
+                let (side, node) = mass.nodes[k as usize];
+                KeptNode { side, node }
+            })
+            .collect();
+        let mut basis = Self {
+            index: [0, 1].map(|side| vec![None; interface.nodes[side].len()]),
+            node_weights: [0, 1].map(|side| vec![0.0; interface.nodes[side].len()]),
+            rows: [0, 1].map(|side| vec![Vec::new(); interface.nodes[side].len()]),
+            weights: weights(interface, &mass, &transfer, &choice.kept),
+            pivots: choice.pivots.clone(),
+            flexibility: choice.flexibility.clone(),
+            kept,
+            ramp: Vec::new(),
+        };
+        for (k, &KeptNode { side, node }) in basis.kept.iter().enumerate() {
+            basis.index[side][node as usize] = Some(k as u32);
+        }
+        for (t, &(side, node)) in mass.nodes.iter().enumerate() {
+            basis.node_weights[side][node as usize] = mass.weights[t];
+            let row = basis.numbered(&mass, &transfer.rows[t]);
+            basis.rows[side][node as usize] = row;
+        }
+        basis.ramp = basis.ramp(interface, &mass, &transfer.released);
+        basis
+    }
+
+    /// A row by place among the kept nodes.
+    fn numbered(&self, mass: &CommonMass, row: &SparseRow) -> Vec<(u32, f64)> {
+        let kept = |&(k, value): &(u32, f64)| {
+            let (side, node) = mass.nodes[k as usize];
+            let k = self.index[side][node as usize].expect("rows lead to kept nodes");
+            (k, value)
+        };
+        let mut row: Vec<_> = row.iter().map(kept).collect();
+        row.sort_by_key(|&(k, _)| k);
+        row
+    }
+
+    fn ramp(&self, interface: &Interface, mass: &CommonMass, released: &[SparseRow]) -> Vec<Weak> {
+        let place = |k: usize| {
+            let KeptNode { side, node } = self.kept[k];
+            mass.index[side][node as usize]
+        };
+        let weak = (0..self.kept.len()).filter(|&k| self.pivots[k] < THETA_1);
+        let weak = weak.filter_map(|k| {
+            let pivot = self.pivots[k];
+            let over = (pivot - THETA_0).max(CLOSEST * THETA_0);
+            let eps = RAMP * facing(interface, self.kept[k]) * (THETA_1 - pivot) / over;
+            let row = departure(place(k)?, &released[k]);
+            if row.is_empty() {
+                return None;
+            }
+            let row = self.numbered(mass, &row);
+            Some(Weak {
+                kept: k as u32,
+                coefficient: eps * self.weights[k],
+                row,
+            })
+        });
+        weak.collect()
+    }
+}
+
+/// `e_k` minus a row of sum one; its own entry is the sum of the others, which is zero
+/// on constants and loses no digits. Empty if the row is `e_k`.
+fn departure(k: u32, released: &SparseRow) -> SparseRow {
+    let mut row: SparseRow = released
+        .iter()
+        .filter(|&&(l, _)| l != k)
+        .map(|&(l, value)| (l, -value))
+        .collect();
+    let others: f64 = row.iter().map(|(_, value)| value).sum();
+    if row.is_empty() {
+        return row;
+    }
+    let at = row.partition_point(|&(l, _)| l < k);
+    row.insert(at, (k, -others));
+    row
+}
+
+/// `h/E` of a node and of the opposing body at its projection.
+fn facing(interface: &Interface, kept: KeptNode) -> f64 {
+    let KeptNode { side, node } = kept;
+    let own = interface.nodes[side][node as usize].flexibility;
+    let other = match (interface.opponent, interface.opposing[side][node as usize]) {
+        (Opponent::Deformable, Some((corners, weights))) => (0..4)
+            .map(|c| interface.nodes[1 - side][corners[c] as usize].flexibility * weights[c])
+            .sum(),
+        _ => 0.0,
+    };
+    own + other
+}
+
+/// `integral phi_k` of the kept nodes.
+fn weights(
+    interface: &Interface,
+    mass: &CommonMass,
+    transfer: &Transfer,
+    kept: &[u32],
+) -> Vec<f64> {
+    let share = 1.0 / interface.sides().len() as f64;
+    let mut weights = vec![0.0; mass.nodes.len()];
+    for (row, weight) in transfer.rows.iter().zip(&mass.weights) {
+        for &(k, value) in row {
+            weights[k as usize] += share * weight * value;
+        }
+    }
+    kept.iter().map(|&k| weights[k as usize]).collect()
+}

@@ -1,0 +1,166 @@
+//! Where nodes that are not kept take their traction from.
+//!
+//! ```text
+//! (I - M_TT) Z_T = M_TK
+//! ```
+//!
+//! Row `t` of `M` holds the weights of the opposing nodes at the clamped projection of
+//! node `t`, restricted to nodes with weight and normalised. Against a rigid surface it
+//! is the mean of the own neighbours, `M_tk = D_tk / sum over k != t`, over whole facets
+//! for a node without weight. A node whose row leads to no kept node takes the mean of
+//! the nearest ones of its patch. `Z >= 0` and `Z 1 = 1`, see [`absorption`].
+//!
+//! [`absorption`]: crate::absorption
+
+use crate::{
+    absorption::{State, absorption, combined, normalised},
+    common_mass::{CommonMass, SparseRow, SparseSum},
+    interface::{Interface, Opponent},
+};
+
+/// Sum of weights below which a projection sees no node with weight.
+const UNSEEN: f64 = 1e-12;
+/// Share of its row by which a node has to be tied to kept ones.
+const TIED: f64 = 1e-2;
+/// Kept nodes whose distances differ less, relative to the smallest, are equally near.
+const EQUALLY_NEAR: f64 = 1e-6;
+
+/// Rows of `Z` and what they follow from, by place in the order of the common mass.
+pub(crate) struct Transfer {
+    /// `Z`, empty for nodes that carry nothing.
+    pub rows: Vec<SparseRow>,
+    /// For every kept node what it would take if it were not: a combination of kept nodes.
+    pub released: Vec<SparseRow>,
+}
+
+impl Transfer {
+    /// Solves for the rows.
+    pub fn new(interface: &Interface, mass: &CommonMass, kept: &[u32]) -> Self {
+        let count = mass.nodes.len();
+        let mut is_kept = vec![false; count];
+        kept.iter().for_each(|&k| is_kept[k as usize] = true);
+        let mut taken: Vec<SparseRow> = (0..count as u32)
+            .map(|t| {
+                if mass.carries[t as usize] {
+                    taken(interface, mass, t)
+                } else {
+                    SparseRow::new()
+                }
+            })
+            .collect();
+        let tied = tied(mass, &taken, &is_kept);
+        for t in 0..count {
+            let alone = if mass.weighted[t] {
+                !tied[t]
+            } else {
+                taken[t].is_empty()
+            };
+            if mass.carries[t] && !is_kept[t] && alone {
+                taken[t] = nearest(interface, mass, t as u32, kept);
+            }
+        }
+        let state = |t: usize| match (is_kept[t], mass.carries[t]) {
+            (true, _) => State::Absorbing,
+            (false, true) => State::Transient(taken[t].clone()),
+            (false, false) => State::Outside,
+        };
+        let rows = absorption((0..count).map(state).collect());
+        let mut sum = SparseSum::new(count);
+        let released = kept.iter().map(|&k| {
+            if taken[k as usize].is_empty() {
+                nearest(interface, mass, k, kept)
+            } else {
+                combined(&taken[k as usize], &rows, &mut sum)
+            }
+        });
+        Self {
+            released: released.collect(),
+            rows,
+        }
+    }
+}
+
+/// Row of `M`, empty if the node sees none with weight.
+fn taken(interface: &Interface, mass: &CommonMass, t: u32) -> SparseRow {
+    let (side, node) = mass.nodes[t as usize];
+    let mut row = match interface.opponent {
+        Opponent::Deformable => opposing(interface, mass, side, node),
+        Opponent::Rigid { .. } if mass.weighted[t as usize] => mass.rows[t as usize].clone(),
+        Opponent::Rigid { .. } => mass.whole[t as usize].clone(),
+    };
+    row.retain(|&(j, value)| j != t && mass.weighted[j as usize] && value > 0.0);
+    let total: f64 = row.iter().map(|(_, value)| value).sum();
+    let enough = match interface.opponent {
+        Opponent::Deformable => UNSEEN,
+        Opponent::Rigid { .. } => 0.0,
+    };
+    if total > enough {
+        normalised(row)
+    } else {
+        SparseRow::new()
+    }
+}
+
+fn opposing(interface: &Interface, mass: &CommonMass, side: usize, node: u32) -> SparseRow {
+    let Some((corners, weights)) = interface.opposing[side][node as usize] else {
+        return SparseRow::new();
+    };
+    let mut row: SparseRow = Vec::with_capacity(4);
+    for (corner, weight) in corners.into_iter().zip(weights) {
+        if let Some(j) = mass.index[1 - side][corner as usize] {
+            match row.iter_mut().find(|entry| entry.0 == j) {
+                Some(entry) => entry.1 += weight,
+                None => row.push((j, weight)),
+            }
+        }
+    }
+    row.sort_by_key(|&(j, _)| j);
+    row
+}
+
+/// Nodes with weight that reach kept ones by shares that are not small.
+fn tied(mass: &CommonMass, taken: &[SparseRow], is_kept: &[bool]) -> Vec<bool> {
+    let mut users = vec![Vec::new(); taken.len()];
+    for (t, row) in taken.iter().enumerate() {
+        if mass.weighted[t] && !is_kept[t] {
+            row.iter().for_each(|&(j, _)| users[j as usize].push(t));
+        }
+    }
+    let mut tied = is_kept.to_vec();
+    let mut fresh: Vec<usize> = (0..taken.len()).filter(|&k| is_kept[k]).collect();
+    while let Some(j) = fresh.pop() {
+        for &t in &users[j] {
+            let share = |row: &SparseRow| -> f64 {
+                let tied = row.iter().filter(|&&(j, _)| tied[j as usize]);
+                tied.map(|(_, value)| value).sum()
+            };
+            if !tied[t] && share(&taken[t]) > TIED {
+                tied[t] = true;
+                fresh.push(t);
+            }
+        }
+    }
+    tied
+}
+
+/// Mean of the nearest other kept nodes, of the same patch if it has any.
+fn nearest(interface: &Interface, mass: &CommonMass, t: u32, kept: &[u32]) -> SparseRow {
+    let patch = mass.patch[t as usize];
+    let others = || kept.iter().copied().filter(|&k| k != t);
+    let mut near: Vec<u32> = others()
+        .filter(|&k| patch.is_some() && mass.patch[k as usize] == patch)
+        .collect();
+    if near.is_empty() {
+        near = others().collect();
+    }
+    let place = mass.node(interface, t).position;
+    let distance = |k: u32| (mass.node(interface, k).position - place).norm();
+    let least = near
+        .iter()
+        .map(|&k| distance(k))
+        .fold(f64::INFINITY, f64::min);
+    near.retain(|&k| distance(k) <= least * (1.0 + EQUALLY_NEAR));
+    near.sort_unstable();
+    let share = 1.0 / near.len() as f64;
+    near.into_iter().map(|k| (k, share)).collect()
+}

@@ -1,0 +1,377 @@
+//! Gap and slip of the kept nodes, weighted with the traction field.
+//!
+//! With the basis `phi_k = 1/2 (N^a Z^a + N^b Z^b)_k`, on one side alone `(N^a Z^a)_k`,
+//! the rows are adjoint to the forces of [`crate::common_field`]:
+//!
+//! ```text
+//! g_k  = 1/w_k integral phi_k g da  + 1/w_k sum_l E_kl p_l
+//! du_k = 1/w_k integral phi_k R(n_k, n) du da
+//!      + 1/w_k sum_l E_kl R(n_k, n_l) (tau_l - tau^n_l)
+//! ```
+//!
+//! `w_k = integral phi_k da` is frozen in an increment. The ramp `E` lets weakly independent
+//! nodes fade into transferred ones; of the friction it takes the increment, so that sticking
+//! nodes do not creep. Slip is seen from the node's own side.
+
+use nalgebra::Matrix3;
+use rayon::prelude::*;
+use striae_mesh::Vec3;
+
+use crate::{
+    configuration::Configuration,
+    frame::{Frame, Frames, Tracked},
+    kinematics::{Kinematics, Report, TrackedScalar},
+    pairing::PairedFacets,
+    segment_rows::{ROWS, SegmentRows, Slip},
+    selection::Selection,
+    term::{Gradient, Jacobian},
+    traction::NodalTractions,
+    transported::Transported,
+    unknowns::Tractions,
+};
+
+/// A segment with its rows and the kept nodes whose basis functions live on it.
+pub struct Patch {
+    /// Facets and integrals.
+    pub paired: PairedFacets,
+    /// Gap and slip.
+    pub rows: SegmentRows,
+    /// Kept nodes, and the values of their basis functions at the corners: `phi_k = sum_c
+    /// share_kc N_c`.
+    pub kept: Vec<(u32, [f64; 8])>,
+}
+
+impl Patch {
+    /// The kept nodes at the corners of paired facets.
+    pub fn kept_of(
+        configuration: &Configuration,
+        selection: &Selection,
+        paired: &PairedFacets,
+    ) -> Vec<(u32, [f64; 8])> {
+        let share = if configuration.pair.is_rigid() {
+            1.0
+        } else {
+            0.5
+        };
+        let mut kept: Vec<(u32, [f64; 8])> = Vec::with_capacity(12);
+        for corner in 0..8 {
+            let Some((side, node)) = paired.node(configuration, corner) else {
+                continue;
+            };
+            for &(k, weight) in selection.row(side, node) {
+                let at = match kept.binary_search_by_key(&k, |entry| entry.0) {
+                    Ok(at) => at,
+                    Err(at) => {
+                        kept.insert(at, (k, [0.0; 8]));
+                        at
+                    }
+                };
+                kept[at].1[corner] = share * weight;
+            }
+        }
+        kept
+    }
+}
+
+/// Gaps and slips of all kept nodes without what depends on tractions.
+pub fn kinematics(
+    configuration: &Configuration,
+    selection: &Selection,
+    frames: &Frames,
+    patches: &[Patch],
+    slip: Slip,
+) -> Vec<Kinematics> {
+    let mut touching: Vec<Vec<(u32, u32)>> = vec![Vec::new(); selection.kept().len()];
+    for (at, patch) in patches.iter().enumerate() {
+        for (entry, (k, _)) in patch.kept.iter().enumerate() {
+            touching[*k as usize].push((at as u32, entry as u32));
+        }
+    }
+    (0..touching.len())
+        .into_par_iter()
+        .with_min_len(4)
+        .map(|k| {
+            let kept = selection.kept()[k];
+            let frame = frames[kept.side][kept.node as usize].as_ref();
+            let mut sum = Sum::new(configuration, kept.side, frame);
+            for &(at, entry) in &touching[k] {
+                let patch = &patches[at as usize];
+                sum.add(patch, &patch.kept[entry as usize].1, slip);
+            }
+            sum.over(selection.weight(k), 1.0 / selection.flexibility(k))
+        })
+        .collect()
+}
+
+/// Sum over the segments of a kept node.
+struct Sum<'a> {
+    configuration: &'a Configuration<'a>,
+    side: usize,
+    frame: Option<&'a Frame>,
+    gap: f64,
+    slip: Vec3,
+    slip_by_n: Matrix3<f64>,
+    triples: Vec<u32>,
+    blocks: Vec<[f64; 3 * ROWS]>,
+}
+
+impl<'a> Sum<'a> {
+    fn new(configuration: &'a Configuration, side: usize, frame: Option<&'a Frame>) -> Self {
+        Self {
+            configuration,
+            side,
+            frame,
+            gap: 0.0,
+            slip: Vec3::zeros(),
+            slip_by_n: Matrix3::zeros(),
+            triples: Vec::with_capacity(48),
+            blocks: Vec::with_capacity(48),
+        }
+    }
+
+    fn add(&mut self, patch: &Patch, shares: &[f64; 8], slip: Slip) {
+        let mut value = [0.0; ROWS];
+        let mut slopes = [[0.0; 3 * ROWS]; 8];
+        let width = if slip == Slip::Derivatives {
+            3 * ROWS
+        } else {
+            3
+        };
+        for (c, &share) in shares
+            .iter()
+            .enumerate()
+            .filter(|(_, share)| **share != 0.0)
+        {
+            for (sum, part) in value.iter_mut().zip(&patch.rows.value[c]) {
+                *sum += share * part;
+            }
+            for (sum, part) in slopes.iter_mut().zip(&patch.rows.slopes[c]) {
+                for at in 0..width {
+                    sum[at] += share * part[at];
+                }
+            }
+        }
+        self.gap += value[0];
+        let turned = (slip == Slip::Derivatives).then(|| self.turned(patch, &value));
+        for (e, block) in slopes.iter_mut().enumerate() {
+            let Some((side, node)) = patch.paired.node(self.configuration, e) else {
+                continue;
+            };
+            if let (Some(turned), Some(by)) = (&turned, &patch.paired.segment.slopes) {
+                let of_slip = Matrix3::from_fn(|row, axis| block[3 * (row + 1) + axis]);
+                let whole = turned.by_vector * of_slip + turned.by_from * by.normal[e];
+                for row in 0..3 {
+                    for axis in 0..3 {
+                        block[3 * (row + 1) + axis] = whole[(row, axis)];
+                    }
+                }
+            }
+            let first = self.configuration.pair.numbering().position(side, node);
+            self.add_block(first, block);
+        }
+    }
+
+    /// Adds the slip, turned to the node's own tangent plane and seen from its side.
+    fn turned(&mut self, patch: &Patch, value: &[f64; ROWS]) -> Transported {
+        let n = self.frame.map_or_else(Vec3::zeros, |frame| frame.n.value);
+        let sign = side_sign(self.side);
+        let slip = Vec3::new(value[1], value[2], value[3]);
+        let mut turned = Transported::new(&slip, &patch.paired.segment.normal, &(n * sign));
+        turned.by_vector *= sign;
+        turned.by_from *= sign;
+        self.slip += turned.value * sign;
+        // The sign of the normal cancels that of the slip.
+        self.slip_by_n += turned.by_n;
+        turned
+    }
+
+    fn add_block(&mut self, first: u32, block: &[f64; 3 * ROWS]) {
+        let at = match self.triples.binary_search(&first) {
+            Ok(at) => at,
+            Err(at) => {
+                self.triples.insert(at, first);
+                self.blocks.insert(at, [0.0; 3 * ROWS]);
+                at
+            }
+        };
+        for (sum, part) in self.blocks[at].iter_mut().zip(block) {
+            *sum += part;
+        }
+    }
+
+    /// The means over the weight of the node.
+    fn over(self, weight: f64, stiffness: f64) -> Kinematics {
+        let share = 1.0 / weight;
+        let entries = || self.triples.iter().copied().zip(&self.blocks);
+        let gradient: Gradient = entries()
+            .map(|(first, block)| (first, Vec3::new(block[0], block[1], block[2]) * share))
+            .collect();
+        let mut jacobian: Jacobian = entries()
+            .map(|(first, block)| {
+                let block = Matrix3::from_fn(|row, axis| block[3 * (row + 1) + axis]);
+                (first, block * share)
+            })
+            .collect();
+        if let Some(frame) = self.frame {
+            add_chained(&mut jacobian, &(self.slip_by_n * share), &frame.n.jacobian);
+        }
+        Kinematics {
+            gap: TrackedScalar {
+                value: self.gap * share,
+                gradient,
+            },
+            slip: Tracked {
+                value: self.slip * share,
+                jacobian,
+            },
+            stiffness,
+        }
+    }
+}
+
+/// Adds `by v`, `v` an intermediate vector, to a Jacobian; the order of its entries is free.
+pub fn add_chained(jacobian: &mut Jacobian, by: &Matrix3<f64>, inner: &Jacobian) {
+    for (first, block) in inner {
+        match jacobian.iter_mut().find(|entry| entry.0 == *first) {
+            Some((_, sum)) => *sum += by * block,
+            None => jacobian.push((*first, by * block)),
+        }
+    }
+}
+
+/// 1 on side `a`, -1 on side `b`: how normal and friction of a node are seen from side `a`.
+pub fn side_sign(side: usize) -> f64 {
+    if side == 0 { 1.0 } else { -1.0 }
+}
+
+/// Adds what the ramp does to the gaps.
+pub fn add_ramp_to_gaps(
+    configuration: &Configuration,
+    selection: &Selection,
+    tractions: &Tractions,
+    kinematics: &mut [Kinematics],
+) {
+    let numbering = configuration.pair.numbering();
+    for weak in selection.ramp() {
+        let pressure = |&(l, weight): &(u32, f64)| {
+            let kept = selection.kept()[l as usize];
+            weight * tractions.nodes[kept.side][kept.node as usize][0]
+        };
+        let jump: f64 = weak.row.iter().map(pressure).sum();
+        for &(k, weight) in &weak.row {
+            let share = weak.coefficient * weight / selection.weight(k as usize);
+            let gap = &mut kinematics[k as usize].gap;
+            gap.value += share * jump;
+            for &(l, other) in &weak.row {
+                let kept = selection.kept()[l as usize];
+                let first = numbering.traction(kept.side, kept.node);
+                let slope = Vec3::x() * (share * other);
+                match gap.gradient.iter_mut().find(|entry| entry.0 == first) {
+                    Some((_, sum)) => *sum += slope,
+                    None => gap.gradient.push((first, slope)),
+                }
+            }
+        }
+    }
+}
+
+/// Adds what the ramp does to the slips, by the friction gained in the increment.
+pub fn add_ramp_to_slips(
+    selection: &Selection,
+    frames: &Frames,
+    tractions: &Tractions,
+    tau: &NodalTractions,
+    kinematics: &mut [Kinematics],
+) {
+    for weak in selection.ramp() {
+        let parts: Vec<Gained> = weak
+            .row
+            .iter()
+            .filter_map(|&(k, weight)| {
+                let (side, node) = selection.kept()[k as usize].place();
+                let frame = frames[side][node].as_ref()?;
+                let old = tractions.tau_n[side][node];
+                Some(Gained {
+                    k: k as usize,
+                    weight,
+                    sign: side_sign(side),
+                    frame,
+                    friction: gained(frame, &tau[side][node], old),
+                })
+            })
+            .collect();
+        for to in &parts {
+            let share = weak.coefficient * to.weight / selection.weight(to.k);
+            let slip = &mut kinematics[to.k].slip;
+            for from in &parts {
+                from.add_to(slip, to, share);
+            }
+        }
+    }
+}
+
+/// Friction that a kept node has gained, with its weight in a row of the ramp.
+struct Gained<'a> {
+    k: usize,
+    weight: f64,
+    sign: f64,
+    frame: &'a Frame,
+    friction: Tracked,
+}
+
+impl Gained<'_> {
+    fn add_to(&self, slip: &mut Tracked, to: &Gained, share: f64) {
+        // Normals and frictions of nodes of different sides point against each other.
+        let facing = self.sign * to.sign;
+        let factor = share * self.weight * facing;
+        let from = self.frame.n.value * facing;
+        let turned = Transported::new(&self.friction.value, &from, &to.frame.n.value);
+        slip.value += turned.value * factor;
+        let jacobian = &mut slip.jacobian;
+        let by_friction = turned.by_vector * factor;
+        add_chained(jacobian, &by_friction, &self.friction.jacobian);
+        let by_from = turned.by_from * (factor * facing);
+        add_chained(jacobian, &by_from, &self.frame.n.jacobian);
+        add_chained(jacobian, &(turned.by_n * factor), &to.frame.n.jacobian);
+    }
+}
+
+/// `tau - tau_n`, where the converged friction has turned with the frame.
+fn gained(frame: &Frame, tau: &Tracked, old: [f64; 2]) -> Tracked {
+    let mut gained = tau.clone();
+    for (t, component) in frame.t.iter().zip(old) {
+        gained.value -= t.value * component;
+        let by = Matrix3::from_diagonal_element(-component);
+        add_chained(&mut gained.jacobian, &by, &t.jacobian);
+    }
+    gained
+}
+
+/// What is reported of every node of both sides.
+pub fn reports(
+    configuration: &Configuration,
+    counts: [usize; 2],
+    patches: &[Patch],
+) -> [Vec<Report>; 2] {
+    let mut reports = counts.map(|count| vec![Report::default(); count]);
+    for patch in patches {
+        for corner in 0..8 {
+            if let Some((side, node)) = patch.paired.node(configuration, corner) {
+                let report = &mut reports[side][node as usize];
+                let [gap, x, y, z] = patch.rows.value[corner];
+                report.gap += gap;
+                report.slip += Vec3::new(x, y, z) * side_sign(side);
+                report.area += patch.paired.area_of(corner);
+            }
+        }
+    }
+    for report in reports
+        .iter_mut()
+        .flatten()
+        .filter(|report| report.area > 0.0)
+    {
+        report.gap /= report.area;
+        report.slip /= report.area;
+    }
+    reports
+}

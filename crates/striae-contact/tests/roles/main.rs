@@ -1,0 +1,4 @@
+//! Kept nodes, transfer rows and ramp of flat pairs.
+
+mod flat;
+mod reference;
