@@ -65,7 +65,7 @@ fn surface(
         return;
     };
     let size = sizes(grid);
-    let role = grid.scalars("role");
+    let role = grid.scalars("kept");
     let kept = |node: usize| role.is_none_or(|role| role[node] == KEPT);
     for node in 0..grid.points.len() {
         let (p, g, h) = (pressure[node], gap[node], size[node]);
