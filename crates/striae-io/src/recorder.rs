@@ -20,7 +20,7 @@ use std::{
     time::Instant,
 };
 
-use striae_contact::unknowns::Status as ContactStatus;
+use striae_contact::unknowns::{NodeResult, Status as ContactStatus};
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::{
     drive::Progress,
@@ -428,12 +428,8 @@ fn write_surface(
         .map(|corners| corners.map(NodeId))
         .collect();
     let nodes = &state.pairs[pair].nodes[side];
-    let scalars = |f: fn(&striae_contact::unknowns::NodeResult) -> f64| {
-        Values::Scalars(nodes.iter().map(f).collect())
-    };
-    let vectors = |f: fn(&striae_contact::unknowns::NodeResult) -> Vec3| {
-        Values::Vectors(nodes.iter().map(f).collect())
-    };
+    let scalars = |f: fn(&NodeResult) -> f64| Values::Scalars(nodes.iter().map(f).collect());
+    let vectors = |f: fn(&NodeResult) -> Vec3| Values::Vectors(nodes.iter().map(f).collect());
     let status = nodes.iter().map(|node| match node.status {
         ContactStatus::Open => 0,
         ContactStatus::Stick => 1,
@@ -453,6 +449,8 @@ fn write_surface(
                 vectors(|node| node.tau - node.normal * node.pressure),
             ),
             Array::new("friction_traction", vectors(|node| node.tau)),
+            Array::new("mean_pressure", scalars(NodeResult::mean_pressure)),
+            Array::new("mean_traction", vectors(|node| node.mean)),
             Array::new("slip", vectors(|node| node.slip)),
             Array::new("normal", vectors(|node| node.normal)),
             Array::new("texture", vectors(|node| node.texture)),

@@ -166,7 +166,7 @@ macro_rules! coded {
 pub(super) use coded;
 
 coded! {
-    NodeResult { gap, pressure, tau, slip, normal, texture, status };
+    NodeResult { gap, pressure, tau, slip, normal, texture, mean, status };
     FacetForces { force, area, pressure, friction };
     Tractions { nodes, tau_n, slipped, statuses };
     SolverSummary { method, factorisations, contact_corrections, fall_backs, reason };
