@@ -23,6 +23,7 @@ pub mod facet_coverage;
 pub mod field;
 pub mod frame;
 pub mod integral;
+pub mod interference;
 pub mod moving;
 pub mod opposing;
 pub mod pair;
