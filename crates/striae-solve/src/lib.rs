@@ -6,6 +6,7 @@ mod curve;
 pub mod drive;
 pub mod dynamics;
 pub mod element;
+pub mod interference;
 pub mod layout;
 pub mod load;
 pub mod model;

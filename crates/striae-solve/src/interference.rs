@@ -1,0 +1,117 @@
+//! Interference between the sides of the pairs of a problem.
+
+use striae_contact::interference::{
+    Fibre, Interference, Stage, Thickness, fibres, inside, interferences, lengths,
+};
+use striae_mesh::{NodeId, Vec3};
+use striae_surface::topology::Surface;
+
+use crate::{
+    assembly::StepContext,
+    model::Model,
+    problem::{PairGeometry, Problem},
+    rigid::Pose,
+    state::State,
+};
+
+/// Where nodes and rigid bodies are.
+#[derive(Clone, Copy, Debug)]
+pub struct Positions<'a> {
+    /// Positions of all global nodes.
+    pub nodes: &'a [Vec3],
+    /// Poses of the rigid bodies.
+    pub rigid: &'a [Pose],
+}
+
+impl<'a> From<&'a State> for Positions<'a> {
+    fn from(state: &'a State) -> Self {
+        Self {
+            nodes: &state.positions,
+            rigid: &state.rigid,
+        }
+    }
+}
+
+/// Interference of a pair at `end` that is deeper than `share` of the facet size and
+/// was less at `start`.
+pub fn between(
+    context: &StepContext,
+    pair: usize,
+    start: Positions,
+    end: Positions,
+    share: f64,
+) -> Vec<Interference> {
+    let at = |at: Positions| context.configuration(pair, at.nodes, at.rigid);
+    let configurations = [at(start), at(end)];
+    let thickness = [start, end].map(|at| thickness(context.problem, pair, at.nodes));
+    let [start, end] = [0, 1].map(|end| Stage {
+        configuration: &configurations[end],
+        thickness: &thickness[end],
+    });
+    interferences(&start, &end, share)
+}
+
+/// All of a pair that is deeper than `share` of the facet size in one state.
+pub fn within(context: &StepContext, pair: usize, at: Positions, share: f64) -> Vec<Interference> {
+    let stage = Stage {
+        configuration: &context.configuration(pair, at.nodes, at.rigid),
+        thickness: &thickness(context.problem, pair, at.nodes),
+    };
+    inside(&stage, share)
+}
+
+/// How thick the bodies behind the facets of a pair are.
+pub fn thickness(problem: &Problem, pair: usize, positions: &[Vec3]) -> Thickness {
+    let geometry = &problem.pairs[pair];
+    Thickness([0, 1].map(|side| {
+        let Some(surface) = geometry.contact.sides[side].surface() else {
+            return Vec::new();
+        };
+        let node = |node: NodeId| match geometry.bodies[side] {
+            Some(body) => positions[problem.node(body, node)],
+            None => geometry.rigid_reference[node.index()],
+        };
+        let local = |index: usize| match geometry.bodies[side] {
+            Some(_) => node(surface.nodes()[index]),
+            None => geometry.rigid_reference[index],
+        };
+        let x: Vec<Vec3> = (0..surface.nodes().len()).map(local).collect();
+        lengths(surface, &x, &geometry.fibres[side], |at| node(NodeId(at)))
+    }))
+}
+
+/// Fibres through what is behind the facets of all pairs. They end at nodes of the
+/// body, or at surface nodes of a rigid side.
+pub(crate) fn add_fibres(model: &Model, pairs: &mut [PairGeometry]) {
+    let skin = |body: usize| {
+        let mesh = &model.bodies[body].mesh;
+        let faces = mesh.boundary_faces().into_iter();
+        Surface::new(&faces.map(|face| mesh.face_nodes(face)).collect::<Vec<_>>())
+    };
+    let mut skins: Vec<Option<Surface>> = vec![None; model.bodies.len()];
+    for pair in pairs {
+        pair.fibres = [0, 1].map(|side| {
+            let Some(surface) = pair.contact.sides[side].surface() else {
+                return Vec::new();
+            };
+            let Some(body) = pair.bodies[side] else {
+                let x = &pair.rigid_reference;
+                return fibres(surface, x, surface, x);
+            };
+            let skin = skins[body].get_or_insert_with(|| skin(body));
+            of_body(&model.bodies[body].mesh.positions, surface, skin)
+        });
+    }
+}
+
+fn of_body(positions: &[Vec3], surface: &Surface, skin: &Surface) -> Vec<Option<Fibre>> {
+    let at = |surface: &Surface| -> Vec<Vec3> {
+        let nodes = surface.nodes().iter();
+        nodes.map(|node| positions[node.index()]).collect()
+    };
+    let mut fibres = fibres(surface, &at(surface), skin, &at(skin));
+    for fibre in fibres.iter_mut().flatten() {
+        fibre.nodes = fibre.nodes.map(|node| skin.nodes()[node as usize].0);
+    }
+    fibres
+}
