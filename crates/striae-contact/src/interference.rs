@@ -72,6 +72,13 @@ pub struct Interference {
     pub kind: Kind,
 }
 
+impl Interference {
+    /// Depth over the local facet size.
+    pub fn share(&self) -> f64 {
+        self.depth / self.size
+    }
+}
+
 /// A point of a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Spot {

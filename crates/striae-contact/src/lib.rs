@@ -22,6 +22,7 @@ pub mod extension;
 pub mod facet_coverage;
 pub mod field;
 pub mod frame;
+pub mod initial;
 pub mod integral;
 pub mod interference;
 pub mod moving;

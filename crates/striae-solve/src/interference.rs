@@ -62,21 +62,29 @@ pub fn within(context: &StepContext, pair: usize, at: Positions, share: f64) -> 
 
 /// How thick the bodies behind the facets of a pair are.
 pub fn thickness(problem: &Problem, pair: usize, positions: &[Vec3]) -> Thickness {
-    let geometry = &problem.pairs[pair];
+    let at = |body: usize, node: NodeId| positions[problem.node(body, node)];
+    thickness_with(&problem.pairs[pair], at)
+}
+
+/// The same with the nodes of bodies anywhere.
+pub(crate) fn thickness_with(
+    geometry: &PairGeometry,
+    at: impl Fn(usize, NodeId) -> Vec3,
+) -> Thickness {
     Thickness([0, 1].map(|side| {
         let Some(surface) = geometry.contact.sides[side].surface() else {
             return Vec::new();
         };
-        let node = |node: NodeId| match geometry.bodies[side] {
-            Some(body) => positions[problem.node(body, node)],
-            None => geometry.rigid_reference[node.index()],
+        let rigid = &geometry.rigid_reference;
+        let x: Vec<Vec3> = match geometry.bodies[side] {
+            Some(body) => surface.nodes().iter().map(|&node| at(body, node)).collect(),
+            None => rigid.clone(),
         };
-        let local = |index: usize| match geometry.bodies[side] {
-            Some(_) => node(surface.nodes()[index]),
-            None => geometry.rigid_reference[index],
+        let end = |node: u32| match geometry.bodies[side] {
+            Some(body) => at(body, NodeId(node)),
+            None => rigid[node as usize],
         };
-        let x: Vec<Vec3> = (0..surface.nodes().len()).map(local).collect();
-        lengths(surface, &x, &geometry.fibres[side], |at| node(NodeId(at)))
+        lengths(surface, &x, &geometry.fibres[side], end)
     }))
 }
 

@@ -216,7 +216,8 @@ fn contact_facets(pairs: &[PairGeometry]) -> HashMap<(usize, Face), Vec<ContactF
     facets
 }
 
-fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, ProblemError> {
+/// A pair in the reference configuration, without fibres.
+pub(crate) fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, ProblemError> {
     let mut bodies = [None, None];
     let mut faces = [Vec::new(), Vec::new()];
     let mut rigid = None;
