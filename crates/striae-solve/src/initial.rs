@@ -17,7 +17,7 @@ use striae_contact::{
 use striae_mesh::{ElementId, NodeId, Vec3};
 
 use crate::{
-    interference::{add_fibres, thickness_with},
+    interference::{Positions, add_fibres, configuration, thickness, thickness_with},
     model::{Initial, Model, PairId, Side},
     problem::{PairGeometry, Problem, pair_geometry},
     state::State,
@@ -239,9 +239,8 @@ impl Offsets {
             return Self::default();
         }
         let start = State::undeformed(problem);
-        let context = crate::assembly::StepContext::new(problem, 0, &start);
-        let configuration = context.configuration(pair, &start.positions, &start.rigid);
-        let thickness = crate::interference::thickness(problem, pair, &start.positions);
+        let configuration = configuration(problem, pair, Positions::from(&start));
+        let thickness = thickness(problem, pair, &start.positions);
         let stage = Stage {
             configuration: &configuration,
             thickness: &thickness,

@@ -1,13 +1,14 @@
 //! Interference between the sides of the pairs of a problem.
 
-use striae_contact::interference::{
-    Fibre, Interference, Stage, Thickness, fibres, inside, interferences, lengths,
+use striae_contact::{
+    configuration::Configuration,
+    interference::{Fibre, Interference, Stage, Thickness, fibres, inside, interferences, lengths},
+    placement::Placement,
 };
 use striae_mesh::{NodeId, Vec3};
 use striae_surface::topology::Surface;
 
 use crate::{
-    assembly::StepContext,
     model::Model,
     problem::{PairGeometry, Problem},
     rigid::Pose,
@@ -35,15 +36,14 @@ impl<'a> From<&'a State> for Positions<'a> {
 /// Interference of a pair at `end` that is deeper than `share` of the facet size and
 /// was less at `start`.
 pub fn between(
-    context: &StepContext,
+    problem: &Problem,
     pair: usize,
     start: Positions,
     end: Positions,
     share: f64,
 ) -> Vec<Interference> {
-    let at = |at: Positions| context.configuration(pair, at.nodes, at.rigid);
-    let configurations = [at(start), at(end)];
-    let thickness = [start, end].map(|at| thickness(context.problem, pair, at.nodes));
+    let configurations = [start, end].map(|at| configuration(problem, pair, at));
+    let thickness = [start, end].map(|at| thickness(problem, pair, at.nodes));
     let [start, end] = [0, 1].map(|end| Stage {
         configuration: &configurations[end],
         thickness: &thickness[end],
@@ -52,12 +52,33 @@ pub fn between(
 }
 
 /// All of a pair that is deeper than `share` of the facet size in one state.
-pub fn within(context: &StepContext, pair: usize, at: Positions, share: f64) -> Vec<Interference> {
+pub fn within(problem: &Problem, pair: usize, at: Positions, share: f64) -> Vec<Interference> {
     let stage = Stage {
-        configuration: &context.configuration(pair, at.nodes, at.rigid),
-        thickness: &thickness(context.problem, pair, at.nodes),
+        configuration: &configuration(problem, pair, at),
+        thickness: &thickness(problem, pair, at.nodes),
     };
     inside(&stage, share)
+}
+
+/// Where the sides of a pair are.
+pub fn configuration<'a>(problem: &'a Problem, pair: usize, at: Positions) -> Configuration<'a> {
+    let geometry = &problem.pairs[pair];
+    let of_side = |side: usize| -> Vec<Vec3> {
+        let surface = geometry.contact.sides[side].surface();
+        match (geometry.bodies[side], surface) {
+            (Some(body), Some(surface)) => {
+                let nodes = surface.nodes().iter();
+                nodes
+                    .map(|&node| at.nodes[problem.node(body, node)])
+                    .collect()
+            }
+            _ => geometry.rigid_reference.clone(),
+        }
+    };
+    let placement = geometry.rigid.map_or_else(Placement::at_rest, |id| {
+        at.rigid[id].placement(&problem.model.rigid_surfaces[id].reference)
+    });
+    Configuration::new(&geometry.contact, [of_side(0), of_side(1)], placement)
 }
 
 /// How thick the bodies behind the facets of a pair are.
