@@ -139,7 +139,10 @@ impl Judgement {
     pub fn increment(&mut self, problem: &Problem, before: &State, after: &State) {
         self.forces.resize(problem.pairs.len(), 0.0);
         self.pressures.resize(problem.pairs.len(), 0.0);
-        self.energy = self.energy.max(largest(&after.energies));
+        self.energy = self
+            .energy
+            .max(largest(&after.energies))
+            .max(round_off(problem));
         let imbalance = after.energies.imbalance().abs();
         self.note(Kind::Imbalance, None, imbalance, after.time);
         for (pair, report) in pairs(problem, after).iter().enumerate() {
@@ -250,6 +253,17 @@ impl Judgement {
         };
         Worst { value, ..*worst }
     }
+}
+
+/// Energy below which all is round-off: that of strains of 3e-7 or less.
+fn round_off(problem: &Problem) -> f64 {
+    const STRAIN_SQUARED: f64 = 1e-13;
+    let bodies = problem.model.bodies.iter().zip(&problem.elements);
+    let energies = bodies.map(|(body, elements)| {
+        let volume: f64 = elements.iter().map(|element| element.volume()).sum();
+        body.material.lame_constants().shear * volume
+    });
+    STRAIN_SQUARED * energies.sum::<f64>()
 }
 
 fn over(value: f64, scale: f64) -> f64 {
