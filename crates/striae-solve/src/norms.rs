@@ -9,6 +9,9 @@ use striae_contact::term::Field;
 pub struct Norms {
     /// Equilibrium: 2-norm over the free components, over the force scale.
     pub force: f64,
+    /// The part of it that round-off leaves of the stiffness that is there. A residual that
+    /// stands at it is as small as it can be, and counts as zero.
+    pub round_off: f64,
     /// Largest gap of a closed node over the local facet size.
     pub gap: f64,
     /// Largest slip of a sticking node over the local facet size.
@@ -44,10 +47,19 @@ impl Norms {
         *norm = larger(*norm, residual.abs() / scale);
     }
 
+    /// Equilibrium, zero where it stands at round-off.
+    pub fn equilibrium(&self) -> f64 {
+        if self.force <= self.round_off {
+            0.0
+        } else {
+            self.force
+        }
+    }
+
     /// The largest of all norms; infinite where one is not a number.
     pub fn largest(&self) -> f64 {
         [
-            self.force,
+            self.equilibrium(),
             self.gap,
             self.stick,
             self.traction,
@@ -60,7 +72,7 @@ impl Norms {
     /// Name of the field with the largest norm.
     pub fn worst(&self) -> &'static str {
         let fields = [
-            ("force", self.force),
+            ("force", self.equilibrium()),
             ("gap", self.gap),
             ("stick", self.stick),
             ("traction", self.traction),
@@ -81,10 +93,21 @@ pub(crate) fn larger(a: f64, b: f64) -> f64 {
 
 impl fmt::Display for Norms {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            force,
+            round_off,
+            gap,
+            stick,
+            traction,
+            resultant,
+        } = self;
+        write!(f, "force {force:.1e}")?;
+        if force <= round_off && *force > 0.0 {
+            write!(f, " (round-off)")?;
+        }
         write!(
             f,
-            "force {:.1e}  gap {:.1e}  stick {:.1e}  traction {:.1e}  resultant {:.1e}",
-            self.force, self.gap, self.stick, self.traction, self.resultant
+            "  gap {gap:.1e}  stick {stick:.1e}  traction {traction:.1e}  resultant {resultant:.1e}"
         )
     }
 }
