@@ -192,8 +192,8 @@ fn measured(run: &Run, size: f64) -> Measured {
     let mut nodes = nodal_samples(run, 0);
     let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
     let peaks = [
-        largest(&mut nodes.iter().map(|node| node.mean_pressure())),
-        largest(&mut nodes.iter().map(|node| node.mean_friction().norm())),
+        largest(&mut nodes.iter().map(|node| node.pressure)),
+        largest(&mut nodes.iter().map(|node| node.tau.norm())),
     ];
     nodes.retain(|node| node.place.y == 0.0);
     nodes.sort_by(|a, b| a.place.x.total_cmp(&b.place.x));
