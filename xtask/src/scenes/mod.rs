@@ -3,6 +3,7 @@
 //!
 //! ```text
 //! cargo xtask scenes [--seeds A..B] [--kind K] [--jobs N] [--keep FOLDER] [--binary PATH]
+//!                    [--enforcement weighted|collocated]
 //! ```
 //!
 //! A seed gives a [`scene`] by its [`kinds`], this a [`deck`]; the program [`run`]s it
@@ -39,6 +40,7 @@ use crate::{check, fault::Fault};
 use kinds::{Choice, Dialect};
 use options::Options;
 use output::Summary;
+use run::Run;
 use summary::Judged;
 use verdict::{Class, Verdict};
 
@@ -53,7 +55,7 @@ pub fn scenes(arguments: &[String]) -> Result<(), Fault> {
         Some(binary) => binary.clone(),
         None => check::program()?,
     };
-    let initial = run::knows(&binary, "initial").map_err(|cause| Fault::Start {
+    let initial = run::knows(&binary, "as-meshed").map_err(|cause| Fault::Start {
         command: format!("{} schema", binary.display()),
         cause,
     })?;
@@ -63,6 +65,7 @@ pub fn scenes(arguments: &[String]) -> Result<(), Fault> {
         } else {
             Choice::Unknown
         },
+        enforcement: options.enforcement,
     };
     let wanted = |seed: &u64| {
         let kind = kinds::kind_of(*seed);
@@ -131,6 +134,11 @@ fn one(keep: &Path, binary: &Path, seed: u64, dialect: Dialect) -> Result<Judged
         command: binary.display().to_string(),
         cause,
     })?;
+    let run = Run {
+        // The folder's name says more than the program.
+        log: run.log.replace(&folder.display().to_string(), ""),
+        ..run
+    };
     let out = folder.join("out");
     let summary = Summary::read(&out.join("summary.json"));
     let findings = checks::check(&out, &scene);
