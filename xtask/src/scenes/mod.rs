@@ -9,7 +9,9 @@
 //! A seed gives a [`scene`] by its [`kinds`], this a [`deck`]; the program [`run`]s it
 //! as a child process, and [`checks`] looks at the output with means of its own: no
 //! crate of striae is used here, so what is wrong there cannot hide here. Decks that
-//! fail are kept with their logs, in a folder each: `FOLDER/SEED-KIND`.
+//! fail are kept with their logs, in a folder each: `FOLDER/SEED-KIND`, beside the tables
+//! of all in `FOLDER/report.md`. Runs that stop are counted; decks that are refused, crashes
+//! and output that is silent or wrong make the task fail.
 
 mod checks;
 mod deck;
