@@ -26,7 +26,7 @@ use crate::{
     configuration::Configuration,
     coverage::{Found, Place},
     frame::{Frame, Frames, Tracked},
-    kinematics::{Kinematics, TrackedScalar},
+    kinematics::{Kinematics, Presence, TrackedScalar},
     opposing::Opposing,
     projection::differentiated_rigid,
     selection::{Partner, Selection},
@@ -59,7 +59,9 @@ pub fn kinematics(
                 gap: frame.map_or_else(TrackedScalar::default, |frame| {
                     gap(configuration, side, node as u32, frame)
                 }),
+                seen_slip: slip.value,
                 slip,
+                presence: Presence::Facing,
                 stiffness: selection.stiffness(k),
             }
         })
