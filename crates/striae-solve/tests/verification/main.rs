@@ -16,5 +16,3 @@ mod rigid;
 mod rigid_facets;
 mod sliding;
 mod table_1;
-mod tangent;
-mod tangent_of_system;
