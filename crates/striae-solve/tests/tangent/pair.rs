@@ -5,14 +5,11 @@ use striae_contact::{
     complementarity::Iteration,
     configuration::Configuration,
     evaluation::{Evaluation, evaluate},
-    frame::frames,
     placement::Placement,
     selection::Selection,
-    texture::textures,
     unknown::Unknown,
     unknowns::{Status, Tractions},
 };
-use striae_law::friction::Textures as LawTextures;
 use striae_mesh::Vec3;
 use striae_solve::assembly::StepContext;
 use striae_verify::{Difference, Random, derivative::directional};
@@ -29,9 +26,12 @@ pub struct Places {
 pub enum Wanted {
     /// One in three each is open, sticks and slips.
     Mixed,
-    /// All slip.
+    /// Nearly all slip.
     Slip,
 }
+
+/// Pressure under which nodes stick whatever their slip.
+const STICKING: f64 = 20.0;
 
 /// A pair between two configurations, with the roles of the first.
 pub struct PairFunction<'a> {
@@ -41,6 +41,8 @@ pub struct PairFunction<'a> {
     counts: [usize; 2],
     elapsed: f64,
     tau_n: [Vec<[f64; 2]>; 2],
+    /// Status in the iteration before, by kept node.
+    pub before: Vec<Status>,
     pub selection: Selection,
     pub iteration: Iteration,
 }
@@ -70,6 +72,7 @@ impl<'a> PairFunction<'a> {
             counts,
             elapsed,
             tau_n,
+            before: vec![Status::Slip; selection.kept().len()],
             selection,
             iteration: Iteration::LATER,
         }
@@ -98,11 +101,15 @@ impl<'a> PairFunction<'a> {
             let first = numbering.traction(side, node as u32) as usize;
             [u[first], u[first + 1], u[first + 2]]
         };
+        let mut statuses = self.counts.map(|count| vec![Status::Open; count]);
+        for (kept, before) in self.selection.kept().iter().zip(&self.before) {
+            statuses[kept.side][kept.node as usize] = *before;
+        }
         Tractions {
             nodes: [0, 1].map(|side| (0..self.counts[side]).map(|n| triple(side, n)).collect()),
             tau_n: self.tau_n.clone(),
             slipped: self.counts.map(|count| vec![false; count]),
-            statuses: self.counts.map(|count| vec![Status::Slip; count]),
+            statuses,
         }
     }
 
@@ -132,7 +139,8 @@ impl<'a> PairFunction<'a> {
     fn tangent(&self, u: &DVector<f64>) -> DMatrix<f64> {
         let mut tangent = DMatrix::zeros(self.len(), self.len());
         for term in &self.evaluation(u).terms {
-            let rows = term.tangent.chunks(term.columns.len());
+            // A node that opposes nothing depends on nothing.
+            let rows = term.tangent.chunks(term.columns.len().max(1));
             for (row, values) in term.rows.iter().zip(rows) {
                 for (column, value) in term.columns.iter().zip(values) {
                     tangent[(*row as usize, *column as usize)] += value;
@@ -143,7 +151,7 @@ impl<'a> PairFunction<'a> {
     }
 
     /// Unknowns away from the kinks; slip rows are satisfied, since only there is their
-    /// Jacobian exact. Slip depends on friction where nodes are weak, hence the loop.
+    /// Jacobian exact. Slip depends on friction where nodes are weak.
     pub fn state(&self, wanted: Wanted) -> DVector<f64> {
         let mut random = Random::new(17);
         let mut u = DVector::zeros(self.len());
@@ -158,60 +166,45 @@ impl<'a> PairFunction<'a> {
         }
         for (k, kept) in self.selection.kept().iter().enumerate() {
             let first = numbering.traction(kept.side, kept.node) as usize;
-            u[first] = random.uniform(0.8, 1.2);
-            if wanted == Wanted::Mixed && k % 3 == 0 {
-                u[first] = -2.0;
-                u[first + 1] = random.uniform(-0.1, 0.1);
-                u[first + 2] = random.uniform(-0.1, 0.1);
+            u[first] = match wanted {
+                Wanted::Slip => random.uniform(0.8, 1.2),
+                Wanted::Mixed => random.uniform(0.2, 0.4),
+            };
+            u[first + 1] = random.uniform(-0.1, 0.1);
+            u[first + 2] = random.uniform(-0.1, 0.1);
+            if wanted == Wanted::Mixed && k % 3 < 2 {
+                u[first] = if k % 3 == 0 { -3.0 } else { STICKING };
             }
         }
-        for _ in 0..400 {
-            let next = self.with_friction(&u, wanted);
-            let change = (&next - &u).amax();
-            u += (next - &u) * 0.5;
-            if change < 1e-15 {
+        for _ in 0..100 {
+            let rows = self.slip_rows(&u);
+            let off = self.residual(&u).select_rows(&rows);
+            if off.amax() < 1e-13 {
                 return u;
+            }
+            let slope = self.tangent(&u).select_rows(&rows).select_columns(&rows);
+            let step = slope.lu().solve(&off).expect("a regular law");
+            for (row, step) in rows.iter().zip(step.iter()) {
+                u[*row] -= step;
             }
         }
         panic!("friction does not settle");
     }
 
-    /// The `z` of sticking and slipping nodes for the slip at `u`.
-    fn with_friction(&self, u: &DVector<f64>, wanted: Wanted) -> DVector<f64> {
-        let pair = &self.context.pairs[0];
-        let configuration = self.configuration(u);
-        let frames = frames(&configuration, &self.selection);
-        let textures = textures(&configuration, &self.selection, &frames).unwrap();
-        let nodes = self.evaluation(u).nodes;
-        let mut next = u.clone();
-        for (k, kept) in self.selection.kept().iter().enumerate() {
-            if wanted == Wanted::Mixed && k % 3 == 0 {
-                continue;
-            }
-            let (side, node) = kept.place();
-            let frame = frames[side][node].as_ref().unwrap();
-            let of_node = &textures[side][node];
-            let of_law = LawTextures {
-                own: of_node.own.as_ref().map(|a| a.value),
-                opposite: of_node.opposite.as_ref().map(|a| a.value),
-            };
-            let kernel = pair.friction.kernel(&frame.n.value, &of_law);
-            let slip = nodes[side][node].slip;
-            let turned = kernel.k_inverse * slip;
-            let first = pair.numbering().traction(kept.side, kept.node) as usize;
-            let varpi = pair.friction.cap(u[first], slip.norm() / self.elapsed);
-            let z = if wanted == Wanted::Mixed && k % 3 == 1 {
-                let r = 10.0 / self.selection.flexibility(k);
-                turned * -r + turned.normalize() * (0.1 * varpi)
-            } else {
-                turned.normalize() * varpi
-            };
-            next[first + 1] = z.dot(&frame.t[0].value);
-            next[first + 2] = z.dot(&frame.t[1].value);
-        }
-        next
+    /// Tangential rows of the slipping nodes.
+    fn slip_rows(&self, u: &DVector<f64>) -> Vec<usize> {
+        let numbering = self.context.pairs[0].numbering();
+        let statuses = self.statuses(u);
+        let kept = self.selection.kept().iter().zip(statuses);
+        kept.filter(|(_, status)| *status == Status::Slip)
+            .flat_map(|(kept, _)| {
+                let first = numbering.traction(kept.side, kept.node) as usize;
+                [first + 1, first + 2]
+            })
+            .collect()
     }
 
+    /// Status of the kept nodes.
     pub fn statuses(&self, u: &DVector<f64>) -> Vec<Status> {
         let nodes = self.evaluation(u).nodes;
         let kept = self.selection.kept().iter();
@@ -248,17 +241,19 @@ impl<'a> PairFunction<'a> {
         differences.sort_by(|one, other| other.0.total_cmp(&one.0));
         let numbering = self.context.pairs[0].numbering();
         let statuses = self.statuses(u);
-        let said = differences[..12].iter().map(|(error, row, column, claimed)| {
-            let [row, column] = [row, column].map(|at| numbering.unknown(*at as u32));
-            let status = match row {
-                Unknown::Traction { side, node, .. } => {
-                    let k = self.selection.basis.index[side][node as usize];
-                    k.map(|k| statuses[k as usize])
-                }
-                Unknown::Position { .. } => None,
-            };
-            format!("{error:9.3e} of {claimed:10.3e}: {row:?} {status:?} by {column:?}\n")
-        });
+        let said = differences[..12]
+            .iter()
+            .map(|(error, row, column, claimed)| {
+                let [row, column] = [row, column].map(|at| numbering.unknown(*at as u32));
+                let status = match row {
+                    Unknown::Traction { side, node, .. } => {
+                        let k = self.selection.basis.index[side][node as usize];
+                        k.map(|k| statuses[k as usize])
+                    }
+                    Unknown::Position { .. } => None,
+                };
+                format!("{error:9.3e} of {claimed:10.3e}: {row:?} {status:?} by {column:?}\n")
+            });
         said.collect()
     }
 }

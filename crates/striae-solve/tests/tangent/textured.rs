@@ -97,8 +97,8 @@ fn check(name: &str, mut model: Model) {
                 let statuses = pair.statuses(&u);
                 let slips = statuses.iter().filter(|s| **s == Status::Slip).count();
                 let enough = match wanted {
-                    Wanted::Slip => slips == statuses.len() && slips > 5,
-                    Wanted::Mixed => slips > 1,
+                    Wanted::Slip => slips > 2,
+                    Wanted::Mixed => slips > 0,
                 };
                 assert!(enough, "{name}: {statuses:?}");
                 pair.assert_order(&u, &name);
@@ -126,9 +126,9 @@ fn on_a_rigid_plane() {
     }
 }
 
-/// A coarse curved floor.
-fn curved_floor() -> RigidShape {
-    let place = |at: usize| -1.1 + 0.7 * at as f64;
+/// A coarse curved floor of five by five facets from -1.1 on.
+fn curved_floor(spacing: f64) -> RigidShape {
+    let place = |at: usize| -1.1 + spacing * at as f64;
     let mut positions = Vec::new();
     let mut facets = Vec::new();
     for j in 0..6 {
@@ -148,8 +148,11 @@ fn on_rigid_facets() {
     for (law, angles) in laws() {
         for paint in [uniform, circles] {
             let paints = angles.map(|angle| angle.map(paint));
-            let model = on_rigid(law, paints, curved_floor());
-            check(&format!("facets, {law:?}"), model);
+            // The second ends under the block.
+            for spacing in [0.7, 0.37] {
+                let model = on_rigid(law, paints.clone(), curved_floor(spacing));
+                check(&format!("facets of {spacing}, {law:?}"), model);
+            }
         }
     }
 }
@@ -158,9 +161,10 @@ fn on_rigid_facets() {
 fn between_curved_bodies() {
     for (law, angles) in [laws()[1], laws()[3], laws()[5], laws()[6]] {
         for paint in [uniform, circles] {
+            // It ends under the upper body.
             let lower = Block {
                 irregularity: 0.15,
-                ..block([-0.37, -0.41, -0.5], [1.8, 1.8, 0.5], [4, 3, 1])
+                ..block([-0.37, -0.41, -0.5], [1.1, 1.8, 0.5], [3, 3, 1])
             };
             let mut model = model(vec![
                 body("upper", upper().mesh().unwrap(), rubber(1.0, 0.3)),
