@@ -172,8 +172,12 @@ impl<'a> PairFunction<'a> {
             };
             u[first + 1] = random.uniform(-0.1, 0.1);
             u[first + 2] = random.uniform(-0.1, 0.1);
-            if wanted == Wanted::Mixed && k % 3 < 2 {
-                u[first] = if k % 3 == 0 { -3.0 } else { STICKING };
+            // Tension closes the gap of a weak node, and holds no friction there.
+            let weak = self.selection.ramp().iter().any(|w| w.kept as usize == k);
+            match k % 3 {
+                0 if wanted == Wanted::Mixed && !weak => u[first] = -3.0,
+                1 if wanted == Wanted::Mixed => u[first] = STICKING,
+                _ => {}
             }
         }
         for _ in 0..100 {
