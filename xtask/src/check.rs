@@ -5,6 +5,8 @@
 //! of types only, serves lints and documentation.
 
 use std::{
+    env,
+    path::PathBuf,
     process::Command,
     time::{Duration, Instant},
 };
@@ -73,6 +75,16 @@ pub fn bench(arguments: &[String]) -> Result<(), Fault> {
     let mut all: Vec<&str> = ["run", "--release", "-p", "striae-bench", "--"].into();
     all.extend(arguments.iter().map(String::as_str));
     cargo(&all, &[])
+}
+
+/// Builds the program and says where it is.
+///
+/// # Errors
+/// When it cannot be built.
+pub fn program() -> Result<PathBuf, Fault> {
+    cargo(&["build", "--release", "-p", "striae"], &[])?;
+    let folder = env::var_os("CARGO_TARGET_DIR").map_or("target".into(), PathBuf::from);
+    Ok(folder.join("release").join("striae"))
 }
 
 fn timed(name: &str, check: impl FnOnce() -> Result<(), Fault>) -> Result<(), Fault> {

@@ -37,6 +37,17 @@ pub enum Fault {
     /// The source text breaks rules of the architecture.
     #[error("{}\n{} breaches; ARCHITECTURE.md and CONVENTIONS.md give the reasons", lines(.0), .0.len())]
     Breaches(Vec<Breach>),
+    /// An option is not understood.
+    #[error("{0}")]
+    Option(String),
+    /// Scenes came out wrong.
+    #[error("{count} of {of} scenes came out wrong")]
+    Scenes {
+        /// How many.
+        count: usize,
+        /// Of how many.
+        of: usize,
+    },
 }
 
 fn lines(breaches: &[Breach]) -> String {

@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | `check` | all that has to hold before a change goes in; see [`check`] |
 //! | `borders` | the border check alone, in a second; see [`borders`] |
+//! | `scenes` | random scenes of contact, judged from their output; see [`scenes`] |
 //! | `bench` | times of parts and of whole runs; see `crates/striae-bench/README.md` |
 //!
 //! Exit codes: 0 when all is well, 1 when a check failed, 2 for an unknown task.
@@ -11,16 +12,18 @@
 mod borders;
 mod check;
 mod fault;
+mod scenes;
 
 use std::{env, process::ExitCode};
 
-const USAGE: &str = "usage: cargo xtask check | borders | bench [ARGUMENTS]";
+const USAGE: &str = "usage: cargo xtask check | borders | scenes [OPTIONS] | bench [ARGUMENTS]";
 
 fn main() -> ExitCode {
     let tasks: Vec<String> = env::args().skip(1).collect();
     let result = match tasks.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["check"] => check::check(),
         ["borders"] => borders::check(),
+        ["scenes", ..] => scenes::scenes(&tasks[1..]),
         ["bench", ..] => check::bench(&tasks[1..]),
         _ => {
             eprintln!("{USAGE}");

@@ -96,7 +96,7 @@ fn of_scene(group: &str, size: usize) -> Results {
     let context = StepContext::new(&problem, 0, &state);
     let configuration = context.configuration(0, &state.positions, &state.rigid);
     let kept = &state.pairs[0].kept;
-    let selection = Selection::new(&configuration, None, kept);
+    let selection = Selection::new(&configuration, None, kept, &context.fixed_on_pair[0]);
     let nodes: usize = (0..2).map(|side| selection.nodes(side)).sum();
     Ok(match group {
         "surface" => {
@@ -107,7 +107,12 @@ fn of_scene(group: &str, size: usize) -> Results {
         }
         "search" => {
             let roles = timed("search", "selection of roles", nodes, || {
-                black_box(Selection::new(&configuration, None, kept));
+                black_box(Selection::new(
+                    &configuration,
+                    None,
+                    kept,
+                    &context.fixed_on_pair[0],
+                ));
             });
             let tractions: &Tractions = &state.pairs[0].tractions;
             let prescribed = &context.fixed_on_pair[0];

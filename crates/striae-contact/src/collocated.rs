@@ -61,7 +61,7 @@ pub fn kinematics(
                     gap(configuration, side, node as u32, frame)
                 }),
                 slip,
-                stiffness: 1.0 / selection.flexibility(k),
+                stiffness: selection.stiffness(k),
             }
         })
         .collect()

@@ -235,15 +235,19 @@ impl<'a> NodeState<'a> {
             slip: kinematics.slip.value,
             normal: frame.n.value,
             texture: Vec3::zeros(),
+            mean: Vec3::zeros(),
             status: Status::Open,
         }
     }
 
-    /// Whether a component of a triple is a position that is not prescribed.
+    /// Whether a component of a triple is a position that is not prescribed, of the node
+    /// itself or of the other side. Neighbours on its own side have rows of their own; that
+    /// they can move makes no room for one more.
     fn is_free_position(&self, first: u32, axis: usize) -> bool {
         match self.numbering.unknown(first) {
             Unknown::Position { side, node, .. } => {
-                !self.prescribed[side][3 * node as usize + axis]
+                let counts = side != self.node.side || node == self.node.node;
+                counts && !self.prescribed[side][3 * node as usize + axis]
             }
             Unknown::Traction { .. } => false,
         }

@@ -33,7 +33,7 @@ use striae_surface::facet::Shape;
 
 pub use rigid_plane::plane_segment;
 
-use chain::Plane;
+use chain::{CornerSlopes, Plane};
 use fan::{Apex, fan};
 use normal::{facet_normal, pair_normal, pair_slopes};
 use plane_facet::{PlaneFacet, Vec2};
@@ -206,7 +206,7 @@ impl PlanePair {
         &self,
         polygon: &[Vertex],
         derivatives: Derivatives,
-    ) -> ([f64; PAIRS], Option<PlaneSlopes>) {
+    ) -> ([f64; PAIRS], Option<CornerSlopes>) {
         let [a, b] = self.facets.each_ref().map(PlaneFacet::distortion);
         let distortion = a.max(b);
         let (rule, apex): (&[_], _) = if distortion <= AFFINE {
@@ -229,9 +229,7 @@ impl PlanePair {
             };
             add_triangle(&self.facets, &triangle, rule, &mut mass, slopes.as_mut());
         }
-        if let Some(slopes) = &mut slopes {
-            slopes.pass_on(polygon, &fan, &self.places);
-        }
+        let slopes = slopes.map(|own| CornerSlopes::new(own, polygon, &fan, &self.places));
         (mass, slopes)
     }
 }

@@ -9,6 +9,7 @@ use striae_mesh::{FacetId, Vec3};
 use striae_surface::facet::Shape;
 
 use crate::{
+    complementarity::Prescribed,
     configuration::Configuration,
     coverage::Place,
     interface::{
@@ -67,7 +68,12 @@ const TOUCHING: f64 = 0.05;
 impl Selection {
     /// Chooses the kept nodes from the configuration that an increment starts from and, if
     /// it is known, the one that it is predicted to lead to.
-    pub fn new(start: &Configuration, predicted: Option<&Configuration>, kept: &Kept) -> Self {
+    pub fn new(
+        start: &Configuration,
+        predicted: Option<&Configuration>,
+        kept: &Kept,
+        prescribed: &Prescribed,
+    ) -> Self {
         let compliances = compliances(start);
         let depth = predicted.map_or(0.0, |predicted| approach(start, predicted));
         let scope = Scope {
@@ -78,7 +84,7 @@ impl Selection {
         if let Some(predicted) = predicted {
             gathered.add(Gathered::new(predicted, scope));
         }
-        let basis = gathered.basis(start, kept);
+        let basis = gathered.basis(start, kept, prescribed);
         let partners = partners(start, &basis);
         Self {
             basis,
@@ -128,9 +134,14 @@ impl Selection {
         self.basis.weights[k]
     }
 
-    /// `l_k` of a kept node.
-    pub fn flexibility(&self, k: usize) -> f64 {
-        self.basis.flexibility[k]
+    /// `1/l_k` of a kept node; zero where nothing yields, as no row can hold there.
+    pub fn stiffness(&self, k: usize) -> f64 {
+        let flexibility = self.basis.flexibility[k];
+        if flexibility > 0.0 {
+            1.0 / flexibility
+        } else {
+            0.0
+        }
     }
 
     /// Weakly independent kept nodes.
@@ -260,8 +271,14 @@ impl Gathered {
         }
     }
 
-    fn basis(&self, configuration: &Configuration, kept: &Kept) -> TractionBasis {
-        let nodes = [0, 1].map(|side| surface_nodes(configuration, side, &kept[side]));
+    fn basis(
+        &self,
+        configuration: &Configuration,
+        kept: &Kept,
+        prescribed: &Prescribed,
+    ) -> TractionBasis {
+        let nodes =
+            [0, 1].map(|side| surface_nodes(configuration, side, &kept[side], &prescribed[side]));
         let whole = if configuration.pair.is_rigid() {
             whole_facets(configuration)
         } else {
@@ -315,7 +332,12 @@ fn clamped(configuration: &Configuration, side: usize, node: u32) -> Option<Clam
     }
 }
 
-fn surface_nodes(configuration: &Configuration, side: usize, kept: &[bool]) -> Vec<SurfaceNode> {
+fn surface_nodes(
+    configuration: &Configuration,
+    side: usize,
+    kept: &[bool],
+    prescribed: &[bool],
+) -> Vec<SurfaceNode> {
     let Some(snapshot) = &configuration.sides[side] else {
         return Vec::new();
     };
@@ -325,15 +347,20 @@ fn surface_nodes(configuration: &Configuration, side: usize, kept: &[bool]) -> V
     let modulus = configuration.pair.sides[side].stiffness;
     let nodes = snapshot.x.iter().zip(&snapshot.sizes).enumerate();
     nodes
-        .map(|(node, (position, size))| SurfaceNode {
-            position: *position,
-            flexibility: size / modulus,
-            compliance: 1.0 / (modulus * size),
-            last: if kept.get(node) == Some(&true) {
-                LastIncrement::Kept
-            } else {
-                LastIncrement::NotKept
-            },
+        .map(|(node, (position, size))| {
+            let components = prescribed.get(3 * node..3 * node + 3);
+            let yields = components.is_none_or(|components| components.contains(&false));
+            let share = f64::from(u8::from(yields));
+            SurfaceNode {
+                position: *position,
+                flexibility: share * size / modulus,
+                compliance: share / (modulus * size),
+                last: if kept.get(node) == Some(&true) {
+                    LastIncrement::Kept
+                } else {
+                    LastIncrement::NotKept
+                },
+            }
         })
         .collect()
 }

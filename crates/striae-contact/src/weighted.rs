@@ -98,7 +98,7 @@ pub fn kinematics(
                 let patch = &patches[at as usize];
                 sum.add(patch, &patch.kept[entry as usize].1, slip);
             }
-            sum.over(selection.weight(k), 1.0 / selection.flexibility(k))
+            sum.over(selection.weight(k), selection.stiffness(k))
         })
         .collect()
 }

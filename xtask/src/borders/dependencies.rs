@@ -123,7 +123,7 @@ const LADDER: [Row; 11] = [
     Row {
         name: "xtask",
         own: &[],
-        outside: &["serde_json", "thiserror"],
+        outside: &["flate2", "serde_json", "thiserror"],
     },
 ];
 

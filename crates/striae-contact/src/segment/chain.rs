@@ -20,7 +20,7 @@ use striae_mesh::Vec3;
 use super::{
     fan::Fan,
     plane_facet::Vec2,
-    polygon::{Label, Vertex},
+    polygon::{CutEdge, Label, Vertex},
     sums::{ByPair, PAIRS, PlaneSlopes, add, functions},
 };
 
@@ -57,10 +57,14 @@ impl Plane {
     }
 }
 
-impl PlaneSlopes {
-    /// Passes the slopes by vertices, and by a centre, on to the corners.
-    pub fn pass_on(&mut self, polygon: &[Vertex], fan: &Fan, places: &[Vec2; 8]) {
-        let mut vertices = std::mem::take(&mut self.vertices);
+/// Derivatives of all pairs by the coordinates of each corner in the plane.
+pub(super) struct CornerSlopes([[ByPair; 2]; 8]);
+
+impl CornerSlopes {
+    /// With the slopes by vertices, and by a centre, passed on to the corners.
+    pub fn new(slopes: PlaneSlopes, polygon: &[Vertex], fan: &Fan, places: &[Vec2; 8]) -> Self {
+        let mut corners = Self(slopes.by_corners());
+        let mut vertices = slopes.vertices;
         if let Some(centre) = vertices.get(polygon.len()).copied() {
             let share = 1.0 / fan.around.len() as f64;
             for at in &fan.around {
@@ -68,37 +72,32 @@ impl PlaneSlopes {
             }
         }
         for (vertex, by_place) in polygon.iter().zip(&vertices) {
-            match vertex.label {
-                Label::Corner(corner) => self.pass(corner, 1.0, by_place),
-                Label::Both(corners) => {
-                    corners
-                        .iter()
-                        .for_each(|corner| self.pass(*corner, 0.5, by_place));
-                }
-                Label::Crossing(edges) => {
-                    let [u, w] = edges.map(|edge| places[edge.ends[1]] - places[edge.ends[0]]);
-                    let cross = u.perp(&w);
-                    for (edge, own, other, sign) in [(edges[0], u, w, 1.0), (edges[1], w, u, -1.0)]
-                    {
-                        let [along_x, along_y] = [other.x, other.y].map(|c| sign * c / cross);
-                        let mut moved = [0.0; PAIRS];
-                        add(&mut moved, along_x, &by_place[0]);
-                        add(&mut moved, along_y, &by_place[1]);
-                        for (end, share) in
-                            edge.ends.into_iter().zip([1.0 - edge.share, edge.share])
-                        {
-                            add(&mut self.corners[2 * end], -share * own.y, &moved);
-                            add(&mut self.corners[2 * end + 1], share * own.x, &moved);
-                        }
-                    }
-                }
+            match &vertex.label {
+                Label::Corner(corner) => corners.pass(*corner, 1.0, by_place),
+                Label::Both(both) => both.iter().for_each(|at| corners.pass(*at, 0.5, by_place)),
+                Label::Crossing(edges) => corners.pass_crossing(edges, places, by_place),
             }
         }
+        corners
     }
 
     fn pass(&mut self, corner: usize, share: f64, by_place: &[ByPair; 2]) {
         for axis in 0..2 {
-            add(&mut self.corners[2 * corner + axis], share, &by_place[axis]);
+            add(&mut self.0[corner][axis], share, &by_place[axis]);
+        }
+    }
+
+    fn pass_crossing(&mut self, edges: &[CutEdge; 2], places: &[Vec2; 8], by_place: &[ByPair; 2]) {
+        let [u, w] = edges.map(|edge| places[edge.ends[1]] - places[edge.ends[0]]);
+        let cross = u.perp(&w);
+        for (edge, own, along) in [(&edges[0], u, w / cross), (&edges[1], w, -u / cross)] {
+            let mut moved = [0.0; PAIRS];
+            add(&mut moved, along.x, &by_place[0]);
+            add(&mut moved, along.y, &by_place[1]);
+            for (end, share) in edge.ends.into_iter().zip([1.0 - edge.share, edge.share]) {
+                add(&mut self.0[end][0], -share * own.y, &moved);
+                add(&mut self.0[end][1], share * own.x, &moved);
+            }
         }
     }
 
@@ -110,15 +109,11 @@ impl PlaneSlopes {
         normal: &[Matrix3<f64>; 8],
     ) -> [[f64; 24]; PAIRS] {
         let mut turn = [[0.0; PAIRS]; 2];
-        for (corner, x) in corners.iter().enumerate() {
-            let height = -plane.height(x);
-            for axis in 0..2 {
-                add(&mut turn[axis], height, &self.corners[2 * corner + axis]);
-            }
-        }
         let mut by_turn = [[0.0; 24]; 2];
         for axis in 0..2 {
             for corner in 0..8 {
+                let height = plane.height(&corners[corner]);
+                add(&mut turn[axis], -height, &self.0[corner][axis]);
                 let slope = normal[corner].tr_mul(&plane.axes[axis]);
                 by_turn[axis][3 * corner..3 * corner + 3].copy_from_slice(slope.as_slice());
             }
@@ -128,7 +123,7 @@ impl PlaneSlopes {
             let (c, d) = functions(pair);
             let row = &mut slopes[super::pair_index(c, d)];
             for corner in 0..8 {
-                let [first, second] = [0, 1].map(|axis| self.corners[2 * corner + axis][pair]);
+                let [first, second] = self.0[corner].each_ref().map(|by_pair| by_pair[pair]);
                 let by_x = plane.axes[0] * first + plane.axes[1] * second;
                 row[3 * corner..3 * corner + 3].copy_from_slice(by_x.as_slice());
             }

@@ -47,7 +47,7 @@ fn across(n: &Vec3) -> Matrix3<f64> {
 /// The normal of a pair of facets with these unit normals.
 pub(super) fn pair_normal([n_a, n_b]: [&Vec3; 2], [c_a, c_b]: [f64; 2]) -> Option<Vec3> {
     let scale = c_a.max(c_b);
-    if !(scale > 0.0) {
+    if scale <= 0.0 {
         return None;
     }
     (n_a * (c_b / scale) - n_b * (c_a / scale)).try_normalize(0.0)

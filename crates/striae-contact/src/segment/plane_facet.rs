@@ -88,7 +88,7 @@ impl PlaneFacet {
         let eta = 2.0 * across_a / (self.jacobian - across_c + root);
         let xi = -2.0 * across_b / (self.jacobian + across_c + root);
         let (y_xi, y_eta) = (a + c * eta, b + c * xi);
-        let inverse = 1.0 / y_xi.perp(&y_eta);
+        let inverse = 1.0 / root;
         let grad_xi = [y_eta.y * inverse, -y_eta.x * inverse];
         let grad_eta = [-y_xi.y * inverse, y_xi.x * inverse];
         let weights = self.shape.weights(xi, eta);

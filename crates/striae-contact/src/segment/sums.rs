@@ -48,10 +48,17 @@ pub(super) fn functions(pair: usize) -> (usize, usize) {
     }
 }
 
+/// Number of pairs with a function of a given side.
+const TOUCHED: usize = LAST;
+
+/// A number for each pair that has a function of a given side: the first or the last
+/// of all pairs.
+type ByOwn = [f64; TOUCHED];
+
 /// Derivatives of all pairs by coordinates in the plane.
 pub(super) struct PlaneSlopes {
-    /// By the two coordinates of each of the eight corners, where the polygon rests.
-    pub corners: [ByPair; 16],
+    /// By the two coordinates of each of the eight corners, through coordinates on facets.
+    own: [[[ByOwn; 2]; 4]; 2],
     /// By the two coordinates of each vertex of the polygon and of its centre.
     pub vertices: Vec<[ByPair; 2]>,
 }
@@ -60,21 +67,23 @@ impl PlaneSlopes {
     /// No dependence yet on this many vertices.
     pub fn zero(vertices: usize) -> Self {
         Self {
-            corners: [[0.0; PAIRS]; 16],
+            own: [[[[0.0; TOUCHED]; 2]; 4]; 2],
             vertices: vec![[[0.0; PAIRS]; 2]; vertices],
         }
     }
 
-    fn add_corners(&mut self, gradients: &[[ByPair; 2]; 2], weights: [&[f64; 4]; 2], weight: f64) {
-        for axis in 0..2 {
+    /// By the coordinates of each corner, while the polygon rests.
+    pub fn by_corners(&self) -> [[ByPair; 2]; 8] {
+        let mut corners = [[[0.0; PAIRS]; 2]; 8];
+        for side in 0..2 {
             for k in 0..4 {
-                let (a, b) = (-weight * weights[0][k], -weight * weights[1][k]);
-                let first = &mut self.corners[2 * k + axis][..LAST];
-                add(first, a, &gradients[0][axis][..LAST]);
-                let second = &mut self.corners[8 + 2 * k + axis][MIXED..];
-                add(second, b, &gradients[1][axis][MIXED..]);
+                for axis in 0..2 {
+                    let target = &mut corners[4 * side + k][axis][MIXED * side..][..TOUCHED];
+                    target.copy_from_slice(&self.own[side][k][axis]);
+                }
             }
         }
+        corners
     }
 }
 
@@ -103,15 +112,18 @@ pub(super) fn add_triangle(
         let [a, b] = [facets[0].at(&place), facets[1].at(&place)];
         add(&mut own, *weight, &products(&a.value, &b.value));
         let weight = weight * area;
-        if let Some(slopes) = &mut slopes {
-            let gradients = gradients(&a, &b);
-            slopes.add_corners(&gradients, [&a.value, &b.value], weight);
-            for axis in 0..2 {
-                let mut total = gradients[0][axis];
-                add(&mut total, 1.0, &gradients[1][axis]);
-                for k in 0..3 {
-                    add(&mut by_vertex[k][axis], weight * shares[k], &total);
+        let Some(slopes) = &mut slopes else { continue };
+        for axis in 0..2 {
+            let gradients = gradients([&a, &b], axis);
+            for side in 0..2 {
+                for k in 0..4 {
+                    let factor = -weight * [&a, &b][side].value[k];
+                    add(&mut slopes.own[side][k][axis], factor, &gradients[side]);
                 }
+            }
+            let total = total(&gradients);
+            for k in 0..3 {
+                add(&mut by_vertex[k][axis], weight * shares[k], &total);
             }
         }
     }
@@ -129,9 +141,9 @@ pub(super) fn add_triangle(
 }
 
 /// `sum += factor terms`.
-pub(super) fn add(sum: &mut [f64], factor: f64, terms: &[f64]) {
-    for (sum, term) in sum.iter_mut().zip(terms) {
-        *sum += factor * term;
+pub(super) fn add<const N: usize>(sum: &mut [f64; N], factor: f64, terms: &[f64; N]) {
+    for at in 0..N {
+        sum[at] += factor * terms[at];
     }
 }
 
@@ -150,21 +162,32 @@ fn products(a: &[f64; 4], b: &[f64; 4]) -> ByPair {
     products
 }
 
-/// Gradients of all `N_c N_d` by the place on side `a` and by the place on side `b`.
-fn gradients(a: &PlaneWeights, b: &PlaneWeights) -> [[ByPair; 2]; 2] {
-    let mut gradients = [[[0.0; PAIRS]; 2]; 2];
-    for axis in 0..2 {
-        let (grad_a, grad_b) = (&a.gradient[axis], &b.gradient[axis]);
-        for (pair, (c, d)) in OWN.into_iter().enumerate() {
-            gradients[0][axis][pair] = grad_a[c] * a.value[d] + a.value[c] * grad_a[d];
-            gradients[1][axis][LAST + pair] = grad_b[c] * b.value[d] + b.value[c] * grad_b[d];
-        }
-        for c in 0..4 {
-            for d in 0..4 {
-                gradients[0][axis][MIXED + 4 * c + d] = grad_a[c] * b.value[d];
-                gradients[1][axis][MIXED + 4 * c + d] = a.value[c] * grad_b[d];
-            }
+/// Derivatives of `N_c N_d` along an axis by the place on side `a` and by that on `b`.
+fn gradients([a, b]: [&PlaneWeights; 2], axis: usize) -> [ByOwn; 2] {
+    let (grad_a, grad_b) = (&a.gradient[axis], &b.gradient[axis]);
+    let mut gradients = [[0.0; TOUCHED]; 2];
+    for (pair, (c, d)) in OWN.into_iter().enumerate() {
+        gradients[0][pair] = grad_a[c] * a.value[d] + a.value[c] * grad_a[d];
+        gradients[1][LAST - MIXED + pair] = grad_b[c] * b.value[d] + b.value[c] * grad_b[d];
+    }
+    for c in 0..4 {
+        for d in 0..4 {
+            gradients[0][MIXED + 4 * c + d] = grad_a[c] * b.value[d];
+            gradients[1][4 * c + d] = a.value[c] * grad_b[d];
         }
     }
     gradients
+}
+
+/// The sum of both, for all pairs.
+fn total(gradients: &[ByOwn; 2]) -> ByPair {
+    std::array::from_fn(|pair| {
+        let first = if pair < LAST { gradients[0][pair] } else { 0.0 };
+        let second = if pair < MIXED {
+            0.0
+        } else {
+            gradients[1][pair - MIXED]
+        };
+        first + second
+    })
 }

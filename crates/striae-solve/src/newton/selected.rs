@@ -29,7 +29,8 @@ pub(super) fn selected(context: &StepContext, state: &State) -> Selected {
         .enumerate()
         .map(|(pair, of_pair)| {
             let start = context.configuration(pair, &state.positions, &state.rigid);
-            let selection = Selection::new(&start, None, &of_pair.kept);
+            let selection =
+                Selection::new(&start, None, &of_pair.kept, &context.fixed_on_pair[pair]);
             let mut tractions = of_pair.tractions.clone();
             tractions.tau_n = of_pair
                 .carried
@@ -55,7 +56,12 @@ pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluatio
         .enumerate()
         .map(|(pair, (start, latest))| {
             let kept = setting.selections[pair].kept_nodes();
-            let selection = Selection::new(&start, Some(&latest), &kept);
+            let selection = Selection::new(
+                &start,
+                Some(&latest),
+                &kept,
+                &setting.context.fixed_on_pair[pair],
+            );
             let mut tractions = trial.tractions[pair].clone();
             fit(&selection, &kept, &contacts[pair].carried, &mut tractions);
             (selection, tractions)

@@ -14,5 +14,6 @@ mod patch_stick;
 mod pushed;
 mod rigid;
 mod rigid_facets;
+mod round_off;
 mod sliding;
 mod table_1;

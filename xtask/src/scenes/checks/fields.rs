@@ -1,0 +1,193 @@
+//! Checks of the fields on the contact surfaces: law, tension, gaps.
+
+use crate::scenes::{
+    geometry::area,
+    law::Point,
+    output::Fields,
+    scene::{Pair, Scene},
+    vector::length,
+    vtu::Grid,
+};
+
+use super::Findings;
+
+/// Friction beyond the law, relative.
+const LAW: f64 = 1e-6;
+/// Tension over the largest pressure.
+const TENSION: f64 = 1e-8;
+/// Gap over the size of a facet.
+const GAP: f64 = 1e-6;
+/// Pressures below this share of the largest are none.
+const NOTHING: f64 = 1e-9;
+/// Code of nodes that have an own row.
+const KEPT: f64 = 1.0;
+
+/// Checks all pairs.
+pub fn check(findings: &mut Findings, scene: &Scene, fields: &Fields, increment: usize) {
+    for body in fields.bodies.values() {
+        if !body.is_finite() {
+            let place = || format!("fields after increment {increment} are not finite");
+            findings.note("ending", f64::INFINITY, place);
+        }
+    }
+    for (pair, sides) in scene.pairs.iter().zip(&fields.pairs) {
+        let pressures = sides
+            .iter()
+            .flatten()
+            .filter_map(|grid| grid.scalars("pressure"));
+        let largest = pressures
+            .flatten()
+            .fold(0.0, |largest, p| p.abs().max(largest));
+        for (grid, side) in sides.iter().zip(&pair.sides) {
+            let Some(grid) = grid else { continue };
+            let place = |node: usize, what: String| {
+                format!(
+                    "pair {}, {}, increment {increment}, node {node}: {what}",
+                    pair.name, side.owner
+                )
+            };
+            surface(findings, pair, grid, largest, &place);
+        }
+    }
+}
+
+fn surface(
+    findings: &mut Findings,
+    pair: &Pair,
+    grid: &Grid,
+    largest: f64,
+    place: &dyn Fn(usize, String) -> String,
+) {
+    let (Some(pressure), Some(gap)) = (grid.scalars("pressure"), grid.scalars("gap")) else {
+        findings.note("gap", f64::INFINITY, || {
+            place(0, "there is no pressure or gap".into())
+        });
+        return;
+    };
+    let size = sizes(grid);
+    let kept_nodes = grid.scalars("kept");
+    let kept = |node: usize| kept_nodes.is_none_or(|kept| kept[node] == KEPT);
+    for node in 0..grid.points.len() {
+        let (p, g, h) = (pressure[node], gap[node], size[node]);
+        if largest > 0.0 {
+            findings.note("tension", -p / (TENSION * largest), || {
+                place(node, format!("pressure {p:.2e} of {largest:.2e}"))
+            });
+        }
+        if !kept(node) {
+            continue;
+        }
+        findings.note("gap", -g / (GAP * h), || {
+            place(node, format!("gap {g:.2e} of {h:.2e}"))
+        });
+        if p > NOTHING * largest {
+            findings.note("product", g / (GAP * h), || {
+                place(
+                    node,
+                    format!("gap {g:.2e} of {h:.2e} under pressure {p:.2e}"),
+                )
+            });
+        }
+    }
+    friction(findings, pair, grid, &kept, largest, place);
+}
+
+fn friction(
+    findings: &mut Findings,
+    pair: &Pair,
+    grid: &Grid,
+    kept: &dyn Fn(usize) -> bool,
+    largest: f64,
+    place: &dyn Fn(usize, String) -> String,
+) {
+    let Some(pressure) = grid.scalars("pressure") else {
+        return;
+    };
+    let Some(friction) = grid.vectors("friction_traction") else {
+        return;
+    };
+    let zeros = || vec![[0.0; 3]; grid.points.len()];
+    let normal = grid.vectors("normal").unwrap_or_else(zeros);
+    let texture = grid.vectors("texture").unwrap_or_else(zeros);
+    let nothing = NOTHING * largest;
+    for node in (0..grid.points.len()).filter(|&node| kept(node)) {
+        let point = Point {
+            pressure: pressure[node].max(nothing),
+            friction: friction[node],
+            normal: normal[node],
+            texture: texture[node],
+        };
+        let tau = length(point.friction);
+        if tau <= nothing {
+            continue;
+        }
+        // An excess that would be none at a larger pressure is none here.
+        let used = pair.law.use_of(&point, pair.cap);
+        findings.note("law", (used - 1.0) / LAW, || {
+            place(
+                node,
+                format!(
+                    "friction {tau:.3e} under {:.3e} uses {used:.8}",
+                    point.pressure
+                ),
+            )
+        });
+    }
+}
+
+/// Size of the facets at every node: the root of their mean area.
+pub fn sizes(grid: &Grid) -> Vec<f64> {
+    let mut sums = vec![(0.0, 0.0); grid.points.len()];
+    for (index, cell) in grid.cells.iter().enumerate() {
+        let area = area(&grid.corners(index));
+        for &node in cell {
+            sums[node].0 += area;
+            sums[node].1 += 1.0;
+        }
+    }
+    sums.into_iter()
+        .map(|(area, count)| (area / count).sqrt())
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenes::{
+        kinds::{Dialect, scene},
+        law::Law,
+    };
+
+    /// What fails on a unit square whose nodes have these pressures, gaps and friction
+    /// along `x`.
+    fn failed(pressure: [f64; 4], gap: [f64; 4], friction: [f64; 4]) -> Vec<&'static str> {
+        let mut pair = scene(0, Dialect::default()).pairs.remove(0);
+        (pair.law, pair.cap) = (Law::Coulomb(0.3), None);
+        let points = vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        let grid = Grid::plain(points, vec![vec![0, 1, 2, 3]]);
+        let friction = friction.into_iter().flat_map(|x| [x, 0.0, 0.0]).collect();
+        let grid = grid
+            .with("pressure", 1, pressure.to_vec())
+            .with("gap", 1, gap.to_vec())
+            .with("friction_traction", 3, friction)
+            .with("kept", 1, vec![1.0, 1.0, 1.0, 0.0]);
+        let mut findings = Findings::default();
+        surface(&mut findings, &pair, &grid, 1.0, &|_, what| what);
+        findings.failed().map(|(name, _)| name).collect()
+    }
+
+    #[test]
+    fn each_fault_fails_its_check() {
+        let (p, g, t) = (
+            [1.0, 0.5, 0.0, 0.2],
+            [0.0, 0.0, 0.1, -0.1],
+            [0.3, -0.1, 0.0, 0.9],
+        );
+        assert!(failed(p, g, t).is_empty());
+        assert_eq!(failed([1.0, 0.5, 0.0, -0.1], g, t), ["tension"]);
+        assert_eq!(failed(p, [0.0, -1e-5, 0.1, 0.0], t), ["gap"]);
+        assert_eq!(failed(p, [0.0, 1e-5, 0.1, 0.0], t), ["product"]);
+        assert_eq!(failed(p, g, [0.3, -0.151, 0.0, 0.0]), ["law"]);
+        assert_eq!(failed(p, g, [0.3, -0.1, 0.01, 0.0]), ["law"]);
+    }
+}

@@ -1,0 +1,119 @@
+//! What must hold in the output of a run, whatever the program thinks.
+//!
+//! | check | bound |
+//! | --- | --- |
+//! | `resultants` | forces of the two sides of a pair balance to 1e-8 |
+//! | `balance` | reactions, loads and contact of a body balance to 1e-6, without inertia |
+//! | `law` | friction at nodes with an own row is inside the law to 1e-6 |
+//! | `tension` | no pressure below -1e-8 of the largest |
+//! | `gap` | no gap below -1e-6 facets at nodes with an own row |
+//! | `product` | where there is pressure there is no gap above that |
+//! | `dissipation` | never falls, to 1e-9 of the largest energy |
+//! | `energy` | the balance of energies closes to 1e-6 of the largest |
+//! | `depth` | no node, and no corner of a rigid facet, deeper inside than a tenth of a facet |
+//! | `ending` | a completed run reached the end of all steps |
+//! | `contact` | pairs carry force at the end of steps that press, none where they are apart |
+//!
+//! A measure is a value over its bound: at most 1 is well.
+
+mod depth;
+mod fields;
+mod table;
+
+use std::{collections::BTreeMap, path::Path};
+
+use super::{
+    output::{Fields, History},
+    scene::Scene,
+};
+
+/// Names of the checks, in the order of the table.
+pub const NAMES: [&str; 11] = [
+    "ending",
+    "contact",
+    "resultants",
+    "balance",
+    "law",
+    "tension",
+    "gap",
+    "product",
+    "dissipation",
+    "energy",
+    "depth",
+];
+
+/// What a check found at its worst.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Worst {
+    /// Value over the bound.
+    pub measure: f64,
+    /// Where.
+    pub place: String,
+}
+
+/// What all checks found in one run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Findings {
+    /// The worst of each check.
+    pub worst: BTreeMap<&'static str, Worst>,
+    /// Numbers to report without a bound.
+    pub told: BTreeMap<&'static str, f64>,
+    /// Iterations of the increments.
+    pub iterations: Vec<usize>,
+}
+
+impl Findings {
+    /// Notes a measure of a check; `NaN` is worse than all.
+    pub fn note(&mut self, check: &'static str, measure: f64, place: impl FnOnce() -> String) {
+        let measure = if measure.is_nan() {
+            f64::INFINITY
+        } else {
+            measure
+        };
+        let worst = self.worst.entry(check).or_default();
+        if measure > worst.measure || worst.place.is_empty() {
+            *worst = Worst {
+                measure,
+                place: place(),
+            };
+        }
+    }
+
+    /// Notes a number that has no bound, if it is the largest so far.
+    pub fn tell(&mut self, name: &'static str, value: f64) {
+        let entry = self.told.entry(name).or_insert(value);
+        *entry = entry.max(value);
+    }
+
+    /// Checks that failed.
+    pub fn failed(&self) -> impl Iterator<Item = (&'static str, &Worst)> {
+        let broken = |entry: &(&'static str, &Worst)| entry.1.measure > 1.0;
+        self.worst
+            .iter()
+            .map(|(name, worst)| (*name, worst))
+            .filter(broken)
+    }
+}
+
+/// Checks the output of a run; of one that stopped, what it wrote.
+///
+/// # Errors
+/// What is wrong with a file, in words.
+pub fn check(folder: &Path, scene: &Scene) -> Result<Findings, String> {
+    let history = History::read(&folder.join("history.csv"))?;
+    let mut findings = Findings::default();
+    table::check(&mut findings, scene, &history);
+    let mut read = 0;
+    for increment in 1..=history.len() {
+        let Some(fields) = Fields::read(folder, scene, increment)? else {
+            continue;
+        };
+        read += 1;
+        fields::check(&mut findings, scene, &fields, increment);
+        depth::check(&mut findings, scene, &history, &fields, increment);
+    }
+    if read == 0 && history.len() > 0 {
+        return Err("there are no fields".into());
+    }
+    Ok(findings)
+}

@@ -1,0 +1,295 @@
+//! Checks of the history: balances of forces and energies.
+
+use crate::scenes::{
+    output::History,
+    scene::{End, Scene},
+    vector::{Vector, length, plus, times},
+};
+
+use super::Findings;
+
+/// Balance of the resultants of a pair.
+const RESULTANTS: f64 = 1e-8;
+/// Balance of forces on a body.
+const BALANCE: f64 = 1e-6;
+/// Fall of the dissipation over the largest energy.
+const DISSIPATION: f64 = 1e-9;
+/// Balance of energies over the largest one.
+const ENERGY: f64 = 1e-6;
+/// Forces below this share of the largest of the run are none.
+const NOTHING: f64 = 1e-12;
+/// Forces over the largest of the run of pairs that are apart.
+const APART: f64 = 1e-8;
+
+/// Checks all rows.
+pub fn check(findings: &mut Findings, scene: &Scene, history: &History) {
+    findings.iterations = history
+        .column("iterations")
+        .iter()
+        .map(|&n| n as usize)
+        .collect();
+    if history.len() == 0 {
+        return;
+    }
+    ending(findings, scene, history);
+    for pair in &scene.pairs {
+        resultants(findings, pair.name, history);
+        dissipation(findings, &format!("pair.{}.dissipated", pair.name), history);
+    }
+    contact(findings, scene, history);
+    dissipation(findings, "energy.friction", history);
+    energy(findings, history);
+    if !scene.is_dynamic() {
+        for body in &scene.bodies {
+            balance(findings, scene, body.name, history);
+        }
+    }
+}
+
+fn ending(findings: &mut Findings, scene: &Scene, history: &History) {
+    let last = history.number(history.len() - 1, "time").unwrap_or(0.0);
+    let missing = (scene.end_time() - last) / (1e-9 * scene.end_time());
+    findings.note("ending", missing, || {
+        format!("time {last} of {}", scene.end_time())
+    });
+    let times = history.column("time");
+    let backwards = times.windows(2).any(|pair| pair[1] <= pair[0]);
+    if backwards {
+        findings.note("ending", f64::INFINITY, || "time does not rise".into());
+    }
+}
+
+/// Resultants of both sides of a pair in all rows.
+fn sides(history: &History, pair: &str) -> Vec<[Vector; 2]> {
+    let row = |row: usize| {
+        let side = |letter| history.vector(row, &format!("pair.{pair}.resultant_{letter}"));
+        Some([side("a")?, side("b")?])
+    };
+    (0..history.len()).filter_map(row).collect()
+}
+
+fn largest(forces: &[[Vector; 2]]) -> f64 {
+    let all = forces.iter().flatten();
+    all.map(|&force| length(force)).fold(0.0, f64::max)
+}
+
+fn resultants(findings: &mut Findings, pair: &str, history: &History) {
+    let forces = sides(history, pair);
+    if forces.is_empty() {
+        let place = || format!("pair {pair} has no resultants");
+        findings.note("resultants", f64::INFINITY, place);
+        return;
+    }
+    let of_run = largest(&forces);
+    for (row, [a, b]) in forces.iter().enumerate() {
+        let larger = length(*a).max(length(*b));
+        let bound = RESULTANTS * larger + NOTHING * of_run;
+        let off = length(plus(*a, *b));
+        if bound > 0.0 {
+            findings.note("resultants", off / bound, || {
+                format!(
+                    "pair {pair}, increment {}: {off:.2e} of {larger:.2e}",
+                    row + 1
+                )
+            });
+        }
+    }
+}
+
+/// What must be at the ends of the steps.
+fn contact(findings: &mut Findings, scene: &Scene, history: &History) {
+    for (index, step) in scene.steps.iter().enumerate() {
+        let end = scene.end_of(index);
+        let at_end = |&row: &usize| {
+            history
+                .number(row, "time")
+                .is_some_and(|time| (time - end).abs() < 1e-9 * end)
+        };
+        let Some(row) = (0..history.len()).find(at_end) else {
+            continue;
+        };
+        for pair in &scene.pairs {
+            let forces = sides(history, pair.name);
+            let (of_run, now) = (largest(&forces), largest(&forces[row..=row]));
+            let place = |what: &str| {
+                format!(
+                    "pair {}, end of step {}: {what}, force {now:.2e}",
+                    pair.name, step.name
+                )
+            };
+            match step.end {
+                End::Open => {}
+                End::Met if of_run > 0.0 => findings.note("contact", 0.0, || place("met")),
+                End::Met => findings.note("contact", f64::INFINITY, || place("never met")),
+                End::Touching if now > 0.0 => findings.note("contact", 0.0, || place("touches")),
+                End::Touching => {
+                    findings.note("contact", f64::INFINITY, || place("does not touch"));
+                }
+                End::Apart if of_run > 0.0 => {
+                    findings.note("contact", now / (APART * of_run), || place("apart"));
+                }
+                End::Apart => {}
+            }
+        }
+    }
+}
+
+fn dissipation(findings: &mut Findings, column: &str, history: &History) {
+    let values = history.column(column);
+    let scale = energies(history);
+    let mut before = 0.0;
+    for (row, value) in values.into_iter().enumerate() {
+        let fall = before - value;
+        if scale > 0.0 {
+            findings.note("dissipation", fall / (DISSIPATION * scale), || {
+                format!("{column}, increment {}: falls by {fall:.2e}", row + 1)
+            });
+        }
+        before = value;
+    }
+}
+
+const ENERGIES: [&str; 6] = [
+    "kinetic",
+    "strain",
+    "friction",
+    "contact",
+    "numerical",
+    "external",
+];
+
+/// The largest energy of the run.
+fn energies(history: &History) -> f64 {
+    let columns = ENERGIES
+        .iter()
+        .map(|name| history.column(&format!("energy.{name}")));
+    columns
+        .flatten()
+        .fold(0.0, |largest, value| value.abs().max(largest))
+}
+
+fn energy(findings: &mut Findings, history: &History) {
+    let scale = energies(history);
+    if scale == 0.0 {
+        return;
+    }
+    for row in 0..history.len() {
+        let of = |name: &str| {
+            history
+                .number(row, &format!("energy.{name}"))
+                .unwrap_or(f64::NAN)
+        };
+        let spent: f64 = ENERGIES[..5].iter().map(|name| of(name)).sum();
+        let off = of("external") - spent;
+        findings.note("energy", off.abs() / (ENERGY * scale), || {
+            format!("increment {}: {off:.2e} of {scale:.2e}", row + 1)
+        });
+        findings.tell("contact energy", of("contact").abs() / scale);
+    }
+}
+
+/// Forces on a body: reactions of its held sets, contact, loads.
+fn balance(findings: &mut Findings, scene: &Scene, body: &str, history: &History) {
+    let held = scene.held(body);
+    let mut loads = [0.0; 3];
+    let mut load_steps = Vec::new();
+    let mut start = 0.0;
+    for step in &scene.steps {
+        let duration = step.duration.unwrap_or(1.0);
+        let mut to = loads;
+        for (_, _, traction, area) in step.tractions.iter().filter(|t| t.0 == body) {
+            to = scene.placement.direction(times(*area, *traction));
+        }
+        load_steps.push((start, duration, loads, to));
+        (loads, start) = (to, start + duration);
+    }
+    let load = |time: f64| {
+        let reached = load_steps.iter().rev().find(|step| time > step.0 - 1e-12);
+        reached.map_or([0.0; 3], |(start, duration, from, to)| {
+            let share = (time - start) / duration;
+            plus(times(1.0 - share, *from), times(share, *to))
+        })
+    };
+    let forces = |row: usize| {
+        let sets = held.iter().map(|set| format!("reaction.{body}.{set}"));
+        let contact = scene.pairs.iter().flat_map(|pair| {
+            let sides = pair.sides.iter().zip(["a", "b"]);
+            let own = sides.filter(|(side, _)| side.owner == body);
+            own.map(|(_, letter)| format!("pair.{}.resultant_{letter}", pair.name))
+        });
+        let found = sets.chain(contact).map(|name| history.vector(row, &name));
+        let mut all: Vec<Vector> = found.map(|force| force.unwrap_or([f64::NAN; 3])).collect();
+        all.push(load(history.number(row, "time").unwrap_or(0.0)));
+        all
+    };
+    let of_run = (0..history.len())
+        .flat_map(forces)
+        .map(length)
+        .fold(0.0, f64::max);
+    for row in 0..history.len() {
+        let off = length(forces(row).into_iter().fold([0.0; 3], plus));
+        if off.is_nan() || of_run > 0.0 {
+            findings.note("balance", off / (BALANCE * of_run), || {
+                format!(
+                    "body {body}, increment {}: {off:.2e} of {of_run:.2e}",
+                    row + 1
+                )
+            });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenes::kinds::{Dialect, scene};
+
+    const NAMES: &str = "time,iterations,energy.kinetic,energy.strain,energy.friction,energy.contact,\
+                         energy.numerical,energy.external,pair.interface.dissipated,\
+                         pair.interface.resultant_a.x,pair.interface.resultant_a.y,\
+                         pair.interface.resultant_a.z,pair.interface.resultant_b.x,\
+                         pair.interface.resultant_b.y,pair.interface.resultant_b.z,\
+                         reaction.lower.zmin.x,reaction.lower.zmin.y,reaction.lower.zmin.z,\
+                         reaction.upper.zmax.x,reaction.upper.zmax.y,reaction.upper.zmax.z";
+
+    /// What fails in a press whose rows are well but for changes of one cell each.
+    fn failed(changes: &[(usize, &str, &str)]) -> Vec<&'static str> {
+        let mut scene = scene(0, Dialect::default());
+        scene.pairs[0].sides.sort_by_key(|side| side.owner);
+        let names: Vec<&str> = NAMES.split(',').collect();
+        let mut rows = [
+            "0.5,4,0,1,0.5,0,0,1.5,0.5,0,0,-2,0,0,2,0,0,2,0,0,-2",
+            "1,4,0,2,1,0,0,3,1,0,0,-4,0,0,4,0,0,4,0,0,-4",
+        ]
+        .map(|row| row.split(',').map(str::to_owned).collect::<Vec<_>>());
+        for (row, name, value) in changes {
+            let column = names.iter().position(|found| found == name).unwrap();
+            rows[*row][column] = (*value).to_owned();
+        }
+        let text = format!("{NAMES}\n{}\n{}\n", rows[0].join(","), rows[1].join(","));
+        let mut findings = Findings::default();
+        check(&mut findings, &scene, &History::of(&text).unwrap());
+        findings.failed().map(|(name, _)| name).collect()
+    }
+
+    #[test]
+    fn a_good_history_passes() {
+        assert!(failed(&[]).is_empty());
+    }
+
+    #[test]
+    fn each_fault_fails_its_check() {
+        assert_eq!(failed(&[(1, "time", "0.9")]), ["ending"]);
+        assert_eq!(failed(&[(0, "reaction.upper.zmax.x", "1e-4")]), ["balance"]);
+        assert_eq!(failed(&[(1, "energy.strain", "2.0001")]), ["energy"]);
+        let b = "pair.interface.resultant_b.z";
+        assert_eq!(failed(&[(1, b, "4.000001")]), ["resultants"]);
+        let fall = [(1, "pair.interface.dissipated", "0.4")];
+        assert_eq!(failed(&fall), ["dissipation"]);
+        let all = ["pair.interface.resultant_a.z", b, "reaction.lower.zmin.z"];
+        let none: Vec<_> = all.into_iter().chain(["reaction.upper.zmax.z"]).collect();
+        let none: Vec<_> = none.into_iter().map(|name| (1, name, "0")).collect();
+        assert_eq!(failed(&none), ["contact"]);
+        assert_eq!(failed(&[(1, "energy.external", "NaN")]), ["energy"]);
+    }
+}

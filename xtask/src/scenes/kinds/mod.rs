@@ -1,0 +1,112 @@
+//! Random scenes by kind.
+//!
+//! The seed modulo the number of kinds picks the kind, the sequence of the seed all
+//! else. Lengths are in a random unit, about the width of the larger body; moduli too.
+
+mod dynamic;
+mod free;
+mod parts;
+mod plain;
+mod rigid;
+mod shapes;
+
+use super::{random::Random, scene::Scene};
+
+/// What the program under test understands.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Dialect {
+    /// Whether pairs have the key `initial`.
+    pub initial: Choice,
+    /// The method of contact to ask for; the program's default if absent.
+    pub enforcement: Option<&'static str>,
+}
+
+/// Whether the program has a key.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Choice {
+    /// It has.
+    Known,
+    /// It has not.
+    #[default]
+    Unknown,
+}
+
+/// Makes a scene of one kind.
+type Make = fn(&mut Random, Dialect) -> Scene;
+
+/// Names of the kinds and what makes them.
+const KINDS: [(&str, Make); 19] = [
+    ("press", plain::press),
+    ("slide", plain::slide),
+    ("turn", plain::turn),
+    ("reverse", plain::reverse),
+    ("slide-off", plain::slide_off),
+    ("lift", plain::lift),
+    ("gap", plain::gap),
+    ("overlap", plain::overlap),
+    ("grip", free::grip),
+    ("sandwich", free::sandwich),
+    ("cap", shapes::cap),
+    ("edge", shapes::edge),
+    ("oblique", shapes::oblique),
+    ("plane", rigid::plane),
+    ("ridges", rigid::ridges),
+    ("bumps", rigid::bumps),
+    ("drop", dynamic::drop),
+    ("launch", dynamic::launch),
+    ("load", plain::load),
+];
+
+/// Names of the kinds, in their order.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    KINDS.iter().map(|kind| kind.0)
+}
+
+/// Name of the kind of a seed.
+pub fn kind_of(seed: u64) -> &'static str {
+    KINDS[(seed % KINDS.len() as u64) as usize].0
+}
+
+/// The scene of a seed.
+pub fn scene(seed: u64, dialect: Dialect) -> Scene {
+    let (kind, make) = KINDS[(seed % KINDS.len() as u64) as usize];
+    let mut random = Random::new(seed);
+    Scene {
+        seed,
+        kind,
+        enforcement: dialect.enforcement,
+        ..make(&mut random, dialect)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenes::{deck, scene::Shape};
+
+    #[test]
+    fn the_same_seed_gives_the_same_deck() {
+        for seed in 0..90 {
+            let [one, two] = [0, 1].map(|_| deck::text(&scene(seed, Dialect::default())));
+            assert_eq!(one, two);
+        }
+        let [one, other] = [0, 19].map(|seed| deck::text(&scene(seed, Dialect::default())));
+        assert_ne!(one, other);
+    }
+
+    #[test]
+    fn decks_are_toml_and_meshes_small() {
+        for seed in 0..380 {
+            let scene = scene(seed, Dialect::default());
+            let text = deck::text(&scene);
+            let parsed: Result<toml::Table, _> = text.parse();
+            assert!(parsed.is_ok(), "{seed}: {parsed:?}\n{text}");
+            let count = |shape: &Shape| match shape {
+                Shape::Block(block) => block.divisions.iter().product::<usize>(),
+                Shape::Cap(_) => 0,
+            };
+            let total: usize = scene.bodies.iter().map(|body| count(&body.shape)).sum();
+            assert!(total <= 1500, "{seed}: {total} elements");
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! `cargo xtask scenes`: random scenes of contact, run by the program and judged from
+//! the files it writes.
+//!
+//! ```text
+//! cargo xtask scenes [--seeds A..B] [--kind K] [--jobs N] [--keep FOLDER] [--binary PATH]
+//!                    [--enforcement weighted|collocated]
+//! ```
+//!
+//! A seed gives a [`scene`] by its [`kinds`], this a [`deck`]; the program [`run`]s it
+//! as a child process, and [`checks`] looks at the output with means of its own: no
+//! crate of striae is used here, so what is wrong there cannot hide here. Decks that
+//! fail are kept with their logs, in a folder each: `FOLDER/SEED-KIND`, beside the tables
+//! of all in `FOLDER/report.md`. Runs that stop are counted; decks that are refused, crashes
+//! and output that is silent or wrong make the task fail.
+
+mod checks;
+mod deck;
+mod geometry;
+mod kinds;
+mod law;
+mod options;
+mod output;
+mod random;
+mod run;
+mod scene;
+mod summary;
+mod vector;
+mod verdict;
+mod vtu;
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    sync::{
+        Mutex,
+        atomic::{AtomicUsize, Ordering},
+    },
+    thread,
+};
+
+use crate::{check, fault::Fault};
+use kinds::{Choice, Dialect};
+use options::Options;
+use output::Summary;
+use run::Run;
+use summary::Judged;
+use verdict::{Class, Verdict};
+
+/// Runs scenes and prints what came of them.
+///
+/// # Errors
+/// Wrong options, a program that does not start, a folder that cannot be written, or
+/// scenes that came out wrong.
+pub fn scenes(arguments: &[String]) -> Result<(), Fault> {
+    let options = Options::read(arguments)?;
+    let binary = match &options.binary {
+        Some(binary) => binary.clone(),
+        None => check::program()?,
+    };
+    let initial = run::knows(&binary, "as-meshed").map_err(|cause| Fault::Start {
+        command: format!("{} schema", binary.display()),
+        cause,
+    })?;
+    let dialect = Dialect {
+        initial: if initial {
+            Choice::Known
+        } else {
+            Choice::Unknown
+        },
+        enforcement: options.enforcement,
+    };
+    let wanted = |seed: &u64| {
+        let kind = kinds::kind_of(*seed);
+        options.kind.as_deref().is_none_or(|wanted| wanted == kind)
+    };
+    let seeds: Vec<u64> = options.seeds.clone().filter(wanted).collect();
+    let judged = all(&options, &binary, &seeds, dialect)?;
+    let report = summary::report(&judged);
+    println!("\n{report}");
+    let path = options.keep.join("report.md");
+    fs::write(&path, &report).map_err(|cause| Fault::Unreadable { path, cause })?;
+    let bad = |judged: &&Judged| judged.verdict.class >= Class::Refused;
+    match judged.iter().filter(bad).count() {
+        0 => Ok(()),
+        count => Err(Fault::Scenes {
+            count,
+            of: judged.len(),
+        }),
+    }
+}
+
+/// Runs all seeds, several at a time.
+fn all(
+    options: &Options,
+    binary: &Path,
+    seeds: &[u64],
+    dialect: Dialect,
+) -> Result<Vec<Judged>, Fault> {
+    let next = AtomicUsize::new(0);
+    let done: Mutex<Vec<Result<Judged, Fault>>> = Mutex::new(Vec::new());
+    thread::scope(|scope| {
+        for _ in 0..options.jobs {
+            scope.spawn(|| {
+                while let Some(&seed) = seeds.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let judged = one(&options.keep, binary, seed, dialect);
+                    done.lock()
+                        .expect("no thread fails while it holds the list")
+                        .push(judged);
+                }
+            });
+        }
+    });
+    let done = done
+        .into_inner()
+        .expect("no thread fails while it holds the list");
+    let mut judged = done.into_iter().collect::<Result<Vec<_>, _>>()?;
+    judged.sort_by_key(|judged| judged.scene.seed);
+    Ok(judged)
+}
+
+/// Runs and judges one seed.
+fn one(keep: &Path, binary: &Path, seed: u64, dialect: Dialect) -> Result<Judged, Fault> {
+    let scene = kinds::scene(seed, dialect);
+    let folder = keep.join(format!("{seed:05}-{}", scene.kind));
+    let failed = |path: &Path| {
+        let path: PathBuf = path.to_owned();
+        move |cause| Fault::Unreadable { path, cause }
+    };
+    if folder.exists() {
+        fs::remove_dir_all(&folder).map_err(failed(&folder))?;
+    }
+    fs::create_dir_all(&folder).map_err(failed(&folder))?;
+    let text = deck::text(&scene);
+    fs::write(folder.join("deck.toml"), text).map_err(failed(&folder))?;
+    let run = run::run(binary, &folder).map_err(|cause| Fault::Start {
+        command: binary.display().to_string(),
+        cause,
+    })?;
+    let run = Run {
+        // The folder's name says more than the program.
+        log: run.log.replace(&folder.display().to_string(), ""),
+        ..run
+    };
+    let out = folder.join("out");
+    let summary = Summary::read(&out.join("summary.json"));
+    let findings = checks::check(&out, &scene);
+    let verdict = verdict::judge(&scene, &run, summary, findings);
+    told(&scene, &verdict);
+    match verdict.class {
+        Class::Complete | Class::Warned => fs::remove_dir_all(&folder).map_err(failed(&folder))?,
+        Class::Wrong => {}
+        _ => {
+            let fields = out.join("fields");
+            if fields.exists() {
+                fs::remove_dir_all(&fields).map_err(failed(&fields))?;
+            }
+        }
+    }
+    Ok(Judged { scene, verdict })
+}
+
+fn told(scene: &scene::Scene, verdict: &Verdict) {
+    let ratio = scene
+        .ratio
+        .map_or("rigid".to_owned(), |ratio| format!("{ratio:.1e}"));
+    let reason: String = verdict
+        .reason
+        .replace('\n', " ")
+        .chars()
+        .take(150)
+        .collect();
+    println!(
+        "{} {} {ratio} {}: {} in {:.1} s, {reason}",
+        scene.seed,
+        scene.kind,
+        scene.pairs[0].law.name(),
+        verdict.class.name(),
+        verdict.seconds,
+    );
+}

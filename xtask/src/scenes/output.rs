@@ -1,0 +1,158 @@
+//! What a run wrote: history, summary and fields, read as files of any program.
+
+use std::{collections::HashMap, fs, path::Path};
+
+use super::{scene::Scene, vector::Vector, vtu::Grid};
+
+/// The table of a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct History {
+    columns: HashMap<String, usize>,
+    rows: Vec<Vec<f64>>,
+}
+
+impl History {
+    /// Reads a table of numbers with a line of names.
+    ///
+    /// # Errors
+    /// What is wrong with it, in words.
+    pub fn read(path: &Path) -> Result<Self, String> {
+        let text = fs::read_to_string(path).map_err(|cause| cause.to_string())?;
+        Self::of(&text)
+    }
+
+    /// Reads the text of a table.
+    ///
+    /// # Errors
+    /// What is wrong with it, in words.
+    pub fn of(text: &str) -> Result<Self, String> {
+        let mut lines = text.lines();
+        let names = lines.next().unwrap_or_default().split(',').enumerate();
+        let columns: HashMap<String, usize> = names.map(|(i, n)| (n.to_owned(), i)).collect();
+        let number = |cell: &str| {
+            cell.parse::<f64>()
+                .map_err(|_| format!("`{cell}` is no number"))
+        };
+        let row = |line: &str| {
+            line.split(',')
+                .map(number)
+                .collect::<Result<Vec<f64>, String>>()
+        };
+        let rows = lines.map(row).collect::<Result<Vec<_>, _>>()?;
+        match rows.iter().find(|row| row.len() != columns.len()) {
+            Some(row) => Err(format!(
+                "a row has {} cells of {}",
+                row.len(),
+                columns.len()
+            )),
+            None => Ok(Self { columns, rows }),
+        }
+    }
+
+    /// Number of increments.
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// A number, if the table has the column.
+    pub fn number(&self, row: usize, name: &str) -> Option<f64> {
+        self.rows[row].get(*self.columns.get(name)?).copied()
+    }
+
+    /// A vector, if the table has its columns.
+    pub fn vector(&self, row: usize, name: &str) -> Option<Vector> {
+        let [x, y, z] = ["x", "y", "z"].map(|axis| self.number(row, &format!("{name}.{axis}")));
+        Some([x?, y?, z?])
+    }
+
+    /// All numbers of a column.
+    pub fn column(&self, name: &str) -> Vec<f64> {
+        (0..self.len())
+            .filter_map(|row| self.number(row, name))
+            .collect()
+    }
+}
+
+/// The fields after an increment.
+pub struct Fields {
+    /// Of every body.
+    pub bodies: HashMap<&'static str, Grid>,
+    /// Of every pair, side by side; `None` of a rigid side.
+    pub pairs: Vec<[Option<Grid>; 2]>,
+}
+
+impl Fields {
+    /// Reads the fields after an increment, which counts from 1; `None` where there
+    /// are none.
+    ///
+    /// # Errors
+    /// What is wrong with a file, in words.
+    pub fn read(folder: &Path, scene: &Scene, increment: usize) -> Result<Option<Self>, String> {
+        let path = |name: &str| folder.join(format!("fields/{name}-{increment:05}.vtu"));
+        let mut bodies = HashMap::new();
+        for body in &scene.bodies {
+            let path = path(body.name);
+            if !path.exists() {
+                return Ok(None);
+            }
+            bodies.insert(body.name, Grid::read(&path)?);
+        }
+        let mut pairs = Vec::new();
+        for pair in &scene.pairs {
+            let mut sides = [None, None];
+            for (side, grid) in pair.sides.iter().zip(&mut sides) {
+                if side.facets.is_some() {
+                    let name = format!("contact-{}-{}", pair.name, side.owner);
+                    *grid = Some(Grid::read(&path(&name))?);
+                }
+            }
+            pairs.push(sides);
+        }
+        Ok(Some(Self { bodies, pairs }))
+    }
+}
+
+/// What a summary says of the ending.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Summary {
+    /// `completed` or another word.
+    pub status: String,
+    /// The ending in a sentence.
+    pub reason: String,
+    /// Increments that were cut.
+    pub cutbacks: usize,
+}
+
+impl Summary {
+    /// Reads a summary.
+    ///
+    /// # Errors
+    /// What is wrong with it, in words.
+    pub fn read(path: &Path) -> Result<Self, String> {
+        let text = fs::read_to_string(path).map_err(|cause| cause.to_string())?;
+        let value: serde_json::Value =
+            serde_json::from_str(&text).map_err(|cause| cause.to_string())?;
+        let word = |key: &str| value[key].as_str().unwrap_or_default().to_owned();
+        Ok(Self {
+            status: word("status"),
+            reason: word("reason"),
+            cutbacks: value["cutbacks"].as_u64().unwrap_or(0) as usize,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn histories_are_read_by_name() {
+        let history = History::of("time,f.x,f.y,f.z\n0.5,1,2,3\n1.0,-1e-3,0,4\n").unwrap();
+        assert_eq!(history.len(), 2);
+        assert_eq!(history.vector(1, "f"), Some([-1e-3, 0.0, 4.0]));
+        assert_eq!(history.column("time"), [0.5, 1.0]);
+        assert_eq!(history.number(0, "energy"), None);
+        assert!(History::of("a,b\n1\n").is_err());
+        assert!(History::of("a,b\n1,x\n").is_err());
+    }
+}

@@ -1,0 +1,68 @@
+//! Runs the program on a deck, as a person would.
+
+use std::{
+    fs::{self, File},
+    io,
+    path::Path,
+    process::{Command, ExitStatus, Stdio},
+    thread::sleep,
+    time::{Duration, Instant},
+};
+
+/// How a run ended.
+pub struct Run {
+    /// The status, unless time ran out.
+    pub status: Option<ExitStatus>,
+    /// What was printed.
+    pub log: String,
+    /// Seconds it took.
+    pub seconds: f64,
+}
+
+/// The longest a run may take.
+pub const LIMIT: Duration = Duration::from_secs(180);
+
+/// Runs `deck.toml` of a folder, with the output in its `out`, on one thread.
+///
+/// # Errors
+/// When the program cannot be started or the folder not written.
+pub fn run(binary: &Path, folder: &Path) -> io::Result<Run> {
+    let log = folder.join("log.txt");
+    let file = File::create(&log)?;
+    let started = Instant::now();
+    let mut child = Command::new(binary)
+        .arg("run")
+        .arg(folder.join("deck.toml"))
+        .args(["--threads", "1", "--out"])
+        .arg(folder.join("out"))
+        .stdin(Stdio::null())
+        .stdout(file.try_clone()?)
+        .stderr(file)
+        .spawn()?;
+    let status = loop {
+        if let Some(status) = child.try_wait()? {
+            break Some(status);
+        }
+        if started.elapsed() > LIMIT {
+            child.kill()?;
+            child.wait()?;
+            break None;
+        }
+        sleep(Duration::from_millis(10));
+    };
+    Ok(Run {
+        status,
+        log: String::from_utf8_lossy(&fs::read(&log)?).into_owned(),
+        seconds: started.elapsed().as_secs_f64(),
+    })
+}
+
+/// Whether the schema of the program's decks has a word.
+///
+/// # Errors
+/// When the program cannot be started.
+pub fn knows(binary: &Path, word: &str) -> io::Result<bool> {
+    let output = Command::new(binary).arg("schema").output()?;
+    let schema = String::from_utf8_lossy(&output.stdout);
+    Ok(schema.contains(&format!("\"{word}\"")))
+}

@@ -1,0 +1,287 @@
+//! A scene: what is simulated and what must come of it.
+//!
+//! All lengths stand in a local frame in which the upper body presses down along
+//! `-z`; [`super::deck`] brings them to their place in space.
+
+use super::{law::Law, vector::Vector};
+
+/// A random scene.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// Seed it comes from.
+    pub seed: u64,
+    /// Name of its kind.
+    pub kind: &'static str,
+    /// Upper over lower modulus; `None` where the other side is rigid.
+    pub ratio: Option<f64>,
+    /// Where it stands in space.
+    pub placement: Placement,
+    /// Bulk materials: one a body.
+    pub bodies: Vec<Body>,
+    /// Rigid surfaces.
+    pub rigid: Vec<Rigid>,
+    /// Pairs.
+    pub pairs: Vec<Pair>,
+    /// Steps.
+    pub steps: Vec<Step>,
+    /// Whether bodies begin inside one another.
+    pub start: Start,
+    /// Method of contact to ask for.
+    pub enforcement: Option<&'static str>,
+}
+
+/// How the bodies stand at the start.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Start {
+    /// Apart or just touching.
+    Apart,
+    /// Overlapping; the program may resolve that or refuse it by name.
+    Overlapping(Option<&'static str>),
+}
+
+/// A rotation about the origin and a shift.
+#[derive(Clone, Copy, Debug)]
+pub struct Placement {
+    /// Axis of the rotation.
+    pub axis: Vector,
+    /// Angle in degrees.
+    pub degrees: f64,
+    /// Shift.
+    pub shift: Vector,
+}
+
+/// A deformable body.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// Name.
+    pub name: &'static str,
+    /// Law, Young's modulus, Poisson's ratio.
+    pub material: Material,
+    /// Shape and mesh.
+    pub shape: Shape,
+    /// Name and members of a set of facets made of several.
+    pub union: Option<(&'static str, [&'static str; 2])>,
+}
+
+/// A bulk material.
+#[derive(Clone, Copy, Debug)]
+pub struct Material {
+    /// Law.
+    pub law: &'static str,
+    /// Young's modulus.
+    pub modulus: f64,
+    /// Poisson's ratio.
+    pub poisson: f64,
+    /// Density where there is inertia.
+    pub density: Option<f64>,
+}
+
+/// A shape with its mesh.
+#[derive(Clone, Debug)]
+pub enum Shape {
+    /// A block.
+    Block(Box<Block>),
+    /// A block with a spherical cap below.
+    Cap(Cap),
+}
+
+/// A block of hexahedra.
+#[derive(Clone, Debug, Default)]
+pub struct Block {
+    /// Lowest corner.
+    pub origin: Vector,
+    /// Edges.
+    pub size: Vector,
+    /// Elements along the edges.
+    pub divisions: [usize; 3],
+    /// Kind and number of the grading of each edge.
+    pub gradings: [Option<(&'static str, f64)>; 3],
+    /// Slopes of the lower side.
+    pub bottom_slopes: [f64; 2],
+    /// Slopes of the upper side.
+    pub top_slopes: [f64; 2],
+    /// Turn of the mesh inside the outline, degrees.
+    pub mesh_rotation: f64,
+    /// Random displacement of nodes, and its seed.
+    pub irregularity: Option<(f64, u64)>,
+    /// Axis, degrees and pivot by which it is tilted.
+    pub tilt: Option<(Vector, f64, Vector)>,
+}
+
+/// A block with a spherical cap below.
+#[derive(Clone, Debug)]
+pub struct Cap {
+    /// Lowest point.
+    pub apex: Vector,
+    /// Edges of the plan.
+    pub size: [f64; 2],
+    /// From the lowest point to the top.
+    pub height: f64,
+    /// Radius of the sphere.
+    pub radius: f64,
+    /// Element size at the apex.
+    pub element: f64,
+}
+
+/// A rigid surface.
+#[derive(Clone, Debug)]
+pub struct Rigid {
+    /// Name.
+    pub name: &'static str,
+    /// What it is.
+    pub shape: RigidShape,
+}
+
+/// What is rigid.
+#[derive(Clone, Debug)]
+pub enum RigidShape {
+    /// The plane through a point, facing up or down.
+    Plane(Vector, f64),
+    /// Facets over the plane `z = 0`, facing up.
+    Sheet(Vec<Vector>, Vec<[usize; 4]>),
+    /// Nodes of a body that move as one, and the point about which they turn.
+    Head(&'static str, &'static str, Vector),
+}
+
+/// Two surfaces that may touch.
+#[derive(Clone, Debug)]
+pub struct Pair {
+    /// Name.
+    pub name: &'static str,
+    /// Sides.
+    pub sides: [Side; 2],
+    /// Friction.
+    pub law: Law,
+    /// Largest shear stress.
+    pub cap: Option<f64>,
+    /// Ratio of kinetic to static friction, and the rate of the decay.
+    pub decay: Option<(f64, f64)>,
+}
+
+/// A side of a pair.
+#[derive(Clone, Debug)]
+pub struct Side {
+    /// Name of the body or rigid surface.
+    pub owner: &'static str,
+    /// Facets of the body; `None` of a rigid surface.
+    pub facets: Option<&'static str>,
+    /// Texture.
+    pub texture: Option<Texture>,
+}
+
+/// A texture.
+#[derive(Clone, Copy, Debug)]
+pub enum Texture {
+    /// A direction and its turn in degrees.
+    Uniform(Vector, f64),
+    /// Circles or rays (by the key in the deck) about the vertical axis through a point.
+    About(&'static str, Vector, f64),
+}
+
+/// A step.
+#[derive(Clone, Debug, Default)]
+pub struct Step {
+    /// Name.
+    pub name: &'static str,
+    /// Duration.
+    pub duration: Option<f64>,
+    /// Number of increments.
+    pub increments: Option<usize>,
+    /// Body, node set and displacement; components that are absent need a scene
+    /// that is not rotated.
+    pub displacements: Vec<(&'static str, &'static str, [Option<f64>; 3])>,
+    /// Body and node set that become free.
+    pub releases: Vec<(&'static str, &'static str)>,
+    /// Body, facets, traction and the area it acts on.
+    pub tractions: Vec<(&'static str, &'static str, Vector, f64)>,
+    /// Rigid surface, displacement and angle about the vertical in degrees.
+    pub rigid: Vec<(&'static str, Vector, Option<f64>)>,
+    /// Body and velocity; makes the step dynamic.
+    pub velocities: Vec<(&'static str, Vector)>,
+    /// Acceleration of gravity; makes the step dynamic.
+    pub gravity: Option<Vector>,
+    /// Whether the first pair must touch at the end.
+    pub end: End,
+}
+
+/// What must be at the end of a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum End {
+    /// Either.
+    #[default]
+    Open,
+    /// The pairs carry force.
+    Touching,
+    /// The pairs have carried force at some time.
+    Met,
+    /// The pairs carry none.
+    Apart,
+}
+
+impl Step {
+    /// A step of a name.
+    pub fn new(name: &'static str) -> Self {
+        Self {
+            name,
+            ..Self::default()
+        }
+    }
+
+    /// Prescribes all components.
+    pub fn moving(mut self, body: &'static str, nodes: &'static str, to: Vector) -> Self {
+        self.displacements.push((body, nodes, to.map(Some)));
+        self
+    }
+
+    /// States what must be at its end.
+    pub fn ending(self, end: End) -> Self {
+        Self { end, ..self }
+    }
+
+    /// Sets the number of increments.
+    pub fn within(self, increments: Option<usize>) -> Self {
+        Self { increments, ..self }
+    }
+
+    /// Whether inertia acts.
+    pub fn is_dynamic(&self) -> bool {
+        !self.velocities.is_empty() || self.gravity.is_some()
+    }
+}
+
+impl Scene {
+    /// Whether any step has inertia.
+    pub fn is_dynamic(&self) -> bool {
+        self.steps.iter().any(Step::is_dynamic)
+    }
+
+    /// When the last step ends.
+    pub fn end_time(&self) -> f64 {
+        self.steps
+            .iter()
+            .map(|step| step.duration.unwrap_or(1.0))
+            .sum()
+    }
+
+    /// Node sets of a body whose displacement is prescribed or tied at some time.
+    pub fn held(&self, body: &str) -> Vec<&'static str> {
+        let prescribed = self.steps.iter().flat_map(|step| &step.displacements);
+        let prescribed = prescribed.filter(|held| held.0 == body).map(|held| held.1);
+        let tied = self.rigid.iter().filter_map(|rigid| match rigid.shape {
+            RigidShape::Head(tied, nodes, _) if tied == body => Some(nodes),
+            _ => None,
+        });
+        let mut all: Vec<&str> = prescribed.chain(tied).collect();
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+
+    /// Moment when a step ends.
+    pub fn end_of(&self, step: usize) -> f64 {
+        self.steps[..=step]
+            .iter()
+            .map(|step| step.duration.unwrap_or(1.0))
+            .sum()
+    }
+}
