@@ -235,6 +235,7 @@ impl<'a> NodeState<'a> {
             slip: kinematics.slip.value,
             normal: frame.n.value,
             texture: Vec3::zeros(),
+            mean: Vec3::zeros(),
             status: Status::Open,
         }
     }

@@ -102,6 +102,7 @@ pub fn evaluate(
         Enforcement::Weighted => evaluation.add_segments(&stage, &patches),
         Enforcement::Collocated => evaluation.add_facets(&stage),
     }
+    evaluation.add_means(configuration);
     Ok(evaluation)
 }
 
@@ -279,6 +280,28 @@ impl Evaluation {
             }
         }
         self.facets = forces.map(|forces| by_facet(forces.into_iter()));
+    }
+
+    /// Forces on the nodes over their areas.
+    fn add_means(&mut self, configuration: &Configuration) {
+        for &side in configuration.pair.deformable_sides() {
+            let mut areas = vec![0.0; self.nodes[side].len()];
+            for (facet, forces) in &self.facets[side] {
+                let corners = configuration.side(side).corners(*facet);
+                for (at, node) in corners.into_iter().enumerate() {
+                    self.nodes[side][node as usize].mean += forces.force[at];
+                    areas[node as usize] += forces.area[at];
+                }
+            }
+            let nodes = self.nodes[side].iter_mut().zip(areas);
+            nodes.for_each(|(node, area)| {
+                node.mean = if area > 0.0 {
+                    node.mean / area
+                } else {
+                    Vec3::zeros()
+                };
+            });
+        }
     }
 
     fn add_facets(&mut self, stage: &Stage) {

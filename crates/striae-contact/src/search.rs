@@ -39,6 +39,31 @@ impl Bounds {
         }
     }
 
+    /// Square of the distance of a point from the box, zero inside.
+    pub fn squared_distance(&self, x: &Vec3) -> f64 {
+        (self.low - x)
+            .sup(&(x - self.high))
+            .map(|d| d.max(0.0))
+            .norm_squared()
+    }
+
+    /// Whether a half-line meets the box.
+    pub fn is_on_ray(&self, origin: &Vec3, direction: &Vec3) -> bool {
+        let mut range = [0.0_f64, f64::INFINITY];
+        for axis in 0..3 {
+            let [low, high] = [self.low, self.high].map(|end| end[axis] - origin[axis]);
+            if direction[axis] == 0.0 {
+                if low > 0.0 || high < 0.0 {
+                    return false;
+                }
+                continue;
+            }
+            let (one, other) = (low / direction[axis], high / direction[axis]);
+            range = [range[0].max(one.min(other)), range[1].min(one.max(other))];
+        }
+        range[0] <= range[1]
+    }
+
     /// Whether the boxes have a point in common.
     pub fn meets(&self, other: &Self) -> bool {
         (0..3).all(|axis| self.low[axis] <= other.high[axis] && other.low[axis] <= self.high[axis])
@@ -132,6 +157,63 @@ impl Tree {
         found
     }
 
+    /// The box around all items.
+    pub fn bounds(&self) -> Option<&Bounds> {
+        self.nodes.first().map(|root| &root.bounds)
+    }
+
+    /// Items whose boxes a half-line meets, ascending.
+    pub fn on_ray(&self, origin: &Vec3, direction: &Vec3) -> Vec<u32> {
+        let mut found = Vec::new();
+        let mut stack: Vec<usize> = (0..self.nodes.len().min(1)).collect();
+        while let Some(index) = stack.pop() {
+            let node = &self.nodes[index];
+            if !node.bounds.is_on_ray(origin, direction) {
+                continue;
+            }
+            match node.children {
+                Some(children) => stack.extend(children),
+                None => found.extend_from_slice(&self.items[node.range[0]..node.range[1]]),
+            }
+        }
+        found.retain(|&item| self.boxes[item as usize].is_on_ray(origin, direction));
+        found.sort_unstable();
+        found
+    }
+
+    /// Calls `visit` for all items that may be nearest to `x`. It returns the square of
+    /// the item's distance, which is not less than that of its box.
+    pub fn visit_nearest(&self, x: &Vec3, mut visit: impl FnMut(u32) -> f64) {
+        let mut least = f64::INFINITY;
+        let mut stack: Vec<(f64, usize)> = Vec::with_capacity(32);
+        stack.extend(
+            self.nodes
+                .first()
+                .map(|root| (root.bounds.squared_distance(x), 0)),
+        );
+        while let Some((distance, index)) = stack.pop() {
+            if distance > least {
+                continue;
+            }
+            let node = &self.nodes[index];
+            match node.children {
+                Some(children) => {
+                    let far = |child: usize| self.nodes[child].bounds.squared_distance(x);
+                    let mut both = children.map(|child| (far(child), child));
+                    both.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
+                    stack.extend(both);
+                }
+                None => {
+                    for &item in &self.items[node.range[0]..node.range[1]] {
+                        if self.boxes[item as usize].squared_distance(x) <= least {
+                            least = least.min(visit(item));
+                        }
+                    }
+                }
+            }
+        }
+    }
+
     /// Whether any item's box meets `bounds`.
     pub fn meets(&self, bounds: &Bounds) -> bool {
         !self.meeting(bounds).is_empty()
@@ -163,6 +245,29 @@ mod tests {
                 .filter(|&item| boxes[item as usize].meets(&query))
                 .collect();
             prop_assert_eq!(Tree::new(boxes).meeting(&query), expected);
+        }
+
+        #[test]
+        fn the_nearest_equals_brute_force(boxes in boxes(), x in -2.0..2.0_f64, y in -2.0..2.0_f64) {
+            let x = Vec3::new(x, y, 0.3);
+            let distances = boxes.iter().map(|bounds| bounds.squared_distance(&x));
+            let expected = distances.fold(f64::INFINITY, f64::min);
+            let mut found = f64::INFINITY;
+            Tree::new(boxes.clone()).visit_nearest(&x, |item| {
+                let distance = boxes[item as usize].squared_distance(&x);
+                found = found.min(distance);
+                distance
+            });
+            prop_assert_eq!(found, expected);
+        }
+
+        #[test]
+        fn rays_equal_brute_force(boxes in boxes(), x in -1.0..1.0_f64, y in -1.0..1.0_f64) {
+            let (origin, direction) = (Vec3::new(x, -1.5, y), Vec3::new(0.2, y, 0.0));
+            let expected: Vec<u32> = (0..boxes.len() as u32)
+                .filter(|&item| boxes[item as usize].is_on_ray(&origin, &direction))
+                .collect();
+            prop_assert_eq!(Tree::new(boxes).on_ray(&origin, &direction), expected);
         }
     }
 }

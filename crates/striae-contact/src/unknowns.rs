@@ -56,6 +56,22 @@ pub struct NodeResult {
     pub normal: Vec3,
     /// Direction `s` of the node's own texture, zero without one.
     pub texture: Vec3,
+    /// Mean traction around the node: its contact force over the area `integral N da` that
+    /// belongs to it, zero without area. On coarse curved contact it is smoother than the
+    /// nodal values of the field.
+    pub mean: Vec3,
     /// Status; of transferred nodes that of the kept node they follow most.
     pub status: Status,
+}
+
+impl NodeResult {
+    /// Mean pressure around the node.
+    pub fn mean_pressure(&self) -> f64 {
+        -self.mean.dot(&self.normal)
+    }
+
+    /// Mean friction traction around the node.
+    pub fn mean_friction(&self) -> Vec3 {
+        self.mean + self.normal * self.mean_pressure()
+    }
 }

@@ -20,7 +20,7 @@ use std::{
     time::Instant,
 };
 
-use striae_contact::unknowns::Status as ContactStatus;
+use striae_contact::unknowns::{NodeResult, Status as ContactStatus};
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::{
     drive::Progress,
@@ -32,6 +32,7 @@ use striae_solve::{
     problem::Problem,
     report::{PairReport, bodies, pairs, reactions, rigid_bodies},
     state::State,
+    warning::Judgement,
 };
 
 use crate::{
@@ -39,7 +40,9 @@ use crate::{
     checkpoint::{Checkpoint, Written},
     deck::{FieldOutput, Output},
     history::History,
-    summary::{PairSummary, SolverSummary, Status, Summary, newton_counts, peak_rss_mib},
+    summary::{
+        PairSummary, SolverSummary, Status, Summary, WarningSummary, newton_counts, peak_rss_mib,
+    },
     vtk::{Array, Cells, Grid, Series, Snapshot, Values, write},
 };
 
@@ -59,6 +62,7 @@ pub struct Recorder {
     unknowns: usize,
     solver: SolverSummary,
     written: Option<usize>,
+    judgement: Judgement,
 }
 
 impl Recorder {
@@ -88,6 +92,7 @@ impl Recorder {
             unknowns: 0,
             solver: SolverSummary::default(),
             written: None,
+            judgement: Judgement::default(),
         })
     }
 
@@ -120,6 +125,7 @@ impl Recorder {
             unknowns: written.unknowns,
             solver: written.solver.clone(),
             written: written.fields,
+            judgement: written.judgement.clone(),
         })
     }
 
@@ -133,6 +139,7 @@ impl Recorder {
             fields: self.written,
             seconds: self.seconds(),
             series: [&self.bodies, &self.contact].map(|series| series.snapshots().to_vec()),
+            judgement: self.judgement.clone(),
         }
     }
 
@@ -144,6 +151,11 @@ impl Recorder {
 
     fn seconds(&self) -> f64 {
         self.spent + self.started.elapsed().as_secs_f64()
+    }
+
+    /// Judges a converged increment by what it came from.
+    pub fn judge(&mut self, problem: &Problem, before: &State, increment: &Increment) {
+        self.judgement.increment(problem, before, &increment.state);
     }
 
     /// Notes an increment that was cut.
@@ -209,6 +221,12 @@ impl Recorder {
             reactions: reactions(problem, state)
                 .into_iter()
                 .map(|(name, force)| (name, force.into()))
+                .collect(),
+            warnings: self
+                .judgement
+                .warnings(problem, ending)
+                .into_iter()
+                .map(WarningSummary::from)
                 .collect(),
         };
         summary.write(&self.folder.join("summary.json"))?;
@@ -428,12 +446,8 @@ fn write_surface(
         .map(|corners| corners.map(NodeId))
         .collect();
     let nodes = &state.pairs[pair].nodes[side];
-    let scalars = |f: fn(&striae_contact::unknowns::NodeResult) -> f64| {
-        Values::Scalars(nodes.iter().map(f).collect())
-    };
-    let vectors = |f: fn(&striae_contact::unknowns::NodeResult) -> Vec3| {
-        Values::Vectors(nodes.iter().map(f).collect())
-    };
+    let scalars = |f: fn(&NodeResult) -> f64| Values::Scalars(nodes.iter().map(f).collect());
+    let vectors = |f: fn(&NodeResult) -> Vec3| Values::Vectors(nodes.iter().map(f).collect());
     let status = nodes.iter().map(|node| match node.status {
         ContactStatus::Open => 0,
         ContactStatus::Stick => 1,
@@ -453,6 +467,8 @@ fn write_surface(
                 vectors(|node| node.tau - node.normal * node.pressure),
             ),
             Array::new("friction_traction", vectors(|node| node.tau)),
+            Array::new("mean_pressure", scalars(NodeResult::mean_pressure)),
+            Array::new("mean_traction", vectors(|node| node.mean)),
             Array::new("slip", vectors(|node| node.slip)),
             Array::new("normal", vectors(|node| node.normal)),
             Array::new("texture", vectors(|node| node.texture)),

@@ -8,6 +8,7 @@ use std::path::Path;
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
+use striae_solve::warning::Warning;
 
 use crate::OutputError;
 use crate::output::{read_text, write_atomically};
@@ -45,6 +46,39 @@ pub struct Summary {
     pub pairs: Vec<PairSummary>,
     /// Reaction of every node set with prescribed displacements.
     pub reactions: BTreeMap<String, [f64; 3]>,
+    /// What makes the results doubtful.
+    #[serde(default)]
+    pub warnings: Vec<WarningSummary>,
+}
+
+/// Something that makes results doubtful.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WarningSummary {
+    /// `mismatch`, `penetration` and so on, see `striae_solve::warning`.
+    pub kind: String,
+    /// The pair, if it is about one.
+    pub pair: Option<String>,
+    /// Worst value.
+    pub value: f64,
+    /// Value above which there is a warning.
+    pub limit: f64,
+    /// Time of the worst value.
+    pub time: f64,
+    /// In a sentence.
+    pub text: String,
+}
+
+impl From<Warning> for WarningSummary {
+    fn from(warning: Warning) -> Self {
+        Self {
+            kind: warning.kind.name().to_owned(),
+            pair: warning.pair,
+            value: warning.value,
+            limit: warning.limit,
+            time: warning.time,
+            text: warning.text,
+        }
+    }
 }
 
 /// What the linear systems took.
@@ -199,6 +233,14 @@ mod tests {
                 dissipated: 12.5,
             }],
             reactions: [("BOTTOM".to_owned(), [0.1, 0.2, 0.3])].into(),
+            warnings: vec![WarningSummary {
+                kind: "tension".into(),
+                pair: Some("interface".into()),
+                value: 0.25,
+                limit: 1e-6,
+                time: 0.5,
+                text: "pair `interface`: contact pulls".into(),
+            }],
         }
     }
 
@@ -223,7 +265,11 @@ mod tests {
                 "resultant_b": [-0.1, 0.0, -15_712.0], "mismatch": 1e-13, "stick": 3,
                 "slip": 2, "open": 1, "max_pressure": 4e5, "dissipated": 12.5
             }],
-            "reactions": { "BOTTOM": [0.1, 0.2, 0.3] }
+            "reactions": { "BOTTOM": [0.1, 0.2, 0.3] },
+            "warnings": [{
+                "kind": "tension", "pair": "interface", "value": 0.25, "limit": 1e-6,
+                "time": 0.5, "text": "pair `interface`: contact pulls"
+            }]
         });
         assert_eq!(found, expected);
         assert_eq!(Summary::read(&path).unwrap(), summary());

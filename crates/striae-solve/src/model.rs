@@ -169,6 +169,30 @@ pub struct Pair {
     pub enforcement: Enforcement,
     /// Distance over which contact is looked for ahead; `None`: half the local facet size.
     pub search_distance: Option<f64>,
+    /// What is made of gaps and overlaps of the meshes.
+    pub initial: Initial,
+}
+
+/// What is made of the gaps and overlaps that the meshes of a pair have before anything
+/// has moved, see [`crate::initial`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Initial {
+    /// Gaps are real, overlaps a fault.
+    #[default]
+    AsMeshed,
+    /// Nodes are moved without strain until gaps and overlaps are gone.
+    Close(ClosedGaps),
+    /// Overlaps are pressed out in the course of the first step.
+    Resolve,
+}
+
+/// Gaps that are closed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ClosedGaps {
+    /// Up to this share of the local facet size.
+    Share(f64),
+    /// Up to this gap.
+    UpTo(f64),
 }
 
 /// A part of the loading history.

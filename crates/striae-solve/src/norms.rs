@@ -9,6 +9,9 @@ use striae_contact::term::Field;
 pub struct Norms {
     /// Equilibrium: 2-norm over the free components, over the force scale.
     pub force: f64,
+    /// The part of it that round-off leaves of the stiffness that is there. A residual that
+    /// stands at it is as small as it can be, and counts as zero.
+    pub round_off: f64,
     /// Largest gap of a closed node over the local facet size.
     pub gap: f64,
     /// Largest slip of a sticking node over the local facet size.
@@ -38,9 +41,18 @@ impl Norms {
         *norm = larger(*norm, residual.abs() / scale);
     }
 
+    /// Equilibrium, zero where it stands at round-off.
+    pub fn equilibrium(&self) -> f64 {
+        if self.force <= self.round_off {
+            0.0
+        } else {
+            self.force
+        }
+    }
+
     /// The largest of all norms; infinite where one is not a number.
     pub fn largest(&self) -> f64 {
-        [self.force, self.gap, self.stick, self.traction]
+        [self.equilibrium(), self.gap, self.stick, self.traction]
             .into_iter()
             .fold(0.0, larger)
     }
@@ -48,7 +60,7 @@ impl Norms {
     /// Name of the field with the largest norm.
     pub fn worst(&self) -> &'static str {
         let fields = [
-            ("force", self.force),
+            ("force", self.equilibrium()),
             ("gap", self.gap),
             ("stick", self.stick),
             ("traction", self.traction),
@@ -68,10 +80,20 @@ pub(crate) fn larger(a: f64, b: f64) -> f64 {
 
 impl fmt::Display for Norms {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            force,
+            round_off,
+            gap,
+            stick,
+            traction,
+        } = self;
+        write!(f, "force {force:.1e}")?;
+        if force <= round_off && *force > 0.0 {
+            write!(f, " (round-off)")?;
+        }
         write!(
             f,
-            "force {:.1e}  gap {:.1e}  stick {:.1e}  traction {:.1e}",
-            self.force, self.gap, self.stick, self.traction
+            "  gap {gap:.1e}  stick {stick:.1e}  traction {traction:.1e}"
         )
     }
 }

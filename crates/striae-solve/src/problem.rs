@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use striae_contact::{
+    interference::Fibre,
     pair::{ContactPair, Geometry, Side as ContactSide},
     texture::SideTexture,
 };
@@ -16,6 +17,7 @@ use striae_surface::{
 use crate::{
     contact_mass,
     element::{ElementFault, ReferenceElement, reference_elements},
+    interference,
     model::{Model, Pair, RigidShape, Side},
     plan::{StepPlan, plans},
 };
@@ -73,6 +75,8 @@ pub struct PairGeometry {
     pub faces: [Vec<Face>; 2],
     /// How well conditioned the painting of each textured surface was.
     pub conditionings: [Option<Conditioning>; 2],
+    /// Fibres through what is behind the facets, see [`crate::interference`].
+    pub fibres: [Vec<Option<Fibre>>; 2],
 }
 
 /// A model that cannot be solved.
@@ -149,7 +153,8 @@ impl Problem {
             nodes.iter().for_each(|&node| tie_of[node] = Some(rigid));
         }
         let pairs = model.pairs.iter().map(|pair| pair_geometry(&model, pair));
-        let pairs: Vec<PairGeometry> = pairs.collect::<Result<_, _>>()?;
+        let mut pairs: Vec<PairGeometry> = pairs.collect::<Result<_, _>>()?;
+        interference::add_fibres(&model, &mut pairs);
         Ok(Self {
             contact_facets: contact_facets(&pairs),
             massless: contact_mass::massless(&model, &first_node, reference.len()),
@@ -211,7 +216,8 @@ fn contact_facets(pairs: &[PairGeometry]) -> HashMap<(usize, Face), Vec<ContactF
     facets
 }
 
-fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, ProblemError> {
+/// A pair in the reference configuration, without fibres.
+pub(crate) fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, ProblemError> {
     let mut bodies = [None, None];
     let mut faces = [Vec::new(), Vec::new()];
     let mut rigid = None;
@@ -300,6 +306,7 @@ fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, ProblemErro
         rigid,
         faces,
         conditionings,
+        fibres: [Vec::new(), Vec::new()],
     })
 }
 

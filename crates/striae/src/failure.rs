@@ -41,6 +41,9 @@ pub enum Failure {
     /// The run did not reach its end.
     #[error("{0}")]
     Ended(Ending),
+    /// The run went to its end, but not without warnings.
+    #[error("{}", warned(*.0))]
+    Warned(usize),
     /// There is no case of this name.
     #[error("there is no case `{name}`; known are {known}")]
     UnknownCase {
@@ -63,6 +66,13 @@ pub enum Failure {
     Output(#[from] io::Error),
 }
 
+fn warned(count: usize) -> String {
+    match count {
+        1 => "1 warning, which `--strict` does not allow".into(),
+        count => format!("{count} warnings, which `--strict` does not allow"),
+    }
+}
+
 impl Failure {
     /// The exit code: 2 for bad input, 130 for an interrupt, 1 for everything else.
     pub fn exit_code(&self) -> ExitCode {
@@ -77,6 +87,7 @@ impl Failure {
             }
             Self::Unwritable { .. }
             | Self::Ended(_)
+            | Self::Warned(_)
             | Self::Deviates(_)
             | Self::Results(_)
             | Self::Threads(_)

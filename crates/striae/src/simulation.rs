@@ -162,10 +162,15 @@ fn proceed(
         progress: Progress::new(&problem.model, verbosity),
         interrupt,
         steps: Vec::new(),
+        before: point.as_ref().map(|point| point.state.clone()),
         failure: None,
     };
     let (state, ending) = match point {
-        None => run(&problem, State::undeformed(&problem), &mut watch),
+        None => {
+            let start = State::undeformed(&problem);
+            watch.before = Some(start.clone());
+            run(&problem, start, &mut watch)
+        }
         Some(point) => resume(&problem, point, &mut watch),
     };
     watch.progress.finish();
@@ -199,6 +204,8 @@ struct Watch<'a> {
     progress: Progress,
     interrupt: &'a Interrupt,
     steps: Vec<State>,
+    /// State before the increment under way.
+    before: Option<State>,
     failure: Option<OutputError>,
 }
 
@@ -215,6 +222,9 @@ impl Observer for Watch<'_> {
         self.progress.increment(position, increment);
         if position.fraction == 1.0 {
             self.steps.push(increment.state.clone());
+        }
+        if let Some(before) = self.before.replace(increment.state.clone()) {
+            self.recorder.judge(self.problem, &before, increment);
         }
         let recorded = self.recorder.increment(self.problem, position, increment);
         self.failure = self.failure.take().or(recorded.err());

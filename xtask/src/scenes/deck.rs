@@ -183,6 +183,8 @@ fn pair(lines: &mut Vec<String>, scene: &Scene, pair: &Pair) {
     if let Start::Overlapping(Some(initial)) = scene.start {
         lines.push(format!("initial = \"{initial}\""));
     }
+    let enforcement = scene.enforcement;
+    lines.extend(enforcement.map(|method| format!("enforcement = \"{method}\"")));
     let mut friction = match &pair.law {
         Law::Frictionless => None,
         Law::Coulomb(mu) => Some(format!("law = \"coulomb\", mu = {mu:?}")),

@@ -3,12 +3,15 @@
 //!
 //! ```text
 //! cargo xtask scenes [--seeds A..B] [--kind K] [--jobs N] [--keep FOLDER] [--binary PATH]
+//!                    [--enforcement weighted|collocated]
 //! ```
 //!
 //! A seed gives a [`scene`] by its [`kinds`], this a [`deck`]; the program [`run`]s it
 //! as a child process, and [`checks`] looks at the output with means of its own: no
 //! crate of striae is used here, so what is wrong there cannot hide here. Decks that
-//! fail are kept with their logs, in a folder each: `FOLDER/SEED-KIND`.
+//! fail are kept with their logs, in a folder each: `FOLDER/SEED-KIND`, beside the tables
+//! of all in `FOLDER/report.md`. Runs that stop are counted; decks that are refused, crashes
+//! and output that is silent or wrong make the task fail.
 
 mod checks;
 mod deck;
@@ -39,6 +42,7 @@ use crate::{check, fault::Fault};
 use kinds::{Choice, Dialect};
 use options::Options;
 use output::Summary;
+use run::Run;
 use summary::Judged;
 use verdict::{Class, Verdict};
 
@@ -53,7 +57,7 @@ pub fn scenes(arguments: &[String]) -> Result<(), Fault> {
         Some(binary) => binary.clone(),
         None => check::program()?,
     };
-    let initial = run::knows(&binary, "initial").map_err(|cause| Fault::Start {
+    let initial = run::knows(&binary, "as-meshed").map_err(|cause| Fault::Start {
         command: format!("{} schema", binary.display()),
         cause,
     })?;
@@ -63,6 +67,7 @@ pub fn scenes(arguments: &[String]) -> Result<(), Fault> {
         } else {
             Choice::Unknown
         },
+        enforcement: options.enforcement,
     };
     let wanted = |seed: &u64| {
         let kind = kinds::kind_of(*seed);
@@ -131,6 +136,11 @@ fn one(keep: &Path, binary: &Path, seed: u64, dialect: Dialect) -> Result<Judged
         command: binary.display().to_string(),
         cause,
     })?;
+    let run = Run {
+        // The folder's name says more than the program.
+        log: run.log.replace(&folder.display().to_string(), ""),
+        ..run
+    };
     let out = folder.join("out");
     let summary = Summary::read(&out.join("summary.json"));
     let findings = checks::check(&out, &scene);

@@ -19,7 +19,12 @@ pub struct Options {
     pub keep: PathBuf,
     /// The program; built if absent.
     pub binary: Option<PathBuf>,
+    /// Method of contact; the program's default if absent.
+    pub enforcement: Option<&'static str>,
 }
+
+/// Methods of contact.
+const METHODS: [&str; 2] = ["weighted", "collocated"];
 
 impl Options {
     /// Reads the arguments.
@@ -33,6 +38,7 @@ impl Options {
             jobs: 2,
             keep: PathBuf::from("target/scenes"),
             binary: None,
+            enforcement: None,
         };
         let mut rest = arguments.iter();
         while let Some(name) = rest.next() {
@@ -49,6 +55,10 @@ impl Options {
                 }
                 "--keep" => options.keep = value.into(),
                 "--binary" => options.binary = Some(value.into()),
+                "--enforcement" => {
+                    let method = METHODS.into_iter().find(|method| method == value);
+                    options.enforcement = Some(method.ok_or_else(wrong)?);
+                }
                 "--kind" => {
                     let names: Vec<&str> = kinds::names().collect();
                     return Err(Fault::Option(format!("kinds are {}", names.join(", "))));

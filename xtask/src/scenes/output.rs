@@ -21,7 +21,11 @@ impl History {
         Self::of(&text)
     }
 
-    fn of(text: &str) -> Result<Self, String> {
+    /// Reads the text of a table.
+    ///
+    /// # Errors
+    /// What is wrong with it, in words.
+    pub fn of(text: &str) -> Result<Self, String> {
         let mut lines = text.lines();
         let names = lines.next().unwrap_or_default().split(',').enumerate();
         let columns: HashMap<String, usize> = names.map(|(i, n)| (n.to_owned(), i)).collect();

@@ -57,9 +57,12 @@ pub fn run(binary: &Path, folder: &Path) -> io::Result<Run> {
     })
 }
 
-/// Whether the program knows a key, by its schema.
-pub fn knows(binary: &Path, key: &str) -> io::Result<bool> {
+/// Whether the schema of the program's decks has a word.
+///
+/// # Errors
+/// When the program cannot be started.
+pub fn knows(binary: &Path, word: &str) -> io::Result<bool> {
     let output = Command::new(binary).arg("schema").output()?;
     let schema = String::from_utf8_lossy(&output.stdout);
-    Ok(schema.contains(&format!("\"{key}\": {{")))
+    Ok(schema.contains(&format!("\"{word}\"")))
 }

@@ -26,6 +26,8 @@ pub struct Scene {
     pub steps: Vec<Step>,
     /// Whether bodies begin inside one another.
     pub start: Start,
+    /// Method of contact to ask for.
+    pub enforcement: Option<&'static str>,
 }
 
 /// How the bodies stand at the start.
@@ -78,7 +80,7 @@ pub struct Material {
 #[derive(Clone, Debug)]
 pub enum Shape {
     /// A block.
-    Block(Block),
+    Block(Box<Block>),
     /// A block with a spherical cap below.
     Cap(Cap),
 }
@@ -210,6 +212,8 @@ pub enum End {
     Open,
     /// The pairs carry force.
     Touching,
+    /// The pairs have carried force at some time.
+    Met,
     /// The pairs carry none.
     Apart,
 }

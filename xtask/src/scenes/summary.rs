@@ -19,32 +19,38 @@ pub struct Judged {
 /// All that is said of many scenes.
 pub fn report(all: &[Judged]) -> String {
     let mut text = String::new();
-    let tables: [(&str, fn(&Judged) -> String); 3] = [
-        ("kind", |judged| judged.scene.kind.to_owned()),
+    let tables: [(&str, Sorted); 3] = [
+        ("kind", |judged| (0, judged.scene.kind.to_owned())),
         ("upper over lower modulus", |judged| {
             decade(judged.scene.ratio)
         }),
         ("friction", |judged| {
-            judged.scene.pairs[0].law.name().to_owned()
+            (0, judged.scene.pairs[0].law.name().to_owned())
         }),
     ];
     for (name, key) in tables {
         text += &table(name, all, key);
         text.push('\n');
     }
-    text + &measures(all) + &iterations(all) + &reasons(all)
+    text + &causes(all) + &measures(all) + &iterations(all) + &reasons(all)
 }
 
-fn decade(ratio: Option<f64>) -> String {
+/// Place and name of a row.
+type Key = (i32, String);
+
+/// The row of a scene.
+type Sorted = fn(&Judged) -> Key;
+
+fn decade(ratio: Option<f64>) -> Key {
     let Some(ratio) = ratio else {
-        return "rigid".into();
+        return (i32::MAX, "rigid".into());
     };
-    let low = ratio.log10().floor().clamp(-4.0, 3.0);
-    format!("1e{low:+} to 1e{:+}", low + 1.0)
+    let low = ratio.log10().floor().clamp(-4.0, 3.0) as i32;
+    (low, format!("1e{low} to 1e{}", low + 1))
 }
 
-fn table(name: &str, all: &[Judged], key: fn(&Judged) -> String) -> String {
-    let mut rows: BTreeMap<String, BTreeMap<Class, usize>> = BTreeMap::new();
+fn table(name: &str, all: &[Judged], key: Sorted) -> String {
+    let mut rows: BTreeMap<Key, BTreeMap<Class, usize>> = BTreeMap::new();
     for judged in all {
         *rows
             .entry(key(judged))
@@ -60,7 +66,7 @@ fn table(name: &str, all: &[Judged], key: fn(&Judged) -> String) -> String {
     text += &" ---: |".repeat(Class::ALL.len() + 1);
     text.push('\n');
     let mut total: BTreeMap<Class, usize> = BTreeMap::new();
-    for (name, row) in &rows {
+    for ((_, name), row) in &rows {
         text += &line(name, row);
         for (class, count) in row {
             *total.entry(*class).or_default() += count;
@@ -76,6 +82,74 @@ fn line(name: &str, row: &BTreeMap<Class, usize>) -> String {
         write!(text, " {count} |").expect("text grows");
     }
     text + "\n"
+}
+
+/// Texts of endings, and what they are told as.
+const CAUSES: [(&str, &str); 11] = [
+    ("no equilibrium", "no equilibrium"),
+    ("limit of friction", "limit of friction"),
+    ("is not held", "a body is not held"),
+    (
+        "balance of a contact patch",
+        "the balance of a patch is not determined",
+    ),
+    ("not determined", "an unknown is not determined"),
+    ("no longer sees", "a node lost the other surface"),
+    ("no direction left", "a texture lost its direction"),
+    ("unnoticed", "contact was missed"),
+    ("inside out", "an element was turned inside out"),
+    ("the residual grew", "the residual grew"),
+    ("no convergence", "no convergence"),
+];
+
+/// Why runs that did not complete stopped, by cause.
+fn causes(all: &[Judged]) -> String {
+    let stopped = all.iter().filter(|judged| {
+        matches!(
+            judged.verdict.class,
+            Class::Stopped | Class::Named | Class::Crashed
+        )
+    });
+    let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+    for judged in stopped {
+        *counts.entry(cause(&judged.verdict.reason)).or_default() += 1;
+    }
+    let rows = counts
+        .iter()
+        .map(|(cause, count)| format!("| {cause} | {count} |\n"));
+    format!(
+        "| cause | runs |\n| --- | ---: |\n{}\n",
+        rows.collect::<String>()
+    )
+}
+
+fn cause(reason: &str) -> String {
+    let found = CAUSES.iter().find(|(words, _)| reason.contains(words));
+    let cause = found.map_or("other", |(_, cause)| cause);
+    if cause == "no convergence" {
+        return format!("no convergence of {}", unconverged(reason));
+    }
+    cause.to_owned()
+}
+
+/// The field that did not converge, and whether it came near.
+///
+/// Of `... iterations (force: force 1.8e-10  gap 0.0e0 ...)`, the field is `force` and
+/// its norm the number after its name.
+fn unconverged(reason: &str) -> String {
+    const NEAR: f64 = 1e-8;
+    let norms = reason.split_once('(').map_or("", |(_, norms)| norms);
+    let Some((field, norms)) = norms.split_once(':') else {
+        return "a field".into();
+    };
+    let mut words = norms.split([' ', ')']).filter(|word| !word.is_empty());
+    let norm = words.find(|&word| word == field).and_then(|_| words.next());
+    let norm: Option<f64> = norm.and_then(|norm| norm.parse().ok());
+    let near = norm.is_some_and(|norm| norm < NEAR);
+    format!(
+        "{field}, {}",
+        if near { "below 1e-8" } else { "above 1e-8" }
+    )
 }
 
 /// The worst of each check over the runs that ended well.
@@ -182,4 +256,26 @@ fn reasons(all: &[Judged]) -> String {
         .expect("text grows");
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn causes_are_told_apart() {
+        let reason = "step `press` stopped at time 0.1: no convergence in 20 iterations \
+                      (force: force 1.8e-10  gap 0.0e0  stick 0.0e0)";
+        assert_eq!(cause(reason), "no convergence of force, below 1e-8");
+        let reason = reason.replace("(force: force 1.8e-10", "(gap: force 1e-12");
+        assert_eq!(cause(&reason), "no convergence of gap, below 1e-8");
+        assert_eq!(cause("killed"), "other");
+    }
+
+    #[test]
+    fn decades_are_those_of_the_ratio() {
+        assert_eq!(decade(Some(0.5)).1, "1e-1 to 1e0");
+        assert_eq!(decade(Some(1e4)).1, "1e3 to 1e4");
+        assert_eq!(decade(None).1, "rigid");
+    }
 }

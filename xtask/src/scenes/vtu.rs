@@ -92,6 +92,24 @@ impl Grid {
         Ok(grid)
     }
 
+    /// A grid without arrays.
+    #[cfg(test)]
+    pub fn plain(points: Vec<Vector>, cells: Vec<Vec<usize>>) -> Self {
+        Self {
+            points,
+            cells,
+            arrays: BTreeMap::new(),
+        }
+    }
+
+    /// The same grid with one more array.
+    #[cfg(test)]
+    pub fn with(mut self, name: &str, components: usize, values: Vec<f64>) -> Self {
+        self.arrays
+            .insert(name.to_owned(), Array { components, values });
+        self
+    }
+
     /// One number a point, if there is such an array.
     pub fn scalars(&self, name: &str) -> Option<&[f64]> {
         let array = self.arrays.get(name)?;

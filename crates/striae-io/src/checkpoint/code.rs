@@ -13,6 +13,7 @@ use striae_solve::{
     newton::{Experience, FactoredInterior, Memory},
     rigid::{Pose, Wrench},
     state::{Energies, NodalForces, PairState, State},
+    warning::{Judgement, Kind, Worst},
 };
 
 use crate::summary::SolverSummary;
@@ -59,6 +60,8 @@ as_number! {
     u32: |x| u64::from(*x), |n| u32::try_from(n).ok();
     bool: |x| u64::from(*x), |n| [false, true].get(n as usize).copied();
     FacetId: |x| x.index() as u64, |n| usize::try_from(n).ok().map(FacetId::new);
+    Kind: |x| Kind::ALL.iter().position(|kind| kind == x).map_or(u64::MAX, |at| at as u64),
+        |n| Kind::ALL.get(usize::try_from(n).ok()?).copied();
     Status: |x| match x {
         Status::Open => 0,
         Status::Stick => 1,
@@ -166,9 +169,11 @@ macro_rules! coded {
 pub(super) use coded;
 
 coded! {
-    NodeResult { gap, pressure, tau, slip, normal, texture, status };
+    NodeResult { gap, pressure, tau, slip, normal, texture, mean, status };
     FacetForces { force, area, pressure, friction };
     Tractions { nodes, tau_n, slipped, statuses };
+    Worst { kind, pair, value, time };
+    Judgement { worst, forces, pressures, energy };
     SolverSummary { method, factorisations, contact_corrections, fall_backs, reason };
     PairState { tractions, kept, carried, nodes, facets, dissipated };
     Wrench { force, torque };

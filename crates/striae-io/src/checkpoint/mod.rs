@@ -72,6 +72,8 @@ pub struct Written {
     pub seconds: f64,
     /// Files of the bodies and of the contact surfaces.
     pub series: [Vec<Snapshot>; 2],
+    /// What has been judged so far.
+    pub judgement: striae_solve::warning::Judgement,
 }
 
 /// A number that differs, but for rare coincidences, where decks differ in what
@@ -194,6 +196,6 @@ impl Coded for PathBuf {
 coded! {
     Checkpoint { source, written, point };
     Source { case, path, fingerprint };
-    Written { iterations, cut_backs, unknowns, solver, fields, seconds, series };
+    Written { iterations, cut_backs, unknowns, solver, fields, seconds, series, judgement };
     Snapshot { time, parts };
 }

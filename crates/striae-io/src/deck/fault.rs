@@ -192,6 +192,12 @@ pub enum FaultKind {
         /// The earlier pair.
         other: String,
     },
+    /// The meshes of a pair do not fit.
+    #[error("{fault}")]
+    Initial {
+        /// How.
+        fault: striae_solve::initial::InitialFault,
+    },
     /// A displacement condition without a component.
     #[error(
         "the displacement of `{set}` of body `{body}` prescribes nothing; give at least one of `x`, `y`, `z`"

@@ -29,10 +29,12 @@ impl System<'_> {
         }
         let applied: f64 = self.forces.applied.iter().map(|f| f.norm_squared()).sum();
         let unavoidable = round_off(problem, &trial.positions, self.inertia.stiffness);
+        // Where there are next to no forces, norms are those over what is just negligible.
         let smallest = unavoidable / problem.model.solver.tolerance;
         let force = self.force_scale.max(applied.sqrt()).max(smallest);
         let mut norms = Norms {
             force: free.sqrt() / force,
+            round_off: unavoidable / force,
             ..Norms::default()
         };
         for (pair, evaluation) in contacts.iter().enumerate() {
@@ -62,17 +64,23 @@ impl System<'_> {
 /// contact that just closes or has just opened would never be found.
 const SMALLEST_PRESSURE: f64 = 1e-4;
 
-/// Residual force that round-off of the positions leaves in bodies without
-/// stress: about `eps (G h + m da_alpha/dx) |x|` an element of size `h` and mass `m`.
+/// Residual force that round-off of the positions leaves in bodies without stress: an
+/// element gives `eps (k + m da_alpha/dx) |x|` with its mass `m` and the mean `k` of the
+/// diagonal of its stiffness, `(lambda + 2 G)/8 sum_ga w |G_a|^2`, which is that of its
+/// smallest height where it is flat.
 fn round_off(problem: &Problem, positions: &[Vec3], inertia: f64) -> f64 {
     let extent = positions.iter().map(|x| x.norm()).fold(0.0, f64::max);
     let bodies = problem.model.bodies.iter().zip(&problem.elements);
     let sum: f64 = bodies
         .map(|(body, elements)| {
-            let volume = elements.first().map_or(0.0, ReferenceElement::volume);
-            let shear = body.material.lame_constants().shear;
-            let stiffness = shear * volume.cbrt() + body.density * volume * inertia;
-            elements.len() as f64 * (stiffness * extent).powi(2)
+            let constants = body.material.lame_constants();
+            let modulus = constants.lambda + 2.0 * constants.shear;
+            let of_element = |element: &ReferenceElement| {
+                let stiffness = modulus * element.stiffness_per_modulus();
+                let stiffness = stiffness + body.density * element.volume() * inertia;
+                (stiffness * extent).powi(2)
+            };
+            elements.iter().map(of_element).sum::<f64>()
         })
         .sum();
     let points = problem.mass_points.iter();

@@ -61,6 +61,19 @@ impl ReferenceElement {
         Ok(Self { gradients, weights })
     }
 
+    /// Mean of `sum_g w |G_a|^2` over the corners: what a modulus is multiplied by to give
+    /// the mean of the diagonal of a stiffness, `h/3` in a cube and `V/h^2` across what is flat.
+    pub fn stiffness_per_modulus(&self) -> f64 {
+        let points = self.gradients.iter().zip(&self.weights);
+        let sum: f64 = points
+            .map(|(gradients, weight)| {
+                let squares = gradients.as_flattened().iter().map(|g| g * g);
+                weight * squares.sum::<f64>()
+            })
+            .sum();
+        sum / 8.0
+    }
+
     /// Reference volume.
     pub fn volume(&self) -> f64 {
         self.weights.iter().sum()

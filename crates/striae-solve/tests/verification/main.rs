@@ -14,6 +14,7 @@ mod patch_stick;
 mod pushed;
 mod rigid;
 mod rigid_facets;
+mod round_off;
 mod sliding;
 mod table_1;
 mod tangent;

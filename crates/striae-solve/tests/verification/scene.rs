@@ -9,9 +9,9 @@ use striae_mesh::{Face, Mesh, NodeId, Vec3, generate::Block};
 use striae_solve::{
     drive::{Continue, Observer, Progress, run},
     model::{
-        Backend, Balance, Body, BodyId, ContactMass, Curve, Displacement, Increments, Load,
-        LoadExtent, LoadKind, Model, Pair, PairId, Procedure, RigidId, RigidShape, RigidSurface,
-        Side, Solver, Step, Strategy,
+        Backend, Balance, Body, BodyId, ContactMass, Curve, Displacement, Increments, Initial,
+        Load, LoadExtent, LoadKind, Model, Pair, PairId, Procedure, RigidId, RigidShape,
+        RigidSurface, Side, Solver, Step, Strategy,
     },
     newton::{Increment, IterationObserver, LinearWork},
     norms::Norms,
@@ -336,6 +336,7 @@ fn pair(name: &str, a: Side, b: Side, friction: Friction) -> Pair {
         friction,
         balance: Balance::Resultants,
         search_distance: None,
+        initial: Initial::AsMeshed,
     }
 }
 

@@ -99,7 +99,10 @@ fn sampled(run: &Run, side: usize, places: &[[f64; 2]]) -> Vec<([u32; 4], Vec<Sa
     let mut all = Vec::new();
     for &facet in facets(run, side) {
         let corners = facet.map(|corner| &nodes[corner as usize]);
-        if corners.iter().all(|node| node.result.pressure <= 0.0) {
+        if corners
+            .iter()
+            .all(|node| node.result.mean_pressure() <= 0.0)
+        {
             continue;
         }
         let samples = places.iter().map(|&[xi, eta]| {
@@ -117,8 +120,8 @@ fn sampled(run: &Run, side: usize, places: &[[f64; 2]]) -> Vec<([u32; 4], Vec<Sa
             Sample {
                 place: mean(&|node| node.reference),
                 area: at_rest * 4.0 / places.len() as f64,
-                pressure: stretch * mean(&|node| Vec3::x() * node.result.pressure).x,
-                tau: mean(&|node| node.result.tau) * stretch,
+                pressure: stretch * mean(&|node| Vec3::x() * node.result.mean_pressure()).x,
+                tau: mean(&|node| node.result.mean_friction()) * stretch,
                 status: corners[heaviest.unwrap_or(0)].result.status,
             }
         });

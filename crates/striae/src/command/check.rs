@@ -2,13 +2,16 @@
 
 use crate::failure::Failure;
 use std::{collections::BTreeSet, io::Write, path::PathBuf};
+use striae_contact::{initial::Fit, interference::Spot};
 use striae_io::deck;
 use striae_law::bulk::Material;
-use striae_mesh::NodeId;
+use striae_mesh::{NodeId, Vec3};
 use striae_solve::{
-    model::{Body, Model, Pair, RigidShape, RigidSurface, Side, Step},
+    initial::{ROUND_OFF, fits, other_name, surface_node},
+    model::{Body, Model, Pair, PairId, RigidShape, RigidSurface, Side, Step},
     newton::{Analysis, Estimate, estimate},
     problem::Problem,
+    warning::warnings_at_start,
 };
 
 /// Check a deck and summarise what it describes.
@@ -29,9 +32,15 @@ fn summary(model: &Model) -> Result<String, Failure> {
     let mut lines = vec![model.title.clone()];
     lines.extend(model.bodies.iter().map(body_line));
     lines.extend(model.rigid_surfaces.iter().map(rigid_line));
-    lines.extend(model.pairs.iter().map(|pair| pair_line(pair, model)));
+    let fits = fits(model);
+    for (index, (pair, fit)) in model.pairs.iter().zip(&fits).enumerate() {
+        lines.push(pair_line(pair, model));
+        lines.extend(fit.iter().map(|fit| fit_line(model, PairId(index), fit)));
+    }
     lines.extend(model.steps.iter().map(step_line));
     lines.extend(size_lines(model)?);
+    let warnings = warnings_at_start(model, &fits);
+    lines.extend(warnings.iter().map(|warning| format!("warning: {warning}")));
     lines.push("no faults".into());
     Ok(lines.join("\n") + "\n")
 }
@@ -77,6 +86,47 @@ fn pair_line(pair: &Pair, model: &Model) -> String {
         Side::Rigid(rigid) => format!("rigid `{}`", model.rigid_surfaces[rigid.0].name),
     });
     format!("  pair `{}`: {a} and {b}", pair.name)
+}
+
+/// Smallest gap and deepest overlap of a pair, and where.
+fn fit_line(model: &Model, pair: PairId, fit: &Fit) -> String {
+    let at = |side: usize, spot: Spot, x: &Vec3| {
+        let spot = match spot {
+            Spot::Node(node) => surface_node(model, pair, side, node).map(|node| node.to_string()),
+            Spot::Centre(facet) => Some(format!("the centre of {facet}")),
+        };
+        format!(
+            "{} of `{}` ({:.6}, {:.6}, {:.6})",
+            spot.unwrap_or_default(),
+            other_name(model, pair, 1 - side),
+            x.x,
+            x.y,
+            x.z
+        )
+    };
+    let gap = match &fit.gap {
+        Some(gap) => {
+            let place = at(gap.side, gap.spot, &gap.point);
+            format!("smallest gap {:.3e} at {place}", gap.gap)
+        }
+        None => format!(
+            "the sides do not face each other; nearest distance {:.3e}",
+            fit.distance
+        ),
+    };
+    let overlap = fit
+        .overlap
+        .as_ref()
+        .filter(|overlap| overlap.share() > ROUND_OFF);
+    let overlap = overlap.map_or("no overlap".into(), |overlap| {
+        let place = at(overlap.side, overlap.spot, &overlap.point);
+        let share = 100.0 * overlap.share();
+        format!(
+            "largest overlap {:.3e} ({share:.1} % of the facet size) at {place}",
+            overlap.depth
+        )
+    });
+    format!("    {gap}; {overlap}")
 }
 
 fn step_line(step: &Step) -> String {

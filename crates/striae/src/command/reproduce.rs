@@ -11,7 +11,7 @@ use striae_io::{
     expected::{Comparison, Expected, Verdict, compare, report, write_csv},
 };
 
-use super::run::Common;
+use super::run::{Common, Strictness};
 use crate::{
     cases::{
         CASES, Case,
@@ -120,7 +120,13 @@ fn reproduced(
         writeln!(out, "{failure}")?;
     }
     writeln!(out, "output in {}", folder.display())?;
-    let passed = comparisons.iter().all(|c| c.verdict == Verdict::Pass);
+    let mut passed = comparisons.iter().all(|c| c.verdict == Verdict::Pass);
+    for (deck, summary) in &study.summaries {
+        for warning in &summary.warnings {
+            writeln!(out, "warning: {deck}: {}", warning.text)?;
+            passed &= arguments.common.strictness() == Strictness::Lenient;
+        }
+    }
     Ok(if passed && ran.is_ok() {
         Verdict::Pass
     } else {

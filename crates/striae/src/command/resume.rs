@@ -21,12 +21,13 @@ pub struct Arguments {
 
 /// Goes on from the checkpoint in the folder and prints what came of it.
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    arguments.common.start_threads()?;
     let checkpoint = Checkpoint::read(&arguments.folder)?;
     let deck = deck::read(&checkpoint.source.path)?;
     checkpoint.source.check(&deck)?;
-    arguments.common.start_threads()?;
     let verbosity = arguments.common.verbosity();
     let interrupt = Interrupt::listen();
     let simulation = go_on(deck, checkpoint, &arguments.folder, verbosity, &interrupt)?;
-    concluded(simulation, &arguments.folder, out)
+    let strictness = arguments.common.strictness();
+    concluded(simulation, &arguments.folder, strictness, out)
 }

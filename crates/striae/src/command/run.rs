@@ -42,6 +42,18 @@ pub struct Common {
     /// Show the residual norms of every iteration.
     #[arg(short, long, conflicts_with = "quiet")]
     verbose: bool,
+    /// End with exit code 1 if there are warnings.
+    #[arg(long)]
+    strict: bool,
+}
+
+/// What warnings do to the exit code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Strictness {
+    /// Nothing.
+    Lenient,
+    /// They make it 1.
+    Strict,
 }
 
 impl Common {
@@ -51,6 +63,15 @@ impl Common {
             (true, _) => Verbosity::Quiet,
             (_, true) => Verbosity::Iterations,
             _ => Verbosity::Normal,
+        }
+    }
+
+    /// What warnings do.
+    pub fn strictness(&self) -> Strictness {
+        if self.strict {
+            Strictness::Strict
+        } else {
+            Strictness::Lenient
         }
     }
 
@@ -66,17 +87,17 @@ impl Common {
 
 /// Runs the deck and prints what came of it.
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    arguments.common.start_threads()?;
     let deck = deck::read(&arguments.deck)?;
     let case = case_name(&arguments.deck);
     let folder = arguments
         .out
         .clone()
         .unwrap_or_else(|| Path::new("results").join(&case));
-    arguments.common.start_threads()?;
     let verbosity = arguments.common.verbosity();
     let source = source(&arguments.deck, case, &deck);
     let simulation = simulate_file(deck, source, &folder, verbosity, &Interrupt::listen())?;
-    concluded(simulation, &folder, out)
+    concluded(simulation, &folder, arguments.common.strictness(), out)
 }
 
 /// The deck of a run, for its checkpoints.
@@ -92,17 +113,30 @@ fn source(path: &Path, case: String, deck: &Deck) -> Source {
 pub fn concluded(
     simulation: Simulation,
     folder: &Path,
+    strictness: Strictness,
     out: &mut dyn Write,
 ) -> Result<(), Failure> {
+    let warnings = &simulation.summary.warnings;
+    warn(&simulation.summary);
     write!(out, "{}", told(&simulation.summary))?;
     writeln!(out, "output in {}", folder.display())?;
     match simulation.ending {
+        Ending::Completed if strictness == Strictness::Strict && !warnings.is_empty() => {
+            Err(Failure::Warned(warnings.len()))
+        }
         Ending::Completed => Ok(()),
         Ending::Interrupted { time } => Err(Failure::Interrupted {
             time,
             folder: folder.to_owned(),
         }),
         ending @ Ending::Stopped { .. } => Err(Failure::Ended(ending)),
+    }
+}
+
+/// Warnings of a run, on the standard error.
+pub fn warn(summary: &Summary) {
+    for warning in &summary.warnings {
+        eprintln!("warning: {}", warning.text);
     }
 }
 

@@ -169,3 +169,38 @@ fn corners(positions: &[Vector], facet: &[usize; 4]) -> Vec<Vector> {
     corners.dedup();
     corners.into_iter().map(|i| positions[i]).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A unit cube from a height up, and its lower or upper side.
+    fn cube(z: f64, side: [usize; 4]) -> [Grid; 2] {
+        let plan = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        let level = |z: f64| plan.map(|[x, y]| [0.1 + 0.8 * x, 0.1 + 0.8 * y, z]);
+        let points: Vec<Vector> = [level(z), level(z + 1.0)].concat();
+        let surface = side.map(|i| points[i]).to_vec();
+        let body = Grid::plain(points, vec![(0..8).collect()]);
+        [body, Grid::plain(surface, vec![vec![0, 1, 2, 3]])]
+    }
+
+    fn measure(gap: f64) -> f64 {
+        let [body, top] = cube(-1.0, [4, 5, 6, 7]);
+        let [_, bottom] = cube(gap, [0, 3, 2, 1]);
+        let moved = bottom.points.iter().map(|x| [x[0] + 0.3, x[1] + 0.2, x[2]]);
+        let shifted = Grid::plain(moved.collect(), bottom.cells.clone());
+        let mut findings = Findings::default();
+        deformable(&mut findings, &shifted, &top, &body, "", 1);
+        findings.worst["depth"].measure
+    }
+
+    #[test]
+    fn depth_is_below_the_surface_of_the_pair() {
+        assert_eq!(measure(0.01), 0.0);
+        let bound = DEPTH * 0.8;
+        for depth in [0.01, 0.3] {
+            let found = measure(-depth);
+            assert!((found - depth / bound).abs() < 1e-9, "{depth}: {found}");
+        }
+    }
+}

@@ -65,8 +65,8 @@ fn surface(
         return;
     };
     let size = sizes(grid);
-    let role = grid.scalars("kept");
-    let kept = |node: usize| role.is_none_or(|role| role[node] == KEPT);
+    let kept_nodes = grid.scalars("kept");
+    let kept = |node: usize| kept_nodes.is_none_or(|kept| kept[node] == KEPT);
     for node in 0..grid.points.len() {
         let (p, g, h) = (pressure[node], gap[node], size[node]);
         if largest > 0.0 {
@@ -148,4 +148,46 @@ pub fn sizes(grid: &Grid) -> Vec<f64> {
     sums.into_iter()
         .map(|(area, count)| (area / count).sqrt())
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenes::{
+        kinds::{Dialect, scene},
+        law::Law,
+    };
+
+    /// What fails on a unit square whose nodes have these pressures, gaps and friction
+    /// along `x`.
+    fn failed(pressure: [f64; 4], gap: [f64; 4], friction: [f64; 4]) -> Vec<&'static str> {
+        let mut pair = scene(0, Dialect::default()).pairs.remove(0);
+        (pair.law, pair.cap) = (Law::Coulomb(0.3), None);
+        let points = vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        let grid = Grid::plain(points, vec![vec![0, 1, 2, 3]]);
+        let friction = friction.into_iter().flat_map(|x| [x, 0.0, 0.0]).collect();
+        let grid = grid
+            .with("pressure", 1, pressure.to_vec())
+            .with("gap", 1, gap.to_vec())
+            .with("friction_traction", 3, friction)
+            .with("kept", 1, vec![1.0, 1.0, 1.0, 0.0]);
+        let mut findings = Findings::default();
+        surface(&mut findings, &pair, &grid, 1.0, &|_, what| what);
+        findings.failed().map(|(name, _)| name).collect()
+    }
+
+    #[test]
+    fn each_fault_fails_its_check() {
+        let (p, g, t) = (
+            [1.0, 0.5, 0.0, 0.2],
+            [0.0, 0.0, 0.1, -0.1],
+            [0.3, -0.1, 0.0, 0.9],
+        );
+        assert!(failed(p, g, t).is_empty());
+        assert_eq!(failed([1.0, 0.5, 0.0, -0.1], g, t), ["tension"]);
+        assert_eq!(failed(p, [0.0, -1e-5, 0.1, 0.0], t), ["gap"]);
+        assert_eq!(failed(p, [0.0, 1e-5, 0.1, 0.0], t), ["product"]);
+        assert_eq!(failed(p, g, [0.3, -0.151, 0.0, 0.0]), ["law"]);
+        assert_eq!(failed(p, g, [0.3, -0.1, 0.01, 0.0]), ["law"]);
+    }
 }

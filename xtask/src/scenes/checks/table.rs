@@ -119,6 +119,8 @@ fn contact(findings: &mut Findings, scene: &Scene, history: &History) {
             };
             match step.end {
                 End::Open => {}
+                End::Met if of_run > 0.0 => findings.note("contact", 0.0, || place("met")),
+                End::Met => findings.note("contact", f64::INFINITY, || place("never met")),
                 End::Touching if now > 0.0 => findings.note("contact", 0.0, || place("touches")),
                 End::Touching => {
                     findings.note("contact", f64::INFINITY, || place("does not touch"));
@@ -208,32 +210,86 @@ fn balance(findings: &mut Findings, scene: &Scene, body: &str, history: &History
             plus(times(1.0 - share, *from), times(share, *to))
         })
     };
-    let mut scale: f64 = 0.0;
+    let forces = |row: usize| {
+        let sets = held.iter().map(|set| format!("reaction.{body}.{set}"));
+        let contact = scene.pairs.iter().flat_map(|pair| {
+            let sides = pair.sides.iter().zip(["a", "b"]);
+            let own = sides.filter(|(side, _)| side.owner == body);
+            own.map(|(_, letter)| format!("pair.{}.resultant_{letter}", pair.name))
+        });
+        let found = sets.chain(contact).map(|name| history.vector(row, &name));
+        let mut all: Vec<Vector> = found.map(|force| force.unwrap_or([f64::NAN; 3])).collect();
+        all.push(load(history.number(row, "time").unwrap_or(0.0)));
+        all
+    };
+    let of_run = (0..history.len())
+        .flat_map(forces)
+        .map(length)
+        .fold(0.0, f64::max);
     for row in 0..history.len() {
-        let mut sum = load(history.number(row, "time").unwrap_or(0.0));
-        let mut add = |force: Option<Vector>| {
-            let force = force.unwrap_or([f64::NAN; 3]);
-            scale = scale.max(length(force));
-            sum = plus(sum, force);
-        };
-        for set in &held {
-            add(history.vector(row, &format!("reaction.{body}.{set}")));
-        }
-        for pair in &scene.pairs {
-            for (side, letter) in pair.sides.iter().zip(["a", "b"]) {
-                if side.owner == body {
-                    add(history.vector(row, &format!("pair.{}.resultant_{letter}", pair.name)));
-                }
-            }
-        }
-        let off = length(sum);
-        if off.is_nan() || scale > 0.0 {
-            findings.note("balance", off / (BALANCE * scale), || {
+        let off = length(forces(row).into_iter().fold([0.0; 3], plus));
+        if off.is_nan() || of_run > 0.0 {
+            findings.note("balance", off / (BALANCE * of_run), || {
                 format!(
-                    "body {body}, increment {}: {off:.2e} of {scale:.2e}",
+                    "body {body}, increment {}: {off:.2e} of {of_run:.2e}",
                     row + 1
                 )
             });
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenes::kinds::{Dialect, scene};
+
+    const NAMES: &str = "time,iterations,energy.kinetic,energy.strain,energy.friction,energy.contact,\
+                         energy.numerical,energy.external,pair.interface.dissipated,\
+                         pair.interface.resultant_a.x,pair.interface.resultant_a.y,\
+                         pair.interface.resultant_a.z,pair.interface.resultant_b.x,\
+                         pair.interface.resultant_b.y,pair.interface.resultant_b.z,\
+                         reaction.lower.zmin.x,reaction.lower.zmin.y,reaction.lower.zmin.z,\
+                         reaction.upper.zmax.x,reaction.upper.zmax.y,reaction.upper.zmax.z";
+
+    /// What fails in a press whose rows are well but for changes of one cell each.
+    fn failed(changes: &[(usize, &str, &str)]) -> Vec<&'static str> {
+        let mut scene = scene(0, Dialect::default());
+        scene.pairs[0].sides.sort_by_key(|side| side.owner);
+        let names: Vec<&str> = NAMES.split(',').collect();
+        let mut rows = [
+            "0.5,4,0,1,0.5,0,0,1.5,0.5,0,0,-2,0,0,2,0,0,2,0,0,-2",
+            "1,4,0,2,1,0,0,3,1,0,0,-4,0,0,4,0,0,4,0,0,-4",
+        ]
+        .map(|row| row.split(',').map(str::to_owned).collect::<Vec<_>>());
+        for (row, name, value) in changes {
+            let column = names.iter().position(|found| found == name).unwrap();
+            rows[*row][column] = (*value).to_owned();
+        }
+        let text = format!("{NAMES}\n{}\n{}\n", rows[0].join(","), rows[1].join(","));
+        let mut findings = Findings::default();
+        check(&mut findings, &scene, &History::of(&text).unwrap());
+        findings.failed().map(|(name, _)| name).collect()
+    }
+
+    #[test]
+    fn a_good_history_passes() {
+        assert!(failed(&[]).is_empty());
+    }
+
+    #[test]
+    fn each_fault_fails_its_check() {
+        assert_eq!(failed(&[(1, "time", "0.9")]), ["ending"]);
+        assert_eq!(failed(&[(0, "reaction.upper.zmax.x", "1e-4")]), ["balance"]);
+        assert_eq!(failed(&[(1, "energy.strain", "2.0001")]), ["energy"]);
+        let b = "pair.interface.resultant_b.z";
+        assert_eq!(failed(&[(1, b, "4.000001")]), ["resultants"]);
+        let fall = [(1, "pair.interface.dissipated", "0.4")];
+        assert_eq!(failed(&fall), ["dissipation"]);
+        let all = ["pair.interface.resultant_a.z", b, "reaction.lower.zmin.z"];
+        let none: Vec<_> = all.into_iter().chain(["reaction.upper.zmax.z"]).collect();
+        let none: Vec<_> = none.into_iter().map(|name| (1, name, "0")).collect();
+        assert_eq!(failed(&none), ["contact"]);
+        assert_eq!(failed(&[(1, "energy.external", "NaN")]), ["energy"]);
     }
 }

@@ -11,7 +11,7 @@ use super::{
 };
 use crate::scenes::{
     random::Random,
-    scene::{Rigid, RigidShape, Scene, Step},
+    scene::{End, Rigid, RigidShape, Scene, Step},
 };
 
 /// A block above a plane or a block, and the numbers of its flight.
@@ -107,6 +107,7 @@ pub fn drop(random: &mut Random, _: Dialect) -> Scene {
         .push(("upper", [aslant * angle.cos(), aslant * angle.sin(), -v]));
     step.duration = Some(1.5 * gap * unit / v + 6.0 * flight.height / flight.speed);
     step.increments = Some(random.whole(30..=60));
+    step.end = End::Met;
     flight.scene.steps = vec![step];
     flight.scene
 }
@@ -128,6 +129,7 @@ pub fn launch(random: &mut Random, _: Dialect) -> Scene {
     step.gravity = Some([0.0, 0.0, -gravity]);
     step.duration = Some(1.2 * v / (mu * gravity));
     step.increments = Some(random.whole(30..=60));
+    step.end = End::Met;
     flight.scene.steps = vec![step];
     flight.scene
 }

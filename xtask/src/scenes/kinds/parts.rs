@@ -167,7 +167,7 @@ pub fn body(name: &'static str, material: Material, block: Block) -> Body {
     Body {
         name,
         material,
-        shape: Shape::Block(block),
+        shape: Shape::Block(Box::new(block)),
         union: None,
     }
 }
@@ -298,5 +298,6 @@ pub fn scene(
         pairs,
         steps: Vec::new(),
         start: Start::Apart,
+        enforcement: None,
     }
 }

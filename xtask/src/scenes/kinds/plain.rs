@@ -27,6 +27,10 @@ pub struct Stack {
     pub unit: f64,
     /// Top of the upper block.
     pub top: Vector,
+    /// Pressure to expect.
+    pub pressure: f64,
+    /// Area of the top.
+    pub area: f64,
 }
 
 /// How two blocks begin.
@@ -35,6 +39,19 @@ pub struct Wanted {
     pub gap: f64,
     /// How far they are pressed.
     pub strains: Strains,
+    /// How they stand in space.
+    pub stance: Stance,
+}
+
+impl Wanted {
+    /// Just touching.
+    pub fn touching(strains: Strains) -> Self {
+        Self {
+            gap: 0.0,
+            strains,
+            stance: Stance::Any,
+        }
+    }
 }
 
 impl Stack {
@@ -73,13 +90,15 @@ impl Stack {
             body("lower", materials[0], lower),
             body("upper", materials[1], upper),
         ];
-        let placement = placement(random, units, Stance::Any);
+        let placement = placement(random, units, wanted.stance);
         Self {
             scene: scene(placement, Some(ratio), bodies, vec![pair]),
             depth: press.depth(strain),
             facet: size,
             way_off: 0.5 * (plan[0] + upper_plan[0]) - middle[0],
             unit,
+            pressure: press.pressure(strain),
+            area: upper_plan[0] * upper_plan[1],
             top: plus(middle, [0.0, 0.0, h_upper + gap]),
         }
     }
@@ -155,23 +174,45 @@ fn upper_place(random: &mut Random, plan: [f64; 2]) -> ([f64; 2], Vector) {
 
 fn touching(random: &mut Random) -> Stack {
     let strains = strains(random);
-    Stack::new(random, &Wanted { gap: 0.0, strains })
+    Stack::new(random, &Wanted::touching(strains))
 }
 
 fn moderate(random: &mut Random) -> Stack {
-    Stack::new(
-        random,
-        &Wanted {
-            gap: 0.0,
-            strains: Strains::Moderate,
-        },
-    )
+    Stack::new(random, &Wanted::touching(Strains::Moderate))
 }
 
 /// Pressed.
 pub fn press(random: &mut Random, _: Dialect) -> Scene {
     let mut stack = touching(random);
     stack.scene.steps = vec![stack.press(random, [0.0, 0.0, -stack.depth])];
+    stack.scene
+}
+
+/// Pressed by a load on the top, which is held sideways, and dragged under it.
+pub fn load(random: &mut Random, _: Dialect) -> Scene {
+    let strains = strains(random);
+    let wanted = Wanted {
+        stance: Stance::Upright,
+        ..Wanted::touching(strains)
+    };
+    let mut stack = Stack::new(random, &wanted);
+    // Over the edge, the covered part carries all.
+    let traction = [0.0, 0.0, -0.5 * stack.pressure];
+    let mut press = Step::new("press")
+        .moving("lower", "zmin", [0.0; 3])
+        .within(increments(random))
+        .ending(End::Touching);
+    let aside = |[x, y, _]: Vector| ("upper", "zmax", [Some(x), Some(y), None]);
+    press.displacements.push(aside([0.0; 3]));
+    press
+        .tractions
+        .push(("upper", "zmax", traction, stack.area));
+    let mut slide = Step::new("slide")
+        .within(increments(random))
+        .ending(End::Touching);
+    let way = stack.way(random).map(|x| 0.3 * x);
+    slide.displacements.push(aside(way));
+    stack.scene.steps = vec![press, slide];
     stack.scene
 }
 
@@ -276,7 +317,14 @@ pub fn lift(random: &mut Random, _: Dialect) -> Scene {
 pub fn gap(random: &mut Random, _: Dialect) -> Scene {
     let strains = strains(random);
     let gap = random.decade(0.05, 3.0);
-    let mut stack = Stack::new(random, &Wanted { gap, strains });
+    let mut stack = Stack::new(
+        random,
+        &Wanted {
+            gap,
+            strains,
+            stance: Stance::Any,
+        },
+    );
     let down = [0.0, 0.0, -stack.depth - gap * stack.facet];
     let aside = if random.chance(0.3) {
         stack.way(random)
@@ -297,6 +345,7 @@ pub fn overlap(random: &mut Random, dialect: Dialect) -> Scene {
         &Wanted {
             gap,
             strains: Strains::Moderate,
+            stance: Stance::Any,
         },
     );
     let initial = random.one_of(&[None, Some("close"), Some("resolve")]);

@@ -164,13 +164,7 @@ pub fn edge(random: &mut Random, _: Dialect) -> Scene {
 
 /// Two blocks with an oblique interface, pressed.
 pub fn oblique(random: &mut Random, _: Dialect) -> Scene {
-    let mut stack = Stack::new(
-        random,
-        &Wanted {
-            gap: 0.0,
-            strains: Strains::Moderate,
-        },
-    );
+    let mut stack = Stack::new(random, &Wanted::touching(Strains::Moderate));
     let slopes = [random.between(-0.25, 0.25), random.between(-0.25, 0.25)];
     let mut middles = [[0.0; 2]; 2];
     for (index, body) in stack.scene.bodies.iter_mut().enumerate() {

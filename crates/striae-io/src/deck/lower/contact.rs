@@ -11,7 +11,9 @@ use crate::deck::{
 use std::{collections::BTreeSet, path::Path};
 use striae_law::friction::Friction;
 use striae_mesh::{Face, Mesh, NodeId};
-use striae_solve::model::{Enforcement, Pair, RigidId, RigidShape, RigidSurface, Side};
+use striae_solve::model::{
+    ClosedGaps, Enforcement, Initial, Pair, RigidId, RigidShape, RigidSurface, Side,
+};
 use striae_surface::texture::Paint;
 
 /// What a side of a pair may refer to.
@@ -104,7 +106,25 @@ fn lower_pair(
             .search_distance
             .as_ref()
             .map(|distance| distance.value.0),
+        initial: pair
+            .initial
+            .as_ref()
+            .map_or(Initial::AsMeshed, |initial| lower_initial(&initial.value)),
     })
+}
+
+fn lower_initial(raw: &raw::Initial) -> Initial {
+    /// Gaps that are closed by default, over the local facet size.
+    const SHARE: f64 = 0.1;
+    match raw {
+        raw::Initial::Word(raw::InitialWord::AsMeshed) => Initial::AsMeshed,
+        raw::Initial::Word(raw::InitialWord::Close) => Initial::Close(ClosedGaps::Share(SHARE)),
+        raw::Initial::Word(raw::InitialWord::Resolve) => Initial::Resolve,
+        raw::Initial::Close(raw) => {
+            let gap = raw.close.as_ref().map_or(0.0, |gap| gap.value.0);
+            Initial::Close(ClosedGaps::UpTo(gap))
+        }
+    }
 }
 
 /// A side with its texture.

@@ -9,6 +9,7 @@ mod friction;
 mod generator;
 mod hold;
 mod inertia;
+mod initial;
 mod mesh;
 mod nodal;
 mod rigid;
@@ -108,6 +109,11 @@ pub(super) fn deck(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_
         pairs: whole(pairs)?,
         steps: whole(steps)?,
         solver: solver(raw.solver.as_ref().map(|solver| &solver.value)),
+    };
+    let model = if faults.is_empty() {
+        initial::fitted(model, list(&raw.pair), faults)?
+    } else {
+        model
     };
     Some(Deck {
         model,

@@ -3,8 +3,12 @@
 use super::Texture;
 use crate::deck::{
     declare::{choice, either, table, words},
+    faults::FaultList,
+    form::Form,
+    read::{Place, Read, Value, read_table, unexpected},
     value::{All, NonNegative, Number, Positive, Text},
 };
+use toml::de::DeValue;
 
 table! {
     /// Two surfaces that may touch; neither is master or slave.
@@ -22,6 +26,51 @@ table! {
         /// Distance over which contact is looked for ahead. It bears on the cost, not on the
         /// result. Default: half the local facet size.
         optional search_distance: Positive,
+        /// What is made of gaps and overlaps of the meshes before anything has moved: `as-meshed` takes gaps as they are and refuses overlaps of more than 2 % of the local facet size; `close` moves nodes without strain until overlaps are gone, and gaps of up to a tenth of the local facet size or up to the one that is given; `resolve` presses overlaps out in the course of the first step. Default: `as-meshed`.
+        optional initial: Initial,
+    }
+}
+
+/// What is made of gaps and overlaps of the meshes.
+#[derive(Clone, Debug)]
+pub(crate) enum Initial {
+    /// One of a few treatments.
+    Word(InitialWord),
+    /// Gaps are closed up to a given one.
+    Close(CloseGaps),
+}
+
+words! {
+    /// What is made of gaps and overlaps of the meshes.
+    InitialWord {
+        /// Gaps are as they are, overlaps a fault.
+        AsMeshed = "as-meshed",
+        /// Nodes are moved without strain.
+        Close = "close",
+        /// Overlaps are pressed out in the course of the first step.
+        Resolve = "resolve",
+    }
+}
+
+table! {
+    /// Gaps and overlaps closed without strain.
+    CloseGaps {
+        /// Largest gap that is closed.
+        required close: NonNegative,
+    }
+}
+
+impl Read for Initial {
+    fn read(value: &Value<'_>, place: &Place, faults: &mut FaultList<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::String(_) => InitialWord::read(value, place, faults).map(Self::Word),
+            DeValue::Table(_) => read_table(value, place, faults).map(Self::Close),
+            _ => unexpected(value, place, faults, &Self::form()),
+        }
+    }
+
+    fn form() -> Form {
+        Form::Any(vec![InitialWord::form(), CloseGaps::form()])
     }
 }
 

@@ -1,0 +1,192 @@
+//! How the sides of a pair fit before anything has moved: gaps and overlaps.
+//!
+//! ```text
+//! gap > 0:  distance from the nearest point of the other side, for points that face it
+//! gap < 0:  depth inside the other side, see [`crate::interference`]
+//! ```
+//!
+//! A point faces the other side if `n . n_other < -.2` and it is not beyond its edge.
+
+use rayon::prelude::*;
+use striae_mesh::Vec3;
+
+use crate::{
+    configuration::Snapshot,
+    interference::{
+        Interference, Nearest, Spot, Stage, Standing, inside, nearest_of, position, spots,
+    },
+};
+
+/// Cosine between the normals of points that face each other.
+const FACING: f64 = -0.2;
+
+/// How two sides fit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fit {
+    /// The smallest gap; `None` where the sides do not face each other.
+    pub gap: Option<Opening>,
+    /// The deepest overlap for its facet size.
+    pub overlap: Option<Interference>,
+    /// Distance of the sides where they are nearest, whatever faces what.
+    pub distance: f64,
+    /// Whether all nodes of side `a` are behind a rigid side.
+    pub lies: Lies,
+}
+
+/// Where side `a` is with respect to a rigid side.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lies {
+    /// Some of it is in front, or the other side is not rigid.
+    InFront,
+    /// All of it is behind.
+    Behind,
+}
+
+/// A gap.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Opening {
+    /// Side of the point.
+    pub side: usize,
+    /// The point.
+    pub spot: Spot,
+    /// Where it is.
+    pub point: Vec3,
+    /// Its distance.
+    pub gap: f64,
+}
+
+/// How the sides of a pair fit.
+pub fn fit(stage: &Stage) -> Fit {
+    let seen: Vec<Seen> = sides(stage)
+        .flat_map(|side| {
+            let spots = spots(stage.configuration.side(side).surface);
+            let seen: Vec<Seen> = spots
+                .into_par_iter()
+                .with_min_len(16)
+                .filter_map(|spot| seen(stage, side, spot))
+                .collect();
+            seen
+        })
+        .collect();
+    let gaps = seen
+        .iter()
+        .filter(|seen| seen.faces)
+        .map(|seen| seen.opening);
+    let distances = seen.iter().map(|seen| seen.opening.gap);
+    let of_a = || seen.iter().filter(|seen| seen.opening.side == 0);
+    let all_behind = of_a().all(|seen| seen.standing == Standing::Behind);
+    let overlaps = inside(stage, 0.0).into_iter();
+    Fit {
+        gap: gaps.reduce(|a, b| if b.gap < a.gap { b } else { a }),
+        overlap: overlaps.reduce(|a, b| if b.share() > a.share() { b } else { a }),
+        distance: distances.fold(f64::INFINITY, f64::min),
+        lies: if stage.configuration.pair.is_rigid() && all_behind && of_a().next().is_some() {
+            Lies::Behind
+        } else {
+            Lies::InFront
+        },
+    }
+}
+
+/// Gap of a node and the point of the other side that it would have to go to, if it faces
+/// that or is inside.
+pub fn signed_gap(stage: &Stage, side: usize, node: u32) -> Option<(f64, Vec3)> {
+    let seen = seen(stage, side, Spot::Node(node))?;
+    let gap = match seen.standing {
+        Standing::Front => seen.faces.then_some(seen.opening.gap),
+        Standing::Behind => seen.within.then_some(-seen.opening.gap),
+        Standing::Beside => None,
+    };
+    gap.map(|gap| (gap, seen.target))
+}
+
+/// Initial overlap of every node of every side with facets, zero where there is none.
+/// Beyond the edge of the other side it is that with the plane of the nearest facet, for
+/// the width of a facet, so that interpolated overlaps are right up to the edge.
+pub fn overlaps(stage: &Stage) -> [Vec<f64>; 2] {
+    let mut all = [Vec::new(), Vec::new()];
+    for side in sides(stage) {
+        let snapshot = stage.configuration.side(side);
+        let of_node = |node: u32| {
+            let seen = seen(stage, side, Spot::Node(node))?;
+            let near = seen.opening.gap < snapshot.sizes[node as usize];
+            match seen.standing {
+                Standing::Front => None,
+                Standing::Behind => seen.within.then_some(seen.opening.gap),
+                Standing::Beside => (near && seen.depth > 0.0).then_some(seen.depth),
+            }
+        };
+        let nodes = 0..snapshot.x.len() as u32;
+        all[side] = nodes.map(|node| of_node(node).unwrap_or(0.0)).collect();
+    }
+    all
+}
+
+/// What a point sees of the other side.
+struct Seen {
+    opening: Opening,
+    standing: Standing,
+    /// Whether the point is in front of what it sees, and faces it.
+    faces: bool,
+    /// Whether a point behind is inside.
+    within: bool,
+    /// Distance behind the plane of the nearest facet.
+    depth: f64,
+    target: Vec3,
+}
+
+fn sides(stage: &Stage) -> impl Iterator<Item = usize> {
+    let sides = stage.configuration.sides.each_ref().map(Option::is_some);
+    (0..2).filter(move |&side| sides[side])
+}
+
+fn seen(stage: &Stage, side: usize, spot: Spot) -> Option<Seen> {
+    let own = stage.configuration.side(side);
+    let point = position(own, spot);
+    let (nearest, thickness) = match stage.configuration.plane() {
+        Some(plane) => (on_plane(&point, &plane), f64::INFINITY),
+        None => {
+            let nearest = nearest_of(stage.configuration.side(1 - side), &point)?;
+            (nearest, stage.thickness.0[1 - side][nearest.facet.index()])
+        }
+    };
+    let cosine = normal(own, spot).dot(&nearest.normal);
+    Some(Seen {
+        opening: Opening {
+            side,
+            spot,
+            point,
+            gap: nearest.distance,
+        },
+        standing: nearest.standing,
+        faces: nearest.standing == Standing::Front && cosine < FACING,
+        within: nearest.standing == Standing::Behind && nearest.distance < thickness,
+        depth: (nearest.point - point).dot(&nearest.normal),
+        target: nearest.point,
+    })
+}
+
+fn on_plane(x: &Vec3, (point, normal): &(Vec3, Vec3)) -> Nearest {
+    let height = (x - point).dot(normal);
+    Nearest {
+        facet: striae_mesh::FacetId(0),
+        point: x - normal * height,
+        normal: *normal,
+        distance: height.abs(),
+        standing: if height < 0.0 {
+            Standing::Behind
+        } else {
+            Standing::Front
+        },
+    }
+}
+
+fn normal(snapshot: &Snapshot, spot: Spot) -> Vec3 {
+    match spot {
+        Spot::Node(node) => snapshot.normals[node as usize],
+        Spot::Centre(facet) => {
+            let [a, b, c, d] = snapshot.corner_positions(facet);
+            (c - a).cross(&(d - b)).normalize()
+        }
+    }
+}

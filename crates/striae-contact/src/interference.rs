@@ -1,0 +1,376 @@
+//! Interference of the two sides of a pair, whatever contact has seen of it.
+//!
+//! It is found from two converged configurations on *all* facets, without a search
+//! distance and without a formulation of contact:
+//!
+//! - **inside**: a point of one side is behind the other one, by less than the body is
+//!   thick there, see [`nearest`](Nearest) and [`Thickness`];
+//! - **passed**: a point goes through a facet of the other side on its way, both moving
+//!   in straight lines, and is behind it for a while. So a body that has gone through a
+//!   thin one is found, too.
+//!
+//! Points are the nodes of the surfaces and the centres of their facets. What lies
+//! behind by less than a share of the local facet size (or of 2.5 times the thickness,
+//! if that is less) is none, as weighted contact lets nodes in a little, nor is what was in as deep before. Against a rigid plane
+//! what counts is the distance. Bodies whose swept boxes do not meet cost nothing,
+//! others `O(n log n)`. The motion of a rigid body that turns is that of its chords,
+//! so an increment should turn by much less than half a turn.
+
+mod nearest;
+mod passage;
+mod thickness;
+mod triangle;
+
+use rayon::prelude::*;
+use striae_mesh::{FacetId, Vec3};
+use striae_surface::topology::{Surface, distinct_corners};
+
+pub use nearest::{Nearest, Standing};
+pub use thickness::{Fibre, Thickness, fibres, lengths};
+
+use crate::{
+    configuration::{Configuration, Snapshot},
+    search::{Bounds, Tree},
+};
+use nearest::Placed;
+use passage::{Moving, Through};
+
+/// Share of the local facet size that a point may be in by default.
+pub const SHARE: f64 = 0.1;
+
+/// Facet size over thickness from which on a body is thin.
+const THIN: f64 = 2.5;
+
+/// A configuration and how thick the bodies are in it.
+#[derive(Clone, Copy, Debug)]
+pub struct Stage<'a> {
+    /// Where the sides are.
+    pub configuration: &'a Configuration<'a>,
+    /// How thick they are.
+    pub thickness: &'a Thickness,
+}
+
+/// A point of one side that is where the other one is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interference {
+    /// Side of the point.
+    pub side: usize,
+    /// The point.
+    pub spot: Spot,
+    /// Surface node that is the point, or the corner of its facet that is in deepest.
+    pub node: u32,
+    /// Where the point is at the end.
+    pub point: Vec3,
+    /// Distance behind the other surface; the largest on its way for what passed, and
+    /// the distance on the other side for what has gone through a body.
+    pub depth: f64,
+    /// Local facet size, by which depth is judged.
+    pub size: f64,
+    /// What it is in.
+    pub place: Place,
+    /// How it came there.
+    pub kind: Kind,
+}
+
+impl Interference {
+    /// Depth over the local facet size.
+    pub fn share(&self) -> f64 {
+        self.depth / self.size
+    }
+}
+
+/// A point of a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Spot {
+    /// Surface node.
+    Node(u32),
+    /// Centre of a facet.
+    Centre(FacetId),
+}
+
+/// What a point is behind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// A rigid plane.
+    Plane,
+    /// A facet.
+    Facet(FacetId),
+}
+
+/// How a point came to be where the other side is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// It is inside.
+    Inside,
+    /// It has passed through the surface and is not inside any more.
+    Passed,
+}
+
+/// Interference that is deeper than `share` of the facet size at the end and was less at
+/// the start, side by side.
+pub fn interferences(start: &Stage, end: &Stage, share: f64) -> Vec<Interference> {
+    if let Some(plane) = end.configuration.plane() {
+        return behind_plane(start.configuration, end.configuration, plane, share);
+    }
+    let sides = [0, 1].map(|side| {
+        let at = [start, end].map(|stage| stage.configuration.side(side));
+        Moving::new(at, end.thickness.largest(side))
+    });
+    if !sides[0].may_meet(&sides[1]) {
+        return Vec::new();
+    }
+    [0, 1]
+        .into_iter()
+        .flat_map(|side| of_side(start, end, &sides, side, share))
+        .collect()
+}
+
+/// All points of both sides that are inside the other one by more than `share` of the
+/// facet size.
+pub fn inside(stage: &Stage, share: f64) -> Vec<Interference> {
+    let configuration = stage.configuration;
+    if let Some(plane) = configuration.plane() {
+        let snapshot = configuration.side(0);
+        let spots = spots(snapshot.surface);
+        let found = spots.into_iter().filter_map(|spot| {
+            let depth = -height(snapshot, spot, &plane);
+            let size = size(snapshot, spot);
+            let found = || at_plane(snapshot, spot, depth, size);
+            (depth > share * size).then(found)
+        });
+        return found.collect();
+    }
+    let within = |side: usize| {
+        let spots = spots(configuration.side(side).surface);
+        let found: Vec<_> = spots
+            .into_par_iter()
+            .with_min_len(16)
+            .filter_map(|spot| {
+                let found = depth_inside(stage, side, spot)?;
+                let size = judged_by(stage, side, spot, found.facet);
+                let point = position(configuration.side(side), spot);
+                (found.distance > share * size)
+                    .then(|| interference(stage, side, spot, (point, &found), size, Kind::Inside))
+            })
+            .collect();
+        found
+    };
+    [0, 1].into_iter().flat_map(within).collect()
+}
+
+/// Where a point is with respect to the facets of a side.
+pub fn nearest_of(snapshot: &Snapshot, x: &Vec3) -> Option<Nearest> {
+    placed(snapshot).nearest(x)
+}
+
+/// Nodes and facet centres of a surface.
+pub fn spots(surface: &Surface) -> Vec<Spot> {
+    let nodes = (0..surface.nodes().len() as u32).map(Spot::Node);
+    let centres = (0..surface.facets().len()).map(|at| Spot::Centre(FacetId::new(at)));
+    nodes.chain(centres).collect()
+}
+
+/// Where a point of a surface is.
+pub fn position(snapshot: &Snapshot, spot: Spot) -> Vec3 {
+    located(snapshot.surface, spot, |node| snapshot.x[node as usize])
+}
+
+fn located(surface: &Surface, spot: Spot, x: impl Fn(u32) -> Vec3) -> Vec3 {
+    match spot {
+        Spot::Node(node) => x(node),
+        Spot::Centre(facet) => thickness::centre(&surface.facets()[facet.index()], x),
+    }
+}
+
+fn placed<'a>(snapshot: &'a Snapshot) -> Placed<'a, impl Fn(u32) -> Vec3 + 'a> {
+    Placed {
+        surface: snapshot.surface,
+        tree: &snapshot.tree,
+        x: |node| snapshot.x[node as usize],
+    }
+}
+
+/// Local facet size at a point.
+fn size(snapshot: &Snapshot, spot: Spot) -> f64 {
+    match spot {
+        Spot::Node(node) => snapshot.sizes[node as usize],
+        Spot::Centre(facet) => facet_size(snapshot, facet),
+    }
+}
+
+fn facet_size(snapshot: &Snapshot, facet: FacetId) -> f64 {
+    let corners = snapshot.corners(facet);
+    let ring = distinct_corners(&corners);
+    ring.iter()
+        .map(|&node| snapshot.sizes[node as usize])
+        .sum::<f64>()
+        / ring.len() as f64
+}
+
+/// Size that depth behind a facet is judged by: that of the facets of the deformable
+/// side, the larger of two; less where the body is thin, so that a point that has come
+/// to its middle is inside.
+fn judged_by(stage: &Stage, side: usize, spot: Spot, facet: FacetId) -> f64 {
+    let configuration = stage.configuration;
+    let own = || size(configuration.side(side), spot);
+    let other = || facet_size(configuration.side(1 - side), facet);
+    let size = match (configuration.pair.is_rigid(), side) {
+        (false, _) => own().max(other()),
+        (true, 0) => own(),
+        (true, _) => other(),
+    };
+    size.min(THIN * stage.thickness.0[1 - side][facet.index()])
+}
+
+/// Where a point is inside the other side.
+fn depth_inside(stage: &Stage, side: usize, spot: Spot) -> Option<Nearest> {
+    let x = position(stage.configuration.side(side), spot);
+    let other = stage.configuration.side(1 - side);
+    let thickness = &stage.thickness.0[1 - side];
+    let most = stage.thickness.largest(1 - side);
+    let near = other.tree.bounds()?.squared_distance(&x) <= most * most;
+    let nearest = near.then(|| placed(other).nearest(&x))??;
+    let inside =
+        nearest.standing == Standing::Behind && nearest.distance < thickness[nearest.facet.index()];
+    inside.then_some(nearest)
+}
+
+fn interference(
+    stage: &Stage,
+    side: usize,
+    spot: Spot,
+    (point, nearest): (Vec3, &Nearest),
+    size: f64,
+    kind: Kind,
+) -> Interference {
+    let snapshot = stage.configuration.side(side);
+    Interference {
+        side,
+        spot,
+        node: deepest_corner(snapshot, spot, &nearest.normal),
+        point,
+        depth: nearest.distance,
+        size,
+        place: Place::Facet(nearest.facet),
+        kind,
+    }
+}
+
+/// The node, or the corner of a facet that is farthest against `n`.
+fn deepest_corner(snapshot: &Snapshot, spot: Spot, n: &Vec3) -> u32 {
+    let facet = match spot {
+        Spot::Node(node) => return node,
+        Spot::Centre(facet) => facet,
+    };
+    let height = |node: &u32| snapshot.x[*node as usize].dot(n);
+    let corners = snapshot.corners(facet).into_iter();
+    let lowest = corners.min_by(|a, b| height(a).total_cmp(&height(b)));
+    lowest.expect("a facet has corners")
+}
+
+fn height(snapshot: &Snapshot, spot: Spot, (point, normal): &(Vec3, Vec3)) -> f64 {
+    (position(snapshot, spot) - point).dot(normal)
+}
+
+fn at_plane(snapshot: &Snapshot, spot: Spot, depth: f64, size: f64) -> Interference {
+    Interference {
+        side: 0,
+        spot,
+        node: match spot {
+            Spot::Node(node) => node,
+            Spot::Centre(facet) => snapshot.corners(facet)[0],
+        },
+        point: position(snapshot, spot),
+        depth,
+        size,
+        place: Place::Plane,
+        kind: Kind::Inside,
+    }
+}
+
+/// Depth that is more than another one by more than round-off.
+fn is_deeper(depth: f64, before: f64) -> bool {
+    depth > before * (1.0 + 1e-9)
+}
+
+/// Points behind a plane. Its facets are flat enough for their nodes to say it all.
+fn behind_plane(
+    start: &Configuration,
+    end: &Configuration,
+    plane: (Vec3, Vec3),
+    share: f64,
+) -> Vec<Interference> {
+    let before = start.plane().unwrap_or(plane);
+    let [first, last] = [start, end].map(|configuration| configuration.side(0));
+    (0..last.x.len() as u32)
+        .map(Spot::Node)
+        .filter_map(|spot| {
+            let depth = -height(last, spot, &plane);
+            let size = size(last, spot);
+            let news = depth > share * size && is_deeper(depth, -height(first, spot, &before));
+            news.then(|| at_plane(last, spot, depth, size))
+        })
+        .collect()
+}
+
+fn of_side(
+    start: &Stage,
+    end: &Stage,
+    sides: &[Moving; 2],
+    side: usize,
+    share: f64,
+) -> Vec<Interference> {
+    let spots = spots(end.configuration.side(side).surface);
+    spots
+        .into_par_iter()
+        .with_min_len(16)
+        .filter_map(|spot| of_spot(start, end, sides, (side, spot), share))
+        .collect()
+}
+
+fn of_spot(
+    start: &Stage,
+    end: &Stage,
+    sides: &[Moving; 2],
+    (side, spot): (usize, Spot),
+    share: f64,
+) -> Option<Interference> {
+    let judged = |facet| judged_by(end, side, spot, facet);
+    let before = || depth_inside(start, side, spot);
+    let point = position(end.configuration.side(side), spot);
+    if let Some(now) = depth_inside(end, side, spot)
+        && now.distance > share * judged(now.facet)
+    {
+        let news = is_deeper(now.distance, before().map_or(0.0, |known| known.distance));
+        let size = judged(now.facet);
+        let found = || interference(end, side, spot, (point, &now), size, Kind::Inside);
+        return news.then(found);
+    }
+    let (passed, size) = match sides[1 - side].passed_by(&sides[side].path(spot), before)? {
+        Through::Body(nearest) => (nearest, judged(nearest.facet)),
+        Through::Surface(deepest) => {
+            let size = judged(deepest.facet);
+            (deepest.distance > share * size).then_some((deepest, size))?
+        }
+    };
+    Some(interference(
+        end,
+        side,
+        spot,
+        (point, &passed),
+        size,
+        Kind::Passed,
+    ))
+}
+
+/// The box around a surface on its way.
+fn swept_box(at: &[&Snapshot; 2], facet: &[u32; 4]) -> Bounds {
+    let corners = distinct_corners(facet).iter();
+    Bounds::around(corners.flat_map(|&node| at.map(|snapshot| snapshot.x[node as usize])))
+}
+
+/// A tree over the swept boxes of the facets.
+fn swept_tree(at: &[&Snapshot; 2]) -> Tree {
+    let facets = at[0].surface.facets().iter();
+    Tree::new(facets.map(|facet| swept_box(at, facet)).collect())
+}

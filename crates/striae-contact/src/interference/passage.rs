@@ -1,0 +1,158 @@
+//! Points that pass through moving facets.
+//!
+//! A point that goes through a facet from its front is followed from there on, in steps
+//! of a quarter of a facet of relative motion: how deep it is behind the nearest facet
+//! while it is behind one. If it ends in front again, and has come out the way it went
+//! in, the passage is one of the straight lines only; if it comes out on the other side,
+//! it has gone through the body.
+
+use striae_mesh::{FacetId, Vec3};
+
+use super::{
+    Spot, located,
+    nearest::{Nearest, Placed, Standing, triangles},
+    swept_tree,
+    triangle::{Way, passages},
+};
+use crate::{
+    configuration::Snapshot,
+    search::{Bounds, Tree},
+};
+
+/// A side between two configurations.
+pub(super) struct Moving<'a> {
+    at: [&'a Snapshot<'a>; 2],
+    tree: Tree,
+    thickness: f64,
+}
+
+/// A passage through a facet.
+struct Passage {
+    time: f64,
+    way: Way,
+    normal: Vec3,
+}
+
+/// What a point goes through.
+pub(super) enum Through {
+    /// Into the surface, and how deep.
+    Surface(Nearest),
+    /// Into the surface and out on the other side; where that is nearest at the end.
+    Body(Nearest),
+}
+
+/// Cosine between the normals where a point goes in and out that makes it a way through.
+const OPPOSITE: f64 = -0.2;
+/// Steps over a facet of relative motion, and most of them.
+const STEPS: f64 = 4.0;
+const MOST_STEPS: f64 = 64.0;
+
+impl<'a> Moving<'a> {
+    pub(super) fn new(at: [&'a Snapshot<'a>; 2], thickness: f64) -> Self {
+        Self {
+            tree: swept_tree(&at),
+            at,
+            thickness,
+        }
+    }
+
+    /// Whether something of the sides, or what is behind their facets, can meet.
+    pub(super) fn may_meet(&self, other: &Self) -> bool {
+        let boxes = (self.tree.bounds(), other.tree.bounds());
+        let (Some(own), Some(others)) = boxes else {
+            return false;
+        };
+        own.inflated(self.thickness)
+            .meets(&others.inflated(other.thickness))
+    }
+
+    /// Where a point is at both ends.
+    pub(super) fn path(&self, spot: Spot) -> [Vec3; 2] {
+        let place = |at: &Snapshot| located(at.surface, spot, |node| at.x[node as usize]);
+        self.at.map(place)
+    }
+
+    /// How a point goes through the surface; `before` says where it was inside at the
+    /// start.
+    pub(super) fn passed_by(
+        &self,
+        path: &[Vec3; 2],
+        before: impl FnOnce() -> Option<Nearest>,
+    ) -> Option<Through> {
+        let bounds = Bounds::around(*path);
+        let near = self
+            .tree
+            .meeting(&bounds.inflated(1e-9 * (path[1] - path[0]).norm()));
+        let first = *near.first()?;
+        let through = self.passages(path, &near);
+        let inward = through.iter().find(|passage| passage.way == Way::In);
+        let inward = inward.map(|passage| (passage.time, passage.normal));
+        let (since, normal) = before().map(|known| (0.0, known.normal)).or(inward)?;
+        let normal = normal.normalize();
+        let out = through
+            .iter()
+            .filter(|p| p.way == Way::Out && p.time >= since);
+        let ways: Vec<f64> = out.map(|p| p.normal.normalize().dot(&normal)).collect();
+        let end = self.placed(1.0).nearest(&path[1])?;
+        if ways.iter().any(|cosine| *cosine < OPPOSITE) {
+            return Some(Through::Body(end));
+        }
+        if end.standing == Standing::Front && ways.iter().any(|cosine| *cosine > 0.0) {
+            return None;
+        }
+        let deepest = self.deepest(path, since, self.steps(path, first))?;
+        Some(Through::Surface(deepest))
+    }
+
+    fn passages(&self, path: &[Vec3; 2], near: &[u32]) -> Vec<Passage> {
+        let mut all = Vec::new();
+        for &facet in near {
+            let corners = self.at[0].corners(FacetId(facet));
+            let [start, end] = self
+                .at
+                .map(|at| triangles(&corners, |node| at.x[node as usize]));
+            for (first, last) in start.into_iter().zip(end) {
+                for (time, way) in passages(path, &[first, last]) {
+                    let [a, b, c] = [0, 1, 2].map(|k: usize| first[k].lerp(&last[k], time));
+                    let normal = (b - a).cross(&(c - a));
+                    all.push(Passage { time, way, normal });
+                }
+            }
+        }
+        all.sort_by(|a, b| a.time.total_cmp(&b.time));
+        all
+    }
+
+    fn placed(&self, time: f64) -> Placed<'_, impl Fn(u32) -> Vec3> {
+        let at = self.at;
+        Placed {
+            surface: at[0].surface,
+            tree: &self.tree,
+            x: move |node| at[0].x[node as usize].lerp(&at[1].x[node as usize], time),
+        }
+    }
+
+    /// Steps that follow a point over the facets near it.
+    fn steps(&self, path: &[Vec3; 2], facet: u32) -> usize {
+        let node = self.at[0].corners(FacetId(facet))[0] as usize;
+        let own = self.at[1].x[node] - self.at[0].x[node];
+        let motion = (path[1] - path[0] - own).norm();
+        (STEPS * motion / self.at[1].sizes[node])
+            .ceil()
+            .clamp(1.0, MOST_STEPS) as usize
+    }
+
+    /// Where the point is deepest behind the surface after the time `since`.
+    fn deepest(&self, path: &[Vec3; 2], since: f64, steps: usize) -> Option<Nearest> {
+        let mut deepest: Option<Nearest> = None;
+        for step in 1..=steps {
+            let time = since + (1.0 - since) * step as f64 / steps as f64;
+            let nearest = self.placed(time).nearest(&path[0].lerp(&path[1], time))?;
+            let is_deeper = |known: &Nearest| nearest.distance > known.distance;
+            if nearest.standing == Standing::Behind && deepest.as_ref().is_none_or(is_deeper) {
+                deepest = Some(nearest);
+            }
+        }
+        deepest
+    }
+}

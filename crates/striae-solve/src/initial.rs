@@ -1,0 +1,257 @@
+//! Gaps and overlaps of the pairs of a model before anything has moved.
+//!
+//! Overlaps of more than two hundredths of the local facet size are a [`fault`] unless
+//! the pair says what to make of them: [`close`] moves the nodes of the smaller side to
+//! the other one, without strain, as it is the reference mesh that changes; [`Offsets`] let overlaps fade over
+//! the first step.
+
+mod close;
+mod reach;
+
+use striae_contact::{
+    configuration::Configuration,
+    initial::{Fit, Lies, fit, overlaps},
+    interference::{Stage, Standing, nearest_of},
+    placement::Placement,
+};
+use striae_mesh::{ElementId, NodeId, Vec3};
+
+use crate::{
+    interference::{Positions, add_fibres, configuration, thickness, thickness_with},
+    model::{Initial, Model, PairId, Side},
+    problem::{PairGeometry, Problem, pair_geometry},
+    state::State,
+};
+
+pub use close::close;
+pub use reach::may_meet;
+
+/// Overlap over the local facet size that is no fault of the mesh.
+pub const LARGEST_OVERLAP: f64 = 0.02;
+/// Overlap over the local facet size that is round-off.
+pub const ROUND_OFF: f64 = 1e-9;
+
+/// What cannot be simulated as meshed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum InitialFault {
+    /// Bodies overlap.
+    #[error(
+        "pair `{pair}`: `{body}` is {depth:.3e} inside `{other}` at ({:.6}, {:.6}, {:.6}), next to its {node}; that is {:.0} % of the local facet size. Mend the mesh, or set `initial = \"close\"` to move nodes or `initial = \"resolve\"` to press the overlap out in the first step",
+        at.x, at.y, at.z, 100.0 * share
+    )]
+    Overlap {
+        /// Name of the pair.
+        pair: String,
+        /// Body or rigid surface of the node.
+        body: String,
+        /// The node.
+        node: NodeId,
+        /// What it is inside of.
+        other: String,
+        /// Where it is.
+        at: Vec3,
+        /// How deep.
+        depth: f64,
+        /// The same over the local facet size.
+        share: f64,
+    },
+    /// A body is on the wrong side of a rigid surface.
+    #[error(
+        "pair `{pair}`: body `{body}` is wholly behind `{rigid}`, whose normal points away from it; turn the normal of `{rigid}` round"
+    )]
+    Behind {
+        /// Name of the pair.
+        pair: String,
+        /// The body.
+        body: String,
+        /// The rigid surface.
+        rigid: String,
+    },
+    /// Moving nodes would turn an element inside out.
+    #[error(
+        "pair `{pair}`: `initial = \"close\"` would turn {element} of body `{body}` inside out; close smaller gaps, or mend the mesh"
+    )]
+    Inverted {
+        /// Name of the pair.
+        pair: String,
+        /// The body.
+        body: String,
+        /// The first such element.
+        element: ElementId,
+    },
+}
+
+impl InitialFault {
+    /// Name of the pair.
+    pub fn pair(&self) -> &str {
+        match self {
+            Self::Overlap { pair, .. }
+            | Self::Behind { pair, .. }
+            | Self::Inverted { pair, .. } => pair,
+        }
+    }
+}
+
+/// How all pairs fit; `None` for pairs that are no pairs.
+pub fn fits(model: &Model) -> Vec<Option<Fit>> {
+    let pairs = 0..model.pairs.len();
+    pairs
+        .map(|pair| Reference::new(model, PairId(pair)).map(|reference| reference.fit(model)))
+        .collect()
+}
+
+/// What is wrong with a pair that fits like this.
+pub fn fault(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
+    let of_pair = &model.pairs[pair.0];
+    if fit.lies == Lies::Behind && is_wholly_behind(model, pair) {
+        return Some(InitialFault::Behind {
+            pair: of_pair.name.clone(),
+            body: side_name(model, &of_pair.a).to_owned(),
+            rigid: side_name(model, &of_pair.b).to_owned(),
+        });
+    }
+    let overlap = fit
+        .overlap
+        .filter(|overlap| overlap.share() > LARGEST_OVERLAP)?;
+    if of_pair.initial == Initial::Resolve {
+        return None;
+    }
+    let node = surface_node(model, pair, overlap.side, overlap.node)?;
+    Some(InitialFault::Overlap {
+        pair: of_pair.name.clone(),
+        body: other_name(model, pair, 1 - overlap.side).to_owned(),
+        node,
+        other: other_name(model, pair, overlap.side).to_owned(),
+        at: overlap.point,
+        depth: overlap.depth,
+        share: overlap.share(),
+    })
+}
+
+/// The node, of the mesh of its body or rigid surface, that a surface node is.
+pub fn surface_node(model: &Model, pair: PairId, side: usize, node: u32) -> Option<NodeId> {
+    let geometry = pair_geometry(model, &untextured(&model.pairs[pair.0])).ok()?;
+    let surface = geometry.contact.sides[side].surface()?;
+    surface.nodes().get(node as usize).copied()
+}
+
+/// Name of the body or rigid surface opposite to a side.
+pub fn other_name(model: &Model, pair: PairId, side: usize) -> &str {
+    let of_pair = &model.pairs[pair.0];
+    side_name(model, [&of_pair.b, &of_pair.a][side])
+}
+
+fn side_name<'m>(model: &'m Model, side: &Side) -> &'m str {
+    match side {
+        Side::Deformable { body, .. } => &model.bodies[body.0].name,
+        Side::Rigid(rigid) => &model.rigid_surfaces[rigid.0].name,
+    }
+}
+
+fn untextured(pair: &crate::model::Pair) -> crate::model::Pair {
+    crate::model::Pair {
+        textures: [None, None],
+        ..pair.clone()
+    }
+}
+
+/// A pair in the reference configuration.
+struct Reference {
+    geometry: PairGeometry,
+}
+
+impl Reference {
+    fn new(model: &Model, pair: PairId) -> Option<Self> {
+        let mut geometry = pair_geometry(model, &untextured(&model.pairs[pair.0])).ok()?;
+        add_fibres(model, std::slice::from_mut(&mut geometry));
+        Some(Self { geometry })
+    }
+
+    /// Reference positions of the surface nodes.
+    fn positions(&self, model: &Model) -> [Vec<Vec3>; 2] {
+        [0, 1].map(|side| match self.geometry.bodies[side] {
+            Some(body) => {
+                let surface = self.geometry.contact.sides[side].surface();
+                let nodes = surface.map_or(&[][..], |surface| surface.nodes());
+                let mesh = &model.bodies[body].mesh;
+                nodes
+                    .iter()
+                    .map(|node| mesh.positions[node.index()])
+                    .collect()
+            }
+            None => self.geometry.rigid_reference.clone(),
+        })
+    }
+
+    fn at<T>(&self, model: &Model, what: impl FnOnce(&Stage) -> T) -> T {
+        let at = |body: usize, node: NodeId| model.bodies[body].mesh.positions[node.index()];
+        let (pair, positions) = (&self.geometry.contact, self.positions(model));
+        what(&Stage {
+            configuration: &Configuration::new(pair, positions, Placement::at_rest()),
+            thickness: &thickness_with(&self.geometry, at),
+        })
+    }
+
+    fn fit(&self, model: &Model) -> Fit {
+        self.at(model, fit)
+    }
+}
+
+/// Whether all nodes of the body of side `a` are behind a rigid side.
+fn is_wholly_behind(model: &Model, pair: PairId) -> bool {
+    let Some(reference) = Reference::new(model, pair) else {
+        return false;
+    };
+    let Some(body) = reference.geometry.bodies[0] else {
+        return false;
+    };
+    let nodes = &model.bodies[body].mesh.positions;
+    reference.at(model, |stage| match stage.configuration.plane() {
+        Some((point, normal)) => nodes.iter().all(|x| (x - point).dot(&normal) < 0.0),
+        None => nodes.iter().all(|x| {
+            let nearest = nearest_of(stage.configuration.side(1), x);
+            nearest.is_some_and(|nearest| nearest.standing == Standing::Behind)
+        }),
+    })
+}
+
+/// Overlaps that are pressed out in the course of the first step.
+///
+/// Contact adds to the gap at a point, before it asks for `g >= 0`,
+///
+/// ```text
+/// left(step, s) o(x),   o = 1/2 (sum N_I^A o_I^A + sum N_J^B o_J^B),   left = 1 - s in the first step
+/// ```
+///
+/// with the interpolation functions of both sides at the pair of points; against a rigid
+/// side, `o = sum N_I^A o_I^A`. So the pair starts without pressure, and from the second
+/// step on nothing of this is left.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Offsets {
+    /// `o_I` of the surface nodes, by side; empty where nothing is resolved.
+    pub sides: [Vec<f64>; 2],
+}
+
+impl Offsets {
+    /// Those of a pair; none unless it says that its overlaps are resolved.
+    pub fn new(problem: &Problem, pair: usize) -> Self {
+        if problem.model.pairs[pair].initial != Initial::Resolve {
+            return Self::default();
+        }
+        let start = State::undeformed(problem);
+        let configuration = configuration(problem, pair, Positions::from(&start));
+        let thickness = thickness(problem, pair, &start.positions);
+        let stage = Stage {
+            configuration: &configuration,
+            thickness: &thickness,
+        };
+        Self {
+            sides: overlaps(&stage),
+        }
+    }
+
+    /// Share of the offsets that is left at the fraction `s` of a step.
+    pub fn left(step: usize, s: f64) -> f64 {
+        if step == 0 { 1.0 - s } else { 0.0 }
+    }
+}

@@ -1,0 +1,103 @@
+//! Gaps and overlaps closed without strain: nodes go to the nearest point of the other side.
+
+use std::cmp::Ordering;
+
+use striae_contact::{initial::signed_gap, interference::Stage};
+use striae_mesh::{MeshError, Vec3};
+
+use super::{InitialFault, Reference};
+use crate::model::{ClosedGaps, Initial, Model, PairId};
+
+/// The model with the gaps closed of all pairs that ask for it, one pair after another.
+///
+/// # Errors
+/// When an element would be turned inside out.
+pub fn close(mut model: Model) -> Result<Model, InitialFault> {
+    for pair in 0..model.pairs.len() {
+        if let Initial::Close(gaps) = model.pairs[pair].initial {
+            close_pair(&mut model, PairId(pair), gaps)?;
+        }
+    }
+    Ok(model)
+}
+
+fn close_pair(model: &mut Model, pair: PairId, gaps: ClosedGaps) -> Result<(), InitialFault> {
+    let Some(reference) = Reference::new(model, pair) else {
+        return Ok(());
+    };
+    let x = reference.at(model, |stage| closed(stage, gaps));
+    for (side, x) in x.into_iter().enumerate() {
+        let surface = reference.geometry.contact.sides[side].surface();
+        let (Some(body), Some(surface)) = (reference.geometry.bodies[side], surface) else {
+            continue;
+        };
+        let mesh = &mut model.bodies[body].mesh;
+        for (node, x) in surface.nodes().iter().zip(x) {
+            mesh.positions[node.index()] = x;
+        }
+        if let Err(MeshError::Inverted { element, .. }) = mesh.check_shape() {
+            return Err(InitialFault::Inverted {
+                pair: model.pairs[pair.0].name.clone(),
+                body: model.bodies[body].name.clone(),
+                element,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Positions of the surface nodes with gaps and overlaps closed.
+fn closed(stage: &Stage, gaps: ClosedGaps) -> [Vec<Vec3>; 2] {
+    let sides = moved(stage);
+    let part = 1.0 / sides.len() as f64;
+    let mut x = [0, 1].map(|side| {
+        let snapshot = stage.configuration.sides[side].as_ref();
+        snapshot.map_or_else(Vec::new, |snapshot| snapshot.x.clone())
+    });
+    for &side in sides {
+        for (node, target) in chosen(stage, side, gaps) {
+            let place = &mut x[side][node as usize];
+            *place += (target - *place) * part;
+        }
+    }
+    x
+}
+
+/// Sides whose nodes are moved: the one with the smaller surface, which the other one
+/// covers, the finer one of two as large, or both half the way.
+fn moved(stage: &Stage) -> &'static [usize] {
+    const SAME: f64 = 1e-6;
+    if stage.configuration.pair.is_rigid() {
+        return &[0];
+    }
+    let [a, b] = [0, 1].map(|side| {
+        let snapshot = stage.configuration.side(side);
+        let facets = snapshot.surface.facets();
+        let area = |facet: &[u32; 4]| {
+            let [a, b, c, d] = facet.map(|node| snapshot.x[node as usize]);
+            0.5 * (c - a).cross(&(d - b)).norm()
+        };
+        (facets.iter().map(area).sum::<f64>(), facets.len())
+    });
+    match (a.0 / b.0, a.1.cmp(&b.1)) {
+        (ratio, _) if ratio < 1.0 - SAME => &[0],
+        (ratio, _) if ratio > 1.0 + SAME => &[1],
+        (_, Ordering::Greater) => &[0],
+        (_, Ordering::Less) => &[1],
+        (_, Ordering::Equal) => &[0, 1],
+    }
+}
+
+/// Nodes with a gap that is closed, or with an overlap, and where they belong.
+fn chosen(stage: &Stage, side: usize, gaps: ClosedGaps) -> Vec<(u32, Vec3)> {
+    let snapshot = stage.configuration.side(side);
+    let limit = |node: u32| match gaps {
+        ClosedGaps::Share(share) => share * snapshot.sizes[node as usize],
+        ClosedGaps::UpTo(gap) => gap,
+    };
+    let within = |node: u32| {
+        let (gap, target) = signed_gap(stage, side, node)?;
+        (gap <= limit(node) * (1.0 + 1e-9)).then_some((node, target))
+    };
+    (0..snapshot.x.len() as u32).filter_map(within).collect()
+}

@@ -1,0 +1,72 @@
+//! Whether the sides of a pair can ever meet.
+//!
+//! What only prescribed displacements move goes as far as the farthest of them, and its
+//! deformation adds no more than that again. Loads, inertia, ties and free coordinates
+//! may take a body anywhere.
+
+use striae_contact::initial::Fit;
+use striae_mesh::Vec3;
+
+use crate::model::{BodyId, Freedom, Model, PairId, Procedure, RigidId, Side};
+
+/// Motion that deformation may add, over that of what is prescribed.
+const DEFORMATION: f64 = 2.0;
+
+/// Whether a pair that fits like this may meet in some step.
+pub fn may_meet(model: &Model, pair: PairId, fit: &Fit) -> bool {
+    let of_pair = &model.pairs[pair.0];
+    let reach = |side: &Side| match side {
+        Side::Deformable { body, .. } => body_reach(model, *body),
+        Side::Rigid(rigid) => rigid_reach(model, *rigid),
+    };
+    match (reach(&of_pair.a), reach(&of_pair.b)) {
+        (Some(a), Some(b)) => fit.distance <= DEFORMATION * (a + b) || fit.overlap.is_some(),
+        _ => true,
+    }
+}
+
+/// How far prescribed displacements take a body; `None`: anywhere.
+fn body_reach(model: &Model, body: BodyId) -> Option<f64> {
+    let tied = |(other, _): &(BodyId, Vec<_>)| *other == body;
+    if model
+        .rigid_surfaces
+        .iter()
+        .any(|rigid| rigid.ties.iter().any(tied))
+    {
+        return None;
+    }
+    let mut farthest: Option<f64> = None;
+    for step in &model.steps {
+        let loaded = step.loads.iter().any(|load| load.body == body);
+        if loaded || step.gravity.is_some() || step.procedure != Procedure::QuasiStatic {
+            return None;
+        }
+        for condition in step.displacements.iter().filter(|d| d.body == body) {
+            let way = condition
+                .components
+                .map(|component| component.unwrap_or(0.0).abs());
+            farthest = Some(farthest.unwrap_or(0.0).max(Vec3::from(way).norm()));
+        }
+    }
+    farthest
+}
+
+/// How far prescribed coordinates take a rigid surface; `None`: anywhere.
+fn rigid_reach(model: &Model, rigid: RigidId) -> Option<f64> {
+    let mut farthest = 0.0_f64;
+    for step in &model.steps {
+        for motion in step.rigid_motions.iter().filter(|m| m.surface == rigid) {
+            let mut way = Vec3::zeros();
+            for (at, coordinate) in motion.coordinates.iter().enumerate() {
+                match coordinate {
+                    Freedom::AsBefore => {}
+                    Freedom::To(target) if at < 3 => way[at] = target.abs(),
+                    Freedom::To(angle) if *angle == 0.0 => {}
+                    Freedom::To(_) | Freedom::Free => return None,
+                }
+            }
+            farthest = farthest.max(way.norm());
+        }
+    }
+    Some(farthest)
+}

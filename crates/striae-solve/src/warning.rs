@@ -1,0 +1,359 @@
+//! What a run should be read with care for.
+//!
+//! Each converged increment is judged, and the worst of every kind is kept for every
+//! pair:
+//!
+//! | kind | value | limit |
+//! | --- | --- | --- |
+//! | `mismatch` | sum of the resultants over the largest force of the pair so far | 1e-6 |
+//! | `moment` | sum of the moments over the same and the size of the contact zone | 1e-2 |
+//! | `tension` | tensile nodal pressure over the largest pressure of the pair so far | 1e-6 |
+//! | `penetration` | depth over the local facet size, see [`crate::interference`] | 0.1 |
+//! | `passage` | the same for what has passed through, see there | 0 |
+//! | `creation` | negative friction work over the largest energy | 1e-6 |
+//! | `imbalance` | energy found nowhere over the largest energy | 1e-3 |
+//! | `never-touched` | the smallest distance at the start; after a completed run | - |
+//! | `never-meets` | the same, before the run | - |
+
+use striae_contact::{initial::Fit, interference::Kind as Interfering, interference::SHARE};
+
+use crate::{
+    initial::{fits, may_meet, other_name},
+    interference::{Positions, between, within},
+    model::{Model, PairId},
+    outcome::Ending,
+    problem::Problem,
+    report::{PairReport, pairs},
+    state::{Energies, State},
+};
+
+/// Something that makes results doubtful, with the number it is judged by.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Warning {
+    /// What it is about.
+    pub kind: Kind,
+    /// Name of the contact pair, if it is about one.
+    pub pair: Option<String>,
+    /// Worst value.
+    pub value: f64,
+    /// Value above which there is a warning.
+    pub limit: f64,
+    /// Time of the worst value.
+    pub time: f64,
+    /// In a sentence.
+    pub text: String,
+}
+
+/// Kinds of warnings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Kind {
+    /// Resultants of the two sides differ.
+    Mismatch,
+    /// Moments of the two sides differ.
+    Moment,
+    /// Contact pulls.
+    Tension,
+    /// Bodies are inside each other.
+    Penetration,
+    /// Bodies have passed through each other.
+    Passage,
+    /// Friction makes energy.
+    Creation,
+    /// Energy is found nowhere.
+    Imbalance,
+    /// A pair has never touched.
+    NeverTouched,
+    /// A pair can never meet.
+    NeverMeets,
+}
+
+impl Kind {
+    /// All kinds.
+    pub const ALL: [Self; 9] = [
+        Self::Mismatch,
+        Self::Moment,
+        Self::Tension,
+        Self::Penetration,
+        Self::Passage,
+        Self::Creation,
+        Self::Imbalance,
+        Self::NeverTouched,
+        Self::NeverMeets,
+    ];
+
+    /// What files call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mismatch => "mismatch",
+            Self::Moment => "moment",
+            Self::Tension => "tension",
+            Self::Penetration => "penetration",
+            Self::Passage => "passage",
+            Self::Creation => "creation",
+            Self::Imbalance => "imbalance",
+            Self::NeverTouched => "never-touched",
+            Self::NeverMeets => "never-meets",
+        }
+    }
+
+    /// Value above which there is a warning.
+    pub fn limit(self) -> f64 {
+        match self {
+            Self::Mismatch | Self::Tension | Self::Creation => 1e-6,
+            Self::Moment => 1e-2,
+            Self::Penetration => SHARE,
+            Self::Imbalance => 1e-3,
+            Self::Passage | Self::NeverTouched | Self::NeverMeets => 0.0,
+        }
+    }
+}
+
+/// What has been judged of a run so far.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Judgement {
+    /// The worst of every kind and pair.
+    pub worst: Vec<Worst>,
+    /// Largest force of every pair.
+    pub forces: Vec<f64>,
+    /// Largest pressure of every pair.
+    pub pressures: Vec<f64>,
+    /// Largest energy.
+    pub energy: f64,
+}
+
+/// The worst of a kind.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Worst {
+    /// The kind.
+    pub kind: Kind,
+    /// The pair, if it is about one.
+    pub pair: Option<usize>,
+    /// The value, but for energies over the largest one.
+    pub value: f64,
+    /// Its time.
+    pub time: f64,
+}
+
+impl Judgement {
+    /// Judges an increment from `before` to `after`.
+    pub fn increment(&mut self, problem: &Problem, before: &State, after: &State) {
+        self.forces.resize(problem.pairs.len(), 0.0);
+        self.pressures.resize(problem.pairs.len(), 0.0);
+        self.energy = self
+            .energy
+            .max(largest(&after.energies))
+            .max(round_off(problem));
+        let imbalance = after.energies.imbalance().abs();
+        self.note(Kind::Imbalance, None, imbalance, after.time);
+        for (pair, report) in pairs(problem, after).iter().enumerate() {
+            self.pair(pair, report, [before, after]);
+            let ends = [before, after].map(Positions::from);
+            self.interference(problem, pair, ends, after.time);
+        }
+    }
+
+    fn pair(&mut self, pair: usize, report: &PairReport, [before, after]: [&State; 2]) {
+        let force = report
+            .sides
+            .iter()
+            .map(|side| side.force.norm())
+            .fold(0.0, f64::max);
+        self.forces[pair] = self.forces[pair].max(force);
+        self.pressures[pair] = self.pressures[pair].max(report.max_pressure);
+        let nodes = after.pairs[pair].nodes.iter().flatten();
+        let tension = nodes.map(|node| -node.pressure).fold(0.0, f64::max);
+        let created = before.pairs[pair].dissipated - after.pairs[pair].dissipated;
+        let share = over(force, self.forces[pair]);
+        for (kind, value) in [
+            (Kind::Mismatch, report.mismatch * share),
+            (Kind::Moment, report.moment_mismatch * share),
+            (Kind::Tension, over(tension, self.pressures[pair])),
+            (Kind::Creation, created),
+        ] {
+            self.note(kind, Some(pair), value, after.time);
+        }
+    }
+
+    fn interference(
+        &mut self,
+        problem: &Problem,
+        pair: usize,
+        [start, end]: [Positions; 2],
+        time: f64,
+    ) {
+        let passed = between(problem, pair, start, end, SHARE);
+        let passed = passed
+            .iter()
+            .filter(|found| found.kind == Interfering::Passed);
+        let depths = passed.map(|found| found.share());
+        self.note(Kind::Passage, Some(pair), depths.fold(0.0, f64::max), time);
+        let inside = within(problem, pair, end, SHARE);
+        let depths = inside.iter().map(|found| found.share());
+        self.note(
+            Kind::Penetration,
+            Some(pair),
+            depths.fold(0.0, f64::max),
+            time,
+        );
+    }
+
+    fn note(&mut self, kind: Kind, pair: Option<usize>, value: f64, time: f64) {
+        if value <= 0.0 {
+            return;
+        }
+        let same = |known: &&mut Worst| known.kind == kind && known.pair == pair;
+        match self.worst.iter_mut().find(same) {
+            Some(known) if known.value >= value => {}
+            Some(known) => (known.value, known.time) = (value, time),
+            None => self.worst.push(Worst {
+                kind,
+                pair,
+                value,
+                time,
+            }),
+        }
+    }
+
+    /// Warnings at the end of a run.
+    pub fn warnings(&self, problem: &Problem, ending: &Ending) -> Vec<Warning> {
+        let model = &problem.model;
+        let fits = fits(model);
+        let mut warnings = warnings_at_start(model, &fits);
+        let mut worst: Vec<Worst> = self
+            .worst
+            .iter()
+            .map(|worst| self.relative(worst))
+            .collect();
+        if *ending == Ending::Completed {
+            for (pair, fit) in fits.iter().enumerate() {
+                let named = warnings
+                    .iter()
+                    .any(|w| w.pair.as_ref() == Some(&model.pairs[pair].name));
+                if self.forces.get(pair).is_none_or(|force| *force == 0.0) && !named {
+                    worst.push(Worst {
+                        kind: Kind::NeverTouched,
+                        pair: Some(pair),
+                        value: fit.as_ref().map_or(0.0, |fit| fit.distance),
+                        time: 0.0,
+                    });
+                }
+            }
+        }
+        worst.retain(|worst| worst.kind == Kind::NeverTouched || worst.value > worst.kind.limit());
+        worst.sort_by_key(|worst| (worst.kind, worst.pair));
+        warnings.extend(worst.iter().map(|worst| warning(model, worst)));
+        warnings
+    }
+
+    /// Energies over the largest one.
+    fn relative(&self, worst: &Worst) -> Worst {
+        let value = match worst.kind {
+            Kind::Creation | Kind::Imbalance => over(worst.value, self.energy),
+            _ => worst.value,
+        };
+        Worst { value, ..*worst }
+    }
+}
+
+/// Energy below which all is round-off: that of strains of 3e-7 or less.
+fn round_off(problem: &Problem) -> f64 {
+    const STRAIN_SQUARED: f64 = 1e-13;
+    let bodies = problem.model.bodies.iter().zip(&problem.elements);
+    let energies = bodies.map(|(body, elements)| {
+        let volume: f64 = elements.iter().map(|element| element.volume()).sum();
+        body.material.lame_constants().shear * volume
+    });
+    STRAIN_SQUARED * energies.sum::<f64>()
+}
+
+fn over(value: f64, scale: f64) -> f64 {
+    if scale > 0.0 { value / scale } else { 0.0 }
+}
+
+fn largest(energies: &Energies) -> f64 {
+    let Energies {
+        kinetic,
+        strain,
+        external,
+        friction,
+        contact,
+        numerical,
+    } = *energies;
+    let all = [kinetic, strain, external, friction, contact, numerical];
+    all.into_iter()
+        .fold(0.0, |most: f64, energy| most.max(energy.abs()))
+}
+
+fn warning(model: &Model, worst: &Worst) -> Warning {
+    let &Worst {
+        kind,
+        pair,
+        value,
+        time,
+    } = worst;
+    let name = pair.map_or("", |pair| &model.pairs[pair].name);
+    let percent = 100.0 * value;
+    let text = match kind {
+        Kind::Mismatch => format!(
+            "pair `{name}`: the forces on its sides differ by {value:.1e} of the force at time {time:.4}"
+        ),
+        Kind::Moment => format!(
+            "pair `{name}`: the moments on its sides differ by {value:.1e} of force times size at time {time:.4}"
+        ),
+        Kind::Tension => format!(
+            "pair `{name}`: contact pulls with {value:.1e} of the largest pressure at time {time:.4}"
+        ),
+        Kind::Penetration => format!(
+            "pair `{name}`: its sides are inside each other by {percent:.0} % of the facet size at time {time:.4}"
+        ),
+        Kind::Passage => {
+            format!("pair `{name}`: its sides have passed through each other at time {time:.4}")
+        }
+        Kind::Creation => format!(
+            "pair `{name}`: friction makes energy, {value:.1e} of the largest one in the increment to time {time:.4}"
+        ),
+        Kind::Imbalance => {
+            format!("energy of {value:.1e} of the largest one is found nowhere at time {time:.4}")
+        }
+        Kind::NeverTouched => format!("pair `{name}` has never touched"),
+        Kind::NeverMeets => format!("pair `{name}` can never meet"),
+    };
+    Warning {
+        kind,
+        pair: pair.map(|_| name.to_owned()),
+        value,
+        limit: kind.limit(),
+        time,
+        text,
+    }
+}
+
+impl std::fmt::Display for Warning {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+/// What a model should be read with care for, given how its pairs fit.
+pub fn warnings_at_start(model: &Model, fits: &[Option<Fit>]) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    for (pair, fit) in fits.iter().enumerate() {
+        let pair = PairId(pair);
+        if let Some(fit) = fit.as_ref().filter(|fit| !may_meet(model, pair, fit)) {
+            let name = &model.pairs[pair.0].name;
+            let [a, b] = [1, 0].map(|side| other_name(model, pair, side));
+            let distance = fit.distance;
+            warnings.push(Warning {
+                kind: Kind::NeverMeets,
+                pair: Some(name.clone()),
+                value: distance,
+                limit: 0.0,
+                time: 0.0,
+                text: format!(
+                    "pair `{name}` can never meet: `{a}` and `{b}` are {distance:.3e} apart, and no prescribed displacement goes as far"
+                ),
+            });
+        }
+    }
+    warnings
+}
