@@ -1,5 +1,7 @@
 //! Steps and increments.
 
+use striae_contact::unknowns::{NodeResult, Status};
+
 use crate::{
     assembly::StepContext,
     dynamics::begin,
@@ -224,9 +226,15 @@ fn at_limit(context: &StepContext, state: &State, reached: f64) -> Option<CutBac
     let motion = free_motion(context, state.into(), &contacts, Friction::Reserve)?;
     Some(CutBack::FrictionLimit {
         pair: context.pairs[pair].name.clone(),
+        sticking: count(contacts[pair], Status::Stick),
         motion,
         reached,
     })
+}
+
+fn count(nodes: &[Vec<NodeResult>; 2], status: Status) -> usize {
+    let nodes = nodes.iter().flatten();
+    nodes.filter(|node| node.status == status).count()
 }
 
 /// End of an increment of about the given size; the last one takes what is left.

@@ -85,21 +85,21 @@ pub enum CutBack {
         count: usize,
     },
     /// Nothing holds a body.
-    #[error(
-        "{motion}, as nothing holds it; prescribe displacements, or let contact hold it from the start"
-    )]
+    #[error("{motion}; prescribe displacements, or let contact hold it from the start")]
     Free {
         /// The body and how it can move.
         motion: FreeMotion,
     },
     /// Friction does not hold a body against its loads.
     #[error(
-        "limit of friction reached: all nodes of pair `{pair}` slip, {motion}, with {:.4} of the step done",
-        reached
+        "limit of friction reached: {} of pair `{pair}` slip, {motion}, with {reached:.4} of the step done",
+        all_nodes(*sticking)
     )]
     FrictionLimit {
         /// Name of the pair.
         pair: String,
+        /// Nodes that stick all the same.
+        sticking: usize,
         /// The body and how it can move.
         motion: FreeMotion,
         /// Fraction of the step that was reached.
@@ -113,6 +113,14 @@ pub enum CutBack {
         /// What went wrong.
         error: SolveError,
     },
+}
+
+fn all_nodes(sticking: usize) -> String {
+    match sticking {
+        0 => "all nodes".into(),
+        1 => "all nodes but one".into(),
+        count => format!("all nodes but {count}"),
+    }
 }
 
 impl CutBack {

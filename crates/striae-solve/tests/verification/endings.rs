@@ -123,6 +123,7 @@ fn a_torque_beyond_friction_ends_at_the_limit_of_friction() {
         pair,
         motion,
         reached,
+        ..
     } = reason(&run)
     else {
         panic!("{}", run.ending);
