@@ -214,7 +214,9 @@ fn free(context: &StepContext, state: &State) -> Option<CutBack> {
     let step = &context.problem.model.steps[context.index];
     let quasi_static = step.procedure == Procedure::QuasiStatic;
     let motion = quasi_static.then(|| free_motion_in(context, state))??;
-    Some(CutBack::Free { motion })
+    Some(CutBack::Free {
+        motion: Box::new(motion),
+    })
 }
 
 /// The limit of friction, if that is why there is no equilibrium beyond `state`: all nodes
@@ -227,7 +229,7 @@ fn at_limit(context: &StepContext, state: &State, reached: f64) -> Option<CutBac
     Some(CutBack::FrictionLimit {
         pair: context.pairs[pair].name.clone(),
         sticking: count(contacts[pair], Status::Stick),
-        motion,
+        motion: Box::new(motion),
         reached,
     })
 }

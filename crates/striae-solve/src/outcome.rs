@@ -88,7 +88,7 @@ pub enum CutBack {
     #[error("{motion}; prescribe displacements, or let contact hold it from the start")]
     Free {
         /// The body and how it can move.
-        motion: FreeMotion,
+        motion: Box<FreeMotion>,
     },
     /// Friction does not hold a body against its loads.
     #[error(
@@ -101,7 +101,7 @@ pub enum CutBack {
         /// Nodes that stick all the same.
         sticking: usize,
         /// The body and how it can move.
-        motion: FreeMotion,
+        motion: Box<FreeMotion>,
         /// Fraction of the step that was reached.
         reached: f64,
     },
