@@ -1,10 +1,14 @@
 //! Steps and increments.
 
+use striae_contact::unknowns::{NodeResult, Status};
+
 use crate::{
     assembly::StepContext,
     dynamics::begin,
+    freedom::{Friction, free_motion, free_motion_in, slipping},
+    model::Procedure,
     newton::{Increment, IterationObserver, Memory, Workspace, advance},
-    outcome::{CutBack, Ending},
+    outcome::{CutBack, Ending, Remedy},
     problem::Problem,
     state::State,
 };
@@ -172,9 +176,12 @@ fn run_step(
                 next
             }
             Err(reason) => {
+                let reason = free(context, state).unwrap_or(reason);
                 let next = observer.cut_back(progress, &reason);
                 division.size = (fraction - division.done) * CUT;
-                if division.size < step.increments.smallest {
+                let helps = reason.remedy() == Remedy::SmallerIncrement;
+                if !helps || division.size < step.increments.smallest {
+                    let reason = at_limit(context, state, division.done).unwrap_or(reason);
                     return Some(Ending::Stopped {
                         step: step.name.clone(),
                         time: state.time,
@@ -200,6 +207,36 @@ fn run_step(
         }
     }
     None
+}
+
+/// The motion that nothing holds, if that is why there is no equilibrium beyond `state`.
+fn free(context: &StepContext, state: &State) -> Option<CutBack> {
+    let step = &context.problem.model.steps[context.index];
+    let quasi_static = step.procedure == Procedure::QuasiStatic;
+    let motion = quasi_static.then(|| free_motion_in(context, state))??;
+    Some(CutBack::Free {
+        motion: Box::new(motion),
+    })
+}
+
+/// The limit of friction, if that is why there is no equilibrium beyond `state`: all nodes
+/// of a pair slip, and but for friction a body is free.
+fn at_limit(context: &StepContext, state: &State, reached: f64) -> Option<CutBack> {
+    let contacts: Vec<_> = state.pairs.iter().map(|pair| &pair.nodes).collect();
+    let slipping = slipping(contacts.iter().copied());
+    let pair = slipping.iter().position(|slips| *slips)?;
+    let motion = free_motion(context, state.into(), &contacts, Friction::Reserve)?;
+    Some(CutBack::FrictionLimit {
+        pair: context.pairs[pair].name.clone(),
+        sticking: count(contacts[pair], Status::Stick),
+        motion: Box::new(motion),
+        reached,
+    })
+}
+
+fn count(nodes: &[Vec<NodeResult>; 2], status: Status) -> usize {
+    let nodes = nodes.iter().flatten();
+    nodes.filter(|node| node.status == status).count()
 }
 
 /// End of an increment of about the given size; the last one takes what is left.

@@ -6,6 +6,7 @@ mod curve;
 pub mod drive;
 pub mod dynamics;
 pub mod element;
+pub mod freedom;
 pub mod initial;
 pub mod interference;
 pub mod layout;

@@ -2,7 +2,7 @@
 
 use striae_linalg::SolveError;
 
-use crate::norms::Norms;
+use crate::{freedom::FreeMotion, norms::Norms};
 
 /// Why an increment did not succeed and is tried again with a smaller one.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -74,6 +74,27 @@ pub enum CutBack {
         /// How many.
         count: usize,
     },
+    /// Nothing holds a body.
+    #[error("{motion}; prescribe displacements, or let contact hold it from the start")]
+    Free {
+        /// The body and how it can move.
+        motion: Box<FreeMotion>,
+    },
+    /// Friction does not hold a body against its loads.
+    #[error(
+        "limit of friction reached: {} of pair `{pair}` slip, {motion}, with {reached:.4} of the step done",
+        all_nodes(*sticking)
+    )]
+    FrictionLimit {
+        /// Name of the pair.
+        pair: String,
+        /// Nodes that stick all the same.
+        sticking: usize,
+        /// The body and how it can move.
+        motion: Box<FreeMotion>,
+        /// Fraction of the step that was reached.
+        reached: f64,
+    },
     /// The linear system could not be solved.
     #[error("{place}: {error}")]
     LinearSystem {
@@ -82,6 +103,33 @@ pub enum CutBack {
         /// What went wrong.
         error: SolveError,
     },
+}
+
+fn all_nodes(sticking: usize) -> String {
+    match sticking {
+        0 => "all nodes".into(),
+        1 => "all nodes but one".into(),
+        count => format!("all nodes but {count}"),
+    }
+}
+
+impl CutBack {
+    /// What is to be done about it.
+    pub fn remedy(&self) -> Remedy {
+        match self {
+            Self::Free { .. } => Remedy::None,
+            _ => Remedy::SmallerIncrement,
+        }
+    }
+}
+
+/// What may help where an increment did not succeed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Remedy {
+    /// A smaller increment.
+    SmallerIncrement,
+    /// Nothing that a run can do.
+    None,
 }
 
 /// A contact node that changed its status in the last iterations.

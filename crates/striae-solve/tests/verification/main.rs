@@ -5,6 +5,7 @@ mod scene;
 
 mod driver;
 mod dynamics;
+mod endings;
 mod energies;
 mod friction_history;
 mod hard_systems;

@@ -1,0 +1,396 @@
+//! Rigid motions that nothing holds.
+//!
+//! Bodies and rigid bodies that are tied together move as one. A motion `u = c + w x (x - x0)`
+//! of each is stopped by rows `e . u(x) = 0`: of prescribed components and coordinates,
+//! of the normals of closed contact nodes and, where friction holds, of the tangents; between
+//! two bodies that both move, of the difference of their motions. What is left is the null
+//! space of the rows. Lengths are scaled by the size of the bodies.
+
+use nalgebra::{DMatrix, SymmetricEigen};
+use striae_contact::{
+    initial::signed_gap,
+    interference::Stage,
+    unknowns::{NodeResult, Status},
+};
+use striae_mesh::Vec3;
+
+use crate::{
+    assembly::StepContext,
+    interference::{Positions, configuration, thickness},
+    problem::Problem,
+    state::State,
+};
+
+/// A body that is free to move.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FreeMotion {
+    /// What it is.
+    pub mover: FreeMover,
+    /// The motions in words: `along x and about z`, or coordinates of a rigid body.
+    pub motions: String,
+}
+
+/// What is free to move.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FreeMover {
+    /// A deformable body of this name.
+    Body(String),
+    /// A rigid body of this name, with all that is tied to it.
+    Rigid(String),
+}
+
+impl std::fmt::Display for FreeMotion {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let motions = &self.motions;
+        match &self.mover {
+            FreeMover::Body(name) => {
+                write!(f, "body `{name}` is not held: it is free to move {motions}")
+            }
+            FreeMover::Rigid(name) => write!(f, "{motions} of `{name}` is free"),
+        }
+    }
+}
+
+/// What friction holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Friction {
+    /// All closed nodes of pairs that have friction.
+    Any,
+    /// Nodes that stick, in pairs of which a noticeable part does.
+    Reserve,
+}
+
+/// Part of the closed nodes of a pair that may stick when it is at the limit of friction.
+const STICKING: f64 = 0.2;
+/// Eigenvalue, over the largest one, of a motion that nothing stops.
+const SINGULAR: f64 = 1e-9;
+/// What a motion may be short of being free altogether.
+const SHORT: f64 = 1e-6;
+
+/// Pairs of which all closed nodes slip, but for a few: at the middle of a turn nothing slips.
+pub fn slipping<'n>(contacts: impl Iterator<Item = &'n [Vec<NodeResult>; 2]>) -> Vec<bool> {
+    contacts
+        .map(|sides| {
+            let count = |status| {
+                sides
+                    .iter()
+                    .flatten()
+                    .filter(|n| n.status == status)
+                    .count()
+            };
+            let (stick, slip) = (count(Status::Stick), count(Status::Slip));
+            slip > 0 && (stick as f64) <= STICKING * (stick + slip) as f64
+        })
+        .collect()
+}
+
+/// A motion that nothing holds in a converged state. Nodes of pairs that contact has not
+/// looked at yet are closed if they touch.
+pub fn free_motion_in(context: &StepContext, state: &State) -> Option<FreeMotion> {
+    let touching: Vec<_> = (0..state.pairs.len())
+        .map(|pair| touching(context, pair))
+        .collect();
+    let pairs = state.pairs.iter().zip(&touching);
+    let contacts: Vec<_> = pairs
+        .map(|(pair, touching)| match pair.selection {
+            Some(_) => &pair.nodes,
+            None => touching,
+        })
+        .collect();
+    free_motion(context, state.into(), &contacts, Friction::Any)
+}
+
+/// Nodes of a pair that touch the other side where the step begins.
+fn touching(context: &StepContext, pair: usize) -> [Vec<NodeResult>; 2] {
+    const TOUCHING: f64 = 1e-6;
+    let at = Positions::from(context.start);
+    let configuration = configuration(context.problem, pair, at);
+    let stage = Stage {
+        configuration: &configuration,
+        thickness: &thickness(context.problem, pair, at.nodes),
+    };
+    let mut nodes = [Vec::new(), Vec::new()];
+    for &side in context.pairs[pair].deformable_sides() {
+        let snapshot = configuration.side(side);
+        let result = |node: u32| {
+            let touches = signed_gap(&stage, side, node)
+                .is_some_and(|(gap, _)| gap <= TOUCHING * snapshot.sizes[node as usize]);
+            NodeResult {
+                normal: snapshot.normals[node as usize],
+                status: if touches { Status::Stick } else { Status::Open },
+                ..NodeResult::default()
+            }
+        };
+        nodes[side] = (0..snapshot.x.len() as u32).map(result).collect();
+    }
+    nodes
+}
+
+/// A motion that nothing holds; `contacts` are the nodes of every pair.
+pub fn free_motion(
+    context: &StepContext,
+    at: Positions,
+    contacts: &[&[Vec<NodeResult>; 2]],
+    friction: Friction,
+) -> Option<FreeMotion> {
+    let mut rows = Rows::new(context, at);
+    rows.prescribed(context, at);
+    let slipping = slipping(contacts.iter().copied());
+    for (pair, nodes) in contacts.iter().enumerate() {
+        let is_rough = context.pairs[pair].friction.cap(1.0, 0.0) > 0.0;
+        let holds = |status: Status| match friction {
+            Friction::Any => is_rough,
+            Friction::Reserve => status == Status::Stick && !slipping[pair],
+        };
+        rows.contact(context.problem, pair, nodes, at, holds);
+    }
+    rows.free(context.problem)
+}
+
+/// Bodies and rigid bodies that move as one.
+struct Component {
+    bodies: Vec<usize>,
+    rigid: Vec<usize>,
+    middle: Vec3,
+    size: f64,
+}
+
+struct Rows {
+    components: Vec<Component>,
+    /// Component of every body and, after these, of every rigid body; `None`: at rest or moved.
+    of: Vec<Option<usize>>,
+    normal: DMatrix<f64>,
+}
+
+impl Rows {
+    fn new(context: &StepContext, at: Positions) -> Self {
+        let problem = context.problem;
+        let (bodies, rigid) = (problem.model.bodies.len(), problem.tied.len());
+        let mut root: Vec<usize> = (0..bodies + rigid).collect();
+        for (index, surface) in problem.model.rigid_surfaces.iter().enumerate() {
+            for (body, _) in &surface.ties {
+                let (one, other) = (root[body.0], root[bodies + index]);
+                let (low, high) = (one.min(other), one.max(other));
+                root.iter_mut()
+                    .filter(|r| **r == high)
+                    .for_each(|r| *r = low);
+            }
+        }
+        let mut components: Vec<Component> = Vec::new();
+        let mut of = vec![None; bodies + rigid];
+        for first in 0..bodies + rigid {
+            let moves = first < bodies || problem.has_coordinates(first - bodies);
+            if root[first] != first || !moves {
+                continue;
+            }
+            let members: Vec<usize> = (0..bodies + rigid).filter(|m| root[*m] == first).collect();
+            members
+                .iter()
+                .for_each(|member| of[*member] = Some(components.len()));
+            let (own, ties) = members.into_iter().partition(|member| *member < bodies);
+            let ties: Vec<usize> = ties;
+            let ties = ties.into_iter().map(|member| member - bodies).collect();
+            components.push(Component::new(problem, at, own, ties));
+        }
+        let size = 6 * components.len();
+        Self {
+            components,
+            of,
+            normal: DMatrix::zeros(size, size),
+        }
+    }
+
+    /// `e . u(x)` of the motion of a component, six entries.
+    fn entries(&self, component: usize, x: &Vec3, e: &Vec3) -> [f64; 6] {
+        let Component { middle, size, .. } = &self.components[component];
+        let arm = ((x - middle) / *size).cross(e);
+        [e.x, e.y, e.z, arm.x, arm.y, arm.z]
+    }
+
+    fn add(&mut self, entries: &[(usize, [f64; 6])]) {
+        for (one, a) in entries {
+            for (other, b) in entries {
+                for i in 0..6 {
+                    for j in 0..6 {
+                        self.normal[(6 * one + i, 6 * other + j)] += a[i] * b[j];
+                    }
+                }
+            }
+        }
+    }
+
+    fn prescribed(&mut self, context: &StepContext, at: Positions) {
+        let problem = context.problem;
+        let nodes = problem.first_node.last().copied().unwrap_or(0);
+        for node in 0..nodes {
+            let (body, _) = problem.body_node(node);
+            let Some(component) = self.of[body] else {
+                continue;
+            };
+            for axis in (0..3).filter(|axis| context.fixed[3 * node + axis]) {
+                let row = self.entries(component, &at.nodes[node], &Vec3::ith(axis, 1.0));
+                self.add(&[(component, row)]);
+            }
+        }
+        let bodies = problem.model.bodies.len();
+        for (rigid, fixed) in context.fixed_rigid.iter().enumerate() {
+            let Some(component) = self.of[bodies + rigid] else {
+                continue;
+            };
+            let point =
+                problem.model.rigid_surfaces[rigid].reference + at.rigid[rigid].displacement;
+            for coordinate in (0..6).filter(|coordinate| fixed[*coordinate]) {
+                let row = match coordinate {
+                    axis @ 0..3 => self.entries(component, &point, &Vec3::ith(axis, 1.0)),
+                    turn => std::array::from_fn(|at| if at == turn { 1.0 } else { 0.0 }),
+                };
+                self.add(&[(component, row)]);
+            }
+        }
+    }
+
+    /// Rows of the closed nodes of a pair.
+    fn contact(
+        &mut self,
+        problem: &Problem,
+        pair: usize,
+        nodes: &[Vec<NodeResult>; 2],
+        at: Positions,
+        holds: impl Fn(Status) -> bool,
+    ) {
+        let geometry = &problem.pairs[pair];
+        let bodies = problem.model.bodies.len();
+        let of_side = [0, 1].map(|side| match (geometry.bodies[side], geometry.rigid) {
+            (Some(body), _) => self.of[body],
+            (None, Some(rigid)) => self.of[bodies + rigid],
+            (None, None) => None,
+        });
+        for side in 0..2 {
+            for (node, result) in nodes[side].iter().enumerate() {
+                let global = problem.surface_node(pair, side, node as u32);
+                let (Some(global), false) = (global, result.status == Status::Open) else {
+                    continue;
+                };
+                let n = result.normal;
+                let mut directions = vec![n];
+                if holds(result.status) {
+                    directions = (0..3).map(|axis| Vec3::ith(axis, 1.0)).collect();
+                }
+                let x = at.nodes[global];
+                for e in directions {
+                    let row = |side: usize, sign: f64| {
+                        let component = of_side[side]?;
+                        Some((component, self.entries(component, &x, &(e * sign))))
+                    };
+                    let rows = [row(side, 1.0), row(1 - side, -1.0)];
+                    let rows: Vec<_> = rows.into_iter().flatten().collect();
+                    self.add(&rows);
+                }
+            }
+        }
+    }
+
+    fn free(self, problem: &Problem) -> Option<FreeMotion> {
+        let eigen = SymmetricEigen::new(self.normal.clone());
+        let largest = eigen.eigenvalues.iter().copied().fold(0.0, f64::max);
+        let count = eigen.eigenvalues.len();
+        let null: Vec<usize> = (0..count)
+            .filter(|&k| eigen.eigenvalues[k] <= SINGULAR * largest)
+            .collect();
+        if null.is_empty() {
+            return None;
+        }
+        let part = |unknown: usize| -> f64 {
+            let squares = null
+                .iter()
+                .map(|&k| eigen.eigenvectors[(unknown, k)].powi(2));
+            squares.sum::<f64>()
+        };
+        for (index, component) in self.components.iter().enumerate() {
+            let free: Vec<usize> = (0..6)
+                .filter(|k| part(6 * index + k) > 1.0 - SHORT)
+                .collect();
+            if !free.is_empty() {
+                return Some(component.motion(problem, &free));
+            }
+        }
+        let vector = eigen.eigenvectors.column(null[0]);
+        let of = |index: usize| vector.rows(6 * index, 6).norm_squared();
+        let index = (0..self.components.len()).max_by(|a, b| of(*a).total_cmp(&of(*b)))?;
+        let six: [f64; 6] = std::array::from_fn(|k| vector[6 * index + k]);
+        Some(self.components[index].oblique(problem, &six))
+    }
+}
+
+impl Component {
+    fn new(problem: &Problem, at: Positions, bodies: Vec<usize>, rigid: Vec<usize>) -> Self {
+        let first = &problem.first_node;
+        let nodes: Vec<Vec3> = bodies
+            .iter()
+            .flat_map(|&body| at.nodes[first[body]..first[body + 1]].iter().copied())
+            .collect();
+        let reference = rigid.first().map(|&rigid| {
+            problem.model.rigid_surfaces[rigid].reference + at.rigid[rigid].displacement
+        });
+        let mean = nodes.iter().sum::<Vec3>() / nodes.len().max(1) as f64;
+        let middle = reference.unwrap_or(mean);
+        let arms = nodes.iter().map(|x| (x - middle).norm());
+        let size = arms.fold(0.0, f64::max);
+        Self {
+            bodies,
+            rigid,
+            middle,
+            size: if size > 0.0 { size } else { 1.0 },
+        }
+    }
+
+    fn mover(&self, problem: &Problem) -> FreeMover {
+        match (self.rigid.first(), self.bodies.first()) {
+            (Some(rigid), _) => FreeMover::Rigid(problem.model.rigid_surfaces[*rigid].name.clone()),
+            (None, body) => {
+                let body = body.map(|body| problem.model.bodies[*body].name.clone());
+                FreeMover::Body(body.unwrap_or_default())
+            }
+        }
+    }
+
+    /// Motions along and about the axes.
+    fn motion(&self, problem: &Problem, free: &[usize]) -> FreeMotion {
+        let mover = self.mover(problem);
+        let words = match &mover {
+            FreeMover::Rigid(_) => ["`x`", "`y`", "`z`", "`rx`", "`ry`", "`rz`"],
+            FreeMover::Body(_) => [
+                "along x", "along y", "along z", "about x", "about y", "about z",
+            ],
+        };
+        let words: Vec<&str> = free.iter().map(|&k| words[k]).collect();
+        let motions = match &words[..] {
+            [rest @ .., last] if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
+            _ => words.concat(),
+        };
+        FreeMotion { mover, motions }
+    }
+
+    /// Any other motion.
+    fn oblique(&self, problem: &Problem, [x, y, z, rx, ry, rz]: &[f64; 6]) -> FreeMotion {
+        let (shift, turn) = (Vec3::new(*x, *y, *z), Vec3::new(*rx, *ry, *rz));
+        let words = |v: &Vec3| format!("({:.3}, {:.3}, {:.3})", v.x, v.y, v.z);
+        let motions = if turn.norm() < SHORT * shift.norm() {
+            format!("along {}", words(&shift.normalize()))
+        } else {
+            let turn = turn / self.size;
+            let through = self.middle + turn.cross(&shift) / turn.norm_squared();
+            format!(
+                "about {} through {}",
+                words(&turn.normalize()),
+                words(&through)
+            )
+        };
+        let mover = self.mover(problem);
+        let motions = match &mover {
+            FreeMover::Body(_) => motions,
+            FreeMover::Rigid(_) => format!("the motion {motions}"),
+        };
+        FreeMotion { mover, motions }
+    }
+}
