@@ -25,8 +25,9 @@ use striae_surface::facet::Shape;
 use crate::{
     configuration::Configuration,
     coverage::{Found, Place},
+    edge::{add_slope, on_edge},
     frame::{Frame, Frames, Tracked},
-    kinematics::{Kinematics, TrackedScalar},
+    kinematics::{Kinematics, Presence, TrackedScalar},
     opposing::Opposing,
     projection::differentiated_rigid,
     selection::{Partner, Selection},
@@ -59,7 +60,9 @@ pub fn kinematics(
                 gap: frame.map_or_else(TrackedScalar::default, |frame| {
                     gap(configuration, side, node as u32, frame)
                 }),
+                seen_slip: slip.value,
                 slip,
+                presence: Presence::Facing,
                 stiffness: selection.stiffness(k),
             }
         })
@@ -76,6 +79,9 @@ fn gap(configuration: &Configuration, side: usize, node: u32, frame: &Frame) -> 
             gradient: Gradient::new(),
         };
     };
+    if let (Found::Edge(nodes), Place::Facet(hit)) = (found, contact.place) {
+        return on_edge(configuration, side, node, &hit, nodes).gap;
+    }
     let own = numbering.position(side, node);
     let value = contact.gap;
     let x = configuration.side(side).x[node as usize];
@@ -85,15 +91,9 @@ fn gap(configuration: &Configuration, side: usize, node: u32, frame: &Frame) -> 
             vec![(own, normal)]
         }
         Place::Facet(hit) if configuration.pair.is_rigid() => {
-            let by_x = match found {
-                Found::Inside => {
-                    let x: Vector3<DualSVec64<3>> = crate::term::variable3(&x, 0);
-                    let ([_, _, g], _) = differentiated_rigid(configuration.side(1), &hit, &x);
-                    gradient(&g).into()
-                }
-                Found::Edge => -frame.n.value,
-            };
-            vec![(own, by_x)]
+            let x: Vector3<DualSVec64<3>> = crate::term::variable3(&x, 0);
+            let ([_, _, g], _) = differentiated_rigid(configuration.side(1), &hit, &x);
+            vec![(own, gradient(&g).into())]
         }
         Place::Facet(hit) => {
             let target = configuration.side(1 - side);
@@ -101,18 +101,9 @@ fn gap(configuration: &Configuration, side: usize, node: u32, frame: &Frame) -> 
             let shape = Shape::of(&corners);
             let positions = target.corner_positions(hit.facet);
             let n = &frame.n.value;
-            let (by_r, weights, by_n) = match found {
-                Found::Inside => {
-                    let opposing = Opposing::new(shape, &hit, n, &positions);
-                    let by_n = opposing.gap_by_r * -hit.gap;
-                    (opposing.gap_by_r, opposing.weights, by_n)
-                }
-                Found::Edge => {
-                    let weights = shape.weights(hit.xi, hit.eta).value;
-                    let point: Vec3 = (0..4).map(|c| positions[c] * weights[c]).sum();
-                    (*n, weights, point - x)
-                }
-            };
+            let opposing = Opposing::new(shape, &hit, n, &positions);
+            let (by_r, weights) = (opposing.gap_by_r, opposing.weights);
+            let by_n = by_r * -hit.gap;
             let mut gradient: Gradient = vec![(own, -by_r)];
             for corner in 0..4 {
                 let first = numbering.position(1 - side, corners[corner]);
@@ -125,13 +116,6 @@ fn gap(configuration: &Configuration, side: usize, node: u32, frame: &Frame) -> 
         }
     };
     TrackedScalar { value, gradient }
-}
-
-fn add_slope(gradient: &mut Gradient, first: u32, slope: Vec3) {
-    match gradient.iter_mut().find(|entry| entry.0 == first) {
-        Some((_, sum)) => *sum += slope,
-        None => gradient.push((first, slope)),
-    }
 }
 
 fn slip(

@@ -28,7 +28,7 @@ use striae_surface::scalar::constant3;
 use crate::{
     configuration::Configuration,
     frame::Frame,
-    kinematics::Kinematics,
+    kinematics::{Kinematics, Presence},
     quantity::Quantity,
     table_1::Corrector,
     term::{Field, Lanes, LocalTerm, Source, parts, variable3},
@@ -229,10 +229,13 @@ impl<'a> NodeState<'a> {
             ..
         } = self.node;
         NodeResult {
-            gap: kinematics.gap.value,
+            gap: match kinematics.presence {
+                Presence::Facing => kinematics.gap.value,
+                Presence::Gone => 0.0,
+            },
             pressure: unknowns[0],
             tau: *tau,
-            slip: kinematics.slip.value,
+            slip: kinematics.seen_slip,
             normal: frame.n.value,
             texture: Vec3::zeros(),
             mean: Vec3::zeros(),

@@ -42,8 +42,9 @@ pub enum Place {
 pub enum Found {
     /// Along the normal.
     Inside,
-    /// At the nearest place of the edge of the surface, as the normal passes beside it.
-    Edge,
+    /// At the nearest place of the edge of the surface, between these nodes, as the normal
+    /// passes beside it.
+    Edge([u32; 2]),
 }
 
 /// How many reaches away a surface counts as seen, though out of reach.
@@ -110,12 +111,12 @@ impl Configuration<'_> {
         }
         let own = self.side(side);
         let (x, n) = (&own.x[node as usize], &own.normals[node as usize]);
-        let hit = nearest_edge(self.side(1 - side), x, n, reach)?;
+        let (hit, nodes) = nearest_edge(self.side(1 - side), x, n, reach)?;
         let contact = Contact {
             gap: hit.gap,
             place: Place::Facet(hit),
         };
-        Some((contact, Found::Edge))
+        Some((contact, Found::Edge(nodes)))
     }
 
     /// What a node of a deformable side sees.

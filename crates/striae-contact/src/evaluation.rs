@@ -234,7 +234,8 @@ impl Evaluation {
                 continue;
             };
             let (side, node) = kept[k].place();
-            self.dissipated -= stage.selection.weight(k) * result.tau.dot(&result.slip);
+            let slip = &stage.kinematics[k].slip.value;
+            self.dissipated -= stage.selection.weight(k) * result.tau.dot(slip);
             let texture = self.nodes[side][node].texture;
             self.nodes[side][node] = NodeResult { texture, ..result };
             self.terms.push(term);

@@ -10,12 +10,13 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::DualSVec64;
 use rayon::prelude::*;
 use striae_mesh::Vec3;
-use striae_surface::{facet::Shape, normal::normal_jacobian};
+use striae_surface::normal::normal_jacobian;
 
 use crate::{
     configuration::Configuration,
     coverage::{Found, Place},
-    projection::differentiated_rigid,
+    edge::on_edge,
+    projection::{Hit, differentiated_rigid},
     selection::Selection,
     term::{Jacobian, Lanes, Source, add_block, parts, variable3},
 };
@@ -92,16 +93,8 @@ fn rigid_normal(configuration: &Configuration, node: u32) -> Option<Tracked> {
         return None;
     };
     let target = configuration.side(1);
-    if found == Found::Edge {
-        let corners = target.corners(hit.facet);
-        let weights = Shape::of(&corners).weights(hit.xi, hit.eta).value;
-        let sum: Vec3 = (0..4)
-            .map(|c| target.normals[corners[c] as usize] * weights[c])
-            .sum();
-        return Some(Tracked {
-            value: -sum.normalize(),
-            jacobian: Vec::new(),
-        });
+    if let Found::Edge(nodes) = found {
+        return Some(normal_on_edge(configuration, node, &hit, nodes));
     }
     let x: Vector3<DualSVec64<3>> = variable3(&configuration.side(0).x[node as usize], 0);
     let (_, rigid) = differentiated_rigid(target, &hit, &x);
@@ -115,6 +108,22 @@ fn rigid_normal(configuration: &Configuration, node: u32) -> Option<Tracked> {
         value,
         jacobian: lanes.jacobian(&gradient),
     })
+}
+
+/// The same at the nearest place of the edge of the rigid surface.
+fn normal_on_edge(configuration: &Configuration, node: u32, hit: &Hit, nodes: [u32; 2]) -> Tracked {
+    let place = on_edge(configuration, 0, node, hit, nodes);
+    let target = configuration.side(1);
+    let [start, end] = nodes.map(|node| target.normals[node as usize]);
+    let sum = start + (end - start) * place.share.value;
+    let (length, value) = (sum.norm(), -sum.normalize());
+    let across = Matrix3::identity() - value * value.transpose();
+    let by_share = -(across * (end - start)) / length;
+    let by = |(first, slope): (u32, Vec3)| (first, by_share * slope.transpose());
+    Tracked {
+        value,
+        jacobian: place.share.gradient.into_iter().map(by).collect(),
+    }
 }
 
 fn frame(configuration: &Configuration, side: usize, node: u32, n: Tracked) -> Frame {

@@ -21,9 +21,23 @@ pub struct Kinematics {
     /// Slip `du` of the node's own side relative to the other since the last converged
     /// configuration, in the tangent plane of the node.
     pub slip: Tracked,
+    /// The slip without what the ramp adds, for reports.
+    pub seen_slip: Vec3,
+    /// Whether any segment of the present configuration bears on the node.
+    pub presence: Presence,
     /// Pressure per gap `1/l` that scales the complementarity: `l` is the thickness over
     /// the modulus of what yields there on both sides.
     pub stiffness: f64,
+}
+
+/// Whether a node faces the other side.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Presence {
+    /// It does.
+    #[default]
+    Facing,
+    /// It has left the other side in this increment.
+    Gone,
 }
 
 /// What is reported of a node, kept or not.

@@ -21,6 +21,7 @@ pub mod common_field;
 pub mod complementarity;
 pub mod configuration;
 pub mod coverage;
+pub mod edge;
 pub mod evaluation;
 pub mod exposed;
 pub mod facet_coverage;

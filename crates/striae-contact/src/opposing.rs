@@ -59,6 +59,16 @@ impl Opposing {
         }
     }
 
+    /// At a place with these interpolation functions, whose change is another matter.
+    pub fn at(weights: [f64; 4]) -> Self {
+        Self {
+            gap: 0.0,
+            weights,
+            weights_by_r: [Vec3::zeros(); 4],
+            gap_by_r: Vec3::zeros(),
+        }
+    }
+
     /// Adds the derivatives of three rows that depend on `r` to their gradient.
     pub fn spread(&self, by_r: &Matrix3<f64>, lanes: PlaceLanes, gradient: &mut [[f64; 3]]) {
         add_block(gradient, lanes.x, &-by_r);

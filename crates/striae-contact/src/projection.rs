@@ -71,18 +71,16 @@ pub fn project(target: &Snapshot, x: &Vec3, ray: Ray, reach: f64, margin: Margin
 }
 
 /// The point on the edge of a surface that is nearest to the line through `x` along `n`,
-/// within the distance `reach` of `x`.
-pub fn nearest_edge(target: &Snapshot, x: &Vec3, n: &Vec3, reach: f64) -> Option<Hit> {
+/// within the distance `reach` of `x`, and the nodes of that edge.
+pub fn nearest_edge(target: &Snapshot, x: &Vec3, n: &Vec3, reach: f64) -> Option<(Hit, [u32; 2])> {
     let bounds = Bounds::around([*x]).inflated(reach);
     let edges = target.surface.boundary_edges();
-    let mut best: Option<(f64, Hit)> = None;
+    let mut best: Option<(f64, Hit, [u32; 2])> = None;
     for item in target.edge_tree.meeting(&bounds) {
         let edge = edges[item as usize];
         let [start, end] = edge.nodes.map(|node| target.x[node as usize] - x);
         let flat = |v: Vec3| v - n * n.dot(&v);
-        let (from, along) = (flat(start), flat(end - start));
-        let share =
-            (-from.dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let share = share_of_edge(&start, &(end - start), n);
         let point = start + (end - start) * share;
         let distance = flat(point).norm();
         let corners = target.corners(edge.facet);
@@ -93,7 +91,7 @@ pub fn nearest_edge(target: &Snapshot, x: &Vec3, n: &Vec3, reach: f64) -> Option
         if point.norm() > reach || facing.dot(n) >= 0.0 {
             continue;
         }
-        if best.is_none_or(|(known, _)| distance < known) {
+        if best.is_none_or(|(known, ..)| distance < known) {
             let at =
                 |node: u32| Shape::of(&corners).corner(corners.iter().position(|c| *c == node));
             let [a, b] = edge.nodes.map(at);
@@ -108,10 +106,18 @@ pub fn nearest_edge(target: &Snapshot, x: &Vec3, n: &Vec3, reach: f64) -> Option
                     eta,
                     gap,
                 },
+                edge.nodes,
             ));
         }
     }
-    best.map(|(_, hit)| hit)
+    best.map(|(_, hit, nodes)| (hit, nodes))
+}
+
+/// Share of the edge `d` that starts at `r` from a point, nearest to the line through that
+/// point along `n`.
+pub fn share_of_edge(r: &Vec3, d: &Vec3, n: &Vec3) -> f64 {
+    let along = d - n * n.dot(d);
+    (-r.dot(&along) / d.dot(&along).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0)
 }
 
 fn nearest(

@@ -15,10 +15,9 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::DualSVec64;
 use rayon::prelude::*;
 use striae_law::friction::RequiredTextures;
-use striae_mesh::Vec3;
 use striae_surface::{
     facet::Shape,
-    scalar::{constant3, dot, normalised, scaled},
+    scalar::{combination, constant3, dot, normalised, scaled},
     texture::{Axes, Field, Texture},
     transport::transported,
 };
@@ -26,11 +25,12 @@ use striae_surface::{
 use crate::{
     configuration::Configuration,
     coverage::{Found, Place},
+    edge::on_edge,
     frame::{Frame, Frames, Tracked, own_normal},
     opposing::{Opposing, PlaceLanes},
     projection::{Hit, differentiated_rigid},
     selection::Selection,
-    term::{Jacobian, Lanes, Source, parts, variable3},
+    term::{Jacobian, Lanes, Source, parts, variable, variable3},
     transported::Transported,
 };
 
@@ -187,23 +187,28 @@ fn on_rigid(
 ) -> Result<Tracked, CollapsedTexture> {
     let target = configuration.side(1);
     let corners = target.corners(hit.facet);
-    let x: Vector3<DualSVec64<3>> = variable3(&configuration.side(0).x[node as usize], 0);
-    let (xi, eta, normal) = match found {
+    let shape = Shape::of(&corners);
+    let mut lanes = Lanes::default();
+    let place;
+    // Lanes of the node's position or, on the edge, of the share of the way along it.
+    let (weights, normal): ([DualSVec64<3>; 4], _) = match found {
         Found::Inside => {
+            let x = variable3(&configuration.side(0).x[node as usize], 0);
             let ([xi, eta, _], normal) = differentiated_rigid(target, hit, &x);
-            (xi, eta, normal)
+            lanes.push(Source::Unknowns {
+                first: configuration.pair.numbering().position(0, node),
+                count: 3,
+            });
+            (shape.weights(xi, eta).value, normal)
         }
-        // The nearest place of an edge is taken as it is.
-        Found::Edge => {
-            let [xi, eta] = [hit.xi, hit.eta].map(DualSVec64::from_re);
-            let weights = Shape::of(&corners).weights(hit.xi, hit.eta).value;
-            let sum: Vec3 = (0..4)
-                .map(|c| target.normals[corners[c] as usize] * weights[c])
-                .sum();
-            (xi, eta, constant3(&sum.normalize()))
+        Found::Edge(nodes) => {
+            place = on_edge(configuration, 0, node, hit, nodes);
+            lanes.push(Source::Scalar(&place.share.gradient));
+            let weights = place.weights_along(variable(place.share.value, 0));
+            let normals = corners.map(|corner| constant3(&target.normals[corner as usize]));
+            (weights, normalised(&combination(&weights, &normals)))
         }
     };
-    let weights = Shape::of(&corners).weights(xi, eta).value;
     let mut sum: Vector3<DualSVec64<3>> = Vector3::zeros();
     for corner in 0..4 {
         let a = own(
@@ -217,11 +222,6 @@ fn on_rigid(
         let turned = transported(&constant3(&a.value), &constant3(&n_j), &normal);
         sum -= scaled(&turned, weights[corner]);
     }
-    let mut lanes = Lanes::default();
-    lanes.push(Source::Unknowns {
-        first: configuration.pair.numbering().position(0, node),
-        count: 3,
-    });
     Ok(tracked(&lanes, &normalised(&sum)))
 }
 
@@ -269,7 +269,14 @@ fn on_deformable(
     }
     let shape = Shape::of(&corners);
     let n = frame.n.value;
-    let opposing = Opposing::new(shape, hit, &n, &other.corner_positions(hit.facet));
+    let on_edge = match found {
+        Found::Inside => None,
+        Found::Edge(nodes) => Some(on_edge(configuration, side, node, hit, nodes)),
+    };
+    let opposing = match &on_edge {
+        None => Opposing::new(shape, hit, &n, &other.corner_positions(hit.facet)),
+        Some(place) => Opposing::at(place.weights()),
+    };
     let turned: [Transported; 4] = std::array::from_fn(|corner| {
         Transported::new(&a[corner].value, &-normals[corner].value, &n)
     });
@@ -277,16 +284,20 @@ fn on_deformable(
     let length = sum.norm();
     let value = sum / length;
     let across = (Matrix3::identity() - value * value.transpose()) / length;
-    let mut gradient = [[0.0; 3]; 42];
+    let mut gradient = [[0.0; 3]; 43];
     let by_r = opposing.spread_sum(&across, &turned, [3, 18, 30], &mut gradient);
-    let place = PlaceLanes {
+    let places = PlaceLanes {
         x: 0,
         n: 3,
         corners: 6,
     };
-    // The nearest place of an edge is taken as it is.
-    if found == Found::Inside {
-        opposing.spread(&by_r, place, &mut gradient);
+    match &on_edge {
+        None => opposing.spread(&by_r, places, &mut gradient),
+        Some(place) => {
+            let [start, end] = place.ends.map(|corner| turned[corner].value);
+            gradient[42] = (across * (start - end)).into();
+            lanes.push(Source::Scalar(&place.share.gradient));
+        }
     }
     Ok(Tracked {
         value,

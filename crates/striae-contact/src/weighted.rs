@@ -20,7 +20,7 @@ use striae_mesh::Vec3;
 use crate::{
     configuration::Configuration,
     frame::{Frame, Frames, Tracked},
-    kinematics::{Kinematics, Report, TrackedScalar},
+    kinematics::{Kinematics, Presence, Report, TrackedScalar},
     pairing::PairedFacets,
     segment_rows::{ROWS, SegmentRows, Slip},
     selection::Selection,
@@ -216,6 +216,12 @@ impl<'a> Sum<'a> {
             add_chained(&mut jacobian, &(self.slip_by_n * share), &frame.n.jacobian);
         }
         Kinematics {
+            seen_slip: self.slip * share,
+            presence: if gradient.is_empty() {
+                Presence::Gone
+            } else {
+                Presence::Facing
+            },
             gap: TrackedScalar {
                 value: self.gap * share,
                 gradient,

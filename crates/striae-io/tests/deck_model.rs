@@ -13,7 +13,7 @@ use striae_law::{
 };
 use striae_mesh::{NodeId, Vec3, generate::Block};
 use striae_solve::model::{
-    Backend, Balance, BodyId, Curve, Freedom, Increments, LoadExtent, LoadKind, Mover, PairId,
+    Backend, BodyId, Curve, Enforcement, Freedom, Increments, LoadExtent, LoadKind, Mover, PairId,
     Procedure, RigidId, RigidShape, Side, Solver, Strategy, Velocity,
 };
 
@@ -109,8 +109,8 @@ fn pairs_name_ids_and_faces() {
     }
     assert_eq!(pair.friction, Friction::coulomb(0.3).unwrap());
     assert_eq!(
-        (pair.balance, pair.search_distance),
-        (Balance::Resultants, None)
+        (pair.enforcement, pair.search_distance),
+        (Enforcement::Weighted, None)
     );
 }
 
@@ -122,7 +122,7 @@ fn a_rigid_side_becomes_the_second_one() {
     );
     let text = text.replace(
         "mu = 0.3 }",
-        "mu = 0.3 }\nbalance = \"none\"\nsearch_distance = 0.1",
+        "mu = 0.3 }\nenforcement = \"collocated\"\nsearch_distance = 0.1",
     );
     let pair = &lowered(&text).model.pairs[0];
     assert!(matches!(
@@ -134,8 +134,8 @@ fn a_rigid_side_becomes_the_second_one() {
     ));
     assert!(matches!(pair.b, Side::Rigid(RigidId(0))));
     assert_eq!(
-        (pair.balance, pair.search_distance),
-        (Balance::None, Some(0.1))
+        (pair.enforcement, pair.search_distance),
+        (Enforcement::Collocated, Some(0.1))
     );
 }
 

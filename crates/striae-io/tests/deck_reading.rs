@@ -369,14 +369,14 @@ fn words() {
         ],
     );
     misread(
-        "unknown balance",
+        "unknown enforcement",
         &[(
             "mu = 0.3 }",
             r#"mu = 0.3 }
-balance = "resultant""#,
+enforcement = "weighed""#,
         )],
         &[
-            "23:11: `balance` in [[pair]] cannot be `resultant`; expected one of `resultants`, `none`; did you mean `resultants`?",
+            "23:15: `enforcement` in [[pair]] cannot be `weighed`; expected one of `weighted`, `collocated`; did you mean `weighted`?",
         ],
     );
     misread(

@@ -11,4 +11,3 @@ mod table;
 mod convergence;
 mod patch;
 mod sliding;
-mod tangent;

@@ -17,5 +17,3 @@ mod rigid_facets;
 mod round_off;
 mod sliding;
 mod table_1;
-mod tangent;
-mod tangent_of_system;

@@ -98,16 +98,29 @@ fn pressed(case: &Case, order: [usize; 2]) -> Model {
     model
 }
 
-fn check(name: &str, case: &Case) {
-    for order in [[0, 1], [1, 0]] {
-        let run = Run::completed(pressed(case, order));
-        let what = format!("{name}, order {order:?}");
-        check_bodies(&what, &run, case);
-        check_interface(&what, &run);
+/// Integrals over parallelograms are exact; over others quadrature leaves an error, which
+/// falls with their distortion.
+fn tolerance(case: &Case) -> f64 {
+    let blocks = [&case.lower, &case.upper];
+    let skewed = |block: &&Block| block.irregularity > 0.0 || block.mesh_rotation != 0.0;
+    if blocks.iter().any(skewed) {
+        1e-8
+    } else {
+        1e-10
     }
 }
 
-fn check_bodies(what: &str, run: &Run, case: &Case) {
+fn check(name: &str, case: &Case) {
+    let tolerance = tolerance(case);
+    for order in [[0, 1], [1, 0]] {
+        let run = Run::completed(pressed(case, order));
+        let what = format!("{name}, order {order:?}");
+        check_bodies(&what, &run, case, tolerance);
+        check_interface(&what, &run, tolerance);
+    }
+}
+
+fn check_bodies(what: &str, run: &Run, case: &Case, tolerance: f64) {
     let materials = materials();
     let [_, lower] = stretches(&materials[0]);
     let expected_stress = Matrix3::from_diagonal(&Vec3::new(0.0, 0.0, -PRESSURE));
@@ -126,7 +139,7 @@ fn check_bodies(what: &str, run: &Run, case: &Case) {
             .collect();
         let error = largest_distance(run.positions(body), &expected);
         assert!(
-            error < 1e-10,
+            error < tolerance,
             "{what}, body {body}: displacements off by {error:.1e}"
         );
         for (corners, element) in model.mesh.elements.iter().zip(&run.problem.elements[body]) {
@@ -134,7 +147,7 @@ fn check_bodies(what: &str, run: &Run, case: &Case) {
             for stress in element.gauss_stress(&x, &model.material).unwrap() {
                 let error = (stress - expected_stress).amax();
                 assert!(
-                    error < 1e-10 * PRESSURE,
+                    error < tolerance * PRESSURE,
                     "{what}, body {body}: stress off by {error:.1e}"
                 );
             }
@@ -142,24 +155,26 @@ fn check_bodies(what: &str, run: &Run, case: &Case) {
     }
 }
 
-fn check_interface(what: &str, run: &Run) {
+fn check_interface(what: &str, run: &Run, tolerance: f64) {
     let pair = &run.last().pairs[0];
-    let selection = pair.selection.as_ref().unwrap();
+    let mut kept = 0;
     for side in 0..2 {
-        for node in 0..selection.roles[side].len() {
-            if selection.is_active(side, node as u32) {
-                let p = pair.tractions.nodes[side][node][0];
-                let error = (p - PRESSURE).abs();
-                assert!(
-                    error < 1e-10 * PRESSURE,
-                    "{what}: pressure {p} at {side}, {node}"
-                );
-            }
+        for (node, is_kept) in pair.kept[side].iter().enumerate() {
+            let p = pair.nodes[side][node].pressure;
+            let off = (p - PRESSURE).abs();
+            // Nodes without a share in the field have no pressure at all.
+            let outside = !is_kept && p == 0.0;
+            assert!(
+                outside || off < tolerance * PRESSURE,
+                "{what}: pressure {p} at {side}, {node}"
+            );
+            kept += usize::from(*is_kept);
         }
     }
+    assert!(kept >= 4, "{what}: {kept} nodes");
     let report = &striae_solve::report::pairs(&run.problem, run.last())[0];
     assert!(
-        report.mismatch < 1e-10 && report.moment_mismatch < 1e-10,
+        report.mismatch < 1e-13 && report.moment_mismatch < tolerance,
         "{what}: {report:?}"
     );
     assert!(

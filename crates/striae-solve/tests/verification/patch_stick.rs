@@ -6,7 +6,7 @@
 
 use crate::scene::{Places, Run, block, body, coulomb, largest_distance, model, rubber, step};
 use nalgebra::Matrix3;
-use striae_contact::{selection::Role, unknowns::Status};
+use striae_contact::unknowns::Status;
 use striae_law::bulk::Material;
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::model::{BodyId, Curve, Displacement, LoadExtent, LoadKind, Model, Step};
@@ -89,13 +89,12 @@ fn moved(model: &Model, body: usize, node: NodeId, f: &Matrix3<f64>) -> Displace
     }
 }
 
-/// Status of the kinematic nodes of both sides.
+/// Status of the kept nodes of both sides.
 fn statuses(run: &Run, state: usize) -> Vec<Status> {
     let pair = &run.states[state].pairs[0];
-    let roles = &pair.selection.as_ref().unwrap().roles;
     (0..2)
-        .flat_map(|side| roles[side].iter().zip(&pair.nodes[side]))
-        .filter(|(role, _)| matches!(role, Role::Kinematic(_)))
+        .flat_map(|side| pair.kept[side].iter().zip(&pair.nodes[side]))
+        .filter(|(kept, _)| **kept)
         .map(|(_, node)| node.status)
         .collect()
 }

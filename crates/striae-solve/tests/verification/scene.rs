@@ -1,6 +1,6 @@
 //! Models made in code and run without output.
 
-use striae_contact::evaluation::Evaluation;
+use striae_contact::{evaluation::Evaluation, pair::Enforcement};
 use striae_law::{
     bulk::{LameConstants, Material},
     friction::Friction,
@@ -9,9 +9,9 @@ use striae_mesh::{Face, Mesh, NodeId, Vec3, generate::Block};
 use striae_solve::{
     drive::{Continue, Observer, Progress, run},
     model::{
-        Backend, Balance, Body, BodyId, ContactMass, Curve, Displacement, Increments, Initial,
-        Load, LoadExtent, LoadKind, Model, Pair, PairId, Procedure, RigidId, RigidShape,
-        RigidSurface, Side, Solver, Step, Strategy,
+        Backend, Body, BodyId, ContactMass, Curve, Displacement, Increments, Initial, Load,
+        LoadExtent, LoadKind, Model, Pair, PairId, Procedure, RigidId, RigidShape, RigidSurface,
+        Side, Solver, Step, Strategy,
     },
     newton::{Increment, IterationObserver, LinearWork},
     norms::Norms,
@@ -334,7 +334,7 @@ fn pair(name: &str, a: Side, b: Side, friction: Friction) -> Pair {
         b,
         textures: [None, None],
         friction,
-        balance: Balance::Resultants,
+        enforcement: Enforcement::Weighted,
         search_distance: None,
         initial: Initial::AsMeshed,
     }

@@ -3,7 +3,7 @@
 use crate::scene::{
     Places, Run, block, body, coulomb, increments, model, pressed_on_plane, rubber, step,
 };
-use striae_contact::{selection::Role, unknowns::Status};
+use striae_contact::unknowns::Status;
 use striae_mesh::Vec3;
 use striae_solve::{
     model::Model,
@@ -51,10 +51,9 @@ fn nodes_obey_the_law(run: &Run, state: usize) {
     let nodes = || pair.nodes.iter().flatten();
     let largest = nodes().map(|node| node.pressure).fold(0.0, f64::max);
     let mut slipping = 0;
-    for (side, roles) in pair.selection.as_ref().unwrap().roles.iter().enumerate() {
-        for (role, node) in roles.iter().zip(&pair.nodes[side]) {
-            let kinematic = matches!(role, Role::Kinematic(_));
-            if kinematic && node.status == Status::Slip {
+    for (kept, nodes) in pair.kept.iter().zip(&pair.nodes) {
+        for (kept, node) in kept.iter().zip(nodes) {
+            if *kept && node.status == Status::Slip {
                 let error = (node.tau.norm() - MU * node.pressure).abs();
                 assert!(
                     error <= 1e-10 * largest,
@@ -123,13 +122,13 @@ fn between_deformable_blocks_the_integrals_obey_the_law_and_balance() {
     }
 }
 
-/// Increments in which a node that slipped before has become kinematic.
-fn increments_with_new_roles(run: &Run) -> Vec<usize> {
+/// Increments in which a node that slipped before has got unknowns of its own.
+fn increments_with_new_nodes(run: &Run) -> Vec<usize> {
     let has_new = |increment: &usize| {
         let [before, after] = [0, 1].map(|at| &run.states[increment + at].pairs[0]);
         (0..2).any(|side| {
-            let roles = before.kinematic[side].iter().zip(&after.kinematic[side]);
-            let mut nodes = roles.zip(&before.nodes[side]);
+            let kept = before.kept[side].iter().zip(&after.kept[side]);
+            let mut nodes = kept.zip(&before.nodes[side]);
             nodes.any(|((was, is), node)| !was && *is && node.status == Status::Slip)
         })
     };
@@ -137,14 +136,14 @@ fn increments_with_new_roles(run: &Run) -> Vec<usize> {
 }
 
 #[test]
-fn nodes_that_become_kinematic_while_sliding_go_on_slipping() {
+fn nodes_that_are_newly_kept_while_sliding_go_on_slipping() {
     for depth in [0.02, 0.002] {
         let mut model = two_blocks([0, 1], depth, [0.15, 0.0]);
         model.steps[1].increments = increments(0.1, 0.001);
         let run = Run::completed(model);
         assert!(run.cuts.is_empty(), "{depth}: {:?}", run.cuts);
-        let increments = increments_with_new_roles(&run);
-        assert!(!increments.is_empty(), "{depth}: no role changes");
+        let increments = increments_with_new_nodes(&run);
+        assert!(!increments.is_empty(), "{depth}: no node is new");
         for increment in increments {
             // As many as in steady sliding; a node that sticks first takes three more.
             let count = run.iterations[increment].len();

@@ -175,7 +175,7 @@ fn solver(raw: Option<&raw::SolverSettings>) -> Solver {
         },
         strategy: strategy(raw),
         tolerance: tolerance.map_or(1e-10, |tolerance| tolerance.value.0),
-        largest_iterations: iterations.map_or(20, |iterations| iterations.value.0),
+        largest_iterations: iterations.map_or(40, |iterations| iterations.value.0),
         further_iterations: 0,
     }
 }

@@ -24,7 +24,7 @@ table! {
         optional strategy: Strategy,
         /// Relative tolerance of every residual field. Default: 1e-10.
         optional tolerance: Positive,
-        /// Iterations after which an increment is cut. Default: 20.
+        /// Iterations after which an increment is cut. Default: 40.
         optional largest_iterations: Count,
     }
 }

@@ -2,8 +2,8 @@
 //! differences falls with the square of the step.
 
 use crate::{
+    placed::{dome, on_rigid, two_blocks},
     scene::{Places, Run, coulomb, plane, step},
-    tangent::{dome, on_rigid, two_blocks},
 };
 use nalgebra::DVector;
 use striae_contact::{complementarity::Iteration, selection::Selection};
@@ -22,33 +22,33 @@ use striae_solve::{
 };
 use striae_verify::{Difference, Random, derivative::directional};
 
-/// The whole system of a step as a function of all unknowns.
+/// The whole system of a step as a function of all unknowns, after the converged state
+/// `before`.
 struct Whole<'a> {
     context: &'a StepContext<'a>,
     selections: Vec<Selection>,
     imposed: Imposed,
     layout: Layout,
     structure: Structure,
+    before: &'a State,
     state: &'a State,
 }
 
 impl<'a> Whole<'a> {
-    fn new(context: &'a StepContext<'a>, state: &'a State) -> Self {
-        let layout = Layout::new(context.problem, Extent::default().with(&state.pairs));
+    fn new(context: &'a StepContext<'a>, before: &'a State, state: &'a State) -> Self {
+        let selections = selections(context, before, state);
+        let layout = Layout::new(context.problem, Extent::default().with(&selections));
         let every: Vec<_> = (0..layout.offsets().len() - 1).map(Supervariable).collect();
         let structure = Structure::from_cliques(layout.offsets().to_vec(), &[&every])
             .and_then(|structure| structure.grown(&[&every]))
             .unwrap();
-        let selections = state
-            .pairs
-            .iter()
-            .map(|pair| pair.selection.clone().unwrap());
         Self {
-            selections: selections.collect(),
+            selections,
             imposed: context.imposed(1.0),
             context,
             layout,
             structure,
+            before,
             state,
         }
     }
@@ -95,13 +95,6 @@ impl<'a> Whole<'a> {
                             .for_each(|(at, v)| visit(first + at, v));
                     }
                 }
-            }
-            for (patch, values) in tractions.balance.iter_mut().enumerate() {
-                let first = self.layout.balance(pair, patch);
-                values
-                    .iter_mut()
-                    .enumerate()
-                    .for_each(|(at, v)| visit(first + at, v));
             }
         }
     }
@@ -152,7 +145,7 @@ impl<'a> Whole<'a> {
                 &setting,
                 &assembled.background,
                 (&trial, change.as_slice()),
-                Iteration::Later,
+                Iteration::LATER,
                 &self.layout,
                 &mut matrix,
             );
@@ -170,6 +163,7 @@ impl<'a> Whole<'a> {
     fn setting(&self) -> Setting<'_> {
         Setting {
             context: self.context,
+            state: self.before,
             selections: &self.selections,
             imposed: &self.imposed,
         }
@@ -182,7 +176,7 @@ impl<'a> Whole<'a> {
 
     fn evaluated(&self, u: &DVector<f64>) -> (Assembled, SparseMatrix) {
         let mut matrix = SparseMatrix::zero(&self.structure);
-        let contact = Contact::Evaluated(Iteration::Later);
+        let contact = Contact::Evaluated(Iteration::LATER);
         let trial = self.trial(u);
         let assembled = assemble(&self.setting(), &trial, contact, &self.layout, &mut matrix);
         match assembled {
@@ -193,9 +187,25 @@ impl<'a> Whole<'a> {
     }
 }
 
+/// The traction fields of the increment from `before` to `state`.
+fn selections(context: &StepContext, before: &State, state: &State) -> Vec<Selection> {
+    (0..state.pairs.len())
+        .map(|pair| {
+            let at = |state: &State| context.configuration(pair, &state.positions, &state.rigid);
+            let kept = &before.pairs[pair].kept;
+            let first = Selection::new(&at(before), None, kept);
+            if first.kept_nodes() == state.pairs[pair].kept {
+                first
+            } else {
+                Selection::new(&at(before), Some(&at(state)), kept)
+            }
+        })
+        .collect()
+}
+
 #[test]
 fn of_the_whole_system_under_all_loads() {
-    let mut model = two_blocks(Friction::frictionless());
+    let mut model = two_blocks([2.0, 1.0], [3, 3], Friction::frictionless());
     let mut step = step();
     step.displacements = vec![
         model.hold("lower", "zmin", [Some(0.0); 3]),
@@ -272,24 +282,25 @@ fn of_a_rigid_body_that_contact_pushes_under_loads() {
         model.steps = vec![first, second];
         let problem = Problem::new(model).unwrap();
         let start = State::undeformed(&problem);
-        let state = after_first(&problem, &start);
+        let states = after_first(&problem, &start);
+        let [before, state] = &states;
         let context = StepContext::new(&problem, 1, &start);
-        let whole = Whole::new(&context, &state);
+        let whole = Whole::new(&context, before, state);
         assert!(whole.layout.rigid(0).is_some());
         whole.assert_order();
     }
 }
 
-/// State at the end of the first step.
-fn after_first(problem: &Problem, start: &State) -> State {
+/// States at half the first step and at its end.
+fn after_first(problem: &Problem, start: &State) -> [State; 2] {
     let context = StepContext::new(problem, 0, start);
     let mut workspace = Workspace::new(problem.model.solver.backend);
     let mut state = start.clone();
-    for s in [0.5, 1.0] {
+    [0.5, 1.0].map(|s| {
         let increment = advance(&context, &state, s, s, &mut workspace, &mut ());
         state = increment.unwrap_or_else(|cut| panic!("{cut}")).state;
-    }
-    state
+        state.clone()
+    })
 }
 
 /// Asserts the order at the end of a model of one step.
@@ -297,7 +308,10 @@ fn assert_order(model: Model) {
     let run = Run::completed(model);
     let start = State::undeformed(&run.problem);
     let context = StepContext::new(&run.problem, 0, &start);
-    let whole = Whole::new(&context, run.last());
+    let [.., before, last] = &run.states[..] else {
+        panic!("no increment");
+    };
+    let whole = Whole::new(&context, before, last);
     let (residual, _) = whole.assembled(&whole.unknowns());
     assert!(residual.norm() < 1e-9);
     whole.assert_order();

@@ -1,0 +1,110 @@
+//! Tangent of contact with Coulomb's law, in nodes of every status.
+
+use striae_contact::{
+    complementarity::Iteration,
+    pair::Enforcement,
+    table_1::{Corrector, Inflation},
+    unknowns::Status,
+};
+use striae_law::friction::Friction;
+use striae_solve::{assembly::StepContext, problem::Problem, state::State};
+
+use crate::{
+    pair::{PairFunction, Wanted},
+    placed::{dome, of_bodies, of_rigid, on_rigid, two_blocks},
+    scene::{coulomb, plane},
+};
+
+const BOTH: [Enforcement; 2] = [Enforcement::Weighted, Enforcement::Collocated];
+
+fn laws() -> [Friction; 2] {
+    [
+        coulomb(0.5),
+        coulomb(0.5).with_decay(0.4, 0.15).expect("in range"),
+    ]
+}
+
+/// Moduli and divisions of two bodies: alike, one much stiffer, one much finer.
+const PAIRINGS: [([f64; 2], [usize; 2]); 5] = [
+    ([1.0, 1.0], [3, 3]),
+    ([100.0, 1.0], [3, 3]),
+    ([1.0, 100.0], [3, 2]),
+    ([1.0, 2.0], [2, 4]),
+    ([3.0, 1.0], [4, 3]),
+];
+
+#[test]
+fn of_two_curved_surfaces_that_stick_slip_and_open() {
+    let (mut weak, mut corrected) = (0, 0);
+    let mut kept = [0; 2];
+    for enforcement in BOTH {
+        for (moduli, divisions) in PAIRINGS {
+            for friction in laws() {
+                let mut model = two_blocks(moduli, divisions, friction);
+                model.pairs[0].enforcement = enforcement;
+                let problem = Problem::new(model).unwrap();
+                let state = State::undeformed(&problem);
+                let context = StepContext::new(&problem, 0, &state);
+                let [start, now] = of_bodies(&problem, 7);
+                let mut pair = PairFunction::new(&context, start, now, 0.5);
+                let decays = context.pairs[0].friction.decays();
+                let name = format!("{enforcement:?} {moduli:?} {divisions:?}, decays: {decays}");
+                weak += pair.selection.ramp().len();
+                for of_pair in pair.selection.kept() {
+                    kept[of_pair.side] += 1;
+                }
+                let u = pair.state(Wanted::Mixed);
+                let statuses = pair.statuses(&u);
+                for status in [Status::Open, Status::Stick, Status::Slip] {
+                    let found = statuses.contains(&status);
+                    assert!(found, "{name}: no node is {status:?}: {statuses:?}");
+                }
+                pair.assert_order(&u, &name);
+                pair.before = statuses.clone();
+                pair.iteration = Iteration::Corrected(Corrector {
+                    stick_tolerance: 0.01,
+                    inflation: Inflation::default().after(0.0),
+                });
+                // Without pressure, stick and slip are the same.
+                if pair.statuses(&u) == statuses {
+                    pair.assert_order(&u, &name);
+                    corrected += 1;
+                }
+            }
+        }
+    }
+    assert!(corrected > 10, "{corrected} with a corrector");
+    assert!(weak > 5, "{weak} weak nodes");
+    assert!(kept[0] > 20 && kept[1] > 20, "kept: {kept:?}");
+}
+
+#[test]
+fn on_rigid_surfaces() {
+    let inclined = plane([0.0, 0.0, 0.01], [0.02, -0.03, 1.0]);
+    for enforcement in BOTH {
+        for (on, shape, bump) in [
+            ("plane", inclined.clone(), 0.02),
+            ("quadrilaterals", dome(4), 0.1),
+            ("triangles", dome(3), 0.1),
+        ] {
+            for friction in laws() {
+                let mut model = on_rigid(shape.clone());
+                model.pairs[0].friction = friction;
+                model.pairs[0].enforcement = enforcement;
+                let problem = Problem::new(model).unwrap();
+                let state = State::undeformed(&problem);
+                let context = StepContext::new(&problem, 0, &state);
+                let [start, now] = of_rigid(&problem, bump, 11);
+                let pair = PairFunction::new(&context, start, now, 0.5);
+                let decays = context.pairs[0].friction.decays();
+                let name = format!("{enforcement:?} on {on}, decays: {decays}");
+                let u = pair.state(Wanted::Mixed);
+                let statuses = pair.statuses(&u);
+                for status in [Status::Open, Status::Stick, Status::Slip] {
+                    assert!(statuses.contains(&status), "{name}: no node is {status:?}");
+                }
+                pair.assert_order(&u, &name);
+            }
+        }
+    }
+}

@@ -1,0 +1,281 @@
+//! A contact pair with a frozen traction field as a function of its unknowns.
+
+use nalgebra::{DMatrix, DVector};
+use striae_contact::{
+    complementarity::Iteration,
+    configuration::Configuration,
+    evaluation::{Evaluation, evaluate},
+    placement::Placement,
+    selection::Selection,
+    unknown::Unknown,
+    unknowns::{Status, Tractions},
+};
+use striae_mesh::Vec3;
+use striae_solve::assembly::StepContext;
+use striae_verify::{Difference, Random, derivative::directional};
+
+/// Where all nodes of a model and its rigid surface are.
+#[derive(Clone)]
+pub struct Places {
+    pub positions: Vec<Vec3>,
+    pub placement: Placement,
+}
+
+/// What the nodes of a state are to do.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Wanted {
+    /// One in three each is open, sticks and slips.
+    Mixed,
+    /// Nearly all slip.
+    Slip,
+}
+
+/// Pressure under which nodes stick whatever their slip.
+const STICKING: f64 = 20.0;
+
+/// A pair between two configurations, with the roles of the first.
+pub struct PairFunction<'a> {
+    context: &'a StepContext<'a>,
+    start: Places,
+    now: Places,
+    counts: [usize; 2],
+    elapsed: f64,
+    tau_n: [Vec<[f64; 2]>; 2],
+    /// Status in the iteration before, by kept node.
+    pub before: Vec<Status>,
+    pub selection: Selection,
+    pub iteration: Iteration,
+}
+
+impl<'a> PairFunction<'a> {
+    /// The pair on its way from `start` to `now`; roles look ahead.
+    pub fn new(context: &'a StepContext<'a>, start: Places, now: Places, elapsed: f64) -> Self {
+        let counts = [0, 1].map(|side| {
+            let deformable = context.problem.pairs[0].bodies[side].is_some();
+            let surface = context.pairs[0].sides[side].surface();
+            surface.map_or(0, |s| if deformable { s.nodes().len() } else { 0 })
+        });
+        let selection = {
+            let [from, to] = [&start, &now].map(|places| configuration(context, places));
+            let kept = counts.map(|count| vec![false; count]);
+            Selection::new(&from, Some(&to), &kept)
+        };
+        let mut random = Random::new(3);
+        let tau_n = counts.map(|count| {
+            let components = |_| [random.uniform(-0.05, 0.05), random.uniform(-0.05, 0.05)];
+            (0..count).map(components).collect()
+        });
+        Self {
+            context,
+            start,
+            now,
+            counts,
+            elapsed,
+            tau_n,
+            before: vec![Status::Slip; selection.kept().len()],
+            selection,
+            iteration: Iteration::LATER,
+        }
+    }
+
+    fn len(&self) -> usize {
+        self.context.pairs[0].numbering().count() as usize
+    }
+
+    fn configuration(&self, u: &DVector<f64>) -> Configuration<'_> {
+        let numbering = self.context.pairs[0].numbering();
+        let mut places = self.now.clone();
+        for side in 0..2 {
+            for node in 0..self.counts[side] as u32 {
+                let global = self.context.problem.surface_node(0, side, node).unwrap();
+                let first = numbering.position(side, node) as usize;
+                places.positions[global] = u.fixed_rows::<3>(first).into();
+            }
+        }
+        configuration(self.context, &places).lasting(self.elapsed)
+    }
+
+    fn tractions(&self, u: &DVector<f64>) -> Tractions {
+        let numbering = self.context.pairs[0].numbering();
+        let triple = |side: usize, node: usize| {
+            let first = numbering.traction(side, node as u32) as usize;
+            [u[first], u[first + 1], u[first + 2]]
+        };
+        let mut statuses = self.counts.map(|count| vec![Status::Open; count]);
+        for (kept, before) in self.selection.kept().iter().zip(&self.before) {
+            statuses[kept.side][kept.node as usize] = *before;
+        }
+        Tractions {
+            nodes: [0, 1].map(|side| (0..self.counts[side]).map(|n| triple(side, n)).collect()),
+            tau_n: self.tau_n.clone(),
+            slipped: self.counts.map(|count| vec![false; count]),
+            statuses,
+        }
+    }
+
+    fn evaluation(&self, u: &DVector<f64>) -> Evaluation {
+        let free = self.counts.map(|count| vec![false; 3 * count]);
+        evaluate(
+            &self.configuration(u),
+            &configuration(self.context, &self.start),
+            &self.selection,
+            &self.tractions(u),
+            &free,
+            self.iteration,
+        )
+        .unwrap()
+    }
+
+    fn residual(&self, u: &DVector<f64>) -> DVector<f64> {
+        let mut residual = DVector::zeros(self.len());
+        for term in &self.evaluation(u).terms {
+            for (row, value) in term.rows.iter().zip(&term.residual) {
+                residual[*row as usize] += value;
+            }
+        }
+        residual
+    }
+
+    fn tangent(&self, u: &DVector<f64>) -> DMatrix<f64> {
+        let mut tangent = DMatrix::zeros(self.len(), self.len());
+        for term in &self.evaluation(u).terms {
+            // A node that opposes nothing depends on nothing.
+            let rows = term.tangent.chunks(term.columns.len().max(1));
+            for (row, values) in term.rows.iter().zip(rows) {
+                for (column, value) in term.columns.iter().zip(values) {
+                    tangent[(*row as usize, *column as usize)] += value;
+                }
+            }
+        }
+        tangent
+    }
+
+    /// Unknowns away from the kinks; slip rows are satisfied, since only there is their
+    /// Jacobian exact. Slip depends on friction where nodes are weak.
+    pub fn state(&self, wanted: Wanted) -> DVector<f64> {
+        let mut random = Random::new(17);
+        let mut u = DVector::zeros(self.len());
+        let numbering = self.context.pairs[0].numbering();
+        for side in 0..2 {
+            for node in 0..self.counts[side] as u32 {
+                let global = self.context.problem.surface_node(0, side, node).unwrap();
+                let first = numbering.position(side, node) as usize;
+                let x = self.now.positions[global];
+                u.fixed_rows_mut::<3>(first).copy_from(&x);
+            }
+        }
+        for (k, kept) in self.selection.kept().iter().enumerate() {
+            let first = numbering.traction(kept.side, kept.node) as usize;
+            u[first] = match wanted {
+                Wanted::Slip => random.uniform(0.8, 1.2),
+                Wanted::Mixed => random.uniform(0.2, 0.4),
+            };
+            u[first + 1] = random.uniform(-0.1, 0.1);
+            u[first + 2] = random.uniform(-0.1, 0.1);
+            // Tension closes the gap of a weak node, and holds no friction there.
+            let weak = self.selection.ramp().iter().any(|w| w.kept as usize == k);
+            match k % 3 {
+                0 if wanted == Wanted::Mixed && !weak => u[first] = -3.0,
+                1 if wanted == Wanted::Mixed => u[first] = STICKING,
+                _ => {}
+            }
+        }
+        for _ in 0..100 {
+            let rows = self.slip_rows(&u);
+            let off = self.residual(&u).select_rows(&rows);
+            if off.amax() < 1e-13 {
+                return u;
+            }
+            let slope = self.tangent(&u).select_rows(&rows).select_columns(&rows);
+            let step = slope.lu().solve(&off).expect("a regular law");
+            for (row, step) in rows.iter().zip(step.iter()) {
+                u[*row] -= step;
+            }
+        }
+        panic!("friction does not settle");
+    }
+
+    /// Tangential rows of the slipping nodes.
+    fn slip_rows(&self, u: &DVector<f64>) -> Vec<usize> {
+        let numbering = self.context.pairs[0].numbering();
+        let statuses = self.statuses(u);
+        let kept = self.selection.kept().iter().zip(statuses);
+        kept.filter(|(_, status)| *status == Status::Slip)
+            .flat_map(|(kept, _)| {
+                let first = numbering.traction(kept.side, kept.node) as usize;
+                [first + 1, first + 2]
+            })
+            .collect()
+    }
+
+    /// Status of the kept nodes.
+    pub fn statuses(&self, u: &DVector<f64>) -> Vec<Status> {
+        let nodes = self.evaluation(u).nodes;
+        let kept = self.selection.kept().iter();
+        kept.map(|kept| nodes[kept.side][kept.node as usize].status)
+            .collect()
+    }
+
+    /// Asserts that the error of central differences falls with the square of the step.
+    pub fn assert_order(&self, u: &DVector<f64>, name: &str) {
+        let tangent = self.tangent(u);
+        for seed in 0..2 {
+            let direction = Random::new(seed).unit(u.len());
+            let claimed = &tangent * &direction;
+            let residual = |u: &DVector<f64>| self.residual(u);
+            match directional(Difference::Central, residual, &claimed, u, &direction) {
+                Ok(order) => assert!(order.is_some(), "{name}: no order"),
+                Err(wrong) => panic!("{name}: {wrong}{}", self.worst(u, &tangent)),
+            }
+        }
+    }
+
+    /// The entries of the tangent that differ most from differences.
+    fn worst(&self, u: &DVector<f64>, tangent: &DMatrix<f64>) -> String {
+        let h = 1e-6;
+        let mut differences = Vec::new();
+        for column in 0..u.len() {
+            let step = DVector::from_fn(u.len(), |at, _| if at == column { h } else { 0.0 });
+            let slope = (self.residual(&(u + &step)) - self.residual(&(u - &step))) / (2.0 * h);
+            for row in 0..u.len() {
+                let claimed = tangent[(row, column)];
+                differences.push(((slope[row] - claimed).abs(), row, column, claimed));
+            }
+        }
+        differences.sort_by(|one, other| other.0.total_cmp(&one.0));
+        let numbering = self.context.pairs[0].numbering();
+        let statuses = self.statuses(u);
+        let said = differences[..12]
+            .iter()
+            .map(|(error, row, column, claimed)| {
+                let [row, column] = [row, column].map(|at| numbering.unknown(*at as u32));
+                let status = match row {
+                    Unknown::Traction { side, node, .. } => {
+                        let k = self.selection.basis.index[side][node as usize];
+                        k.map(|k| statuses[k as usize])
+                    }
+                    Unknown::Position { .. } => None,
+                };
+                format!("{error:9.3e} of {claimed:10.3e}: {row:?} {status:?} by {column:?}\n")
+            });
+        said.collect()
+    }
+}
+
+fn configuration<'a>(context: &'a StepContext, places: &Places) -> Configuration<'a> {
+    let geometry = &context.problem.pairs[0];
+    let of_side = |side: usize| -> Vec<Vec3> {
+        if geometry.bodies[side].is_none() {
+            return geometry.rigid_reference.clone();
+        }
+        let surface = context.pairs[0].sides[side].surface();
+        let count = surface.map_or(0, |surface| surface.nodes().len() as u32);
+        let global = |node| context.problem.surface_node(0, side, node).unwrap();
+        (0..count).map(|n| places.positions[global(n)]).collect()
+    };
+    Configuration::new(
+        &context.pairs[0],
+        [of_side(0), of_side(1)],
+        places.placement,
+    )
+}

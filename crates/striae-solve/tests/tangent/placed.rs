@@ -1,0 +1,133 @@
+//! Models and the two configurations between which their contact is looked at.
+
+use nalgebra::Rotation3;
+use striae_contact::placement::Placement;
+use striae_law::friction::Friction;
+use striae_mesh::{NodeId, Vec3};
+use striae_solve::{
+    model::{Model, RigidShape},
+    problem::Problem,
+    rigid::Pose,
+};
+use striae_verify::Random;
+
+use crate::{
+    pair::Places,
+    scene::{Places as _, block, body, coulomb, model, rubber, step},
+};
+
+/// Raises a point by a smooth bump.
+pub fn bumpy(x: &Vec3, height: f64) -> Vec3 {
+    x + Vec3::z() * height * ((1.7 * x.x).sin() * (1.3 * x.y + 0.4).cos())
+}
+
+/// Two blocks that overlap in part.
+pub fn two_blocks(moduli: [f64; 2], divisions: [usize; 2], friction: Friction) -> Model {
+    let [below, above] = divisions;
+    let mut lower = block([0.0; 3], [1.0, 1.0, 0.5], [below, below, 1]);
+    let mut upper = block([0.23, 0.17, 0.5], [1.1, 0.7, 0.5], [above, above, 1]);
+    lower.irregularity = 0.15;
+    upper.irregularity = 0.15;
+    upper.mesh_rotation = 10.0;
+    let bodies = vec![
+        body("lower", lower.mesh().unwrap(), rubber(moduli[0], 0.3)),
+        body("upper", upper.mesh().unwrap(), rubber(moduli[1], 0.3)),
+    ];
+    let mut model = model(bodies);
+    model.touch(("lower", "zmax"), ("upper", "zmin"), friction);
+    model.steps = vec![step()];
+    model
+}
+
+/// A block with its lower side on a rigid surface.
+pub fn on_rigid(shape: RigidShape) -> Model {
+    let mut mesh = block([0.0; 3], [1.0, 1.0, 0.5], [3, 3, 1]);
+    mesh.irregularity = 0.15;
+    let rubber = rubber(1.0, 0.3);
+    let mut model = model(vec![body("block", mesh.mesh().unwrap(), rubber)]);
+    model.touch_rigid(("block", "zmin"), shape, coulomb(0.5));
+    model.steps = vec![step()];
+    model
+}
+
+/// Facets over `[-0.5, 0.85] x [-0.5, 1.5]`: the block overhangs on one side.
+pub fn dome(corners: usize) -> RigidShape {
+    let count = 4;
+    let positions = (0..(count + 1) * (count + 1)).map(|k| {
+        let share = |i: usize| i as f64 / count as f64;
+        let (x, y) = (share(k % (count + 1)), share(k / (count + 1)));
+        bumpy(&Vec3::new(1.35 * x - 0.5, 2.0 * y - 0.5, 0.0), 0.1)
+    });
+    let node = |i: usize, j: usize| NodeId::new(i + (count + 1) * j);
+    let cells = (0..count * count).map(|k| (k % count, k / count));
+    let facets = cells.flat_map(|(i, j)| {
+        let [a, b, c, d] = [
+            node(i, j),
+            node(i + 1, j),
+            node(i + 1, j + 1),
+            node(i, j + 1),
+        ];
+        if corners == 4 {
+            vec![[a, b, c, d]]
+        } else {
+            vec![[a, b, c, c], [a, c, d, d]]
+        }
+    });
+    RigidShape::Facets {
+        positions: positions.collect(),
+        facets: facets.collect(),
+    }
+}
+
+/// Two bodies curved and twisted, then all bent on and turned, the second also moved and
+/// turned on the first.
+pub fn of_bodies(problem: &Problem, seed: u64) -> [Places; 2] {
+    let mut random = Random::new(seed);
+    let twisted = |x: &Vec3| bumpy(x, 0.08) + Vec3::z() * (0.1 * x.x * x.y);
+    let before: Vec<Vec3> = problem.reference.iter().map(twisted).collect();
+    let whole = Rotation3::new(Vec3::new(0.3, -0.2, 0.5));
+    let about = Vec3::new(0.7, 0.5, 0.5);
+    let spin = Rotation3::new(Vec3::new(0.004, -0.003, 0.05));
+    let after = before.iter().enumerate().map(|(node, x)| {
+        let moved = if node < problem.first_node[1] {
+            *x
+        } else {
+            spin * (x - about) + about + Vec3::new(0.023, 0.014, -0.004)
+        };
+        let bent = Vec3::z() * 0.05 * (moved.x * moved.x - moved.y);
+        whole * (moved + bent + random.vector3() * 0.004)
+    });
+    let after = after.collect();
+    [before, after].map(|positions| Places {
+        positions,
+        placement: Placement::at_rest(),
+    })
+}
+
+/// A body and a rigid surface, both turned, the body also moved on the surface.
+pub fn of_rigid(problem: &Problem, bump: f64, seed: u64) -> [Places; 2] {
+    let mut random = Random::new(seed);
+    let [before, after] = [
+        [0.01, -0.02, 0.003, 0.001, -0.002, 0.1],
+        [0.2, -0.1, 0.3, 0.4, -0.3, 0.7],
+    ]
+    .map(|coordinates| {
+        let pose = Pose::at_rest().moved_to(&coordinates);
+        pose.placement(&Vec3::zeros())
+    });
+    let lying: Vec<Vec3> = problem.reference.iter().map(|x| bumpy(x, bump)).collect();
+    let slide = Vec3::new(0.03, 0.01, -0.005);
+    let moved = lying
+        .iter()
+        .map(|x| after.point(&(x + slide + random.vector3() * 0.004)))
+        .collect();
+    let start = Places {
+        positions: lying.iter().map(|x| before.point(x)).collect(),
+        placement: before,
+    };
+    let now = Places {
+        positions: moved,
+        placement: after,
+    };
+    [start, now]
+}
