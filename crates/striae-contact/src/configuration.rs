@@ -78,10 +78,11 @@ impl<'a> Configuration<'a> {
         self.sides[side].as_ref().expect("a plane has no facets")
     }
 
-    /// Distance within which the node looks for the other side.
+    /// Distance within which the node looks for the other side: half the local facet size
+    /// or, where that is larger, the search distance of the pair.
     pub fn reach(&self, side: usize, node: u32) -> f64 {
-        let size = self.side(side).sizes[node as usize];
-        self.pair.search_distance.unwrap_or(0.5 * size)
+        let least = 0.5 * self.side(side).sizes[node as usize];
+        self.pair.search_distance.unwrap_or(0.0).max(least)
     }
 
     /// Point and unit normal of the plane that is side `b`, if it is one.

@@ -163,9 +163,17 @@ impl Selection {
     }
 
     /// Corners of facets that overlap with others without a share in the traction field,
-    /// as side and node.
-    pub fn left_out(&self, configuration: &Configuration) -> Vec<(usize, u32)> {
-        let paired = paired_facets(configuration, self.scope(), Derivatives::None, |_| true);
+    /// as side and node, in a configuration that was reached from `start`.
+    pub fn left_out(
+        &self,
+        start: &Configuration,
+        configuration: &Configuration,
+    ) -> Vec<(usize, u32)> {
+        let scope = Scope {
+            depth: self.depth.max(approach(start, configuration)),
+            ..self.scope()
+        };
+        let paired = paired_facets(configuration, scope, Derivatives::None, |_| true);
         let mut left_out: Vec<(usize, u32)> = paired
             .iter()
             .filter(|paired| {

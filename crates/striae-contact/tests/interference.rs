@@ -7,7 +7,7 @@ use striae_contact::{
     interference::{
         Interference, Kind, SHARE, Stage, Thickness, fibres, inside, interferences, lengths,
     },
-    pair::{Balance, ContactPair, Geometry, Side},
+    pair::{ContactPair, Enforcement, Geometry, Side},
     placement::Placement,
 };
 use striae_law::friction::Friction;
@@ -56,21 +56,20 @@ fn block(origin: [f64; 3], size: [f64; 3], divisions: [usize; 3]) -> Mesh {
     block.mesh().unwrap()
 }
 
-fn side(geometry: Geometry, rank: usize) -> Side {
+fn side(geometry: Geometry) -> Side {
     Side {
         geometry,
         stiffness: 1.0,
         texture: None,
-        rank,
     }
 }
 
 fn pair(a: Geometry, b: Geometry) -> ContactPair {
     ContactPair {
         name: "pair".to_owned(),
-        sides: [side(a, 0), side(b, 1)],
+        sides: [side(a), side(b)],
         friction: Friction::frictionless(),
-        balance: Balance::None,
+        enforcement: Enforcement::Weighted,
         search_distance: None,
     }
 }

@@ -92,9 +92,9 @@ pub fn free_motion_in(context: &StepContext, state: &State) -> Option<FreeMotion
         .collect();
     let pairs = state.pairs.iter().zip(&touching);
     let contacts: Vec<_> = pairs
-        .map(|(pair, touching)| match pair.selection {
-            Some(_) => &pair.nodes,
-            None => touching,
+        .map(|(pair, touching)| {
+            let looked_at = pair.kept.iter().flatten().any(|kept| *kept);
+            if looked_at { &pair.nodes } else { touching }
         })
         .collect();
     free_motion(context, state.into(), &contacts, Friction::Any)

@@ -172,7 +172,7 @@ pub fn advance(
     let mut assembled = workspace.assemble(&attempt.setting(), &attempt.trial, Iteration::First)?;
     for repetition in 0.. {
         assembled = attempt.converge(assembled, workspace, observer)?;
-        let Some(missed) = missed(context, &attempt.selections, &attempt.trial) else {
+        let Some(missed) = missed(&attempt.setting(), &attempt.trial) else {
             break;
         };
         if repetition == REPETITIONS {
@@ -305,7 +305,7 @@ impl Attempt<'_> {
     /// The traction field with what the first iteration shows to come into contact.
     fn refreshed(&self, number: usize, assembled: &Assembled) -> Option<Selected> {
         let setting = self.setting();
-        let comes = || missed(self.context, &self.selections, &self.trial).is_some();
+        let comes = || missed(&setting, &self.trial).is_some();
         (number == 1 && comes()).then(|| reselected(&setting, &self.trial, &assembled.contacts))
     }
 

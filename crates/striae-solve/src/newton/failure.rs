@@ -1,11 +1,10 @@
 //! Words for what stops an increment: contact met unnoticed, linear systems
 //! without a solution.
 
-use striae_contact::selection::Selection;
 use striae_linalg::SolveError;
 
 use crate::{
-    assembly::{StepContext, Trial},
+    assembly::{Setting, Trial},
     layout::Layout,
     outcome::CutBack,
     problem::Problem,
@@ -13,14 +12,15 @@ use crate::{
 
 /// Nodes without a share in the traction field that have met the other surface.
 pub(super) fn missed(
-    context: &StepContext,
-    selections: &[Selection],
+    setting: &Setting,
     trial: &Trial,
 ) -> Option<CutBack> {
+    let (context, state) = (setting.context, setting.state);
     let problem = context.problem;
-    for (pair, selection) in selections.iter().enumerate() {
+    for (pair, selection) in setting.selections.iter().enumerate() {
+        let start = context.configuration(pair, &state.positions, &state.rigid);
         let configuration = context.configuration(pair, &trial.positions, &trial.rigid);
-        let missed = selection.left_out(&configuration);
+        let missed = selection.left_out(&start, &configuration);
         if let Some(&(side, node)) = missed.first() {
             let global = problem.surface_node(pair, side, node)?;
             let (body, node) = problem.body_node(global);

@@ -58,7 +58,7 @@ impl<'a> PairFunction<'a> {
         let selection = {
             let [from, to] = [&start, &now].map(|places| configuration(context, places));
             let kept = counts.map(|count| vec![false; count]);
-            Selection::new(&from, Some(&to), &kept)
+            Selection::new(&from, Some(&to), &kept, &Default::default())
         };
         let mut random = Random::new(3);
         let tau_n = counts.map(|count| {

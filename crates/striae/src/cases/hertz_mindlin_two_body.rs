@@ -19,8 +19,8 @@ use crate::failure::Failure;
 const DECKS: [(&str, &str); 2] = decks!("hertz-mindlin-two-body": "h-0.8", "h-0.4");
 /// Displacement sideways at the ends of the steps, m.
 const WAYS: [f64; 3] = [0.0, 0.03, 0.15];
-const BALANCED: &str = r#"balance = "resultants""#;
-const PLAIN: &str = r#"balance = "none""#;
+const WEIGHTED: &str = r#"enforcement = "weighted""#;
+const COLLOCATED: &str = r#"enforcement = "collocated""#;
 const MU: f64 = 0.1;
 /// What the deck says of friction.
 const FRICTION: &str = r#"friction = { law = "coulomb", mu = 0.1 }"#;
@@ -92,7 +92,7 @@ pub fn run(study: &mut Study) -> Result<(), Failure> {
         let late = study.run(&format!("{name}-late"), late)?;
         study.measured(format!("{name}.late.lateral"), lateral_share(&late));
         study.draw(&arrows(&late), &format!("arrows-{name}-late"))?;
-        let plain = study.variant(name, text, &[[BALANCED, PLAIN]])?;
+        let plain = study.variant(name, text, &[[WEIGHTED, COLLOCATED]])?;
         let plain = study.run(&format!("{name}-plain"), plain)?;
         let mismatch = plain.at_end_of(3, "pair.contact.mismatch");
         study.measured(format!("{name}.plain.mismatch"), mismatch);
