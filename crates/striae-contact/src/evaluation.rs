@@ -83,7 +83,15 @@ pub fn evaluate(
     if configuration.pair.enforcement == Enforcement::Weighted {
         weighted::add_ramp_to_gaps(configuration, selection, tractions, &mut kinematics);
         if slip == Slip::Derivatives {
-            weighted::add_ramp_to_slips(selection, &frames, tractions, &tau, &mut kinematics);
+            weighted::add_ramp_to_slips(
+                configuration,
+                start,
+                selection,
+                &frames,
+                tractions,
+                &tau,
+                &mut kinematics,
+            );
         }
     }
     let stage = Stage {

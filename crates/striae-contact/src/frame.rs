@@ -50,13 +50,17 @@ pub fn frames(configuration: &Configuration, selection: &Selection) -> Frames {
             .with_min_len(16)
             .map(|node| {
                 let node = node as u32;
-                selection.carries(side, node).then(|| {
-                    let n = normal(configuration, side, node);
-                    frame(configuration, side, node, n)
-                })
+                let carries = selection.carries(side, node);
+                carries.then(|| frame_of(configuration, side, node))
             })
             .collect()
     })
+}
+
+/// The frame of a node.
+pub fn frame_of(configuration: &Configuration, side: usize, node: u32) -> Frame {
+    let n = normal(configuration, side, node);
+    frame(configuration, side, node, n)
 }
 
 /// The normal of a node: of its surface or, against a rigid one, of that.

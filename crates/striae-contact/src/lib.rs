@@ -20,6 +20,7 @@ pub mod collocated;
 pub mod common_field;
 pub mod complementarity;
 pub mod configuration;
+pub mod converged_friction;
 pub mod coverage;
 pub mod edge;
 pub mod evaluation;

@@ -19,6 +19,7 @@ use striae_mesh::Vec3;
 
 use crate::{
     configuration::Configuration,
+    converged_friction::converged_friction,
     frame::{Frame, Frames, Tracked},
     kinematics::{Kinematics, Presence, Report, TrackedScalar},
     pairing::PairedFacets,
@@ -283,6 +284,8 @@ pub fn add_ramp_to_gaps(
 
 /// Adds what the ramp does to the slips, by the friction gained in the increment.
 pub fn add_ramp_to_slips(
+    configuration: &Configuration,
+    start: &Configuration,
     selection: &Selection,
     frames: &Frames,
     tractions: &Tractions,
@@ -297,12 +300,14 @@ pub fn add_ramp_to_slips(
                 let (side, node) = selection.kept()[k as usize].place();
                 let frame = frames[side][node].as_ref()?;
                 let old = tractions.tau_n[side][node];
+                let place = (side, node as u32);
+                let old = converged_friction(configuration, start, place, frame, old);
                 Some(Gained {
                     k: k as usize,
                     weight,
                     sign: side_sign(side),
                     frame,
-                    friction: gained(frame, &tau[side][node], old),
+                    friction: gained(&tau[side][node], &old),
                 })
             })
             .collect();
@@ -342,14 +347,11 @@ impl Gained<'_> {
     }
 }
 
-/// `tau - tau_n`, where the converged friction has turned with the frame.
-fn gained(frame: &Frame, tau: &Tracked, old: [f64; 2]) -> Tracked {
+/// `tau - tau^n'`.
+fn gained(tau: &Tracked, old: &Tracked) -> Tracked {
     let mut gained = tau.clone();
-    for (t, component) in frame.t.iter().zip(old) {
-        gained.value -= t.value * component;
-        let by = Matrix3::from_diagonal_element(-component);
-        add_chained(&mut gained.jacobian, &by, &t.jacobian);
-    }
+    gained.value -= old.value;
+    add_chained(&mut gained.jacobian, &-Matrix3::identity(), &old.jacobian);
     gained
 }
 

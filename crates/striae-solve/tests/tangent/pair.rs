@@ -58,7 +58,8 @@ impl<'a> PairFunction<'a> {
         let selection = {
             let [from, to] = [&start, &now].map(|places| configuration(context, places));
             let kept = counts.map(|count| vec![false; count]);
-            Selection::new(&from, Some(&to), &kept, &Default::default())
+            let free = counts.map(|count| vec![false; 3 * count]);
+            Selection::new(&from, Some(&to), &kept, &free)
         };
         let mut random = Random::new(3);
         let tau_n = counts.map(|count| {

@@ -193,11 +193,12 @@ fn selections(context: &StepContext, before: &State, state: &State) -> Vec<Selec
         .map(|pair| {
             let at = |state: &State| context.configuration(pair, &state.positions, &state.rigid);
             let kept = &before.pairs[pair].kept;
-            let first = Selection::new(&at(before), None, kept, &Default::default());
+            let fixed = &context.fixed_on_pair[pair];
+            let first = Selection::new(&at(before), None, kept, fixed);
             if first.kept_nodes() == state.pairs[pair].kept {
                 first
             } else {
-                Selection::new(&at(before), Some(&at(state)), kept, &Default::default())
+                Selection::new(&at(before), Some(&at(state)), kept, fixed)
             }
         })
         .collect()
