@@ -3,7 +3,12 @@
 //! Roles are chosen at the start of an increment, see [`crate::roles`], from the
 //! configuration it starts from and, where that shows too little, the one that it leads to.
 //! They are frozen in the increment, as is the transfer to nodes that are not kept, see
-//! [`crate::transfer_rows`].
+//! [`crate::transfer_rows`]. Of facets that are paired in both configurations the mean
+//! overlap counts.
+//!
+//! Longer than other files, as all that roles are chosen from is gathered here.
+
+use std::collections::BTreeSet;
 
 use striae_mesh::{FacetId, Vec3};
 use striae_surface::facet::Shape;
@@ -231,6 +236,8 @@ fn approach(start: &Configuration, end: &Configuration) -> f64 {
 
 /// What a basis is chosen from, in one or two configurations.
 struct Gathered {
+    /// Facets of every overlap.
+    facets: Vec<[Option<FacetId>; 2]>,
     overlaps: Vec<Overlap>,
     opposing: [Vec<Option<ClampedProjection>>; 2],
 }
@@ -264,17 +271,39 @@ impl Gathered {
             mass: paired.segment.mass,
         });
         Self {
+            facets: paired.iter().map(|paired| paired.facets).collect(),
             overlaps: overlaps.collect(),
             opposing,
         }
     }
 
-    /// Adds what comes near in a later configuration.
-    fn add(&mut self, later: Self) {
+    /// Takes a later configuration into account: the mean overlap of facets that are paired
+    /// in both, and that of facets that are paired in one.
+    fn add(&mut self, mut later: Self) {
+        let paired = [self.paired(), later.paired()];
+        self.share_with(&paired[1]);
+        later.share_with(&paired[0]);
+        self.facets.extend(later.facets);
         self.overlaps.extend(later.overlaps);
         for (known, later) in self.opposing.iter_mut().zip(later.opposing) {
             for (known, later) in known.iter_mut().zip(later) {
                 *known = known.or(later);
+            }
+        }
+    }
+
+    /// Facets that are paired, by side.
+    fn paired(&self) -> [BTreeSet<FacetId>; 2] {
+        [0, 1].map(|side| self.facets.iter().filter_map(|pair| pair[side]).collect())
+    }
+
+    /// Halves the overlaps of facets that are paired in another configuration too.
+    fn share_with(&mut self, other: &[BTreeSet<FacetId>; 2]) {
+        for (facets, overlap) in self.facets.iter().zip(&mut self.overlaps) {
+            let of_side = facets.iter().zip(other);
+            let mut known = of_side.filter_map(|(facet, paired)| Some(paired.contains(&(*facet)?)));
+            if known.any(|known| known) {
+                overlap.mass.iter_mut().flatten().for_each(|m| *m *= 0.5);
             }
         }
     }
