@@ -134,7 +134,8 @@ fn add_slope(gradient: &mut Gradient, first: u32, slope: Vec3) {
     }
 }
 
-fn slip(
+/// Slip of a node relative to the material point that was opposite to it.
+pub fn slip(
     configuration: &Configuration,
     side: usize,
     node: u32,

@@ -170,7 +170,7 @@ coded! {
     FacetForces { force, area, pressure, friction };
     Tractions { nodes, tau_n, slipped, statuses };
     SolverSummary { method, factorisations, contact_corrections, fall_backs, reason };
-    PairState { tractions, kept, carried, nodes, facets, dissipated };
+    PairState { tractions, kept, pointed, carried, nodes, facets, dissipated };
     Wrench { force, torque };
     Pose { displacement, turned, rotation };
     NodalForces { internal, inertia, reaction, applied, contact, rigid, pushed };
