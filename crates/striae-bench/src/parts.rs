@@ -5,7 +5,10 @@ use nalgebra::Matrix3;
 use serde_json::{Value, json};
 use std::{error::Error, hint::black_box};
 use striae_contact::{
-    complementarity::Iteration, evaluation::evaluate, selection::Selection, unknowns::Tractions,
+    complementarity::Iteration,
+    evaluation::evaluate,
+    selection::{Before, Selection},
+    unknowns::Tractions,
 };
 use striae_law::{bulk::Material, friction::Friction};
 use striae_linalg::{Automatic, LinearSolver, MultifrontalLu};
@@ -96,7 +99,9 @@ fn of_scene(group: &str, size: usize) -> Results {
     let context = StepContext::new(&problem, 0, &state);
     let configuration = context.configuration(0, &state.positions, &state.rigid);
     let kept = &state.pairs[0].kept;
-    let selection = Selection::new(&configuration, None, kept, &context.fixed_on_pair[0]);
+    let pointed = &state.pairs[0].pointed;
+    let before = Before { kept, pointed };
+    let selection = Selection::new(&configuration, None, before, &context.fixed_on_pair[0]);
     let nodes: usize = (0..2).map(|side| selection.nodes(side)).sum();
     Ok(match group {
         "surface" => {
@@ -110,7 +115,7 @@ fn of_scene(group: &str, size: usize) -> Results {
                 black_box(Selection::new(
                     &configuration,
                     None,
-                    kept,
+                    before,
                     &context.fixed_on_pair[0],
                 ));
             });

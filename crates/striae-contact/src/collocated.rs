@@ -118,7 +118,8 @@ fn gap(configuration: &Configuration, side: usize, node: u32, frame: &Frame) -> 
     TrackedScalar { value, gradient }
 }
 
-fn slip(
+/// Slip of a node relative to the material point that was opposite to it.
+pub fn slip(
     configuration: &Configuration,
     side: usize,
     node: u32,

@@ -16,6 +16,7 @@ use crate::{
     kinematics::{Kinematics, Report},
     pair::Enforcement,
     pairing::paired_facets,
+    pointed::{self, PointedTerm},
     segment::Derivatives,
     segment_rows::{Slip, segment_rows},
     selection::Selection,
@@ -286,6 +287,12 @@ impl Evaluation {
                 if let Some(facet) = patch.paired.facets[side] {
                     forces[side].push((facet, of_facets[side]));
                 }
+            }
+        }
+        for PointedTerm { term, facets } in pointed::terms(field) {
+            self.terms.push(term);
+            for &side in stage.configuration.pair.deformable_sides() {
+                forces[side].extend(facets[side]);
             }
         }
         self.facets = forces.map(|forces| by_facet(forces.into_iter()));

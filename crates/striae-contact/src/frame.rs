@@ -13,13 +13,17 @@ use striae_mesh::Vec3;
 use striae_surface::normal::normal_jacobian;
 
 use crate::{
-    configuration::Configuration,
+    configuration::{Configuration, Snapshot},
     coverage::{Found, Place},
     edge::on_edge,
+    pointed::Spot,
     projection::{Hit, differentiated_rigid},
     selection::Selection,
     term::{Jacobian, Lanes, Source, add_block, parts, variable3},
 };
+
+/// Sine of the angle to the normal below which an edge gives no tangent.
+const ALONG: f64 = 0.2;
 
 /// A vector with its derivatives by the unknowns.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -50,8 +54,15 @@ pub fn frames(configuration: &Configuration, selection: &Selection) -> Frames {
             .with_min_len(16)
             .map(|node| {
                 let node = node as u32;
-                let carries = selection.carries(side, node);
-                carries.then(|| frame_of(configuration, side, node))
+                let pointed = selection.is_pointed(side, node);
+                (pointed || selection.carries(side, node)).then(|| {
+                    let n = if pointed {
+                        pointed_normal(configuration, side, node)
+                    } else {
+                        normal(configuration, side, node)
+                    };
+                    frame(configuration, side, node, n)
+                })
             })
             .collect()
     })
@@ -68,6 +79,12 @@ fn normal(configuration: &Configuration, side: usize, node: u32) -> Tracked {
     let rigid = configuration.pair.is_rigid();
     let of_rigid = rigid.then(|| rigid_normal(configuration, node)).flatten();
     of_rigid.unwrap_or_else(|| own_normal(configuration, side, node))
+}
+
+/// The normal of a pointed node, against that of what it pierces.
+fn pointed_normal(configuration: &Configuration, side: usize, node: u32) -> Tracked {
+    let spot = Spot::new(configuration, side, node);
+    spot.map_or_else(|| normal(configuration, side, node), |spot| spot.n)
 }
 
 /// The normal of a node's own surface.
@@ -130,10 +147,29 @@ fn normal_on_edge(configuration: &Configuration, node: u32, hit: &Hit, nodes: [u
     }
 }
 
+/// The neighbour that the first tangent points to: the first one, unless it lies nearly
+/// along the normal.
+fn neighbour(own: &Snapshot, node: u32, n: &Vec3) -> u32 {
+    let corners = own.surface.corners(node);
+    let tangential = |neighbour: u32| {
+        let edge = (own.x[neighbour as usize] - own.x[node as usize]).normalize();
+        (edge - n * n.dot(&edge)).norm()
+    };
+    let first = corners[0].next;
+    if tangential(first) > ALONG {
+        return first;
+    }
+    let ring = corners
+        .iter()
+        .flat_map(|corner| [corner.next, corner.previous]);
+    ring.max_by(|a, b| tangential(*a).total_cmp(&tangential(*b)))
+        .unwrap_or(first)
+}
+
 fn frame(configuration: &Configuration, side: usize, node: u32, n: Tracked) -> Frame {
     let own = configuration.side(side);
     let numbering = configuration.pair.numbering();
-    let neighbour = own.surface.corners(node)[0].next;
+    let neighbour = neighbour(own, node, &n.value);
     let edge = own.x[neighbour as usize] - own.x[node as usize];
     let along = edge.dot(&n.value);
     let tangential = edge - n.value * along;

@@ -13,6 +13,8 @@ pub enum LastIncrement {
     Kept,
     /// It was not.
     NotKept,
+    /// It is pointed and no candidate, see [`crate::pointed`].
+    Pointed,
 }
 
 /// A node of a surface.

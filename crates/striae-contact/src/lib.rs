@@ -38,6 +38,7 @@ pub mod opposing;
 pub mod pair;
 pub mod pairing;
 pub mod placement;
+pub mod pointed;
 pub mod projection;
 pub mod quadrature;
 pub mod quantity;

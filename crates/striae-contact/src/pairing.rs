@@ -197,5 +197,9 @@ fn farthest(configuration: &Configuration) -> f64 {
     let sides = configuration.pair.deformable_sides().iter();
     let largest = sides.map(|&side| configuration.side(side).largest_size);
     let largest = largest.fold(0.0, f64::max);
-    configuration.pair.search_distance.unwrap_or(0.0).max(0.5 * largest)
+    configuration
+        .pair
+        .search_distance
+        .unwrap_or(0.0)
+        .max(0.5 * largest)
 }

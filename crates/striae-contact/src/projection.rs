@@ -18,7 +18,7 @@ use striae_surface::{
     scalar::{Real, combination, constant3, normalised},
 };
 
-use crate::{configuration::Snapshot, search::Bounds};
+use crate::{configuration::Snapshot, pointed::facet_normal, search::Bounds};
 
 /// A point of a facet and the gap to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +40,8 @@ pub enum Ray {
     Own(Vec3),
     /// Along the interpolated normal of the surface projected onto.
     Opposite,
+    /// Along the normal of each facet, of those that face this unit normal.
+    Facet(Vec3),
 }
 
 /// How far outside a facet a hit may lie, in facet coordinates.
@@ -49,24 +51,34 @@ pub enum Margin {
     Inside,
     /// Half a facet beyond the edge of the surface, where nothing is hit inside.
     Extrapolated,
+    /// A little beyond the edges of facets, where nothing is hit inside: normals of
+    /// neighbours leave wedges.
+    Seam,
 }
 
 const ROUND_OFF: f64 = 1e-8;
 const EXTRAPOLATION: f64 = 0.5;
+const SEAM: f64 = 0.05;
+/// Cosine of the angle between normals from which facets face each other.
+const FACING: f64 = 0.2;
 
 /// Projects the point `x` onto `target` within the distance `reach`.
 pub fn project(target: &Snapshot, x: &Vec3, ray: Ray, reach: f64, margin: Margin) -> Option<Hit> {
     let bounds = match ray {
         Ray::Own(n) => Bounds::around([x - n * reach, x + n * reach]).inflated(1e-6 * reach),
-        Ray::Opposite => Bounds::around([*x]).inflated(reach),
+        Ray::Opposite | Ray::Facet(_) => Bounds::around([*x]).inflated(reach),
     };
     let inside = nearest(target, x, ray, reach, &bounds, ROUND_OFF);
+    let beyond = |margin: f64| {
+        inside.or_else(|| {
+            let wide = bounds.inflated(margin * target.largest_size);
+            nearest(target, x, ray, reach, &wide, margin)
+        })
+    };
     match margin {
         Margin::Inside => inside,
-        Margin::Extrapolated => inside.or_else(|| {
-            let wide = bounds.inflated(EXTRAPOLATION * target.largest_size);
-            nearest(target, x, ray, reach, &wide, EXTRAPOLATION)
-        }),
+        Margin::Extrapolated => beyond(EXTRAPOLATION),
+        Margin::Seam => beyond(SEAM),
     }
 }
 
@@ -159,6 +171,16 @@ fn on_facet(target: &Snapshot, facet: FacetId, x: &Vec3, ray: Ray) -> Option<Hit
     let shape = Shape::of(&corners);
     let positions = target.corner_positions(facet);
     let normals = corners.map(|node| target.normals[node as usize]);
+    let ray = match ray {
+        Ray::Facet(faced) => {
+            let normal = facet_normal(&positions);
+            if normal.dot(&faced) > -FACING {
+                return None;
+            }
+            Ray::Own(-normal)
+        }
+        Ray::Own(_) | Ray::Opposite => ray,
+    };
     let [mut xi, mut eta] = shape.centre();
     let mut gap = 0.0;
     let scale = target.facet_size(facet);
@@ -179,7 +201,7 @@ fn on_facet(target: &Snapshot, facet: FacetId, x: &Vec3, ray: Ray) -> Option<Hit
     let m = area_vector(&weights, &positions);
     let facing = match ray {
         Ray::Own(n) => m.dot(&n) < 0.0,
-        Ray::Opposite => m.dot(&combination(&weights.value, &normals)) > 0.0,
+        Ray::Opposite | Ray::Facet(_) => m.dot(&combination(&weights.value, &normals)) > 0.0,
     };
     facing.then_some(Hit {
         facet,
@@ -207,7 +229,7 @@ fn system(
             point - x - n * gap,
             Matrix3::from_columns(&[d_xi, d_eta, -n]),
         ),
-        Ray::Opposite => {
+        Ray::Opposite | Ray::Facet(_) => {
             let sum = combination(&weights.value, normals);
             let length = sum.norm();
             let n = sum / length;

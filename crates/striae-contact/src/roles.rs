@@ -184,7 +184,11 @@ impl Ord for Bid {
 impl<'a> Contest<'a> {
     fn new(interface: &Interface, mass: &'a CommonMass) -> Self {
         let count = mass.nodes.len() as u32;
-        let candidates = (0..count).filter(|&k| mass.weighted[k as usize]).collect();
+        let competes = |&k: &u32| {
+            let pointed = mass.node(interface, k).last == LastIncrement::Pointed;
+            mass.weighted[k as usize] && !pointed
+        };
+        let candidates = (0..count).filter(competes).collect();
         let candidates = from_the_middle(interface, mass, candidates);
         let mut rank = vec![0; count as usize];
         for (at, &k) in candidates.iter().enumerate() {
@@ -192,7 +196,7 @@ impl<'a> Contest<'a> {
         }
         let factor = |k| match mass.node(interface, k).last {
             LastIncrement::Kept => STAY,
-            LastIncrement::NotKept => 1.0,
+            LastIncrement::NotKept | LastIncrement::Pointed => 1.0,
         };
         Self {
             mass,

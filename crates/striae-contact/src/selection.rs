@@ -10,6 +10,8 @@
 
 use std::collections::BTreeSet;
 
+use std::ops::Range;
+
 use striae_mesh::{FacetId, Vec3};
 use striae_surface::facet::Shape;
 
@@ -22,8 +24,9 @@ use crate::{
     },
     pair::Enforcement,
     pairing::{PairedFacets, Scope, paired_facets},
+    pointed::Spot,
     segment::{Derivatives, Facet, plane_segment},
-    traction_basis::{KeptNode, TractionBasis, Weak},
+    traction_basis::{KeptNode, THETA_1, TractionBasis, Weak},
 };
 
 /// Opposing material point at the start of the increment, for collocated slip.
@@ -60,8 +63,19 @@ pub struct Selection {
     pub compliances: [Vec<f64>; 2],
     /// How far the two sides move towards each other in the increment, at most.
     pub depth: f64,
-    /// What is opposite to the kept nodes at the start, for collocated rows.
+    /// What is opposite to the kept nodes at the start, for collocated rows and pointed nodes.
     pub partners: Vec<Option<Partner>>,
+    /// Number of kept nodes of the field; those after them are pointed.
+    pub of_field: usize,
+}
+
+/// What nodes are before the roles of an increment are chosen.
+#[derive(Clone, Copy, Debug)]
+pub struct Before<'a> {
+    /// Nodes that were kept in the last increment.
+    pub kept: &'a Kept,
+    /// Nodes that are [pointed](crate::pointed) in this one.
+    pub pointed: &'a Kept,
 }
 
 /// Common area below which a patch is dropped, over the square of the facet size.
@@ -76,7 +90,7 @@ impl Selection {
     pub fn new(
         start: &Configuration,
         predicted: Option<&Configuration>,
-        kept: &Kept,
+        before: Before,
         prescribed: &Prescribed,
     ) -> Self {
         let compliances = compliances(start);
@@ -89,30 +103,101 @@ impl Selection {
         if let Some(predicted) = predicted {
             gathered.add(Gathered::new(predicted, scope));
         }
-        let basis = gathered.basis(start, kept, prescribed);
+        let basis = gathered.basis(start, before, prescribed);
         let partners = partners(start, &basis);
-        Self {
+        let mut selection = Self {
+            of_field: basis.kept.len(),
             basis,
             compliances,
             depth,
             partners,
+        };
+        for &side in start.pair.deformable_sides() {
+            let nodes = before.pointed[side].iter().enumerate();
+            for (node, _) in nodes.filter(|(_, pointed)| **pointed) {
+                selection.add_pointed(start, predicted, prescribed, (side, node as u32));
+            }
         }
+        selection
     }
 
-    /// Kept nodes.
+    /// Gives a pointed node unknowns of its own.
+    fn add_pointed(
+        &mut self,
+        start: &Configuration,
+        predicted: Option<&Configuration>,
+        prescribed: &Prescribed,
+        (side, node): (usize, u32),
+    ) {
+        let known = [Some(start), predicted];
+        let found = known.into_iter().flatten().find_map(|configuration| {
+            let spot = Spot::new(configuration, side, node)?;
+            let partner = spot.partner(configuration, side, node);
+            Some((partner, spot.hit))
+        });
+        let size = start.side(side).sizes[node as usize];
+        let yields = |side: usize, node: u32| {
+            let first = 3 * node as usize;
+            let components = prescribed[side].get(first..first + 3);
+            components.is_none_or(|components| components.contains(&false))
+        };
+        let mut flexibility = if yields(side, node) {
+            size / start.pair.sides[side].stiffness
+        } else {
+            0.0
+        };
+        if let Some((_, Some(hit))) = found
+            && !start.pair.is_rigid()
+        {
+            let mut corners = start.side(1 - side).corners(hit.facet).into_iter();
+            if corners.any(|corner| yields(1 - side, corner)) {
+                flexibility += self.compliances[1 - side][hit.facet.index()];
+            }
+        }
+        let basis = &mut self.basis;
+        basis.index[side][node as usize] = Some(basis.kept.len() as u32);
+        basis.kept.push(KeptNode { side, node });
+        basis.pivots.push(THETA_1);
+        basis.flexibility.push(flexibility);
+        basis.weights.push(size * size);
+        self.partners.push(found.map(|(partner, _)| partner));
+    }
+
+    /// Nodes with unknowns: those kept in the field, then the pointed ones.
     pub fn kept(&self) -> &[KeptNode] {
         &self.basis.kept
     }
 
-    /// Which nodes are kept.
+    /// Which nodes of the field are kept.
     pub fn kept_nodes(&self) -> Kept {
+        self.nodes_at(0..self.of_field)
+    }
+
+    /// Which nodes are pointed.
+    pub fn pointed_nodes(&self) -> Kept {
+        self.nodes_at(self.pointed_places())
+    }
+
+    fn nodes_at(&self, places: Range<usize>) -> Kept {
+        let within = |k: &Option<u32>| k.is_some_and(|k| places.contains(&(k as usize)));
         self.basis
             .index
             .each_ref()
-            .map(|side| side.iter().map(Option::is_some).collect())
+            .map(|side| side.iter().map(within).collect())
     }
 
-    /// Whether the node is kept.
+    /// Places of the pointed nodes among those with unknowns.
+    pub fn pointed_places(&self) -> Range<usize> {
+        self.of_field..self.basis.kept.len()
+    }
+
+    /// Whether the node is pointed.
+    pub fn is_pointed(&self, side: usize, node: u32) -> bool {
+        let index = self.basis.index[side].get(node as usize).copied();
+        index.flatten().is_some_and(|k| k as usize >= self.of_field)
+    }
+
+    /// Whether the node has unknowns: it is kept, or pointed.
     pub fn is_kept(&self, side: usize, node: u32) -> bool {
         let index = self.basis.index[side].get(node as usize);
         index.is_some_and(Option::is_some)
@@ -195,7 +280,7 @@ impl Selection {
 }
 
 /// `h/E` of the facets of deformable sides.
-fn compliances(configuration: &Configuration) -> [Vec<f64>; 2] {
+pub(crate) fn compliances(configuration: &Configuration) -> [Vec<f64>; 2] {
     [0, 1].map(|side| {
         let of_side = &configuration.pair.sides[side];
         let Some(surface) = of_side.surface() else {
@@ -311,11 +396,11 @@ impl Gathered {
     fn basis(
         &self,
         configuration: &Configuration,
-        kept: &Kept,
+        before: Before,
         prescribed: &Prescribed,
     ) -> TractionBasis {
         let nodes =
-            [0, 1].map(|side| surface_nodes(configuration, side, &kept[side], &prescribed[side]));
+            [0, 1].map(|side| surface_nodes(configuration, side, before, &prescribed[side]));
         let whole = if configuration.pair.is_rigid() {
             whole_facets(configuration)
         } else {
@@ -372,7 +457,7 @@ fn clamped(configuration: &Configuration, side: usize, node: u32) -> Option<Clam
 fn surface_nodes(
     configuration: &Configuration,
     side: usize,
-    kept: &[bool],
+    before: Before,
     prescribed: &[bool],
 ) -> Vec<SurfaceNode> {
     let Some(snapshot) = &configuration.sides[side] else {
@@ -392,7 +477,9 @@ fn surface_nodes(
                 position: *position,
                 flexibility: share * size / modulus,
                 compliance: share / (modulus * size),
-                last: if kept.get(node) == Some(&true) {
+                last: if before.pointed[side].get(node) == Some(&true) {
+                    LastIncrement::Pointed
+                } else if before.kept[side].get(node) == Some(&true) {
                     LastIncrement::Kept
                 } else {
                     LastIncrement::NotKept

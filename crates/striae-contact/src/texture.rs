@@ -24,10 +24,11 @@ use striae_surface::{
 
 use crate::{
     configuration::Configuration,
-    coverage::{Found, Place},
+    coverage::{Contact, Found, Place},
     edge::on_edge,
     frame::{Frame, Frames, Tracked, own_normal},
     opposing::{Opposing, PlaceLanes},
+    pointed::Spot,
     projection::{Hit, differentiated_rigid},
     selection::Selection,
     term::{Jacobian, Lanes, Source, parts, variable, variable3},
@@ -83,7 +84,13 @@ pub fn textures(
             .map(|node| match &frames[side][node] {
                 Some(frame) if selection.is_kept(side, node as u32) => Ok(NodeTextures {
                     own: own(configuration, side, node as u32, &frame.n)?,
-                    opposite: opposite(configuration, side, node as u32, frame, frames)?,
+                    opposite: opposite(
+                        configuration,
+                        side,
+                        node as u32,
+                        (frame, frames),
+                        faced(configuration, selection, side, node as u32),
+                    )?,
                 }),
                 _ => Ok(NodeTextures::default()),
             })
@@ -128,19 +135,40 @@ pub fn own(
     Ok(Some(tracked(&lanes, &a)))
 }
 
+/// The point opposite to a node: along its normal or, if it is pointed, that of the
+/// deformable facet that it presses on.
+fn faced(
+    configuration: &Configuration,
+    selection: &Selection,
+    side: usize,
+    node: u32,
+) -> Option<(Contact, Found)> {
+    if selection.is_pointed(side, node)
+        && !configuration.pair.is_rigid()
+        && let Some(hit) = Spot::new(configuration, side, node).and_then(|spot| spot.hit)
+    {
+        let contact = Contact {
+            gap: hit.gap,
+            place: Place::Facet(hit),
+        };
+        return Some((contact, Found::Inside));
+    }
+    configuration.opposite(side, node)
+}
+
 /// The opposing `a_b'` at a node.
 fn opposite(
     configuration: &Configuration,
     side: usize,
     node: u32,
-    frame: &Frame,
-    frames: &Frames,
+    (frame, frames): (&Frame, &Frames),
+    faced: Option<(Contact, Found)>,
 ) -> Result<Option<Tracked>, CollapsedTexture> {
     let collapsed = CollapsedTexture { side, node };
     let Some(texture) = &configuration.pair.sides[1 - side].texture else {
         return Ok(None);
     };
-    let Some((contact, found)) = configuration.opposite(side, node) else {
+    let Some((contact, found)) = faced else {
         return Err(collapsed);
     };
     match (texture, contact.place) {

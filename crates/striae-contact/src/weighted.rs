@@ -23,6 +23,7 @@ use crate::{
     frame::{Frame, Frames, Tracked},
     kinematics::{Kinematics, Presence, Report, TrackedScalar},
     pairing::PairedFacets,
+    pointed,
     segment_rows::{ROWS, SegmentRows, Slip},
     selection::Selection,
     term::{Gradient, Jacobian},
@@ -94,6 +95,9 @@ pub fn kinematics(
         .map(|k| {
             let kept = selection.kept()[k];
             let frame = frames[kept.side][kept.node as usize].as_ref();
+            if selection.is_pointed(kept.side, kept.node) {
+                return pointed::kinematics(configuration, selection, k, frame);
+            }
             let mut sum = Sum::new(configuration, kept.side, frame);
             for &(at, entry) in &touching[k] {
                 let patch = &patches[at as usize];

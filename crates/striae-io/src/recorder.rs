@@ -4,7 +4,7 @@
 //! DIR/history.csv           a row an increment
 //! DIR/bodies.pvd            displacement, velocity in dynamic steps, Cauchy stress, von Mises stress
 //! DIR/contact.pvd           gap, pressure, tractions, slip, normal, texture `s`,
-//!                           structural vector `a = n x s`, status, kept
+//!                           structural vector `a = n x s`, status, kept, pointed
 //! DIR/fields/*.vtu          what the collections list
 //! DIR/summary.json          how the run ended
 //! DIR/checkpoint.bin        where a run under way is, see [`crate::checkpoint`]
@@ -453,9 +453,8 @@ fn write_surface(
         ContactStatus::Stick => 1,
         ContactStatus::Slip => 2,
     });
-    let kept = state.pairs[pair].kept[side]
-        .iter()
-        .map(|kept| u8::from(*kept));
+    let codes = |nodes: &[bool]| Values::Codes(nodes.iter().copied().map(u8::from).collect());
+    let (kept, pointed) = (&state.pairs[pair].kept, &state.pairs[pair].pointed);
     let grid = Grid {
         points: &points,
         cells: Cells::Quadrilaterals(&quads),
@@ -477,7 +476,8 @@ fn write_surface(
                 vectors(|node| node.normal.cross(&node.texture)),
             ),
             Array::new("status", Values::Codes(status.collect())),
-            Array::new("kept", Values::Codes(kept.collect())),
+            Array::new("kept", codes(&kept[side])),
+            Array::new("pointed", codes(&pointed[side])),
         ],
         cell_arrays: Vec::new(),
         time: state.time,

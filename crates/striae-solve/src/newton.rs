@@ -41,7 +41,7 @@ use acceptance::accepted;
 use cycling::History;
 use failure::{linear_system, missed};
 use rest::contact_at_rest;
-use selected::{Selected, reselected, selected};
+use selected::{Selected, pierced, reselected, selected};
 use workspace::SystemStorage;
 
 /// A converged increment.
@@ -172,13 +172,17 @@ pub fn advance(
     let mut assembled = workspace.assemble(&attempt.setting(), &attempt.trial, Iteration::First)?;
     for repetition in 0.. {
         assembled = attempt.converge(assembled, workspace, observer)?;
-        let Some(missed) = missed(&attempt.setting(), &attempt.trial) else {
-            break;
-        };
+        let missed = missed(&attempt.setting(), &attempt.trial);
+        let pierced = attempt.pierced(&assembled);
         if repetition == REPETITIONS {
-            return Err(missed);
+            missed.map_or(Ok(()), Err)?;
+            break;
         }
-        let found = reselected(&attempt.setting(), &attempt.trial, &assembled.contacts);
+        if missed.is_none() && pierced.is_empty() {
+            break;
+        }
+        let (setting, trial) = (attempt.setting(), &attempt.trial);
+        let found = reselected(&setting, trial, &assembled.contacts, &pierced);
         assembled = attempt.taken_up(found, workspace)?;
     }
     let work = workspace.take_work();
@@ -304,9 +308,21 @@ impl Attempt<'_> {
 
     /// The traction field with what the first iteration shows to come into contact.
     fn refreshed(&self, number: usize, assembled: &Assembled) -> Option<Selected> {
-        let setting = self.setting();
-        let comes = || missed(&setting, &self.trial).is_some();
-        (number == 1 && comes()).then(|| reselected(&setting, &self.trial, &assembled.contacts))
+        if number > 1 {
+            return None;
+        }
+        let pierced = self.pierced(assembled);
+        let comes = missed(&self.setting(), &self.trial).is_some();
+        (comes || !pierced.is_empty()).then(|| {
+            let setting = self.setting();
+            reselected(&setting, &self.trial, &assembled.contacts, &pierced)
+        })
+    }
+
+    /// Nodes that pierce the other side.
+    fn pierced(&self, assembled: &Assembled) -> Vec<(usize, usize, u32)> {
+        let contacts = &assembled.contacts;
+        pierced(self.context, &self.selections, &self.trial, contacts)
     }
 
     /// Goes on with another traction field.

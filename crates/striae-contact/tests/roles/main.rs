@@ -1,4 +1,6 @@
 //! Kept nodes, transfer rows and ramp of flat pairs.
 
 mod flat;
+mod properties;
 mod reference;
+mod scenes;

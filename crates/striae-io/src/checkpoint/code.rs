@@ -175,7 +175,7 @@ coded! {
     Worst { kind, pair, value, time };
     Judgement { worst, forces, pressures, energy };
     SolverSummary { method, factorisations, contact_corrections, fall_backs, reason };
-    PairState { tractions, kept, carried, nodes, facets, dissipated };
+    PairState { tractions, kept, pointed, carried, nodes, facets, dissipated };
     Wrench { force, torque };
     Pose { displacement, turned, rotation };
     NodalForces { internal, inertia, reaction, applied, contact, rigid, pushed };

@@ -47,6 +47,7 @@ pub(super) fn accepted(
         .map(|(((tractions, selection), evaluation), before)| PairState {
             dissipated: before.dissipated + evaluation.dissipated,
             kept: selection.kept_nodes(),
+            pointed: selection.pointed_nodes(),
             tractions,
             carried: evaluation.carried,
             nodes: evaluation.nodes,

@@ -11,10 +11,7 @@ use crate::{
 };
 
 /// Nodes without a share in the traction field that have met the other surface.
-pub(super) fn missed(
-    setting: &Setting,
-    trial: &Trial,
-) -> Option<CutBack> {
+pub(super) fn missed(setting: &Setting, trial: &Trial) -> Option<CutBack> {
     let (context, state) = (setting.context, setting.state);
     let problem = context.problem;
     for (pair, selection) in setting.selections.iter().enumerate() {

@@ -4,7 +4,8 @@
 use striae_contact::{
     configuration::Configuration,
     evaluation::Evaluation,
-    selection::Selection,
+    pointed::{self, staying},
+    selection::{Before, Selection},
     unknowns::{Status, Tractions},
 };
 
@@ -29,8 +30,11 @@ pub(super) fn selected(context: &StepContext, state: &State) -> Selected {
         .enumerate()
         .map(|(pair, of_pair)| {
             let start = context.configuration(pair, &state.positions, &state.rigid);
-            let selection =
-                Selection::new(&start, None, &of_pair.kept, &context.fixed_on_pair[pair]);
+            let before = Before {
+                kept: &of_pair.kept,
+                pointed: &staying(&start, &of_pair.pointed, &of_pair.nodes),
+            };
+            let selection = Selection::new(&start, None, before, &context.fixed_on_pair[pair]);
             let mut tractions = of_pair.tractions.clone();
             tractions.tau_n = of_pair
                 .carried
@@ -40,7 +44,11 @@ pub(super) fn selected(context: &StepContext, state: &State) -> Selected {
                 let slipped = |status| semismooth && status == Status::Slip;
                 side.iter().map(|node| slipped(node.status)).collect()
             });
-            fit(&selection, &of_pair.kept, &of_pair.carried, &mut tractions);
+            let had = Before {
+                pointed: &of_pair.pointed,
+                ..before
+            };
+            fit(&selection, had, &of_pair.carried, &mut tractions);
             (selection, tractions)
         })
         .unzip();
@@ -50,20 +58,56 @@ pub(super) fn selected(context: &StepContext, state: &State) -> Selected {
     }
 }
 
-/// The fields chosen anew with what a trial state shows.
-pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluation]) -> Selected {
+/// Nodes that pierce the other side in a trial state, as pair, side and node.
+pub(super) fn pierced(
+    context: &StepContext,
+    selections: &[Selection],
+    trial: &Trial,
+    contacts: &[Evaluation],
+) -> Vec<(usize, usize, u32)> {
+    let mut all = Vec::new();
+    for (pair, (selection, contact)) in selections.iter().zip(contacts).enumerate() {
+        let latest = context.configuration(pair, &trial.positions, &trial.rigid);
+        let found = pointed::pierced(&latest, selection, &contact.carried);
+        all.extend(found.into_iter().map(|(side, node)| (pair, side, node)));
+    }
+    all
+}
+
+/// The fields chosen anew with what a trial state shows, nodes that pierce the other side
+/// among that.
+pub(super) fn reselected(
+    setting: &Setting,
+    trial: &Trial,
+    contacts: &[Evaluation],
+    pierced: &[(usize, usize, u32)],
+) -> Selected {
     let (selections, tractions) = with_configurations(setting, trial)
         .enumerate()
         .map(|(pair, (start, latest))| {
-            let kept = setting.selections[pair].kept_nodes();
+            let had = &setting.selections[pair];
+            let (kept, had) = (had.kept_nodes(), had.pointed_nodes());
+            let mut pointed = had.clone();
+            for &(_, side, node) in pierced.iter().filter(|found| found.0 == pair) {
+                pointed[side][node as usize] = true;
+            }
+            let before = |pointed| Before {
+                kept: &kept,
+                pointed,
+            };
             let selection = Selection::new(
                 &start,
                 Some(&latest),
-                &kept,
+                before(&pointed),
                 &setting.context.fixed_on_pair[pair],
             );
             let mut tractions = trial.tractions[pair].clone();
-            fit(&selection, &kept, &contacts[pair].carried, &mut tractions);
+            fit(
+                &selection,
+                before(&had),
+                &contacts[pair].carried,
+                &mut tractions,
+            );
             (selection, tractions)
         })
         .unzip();
@@ -89,16 +133,18 @@ fn with_configurations<'a>(
 /// Gives nodes that are newly kept what the field carried there, and others nothing.
 fn fit(
     selection: &Selection,
-    kept: &[Vec<bool>; 2],
+    before: Before,
     carried: &[Vec<[f64; 3]>; 2],
     tractions: &mut Tractions,
 ) {
     for side in 0..2 {
         for (node, unknowns) in tractions.nodes[side].iter_mut().enumerate() {
-            if !selection.is_kept(side, node as u32) {
-                *unknowns = [0.0; 3];
-            } else if !kept[side][node] {
+            let is_pointed = selection.is_pointed(side, node as u32);
+            let is_kept = selection.is_kept(side, node as u32) && !is_pointed;
+            if is_kept && !before.kept[side][node] {
                 *unknowns = carried[side][node];
+            } else if !is_kept && !(is_pointed && before.pointed[side][node]) {
+                *unknowns = [0.0; 3];
             }
         }
     }

@@ -9,7 +9,7 @@ use striae_mesh::{Vec3, generate::Block};
 use striae_solve::{
     drive::{Continue, Observer, Progress, run},
     model::{
-        Backend, Body, BodyId, ContactMass, Curve, Displacement, Increments, Model, Pair,
+        Backend, Body, BodyId, ContactMass, Curve, Displacement, Increments, Initial, Model, Pair,
         Procedure, Side, Solver, Step, Strategy,
     },
     newton::{Increment, IterationObserver},
@@ -143,6 +143,7 @@ pub fn model(case: &Case, depth: f64) -> Model {
         friction: Friction::coulomb(case.mu).expect("a coefficient"),
         enforcement: Enforcement::Weighted,
         search_distance: None,
+        initial: Initial::AsMeshed,
     };
     let hold = |body: usize, set: &str, target: Vec3| Displacement {
         set: set.to_owned(),

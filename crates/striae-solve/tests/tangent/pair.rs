@@ -6,7 +6,7 @@ use striae_contact::{
     configuration::Configuration,
     evaluation::{Evaluation, evaluate},
     placement::Placement,
-    selection::Selection,
+    selection::{Before, Selection},
     unknown::Unknown,
     unknowns::{Status, Tractions},
 };
@@ -59,7 +59,11 @@ impl<'a> PairFunction<'a> {
             let [from, to] = [&start, &now].map(|places| configuration(context, places));
             let kept = counts.map(|count| vec![false; count]);
             let free = counts.map(|count| vec![false; 3 * count]);
-            Selection::new(&from, Some(&to), &kept, &free)
+            let before = Before {
+                kept: &kept,
+                pointed: &kept,
+            };
+            Selection::new(&from, Some(&to), before, &free)
         };
         let mut random = Random::new(3);
         let tau_n = counts.map(|count| {

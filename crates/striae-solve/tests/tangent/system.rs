@@ -6,7 +6,7 @@ use crate::{
     scene::{Places, Run, coulomb, plane, step},
 };
 use nalgebra::DVector;
-use striae_contact::{complementarity::Iteration, selection::Selection};
+use striae_contact::{complementarity::Iteration, selection::{Before, Selection}};
 use striae_law::friction::Friction;
 use striae_linalg::{SparseMatrix, Structure, Supervariable};
 use striae_mesh::Vec3;
@@ -192,13 +192,17 @@ fn selections(context: &StepContext, before: &State, state: &State) -> Vec<Selec
     (0..state.pairs.len())
         .map(|pair| {
             let at = |state: &State| context.configuration(pair, &state.positions, &state.rigid);
-            let kept = &before.pairs[pair].kept;
+            let of_pair = &before.pairs[pair];
+            let had = Before {
+                kept: &of_pair.kept,
+                pointed: &of_pair.pointed,
+            };
             let fixed = &context.fixed_on_pair[pair];
-            let first = Selection::new(&at(before), None, kept, fixed);
+            let first = Selection::new(&at(before), None, had, fixed);
             if first.kept_nodes() == state.pairs[pair].kept {
                 first
             } else {
-                Selection::new(&at(before), Some(&at(state)), kept, fixed)
+                Selection::new(&at(before), Some(&at(state)), had, fixed)
             }
         })
         .collect()
