@@ -65,10 +65,9 @@ impl CommonMass {
                 .flat_map(|&side| of[side].map(|node| place(side, node)))
                 .collect()
         };
-        let blocks = blocks(interface.overlaps.len(), corners);
-        let rows = rows(nodes.len(), &blocks, |source, c, d| {
-            interface.overlaps[source].mass[c][d]
-        });
+        let common = |source: usize, c: usize, d: usize| interface.overlaps[source].mass[c][d];
+        let polygons = blocks(interface.overlaps.len(), corners, common);
+        let rows = sums(nodes.len(), &polygons, common);
         let whole = match interface.opponent {
             Opponent::Deformable => Vec::new(),
             Opponent::Rigid { whole } => {
@@ -77,8 +76,8 @@ impl CommonMass {
                     .filter(|facet| facet.corners.iter().any(|&node| carried[0][node as usize]))
                     .collect();
                 let corners = |facet: usize| near[facet].corners.map(|node| place(0, node)).into();
-                let blocks = self::blocks(near.len(), corners);
-                self::rows(nodes.len(), &blocks, |source, c, d| near[source].mass[c][d])
+                let mass = |facet: usize, c: usize, d: usize| near[facet].mass[c][d];
+                sums(nodes.len(), &blocks(near.len(), corners, mass), mass)
             }
         };
         let weights: Vec<f64> = (0..nodes.len())
@@ -96,7 +95,7 @@ impl CommonMass {
                 .iter()
                 .map(|&(side, node)| carried[side][node as usize])
                 .collect(),
-            patch: patches(nodes.len(), &blocks),
+            patch: patches(nodes.len(), &polygons),
             nodes,
             index,
             rows,
@@ -191,7 +190,13 @@ struct Block {
     source: usize,
 }
 
-fn blocks(count: usize, corners: impl Fn(usize) -> Vec<u32>) -> Vec<Block> {
+/// Polygons by their corners; those with the same corners, as one facet has with many
+/// of a rigid surface, by their mass.
+fn blocks(
+    count: usize,
+    corners: impl Fn(usize) -> Vec<u32>,
+    mass: impl Fn(usize, usize, usize) -> f64,
+) -> Vec<Block> {
     let block = |source| {
         let corners = corners(source);
         let mut from: Vec<u8> = (0..corners.len() as u8).collect();
@@ -203,11 +208,25 @@ fn blocks(count: usize, corners: impl Fn(usize) -> Vec<u32>) -> Vec<Block> {
         }
     };
     let mut blocks: Vec<_> = (0..count).map(block).collect();
-    blocks.sort_by(|a, b| a.nodes.cmp(&b.nodes));
+    let masses = |block: &Block| {
+        let all = block
+            .from
+            .iter()
+            .flat_map(|&c| block.from.iter().map(move |&d| (c, d)));
+        let of = |(c, d)| mass(block.source, usize::from(c), usize::from(d));
+        all.map(of).collect::<Vec<f64>>()
+    };
+    blocks.sort_by(|a, b| {
+        a.nodes.cmp(&b.nodes).then_with(|| {
+            let pairs = masses(a).into_iter().zip(masses(b));
+            let by_mass = pairs.map(|(a, b)| a.total_cmp(&b));
+            by_mass.fold(Ordering::Equal, Ordering::then)
+        })
+    });
     blocks
 }
 
-fn rows(
+fn sums(
     count: usize,
     blocks: &[Block],
     mass: impl Fn(usize, usize, usize) -> f64,

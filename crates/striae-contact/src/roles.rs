@@ -226,7 +226,8 @@ impl<'a> Contest<'a> {
         while let Some(tie) = self.next_tie(&mut queue, &mut pivots) {
             let least = (tie.largest * (1.0 - TIE)).max(THETA_0);
             for k in tie.nodes {
-                let bid = self.bid(k, pivots.refresh(k));
+                let floor = least / self.factor[k as usize];
+                let bid = self.bid(k, pivots.refresh(k, floor));
                 if bid.value >= least {
                     kept.push((k, pivots.bound(k)));
                     pivots.keep(k);
@@ -254,7 +255,9 @@ impl<'a> Contest<'a> {
                 break;
             }
             if !pivots.is_fresh(top.node) {
-                let bid = self.bid(top.node, pivots.refresh(top.node));
+                let next = queue.peek().map_or(THETA_0, |bid| bid.value);
+                let floor = next.max(THETA_0) * (1.0 - TIE) / self.factor[top.node as usize];
+                let bid = self.bid(top.node, pivots.refresh(top.node, floor));
                 if bid.value >= THETA_0 {
                     queue.push(bid);
                 } else {

@@ -173,9 +173,13 @@ fn facing(interface: &Interface, kept: KeptNode) -> f64 {
     let KeptNode { side, node } = kept;
     let own = interface.nodes[side][node as usize].flexibility;
     let other = match (interface.opponent, interface.opposing[side][node as usize]) {
-        (Opponent::Deformable, Some((corners, weights))) => (0..4)
-            .map(|c| interface.nodes[1 - side][corners[c] as usize].flexibility * weights[c])
-            .sum(),
+        (Opponent::Deformable, Some((corners, weights))) => {
+            let at = |c: usize| interface.nodes[1 - side][corners[c] as usize].flexibility;
+            let mut parts = [0, 1, 2, 3].map(|c| at(c) * weights[c]);
+            // In an order that does not depend on the facet's first corner.
+            parts.sort_by(f64::total_cmp);
+            parts.iter().sum()
+        }
         _ => 0.0,
     };
     own + other

@@ -8,9 +8,7 @@
 //! node `t`, restricted to nodes with weight and normalised. Against a rigid surface it
 //! is the mean of the own neighbours, `M_tk = D_tk / sum over k != t`, over whole facets
 //! for a node without weight. A node whose row leads to no kept node takes the mean of
-//! the nearest ones of its patch. `Z >= 0` and `Z 1 = 1`, see [`absorption`].
-//!
-//! [`absorption`]: crate::absorption
+//! the nearest ones of its patch. `Z >= 0` and `Z 1 = 1`, see `absorption.rs`.
 
 use crate::{
     absorption::{State, absorption, combined, normalised},
