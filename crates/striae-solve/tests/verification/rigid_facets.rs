@@ -73,8 +73,10 @@ fn flat_facets_are_a_plane() {
         let error = largest_distance(run.positions(0), on_plane.positions(0));
         assert!(error < 1e-10, "off by {error:.1e}");
         let [a, b] = [&run, &on_plane].map(|r| r.last().pairs[0].tractions.nodes[0].clone());
+        // Quadrature over cut facets of an irregular mesh is not exact.
+        let largest = b.iter().map(|q| q[0]).fold(0.0, f64::max);
         for (p, q) in a.iter().zip(&b) {
-            assert!((p[0] - q[0]).abs() < 1e-10, "{p:?} {q:?}");
+            assert!((p[0] - q[0]).abs() < 1e-8 * largest, "{p:?} {q:?}");
         }
     }
 }
