@@ -184,7 +184,6 @@ fn hold(model: &Model, body: usize, set: &str, way: [f64; 3]) -> Displacement {
 
 /// Converged states and reports of a run that gets through.
 pub struct Run {
-    pub problem: Problem,
     pub states: Vec<State>,
     pub reports: Vec<PairReport>,
 }
@@ -200,11 +199,7 @@ impl Run {
             .iter()
             .map(|state| pairs(&problem, state).remove(0))
             .collect();
-        Self {
-            problem,
-            states,
-            reports,
-        }
+        Self { states, reports }
     }
 
     pub fn last(&self) -> (&State, &PairReport) {
