@@ -17,15 +17,17 @@
 //! plane facets, and forces of the two sides balance to round-off. Complementarity and
 //! friction are those of all kept nodes, with the stiffness `1/(h_a/E_a + h_b/E_b)`.
 //!
-//! A node is pierced if it is open, lies deeper than [`PIERCED`] of the smaller facet size
-//! and its own facets are open in the mean by more than [`OPEN`] of their size: one of a
-//! smooth surface of radius `R` in touch has the depth `h^2/(6 R)` under a mean gap of zero,
-//! so it is not before `R < 4 h`. It stays pointed while it is pressed and the mean gap is
-//! larger than [`CLOSING`].
+//! A node pierces if it is open, lies deeper than [`PIERCED`] of the smaller facet size, and
+//! its own facets are open in the mean and stand back from it by more than [`SHARP`] of
+//! their size: the mean gap minus its own. Facets tilted by the angle `t` stand back by
+//! `h tan(t)/3`. A node of a smooth surface of radius `R` with a mean gap of zero is inside
+//! by `h^2/(6 R)`, too, which is left to the mean: up to .07 of a facet at the shoulders of
+//! coarse tyres. What is not sharp closes in the mean before it is inside by `SHARP`. A node
+//! stays pointed while it is pressed and the mean gap is larger than [`CLOSING`].
 
 use nalgebra::Matrix3;
 use rayon::prelude::*;
-use striae_mesh::Vec3;
+use striae_mesh::{FacetId, Vec3};
 use striae_surface::{facet::Shape, topology::distinct_corners};
 
 use crate::{
@@ -45,16 +47,15 @@ use crate::{
     unknowns::NodeResult,
     weighted::add_chained,
 };
-use striae_mesh::FacetId;
 
 /// Depth from which a node counts as pierced, over the smaller facet size.
 pub const PIERCED: f64 = 0.02;
 
-/// Mean gap of its own facets from which it does, over their size.
-pub const OPEN: f64 = 0.02;
+/// Mean gap of its own facets beyond its own from which it is sharp, over their size.
+pub const SHARP: f64 = 0.1;
 
 /// Mean gap of its own facets down to which a node stays pointed, over their size.
-pub const CLOSING: f64 = 0.01;
+pub const CLOSING: f64 = 0.02;
 
 /// How many reaches around a node an opposing facet is looked for.
 const FOLLOW: f64 = 4.0;
@@ -369,40 +370,46 @@ pub fn pierced(
     if configuration.pair.enforcement != Enforcement::Weighted {
         return Vec::new();
     }
-    let mut deep: Vec<(usize, u32)> = Vec::new();
+    let mut deep: Vec<(usize, u32, f64)> = Vec::new();
     for &side in configuration.pair.deformable_sides() {
         let nothing = NO_PRESSURE * configuration.pair.sides[side].stiffness;
-        let is_deep = |&node: &u32| {
-            !selection.is_pointed(side, node)
-                && carried[side][node as usize][0] <= nothing
-                && lies_inside(configuration, side, node)
+        let own_gap = |node: u32| {
+            let is_free =
+                !selection.is_pointed(side, node) && carried[side][node as usize][0] <= nothing;
+            let gap = is_free.then(|| inside(configuration, side, node)).flatten();
+            gap.map(|gap| (side, node, gap))
         };
-        let nodes: Vec<u32> = (0..selection.nodes(side) as u32)
+        let found: Vec<(usize, u32, f64)> = (0..selection.nodes(side) as u32)
             .into_par_iter()
             .with_min_len(16)
-            .filter(is_deep)
+            .filter_map(own_gap)
             .collect();
-        deep.extend(nodes.into_iter().map(|node| (side, node)));
+        deep.extend(found);
     }
-    if !deep.is_empty() {
-        let gaps = mean_gaps(configuration, selection.scope());
-        deep.retain(|&(side, node)| is_open(configuration, &gaps, (side, node), OPEN));
+    if deep.is_empty() {
+        return Vec::new();
     }
-    deep
+    let means = mean_gaps(configuration, selection.scope());
+    let is_sharp = |&(side, node, gap): &(usize, u32, f64)| {
+        let size = configuration.side(side).sizes[node as usize];
+        let mean = means[side][node as usize];
+        mean.is_none_or(|mean| mean > 0.0 && mean - gap > SHARP * size)
+    };
+    let sharp = deep.into_iter().filter(is_sharp);
+    sharp.map(|(side, node, _)| (side, node)).collect()
 }
 
-/// Whether a node lies deeper inside the other side than [`PIERCED`].
-fn lies_inside(configuration: &Configuration, side: usize, node: u32) -> bool {
+/// Gap of a node that lies deeper inside the other side than [`PIERCED`].
+fn inside(configuration: &Configuration, side: usize, node: u32) -> Option<f64> {
     let own = configuration.side(side);
     let size = own.sizes[node as usize];
     if let Some((point, normal)) = configuration.plane() {
         let gap = (own.x[node as usize] - point).dot(&normal);
         let faces = own.normals[node as usize].dot(&normal) < 0.0;
-        return faces && gap < -PIERCED * size && -gap < configuration.reach(side, node);
+        let near = -gap < configuration.reach(side, node);
+        return (faces && near && gap < -PIERCED * size).then_some(gap);
     }
-    let Some(hit) = faced(configuration, side, node, 1.0) else {
-        return false;
-    };
+    let hit = faced(configuration, side, node, 1.0)?;
     let target = configuration.side(1 - side);
     let size = if configuration.pair.is_rigid() {
         size
@@ -411,7 +418,7 @@ fn lies_inside(configuration: &Configuration, side: usize, node: u32) -> bool {
         let sizes = corners.map(|corner| target.sizes[corner as usize]);
         sizes.into_iter().fold(size, f64::min)
     };
-    hit.gap < -PIERCED * size
+    (hit.gap < -PIERCED * size).then_some(hit.gap)
 }
 
 /// Pointed nodes of a converged configuration that are so in the next increment too.
@@ -432,22 +439,12 @@ pub fn staying(
     let gaps = mean_gaps(configuration, scope);
     for side in 0..2 {
         for (node, stays) in staying[side].iter_mut().enumerate() {
+            let size = configuration.side(side).sizes[node];
             *stays &= nodes[side][node].pressure > 0.0
-                && is_open(configuration, &gaps, (side, node as u32), CLOSING);
+                && gaps[side][node].is_none_or(|gap| gap > CLOSING * size);
         }
     }
     staying
-}
-
-/// Whether the mean gap around a node is larger than a part of the facet size.
-fn is_open(
-    configuration: &Configuration,
-    gaps: &[Vec<Option<f64>>; 2],
-    (side, node): (usize, u32),
-    part: f64,
-) -> bool {
-    let size = configuration.side(side).sizes[node as usize];
-    gaps[side][node as usize].is_none_or(|gap| gap > part * size)
 }
 
 /// `integral N_I g / integral N_I` at all nodes with facets near the other side.

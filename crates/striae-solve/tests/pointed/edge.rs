@@ -1,0 +1,117 @@
+//! Forces of an edge that is pressed onto a face.
+
+use striae_contact::unknowns::Status;
+use striae_law::friction::Friction;
+
+use crate::scene::{Floor, Run, moved, standing, tilted};
+
+const SOLE: &[&str] = &["zmin", "xmin"];
+const FLOORS: [Floor; 3] = [Floor::Soft, Floor::Plane, Floor::Facets];
+
+fn coulomb(mu: f64) -> Friction {
+    Friction::coulomb(mu).unwrap()
+}
+
+fn pressed(degrees: f64, divisions: usize, floor: Floor, depth: f64, increments: usize) -> Run {
+    let mut model = standing(tilted(degrees, divisions), SOLE, floor, coulomb(0.3));
+    model.steps = vec![moved(&model, [0.0, 0.0, -depth], increments)];
+    Run::completed(model)
+}
+
+#[test]
+fn an_edge_is_felt_and_forces_balance() {
+    for floor in FLOORS {
+        let run = pressed(33.0, 4, floor, 0.05, 4);
+        let (_, report) = run.last();
+        assert!(report.sides[0].force.z > 1e-3, "{:?}", report.sides[0]);
+        assert!(report.mismatch < 1e-12, "{}", report.mismatch);
+        assert!(run.pointed() > 0);
+    }
+}
+
+#[test]
+fn force_grows_continuously_from_the_depth_at_which_an_edge_is_felt() {
+    let run = pressed(33.0, 4, Floor::Plane, 0.05, 25);
+    let forces: Vec<f64> = run.reports.iter().map(|r| r.sides[0].force.z).collect();
+    let last = forces[forces.len() - 1];
+    // Facets of a quarter in steps of 0.002: the dead zone ends below 0.02 of one.
+    assert!(forces[2] > 0.0, "{forces:?}");
+    for pair in forces.windows(2).skip(2) {
+        let growth = (pair[1] - pair[0]) / last;
+        assert!(growth > 0.0 && growth < 0.1, "{growth} in {forces:?}");
+    }
+    assert!(forces[2] < 0.15 * last, "{forces:?}");
+}
+
+#[test]
+fn force_converges_with_the_mesh() {
+    let force = |divisions| {
+        let run = pressed(33.0, divisions, Floor::Plane, 0.04, 4);
+        run.last().1.sides[0].force.z
+    };
+    let [coarse, medium, fine] = [3, 6, 12].map(force);
+    assert!((medium - fine).abs() < 0.7 * (coarse - medium).abs());
+    assert!((medium - fine).abs() < 0.2 * fine);
+}
+
+#[test]
+fn a_sliding_edge_obeys_coulombs_law() {
+    let mu = 0.3;
+    let mut model = standing(tilted(33.0, 4), SOLE, Floor::Plane, coulomb(mu));
+    model.steps = vec![
+        moved(&model, [0.0, 0.0, -0.03], 2),
+        moved(&model, [0.0, 0.1, -0.03], 5),
+    ];
+    let run = Run::completed(model);
+    let (_, report) = run.last();
+    assert!(run.pointed() > 0);
+    let closed = || run.nodes().iter().filter(|node| node.pressure > 0.0);
+    assert!(closed().all(|node| node.status == Status::Slip));
+    let force = report.sides[0].force;
+    let friction: f64 = report.sides[0].friction;
+    assert!((friction - mu * force.z).abs() < 1e-9 * force.z, "{force}");
+    for node in closed() {
+        let excess = node.tau.norm() - mu * node.pressure;
+        assert!(excess.abs() < 1e-9 * node.pressure, "{node:?}");
+    }
+}
+
+#[test]
+fn a_block_that_settles_flat_has_the_force_of_the_flat_one() {
+    let [flat, tilted] = [(0.0, 0.0), (1.0, 1.0)].map(|(degrees, settled): (f64, f64)| {
+        let mut model = standing(tilted(degrees, 4), SOLE, Floor::Plane, coulomb(0.0));
+        // The upper side is turned level as it is pressed.
+        let block = tilted(degrees, 4).mesh().unwrap();
+        let level = tilted(0.0, 4).mesh().unwrap();
+        let press = moved(&model, [0.0, 0.0, -0.05], 5);
+        let hold = &press.displacements[0];
+        let ways = hold.nodes.iter().map(|node| {
+            let way = level.positions[node.index()] - block.positions[node.index()];
+            let target = way * settled - striae_mesh::Vec3::z() * 0.05;
+            striae_solve::model::Displacement {
+                nodes: vec![*node],
+                components: [Some(target.x), Some(target.y), Some(target.z)],
+                ..hold.clone()
+            }
+        });
+        let displacements = ways.collect();
+        model.steps = vec![striae_solve::model::Step {
+            displacements,
+            ..press
+        }];
+        let run = Run::completed(model);
+        assert_eq!(run.pointed(), 0);
+        let pressures: Vec<f64> = run.nodes().iter().map(|node| node.pressure).collect();
+        (run.last().1.sides[0].force, pressures)
+    });
+    // The shapes at rest differ by the rotation, which strains nothing.
+    assert!(
+        (flat.0 - tilted.0).norm() < 1e-9 * flat.0.norm(),
+        "{flat:?}\n{tilted:?}"
+    );
+    let differences = flat.1.iter().zip(&tilted.1).map(|(a, b)| (a - b).abs());
+    let largest = flat.1.iter().copied().fold(0.0, f64::max);
+    let difference = differences.fold(0.0, f64::max) / largest;
+    // Nodal pressures are seen to differ by 1e-6, forces by less than 1e-9.
+    assert!(difference < 1e-5, "{difference}");
+}

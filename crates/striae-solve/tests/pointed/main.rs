@@ -1,0 +1,5 @@
+//! Edges and corners that pierce a face between its nodes.
+
+mod edge;
+mod scene;
+mod tangent;

@@ -1,0 +1,244 @@
+//! Tangent with pointed nodes: the error of central differences falls with the square of
+//! the step.
+
+use nalgebra::{DMatrix, DVector};
+use striae_contact::{
+    complementarity::Iteration,
+    configuration::Configuration,
+    evaluation::{Evaluation, evaluate},
+    selection::{Before, Kept, Selection},
+    unknowns::{Status, Tractions},
+};
+use striae_law::friction::{Friction, SlipRule};
+use striae_mesh::Vec3;
+use striae_solve::{assembly::StepContext, model::Model, problem::Problem, state::State};
+use striae_surface::texture::{Field, Lines, Paint};
+use striae_verify::{Difference, Random, derivative::directional};
+
+use crate::scene::{Floor, moved, standing, tilted};
+
+/// What the field does beside the pointed nodes.
+#[derive(Clone, Copy, PartialEq)]
+enum Carries {
+    Traction,
+    Nothing,
+}
+
+/// A pair with all nodes of the edge pointed as a function of its unknowns.
+struct Contact<'a> {
+    context: &'a StepContext<'a>,
+    start: Configuration<'a>,
+    selection: Selection,
+}
+
+impl<'a> Contact<'a> {
+    fn new(context: &'a StepContext<'a>) -> Self {
+        let state = context.start;
+        let start = context.configuration(0, &state.positions, &state.rigid);
+        let none = state.pairs[0].kept.clone();
+        let mut pointed: Kept = none.clone();
+        for (node, x) in start.side(0).x.iter().enumerate() {
+            pointed[0][node] = x.x.hypot(x.z) < 0.1;
+        }
+        let before = Before {
+            kept: &none,
+            pointed: &pointed,
+        };
+        let selection = Selection::new(&start, None, before, &context.fixed_on_pair[0]);
+        Self {
+            context,
+            start,
+            selection,
+        }
+    }
+
+    fn nodes(&self) -> [usize; 2] {
+        [0, 1].map(|side| self.selection.nodes(side))
+    }
+
+    fn configuration(&self, u: &DVector<f64>) -> Configuration<'_> {
+        let [a, b] = self.nodes();
+        let at = |node: usize| Vec3::new(u[3 * node], u[3 * node + 1], u[3 * node + 2]);
+        let rigid = &self.context.problem.pairs[0].rigid_reference;
+        let pair = &self.context.pairs[0];
+        let of_b = if pair.is_rigid() {
+            rigid.clone()
+        } else {
+            (a..a + b).map(at).collect()
+        };
+        Configuration::new(pair, [(0..a).map(at).collect(), of_b], self.start.placement)
+    }
+
+    fn tractions(&self, u: &DVector<f64>) -> Tractions {
+        let counts = self.nodes();
+        let mut tractions = Tractions::zero(counts);
+        let first = 3 * (counts[0] + counts[1]);
+        for side in 0..2 {
+            for (node, unknowns) in tractions.nodes[side].iter_mut().enumerate() {
+                let at = first + 3 * (side * counts[0] + node);
+                *unknowns = [u[at], u[at + 1], u[at + 2]];
+            }
+        }
+        tractions
+    }
+
+    fn evaluation(&self, u: &DVector<f64>) -> Evaluation {
+        evaluate(
+            &self.configuration(u),
+            &self.start,
+            &self.selection,
+            &self.tractions(u),
+            &self.nodes().map(|count| vec![false; 3 * count]),
+            Iteration::LATER,
+        )
+        .unwrap()
+    }
+
+    fn residual(&self, u: &DVector<f64>) -> DVector<f64> {
+        let mut residual = DVector::zeros(u.len());
+        for term in &self.evaluation(u).terms {
+            for (row, value) in term.rows.iter().zip(&term.residual) {
+                residual[*row as usize] += value;
+            }
+        }
+        residual
+    }
+
+    fn tangent(&self, u: &DVector<f64>) -> DMatrix<f64> {
+        let mut tangent = DMatrix::zeros(u.len(), u.len());
+        for term in &self.evaluation(u).terms {
+            for (row, values) in term
+                .rows
+                .iter()
+                .zip(term.tangent.chunks(term.columns.len()))
+            {
+                for (column, value) in term.columns.iter().zip(values) {
+                    tangent[(*row as usize, *column as usize)] += value;
+                }
+            }
+        }
+        tangent
+    }
+
+    /// Unknowns with nodes of every status away from kinks; slip rows are satisfied, since
+    /// only there is their Jacobian exact.
+    fn state(&self, field: Carries, random: &mut Random) -> DVector<f64> {
+        let [a, b] = self.nodes();
+        let mut u = DVector::zeros(6 * (a + b));
+        for side in 0..2 {
+            for node in 0..self.nodes()[side] {
+                let slide = if side == 0 {
+                    Vec3::new(0.031, 0.023, -0.021)
+                } else {
+                    Vec3::zeros()
+                };
+                let x = self.start.side(side).x[node] + slide + random.vector3() * 0.006;
+                u.rows_mut(3 * (side * a + node), 3).copy_from(&x);
+            }
+        }
+        let traction = |side: usize, node: usize| 3 * (a + b + side * a + node);
+        let kept = self.selection.kept();
+        for (k, kept) in kept.iter().enumerate() {
+            let at = traction(kept.side, kept.node as usize);
+            let values = [random.uniform(0.3, 0.5), 0.01, -0.02];
+            u.rows_mut(at, 3).copy_from_slice(&values);
+            if k % 3 == 0 {
+                u[at] = -0.9;
+            }
+            if k < self.selection.of_field && field == Carries::Nothing {
+                u.rows_mut(at, 3).copy_from_slice(&[-0.9, 0.0, 0.0]);
+            }
+        }
+        let pressed = |k: &usize| u[traction(kept[*k].side, kept[*k].node as usize)] > 0.0;
+        let sticking: Vec<usize> = (0..kept.len())
+            .filter(|k| k % 3 == 1)
+            .filter(pressed)
+            .collect();
+        for k in sticking {
+            let (side, node) = kept[k].place();
+            let evaluation = self.evaluation(&u);
+            let slip = evaluation.nodes[side][node].slip;
+            let frames = striae_contact::frame::frames(&self.configuration(&u), &self.selection);
+            let frame = frames[side][node].as_ref().unwrap();
+            let at = traction(side, node);
+            for axis in 0..2 {
+                let against = slip.dot(&frame.t[axis].value);
+                u[at + 1 + axis] = -10.0 * self.selection.stiffness(k) * against;
+            }
+        }
+        // The rows state `z - varpi y/|y|`, whose root attracts.
+        for _ in 0..400 {
+            let (residual, found) = (self.residual(&u), self.evaluation(&u).nodes);
+            for kept in kept {
+                let (side, node) = kept.place();
+                if found[side][node].status == Status::Slip {
+                    for at in traction(side, node) + 1..traction(side, node) + 3 {
+                        u[at] -= residual[at];
+                    }
+                }
+            }
+        }
+        u
+    }
+}
+
+fn assert_order(model: Model, field: Carries, wanted: &[Status]) {
+    let mut model = model;
+    model.steps = vec![moved(&model, [0.0; 3], 1)];
+    let problem = Problem::new(model).unwrap();
+    let start = State::undeformed(&problem);
+    let context = StepContext::new(&problem, 0, &start);
+    let contact = Contact::new(&context);
+    let pointed: Vec<_> = contact.selection.pointed_places().collect();
+    assert_eq!(pointed.len(), 4);
+    let mut random = Random::new(5);
+    let u = contact.state(field, &mut random);
+    let found = contact.evaluation(&u).nodes;
+    let found: Vec<_> = pointed
+        .iter()
+        .map(|&k| contact.selection.kept()[k].place())
+        .map(|(side, node)| found[side][node])
+        .collect();
+    let statuses: Vec<Status> = found.iter().map(|node| node.status).collect();
+    for status in wanted {
+        assert!(statuses.contains(status), "{status:?} not in {statuses:?}");
+    }
+    assert!(found.iter().all(|node| node.gap.is_finite()), "{found:?}");
+    let tangent = contact.tangent(&u);
+    for seed in 0..3 {
+        let direction = Random::new(seed).unit(u.len());
+        let claimed = &tangent * &direction;
+        let residual = |u: &DVector<f64>| contact.residual(u);
+        let order = directional(Difference::Central, residual, &claimed, &u, &direction);
+        if let Err(wrong) = order {
+            panic!("{wrong}");
+        }
+    }
+}
+
+#[test]
+fn under_coulomb_friction() {
+    for floor in [Floor::Soft, Floor::Plane, Floor::Facets] {
+        let friction = Friction::coulomb(0.4).unwrap();
+        let model = standing(tilted(33.0, 3), &["zmin", "xmin"], floor, friction);
+        assert_order(
+            model,
+            Carries::Traction,
+            &[Status::Open, Status::Stick, Status::Slip],
+        );
+    }
+}
+
+#[test]
+fn under_friction_of_the_opposing_texture() {
+    for floor in [Floor::Soft, Floor::Plane, Floor::Facets] {
+        let friction = Friction::orthotropic(0.2, 0.5, SlipRule::Associated).unwrap();
+        let mut model = standing(tilted(33.0, 3), &["zmin", "xmin"], floor, friction);
+        model.pairs[0].textures[1] = Some(Paint::Field(Field {
+            lines: Lines::Uniform(Vec3::new(0.8, 0.6, 0.0)),
+            turn: 0.0,
+        }));
+        // Textures that ordinary nodes see past the rim of the block are not differentiated.
+        assert_order(model, Carries::Nothing, &[Status::Open, Status::Slip]);
+    }
+}
