@@ -115,10 +115,10 @@ pub fn rows(
     let state = NodeState::new(configuration, node, prescribed);
     let [p, z1, z2] = node.unknowns;
     let size = configuration.side(node.side).sizes[node.node as usize];
-    let stiffness = node.kinematics.stiffness;
+    let [r_n, r_t] = node.kinematics.stiffness;
     let g = state.gap.re;
     let touching = iteration == Iteration::First && g <= TOUCHING * size;
-    let closed = (touching || p - stiffness * g > 0.0) && state.is_free();
+    let closed = (touching || p - r_n * g > 0.0) && state.is_free();
     let held = |component: usize, value: f64| {
         let mut row = [0.0; N];
         row[TRACTION + component] = 1.0;
@@ -128,13 +128,8 @@ pub fn rows(
     let rows = if !closed {
         [held(0, p), held(1, z1), held(2, z2)]
     } else {
-        let (status, [first, second]) = state.tangential(
-            configuration,
-            [p, z1, z2],
-            10.0 * stiffness,
-            size,
-            iteration,
-        );
+        let (status, [first, second]) =
+            state.tangential(configuration, [p, z1, z2], r_t, size, iteration);
         result.status = status;
         [(Field::Gap(size), g, state.gap.slope), first, second]
     };

@@ -25,9 +25,8 @@ pub struct Kinematics {
     pub seen_slip: Vec3,
     /// Whether any segment of the present configuration bears on the node.
     pub presence: Presence,
-    /// Pressure per gap `1/l` that scales the complementarity: `l` is the thickness over
-    /// the modulus of what yields there on both sides.
-    pub stiffness: f64,
+    /// Pressure per gap and friction per slip, `[r_n, r_t]`, that scale the complementarity.
+    pub stiffness: [f64; 2],
 }
 
 /// Whether a node faces the other side.

@@ -224,13 +224,26 @@ impl Selection {
         self.basis.weights[k]
     }
 
-    /// `1/l_k` of a kept node; zero where nothing yields, as no row can hold there.
-    pub fn stiffness(&self, k: usize) -> f64 {
+    /// Pressure per gap and friction per slip, `[r_n, r_t]`, that scale the complementarity of
+    /// a kept node; zero where nothing yields, as no row can hold there.
+    ///
+    /// The rows yield by `l_k` and by what the ramp adds, `E_kk/w_k`:
+    /// `r_n = 1/(l_k + E_kk/w_k)`, `r_t = 1/(l_k/10 + E_kk/w_k)`. With `r_n = 1/l_k` a weak
+    /// node under tension would count as closed, since the ramp takes the tension for a gap.
+    pub fn stiffness(&self, k: usize) -> [f64; 2] {
         let flexibility = self.basis.flexibility[k];
+        let of_node = |weak: &Weak| -> f64 {
+            let entries = weak.row.iter().filter(|entry| entry.0 as usize == k);
+            entries
+                .map(|(_, value)| weak.coefficient * value * value)
+                .sum()
+        };
+        let ramp: f64 = self.ramp().iter().map(of_node).sum();
+        let ramp = ramp / self.weight(k);
         if flexibility > 0.0 {
-            1.0 / flexibility
+            [1.0 / (flexibility + ramp), 1.0 / (0.1 * flexibility + ramp)]
         } else {
-            0.0
+            [0.0; 2]
         }
     }
 

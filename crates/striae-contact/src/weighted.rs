@@ -205,7 +205,7 @@ impl<'a> Sum<'a> {
     }
 
     /// The means over the weight of the node.
-    fn over(self, weight: f64, stiffness: f64) -> Kinematics {
+    fn over(self, weight: f64, stiffness: [f64; 2]) -> Kinematics {
         let share = 1.0 / weight;
         let entries = || self.triples.iter().copied().zip(&self.blocks);
         let gradient: Gradient = entries()

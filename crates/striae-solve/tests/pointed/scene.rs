@@ -12,7 +12,7 @@ use striae_mesh::{
 use striae_solve::{
     drive::{Continue, Observer, Progress, run},
     model::{
-        Backend, Body, BodyId, ContactMass, Curve, Displacement, Increments, Model, Pair,
+        Backend, Body, BodyId, ContactMass, Curve, Displacement, Increments, Initial, Model, Pair,
         Procedure, RigidId, RigidShape, RigidSurface, Side, Solver, Step, Strategy,
     },
     newton::{Increment, IterationObserver},
@@ -112,6 +112,7 @@ pub fn standing(upper: Block, sole: &[&str], floor: Floor, friction: Friction) -
             friction,
             enforcement: Enforcement::Weighted,
             search_distance: None,
+            initial: Initial::AsMeshed,
         }],
         steps: Vec::new(),
         solver: Solver {

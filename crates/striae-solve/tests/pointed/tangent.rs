@@ -163,7 +163,7 @@ impl<'a> Contact<'a> {
             let at = traction(side, node);
             for axis in 0..2 {
                 let against = slip.dot(&frame.t[axis].value);
-                u[at + 1 + axis] = -10.0 * self.selection.stiffness(k) * against;
+                u[at + 1 + axis] = -self.selection.stiffness(k)[1] * against;
             }
         }
         // The rows state `z - varpi y/|y|`, whose root attracts.

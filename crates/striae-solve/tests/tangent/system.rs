@@ -6,7 +6,10 @@ use crate::{
     scene::{Places, Run, coulomb, plane, step},
 };
 use nalgebra::DVector;
-use striae_contact::{complementarity::Iteration, selection::{Before, Selection}};
+use striae_contact::{
+    complementarity::Iteration,
+    selection::{Before, Selection},
+};
 use striae_law::friction::Friction;
 use striae_linalg::{SparseMatrix, Structure, Supervariable};
 use striae_mesh::Vec3;
