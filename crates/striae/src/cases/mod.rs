@@ -19,8 +19,10 @@ macro_rules! decks {
 }
 
 mod bar_impact;
+mod battery;
 mod comparison;
 mod contact_face;
+mod edge_contact;
 mod hertz_mindlin;
 mod hertz_mindlin_cylinders;
 mod hertz_mindlin_two_body;
@@ -34,6 +36,7 @@ mod plate_on_rigid_plane;
 mod slip_surface;
 mod snake_scale;
 mod stick_tolerance;
+mod stiff_punch;
 pub mod study;
 mod two_blocks;
 mod tyre;
@@ -77,6 +80,16 @@ pub const CASES: &[Case] = &[
         "two-blocks",
         "Two blocks, pressed and slid, beside two other codes",
         two_blocks::run
+    ),
+    case!(
+        "stiff-punch",
+        "An offset punch on a larger base, for all ratios of stiffness and mesh size",
+        stiff_punch::run
+    ),
+    case!(
+        "edge-contact",
+        "A block whose edges press on a thin plate, ever more finely divided",
+        edge_contact::run
     ),
     case!(
         "patch-frictionless",

@@ -1,6 +1,9 @@
 //! What a case works with: it runs decks and collects what they give.
 
-use std::path::{Path, PathBuf};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
 
 use striae_io::{
     deck::{self, Deck},
@@ -134,6 +137,12 @@ impl<'a> Study<'a> {
     /// Notes a measured quantity.
     pub fn measured(&mut self, name: impl Into<String>, value: f64) {
         self.quantities.push((name.into(), value));
+    }
+
+    /// Writes a text into the folder of the case.
+    pub fn write(&self, name: &str, text: &str) -> Result<(), Failure> {
+        let path = self.folder.join(name);
+        fs::write(&path, text).map_err(|cause| Failure::Unwritable { path, cause })
     }
 
     /// Writes a figure.
