@@ -58,7 +58,9 @@ pub fn kinematics(
             };
             Kinematics {
                 gap: frame.map_or_else(TrackedScalar::default, |frame| {
-                    gap(configuration, side, node as u32, frame)
+                    let mut gap = gap(configuration, side, node as u32, frame);
+                    gap.value += selection.offset(side, node as u32);
+                    gap
                 }),
                 seen_slip: slip.value,
                 slip,

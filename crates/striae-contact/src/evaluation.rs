@@ -18,7 +18,7 @@ use crate::{
     pairing::paired_facets,
     pointed::{self, PointedTerm},
     segment::Derivatives,
-    segment_rows::{Slip, segment_rows},
+    segment_rows::{Given, Slip, segment_rows},
     selection::Selection,
     slip_rate::slip_velocities,
     term::LocalTerm,
@@ -60,7 +60,7 @@ pub fn evaluate(
     let slip = if configuration.pair.friction.cap(1.0, 0.0) == 0.0 {
         Slip::Left
     } else {
-        Slip::Derivatives
+        Slip::Wanted
     };
     let frames = frames(configuration, selection);
     let patches = match configuration.pair.enforcement {
@@ -83,7 +83,7 @@ pub fn evaluate(
     let tau = nodal_tractions(configuration, selection, &surroundings, tractions);
     if configuration.pair.enforcement == Enforcement::Weighted {
         weighted::add_ramp_to_gaps(configuration, selection, tractions, &mut kinematics);
-        if slip == Slip::Derivatives {
+        if slip == Slip::Wanted {
             weighted::add_ramp_to_slips(
                 configuration,
                 start,
@@ -132,8 +132,12 @@ fn patches(
         .into_par_iter()
         .with_min_len(4)
         .map(|paired| {
-            let weights = scope.weights(&paired);
-            let rows = segment_rows(configuration, start, &paired, weights, slip);
+            let given = Given {
+                weights: scope.weights(&paired),
+                offsets: selection.offsets_at(configuration, &paired),
+                slip,
+            };
+            let rows = segment_rows(configuration, start, &paired, given);
             Patch {
                 kept: Patch::kept_of(configuration, selection, &paired),
                 rows,

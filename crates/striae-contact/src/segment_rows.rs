@@ -43,19 +43,35 @@ pub struct SegmentRows {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Slip {
     /// It is.
-    Derivatives,
+    Wanted,
     /// There is no friction.
     Left,
 }
 
-/// Gap and slip of a segment; `weights` are those of the facets' normals.
+/// What is given of a segment beside its facets.
+#[derive(Clone, Copy, Debug)]
+pub struct Given {
+    /// Weights of the facets' normals.
+    pub weights: [f64; 2],
+    /// Overlap of the meshes at the corners that is not pressed out yet, in shares that sum
+    /// up to the one at a point: it counts as an open gap.
+    pub offsets: [f64; 8],
+    /// Whether slip is asked for.
+    pub slip: Slip,
+}
+
+/// Gap and slip of a segment.
 pub fn segment_rows(
     configuration: &Configuration,
     start: &Configuration,
     paired: &PairedFacets,
-    weights: [f64; 2],
-    slip: Slip,
+    given: Given,
 ) -> SegmentRows {
+    let Given {
+        weights,
+        offsets,
+        slip,
+    } = given;
     let origin = paired.origin(configuration);
     let n = paired.segment.normal;
     let mut rows = SegmentRows {
@@ -67,10 +83,12 @@ pub fn segment_rows(
         rows.slopes = vec![[[0.0; 3 * ROWS]; 8]; 8];
     }
     let along: [f64; 8] = std::array::from_fn(|d| n.dot(&(paired.x[d] - origin)));
-    let along = Signed::scalars(&along);
+    let along = Signed(std::array::from_fn(|d| SIGNS[d] * along[d] + offsets[d]));
     for c in 0..8 {
         let sum = paired.difference(c, &paired.x, &origin);
-        rows.value[c][0] = n.dot(&sum);
+        let left = paired.segment.mass[c].iter().zip(&offsets);
+        let left: f64 = left.map(|(mass, offset)| mass * offset).sum();
+        rows.value[c][0] = n.dot(&sum) + left;
         let Some(slopes) = slopes else { continue };
         let by_mass = along.of_mass(slopes, c);
         for e in 0..8 {
@@ -79,7 +97,7 @@ pub fn segment_rows(
             rows.slopes[c][e][..3].copy_from_slice(gradient.as_slice());
         }
     }
-    if slip == Slip::Derivatives {
+    if slip == Slip::Wanted {
         let moved = Moved::new(configuration, start, paired, weights);
         moved.add_slip(paired, &mut rows);
     }
@@ -90,10 +108,6 @@ pub fn segment_rows(
 struct Signed([f64; 8]);
 
 impl Signed {
-    fn scalars(values: &[f64; 8]) -> Self {
-        Self(std::array::from_fn(|d| SIGNS[d] * values[d]))
-    }
-
     /// `sum_d s_d v_d dD_cd/dx_e` for all corners `e`.
     fn of_mass(&self, slopes: &Slopes, c: usize) -> [Vec3; 8] {
         let mut sum = [0.0; 24];

@@ -67,6 +67,9 @@ pub struct Selection {
     pub partners: Vec<Option<Partner>>,
     /// Number of kept nodes of the field; those after them are pointed.
     pub of_field: usize,
+    /// Overlap of the meshes at the nodes that is not pressed out yet, by side; empty where
+    /// there is none.
+    pub offsets: [Vec<f64>; 2],
 }
 
 /// What nodes are before the roles of an increment are chosen.
@@ -111,6 +114,7 @@ impl Selection {
             compliances,
             depth,
             partners,
+            offsets: [Vec::new(), Vec::new()],
         };
         for &side in start.pair.deformable_sides() {
             let nodes = before.pointed[side].iter().enumerate();
@@ -255,6 +259,25 @@ impl Selection {
     /// What was opposite to a kept node at the start.
     pub fn partner(&self, k: usize) -> Option<Partner> {
         self.partners[k]
+    }
+
+    /// Shares of the corners of paired facets in what is left of the overlap of the meshes.
+    pub fn offsets_at(&self, configuration: &Configuration, paired: &PairedFacets) -> [f64; 8] {
+        let share = if configuration.pair.is_rigid() {
+            1.0
+        } else {
+            0.5
+        };
+        std::array::from_fn(|corner| {
+            let node = paired.node(configuration, corner);
+            node.map_or(0.0, |(side, node)| share * self.offset(side, node))
+        })
+    }
+
+    /// What is left of the overlap of the meshes at a node.
+    pub fn offset(&self, side: usize, node: u32) -> f64 {
+        let offset = self.offsets[side].get(node as usize);
+        offset.copied().unwrap_or(0.0)
     }
 
     /// Which facets are paired.

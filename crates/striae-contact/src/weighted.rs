@@ -137,11 +137,7 @@ impl<'a> Sum<'a> {
     fn add(&mut self, patch: &Patch, shares: &[f64; 8], slip: Slip) {
         let mut value = [0.0; ROWS];
         let mut slopes = [[0.0; 3 * ROWS]; 8];
-        let width = if slip == Slip::Derivatives {
-            3 * ROWS
-        } else {
-            3
-        };
+        let width = if slip == Slip::Wanted { 3 * ROWS } else { 3 };
         for (c, &share) in shares
             .iter()
             .enumerate()
@@ -157,7 +153,7 @@ impl<'a> Sum<'a> {
             }
         }
         self.gap += value[0];
-        let turned = (slip == Slip::Derivatives).then(|| self.turned(patch, &value));
+        let turned = (slip == Slip::Wanted).then(|| self.turned(patch, &value));
         for (e, block) in slopes.iter_mut().enumerate() {
             let Some((side, node)) = patch.paired.node(self.configuration, e) else {
                 continue;

@@ -4,9 +4,11 @@ use std::path::Path;
 
 use striae_io::deck::{Deck, FaultKind, Faults, parse};
 use striae_solve::{
+    assembly::StepContext,
     initial::{InitialFault, Offsets, fits, may_meet},
     model::{ClosedGaps, Initial, Model, PairId},
     problem::Problem,
+    state::State,
 };
 
 /// A block above another one, pressed down.
@@ -120,7 +122,7 @@ fn closing_that_turns_elements_inside_out_is_refused() {
 fn resolved_overlaps_are_offsets_that_fade() {
     let model = deck(0.97, "initial = \"resolve\"").unwrap().model;
     let problem = Problem::new(model).unwrap();
-    let offsets = Offsets::new(&problem, 0);
+    let offsets = Offsets::new(&problem, 0, 0);
     assert!(
         offsets.sides[1]
             .iter()
@@ -130,16 +132,15 @@ fn resolved_overlaps_are_offsets_that_fade() {
         .iter()
         .filter(|offset| (**offset - 0.03).abs() < 1e-12);
     assert!(found.count() >= 4);
-    assert_eq!(
-        [
-            Offsets::left(0, 0.0),
-            Offsets::left(0, 1.0),
-            Offsets::left(1, 0.0)
-        ],
-        [1.0, 0.0, 0.0]
-    );
+    let state = State::undeformed(&problem);
+    let context = StepContext::new(&problem, 0, &state);
+    let half = context.offsets_left(0, 0.5);
+    for (half, whole) in half[1].iter().zip(&offsets.sides[1]) {
+        assert_eq!(*half, 0.5 * whole);
+    }
+    assert_eq!(Offsets::new(&problem, 1, 0), Offsets::default());
     let as_meshed = Problem::new(deck(1.0, "").unwrap().model).unwrap();
-    assert_eq!(Offsets::new(&as_meshed, 0), Offsets::default());
+    assert_eq!(Offsets::new(&as_meshed, 0, 0), Offsets::default());
 }
 
 #[test]

@@ -233,9 +233,10 @@ pub struct Offsets {
 }
 
 impl Offsets {
-    /// Those of a pair; none unless it says that its overlaps are resolved.
-    pub fn new(problem: &Problem, pair: usize) -> Self {
-        if problem.model.pairs[pair].initial != Initial::Resolve {
+    /// Those of a pair in a step; none after the first one, or unless the pair says that its
+    /// overlaps are resolved.
+    pub fn new(problem: &Problem, step: usize, pair: usize) -> Self {
+        if step > 0 || problem.model.pairs[pair].initial != Initial::Resolve {
             return Self::default();
         }
         let start = State::undeformed(problem);
@@ -248,10 +249,5 @@ impl Offsets {
         Self {
             sides: overlaps(&stage),
         }
-    }
-
-    /// Share of the offsets that is left at the fraction `s` of a step.
-    pub fn left(step: usize, s: f64) -> f64 {
-        if step == 0 { 1.0 - s } else { 0.0 }
     }
 }

@@ -117,7 +117,7 @@ pub fn forces_at_start(
     let Selected {
         selections,
         tractions,
-    } = selected(context, state);
+    } = selected(context, state, 0.0);
     workspace.prepare(context.problem, &selections);
     let trial = Trial {
         positions: state.positions.clone(),
@@ -151,7 +151,7 @@ pub fn advance(
     let Selected {
         selections,
         tractions,
-    } = selected(context, state);
+    } = selected(context, state, s);
     workspace.prepare(context.problem, &selections);
     workspace.take_work();
     let trial = Trial {

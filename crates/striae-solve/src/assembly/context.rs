@@ -8,6 +8,7 @@ use striae_mesh::Vec3;
 
 use crate::{
     dynamics::Motion,
+    initial::Offsets,
     model::LoadKind,
     plan::StepPlan,
     problem::Problem,
@@ -34,6 +35,8 @@ pub struct StepContext<'a> {
     pub fixed_rigid: Vec<[bool; 6]>,
     /// `fixed` by pair, side and surface node.
     pub fixed_on_pair: Vec<Prescribed>,
+    /// Overlaps of the meshes of every pair that are pressed out in the step.
+    pub offsets: Vec<Offsets>,
 }
 
 /// What is imposed at the end of an increment.
@@ -101,6 +104,9 @@ impl<'a> StepContext<'a> {
         Self {
             fixed_on_pair: (0..problem.pairs.len()).map(on_pair).collect(),
             pairs: pairs.collect(),
+            offsets: (0..problem.pairs.len())
+                .map(|pair| Offsets::new(problem, index, pair))
+                .collect(),
             problem,
             index,
             plan,
@@ -112,6 +118,12 @@ impl<'a> StepContext<'a> {
                 .collect(),
             fixed,
         }
+    }
+
+    /// Overlap of the meshes of a pair that is left at the fraction `s` of the step.
+    pub fn offsets_left(&self, pair: usize, s: f64) -> [Vec<f64>; 2] {
+        let sides = self.offsets[pair].sides.each_ref();
+        sides.map(|side| side.iter().map(|overlap| (1.0 - s) * overlap).collect())
     }
 
     /// What is imposed at the fraction `s` of the step, at `time`, after `state`.

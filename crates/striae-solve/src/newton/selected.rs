@@ -22,7 +22,7 @@ pub(super) struct Selected {
 }
 
 /// The fields in the converged state. A node that was not kept starts with the old field.
-pub(super) fn selected(context: &StepContext, state: &State) -> Selected {
+pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected {
     let semismooth = context.problem.model.solver.strategy == Strategy::Semismooth;
     let (selections, tractions) = state
         .pairs
@@ -34,7 +34,10 @@ pub(super) fn selected(context: &StepContext, state: &State) -> Selected {
                 kept: &of_pair.kept,
                 pointed: &staying(&start, &of_pair.pointed, &of_pair.nodes),
             };
-            let selection = Selection::new(&start, None, before, &context.fixed_on_pair[pair]);
+            let selection = Selection {
+                offsets: context.offsets_left(pair, s),
+                ..Selection::new(&start, None, before, &context.fixed_on_pair[pair])
+            };
             let mut tractions = of_pair.tractions.clone();
             tractions.tau_n = of_pair
                 .carried
@@ -85,6 +88,7 @@ pub(super) fn reselected(
     let (selections, tractions) = with_configurations(setting, trial)
         .enumerate()
         .map(|(pair, (start, latest))| {
+            let offsets = setting.selections[pair].offsets.clone();
             let had = &setting.selections[pair];
             let (kept, had) = (had.kept_nodes(), had.pointed_nodes());
             let mut pointed = had.clone();
@@ -95,12 +99,11 @@ pub(super) fn reselected(
                 kept: &kept,
                 pointed,
             };
-            let selection = Selection::new(
-                &start,
-                Some(&latest),
-                before(&pointed),
-                &setting.context.fixed_on_pair[pair],
-            );
+            let prescribed = &setting.context.fixed_on_pair[pair];
+            let selection = Selection {
+                offsets,
+                ..Selection::new(&start, Some(&latest), before(&pointed), prescribed)
+            };
             let mut tractions = trial.tractions[pair].clone();
             fit(
                 &selection,
