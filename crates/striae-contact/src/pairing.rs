@@ -23,6 +23,8 @@ pub struct PairedFacets {
     pub corners: [[u32; 4]; 2],
     /// Their current positions.
     pub x: [Vec3; 8],
+    /// Mean gap up to which they are paired.
+    pub reach: f64,
     /// Integrals over the segment.
     pub segment: Segment,
 }
@@ -131,9 +133,9 @@ fn of_facet(
         shape: Shape::of(&corners),
     };
     let reach = reach(configuration, 0, &corners);
-    let is_near = |paired: &PairedFacets, reach: f64| {
+    let is_near = |paired: &PairedFacets| {
         let gap = paired.mean_gap(configuration);
-        gap <= reach && -gap <= reach + scope.depth
+        gap <= paired.reach && -gap <= paired.reach + scope.depth
     };
     if let Some((point, normal)) = configuration.plane() {
         let nothing = [point; 4];
@@ -141,9 +143,10 @@ fn of_facet(
             facets: [Some(facet), None],
             corners: [corners, [0; 4]],
             x: joined(&positions, &nothing),
+            reach,
             segment,
         });
-        return paired.into_iter().filter(|p| is_near(p, reach)).collect();
+        return paired.into_iter().filter(is_near).collect();
     }
     let other = configuration.side(1);
     let farthest = farthest(configuration);
@@ -164,18 +167,19 @@ fn of_facet(
         let Some(segment) = segment(&a, &b, weights, slopes) else {
             continue;
         };
-        let paired = PairedFacets {
-            facets: [Some(facet), Some(opposite)],
-            corners: [corners, corners_b],
-            x: joined(&positions, &positions_b),
-            segment,
-        };
         let reach = if configuration.pair.is_rigid() {
             reach
         } else {
             reach.max(self::reach(configuration, 1, &corners_b))
         };
-        if is_near(&paired, reach) {
+        let paired = PairedFacets {
+            facets: [Some(facet), Some(opposite)],
+            corners: [corners, corners_b],
+            x: joined(&positions, &positions_b),
+            reach,
+            segment,
+        };
+        if is_near(&paired) {
             found.push(paired);
         }
     }

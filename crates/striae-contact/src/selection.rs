@@ -300,15 +300,17 @@ impl Selection {
             ..self.scope()
         };
         let paired = paired_facets(configuration, scope, Derivatives::None, |_| true);
-        let mut left_out: Vec<(usize, u32)> = paired
-            .iter()
-            .filter(|paired| {
-                let size = paired.segment.area.sqrt();
-                paired.mean_gap(configuration) < TOUCHING * size
-            })
-            .flat_map(|paired| (0..8).filter_map(|corner| paired.node(configuration, corner)))
-            .filter(|&(side, node)| !self.carries(side, node))
-            .collect();
+        let mut left_out: Vec<(usize, u32)> = Vec::new();
+        for paired in &paired {
+            let gap = paired.mean_gap(configuration);
+            let touching = gap < TOUCHING * paired.segment.area.sqrt();
+            // Deeper than contact looks in this increment.
+            let beyond = -gap > paired.reach + self.depth;
+            let nodes = (0..8).filter_map(|corner| paired.node(configuration, corner));
+            let found =
+                nodes.filter(|&(side, node)| beyond || touching && !self.carries(side, node));
+            left_out.extend(found);
+        }
         left_out.sort_unstable();
         left_out.dedup();
         left_out
