@@ -6,7 +6,7 @@ use crate::{
     scene::{Places, Run, block, body, increments, largest_distance, model, plane, rubber, step},
     table::{MEASURED, STRONG},
 };
-use nalgebra::{Matrix2x4, Vector2};
+use nalgebra::Vector2;
 use striae_contact::unknowns::Status;
 use striae_mesh::{
     NodeId, Vec3,
@@ -21,55 +21,30 @@ use striae_surface::texture::{Field, Lines, Paint};
 
 const CONSTANTS: Formula = Formula::TwoTextures([0.3, 0.2, 0.15, 0.6]);
 
-/// `integral N_I da` of all base nodes, by 2x2 Gauss points.
+/// `integral N_I da` of all base nodes over what is in contact now.
 fn nodal_areas(run: &Run, state: &State) -> Vec<f64> {
     let surface = run.problem.pairs[0].contact.sides[0].surface().unwrap();
     let mut areas = vec![0.0; surface.nodes().len()];
-    let place = 1.0 / 3.0f64.sqrt();
-    for corners in surface.facets() {
-        let x = corners.map(|node| {
-            let node = run.problem.surface_node(0, 0, node).unwrap();
-            state.positions[node]
-        });
-        for (xi, eta) in [
-            (-place, -place),
-            (place, -place),
-            (place, place),
-            (-place, place),
-        ] {
-            let signs = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-            let weights = signs.map(|(a, b)| 0.25 * (1.0 + a * xi) * (1.0 + b * eta));
-            let slopes = Matrix2x4::from_fn(|axis, corner| {
-                let (a, b) = signs[corner];
-                0.25 * if axis == 0 {
-                    a * (1.0 + b * eta)
-                } else {
-                    b * (1.0 + a * xi)
-                }
-            });
-            let [du, dv] = [0, 1].map(|axis| -> Vec3 {
-                (0..4)
-                    .map(|corner| x[corner] * slopes[(axis, corner)])
-                    .sum()
-            });
-            for (corner, weight) in corners.iter().zip(weights) {
-                areas[*corner as usize] += weight * du.cross(&dv).norm();
-            }
+    for (facet, forces) in &state.pairs[0].facets[0] {
+        for (corner, area) in surface.facets()[facet.index()].iter().zip(forces.area) {
+            areas[*corner as usize] += area;
         }
     }
     areas
 }
 
-/// The force on the block by the law at every slipping node equals the resultant.
+/// The force on the block by the law at every slipping node that is kept equals the
+/// resultant; tractions of other nodes are combinations of those.
 fn check_nodal_law(run: &Run, law: Formula, floor: Option<f64>) {
     let across = |s: Vector2<f64>| Vector2::new(s.y, -s.x);
     let mut slipping = 0;
     for state in &run.states[1..] {
         let areas = nodal_areas(run, state);
         let mut sum = Vec3::zeros();
-        let nodes = &state.pairs[0].nodes[0];
-        for (node, area) in nodes.iter().zip(areas) {
-            let tau = if node.status == Status::Slip {
+        let pair = &state.pairs[0];
+        let nodes = pair.nodes[0].iter().zip(&pair.kept[0]);
+        for ((node, kept), area) in nodes.zip(areas) {
+            let tau = if *kept && node.status == Status::Slip {
                 slipping += 1;
                 let own = (node.texture != Vec3::zeros()).then(|| across(node.texture.xy()));
                 let textures = [own, floor.map(|angle| across(along(angle)))];

@@ -33,6 +33,9 @@ pub enum Wanted {
 /// Pressure under which nodes stick whatever their slip.
 const STICKING: f64 = 20.0;
 
+/// Projections of friction before Newton's method takes over.
+const PROJECTIONS: usize = 50;
+
 /// A pair between two configurations, with the roles of the first.
 pub struct PairFunction<'a> {
     context: &'a StepContext<'a>,
@@ -185,10 +188,11 @@ impl<'a> PairFunction<'a> {
                 _ => {}
             }
         }
-        for _ in 0..100 {
+        self.project(&mut u);
+        for _ in 0..20 {
             let rows = self.slip_rows(&u);
             let off = self.residual(&u).select_rows(&rows);
-            if off.amax() < 1e-13 {
+            if rows.is_empty() || off.amax() < 1e-13 {
                 return u;
             }
             let slope = self.tangent(&u).select_rows(&rows).select_columns(&rows);
@@ -198,6 +202,35 @@ impl<'a> PairFunction<'a> {
             }
         }
         panic!("friction does not settle");
+    }
+
+    /// Repeats `z <- y` within the cap and `z <- varpi y/|y|` beyond it, which leads to the
+    /// friction at given slips. A weak node whose friction holds it by what the ramp adds
+    /// is made to stick far from its cap.
+    fn project(&self, u: &mut DVector<f64>) {
+        let numbering = self.context.pairs[0].numbering();
+        for _ in 0..PROJECTIONS {
+            let residual = self.residual(u);
+            for (k, status) in self.statuses(u).into_iter().enumerate() {
+                let kept = self.selection.kept()[k];
+                let first = numbering.traction(kept.side, kept.node) as usize;
+                let [_, r_t] = self.selection.stiffness(k);
+                // Slip rows state `z - varpi y/|y|`, stick rows `du`.
+                let factor = match status {
+                    Status::Slip => -1.0,
+                    Status::Stick if u[first] != STICKING => r_t,
+                    Status::Stick | Status::Open => continue,
+                };
+                for at in [first + 1, first + 2] {
+                    u[at] += factor * residual[at];
+                }
+            }
+        }
+        for (kept, status) in self.selection.kept().iter().zip(self.statuses(u)) {
+            if status == Status::Stick {
+                u[numbering.traction(kept.side, kept.node) as usize] = STICKING;
+            }
+        }
     }
 
     /// Tangential rows of the slipping nodes.
