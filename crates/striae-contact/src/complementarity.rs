@@ -19,6 +19,8 @@
 //! ```
 //!
 //! which is the exact one where the row is satisfied.
+//!
+//! Longer than other files, as all rows of a node are made of the same derivatives.
 
 use nalgebra::{Const, Matrix2, SymmetricEigen, Vector2, Vector3};
 use num_dual::DualSVec64;

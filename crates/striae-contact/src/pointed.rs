@@ -24,6 +24,8 @@
 //! by `h^2/(6 R)`, too, which is left to the mean: up to .07 of a facet at the shoulders of
 //! coarse tyres. What is not sharp closes in the mean before it is inside by `SHARP`. A node
 //! stays pointed while it is pressed and the mean gap is larger than [`CLOSING`].
+//!
+//! Longer than other files, as a place, its gap and its forces share their derivatives.
 
 use nalgebra::Matrix3;
 use rayon::prelude::*;

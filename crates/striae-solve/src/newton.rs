@@ -4,6 +4,8 @@
 //! loads; its solution takes the prescribed displacements to their new values.
 //! From then on the residual alone decides: labels of nodes at the kink of the
 //! friction law may flip at round-off and are not required to rest.
+//!
+//! Longer than other files, as an increment under way and what decides of it belong together.
 
 mod acceptance;
 mod cycling;

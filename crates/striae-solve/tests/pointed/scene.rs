@@ -47,7 +47,7 @@ fn body(name: &str, mesh: Mesh, modulus: f64) -> Body {
 }
 
 fn faces(mesh: &Mesh, sets: &[&str]) -> Vec<Face> {
-    let of = |set: &&str| mesh.facet_sets.get(*set).unwrap().to_vec();
+    let of = |set: &&str| mesh.facet_sets.get(set).unwrap().to_vec();
     sets.iter().flat_map(of).collect()
 }
 
