@@ -53,7 +53,7 @@ pub mod term;
 pub mod texture;
 pub mod traction;
 pub mod traction_basis;
-pub mod transfer_rows;
+pub mod transfer;
 pub mod transported;
 pub mod unknown;
 pub mod unknowns;

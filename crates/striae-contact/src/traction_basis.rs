@@ -19,7 +19,7 @@ use crate::{
     common_mass::{CommonMass, SparseRow},
     interface::{Interface, Opponent},
     roles::{Choice, THETA_0},
-    transfer_rows::Transfer,
+    transfer::Transfer,
 };
 
 /// Pivot below which a kept node is weak.
