@@ -143,7 +143,7 @@ fn fit(
             let is_kept = selection.is_kept(side, node as u32) && !is_pointed;
             if is_kept && !before.kept[side][node] {
                 *unknowns = carried[side][node];
-            } else if !is_kept && !(is_pointed && before.pointed[side][node]) {
+            } else if !(is_kept || is_pointed && before.pointed[side][node]) {
                 *unknowns = [0.0; 3];
             }
         }
