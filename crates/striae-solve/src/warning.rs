@@ -20,7 +20,7 @@ use striae_contact::{initial::Fit, interference::Kind as Interfering, interferen
 use crate::{
     initial::{fits, may_meet, other_name},
     interference::{Positions, between, within},
-    model::{Model, PairId},
+    model::{Initial, Model, PairId},
     outcome::Ending,
     problem::Problem,
     report::{PairReport, pairs},
@@ -187,6 +187,13 @@ impl Judgement {
             .filter(|found| found.kind == Interfering::Passed);
         let depths = passed.map(|found| found.share());
         self.note(Kind::Passage, Some(pair), depths.fold(0.0, f64::max), time);
+        let first = problem.model.steps.first();
+        let duration = first.map_or(0.0, |step| step.duration);
+        // Overlaps of meshes that are being pressed out are meant.
+        let resolving = problem.model.pairs[pair].initial == Initial::Resolve;
+        if resolving && time < duration * (1.0 - 1e-9) {
+            return;
+        }
         let inside = within(problem, pair, end, SHARE);
         let depths = inside.iter().map(|found| found.share());
         self.note(
