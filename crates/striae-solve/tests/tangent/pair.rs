@@ -34,7 +34,7 @@ pub enum Wanted {
 const STICKING: f64 = 20.0;
 
 /// Projections of friction before Newton's method takes over.
-const PROJECTIONS: usize = 50;
+const PROJECTIONS: usize = 20;
 
 /// A pair between two configurations, with the roles of the first.
 pub struct PairFunction<'a> {
@@ -135,8 +135,12 @@ impl<'a> PairFunction<'a> {
     }
 
     fn residual(&self, u: &DVector<f64>) -> DVector<f64> {
+        self.sum(&self.evaluation(u))
+    }
+
+    fn sum(&self, evaluation: &Evaluation) -> DVector<f64> {
         let mut residual = DVector::zeros(self.len());
-        for term in &self.evaluation(u).terms {
+        for term in &evaluation.terms {
             for (row, value) in term.rows.iter().zip(&term.residual) {
                 residual[*row as usize] += value;
             }
@@ -180,10 +184,8 @@ impl<'a> PairFunction<'a> {
             };
             u[first + 1] = random.uniform(-0.1, 0.1);
             u[first + 2] = random.uniform(-0.1, 0.1);
-            // Tension closes the gap of a weak node, and holds no friction there.
-            let weak = self.selection.ramp().iter().any(|w| w.kept as usize == k);
             match k % 3 {
-                0 if wanted == Wanted::Mixed && !weak => u[first] = -3.0,
+                0 if wanted == Wanted::Mixed => u[first] = -3.0,
                 1 if wanted == Wanted::Mixed => u[first] = STICKING,
                 _ => {}
             }
@@ -210,9 +212,10 @@ impl<'a> PairFunction<'a> {
     fn project(&self, u: &mut DVector<f64>) {
         let numbering = self.context.pairs[0].numbering();
         for _ in 0..PROJECTIONS {
-            let residual = self.residual(u);
-            for (k, status) in self.statuses(u).into_iter().enumerate() {
-                let kept = self.selection.kept()[k];
+            let evaluation = self.evaluation(u);
+            let residual = self.sum(&evaluation);
+            for (k, kept) in self.selection.kept().iter().enumerate() {
+                let status = evaluation.nodes[kept.side][kept.node as usize].status;
                 let first = numbering.traction(kept.side, kept.node) as usize;
                 let [_, r_t] = self.selection.stiffness(k);
                 // Slip rows state `z - varpi y/|y|`, stick rows `du`.
