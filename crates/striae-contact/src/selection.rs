@@ -288,6 +288,11 @@ impl Selection {
         }
     }
 
+    /// Whether facets of the two sides overlap.
+    pub fn overlaps(&self, configuration: &Configuration) -> bool {
+        !paired_facets(configuration, self.scope(), Derivatives::None, |_| true).is_empty()
+    }
+
     /// Corners of facets that overlap with others without a share in the traction field,
     /// as side and node, in a configuration that was reached from `start`.
     pub fn left_out(

@@ -9,6 +9,7 @@
 
 mod acceptance;
 mod cycling;
+mod departure;
 mod energy;
 mod failure;
 mod rest;
@@ -41,6 +42,7 @@ use crate::{
 };
 use acceptance::accepted;
 use cycling::History;
+use departure::first_positions;
 use failure::{linear_system, missed};
 use rest::contact_at_rest;
 use selected::{Selected, pierced, reselected, selected};
@@ -156,10 +158,11 @@ pub fn advance(
     } = selected(context, state, s);
     workspace.prepare(context.problem, &selections);
     workspace.take_work();
+    let rigid = workspace.first_poses(&imposed);
     let trial = Trial {
-        positions: state.positions.clone(),
+        positions: first_positions(context, state, &imposed, &rigid, &selections),
         tractions,
-        rigid: workspace.first_poses(&imposed),
+        rigid,
     };
     let mut attempt = Attempt {
         context,

@@ -1,0 +1,82 @@
+//! Where bodies start from that leave each other in one increment.
+//!
+//! The first iteration is linearised with closed contact. A body that is moved by more than
+//! it overlaps with another would drag that other along and be turned inside out. Where two
+//! surfaces overlap and do not any more once the bodies have moved rigidly with the mean of
+//! what is prescribed on them, the bodies start from there, free of each other.
+
+use striae_contact::selection::Selection;
+use striae_mesh::Vec3;
+
+use crate::{
+    assembly::{Imposed, StepContext},
+    rigid::Pose,
+    state::State,
+};
+
+/// Positions to start iterating from.
+pub(super) fn first_positions(
+    context: &StepContext,
+    state: &State,
+    imposed: &Imposed,
+    rigid: &[Pose],
+    selections: &[Selection],
+) -> Vec<Vec3> {
+    let problem = context.problem;
+    let moves = mean_moves(context, state, imposed);
+    let mut moved = state.positions.clone();
+    for (body, way) in moves.iter().enumerate() {
+        let nodes = problem.first_node[body]..problem.first_node[body + 1];
+        moved[nodes].iter_mut().for_each(|x| *x += way);
+    }
+    // Bodies of pairs that come apart, and of those that do not.
+    let (mut apart, mut together) = (vec![false; moves.len()], vec![false; moves.len()]);
+    for (pair, selection) in selections.iter().enumerate() {
+        let bodies: Vec<usize> = (0..2)
+            .filter_map(|side| problem.surface_node(pair, side, 0))
+            .map(|node| problem.body_node(node).0)
+            .collect();
+        let way = match *bodies.as_slice() {
+            [a, b] => moves[a] - moves[b],
+            [a] => moves[a],
+            _ => continue,
+        };
+        if selection.kept().is_empty() || way == Vec3::zeros() {
+            continue;
+        }
+        let start = context.configuration(pair, &state.positions, &state.rigid);
+        let is_far = way.norm() > start.side(0).largest_size;
+        let left = is_far && {
+            let end = context.configuration(pair, &moved, rigid);
+            selection.overlaps(&start) && !selection.overlaps(&end)
+        };
+        let of_kind = if left { &mut apart } else { &mut together };
+        bodies.iter().for_each(|&body| of_kind[body] = true);
+    }
+    let mut positions = state.positions.clone();
+    for body in (0..moves.len()).filter(|&body| apart[body] && !together[body]) {
+        let nodes = problem.first_node[body]..problem.first_node[body + 1];
+        positions[nodes.clone()].copy_from_slice(&moved[nodes]);
+    }
+    positions
+}
+
+/// How far what is prescribed moves each body on average, zero for bodies that are tied.
+fn mean_moves(context: &StepContext, state: &State, imposed: &Imposed) -> Vec<Vec3> {
+    let problem = context.problem;
+    let bodies = problem.model.bodies.len();
+    let (mut sums, mut counts) = (vec![Vec3::zeros(); bodies], vec![Vec3::zeros(); bodies]);
+    for &(node, axis, position) in &imposed.positions {
+        let (body, _) = problem.body_node(node);
+        sums[body][axis] += position - state.positions[node][axis];
+        counts[body][axis] += 1.0;
+    }
+    let mean = |body: usize| {
+        let mut nodes = problem.first_node[body]..problem.first_node[body + 1];
+        if nodes.any(|node| problem.tie_of[node].is_some()) {
+            return Vec3::zeros();
+        }
+        Vec3::from_fn(|axis, _| sums[body][axis] / counts[body][axis].max(1.0))
+    };
+    (0..bodies).map(mean).collect()
+}
