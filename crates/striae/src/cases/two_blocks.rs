@@ -14,8 +14,7 @@ use super::{
 };
 use crate::failure::Failure;
 
-const DECKS: [(&str, &str); 4] =
-    decks!("two-blocks": "deck", "collocated", "exchanged", "refined");
+const DECKS: [(&str, &str); 4] = decks!("two-blocks": "deck", "collocated", "exchanged", "refined");
 const NORMAL: &str = "pair.interface.resultant_b.z";
 const TANGENTIAL: &str = "pair.interface.resultant_a.x";
 const MU: f64 = 0.3;
