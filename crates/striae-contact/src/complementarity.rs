@@ -103,6 +103,9 @@ const FIXED: f64 = 1e-9;
 
 /// Squared mobility below which a node cannot slip in a direction.
 const IMMOBILE: f64 = 1e-12;
+/// The same over that of the other direction: squared slope of a normal that leaves a plane
+/// of symmetry, up to which the node counts as held by the plane.
+const HELD: f64 = 1e-3;
 
 /// Gap below which a node counts as touching at the start of an increment, over the local size.
 const TOUCHING: f64 = 1e-6;
@@ -263,7 +266,8 @@ impl<'a> NodeState<'a> {
 
     /// Whether a free position changes the slip, turned or not.
     fn is_mobile(&self) -> bool {
-        self.mobility().eigenvalues.min() > IMMOBILE
+        let eigen = self.mobility();
+        eigen.eigenvalues.min() > Self::immobile(&eigen)
     }
 
     /// Status and tangential rows of a closed node.
@@ -347,31 +351,44 @@ impl<'a> NodeState<'a> {
         [(Field::Traction, along.re, along.slope), second]
     }
 
-    /// Squared mobility of the slip in its principal directions: eigenvalues of
-    /// the products of its derivatives by the free positions.
+    /// Squared mobility of the slip in its principal directions: with the share `c_J` of a
+    /// position in the slip, the eigenvalues of
+    ///
+    /// ```text
+    /// sum_J c_J^2 sum_i (t e_i) (t e_i)^T,   e_i: free directions of J,
+    /// ```
+    ///
+    /// Positions also turn the normal, and with it the slip there is. That makes no room: in
+    /// plane strain nodes that move in the plane would free friction across it.
     fn mobility(&self) -> SymmetricEigen<f64, Const<2>> {
         let mut products = Matrix2::zeros();
-        let [t1, t2] = [0, 1].map(|axis| self.node.frame.t[axis].value);
+        let t = [0, 1].map(|axis| self.node.frame.t[axis].value);
         for (first, block) in &self.node.kinematics.slip.jacobian {
+            let share = 0.5 * (t[0].dot(&(block * t[0])) + t[1].dot(&(block * t[1])));
             for axis in (0..3).filter(|&axis| self.is_free_position(*first, axis)) {
-                let column: Vec3 = block.column(axis).into();
-                let components = Vector2::new(t1.dot(&column), t2.dot(&column));
+                let components = Vector2::new(t[0][axis], t[1][axis]) * share;
                 products += components * components.transpose();
             }
         }
         products.symmetric_eigen()
     }
 
+    /// Up to which squared mobility a node cannot slip in a direction.
+    fn immobile(eigen: &SymmetricEigen<f64, Const<2>>) -> f64 {
+        IMMOBILE.max(HELD * eigen.eigenvalues.max())
+    }
+
     /// `du = 0`, with `z = 0` in directions in which the node cannot move.
     fn stick(&self, z: &[Q; 2], size: f64) -> [TangentialRow; 2] {
         let row = |field: Field, value: Q| (field, value.re, value.slope);
         let eigen = self.mobility();
-        if eigen.eigenvalues.min() > IMMOBILE {
+        let immobile = Self::immobile(&eigen);
+        if eigen.eigenvalues.min() > immobile {
             return self.slip.map(|slip| row(Field::Stick(size), slip));
         }
         [0, 1].map(|at| {
             let q: Vector2<f64> = eigen.eigenvectors.column(at).into();
-            let (field, of) = if eigen.eigenvalues[at] > IMMOBILE {
+            let (field, of) = if eigen.eigenvalues[at] > immobile {
                 (Field::Stick(size), &self.slip)
             } else {
                 (Field::Traction, z)

@@ -30,7 +30,8 @@ const PARTED: f64 = 0.2;
 /// Radius within which the pressure is smooth, over that of the contact zone.
 const INNER: f64 = 0.7;
 /// What a quick look does not give.
-const FULL_ONLY: [&str; 13] = [
+const FULL_ONLY: [&str; 14] = [
+    "force.error.0.2",
     "pressure.error",
     "pressure.rate",
     "pressure.rate.to_limit",
@@ -126,6 +127,11 @@ fn judged(study: &mut Study, family: &[Measured]) -> Vec<(String, Vec<[f64; 2]>)
         study.measured(format!("{name}.limit"), limit);
         study.measured(format!("{name}.rate.to_limit"), rate(&rest));
         all.push((name.to_owned(), errors));
+    }
+    let force = |m: &Measured| m.history.last().map_or(f64::NAN, |row| row[1]);
+    for m in &family[..family.len() - 1] {
+        let off = (force(m) / force(finest) - 1.0).abs();
+        study.measured(format!("force.error.{}", m.size), off);
     }
     let ratio = over_size(&|m| m.peaks[0] / m.exact.contact.peak_pressure);
     study.measured("peak.ratio.limit", limit(&ratio));

@@ -46,12 +46,13 @@ pub fn run(study: &mut Study) -> Result<(), Failure> {
     let off = sliding.iter().map(|force| (force / mean - 1.0).abs());
     study.measured("vertical.unsteady", off.fold(0.0, f64::max));
     for (run, name, road) in [(&near, "45", ROADS[0]), (&far, "135", ROADS[1])] {
-        let law = law(run, &run.simulation.state, road);
+        let pressing = run.at_end_of(4, "pair.patch.pressure_integral_a");
+        let law = law(run, &run.simulation.state, road) * pressing;
         for (axis, law) in [("x", law.x), ("y", law.y)] {
             let found = run.at_end_of(4, &format!("pair.patch.resultant_a.{axis}"));
             study.measured(format!("plateau.{name}.{axis}"), found);
-            let size = MU * run.at_end_of(4, "pair.patch.pressure_integral_a");
-            study.measured(format!("law.{name}.{axis}"), (found - law).abs() / size);
+            let off = (found - law).abs() / (MU * pressing);
+            study.measured(format!("law.{name}.{axis}"), off);
         }
     }
     let sideways = isotropic.largest("pair.patch.resultant_a.y");
@@ -79,18 +80,22 @@ fn ran(study: &mut Study, name: &str) -> Result<Run, Failure> {
     study.run(name, deck)
 }
 
-/// The law over the pressure found, for slip as found.
+/// Mean friction by the law for slip as found, over the mean pressure.
+///
+/// The mean over nodes, each with its pressure and area, stands for that over the field.
 fn law(run: &Run, state: &State, road: Vec3) -> Vec3 {
     let nodes = surface_nodes_in(run, state, 0);
-    let weighted = nodes.iter().zip(areas(run, state)).map(|(node, area)| {
+    let (mut sum, mut force) = (Vec3::zeros(), 0.0);
+    for (node, area) in nodes.iter().zip(areas(run, state)) {
         let result = node.result;
+        let pressed = area * result.pressure.max(0.0);
         let a = result.normal.cross(&result.texture);
-        match result.slip.try_normalize(0.0) {
-            Some(d) => friction(a, road, d) * (-MU * area * result.pressure.max(0.0)),
-            None => Vec3::zeros(),
+        if let Some(d) = result.slip.try_normalize(0.0) {
+            sum -= friction(a, road, d) * (MU * pressed);
         }
-    });
-    weighted.sum()
+        force += pressed;
+    }
+    sum / force
 }
 
 fn draw(study: &Study, near: &Run, far: &Run, isotropic: &Run) -> Result<(), Failure> {
