@@ -176,6 +176,7 @@ impl<'a> PairFunction<'a> {
                 u.fixed_rows_mut::<3>(first).copy_from(&x);
             }
         }
+        let mut strong = 0;
         for (k, kept) in self.selection.kept().iter().enumerate() {
             let first = numbering.traction(kept.side, kept.node) as usize;
             u[first] = match wanted {
@@ -184,7 +185,11 @@ impl<'a> PairFunction<'a> {
             };
             u[first + 1] = random.uniform(-0.1, 0.1);
             u[first + 2] = random.uniform(-0.1, 0.1);
-            match k % 3 {
+            // Friction of weak nodes without pressure would act through the ramp: others open.
+            let weak = self.selection.ramp().iter().any(|w| w.kept as usize == k);
+            let turn = if weak { 1 + k % 2 } else { strong % 3 };
+            strong += usize::from(!weak);
+            match turn {
                 0 if wanted == Wanted::Mixed => u[first] = -3.0,
                 1 if wanted == Wanted::Mixed => u[first] = STICKING,
                 _ => {}
