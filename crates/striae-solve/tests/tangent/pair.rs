@@ -176,6 +176,11 @@ impl<'a> PairFunction<'a> {
                 u.fixed_rows_mut::<3>(first).copy_from(&x);
             }
         }
+        let is_weak = |k: usize| {
+            let mut ramp = self.selection.ramp().iter();
+            ramp.any(|weak| weak.kept as usize == k)
+        };
+        let all_weak = (0..self.selection.kept().len()).all(is_weak);
         let mut strong = 0;
         for (k, kept) in self.selection.kept().iter().enumerate() {
             let first = numbering.traction(kept.side, kept.node) as usize;
@@ -185,9 +190,14 @@ impl<'a> PairFunction<'a> {
             };
             u[first + 1] = random.uniform(-0.1, 0.1);
             u[first + 2] = random.uniform(-0.1, 0.1);
-            // Friction of weak nodes without pressure would act through the ramp: others open.
-            let weak = self.selection.ramp().iter().any(|w| w.kept as usize == k);
-            let turn = if weak { 1 + k % 2 } else { strong % 3 };
+            // Friction of weak nodes without pressure would act through the ramp: others open
+            // if there are any.
+            let weak = is_weak(k);
+            let turn = match (weak, all_weak) {
+                (true, true) => k % 3,
+                (true, false) => 1 + k % 2,
+                (false, _) => strong % 3,
+            };
             strong += usize::from(!weak);
             match turn {
                 0 if wanted == Wanted::Mixed => u[first] = -3.0,
