@@ -33,6 +33,9 @@ pub enum Wanted {
 /// Pressure under which nodes stick whatever their slip.
 const STICKING: f64 = 20.0;
 
+/// Tension that opens nodes whatever the pressure that the ramp brings them from others.
+const OPENING: f64 = 2.0 * STICKING;
+
 /// Projections of friction before Newton's method takes over.
 const PROJECTIONS: usize = 20;
 
@@ -200,7 +203,7 @@ impl<'a> PairFunction<'a> {
             };
             strong += usize::from(!weak);
             match turn {
-                0 if wanted == Wanted::Mixed => u[first] = -3.0,
+                0 if wanted == Wanted::Mixed => u[first] = -OPENING,
                 1 if wanted == Wanted::Mixed => u[first] = STICKING,
                 _ => {}
             }
