@@ -33,6 +33,9 @@ pub enum Wanted {
 /// Pressure under which nodes stick whatever their slip.
 const STICKING: f64 = 20.0;
 
+/// Tension that opens nodes whatever the pressure that the ramp brings them from others.
+const OPENING: f64 = 2.0 * STICKING;
+
 /// Projections of friction before Newton's method takes over.
 const PROJECTIONS: usize = 20;
 
@@ -176,6 +179,12 @@ impl<'a> PairFunction<'a> {
                 u.fixed_rows_mut::<3>(first).copy_from(&x);
             }
         }
+        let is_weak = |k: usize| {
+            let mut ramp = self.selection.ramp().iter();
+            ramp.any(|weak| weak.kept as usize == k)
+        };
+        let all_weak = (0..self.selection.kept().len()).all(is_weak);
+        let mut strong = 0;
         for (k, kept) in self.selection.kept().iter().enumerate() {
             let first = numbering.traction(kept.side, kept.node) as usize;
             u[first] = match wanted {
@@ -184,8 +193,17 @@ impl<'a> PairFunction<'a> {
             };
             u[first + 1] = random.uniform(-0.1, 0.1);
             u[first + 2] = random.uniform(-0.1, 0.1);
-            match k % 3 {
-                0 if wanted == Wanted::Mixed => u[first] = -3.0,
+            // Friction of weak nodes without pressure would act through the ramp: others open
+            // if there are any.
+            let weak = is_weak(k);
+            let turn = match (weak, all_weak) {
+                (true, true) => k % 3,
+                (true, false) => 1 + k % 2,
+                (false, _) => strong % 3,
+            };
+            strong += usize::from(!weak);
+            match turn {
+                0 if wanted == Wanted::Mixed => u[first] = -OPENING,
                 1 if wanted == Wanted::Mixed => u[first] = STICKING,
                 _ => {}
             }

@@ -93,8 +93,12 @@ fn easy_increments_grow_to_the_largest() {
 
 #[test]
 fn failed_increments_are_halved_and_leave_no_trace() {
-    let gap = 0.4;
+    // In one increment the upper side moves by more than the height of the upper block
+    // before contact holds the lower one: elements turn inside out.
+    let (gap, depth) = (0.4, 0.3);
     let mut model = two_blocks(gap, coulomb(0.3));
+    model.steps[0].displacements[1] =
+        model.hold("upper", "zmax", [Some(0.0), Some(0.0), Some(-depth - gap)]);
     model.steps[0].increments = increments(1.0, 1e-3);
     let cut = Run::completed(model.clone());
     assert!(!cut.cuts.is_empty());
@@ -107,10 +111,10 @@ fn failed_increments_are_halved_and_leave_no_trace() {
 
     let direct = cut.progress.iter().map(|progress| {
         let mut part = step();
-        let depth = -(0.03 + gap) * progress.fraction;
+        let lowered = -(depth + gap) * progress.fraction;
         part.displacements = vec![
             model.hold("lower", "zmin", [Some(0.0); 3]),
-            model.hold("upper", "zmax", [Some(0.0), Some(0.0), Some(depth)]),
+            model.hold("upper", "zmax", [Some(0.0), Some(0.0), Some(lowered)]),
         ];
         part
     });

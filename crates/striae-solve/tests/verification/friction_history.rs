@@ -157,11 +157,14 @@ fn blocks(strategy: Strategy, before: f64) -> Model {
         model.hold("lower", "zmin", [Some(0.0); 3]),
         model.hold("upper", "zmax", [Some(0.0), Some(0.0), Some(-0.02)]),
     ];
-    let ways = [(0.01, before), (0.01, OFF), (0.02, ON)];
+    // Friction of `mu` times the pressure shears the upper block by
+    // `mu (H/G) E w/H = 2 (1 + nu) mu w`, 0.0156: about there a part slips.
+    let way = 2.0 * (1.0 + 0.3) * ON * 0.02;
+    let ways = [(way, before), (way, OFF), (2.0 * way, ON)];
     model.steps = vec![press];
     for (x, mu) in ways {
-        let way = way(&model, "upper", x, mu);
-        model.steps.push(way);
+        let next = self::way(&model, "upper", x, mu);
+        model.steps.push(next);
     }
     model.solver.strategy = strategy;
     model.solver.largest_iterations = 30;
