@@ -99,8 +99,9 @@ const TEXTURES: usize = 16;
 /// Derivative of the gap below which nothing can change it.
 const FIXED: f64 = 1e-9;
 
-/// Squared mobility below which a node cannot slip in a direction.
-const IMMOBILE: f64 = 1e-12;
+/// Squared mobility below which a node cannot slip in a direction, over that of free nodes.
+/// Nodes between walls yield a little by the tilt of their normal, which is no freedom.
+const IMMOBILE: f64 = 1e-4;
 
 /// Gap below which a node counts as touching at the start of an increment, over the local size.
 const TOUCHING: f64 = 1e-6;
@@ -238,14 +239,23 @@ impl<'a> NodeState<'a> {
         }
     }
 
-    /// Whether a component of a triple is a position that is not prescribed, of the node
-    /// itself or of the other side. Neighbours on its own side have rows of their own; that
-    /// they can move makes no room for one more.
+    /// Whether a triple is the position of the node itself or one of the other side.
+    /// Neighbours on its own side have rows of their own; that they can move makes no room
+    /// for one more.
+    fn answers(&self, first: u32) -> bool {
+        match self.numbering.unknown(first) {
+            Unknown::Position { side, node, .. } => {
+                side != self.node.side || node == self.node.node
+            }
+            Unknown::Traction { .. } => false,
+        }
+    }
+
+    /// Whether a component of a triple is such a position and not prescribed.
     fn is_free_position(&self, first: u32, axis: usize) -> bool {
         match self.numbering.unknown(first) {
             Unknown::Position { side, node, .. } => {
-                let counts = side != self.node.side || node == self.node.node;
-                counts && !self.prescribed[side][3 * node as usize + axis]
+                self.answers(first) && !self.prescribed[side][3 * node as usize + axis]
             }
             Unknown::Traction { .. } => false,
         }
@@ -345,19 +355,24 @@ impl<'a> NodeState<'a> {
         [(Field::Traction, along.re, along.slope), second]
     }
 
-    /// Squared mobility of the slip in its principal directions: eigenvalues of
-    /// the products of its derivatives by the free positions.
+    /// Squared mobility of the slip in its principal directions: eigenvalues of the products
+    /// of what friction there does to the free positions. Derivatives of the slip itself do
+    /// not vanish where nothing can answer to friction, as the weights change with the shape.
+    /// One is what it is if nothing is prescribed.
     fn mobility(&self) -> SymmetricEigen<f64, Const<2>> {
         let mut products = Matrix2::zeros();
+        let mut scale = 0.0;
         let [t1, t2] = [0, 1].map(|axis| self.node.frame.t[axis].value);
-        for (first, block) in &self.node.kinematics.slip.jacobian {
-            for axis in (0..3).filter(|&axis| self.is_free_position(*first, axis)) {
-                let column: Vec3 = block.column(axis).into();
-                let components = Vector2::new(t1.dot(&column), t2.dot(&column));
+        for &(first, share) in &self.node.kinematics.shares {
+            if self.answers(first) {
+                scale += share * share;
+            }
+            for axis in (0..3).filter(|&axis| self.is_free_position(first, axis)) {
+                let components = Vector2::new(t1[axis], t2[axis]) * share;
                 products += components * components.transpose();
             }
         }
-        products.symmetric_eigen()
+        (products / f64::max(scale, f64::MIN_POSITIVE)).symmetric_eigen()
     }
 
     /// `du = 0`, with `z = 0` in directions in which the node cannot move.

@@ -212,6 +212,7 @@ pub fn kinematics(
     };
     Kinematics {
         gap,
+        shares: collocated::shares(configuration, side, node, selection.partner(k)),
         seen_slip: slip.value,
         slip,
         presence: Presence::Facing,
