@@ -63,6 +63,7 @@ pub fn kinematics(
                     gap
                 }),
                 seen_slip: slip.value,
+                shares: shares(configuration, side, node as u32, selection.partner(k)),
                 slip,
                 presence: Presence::Facing,
                 stiffness: selection.stiffness(k),
@@ -155,6 +156,22 @@ pub fn slip(
         value: tangential * relative,
         jacobian: lanes.jacobian(&slopes),
     }
+}
+
+/// Shares of the node and of what is opposite to it in its friction.
+pub fn shares(
+    configuration: &Configuration,
+    side: usize,
+    node: u32,
+    partner: Option<Partner>,
+) -> Vec<(u32, f64)> {
+    let numbering = configuration.pair.numbering();
+    let mut shares = vec![(numbering.position(side, node), 1.0)];
+    if let Some(Partner::Corners(corners, weights)) = partner {
+        let opposite = corners.map(|corner| numbering.position(1 - side, corner));
+        shares.extend(opposite.into_iter().zip(weights));
+    }
+    shares
 }
 
 /// Pressure and friction of a node with their derivatives.

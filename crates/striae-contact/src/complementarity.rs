@@ -101,11 +101,9 @@ const TEXTURES: usize = 16;
 /// Derivative of the gap below which nothing can change it.
 const FIXED: f64 = 1e-9;
 
-/// Squared mobility below which a node cannot slip in a direction.
-const IMMOBILE: f64 = 1e-12;
-/// The same over that of the other direction: squared slope of a normal that leaves a plane
-/// of symmetry, up to which the node counts as held by the plane.
-const HELD: f64 = 1e-3;
+/// Squared mobility below which a node cannot slip in a direction, over that of free nodes.
+/// Nodes between walls yield a little by the tilt of their normal, which is no freedom.
+const IMMOBILE: f64 = 1e-4;
 
 /// Gap below which a node counts as touching at the start of an increment, over the local size.
 const TOUCHING: f64 = 1e-6;
@@ -243,14 +241,23 @@ impl<'a> NodeState<'a> {
         }
     }
 
-    /// Whether a component of a triple is a position that is not prescribed, of the node
-    /// itself or of the other side. Neighbours on its own side have rows of their own; that
-    /// they can move makes no room for one more.
+    /// Whether a triple is the position of the node itself or one of the other side.
+    /// Neighbours on its own side have rows of their own; that they can move makes no room
+    /// for one more.
+    fn answers(&self, first: u32) -> bool {
+        match self.numbering.unknown(first) {
+            Unknown::Position { side, node, .. } => {
+                side != self.node.side || node == self.node.node
+            }
+            Unknown::Traction { .. } => false,
+        }
+    }
+
+    /// Whether a component of a triple is such a position and not prescribed.
     fn is_free_position(&self, first: u32, axis: usize) -> bool {
         match self.numbering.unknown(first) {
             Unknown::Position { side, node, .. } => {
-                let counts = side != self.node.side || node == self.node.node;
-                counts && !self.prescribed[side][3 * node as usize + axis]
+                self.answers(first) && !self.prescribed[side][3 * node as usize + axis]
             }
             Unknown::Traction { .. } => false,
         }
@@ -267,7 +274,7 @@ impl<'a> NodeState<'a> {
     /// Whether a free position changes the slip, turned or not.
     fn is_mobile(&self) -> bool {
         let eigen = self.mobility();
-        eigen.eigenvalues.min() > Self::immobile(&eigen)
+        eigen.eigenvalues.min() > IMMOBILE
     }
 
     /// Status and tangential rows of a closed node.
@@ -351,44 +358,36 @@ impl<'a> NodeState<'a> {
         [(Field::Traction, along.re, along.slope), second]
     }
 
-    /// Squared mobility of the slip in its principal directions: with the share `c_J` of a
-    /// position in the slip, the eigenvalues of
-    ///
-    /// ```text
-    /// sum_J c_J^2 sum_i (t e_i) (t e_i)^T,   e_i: free directions of J,
-    /// ```
-    ///
-    /// Positions also turn the normal, and with it the slip there is. That makes no room: in
-    /// plane strain nodes that move in the plane would free friction across it.
+    /// Squared mobility of the slip in its principal directions: eigenvalues of the products
+    /// of what friction there does to the free positions. Derivatives of the slip itself do
+    /// not vanish where nothing can answer to friction, as the weights change with the shape.
+    /// One is what it is if nothing is prescribed.
     fn mobility(&self) -> SymmetricEigen<f64, Const<2>> {
         let mut products = Matrix2::zeros();
-        let t = [0, 1].map(|axis| self.node.frame.t[axis].value);
-        for (first, block) in &self.node.kinematics.slip.jacobian {
-            let share = 0.5 * (t[0].dot(&(block * t[0])) + t[1].dot(&(block * t[1])));
-            for axis in (0..3).filter(|&axis| self.is_free_position(*first, axis)) {
-                let components = Vector2::new(t[0][axis], t[1][axis]) * share;
+        let mut scale = 0.0;
+        let [t1, t2] = [0, 1].map(|axis| self.node.frame.t[axis].value);
+        for &(first, share) in &self.node.kinematics.shares {
+            if self.answers(first) {
+                scale += share * share;
+            }
+            for axis in (0..3).filter(|&axis| self.is_free_position(first, axis)) {
+                let components = Vector2::new(t1[axis], t2[axis]) * share;
                 products += components * components.transpose();
             }
         }
-        products.symmetric_eigen()
-    }
-
-    /// Up to which squared mobility a node cannot slip in a direction.
-    fn immobile(eigen: &SymmetricEigen<f64, Const<2>>) -> f64 {
-        IMMOBILE.max(HELD * eigen.eigenvalues.max())
+        (products / f64::max(scale, f64::MIN_POSITIVE)).symmetric_eigen()
     }
 
     /// `du = 0`, with `z = 0` in directions in which the node cannot move.
     fn stick(&self, z: &[Q; 2], size: f64) -> [TangentialRow; 2] {
         let row = |field: Field, value: Q| (field, value.re, value.slope);
         let eigen = self.mobility();
-        let immobile = Self::immobile(&eigen);
-        if eigen.eigenvalues.min() > immobile {
+        if eigen.eigenvalues.min() > IMMOBILE {
             return self.slip.map(|slip| row(Field::Stick(size), slip));
         }
         [0, 1].map(|at| {
             let q: Vector2<f64> = eigen.eigenvectors.column(at).into();
-            let (field, of) = if eigen.eigenvalues[at] > immobile {
+            let (field, of) = if eigen.eigenvalues[at] > IMMOBILE {
                 (Field::Stick(size), &self.slip)
             } else {
                 (Field::Traction, z)

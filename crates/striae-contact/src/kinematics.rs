@@ -23,6 +23,9 @@ pub struct Kinematics {
     pub slip: Tracked,
     /// The slip without what the ramp adds, for reports.
     pub seen_slip: Vec3,
+    /// Shares of nodes in the friction of the node, by their first position unknown, over its
+    /// weight: what its slip is adjoint to.
+    pub shares: Vec<(u32, f64)>,
     /// Whether any segment of the present configuration bears on the node.
     pub presence: Presence,
     /// Pressure per gap and friction per slip, `[r_n, r_t]`, that scale the complementarity.

@@ -214,6 +214,7 @@ pub fn kinematics(
     };
     Kinematics {
         gap,
+        shares: collocated::shares(configuration, side, node, selection.partner(k)),
         seen_slip: slip.value,
         slip,
         presence: Presence::Facing,

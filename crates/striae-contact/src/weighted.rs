@@ -118,6 +118,8 @@ struct Sum<'a> {
     slip_by_n: Matrix3<f64>,
     triples: Vec<u32>,
     blocks: Vec<[f64; 3 * ROWS]>,
+    /// `alpha_ck` of the same nodes.
+    alphas: Vec<f64>,
 }
 
 impl<'a> Sum<'a> {
@@ -131,6 +133,7 @@ impl<'a> Sum<'a> {
             slip_by_n: Matrix3::zeros(),
             triples: Vec::with_capacity(48),
             blocks: Vec::with_capacity(48),
+            alphas: Vec::with_capacity(48),
         }
     }
 
@@ -168,7 +171,9 @@ impl<'a> Sum<'a> {
                 }
             }
             let first = self.configuration.pair.numbering().position(side, node);
-            self.add_block(first, block);
+            let mass = &patch.paired.segment.mass[e];
+            let alpha = mass.iter().zip(shares).map(|(m, share)| m * share).sum();
+            self.add_block(first, block, alpha);
         }
     }
 
@@ -186,18 +191,20 @@ impl<'a> Sum<'a> {
         turned
     }
 
-    fn add_block(&mut self, first: u32, block: &[f64; 3 * ROWS]) {
+    fn add_block(&mut self, first: u32, block: &[f64; 3 * ROWS], alpha: f64) {
         let at = match self.triples.binary_search(&first) {
             Ok(at) => at,
             Err(at) => {
                 self.triples.insert(at, first);
                 self.blocks.insert(at, [0.0; 3 * ROWS]);
+                self.alphas.insert(at, 0.0);
                 at
             }
         };
         for (sum, part) in self.blocks[at].iter_mut().zip(block) {
             *sum += part;
         }
+        self.alphas[at] += alpha;
     }
 
     /// The means over the weight of the node.
@@ -216,8 +223,10 @@ impl<'a> Sum<'a> {
         if let Some(frame) = self.frame {
             add_chained(&mut jacobian, &(self.slip_by_n * share), &frame.n.jacobian);
         }
+        let alphas = self.alphas.iter().map(|alpha| alpha * share);
         Kinematics {
             seen_slip: self.slip * share,
+            shares: self.triples.iter().copied().zip(alphas).collect(),
             presence: if gradient.is_empty() {
                 Presence::Gone
             } else {
