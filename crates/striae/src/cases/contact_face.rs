@@ -33,7 +33,7 @@ use super::{
     study::Run,
 };
 
-/// A side of the first pair under pressure, at the end of a run.
+/// The face between the sides of the first pair under pressure, at the end of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactFace {
     /// Mean normal `n_m`, outward.
@@ -47,9 +47,13 @@ pub struct ContactFace {
 }
 
 impl ContactFace {
-    /// The face on a side, on which the force `F` acts.
-    pub fn new(run: &Run, side: usize, force: Vec3) -> Self {
-        Self::of(&pressed_areas(run, side), force)
+    /// The face between both sides, with the normal of the first, on which the force `F`
+    /// acts. Equal bodies pass pressure along the mean of both normals.
+    pub fn between(run: &Run, force: Vec3) -> Self {
+        let mut pressed = pressed_areas(run, 0);
+        let other = pressed_areas(run, 1).into_iter();
+        pressed.extend(other.map(|(p, area)| (p, -area)));
+        Self::of(&pressed, force)
     }
 
     fn of(pressed: &[(f64, Vec3)], force: Vec3) -> Self {
