@@ -224,7 +224,7 @@ fn settings_have_defaults() {
         backend: Backend::Condensed,
         strategy: Strategy::Semismooth,
         tolerance: 1e-10,
-        largest_iterations: 20,
+        largest_iterations: 40,
         further_iterations: 0,
     };
     assert_eq!(bare.model.solver, default);
