@@ -222,8 +222,8 @@ fn overhang() {
 fn irregular_meshes() {
     for divisions in [[3, 4], [5, 3]] {
         let mut case = case([0.11, 0.23], [0.7, 0.6], divisions);
-        case.upper.irregularity = 0.15;
-        case.lower.irregularity = 0.15;
+        case.upper.irregularity = 0.2;
+        case.lower.irregularity = 0.2;
         case.lower.seed = 1;
         check("irregular", &case);
     }

@@ -101,10 +101,10 @@ fn between_deformable_blocks_the_integrals_obey_the_law_and_balance() {
         let report = report(&run, last);
         for side in report.sides {
             let ratio = side.friction / side.pressure;
-            // What is left is the tilt of the surfaces, of the order of the strain, and what
-            // weak nodes that have just been kept do not carry yet.
-            assert!((ratio / MU - 1.0).abs() < 0.01, "{order:?}: {ratio}");
+            // What is left is the tilt of the surfaces, of the order of the strain.
+            assert!((ratio / MU - 1.0).abs() < 0.5 * depth, "{order:?}: {ratio}");
         }
+        assert_eq!(report.stick, 0);
         nodes_obey_the_law(&run, last);
         for state in 1..=last {
             let report = self::report(&run, state);
@@ -178,10 +178,9 @@ fn nodes_that_are_newly_kept_while_sliding_go_on_slipping() {
         let increments = increments_with_new_nodes(&run);
         assert!(!increments.is_empty(), "{depth}: no node is new");
         for increment in increments {
-            // A weak new node sits at the kink between stick and slip and takes longer than
-            // the 4 to 6 iterations of steady sliding.
+            // As many as in steady sliding; a node that sticks first takes three more.
             let count = run.iterations[increment].len();
-            assert!(count <= 12, "{depth}, increment {increment}: {count}");
+            assert!(count <= 5, "{depth}, increment {increment}: {count}");
         }
     }
 }
