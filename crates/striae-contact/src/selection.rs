@@ -25,7 +25,7 @@ use crate::{
     pair::Enforcement,
     pairing::{PairedFacets, Scope, paired_facets},
     pointed::Spot,
-    segment::{Derivatives, Facet, plane_segment},
+    segment::{Derivatives, FACING, Facet, plane_segment},
     traction_basis::{KeptNode, THETA_1, TractionBasis, Weak},
 };
 
@@ -368,6 +368,8 @@ struct Gathered {
     facets: Vec<[Option<FacetId>; 2]>,
     overlaps: Vec<Overlap>,
     opposing: [Vec<Option<ClampedProjection>>; 2],
+    /// Integral of the segments' normal around the nodes of side `a`.
+    facing: Vec<Vec3>,
 }
 
 impl Gathered {
@@ -398,10 +400,17 @@ impl Gathered {
             corners: paired.corners,
             mass: paired.segment.mass,
         });
+        let mut facing = vec![Vec3::zeros(); near[0].len()];
+        for paired in &paired {
+            for node in paired.corners[0] {
+                facing[node as usize] += paired.segment.normal * paired.segment.area;
+            }
+        }
         Self {
             facets: paired.iter().map(|paired| paired.facets).collect(),
             overlaps: overlaps.collect(),
             opposing,
+            facing,
         }
     }
 
@@ -413,6 +422,9 @@ impl Gathered {
         later.share_with(&paired[0]);
         self.facets.extend(later.facets);
         self.overlaps.extend(later.overlaps);
+        for (sum, later) in self.facing.iter_mut().zip(later.facing) {
+            *sum += later;
+        }
         for (known, later) in self.opposing.iter_mut().zip(later.opposing) {
             for (known, later) in known.iter_mut().zip(later) {
                 *known = known.or(later);
@@ -445,7 +457,7 @@ impl Gathered {
         let nodes =
             [0, 1].map(|side| surface_nodes(configuration, side, before, &prescribed[side]));
         let whole = if configuration.pair.is_rigid() {
-            whole_facets(configuration)
+            whole_facets(configuration, &self.facing)
         } else {
             Vec::new()
         };
@@ -532,8 +544,9 @@ fn surface_nodes(
         .collect()
 }
 
-/// Masses of the facets of side `a` as if they were covered wholly.
-fn whole_facets(configuration: &Configuration) -> Vec<FacetMass> {
+/// Masses of the facets of side `a` as if they were covered wholly: of those that face what
+/// touches at one of their corners. A wall next to a sole cannot be covered.
+fn whole_facets(configuration: &Configuration, facing: &[Vec3]) -> Vec<FacetMass> {
     let own = configuration.side(0);
     (0..own.surface.facets().len())
         .filter_map(|facet| {
@@ -542,6 +555,13 @@ fn whole_facets(configuration: &Configuration) -> Vec<FacetMass> {
             let x = own.corner_positions(facet);
             let shape = Shape::of(&corners);
             let n = normal(&x, shape);
+            let faces = |corner: &u32| {
+                let towards = facing[*corner as usize];
+                n.dot(&towards) > -FACING * towards.norm()
+            };
+            if !corners.iter().any(faces) {
+                return None;
+            }
             let segment = plane_segment(&Facet { corners: x, shape }, &-n, Derivatives::None)?;
             let mass = std::array::from_fn(|c| std::array::from_fn(|d| segment.mass[c][d]));
             Some(FacetMass { corners, mass })
