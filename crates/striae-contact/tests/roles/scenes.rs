@@ -137,17 +137,32 @@ fn two_patches_do_not_take_from_each_other() {
 }
 
 #[test]
-fn a_node_that_was_kept_stays_down_to_half_the_threshold() {
+fn a_node_that_was_kept_leaves_at_the_threshold_like_any_other() {
     let own = square(4, 1.0, 0.0, 1.0);
     let at = |share: f64, last: LastIncrement| {
         let rigid = square(1, 0.75 + 0.25 * share, 0.0, 1.0);
         let mut pair = Pair::on_rigid([&own, &rigid]);
         pair.nodes[0].iter_mut().for_each(|node| node.last = last);
-        TractionBasis::new(&pair.interface()).kept.len()
+        TractionBasis::new(&pair.interface()).kept
     };
-    let shares = (1..100).map(|at| 0.01 * f64::from(at));
-    let differ = shares.filter(|&s| at(s, LastIncrement::Kept) > at(s, LastIncrement::NotKept));
-    assert!(differ.count() > 0);
+    for share in (1..100).map(|at| 0.01 * f64::from(at)) {
+        let [was, was_not] = [LastIncrement::Kept, LastIncrement::NotKept].map(|l| at(share, l));
+        assert_eq!(was, was_not, "{share}");
+    }
+}
+
+#[test]
+fn of_equals_those_that_were_kept_are_kept_again() {
+    let square = square(4, 1.0, 0.0, 1.0);
+    for side in 0..2 {
+        let mut pair = Pair::new([&square, &square]);
+        let were_kept = &mut pair.nodes[side];
+        were_kept
+            .iter_mut()
+            .for_each(|node| node.last = LastIncrement::Kept);
+        let kept = TractionBasis::new(&pair.interface()).kept;
+        assert!(!kept.is_empty() && kept.iter().all(|kept| kept.side == side));
+    }
 }
 
 #[test]
