@@ -54,9 +54,9 @@ impl History {
         self.rows.len()
     }
 
-    /// A number, if the table has the column.
+    /// A number, if the table has the row and the column.
     pub fn number(&self, row: usize, name: &str) -> Option<f64> {
-        self.rows[row].get(*self.columns.get(name)?).copied()
+        self.rows.get(row)?.get(*self.columns.get(name)?).copied()
     }
 
     /// A vector, if the table has its columns.
