@@ -19,7 +19,8 @@
 //!
 //! The same holds for *points* of a rigid surface: its vertices, and points on its convex
 //! edges, see [`ridge`]. They have no positions to solve for; their tractions lodge with the
-//! corner of the pierced facet that is nearest and free, and `h` is the size there.
+//! corner of the pierced facet that is nearest and free, and `h` is the size there. Their `n`
+//! is continuous over facets, see [`Spot`].
 //!
 //! What is pointed is chosen in [`choice`].
 

@@ -335,8 +335,14 @@ fn on_deformable(
         }
         _ => None,
     };
+    // A rigid point is not found along its own normal.
+    let ray = match tip {
+        Tip::Rigid(_) => Spot::new(configuration, tip).map(|spot| spot.ray),
+        Tip::Node { .. } => None,
+    };
+    let along = ray.as_ref().map_or(&n, |ray| &ray.value);
     let opposing = match &on_edge {
-        None => Opposing::new(shape, hit, &n, &other.corner_positions(hit.facet)),
+        None => Opposing::new(shape, hit, along, &other.corner_positions(hit.facet)),
         Some(place) => Opposing::at(place.weights()),
     };
     let turned: [Transported; 4] = std::array::from_fn(|corner| {
@@ -346,13 +352,16 @@ fn on_deformable(
     let length = sum.norm();
     let value = sum / length;
     let across = (Matrix3::identity() - value * value.transpose()) / length;
-    let mut gradient = [[0.0; 3]; 43];
+    let mut gradient = [[0.0; 3]; 45];
     let by_r = opposing.spread_sum(&across, &turned, [3, 18, 30], &mut gradient);
     let places = PlaceLanes {
         x: 0,
-        n: 3,
+        n: if ray.is_some() { 42 } else { 3 },
         corners: 6,
     };
+    if let Some(ray) = &ray {
+        lanes.push(Source::Vector(&ray.jacobian));
+    }
     match &on_edge {
         None => opposing.spread(&by_r, places, &mut gradient),
         Some(place) => {

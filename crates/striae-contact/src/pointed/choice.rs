@@ -5,8 +5,10 @@
 //! their size: the mean gap minus its own. Facets tilted by the angle `t` stand back by
 //! `h tan(t)/3`. A node of a smooth surface of radius `R` with a mean gap of zero is inside
 //! by `h^2/(6 R)`, too, which is left to the mean: up to .07 of a facet at the shoulders of
-//! coarse tyres. What is not sharp closes in the mean before it is inside by `SHARP`. A node
-//! stays pointed while it is pressed and the mean gap is larger than [`CLOSING`].
+//! coarse tyres. What is not sharp closes in the mean before it is inside by `SHARP`. Inside
+//! a rigid surface of facets, which may have slopes within a facet, it is enough that the
+//! facets are open by more than [`CLOSING`] in the mean and without pressure. A node stays
+//! pointed while it is pressed and the mean gap is larger than [`CLOSING`].
 //!
 //! A point of a rigid surface pierces if it lies deeper than `PIERCED` in a facet, and that
 //! facet
@@ -107,13 +109,37 @@ fn pierced_nodes(
         return Vec::new();
     }
     let means = mean_gaps(configuration, selection.scope());
+    // There is room for points of a rigid side of facets only.
+    let on_facets = !selection.points.is_empty();
     let is_sharp = |&(side, node, gap): &(usize, u32, f64)| {
         let size = configuration.side(side).sizes[node as usize];
-        let mean = means[side][node as usize];
-        mean.is_none_or(|mean| mean > 0.0 && mean - gap > SHARP * size)
+        means[side][node as usize].is_none_or(|mean| {
+            let sharp = mean > 0.0 && mean - gap > SHARP * size;
+            let open = on_facets && mean > CLOSING * size;
+            sharp || open && !is_pressed_around(configuration, carried, node)
+        })
     };
     let sharp = deep.into_iter().filter(is_sharp);
     sharp.map(|(side, node, _)| (side, node)).collect()
+}
+
+/// Whether the field presses on a facet around a node of side `a`.
+fn is_pressed_around(
+    configuration: &Configuration,
+    carried: &[Vec<[f64; 3]>; 2],
+    node: u32,
+) -> bool {
+    let own = configuration.side(0);
+    let mut around = own.surface.corners(node).iter();
+    around.any(|corner| is_pressed(configuration, carried, corner.facet))
+}
+
+/// Whether the field presses on a facet of side `a`.
+fn is_pressed(configuration: &Configuration, carried: &[Vec<[f64; 3]>; 2], facet: FacetId) -> bool {
+    let nothing = NO_PRESSURE * configuration.pair.sides[0].stiffness;
+    let corners = configuration.side(0).corners(facet).into_iter();
+    let mut pressures = corners.map(|node| carried[0][node as usize][0]);
+    pressures.any(|pressure| pressure > nothing)
 }
 
 /// Gap of a node that lies deeper inside the other side than [`PIERCED`].
@@ -165,11 +191,8 @@ fn pierced_points(
         return Vec::new();
     }
     let means = facet_gaps(configuration, selection.scope());
-    let nothing = NO_PRESSURE * configuration.pair.sides[0].stiffness;
     deep.retain(|inside| {
-        let corners = configuration.side(0).corners(inside.hit.facet);
-        let is_pressed = |node: &u32| carried[0][*node as usize][0] > nothing;
-        let unfelt = !corners.iter().any(is_pressed);
+        let unfelt = !is_pressed(configuration, carried, inside.hit.facet);
         means[inside.hit.facet.index()].is_none_or(|mean| {
             let sharp = mean - inside.hit.gap > SHARP * inside.size;
             sharp || unfelt && mean > CLOSING * inside.size

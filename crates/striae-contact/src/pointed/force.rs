@@ -33,13 +33,15 @@ pub fn terms(field: CommonField) -> Vec<PointedTerm> {
     found.into_iter().flatten().collect()
 }
 
-/// Lanes of the node's position and normal, the corners, the unknowns and the friction.
+/// Lanes of the tip's position and normal, the corners, the unknowns, the friction and the
+/// normal along which the place is found.
 const X: usize = 0;
 const NORMAL: usize = 3;
 const CORNERS: usize = 6;
 const PRESSURE: usize = 18;
 const TAU: usize = 21;
-const LANES: usize = 24;
+const RAY: usize = 24;
+const LANES: usize = 27;
 
 impl CommonField<'_> {
     fn pointed_term(&self, k: usize) -> Option<PointedTerm> {
@@ -88,7 +90,7 @@ impl CommonField<'_> {
                 let mut by_lane = [[0.0; 3]; LANES];
                 let place = PlaceLanes {
                     x: X,
-                    n: NORMAL,
+                    n: RAY,
                     corners: CORNERS,
                 };
                 opposing.spread(&by_r, place, &mut by_lane);
@@ -129,6 +131,7 @@ impl CommonField<'_> {
         }
         lanes.push(triple(numbering.traction(side, node as u32)));
         lanes.push(Source::Vector(&self.tau[side][node].jacobian));
+        lanes.push(Source::Vector(&spot.ray.jacobian));
         lanes
     }
 

@@ -1,4 +1,9 @@
 //! The place that a tip presses on, with its derivatives.
+//!
+//! It is found along the normal `m` of the facet. The traction of a node acts along that
+//! normal, too; that of a rigid point along the one between the nodal normals of the
+//! deformable side, `n = -unit(sum N_J n_J)`. It turns continuously where the point goes from
+//! one facet to the next, as it does again and again in the valley that it presses in.
 
 use nalgebra::Matrix3;
 use striae_mesh::Vec3;
@@ -7,7 +12,7 @@ use striae_surface::{facet::Shape, topology::distinct_corners};
 use super::Tip;
 use crate::{
     configuration::Configuration,
-    frame::Tracked,
+    frame::{Tracked, own_normal},
     kinematics::TrackedScalar,
     opposing::Opposing,
     projection::{Hit, Margin, Ray, project},
@@ -25,6 +30,8 @@ pub struct Spot {
     pub hit: Option<Hit>,
     /// Unit normal of the tip, against that of the facet or plane.
     pub n: Tracked,
+    /// Opposite of the normal of the facet, along which it is found.
+    pub ray: Tracked,
     /// Gap.
     pub gap: TrackedScalar,
     /// Corners of the facet without repetition.
@@ -42,12 +49,14 @@ impl Spot {
         let x = tip.position(configuration);
         let yields = tip.presses_on_deformable(configuration);
         if let Some((point, normal)) = configuration.plane() {
+            let plane = Tracked {
+                value: -normal,
+                jacobian: Vec::new(),
+            };
             return Some(Self {
                 hit: None,
-                n: Tracked {
-                    value: -normal,
-                    jacobian: Vec::new(),
-                },
+                n: plane.clone(),
+                ray: plane,
                 gap: TrackedScalar {
                     value: (x - point).dot(&normal),
                     gradient: own.map(|own| (own, normal)).into_iter().collect(),
@@ -60,16 +69,16 @@ impl Spot {
         let target = configuration.side(1 - side);
         let corners = target.corners(hit.facet);
         let positions = target.corner_positions(hit.facet);
-        let mut n = Tracked {
+        let mut ray = Tracked {
             value: -facet_normal(&positions),
             jacobian: Vec::new(),
         };
         if yields {
-            n.jacobian = normal_jacobian(&positions, |corner| {
+            ray.jacobian = normal_jacobian(&positions, |corner| {
                 numbering.position(1 - side, corners[corner])
             });
         }
-        let opposing = Opposing::new(Shape::of(&corners), &hit, &n.value, &positions);
+        let opposing = Opposing::new(Shape::of(&corners), &hit, &ray.value, &positions);
         let own = own.map(|own| (own, -opposing.gap_by_r));
         let mut gradient: Gradient = own.into_iter().collect();
         let mut add = |first: u32, slope: Vec3| match gradient.iter_mut().find(|e| e.0 == first) {
@@ -83,12 +92,17 @@ impl Spot {
             }
         }
         let by_n = opposing.gap_by_r * -hit.gap;
-        for (first, block) in &n.jacobian {
+        for (first, block) in &ray.jacobian {
             add(*first, block.tr_mul(&by_n));
         }
+        let n = match tip {
+            Tip::Node { .. } => ray.clone(),
+            Tip::Rigid(_) => between_nodes(configuration, &hit, &opposing, &ray),
+        };
         Some(Self {
             hit: Some(hit),
             n,
+            ray,
             gap: TrackedScalar {
                 value: hit.gap,
                 gradient,
@@ -111,6 +125,36 @@ impl Spot {
             }
         }
     }
+}
+
+/// `-unit(sum N_J n_J)` with the nodal normals of side `a` where a rigid point is.
+fn between_nodes(
+    configuration: &Configuration,
+    hit: &Hit,
+    opposing: &Opposing,
+    ray: &Tracked,
+) -> Tracked {
+    let numbering = configuration.pair.numbering();
+    let corners = configuration.side(0).corners(hit.facet);
+    let normals = corners.map(|corner| own_normal(configuration, 0, corner));
+    let weighted = || normals.iter().zip(opposing.weights);
+    let sum: Vec3 = weighted()
+        .map(|(normal, weight)| normal.value * weight)
+        .sum();
+    let (length, value) = (sum.norm(), -sum.normalize());
+    let by_sum = (value * value.transpose() - Matrix3::identity()) / length;
+    let slopes = normals.iter().zip(&opposing.weights_by_r);
+    let by_r: Matrix3<f64> = slopes.map(|(n, by_r)| n.value * by_r.transpose()).sum();
+    let by_r = by_sum * by_r;
+    let mut jacobian = Jacobian::new();
+    for (at, (normal, weight)) in weighted().enumerate() {
+        add_chained(&mut jacobian, &(by_sum * weight), &normal.jacobian);
+        let first = numbering.position(0, corners[at]);
+        let here = vec![(first, Matrix3::identity())];
+        add_chained(&mut jacobian, &(by_r * weight), &here);
+    }
+    add_chained(&mut jacobian, &(by_r * -hit.gap), &ray.jacobian);
+    Tracked { value, jacobian }
 }
 
 /// The facet that a tip faces within `reach`, along the normal of that facet.

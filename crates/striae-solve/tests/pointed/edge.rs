@@ -94,10 +94,16 @@ fn settled(degrees: f64, increments: usize) -> Run {
         }
     });
     let displacements = ways.collect();
-    model.steps = vec![striae_solve::model::Step {
+    let settle = striae_solve::model::Step {
         displacements,
         ..press
-    }];
+    };
+    // Kept nodes and ramp are those of where an increment starts.
+    let hold = striae_solve::model::Step {
+        increments: moved(&model, [0.0; 3], 1).increments,
+        ..settle.clone()
+    };
+    model.steps = vec![settle, hold];
     Run::completed(model)
 }
 
