@@ -100,7 +100,12 @@ fn of_scene(group: &str, size: usize) -> Results {
     let configuration = context.configuration(0, &state.positions, &state.rigid);
     let kept = &state.pairs[0].kept;
     let pointed = &state.pairs[0].pointed;
-    let before = Before { kept, pointed };
+    let points = &state.pairs[0].points;
+    let before = Before {
+        kept,
+        pointed,
+        points,
+    };
     let selection = Selection::new(&configuration, None, before, &context.fixed_on_pair[0]);
     let nodes: usize = (0..2).map(|side| selection.nodes(side)).sum();
     Ok(match group {

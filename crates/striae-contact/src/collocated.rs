@@ -29,6 +29,7 @@ use crate::{
     frame::{Frame, Frames, Tracked},
     kinematics::{Kinematics, Presence, TrackedScalar},
     opposing::Opposing,
+    pointed::Tip,
     projection::differentiated_rigid,
     selection::{Partner, Selection},
     term::{Gradient, Jacobian, Lanes, Source, add_block, gradient},
@@ -51,9 +52,12 @@ pub fn kinematics(
             let (side, node) = selection.kept()[k].place();
             let frame = frames[side][node].as_ref();
             let slip = match (selection.partner(k), frame) {
-                (Some(partner), Some(frame)) => {
-                    slip(configuration, side, node as u32, partner, frame)
-                }
+                (Some(partner), Some(frame)) => slip(
+                    configuration,
+                    selection.tip(side, node as u32),
+                    partner,
+                    frame,
+                ),
                 _ => Tracked::default(),
             };
             Kinematics {
@@ -63,7 +67,11 @@ pub fn kinematics(
                     gap
                 }),
                 seen_slip: slip.value,
-                shares: shares(configuration, side, node as u32, selection.partner(k)),
+                shares: shares(
+                    configuration,
+                    selection.tip(side, node as u32),
+                    selection.partner(k),
+                ),
                 slip,
                 presence: Presence::Facing,
                 stiffness: selection.stiffness(k),
@@ -122,22 +130,14 @@ fn gap(configuration: &Configuration, side: usize, node: u32, frame: &Frame) -> 
 }
 
 /// Slip of a node relative to the material point that was opposite to it.
-pub fn slip(
-    configuration: &Configuration,
-    side: usize,
-    node: u32,
-    partner: Partner,
-    frame: &Frame,
-) -> Tracked {
+pub fn slip(configuration: &Configuration, tip: Tip, partner: Partner, frame: &Frame) -> Tracked {
     let numbering = configuration.pair.numbering();
-    let (x, n) = (configuration.side(side).x[node as usize], frame.n.value);
+    let side = tip.side();
+    let (x, n) = (tip.position(configuration), frame.n.value);
     let tangential = Matrix3::identity() - n * n.transpose();
     let mut lanes = Lanes::default();
     let mut slopes = [[0.0; 3]; 18];
-    lanes.push(Source::Unknowns {
-        first: numbering.position(side, node),
-        count: 3,
-    });
+    lanes.push(tip.lanes(configuration));
     lanes.push(Source::Vector(&frame.n.jacobian));
     if let Partner::Corners(corners, weights) = partner {
         for (at, corner) in corners.into_iter().enumerate() {
@@ -161,12 +161,13 @@ pub fn slip(
 /// Shares of the node and of what is opposite to it in its friction.
 pub fn shares(
     configuration: &Configuration,
-    side: usize,
-    node: u32,
+    tip: Tip,
     partner: Option<Partner>,
 ) -> Vec<(u32, f64)> {
     let numbering = configuration.pair.numbering();
-    let mut shares = vec![(numbering.position(side, node), 1.0)];
+    let side = tip.side();
+    let mut shares: Vec<(u32, f64)> = Vec::new();
+    shares.extend(tip.unknown(configuration).map(|first| (first, 1.0)));
     if let Some(Partner::Corners(corners, weights)) = partner {
         let opposite = corners.map(|corner| numbering.position(1 - side, corner));
         shares.extend(opposite.into_iter().zip(weights));

@@ -117,7 +117,7 @@ pub fn rows(
 ) -> (LocalTerm, NodeResult) {
     let state = NodeState::new(configuration, node, prescribed);
     let [p, z1, z2] = node.unknowns;
-    let size = configuration.side(node.side).sizes[node.node as usize];
+    let size = configuration.size(node.side, node.node);
     let [r_n, r_t] = node.kinematics.stiffness;
     let g = state.gap.re;
     let touching = iteration == Iteration::First && g <= TOUCHING * size;

@@ -85,6 +85,16 @@ impl<'a> Configuration<'a> {
         self.pair.search_distance.unwrap_or(0.0).max(least)
     }
 
+    /// Local facet size at a node; at a point of a rigid side that of the node it lodges with.
+    pub fn size(&self, side: usize, node: u32) -> f64 {
+        let side = if self.pair.is_deformable(side) {
+            side
+        } else {
+            0
+        };
+        self.side(side).sizes[node as usize]
+    }
+
     /// Point and unit normal of the plane that is side `b`, if it is one.
     pub fn plane(&self) -> Option<(Vec3, Vec3)> {
         match self.pair.sides[1].geometry {

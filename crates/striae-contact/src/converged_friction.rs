@@ -24,13 +24,16 @@ use crate::{
 
 /// `tau^n'` of a node with the present `frame`, from its components along the tangents in
 /// the configuration `start`.
+///
+/// # Errors
+/// Where the facets around the node had collapsed to a line.
 pub fn converged_friction(
     configuration: &Configuration,
     start: &Configuration,
     (side, node): (usize, u32),
     frame: &Frame,
     components: [f64; 2],
-) -> Tracked {
+) -> Result<Tracked, CollapsedFacets> {
     let old = frame_of(start, side, node);
     let n_old = old.n.value;
     let b = old.t.each_ref().map(|t| t.value);
@@ -38,7 +41,7 @@ pub fn converged_friction(
     let turned = |v: &Vec3| Transported::new(v, &n_old, &frame.n.value);
     let [b1, b2] = [turned(&b[0]), turned(&b[1])];
     let [u, v] = [turned(&tau), turned(&n_old.cross(&tau))];
-    let edges = edges(configuration, start, side, node, &b);
+    let edges = edges(configuration, start, side, node, &b)?;
     let a = [0, 1].map(|k| edges.iter().map(|e| e.now * e.share[k]).sum::<Vec3>());
     let c = b1.value.dot(&a[0]) + b2.value.dot(&a[1]);
     let s = b2.value.dot(&a[0]) - b1.value.dot(&a[1]);
@@ -62,7 +65,16 @@ pub fn converged_friction(
         jacobian[0].1 -= block;
     }
     add_chained(&mut jacobian, &by_n, &frame.n.jacobian);
-    Tracked { value, jacobian }
+    Ok(Tracked { value, jacobian })
+}
+
+/// A node whose facets have collapsed to a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CollapsedFacets {
+    /// Side of the pair.
+    pub side: usize,
+    /// Surface-local node.
+    pub node: u32,
 }
 
 /// An edge from a node.
@@ -80,7 +92,7 @@ fn edges(
     side: usize,
     node: u32,
     tangents: &[Vec3; 2],
-) -> Vec<Edge> {
+) -> Result<Vec<Edge>, CollapsedFacets> {
     let (before, now) = (start.side(side), configuration.side(side));
     let corners = before.surface.corners(node);
     let mut ends: Vec<u32> = corners
@@ -97,12 +109,14 @@ fn edges(
     let squares: Matrix2<f64> = ends.iter().map(|to| old(to) * old(to).transpose()).sum();
     let inverse = squares
         .try_inverse()
-        .expect("edges of a facet are not parallel");
-    ends.iter()
+        .ok_or(CollapsedFacets { side, node })?;
+    let edges = ends
+        .iter()
         .map(|to| Edge {
             to: *to,
             now: now.x[*to as usize] - now.x[node as usize],
             share: (inverse * old(to)).into(),
         })
-        .collect()
+        .collect();
+    Ok(edges)
 }

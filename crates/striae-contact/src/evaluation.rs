@@ -11,12 +11,13 @@ use crate::{
     common_field::{CommonField, by_facet, segment_terms},
     complementarity::{ContactNode, Iteration, Prescribed, rows},
     configuration::Configuration,
+    converged_friction::CollapsedFacets,
     field::{FacetForces, Fields, facet_terms},
     frame::{Frame, Frames, frames},
     kinematics::{Kinematics, Report},
     pair::Enforcement,
     pairing::paired_facets,
-    pointed::{self, PointedTerm},
+    pointed::{self, PointedTerm, RigidPoints, Tip},
     segment::Derivatives,
     segment_rows::{Given, Slip, segment_rows},
     selection::Selection,
@@ -41,14 +42,37 @@ pub struct Evaluation {
     pub carried: [Vec<[f64; 3]>; 2],
     /// Forces on the facets of each side.
     pub facets: [Vec<(FacetId, FacetForces)>; 2],
+    /// Points of a rigid side that are pointed.
+    pub points: RigidPoints,
     /// Work that friction dissipates, `-sum_k w_k tau_k . du_k`.
     pub dissipated: f64,
+}
+
+/// Why a pair cannot be evaluated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Collapse {
+    /// A texture has no direction left.
+    Texture(CollapsedTexture),
+    /// The facets around a node have collapsed to a line.
+    Facets(CollapsedFacets),
+}
+
+impl From<CollapsedTexture> for Collapse {
+    fn from(collapsed: CollapsedTexture) -> Self {
+        Self::Texture(collapsed)
+    }
+}
+
+impl From<CollapsedFacets> for Collapse {
+    fn from(collapsed: CollapsedFacets) -> Self {
+        Self::Facets(collapsed)
+    }
 }
 
 /// Evaluates a pair; `start` is the last converged configuration.
 ///
 /// # Errors
-/// When a texture has no direction left.
+/// When a texture has no direction left, or facets have collapsed.
 pub fn evaluate(
     configuration: &Configuration,
     start: &Configuration,
@@ -56,7 +80,7 @@ pub fn evaluate(
     tractions: &Tractions,
     prescribed: &Prescribed,
     iteration: Iteration,
-) -> Result<Evaluation, CollapsedTexture> {
+) -> Result<Evaluation, Collapse> {
     let slip = if configuration.pair.friction.cap(1.0, 0.0) == 0.0 {
         Slip::Left
     } else {
@@ -92,7 +116,7 @@ pub fn evaluate(
                 tractions,
                 &tau,
                 &mut kinematics,
-            );
+            )?;
         }
     }
     let stage = Stage {
@@ -169,6 +193,7 @@ impl Stage<'_> {
             nodes: counts.map(|count| vec![NodeResult::default(); count]),
             carried: counts.map(|count| vec![[0.0; 3]; count]),
             facets: [Vec::new(), Vec::new()],
+            points: selection.points.clone(),
             dissipated: 0.0,
         };
         for side in 0..2 {
@@ -208,6 +233,9 @@ impl Stage<'_> {
 
     /// Direction `s = a x n` of the node's own texture, zero without one.
     fn own_texture(&self, side: usize, node: u32, frame: &Frame) -> Vec3 {
+        if let Tip::Rigid(_) = self.selection.tip(side, node) {
+            return Vec3::zeros();
+        }
         match own(self.configuration, side, node, &frame.n) {
             Ok(Some(a)) => a.value.cross(&frame.n.value),
             Ok(None) | Err(_) => Vec3::zeros(),

@@ -16,7 +16,7 @@ use crate::{
     configuration::{Configuration, Snapshot},
     coverage::{Found, Place},
     edge::on_edge,
-    pointed::Spot,
+    pointed::{Spot, Tip},
     projection::{Hit, differentiated_rigid},
     selection::Selection,
     term::{Jacobian, Lanes, Source, add_block, parts, variable3},
@@ -57,11 +57,11 @@ pub fn frames(configuration: &Configuration, selection: &Selection) -> Frames {
                 let pointed = selection.is_pointed(side, node);
                 (pointed || selection.carries(side, node)).then(|| {
                     let n = if pointed {
-                        pointed_normal(configuration, side, node)
+                        pointed_normal(configuration, selection, side, node)
                     } else {
                         normal(configuration, side, node)
                     };
-                    frame(configuration, side, node, n)
+                    frame(configuration, selection.tip(side, node), n)
                 })
             })
             .collect()
@@ -71,7 +71,7 @@ pub fn frames(configuration: &Configuration, selection: &Selection) -> Frames {
 /// The frame of a node.
 pub fn frame_of(configuration: &Configuration, side: usize, node: u32) -> Frame {
     let n = normal(configuration, side, node);
-    frame(configuration, side, node, n)
+    frame(configuration, Tip::Node { side, node }, n)
 }
 
 /// The normal of a node: of its surface or, against a rigid one, of that.
@@ -82,9 +82,22 @@ fn normal(configuration: &Configuration, side: usize, node: u32) -> Tracked {
 }
 
 /// The normal of a pointed node, against that of what it pierces.
-fn pointed_normal(configuration: &Configuration, side: usize, node: u32) -> Tracked {
-    let spot = Spot::new(configuration, side, node);
-    spot.map_or_else(|| normal(configuration, side, node), |spot| spot.n)
+fn pointed_normal(
+    configuration: &Configuration,
+    selection: &Selection,
+    side: usize,
+    node: u32,
+) -> Tracked {
+    let tip = selection.tip(side, node);
+    let spot = Spot::new(configuration, tip);
+    let alone = || match tip {
+        Tip::Node { .. } => normal(configuration, side, node),
+        Tip::Rigid(point) => Tracked {
+            value: point.normal(configuration),
+            jacobian: Jacobian::new(),
+        },
+    };
+    spot.map_or_else(alone, |spot| spot.n)
 }
 
 /// The normal of a node's own surface.
@@ -166,7 +179,12 @@ fn neighbour(own: &Snapshot, node: u32, n: &Vec3) -> u32 {
         .unwrap_or(first)
 }
 
-fn frame(configuration: &Configuration, side: usize, node: u32, n: Tracked) -> Frame {
+/// The frame with this normal; the tangents of a rigid point are those of a vertex of its edge.
+fn frame(configuration: &Configuration, tip: Tip, n: Tracked) -> Frame {
+    let (side, node) = match tip {
+        Tip::Node { side, node } => (side, node),
+        Tip::Rigid(point) => (1, point.ends[0]),
+    };
     let own = configuration.side(side);
     let numbering = configuration.pair.numbering();
     let neighbour = neighbour(own, node, &n.value);
@@ -181,9 +199,12 @@ fn frame(configuration: &Configuration, side: usize, node: u32, n: Tracked) -> F
     let turn = n.value.cross_matrix();
     let mut lanes = Lanes::default();
     for other in [node, neighbour] {
-        lanes.push(Source::Unknowns {
-            first: numbering.position(side, other),
-            count: 3,
+        lanes.push(match tip {
+            Tip::Rigid(_) => Source::Constant(3),
+            Tip::Node { .. } => Source::Unknowns {
+                first: numbering.position(side, other),
+                count: 3,
+            },
         });
     }
     lanes.push(Source::Vector(&n.jacobian));

@@ -61,10 +61,29 @@ pub enum Enforcement {
 impl ContactPair {
     /// Numbers of the pair's unknowns.
     pub fn numbering(&self) -> Numbering {
-        Numbering::new([0, 1].map(|side| match &self.sides[side].geometry {
+        let positions = [0, 1].map(|side| match &self.sides[side].geometry {
             Geometry::Deformable(surface) => surface.nodes().len(),
             Geometry::Rigid(_) | Geometry::Plane { .. } => 0,
-        }))
+        });
+        Numbering::new(positions, self.carriers())
+    }
+
+    /// How many nodes may bear traction by side: those of deformable sides. Points of rigid
+    /// facets that pierce side `a` count as side `b` and lodge with the nodes of `a`, one with
+    /// a node, see [`crate::pointed`].
+    pub fn carriers(&self) -> [usize; 2] {
+        let nodes = |side: usize| self.sides[side].surface().map_or(0, |s| s.nodes().len());
+        let of_b = match self.sides[1].geometry {
+            Geometry::Deformable(_) => nodes(1),
+            Geometry::Rigid(_) if self.enforcement == Enforcement::Weighted => nodes(0),
+            Geometry::Rigid(_) | Geometry::Plane { .. } => 0,
+        };
+        [nodes(0), of_b]
+    }
+
+    /// Whether the nodes of a side are deformable.
+    pub fn is_deformable(&self, side: usize) -> bool {
+        matches!(self.sides[side].geometry, Geometry::Deformable(_))
     }
 
     /// Whether side `b` is rigid.

@@ -197,7 +197,7 @@ fn reach(configuration: &Configuration, side: usize, corners: &[u32; 4]) -> f64 
 }
 
 /// Largest reach of any facet.
-fn farthest(configuration: &Configuration) -> f64 {
+pub fn farthest(configuration: &Configuration) -> f64 {
     let sides = configuration.pair.deformable_sides().iter();
     let largest = sides.map(|&side| configuration.side(side).largest_size);
     let largest = largest.fold(0.0, f64::max);

@@ -24,7 +24,7 @@ use crate::{
     },
     pair::Enforcement,
     pairing::{PairedFacets, Scope, paired_facets},
-    pointed::Spot,
+    pointed::{RigidPoint, RigidPoints, Spot, Tip},
     segment::{Derivatives, FACING, Facet, plane_segment},
     traction_basis::{KeptNode, THETA_1, TractionBasis, Weak},
 };
@@ -70,6 +70,8 @@ pub struct Selection {
     /// Overlap of the meshes at the nodes that is not pressed out yet, by side; empty where
     /// there is none.
     pub offsets: [Vec<f64>; 2],
+    /// Points of a rigid side that are pointed.
+    pub points: RigidPoints,
 }
 
 /// What nodes are before the roles of an increment are chosen.
@@ -79,6 +81,8 @@ pub struct Before<'a> {
     pub kept: &'a Kept,
     /// Nodes that are [pointed](crate::pointed) in this one.
     pub pointed: &'a Kept,
+    /// The same of points of a rigid side; may be empty.
+    pub points: &'a RigidPoints,
 }
 
 /// Common area below which a patch is dropped, over the square of the facet size.
@@ -106,7 +110,16 @@ impl Selection {
         if let Some(predicted) = predicted {
             gathered.add(Gathered::new(predicted, scope));
         }
-        let basis = gathered.basis(start, before, prescribed);
+        let mut basis = gathered.basis(start, before, prescribed);
+        for (side, count) in start.pair.carriers().into_iter().enumerate() {
+            basis.index[side].resize(count, None);
+            basis.rows[side].resize(count, Vec::new());
+        }
+        let of_b = basis.index[1].len();
+        let lodges = start.pair.is_rigid();
+        let mut points = vec![None; if lodges { of_b } else { 0 }];
+        let known = points.iter_mut().zip(before.points);
+        known.for_each(|(point, before): (&mut Option<RigidPoint>, _)| *point = *before);
         let partners = partners(start, &basis);
         let mut selection = Self {
             of_field: basis.kept.len(),
@@ -115,12 +128,17 @@ impl Selection {
             depth,
             partners,
             offsets: [Vec::new(), Vec::new()],
+            points,
         };
         for &side in start.pair.deformable_sides() {
             let nodes = before.pointed[side].iter().enumerate();
             for (node, _) in nodes.filter(|(_, pointed)| **pointed) {
                 selection.add_pointed(start, predicted, prescribed, (side, node as u32));
             }
+        }
+        let lodged = (0..selection.points.len()).filter(|&node| selection.points[node].is_some());
+        for node in lodged.collect::<Vec<_>>() {
+            selection.add_pointed(start, predicted, prescribed, (1, node as u32));
         }
         selection
     }
@@ -133,25 +151,27 @@ impl Selection {
         prescribed: &Prescribed,
         (side, node): (usize, u32),
     ) {
+        let tip = self.tip(side, node);
         let known = [Some(start), predicted];
         let found = known.into_iter().flatten().find_map(|configuration| {
-            let spot = Spot::new(configuration, side, node)?;
-            let partner = spot.partner(configuration, side, node);
+            let spot = Spot::new(configuration, tip)?;
+            let partner = spot.partner(configuration, tip);
             Some((partner, spot.hit))
         });
-        let size = start.side(side).sizes[node as usize];
+        let size = start.size(side, node);
         let yields = |side: usize, node: u32| {
             let first = 3 * node as usize;
             let components = prescribed[side].get(first..first + 3);
             components.is_none_or(|components| components.contains(&false))
         };
-        let mut flexibility = if yields(side, node) {
+        let moves = tip.unknown(start).is_some();
+        let mut flexibility = if moves && yields(side, node) {
             size / start.pair.sides[side].stiffness
         } else {
             0.0
         };
         if let Some((_, Some(hit))) = found
-            && !start.pair.is_rigid()
+            && tip.presses_on_deformable(start)
         {
             let mut corners = start.side(1 - side).corners(hit.facet).into_iter();
             if corners.any(|corner| yields(1 - side, corner)) {
@@ -165,6 +185,15 @@ impl Selection {
         basis.flexibility.push(flexibility);
         basis.weights.push(size * size);
         self.partners.push(found.map(|(partner, _)| partner));
+    }
+
+    /// What a node with unknowns stands for.
+    pub fn tip(&self, side: usize, node: u32) -> Tip {
+        let point = self.points.get(node as usize).copied().flatten();
+        match (side, point) {
+            (1, Some(point)) => Tip::Rigid(point),
+            _ => Tip::Node { side, node },
+        }
     }
 
     /// Nodes with unknowns: those kept in the field, then the pointed ones.

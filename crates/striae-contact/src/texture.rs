@@ -28,7 +28,7 @@ use crate::{
     edge::on_edge,
     frame::{Frame, Frames, Tracked, own_normal},
     opposing::{Opposing, PlaceLanes},
-    pointed::Spot,
+    pointed::{RigidPoint, Spot, Tip},
     projection::{Hit, differentiated_rigid},
     selection::Selection,
     term::{Jacobian, Lanes, Source, parts, variable, variable3},
@@ -83,11 +83,14 @@ pub fn textures(
             .with_min_len(8)
             .map(|node| match &frames[side][node] {
                 Some(frame) if selection.is_kept(side, node as u32) => Ok(NodeTextures {
-                    own: own(configuration, side, node as u32, &frame.n)?,
+                    own: match selection.tip(side, node as u32) {
+                        Tip::Node { .. } => own(configuration, side, node as u32, &frame.n)?,
+                        Tip::Rigid(point) => of_point(configuration, node as u32, point, frame)?,
+                    },
                     opposite: opposite(
                         configuration,
-                        side,
-                        node as u32,
+                        (side, node as u32),
+                        selection.tip(side, node as u32),
                         (frame, frames),
                         faced(configuration, selection, side, node as u32),
                     )?,
@@ -143,9 +146,10 @@ fn faced(
     side: usize,
     node: u32,
 ) -> Option<(Contact, Found)> {
+    let tip = selection.tip(side, node);
     if selection.is_pointed(side, node)
-        && !configuration.pair.is_rigid()
-        && let Some(hit) = Spot::new(configuration, side, node).and_then(|spot| spot.hit)
+        && tip.presses_on_deformable(configuration)
+        && let Some(hit) = Spot::new(configuration, tip).and_then(|spot| spot.hit)
     {
         let contact = Contact {
             gap: hit.gap,
@@ -153,14 +157,17 @@ fn faced(
         };
         return Some((contact, Found::Inside));
     }
-    configuration.opposite(side, node)
+    match tip {
+        Tip::Node { side, node } => configuration.opposite(side, node),
+        Tip::Rigid(_) => None,
+    }
 }
 
 /// The opposing `a_b'` at a node.
 fn opposite(
     configuration: &Configuration,
-    side: usize,
-    node: u32,
+    (side, node): (usize, u32),
+    tip: Tip,
     (frame, frames): (&Frame, &Frames),
     faced: Option<(Contact, Found)>,
 ) -> Result<Option<Tracked>, CollapsedTexture> {
@@ -175,11 +182,11 @@ fn opposite(
         (SideTexture::Plane(field), Place::Plane(_)) => on_plane(configuration, side, node, field)
             .ok_or(collapsed)
             .map(Some),
-        (SideTexture::Nodal(_), Place::Facet(hit)) if configuration.pair.is_rigid() => {
+        (SideTexture::Nodal(_), Place::Facet(hit)) if !tip.presses_on_deformable(configuration) => {
             on_rigid(configuration, node, &hit, found).map(Some)
         }
         (SideTexture::Nodal(_), Place::Facet(hit)) => {
-            on_deformable(configuration, side, node, frame, frames, (&hit, found)).map(Some)
+            on_deformable(configuration, tip, frame, frames, (&hit, found)).map(Some)
         }
         _ => Err(collapsed),
     }
@@ -253,6 +260,31 @@ fn on_rigid(
     Ok(tracked(&lanes, &normalised(&sum)))
 }
 
+/// `a` of a rigid surface at a point that lodges with `node`: between the ends of its edge.
+fn of_point(
+    configuration: &Configuration,
+    node: u32,
+    point: RigidPoint,
+    frame: &Frame,
+) -> Result<Option<Tracked>, CollapsedTexture> {
+    let n: Vector3<DualSVec64<3>> = variable3(&frame.n.value, 0);
+    let mut sum: Vector3<DualSVec64<3>> = Vector3::zeros();
+    for (end, weight) in point.ends.into_iter().zip([1.0 - point.share, point.share]) {
+        let normal = fixed_normal(configuration, end);
+        let Some(a) = own(configuration, 1, end, &normal)? else {
+            return Ok(None);
+        };
+        let turned = transported(&constant3(&a.value), &constant3(&normal.value), &n);
+        sum += scaled(&turned, DualSVec64::from(weight));
+    }
+    if sum.map(|component| component.re).norm() < f64::EPSILON {
+        return Err(CollapsedTexture { side: 1, node });
+    }
+    let mut lanes = Lanes::default();
+    lanes.push(Source::Vector(&frame.n.jacobian));
+    Ok(Some(tracked(&lanes, &normalised(&sum))))
+}
+
 fn fixed_normal(configuration: &Configuration, node: u32) -> Tracked {
     Tracked {
         value: configuration.side(1).normals[node as usize],
@@ -262,12 +294,12 @@ fn fixed_normal(configuration: &Configuration, node: u32) -> Tracked {
 
 fn on_deformable(
     configuration: &Configuration,
-    side: usize,
-    node: u32,
+    tip: Tip,
     frame: &Frame,
     frames: &Frames,
     (hit, found): (&Hit, Found),
 ) -> Result<Tracked, CollapsedTexture> {
+    let side = tip.side();
     let other = configuration.side(1 - side);
     let numbering = configuration.pair.numbering();
     let corners = other.corners(hit.facet);
@@ -284,7 +316,7 @@ fn on_deformable(
         first: numbering.position(side, node),
         count: 3,
     };
-    lanes.push(position(side, node));
+    lanes.push(tip.lanes(configuration));
     lanes.push(Source::Vector(&frame.n.jacobian));
     for corner in corners {
         lanes.push(position(1 - side, corner));
@@ -297,12 +329,20 @@ fn on_deformable(
     }
     let shape = Shape::of(&corners);
     let n = frame.n.value;
-    let on_edge = match found {
-        Found::Inside => None,
-        Found::Edge(nodes) => Some(on_edge(configuration, side, node, hit, nodes)),
+    let on_edge = match (found, tip) {
+        (Found::Edge(nodes), Tip::Node { side, node }) => {
+            Some(on_edge(configuration, side, node, hit, nodes))
+        }
+        _ => None,
     };
+    // A rigid point is not found along its own normal.
+    let ray = match tip {
+        Tip::Rigid(_) => Spot::new(configuration, tip).map(|spot| spot.ray),
+        Tip::Node { .. } => None,
+    };
+    let along = ray.as_ref().map_or(&n, |ray| &ray.value);
     let opposing = match &on_edge {
-        None => Opposing::new(shape, hit, &n, &other.corner_positions(hit.facet)),
+        None => Opposing::new(shape, hit, along, &other.corner_positions(hit.facet)),
         Some(place) => Opposing::at(place.weights()),
     };
     let turned: [Transported; 4] = std::array::from_fn(|corner| {
@@ -312,13 +352,16 @@ fn on_deformable(
     let length = sum.norm();
     let value = sum / length;
     let across = (Matrix3::identity() - value * value.transpose()) / length;
-    let mut gradient = [[0.0; 3]; 43];
+    let mut gradient = [[0.0; 3]; 45];
     let by_r = opposing.spread_sum(&across, &turned, [3, 18, 30], &mut gradient);
     let places = PlaceLanes {
         x: 0,
-        n: 3,
+        n: if ray.is_some() { 42 } else { 3 },
         corners: 6,
     };
+    if let Some(ray) = &ray {
+        lanes.push(Source::Vector(&ray.jacobian));
+    }
     match &on_edge {
         None => opposing.spread(&by_r, places, &mut gradient),
         Some(place) => {

@@ -6,12 +6,16 @@
 //! ```
 //!
 //! Sides are numbered 0 (`a`) and 1 (`b`); the other side of `s` is `1 - s`.
-//! A rigid side has no unknowns.
+//! A rigid side `b` has no positions. If it has facets, its tractions are those of the
+//! [points](crate::pointed::RigidPoint) that pierce side `a`, numbered by the nodes of `a`
+//! that lodge them.
 
 /// Numbers of the unknowns of one contact pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Numbering {
     nodes: [u32; 2],
+    /// Triples of tractions by side.
+    tractions: [u32; 2],
 }
 
 /// What a pair-local unknown is.
@@ -38,10 +42,12 @@ pub enum Unknown {
 }
 
 impl Numbering {
-    /// Numbers for sides with so many surface nodes; zero for a rigid side.
-    pub fn new(nodes: [usize; 2]) -> Self {
+    /// Numbers for sides with so many surface nodes that move and so many that may bear
+    /// traction.
+    pub fn new(nodes: [usize; 2], tractions: [usize; 2]) -> Self {
         Self {
             nodes: nodes.map(|count| count as u32),
+            tractions: tractions.map(|count| count as u32),
         }
     }
 
@@ -57,7 +63,8 @@ impl Numbering {
 
     /// Number of all unknowns.
     pub fn count(&self) -> u32 {
-        6 * (self.nodes[0] + self.nodes[1])
+        let triples = self.nodes.iter().chain(&self.tractions);
+        3 * triples.sum::<u32>()
     }
 
     /// What the unknown `number` is.
@@ -90,7 +97,7 @@ mod tests {
 
     #[test]
     fn numbers_and_meanings_agree() {
-        let numbering = Numbering::new([4, 3]);
+        let numbering = Numbering::new([4, 3], [4, 3]);
         assert_eq!(
             numbering.unknown(numbering.position(1, 2) + 1),
             Unknown::Position {

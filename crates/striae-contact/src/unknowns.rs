@@ -2,6 +2,8 @@
 
 use striae_mesh::Vec3;
 
+use crate::pointed::RigidPoints;
+
 /// Traction unknowns of a pair; the same shape whatever the roles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tractions {
@@ -62,6 +64,16 @@ pub struct NodeResult {
     pub mean: Vec3,
     /// Status; of transferred nodes that of the kept node they follow most.
     pub status: Status,
+}
+
+/// Results of all nodes of deformable sides and of the points of a rigid side.
+pub fn counted<'a>(
+    nodes: &'a [Vec<NodeResult>; 2],
+    points: &'a RigidPoints,
+) -> impl Iterator<Item = &'a NodeResult> {
+    let of_b = nodes[1].iter().enumerate();
+    let of_b = of_b.filter(|(node, _)| points.is_empty() || points[*node].is_some());
+    nodes[0].iter().chain(of_b.map(|(_, result)| result))
 }
 
 impl NodeResult {

@@ -19,7 +19,7 @@ use striae_mesh::Vec3;
 
 use crate::{
     configuration::Configuration,
-    converged_friction::converged_friction,
+    converged_friction::{CollapsedFacets, converged_friction},
     frame::{Frame, Frames, Tracked},
     kinematics::{Kinematics, Presence, Report, TrackedScalar},
     pairing::PairedFacets,
@@ -292,6 +292,9 @@ pub fn add_ramp_to_gaps(
 }
 
 /// Adds what the ramp does to the slips, by the friction gained in the increment.
+///
+/// # Errors
+/// Where the facets around a node had collapsed to a line.
 pub fn add_ramp_to_slips(
     configuration: &Configuration,
     start: &Configuration,
@@ -300,9 +303,9 @@ pub fn add_ramp_to_slips(
     tractions: &Tractions,
     tau: &NodalTractions,
     kinematics: &mut [Kinematics],
-) {
+) -> Result<(), CollapsedFacets> {
     for weak in selection.ramp() {
-        let parts: Vec<Gained> = weak
+        let parts: Result<Vec<Gained>, CollapsedFacets> = weak
             .row
             .iter()
             .filter_map(|&(k, weight)| {
@@ -311,15 +314,16 @@ pub fn add_ramp_to_slips(
                 let old = tractions.tau_n[side][node];
                 let place = (side, node as u32);
                 let old = converged_friction(configuration, start, place, frame, old);
-                Some(Gained {
+                Some(old.map(|old| Gained {
                     k: k as usize,
                     weight,
                     sign: side_sign(side),
                     frame,
                     friction: gained(&tau[side][node], &old),
-                })
+                }))
             })
             .collect();
+        let parts = parts?;
         for to in &parts {
             let share = weak.coefficient * to.weight / selection.weight(to.k);
             let slip = &mut kinematics[to.k].slip;
@@ -328,6 +332,7 @@ pub fn add_ramp_to_slips(
             }
         }
     }
+    Ok(())
 }
 
 /// Friction that a kept node has gained, with its weight in a row of the ramp.

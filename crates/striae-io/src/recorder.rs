@@ -453,8 +453,13 @@ fn write_surface(
         ContactStatus::Stick => 1,
         ContactStatus::Slip => 2,
     });
+    // Points of a rigid side lodge with nodes of side `a`.
+    let lodged = &state.pairs[pair].points;
+    let lodges = |node: usize| side == 0 && lodged.get(node).is_some_and(Option::is_some);
+    let own = state.pairs[pair].pointed[side].iter().enumerate();
+    let pointed = own.map(|(node, own)| u8::from(*own) + 2 * u8::from(lodges(node)));
     let codes = |nodes: &[bool]| Values::Codes(nodes.iter().copied().map(u8::from).collect());
-    let (kept, pointed) = (&state.pairs[pair].kept, &state.pairs[pair].pointed);
+    let kept = &state.pairs[pair].kept;
     let grid = Grid {
         points: &points,
         cells: Cells::Quadrilaterals(&quads),
@@ -477,7 +482,7 @@ fn write_surface(
             ),
             Array::new("status", Values::Codes(status.collect())),
             Array::new("kept", codes(&kept[side])),
-            Array::new("pointed", codes(&pointed[side])),
+            Array::new("pointed", Values::Codes(pointed.collect())),
         ],
         cell_arrays: Vec::new(),
         time: state.time,

@@ -18,7 +18,8 @@ pub use start::initial_accelerations;
 use striae_contact::{
     complementarity::Iteration,
     configuration::Configuration,
-    evaluation::{Evaluation, evaluate},
+    converged_friction::CollapsedFacets,
+    evaluation::{Collapse, Evaluation, evaluate},
     selection::Selection,
     texture::CollapsedTexture,
     unknowns::Tractions,
@@ -262,15 +263,17 @@ impl System<'_> {
         }
     }
 
-    fn not_evaluated(&self, pair: usize, collapsed: CollapsedTexture) -> CutBack {
+    fn not_evaluated(&self, pair: usize, collapse: Collapse) -> CutBack {
         let problem = self.context.problem;
-        let CollapsedTexture { side, node } = collapsed;
-        let global = problem.surface_node(pair, side, node).unwrap_or(0);
+        let (Collapse::Texture(CollapsedTexture { side, node })
+        | Collapse::Facets(CollapsedFacets { side, node })) = collapse;
+        let global = problem.carrier(pair, side, node).unwrap_or(0);
         let (body, node) = problem.body_node(global);
-        CutBack::CollapsedTexture {
-            pair: problem.model.pairs[pair].name.clone(),
-            body: problem.model.bodies[body].name.clone(),
-            node,
+        let pair = problem.model.pairs[pair].name.clone();
+        let body = problem.model.bodies[body].name.clone();
+        match collapse {
+            Collapse::Texture(_) => CutBack::CollapsedTexture { pair, body, node },
+            Collapse::Facets(_) => CutBack::CollapsedFacets { pair, body, node },
         }
     }
 

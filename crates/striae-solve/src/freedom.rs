@@ -93,7 +93,8 @@ pub fn free_motion_in(context: &StepContext, state: &State) -> Option<FreeMotion
     let pairs = state.pairs.iter().zip(&touching);
     let contacts: Vec<_> = pairs
         .map(|(pair, touching)| {
-            let looked_at = pair.kept.iter().flatten().any(|kept| *kept);
+            let mut looked_at = pair.kept.iter().chain(&pair.pointed).flatten();
+            let looked_at = looked_at.any(|known| *known);
             if looked_at { &pair.nodes } else { touching }
         })
         .collect();
@@ -267,7 +268,7 @@ impl Rows {
         });
         for side in 0..2 {
             for (node, result) in nodes[side].iter().enumerate() {
-                let global = problem.surface_node(pair, side, node as u32);
+                let global = problem.carrier(pair, side, node as u32);
                 let (Some(global), false) = (global, result.status == Status::Open) else {
                     continue;
                 };

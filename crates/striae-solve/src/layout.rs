@@ -1,7 +1,8 @@
 //! Global numbering of the unknowns.
 //!
 //! A node with its three position components and three traction unknowns for
-//! every contact surface it is active on is one supervariable, so that the
+//! every contact surface it is active on, and for a rigid point that lodges with it, is one
+//! supervariable, so that the
 //! factorisation meets gap rows and their multipliers together. The six coordinates of a
 //! rigid body that nodes are tied to or that contact may move are another one, kept for last.
 
@@ -58,7 +59,7 @@ impl Layout {
                 let active = sides[side].iter().enumerate();
                 active
                     .map(|(node, active)| {
-                        let node = problem.surface_node(pair, side, node as u32)?;
+                        let node = problem.carrier(pair, side, node as u32)?;
                         active.then(|| {
                             sizes[node] += 3;
                             (node, sizes[node] - 3)
@@ -182,7 +183,7 @@ impl Layout {
                 component,
             } => {
                 let first = self.traction(pair, side, node as usize)?;
-                let node = problem.surface_node(pair, side, node)?;
+                let node = problem.carrier(pair, side, node)?;
                 Some((first + component, Supervariable(node)))
             }
         }

@@ -23,6 +23,7 @@ pub use workspace::{Memory, Workspace};
 use striae_contact::{
     complementarity::Iteration,
     evaluation::Evaluation,
+    pointed::Pierced,
     selection::Selection,
     table_1::{Corrector, Inflation},
     unknowns::{NodeResult, Tractions},
@@ -183,7 +184,7 @@ pub fn advance(
             missed.map_or(Ok(()), Err)?;
             break;
         }
-        if missed.is_none() && pierced.is_empty() {
+        if missed.is_none() && pierced.iter().all(Pierced::is_empty) {
             break;
         }
         let (setting, trial) = (attempt.setting(), &attempt.trial);
@@ -318,14 +319,14 @@ impl Attempt<'_> {
         }
         let pierced = self.pierced(assembled);
         let comes = missed(&self.setting(), &self.trial).is_some();
-        (comes || !pierced.is_empty()).then(|| {
+        (comes || !pierced.iter().all(Pierced::is_empty)).then(|| {
             let setting = self.setting();
             reselected(&setting, &self.trial, &assembled.contacts, &pierced)
         })
     }
 
-    /// Nodes that pierce the other side.
-    fn pierced(&self, assembled: &Assembled) -> Vec<(usize, usize, u32)> {
+    /// What pierces the other side, by pair.
+    fn pierced(&self, assembled: &Assembled) -> Vec<Pierced> {
         let contacts = &assembled.contacts;
         pierced(self.context, &self.selections, &self.trial, contacts)
     }

@@ -59,6 +59,16 @@ pub enum CutBack {
         /// The node.
         node: striae_mesh::NodeId,
     },
+    /// The facets around a node have collapsed to a line.
+    #[error("pair `{pair}`: the facets around {node} of body `{body}` have collapsed to a line")]
+    CollapsedFacets {
+        /// Name of the pair.
+        pair: String,
+        /// Name of the body.
+        body: String,
+        /// The node.
+        node: striae_mesh::NodeId,
+    },
     /// Nodes outside the contact zone ran into the other side.
     #[error(
         "pair `{pair}`: {} nodes met the other surface unnoticed, first {node} of body `{body}`",

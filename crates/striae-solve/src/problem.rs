@@ -195,6 +195,13 @@ impl Problem {
         let body = geometry.bodies[side]?;
         Some(self.node(body, surface.nodes()[node as usize]))
     }
+
+    /// Global node that the traction unknowns of a node of a pair lodge with: itself, or
+    /// that of side `a` at a point of a rigid side.
+    pub fn carrier(&self, pair: usize, side: usize, node: u32) -> Option<usize> {
+        let own = self.surface_node(pair, side, node);
+        own.or_else(|| self.surface_node(pair, 0, node))
+    }
 }
 
 fn contact_facets(pairs: &[PairGeometry]) -> HashMap<(usize, Face), Vec<ContactFacet>> {

@@ -2,6 +2,7 @@
 
 use striae_contact::{
     field::FacetForces,
+    pointed::RigidPoints,
     selection::Kept,
     unknowns::{NodeResult, Tractions},
 };
@@ -42,6 +43,8 @@ pub struct PairState {
     pub kept: Kept,
     /// Which nodes were pointed in it.
     pub pointed: Kept,
+    /// Points of a rigid side that were so, by the node of side `a` that they lodge with.
+    pub points: RigidPoints,
     /// Pressure and components of `-tau` along the nodal tangents of all nodes, by side.
     pub carried: [Vec<[f64; 3]>; 2],
     /// What is known of every surface node, by side.
@@ -139,17 +142,13 @@ impl State {
 
 impl PairState {
     fn untouched(pair: &striae_contact::pair::ContactPair) -> Self {
-        let counts = [0, 1].map(|side| {
-            let deformable = pair.deformable_sides().contains(&side);
-            match pair.sides[side].surface() {
-                Some(surface) if deformable => surface.nodes().len(),
-                _ => 0,
-            }
-        });
+        let counts = pair.carriers();
+        let lodged = if pair.is_rigid() { counts[1] } else { 0 };
         Self {
             tractions: Tractions::zero(counts),
             kept: counts.map(|count| vec![false; count]),
             pointed: counts.map(|count| vec![false; count]),
+            points: vec![None; lodged],
             carried: counts.map(|count| vec![[0.0; 3]; count]),
             nodes: counts.map(|count| vec![NodeResult::default(); count]),
             facets: [Vec::new(), Vec::new()],

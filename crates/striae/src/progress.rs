@@ -5,7 +5,10 @@
 use std::io::IsTerminal;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use striae_contact::{evaluation::Evaluation, unknowns::Status};
+use striae_contact::{
+    evaluation::Evaluation,
+    unknowns::{Status, counted},
+};
 use striae_solve::{
     drive::Progress as Position, model::Model, newton::Increment, norms::Norms, outcome::CutBack,
 };
@@ -63,7 +66,7 @@ impl Progress {
         let nodes = || {
             contacts
                 .iter()
-                .flat_map(|contact| contact.nodes.iter().flatten())
+                .flat_map(|contact| counted(&contact.nodes, &contact.points))
         };
         let count = |status| nodes().filter(|node| node.status == status).count();
         self.counts = [

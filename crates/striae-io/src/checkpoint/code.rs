@@ -4,6 +4,7 @@
 use nalgebra::{Matrix3, Vector3};
 use striae_contact::{
     field::FacetForces,
+    pointed::RigidPoint,
     unknowns::{NodeResult, Status, Tractions},
 };
 use striae_mesh::FacetId;
@@ -175,7 +176,8 @@ coded! {
     Worst { kind, pair, value, time };
     Judgement { worst, forces, pressures, energy };
     SolverSummary { method, factorisations, contact_corrections, fall_backs, reason };
-    PairState { tractions, kept, pointed, carried, nodes, facets, dissipated };
+    PairState { tractions, kept, pointed, points, carried, nodes, facets, dissipated };
+    RigidPoint { ends, share };
     Wrench { force, torque };
     Pose { displacement, turned, rotation };
     NodalForces { internal, inertia, reaction, applied, contact, rigid, pushed };

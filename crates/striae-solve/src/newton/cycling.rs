@@ -33,7 +33,7 @@ impl History {
                         .collect();
                     let changes = statuses.windows(2).any(|pair| pair[0] != pair[1]);
                     let kept = selection.is_kept(side, node as u32);
-                    if let Some(global) = problem.surface_node(pair, side, node as u32)
+                    if let Some(global) = problem.carrier(pair, side, node as u32)
                         && kept
                         && changes
                     {

@@ -4,7 +4,7 @@
 use striae_contact::{
     configuration::Configuration,
     evaluation::Evaluation,
-    pointed::{self, staying},
+    pointed::{self, Pierced, RigidPoints, choice::staying_points, staying},
     selection::{Before, Selection},
     unknowns::{Status, Tractions},
 };
@@ -30,15 +30,23 @@ pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected
         .enumerate()
         .map(|(pair, of_pair)| {
             let start = context.configuration(pair, &state.positions, &state.rigid);
+            let stays = staying_points(&start, &of_pair.points, &of_pair.nodes);
+            let mut points: RigidPoints = vec![None; of_pair.points.len()];
+            let mut tractions = of_pair.tractions.clone();
+            for stay in &stays {
+                let (from, to) = (stay.from as usize, stay.to as usize);
+                points[to] = Some(stay.point);
+                tractions.nodes[1][to] = of_pair.tractions.nodes[1][from];
+            }
             let before = Before {
                 kept: &of_pair.kept,
                 pointed: &staying(&start, &of_pair.pointed, &of_pair.nodes),
+                points: &points,
             };
             let selection = Selection {
                 offsets: context.offsets_left(pair, s),
                 ..Selection::new(&start, None, before, &context.fixed_on_pair[pair])
             };
-            let mut tractions = of_pair.tractions.clone();
             tractions.tau_n = of_pair
                 .carried
                 .each_ref()
@@ -47,8 +55,12 @@ pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected
                 let slipped = |status| semismooth && status == Status::Slip;
                 side.iter().map(|node| slipped(node.status)).collect()
             });
+            let mut pointed = of_pair.pointed.clone();
+            for stay in &stays {
+                pointed[1][stay.to as usize] = true;
+            }
             let had = Before {
-                pointed: &of_pair.pointed,
+                pointed: &pointed,
                 ..before
             };
             fit(&selection, had, &of_pair.carried, &mut tractions);
@@ -61,29 +73,29 @@ pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected
     }
 }
 
-/// Nodes that pierce the other side in a trial state, as pair, side and node.
+/// What pierces the other side in a trial state, by pair.
 pub(super) fn pierced(
     context: &StepContext,
     selections: &[Selection],
     trial: &Trial,
     contacts: &[Evaluation],
-) -> Vec<(usize, usize, u32)> {
-    let mut all = Vec::new();
-    for (pair, (selection, contact)) in selections.iter().zip(contacts).enumerate() {
-        let latest = context.configuration(pair, &trial.positions, &trial.rigid);
-        let found = pointed::pierced(&latest, selection, &contact.carried);
-        all.extend(found.into_iter().map(|(side, node)| (pair, side, node)));
-    }
-    all
+) -> Vec<Pierced> {
+    let pairs = selections.iter().zip(contacts).enumerate();
+    pairs
+        .map(|(pair, (selection, contact))| {
+            let latest = context.configuration(pair, &trial.positions, &trial.rigid);
+            pointed::pierced(&latest, selection, &contact.carried)
+        })
+        .collect()
 }
 
-/// The fields chosen anew with what a trial state shows, nodes that pierce the other side
-/// among that.
+/// The fields chosen anew with what a trial state shows, what pierces the other side among
+/// that.
 pub(super) fn reselected(
     setting: &Setting,
     trial: &Trial,
     contacts: &[Evaluation],
-    pierced: &[(usize, usize, u32)],
+    pierced: &[Pierced],
 ) -> Selected {
     let (selections, tractions) = with_configurations(setting, trial)
         .enumerate()
@@ -92,12 +104,17 @@ pub(super) fn reselected(
             let had = &setting.selections[pair];
             let (kept, had) = (had.kept_nodes(), had.pointed_nodes());
             let mut pointed = had.clone();
-            for &(_, side, node) in pierced.iter().filter(|found| found.0 == pair) {
+            for &(side, node) in &pierced[pair].nodes {
                 pointed[side][node as usize] = true;
+            }
+            let mut points = setting.selections[pair].points.clone();
+            for &(node, point) in &pierced[pair].points {
+                points[node as usize] = Some(point);
             }
             let before = |pointed| Before {
                 kept: &kept,
                 pointed,
+                points: &points,
             };
             let prescribed = &setting.context.fixed_on_pair[pair];
             let selection = Selection {

@@ -76,41 +76,67 @@ fn a_sliding_edge_obeys_coulombs_law() {
     }
 }
 
-#[test]
-fn a_block_that_settles_flat_has_the_force_of_the_flat_one() {
-    let [flat, tilted] = [(0.0, 0.0), (1.0, 1.0)].map(|(degrees, settled): (f64, f64)| {
-        let mut model = standing(tilted(degrees, 4), SOLE, Floor::Plane, coulomb(0.0));
-        // The upper side is turned level as it is pressed.
-        let block = tilted(degrees, 4).mesh().unwrap();
-        let level = tilted(0.0, 4).mesh().unwrap();
-        let press = moved(&model, [0.0, 0.0, -0.05], 5);
-        let hold = &press.displacements[0];
-        let ways = hold.nodes.iter().map(|node| {
-            let way = level.positions[node.index()] - block.positions[node.index()];
-            let target = way * settled - striae_mesh::Vec3::z() * 0.05;
-            striae_solve::model::Displacement {
-                nodes: vec![*node],
-                components: [Some(target.x), Some(target.y), Some(target.z)],
-                ..hold.clone()
-            }
-        });
-        let displacements = ways.collect();
-        model.steps = vec![striae_solve::model::Step {
-            displacements,
-            ..press
-        }];
-        let run = Run::completed(model);
-        assert_eq!(run.pointed(), 0);
-        let pressures: Vec<f64> = run.nodes().iter().map(|node| node.pressure).collect();
-        (run.last().1.sides[0].force, pressures)
+/// A block that stands on its edge, turned by `degrees`, and is turned level while its upper
+/// side is pressed down; without turning if `degrees` is zero.
+fn settled(degrees: f64, increments: usize) -> Run {
+    let mut model = standing(tilted(degrees, 4), SOLE, Floor::Plane, coulomb(0.0));
+    let block = tilted(degrees, 4).mesh().unwrap();
+    let level = tilted(0.0, 4).mesh().unwrap();
+    let press = moved(&model, [0.0, 0.0, -0.05], increments);
+    let hold = &press.displacements[0];
+    let ways = hold.nodes.iter().map(|node| {
+        let way = level.positions[node.index()] - block.positions[node.index()];
+        let target = way - striae_mesh::Vec3::z() * 0.05;
+        striae_solve::model::Displacement {
+            nodes: vec![*node],
+            components: [Some(target.x), Some(target.y), Some(target.z)],
+            ..hold.clone()
+        }
     });
+    let displacements = ways.collect();
+    let settle = striae_solve::model::Step {
+        displacements,
+        ..press
+    };
+    // Kept nodes and ramp are those of where an increment starts.
+    let hold = striae_solve::model::Step {
+        increments: moved(&model, [0.0; 3], 1).increments,
+        ..settle.clone()
+    };
+    model.steps = vec![settle, hold];
+    Run::completed(model)
+}
+
+/// That the last state is the one of a block that never stood on its edge.
+fn assert_flat(run: &Run) {
+    let flat = settled(0.0, 5);
+    assert_eq!([run, &flat].map(Run::pointed), [0, 0]);
+    let [force, wanted] = [run, &flat].map(|run| run.last().1.sides[0].force);
     // The shapes at rest differ by the rotation, which strains nothing.
-    assert!(
-        (flat.0 - tilted.0).norm() < 1e-9 * flat.0.norm(),
-        "{flat:?}\n{tilted:?}"
-    );
-    let differences = flat.1.iter().zip(&tilted.1).map(|(a, b)| (a - b).abs());
-    let largest = flat.1.iter().copied().fold(0.0, f64::max);
+    let error = (force - wanted).norm() / wanted.norm();
+    assert!(error < 1e-9, "{force} for {wanted}");
+    let pairs = || run.nodes().iter().zip(flat.nodes());
+    let largest = pairs().map(|(_, b)| b.pressure).fold(0.0, f64::max);
+    let differences = pairs().map(|(a, b)| (a.pressure - b.pressure).abs());
     let difference = differences.fold(0.0, f64::max) / largest;
     assert!(difference < 1e-8, "{difference}");
+}
+
+#[test]
+fn a_block_that_settles_flat_has_the_force_of_the_flat_one() {
+    assert_flat(&settled(1.0, 5));
+}
+
+#[test]
+fn a_pointed_node_is_an_ordinary_one_again_once_its_faces_close() {
+    let run = settled(25.0, 12);
+    let pointed = |state: &striae_solve::state::State| {
+        let pointed = state.pairs[0].pointed.iter().flatten();
+        pointed.filter(|pointed| **pointed).count()
+    };
+    let counts: Vec<usize> = run.states.iter().map(pointed).collect();
+    assert!(counts.contains(&4), "{counts:?}");
+    assert_flat(&run);
+    let edge = run.nodes().iter().filter(|node| node.pressure > 0.0);
+    assert!(edge.count() >= 20);
 }

@@ -1,5 +1,6 @@
 //! Edges and corners that pierce a face between its nodes.
 
 mod edge;
+mod ridge;
 mod scene;
 mod tangent;

@@ -1,6 +1,8 @@
 //! A block that stands on an edge, on a block, a rigid plane or rigid facets.
 
-use striae_contact::{evaluation::Evaluation, pair::Enforcement, unknowns::NodeResult};
+use striae_contact::{
+    evaluation::Evaluation, pair::Enforcement, pointed::RigidPoint, unknowns::NodeResult,
+};
 use striae_law::{
     bulk::{LameConstants, Material},
     friction::Friction,
@@ -24,11 +26,15 @@ use striae_solve::{
 };
 
 /// What the block stands on.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Floor {
     Soft,
     Plane,
     Facets,
+    /// A rigid ridge along `y` at `x = 0.375` up to `z = 0`, with a vertex at `y = 0.07`.
+    Ridge,
+    /// A rigid pyramid with its top at `(0.375, 0, 0)`.
+    Pyramid,
 }
 
 fn rubber(youngs_modulus: f64) -> Material {
@@ -92,8 +98,13 @@ pub fn standing(upper: Block, sole: &[&str], floor: Floor, friction: Friction) -
             rigid_surfaces.push(RigidSurface::new("floor", shape));
             Side::Rigid(RigidId(0))
         }
-        Floor::Facets => {
-            rigid_surfaces.push(RigidSurface::new("floor", facets()));
+        Floor::Facets | Floor::Ridge | Floor::Pyramid => {
+            let shape = match floor {
+                Floor::Ridge => ridge(),
+                Floor::Pyramid => pyramid(),
+                _ => facets(),
+            };
+            rigid_surfaces.push(RigidSurface::new("floor", shape));
             Side::Rigid(RigidId(0))
         }
     };
@@ -147,6 +158,41 @@ fn facets() -> RigidShape {
     RigidShape::Facets { positions, facets }
 }
 
+/// Slope of the rigid ridge and of the pyramid.
+pub const SLOPE: f64 = 0.5;
+
+/// Where they are.
+pub const TOP: f64 = 0.375;
+
+fn ridge() -> RigidShape {
+    let at = |i: usize, j: usize| {
+        let x = [-0.7, TOP, 1.6][i];
+        Vec3::new(x, [-0.8, 0.07, 0.9][j], -SLOPE * (x - TOP).abs())
+    };
+    let node = |i: usize, j: usize| NodeId::new(i + 3 * j);
+    let quad = |(i, j): (usize, usize)| {
+        let far = [node(i + 1, j), node(i + 1, j + 1)];
+        [node(i, j), far[0], far[1], node(i, j + 1)]
+    };
+    RigidShape::Facets {
+        positions: (0..9).map(|k| at(k % 3, k / 3)).collect(),
+        facets: (0..4).map(|k| quad((k % 2, k / 2))).collect(),
+    }
+}
+
+fn pyramid() -> RigidShape {
+    let far = 1.2;
+    let base = [[-far, -far], [far, -far], [far, far], [-far, far]];
+    let base = base.map(|[x, y]| Vec3::new(TOP + x, y, -SLOPE * far));
+    let positions = [base.to_vec(), vec![Vec3::new(TOP, 0.0, 0.0)]].concat();
+    let top = NodeId::new(4);
+    let side = |at: usize| [NodeId::new(at), NodeId::new((at + 1) % 4), top, top];
+    RigidShape::Facets {
+        positions,
+        facets: (0..4).map(side).collect(),
+    }
+}
+
 /// A step that moves the upper side of the upper block by `way`.
 pub fn moved(model: &Model, way: [f64; 3], increments: usize) -> Step {
     let mut displacements = vec![hold(model, 0, "zmax", way)];
@@ -185,6 +231,7 @@ fn hold(model: &Model, body: usize, set: &str, way: [f64; 3]) -> Displacement {
 
 /// Converged states and reports of a run that gets through.
 pub struct Run {
+    pub problem: Problem,
     pub states: Vec<State>,
     pub reports: Vec<PairReport>,
 }
@@ -200,7 +247,11 @@ impl Run {
             .iter()
             .map(|state| pairs(&problem, state).remove(0))
             .collect();
-        Self { states, reports }
+        Self {
+            problem,
+            states,
+            reports,
+        }
     }
 
     pub fn last(&self) -> (&State, &PairReport) {
@@ -211,6 +262,15 @@ impl Run {
     pub fn pointed(&self) -> usize {
         let pointed = &self.last().0.pairs[0].pointed;
         pointed.iter().flatten().filter(|pointed| **pointed).count()
+    }
+
+    /// Rigid points with their results, by increment.
+    pub fn points(&self, increment: usize) -> Vec<(RigidPoint, NodeResult)> {
+        let pair = &self.states[increment].pairs[0];
+        let numbered = pair.points.iter().enumerate();
+        numbered
+            .filter_map(|(node, point)| Some(((*point)?, pair.nodes[1][node])))
+            .collect()
     }
 
     pub fn nodes(&self) -> &[NodeResult] {

@@ -6,6 +6,7 @@ use striae_contact::{
     complementarity::Iteration,
     configuration::Configuration,
     evaluation::{Evaluation, evaluate},
+    pointed::{RigidPoint, RigidPoints},
     selection::{Before, Kept, Selection},
     unknowns::{Status, Tractions},
 };
@@ -38,11 +39,13 @@ impl<'a> Contact<'a> {
         let none = state.pairs[0].kept.clone();
         let mut pointed: Kept = none.clone();
         for (node, x) in start.side(0).x.iter().enumerate() {
-            pointed[0][node] = x.x.hypot(x.z) < 0.1;
+            pointed[0][node] = !is_sharp(&start) && x.x.hypot(x.z) < 0.1;
         }
+        let points = points(&start);
         let before = Before {
             kept: &none,
             pointed: &pointed,
+            points: &points,
         };
         let selection = Selection::new(&start, None, before, &context.fixed_on_pair[0]);
         Self {
@@ -54,6 +57,11 @@ impl<'a> Contact<'a> {
 
     fn nodes(&self) -> [usize; 2] {
         [0, 1].map(|side| self.selection.nodes(side))
+    }
+
+    fn traction(&self, side: usize, node: usize) -> usize {
+        let numbering = self.context.pairs[0].numbering();
+        numbering.traction(side, node as u32) as usize
     }
 
     fn configuration(&self, u: &DVector<f64>) -> Configuration<'_> {
@@ -70,12 +78,10 @@ impl<'a> Contact<'a> {
     }
 
     fn tractions(&self, u: &DVector<f64>) -> Tractions {
-        let counts = self.nodes();
-        let mut tractions = Tractions::zero(counts);
-        let first = 3 * (counts[0] + counts[1]);
+        let mut tractions = Tractions::zero(self.nodes());
         for side in 0..2 {
             for (node, unknowns) in tractions.nodes[side].iter_mut().enumerate() {
-                let at = first + 3 * (side * counts[0] + node);
+                let at = self.traction(side, node);
                 *unknowns = [u[at], u[at + 1], u[at + 2]];
             }
         }
@@ -123,9 +129,9 @@ impl<'a> Contact<'a> {
     /// Unknowns with nodes of every status away from kinks; slip rows are satisfied, since
     /// only there is their Jacobian exact.
     fn state(&self, field: Carries, random: &mut Random) -> DVector<f64> {
-        let [a, b] = self.nodes();
-        let mut u = DVector::zeros(6 * (a + b));
-        for side in 0..2 {
+        let pair = &self.context.pairs[0];
+        let mut u = DVector::zeros(pair.numbering().count() as usize);
+        for &side in pair.deformable_sides() {
             for node in 0..self.nodes()[side] {
                 let slide = if side == 0 {
                     Vec3::new(0.031, 0.023, -0.021)
@@ -133,10 +139,11 @@ impl<'a> Contact<'a> {
                     Vec3::zeros()
                 };
                 let x = self.start.side(side).x[node] + slide + random.vector3() * 0.006;
-                u.rows_mut(3 * (side * a + node), 3).copy_from(&x);
+                let first = pair.numbering().position(side, node as u32) as usize;
+                u.rows_mut(first, 3).copy_from(&x);
             }
         }
-        let traction = |side: usize, node: usize| 3 * (a + b + side * a + node);
+        let traction = |side: usize, node: usize| self.traction(side, node);
         let kept = self.selection.kept();
         for (k, kept) in kept.iter().enumerate() {
             let at = traction(kept.side, kept.node as usize);
@@ -182,6 +189,34 @@ impl<'a> Contact<'a> {
     }
 }
 
+/// Whether the floor is a ridge.
+fn is_sharp(start: &Configuration) -> bool {
+    start.pair.is_rigid() && start.plane().is_none() && start.side(1).x.len() == 9
+}
+
+/// Its vertex and points on its edges, with the nearest nodes.
+fn points(start: &Configuration) -> RigidPoints {
+    if !is_sharp(start) {
+        return Vec::new();
+    }
+    let mut points = vec![None; start.side(0).x.len()];
+    let on = |ends: [u32; 2], share: f64| RigidPoint { ends, share };
+    let all = [
+        RigidPoint::vertex(4),
+        on([1, 4], 0.4),
+        on([1, 4], 0.6),
+        on([4, 7], 0.4),
+    ];
+    for point in all {
+        let x = point.position(start);
+        let distance = |node: &usize| (start.side(0).x[*node] - x).norm();
+        let free = (0..points.len()).filter(|&node| points[node].is_none());
+        let nearest = free.min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        points[nearest.unwrap()] = Some(point);
+    }
+    points
+}
+
 fn assert_order(model: Model, field: Carries, wanted: &[Status]) {
     let mut model = model;
     model.steps = vec![moved(&model, [0.0; 3], 1)];
@@ -216,11 +251,16 @@ fn assert_order(model: Model, field: Carries, wanted: &[Status]) {
     }
 }
 
+/// A block on a ridge stands flat.
+fn angle(floor: Floor) -> f64 {
+    if floor == Floor::Ridge { 3.0 } else { 33.0 }
+}
+
 #[test]
 fn under_coulomb_friction() {
-    for floor in [Floor::Soft, Floor::Plane, Floor::Facets] {
+    for floor in [Floor::Soft, Floor::Plane, Floor::Facets, Floor::Ridge] {
         let friction = Friction::coulomb(0.4).unwrap();
-        let model = standing(tilted(33.0, 3), &["zmin", "xmin"], floor, friction);
+        let model = standing(tilted(angle(floor), 3), &["zmin", "xmin"], floor, friction);
         assert_order(
             model,
             Carries::Traction,
@@ -231,9 +271,9 @@ fn under_coulomb_friction() {
 
 #[test]
 fn under_friction_of_the_opposing_texture() {
-    for floor in [Floor::Soft, Floor::Plane, Floor::Facets] {
+    for floor in [Floor::Soft, Floor::Plane, Floor::Facets, Floor::Ridge] {
         let friction = Friction::orthotropic(0.2, 0.5, SlipRule::Associated).unwrap();
-        let mut model = standing(tilted(33.0, 3), &["zmin", "xmin"], floor, friction);
+        let mut model = standing(tilted(angle(floor), 3), &["zmin", "xmin"], floor, friction);
         model.pairs[0].textures[1] = Some(Paint::Field(Field {
             lines: Lines::Uniform(Vec3::new(0.8, 0.6, 0.0)),
             turn: 0.0,

@@ -68,6 +68,7 @@ impl<'a> PairFunction<'a> {
             let before = Before {
                 kept: &kept,
                 pointed: &kept,
+                points: &Vec::new(),
             };
             Selection::new(&from, Some(&to), before, &free)
         };

@@ -199,6 +199,7 @@ fn selections(context: &StepContext, before: &State, state: &State) -> Vec<Selec
             let had = Before {
                 kept: &of_pair.kept,
                 pointed: &of_pair.pointed,
+                points: &of_pair.points,
             };
             let fixed = &context.fixed_on_pair[pair];
             let first = Selection::new(&at(before), None, had, fixed);

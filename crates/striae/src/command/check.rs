@@ -217,6 +217,7 @@ mod tests {
         let before = Before {
             kept: &of_pair.kept,
             pointed: &of_pair.pointed,
+            points: &of_pair.points,
         };
         let configuration = context.configuration(0, &state.positions, &state.rigid);
         let selection = Selection::new(&configuration, None, before, &context.fixed_on_pair[0]);

@@ -8,6 +8,7 @@ use super::{
     },
 };
 use crate::scenes::{
+    geometry::{self, triangles},
     random::Random,
     scene::{End, Rigid, RigidShape, Scene, Step},
     vector::{Vector, plus},
@@ -19,6 +20,8 @@ struct Footing {
     depth: f64,
     facet: f64,
     unit: f64,
+    /// Extent of the block along `x` and `y`, in the middle of the floor.
+    plan: [f64; 2],
 }
 
 fn footing(random: &mut Random, strains: Strains) -> Footing {
@@ -46,6 +49,7 @@ fn footing(random: &mut Random, strains: Strains) -> Footing {
         depth: strain * high.min(plan[0]).min(plan[1]),
         facet,
         unit,
+        plan,
     }
 }
 
@@ -54,6 +58,27 @@ impl Footing {
         let angle = random.between(0.0, std::f64::consts::TAU);
         let far = random.between(0.3, 2.5) * self.facet;
         [far * angle.cos(), far * angle.sin(), 0.0]
+    }
+
+    /// How far a sheet is below the block, which is around the origin at height zero.
+    fn clearance(&self, positions: &[Vector], facets: &[[usize; 4]]) -> f64 {
+        const SAMPLES: i32 = 20;
+        let radius = 0.5 * self.plan[0].min(self.plan[1]);
+        let pieces: Vec<[Vector; 3]> = facets
+            .iter()
+            .flat_map(|facet| {
+                let mut corners = facet.to_vec();
+                corners.dedup();
+                let corners: Vec<Vector> = corners.into_iter().map(|i| positions[i]).collect();
+                triangles(&corners)
+            })
+            .collect();
+        let at = |i: i32| radius * f64::from(i) / f64::from(SAMPLES);
+        let samples = (-SAMPLES..=SAMPLES)
+            .flat_map(|i| (-SAMPLES..=SAMPLES).map(move |j| [at(i), at(j), 0.0]))
+            .filter(|x| x[0].hypot(x[1]) <= radius);
+        let heights = samples.filter_map(|x| geometry::height(&pieces, x).map(|(z, _)| z));
+        -heights.fold(f64::NEG_INFINITY, f64::max).min(0.0)
     }
 
     /// Presses and slides, either the body or the surface.
@@ -126,13 +151,15 @@ pub fn ridges(random: &mut Random, _: Dialect) -> Scene {
         .flat_map(|i| [position(i, -half), position(i, half)])
         .collect();
     let facets = (0..count).map(|i| [2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1]);
-    let sheet = RigidShape::Sheet(positions, facets.collect());
+    let facets: Vec<[usize; 4]> = facets.collect();
+    let clearance = footing.clearance(&positions, &facets);
+    let sheet = RigidShape::Sheet(positions, facets);
     footing.scene.rigid.push(Rigid {
         name: "floor",
         shape: sheet,
     });
     let depth = footing.depth.max(random.between(0.3, 1.0) * amplitude);
-    footing.pressed_and_slid(random, depth)
+    footing.pressed_and_slid(random, clearance + depth)
 }
 
 /// Bumps in two directions, of triangles.
@@ -160,10 +187,11 @@ pub fn bumps(random: &mut Random, _: Dialect) -> Scene {
         facets.push([a, b, c, c]);
         facets.push([a, c, d, d]);
     }
+    let clearance = footing.clearance(&positions, &facets);
     footing.scene.rigid.push(Rigid {
         name: "floor",
         shape: RigidShape::Sheet(positions, facets),
     });
     let depth = footing.depth.max(random.between(0.3, 1.0) * amplitude);
-    footing.pressed_and_slid(random, depth)
+    footing.pressed_and_slid(random, clearance + depth)
 }

@@ -1,0 +1,373 @@
+//! Which nodes, and which points of rigid surfaces, are pointed.
+//!
+//! A node pierces if it is open, lies deeper than [`PIERCED`] of the smaller facet size, and
+//! its own facets are open in the mean and stand back from it by more than [`SHARP`] of
+//! their size: the mean gap minus its own. Facets tilted by the angle `t` stand back by
+//! `h tan(t)/3`. A node of a smooth surface of radius `R` with a mean gap of zero is inside
+//! by `h^2/(6 R)`, too, which is left to the mean: up to .07 of a facet at the shoulders of
+//! coarse tyres. What is not sharp closes in the mean before it is inside by `SHARP`. Inside
+//! a rigid surface of facets, which may have slopes within a facet, it is enough that the
+//! facets are open by more than [`CLOSING`] in the mean and without pressure. A node stays
+//! pointed while it is pressed and the mean gap is larger than [`CLOSING`].
+//!
+//! A point of a rigid surface pierces if it lies deeper than `PIERCED` in a facet, and that
+//! facet
+//!
+//! - stands back from it by more than `SHARP` in the mean, pressed by the field or not, or
+//! - is open by more than `CLOSING` in the mean and without pressure, so that nothing
+//!   else feels the point.
+//!
+//! A facet on a smooth rigid surface of radius `R` stands back by `h^2/(12 R)`, which is less
+//! than `CLOSING` for `R > 4 h`. One facet gets one new point at a time, the deepest, and points
+//! keep a distance of [`APART`] of the facet size: more than the facets can follow would
+//! leave the pressures undetermined.
+
+use rayon::prelude::*;
+use striae_mesh::{FacetId, Vec3};
+use striae_surface::facet::Shape;
+
+use super::{RigidPoint, RigidPoints, Spot, Tip, faced, ridge::candidates};
+use crate::{
+    configuration::Configuration,
+    pair::Enforcement,
+    pairing::{Scope, paired_facets},
+    projection::Hit,
+    segment::Derivatives,
+    selection::{Kept, Selection, compliances},
+    unknowns::NodeResult,
+};
+
+/// Depth from which a node counts as pierced, over the smaller facet size.
+pub const PIERCED: f64 = 0.02;
+
+/// Mean gap of its own facets beyond its own from which it is sharp, over their size.
+pub const SHARP: f64 = 0.1;
+
+/// Mean gap of its own facets down to which a node stays pointed, over their size.
+pub const CLOSING: f64 = 0.02;
+
+/// Least distance of rigid points from each other, over the facet size.
+pub const APART: f64 = 0.4;
+
+/// Pressure that is none, over the modulus.
+const NO_PRESSURE: f64 = 1e-10;
+
+/// What pierces the other side without being pointed yet.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Pierced {
+    /// Nodes, as side and number.
+    pub nodes: Vec<(usize, u32)>,
+    /// Points of a rigid side with the nodes that they lodge with.
+    pub points: Vec<(u32, RigidPoint)>,
+}
+
+impl Pierced {
+    /// Whether there is nothing.
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty() && self.points.is_empty()
+    }
+}
+
+/// What pierces the other side; `carried` is the field at the nodes.
+pub fn pierced(
+    configuration: &Configuration,
+    selection: &Selection,
+    carried: &[Vec<[f64; 3]>; 2],
+) -> Pierced {
+    if configuration.pair.enforcement != Enforcement::Weighted {
+        return Pierced::default();
+    }
+    Pierced {
+        nodes: pierced_nodes(configuration, selection, carried),
+        points: pierced_points(configuration, selection, carried),
+    }
+}
+
+/// Nodes without pressure that pierce the other side.
+fn pierced_nodes(
+    configuration: &Configuration,
+    selection: &Selection,
+    carried: &[Vec<[f64; 3]>; 2],
+) -> Vec<(usize, u32)> {
+    let mut deep: Vec<(usize, u32, f64)> = Vec::new();
+    for &side in configuration.pair.deformable_sides() {
+        let nothing = NO_PRESSURE * configuration.pair.sides[side].stiffness;
+        let own_gap = |node: u32| {
+            let is_free =
+                !selection.is_pointed(side, node) && carried[side][node as usize][0] <= nothing;
+            let gap = is_free.then(|| inside(configuration, side, node)).flatten();
+            gap.map(|gap| (side, node, gap))
+        };
+        let found: Vec<(usize, u32, f64)> = (0..selection.nodes(side) as u32)
+            .into_par_iter()
+            .with_min_len(16)
+            .filter_map(own_gap)
+            .collect();
+        deep.extend(found);
+    }
+    if deep.is_empty() {
+        return Vec::new();
+    }
+    let means = mean_gaps(configuration, selection.scope());
+    // There is room for points of a rigid side of facets only.
+    let on_facets = !selection.points.is_empty();
+    let is_sharp = |&(side, node, gap): &(usize, u32, f64)| {
+        let size = configuration.side(side).sizes[node as usize];
+        means[side][node as usize].is_none_or(|mean| {
+            let sharp = mean > 0.0 && mean - gap > SHARP * size;
+            let open = on_facets && mean > CLOSING * size;
+            sharp || open && !is_pressed_around(configuration, carried, node)
+        })
+    };
+    let sharp = deep.into_iter().filter(is_sharp);
+    sharp.map(|(side, node, _)| (side, node)).collect()
+}
+
+/// Whether the field presses on a facet around a node of side `a`.
+fn is_pressed_around(
+    configuration: &Configuration,
+    carried: &[Vec<[f64; 3]>; 2],
+    node: u32,
+) -> bool {
+    let own = configuration.side(0);
+    let mut around = own.surface.corners(node).iter();
+    around.any(|corner| is_pressed(configuration, carried, corner.facet))
+}
+
+/// Whether the field presses on a facet of side `a`.
+fn is_pressed(configuration: &Configuration, carried: &[Vec<[f64; 3]>; 2], facet: FacetId) -> bool {
+    let nothing = NO_PRESSURE * configuration.pair.sides[0].stiffness;
+    let corners = configuration.side(0).corners(facet).into_iter();
+    let mut pressures = corners.map(|node| carried[0][node as usize][0]);
+    pressures.any(|pressure| pressure > nothing)
+}
+
+/// Gap of a node that lies deeper inside the other side than [`PIERCED`].
+fn inside(configuration: &Configuration, side: usize, node: u32) -> Option<f64> {
+    let own = configuration.side(side);
+    let size = own.sizes[node as usize];
+    if let Some((point, normal)) = configuration.plane() {
+        let gap = (own.x[node as usize] - point).dot(&normal);
+        let faces = own.normals[node as usize].dot(&normal) < 0.0;
+        let near = -gap < configuration.reach(side, node);
+        return (faces && near && gap < -PIERCED * size).then_some(gap);
+    }
+    let tip = Tip::Node { side, node };
+    let hit = faced(configuration, tip, tip.reach(configuration))?;
+    let target = configuration.side(1 - side);
+    let size = if configuration.pair.is_rigid() {
+        size
+    } else {
+        let corners = target.corners(hit.facet);
+        let sizes = corners.map(|corner| target.sizes[corner as usize]);
+        sizes.into_iter().fold(size, f64::min)
+    };
+    (hit.gap < -PIERCED * size).then_some(hit.gap)
+}
+
+/// A rigid point in a facet.
+struct Inside {
+    point: RigidPoint,
+    hit: Hit,
+    size: f64,
+}
+
+/// Points of a rigid side that pierce a facet, the deepest of every facet.
+fn pierced_points(
+    configuration: &Configuration,
+    selection: &Selection,
+    carried: &[Vec<[f64; 3]>; 2],
+) -> Vec<(u32, RigidPoint)> {
+    if selection.points.is_empty() {
+        return Vec::new();
+    }
+    let mut deep: Vec<Inside> = candidates(configuration, selection.depth)
+        .into_par_iter()
+        .with_min_len(16)
+        .filter_map(|point| in_facet(configuration, point, selection.depth))
+        .filter(|inside| inside.hit.gap < -PIERCED * inside.size)
+        .collect();
+    if deep.is_empty() {
+        return Vec::new();
+    }
+    let means = facet_gaps(configuration, selection.scope());
+    deep.retain(|inside| {
+        let unfelt = !is_pressed(configuration, carried, inside.hit.facet);
+        means[inside.hit.facet.index()].is_none_or(|mean| {
+            let sharp = mean - inside.hit.gap > SHARP * inside.size;
+            sharp || unfelt && mean > CLOSING * inside.size
+        })
+    });
+    let share = |inside: &Inside| inside.hit.gap / inside.size;
+    deep.sort_by(|a, b| share(a).total_cmp(&share(b)));
+    let mut taken: Vec<Vec3> = selection
+        .points
+        .iter()
+        .flatten()
+        .map(at(configuration))
+        .collect();
+    let mut lodged = selection.points.clone();
+    let mut facets: Vec<FacetId> = Vec::new();
+    let mut points = Vec::new();
+    for inside in &deep {
+        let x = inside.point.position(configuration);
+        let apart = |other: &Vec3| (other - x).norm() > APART * inside.size;
+        if facets.contains(&inside.hit.facet) || !taken.iter().all(apart) {
+            continue;
+        }
+        let Some(node) = lodging(configuration, &lodged, &inside.hit) else {
+            continue;
+        };
+        lodged[node as usize] = Some(inside.point);
+        taken.push(x);
+        facets.push(inside.hit.facet);
+        points.push((node, inside.point));
+    }
+    points
+}
+
+/// Where points are.
+fn at<'a>(configuration: &'a Configuration) -> impl Fn(&RigidPoint) -> Vec3 + 'a {
+    |point| point.position(configuration)
+}
+
+/// The facet that a rigid point is in or faces.
+fn in_facet(configuration: &Configuration, point: RigidPoint, depth: f64) -> Option<Inside> {
+    let tip = Tip::Rigid(point);
+    let hit = faced(configuration, tip, tip.reach(configuration) + depth)?;
+    let own = configuration.side(0);
+    let sizes = own.corners(hit.facet).map(|node| own.sizes[node as usize]);
+    Some(Inside {
+        point,
+        hit,
+        size: 0.25 * sizes.iter().sum::<f64>(),
+    })
+}
+
+/// The corner of the facet that is nearest to a point and lodges none yet.
+fn lodging(configuration: &Configuration, lodged: &RigidPoints, hit: &Hit) -> Option<u32> {
+    let corners = configuration.side(0).corners(hit.facet);
+    let weights = Shape::of(&corners).weights(hit.xi, hit.eta).value;
+    let free = (0..4).filter(|&at| lodged[corners[at] as usize].is_none());
+    let nearest = free.max_by(|&a, &b| weights[a].total_cmp(&weights[b]));
+    nearest.map(|at| corners[at])
+}
+
+/// Pointed nodes of a converged configuration that are so in the next increment too.
+pub fn staying(
+    configuration: &Configuration,
+    pointed: &Kept,
+    nodes: &[Vec<NodeResult>; 2],
+) -> Kept {
+    let mut staying = pointed.clone();
+    if !pointed.iter().flatten().any(|pointed| *pointed) {
+        return staying;
+    }
+    let compliances = compliances(configuration);
+    let scope = Scope {
+        compliances: &compliances,
+        depth: 0.0,
+    };
+    let gaps = mean_gaps(configuration, scope);
+    for &side in configuration.pair.deformable_sides() {
+        for (node, stays) in staying[side].iter_mut().enumerate() {
+            let size = configuration.side(side).sizes[node];
+            *stays &= nodes[side][node].pressure > 0.0
+                && gaps[side][node].is_none_or(|gap| gap > CLOSING * size);
+        }
+    }
+    staying
+}
+
+/// A rigid point that stays, with the node that it lodged with and the one that it will.
+pub struct Stay {
+    /// Node before.
+    pub from: u32,
+    /// Node from now on: a corner of the facet that the point is in.
+    pub to: u32,
+    /// The point.
+    pub point: RigidPoint,
+}
+
+/// Rigid points of a converged configuration that are pointed in the next increment too.
+pub fn staying_points(
+    configuration: &Configuration,
+    points: &RigidPoints,
+    nodes: &[Vec<NodeResult>; 2],
+) -> Vec<Stay> {
+    if points.iter().all(Option::is_none) {
+        return Vec::new();
+    }
+    let compliances = compliances(configuration);
+    let scope = Scope {
+        compliances: &compliances,
+        depth: 0.0,
+    };
+    let gaps = facet_gaps(configuration, scope);
+    let numbered = points.iter().enumerate();
+    let pressed: Vec<(u32, RigidPoint, Hit)> = numbered
+        .filter_map(|(node, point)| {
+            let tip = Tip::Rigid((*point)?);
+            let hit = Spot::new(configuration, tip)?.hit?;
+            let size = configuration.size(1, node as u32);
+            let stays = nodes[1][node].pressure > 0.0
+                && gaps[hit.facet.index()].is_none_or(|gap| gap > CLOSING * size);
+            stays.then_some((node as u32, (*point)?, hit))
+        })
+        .collect();
+    let mut lodged: RigidPoints = vec![None; points.len()];
+    let is_at = |hit: &Hit, node: u32| configuration.side(0).corners(hit.facet).contains(&node);
+    let (at_home, away): (Vec<_>, Vec<_>) = pressed
+        .into_iter()
+        .partition(|(node, _, hit)| is_at(hit, *node));
+    let mut stays = Vec::new();
+    for (from, point, hit) in at_home.into_iter().chain(away) {
+        let to = if is_at(&hit, from) {
+            Some(from)
+        } else {
+            lodging(configuration, &lodged, &hit)
+        };
+        if let Some(to) = to {
+            lodged[to as usize] = Some(point);
+            stays.push(Stay { from, to, point });
+        }
+    }
+    stays
+}
+
+/// Mean gap over the segments of every facet of side `a`.
+fn facet_gaps(configuration: &Configuration, scope: Scope) -> Vec<Option<f64>> {
+    let mut sums = vec![[0.0; 2]; configuration.side(0).surface.facets().len()];
+    for paired in paired_facets(configuration, scope, Derivatives::None, |_| true) {
+        if let Some(facet) = paired.facets[0] {
+            let [gap, area] = &mut sums[facet.index()];
+            *gap += paired.mean_gap(configuration) * paired.segment.area;
+            *area += paired.segment.area;
+        }
+    }
+    let mean = |[gap, area]: [f64; 2]| (area > 0.0).then(|| gap / area);
+    sums.into_iter().map(mean).collect()
+}
+
+/// `integral N_I g / integral N_I` at all nodes with facets near the other side.
+fn mean_gaps(configuration: &Configuration, scope: Scope) -> [Vec<Option<f64>>; 2] {
+    let mut sums = [0, 1].map(|side| {
+        let count = configuration.sides[side].as_ref().map_or(0, |s| s.x.len());
+        vec![[0.0; 2]; count]
+    });
+    for paired in paired_facets(configuration, scope, Derivatives::None, |_| true) {
+        let origin = paired.origin(configuration);
+        for corner in 0..8 {
+            if let Some((side, node)) = paired.node(configuration, corner) {
+                let sum = paired.difference(corner, &paired.x, &origin);
+                let [gap, area] = &mut sums[side][node as usize];
+                *gap += paired.segment.normal.dot(&sum);
+                *area += paired.area_of(corner);
+            }
+        }
+    }
+    sums.map(|side| {
+        let mean = |[gap, area]: [f64; 2]| (area > 0.0).then(|| gap / area);
+        side.into_iter().map(mean).collect()
+    })
+}

@@ -1,0 +1,172 @@
+//! Concentrated forces of the pointed nodes and points.
+//!
+//! `f = w (-p n + tau)` on the tip and `-N_J f` on the corners of the facet that it pierces.
+//! The row of a rigid tip is left out: what acts on a rigid body follows from the others.
+
+use rayon::prelude::*;
+use striae_mesh::{FacetId, Vec3};
+
+use super::{Spot, Tip};
+use crate::{
+    common_field::CommonField,
+    field::FacetForces,
+    opposing::PlaceLanes,
+    term::{Field, Lanes, LocalTerm, Row, Source},
+};
+
+/// Momentum rows of a pointed node and of the facet that it presses on.
+pub struct PointedTerm {
+    /// The rows.
+    pub term: LocalTerm,
+    /// Forces on the facets of each side.
+    pub facets: [Option<(FacetId, FacetForces)>; 2],
+}
+
+/// Forces of all pointed nodes.
+pub fn terms(field: CommonField) -> Vec<PointedTerm> {
+    let places = field.selection.pointed_places();
+    let found: Vec<Option<PointedTerm>> = places
+        .into_par_iter()
+        .with_min_len(8)
+        .map(|k| field.pointed_term(k))
+        .collect();
+    found.into_iter().flatten().collect()
+}
+
+/// Lanes of the tip's position and normal, the corners, the unknowns, the friction and the
+/// normal along which the place is found.
+const X: usize = 0;
+const NORMAL: usize = 3;
+const CORNERS: usize = 6;
+const PRESSURE: usize = 18;
+const TAU: usize = 21;
+const RAY: usize = 24;
+const LANES: usize = 27;
+
+impl CommonField<'_> {
+    fn pointed_term(&self, k: usize) -> Option<PointedTerm> {
+        let configuration = self.configuration;
+        let (side, node) = self.selection.kept()[k].place();
+        let tip = self.selection.tip(side, node as u32);
+        let spot = Spot::new(configuration, tip)?;
+        let weight = self.selection.weight(k);
+        let pressure = self.tractions.nodes[side][node][0];
+        let tau = &self.tau[side][node];
+        let force = (tau.value - spot.n.value * pressure) * weight;
+        let lanes = self.pointed_lanes((side, node), tip, &spot);
+        // Rows state what is left without the forces, so the node's own -f.
+        let mut by_force = [[0.0; 3]; LANES];
+        for axis in 0..3 {
+            by_force[NORMAL + axis][axis] = -weight * pressure;
+            by_force[TAU + axis][axis] = weight;
+        }
+        by_force[PRESSURE] = (spot.n.value * -weight).into();
+        let numbering = configuration.pair.numbering();
+        let mut rows: Vec<Row> = Vec::with_capacity(15);
+        let mut gradient = [[0.0; 15]; LANES];
+        let mut add = |first: u32, share: f64| {
+            let at = rows.len();
+            for axis in 0..3 {
+                let residual = -force[axis] * share;
+                rows.push((first + axis as u32, Field::Momentum, residual));
+                for (by, slope) in gradient.iter_mut().zip(&by_force) {
+                    by[at + axis] -= slope[axis] * share;
+                }
+            }
+        };
+        let own = tip.unknown(configuration);
+        if let Some(own) = own {
+            add(own, 1.0);
+        }
+        if tip.presses_on_deformable(configuration)
+            && let Some(opposing) = &spot.opposing
+        {
+            for (&corner, share) in spot.corners.iter().zip(opposing.weights) {
+                add(numbering.position(1 - side, corner), -share);
+            }
+            let first = 3 * usize::from(own.is_some());
+            for at in 0..spot.corners.len() {
+                let by_r = force * opposing.weights_by_r[at].transpose();
+                let mut by_lane = [[0.0; 3]; LANES];
+                let place = PlaceLanes {
+                    x: X,
+                    n: RAY,
+                    corners: CORNERS,
+                };
+                opposing.spread(&by_r, place, &mut by_lane);
+                for (by, slope) in gradient.iter_mut().zip(&by_lane) {
+                    for axis in 0..3 {
+                        by[first + 3 * at + axis] += slope[axis];
+                    }
+                }
+            }
+        }
+        let triples = lanes.triples();
+        let columns = lanes.chained(&gradient, &triples);
+        Some(PointedTerm {
+            term: LocalTerm::from_columns(&rows, &triples, &columns),
+            facets: self.pointed_facets((side, node), tip, &spot, &force, weight),
+        })
+    }
+
+    fn pointed_lanes<'b>(
+        &'b self,
+        (side, node): (usize, usize),
+        tip: Tip,
+        spot: &'b Spot,
+    ) -> Lanes<'b> {
+        let numbering = self.configuration.pair.numbering();
+        let triple = |first: u32| Source::Unknowns { first, count: 3 };
+        let mut lanes = Lanes::default();
+        lanes.push(tip.lanes(self.configuration));
+        lanes.push(Source::Vector(&spot.n.jacobian));
+        match &spot.hit {
+            Some(hit) if tip.presses_on_deformable(self.configuration) => {
+                let corners = self.configuration.side(1 - side).corners(hit.facet);
+                for corner in corners {
+                    lanes.push(triple(numbering.position(1 - side, corner)));
+                }
+            }
+            _ => lanes.push(Source::Constant(12)),
+        }
+        lanes.push(triple(numbering.traction(side, node as u32)));
+        lanes.push(Source::Vector(&self.tau[side][node].jacobian));
+        lanes.push(Source::Vector(&spot.ray.jacobian));
+        lanes
+    }
+
+    fn pointed_facets(
+        &self,
+        (side, node): (usize, usize),
+        tip: Tip,
+        spot: &Spot,
+        force: &Vec3,
+        weight: f64,
+    ) -> [Option<(FacetId, FacetForces)>; 2] {
+        let pressure = weight * self.tractions.nodes[side][node][0];
+        let friction = weight * self.tau[side][node].value.norm();
+        let mut of_side = FacetForces {
+            pressure,
+            friction,
+            ..FacetForces::default()
+        };
+        let mut of_other = of_side;
+        let mut facets = [None, None];
+        if let Tip::Node { .. } = tip {
+            let own = self.configuration.side(side);
+            let facet = own.surface.corners(node as u32)[0].facet;
+            let corners = own.corners(facet);
+            if let Some(at) = corners.iter().position(|corner| *corner as usize == node) {
+                of_side.force[at] = *force;
+            }
+            facets[side] = Some((facet, of_side));
+        }
+        if let (Some(hit), Some(opposing)) = (&spot.hit, &spot.opposing) {
+            for (at, share) in opposing.weights.iter().enumerate().take(spot.corners.len()) {
+                of_other.force[at] = force * -*share;
+            }
+            facets[1 - side] = Some((hit.facet, of_other));
+        }
+        facets
+    }
+}

@@ -1,0 +1,146 @@
+//! Points of a rigid surface that may pierce a facet.
+//!
+//! These are its vertices, and of every convex edge the middle of what passes over each facet
+//! of side `a`: an edge from `A` to `B` is cut with the planes through the edges of the facet
+//! along its normal `m`, so that it is over the facet for `t` in `[t_0, t_1]`,
+//!
+//! ```text
+//! q_c . (A + t (B - A) - y_c) >= 0,   q_c = m x (y_{c+1} - y_c)
+//! ```
+//!
+//! An edge is convex if the facets beside it fall away from each other by more than
+//! [`BENT`], or if there is one facet only.
+
+use rayon::prelude::*;
+use striae_mesh::{FacetId, Vec3};
+use striae_surface::topology::distinct_corners;
+
+use super::{RigidPoint, facet_normal};
+use crate::{
+    configuration::{Configuration, Snapshot},
+    pairing::farthest,
+    search::Bounds,
+};
+
+/// Sine of the angle by which one facet falls away from the plane of the other.
+const BENT: f64 = 0.03;
+
+/// Length of edge over a facet below which its neighbours stand for it, over the facet size.
+const SHORT: f64 = 0.2;
+
+/// Cosine of the angle between the normals from which an edge faces a facet.
+const FACING: f64 = 0.2;
+
+/// All points that are near side `a`, given how deep they may be beyond its reach.
+pub fn candidates(configuration: &Configuration, depth: f64) -> Vec<RigidPoint> {
+    let [a, b] = [0, 1].map(|side| configuration.side(side));
+    let reach = farthest(configuration) + depth;
+    let Some(near) = a.tree.bounds().map(|bounds| bounds.inflated(reach)) else {
+        return Vec::new();
+    };
+    let is_near = |points: &[Vec3]| near.meets(&Bounds::around(points.iter().copied()));
+    let found: Vec<Vec<RigidPoint>> = (0..b.x.len() as u32)
+        .into_par_iter()
+        .with_min_len(32)
+        .map(|vertex| {
+            let mut points = Vec::new();
+            if is_near(&[b.x[vertex as usize]]) {
+                points.push(RigidPoint::vertex(vertex));
+            }
+            for edge in edges(b, vertex) {
+                if is_near(&edge.nodes.map(|node| b.x[node as usize])) {
+                    points.extend(over_facets(a, b, &edge, reach));
+                }
+            }
+            points
+        })
+        .collect();
+    found.into_iter().flatten().collect()
+}
+
+/// A convex edge.
+struct Edge {
+    nodes: [u32; 2],
+    /// Mean normal of its facets.
+    normal: Vec3,
+}
+
+/// Convex edges from a vertex that no other vertex lists.
+fn edges(b: &Snapshot, vertex: u32) -> Vec<Edge> {
+    let corners = b.surface.corners(vertex).iter();
+    let found = corners.filter_map(|corner| {
+        let beside = b.surface.corners(corner.next).iter();
+        let other = beside.clone().find(|other| other.next == vertex);
+        if other.is_some() && corner.next < vertex {
+            return None;
+        }
+        let one = facet_normal(&b.corner_positions(corner.facet));
+        let normal = match other {
+            None => one,
+            Some(other) => {
+                let centre = centre(b, other.facet);
+                let away = centre - b.x[vertex as usize];
+                let falls = -one.dot(&away) > BENT * away.norm();
+                falls.then(|| one + facet_normal(&b.corner_positions(other.facet)))?
+            }
+        };
+        Some(Edge {
+            nodes: [vertex, corner.next],
+            normal: normal.try_normalize(1e-6)?,
+        })
+    });
+    found.collect()
+}
+
+fn centre(side: &Snapshot, facet: FacetId) -> Vec3 {
+    let corners = side.corners(facet);
+    let ring = distinct_corners(&corners);
+    let sum: Vec3 = ring.iter().map(|&node| side.x[node as usize]).sum();
+    sum / ring.len() as f64
+}
+
+/// Middles of what of an edge is over each facet.
+fn over_facets<'a>(
+    a: &'a Snapshot,
+    b: &Snapshot,
+    edge: &Edge,
+    reach: f64,
+) -> impl Iterator<Item = RigidPoint> + 'a {
+    let (ends, normal) = (edge.nodes, edge.normal);
+    let x = ends.map(|node| b.x[node as usize]);
+    let met = a.tree.meeting(&Bounds::around(x).inflated(reach));
+    met.into_iter().filter_map(move |item| {
+        let facet = FacetId(item);
+        let [from, to] = part_over(a, facet, &x, &normal)?;
+        let passes = from > 0.0 || to < 1.0;
+        let long = (to - from) * (x[1] - x[0]).norm() > SHORT * a.facet_size(facet);
+        (passes && long).then_some(RigidPoint {
+            ends,
+            share: 0.5 * (from + to),
+        })
+    })
+}
+
+/// `[t_0, t_1]` of an edge over a facet that it faces.
+fn part_over(a: &Snapshot, facet: FacetId, x: &[Vec3; 2], normal: &Vec3) -> Option<[f64; 2]> {
+    let m = facet_normal(&a.corner_positions(facet));
+    if m.dot(normal) > -FACING {
+        return None;
+    }
+    let corners = a.corners(facet);
+    let ring = distinct_corners(&corners);
+    let [mut from, mut to] = [0.0_f64, 1.0_f64];
+    for (at, &corner) in ring.iter().enumerate() {
+        let start = a.x[corner as usize];
+        let end = a.x[ring[(at + 1) % ring.len()] as usize];
+        let inward = m.cross(&(end - start));
+        let [first, last] = x.map(|x| inward.dot(&(x - start)));
+        match (first < 0.0, last < 0.0) {
+            (true, true) => return None,
+            (true, false) => from = from.max(first / (first - last)),
+            (false, true) => to = to.min(first / (first - last)),
+            (false, false) => {}
+        }
+    }
+    (from < to).then_some([from, to])
+}
