@@ -71,7 +71,12 @@ pub fn frames(configuration: &Configuration, selection: &Selection) -> Frames {
 /// The frame of a node.
 pub fn frame_of(configuration: &Configuration, side: usize, node: u32) -> Frame {
     let n = normal(configuration, side, node);
-    frame(configuration, Tip::Node { side, node }, n)
+    let tip = Tip::Node {
+        side,
+        node,
+        home: None,
+    };
+    frame(configuration, tip, n)
 }
 
 /// The normal of a node: of its surface or, against a rigid one, of that.
@@ -182,7 +187,7 @@ fn neighbour(own: &Snapshot, node: u32, n: &Vec3) -> u32 {
 /// The frame with this normal; the tangents of a rigid point are those of a vertex of its edge.
 fn frame(configuration: &Configuration, tip: Tip, n: Tracked) -> Frame {
     let (side, node) = match tip {
-        Tip::Node { side, node } => (side, node),
+        Tip::Node { side, node, .. } => (side, node),
         Tip::Rigid(point) => (1, point.ends[0]),
     };
     let own = configuration.side(side);

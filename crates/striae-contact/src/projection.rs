@@ -82,6 +82,20 @@ pub fn project(target: &Snapshot, x: &Vec3, ray: Ray, reach: f64, margin: Margin
     }
 }
 
+/// Projects the point `x` onto one facet and up to `margin` beyond its edges, in facet
+/// coordinates.
+pub fn project_on(
+    target: &Snapshot,
+    facet: FacetId,
+    x: &Vec3,
+    ray: Ray,
+    margin: f64,
+) -> Option<Hit> {
+    let hit = on_facet(target, facet, x, ray)?;
+    let shape = Shape::of(&target.corners(facet));
+    (shape.excess(hit.xi, hit.eta) <= margin).then_some(hit)
+}
+
 /// The point on the edge of a surface that is nearest to the line through `x` along `n`,
 /// within the distance `reach` of `x`, and the nodes of that edge.
 pub fn nearest_edge(target: &Snapshot, x: &Vec3, n: &Vec3, reach: f64) -> Option<(Hit, [u32; 2])> {

@@ -65,6 +65,8 @@ pub struct Selection {
     pub depth: f64,
     /// What is opposite to the kept nodes at the start, for collocated rows and pointed nodes.
     pub partners: Vec<Option<Partner>>,
+    /// The facets that the pointed nodes are in at the start.
+    pub homes: Vec<Option<FacetId>>,
     /// Number of kept nodes of the field; those after them are pointed.
     pub of_field: usize,
     /// Overlap of the meshes at the nodes that is not pressed out yet, by side; empty where
@@ -127,6 +129,7 @@ impl Selection {
             compliances,
             depth,
             partners,
+            homes: Vec::new(),
             offsets: [Vec::new(), Vec::new()],
             points,
         };
@@ -184,6 +187,8 @@ impl Selection {
         basis.pivots.push(THETA_1);
         basis.flexibility.push(flexibility);
         basis.weights.push(size * size);
+        let hit = found.and_then(|(_, hit)| hit);
+        self.homes.push(hit.map(|hit| hit.facet));
         self.partners.push(found.map(|(partner, _)| partner));
     }
 
@@ -192,8 +197,19 @@ impl Selection {
         let point = self.points.get(node as usize).copied().flatten();
         match (side, point) {
             (1, Some(point)) => Tip::Rigid(point),
-            _ => Tip::Node { side, node },
+            _ => Tip::Node {
+                side,
+                node,
+                home: self.home(side, node),
+            },
         }
+    }
+
+    /// The facet that a pointed node was in at the start.
+    fn home(&self, side: usize, node: u32) -> Option<FacetId> {
+        let k = self.basis.index[side].get(node as usize).copied()??;
+        let pointed = (k as usize).checked_sub(self.of_field)?;
+        self.homes.get(pointed).copied()?
     }
 
     /// Nodes with unknowns: those kept in the field, then the pointed ones.

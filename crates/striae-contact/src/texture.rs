@@ -158,7 +158,7 @@ fn faced(
         return Some((contact, Found::Inside));
     }
     match tip {
-        Tip::Node { side, node } => configuration.opposite(side, node),
+        Tip::Node { side, node, .. } => configuration.opposite(side, node),
         Tip::Rigid(_) => None,
     }
 }
@@ -330,7 +330,7 @@ fn on_deformable(
     let shape = Shape::of(&corners);
     let n = frame.n.value;
     let on_edge = match (found, tip) {
-        (Found::Edge(nodes), Tip::Node { side, node }) => {
+        (Found::Edge(nodes), Tip::Node { side, node, .. }) => {
             Some(on_edge(configuration, side, node, hit, nodes))
         }
         _ => None,

@@ -152,7 +152,11 @@ fn inside(configuration: &Configuration, side: usize, node: u32) -> Option<f64> 
         let near = -gap < configuration.reach(side, node);
         return (faces && near && gap < -PIERCED * size).then_some(gap);
     }
-    let tip = Tip::Node { side, node };
+    let tip = Tip::Node {
+        side,
+        node,
+        home: None,
+    };
     let hit = faced(configuration, tip, tip.reach(configuration))?;
     let target = configuration.side(1 - side);
     let size = if configuration.pair.is_rigid() {

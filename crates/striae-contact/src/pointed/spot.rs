@@ -15,7 +15,7 @@ use crate::{
     frame::{Tracked, own_normal},
     kinematics::TrackedScalar,
     opposing::Opposing,
-    projection::{Hit, Margin, Ray, project},
+    projection::{Hit, Margin, Ray, project, project_on},
     selection::Partner,
     term::{Gradient, Jacobian},
     weighted::add_chained,
@@ -23,6 +23,9 @@ use crate::{
 
 /// How many reaches around a tip an opposing facet is looked for.
 const FOLLOW: f64 = 4.0;
+
+/// How far beyond its edges a facet holds a node, in facet coordinates.
+const AWAY: f64 = 0.1;
 
 /// What a tip presses on.
 pub struct Spot {
@@ -157,10 +160,20 @@ fn between_nodes(
     Tracked { value, jacobian }
 }
 
-/// The facet that a tip faces within `reach`, along the normal of that facet.
+/// The facet that a tip faces within `reach`, along the normal of that facet. The one that a
+/// node was in at the start of an increment holds it until it is [`AWAY`] from it: between two
+/// facets that dip towards each other either normal drives it to the other one.
 pub fn faced(configuration: &Configuration, tip: Tip, reach: f64) -> Option<Hit> {
     let (x, normal) = (tip.position(configuration), tip.normal(configuration));
     let target = configuration.side(1 - tip.side());
+    if let Tip::Node {
+        home: Some(home), ..
+    } = tip
+        && let Some(hit) = project_on(target, home, &x, Ray::Facet(normal), AWAY)
+        && hit.gap.abs() <= reach
+    {
+        return Some(hit);
+    }
     project(target, &x, Ray::Facet(normal), reach, Margin::Seam)
 }
 

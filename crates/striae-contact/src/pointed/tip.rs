@@ -3,7 +3,7 @@
 //! A point of a rigid surface is a vertex or a point on an edge. It is told by the ends of
 //! that edge and the share of the way between them, so it goes along with the surface.
 
-use striae_mesh::Vec3;
+use striae_mesh::{FacetId, Vec3};
 
 use crate::{configuration::Configuration, pairing::farthest, term::Source};
 
@@ -58,6 +58,8 @@ pub enum Tip {
         side: usize,
         /// Surface-local node.
         node: u32,
+        /// The opposing facet that it was in at the start of the increment.
+        home: Option<FacetId>,
     },
     /// A point of the rigid side `b`.
     Rigid(RigidPoint),
@@ -75,7 +77,7 @@ impl Tip {
     /// Where it is.
     pub fn position(&self, configuration: &Configuration) -> Vec3 {
         match self {
-            Self::Node { side, node } => configuration.side(*side).x[*node as usize],
+            Self::Node { side, node, .. } => configuration.side(*side).x[*node as usize],
             Self::Rigid(point) => point.position(configuration),
         }
     }
@@ -83,7 +85,7 @@ impl Tip {
     /// Unit outward normal of its own surface.
     pub fn normal(&self, configuration: &Configuration) -> Vec3 {
         match self {
-            Self::Node { side, node } => configuration.side(*side).normals[*node as usize],
+            Self::Node { side, node, .. } => configuration.side(*side).normals[*node as usize],
             Self::Rigid(point) => point.normal(configuration),
         }
     }
@@ -91,7 +93,7 @@ impl Tip {
     /// Distance within which it looks for the other side.
     pub fn reach(&self, configuration: &Configuration) -> f64 {
         match self {
-            Self::Node { side, node } => configuration.reach(*side, *node),
+            Self::Node { side, node, .. } => configuration.reach(*side, *node),
             Self::Rigid(_) => farthest(configuration),
         }
     }
@@ -99,7 +101,7 @@ impl Tip {
     /// First of its position unknowns; a rigid point has none.
     pub fn unknown(&self, configuration: &Configuration) -> Option<u32> {
         match self {
-            Self::Node { side, node } => {
+            Self::Node { side, node, .. } => {
                 Some(configuration.pair.numbering().position(*side, *node))
             }
             Self::Rigid(_) => None,
