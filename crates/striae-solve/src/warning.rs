@@ -12,6 +12,7 @@
 //! | `passage` | the same for what has passed through, see there | 0 |
 //! | `creation` | negative friction work over the largest energy | 1e-6 |
 //! | `imbalance` | energy found nowhere over the largest energy | 1e-3 |
+//! | `stabilisation` | work lost to [stabilisation](crate::stabilisation) in a step over its external work or change of strain energy, whichever is larger | 0.01 |
 //! | `never-touched` | the smallest distance at the start; after a completed run | - |
 //! | `never-meets` | the same, before the run | - |
 
@@ -61,6 +62,8 @@ pub enum Kind {
     Creation,
     /// Energy is found nowhere.
     Imbalance,
+    /// Much of the work of a step is lost to stabilisation.
+    Stabilisation,
     /// A pair has never touched.
     NeverTouched,
     /// A pair can never meet.
@@ -69,7 +72,7 @@ pub enum Kind {
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Mismatch,
         Self::Moment,
         Self::Tension,
@@ -77,6 +80,7 @@ impl Kind {
         Self::Passage,
         Self::Creation,
         Self::Imbalance,
+        Self::Stabilisation,
         Self::NeverTouched,
         Self::NeverMeets,
     ];
@@ -91,6 +95,7 @@ impl Kind {
             Self::Passage => "passage",
             Self::Creation => "creation",
             Self::Imbalance => "imbalance",
+            Self::Stabilisation => "stabilisation",
             Self::NeverTouched => "never-touched",
             Self::NeverMeets => "never-meets",
         }
@@ -100,7 +105,7 @@ impl Kind {
     pub fn limit(self) -> f64 {
         match self {
             Self::Mismatch | Self::Tension | Self::Creation => 1e-6,
-            Self::Moment => 1e-2,
+            Self::Moment | Self::Stabilisation => 1e-2,
             Self::Penetration => SHARE,
             Self::Imbalance => 1e-3,
             Self::Passage | Self::NeverTouched | Self::NeverMeets => 0.0,
@@ -119,6 +124,8 @@ pub struct Judgement {
     pub pressures: Vec<f64>,
     /// Largest energy.
     pub energy: f64,
+    /// Energies at the start of the step.
+    pub step: Energies,
 }
 
 /// The worst of a kind.
@@ -145,11 +152,31 @@ impl Judgement {
             .max(round_off(problem));
         let imbalance = after.energies.imbalance().abs();
         self.note(Kind::Imbalance, None, imbalance, after.time);
+        self.stabilisation(problem, after);
         for (pair, report) in pairs(problem, after).iter().enumerate() {
             self.pair(pair, report, [before, after]);
             let ends = [before, after].map(Positions::from);
             self.interference(problem, pair, ends, after.time);
         }
+    }
+
+    /// Judges a step at its end.
+    fn stabilisation(&mut self, problem: &Problem, after: &State) {
+        let mut end = 0.0;
+        let ends = problem.model.steps.iter().map(|step| {
+            end += step.duration;
+            (end, step.duration)
+        });
+        let mut ends = ends.filter(|(end, duration)| (after.time - end).abs() < 1e-9 * duration);
+        if ends.next().is_none() {
+            return;
+        }
+        let [from, to] = [&self.step, &after.energies];
+        let work = (to.external - from.external).abs();
+        let scale = work.max((to.strain - from.strain).abs());
+        let share = over(to.stabilisation - from.stabilisation, scale);
+        self.note(Kind::Stabilisation, None, share, after.time);
+        self.step = after.energies;
     }
 
     fn pair(&mut self, pair: usize, report: &PairReport, [before, after]: [&State; 2]) {
@@ -284,9 +311,18 @@ fn largest(energies: &Energies) -> f64 {
         external,
         friction,
         contact,
+        stabilisation,
         numerical,
     } = *energies;
-    let all = [kinetic, strain, external, friction, contact, numerical];
+    let all = [
+        kinetic,
+        strain,
+        external,
+        friction,
+        contact,
+        stabilisation,
+        numerical,
+    ];
     all.into_iter()
         .fold(0.0, |most: f64, energy| most.max(energy.abs()))
 }
@@ -322,6 +358,9 @@ fn warning(model: &Model, worst: &Worst) -> Warning {
         Kind::Imbalance => {
             format!("energy of {value:.1e} of the largest one is found nowhere at time {time:.4}")
         }
+        Kind::Stabilisation => format!(
+            "stabilisation has taken {percent:.1} % of the work of the step that ends at time {time:.4}"
+        ),
         Kind::NeverTouched => format!("pair `{name}` has never touched"),
         Kind::NeverMeets => format!("pair `{name}` can never meet"),
     };
