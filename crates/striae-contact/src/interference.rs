@@ -16,6 +16,7 @@
 //! others `O(n log n)`. The motion of a rigid body that turns is that of its chords,
 //! so an increment should turn by much less than half a turn.
 
+mod facing;
 mod nearest;
 mod passage;
 mod thickness;
@@ -25,6 +26,7 @@ use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
 use striae_surface::topology::{Surface, distinct_corners};
 
+pub use facing::{Facing, facing};
 pub use nearest::{Nearest, Standing};
 pub use thickness::{Fibre, Thickness, fibres, lengths};
 

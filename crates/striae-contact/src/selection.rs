@@ -319,6 +319,11 @@ impl Selection {
         })
     }
 
+    /// Whether overlaps of the meshes are being pressed out.
+    pub fn has_offsets(&self) -> bool {
+        self.offsets.iter().flatten().any(|offset| *offset > 0.0)
+    }
+
     /// What is left of the overlap of the meshes at a node.
     pub fn offset(&self, side: usize, node: u32) -> f64 {
         let offset = self.offsets[side].get(node as usize);
@@ -389,7 +394,7 @@ pub(crate) fn compliances(configuration: &Configuration) -> [Vec<f64>; 2] {
 }
 
 /// Largest motion of one side relative to the other.
-fn approach(start: &Configuration, end: &Configuration) -> f64 {
+pub fn approach(start: &Configuration, end: &Configuration) -> f64 {
     let moves = |side: usize| -> [Vec3; 2] {
         let (Some(from), Some(to)) = (&start.sides[side], &end.sides[side]) else {
             let way = start.plane().zip(end.plane());

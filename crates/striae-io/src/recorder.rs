@@ -262,6 +262,7 @@ impl Recorder {
         add("energy.external", state.energies.external);
         add("energy.friction", state.energies.friction);
         add("energy.contact", state.energies.contact);
+        add("energy.stabilisation", state.energies.stabilisation);
         add("energy.numerical", state.energies.numerical);
         add("energy.imbalance", state.energies.imbalance());
         if is_dynamic(problem) {

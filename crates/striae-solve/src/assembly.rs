@@ -6,6 +6,7 @@ mod inertia;
 mod linearised;
 mod loads;
 mod measure;
+mod stabilisation;
 mod start;
 mod terms;
 mod ties;
@@ -130,6 +131,7 @@ fn on_this_thread(
         }
     };
     system.add_contacts(&configurations, &contacts);
+    system.stabilise(trial, imposed);
     if !system.outside.is_empty() {
         return Err(Fault::Pattern(system.outside));
     }

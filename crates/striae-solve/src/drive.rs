@@ -1,15 +1,19 @@
 //! Steps and increments.
 
-use striae_contact::unknowns::{NodeResult, Status};
+use striae_contact::{
+    interference::facing,
+    unknowns::{NodeResult, Status},
+};
 
 use crate::{
     assembly::StepContext,
     dynamics::begin,
-    freedom::{Friction, free_motion, free_motion_in, slipping},
+    freedom::{Bridged, Friction, free_motion, free_motion_in, slipping, worth_stabilising},
     model::Procedure,
     newton::{Increment, IterationObserver, Memory, Workspace, advance},
     outcome::{CutBack, Ending, Remedy},
     problem::Problem,
+    stabilisation::first_increment,
     state::State,
 };
 
@@ -65,6 +69,9 @@ pub struct Point {
     pub fraction: f64,
     /// Size of the next increment.
     pub size: f64,
+    /// Distance over which it looks for contact, by pair, at least; empty after an increment
+    /// that has converged.
+    pub search: Vec<f64>,
     /// State in which the step began.
     pub start: State,
     /// Last converged state.
@@ -87,6 +94,7 @@ pub fn resume(problem: &Problem, point: Point, observer: &mut dyn Observer) -> (
         count: point.increments,
         done: point.fraction,
         size: point.size,
+        search: point.search,
     };
     let mut state = point.state;
     observer.step(point.step, &problem.model.steps[point.step].name);
@@ -106,11 +114,28 @@ pub fn resume(problem: &Problem, point: Point, observer: &mut dyn Observer) -> (
 }
 
 /// How far the division of a step into increments has come.
-#[derive(Clone, Copy)]
 struct Division {
     count: usize,
     done: f64,
     size: f64,
+    /// Distance over which the next attempt looks for contact, by pair, at least.
+    search: Vec<f64>,
+}
+
+impl Division {
+    /// After bodies have gone through each other, the next attempt looks for contact from
+    /// the start on over the distance that they went.
+    fn look_farther(&mut self, context: &StepContext, reason: &CutBack) {
+        let CutBack::Passage { pair, way, .. } = reason else {
+            return;
+        };
+        self.search.resize(context.pairs.len(), 0.0);
+        for (known, search) in context.pairs.iter().zip(&mut self.search) {
+            if known.name == *pair {
+                *search = search.max(*way);
+            }
+        }
+    }
 }
 
 fn run_steps(
@@ -123,11 +148,11 @@ fn run_steps(
 ) -> (State, Ending) {
     for index in first..problem.model.steps.len() {
         observer.step(index, &problem.model.steps[index].name);
-        let step = &problem.model.steps[index];
         let start = match begin(problem, index, &state, workspace) {
             Ok(start) => start,
             Err(reason) => {
-                let (step, time) = (step.name.clone(), state.time);
+                let step = problem.model.steps[index].name.clone();
+                let time = state.time;
                 return (state, Ending::Stopped { step, time, reason });
             }
         };
@@ -136,7 +161,8 @@ fn run_steps(
         let mut division = Division {
             count,
             done: 0.0,
-            size: step.increments.initial.min(step.increments.largest),
+            size: first_increment(problem, index),
+            search: Vec::new(),
         };
         let ending = run_step(&context, &mut state, &mut division, workspace, observer);
         if let Some(ending) = ending {
@@ -163,11 +189,28 @@ fn run_step(
             fraction,
             time: context.start.time + fraction * step.duration,
         };
-        let attempt = advance(context, state, fraction, progress.time, workspace, observer);
+        let attempt = match not_bridged(context, state, fraction) {
+            Some(reason) => Err(reason),
+            None if division.search.is_empty() => {
+                advance(context, state, fraction, progress.time, workspace, observer)
+            }
+            None => {
+                let context = context.looking(&division.search);
+                advance(
+                    &context,
+                    state,
+                    fraction,
+                    progress.time,
+                    workspace,
+                    observer,
+                )
+            }
+        };
         let next = match attempt {
             Ok(increment) => {
                 division.count += 1;
                 division.done = fraction;
+                division.search.clear();
                 if increment.iterations.len() <= EASY {
                     division.size = (division.size * GROWTH).min(step.increments.largest);
                 }
@@ -178,10 +221,14 @@ fn run_step(
             Err(reason) => {
                 let reason = free(context, state).unwrap_or(reason);
                 let next = observer.cut_back(progress, &reason);
+                division.look_farther(context, &reason);
                 division.size = (fraction - division.done) * CUT;
                 let helps = reason.remedy() == Remedy::SmallerIncrement;
                 if !helps || division.size < step.increments.smallest {
-                    let reason = at_limit(context, state, division.done).unwrap_or(reason);
+                    let limit = || at_limit(context, state, division.done);
+                    let is_named = matches!(reason, CutBack::NotBridged { .. });
+                    let limit = if is_named { None } else { limit() };
+                    let reason = limit.unwrap_or(reason);
                     return Some(Ending::Stopped {
                         step: step.name.clone(),
                         time: state.time,
@@ -197,6 +244,7 @@ fn run_step(
                 increments: division.count,
                 fraction: division.done,
                 size: division.size,
+                search: division.search.clone(),
                 start: context.start.clone(),
                 state: state.clone(),
                 memory: workspace.memory(),
@@ -212,11 +260,44 @@ fn run_step(
 /// The motion that nothing holds, if that is why there is no equilibrium beyond `state`.
 fn free(context: &StepContext, state: &State) -> Option<CutBack> {
     let step = &context.problem.model.steps[context.index];
-    let quasi_static = step.procedure == Procedure::QuasiStatic;
-    let motion = quasi_static.then(|| free_motion_in(context, state))??;
+    if step.procedure != Procedure::QuasiStatic {
+        return None;
+    }
+    let motion = free_motion_in(context, state, Bridged::Stabilised)?;
+    let stabilise = worth_stabilising(context, state, &motion);
     Some(CutBack::Free {
         motion: Box::new(motion),
+        stabilise: stabilise.map(|pair| context.pairs[pair].name.clone()),
     })
+}
+
+/// The motion that nothing holds any more at the end `s = 1` of a step with stabilised pairs.
+fn not_bridged(context: &StepContext, state: &State, s: f64) -> Option<CutBack> {
+    let stabilised = context.stabilisation.iter().any(|c| *c > 0.0);
+    if s < 1.0 || !stabilised {
+        return None;
+    }
+    let motion = free_motion_in(context, state, Bridged::None)?;
+    let (pair, gap) = widest(context, state)?;
+    Some(CutBack::NotBridged {
+        pair: context.pairs[pair].name.clone(),
+        motion: Box::new(motion),
+        gap,
+    })
+}
+
+/// The stabilised pair that is farthest apart, and how far.
+fn widest(context: &StepContext, state: &State) -> Option<(usize, f64)> {
+    let pairs = context.stabilisation.iter().enumerate();
+    let gaps = pairs.filter(|(_, c)| **c > 0.0).map(|(pair, _)| {
+        let configuration = context.configuration(pair, &state.positions, &state.rigid);
+        let gaps = facing(&configuration).into_iter().map(|node| node.gap);
+        let closed = state.pairs[pair].nodes.iter().flatten();
+        let touches = closed.into_iter().any(|node| node.status != Status::Open);
+        let gap = gaps.fold(f64::INFINITY, f64::min);
+        (pair, if touches { 0.0 } else { gap })
+    });
+    gaps.max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// The limit of friction, if that is why there is no equilibrium beyond `state`: all nodes

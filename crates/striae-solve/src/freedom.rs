@@ -9,7 +9,7 @@
 use nalgebra::{DMatrix, SymmetricEigen};
 use striae_contact::{
     initial::signed_gap,
-    interference::Stage,
+    interference::{Stage, facing},
     unknowns::{NodeResult, Status},
 };
 use striae_mesh::Vec3;
@@ -56,6 +56,8 @@ impl std::fmt::Display for FreeMotion {
 pub enum Friction {
     /// All closed nodes of pairs that have friction.
     Any,
+    /// These, and all closed nodes of stabilised pairs.
+    Dashpots,
     /// Nodes that stick, in pairs of which a noticeable part does.
     Reserve,
 }
@@ -84,21 +86,84 @@ pub fn slipping<'n>(contacts: impl Iterator<Item = &'n [Vec<NodeResult>; 2]>) ->
         .collect()
 }
 
+/// Pairs whose sides are taken for held by each other where they face each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bridged {
+    /// None.
+    None,
+    /// Those that are stabilised in the step.
+    Stabilised,
+    /// These, as if they touched.
+    Touching(usize),
+}
+
+/// The pair whose stabilisation would carry the body with a free motion to contact that holds it.
+pub fn worth_stabilising(context: &StepContext, state: &State, free: &FreeMotion) -> Option<usize> {
+    let open = |pair: &usize| {
+        let mut nodes = state.pairs[*pair].nodes.iter().flatten();
+        context.stabilisation[*pair] == 0.0 && nodes.all(|node| node.status == Status::Open)
+    };
+    let held = |pair: &usize| {
+        let left = free_motion_in(context, state, Bridged::Touching(*pair));
+        left.is_none_or(|left| left.mover != free.mover)
+    };
+    (0..state.pairs.len()).filter(open).find(held)
+}
+
 /// A motion that nothing holds in a converged state. Nodes of pairs that contact has not
 /// looked at yet are closed if they touch.
-pub fn free_motion_in(context: &StepContext, state: &State) -> Option<FreeMotion> {
-    let touching: Vec<_> = (0..state.pairs.len())
+pub fn free_motion_in(
+    context: &StepContext,
+    state: &State,
+    bridged: Bridged,
+) -> Option<FreeMotion> {
+    let mut touching: Vec<_> = (0..state.pairs.len())
         .map(|pair| touching(context, pair))
         .collect();
-    let pairs = state.pairs.iter().zip(&touching);
+    let is_bridged = |pair: usize| match bridged {
+        Bridged::None => false,
+        Bridged::Stabilised => context.stabilisation[pair] > 0.0,
+        Bridged::Touching(only) => pair == only,
+    };
+    for pair in (0..touching.len()).filter(|&pair| is_bridged(pair)) {
+        touching[pair] = closed(context, state, pair);
+    }
+    let pairs = state.pairs.iter().zip(&touching).enumerate();
     let contacts: Vec<_> = pairs
-        .map(|(pair, touching)| {
-            let mut looked_at = pair.kept.iter().chain(&pair.pointed).flatten();
+        .map(|(pair, (of_pair, touching))| {
+            let mut looked_at = of_pair.kept.iter().chain(&of_pair.pointed).flatten();
             let looked_at = looked_at.any(|known| *known);
-            if looked_at { &pair.nodes } else { touching }
+            if looked_at && !is_bridged(pair) {
+                &of_pair.nodes
+            } else {
+                touching
+            }
         })
         .collect();
-    free_motion(context, state.into(), &contacts, Friction::Any)
+    let friction = match bridged {
+        Bridged::Stabilised => Friction::Dashpots,
+        Bridged::None | Bridged::Touching(_) => Friction::Any,
+    };
+    free_motion(context, state.into(), &contacts, friction)
+}
+
+/// Nodes of a pair that are closed where they face the other side.
+fn closed(context: &StepContext, state: &State, pair: usize) -> [Vec<NodeResult>; 2] {
+    let configuration = configuration(context.problem, pair, state.into());
+    let mut nodes = [Vec::new(), Vec::new()];
+    for &side in context.pairs[pair].deformable_sides() {
+        let normals = configuration.side(side).normals.iter();
+        nodes[side] = normals
+            .map(|normal| NodeResult {
+                normal: *normal,
+                ..NodeResult::default()
+            })
+            .collect();
+    }
+    for facing in facing(&configuration) {
+        nodes[facing.side][facing.node as usize].status = Status::Stick;
+    }
+    nodes
 }
 
 /// Nodes of a pair that touch the other side where the step begins.
@@ -141,6 +206,7 @@ pub fn free_motion(
         let is_rough = context.pairs[pair].friction.cap(1.0, 0.0) > 0.0;
         let holds = |status: Status| match friction {
             Friction::Any => is_rough,
+            Friction::Dashpots => is_rough || context.stabilisation[pair] > 0.0,
             Friction::Reserve => status == Status::Stick && !slipping[pair],
         };
         rows.contact(context.problem, pair, nodes, at, holds);

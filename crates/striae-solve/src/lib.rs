@@ -21,5 +21,6 @@ pub mod repetition;
 pub mod report;
 pub mod rigid;
 pub mod solid;
+pub mod stabilisation;
 pub mod state;
 pub mod warning;

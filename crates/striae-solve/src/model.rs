@@ -171,6 +171,9 @@ pub struct Pair {
     pub search_distance: Option<f64>,
     /// What is made of gaps and overlaps of the meshes.
     pub initial: Initial,
+    /// Whether viscous forces carry bodies that nothing else holds across the gap, see
+    /// [`crate::stabilisation`].
+    pub stabilised: bool,
 }
 
 /// What is made of the gaps and overlaps that the meshes of a pair have before anything

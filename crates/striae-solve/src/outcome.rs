@@ -84,11 +84,44 @@ pub enum CutBack {
         /// How many.
         count: usize,
     },
+    /// Bodies have gone through each other.
+    #[error(
+        "pair `{pair}`: {node} of `{body}` went through `{other}`, or {depth:.3e} into it, and contact did not see it"
+    )]
+    Passage {
+        /// Name of the pair.
+        pair: String,
+        /// Body or rigid surface of the node.
+        body: String,
+        /// The node, or the nearest one, that is in deepest.
+        node: striae_mesh::NodeId,
+        /// What it went through.
+        other: String,
+        /// How deep it was.
+        depth: f64,
+        /// How far one side has moved relative to the other.
+        way: f64,
+    },
     /// Nothing holds a body.
-    #[error("{motion}; prescribe displacements, or let contact hold it from the start")]
+    #[error("{motion}; {}", free_text(stabilise))]
     Free {
         /// The body and how it can move.
         motion: Box<FreeMotion>,
+        /// Pair whose stabilisation would carry it to contact that holds it.
+        stabilise: Option<String>,
+    },
+    /// Stabilisation has not carried a body to contact that holds it.
+    #[error(
+        "{motion} where stabilisation ends, which is at the end of the step; pair `{pair}` {}",
+        gap_text(*gap)
+    )]
+    NotBridged {
+        /// Name of the pair.
+        pair: String,
+        /// The body and how it can move.
+        motion: Box<FreeMotion>,
+        /// Smallest gap that is left.
+        gap: f64,
     },
     /// Friction does not hold a body against its loads.
     #[error(
@@ -123,11 +156,28 @@ fn all_nodes(sticking: usize) -> String {
     }
 }
 
+fn free_text(stabilise: &Option<String>) -> String {
+    let hold = "prescribe displacements, or let contact hold it from the start";
+    match stabilise {
+        None => hold.into(),
+        Some(pair) => format!("{hold}, or set `stabilise = true` in pair `{pair}`"),
+    }
+}
+
+fn gap_text(gap: f64) -> String {
+    if gap > 0.0 {
+        format!("is {gap:.3e} apart: load the body towards the other side, or hold it")
+    } else {
+        "touches, but does not hold it: prescribe displacements, or give it friction".into()
+    }
+}
+
 impl CutBack {
     /// What is to be done about it.
     pub fn remedy(&self) -> Remedy {
         match self {
             Self::Free { .. } => Remedy::None,
+            Self::NotBridged { gap, .. } if *gap <= 0.0 => Remedy::None,
             _ => Remedy::SmallerIncrement,
         }
     }

@@ -69,6 +69,10 @@ pub struct NodalForces {
     pub applied: Vec<Vec3>,
     /// Contact forces.
     pub contact: Vec<Vec3>,
+    /// Forces of stabilisation, see [`crate::stabilisation`].
+    pub stabilisation: Vec<Vec3>,
+    /// Those on every rigid body.
+    pub stabilised: Vec<Wrench>,
     /// Force and torque that drive or hold every rigid body whose coordinates are
     /// unknowns, against the nodes tied to it and against contact.
     pub rigid: Vec<Wrench>,
@@ -92,6 +96,8 @@ pub struct Energies {
     /// changing gaps, and the difference between the forces of traction fields and
     /// tractions at nodes. It vanishes with increments and mesh.
     pub contact: f64,
+    /// Work lost to stabilisation, see [`crate::stabilisation`].
+    pub stabilisation: f64,
     /// Work lost to time integration and its quadrature. It vanishes with the increments.
     pub numerical: f64,
 }
@@ -100,8 +106,8 @@ impl Energies {
     /// External work that is found nowhere: the work of the residual forces that
     /// Newton's method leaves, if all forces are right.
     pub fn imbalance(&self) -> f64 {
-        let found = self.kinetic + self.strain + self.friction + self.contact + self.numerical;
-        self.external - found
+        let lost = self.friction + self.contact + self.stabilisation + self.numerical;
+        self.external - (self.kinetic + self.strain + lost)
     }
 }
 
@@ -114,6 +120,8 @@ impl NodalForces {
             reaction: vec![Vec3::zeros(); nodes],
             applied: vec![Vec3::zeros(); nodes],
             contact: vec![Vec3::zeros(); nodes],
+            stabilisation: vec![Vec3::zeros(); nodes],
+            stabilised: vec![Wrench::default(); rigid],
             rigid: vec![Wrench::default(); rigid],
             pushed: vec![Wrench::default(); rigid],
         }

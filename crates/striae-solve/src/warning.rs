@@ -10,12 +10,16 @@
 //! | `tension` | tensile nodal pressure over the largest pressure of the pair so far | 1e-6 |
 //! | `penetration` | depth over the local facet size, see [`crate::interference`] | 0.1 |
 //! | `passage` | the same for what has passed through, see there | 0 |
+//! | `unfelt` | the same while the pair has no force at all | 0.02 |
 //! | `creation` | negative friction work over the largest energy | 1e-6 |
 //! | `imbalance` | energy found nowhere over the largest energy | 1e-3 |
+//! | `stabilisation` | work lost to [stabilisation](crate::stabilisation) in a step over its external work or change of strain energy, whichever is larger | 0.01 |
 //! | `never-touched` | the smallest distance at the start; after a completed run | - |
 //! | `never-meets` | the same, before the run | - |
 
-use striae_contact::{initial::Fit, interference::Kind as Interfering, interference::SHARE};
+use striae_contact::{
+    initial::Fit, interference::Kind as Interfering, interference::SHARE, pointed::choice::PIERCED,
+};
 
 use crate::{
     initial::{fits, may_meet, other_name},
@@ -55,12 +59,16 @@ pub enum Kind {
     Tension,
     /// Bodies are inside each other.
     Penetration,
+    /// Bodies are inside each other and no contact feels it.
+    Unfelt,
     /// Bodies have passed through each other.
     Passage,
     /// Friction makes energy.
     Creation,
     /// Energy is found nowhere.
     Imbalance,
+    /// Much of the work of a step is lost to stabilisation.
+    Stabilisation,
     /// A pair has never touched.
     NeverTouched,
     /// A pair can never meet.
@@ -69,14 +77,16 @@ pub enum Kind {
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 11] = [
         Self::Mismatch,
         Self::Moment,
         Self::Tension,
         Self::Penetration,
+        Self::Unfelt,
         Self::Passage,
         Self::Creation,
         Self::Imbalance,
+        Self::Stabilisation,
         Self::NeverTouched,
         Self::NeverMeets,
     ];
@@ -88,9 +98,11 @@ impl Kind {
             Self::Moment => "moment",
             Self::Tension => "tension",
             Self::Penetration => "penetration",
+            Self::Unfelt => "unfelt",
             Self::Passage => "passage",
             Self::Creation => "creation",
             Self::Imbalance => "imbalance",
+            Self::Stabilisation => "stabilisation",
             Self::NeverTouched => "never-touched",
             Self::NeverMeets => "never-meets",
         }
@@ -100,8 +112,9 @@ impl Kind {
     pub fn limit(self) -> f64 {
         match self {
             Self::Mismatch | Self::Tension | Self::Creation => 1e-6,
-            Self::Moment => 1e-2,
+            Self::Moment | Self::Stabilisation => 1e-2,
             Self::Penetration => SHARE,
+            Self::Unfelt => PIERCED,
             Self::Imbalance => 1e-3,
             Self::Passage | Self::NeverTouched | Self::NeverMeets => 0.0,
         }
@@ -119,6 +132,8 @@ pub struct Judgement {
     pub pressures: Vec<f64>,
     /// Largest energy.
     pub energy: f64,
+    /// Energies at the start of the step.
+    pub step: Energies,
 }
 
 /// The worst of a kind.
@@ -145,11 +160,31 @@ impl Judgement {
             .max(round_off(problem));
         let imbalance = after.energies.imbalance().abs();
         self.note(Kind::Imbalance, None, imbalance, after.time);
+        self.stabilisation(problem, after);
         for (pair, report) in pairs(problem, after).iter().enumerate() {
             self.pair(pair, report, [before, after]);
             let ends = [before, after].map(Positions::from);
-            self.interference(problem, pair, ends, after.time);
+            self.interference(problem, pair, ends, report.max_pressure, after.time);
         }
+    }
+
+    /// Judges a step at its end.
+    fn stabilisation(&mut self, problem: &Problem, after: &State) {
+        let mut end = 0.0;
+        let ends = problem.model.steps.iter().map(|step| {
+            end += step.duration;
+            (end, step.duration)
+        });
+        let mut ends = ends.filter(|(end, duration)| (after.time - end).abs() < 1e-9 * duration);
+        if ends.next().is_none() {
+            return;
+        }
+        let [from, to] = [&self.step, &after.energies];
+        let work = (to.external - from.external).abs();
+        let scale = work.max((to.strain - from.strain).abs());
+        let share = over(to.stabilisation - from.stabilisation, scale);
+        self.note(Kind::Stabilisation, None, share, after.time);
+        self.step = after.energies;
     }
 
     fn pair(&mut self, pair: usize, report: &PairReport, [before, after]: [&State; 2]) {
@@ -179,6 +214,7 @@ impl Judgement {
         problem: &Problem,
         pair: usize,
         [start, end]: [Positions; 2],
+        pressure: f64,
         time: f64,
     ) {
         let passed = between(problem, pair, start, end, SHARE);
@@ -194,14 +230,17 @@ impl Judgement {
         if resolving && time < duration * (1.0 - 1e-9) {
             return;
         }
-        let inside = within(problem, pair, end, SHARE);
+        // Contact that is narrower than the facets of a smooth surface has a positive mean
+        // gap, so nothing feels it.
+        let unfelt = pressure == 0.0;
+        let bound = if unfelt { PIERCED } else { SHARE };
+        let inside = within(problem, pair, end, bound);
         let depths = inside.iter().map(|found| found.share());
-        self.note(
-            Kind::Penetration,
-            Some(pair),
-            depths.fold(0.0, f64::max),
-            time,
-        );
+        let deepest = depths.fold(0.0, f64::max);
+        self.note(Kind::Penetration, Some(pair), deepest, time);
+        if unfelt {
+            self.note(Kind::Unfelt, Some(pair), deepest, time);
+        }
     }
 
     fn note(&mut self, kind: Kind, pair: Option<usize>, value: f64, time: f64) {
@@ -262,9 +301,10 @@ impl Judgement {
     }
 }
 
-/// Energy below which all is round-off: that of strains of 3e-7 or less.
+/// Energy below which all is round-off: that of strains of 4e-6 or less. Its balance is
+/// judged at a thousandth, which is a hundred units in the last place of `G V`.
 fn round_off(problem: &Problem) -> f64 {
-    const STRAIN_SQUARED: f64 = 1e-13;
+    const STRAIN_SQUARED: f64 = 2e-11;
     let bodies = problem.model.bodies.iter().zip(&problem.elements);
     let energies = bodies.map(|(body, elements)| {
         let volume: f64 = elements.iter().map(|element| element.volume()).sum();
@@ -284,9 +324,18 @@ fn largest(energies: &Energies) -> f64 {
         external,
         friction,
         contact,
+        stabilisation,
         numerical,
     } = *energies;
-    let all = [kinetic, strain, external, friction, contact, numerical];
+    let all = [
+        kinetic,
+        strain,
+        external,
+        friction,
+        contact,
+        stabilisation,
+        numerical,
+    ];
     all.into_iter()
         .fold(0.0, |most: f64, energy| most.max(energy.abs()))
 }
@@ -313,6 +362,9 @@ fn warning(model: &Model, worst: &Worst) -> Warning {
         Kind::Penetration => format!(
             "pair `{name}`: its sides are inside each other by {percent:.0} % of the facet size at time {time:.4}"
         ),
+        Kind::Unfelt => format!(
+            "pair `{name}`: its sides are inside each other by {percent:.1} % of the facet size at time {time:.4}, and contact does not feel it; refine the coarser side there"
+        ),
         Kind::Passage => {
             format!("pair `{name}`: its sides have passed through each other at time {time:.4}")
         }
@@ -322,6 +374,9 @@ fn warning(model: &Model, worst: &Worst) -> Warning {
         Kind::Imbalance => {
             format!("energy of {value:.1e} of the largest one is found nowhere at time {time:.4}")
         }
+        Kind::Stabilisation => format!(
+            "stabilisation has taken {percent:.1} % of the work of the step that ends at time {time:.4}"
+        ),
         Kind::NeverTouched => format!("pair `{name}` has never touched"),
         Kind::NeverMeets => format!("pair `{name}` can never meet"),
     };

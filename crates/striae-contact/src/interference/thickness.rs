@@ -113,7 +113,7 @@ fn opposite(
 }
 
 /// Weights of the corners of a facet for those of one of its triangles.
-fn of_corners(at: usize, count: usize, weights: [f64; 3]) -> [f64; 4] {
+pub(super) fn of_corners(at: usize, count: usize, weights: [f64; 3]) -> [f64; 4] {
     if count == 1 {
         return [weights[0], weights[1], weights[2], 0.0];
     }

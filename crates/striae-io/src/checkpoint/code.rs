@@ -174,18 +174,18 @@ coded! {
     FacetForces { force, area, pressure, friction };
     Tractions { nodes, tau_n, slipped, statuses };
     Worst { kind, pair, value, time };
-    Judgement { worst, forces, pressures, energy };
+    Judgement { worst, forces, pressures, energy, step };
     SolverSummary { method, factorisations, contact_corrections, fall_backs, reason };
     PairState { tractions, kept, pointed, points, carried, nodes, facets, dissipated };
     RigidPoint { ends, share };
     Wrench { force, torque };
     Pose { displacement, turned, rotation };
-    NodalForces { internal, inertia, reaction, applied, contact, rigid, pushed };
-    Energies { kinetic, strain, external, friction, contact, numerical };
+    NodalForces { internal, inertia, reaction, applied, contact, stabilisation, stabilised, rigid, pushed };
+    Energies { kinetic, strain, external, friction, contact, stabilisation, numerical };
     State { time, positions, velocities, accelerations, rigid, pairs, forces, energies };
     Extent { nodes };
     FactoredInterior { values, scales, prescribed, single };
     Experience { too_coarse, taken, interior };
     Memory { extent, cliques, solver };
-    Point { step, increments, fraction, size, start, state, memory };
+    Point { step, increments, fraction, size, search, start, state, memory };
 }

@@ -192,6 +192,14 @@ pub enum FaultKind {
         /// The earlier pair.
         other: String,
     },
+    /// A pair is stabilised, but all steps have inertia.
+    #[error(
+        "pair `{pair}` is stabilised, but every step is dynamic: there inertia carries bodies across gaps. Leave `stabilise` out"
+    )]
+    StabilisedByInertia {
+        /// The pair.
+        pair: String,
+    },
     /// The meshes of a pair do not fit.
     #[error("{fault}")]
     Initial {

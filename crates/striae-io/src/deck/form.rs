@@ -6,6 +6,8 @@
 pub(crate) enum Form {
     /// A text that is not empty.
     Text,
+    /// `true` or `false`.
+    Truth,
     /// A finite number within bounds.
     Number(&'static [Bound]),
     /// A whole number not below a least one.
@@ -65,6 +67,7 @@ impl Form {
     pub(crate) fn expected(&self) -> String {
         match self {
             Self::Text => "a text".into(),
+            Self::Truth => "true or false".into(),
             Self::Number(bounds) => format!("a number{}", bounded(bounds)),
             Self::Whole(least) => format!("a whole number of at least {least}"),
             Self::Words(words) => format!("one of {}", ticked(words.iter().map(|(word, _)| *word))),
@@ -81,6 +84,7 @@ impl Form {
     fn plural(&self) -> String {
         match self {
             Self::Text => "texts".into(),
+            Self::Truth => "truths".into(),
             Self::Number(bounds) => format!("numbers{}", bounded(bounds)),
             Self::Whole(least) => format!("whole numbers of at least {least}"),
             Self::Words(words) => {

@@ -110,6 +110,7 @@ fn meaning(key: &Key) -> String {
 fn form_schema(form: &Form) -> Value {
     match form {
         Form::Text => json!({ "type": "string", "pattern": r"\S" }),
+        Form::Truth => json!({ "type": "boolean" }),
         Form::Number(bounds) => {
             let mut schema = json!({ "type": "number" });
             for bound in *bounds {

@@ -28,6 +28,23 @@ impl Read for Text {
     }
 }
 
+/// `true` or `false`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Truth(pub(crate) bool);
+
+impl Read for Truth {
+    fn read(value: &Value<'_>, place: &Place, faults: &mut FaultList<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::Boolean(truth) => Some(Self(*truth)),
+            _ => unexpected(value, place, faults, &Self::form()),
+        }
+    }
+
+    fn form() -> Form {
+        Form::Truth
+    }
+}
+
 macro_rules! number {
     ($(#[doc = $doc:literal] $name:ident [$($bound:expr),*])+) => { $(
         #[doc = $doc]

@@ -13,11 +13,12 @@ use crate::{
     plan::StepPlan,
     problem::Problem,
     rigid::{Pose, Wrench},
+    stabilisation::{Dashpot, coefficient, dashpots},
     state::State,
 };
 
 /// What does not change within a step.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct StepContext<'a> {
     /// The problem.
     pub problem: &'a Problem,
@@ -37,6 +38,8 @@ pub struct StepContext<'a> {
     pub fixed_on_pair: Vec<Prescribed>,
     /// Overlaps of the meshes of every pair that are pressed out in the step.
     pub offsets: Vec<Offsets>,
+    /// Coefficient of stabilisation of every pair, see [`crate::stabilisation`].
+    pub stabilisation: Vec<f64>,
 }
 
 /// What is imposed at the end of an increment.
@@ -60,6 +63,8 @@ pub struct Imposed {
     pub elapsed: f64,
     /// Inertia, if the step has it.
     pub motion: Option<Motion>,
+    /// What stabilises every pair in the increment.
+    pub dashpots: Vec<Vec<Dashpot>>,
 }
 
 /// Velocity and acceleration of a prescribed component.
@@ -101,7 +106,8 @@ impl<'a> StepContext<'a> {
                 friction: friction.clone(),
                 ..pair.contact.clone()
             });
-        Self {
+        let mut context = Self {
+            stabilisation: Vec::new(),
             fixed_on_pair: (0..problem.pairs.len()).map(on_pair).collect(),
             pairs: pairs.collect(),
             offsets: (0..problem.pairs.len())
@@ -117,7 +123,22 @@ impl<'a> StepContext<'a> {
                 .map(|coordinates| coordinates.each_ref().map(Option::is_some))
                 .collect(),
             fixed,
+        };
+        let pairs = 0..problem.pairs.len();
+        context.stabilisation = pairs.map(|pair| coefficient(&context, pair)).collect();
+        context
+    }
+
+    /// The same with contact looked for over `search` of every pair at least.
+    pub fn looking(&self, search: &[f64]) -> Self {
+        let mut context = self.clone();
+        for (pair, search) in context.pairs.iter_mut().zip(search) {
+            let known = pair.search_distance.unwrap_or(0.0);
+            if *search > known {
+                pair.search_distance = Some(*search);
+            }
         }
+        context
     }
 
     /// Overlap of the meshes of a pair that is left at the fraction `s` of the step.
@@ -132,6 +153,7 @@ impl<'a> StepContext<'a> {
         Imposed {
             elapsed,
             motion: Motion::new(self, state, elapsed),
+            dashpots: dashpots(self, state, s, elapsed),
             before: state.rigid.clone(),
             ..self.imposed(s)
         }
@@ -190,6 +212,7 @@ impl<'a> StepContext<'a> {
             rates: rates.collect(),
             elapsed: f64::INFINITY,
             motion: None,
+            dashpots: Vec::new(),
         }
     }
 

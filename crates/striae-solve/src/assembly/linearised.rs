@@ -72,6 +72,7 @@ pub fn assemble_contact(
     let configurations = configurations(setting, trial);
     let contacts = system.contacts(&configurations, setting, trial, iteration)?;
     system.add_contacts(&configurations, &contacts);
+    system.stabilise(trial, imposed);
     if !system.outside.is_empty() {
         return Err(Fault::Pattern(system.outside));
     }

@@ -8,7 +8,8 @@
 //! external  += d . (a f_ext,0 + (1 - a) f_ext,1) + work of reactions and of moving surfaces
 //!            + work of the forces and torques on rigid bodies, du . F + dt . M
 //! friction  += sum A (-tau_1 . du) over the nodes at which friction is collocated
-//! contact   += -d . f_con on all sides - friction
+//! stabilisation += k |relative displacement|^2 over the dashpots
+//! contact   += -d . (f_con + f_sta) on all sides - friction - stabilisation
 //! numerical += d . (a f_int,0 + (1 - a) f_int,1) - change of strain energy
 //!            + dt v . M e + d' . M a_alpha
 //!            - sum (1 - a) (dr - dt x r_1) . h_1 + a (dr - dt x r_0) . h_0 at tied nodes
@@ -43,6 +44,7 @@ use crate::{
     dynamics::{Scheme, kinetic_energy, mass_times, wrenches},
     problem::Problem,
     rigid::Pose,
+    stabilisation::Dashpot,
     state::{Energies, State},
 };
 
@@ -63,6 +65,8 @@ pub(super) struct Ends<'a> {
 impl Ends<'_> {
     /// Energies at the end; `friction` is dissipated in the increment.
     pub(super) fn energies(&self, friction: f64) -> Energies {
+        let (resisted, stabilisation) = (self.resisted(|_| true), self.stabilisation());
+        let resisted = resisted - self.work_of_stabilisation();
         let before = &self.state.energies;
         let strain = self.assembled.strain;
         let lost = self.internal() - (strain - before.strain) + self.inertia() - self.arcs();
@@ -71,7 +75,8 @@ impl Ends<'_> {
             strain,
             external: before.external + self.external(),
             friction: before.friction + friction,
-            contact: before.contact + self.contact() - friction,
+            contact: before.contact + self.contact() - friction + (resisted - stabilisation),
+            stabilisation: before.stabilisation + stabilisation,
             numerical: before.numerical + lost,
         }
     }
@@ -117,13 +122,17 @@ impl Ends<'_> {
             if self.context.problem.tie_of[node].is_some() {
                 return Vec3::zeros();
             }
-            let found = before.internal[node] - before.applied[node] - before.contact[node];
+            let found = before.internal[node]
+                - before.applied[node]
+                - before.contact[node]
+                - before.stabilisation[node];
             let fixed = |axis: usize| f64::from(u8::from(self.context.fixed[3 * node + axis]));
             let reaction = Vec3::from_fn(|axis, _| fixed(axis) * after.reaction[node][axis]);
             self.held(found, reaction)
         });
         let driven = |rigid: usize| !self.context.problem.has_coordinates(rigid);
-        applied + reactions + self.of_surfaces(driven, Way::Whole) + self.of_bodies()
+        let surfaces = self.of_surfaces(driven, Way::Whole) + self.resisted(driven);
+        applied + reactions + surfaces + self.of_bodies()
     }
 
     /// Work on the coordinates of rigid bodies: of what drives free ones, and of what
@@ -201,6 +210,44 @@ impl Ends<'_> {
             work += mean(weight, start.work(problem, way), end.work(problem, way));
         }
         work
+    }
+
+    /// Minus the work of stabilisation on some rigid bodies.
+    fn resisted(&self, wanted: impl Fn(usize) -> bool) -> f64 {
+        let (before, after) = (&self.state.forces, &self.assembled.forces);
+        let weight = self.held_weight();
+        let mut work = 0.0;
+        for rigid in (0..self.trial.rigid.len()).filter(|&rigid| wanted(rigid)) {
+            let [from, to] =
+                [&self.state.rigid, &self.trial.rigid].map(|poses| poses[rigid].coordinates());
+            let [start, end] = [before, after].map(|forces| forces.stabilised[rigid].components());
+            for at in 0..6 {
+                work -= mean(weight, start[at], end[at]) * (to[at] - from[at]);
+            }
+        }
+        work
+    }
+
+    /// Work of stabilisation on nodes.
+    fn work_of_stabilisation(&self) -> f64 {
+        let (before, after) = (&self.state.forces, &self.assembled.forces);
+        self.work(|node| self.held(before.stabilisation[node], after.stabilisation[node]))
+    }
+
+    /// What stabilisation takes by its forces at the end, which is never negative.
+    fn stabilisation(&self) -> f64 {
+        let problem = self.context.problem;
+        let pairs = self.imposed.dashpots.iter().enumerate();
+        let of_pair = |(pair, dashpots): (usize, &Vec<Dashpot>)| -> f64 {
+            let rigid = problem.pairs[pair].rigid;
+            let poses = rigid.map(|rigid| [&self.state.rigid[rigid], &self.trial.rigid[rigid]]);
+            let work = dashpots.iter().map(|dashpot| {
+                let stretch = dashpot.stretch(problem, pair, &self.trial.positions, poses);
+                dashpot.stiffness * stretch.norm_squared()
+            });
+            work.sum()
+        };
+        pairs.map(of_pair).sum()
     }
 
     fn internal(&self) -> f64 {

@@ -7,7 +7,10 @@
 
 use striae_contact::complementarity::Iteration;
 
-use super::{corrected, labelled, workspace::Workspace};
+use super::{
+    correction::{corrected, labelled},
+    workspace::Workspace,
+};
 use crate::assembly::{Assembled, Contact, Setting, Trial};
 
 /// Most corrections of contact alone.

@@ -124,6 +124,7 @@ pub fn standing(upper: Block, sole: &[&str], floor: Floor, friction: Friction) -
             enforcement: Enforcement::Weighted,
             search_distance: None,
             initial: Initial::AsMeshed,
+            stabilised: false,
         }],
         steps: Vec::new(),
         solver: Solver {

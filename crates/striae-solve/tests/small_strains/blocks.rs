@@ -144,6 +144,7 @@ pub fn model(case: &Case, depth: f64) -> Model {
         enforcement: Enforcement::Weighted,
         search_distance: None,
         initial: Initial::AsMeshed,
+        stabilised: false,
     };
     let hold = |body: usize, set: &str, target: Vec3| Displacement {
         set: set.to_owned(),

@@ -36,7 +36,7 @@ fn reason(run: &Run) -> &CutBack {
 #[test]
 fn a_body_that_nothing_holds_ends_the_run_at_once_and_by_name() {
     let free = Run::of(pressed(0.1, coulomb(0.3)));
-    let CutBack::Free { motion } = reason(&free) else {
+    let CutBack::Free { motion, .. } = reason(&free) else {
         panic!("{}", free.ending);
     };
     assert_eq!(motion.mover, FreeMover::Body("block".to_owned()));
@@ -53,13 +53,13 @@ fn what_conditions_leave_free_is_said_as_it_is() {
     let guide = model.hold("block", "zmax", [Some(0.0), Some(0.0), None]);
     model.steps[0].displacements = vec![guide];
     let run = Run::of(model);
-    let CutBack::Free { motion } = reason(&run) else {
+    let CutBack::Free { motion, .. } = reason(&run) else {
         panic!("{}", run.ending);
     };
     assert_eq!(motion.motions, "along z");
     // On the floor without friction nothing stops motion along it.
     let run = Run::of(pressed(0.0, Friction::frictionless()));
-    let CutBack::Free { motion } = reason(&run) else {
+    let CutBack::Free { motion, .. } = reason(&run) else {
         panic!("{}", run.ending);
     };
     assert_eq!(motion.motions, "along x, along y and about z");

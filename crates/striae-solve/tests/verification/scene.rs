@@ -337,6 +337,7 @@ fn pair(name: &str, a: Side, b: Side, friction: Friction) -> Pair {
         enforcement: Enforcement::Weighted,
         search_distance: None,
         initial: Initial::AsMeshed,
+        stabilised: false,
     }
 }
 

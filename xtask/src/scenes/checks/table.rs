@@ -149,11 +149,12 @@ fn dissipation(findings: &mut Findings, column: &str, history: &History) {
     }
 }
 
-const ENERGIES: [&str; 6] = [
+const ENERGIES: [&str; 7] = [
     "kinetic",
     "strain",
     "friction",
     "contact",
+    "stabilisation",
     "numerical",
     "external",
 ];
@@ -179,7 +180,7 @@ fn energy(findings: &mut Findings, history: &History) {
                 .number(row, &format!("energy.{name}"))
                 .unwrap_or(f64::NAN)
         };
-        let spent: f64 = ENERGIES[..5].iter().map(|name| of(name)).sum();
+        let spent: f64 = ENERGIES[..6].iter().map(|name| of(name)).sum();
         let off = of("external") - spent;
         findings.note("energy", off.abs() / (ENERGY * scale), || {
             format!("increment {}: {off:.2e} of {scale:.2e}", row + 1)
@@ -244,7 +245,7 @@ mod tests {
     use super::*;
     use crate::scenes::kinds::{Dialect, scene};
 
-    const NAMES: &str = "time,iterations,energy.kinetic,energy.strain,energy.friction,energy.contact,\
+    const NAMES: &str = "time,iterations,energy.kinetic,energy.strain,energy.friction,energy.contact,energy.stabilisation,\
                          energy.numerical,energy.external,pair.interface.dissipated,\
                          pair.interface.resultant_a.x,pair.interface.resultant_a.y,\
                          pair.interface.resultant_a.z,pair.interface.resultant_b.x,\
@@ -258,8 +259,8 @@ mod tests {
         scene.pairs[0].sides.sort_by_key(|side| side.owner);
         let names: Vec<&str> = NAMES.split(',').collect();
         let mut rows = [
-            "0.5,4,0,1,0.5,0,0,1.5,0.5,0,0,-2,0,0,2,0,0,2,0,0,-2",
-            "1,4,0,2,1,0,0,3,1,0,0,-4,0,0,4,0,0,4,0,0,-4",
+            "0.5,4,0,1,0.5,0,0,0,1.5,0.5,0,0,-2,0,0,2,0,0,2,0,0,-2",
+            "1,4,0,2,1,0,0,0,3,1,0,0,-4,0,0,4,0,0,4,0,0,-4",
         ]
         .map(|row| row.split(',').map(str::to_owned).collect::<Vec<_>>());
         for (row, name, value) in changes {

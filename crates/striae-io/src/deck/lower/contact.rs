@@ -12,7 +12,8 @@ use std::{collections::BTreeSet, path::Path};
 use striae_law::friction::Friction;
 use striae_mesh::{Face, Mesh, NodeId};
 use striae_solve::model::{
-    ClosedGaps, Enforcement, Initial, Pair, RigidId, RigidShape, RigidSurface, Side,
+    ClosedGaps, Enforcement, Initial, Pair, Procedure, RigidId, RigidShape, RigidSurface, Side,
+    Step,
 };
 use striae_surface::texture::Paint;
 
@@ -110,7 +111,32 @@ fn lower_pair(
             .initial
             .as_ref()
             .map_or(Initial::AsMeshed, |initial| lower_initial(&initial.value)),
+        stabilised: pair.stabilise.as_ref().is_some_and(|truth| truth.value.0),
     })
+}
+
+/// Notes pairs that ask for stabilisation where no step has any.
+pub(super) fn check(
+    raw: &[At<raw::Pair>],
+    pairs: &[Option<Pair>],
+    steps: &[Option<Step>],
+    faults: &mut FaultList<'_>,
+) {
+    let is_dynamic = |step: &Option<Step>| {
+        let procedure = step.as_ref().map(|step| step.procedure);
+        matches!(procedure, Some(Procedure::Dynamic { .. }))
+    };
+    if steps.is_empty() || !steps.iter().all(is_dynamic) {
+        return;
+    }
+    for (raw, pair) in raw.iter().zip(pairs) {
+        if let (Some(at), Some(pair)) = (&raw.value.stabilise, pair)
+            && at.value.0
+        {
+            let pair = pair.name.clone();
+            faults.push(&at.span, FaultKind::StabilisedByInertia { pair });
+        }
+    }
 }
 
 fn lower_initial(raw: &raw::Initial) -> Initial {

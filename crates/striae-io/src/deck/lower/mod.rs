@@ -99,6 +99,7 @@ pub(super) fn deck(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_
         hold::check(&parts, faults);
         rigid::check(&parts, faults);
         inertia::check(&parts, faults);
+        contact::check(list(&raw.pair), &pairs, &steps, faults);
     }
     nothing_missing(raw, faults);
 

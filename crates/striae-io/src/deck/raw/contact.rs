@@ -6,7 +6,7 @@ use crate::deck::{
     faults::FaultList,
     form::Form,
     read::{Place, Read, Value, read_table, unexpected},
-    value::{All, NonNegative, Number, Positive, Text},
+    value::{All, NonNegative, Number, Positive, Text, Truth},
 };
 use toml::de::DeValue;
 
@@ -28,6 +28,8 @@ table! {
         optional search_distance: Positive,
         /// What is made of gaps and overlaps of the meshes before anything has moved: `as-meshed` takes gaps as they are and refuses overlaps of more than 2 % of the local facet size; `close` moves nodes without strain until overlaps are gone, and gaps of up to a tenth of the local facet size or up to the one that is given; `resolve` presses overlaps out in the course of the first step. Default: `as-meshed`.
         optional initial: Initial,
+        /// Whether viscous forces between the sides carry bodies that nothing else holds across a gap, in steps without inertia. They fall to zero in the course of each step. Default: false.
+        optional stabilise: Truth,
     }
 }
 

@@ -1,0 +1,280 @@
+//! An increment under way: corrections until the residual is small.
+
+use striae_contact::{
+    complementarity::Iteration,
+    pointed::Pierced,
+    selection::Selection,
+    table_1::{Corrector, Inflation},
+};
+use striae_linalg::REDUCTION;
+
+use super::{
+    IterationObserver,
+    correction::{Taken, labelled, step},
+    cycling::History,
+    departure::first_positions,
+    failure::{linear_system, missed},
+    passage::passage,
+    rest::contact_at_rest,
+    selected::{Selected, pierced, reselected, selected},
+    workspace::Workspace,
+};
+use crate::{
+    assembly::{Assembled, Imposed, Setting, StepContext, Trial},
+    model::Strategy,
+    norms::Norms,
+    outcome::CutBack,
+    state::State,
+};
+
+/// How often an increment is solved again with nodes that it turned out to need.
+const REPETITIONS: usize = 3;
+
+/// An increment under way.
+pub(super) struct Attempt<'a> {
+    context: &'a StepContext<'a>,
+    state: &'a State,
+    imposed: &'a Imposed,
+    /// Traction fields of all pairs.
+    pub(super) selections: Vec<Selection>,
+    /// The latest state.
+    pub(super) trial: Trial,
+    /// Norms of all iterations.
+    pub(super) iterations: Vec<Norms>,
+    history: History,
+    inflation: Inflation,
+}
+
+impl<'a> Attempt<'a> {
+    /// The increment from `state` to what is imposed, at the fraction `s` of the step.
+    pub(super) fn new(
+        context: &'a StepContext<'a>,
+        state: &'a State,
+        imposed: &'a Imposed,
+        s: f64,
+        workspace: &mut Workspace,
+    ) -> Self {
+        let Selected {
+            selections,
+            tractions,
+        } = selected(context, state, s);
+        workspace.prepare(context.problem, &selections);
+        workspace.take_work();
+        let rigid = workspace.first_poses(imposed);
+        let trial = Trial {
+            positions: first_positions(context, state, imposed, &rigid, &selections),
+            tractions,
+            rigid,
+        };
+        Self {
+            context,
+            state,
+            imposed,
+            selections,
+            trial,
+            iterations: Vec::new(),
+            history: History::default(),
+            inflation: Inflation::default(),
+        }
+    }
+}
+
+impl Attempt<'_> {
+    /// Iterates, again where nodes turn out to be needed, until nothing is missed.
+    pub(super) fn solved(
+        &mut self,
+        workspace: &mut Workspace,
+        observer: &mut dyn IterationObserver,
+    ) -> Result<Assembled, CutBack> {
+        let mut assembled = workspace.assemble(&self.setting(), &self.trial, Iteration::First)?;
+        for repetition in 0.. {
+            assembled = self.converge(assembled, workspace, observer)?;
+            let missed = missed(&self.setting(), &self.trial);
+            let pierced = self.pierced(&assembled);
+            if repetition == REPETITIONS {
+                missed.map_or(Ok(()), Err)?;
+                break;
+            }
+            if missed.is_none() && pierced.iter().all(Pierced::is_empty) {
+                break;
+            }
+            let (setting, trial) = (self.setting(), &self.trial);
+            let found = reselected(&setting, trial, &assembled.contacts, &pierced);
+            assembled = self.taken_up(found, workspace)?;
+        }
+        passage(&self.setting(), &self.trial).map_or(Ok(assembled), Err)
+    }
+
+    fn setting(&self) -> Setting<'_> {
+        Setting {
+            context: self.context,
+            state: self.state,
+            selections: &self.selections,
+            imposed: self.imposed,
+        }
+    }
+
+    /// Iterates until the residual is small.
+    fn converge(
+        &mut self,
+        mut assembled: Assembled,
+        workspace: &mut Workspace,
+        observer: &mut dyn IterationObserver,
+    ) -> Result<Assembled, CutBack> {
+        let solver = &self.context.problem.model.solver;
+        let mut further = solver.further_iterations;
+        loop {
+            let before = self.iterations.last().map(Norms::largest);
+            let number = self.iterations.len() + 1;
+            let iteration = later(solver.strategy, self.inflation, number);
+            let taken;
+            (assembled, taken) = self.iterate(&assembled, before, iteration, workspace)?;
+            if let Some(selected) = self.refreshed(number, &assembled) {
+                assembled = self.taken_up(selected, workspace)?;
+            }
+            let norms = assembled.norms;
+            self.iterations.push(norms);
+            self.history.push(&assembled.contacts);
+            observer.iteration(number, &norms, &assembled.contacts);
+            // A part of a correction leaves prescribed displacements on their way.
+            let settled = taken == Taken::Whole && is_final(iteration);
+            if norms.largest() <= solver.tolerance && settled {
+                if further == 0 {
+                    return Ok(assembled);
+                }
+                further -= 1;
+            }
+            self.inflation = self.inflation.after(norms.gap);
+            self.judge(number, &norms)?;
+        }
+    }
+
+    /// One correction.
+    fn iterate(
+        &mut self,
+        assembled: &Assembled,
+        before: Option<f64>,
+        iteration: Iteration,
+        workspace: &mut Workspace,
+    ) -> Result<(Assembled, Taken), CutBack> {
+        let context = self.context;
+        let tolerance = context.problem.model.solver.tolerance;
+        let correction = workspace
+            .correction(&assembled.residual, part(before, tolerance))
+            .map_err(|error| linear_system(context.problem, &workspace.system().layout, error))?;
+        let at_rest = match iteration {
+            Iteration::Later { .. } => {
+                let at = (&self.trial, assembled);
+                contact_at_rest(workspace, &self.setting(), at, &correction, before)
+            }
+            Iteration::First | Iteration::Corrected(_) => None,
+        };
+        if let Some((trial, assembled)) = at_rest {
+            self.trial = trial;
+            return Ok((assembled, Taken::Whole));
+        }
+        labelled(&mut self.trial, &assembled.contacts);
+        let (trial, assembled, taken) = step(
+            workspace,
+            &self.setting(),
+            &self.trial,
+            iteration,
+            &correction,
+        )?;
+        self.trial = trial;
+        Ok((assembled, taken))
+    }
+
+    /// The traction field with what the first iteration shows to come into contact.
+    fn refreshed(&self, number: usize, assembled: &Assembled) -> Option<Selected> {
+        if number > 1 {
+            return None;
+        }
+        let pierced = self.pierced(assembled);
+        let comes = missed(&self.setting(), &self.trial).is_some();
+        (comes || !pierced.iter().all(Pierced::is_empty)).then(|| {
+            let setting = self.setting();
+            reselected(&setting, &self.trial, &assembled.contacts, &pierced)
+        })
+    }
+
+    /// What pierces the other side, by pair.
+    fn pierced(&self, assembled: &Assembled) -> Vec<Pierced> {
+        let contacts = &assembled.contacts;
+        pierced(self.context, &self.selections, &self.trial, contacts)
+    }
+
+    /// Goes on with another traction field.
+    fn taken_up(
+        &mut self,
+        selected: Selected,
+        workspace: &mut Workspace,
+    ) -> Result<Assembled, CutBack> {
+        self.selections = selected.selections;
+        self.trial.tractions = selected.tractions;
+        workspace.extend(self.context.problem, &self.selections);
+        let strategy = self.context.problem.model.solver.strategy;
+        let iteration = later(strategy, self.inflation, self.iterations.len() + 1);
+        workspace.assemble(&self.setting(), &self.trial, iteration)
+    }
+
+    /// Whether to go on.
+    fn judge(&self, number: usize, norms: &Norms) -> Result<(), CutBack> {
+        if !norms.largest().is_finite() || norms.force > 1e8 {
+            return Err(CutBack::Diverged {
+                iteration: number,
+                norms: *norms,
+            });
+        }
+        if number >= self.context.problem.model.solver.largest_iterations {
+            return Err(CutBack::NoConvergence {
+                iterations: number,
+                norms: *norms,
+                cycling: self.history.cycling(self.context.problem, &self.selections),
+            });
+        }
+        Ok(())
+    }
+}
+
+/// What an iteration after the first one goes by.
+fn later(strategy: Strategy, inflation: Inflation, number: usize) -> Iteration {
+    match strategy {
+        Strategy::Semismooth => Iteration::Later {
+            slip_weight: slip_weight(number),
+        },
+        Strategy::Table1 { stick_tolerance } => Iteration::Corrected(Corrector {
+            stick_tolerance,
+            inflation,
+        }),
+    }
+}
+
+/// `r_t` over its default. Cycles of first contact do not end with smaller increments, but
+/// with another `r_t`, first a smaller and then a larger one.
+fn slip_weight(number: usize) -> f64 {
+    match number {
+        0..=13 => 1.0,
+        14..=26 => 0.03,
+        _ => 10.0,
+    }
+}
+
+/// Whether the friction of an iteration is the true one.
+fn is_final(iteration: Iteration) -> bool {
+    match iteration {
+        Iteration::First | Iteration::Later { .. } => true,
+        Iteration::Corrected(corrector) => corrector.inflation.is_over(),
+    }
+}
+
+/// Largest part of the residual that a correction leaves.
+const LARGEST_PART: f64 = 1e-3;
+
+/// Part of the residual that a correction may leave, after which the norm is about as
+/// small as bodies that are not linear let it be.
+fn part(norm: Option<f64>, tolerance: f64) -> f64 {
+    norm.map_or(REDUCTION, |norm| {
+        (0.01 * norm).max(0.1 * tolerance / norm).min(LARGEST_PART)
+    })
+}
