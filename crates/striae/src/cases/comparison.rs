@@ -61,10 +61,7 @@ impl Ellipse {
 
 /// Samples inside of the facets under pressure on a side of the first pair.
 pub fn samples(run: &Run, side: usize) -> Vec<Sample> {
-    let place = |part: usize| (2 * part + 1) as f64 / PARTS as f64 - 1.0;
-    let grid: Vec<[f64; 2]> = (0..PARTS * PARTS)
-        .map(|at| [place(at / PARTS), place(at % PARTS)])
-        .collect();
+    let grid: Vec<[f64; 2]> = grid().collect();
     let facets = sampled(run, side, &grid);
     facets
         .into_iter()
@@ -91,6 +88,49 @@ pub fn nodal_samples(run: &Run, side: usize) -> Vec<Sample> {
         }
     }
     means.into_values().filter(|s| s.pressure > 0.0).collect()
+}
+
+/// Relative difference in the mean square of the mean pressures around the nodes of a
+/// side from the means of an exact one over the same areas, `integral N_k p / integral
+/// N_k` at rest. Unlike a field drawn through the means it has nothing of what the means
+/// take from a pressure that ends as a root.
+pub fn difference_of_means(run: &Run, side: usize, exact: impl Fn(&Vec3) -> f64) -> f64 {
+    let nodes = surface_nodes(run, side);
+    let mut means = vec![[0.0; 3]; nodes.len()];
+    for &facet in facets(run, side) {
+        let corners = facet.map(|corner| &nodes[corner as usize]);
+        for [xi, eta] in grid() {
+            let weights = Shape::Quadrilateral.weights(xi, eta);
+            let parts = || corners.iter().zip(weights.value);
+            let place: Vec3 = parts().map(|(node, weight)| node.reference * weight).sum();
+            let area = |place: &dyn Fn(&SurfaceNode) -> Vec3| {
+                area_vector(&weights, &corners.map(place)).norm()
+            };
+            let at_rest = area(&|node| node.reference) * 4.0 / (PARTS * PARTS) as f64;
+            let stretch = area(&|node| node.position) / area(&|node| node.reference);
+            let known = exact(&place);
+            for ((node, weight), corner) in parts().zip(facet) {
+                let share = weight * at_rest;
+                let [area, computed, expected] = &mut means[corner as usize];
+                *area += share;
+                *computed += share * stretch * node.result.mean_pressure();
+                *expected += share * known;
+            }
+        }
+    }
+    let around = means.into_iter().filter(|[area, ..]| *area > 0.0);
+    let (mut off, mut whole) = (0.0, 0.0);
+    for [area, computed, expected] in around {
+        off += (computed - expected).powi(2) / area;
+        whole += expected.powi(2) / area;
+    }
+    (off / whole).sqrt()
+}
+
+/// Places inside of a facet.
+fn grid() -> impl Iterator<Item = [f64; 2]> {
+    let place = |part: usize| (2 * part + 1) as f64 / PARTS as f64 - 1.0;
+    (0..PARTS * PARTS).map(move |at| [place(at / PARTS), place(at % PARTS)])
 }
 
 /// Samples at places of the facets under pressure, in coordinates of the facets.

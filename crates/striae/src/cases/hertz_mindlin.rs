@@ -15,7 +15,10 @@ use striae_mesh::Vec3;
 use striae_verify::closed_forms::{PartialSlip, PointContact, contact_modulus};
 
 use super::{
-    comparison::{Sample, centre, convergence, difference, limit, nodal_samples, rate, samples},
+    comparison::{
+        Sample, centre, convergence, difference, difference_of_means, limit, nodal_samples, rate,
+        samples,
+    },
     study::{Extent, Run, Study},
 };
 use crate::failure::Failure;
@@ -25,12 +28,17 @@ const DECKS: [(&str, &str); 1] = decks!("hertz-mindlin": "deck");
 const SIZES: [f64; 4] = [0.8, 0.4, 0.2, 0.1];
 /// Element sizes of the ideal contact, those that resolve the zone.
 const IDEAL_SIZES: [f64; 3] = [0.4, 0.2, 0.1];
+/// Meshes of about 3 000 and 13 000 unknowns that show what forces cost: name of the
+/// quantity, element size and half width of the fine part.
+const ECONOMICAL: [(&str, f64, f64); 2] = [("3k", 0.5, 1.4), ("13k", 0.25, 1.6)];
 /// Element size at which parts of the difference are told apart.
 const PARTED: f64 = 0.2;
 /// Radius within which the pressure is smooth, over that of the contact zone.
 const INNER: f64 = 0.7;
 /// What a quick look does not give.
-const FULL_ONLY: [&str; 14] = [
+const FULL_ONLY: [&str; 18] = [
+    "force.error.3k",
+    "force.error.13k",
     "force.error.0.2",
     "pressure.error",
     "pressure.rate",
@@ -45,13 +53,16 @@ const FULL_ONLY: [&str; 14] = [
     "ideal.inner.error",
     "ideal.pressure.error",
     "ideal.pressure.rate",
+    "ideal.field.error",
+    "ideal.field.rate",
 ];
 const MU: f64 = 0.1;
 const RADIUS: f64 = 12.0;
 const SHALLOW_RADIUS: f64 = 1200.0;
 /// The same contact zone with a hundredth of the strains, pressed only.
-const SHALLOW: [[&str; 2]; 3] = [
+const SHALLOW: [[&str; 2]; 4] = [
     ["radius = 12,", "radius = 1200,"],
+    ["increments = 5", "increments = 10"],
     ["z = -0.15 }", "z = -0.0015 }"],
     [
         r#"[[step]]
@@ -103,6 +114,7 @@ pub fn run(study: &mut Study) -> Result<(), Failure> {
     if study.extent == Extent::Quick {
         study.left_out.extend(FULL_ONLY);
     } else {
+        economical(study, &family[family.len() - 1])?;
         errors.push(("pressure, ideal".to_owned(), ideal(study)?));
     }
     study.draw(&traces(&family), "traces")?;
@@ -128,14 +140,24 @@ fn judged(study: &mut Study, family: &[Measured]) -> Vec<(String, Vec<[f64; 2]>)
         study.measured(format!("{name}.rate.to_limit"), rate(&rest));
         all.push((name.to_owned(), errors));
     }
-    let force = |m: &Measured| m.history.last().map_or(f64::NAN, |row| row[1]);
     for m in &family[..family.len() - 1] {
-        let off = (force(m) / force(finest) - 1.0).abs();
-        study.measured(format!("force.error.{}", m.size), off);
+        study.measured(format!("force.error.{}", m.size), m.force_error(finest));
     }
     let ratio = over_size(&|m| m.peaks[0] / m.exact.contact.peak_pressure);
     study.measured("peak.ratio.limit", limit(&ratio));
     all
+}
+
+/// Forces on the meshes of about 3 000 and 13 000 unknowns beside those of the finest.
+fn economical(study: &mut Study, finest: &Measured) -> Result<(), Failure> {
+    for (name, size, half_width) in ECONOMICAL {
+        let width = format!("fine_half_width = {half_width}");
+        let passages = [["fine_half_width = 1.6", width.as_str()]];
+        let run = ran(study, name, size, &passages)?;
+        let off = measured(&run, size).force_error(finest);
+        study.measured(format!("force.error.{name}"), off);
+    }
+    Ok(())
 }
 
 /// Errors of the pressure over the element size as the closed form has it: under
@@ -146,17 +168,20 @@ fn ideal(study: &mut Study) -> Result<Vec<[f64; 2]>, Failure> {
     study.measured("shallow.inner.error", error);
     let mut passages = SHALLOW.to_vec();
     passages.push(WIDE);
-    let mut errors = Vec::new();
+    let (mut errors, mut means) = (Vec::new(), Vec::new());
     for size in IDEAL_SIZES {
         let run = ran(study, &format!("ideal-h-{size}"), size, &passages)?;
         errors.push([size, pressure_error(&run, SHALLOW_RADIUS, f64::INFINITY)]);
+        means.push([size, error_of_means(&run, SHALLOW_RADIUS)]);
         if size == PARTED {
             let error = pressure_error(&run, SHALLOW_RADIUS, INNER);
             study.measured("ideal.inner.error", error);
         }
     }
-    study.measured("ideal.pressure.error", errors[errors.len() - 1][1]);
-    study.measured("ideal.pressure.rate", rate(&errors));
+    for (name, errors) in [("pressure", &means), ("field", &errors)] {
+        study.measured(format!("ideal.{name}.error"), errors[errors.len() - 1][1]);
+        study.measured(format!("ideal.{name}.rate"), rate(errors));
+    }
     Ok(errors)
 }
 
@@ -186,6 +211,25 @@ fn pressure_error(run: &Run, radius: f64, within: f64) -> f64 {
         |s| along(s.pressure),
         |s| along(exact.pressure(distance(s))),
     )
+}
+
+/// The same for the means around nodes beside those of Hertz's pressure.
+fn error_of_means(run: &Run, radius: f64) -> f64 {
+    let middle = centre(&samples(run, 0)).x;
+    let history = history(run);
+    let [_, normal, _] = history[history.len() - 1];
+    let exact = PointContact::new(normal, radius, modulus());
+    difference_of_means(run, 0, |place| {
+        exact.pressure((place.x - middle).hypot(place.y))
+    })
+}
+
+impl Measured {
+    /// Relative difference of the normal force at the end.
+    fn force_error(&self, finest: &Self) -> f64 {
+        let force = |m: &Self| m.history.last().map_or(f64::NAN, |row| row[1]);
+        (force(self) / force(finest) - 1.0).abs()
+    }
 }
 
 fn measured(run: &Run, size: f64) -> Measured {

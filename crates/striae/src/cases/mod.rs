@@ -23,6 +23,7 @@ mod battery;
 mod comparison;
 mod contact_face;
 mod edge_contact;
+mod edge_release;
 mod hertz_mindlin;
 mod hertz_mindlin_cylinders;
 mod hertz_mindlin_two_body;
@@ -90,6 +91,11 @@ pub const CASES: &[Case] = &[
         "edge-contact",
         "A block whose edges press on a thin plate, ever more finely divided",
         edge_contact::run
+    ),
+    case!(
+        "edge-release",
+        "A punch that slides off an edge, and one that is lifted and pressed again",
+        edge_release::run
     ),
     case!(
         "patch-frictionless",

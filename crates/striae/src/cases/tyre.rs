@@ -117,14 +117,15 @@ pub fn shapes(run: &Run, states: &[&State], x: Axis) -> Panel {
     )
 }
 
-/// Pressure on the tread where it touches, seen from above.
+/// Mean pressure around the nodes of the tread where it touches, seen from above.
 pub fn pressures(run: &Run, state: &State) -> Panel {
     let nodes = surface_nodes_in(run, state, 0);
     let mut polygons = Vec::new();
     let mut values = Vec::new();
     for facet in facets(run, 0) {
         let corners = facet.map(|corner| &nodes[corner as usize]);
-        if corners.iter().any(|node| node.result.pressure > 0.0) {
+        let pressed = |node: &&SurfaceNode| node.result.mean_pressure() > 0.0;
+        if corners.iter().any(pressed) {
             for (i, j) in (0..4).flat_map(|i| (0..4).map(move |j| (f64::from(i), f64::from(j)))) {
                 let ring = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
                 let at = |a: f64, b: f64| interpolated(&corners, 0.25 * (i + a), 0.25 * (j + b));
@@ -153,7 +154,7 @@ fn interpolated(corners: &[&SurfaceNode; 4], s: f64, t: f64) -> [f64; 3] {
         [
             x + w * node.position.x,
             y + w * node.position.y,
-            p + w * node.result.pressure,
+            p + w * node.result.mean_pressure(),
         ]
     })
 }
