@@ -13,7 +13,8 @@
 //! A point of a rigid surface pierces if it lies deeper than `PIERCED` in a facet, and that
 //! facet
 //!
-//! - stands back from it by more than `SHARP` in the mean, pressed by the field or not, or
+//! - stands back from it by more than `SHARP` in the mean, or by half of that where the point
+//!   is deeper than [`DEEP`], pressed by the field or not, or
 //! - is open by more than `CLOSING` in the mean and without pressure, so that nothing
 //!   else feels the point.
 //!
@@ -42,6 +43,9 @@ pub const PIERCED: f64 = 0.02;
 
 /// Mean gap of its own facets beyond its own from which it is sharp, over their size.
 pub const SHARP: f64 = 0.1;
+
+/// Depth from which half of that is enough for a rigid point, over the facet size.
+pub const DEEP: f64 = 0.08;
 
 /// Mean gap of its own facets down to which a node stays pointed, over their size.
 pub const CLOSING: f64 = 0.02;
@@ -198,8 +202,10 @@ fn pierced_points(
     deep.retain(|inside| {
         let unfelt = !is_pressed(configuration, carried, inside.hit.facet);
         means[inside.hit.facet.index()].is_none_or(|mean| {
-            let sharp = mean - inside.hit.gap > SHARP * inside.size;
-            sharp || unfelt && mean > CLOSING * inside.size
+            let stands_back = mean - inside.hit.gap;
+            let deep = inside.hit.gap < -DEEP * inside.size;
+            let share = if deep { 0.5 * SHARP } else { SHARP };
+            stands_back > share * inside.size || unfelt && mean > CLOSING * inside.size
         })
     });
     let share = |inside: &Inside| inside.hit.gap / inside.size;
