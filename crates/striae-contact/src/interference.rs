@@ -106,6 +106,8 @@ pub enum Kind {
     Inside,
     /// It has passed through the surface and is not inside any more.
     Passed,
+    /// It has passed through the body and out on its other side.
+    Crossed,
 }
 
 /// Interference that is deeper than `share` of the facet size at the end and was less at
@@ -348,21 +350,14 @@ fn of_spot(
         let found = || interference(end, side, spot, (point, &now), size, Kind::Inside);
         return news.then(found);
     }
-    let (passed, size) = match sides[1 - side].passed_by(&sides[side].path(spot), before)? {
-        Through::Body(nearest) => (nearest, judged(nearest.facet)),
+    let (passed, size, kind) = match sides[1 - side].passed_by(&sides[side].path(spot), before)? {
+        Through::Body(nearest) => (nearest, judged(nearest.facet), Kind::Crossed),
         Through::Surface(deepest) => {
             let size = judged(deepest.facet);
-            (deepest.distance > share * size).then_some((deepest, size))?
+            (deepest.distance > share * size).then_some((deepest, size, Kind::Passed))?
         }
     };
-    Some(interference(
-        end,
-        side,
-        spot,
-        (point, &passed),
-        size,
-        Kind::Passed,
-    ))
+    Some(interference(end, side, spot, (point, &passed), size, kind))
 }
 
 /// The box around a surface on its way.

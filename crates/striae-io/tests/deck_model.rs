@@ -109,8 +109,8 @@ fn pairs_name_ids_and_faces() {
     }
     assert_eq!(pair.friction, Friction::coulomb(0.3).unwrap());
     assert_eq!(
-        (pair.enforcement, pair.search_distance),
-        (Enforcement::Weighted, None)
+        (pair.enforcement, pair.search_distance, pair.stabilised),
+        (Enforcement::Weighted, None, false)
     );
 }
 
@@ -122,7 +122,7 @@ fn a_rigid_side_becomes_the_second_one() {
     );
     let text = text.replace(
         "mu = 0.3 }",
-        "mu = 0.3 }\nenforcement = \"collocated\"\nsearch_distance = 0.1",
+        "mu = 0.3 }\nenforcement = \"collocated\"\nsearch_distance = 0.1\nstabilise = true",
     );
     let pair = &lowered(&text).model.pairs[0];
     assert!(matches!(
@@ -134,8 +134,8 @@ fn a_rigid_side_becomes_the_second_one() {
     ));
     assert!(matches!(pair.b, Side::Rigid(RigidId(0))));
     assert_eq!(
-        (pair.enforcement, pair.search_distance),
-        (Enforcement::Collocated, Some(0.1))
+        (pair.enforcement, pair.search_distance, pair.stabilised),
+        (Enforcement::Collocated, Some(0.1), true)
     );
 }
 

@@ -5,6 +5,8 @@
 //! of the normals of closed contact nodes and, where friction holds, of the tangents; between
 //! two bodies that both move, of the difference of their motions. What is left is the null
 //! space of the rows. Lengths are scaled by the size of the bodies.
+//!
+//! Longer than other files, as rows and the words for their null space belong together.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 use striae_contact::{

@@ -14,17 +14,21 @@
 //! | `creation` | negative friction work over the largest energy | 1e-6 |
 //! | `imbalance` | energy found nowhere over the largest energy | 1e-3 |
 //! | `stabilisation` | work lost to [stabilisation](crate::stabilisation) in a step over its external work or change of strain energy, whichever is larger | 0.01 |
+//! | `rotation` | largest angle, in radians, by which elements of linear elastic bodies turn | 0.1 |
 //! | `never-touched` | the smallest distance at the start; after a completed run | - |
 //! | `never-meets` | the same, before the run | - |
+//!
+//! Longer than other files, as it is the one list of all that is judged.
 
 use striae_contact::{
     initial::Fit, interference::Kind as Interfering, interference::SHARE, pointed::choice::PIERCED,
 };
+use striae_law::bulk::Material;
 
 use crate::{
     initial::{fits, may_meet, other_name},
     interference::{Positions, between, within},
-    model::{Initial, Model, PairId},
+    model::{Body, Initial, Model, PairId},
     outcome::Ending,
     problem::Problem,
     report::{PairReport, pairs},
@@ -69,6 +73,8 @@ pub enum Kind {
     Imbalance,
     /// Much of the work of a step is lost to stabilisation.
     Stabilisation,
+    /// A body for small rotations turns by a large one.
+    Rotation,
     /// A pair has never touched.
     NeverTouched,
     /// A pair can never meet.
@@ -77,7 +83,7 @@ pub enum Kind {
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Mismatch,
         Self::Moment,
         Self::Tension,
@@ -87,6 +93,7 @@ impl Kind {
         Self::Creation,
         Self::Imbalance,
         Self::Stabilisation,
+        Self::Rotation,
         Self::NeverTouched,
         Self::NeverMeets,
     ];
@@ -103,6 +110,7 @@ impl Kind {
             Self::Creation => "creation",
             Self::Imbalance => "imbalance",
             Self::Stabilisation => "stabilisation",
+            Self::Rotation => "rotation",
             Self::NeverTouched => "never-touched",
             Self::NeverMeets => "never-meets",
         }
@@ -115,6 +123,7 @@ impl Kind {
             Self::Moment | Self::Stabilisation => 1e-2,
             Self::Penetration => SHARE,
             Self::Unfelt => PIERCED,
+            Self::Rotation => 0.1,
             Self::Imbalance => 1e-3,
             Self::Passage | Self::NeverTouched | Self::NeverMeets => 0.0,
         }
@@ -161,6 +170,7 @@ impl Judgement {
         let imbalance = after.energies.imbalance().abs();
         self.note(Kind::Imbalance, None, imbalance, after.time);
         self.stabilisation(problem, after);
+        self.note(Kind::Rotation, None, rotation(problem, after), after.time);
         for (pair, report) in pairs(problem, after).iter().enumerate() {
             self.pair(pair, report, [before, after]);
             let ends = [before, after].map(Positions::from);
@@ -220,7 +230,7 @@ impl Judgement {
         let passed = between(problem, pair, start, end, SHARE);
         let passed = passed
             .iter()
-            .filter(|found| found.kind == Interfering::Passed);
+            .filter(|found| found.kind != Interfering::Inside);
         let depths = passed.map(|found| found.share());
         self.note(Kind::Passage, Some(pair), depths.fold(0.0, f64::max), time);
         let first = problem.model.steps.first();
@@ -313,6 +323,33 @@ fn round_off(problem: &Problem) -> f64 {
     STRAIN_SQUARED * energies.sum::<f64>()
 }
 
+/// Largest angle by which elements of linear elastic bodies have turned.
+fn rotation(problem: &Problem, state: &State) -> f64 {
+    let bodies = problem.model.bodies.iter().zip(&problem.elements);
+    let angles = bodies.enumerate().filter(|(_, (body, _))| is_linear(body));
+    let angles = angles.map(|(at, (body, elements))| -> f64 {
+        let turned = elements.iter().zip(&body.mesh.elements);
+        let angles = turned.map(|(element, corners)| {
+            element.rotation(&corners.map(|node| state.positions[problem.node(at, node)]))
+        });
+        angles.fold(0.0, f64::max)
+    });
+    angles.fold(0.0, f64::max)
+}
+
+fn is_linear(body: &Body) -> bool {
+    matches!(body.material, Material::LinearElastic { .. })
+}
+
+fn linear_text(model: &Model) -> String {
+    let linear = model.bodies.iter().filter(|body| is_linear(body));
+    let names: Vec<String> = linear.map(|body| format!("`{}`", body.name)).collect();
+    match &names[..] {
+        [name] => format!("body {name} turns by up to"),
+        names => format!("one of the bodies {} turns by up to", names.join(", ")),
+    }
+}
+
 fn over(value: f64, scale: f64) -> f64 {
     if scale > 0.0 { value / scale } else { 0.0 }
 }
@@ -376,6 +413,12 @@ fn warning(model: &Model, worst: &Worst) -> Warning {
         }
         Kind::Stabilisation => format!(
             "stabilisation has taken {percent:.1} % of the work of the step that ends at time {time:.4}"
+        ),
+        Kind::Rotation => format!(
+            "{} {:.0} degrees at time {time:.4}: linear elasticity takes rotations for strains, of {:.1e} here; use neo-hookean",
+            linear_text(model),
+            value.to_degrees(),
+            1.0 - value.cos()
         ),
         Kind::NeverTouched => format!("pair `{name}` has never touched"),
         Kind::NeverMeets => format!("pair `{name}` can never meet"),

@@ -79,6 +79,15 @@ impl ReferenceElement {
         self.weights.iter().sum()
     }
 
+    /// Angle by which the element with the current corners `x` is turned on average.
+    pub fn rotation(&self, current: &[Vec3; 8]) -> f64 {
+        let points = (0..8).map(|g| self.deformation_gradient(g, current) * self.weights[g]);
+        let decomposed = points.sum::<Matrix3<f64>>().svd(true, true);
+        let rotation = decomposed.u.zip(decomposed.v_t).map(|(u, v)| u * v);
+        let cosine = rotation.map_or(1.0, |rotation| 0.5 * (rotation.trace() - 1.0));
+        cosine.clamp(-1.0, 1.0).acos()
+    }
+
     /// Deformation gradient `F` at Gauss point `g`, `0..8`, for current corners `x`.
     pub(super) fn deformation_gradient(&self, g: usize, current: &[Vec3; 8]) -> Matrix3<f64> {
         let gradients = &self.gradients[g];

@@ -102,7 +102,8 @@ impl Attempt<'_> {
             let found = reselected(&setting, trial, &assembled.contacts, &pierced);
             assembled = self.taken_up(found, workspace)?;
         }
-        passage(&self.setting(), &self.trial).map_or(Ok(assembled), Err)
+        let passage = passage(&self.setting(), &self.trial, &assembled.contacts);
+        passage.map_or(Ok(assembled), Err)
     }
 
     fn setting(&self) -> Setting<'_> {

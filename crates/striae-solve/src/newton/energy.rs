@@ -17,7 +17,9 @@
 //! ```
 //!
 //! `f_con` are the contact forces that balance the others: those at the end with
-//! inertia, else the mean. The second line of `numerical` is what the work of inertia
+//! inertia, else the mean. With inertia, `(1/2 - a_f) d . (f_con,1 - f_con,0)` goes from
+//! `numerical` to `contact`: by so much the shifted accelerations see jumps of contact too
+//! late or too early, so that else `numerical` would fall in each impact. The second line of `numerical` is what the work of inertia
 //! forces exceeds the change of kinetic energy by, written by the mean `v` of the
 //! velocities and the jumps that time integration makes,
 //!
@@ -69,13 +71,20 @@ impl Ends<'_> {
         let resisted = resisted - self.work_of_stabilisation();
         let before = &self.state.energies;
         let strain = self.assembled.strain;
+        // What jumps of contact forces take is counted as contact, not as time integration.
+        let (held, shifted) = (
+            self.held_weight(),
+            0.5 - self.scheme().map_or(0.0, |s| s.alpha_f),
+        );
+        let (fully, contact) = (self.contact(held), self.contact(shifted));
         let lost = self.internal() - (strain - before.strain) + self.inertia() - self.arcs();
+        let lost = lost + (fully - contact);
         Energies {
             kinetic: kinetic_energy(self.context.problem, self.velocities),
             strain,
             external: before.external + self.external(),
             friction: before.friction + friction,
-            contact: before.contact + self.contact() - friction + (resisted - stabilisation),
+            contact: before.contact + contact - friction + (resisted - stabilisation),
             stabilisation: before.stabilisation + stabilisation,
             numerical: before.numerical + lost,
         }
@@ -183,6 +192,11 @@ impl Ends<'_> {
     /// Work of contact forces on the motion of some rigid surfaces, positive where that
     /// pushes.
     fn of_surfaces(&self, wanted: impl Fn(usize) -> bool, way: Way) -> f64 {
+        self.of_surfaces_with(self.held_weight(), wanted, way)
+    }
+
+    /// The same with another weight of the start.
+    fn of_surfaces_with(&self, weight: f64, wanted: impl Fn(usize) -> bool, way: Way) -> f64 {
         let problem = self.context.problem;
         let mut work = 0.0;
         for (pair, geometry) in problem.pairs.iter().enumerate() {
@@ -206,7 +220,6 @@ impl Ends<'_> {
                 poses,
                 end,
             });
-            let weight = self.held_weight();
             work += mean(weight, start.work(problem, way), end.work(problem, way));
         }
         work
@@ -255,11 +268,11 @@ impl Ends<'_> {
         self.work(|node| self.averaged(before.internal[node], after.internal[node]))
     }
 
-    /// Minus the work of contact forces on the sides of all pairs.
-    fn contact(&self) -> f64 {
+    /// Minus the work of contact forces on the sides of all pairs, with a weight of the start.
+    fn contact(&self, weight: f64) -> f64 {
         let (before, after) = (&self.state.forces, &self.assembled.forces);
-        let on_nodes = self.work(|node| self.held(before.contact[node], after.contact[node]));
-        self.of_surfaces(|_| true, Way::Whole) - on_nodes
+        let on_nodes = self.work(|node| mean(weight, before.contact[node], after.contact[node]));
+        self.of_surfaces_with(weight, |_| true, Way::Whole) - on_nodes
     }
 
     /// Work of inertia forces beyond the change of kinetic energy, from the jumps.

@@ -3,16 +3,20 @@
 //! A converged increment is looked at from outside, see [`striae_contact::interference`], on
 //! all facets. Contact has missed what
 //!
-//! - went through the other side on its way, or
-//! - is inside it by more than half the local facet size where no traction acts, or by more
-//!   than all of it.
+//! - went through a body and out on its other side,
+//! - is or was inside by more than half the local facet size, or went in and out beside
+//!   the surface, where no pressure acts, or
+//! - by more than all of the facet size, whatever acts.
 //!
 //! Less is what weighted contact leaves between nodes, and a matter of [`crate::warning`].
 
 use striae_contact::{
+    evaluation::Evaluation,
     interference::{Interference, Kind, Place, SHARE, Spot},
-    selection::{Selection, approach},
+    pair::Side,
+    selection::approach,
 };
+use striae_mesh::FacetId;
 use striae_surface::topology::distinct_corners;
 
 use crate::{
@@ -29,7 +33,11 @@ const UNSEEN: f64 = 0.5;
 const DEEP: f64 = 1.0;
 
 /// What contact has missed on the way to a trial state.
-pub(super) fn passage(setting: &Setting, trial: &Trial) -> Option<CutBack> {
+pub(super) fn passage(
+    setting: &Setting,
+    trial: &Trial,
+    contacts: &[Evaluation],
+) -> Option<CutBack> {
     let (context, state) = (setting.context, setting.state);
     let problem = context.problem;
     let end = Positions {
@@ -38,10 +46,12 @@ pub(super) fn passage(setting: &Setting, trial: &Trial) -> Option<CutBack> {
     };
     for (pair, selection) in setting.selections.iter().enumerate() {
         let found = between(problem, pair, Positions::from(state), end, SHARE);
-        let missed = found.iter().filter(|found| match found.kind {
-            Kind::Passed => true,
-            // Overlaps of meshes that are being pressed out are meant.
-            Kind::Inside => !selection.has_offsets() && is_missed(selection, setting, pair, found),
+        // Overlaps of meshes that are being pressed out are meant.
+        let is_meant = |found: &Interference| selection.has_offsets() && found.kind == Kind::Inside;
+        let sides = &context.pairs[pair].sides;
+        let missed = found.iter().filter(|found| {
+            found.kind == Kind::Crossed
+                || !is_meant(found) && is_missed(sides, &contacts[pair], found)
         });
         let Some(worst) = missed.max_by(|a, b| a.share().total_cmp(&b.share())) else {
             continue;
@@ -63,9 +73,8 @@ pub(super) fn passage(setting: &Setting, trial: &Trial) -> Option<CutBack> {
 }
 
 /// Whether a point is deeper inside than contact resolves.
-fn is_missed(selection: &Selection, setting: &Setting, pair: usize, found: &Interference) -> bool {
-    let sides = &setting.context.pairs[pair].sides;
-    let corners = |side: usize, facet: striae_mesh::FacetId| -> Vec<u32> {
+fn is_missed(sides: &[Side; 2], contact: &Evaluation, found: &Interference) -> bool {
+    let corners = |side: usize, facet: FacetId| -> Vec<u32> {
         let surface = sides[side].surface();
         let corners = surface.map(|surface| surface.facets()[facet.index()]);
         corners.map_or_else(Vec::new, |corners| distinct_corners(&corners).to_vec())
@@ -79,10 +88,17 @@ fn is_missed(selection: &Selection, setting: &Setting, pair: usize, found: &Inte
         Place::Facet(facet) => corners(1 - found.side, facet),
     };
     let acts = |side: usize, nodes: &[u32]| {
-        nodes
+        let mut carried = nodes
             .iter()
-            .any(|&node| selection.carries(side, node) || selection.is_kept(side, node))
+            .filter_map(|&node| contact.carried[side].get(node as usize));
+        carried.any(|[pressure, _, _]| *pressure > 0.0)
     };
-    let seen = acts(found.side, &own) || acts(1 - found.side, &others);
-    found.share() > if seen { DEEP } else { UNSEEN }
+    let limit = if acts(found.side, &own) || acts(1 - found.side, &others) {
+        DEEP
+    } else if found.kind == Kind::Inside {
+        UNSEEN
+    } else {
+        0.0
+    };
+    found.share() > limit
 }

@@ -3,7 +3,7 @@
 
 use crate::{
     placed::{dome, on_rigid, two_blocks},
-    scene::{Places, Run, coulomb, plane, step},
+    scene::{Places, Run, coulomb, increments, plane, step},
 };
 use nalgebra::DVector;
 use striae_contact::{
@@ -297,6 +297,60 @@ fn of_a_rigid_body_that_contact_pushes_under_loads() {
         let whole = Whole::new(&context, before, state);
         assert!(whole.layout.rigid(0).is_some());
         whole.assert_order();
+    }
+}
+
+/// A block and a rigid body, or another block, before they touch and while they do.
+#[test]
+fn of_stabilised_pairs() {
+    for gap in [0.3, 0.0] {
+        let mut blocks = two_blocks([2.0, 1.0], [3, 3], coulomb(0.3));
+        let upper = blocks.body("upper");
+        let positions = blocks.bodies[upper].mesh.positions.iter_mut();
+        positions.for_each(|x| x.z += gap);
+        let mut held = step();
+        held.displacements = vec![
+            blocks.hold("lower", "zmin", [Some(0.0); 3]),
+            blocks.hold("upper", "zmax", [Some(0.01), Some(0.0), Some(-0.01)]),
+        ];
+        held.increments = increments(0.25, 1e-3);
+        blocks.steps = vec![held];
+        let mut rigid = on_rigid(dome(4));
+        let mut lowered = step();
+        lowered.displacements = vec![rigid.hold("block", "zmax", [Some(0.0); 3])];
+        lowered.rigid_motions = vec![RigidMotion {
+            surface: RigidId(0),
+            coordinates: [
+                Freedom::To(0.02),
+                Freedom::To(0.01),
+                Freedom::To(0.06 - gap),
+                Freedom::To(0.03),
+                Freedom::Free,
+                Freedom::Free,
+            ],
+            force: None,
+            torque: Some(Vec3::new(0.0, 1e-5, -1e-5)),
+            curve: Curve::Ramp,
+        }];
+        lowered.increments = increments(0.25, 1e-3);
+        rigid.steps = vec![lowered];
+        for mut model in [blocks, rigid] {
+            model.pairs[0].stabilised = true;
+            let run = Run::of(model);
+            let start = State::undeformed(&run.problem);
+            let context = StepContext::new(&run.problem, 0, &start);
+            let at = run.states.len() / 2;
+            let [before, state] = [&run.states[at - 1], &run.states[at]];
+            let mut whole = Whole::new(&context, before, state);
+            whole.imposed = context.imposed_after(before, state.time, state.time);
+            assert!(whole.imposed.dashpots.iter().any(|pair| !pair.is_empty()));
+            let (residual, _) = whole.assembled(&whole.unknowns());
+            assert!(residual.norm() < 1e-9, "{:e}", residual.norm());
+            whole.assert_order();
+            if whole.layout.moves_no_body() {
+                whole.assert_order_of_contact();
+            }
+        }
     }
 }
 

@@ -8,6 +8,10 @@ use striae_solve::{
     dynamics::{Scheme, mass_times, momentum},
     model::{BodyId, ContactMass, Curve, Gravity, Model, Mover, Procedure, Step, Velocity},
 };
+use striae_solve::{
+    state::State,
+    warning::{Judgement, Kind},
+};
 use striae_verify::fitted_rate;
 
 /// A dynamic step of `duration` in `count` increments.
@@ -284,4 +288,52 @@ fn contact_nodes_without_mass_calm_the_contact_force_and_change_no_momentum() {
             .fold(0.0, f64::max)
     });
     assert!(scatter[1] < 0.5 * scatter[0], "{scatter:?}");
+}
+
+#[test]
+fn time_integration_takes_energy_and_gives_none_in_an_impact() {
+    for contact_mass in [ContactMass::Consistent, ContactMass::Redistributed] {
+        for spectral_radius in [0.3, 0.8, 1.0] {
+            let mut model = against_a_wall(contact_mass);
+            model.steps[0].procedure = Procedure::Dynamic { spectral_radius };
+            let run = Run::completed(model);
+            let energy = run.states[1].energies.kinetic;
+            let mut largest = 0.0_f64;
+            for state in &run.states[1..] {
+                let numerical = state.energies.numerical;
+                assert!(
+                    numerical > -2e-3 * energy,
+                    "{spectral_radius} {numerical:e} of {energy:e} at {}",
+                    state.time
+                );
+                largest = largest.max(numerical);
+            }
+            assert!(run.last().energies.imbalance().abs() < 1e-9 * energy);
+            println!("{spectral_radius} {:?}", run.last().energies);
+        }
+    }
+}
+
+#[test]
+fn a_linear_elastic_body_that_turns_is_warned_of() {
+    for (angle, warned) in [(0.05, false), (0.3, true)] {
+        let mut model = beam(10.0);
+        let constants = LameConstants::from_youngs_modulus(10.0, 0.3).unwrap();
+        model.bodies[0].material = Material::linear_elastic(constants);
+        let run = Run::of(model);
+        let problem = &run.problem;
+        let before = State::undeformed(problem);
+        let mut after = before.clone();
+        (after.time, after.energies.external) = (1.0, 0.0);
+        let turn = nalgebra::Rotation3::new(Vec3::z() * angle);
+        after.positions.iter_mut().for_each(|x| *x = turn * *x);
+        let mut judgement = Judgement::default();
+        judgement.increment(problem, &before, &after);
+        let warnings = judgement.warnings(problem, &run.ending);
+        let found = warnings
+            .iter()
+            .find(|warning| warning.kind == Kind::Rotation);
+        assert_eq!(found.is_some(), warned, "{warnings:?}");
+        assert!(found.is_none_or(|found| (found.value - angle).abs() < 1e-9));
+    }
 }

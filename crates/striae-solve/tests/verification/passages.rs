@@ -19,7 +19,10 @@ fn assert_apart(run: &Run) {
         for pair in 0..run.problem.pairs.len() {
             let [start, end] = [&states[0], &states[1]].map(Into::into);
             let found = between(&run.problem, pair, start, end, SHARE);
-            let passed = found.iter().find(|found| found.kind == Kind::Passed);
+            let passed = found.iter().find(|found| {
+                // A node of a coarse ball may graze a coarse plate where pressure acts beside it.
+                found.kind == Kind::Crossed || found.share() > 1.0
+            });
             assert!(passed.is_none(), "{passed:?} at {}", states[1].time);
             let deep = within(&run.problem, pair, end, 0.5);
             assert!(deep.is_empty(), "{:?} at {}", deep[0], states[1].time);
