@@ -58,7 +58,8 @@ pub fn iteration(size: usize) -> Result<Value, Box<dyn Error>> {
         run["unknowns"],
         words(whole)
     );
-    for part in ["assembly", "factorisation", "solution", "contact"] {
+    // The pairs are a part of the assembly.
+    for part in ["assembly", "pairs", "factorisation", "solution", "contact"] {
         let seconds = number(&run, &format!("{part}_s"));
         let share = 100.0 * seconds / whole;
         println!("iteration   {part:30} {:>12}  {share:.0} %", words(seconds));
@@ -171,6 +172,7 @@ fn whole(name: &str, size: usize, backend: Backend) -> Result<Value, Box<dyn Err
     let sum = |part: fn(&LinearWork) -> f64| log.work.iter().map(part).sum::<f64>();
     let count: usize = log.work.iter().map(|work| work.factorisations).sum();
     let assembly = sum(|work| work.times.assembly.as_secs_f64());
+    let pairs = sum(|work| work.times.pairs.as_secs_f64());
     let factorisation = sum(|work| work.times.factorisation.as_secs_f64());
     let solution = sum(|work| work.times.solution.as_secs_f64());
     let contact = sum(|work| work.times.contact.as_secs_f64());
@@ -189,6 +191,7 @@ fn whole(name: &str, size: usize, backend: Backend) -> Result<Value, Box<dyn Err
         "answers": answers(&problem, &state),
         "iteration_s": whole / iterations,
         "assembly_s": assembly / iterations,
+        "pairs_s": pairs / iterations,
         "factorisation_s": factorisation / iterations,
         "solution_s": solution / iterations,
         "contact_s": contact / iterations,

@@ -11,6 +11,8 @@ mod start;
 mod terms;
 mod ties;
 
+use std::time::{Duration, Instant};
+
 pub use context::{Imposed, ImposedRate, StepContext};
 
 use inertia::Inertia;
@@ -87,6 +89,8 @@ pub struct Assembled {
     pub contacts: Vec<Evaluation>,
     /// All but contact.
     pub background: Background,
+    /// Time that contact took, for profiles only.
+    pub contact_time: Duration,
 }
 
 /// Why an assembly came to nothing.
@@ -123,6 +127,7 @@ fn on_this_thread(
     matrix.clear();
     let imposed = setting.imposed;
     let mut system = System::new(setting.context, layout, matrix, trial, imposed);
+    let started = Instant::now();
     let configurations = configurations(setting, trial);
     let contacts = match contact {
         Contact::Known(contacts) => contacts,
@@ -136,6 +141,7 @@ fn on_this_thread(
         return Err(Fault::Pattern(system.outside));
     }
     let of_contact = system.set_contact_aside();
+    let contact_time = started.elapsed();
     system.loads(&configurations, trial, imposed)?;
     let strain = system.elements(trial)?;
     system.point_masses();
@@ -156,6 +162,7 @@ fn on_this_thread(
         strain,
         contacts,
         background,
+        contact_time,
     })
 }
 

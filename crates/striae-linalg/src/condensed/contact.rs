@@ -7,7 +7,7 @@ use super::{
 use crate::{
     equilibration::Equilibration,
     error::SolveError,
-    interface::{Block, Interface, Kind, Places},
+    interface::{Accuracy, Block, Interface, Kind, Places},
     matrix::SparseMatrix,
     real::Precision,
     solver::{FactorReport, Method},
@@ -16,9 +16,17 @@ use crate::{
 };
 use rayon::prelude::*;
 
-/// Smallest pivots of a regular contact system, on an interior of either precision.
-const SINGULAR: f64 = 1e-12;
-const SINGULAR_SINGLE: f64 = 1e-5;
+/// On an interior in double precision: the factors are exact.
+const DOUBLE: Accuracy = Accuracy {
+    smallest: 1e-12,
+    negligible: 0.0,
+};
+/// On an interior in single precision. Factors are a preconditioner then, and small entries of
+/// the constraints, of which weighted ones have many, would fill what is eliminated sparsely.
+const SINGLE: Accuracy = Accuracy {
+    smallest: 1e-5,
+    negligible: 1e-5,
+};
 
 /// Factors of the contact system.
 #[derive(Debug, Default)]
@@ -44,16 +52,16 @@ impl Condensed {
         let known = known(matrix, &prescribed);
         let mut kinds = self.kinds(&known);
         let mut rows = self.rows(matrix, &scaling, &known);
-        let smallest = match precision {
-            Precision::Single => SINGULAR_SINGLE,
-            Precision::Double => SINGULAR,
+        let accuracy = match precision {
+            Precision::Single => SINGLE,
+            Precision::Double => DOUBLE,
         };
-        let (touched, untouched) = self.untouched((&kinds, &rows), smallest, older);
+        let (touched, untouched) = self.untouched((&kinds, &rows), accuracy.smallest, older);
         for own in untouched.iter().flatten() {
             own.set_apart(&mut kinds, &mut rows);
         }
         let places = Places { kinds };
-        let interface = Interface::factor(&places, rows, &self.blocks(&untouched), smallest)?;
+        let interface = Interface::factor(&places, rows, &self.blocks(&untouched), accuracy)?;
         let bodies = self.analyses(precision).map(|a| a.factor_entries);
         let eliminated = untouched.iter().flatten().map(Untouched::entries);
         let report = FactorReport {

@@ -26,6 +26,8 @@ pub struct LinearWork {
 pub struct Times {
     /// Residuals and matrices.
     pub assembly: Duration,
+    /// The part of contact in them: its evaluation, and its terms into the system.
+    pub pairs: Duration,
     /// Orderings and plans.
     pub analysis: Duration,
     /// Factorisations.

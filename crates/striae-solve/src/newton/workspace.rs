@@ -209,6 +209,8 @@ impl Workspace {
         let system = self.system.as_mut().expect("the workspace was prepared");
         let assembled = assemble(setting, trial, contact, &system.layout, &mut system.matrix);
         self.work.times.assembly += started.elapsed();
+        let of_contact = assembled.as_ref().map(|assembled| assembled.contact_time);
+        self.work.times.pairs += of_contact.unwrap_or_default();
         assembled
     }
 
