@@ -36,7 +36,8 @@ const PARTED: f64 = 0.2;
 /// Radius within which the pressure is smooth, over that of the contact zone.
 const INNER: f64 = 0.7;
 /// What a quick look does not give.
-const FULL_ONLY: [&str; 18] = [
+const FULL_ONLY: [&str; 19] = [
+    "force.error.0.4",
     "force.error.3k",
     "force.error.13k",
     "force.error.0.2",

@@ -124,8 +124,7 @@ pub fn pressures(run: &Run, state: &State) -> Panel {
     let mut values = Vec::new();
     for facet in facets(run, 0) {
         let corners = facet.map(|corner| &nodes[corner as usize]);
-        let pressed = |node: &&SurfaceNode| node.result.mean_pressure() > 0.0;
-        if corners.iter().any(pressed) {
+        if corners.iter().any(|node| node.result.pressure > 0.0) {
             for (i, j) in (0..4).flat_map(|i| (0..4).map(move |j| (f64::from(i), f64::from(j)))) {
                 let ring = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
                 let at = |a: f64, b: f64| interpolated(&corners, 0.25 * (i + a), 0.25 * (j + b));
