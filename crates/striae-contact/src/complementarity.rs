@@ -296,6 +296,11 @@ impl<'a> NodeState<'a> {
             Iteration::Later { slip_weight } => r * slip_weight,
             Iteration::First | Iteration::Corrected(_) => r,
         };
+        if iteration != Iteration::First
+            && let Some(q) = self.only_way()
+        {
+            return self.along(&q, &z, &varpi, r, size, iteration);
+        }
         let y = [0, 1].map(|at| Q::combination([(1.0, &z[at]), (r, &self.turned[at])]));
         let length = y[0].re.hypot(y[1].re);
         if iteration == Iteration::First {
@@ -318,6 +323,47 @@ impl<'a> NodeState<'a> {
         } else {
             (Status::Slip, slip(&z, &y, &varpi))
         }
+    }
+
+    /// The direction in which the node can move, if there is but one.
+    fn only_way(&self) -> Option<Vector2<f64>> {
+        let eigen = self.mobility();
+        let (least, most) = (eigen.eigenvalues.imin(), eigen.eigenvalues.imax());
+        let single = eigen.eigenvalues[least] <= IMMOBILE && eigen.eigenvalues[most] > IMMOBILE;
+        single.then(|| eigen.eigenvectors.column(most).into())
+    }
+
+    /// Status and rows of a node that can move along `q` only: friction along it, none
+    /// across, where the slip is that of neighbours that a plane of symmetry mirrors.
+    fn along(
+        &self,
+        q: &Vector2<f64>,
+        z: &[Q; 2],
+        varpi: &Q,
+        r: f64,
+        size: f64,
+        iteration: Iteration,
+    ) -> (Status, [TangentialRow; 2]) {
+        let part = |v: &[Q; 2]| Q::combination([(q.x, &v[0]), (q.y, &v[1])]);
+        let (along, turned) = (part(z), part(&self.turned));
+        let y = along.re + r * turned.re;
+        let (slips, radius) = match iteration {
+            Iteration::Corrected(corrector) => {
+                let radius = Q::combination([(corrector.inflation.factor(), varpi)]);
+                let of = |value: f64| [value, 0.0];
+                let before = self.node.before;
+                let status = corrector.status(before, of(along.re), of(turned.re), radius.re);
+                (status == Status::Slip, radius)
+            }
+            _ => (y.abs() > varpi.re, Q::combination([(1.0, varpi)])),
+        };
+        if !slips {
+            return (Status::Stick, self.stick(z, size));
+        }
+        let row = |value: Q| (Field::Traction, value.re, value.slope);
+        let off = Q::combination([(1.0, &along), (-y.signum(), &radius)]);
+        let across = Q::combination([(-q.y, &z[0]), (q.x, &z[1])]);
+        (Status::Slip, [row(off), row(across)])
     }
 
     /// `varpi` at the pressure `p` and the present slip rate, without derivatives by the

@@ -22,6 +22,14 @@
 //! extent are equal, by clusters rather than by rounding, which would tear equals
 //! apart.
 //!
+//! The order in which dependent nodes are kept decides their pivots, so two of them that
+//! change places would make pivots jump. The ramp takes pivots that no order enters:
+//! against all kept neighbours at once, with a diagonal that is stiffer by [`BLUR`],
+//!
+//! ```text
+//! d_k = S_kk - S_kn (S_nn + BLUR I)^-1 S_nk
+//! ```
+//!
 //! Against a rigid surface unknowns of one side do not compete. There
 //! `d_k = 1/4 sum_i D_ki^2 / sum_i (D_ki of whole facets)^2`: 1/4 as that of an
 //! interior node above, and falling to zero as a sliver does.
@@ -46,6 +54,8 @@ pub const SAME_PLACE: f64 = 1e-9;
 const STAY: f64 = 2.0;
 /// Coupling below which two nodes are no neighbours.
 const UNCOUPLED: f64 = 1e-14;
+/// What is added to the diagonal for pivots against all kept neighbours.
+const BLUR: f64 = 0.02;
 /// Pivot of an interior node.
 const INTERIOR: f64 = 0.25;
 
@@ -53,7 +63,7 @@ const INTERIOR: f64 = 0.25;
 pub(crate) struct Choice {
     /// Sorted by side and number.
     pub kept: Vec<u32>,
-    /// Their pivots when they were kept.
+    /// How independent of each other they are, for the ramp.
     pub pivots: Vec<f64>,
     /// `l_k`.
     pub flexibility: Vec<f64>,
@@ -67,7 +77,8 @@ impl Choice {
         let mut chosen = match interface.opponent {
             Opponent::Deformable => {
                 let surrogate = surrogate(interface, mass, &flexibility);
-                contest.greedy(Pivots::new(surrogate))
+                let chosen = contest.greedy(Pivots::new(surrogate.clone()));
+                independence(surrogate, chosen)
             }
             Opponent::Rigid { .. } => contest.all(&covered(mass)),
         };
@@ -81,6 +92,19 @@ impl Choice {
             kept: chosen.into_iter().map(|(k, _)| k).collect(),
         }
     }
+}
+
+/// Pivots of the kept nodes against all kept neighbours, with a stiffer diagonal.
+fn independence(mut surrogate: Vec<SparseRow>, chosen: Vec<(u32, f64)>) -> Vec<(u32, f64)> {
+    for (k, row) in surrogate.iter_mut().enumerate() {
+        if let Some(entry) = row.iter_mut().find(|entry| entry.0 == k as u32) {
+            entry.1 += BLUR;
+        }
+    }
+    let mut pivots = Pivots::new(surrogate);
+    chosen.iter().for_each(|&(k, _)| pivots.keep(k));
+    let of = |&(k, _): &(u32, f64)| (k, pivots.refresh(k, 0.0) - BLUR);
+    chosen.iter().map(of).collect()
 }
 
 /// `l_k`, zero for nodes without weight.
