@@ -52,11 +52,16 @@ pub fn on_rigid(shape: RigidShape) -> Model {
 
 /// Facets over `[-0.5, 0.85] x [-0.5, 1.5]`: the block overhangs on one side.
 pub fn dome(corners: usize) -> RigidShape {
+    bumps(corners, 0.1)
+}
+
+/// The same with bumps of another height.
+pub fn bumps(corners: usize, height: f64) -> RigidShape {
     let count = 4;
     let positions = (0..(count + 1) * (count + 1)).map(|k| {
         let share = |i: usize| i as f64 / count as f64;
         let (x, y) = (share(k % (count + 1)), share(k / (count + 1)));
-        bumpy(&Vec3::new(1.35 * x - 0.5, 2.0 * y - 0.5, 0.0), 0.1)
+        bumpy(&Vec3::new(1.35 * x - 0.5, 2.0 * y - 0.5, 0.0), height)
     });
     let node = |i: usize, j: usize| NodeId::new(i + (count + 1) * j);
     let cells = (0..count * count).map(|k| (k % count, k / count));

