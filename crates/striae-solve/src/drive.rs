@@ -161,7 +161,7 @@ fn run_steps(
         let mut division = Division {
             count,
             done: 0.0,
-            size: first_increment(problem, index),
+            size: first_increment(&problem.model, index),
             search: Vec::new(),
         };
         let ending = run_step(&context, &mut state, &mut division, workspace, observer);

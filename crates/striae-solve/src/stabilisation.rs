@@ -34,7 +34,12 @@ use striae_contact::term::{Field, LocalTerm};
 use striae_mesh::Vec3;
 
 use crate::{
-    assembly::StepContext, load, model::Procedure, problem::Problem, rigid::Pose, state::State,
+    assembly::StepContext,
+    load,
+    model::{Model, Procedure},
+    problem::Problem,
+    rigid::Pose,
+    state::State,
 };
 
 /// First increment of a step with a stabilised pair, unless a smaller one is asked for, and
@@ -74,21 +79,21 @@ pub struct Point {
 }
 
 /// Whether a pair is stabilised in a step.
-pub fn acts(problem: &Problem, step: usize, pair: usize) -> bool {
-    let quasi_static = problem.model.steps[step].procedure == Procedure::QuasiStatic;
-    quasi_static && problem.model.pairs[pair].stabilised
+pub fn acts(model: &Model, step: usize, pair: usize) -> bool {
+    let quasi_static = model.steps[step].procedure == Procedure::QuasiStatic;
+    quasi_static && model.pairs[pair].stabilised
 }
 
 /// Whether any pair is stabilised in a step.
-pub fn acts_in(problem: &Problem, step: usize) -> bool {
-    (0..problem.pairs.len()).any(|pair| acts(problem, step, pair))
+pub fn acts_in(model: &Model, step: usize) -> bool {
+    (0..model.pairs.len()).any(|pair| acts(model, step, pair))
 }
 
 /// Fraction of the step at which its first increment ends at most.
-pub fn first_increment(problem: &Problem, step: usize) -> f64 {
-    let increments = &problem.model.steps[step].increments;
+pub fn first_increment(model: &Model, step: usize) -> f64 {
+    let increments = &model.steps[step].increments;
     let first = increments.initial.min(increments.largest);
-    if acts_in(problem, step) {
+    if acts_in(model, step) {
         let [enough, most] = FIRST;
         first.min(enough.max(increments.smallest)).min(most)
     } else {
@@ -99,7 +104,7 @@ pub fn first_increment(problem: &Problem, step: usize) -> f64 {
 /// Coefficient `c` of a pair in the step; zero where it is not stabilised.
 pub fn coefficient(context: &StepContext, pair: usize) -> f64 {
     let problem = context.problem;
-    if !acts(problem, context.index, pair) {
+    if !acts(&problem.model, context.index, pair) {
         return 0.0;
     }
     let start = context.start;
@@ -126,7 +131,7 @@ pub fn coefficient(context: &StepContext, pair: usize) -> f64 {
         .iter()
         .map(|node| node.gap)
         .fold(f64::INFINITY, f64::min);
-    let first = first_increment(problem, context.index);
+    let first = first_increment(&problem.model, context.index);
     let way = gap + BEYOND * sizes().fold(gap, f64::min);
     let of_loads = loads(context, first) * first * duration / (way * area * (1.0 - first));
     if gap > 0.0 && of_loads > 0.0 {

@@ -8,9 +8,10 @@ use striae_law::bulk::Material;
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::{
     initial::{ROUND_OFF, fits, other_name, surface_node},
-    model::{Body, Model, Pair, PairId, RigidShape, RigidSurface, Side, Step},
+    model::{Body, Model, Pair, PairId, RigidShape, RigidSurface, Side},
     newton::{Analysis, Estimate, estimate},
     problem::Problem,
+    stabilisation::first_increment,
     warning::warnings_at_start,
 };
 
@@ -37,7 +38,7 @@ fn summary(model: &Model) -> Result<String, Failure> {
         lines.push(pair_line(pair, model));
         lines.extend(fit.iter().map(|fit| fit_line(model, PairId(index), fit)));
     }
-    lines.extend(model.steps.iter().map(step_line));
+    lines.extend((0..model.steps.len()).map(|step| step_line(model, step)));
     lines.extend(size_lines(model)?);
     let warnings = warnings_at_start(model, &fits);
     lines.extend(warnings.iter().map(|warning| format!("warning: {warning}")));
@@ -85,7 +86,8 @@ fn pair_line(pair: &Pair, model: &Model) -> String {
         }
         Side::Rigid(rigid) => format!("rigid `{}`", model.rigid_surfaces[rigid.0].name),
     });
-    format!("  pair `{}`: {a} and {b}", pair.name)
+    let stabilised = if pair.stabilised { ", stabilised" } else { "" };
+    format!("  pair `{}`: {a} and {b}{stabilised}", pair.name)
 }
 
 /// Smallest gap and deepest overlap of a pair, and where.
@@ -129,11 +131,13 @@ fn fit_line(model: &Model, pair: PairId, fit: &Fit) -> String {
     format!("    {gap}; {overlap}")
 }
 
-fn step_line(step: &Step) -> String {
+fn step_line(model: &Model, index: usize) -> String {
+    let step = &model.steps[index];
+    let first = first_increment(model, index);
     let increments = step.increments;
     format!(
         "  step `{}`: duration {}, increments from {:.3e} to {:.3e} of it, first {:.3e}",
-        step.name, step.duration, increments.smallest, increments.largest, increments.initial
+        step.name, step.duration, increments.smallest, increments.largest, first
     )
 }
 
