@@ -11,8 +11,8 @@
 //!
 //! with `J` over the nodes of both sides. The largest pivot is kept next while it is
 //! at least [`THETA_0`]. A node kept in the last increment competes with twice its
-//! pivot, since equals would flip otherwise; that decides the order alone, for a node
-//! below [`THETA_0`] has faded already. Every patch keeps at least one node.
+//! pivot: equals would flip otherwise, and a node that leaves would not have faded yet.
+//! Every patch keeps at least one node.
 //!
 //! Pivots within [`TIE`] of the largest are ties and kept from the middle of all
 //! candidates (weighted by `w_k`) outwards: a regular pattern then grows from one
@@ -249,16 +249,15 @@ impl<'a> Contest<'a> {
         let mut queue: BinaryHeap<Bid> = first.iter().map(|&(k, d)| self.bid(k, d)).collect();
         let mut kept = Vec::new();
         while let Some(tie) = self.next_tie(&mut queue, &mut pivots) {
-            let least = tie.largest * (1.0 - TIE);
+            let least = (tie.largest * (1.0 - TIE)).max(THETA_0);
             for k in tie.nodes {
-                let floor = (least / self.factor[k as usize]).max(THETA_0);
-                let pivot = pivots.refresh(k, floor);
-                let bid = self.bid(k, pivot);
-                if pivot >= THETA_0 && bid.value >= least {
-                    kept.push((k, pivot));
+                let floor = least / self.factor[k as usize];
+                let bid = self.bid(k, pivots.refresh(k, floor));
+                if bid.value >= least {
+                    kept.push((k, pivots.bound(k)));
                     pivots.keep(k);
                     pivots.drop(k);
-                } else if pivot >= THETA_0 {
+                } else if bid.value >= THETA_0 {
                     queue.push(bid);
                 } else {
                     pivots.drop(k);
@@ -273,17 +272,19 @@ impl<'a> Contest<'a> {
     fn next_tie(&self, queue: &mut BinaryHeap<Bid>, pivots: &mut Pivots) -> Option<Tie> {
         let mut tie: Option<Tie> = None;
         while let Some(top) = queue.pop() {
-            let least = tie.as_ref().map_or(0.0, |tie| tie.largest * (1.0 - TIE));
+            let least = tie
+                .as_ref()
+                .map_or(THETA_0, |tie| tie.largest * (1.0 - TIE));
             if top.value < least {
                 queue.push(top);
                 break;
             }
             if !pivots.is_fresh(top.node) {
-                let next = queue.peek().map_or(0.0, |bid| bid.value);
-                let floor = next * (1.0 - TIE) / self.factor[top.node as usize];
-                let pivot = pivots.refresh(top.node, floor.max(THETA_0));
-                if pivot >= THETA_0 {
-                    queue.push(self.bid(top.node, pivot));
+                let next = queue.peek().map_or(THETA_0, |bid| bid.value);
+                let floor = next.max(THETA_0) * (1.0 - TIE) / self.factor[top.node as usize];
+                let bid = self.bid(top.node, pivots.refresh(top.node, floor));
+                if bid.value >= THETA_0 {
+                    queue.push(bid);
                 } else {
                     pivots.drop(top.node);
                 }

@@ -5,7 +5,7 @@ use std::time::Instant;
 use striae_contact::{
     interface::LastIncrement,
     roles::THETA_0,
-    traction_basis::{KeptNode, TractionBasis},
+    traction_basis::{KeptNode, THETA_1, TractionBasis},
 };
 
 use crate::flat::{Face, Pair};
@@ -41,18 +41,13 @@ fn a_much_softer_fine_face_keeps_its_nodes() {
 }
 
 #[test]
-fn a_corner_node_of_an_interior_facet_has_a_pivot_of_about_a_quarter() {
+fn a_node_amid_a_matching_face_is_not_weak() {
     let (soft, hard) = (square(8, 1.0, 0.0, 1.0), square(8, 1.0, 0.0, 1e9));
     let pair = Pair::new([&soft, &hard]);
     let basis = TractionBasis::new(&pair.interface());
-    // Row sums of squares of a tensor product of (1, 4, 1)/6 are 1/4 = (18/36)^2.
     let [own, other] = [0, 1].map(|side: usize| basis.index[side][40]);
     let middle = own.or(other).expect("one of both is kept") as usize;
-    assert!(
-        (basis.pivots[middle] - 0.25).abs() < 1e-6,
-        "{}",
-        basis.pivots[middle]
-    );
+    assert!(basis.pivots[middle] > THETA_1, "{}", basis.pivots[middle]);
     assert!((basis.flexibility[middle] - 0.125).abs() < 1e-8);
 }
 
