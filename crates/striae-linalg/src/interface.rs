@@ -35,15 +35,6 @@ const LONGEST: usize = 2048;
 /// Dense rows that are worked on at a time.
 const LANES: usize = 16;
 
-/// How accurate the factors of a contact system are meant to be.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Accuracy {
-    /// Pivot below which the dense part is singular.
-    pub(crate) smallest: f64,
-    /// Share of the largest entry of a row of `G` below which an entry is left out.
-    pub(crate) negligible: f64,
-}
-
 /// A factored contact system.
 #[derive(Debug, Default)]
 pub(crate) struct Interface {
@@ -71,17 +62,17 @@ struct Dense {
 }
 
 impl Interface {
-    /// Factors the system of the kept unknowns.
+    /// Factors the system of the kept unknowns, whose dense part is singular where a
+    /// pivot is below the given one.
     pub(crate) fn factor(
         places: &Places,
         rows: Vec<Row>,
         blocks: &[Block<'_>],
-        accuracy: Accuracy,
+        smallest: f64,
     ) -> Result<Self, SolveError> {
         let mut assembled = Assembled::new(places, rows, LONG);
         let ranks = assembled.ranks();
-        let constraints =
-            SparseElimination::new(assembled.short_without(accuracy.negligible), &ranks, LONG);
+        let constraints = SparseElimination::new(assembled.take_short(), &ranks, LONG);
         assembled.defer(&constraints.deferred);
         let (dense, columns) = assembled.survivors(&constraints);
         let panels = assembled.panels(blocks, &constraints, &dense, &columns);
@@ -93,7 +84,7 @@ impl Interface {
             &tractions,
             transposed,
             (&dense, &columns),
-            accuracy.smallest,
+            smallest,
         )?;
         Ok(Self {
             assembled,

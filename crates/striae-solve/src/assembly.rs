@@ -11,13 +11,12 @@ mod start;
 mod terms;
 mod ties;
 
-use std::time::{Duration, Instant};
-
 pub use context::{Imposed, ImposedRate, StepContext};
 
 use inertia::Inertia;
 pub use linearised::{Background, ContactAssembled, assemble_contact};
 pub use start::initial_accelerations;
+use std::time::{Duration, Instant};
 use striae_contact::{
     complementarity::Iteration,
     configuration::Configuration,

@@ -7,7 +7,7 @@ use super::{
 use crate::{
     equilibration::Equilibration,
     error::SolveError,
-    interface::{Accuracy, Block, Interface, Kind, Places},
+    interface::{Block, Interface, Kind, Places},
     matrix::SparseMatrix,
     real::Precision,
     solver::{FactorReport, Method},
@@ -16,17 +16,9 @@ use crate::{
 };
 use rayon::prelude::*;
 
-/// On an interior in double precision: the factors are exact.
-const DOUBLE: Accuracy = Accuracy {
-    smallest: 1e-12,
-    negligible: 0.0,
-};
-/// On an interior in single precision. Factors are a preconditioner then, and small entries of
-/// the constraints, of which weighted ones have many, would fill what is eliminated sparsely.
-const SINGLE: Accuracy = Accuracy {
-    smallest: 1e-5,
-    negligible: 1e-5,
-};
+/// Smallest pivots of a regular contact system, on an interior of either precision.
+const SINGULAR: f64 = 1e-12;
+const SINGULAR_SINGLE: f64 = 1e-5;
 
 /// Factors of the contact system.
 #[derive(Debug, Default)]
@@ -52,16 +44,16 @@ impl Condensed {
         let known = known(matrix, &prescribed);
         let mut kinds = self.kinds(&known);
         let mut rows = self.rows(matrix, &scaling, &known);
-        let accuracy = match precision {
-            Precision::Single => SINGLE,
-            Precision::Double => DOUBLE,
+        let smallest = match precision {
+            Precision::Single => SINGULAR_SINGLE,
+            Precision::Double => SINGULAR,
         };
-        let (touched, untouched) = self.untouched((&kinds, &rows), accuracy.smallest, older);
+        let (touched, untouched) = self.untouched((&kinds, &rows), smallest, older);
         for own in untouched.iter().flatten() {
             own.set_apart(&mut kinds, &mut rows);
         }
         let places = Places { kinds };
-        let interface = Interface::factor(&places, rows, &self.blocks(&untouched), accuracy)?;
+        let interface = Interface::factor(&places, rows, &self.blocks(&untouched), smallest)?;
         let bodies = self.analyses(precision).map(|a| a.factor_entries);
         let eliminated = untouched.iter().flatten().map(Untouched::entries);
         let report = FactorReport {

@@ -143,17 +143,9 @@ impl Assembled {
         self.kinds.iter().zip(&self.dense).map(rank).collect()
     }
 
-    /// The short rows without negligible entries; they stay here as a whole for those that
-    /// are deferred.
-    pub(super) fn short_without(&self, negligible: f64) -> Vec<Row> {
-        let significant = |row: &Row| {
-            let largest = row.iter().fold(0.0_f64, |m, e| m.max(e.1.abs()));
-            let entries = row.iter().copied();
-            entries
-                .filter(|&(_, a)| a.abs() > negligible * largest)
-                .collect()
-        };
-        self.rows.par_iter().map(significant).collect()
+    /// The short rows; they stay here for those that are deferred.
+    pub(super) fn take_short(&self) -> Vec<Row> {
+        self.rows.clone()
     }
 
     /// Short rows that could not be eliminated become dense.
