@@ -1,6 +1,6 @@
 //! Points of a rigid surface that may pierce a facet.
 //!
-//! These are its vertices, and of every convex edge the middle of what passes over each facet
+//! These are the vertices of convex edges, and of every convex edge the middle of what passes over each facet
 //! of side `a`: an edge from `A` to `B` is cut with the planes through the edges of the facet
 //! along its normal `m`, so that it is over the facet for `t` in `[t_0, t_1]`,
 //!
@@ -9,7 +9,8 @@
 //! ```
 //!
 //! An edge is convex if the facets beside it fall away from each other by more than
-//! [`BENT`], or if there is one facet only.
+//! [`BENT`], or if there is one facet only. Facets of a smooth surface of radius `R` do so by
+//! their size over `R`; they close in the mean.
 
 use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
@@ -23,7 +24,7 @@ use crate::{
 };
 
 /// Sine of the angle by which one facet falls away from the plane of the other.
-const BENT: f64 = 0.03;
+const BENT: f64 = 0.25;
 
 /// Length of edge over a facet below which its neighbours stand for it, over the facet size.
 const SHORT: f64 = 0.2;
@@ -44,10 +45,12 @@ pub fn candidates(configuration: &Configuration, depth: f64) -> Vec<RigidPoint> 
         .with_min_len(32)
         .map(|vertex| {
             let mut points = Vec::new();
-            if is_near(&[b.x[vertex as usize]]) {
+            let mut edges = edges(b, vertex).peekable();
+            if edges.peek().is_some() && is_near(&[b.x[vertex as usize]]) {
                 points.push(RigidPoint::vertex(vertex));
             }
-            for edge in edges(b, vertex) {
+            // Of the two vertices of an edge one lists it.
+            for edge in edges.filter(|edge| edge.listed) {
                 if is_near(&edge.nodes.map(|node| b.x[node as usize])) {
                     points.extend(over_facets(a, b, &edge, reach));
                 }
@@ -63,17 +66,16 @@ struct Edge {
     nodes: [u32; 2],
     /// Mean normal of its facets.
     normal: Vec3,
+    /// Whether it belongs to the list of its first vertex.
+    listed: bool,
 }
 
-/// Convex edges from a vertex that no other vertex lists.
-fn edges(b: &Snapshot, vertex: u32) -> Vec<Edge> {
+/// Convex edges from a vertex.
+fn edges<'a>(b: &'a Snapshot<'_>, vertex: u32) -> impl Iterator<Item = Edge> + 'a {
     let corners = b.surface.corners(vertex).iter();
-    let found = corners.filter_map(|corner| {
-        let beside = b.surface.corners(corner.next).iter();
-        let other = beside.clone().find(|other| other.next == vertex);
-        if other.is_some() && corner.next < vertex {
-            return None;
-        }
+    corners.filter_map(move |corner| {
+        let mut beside = b.surface.corners(corner.next).iter();
+        let other = beside.find(|other| other.next == vertex);
         let one = facet_normal(&b.corner_positions(corner.facet));
         let normal = match other {
             None => one,
@@ -87,9 +89,9 @@ fn edges(b: &Snapshot, vertex: u32) -> Vec<Edge> {
         Some(Edge {
             nodes: [vertex, corner.next],
             normal: normal.try_normalize(1e-6)?,
+            listed: other.is_none() || vertex < corner.next,
         })
-    });
-    found.collect()
+    })
 }
 
 fn centre(side: &Snapshot, facet: FacetId) -> Vec3 {
