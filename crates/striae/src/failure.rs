@@ -40,7 +40,7 @@ pub enum Failure {
     Problem(#[from] ProblemError),
     /// The run did not reach its end.
     #[error("{0}")]
-    Ended(Ending),
+    Ended(Box<Ending>),
     /// The run went to its end, but not without warnings.
     #[error("{}", warned(*.0))]
     Warned(usize),
@@ -82,7 +82,8 @@ impl Failure {
             | Self::Checkpoint(_)
             | Self::Problem(_)
             | Self::UnknownCase { .. } => ExitCode::from(2),
-            Self::Interrupted { .. } | Self::Ended(Ending::Interrupted { .. }) => {
+            Self::Interrupted { .. } => ExitCode::from(INTERRUPTED),
+            Self::Ended(ending) if matches!(**ending, Ending::Interrupted { .. }) => {
                 ExitCode::from(INTERRUPTED)
             }
             Self::Unwritable { .. }

@@ -259,7 +259,7 @@ fn ran_until(study: &mut Study, (name, text): (&str, &str), way: f64) -> Result<
     let run = study.run_to_limit(&format!("{name}-{way}"), deck)?;
     match run.simulation.ending {
         Ending::Completed => Ok(run),
-        ending => Err(Failure::Ended(ending)),
+        ending => Err(Failure::Ended(Box::new(ending))),
     }
 }
 

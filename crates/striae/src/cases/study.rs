@@ -107,7 +107,7 @@ impl<'a> Study<'a> {
         let run = self.run_to_limit(name, deck)?;
         match &run.simulation.ending {
             Ending::Completed => Ok(run),
-            ending => Err(Failure::Ended(ending.clone())),
+            ending => Err(Failure::Ended(Box::new(ending.clone()))),
         }
     }
 
@@ -121,7 +121,7 @@ impl<'a> Study<'a> {
         let simulation = simulate(deck, name, &folder, self.verbosity, self.interrupt)?;
         if let Ending::Interrupted { .. } = simulation.ending {
             self.interrupted = true;
-            return Err(Failure::Ended(simulation.ending));
+            return Err(Failure::Ended(Box::new(simulation.ending)));
         }
         Ok(Run {
             history: Table::read(&folder.join("history.csv"))?,

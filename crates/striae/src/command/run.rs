@@ -129,7 +129,7 @@ pub fn concluded(
             time,
             folder: folder.to_owned(),
         }),
-        ending @ Ending::Stopped { .. } => Err(Failure::Ended(ending)),
+        ending @ Ending::Stopped { .. } => Err(Failure::Ended(Box::new(ending))),
     }
 }
 
