@@ -3,6 +3,7 @@
 use striae_contact::{
     complementarity::Iteration,
     pointed::Pierced,
+    segment::ON_EDGE,
     selection::Selection,
     table_1::{Corrector, Inflation},
 };
@@ -145,9 +146,34 @@ impl Attempt<'_> {
                 }
                 further -= 1;
             }
+            if settled && self.jumps() {
+                return Ok(assembled);
+            }
             self.inflation = self.inflation.after(norms.gap);
             self.judge(number, &norms)?;
         }
+    }
+
+    /// Whether the last iterations go back and forth over a jump of the integrals of contact.
+    ///
+    /// A corner closer to an opposing edge than [`ON_EDGE`] of the facet counts as on it. What
+    /// contact integrates jumps where a corner crosses that limit, and Newton's method goes back
+    /// and forth over the jump with a residual that neither falls nor changes any status.
+    fn jumps(&self) -> bool {
+        const WINDOW: usize = 6;
+        const LARGEST: f64 = 0.1 * ON_EDGE;
+        let Some(from) = self.iterations.len().checked_sub(WINDOW) else {
+            return false;
+        };
+        let last = self.iterations[from..].iter().map(Norms::largest);
+        let least = last.clone().fold(f64::INFINITY, f64::min);
+        let most = last.fold(0.0, f64::max);
+        most <= LARGEST
+            && least > 0.5 * most
+            && self
+                .history
+                .cycling(self.context.problem, &self.selections)
+                .is_empty()
     }
 
     /// One correction.
