@@ -18,7 +18,7 @@
 //! friction are those of all kept nodes, with the stiffness `1/(h_a/E_a + h_b/E_b)`.
 //!
 //! The same holds for *points* of a rigid surface: its vertices, and points on its convex
-//! edges, see [`ridge`]. They have no positions to solve for; their tractions lodge with the
+//! edges. They have no positions to solve for; their tractions lodge with the
 //! corner of the pierced facet that is nearest and free, and `h` is the size there. Their `n`
 //! is continuous over facets, see [`Spot`].
 //!

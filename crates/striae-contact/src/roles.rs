@@ -24,7 +24,7 @@
 //!
 //! The order in which dependent nodes are kept decides their pivots, so two of them that
 //! change places would make pivots jump. The ramp takes pivots that no order enters:
-//! against all kept neighbours at once, with a diagonal that is stiffer by [`BLUR`],
+//! against all kept neighbours at once, with a diagonal that is stiffer by `BLUR`,
 //!
 //! ```text
 //! d_k = S_kk - S_kn (S_nn + BLUR I)^-1 S_nk

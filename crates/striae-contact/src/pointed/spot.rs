@@ -161,8 +161,8 @@ fn between_nodes(
 }
 
 /// The facet that a tip faces within `reach`, along the normal of that facet. The one that a
-/// node was in at the start of an increment holds it until it is [`AWAY`] from it: between two
-/// facets that dip towards each other either normal drives it to the other one.
+/// node was in at the start of an increment holds it until it is a tenth of a facet beyond its
+/// edges: between two facets that dip towards each other either normal drives it to the other.
 pub fn faced(configuration: &Configuration, tip: Tip, reach: f64) -> Option<Hit> {
     let (x, normal) = (tip.position(configuration), tip.normal(configuration));
     let target = configuration.side(1 - tip.side());
