@@ -15,5 +15,6 @@ mod pair;
 mod placed;
 
 mod contact;
+mod guided;
 mod system;
 mod textured;

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 use striae_contact::{
-    complementarity::Iteration,
+    complementarity::{Iteration, Prescribed},
     configuration::Configuration,
     evaluation::{Evaluation, evaluate},
     placement::Placement,
@@ -49,6 +49,8 @@ pub struct PairFunction<'a> {
     tau_n: [Vec<[f64; 2]>; 2],
     /// Status in the iteration before, by kept node.
     pub before: Vec<Status>,
+    /// Which positions are prescribed.
+    pub prescribed: Prescribed,
     pub selection: Selection,
     pub iteration: Iteration,
 }
@@ -85,6 +87,7 @@ impl<'a> PairFunction<'a> {
             elapsed,
             tau_n,
             before: vec![Status::Slip; selection.kept().len()],
+            prescribed: counts.map(|count| vec![false; 3 * count]),
             selection,
             iteration: Iteration::LATER,
         }
@@ -126,13 +129,12 @@ impl<'a> PairFunction<'a> {
     }
 
     fn evaluation(&self, u: &DVector<f64>) -> Evaluation {
-        let free = self.counts.map(|count| vec![false; 3 * count]);
         evaluate(
             &self.configuration(u),
             &configuration(self.context, &self.start),
             &self.selection,
             &self.tractions(u),
-            &free,
+            &self.prescribed,
             self.iteration,
         )
         .unwrap()
