@@ -13,6 +13,7 @@ mod departure;
 mod energy;
 mod failure;
 mod passage;
+mod release;
 mod rest;
 mod selected;
 mod work;
