@@ -2,6 +2,7 @@
 
 use striae_contact::{
     complementarity::Iteration,
+    interference::Interference,
     pointed::Pierced,
     segment::ON_EDGE,
     selection::Selection,
@@ -45,6 +46,8 @@ pub(super) struct Attempt<'a> {
     pub(super) iterations: Vec<Norms>,
     history: History,
     inflation: Inflation,
+    /// What came inside or through, by pair; empty before the end.
+    pub(super) interferences: Vec<Vec<Interference>>,
     /// Which pairs are closed in the latest state.
     closed: Vec<bool>,
 }
@@ -79,6 +82,7 @@ impl<'a> Attempt<'a> {
             iterations: Vec::new(),
             history: History::default(),
             inflation: Inflation::default(),
+            interferences: Vec::new(),
             closed: vec![true; context.pairs.len()],
         }
     }
@@ -120,8 +124,8 @@ impl Attempt<'_> {
             let found = reselected(&setting, trial, &assembled.contacts, &pierced);
             assembled = self.taken_up(found, workspace)?;
         }
-        let passage = passage(&self.setting(), &self.trial, &assembled.contacts);
-        passage.map_or(Ok(assembled), Err)
+        self.interferences = passage(&self.setting(), &self.trial, &assembled.contacts)?;
+        Ok(assembled)
     }
 
     fn setting(&self) -> Setting<'_> {
