@@ -37,7 +37,7 @@ pub enum InitialFault {
     /// Bodies overlap.
     #[error(
         "pair `{pair}`: `{body}` is {depth:.3e} inside `{other}` at ({:.6}, {:.6}, {:.6}), next to its {node}; that is {:.0} % of the local facet size. {}",
-        at.x, at.y, at.z, 100.0 * share, remedy(*initial)
+        at.x, at.y, at.z, 100.0 * share, closing.remedy()
     )]
     Overlap {
         /// Name of the pair.
@@ -54,8 +54,8 @@ pub enum InitialFault {
         depth: f64,
         /// The same over the local facet size.
         share: f64,
-        /// What the pair has made of it.
-        initial: Initial,
+        /// Whether nodes have been moved against it.
+        closing: Closing,
     },
     /// A body is on the wrong side of a rigid surface.
     #[error(
@@ -81,6 +81,29 @@ pub enum InitialFault {
         /// The first such element.
         element: ElementId,
     },
+}
+
+/// Whether nodes of a pair have been moved to close its gaps and overlaps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Closing {
+    /// They have not.
+    Open,
+    /// They have.
+    Made,
+}
+
+impl Closing {
+    /// What to do about an overlap that is there.
+    fn remedy(self) -> &'static str {
+        match self {
+            Self::Made => {
+                "It is left after `initial = \"close\"` has moved the nodes of the smaller or finer side: between these nodes the other side reaches deeper. Set `initial = \"resolve\"` to press it out in the first step, refine the side that was moved, or mend the mesh"
+            }
+            Self::Open => {
+                "Mend the mesh, or set `initial = \"close\"` to move nodes or `initial = \"resolve\"` to press the overlap out in the first step"
+            }
+        }
+    }
 }
 
 impl InitialFault {
@@ -127,20 +150,11 @@ pub fn fault(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
         at: overlap.point,
         depth: overlap.depth,
         share: overlap.share(),
-        initial: of_pair.initial,
+        closing: match of_pair.initial {
+            Initial::Close(_) => Closing::Made,
+            Initial::AsMeshed | Initial::Resolve => Closing::Open,
+        },
     })
-}
-
-/// What to do about an overlap that is left.
-fn remedy(initial: Initial) -> &'static str {
-    match initial {
-        Initial::Close(_) => {
-            "It is left after `initial = \"close\"` has moved the nodes of the smaller or finer side: between these nodes the other side reaches deeper. Set `initial = \"resolve\"` to press it out in the first step, refine the side that was moved, or mend the mesh"
-        }
-        Initial::AsMeshed | Initial::Resolve => {
-            "Mend the mesh, or set `initial = \"close\"` to move nodes or `initial = \"resolve\"` to press the overlap out in the first step"
-        }
-    }
 }
 
 /// The node, of the mesh of its body or rigid surface, that a surface node is.

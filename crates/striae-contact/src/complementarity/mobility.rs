@@ -27,7 +27,7 @@ pub(super) enum Mobility {
     /// In all.
     Free,
     /// Along one direction and back.
-    Along(Way),
+    Along(Box<Way>),
     /// In none.
     Held,
 }
@@ -53,10 +53,10 @@ impl Mobility {
         } else if middle + radius > IMMOBILE {
             let of_slip = direction(&difference, &twice);
             let of_friction = of_friction(state, &of_slip);
-            Self::Along(Way {
+            Self::Along(Box::new(Way {
                 of_slip,
                 of_friction,
-            })
+            }))
         } else {
             Self::Held
         }

@@ -13,6 +13,7 @@ mod table;
 
 mod pair;
 mod placed;
+mod whole;
 
 mod contact;
 mod guided;

@@ -139,15 +139,15 @@ fn failed_increments_are_halved_and_leave_no_trace() {
 
 #[test]
 fn increments_that_fail_in_contact_are_halved_too() {
-    let (gap, depth) = (0.4, 0.3);
-    let mut model = two_blocks(gap, coulomb(0.3));
-    let pressed = |model: &Model, fraction: f64| {
-        let way = [Some(0.0), Some(0.0), Some(-(depth + gap) * fraction)];
+    const GAP: f64 = 0.4;
+    fn pressed(model: &Model, fraction: f64) -> Vec<Displacement> {
+        let way = [Some(0.0), Some(0.0), Some(-(GAP + 0.3) * fraction)];
         vec![
             model.hold("lower", "zmin", [Some(0.0); 3]),
             model.hold("upper", "zmax", way),
         ]
-    };
+    }
+    let mut model = two_blocks(GAP, coulomb(0.3));
     model.steps[0].displacements = pressed(&model, 1.0);
     model.steps[0].increments = increments(1.0, 1e-3);
     // One iteration fewer than the whole way needs at once.
