@@ -45,4 +45,12 @@ impl<const N: usize> Quantity<N> {
         }
         sum
     }
+
+    /// `a b`.
+    pub fn product(a: &Self, b: &Self) -> Self {
+        Self {
+            re: a.re * b.re,
+            ..Self::combination([(a.re, b), (b.re, a)])
+        }
+    }
 }

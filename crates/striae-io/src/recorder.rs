@@ -155,7 +155,7 @@ impl Recorder {
 
     /// Judges a converged increment by what it came from.
     pub fn judge(&mut self, problem: &Problem, before: &State, increment: &Increment) {
-        self.judgement.increment(problem, before, &increment.state);
+        self.judgement.converged(problem, before, increment);
     }
 
     /// Notes an increment that was cut.

@@ -116,6 +116,57 @@ fn gaps_and_overlaps_are_closed_without_strain() {
 fn closing_that_turns_elements_inside_out_is_refused() {
     let fault = fault(deck(0.7, "initial = { close = 0 }"));
     assert!(matches!(fault, InitialFault::Inverted { .. }), "{fault}");
+    let said = fault.to_string();
+    assert!(said.contains("initial = \"resolve\""), "{said}");
+}
+
+/// A fine cap whose apex is inside the only facet of a smaller block.
+fn cap_in_facet(initial: &str) -> Result<Deck, Faults> {
+    let text = format!(
+        r#"
+title = "A cap in a facet"
+[[material]]
+name = "solid"
+law = "neo-hookean"
+youngs_modulus = 1000
+poissons_ratio = 0.3
+[[body]]
+name = "block"
+material = "solid"
+mesh = {{ generator = "block", size = [1, 1, 1], divisions = [1, 1, 1] }}
+[[body]]
+name = "cap"
+material = "solid"
+mesh = {{ generator = "capped-block", apex = [0.5, 0.5, 0.9], size = [1.5, 1.5], height = 1, radius = 3, element_size = 0.2 }}
+[[pair]]
+name = "interface"
+a = {{ body = "block", facets = "zmax" }}
+b = {{ body = "cap", facets = "cap" }}
+{initial}
+[[step]]
+name = "press"
+displacement = [
+    {{ body = "block", nodes = "zmin", x = 0, y = 0, z = 0 }},
+    {{ body = "cap", nodes = "zmax", x = 0, y = 0, z = -0.1 }},
+]
+"#
+    );
+    parse(&text, "deck.toml", Path::new(""))
+}
+
+#[test]
+fn an_overlap_that_closing_leaves_has_another_remedy() {
+    let said = cap_in_facet("").unwrap_err().to_string();
+    assert!(said.contains("set `initial = \"close\"`"), "{said}");
+    let left = fault(cap_in_facet("initial = { close = 0 }"));
+    assert!(matches!(left, InitialFault::Overlap { .. }), "{left}");
+    let said = left.to_string();
+    assert!(!said.contains("set `initial = \"close\"`"), "{said}");
+    for remedy in ["It is left after", "`initial = \"resolve\"`", "refine"] {
+        assert!(said.contains(remedy), "{said}");
+    }
+    // The remedies help.
+    assert!(cap_in_facet("initial = \"resolve\"").is_ok());
 }
 
 #[test]

@@ -36,8 +36,8 @@ pub const ROUND_OFF: f64 = 1e-9;
 pub enum InitialFault {
     /// Bodies overlap.
     #[error(
-        "pair `{pair}`: `{body}` is {depth:.3e} inside `{other}` at ({:.6}, {:.6}, {:.6}), next to its {node}; that is {:.0} % of the local facet size. Mend the mesh, or set `initial = \"close\"` to move nodes or `initial = \"resolve\"` to press the overlap out in the first step",
-        at.x, at.y, at.z, 100.0 * share
+        "pair `{pair}`: `{body}` is {depth:.3e} inside `{other}` at ({:.6}, {:.6}, {:.6}), next to its {node}; that is {:.0} % of the local facet size. {}",
+        at.x, at.y, at.z, 100.0 * share, closing.remedy()
     )]
     Overlap {
         /// Name of the pair.
@@ -54,6 +54,8 @@ pub enum InitialFault {
         depth: f64,
         /// The same over the local facet size.
         share: f64,
+        /// Whether nodes have been moved against it.
+        closing: Closing,
     },
     /// A body is on the wrong side of a rigid surface.
     #[error(
@@ -69,7 +71,7 @@ pub enum InitialFault {
     },
     /// Moving nodes would turn an element inside out.
     #[error(
-        "pair `{pair}`: `initial = \"close\"` would turn {element} of body `{body}` inside out; close smaller gaps, or mend the mesh"
+        "pair `{pair}`: `initial = \"close\"` would turn {element} of body `{body}` inside out. Set `initial = \"resolve\"` to press overlaps out in the first step instead, close only gaps that are small beside the elements, such as `initial = {{ close = 0 }}` for none, or mend the mesh"
     )]
     Inverted {
         /// Name of the pair.
@@ -79,6 +81,29 @@ pub enum InitialFault {
         /// The first such element.
         element: ElementId,
     },
+}
+
+/// Whether nodes of a pair have been moved to close its gaps and overlaps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Closing {
+    /// They have not.
+    Open,
+    /// They have.
+    Made,
+}
+
+impl Closing {
+    /// What to do about an overlap that is there.
+    fn remedy(self) -> &'static str {
+        match self {
+            Self::Made => {
+                "It is left after `initial = \"close\"` has moved the nodes of the smaller or finer side: between these nodes the other side reaches deeper. Set `initial = \"resolve\"` to press it out in the first step, refine the side that was moved, or mend the mesh"
+            }
+            Self::Open => {
+                "Mend the mesh, or set `initial = \"close\"` to move nodes or `initial = \"resolve\"` to press the overlap out in the first step"
+            }
+        }
+    }
 }
 
 impl InitialFault {
@@ -125,6 +150,10 @@ pub fn fault(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
         at: overlap.point,
         depth: overlap.depth,
         share: overlap.share(),
+        closing: match of_pair.initial {
+            Initial::Close(_) => Closing::Made,
+            Initial::AsMeshed | Initial::Resolve => Closing::Open,
+        },
     })
 }
 

@@ -13,6 +13,7 @@ mod departure;
 mod energy;
 mod failure;
 mod passage;
+mod release;
 mod rest;
 mod selected;
 mod work;
@@ -21,7 +22,9 @@ mod workspace;
 pub use work::{LinearWork, Times};
 pub use workspace::{Memory, Workspace};
 
-use striae_contact::{complementarity::Iteration, evaluation::Evaluation};
+use striae_contact::{
+    complementarity::Iteration, evaluation::Evaluation, interference::Interference,
+};
 pub use striae_linalg::{Analysis, Experience, FactoredInterior};
 
 use crate::{
@@ -49,6 +52,9 @@ pub struct Increment {
     pub peak_bytes: usize,
     /// What the linear systems took.
     pub work: LinearWork,
+    /// What came inside or through in the increment, deeper than
+    /// [`SHARE`](striae_contact::interference::SHARE) of the facet size, by pair.
+    pub interferences: Vec<Vec<Interference>>,
 }
 
 /// Told of every iteration.
@@ -146,6 +152,7 @@ pub fn advance(
         selections,
         trial,
         iterations,
+        interferences,
         ..
     } = attempt;
     let work = workspace.take_work();
@@ -155,6 +162,7 @@ pub fn advance(
         work,
         unknowns,
         peak_bytes,
+        interferences,
         state: accepted(
             context,
             state,

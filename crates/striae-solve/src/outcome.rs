@@ -110,6 +110,16 @@ pub enum CutBack {
         /// Pair whose stabilisation would carry it to contact that holds it.
         stabilise: Option<String>,
     },
+    /// Contact that held a body has opened.
+    #[error(
+        "pair `{pair}` lets go: {motion}; hold it by displacements, set `stabilise = true` in pair `{pair}`, or give the step inertia with `dynamics = {{}}`"
+    )]
+    Released {
+        /// Name of the pair.
+        pair: String,
+        /// The body and how it can move.
+        motion: Box<FreeMotion>,
+    },
     /// Stabilisation has not carried a body to contact that holds it.
     #[error(
         "{motion} where stabilisation ends, which is at the end of the step; pair `{pair}` {}",

@@ -21,7 +21,9 @@
 //! Longer than other files, as it is the one list of all that is judged.
 
 use striae_contact::{
-    initial::Fit, interference::Kind as Interfering, interference::SHARE, pointed::choice::PIERCED,
+    initial::Fit,
+    interference::{Interference, Kind as Interfering, SHARE},
+    pointed::choice::PIERCED,
 };
 use striae_law::bulk::Material;
 
@@ -29,6 +31,7 @@ use crate::{
     initial::{fits, may_meet, other_name},
     interference::{Positions, between, within},
     model::{Body, Initial, Model, PairId},
+    newton::Increment,
     outcome::Ending,
     problem::Problem,
     report::{PairReport, pairs},
@@ -159,8 +162,29 @@ pub struct Worst {
 }
 
 impl Judgement {
-    /// Judges an increment from `before` to `after`.
+    /// Judges a converged increment by what it came from.
+    pub fn converged(&mut self, problem: &Problem, before: &State, increment: &Increment) {
+        self.change(
+            problem,
+            [before, &increment.state],
+            &increment.interferences,
+        );
+    }
+
+    /// Judges an increment from `before` to `after`, however it came about.
     pub fn increment(&mut self, problem: &Problem, before: &State, after: &State) {
+        let ends = [before, after].map(Positions::from);
+        let pairs = 0..problem.pairs.len();
+        let interferences = pairs.map(|pair| between(problem, pair, ends[0], ends[1], SHARE));
+        self.change(problem, [before, after], &interferences.collect::<Vec<_>>());
+    }
+
+    fn change(
+        &mut self,
+        problem: &Problem,
+        [before, after]: [&State; 2],
+        interferences: &[Vec<Interference>],
+    ) {
         self.forces.resize(problem.pairs.len(), 0.0);
         self.pressures.resize(problem.pairs.len(), 0.0);
         self.energy = self
@@ -173,8 +197,8 @@ impl Judgement {
         self.note(Kind::Rotation, None, rotation(problem, after), after.time);
         for (pair, report) in pairs(problem, after).iter().enumerate() {
             self.pair(pair, report, [before, after]);
-            let ends = [before, after].map(Positions::from);
-            self.interference(problem, pair, ends, report.max_pressure, after.time);
+            self.passage(pair, &interferences[pair], after.time);
+            self.penetration(problem, pair, after, report.max_pressure);
         }
     }
 
@@ -219,20 +243,16 @@ impl Judgement {
         }
     }
 
-    fn interference(
-        &mut self,
-        problem: &Problem,
-        pair: usize,
-        [start, end]: [Positions; 2],
-        pressure: f64,
-        time: f64,
-    ) {
-        let passed = between(problem, pair, start, end, SHARE);
-        let passed = passed
+    fn passage(&mut self, pair: usize, found: &[Interference], time: f64) {
+        let passed = found
             .iter()
             .filter(|found| found.kind != Interfering::Inside);
-        let depths = passed.map(|found| found.share());
+        let depths = passed.map(Interference::share);
         self.note(Kind::Passage, Some(pair), depths.fold(0.0, f64::max), time);
+    }
+
+    fn penetration(&mut self, problem: &Problem, pair: usize, after: &State, pressure: f64) {
+        let time = after.time;
         let first = problem.model.steps.first();
         let duration = first.map_or(0.0, |step| step.duration);
         // Overlaps of meshes that are being pressed out are meant.
@@ -244,7 +264,7 @@ impl Judgement {
         // gap, so nothing feels it.
         let unfelt = pressure == 0.0;
         let bound = if unfelt { PIERCED } else { SHARE };
-        let inside = within(problem, pair, end, bound);
+        let inside = within(problem, pair, after.into(), bound);
         let depths = inside.iter().map(|found| found.share());
         let deepest = depths.fold(0.0, f64::max);
         self.note(Kind::Penetration, Some(pair), deepest, time);

@@ -85,9 +85,10 @@ fn line(name: &str, row: &BTreeMap<Class, usize>) -> String {
 }
 
 /// Texts of endings, and what they are told as.
-const CAUSES: [(&str, &str); 11] = [
+const CAUSES: [(&str, &str); 12] = [
     ("no equilibrium", "no equilibrium"),
     ("limit of friction", "limit of friction"),
+    ("lets go", "patch released"),
     ("is not held", "a body is not held"),
     (
         "balance of a contact patch",

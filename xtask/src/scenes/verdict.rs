@@ -72,9 +72,10 @@ pub struct Verdict {
 }
 
 /// Words of reasons that physics has.
-const PHYSICAL: [&str; 8] = [
+const PHYSICAL: [&str; 9] = [
     "no equilibrium",
     "limit of friction",
+    "lets go",
     "inverted",
     "turned inside out",
     "Jacobian",

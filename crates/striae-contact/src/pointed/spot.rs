@@ -24,7 +24,8 @@ use crate::{
 /// How many reaches around a tip an opposing facet is looked for.
 const FOLLOW: f64 = 4.0;
 
-/// How far beyond its edges a facet holds a node, in facet coordinates.
+/// How far beyond its edges a facet holds a node, in facet coordinates: a twentieth of the
+/// side of a quadrilateral, a tenth of that of a triangle.
 const AWAY: f64 = 0.1;
 
 /// What a tip presses on.
@@ -161,8 +162,8 @@ fn between_nodes(
 }
 
 /// The facet that a tip faces within `reach`, along the normal of that facet. The one that a
-/// node was in at the start of an increment holds it until it is a tenth of a facet beyond its
-/// edges: between two facets that dip towards each other either normal drives it to the other.
+/// node was in at the start of an increment holds it until it is [`AWAY`] beyond its edges:
+/// between two facets that dip towards each other either normal drives it to the other.
 pub fn faced(configuration: &Configuration, tip: Tip, reach: f64) -> Option<Hit> {
     let (x, normal) = (tip.position(configuration), tip.normal(configuration));
     let target = configuration.side(1 - tip.side());

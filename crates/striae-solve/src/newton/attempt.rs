@@ -2,6 +2,7 @@
 
 use striae_contact::{
     complementarity::Iteration,
+    interference::Interference,
     pointed::Pierced,
     segment::ON_EDGE,
     selection::Selection,
@@ -16,6 +17,7 @@ use super::{
     departure::first_positions,
     failure::{linear_system, missed},
     passage::passage,
+    release::{closed, released},
     rest::contact_at_rest,
     selected::{Selected, pierced, reselected, selected},
     workspace::Workspace,
@@ -44,6 +46,10 @@ pub(super) struct Attempt<'a> {
     pub(super) iterations: Vec<Norms>,
     history: History,
     inflation: Inflation,
+    /// What came inside or through, by pair; empty before the end.
+    pub(super) interferences: Vec<Vec<Interference>>,
+    /// Which pairs are closed in the latest state.
+    closed: Vec<bool>,
 }
 
 impl<'a> Attempt<'a> {
@@ -76,13 +82,28 @@ impl<'a> Attempt<'a> {
             iterations: Vec::new(),
             history: History::default(),
             inflation: Inflation::default(),
+            interferences: Vec::new(),
+            closed: vec![true; context.pairs.len()],
         }
     }
 }
 
 impl Attempt<'_> {
-    /// Iterates, again where nodes turn out to be needed, until nothing is missed.
+    /// Iterates until nothing is missed, or says why there is no end.
     pub(super) fn solved(
+        &mut self,
+        workspace: &mut Workspace,
+        observer: &mut dyn IterationObserver,
+    ) -> Result<Assembled, CutBack> {
+        let found = self.complete(workspace, observer);
+        found.map_err(|reason| {
+            let released = released(self.context, self.state, &self.closed, &reason);
+            released.unwrap_or(reason)
+        })
+    }
+
+    /// Iterates, again where nodes turn out to be needed, until nothing is missed.
+    fn complete(
         &mut self,
         workspace: &mut Workspace,
         observer: &mut dyn IterationObserver,
@@ -103,8 +124,8 @@ impl Attempt<'_> {
             let found = reselected(&setting, trial, &assembled.contacts, &pierced);
             assembled = self.taken_up(found, workspace)?;
         }
-        let passage = passage(&self.setting(), &self.trial, &assembled.contacts);
-        passage.map_or(Ok(assembled), Err)
+        self.interferences = passage(&self.setting(), &self.trial, &assembled.contacts)?;
+        Ok(assembled)
     }
 
     fn setting(&self) -> Setting<'_> {
@@ -126,6 +147,7 @@ impl Attempt<'_> {
         let solver = &self.context.problem.model.solver;
         let mut further = solver.further_iterations;
         loop {
+            self.closed = closed(&assembled.contacts);
             let before = self.iterations.last().map(Norms::largest);
             let number = self.iterations.len() + 1;
             let iteration = later(solver.strategy, self.inflation, number);
@@ -150,6 +172,7 @@ impl Attempt<'_> {
                 return Ok(assembled);
             }
             self.inflation = self.inflation.after(norms.gap);
+            self.closed = closed(&assembled.contacts);
             self.judge(number, &norms)?;
         }
     }

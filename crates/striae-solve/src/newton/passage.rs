@@ -32,44 +32,69 @@ const UNSEEN: f64 = 0.5;
 /// The same wherever they are.
 const DEEP: f64 = 1.0;
 
-/// What contact has missed on the way to a trial state.
+/// What has come inside or through on the way to a trial state, deeper than [`SHARE`] of the
+/// facet size, by pair.
+///
+/// # Errors
+/// If contact has missed some of it.
 pub(super) fn passage(
     setting: &Setting,
     trial: &Trial,
     contacts: &[Evaluation],
-) -> Option<CutBack> {
-    let (context, state) = (setting.context, setting.state);
-    let problem = context.problem;
+) -> Result<Vec<Vec<Interference>>, CutBack> {
+    let mut all = Vec::new();
+    for pair in 0..setting.selections.len() {
+        let found = found(setting, trial, pair);
+        missed(setting, trial, pair, &contacts[pair], &found).map_or(Ok(()), Err)?;
+        all.push(found);
+    }
+    Ok(all)
+}
+
+fn found(setting: &Setting, trial: &Trial, pair: usize) -> Vec<Interference> {
+    let [start, end] = ends(setting, trial);
+    between(setting.context.problem, pair, start, end, SHARE)
+}
+
+/// Where everything is at the start of the increment and in the trial state.
+fn ends<'a>(setting: &Setting<'a>, trial: &'a Trial) -> [Positions<'a>; 2] {
     let end = Positions {
         nodes: &trial.positions,
         rigid: &trial.rigid,
     };
-    for (pair, selection) in setting.selections.iter().enumerate() {
-        let found = between(problem, pair, Positions::from(state), end, SHARE);
-        // Overlaps of meshes that are being pressed out are meant.
-        let is_meant = |found: &Interference| selection.has_offsets() && found.kind == Kind::Inside;
-        let sides = &context.pairs[pair].sides;
-        let missed = found.iter().filter(|found| {
-            found.kind == Kind::Crossed
-                || !is_meant(found) && is_missed(sides, &contacts[pair], found)
-        });
-        let Some(worst) = missed.max_by(|a, b| a.share().total_cmp(&b.share())) else {
-            continue;
-        };
-        let [start, end] =
-            [Positions::from(state), end].map(|at| context.configuration(pair, at.nodes, at.rigid));
-        let surface = context.pairs[pair].sides[worst.side].surface()?;
-        let id = PairId(pair);
-        return Some(CutBack::Passage {
-            pair: context.pairs[pair].name.clone(),
-            body: other_name(&problem.model, id, 1 - worst.side).to_owned(),
-            node: surface.nodes()[worst.node as usize],
-            other: other_name(&problem.model, id, worst.side).to_owned(),
-            depth: worst.depth,
-            way: approach(&start, &end),
-        });
-    }
-    None
+    [Positions::from(setting.state), end]
+}
+
+/// What contact of a pair has missed of what was found.
+fn missed(
+    setting: &Setting,
+    trial: &Trial,
+    pair: usize,
+    contact: &Evaluation,
+    found: &[Interference],
+) -> Option<CutBack> {
+    let context = setting.context;
+    let model = &context.problem.model;
+    let selection = &setting.selections[pair];
+    // Overlaps of meshes that are being pressed out are meant.
+    let is_meant = |found: &Interference| selection.has_offsets() && found.kind == Kind::Inside;
+    let sides = &context.pairs[pair].sides;
+    let missed = found.iter().filter(|found| {
+        found.kind == Kind::Crossed || !is_meant(found) && is_missed(sides, contact, found)
+    });
+    let worst = missed.max_by(|a, b| a.share().total_cmp(&b.share()))?;
+    let [start, end] =
+        ends(setting, trial).map(|at| context.configuration(pair, at.nodes, at.rigid));
+    let surface = sides[worst.side].surface()?;
+    let id = PairId(pair);
+    Some(CutBack::Passage {
+        pair: context.pairs[pair].name.clone(),
+        body: other_name(model, id, 1 - worst.side).to_owned(),
+        node: surface.nodes()[worst.node as usize],
+        other: other_name(model, id, worst.side).to_owned(),
+        depth: worst.depth,
+        way: approach(&start, &end),
+    })
 }
 
 /// Whether a point is deeper inside than contact resolves.

@@ -9,5 +9,6 @@ mod scene;
 mod table;
 
 mod convergence;
+mod guided;
 mod patch;
 mod sliding;

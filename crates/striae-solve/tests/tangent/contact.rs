@@ -25,10 +25,11 @@ fn laws() -> [Friction; 2] {
 }
 
 /// Moduli and divisions of two bodies: alike, one much stiffer, one much finer.
-const PAIRINGS: [([f64; 2], [usize; 2]); 5] = [
+const PAIRINGS: [([f64; 2], [usize; 2]); 6] = [
     ([1.0, 1.0], [3, 3]),
     ([100.0, 1.0], [3, 3]),
     ([1.0, 100.0], [3, 2]),
+    ([1.0, 2.0], [2, 4]),
     ([1.0, 2.0], [2, 5]),
     ([3.0, 1.0], [4, 3]),
 ];

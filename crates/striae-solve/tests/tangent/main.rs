@@ -13,7 +13,9 @@ mod table;
 
 mod pair;
 mod placed;
+mod whole;
 
 mod contact;
+mod guided;
 mod system;
 mod textured;

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 use striae_contact::{
-    complementarity::Iteration,
+    complementarity::{Iteration, Prescribed},
     configuration::Configuration,
     evaluation::{Evaluation, evaluate},
     placement::Placement,
@@ -36,6 +36,10 @@ const STICKING: f64 = 20.0;
 /// Tension that opens nodes whatever the pressure that the ramp brings them from others.
 const OPENING: f64 = 2.0 * STICKING;
 
+/// Pressures of nodes that may slip, over the usual ones: weak nodes are opened or held by
+/// what the ramp brings from others, and the first pressure under which some slip is taken.
+const PRESSURES: [f64; 6] = [1.0, 3.0, 10.0, 30.0, 100.0, 0.1];
+
 /// Projections of friction before Newton's method takes over.
 const PROJECTIONS: usize = 20;
 
@@ -49,6 +53,8 @@ pub struct PairFunction<'a> {
     tau_n: [Vec<[f64; 2]>; 2],
     /// Status in the iteration before, by kept node.
     pub before: Vec<Status>,
+    /// Which positions are prescribed.
+    pub prescribed: Prescribed,
     pub selection: Selection,
     pub iteration: Iteration,
 }
@@ -85,6 +91,7 @@ impl<'a> PairFunction<'a> {
             elapsed,
             tau_n,
             before: vec![Status::Slip; selection.kept().len()],
+            prescribed: counts.map(|count| vec![false; 3 * count]),
             selection,
             iteration: Iteration::LATER,
         }
@@ -126,13 +133,12 @@ impl<'a> PairFunction<'a> {
     }
 
     fn evaluation(&self, u: &DVector<f64>) -> Evaluation {
-        let free = self.counts.map(|count| vec![false; 3 * count]);
         evaluate(
             &self.configuration(u),
             &configuration(self.context, &self.start),
             &self.selection,
             &self.tractions(u),
-            &free,
+            &self.prescribed,
             self.iteration,
         )
         .unwrap()
@@ -169,6 +175,17 @@ impl<'a> PairFunction<'a> {
     /// Unknowns away from the kinks; slip rows are satisfied, since only there is their
     /// Jacobian exact. Slip depends on friction where nodes are weak.
     pub fn state(&self, wanted: Wanted) -> DVector<f64> {
+        let mut placed = PRESSURES.iter().map(|&pressure| {
+            let mut u = self.placed(wanted, pressure);
+            self.project(&mut u);
+            u
+        });
+        let found = placed.find(|u| self.statuses(u).contains(&Status::Slip));
+        self.settled(found.expect("some node slips"))
+    }
+
+    /// Positions, and tractions with pressures of nodes that may slip about `pressure`.
+    fn placed(&self, wanted: Wanted, pressure: f64) -> DVector<f64> {
         let mut random = Random::new(17);
         let mut u = DVector::zeros(self.len());
         let numbering = self.context.pairs[0].numbering();
@@ -191,7 +208,7 @@ impl<'a> PairFunction<'a> {
             u[first] = match wanted {
                 Wanted::Slip => random.uniform(0.8, 1.2),
                 Wanted::Mixed => random.uniform(0.2, 0.4),
-            };
+            } * pressure;
             u[first + 1] = random.uniform(-0.1, 0.1);
             u[first + 2] = random.uniform(-0.1, 0.1);
             // Friction of weak nodes without pressure would act through the ramp: others open
@@ -209,7 +226,11 @@ impl<'a> PairFunction<'a> {
                 _ => {}
             }
         }
-        self.project(&mut u);
+        u
+    }
+
+    /// With the slip rows satisfied.
+    fn settled(&self, mut u: DVector<f64>) -> DVector<f64> {
         for _ in 0..20 {
             let rows = self.slip_rows(&u);
             let off = self.residual(&u).select_rows(&rows);

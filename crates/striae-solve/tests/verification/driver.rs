@@ -91,16 +91,9 @@ fn easy_increments_grow_to_the_largest() {
     assert_eq!(run.last().time, 4.0);
 }
 
-#[test]
-fn failed_increments_are_halved_and_leave_no_trace() {
-    let (gap, depth) = (0.4, 0.3);
-    let mut model = two_blocks(gap, coulomb(0.3));
-    model.steps[0].displacements[1] =
-        model.hold("upper", "zmax", [Some(0.0), Some(0.0), Some(-depth - gap)]);
-    model.steps[0].increments = increments(1.0, 1e-3);
-    // One iteration fewer than the whole way needs at once.
-    let needed = Run::completed(model.clone()).iterations[0].len();
-    model.solver.largest_iterations = needed - 1;
+/// Runs a model whose only step fails as one increment, and another whose steps are the
+/// increments that it was divided into; `held` are its conditions at a fraction.
+fn assert_halved(model: Model, held: impl Fn(&Model, f64) -> Vec<Displacement>) -> Run {
     let cut = Run::completed(model.clone());
     assert!(!cut.cuts.is_empty());
     let mut size = 1.0;
@@ -112,21 +105,55 @@ fn failed_increments_are_halved_and_leave_no_trace() {
 
     let direct = cut.progress.iter().map(|progress| {
         let mut part = step();
-        let lowered = -(depth + gap) * progress.fraction;
-        part.displacements = vec![
-            model.hold("lower", "zmin", [Some(0.0); 3]),
-            model.hold("upper", "zmax", [Some(0.0), Some(0.0), Some(lowered)]),
-        ];
+        part.displacements = held(&model, progress.fraction);
         part
     });
     let mut same = model.clone();
     same.steps = direct.collect();
     let same = Run::completed(same);
     assert!(same.cuts.is_empty());
-    for body in 0..2 {
+    for body in 0..model.bodies.len() {
         let error = largest_distance(cut.positions(body), same.positions(body));
         assert!(error < 1e-12, "body {body} differs by {error:.1e}");
     }
+    cut
+}
+
+#[test]
+fn failed_increments_are_halved_and_leave_no_trace() {
+    // Sheared by twice its height at once, the block turns inside out.
+    let mesh = block([0.0; 3], [1.0, 1.0, 2.0], [2, 2, 4]).mesh().unwrap();
+    let mut model = model(vec![body("cube", mesh, rubber(1.0, 0.3))]);
+    let sheared = |model: &Model, fraction: f64| {
+        let way = [Some(4.0 * fraction), Some(0.0), Some(0.0)];
+        vec![held(model), model.hold("cube", "zmax", way)]
+    };
+    let mut shear = step();
+    shear.displacements = sheared(&model, 1.0);
+    shear.increments = increments(1.0, 1e-3);
+    model.steps = vec![shear];
+    let cut = assert_halved(model, sheared);
+    let inverted = |cut: &CutBack| matches!(cut, CutBack::InvertedElement { .. });
+    assert!(cut.cuts.iter().all(|(_, cut)| inverted(cut)));
+}
+
+#[test]
+fn increments_that_fail_in_contact_are_halved_too() {
+    const GAP: f64 = 0.4;
+    fn pressed(model: &Model, fraction: f64) -> Vec<Displacement> {
+        let way = [Some(0.0), Some(0.0), Some(-(GAP + 0.3) * fraction)];
+        vec![
+            model.hold("lower", "zmin", [Some(0.0); 3]),
+            model.hold("upper", "zmax", way),
+        ]
+    }
+    let mut model = two_blocks(GAP, coulomb(0.3));
+    model.steps[0].displacements = pressed(&model, 1.0);
+    model.steps[0].increments = increments(1.0, 1e-3);
+    // One iteration fewer than the whole way needs at once.
+    let needed = Run::completed(model.clone()).iterations[0].len();
+    model.solver.largest_iterations = needed - 1;
+    assert_halved(model, pressed);
 }
 
 #[test]

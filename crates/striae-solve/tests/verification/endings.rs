@@ -132,3 +132,104 @@ fn a_torque_beyond_friction_ends_at_the_limit_of_friction() {
     assert_eq!(motion.to_string(), "`rz` of `hand` is free");
     assert!(*reached > 0.1 && *reached < 0.9, "{reached}");
 }
+
+/// A block on a narrower one, pressed by a hand that guides it off its edge.
+fn driven_off(friction: Friction, force: f64, divisions: [usize; 2]) -> Model {
+    let [below, above] = divisions;
+    let lower = block([-0.5, -0.5, -0.5], [1.0, 1.0, 0.5], [below, below, 2]);
+    let upper = block([-0.3, -0.3, 0.0], [0.6, 0.6, 0.4], [above, above, 2]);
+    let mut model = model(vec![
+        body("lower", lower.mesh().unwrap(), rubber(1.0, 0.3)),
+        body("upper", upper.mesh().unwrap(), rubber(1.0, 0.3)),
+    ]);
+    model.touch(("lower", "zmax"), ("upper", "zmin"), friction);
+    let mut hand = RigidSurface::new("hand", RigidShape::Bare);
+    hand.reference = Vec3::new(0.0, 0.0, 0.4);
+    hand.ties = vec![(BodyId(1), model.nodes("upper", "zmax"))];
+    model.rigid_surfaces.push(hand);
+    let motion = |x: f64| {
+        let mut coordinates = [Freedom::AsBefore; 6];
+        coordinates[0] = Freedom::To(x);
+        coordinates[2] = Freedom::Free;
+        RigidMotion {
+            surface: RigidId(0),
+            coordinates,
+            force: Some(Vec3::new(0.0, 0.0, -force)),
+            torque: None,
+            curve: Curve::Ramp,
+        }
+    };
+    let hold = model.hold("lower", "zmin", [Some(0.0); 3]);
+    let mut press = step();
+    press.displacements = vec![hold];
+    press.rigid_motions = vec![motion(0.0)];
+    let mut slide = step();
+    slide.name = "slide".to_owned();
+    slide.increments = increments(0.05, 1e-3);
+    slide.rigid_motions = vec![motion(1.0)];
+    model.steps = vec![press, slide];
+    model
+}
+
+/// What lets go at the end, and after which part of the way.
+fn let_go(run: &Run) -> (FreeMover, String, f64) {
+    let CutBack::Released { pair, motion } = reason(run) else {
+        panic!("{}\n{:#?}", run.ending, run.cuts);
+    };
+    assert_eq!(pair, "interface");
+    let said = run.ending.to_string();
+    let remedies = ["hold it", "stabilise = true", "dynamics = {}"];
+    assert!(
+        remedies.iter().all(|remedy| said.contains(remedy)),
+        "{said}"
+    );
+    let last = run.progress.last().expect("it gets near the edge");
+    (motion.mover.clone(), motion.motions.clone(), last.fraction)
+}
+
+#[test]
+fn a_hand_that_drives_a_block_off_an_edge_is_let_go_by_name() {
+    let hand = FreeMover::Rigid("hand".to_owned());
+    for friction in [Friction::frictionless(), coulomb(0.3)] {
+        for (force, divisions) in [(1e-3, [4, 3]), (1e-3, [3, 4]), (1e-2, [4, 3])] {
+            let run = Run::of(driven_off(friction.clone(), force, divisions));
+            let (mover, motions, reached) = let_go(&run);
+            assert_eq!((mover, &*motions), (hand.clone(), "`z`"));
+            // The overlap ends at 0.8; friction and load shear and squeeze the block.
+            assert!(reached > 0.75 && reached < 0.95, "{reached}");
+        }
+    }
+}
+
+#[test]
+fn a_guided_block_that_loads_press_is_let_go_by_name() {
+    for friction in [Friction::frictionless(), coulomb(0.3)] {
+        let mut model = driven_off(friction, 0.0, [4, 3]);
+        model.rigid_surfaces.clear();
+        let guided = |x| model.hold("upper", "zmax", [Some(x), Some(0.0), None]);
+        let hold = model.hold("lower", "zmin", [Some(0.0); 3]);
+        let press = model.load("upper", "zmax", LoadKind::Pressure(3e-3), LoadExtent::Whole);
+        let displacements = [vec![hold, guided(0.0)], vec![guided(1.0)]];
+        let loads = [vec![press], Vec::new()];
+        for ((step, displacements), loads) in model.steps.iter_mut().zip(displacements).zip(loads) {
+            step.rigid_motions.clear();
+            step.displacements = displacements;
+            step.loads = loads;
+        }
+        let (mover, motions, reached) = let_go(&Run::of(model));
+        assert_eq!(mover, FreeMover::Body("upper".to_owned()));
+        assert!(motions.contains("along z"), "{motions}");
+        assert!(reached > 0.4 && reached < 0.95, "{reached}");
+    }
+}
+
+#[test]
+fn a_block_that_is_pulled_off_is_let_go_by_name() {
+    let mut model = driven_off(coulomb(0.3), 1e-3, [4, 3]);
+    let mut motion = model.steps[0].rigid_motions[0].clone();
+    motion.force = Some(Vec3::new(0.0, 0.0, 1e-3));
+    model.steps[1].rigid_motions = vec![motion];
+    let (_, motions, reached) = let_go(&Run::of(model));
+    assert_eq!(motions, "`z`");
+    assert!((reached - 0.5).abs() < 2e-3, "{reached}");
+}

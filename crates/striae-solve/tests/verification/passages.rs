@@ -15,10 +15,11 @@ use striae_solve::{
 
 /// Asserts that nothing went through anything in any increment, and nothing is deep inside.
 fn assert_apart(run: &Run) {
-    for states in run.states.windows(2) {
-        for pair in 0..run.problem.pairs.len() {
+    for (states, known) in run.states.windows(2).zip(&run.interferences) {
+        for (pair, known) in known.iter().enumerate() {
             let [start, end] = [&states[0], &states[1]].map(Into::into);
             let found = between(&run.problem, pair, start, end, SHARE);
+            assert_eq!(&found, known, "what increments tell of themselves");
             let passed = found.iter().find(|found| {
                 // A node of a coarse ball may graze a coarse plate where pressure acts beside it.
                 found.kind == Kind::Crossed || found.share() > 1.0

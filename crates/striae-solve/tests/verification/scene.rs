@@ -1,6 +1,6 @@
 //! Models made in code and run without output.
 
-use striae_contact::{evaluation::Evaluation, pair::Enforcement};
+use striae_contact::{evaluation::Evaluation, interference::Interference, pair::Enforcement};
 use striae_law::{
     bulk::{LameConstants, Material},
     friction::Friction,
@@ -30,6 +30,8 @@ pub struct Run {
     pub iterations: Vec<Vec<Norms>>,
     /// What the linear systems of every increment took.
     pub work: Vec<LinearWork>,
+    /// What came inside or through in every increment, by pair.
+    pub interferences: Vec<Vec<Vec<Interference>>>,
     /// Where every increment ended.
     pub progress: Vec<Progress>,
     /// Failed attempts: where they were to end and why they failed.
@@ -75,6 +77,7 @@ impl Run {
             states,
             iterations,
             work,
+            interferences,
             progress,
             cuts,
             ..
@@ -84,6 +87,7 @@ impl Run {
             states,
             iterations,
             work,
+            interferences,
             progress,
             cuts,
             ending,
@@ -124,6 +128,7 @@ struct Record<'a> {
     states: Vec<State>,
     iterations: Vec<Vec<Norms>>,
     work: Vec<LinearWork>,
+    interferences: Vec<Vec<Vec<Interference>>>,
     progress: Vec<Progress>,
     cuts: Vec<(Progress, CutBack)>,
     repetition: Option<Repetition<'a>>,
@@ -144,6 +149,7 @@ impl Observer for Record<'_> {
         self.states.push(increment.state.clone());
         self.iterations.push(increment.iterations.clone());
         self.work.push(increment.work);
+        self.interferences.push(increment.interferences.clone());
         self.progress.push(progress);
         match &mut self.repetition {
             Some(repetition) => repetition.increment(progress, increment),

@@ -14,10 +14,14 @@
 //! | `ending` | a completed run reached the end of all steps |
 //! | `contact` | pairs carry force at the end of steps that press, none where they are apart |
 //!
+//! Forces and energies below [`round_off`] are none: where nothing is pressed, roundings would be
+//! held against each other.
+//!
 //! A measure is a value over its bound: at most 1 is well.
 
 mod depth;
 mod fields;
+mod round_off;
 mod table;
 
 use std::{collections::BTreeMap, path::Path};

@@ -6,7 +6,7 @@ use crate::scenes::{
     vector::{Vector, length, plus, times},
 };
 
-use super::Findings;
+use super::{Findings, round_off};
 
 /// Balance of the resultants of a pair.
 const RESULTANTS: f64 = 1e-8;
@@ -34,11 +34,12 @@ pub fn check(findings: &mut Findings, scene: &Scene, history: &History) {
     ending(findings, scene, history);
     for pair in &scene.pairs {
         resultants(findings, pair.name, history);
-        dissipation(findings, &format!("pair.{}.dissipated", pair.name), history);
+        let column = format!("pair.{}.dissipated", pair.name);
+        dissipation(findings, scene, &column, history);
     }
     contact(findings, scene, history);
-    dissipation(findings, "energy.friction", history);
-    energy(findings, history);
+    dissipation(findings, scene, "energy.friction", history);
+    energy(findings, scene, history);
     if !scene.is_dynamic() {
         for body in &scene.bodies {
             balance(findings, scene, body.name, history);
@@ -134,14 +135,15 @@ fn contact(findings: &mut Findings, scene: &Scene, history: &History) {
     }
 }
 
-fn dissipation(findings: &mut Findings, column: &str, history: &History) {
+fn dissipation(findings: &mut Findings, scene: &Scene, column: &str, history: &History) {
     let values = history.column(column);
     let scale = energies(history);
+    let bound = DISSIPATION * scale + round_off::of_energy(scene);
     let mut before = 0.0;
     for (row, value) in values.into_iter().enumerate() {
         let fall = before - value;
         if scale > 0.0 {
-            findings.note("dissipation", fall / (DISSIPATION * scale), || {
+            findings.note("dissipation", fall / bound, || {
                 format!("{column}, increment {}: falls by {fall:.2e}", row + 1)
             });
         }
@@ -169,8 +171,9 @@ fn energies(history: &History) -> f64 {
         .fold(0.0, |largest, value| value.abs().max(largest))
 }
 
-fn energy(findings: &mut Findings, history: &History) {
+fn energy(findings: &mut Findings, scene: &Scene, history: &History) {
     let scale = energies(history);
+    let bound = ENERGY * scale + round_off::of_energy(scene);
     if scale == 0.0 {
         return;
     }
@@ -182,7 +185,7 @@ fn energy(findings: &mut Findings, history: &History) {
         };
         let spent: f64 = ENERGIES[..6].iter().map(|name| of(name)).sum();
         let off = of("external") - spent;
-        findings.note("energy", off.abs() / (ENERGY * scale), || {
+        findings.note("energy", off.abs() / bound, || {
             format!("increment {}: {off:.2e} of {scale:.2e}", row + 1)
         });
         findings.tell("contact energy", of("contact").abs() / scale);
@@ -229,8 +232,9 @@ fn balance(findings: &mut Findings, scene: &Scene, body: &str, history: &History
         .fold(0.0, f64::max);
     for row in 0..history.len() {
         let off = length(forces(row).into_iter().fold([0.0; 3], plus));
+        let bound = BALANCE * of_run + round_off::of_force(scene, body);
         if off.is_nan() || of_run > 0.0 {
-            findings.note("balance", off / (BALANCE * of_run), || {
+            findings.note("balance", off / bound, || {
                 format!(
                     "body {body}, increment {}: {off:.2e} of {of_run:.2e}",
                     row + 1
@@ -243,7 +247,7 @@ fn balance(findings: &mut Findings, scene: &Scene, body: &str, history: &History
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenes::kinds::{Dialect, scene};
+    use crate::scenes::kinds::{Dialect, KINDS, scene};
 
     const NAMES: &str = "time,iterations,energy.kinetic,energy.strain,energy.friction,energy.contact,energy.stabilisation,\
                          energy.numerical,energy.external,pair.interface.dissipated,\
@@ -253,23 +257,39 @@ mod tests {
                          reaction.lower.zmin.x,reaction.lower.zmin.y,reaction.lower.zmin.z,\
                          reaction.upper.zmax.x,reaction.upper.zmax.y,reaction.upper.zmax.z";
 
+    /// Scenes of the first kind, a press, with all ratios of stiffness.
+    fn presses() -> impl Iterator<Item = Scene> {
+        let scenes = (0..20).map(|at| scene(at * KINDS.len() as u64, Dialect::default()));
+        scenes.map(|mut scene| {
+            scene.pairs[0].sides.sort_by_key(|side| side.owner);
+            scene
+        })
+    }
+
     /// What fails in a press whose rows are well but for changes of one cell each.
     fn failed(changes: &[(usize, &str, &str)]) -> Vec<&'static str> {
-        let mut scene = scene(0, Dialect::default());
-        scene.pairs[0].sides.sort_by_key(|side| side.owner);
+        let scene = presses().next().unwrap();
+        failed_in(&scene, 1.0, changes)
+    }
+
+    /// The same with forces and energies `scale` times as large.
+    fn failed_in(scene: &Scene, scale: f64, changes: &[(usize, &str, &str)]) -> Vec<&'static str> {
         let names: Vec<&str> = NAMES.split(',').collect();
         let mut rows = [
             "0.5,4,0,1,0.5,0,0,0,1.5,0.5,0,0,-2,0,0,2,0,0,2,0,0,-2",
             "1,4,0,2,1,0,0,0,3,1,0,0,-4,0,0,4,0,0,4,0,0,-4",
         ]
         .map(|row| row.split(',').map(str::to_owned).collect::<Vec<_>>());
+        for cell in rows.iter_mut().flat_map(|row| &mut row[2..]) {
+            *cell = (scale * cell.parse::<f64>().unwrap()).to_string();
+        }
         for (row, name, value) in changes {
             let column = names.iter().position(|found| found == name).unwrap();
             rows[*row][column] = (*value).to_owned();
         }
         let text = format!("{NAMES}\n{}\n{}\n", rows[0].join(","), rows[1].join(","));
         let mut findings = Findings::default();
-        check(&mut findings, &scene, &History::of(&text).unwrap());
+        check(&mut findings, scene, &History::of(&text).unwrap());
         findings.failed().map(|(name, _)| name).collect()
     }
 
@@ -292,5 +312,43 @@ mod tests {
         let none: Vec<_> = none.into_iter().map(|name| (1, name, "0")).collect();
         assert_eq!(failed(&none), ["contact"]);
         assert_eq!(failed(&[(1, "energy.external", "NaN")]), ["energy"]);
+    }
+
+    #[test]
+    fn roundings_are_not_held_against_each_other() {
+        for scene in presses() {
+            let force = 0.5 * round_off::of_force(&scene, "lower");
+            let energy = 0.5 * round_off::of_energy(&scene);
+            let changes = [
+                (1, "reaction.lower.zmin.x", force.to_string()),
+                (1, "energy.strain", energy.to_string()),
+                (1, "pair.interface.dissipated", (-energy).to_string()),
+            ];
+            let changes = changes
+                .each_ref()
+                .map(|(row, name, value)| (*row, *name, &**value));
+            assert_eq!(failed_in(&scene, 0.0, &changes), ["contact"]);
+        }
+    }
+
+    #[test]
+    fn a_tenthousandth_of_a_weak_press_is_found() {
+        for scene in presses() {
+            // A strain of one part in a thousand on one facet of the softest body.
+            let softest = scene.bodies.iter().map(round_off::of_element);
+            let press = 1e-3 * softest.fold(f64::INFINITY, f64::min);
+            assert!(failed_in(&scene, 0.25 * press, &[]).is_empty());
+            let wrong = (1e-4 * press).to_string();
+            for name in ["reaction.upper.zmax.x", "reaction.lower.zmin.y"] {
+                assert_eq!(
+                    failed_in(&scene, 0.25 * press, &[(1, name, &wrong)]),
+                    ["balance"]
+                );
+            }
+            let wrong = (-press * 1.0001).to_string();
+            let b = "pair.interface.resultant_a.z";
+            let found = failed_in(&scene, 0.25 * press, &[(1, b, &wrong)]);
+            assert_eq!(found, ["balance", "resultants"]);
+        }
     }
 }

@@ -35,7 +35,7 @@ pub enum Choice {
 type Make = fn(&mut Random, Dialect) -> Scene;
 
 /// Names of the kinds and what makes them.
-const KINDS: [(&str, Make); 19] = [
+pub const KINDS: [(&str, Make); 19] = [
     ("press", plain::press),
     ("slide", plain::slide),
     ("turn", plain::turn),

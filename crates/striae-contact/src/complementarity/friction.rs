@@ -1,0 +1,217 @@
+//! The tangential rows of a closed node.
+//!
+//! A node that can slip along one direction `q` only, as prescribed positions forbid the
+//! other, has the friction of slip along it; across is only the slip of neighbours, which a
+//! plane of symmetry mirrors. With `w = unit(K^-1 q)`, at right angles to `w'`, and
+//! `y = w . (z + r_t K^-1 du)`,
+//!
+//! ```text
+//! |y| <= varpi : q . du = 0, w' . z = 0    else z = varpi sign(y) w
+//! ```
+//!
+//! One that cannot slip at all has `z = 0`.
+
+use nalgebra::{Matrix2, Vector2};
+
+use super::{
+    mobility::Mobility,
+    node::Iteration,
+    state::{N, NodeState, Q, TRACTION},
+};
+use crate::{configuration::Configuration, table_1::Corrector, term::Field, unknowns::Status};
+
+/// What a tangential row states, its residual and its gradient over the lanes.
+pub(super) type TangentialRow = (Field, f64, [f64; N]);
+
+/// Status and tangential rows of a closed node with the unknowns `[p, z1, z2]`; `r` is the
+/// default of `r_t`.
+pub(super) fn tangential(
+    state: &NodeState,
+    configuration: &Configuration,
+    [p, z1, z2]: [f64; 3],
+    r: f64,
+    iteration: Iteration,
+) -> (Status, [TangentialRow; 2]) {
+    let z = [Q::variable(z1, TRACTION + 1), Q::variable(z2, TRACTION + 2)];
+    let friction = &configuration.pair.friction;
+    if friction.cap(1.0, 0.0) == 0.0 {
+        return (Status::Slip, z.map(traction));
+    }
+    let node = Friction {
+        state,
+        mobility: Mobility::new(state),
+        size: configuration.size(state.node.side, state.node.node),
+        varpi: state.varpi(configuration, p),
+        z,
+    };
+    match iteration {
+        Iteration::First => node.first(),
+        Iteration::Later { slip_weight } => node.later(r * slip_weight),
+        Iteration::Corrected(corrector) => node.corrected(r, corrector),
+    }
+}
+
+/// Friction at a closed node.
+struct Friction<'a> {
+    state: &'a NodeState<'a>,
+    mobility: Mobility,
+    size: f64,
+    varpi: Q,
+    z: [Q; 2],
+}
+
+impl Friction<'_> {
+    /// In the first iteration: nodes that slipped go on.
+    fn first(&self) -> (Status, [TangentialRow; 2]) {
+        let [z1, z2] = self.z.map(|z| z.re);
+        if self.state.node.slipped && z1.hypot(z2) > 0.5 * self.varpi.re {
+            (Status::Slip, self.continued())
+        } else {
+            (Status::Stick, self.stick())
+        }
+    }
+
+    /// In a later one: `y` decides.
+    fn later(&self, r: f64) -> (Status, [TangentialRow; 2]) {
+        let slips = match &self.mobility {
+            Mobility::Along(way) => {
+                let w = &way.of_friction;
+                let [z, turned] = [&self.z, &self.state.turned].map(|v| part(w, v).re);
+                let y = z + r * turned;
+                (y.abs() > self.varpi.re).then(|| along(w, y, &self.z, &self.varpi))
+            }
+            Mobility::Free | Mobility::Held => {
+                let y = self.y(r);
+                let length = y[0].re.hypot(y[1].re);
+                (length > self.varpi.re).then(|| slip(&self.z, &y, &self.varpi))
+            }
+        };
+        self.slip_or_stick(slips)
+    }
+
+    /// The corrector decides.
+    fn corrected(&self, r: f64, corrector: Corrector) -> (Status, [TangentialRow; 2]) {
+        let radius = Q::combination([(corrector.inflation.factor(), &self.varpi)]);
+        let slips = |z: [f64; 2], turned: [f64; 2]| {
+            let before = self.state.node.before;
+            corrector.status(before, z, turned, radius.re) == Status::Slip
+        };
+        let turned = &self.state.turned;
+        let rows = match &self.mobility {
+            Mobility::Along(way) => {
+                let w = &way.of_friction;
+                let [z, turned] = [&self.z, turned].map(|v| part(w, v).re);
+                slips([z, 0.0], [turned, 0.0]).then(|| along(w, z + r * turned, &self.z, &radius))
+            }
+            Mobility::Free | Mobility::Held => {
+                let [z, turned] = [&self.z, turned].map(|v| [v[0].re, v[1].re]);
+                slips(z, turned).then(|| slip(&self.z, &self.y(r), &radius))
+            }
+        };
+        self.slip_or_stick(rows)
+    }
+
+    fn slip_or_stick(&self, slip: Option<[TangentialRow; 2]>) -> (Status, [TangentialRow; 2]) {
+        match slip {
+            Some(rows) => (Status::Slip, rows),
+            None => (Status::Stick, self.stick()),
+        }
+    }
+
+    /// `z + r K^-1 du`.
+    fn y(&self, r: f64) -> [Q; 2] {
+        let turned = &self.state.turned;
+        [0, 1].map(|at| Q::combination([(1.0, &self.z[at]), (r, &turned[at])]))
+    }
+
+    /// Slip that goes on in the direction of `z`: `|z| = varpi` and no slip
+    /// across, or no `z` across where the node cannot move that way.
+    fn continued(&self) -> [TangentialRow; 2] {
+        let z = &self.z;
+        let direction = Vector2::new(z[0].re, z[1].re).normalize();
+        let along = Q::combination([
+            (direction.x, &z[0]),
+            (direction.y, &z[1]),
+            (-1.0, &self.varpi),
+        ]);
+        let across = |v: &[Q; 2]| Q::combination([(direction.x, &v[1]), (-direction.y, &v[0])]);
+        let second = match self.mobility {
+            Mobility::Free => self.resting(across(&self.state.turned)),
+            Mobility::Along(_) | Mobility::Held => traction(across(z)),
+        };
+        [traction(along), second]
+    }
+
+    /// `du = 0`, with `z = 0` in directions in which the node cannot move.
+    fn stick(&self) -> [TangentialRow; 2] {
+        let slip = &self.state.slip;
+        match &self.mobility {
+            Mobility::Free => slip.map(|slip| self.resting(slip)),
+            Mobility::Along(way) => {
+                let [first, second] = &way.of_friction;
+                let across = [Q::combination([(-1.0, second)]), *first];
+                let resting = part(&way.of_slip, slip);
+                [self.resting(resting), traction(part(&across, &self.z))]
+            }
+            Mobility::Held => self.z.map(traction),
+        }
+    }
+
+    /// No slip.
+    fn resting(&self, slip: Q) -> TangentialRow {
+        (Field::Stick(self.size), slip.re, slip.slope)
+    }
+}
+
+fn traction(value: Q) -> TangentialRow {
+    (Field::Traction, value.re, value.slope)
+}
+
+/// `q . v`.
+fn part(q: &[Q; 2], v: &[Q; 2]) -> Q {
+    let [first, second] = [0, 1].map(|at| Q::product(&q[at], &v[at]));
+    Q::combination([(1.0, &first), (1.0, &second)])
+}
+
+/// `z = varpi sign(y) w`.
+fn along(w: &[Q; 2], y: f64, z: &[Q; 2], varpi: &Q) -> [TangentialRow; 2] {
+    [0, 1].map(|at| {
+        let limit = Q::product(varpi, &w[at]);
+        traction(Q::combination([(1.0, &z[at]), (-y.signum(), &limit)]))
+    })
+}
+
+/// `z = varpi y/|y|`.
+fn slip(z: &[Q; 2], y: &[Q; 2], varpi: &Q) -> [TangentialRow; 2] {
+    let zv = Vector2::new(z[0].re, z[1].re);
+    let yv = Vector2::new(y[0].re, y[1].re);
+    let (length, radius) = (yv.norm(), varpi.re);
+    let direction = yv / length;
+    let f = zv * direction.transpose() / radius.max(zv.norm()).max(f64::MIN_POSITIVE);
+    let alpha = if zv.norm() > 0.0 {
+        zv.dot(&direction) / zv.norm()
+    } else {
+        0.0
+    };
+    let delta = if radius > 0.0 {
+        (zv.norm() / radius).min(1.0)
+    } else {
+        1.0
+    };
+    let beta = if alpha < 0.0 {
+        1.0 / (1.0 - alpha * delta)
+    } else {
+        1.0
+    };
+    let m = (Matrix2::identity() - f * beta) * (radius / length);
+    [0, 1].map(|at| {
+        let row = Q::combination([
+            (1.0, &z[at]),
+            (-m[(at, 0)], &y[0]),
+            (-m[(at, 1)], &y[1]),
+            (-direction[at], varpi),
+        ]);
+        let residual = zv[at] - radius * direction[at];
+        (Field::Traction, residual, row.slope)
+    })
+}

@@ -1,0 +1,54 @@
+//! What the rows of a kept node are made from.
+
+use striae_mesh::Vec3;
+
+use crate::{
+    frame::Frame, kinematics::Kinematics, table_1::Corrector, texture::NodeTextures,
+    unknowns::Status,
+};
+
+/// Which iteration of an increment is evaluated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Iteration {
+    /// The first: touching nodes are closed; closed nodes stick or, if they slipped
+    /// before, go on slipping in their direction.
+    First,
+    /// A later one: the state decides.
+    Later {
+        /// `r_t` over its default. It changes which way cycles are left, not the solution.
+        slip_weight: f64,
+    },
+    /// A later one: the labels of the nodes decide.
+    Corrected(Corrector),
+}
+
+impl Iteration {
+    /// A later iteration with the default `r_t`.
+    pub const LATER: Self = Self::Later { slip_weight: 1.0 };
+}
+
+/// A kept node with all that its rows need.
+#[derive(Clone, Debug)]
+pub struct ContactNode<'a> {
+    /// Side of the pair.
+    pub side: usize,
+    /// Surface-local node.
+    pub node: u32,
+    /// Gap and slip.
+    pub kinematics: &'a Kinematics,
+    /// Nodal frame.
+    pub frame: &'a Frame,
+    /// Textures of both sides at the node.
+    pub textures: &'a NodeTextures,
+    /// Whether it slipped in the last converged increment.
+    pub slipped: bool,
+    /// Status in the iteration before.
+    pub before: Status,
+    /// `p`, `z1`, `z2`.
+    pub unknowns: [f64; 3],
+    /// Friction traction `tau`.
+    pub tau: Vec3,
+}
+
+/// Which position unknowns are prescribed, by side, three a node.
+pub type Prescribed = [Vec<bool>; 2];

@@ -1,0 +1,209 @@
+//! Gap, slip and cap of a kept node over the lanes of its rows.
+
+use nalgebra::{Matrix3, Vector3};
+use num_dual::DualSVec64;
+use striae_mesh::Vec3;
+use striae_surface::scalar::constant3;
+
+use super::node::{ContactNode, Prescribed};
+use crate::{
+    configuration::Configuration,
+    kinematics::{Kinematics, Presence},
+    quantity::Quantity,
+    term::{Lanes, Source, parts, variable3},
+    traction::{Cap, on_lanes, push_textures},
+    unknown::{Numbering, Unknown},
+    unknowns::{NodeResult, Status},
+};
+
+/// Number of lanes.
+pub(super) const N: usize = 22;
+/// A scalar over the lanes.
+pub(super) type Q = Quantity<N>;
+/// Lane of the gap.
+const GAP: usize = 0;
+/// Lanes of `du`.
+const SLIP: usize = 1;
+/// Lanes of the normal.
+const NORMAL: usize = 4;
+/// Lanes of both tangents.
+pub(super) const TANGENTS: usize = 7;
+/// Lanes of `p`, `z1`, `z2`.
+pub(super) const TRACTION: usize = 13;
+/// Lanes of the textures.
+const TEXTURES: usize = 16;
+
+/// Derivative of the gap below which nothing can change it.
+const FIXED: f64 = 1e-9;
+
+/// Gap and slip of a node as functions of the unknowns.
+pub(super) struct NodeState<'a> {
+    /// The node.
+    pub(super) node: &'a ContactNode<'a>,
+    numbering: Numbering,
+    prescribed: &'a Prescribed,
+    /// What the lanes depend on.
+    pub(super) lanes: Lanes<'a>,
+    /// The gap.
+    pub(super) gap: Q,
+    /// Components of `du`.
+    pub(super) slip: [Q; 2],
+    /// Components of `K^-1 du`.
+    pub(super) turned: [Q; 2],
+    /// `K^-1` over the lanes of the normal and of the textures.
+    k_inverse: Matrix3<DualSVec64<9>>,
+}
+
+impl<'a> NodeState<'a> {
+    /// The state of a node.
+    pub(super) fn new(
+        configuration: &Configuration,
+        node: &'a ContactNode<'a>,
+        prescribed: &'a Prescribed,
+    ) -> Self {
+        let numbering = configuration.pair.numbering();
+        let Kinematics { gap, slip, .. } = node.kinematics;
+        let [t1, t2] = &node.frame.t;
+        let mut lanes = Lanes::default();
+        lanes.push(Source::Scalar(&gap.gradient));
+        lanes.push(Source::Vector(&slip.jacobian));
+        lanes.push(Source::Vector(&node.frame.n.jacobian));
+        lanes.push(Source::Vector(&t1.jacobian));
+        lanes.push(Source::Vector(&t2.jacobian));
+        lanes.push(Source::Unknowns {
+            first: numbering.traction(node.side, node.node),
+            count: 3,
+        });
+        push_textures(&mut lanes, node.textures);
+        // Lanes of the law: normal and textures.
+        let normal: Vector3<DualSVec64<9>> = variable3(&node.frame.n.value, 0);
+        let textures = on_lanes(node.textures, 3);
+        let kernel = configuration.pair.friction.kernel(&normal, &textures);
+        let (turned, by_surroundings) = parts(&(kernel.k_inverse * constant3(&slip.value)));
+        let k_inverse = kernel.k_inverse.map(|component| component.re);
+        // `t . v` for a vector `v` that depends on the slip and on the law's lanes.
+        let component = |axis: usize, v: &Vec3, by_slip: Vec3| {
+            let mut component = Q::constant(node.frame.t[axis].value.dot(v));
+            component.depend(SLIP, &by_slip);
+            component.depend(TANGENTS + 3 * axis, v);
+            component
+        };
+        let of_slip = [0, 1].map(|axis| component(axis, &slip.value, node.frame.t[axis].value));
+        let turned = [0, 1].map(|axis| {
+            let t = node.frame.t[axis].value;
+            let mut component = component(axis, &turned, k_inverse.tr_mul(&t));
+            by_surroundings.iter().enumerate().for_each(|(lane, by)| {
+                component.slope[of_law(lane)] += t.dot(&Vec3::from(*by));
+            });
+            component
+        });
+        Self {
+            node,
+            numbering,
+            prescribed,
+            lanes,
+            gap: Q::variable(gap.value, GAP),
+            slip: of_slip,
+            turned,
+            k_inverse: kernel.k_inverse,
+        }
+    }
+
+    /// `t_i . K^-1 t_j`.
+    pub(super) fn k_inverse(&self, i: usize, j: usize) -> Q {
+        let t = [i, j].map(|axis| self.node.frame.t[axis].value);
+        let (turned, by_surroundings) = parts(&(self.k_inverse * constant3(&t[1])));
+        let mut component = Q::constant(t[0].dot(&turned));
+        component.depend(TANGENTS + 3 * i, &turned);
+        let k_inverse = self.k_inverse.map(|component| component.re);
+        component.depend(TANGENTS + 3 * j, &k_inverse.tr_mul(&t[0]));
+        for (lane, by) in by_surroundings.iter().enumerate() {
+            component.slope[of_law(lane)] += t[0].dot(&Vec3::from(*by));
+        }
+        component
+    }
+
+    /// What is told of the node.
+    pub(super) fn result(&self) -> NodeResult {
+        let ContactNode {
+            frame,
+            unknowns,
+            tau,
+            kinematics,
+            ..
+        } = self.node;
+        NodeResult {
+            gap: match kinematics.presence {
+                Presence::Facing => kinematics.gap.value,
+                Presence::Gone => 0.0,
+            },
+            pressure: unknowns[0],
+            tau: *tau,
+            slip: kinematics.seen_slip,
+            normal: frame.n.value,
+            texture: Vec3::zeros(),
+            mean: Vec3::zeros(),
+            status: Status::Open,
+        }
+    }
+
+    /// Whether a triple is the position of the node itself or one of the other side.
+    /// Neighbours on its own side have rows of their own; that they can move makes no room
+    /// for one more.
+    pub(super) fn answers(&self, first: u32) -> bool {
+        match self.numbering.unknown(first) {
+            Unknown::Position { side, node, .. } => {
+                side != self.node.side || node == self.node.node
+            }
+            Unknown::Traction { .. } => false,
+        }
+    }
+
+    /// Whether a component of a triple is such a position and not prescribed.
+    pub(super) fn is_free_position(&self, first: u32, axis: usize) -> bool {
+        match self.numbering.unknown(first) {
+            Unknown::Position { side, node, .. } => {
+                self.answers(first) && !self.prescribed[side][3 * node as usize + axis]
+            }
+            Unknown::Traction { .. } => false,
+        }
+    }
+
+    /// Whether a free position changes the gap.
+    pub(super) fn is_free(&self) -> bool {
+        let gradient = &self.node.kinematics.gap.gradient;
+        gradient.iter().any(|(first, slope)| {
+            (0..3).any(|axis| slope[axis].abs() > FIXED && self.is_free_position(*first, axis))
+        })
+    }
+
+    /// `varpi` at the pressure `p` and the present slip rate, without derivatives by the
+    /// slip where it vanishes.
+    pub(super) fn varpi(&self, configuration: &Configuration, p: f64) -> Q {
+        let [first, second] = &self.slip;
+        let length = first.re.hypot(second.re);
+        let rate = length / configuration.elapsed;
+        let cap = Cap::new(&configuration.pair.friction, p, rate);
+        let by_slip = if length > 0.0 {
+            cap.by_rate / (configuration.elapsed * length)
+        } else {
+            0.0
+        };
+        let mut varpi =
+            Q::combination([(by_slip * first.re, first), (by_slip * second.re, second)]);
+        varpi.slope[TRACTION] = cap.by_pressure;
+        Q {
+            re: cap.value,
+            ..varpi
+        }
+    }
+}
+
+/// The lane of a normal or texture that is a lane of the law.
+fn of_law(lane: usize) -> usize {
+    if lane < 3 {
+        NORMAL + lane
+    } else {
+        TEXTURES + lane - 3
+    }
+}

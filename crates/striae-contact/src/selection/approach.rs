@@ -1,0 +1,45 @@
+//! Compliance of facets, and how far two sides move towards each other.
+
+use striae_mesh::Vec3;
+
+use crate::configuration::Configuration;
+
+/// `h/E` of the facets of deformable sides.
+pub(crate) fn compliances(configuration: &Configuration) -> [Vec<f64>; 2] {
+    [0, 1].map(|side| {
+        let of_side = &configuration.pair.sides[side];
+        let Some(surface) = of_side.surface() else {
+            return Vec::new();
+        };
+        let rigid = side == 1 && configuration.pair.is_rigid();
+        let facets = surface.facets().iter();
+        facets
+            .map(|corners| {
+                if rigid {
+                    return 0.0;
+                }
+                let sizes = corners.map(|node| configuration.side(side).sizes[node as usize]);
+                0.25 * sizes.iter().sum::<f64>() / of_side.stiffness
+            })
+            .collect()
+    })
+}
+
+/// Largest motion of one side relative to the other.
+pub fn approach(start: &Configuration, end: &Configuration) -> f64 {
+    let moves = |side: usize| -> [Vec3; 2] {
+        let (Some(from), Some(to)) = (&start.sides[side], &end.sides[side]) else {
+            let way = start.plane().zip(end.plane());
+            let way = way.map_or_else(Vec3::zeros, |((from, _), (to, _))| to - from);
+            return [way; 2];
+        };
+        let mut moves = from.x.iter().zip(&to.x).map(|(from, to)| to - from);
+        let first = moves.next().unwrap_or_default();
+        moves.fold([first; 2], |[low, high], way| {
+            [low.inf(&way), high.sup(&way)]
+        })
+    };
+    let [a, b] = [moves(0), moves(1)];
+    let apart = (a[1] - b[0]).abs().sup(&(b[1] - a[0]).abs());
+    apart.norm()
+}

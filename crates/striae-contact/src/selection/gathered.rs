@@ -1,0 +1,172 @@
+//! What a basis is chosen from: overlaps and projections in one or two configurations.
+
+use std::collections::BTreeSet;
+
+use striae_mesh::{FacetId, Vec3};
+use striae_surface::facet::Shape;
+
+use super::{
+    before::Before,
+    sides::{surface_nodes, whole_facets},
+};
+use crate::{
+    complementarity::Prescribed,
+    configuration::Configuration,
+    coverage::Place,
+    interface::{ClampedProjection, Interface, Opponent, Overlap},
+    pairing::{PairedFacets, Scope, paired_facets},
+    segment::Derivatives,
+    traction_basis::TractionBasis,
+};
+
+/// Common area below which a patch is dropped, over the square of the facet size.
+const SLIVER: f64 = 1e-3;
+
+/// What a basis is chosen from, in one or two configurations.
+pub(super) struct Gathered {
+    /// Facets of every overlap.
+    facets: Vec<[Option<FacetId>; 2]>,
+    overlaps: Vec<Overlap>,
+    opposing: [Vec<Option<ClampedProjection>>; 2],
+    /// Integral of the segments' normal around the nodes of side `a`.
+    facing: Vec<Vec3>,
+}
+
+impl Gathered {
+    /// What one configuration shows.
+    pub(super) fn new(configuration: &Configuration, scope: Scope) -> Self {
+        let paired = paired_facets(configuration, scope, Derivatives::None, |_| true);
+        let paired = without_slivers(configuration, paired);
+        let mut near = [0, 1].map(|side| {
+            let count = configuration.sides[side].as_ref().map_or(0, |s| s.x.len());
+            vec![false; count]
+        });
+        for paired in &paired {
+            for corner in 0..8 {
+                if let Some((side, node)) = paired.node(configuration, corner) {
+                    near[side][node as usize] = true;
+                }
+            }
+        }
+        let opposing = [0, 1].map(|side| {
+            let nodes = near[side].iter().enumerate();
+            nodes
+                .map(|(node, near)| {
+                    near.then(|| clamped(configuration, side, node as u32))
+                        .flatten()
+                })
+                .collect()
+        });
+        let overlaps = paired.iter().map(|paired| Overlap {
+            corners: paired.corners,
+            mass: paired.segment.mass,
+        });
+        let mut facing = vec![Vec3::zeros(); near[0].len()];
+        for paired in &paired {
+            for node in paired.corners[0] {
+                facing[node as usize] += paired.segment.normal * paired.segment.area;
+            }
+        }
+        Self {
+            facets: paired.iter().map(|paired| paired.facets).collect(),
+            overlaps: overlaps.collect(),
+            opposing,
+            facing,
+        }
+    }
+
+    /// Takes a later configuration into account: the mean overlap of facets that are paired
+    /// in both, and that of facets that are paired in one.
+    pub(super) fn add(&mut self, mut later: Self) {
+        let paired = [self.paired(), later.paired()];
+        self.share_with(&paired[1]);
+        later.share_with(&paired[0]);
+        self.facets.extend(later.facets);
+        self.overlaps.extend(later.overlaps);
+        for (sum, later) in self.facing.iter_mut().zip(later.facing) {
+            *sum += later;
+        }
+        for (known, later) in self.opposing.iter_mut().zip(later.opposing) {
+            for (known, later) in known.iter_mut().zip(later) {
+                *known = known.or(later);
+            }
+        }
+    }
+
+    /// Facets that are paired, by side.
+    fn paired(&self) -> [BTreeSet<FacetId>; 2] {
+        [0, 1].map(|side| self.facets.iter().filter_map(|pair| pair[side]).collect())
+    }
+
+    /// Halves the overlaps of facets that are paired in another configuration too.
+    fn share_with(&mut self, other: &[BTreeSet<FacetId>; 2]) {
+        for (facets, overlap) in self.facets.iter().zip(&mut self.overlaps) {
+            let of_side = facets.iter().zip(other);
+            let mut known = of_side.filter_map(|(facet, paired)| Some(paired.contains(&(*facet)?)));
+            if known.any(|known| known) {
+                overlap.mass.iter_mut().flatten().for_each(|m| *m *= 0.5);
+            }
+        }
+    }
+
+    /// The basis that all this leads to.
+    pub(super) fn basis(
+        &self,
+        configuration: &Configuration,
+        before: Before,
+        prescribed: &Prescribed,
+    ) -> TractionBasis {
+        let nodes =
+            [0, 1].map(|side| surface_nodes(configuration, side, before, &prescribed[side]));
+        let whole = if configuration.pair.is_rigid() {
+            whole_facets(configuration, &self.facing)
+        } else {
+            Vec::new()
+        };
+        TractionBasis::new(&Interface {
+            nodes: [&nodes[0], &nodes[1]],
+            overlaps: &self.overlaps,
+            opposing: [&self.opposing[0], &self.opposing[1]],
+            opponent: if configuration.pair.is_rigid() {
+                Opponent::Rigid { whole: &whole }
+            } else {
+                Opponent::Deformable
+            },
+        })
+    }
+}
+
+/// Paired facets without patches that share next to no area.
+fn without_slivers(configuration: &Configuration, paired: Vec<PairedFacets>) -> Vec<PairedFacets> {
+    let is_sliver = |paired: &PairedFacets| {
+        let size = |corners: &[u32; 4], side: usize| {
+            let sizes = &configuration.side(side).sizes;
+            corners
+                .iter()
+                .map(|&node| sizes[node as usize])
+                .fold(0.0, f64::max)
+        };
+        let size = size(&paired.corners[0], 0);
+        paired.segment.area < SLIVER * size * size
+    };
+    if paired.iter().all(is_sliver) {
+        Vec::new()
+    } else {
+        paired
+    }
+}
+
+/// Corners and weights at the projection of a node, clamped to the other side.
+fn clamped(configuration: &Configuration, side: usize, node: u32) -> Option<ClampedProjection> {
+    let (contact, _) = configuration.opposite(side, node)?;
+    match contact.place {
+        Place::Facet(hit) if !configuration.pair.is_rigid() => {
+            let corners = configuration.side(1 - side).corners(hit.facet);
+            let weights = Shape::of(&corners).weights(hit.xi, hit.eta).value;
+            let weights = weights.map(|weight| weight.max(0.0));
+            let sum: f64 = weights.iter().sum();
+            Some((corners, weights.map(|weight| weight / sum)))
+        }
+        _ => None,
+    }
+}

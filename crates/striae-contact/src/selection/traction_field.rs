@@ -1,0 +1,220 @@
+//! The traction field of a pair in an increment, as it was chosen.
+
+use std::ops::Range;
+
+use striae_mesh::FacetId;
+
+use super::{approach::approach, before::Kept, partner::Partner};
+use crate::{
+    configuration::Configuration,
+    pairing::{PairedFacets, Scope, paired_facets},
+    pointed::{RigidPoints, Tip},
+    segment::Derivatives,
+    traction_basis::{KeptNode, TractionBasis, Weak},
+};
+
+/// Gap up to which facets count as in contact, over their common size.
+const TOUCHING: f64 = 0.05;
+
+/// The traction field of a pair in an increment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Selection {
+    /// Unknowns and basis.
+    pub basis: TractionBasis,
+    /// Compliance `h/E` of the facets by side.
+    pub compliances: [Vec<f64>; 2],
+    /// How far the two sides move towards each other in the increment, at most.
+    pub depth: f64,
+    /// What is opposite to the kept nodes at the start, for collocated rows and pointed nodes.
+    pub partners: Vec<Option<Partner>>,
+    /// The facets that the pointed nodes are in at the start.
+    pub homes: Vec<Option<FacetId>>,
+    /// Number of kept nodes of the field; those after them are pointed.
+    pub of_field: usize,
+    /// Overlap of the meshes at the nodes that is not pressed out yet, by side; empty where
+    /// there is none.
+    pub offsets: [Vec<f64>; 2],
+    /// Points of a rigid side that are pointed.
+    pub points: RigidPoints,
+}
+
+impl Selection {
+    /// What a node with unknowns stands for.
+    pub fn tip(&self, side: usize, node: u32) -> Tip {
+        let point = self.points.get(node as usize).copied().flatten();
+        match (side, point) {
+            (1, Some(point)) => Tip::Rigid(point),
+            _ => Tip::Node {
+                side,
+                node,
+                home: self.home(side, node),
+            },
+        }
+    }
+
+    /// The facet that a pointed node was in at the start.
+    fn home(&self, side: usize, node: u32) -> Option<FacetId> {
+        let k = self.basis.index[side].get(node as usize).copied()??;
+        let pointed = (k as usize).checked_sub(self.of_field)?;
+        self.homes.get(pointed).copied()?
+    }
+
+    /// Nodes with unknowns: those kept in the field, then the pointed ones.
+    pub fn kept(&self) -> &[KeptNode] {
+        &self.basis.kept
+    }
+
+    /// Which nodes of the field are kept.
+    pub fn kept_nodes(&self) -> Kept {
+        self.nodes_at(0..self.of_field)
+    }
+
+    /// Which nodes are pointed.
+    pub fn pointed_nodes(&self) -> Kept {
+        self.nodes_at(self.pointed_places())
+    }
+
+    fn nodes_at(&self, places: Range<usize>) -> Kept {
+        let within = |k: &Option<u32>| k.is_some_and(|k| places.contains(&(k as usize)));
+        self.basis
+            .index
+            .each_ref()
+            .map(|side| side.iter().map(within).collect())
+    }
+
+    /// Places of the pointed nodes among those with unknowns.
+    pub fn pointed_places(&self) -> Range<usize> {
+        self.of_field..self.basis.kept.len()
+    }
+
+    /// Whether the node is pointed.
+    pub fn is_pointed(&self, side: usize, node: u32) -> bool {
+        let index = self.basis.index[side].get(node as usize).copied();
+        index.flatten().is_some_and(|k| k as usize >= self.of_field)
+    }
+
+    /// Whether the node has unknowns: it is kept, or pointed.
+    pub fn is_kept(&self, side: usize, node: u32) -> bool {
+        let index = self.basis.index[side].get(node as usize);
+        index.is_some_and(Option::is_some)
+    }
+
+    /// Whether the node has a share in the traction field.
+    pub fn carries(&self, side: usize, node: u32) -> bool {
+        let row = self.basis.rows[side].get(node as usize);
+        row.is_some_and(|row| !row.is_empty())
+    }
+
+    /// Shares of the kept nodes in the traction at a node.
+    pub fn row(&self, side: usize, node: u32) -> &[(u32, f64)] {
+        &self.basis.rows[side][node as usize]
+    }
+
+    /// Number of nodes of a side.
+    pub fn nodes(&self, side: usize) -> usize {
+        self.basis.index[side].len()
+    }
+
+    /// `integral phi_k` of a kept node at the start of the increment.
+    pub fn weight(&self, k: usize) -> f64 {
+        self.basis.weights[k]
+    }
+
+    /// Pressure per gap and friction per slip, `[r_n, r_t]`, that scale the complementarity of
+    /// a kept node; zero where nothing yields, as no row can hold there.
+    ///
+    /// The rows yield by `l_k` and by what the ramp adds, `E_kk/w_k`:
+    /// `r_n = 1/(l_k + E_kk/w_k)`, `r_t = 1/(l_k/10 + E_kk/w_k)`. With `r_n = 1/l_k` a weak
+    /// node under tension would count as closed, since the ramp takes the tension for a gap.
+    pub fn stiffness(&self, k: usize) -> [f64; 2] {
+        let flexibility = self.basis.flexibility[k];
+        let of_node = |weak: &Weak| -> f64 {
+            let entries = weak.row.iter().filter(|entry| entry.0 as usize == k);
+            entries
+                .map(|(_, value)| weak.coefficient * value * value)
+                .sum()
+        };
+        let ramp: f64 = self.ramp().iter().map(of_node).sum();
+        let ramp = ramp / self.weight(k);
+        if flexibility > 0.0 {
+            [1.0 / (flexibility + ramp), 1.0 / (0.1 * flexibility + ramp)]
+        } else {
+            [0.0; 2]
+        }
+    }
+
+    /// Weakly independent kept nodes.
+    pub fn ramp(&self) -> &[Weak] {
+        &self.basis.ramp
+    }
+
+    /// What was opposite to a kept node at the start.
+    pub fn partner(&self, k: usize) -> Option<Partner> {
+        self.partners[k]
+    }
+
+    /// Shares of the corners of paired facets in what is left of the overlap of the meshes.
+    pub fn offsets_at(&self, configuration: &Configuration, paired: &PairedFacets) -> [f64; 8] {
+        let share = if configuration.pair.is_rigid() {
+            1.0
+        } else {
+            0.5
+        };
+        std::array::from_fn(|corner| {
+            let node = paired.node(configuration, corner);
+            node.map_or(0.0, |(side, node)| share * self.offset(side, node))
+        })
+    }
+
+    /// Whether overlaps of the meshes are being pressed out.
+    pub fn has_offsets(&self) -> bool {
+        self.offsets.iter().flatten().any(|offset| *offset > 0.0)
+    }
+
+    /// What is left of the overlap of the meshes at a node.
+    pub fn offset(&self, side: usize, node: u32) -> f64 {
+        let offset = self.offsets[side].get(node as usize);
+        offset.copied().unwrap_or(0.0)
+    }
+
+    /// Which facets are paired.
+    pub fn scope(&self) -> Scope<'_> {
+        Scope {
+            compliances: &self.compliances,
+            depth: self.depth,
+        }
+    }
+
+    /// Whether facets of the two sides overlap.
+    pub fn overlaps(&self, configuration: &Configuration) -> bool {
+        !paired_facets(configuration, self.scope(), Derivatives::None, |_| true).is_empty()
+    }
+
+    /// Corners of facets that overlap with others without a share in the traction field,
+    /// as side and node, in a configuration that was reached from `start`.
+    pub fn left_out(
+        &self,
+        start: &Configuration,
+        configuration: &Configuration,
+    ) -> Vec<(usize, u32)> {
+        let scope = Scope {
+            depth: self.depth.max(approach(start, configuration)),
+            ..self.scope()
+        };
+        let paired = paired_facets(configuration, scope, Derivatives::None, |_| true);
+        let mut left_out: Vec<(usize, u32)> = Vec::new();
+        for paired in &paired {
+            let gap = paired.mean_gap(configuration);
+            let touching = gap < TOUCHING * paired.segment.area.sqrt();
+            // Deeper than contact looks in this increment.
+            let beyond = -gap > paired.reach + self.depth;
+            let nodes = (0..8).filter_map(|corner| paired.node(configuration, corner));
+            let found =
+                nodes.filter(|&(side, node)| beyond || touching && !self.carries(side, node));
+            left_out.extend(found);
+        }
+        left_out.sort_unstable();
+        left_out.dedup();
+        left_out
+    }
+}

@@ -1,0 +1,230 @@
+//! The whole system of a step as a function of all unknowns.
+
+use nalgebra::DVector;
+use striae_contact::{
+    complementarity::Iteration,
+    selection::{Before, Selection},
+    unknowns::Status,
+};
+use striae_linalg::{SparseMatrix, Structure, Supervariable};
+use striae_solve::{
+    assembly::{
+        Assembled, Contact, Fault, Imposed, Setting, StepContext, Trial, assemble, assemble_contact,
+    },
+    layout::{Extent, Layout},
+    state::State,
+};
+use striae_verify::{Difference, Random, derivative::directional};
+
+/// The whole system of a step as a function of all unknowns, after the converged state
+/// `before`.
+pub struct Whole<'a> {
+    context: &'a StepContext<'a>,
+    selections: Vec<Selection>,
+    pub imposed: Imposed,
+    pub layout: Layout,
+    structure: Structure,
+    before: &'a State,
+    state: &'a State,
+}
+
+impl<'a> Whole<'a> {
+    pub fn new(context: &'a StepContext<'a>, before: &'a State, state: &'a State) -> Self {
+        let selections = selections(context, before, state);
+        let layout = Layout::new(context.problem, Extent::default().with(&selections));
+        let every: Vec<_> = (0..layout.offsets().len() - 1).map(Supervariable).collect();
+        let structure = Structure::from_cliques(layout.offsets().to_vec(), &[&every])
+            .and_then(|structure| structure.grown(&[&every]))
+            .unwrap();
+        Self {
+            selections,
+            imposed: context.imposed(1.0),
+            context,
+            layout,
+            structure,
+            before,
+            state,
+        }
+    }
+
+    fn trial(&self, u: &DVector<f64>) -> Trial {
+        let mut trial = self.reference();
+        self.each(&mut trial, |at, value| *value = u[at]);
+        for (rigid, pose) in trial.rigid.iter_mut().enumerate() {
+            if let Some(first) = self.layout.rigid(rigid) {
+                let coordinates = std::array::from_fn(|at| u[first + at]);
+                *pose = self.imposed.before[rigid].moved_to(&coordinates);
+            }
+        }
+        trial
+    }
+
+    fn reference(&self) -> Trial {
+        Trial {
+            positions: self.state.positions.clone(),
+            tractions: self
+                .state
+                .pairs
+                .iter()
+                .map(|p| p.tractions.clone())
+                .collect(),
+            rigid: self.state.rigid.clone(),
+        }
+    }
+
+    fn each(&self, trial: &mut Trial, mut visit: impl FnMut(usize, &mut f64)) {
+        for (node, x) in trial.positions.iter_mut().enumerate() {
+            let first = self.layout.position(node);
+            x.iter_mut()
+                .enumerate()
+                .for_each(|(axis, v)| visit(first + axis, v));
+        }
+        for (pair, tractions) in trial.tractions.iter_mut().enumerate() {
+            for side in 0..2 {
+                for (node, values) in tractions.nodes[side].iter_mut().enumerate() {
+                    if let Some(first) = self.layout.traction(pair, side, node) {
+                        values
+                            .iter_mut()
+                            .enumerate()
+                            .for_each(|(at, v)| visit(first + at, v));
+                    }
+                }
+            }
+        }
+    }
+
+    pub fn unknowns(&self) -> DVector<f64> {
+        let mut u = DVector::zeros(self.layout.unknowns());
+        self.each(&mut self.reference(), |at, value| u[at] = *value);
+        for (rigid, pose) in self.state.rigid.iter().enumerate() {
+            if let Some(first) = self.layout.rigid(rigid) {
+                u.rows_mut(first, 6).copy_from_slice(&pose.coordinates());
+            }
+        }
+        u
+    }
+
+    pub fn assert_order(&self) {
+        self.assert_order_at(self.unknowns());
+    }
+
+    pub fn assert_order_at(&self, u: DVector<f64>) {
+        let (_, matrix) = self.assembled(&u);
+        for seed in 0..2 {
+            let direction = Random::new(seed).unit(u.len());
+            let mut claimed = DVector::zeros(u.len());
+            matrix.multiply(direction.as_slice(), claimed.as_mut_slice());
+            let order = directional(
+                Difference::Central,
+                |u| self.assembled(u).0,
+                &claimed,
+                &u,
+                &direction,
+            );
+            if let Err(wrong) = order {
+                panic!("{wrong}");
+            }
+        }
+    }
+
+    /// The same with all but contact linearised at `u`.
+    pub fn assert_order_of_contact(&self) {
+        let u = self.unknowns();
+        let (assembled, matrix) = self.evaluated(&u);
+        let setting = self.setting();
+        let direction = Random::new(2).unit(u.len());
+        let mut claimed = DVector::zeros(u.len());
+        matrix.multiply(direction.as_slice(), claimed.as_mut_slice());
+        let contact = |v: &DVector<f64>| {
+            let (trial, change) = (self.trial(v), v - &u);
+            let mut matrix = matrix.clone();
+            let found = assemble_contact(
+                &setting,
+                &assembled.background,
+                (&trial, change.as_slice()),
+                Iteration::LATER,
+                &self.layout,
+                &mut matrix,
+            );
+            DVector::from_vec(found.expect("the pattern is full").residual)
+        };
+        let here = contact(&u);
+        let difference = here - DVector::from_vec(assembled.residual.clone());
+        assert!(difference.amax() <= 1e-13, "{:e}", difference.amax());
+        let order = directional(Difference::Central, contact, &claimed, &u, &direction);
+        if let Err(wrong) = order {
+            panic!("{wrong}");
+        }
+    }
+
+    /// The unknowns with rows of slip satisfied, since only there is their Jacobian exact: an
+    /// increment in which rigid points turn up chooses its field within itself, which is not
+    /// found again here. The rows state `z - varpi y/|y|`, whose root attracts.
+    pub fn settled(&self) -> DVector<f64> {
+        let mut u = self.unknowns();
+        for _ in 0..200 {
+            let (assembled, _) = self.evaluated(&u);
+            let nodes = assembled.contacts[0].nodes.iter().enumerate();
+            let slipping = nodes.flat_map(|(side, nodes)| {
+                let slipping = (0..nodes.len()).filter(|&n| nodes[n].status == Status::Slip);
+                slipping.filter_map(move |node| self.layout.traction(0, side, node))
+            });
+            let rows: Vec<usize> = slipping.flat_map(|at| [at + 1, at + 2]).collect();
+            let off = rows.iter().map(|&row| assembled.residual[row].abs());
+            if off.fold(0.0, f64::max) < 1e-13 {
+                return u;
+            }
+            rows.iter()
+                .for_each(|&row| u[row] -= assembled.residual[row]);
+        }
+        panic!("friction does not settle");
+    }
+
+    fn setting(&self) -> Setting<'_> {
+        Setting {
+            context: self.context,
+            state: self.before,
+            selections: &self.selections,
+            imposed: &self.imposed,
+        }
+    }
+
+    pub fn assembled(&self, u: &DVector<f64>) -> (DVector<f64>, SparseMatrix) {
+        let (assembled, matrix) = self.evaluated(u);
+        (DVector::from_vec(assembled.residual), matrix)
+    }
+
+    fn evaluated(&self, u: &DVector<f64>) -> (Assembled, SparseMatrix) {
+        let mut matrix = SparseMatrix::zero(&self.structure);
+        let contact = Contact::Evaluated(Iteration::LATER);
+        let trial = self.trial(u);
+        let assembled = assemble(&self.setting(), &trial, contact, &self.layout, &mut matrix);
+        match assembled {
+            Ok(assembled) => (assembled, matrix),
+            Err(Fault::CutBack(reason)) => panic!("{reason}"),
+            Err(Fault::Pattern(_)) => panic!("the pattern is full"),
+        }
+    }
+}
+
+/// The traction fields of the increment from `before` to `state`.
+fn selections(context: &StepContext, before: &State, state: &State) -> Vec<Selection> {
+    (0..state.pairs.len())
+        .map(|pair| {
+            let at = |state: &State| context.configuration(pair, &state.positions, &state.rigid);
+            let of_pair = &before.pairs[pair];
+            let had = Before {
+                kept: &of_pair.kept,
+                pointed: &state.pairs[pair].pointed,
+                points: &state.pairs[pair].points,
+            };
+            let fixed = &context.fixed_on_pair[pair];
+            let first = Selection::new(&at(before), None, had, fixed);
+            if first.kept_nodes() == state.pairs[pair].kept {
+                first
+            } else {
+                Selection::new(&at(before), Some(&at(state)), had, fixed)
+            }
+        })
+        .collect()
+}
