@@ -10,7 +10,8 @@
 //! facets are open by more than [`CLOSING`] in the mean and without pressure. A node with
 //! pressure pierces if it is deeper than [`DEEP`] of its size and its facets stand back by as
 //! much: rows close the mean gap and leave the node inside, as at the corner of a block under
-//! a sheet that bends over it. A node stays pointed while it is pressed and the mean gap is larger than [`CLOSING`].
+//! a sheet that bends over it. A node stays pointed while it is pressed and the mean gap is
+//! larger than [`CLOSING`].
 //!
 //! A point of a rigid surface pierces if it lies deeper than `PIERCED` in a facet, and that
 //! facet
