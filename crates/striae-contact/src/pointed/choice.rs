@@ -7,11 +7,8 @@
 //! by `h^2/(6 R)`, too, which is left to the mean: up to .07 of a facet at the shoulders of
 //! coarse tyres. What is not sharp closes in the mean before it is inside by `SHARP`. Inside
 //! a rigid surface of facets, which may have slopes within a facet, it is enough that the
-//! facets are open by more than [`CLOSING`] in the mean and without pressure. A node with
-//! pressure pierces if it is deeper than [`DEEP`] of its size and its facets stand back by as
-//! much: rows close the mean gap and leave the node inside, as at the corner of a block under
-//! a sheet that bends over it. A node stays pointed while it is pressed and the mean gap is
-//! larger than [`CLOSING`].
+//! facets are open by more than [`CLOSING`] in the mean and without pressure. A node stays
+//! pointed while it is pressed and the mean gap is larger than [`CLOSING`].
 //!
 //! A point of a rigid surface pierces if it lies deeper than `PIERCED` in a facet, and that
 //! facet
@@ -49,8 +46,7 @@ pub const PIERCED: f64 = 0.02;
 /// Mean gap of its own facets beyond its own from which it is sharp, over their size.
 pub const SHARP: f64 = 0.1;
 
-/// Depth from which half of that is enough for a rigid point, and from which a node with
-/// pressure pierces, over the facet size.
+/// Depth from which half of that is enough for a rigid point, over the facet size.
 pub const DEEP: f64 = 0.08;
 
 /// Mean gap of its own facets down to which a node stays pointed, over their size.
@@ -106,7 +102,7 @@ fn are_apart(tips: &[Vec3], x: &Vec3, size: f64) -> bool {
     tips.iter().all(|tip| (tip - x).norm() > APART * size)
 }
 
-/// Nodes that pierce the other side: without pressure, or too deep in spite of it.
+/// Nodes without pressure that pierce the other side.
 fn pierced_nodes(
     configuration: &Configuration,
     selection: &Selection,
@@ -114,8 +110,10 @@ fn pierced_nodes(
 ) -> Vec<(usize, u32)> {
     let mut deep: Vec<(usize, u32, f64)> = Vec::new();
     for &side in configuration.pair.deformable_sides() {
+        let nothing = NO_PRESSURE * configuration.pair.sides[side].stiffness;
         let own_gap = |node: u32| {
-            let is_free = !selection.is_pointed(side, node);
+            let is_free =
+                !selection.is_pointed(side, node) && carried[side][node as usize][0] <= nothing;
             let gap = is_free.then(|| inside(configuration, side, node)).flatten();
             gap.map(|gap| (side, node, gap))
         };
@@ -134,13 +132,7 @@ fn pierced_nodes(
     let on_facets = !selection.points.is_empty();
     let is_sharp = |&(side, node, gap): &(usize, u32, f64)| {
         let size = configuration.side(side).sizes[node as usize];
-        let nothing = NO_PRESSURE * configuration.pair.sides[side].stiffness;
-        let mean = means[side][node as usize];
-        if carried[side][node as usize][0] > nothing {
-            let deep = |mean: f64| gap < -DEEP * size && mean - gap > DEEP * size;
-            return mean.is_some_and(deep);
-        }
-        mean.is_none_or(|mean| {
+        means[side][node as usize].is_none_or(|mean| {
             let sharp = mean > 0.0 && mean - gap > SHARP * size;
             let open = on_facets && mean > CLOSING * size;
             sharp || open && !is_pressed_around(configuration, carried, node)

@@ -46,23 +46,6 @@ fn force_grows_continuously_from_the_depth_at_which_an_edge_is_felt() {
 }
 
 #[test]
-fn an_edge_that_is_inside_while_the_mean_gap_is_closed_is_felt() {
-    // Facets tilted by 16 degrees stand back by 0.096 of their size from the edge: less than
-    // what is sharp, more than what is deep.
-    let run = pressed(16.0, 4, Floor::Plane, 0.045, 9);
-    let (state, report) = run.last();
-    assert!(report.sides[0].force.z > 1e-3);
-    let surface = run.problem.pairs[0].contact.sides[0].surface().unwrap();
-    let nodes = 0..surface.nodes().len() as u32;
-    let heights =
-        nodes.map(|node| state.positions[run.problem.surface_node(0, 0, node).unwrap()].z);
-    let lowest = heights.fold(f64::INFINITY, f64::min);
-    let size = 0.288_675;
-    assert!(lowest > -0.08 * size, "{lowest}");
-    assert!(run.pointed() > 0);
-}
-
-#[test]
 fn an_edge_that_is_lifted_out_of_sight_needs_no_texture() {
     let friction = Friction::orthotropic(0.2, 0.5, SlipRule::Associated).unwrap();
     let mut model = standing(tilted(33.0, 4), SOLE, Floor::Facets, friction);
