@@ -97,7 +97,7 @@ pub fn evaluate(
         }
         Enforcement::Collocated => collocated::kinematics(configuration, selection, &frames),
     };
-    let textures = textures(configuration, selection, &frames)?;
+    let textures = textures(configuration, selection, &frames, &kinematics)?;
     let velocities = slip_velocities(configuration, selection, &kinematics);
     let surroundings = Surroundings {
         frames: &frames,

@@ -27,6 +27,7 @@ use crate::{
     coverage::{Contact, Found, Place},
     edge::on_edge,
     frame::{Frame, Frames, Tracked, own_normal},
+    kinematics::Kinematics,
     opposing::{Opposing, PlaceLanes},
     pointed::{RigidPoint, Spot, Tip},
     projection::{Hit, differentiated_rigid},
@@ -65,7 +66,7 @@ pub struct CollapsedTexture {
     pub node: u32,
 }
 
-/// Textures of all nodes that the friction law looks at.
+/// Textures of all nodes that the friction law looks at. Nodes that face nothing have any.
 ///
 /// # Errors
 /// When a convected texture has no direction left.
@@ -73,6 +74,7 @@ pub fn textures(
     configuration: &Configuration,
     selection: &Selection,
     frames: &Frames,
+    kinematics: &[Kinematics],
 ) -> Result<Textures, CollapsedTexture> {
     if configuration.pair.friction.required_textures() == RequiredTextures::Any {
         return Ok([0, 1].map(|side| vec![NodeTextures::default(); selection.nodes(side)]));
@@ -87,13 +89,17 @@ pub fn textures(
                         Tip::Node { .. } => own(configuration, side, node as u32, &frame.n)?,
                         Tip::Rigid(point) => of_point(configuration, node as u32, point, frame)?,
                     },
-                    opposite: opposite(
-                        configuration,
-                        (side, node as u32),
-                        selection.tip(side, node as u32),
-                        (frame, frames),
-                        faced(configuration, selection, side, node as u32),
-                    )?,
+                    opposite: if is_beside(selection, kinematics, side, node) {
+                        any_direction(configuration, side, frame)
+                    } else {
+                        opposite(
+                            configuration,
+                            (side, node as u32),
+                            selection.tip(side, node as u32),
+                            (frame, frames),
+                            faced(configuration, selection, side, node as u32),
+                        )?
+                    },
                 }),
                 _ => Ok(NodeTextures::default()),
             })
@@ -136,6 +142,22 @@ pub fn own(
     lanes.push(Source::Vector(&direction.jacobian));
     lanes.push(Source::Vector(&n.jacobian));
     Ok(Some(tracked(&lanes, &a)))
+}
+
+/// Whether a node with unknowns faces nothing. No position changes its gap then, so it is open
+/// whatever the texture.
+fn is_beside(selection: &Selection, kinematics: &[Kinematics], side: usize, node: usize) -> bool {
+    let place = selection.basis.index[side][node];
+    place.is_some_and(|k| kinematics[k as usize].gap.gradient.is_empty())
+}
+
+/// A tangent in place of the opposing texture, for nodes that friction does not act on.
+fn any_direction(configuration: &Configuration, side: usize, frame: &Frame) -> Option<Tracked> {
+    let textured = configuration.pair.sides[1 - side].texture.is_some();
+    textured.then(|| Tracked {
+        value: frame.t[0].value,
+        jacobian: Jacobian::new(),
+    })
 }
 
 /// The point opposite to a node: along its normal or, if it is pointed, that of the

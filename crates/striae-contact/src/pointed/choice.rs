@@ -20,8 +20,10 @@
 //!
 //! A facet on a smooth rigid surface of radius `R` stands back by `h^2/(12 R)`, which is less
 //! than `CLOSING` for `R > 4 h`. One facet gets one new point at a time, the deepest, and points
-//! keep a distance of [`APART`] of the facet size: more than the facets can follow would
-//! leave the pressures undetermined.
+//! keep a distance of [`APART`] of the facet size from each other: more than the facets can
+//! follow would leave the pressures undetermined. For the same reason they keep it from pointed
+//! nodes. A node next to a vertex that pierces its facet is inside the rigid surface, too; with
+//! rows for both, a large pressure of one would stand against tension of the other.
 
 use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
@@ -50,7 +52,7 @@ pub const DEEP: f64 = 0.08;
 /// Mean gap of its own facets down to which a node stays pointed, over their size.
 pub const CLOSING: f64 = 0.02;
 
-/// Least distance of rigid points from each other, over the facet size.
+/// Least distance of rigid points from each other and from pointed nodes, over the facet size.
 pub const APART: f64 = 0.4;
 
 /// Pressure that is none, over the modulus.
@@ -81,10 +83,23 @@ pub fn pierced(
     if configuration.pair.enforcement != Enforcement::Weighted {
         return Pierced::default();
     }
-    Pierced {
-        nodes: pierced_nodes(configuration, selection, carried),
-        points: pierced_points(configuration, selection, carried),
-    }
+    let points = pierced_points(configuration, selection, carried);
+    let mut nodes = pierced_nodes(configuration, selection, carried);
+    let felt: Vec<Vec3> = (selection.points.iter().flatten())
+        .chain(points.iter().map(|(_, point)| point))
+        .map(|point| point.position(configuration))
+        .collect();
+    nodes.retain(|&(side, node)| {
+        let own = configuration.side(side);
+        let node = node as usize;
+        are_apart(&felt, &own.x[node], own.sizes[node])
+    });
+    Pierced { nodes, points }
+}
+
+/// Whether tips keep their distance from a place on facets of some size.
+fn are_apart(tips: &[Vec3], x: &Vec3, size: f64) -> bool {
+    tips.iter().all(|tip| (tip - x).norm() > APART * size)
 }
 
 /// Nodes without pressure that pierce the other side.
@@ -210,19 +225,13 @@ fn pierced_points(
     });
     let share = |inside: &Inside| inside.hit.gap / inside.size;
     deep.sort_by(|a, b| share(a).total_cmp(&share(b)));
-    let mut taken: Vec<Vec3> = selection
-        .points
-        .iter()
-        .flatten()
-        .map(at(configuration))
-        .collect();
+    let mut taken = felt(configuration, selection);
     let mut lodged = selection.points.clone();
     let mut facets: Vec<FacetId> = Vec::new();
     let mut points = Vec::new();
     for inside in &deep {
         let x = inside.point.position(configuration);
-        let apart = |other: &Vec3| (other - x).norm() > APART * inside.size;
-        if facets.contains(&inside.hit.facet) || !taken.iter().all(apart) {
+        if facets.contains(&inside.hit.facet) || !are_apart(&taken, &x, inside.size) {
             continue;
         }
         let Some(node) = lodging(configuration, &lodged, &inside.hit) else {
@@ -236,9 +245,13 @@ fn pierced_points(
     points
 }
 
-/// Where points are.
-fn at<'a>(configuration: &'a Configuration) -> impl Fn(&RigidPoint) -> Vec3 + 'a {
-    |point| point.position(configuration)
+/// Where rigid points and nodes of side `a` are that are pointed already.
+fn felt(configuration: &Configuration, selection: &Selection) -> Vec<Vec3> {
+    let own = configuration.side(0);
+    let points = selection.points.iter().flatten();
+    let points = points.map(|point| point.position(configuration));
+    let nodes = (0..own.x.len()).filter(|&node| selection.is_pointed(0, node as u32));
+    points.chain(nodes.map(|node| own.x[node])).collect()
 }
 
 /// The facet that a rigid point is in or faces.

@@ -1,7 +1,9 @@
 //! Forces of an edge that is pressed onto a face.
 
 use striae_contact::unknowns::Status;
-use striae_law::friction::Friction;
+use striae_law::friction::{Friction, SlipRule};
+use striae_mesh::Vec3;
+use striae_surface::texture::{Field, Lines, Paint};
 
 use crate::scene::{Floor, Run, moved, standing, tilted};
 
@@ -41,6 +43,22 @@ fn force_grows_continuously_from_the_depth_at_which_an_edge_is_felt() {
         assert!(growth > 0.0 && growth < 0.1, "{growth} in {forces:?}");
     }
     assert!(forces[2] < 0.15 * last, "{forces:?}");
+}
+
+#[test]
+fn an_edge_that_is_lifted_out_of_sight_needs_no_texture() {
+    let friction = Friction::orthotropic(0.2, 0.5, SlipRule::Associated).unwrap();
+    let mut model = standing(tilted(33.0, 4), SOLE, Floor::Facets, friction);
+    model.pairs[0].textures[1] = Some(Paint::Field(Field {
+        lines: Lines::Uniform(Vec3::new(0.8, 0.6, 0.0)),
+        turn: 0.0,
+    }));
+    let mut lift = moved(&model, [0.0, 0.0, 2.0], 1);
+    lift.increments.smallest = 1.0;
+    model.steps = vec![moved(&model, [0.0, 0.0, -0.05], 4), lift];
+    let run = Run::completed(model);
+    assert!(run.reports[3].sides[0].force.z > 1e-3);
+    assert_eq!(run.last().1.sides[0].force.z, 0.0);
 }
 
 #[test]

@@ -110,6 +110,23 @@ fn a_top_is_pushed_where_it_is() {
 }
 
 #[test]
+fn a_node_next_to_a_top_is_not_felt_besides_it() {
+    // The node is inside the pyramid as well, and both would stand against each other.
+    let mut upper = tilted(0.0, 4);
+    upper.origin.x += TOP + 0.02 - 0.25;
+    upper.origin.y += 0.015 - 1.0 / 6.0;
+    let friction = Friction::coulomb(0.3).unwrap();
+    let mut model = standing(upper, SOLE, Floor::Pyramid, friction);
+    model.steps = vec![moved(&model, [0.0, 0.0, -0.03], 3)];
+    let run = Run::completed(model);
+    let points = run.points(run.states.len() - 1);
+    assert_eq!(points.len(), 1);
+    assert!(points[0].1.pressure > 0.0);
+    assert!(!run.last().0.pairs[0].pointed[0].contains(&true));
+    assert!(depth(&run) < 0.1 * SIZE, "{}", depth(&run));
+}
+
+#[test]
 fn what_slides_between_the_nodes_obeys_coulombs_law() {
     let mu = 0.3;
     for floor in SHARP {

@@ -20,6 +20,8 @@ struct Footing {
     depth: f64,
     facet: f64,
     unit: f64,
+    /// Height of the block.
+    high: f64,
     /// Extent of the block along `x` and `y`, in the middle of the floor.
     plan: [f64; 2],
 }
@@ -49,6 +51,7 @@ fn footing(random: &mut Random, strains: Strains) -> Footing {
         depth: strain * high.min(plan[0]).min(plan[1]),
         facet,
         unit,
+        high,
         plan,
     }
 }
@@ -58,6 +61,13 @@ impl Footing {
         let angle = random.between(0.0, std::f64::consts::TAU);
         let far = random.between(0.3, 2.5) * self.facet;
         [far * angle.cos(), far * angle.sin(), 0.0]
+    }
+
+    /// How deep to press into waves of an amplitude: the upper side of the block is held plane
+    /// and has to stay above them.
+    fn depth_of(&self, random: &mut Random, amplitude: f64) -> f64 {
+        let depth = self.depth.max(random.between(0.3, 1.0) * amplitude);
+        depth.min(0.3 * self.high)
     }
 
     /// How far a sheet is below the block, which is around the origin at height zero.
@@ -158,7 +168,7 @@ pub fn ridges(random: &mut Random, _: Dialect) -> Scene {
         name: "floor",
         shape: sheet,
     });
-    let depth = footing.depth.max(random.between(0.3, 1.0) * amplitude);
+    let depth = footing.depth_of(random, amplitude);
     footing.pressed_and_slid(random, clearance + depth)
 }
 
@@ -192,6 +202,6 @@ pub fn bumps(random: &mut Random, _: Dialect) -> Scene {
         name: "floor",
         shape: RigidShape::Sheet(positions, facets),
     });
-    let depth = footing.depth.max(random.between(0.3, 1.0) * amplitude);
+    let depth = footing.depth_of(random, amplitude);
     footing.pressed_and_slid(random, clearance + depth)
 }
