@@ -16,7 +16,7 @@ use crate::{
     frame::{Frame, Frames, frames},
     kinematics::{Kinematics, Report},
     pair::Enforcement,
-    pairing::paired_facets,
+    pairing::{paired_facets, topology},
     pointed::{self, PointedTerm, RigidPoints, Tip},
     segment::Derivatives,
     segment_rows::{Given, Slip, segment_rows},
@@ -44,6 +44,9 @@ pub struct Evaluation {
     pub facets: [Vec<(FacetId, FacetForces)>; 2],
     /// Points of a rigid side that are pointed.
     pub points: RigidPoints,
+    /// Which facets are paired, and which corners and edges bound their polygons, as a number.
+    /// Integrals of contact jump a little where it changes.
+    pub topology: u64,
     /// Work that friction dissipates, `-sum_k w_k tau_k . du_k`.
     pub dissipated: f64,
 }
@@ -194,6 +197,7 @@ impl Stage<'_> {
             carried: counts.map(|count| vec![[0.0; 3]; count]),
             facets: [Vec::new(), Vec::new()],
             points: selection.points.clone(),
+            topology: topology(patches.iter().map(|patch| &patch.paired)),
             dissipated: 0.0,
         };
         for side in 0..2 {

@@ -11,7 +11,7 @@ use striae_surface::facet::Shape;
 
 use crate::{
     configuration::Configuration,
-    segment::{Derivatives, Facet, Segment, plane_segment, segment},
+    segment::{Derivatives, FIRST, Facet, Segment, mixed, plane_segment, segment},
 };
 
 /// Two facets and their segment.
@@ -91,6 +91,15 @@ impl PairedFacets {
         let rigid = side == 1 && configuration.pair.is_rigid();
         (!rigid && !repeated).then(|| (side, corners[at]))
     }
+}
+
+/// Facets that are paired and the topologies of their segments, as one number.
+pub fn topology<'a>(paired: impl Iterator<Item = &'a PairedFacets>) -> u64 {
+    let number = |facet: Option<FacetId>| facet.map_or(u64::MAX, |facet| facet.index() as u64);
+    paired.fold(FIRST, |hash, paired| {
+        let facets = paired.facets.map(number).into_iter();
+        facets.chain([paired.segment.topology]).fold(hash, mixed)
+    })
 }
 
 /// Sign of the corners in the gap: `b` minus `a`.

@@ -37,7 +37,8 @@ use chain::{CornerSlopes, Plane};
 use fan::{Apex, fan};
 use normal::{facet_normal, pair_normal, pair_slopes};
 use plane_facet::{PlaneFacet, Vec2};
-use polygon::{Outline, Vertex, common, twice_area};
+pub(crate) use polygon::{FIRST, mixed};
+use polygon::{Outline, Vertex, common, topology, twice_area};
 use sums::{PAIRS, PlaneSlopes, Triangle, add_triangle, functions};
 
 /// Facets face each other where `n_a . n_b` is not above this.
@@ -77,6 +78,8 @@ pub struct Segment {
     pub normal: Vec3,
     /// Area across `n`.
     pub area: f64,
+    /// Which corners and edges the vertices of the polygon come from, as a number.
+    pub topology: u64,
     /// `D_cd`, symmetric.
     pub mass: [[f64; 8]; 8],
     /// Derivatives, if asked for.
@@ -132,6 +135,7 @@ pub fn segment(
     Some(Segment {
         normal,
         area: 0.5 * twice_area(&polygon),
+        topology: topology(&polygon),
         mass: symmetric(&mass),
         slopes,
     })

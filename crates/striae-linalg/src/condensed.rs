@@ -18,6 +18,7 @@ use crate::{
     equilibration::Equilibration,
     error::SolveError,
     gmres::Ends,
+    interface::Purpose,
     matrix::SparseMatrix,
     real::Precision,
     refinement,
@@ -32,6 +33,8 @@ use untouched::Untouched;
 
 /// Time of an operation of a substitution, which waits for memory, over that of a factorisation.
 const SUBSTITUTION: f64 = 5.0;
+/// Operations that take as long as the evaluation of contact takes for one multiplier.
+const EVALUATION: f64 = 6e5;
 /// Not kept.
 const NONE: u32 = u32::MAX;
 
@@ -211,6 +214,7 @@ impl Condensed {
             condensed: self,
             numeric,
             matrix,
+            purpose: Purpose::Answer,
         };
         refinement::solve(matrix, &numeric.scaling, &factors, rhs, x)
     }
@@ -228,6 +232,7 @@ impl Condensed {
             condensed: self,
             numeric,
             matrix,
+            purpose: Purpose::Precondition,
         };
         refinement::solve_nearby(matrix, &numeric.scaling, &factors, (rhs, x), ends)
     }
@@ -255,6 +260,7 @@ impl Condensed {
             condensed: self,
             numeric,
             matrix,
+            purpose: Purpose::Answer,
         };
         factors.solve_in_place(&mut x);
         numeric.scaling.scale_columns(&mut x);
@@ -270,12 +276,13 @@ impl Condensed {
             .unwrap_or_default()
     }
 
-    /// Work of factoring the contact system over that of factoring the interior.
+    /// Work of evaluating contact and factoring its system over that of factoring the interior.
     pub(crate) fn share_of_contact(&self) -> f64 {
         let work = |contact: &ContactSystem| {
             let eliminated = contact.untouched.iter().flatten();
             eliminated.map(Untouched::flops).sum::<f64>()
-                + 2.0 / 3.0 * (contact.interface.dense_order() as f64).powi(3)
+                + 2.0 / 3.0 * (contact.dense_order() as f64).powi(3)
+                + EVALUATION * contact.multipliers() as f64
         };
         let contact = self.numeric.as_ref().map(|numeric| &numeric.contact);
         let bodies: f64 = self.analyses(self.precision()).map(|a| a.flops).sum();

@@ -37,6 +37,33 @@ pub(super) struct CutEdge {
     pub share: f64,
 }
 
+impl Label {
+    /// A number of its own, without the share at which edges cross.
+    fn number(&self) -> u64 {
+        let pair = |[a, b]: [usize; 2]| 8 * a as u64 + b as u64;
+        match self {
+            Self::Corner(corner) => *corner as u64,
+            Self::Both(corners) => 64 + pair(*corners),
+            Self::Crossing([a, b]) => 128 + 64 * pair(a.ends) + pair(b.ends),
+        }
+    }
+}
+
+/// Labels of all vertices in order, as one number.
+pub(super) fn topology(vertices: &[Vertex]) -> u64 {
+    let labels = vertices.iter().map(|vertex| vertex.label.number());
+    labels.fold(FIRST, mixed)
+}
+
+/// Start and factor of the hash FNV-1a (Fowler, Noll, Vo).
+pub const FIRST: u64 = 0xcbf2_9ce4_8422_2325;
+const FACTOR: u64 = 0x0000_0100_0000_01b3;
+
+/// A hash with another number in it.
+pub const fn mixed(hash: u64, number: u64) -> u64 {
+    (hash ^ number).wrapping_mul(FACTOR)
+}
+
 /// A vertex of the common polygon.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Vertex {

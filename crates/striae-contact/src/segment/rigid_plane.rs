@@ -70,6 +70,7 @@ pub fn plane_segment(
     (area > 0.0).then_some(Segment {
         normal,
         area,
+        topology: 0,
         mass,
         slopes,
     })

@@ -13,7 +13,7 @@ use striae_linalg::REDUCTION;
 use super::{
     IterationObserver,
     correction::{Taken, labelled, step},
-    cycling::History,
+    cycling::{History, WINDOW},
     departure::first_positions,
     failure::{linear_system, missed},
     passage::passage,
@@ -180,10 +180,11 @@ impl Attempt<'_> {
     /// Whether the last iterations go back and forth over a jump of the integrals of contact.
     ///
     /// A corner closer to an opposing edge than [`ON_EDGE`] of the facet counts as on it. What
-    /// contact integrates jumps where a corner crosses that limit, and Newton's method goes back
-    /// and forth over the jump with a residual that neither falls nor changes any status.
+    /// contact integrates jumps where a corner crosses that limit, by that part of the facet
+    /// times its length at most. Newton's method can go back and forth over the jump: the
+    /// residual does not fall, no status changes, and the vertices of a polygon are in turn
+    /// that corner and two crossings. No solution is nearer than the jump then.
     fn jumps(&self) -> bool {
-        const WINDOW: usize = 6;
         const LARGEST: f64 = 0.1 * ON_EDGE;
         let Some(from) = self.iterations.len().checked_sub(WINDOW) else {
             return false;
@@ -193,6 +194,7 @@ impl Attempt<'_> {
         let most = last.fold(0.0, f64::max);
         most <= LARGEST
             && least > 0.5 * most
+            && self.history.goes_back_and_forth()
             && self
                 .history
                 .cycling(self.context.problem, &self.selections)

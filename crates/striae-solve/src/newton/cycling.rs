@@ -4,9 +4,17 @@ use striae_contact::{evaluation::Evaluation, selection::Selection, unknowns::Sta
 
 use crate::{outcome::CyclingNode, problem::Problem};
 
-/// Status of all nodes in every iteration.
+/// Iterations that are looked back at.
+pub(super) const WINDOW: usize = 6;
+
+/// Contact in every iteration.
 #[derive(Default)]
-pub(super) struct History(Vec<Vec<[Vec<Status>; 2]>>);
+pub(super) struct History {
+    /// Status of all nodes, by pair and side.
+    statuses: Vec<Vec<[Vec<Status>; 2]>>,
+    /// [`Evaluation::topology`] by pair.
+    topologies: Vec<Vec<u64>>,
+}
 
 impl History {
     pub(super) fn push(&mut self, contacts: &[Evaluation]) {
@@ -16,13 +24,24 @@ impl History {
                 .each_ref()
                 .map(|side| side.iter().map(|node| node.status).collect())
         };
-        self.0.push(contacts.iter().map(statuses).collect());
+        self.statuses.push(contacts.iter().map(statuses).collect());
+        let topologies = contacts.iter().map(|evaluation| evaluation.topology);
+        self.topologies.push(topologies.collect());
+    }
+
+    /// Whether the last correction led back to polygons that contact had before the one
+    /// before it.
+    pub(super) fn goes_back_and_forth(&self) -> bool {
+        let last = &self.topologies[self.topologies.len().saturating_sub(WINDOW)..];
+        match last {
+            [earlier @ .., before, now] => before != now && earlier.contains(now),
+            _ => false,
+        }
     }
 
     /// Kept nodes whose status changed within the last iterations.
     pub(super) fn cycling(&self, problem: &Problem, selections: &[Selection]) -> Vec<CyclingNode> {
-        const WINDOW: usize = 6;
-        let last = &self.0[self.0.len().saturating_sub(WINDOW)..];
+        let last = &self.statuses[self.statuses.len().saturating_sub(WINDOW)..];
         let mut cycling = Vec::new();
         for (pair, selection) in selections.iter().enumerate() {
             for side in 0..2 {
@@ -57,5 +76,25 @@ fn letter(status: &Status) -> char {
         Status::Open => 'o',
         Status::Stick => 's',
         Status::Slip => 'S',
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn polygons_go_back_and_forth_where_the_last_but_one_differ_and_earlier_ones_return() {
+        let history = |topologies: &[u64]| History {
+            topologies: topologies.iter().map(|&t| vec![7, t]).collect(),
+            ..History::default()
+        };
+        let back_and_forth = |topologies: &[u64]| history(topologies).goes_back_and_forth();
+        assert!(back_and_forth(&[1, 2, 1]));
+        assert!(back_and_forth(&[1, 2, 3, 1]));
+        assert!(!back_and_forth(&[1, 2, 1, 1]), "they rest");
+        assert!(!back_and_forth(&[1, 2, 3]), "they are new");
+        assert!(!back_and_forth(&[1, 2, 2, 2, 2, 2, 1]), "it is long ago");
+        assert!(!back_and_forth(&[1]), "nothing was before");
     }
 }
