@@ -63,11 +63,10 @@ impl Footing {
         [far * angle.cos(), far * angle.sin(), 0.0]
     }
 
-    /// How deep to press into waves of an amplitude: the upper side of the block is held plane
-    /// and has to stay above them.
-    fn depth_of(&self, random: &mut Random, amplitude: f64) -> f64 {
-        let depth = self.depth.max(random.between(0.3, 1.0) * amplitude);
-        depth.min(0.3 * self.high)
+    /// The largest amplitude of waves that a block is pressed into: its upper side is held
+    /// plane and has to stay above them.
+    fn highest(&self) -> f64 {
+        0.3 * self.high
     }
 
     /// How far a sheet is below the block, which is around the origin at height zero.
@@ -142,6 +141,7 @@ pub fn ridges(random: &mut Random, _: Dialect) -> Scene {
     let mut footing = footing(random, Strains::Moderate);
     let pitch = random.between(1.0, 4.0) * footing.facet;
     let amplitude = (random.between(0.02, 0.12) * pitch).min(0.5 * footing.facet);
+    let amplitude = amplitude.min(footing.highest());
     let round = random.chance(0.5);
     let points = if round { 8 } else { 2 };
     let count = (2.4 * footing.unit / pitch).ceil() as usize * points;
@@ -168,7 +168,7 @@ pub fn ridges(random: &mut Random, _: Dialect) -> Scene {
         name: "floor",
         shape: sheet,
     });
-    let depth = footing.depth_of(random, amplitude);
+    let depth = footing.depth.max(random.between(0.3, 1.0) * amplitude);
     footing.pressed_and_slid(random, clearance + depth)
 }
 
@@ -177,6 +177,7 @@ pub fn bumps(random: &mut Random, _: Dialect) -> Scene {
     let mut footing = footing(random, Strains::Moderate);
     let pitch = random.between(1.5, 4.0) * footing.facet;
     let amplitude = (random.between(0.02, 0.12) * pitch).min(0.4 * footing.facet);
+    let amplitude = amplitude.min(footing.highest());
     let per_pitch = random.whole(2..=4);
     let step = pitch / per_pitch as f64;
     let count = ((2.4 * footing.unit / step).ceil() as usize).min(60);
@@ -202,6 +203,6 @@ pub fn bumps(random: &mut Random, _: Dialect) -> Scene {
         name: "floor",
         shape: RigidShape::Sheet(positions, facets),
     });
-    let depth = footing.depth_of(random, amplitude);
+    let depth = footing.depth.max(random.between(0.3, 1.0) * amplitude);
     footing.pressed_and_slid(random, clearance + depth)
 }

@@ -117,9 +117,7 @@ pub fn edge(random: &mut Random, _: Dialect) -> Scene {
     upper.tilt = Some(([0.0, 1.0, 0.0], -degrees, [aside, 0.0, 0.0]));
     let strain = random.between(0.01, 0.05);
     let depth = if flat {
-        // The facets along the edge, which may be twice the mean ones, close in the mean.
-        let opens = facet(&upper) * f64::tan(f64::to_radians(degrees));
-        f64::max(0.5 * strain * high, opens)
+        0.5 * strain * high
     } else {
         random.between(0.05, 0.2) * facet(&upper).min(facet(&lower))
     };
