@@ -1,7 +1,10 @@
 //! Ways in which the program fails, and their exit codes.
 
 use std::{io, path::PathBuf, process::ExitCode};
-use striae_io::{OutputError, checkpoint::CheckpointError, deck::Faults};
+use striae_deck::Faults;
+use striae_figure::FigureError;
+use striae_files::FileError;
+use striae_output::{OutputError, checkpoint::CheckpointError};
 use striae_solve::{outcome::Ending, problem::ProblemError};
 
 /// Exit code of an interrupted program: 128 and the number of the signal, as shells have it.
@@ -58,6 +61,12 @@ pub enum Failure {
     /// Results cannot be written.
     #[error("{0}")]
     Results(#[from] OutputError),
+    /// A figure cannot be drawn or written.
+    #[error("{0}")]
+    Figure(#[from] FigureError),
+    /// A file cannot be written.
+    #[error("{0}")]
+    File(#[from] FileError),
     /// The threads cannot be started.
     #[error("the threads cannot be started: {0}")]
     Threads(String),
@@ -91,6 +100,8 @@ impl Failure {
             | Self::Warned(_)
             | Self::Deviates(_)
             | Self::Results(_)
+            | Self::Figure(_)
+            | Self::File(_)
             | Self::Threads(_)
             | Self::Output(_) => ExitCode::from(1),
         }

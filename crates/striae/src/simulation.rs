@@ -9,10 +9,10 @@ use std::{
 };
 
 use striae_contact::evaluation::Evaluation;
-use striae_io::{
+use striae_deck::Deck;
+use striae_output::{
     OutputError,
     checkpoint::{Checkpoint, CheckpointError, Source},
-    deck::Deck,
     recorder::Recorder,
     summary::Summary,
 };

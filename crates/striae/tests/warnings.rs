@@ -6,7 +6,7 @@ use std::{
     process::{Command, Output},
 };
 
-use striae_io::summary::{Summary, WarningSummary};
+use striae_output::summary::{Summary, WarningSummary};
 
 /// A block above a floor, pressed by `way` from the height `z`.
 fn deck(z: f64, way: f64, normal: i8) -> String {

@@ -3,7 +3,7 @@
 //! The wave equation gives the contact stress `rho c v` for the time `2 L/c`, and
 //! a rebound with the velocity and the energy of the flight.
 
-use striae_io::figure::{Axis, Color, Content, Figure, Panel, Series, Width};
+use striae_figure::{Axis, Color, Content, Figure, Panel, Series, Width};
 use striae_solve::model::{ContactMass, Procedure};
 
 use super::study::{Run, Study};

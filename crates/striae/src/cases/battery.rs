@@ -1,6 +1,6 @@
 //! Many runs of one deck with other values, and the tables of what they gave.
 
-use striae_io::deck::Deck;
+use striae_deck::Deck;
 use striae_solve::outcome::Ending;
 
 use super::study::{Run, Study};

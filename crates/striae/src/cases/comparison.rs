@@ -15,7 +15,7 @@
 use std::collections::BTreeMap;
 
 use striae_contact::unknowns::Status;
-use striae_io::figure::{Axis, Content, Figure, Marker, Panel, Series, Width};
+use striae_figure::{Axis, Content, Figure, Marker, Panel, Series, Width};
 use striae_mesh::Vec3;
 use striae_surface::facet::{Shape, area_vector};
 use striae_verify::fitted_rate;

@@ -2,7 +2,7 @@
 //!
 //! Counts the runs that get through without a cut.
 
-use striae_io::deck::Deck;
+use striae_deck::Deck;
 
 use super::{
     battery::Battery,

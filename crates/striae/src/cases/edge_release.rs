@@ -13,10 +13,8 @@
 //! slope alone is broken, and the jump where there is one, whatever the increment.
 
 use striae_contact::unknowns::Status;
-use striae_io::{
-    deck::Deck,
-    figure::{Axis, Content, Figure, Panel, Series, Width},
-};
+use striae_deck::Deck;
+use striae_figure::{Axis, Content, Figure, Panel, Series, Width};
 use striae_solve::outcome::Ending;
 
 use super::study::{Extent, Run, Study};

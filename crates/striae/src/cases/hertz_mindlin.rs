@@ -10,7 +10,7 @@
 //! friction; a block of twice the edges is nearer to a half space. Away from the
 //! edge of the contact zone, where the pressure is smooth, little else is left.
 
-use striae_io::figure::{Axis, Color, Content, Figure, Line, Marker, Panel, Series, Width};
+use striae_figure::{Axis, Color, Content, Figure, Line, Marker, Panel, Series, Width};
 use striae_mesh::Vec3;
 use striae_verify::closed_forms::{PartialSlip, PointContact, contact_modulus};
 

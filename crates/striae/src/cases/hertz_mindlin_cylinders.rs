@@ -6,7 +6,7 @@
 //! Errors are told apart into those around the edges of both zones and the rest.
 
 use striae_contact::unknowns::Status;
-use striae_io::figure::{Axis, Color, Content, Figure, Marker, Panel, Series, Width};
+use striae_figure::{Axis, Color, Content, Figure, Marker, Panel, Series, Width};
 use striae_mesh::Vec3;
 use striae_verify::closed_forms::{LineContact, LinePartialSlip, contact_modulus};
 

@@ -5,7 +5,7 @@
 //! tell where friction across the motion comes from: one without friction while it
 //! is pressed, and one of the same contact zone with a hundredth of the strains.
 
-use striae_io::figure::{Axis, Color, Content, Figure, Marker, Panel, Series, Width};
+use striae_figure::{Axis, Color, Content, Figure, Marker, Panel, Series, Width};
 use striae_mesh::Vec3;
 
 use super::{

@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix3;
 use striae_contact::unknowns::NodeResult;
-use striae_io::figure::{Axis, Color, Content, Series};
+use striae_figure::{Axis, Color, Content, Series};
 use striae_mesh::Vec3;
 use striae_solve::state::State;
 use striae_surface::facet::Shape;

@@ -183,7 +183,7 @@ pub const CASES: &[Case] = &[
 mod tests {
     use super::*;
     use std::collections::BTreeSet;
-    use striae_io::expected::Expected;
+    use striae_output::expected::Expected;
 
     #[test]
     fn every_case_expects_something_and_judges_newton() {

@@ -1,6 +1,6 @@
 //! `pad-on-incline`: a pad holds below the limit of friction and slides above it.
 
-use striae_io::figure::{Axis, Color, Content, Figure, Line, Marker, Panel, Series, Width};
+use striae_figure::{Axis, Color, Content, Figure, Line, Marker, Panel, Series, Width};
 use striae_solve::outcome::Ending;
 
 use super::study::{Run, Study};

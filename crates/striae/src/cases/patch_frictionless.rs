@@ -4,10 +4,8 @@
 //! every deck is run with both orders of the sides of the pair.
 
 use nalgebra::Matrix3;
-use striae_io::{
-    deck::Deck,
-    figure::{Axis, Color, Figure, Panel, Series, Width},
-};
+use striae_deck::Deck;
+use striae_figure::{Axis, Color, Figure, Panel, Series, Width};
 
 use super::{
     measure::{mesh_lines, pressure_map, stress_error, surface_nodes},

@@ -11,7 +11,7 @@
 
 use nalgebra::Matrix3;
 use striae_contact::unknowns::NodeResult;
-use striae_io::figure::{Axis, Color, Content, Figure, Panel, Series, Width};
+use striae_figure::{Axis, Color, Content, Figure, Panel, Series, Width};
 use striae_law::friction::{Friction, Textures};
 use striae_mesh::Vec3;
 
@@ -167,7 +167,7 @@ fn panel(run: &Run, name: &str) -> Panel {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use striae_io::deck;
+    use striae_deck as deck;
     use striae_solve::model::LoadKind;
 
     #[test]

@@ -13,7 +13,7 @@
 //! interface gives way where `|t - n n.t| = mu |n.t|`.
 
 use nalgebra::Matrix3;
-use striae_io::figure::{Axis, Color, Content, Figure, Marker, Panel, Series, Width};
+use striae_figure::{Axis, Color, Content, Figure, Marker, Panel, Series, Width};
 use striae_mesh::Vec3;
 
 use super::{

@@ -1,7 +1,7 @@
 //! `plate-on-rigid-plane`: partial slip under a plate that is pushed along a floor.
 
 use striae_contact::unknowns::Status;
-use striae_io::figure::{Axis, Color, Content, Figure, Marker, Panel, Series, Width};
+use striae_figure::{Axis, Color, Content, Figure, Marker, Panel, Series, Width};
 
 use super::{
     measure::{SurfaceNode, surface_nodes},

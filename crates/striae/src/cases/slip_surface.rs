@@ -1,9 +1,7 @@
 //! `slip-surface`: the slip surface of two textured surfaces, by the slip rule and as published.
 
-use striae_io::{
-    deck,
-    figure::{Axis, Figure, Panel, Series, Width},
-};
+use striae_deck as deck;
+use striae_figure::{Axis, Figure, Panel, Series, Width};
 use striae_law::friction::{Law, Published, SlipSample, TwoTextures};
 
 use super::study::Study;

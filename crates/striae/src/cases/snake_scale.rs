@@ -11,7 +11,7 @@
 //! with `phi` from the axis along which the coefficient is `mu_1`, or stop after
 //! `v^2/(2 mu g)` where they are guided.
 
-use striae_io::figure::{Axis, Color, Content, Figure, Marker, Panel, Series, Width};
+use striae_figure::{Axis, Color, Content, Figure, Marker, Panel, Series, Width};
 use striae_mesh::Vec3;
 use striae_solve::{model::Increments, outcome::Ending};
 

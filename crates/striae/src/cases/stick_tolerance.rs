@@ -3,7 +3,7 @@
 //! A tolerance lets sticking nodes exceed the law, so in partial slip the
 //! tangential force is too large by about that much.
 
-use striae_io::figure::{Axis, Color, Content, Figure, Panel, Series, Width};
+use striae_figure::{Axis, Color, Content, Figure, Panel, Series, Width};
 
 use super::study::{Run, Study};
 use crate::failure::Failure;

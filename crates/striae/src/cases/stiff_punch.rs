@@ -4,7 +4,7 @@
 //! Counts the runs that converge and measures the balance of forces, tension and the
 //! error of the force beside a fine mesh.
 
-use striae_io::deck::Deck;
+use striae_deck::Deck;
 
 use super::{
     battery::{Battery, normal_force},

@@ -5,12 +5,9 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use striae_io::{
-    deck::{self, Deck},
-    figure::Figure,
-    history::Table,
-    summary::Summary,
-};
+use striae_deck::{self as deck, Deck};
+use striae_figure::Figure;
+use striae_output::{history::Table, summary::Summary};
 use striae_solve::outcome::Ending;
 
 use crate::{

@@ -6,7 +6,7 @@
 //! sides and bodies.
 
 use striae_contact::unknowns::Status;
-use striae_io::figure::{Axis, Color, Content, Figure, Marker, Panel, Series, Width};
+use striae_figure::{Axis, Color, Content, Figure, Marker, Panel, Series, Width};
 
 use super::{
     measure::{mesh_lines, pressure_map},

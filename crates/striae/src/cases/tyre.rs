@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
-use striae_io::figure::{Axis, Color, Content, Panel, Series};
+use striae_figure::{Axis, Color, Content, Panel, Series};
 use striae_mesh::Vec3;
 use striae_solve::state::State;
 
@@ -11,7 +11,7 @@ use super::{
     study::{Extent, Run, Study},
 };
 use crate::failure::Failure;
-use striae_io::deck::Deck;
+use striae_deck::Deck;
 
 /// Elements along radius, circumference and axis in the decks and for a quick look,
 /// of tyres that are refined at the road, and of those that roll.

@@ -3,7 +3,7 @@
 //! Free sideways it takes the direction in which friction has no lateral part,
 //! `w . y = 0`.
 
-use striae_io::figure::{Axis, Color, Content, Figure, Panel, Series, Width};
+use striae_figure::{Axis, Color, Content, Figure, Panel, Series, Width};
 
 use super::{
     study::{Run, Study},

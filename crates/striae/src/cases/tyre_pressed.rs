@@ -6,7 +6,7 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use striae_io::figure::{Axis, Color, Content, Figure, Panel, Series, Width};
+use striae_figure::{Axis, Color, Content, Figure, Panel, Series, Width};
 use striae_law::friction::Friction;
 use striae_mesh::Vec3;
 use striae_solve::state::State;

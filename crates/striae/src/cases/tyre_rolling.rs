@@ -5,7 +5,7 @@
 //! tread along the travel.
 
 use striae_contact::unknowns::Status;
-use striae_io::figure::{Axis, Color, Content, Figure, Panel, Series, Width};
+use striae_figure::{Axis, Color, Content, Figure, Panel, Series, Width};
 use striae_mesh::Vec3;
 use striae_solve::state::State;
 

@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use std::{collections::BTreeSet, io::Write, path::PathBuf};
 use striae_contact::{initial::Fit, interference::Spot};
-use striae_io::deck;
+use striae_deck as deck;
 use striae_law::bulk::Material;
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::{

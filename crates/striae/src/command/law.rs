@@ -15,10 +15,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use striae_io::{
-    deck,
-    figure::{Axis, Content, Figure, Panel, Series, Width},
-};
+use striae_deck as deck;
+use striae_figure::{Axis, Content, Figure, Panel, Series, Width};
 use striae_law::friction::{Analysis, Friction, Law, SlipSample, SlipSurface};
 use striae_solve::model::Model;
 

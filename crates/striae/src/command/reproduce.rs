@@ -6,7 +6,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use striae_io::{
+use striae_output::{
     OutputError,
     expected::{Comparison, Expected, Verdict, compare, report, write_csv},
 };
@@ -143,7 +143,7 @@ fn compared(case: &Case, study: &mut Study) -> Result<Vec<Comparison>, Failure> 
     let left_out = &study.left_out;
     let kept = |name: &String| !left_out.contains(&name.as_str());
     expected.quantities.retain(|quantity| kept(&quantity.name));
-    let worst = |of: fn(&striae_io::summary::Summary) -> f64| {
+    let worst = |of: fn(&striae_output::summary::Summary) -> f64| {
         let values = study.summaries.iter().map(|(_, summary)| of(summary));
         values.reduce(f64::max)
     };

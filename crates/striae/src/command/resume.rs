@@ -2,7 +2,8 @@
 
 use std::{io::Write, path::PathBuf};
 
-use striae_io::{checkpoint::Checkpoint, deck};
+use striae_deck as deck;
+use striae_output::checkpoint::Checkpoint;
 
 use super::run::{Common, concluded};
 use crate::{
@@ -24,7 +25,7 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     arguments.common.start_threads()?;
     let checkpoint = Checkpoint::read(&arguments.folder)?;
     let deck = deck::read(&checkpoint.source.path)?;
-    checkpoint.source.check(&deck)?;
+    checkpoint.source.check(&deck.model, deck.output)?;
     let verbosity = arguments.common.verbosity();
     let interrupt = Interrupt::listen();
     let simulation = go_on(deck, checkpoint, &arguments.folder, verbosity, &interrupt)?;

@@ -5,9 +5,9 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use striae_io::{
+use striae_deck::{self as deck, Deck};
+use striae_output::{
     checkpoint::{Source, fingerprint},
-    deck::{self, Deck},
     summary::Summary,
 };
 use striae_solve::outcome::Ending;
@@ -105,7 +105,7 @@ fn source(path: &Path, case: String, deck: &Deck) -> Source {
     Source {
         case,
         path: std::path::absolute(path).unwrap_or_else(|_| path.to_owned()),
-        fingerprint: fingerprint(deck),
+        fingerprint: fingerprint(&deck.model, deck.output),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use std::io::Write;
-use striae_io::deck;
+use striae_deck as deck;
 
 /// Print the JSON schema or the reference of the deck.
 #[derive(clap::Args)]

@@ -15,10 +15,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use striae_io::{
-    deck,
-    vtk::{self, Array, Cells, Grid, Values},
-};
+use striae_deck as deck;
+use striae_output::vtk::{self, Array, Cells, Grid, Values};
 use striae_solve::{
     model::{Model, Side},
     problem::Problem,

@@ -3,7 +3,8 @@
 use std::{collections::BTreeMap, fs, path::PathBuf};
 
 use serde_json::Value;
-use striae_io::{checkpoint::fingerprint, deck};
+use striae_deck as deck;
+use striae_output::checkpoint::fingerprint;
 
 use super::*;
 
@@ -24,7 +25,7 @@ fn source(deck: &Deck) -> Source {
     Source {
         case: "case".to_owned(),
         path: "deck.toml".into(),
-        fingerprint: fingerprint(deck),
+        fingerprint: fingerprint(&deck.model, deck.output),
     }
 }
 
@@ -74,7 +75,7 @@ fn assert_same_in_pieces(text: &str, least: usize) -> Value {
     while let Ending::Interrupted { .. } = ending {
         stops += 1;
         let checkpoint = Checkpoint::read(&pieces).unwrap();
-        checkpoint.source.check(&deck).unwrap();
+        checkpoint.source.check(&deck.model, deck.output).unwrap();
         let resumed = go_on(deck.clone(), checkpoint, &pieces, quiet, &at_once());
         ending = resumed.unwrap().ending;
     }

@@ -10,7 +10,7 @@
 use std::collections::BTreeSet;
 
 use nalgebra::{Matrix3, SymmetricEigen};
-use striae_io::figure::{Axis, Color, Content, Figure, Panel, Series, Width};
+use striae_figure::{Axis, Color, Content, Figure, Panel, Series, Width};
 use striae_mesh::Vec3;
 
 use super::surface::{TexturedSurface, extent, in_plane};

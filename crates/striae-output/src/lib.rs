@@ -1,0 +1,16 @@
+//! What a run leaves behind: VTK files, histories, summaries and checkpoints.
+//!
+//! [`recorder`] writes a run under way; [`expected`] judges quantities of one that
+//! has ended.
+
+pub mod checkpoint;
+mod error;
+pub mod expected;
+pub mod history;
+pub mod recorder;
+mod settings;
+pub mod summary;
+pub mod vtk;
+
+pub use error::OutputError;
+pub use settings::{FieldOutput, Output};
