@@ -82,7 +82,7 @@ pub fn bench(arguments: &[String]) -> Result<(), Fault> {
 /// # Errors
 /// When it cannot be built.
 pub fn program() -> Result<PathBuf, Fault> {
-    cargo(&["build", "--release", "-p", "striae"], &[])?;
+    cargo(&["build", "--release", "-p", "striae-cli"], &[])?;
     let folder = env::var_os("CARGO_TARGET_DIR").map_or("target".into(), PathBuf::from);
     Ok(folder.join("release").join("striae"))
 }

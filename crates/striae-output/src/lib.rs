@@ -8,9 +8,13 @@ mod error;
 pub mod expected;
 pub mod history;
 pub mod recorder;
+mod row;
 mod settings;
 pub mod summary;
+mod tally;
 pub mod vtk;
 
 pub use error::OutputError;
+pub use row::row;
 pub use settings::{FieldOutput, Output};
+pub use tally::Tally;

@@ -12,8 +12,6 @@
 //!
 //! Everything is on disk after each increment, so an interrupted run keeps all
 //! that has converged.
-//!
-//! Longer than other files, as it lists all that is written.
 
 use std::{
     path::{Path, PathBuf},
@@ -25,24 +23,20 @@ use striae_files::FileError;
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::{
     drive::Progress,
-    dynamics::momentum,
     element::{nodal_cauchy_stress, von_mises},
-    model::Procedure,
-    newton::{Increment, LinearWork},
+    newton::Increment,
     outcome::Ending,
     problem::Problem,
-    report::{PairReport, bodies, pairs, reactions, rigid_bodies},
     state::State,
-    warning::Judgement,
 };
 
 use crate::{
     FieldOutput, Output, OutputError,
     checkpoint::{Checkpoint, Written},
     history::History,
-    summary::{
-        PairSummary, SolverSummary, Status, Summary, WarningSummary, newton_counts, peak_rss_mib,
-    },
+    row::row,
+    summary::Summary,
+    tally::Tally,
     vtk::{Array, Cells, Grid, Series, Snapshot, Values, write},
 };
 
@@ -57,12 +51,8 @@ pub struct Recorder {
     bodies: Series,
     contact: Series,
     started: Instant,
-    iterations: Vec<usize>,
-    cut_backs: usize,
-    unknowns: usize,
-    solver: SolverSummary,
+    tally: Tally,
     written: Option<usize>,
-    judgement: Judgement,
 }
 
 impl Recorder {
@@ -87,12 +77,8 @@ impl Recorder {
             output,
             spent: 0.0,
             started: Instant::now(),
-            iterations: Vec::new(),
-            cut_backs: 0,
-            unknowns: 0,
-            solver: SolverSummary::default(),
+            tally: Tally::default(),
             written: None,
-            judgement: Judgement::default(),
         })
     }
 
@@ -120,26 +106,29 @@ impl Recorder {
             output,
             spent: written.seconds,
             started: Instant::now(),
-            iterations: written.iterations.clone(),
-            cut_backs: written.cut_backs,
-            unknowns: written.unknowns,
-            solver: written.solver.clone(),
+            tally: Tally {
+                iterations: written.iterations.clone(),
+                cut_backs: written.cut_backs,
+                unknowns: written.unknowns,
+                solver: written.solver.clone(),
+                judgement: written.judgement.clone(),
+            },
             written: written.fields,
-            judgement: written.judgement.clone(),
         })
     }
 
     /// What is on disk, for a checkpoint.
     pub fn written(&self) -> Written {
+        let tally = &self.tally;
         Written {
-            iterations: self.iterations.clone(),
-            cut_backs: self.cut_backs,
-            unknowns: self.unknowns,
-            solver: self.solver.clone(),
+            iterations: tally.iterations.clone(),
+            cut_backs: tally.cut_backs,
+            unknowns: tally.unknowns,
+            solver: tally.solver.clone(),
             fields: self.written,
             seconds: self.seconds(),
             series: [&self.bodies, &self.contact].map(|series| series.snapshots().to_vec()),
-            judgement: self.judgement.clone(),
+            judgement: tally.judgement.clone(),
         }
     }
 
@@ -155,12 +144,12 @@ impl Recorder {
 
     /// Judges a converged increment by what it came from.
     pub fn judge(&mut self, problem: &Problem, before: &State, increment: &Increment) {
-        self.judgement.increment(problem, before, &increment.state);
+        self.tally.judge(problem, before, increment);
     }
 
     /// Notes an increment that was cut.
     pub fn cut_back(&mut self) {
-        self.cut_backs += 1;
+        self.tally.cut_backs += 1;
     }
 
     /// Writes a converged increment.
@@ -173,10 +162,10 @@ impl Recorder {
         progress: Progress,
         increment: &Increment,
     ) -> Result<(), OutputError> {
-        self.iterations.push(increment.iterations.len());
-        self.unknowns = increment.unknowns;
-        self.note_work(&increment.work);
-        self.row(problem, progress, increment)?;
+        self.tally.increment(increment);
+        let row = row(problem, progress, increment, self.tally.cut_backs);
+        let named: Vec<(&str, f64)> = row.iter().map(|(n, v)| (n.as_str(), *v)).collect();
+        self.history.append(&named)?;
         match self.output.fields {
             FieldOutput::Every(every) if progress.increment.is_multiple_of(every.get()) => {
                 self.write_fields(problem, &increment.state)
@@ -195,107 +184,18 @@ impl Recorder {
         state: &State,
         ending: &Ending,
     ) -> Result<Summary, OutputError> {
-        let count = self.iterations.len();
+        let count = self.tally.iterations.len();
         if count > 0 && self.written != Some(count) {
             self.write_fields(problem, state)?;
         }
-        let (newton_total, newton_max, newton_median) = newton_counts(&self.iterations);
-        let summary = Summary {
-            case: self.case.clone(),
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            status: match ending {
-                Ending::Completed => Status::Completed,
-                Ending::Stopped { .. } | Ending::Interrupted { .. } => Status::Stopped,
-            },
-            reason: ending.to_string(),
-            increments: count,
-            cutbacks: self.cut_backs,
-            newton_total,
-            newton_max,
-            newton_median,
-            unknowns: self.unknowns,
-            solver: self.solver.clone(),
-            wall_s: self.seconds(),
-            peak_rss_mib: peak_rss_mib(),
-            pairs: pairs(problem, state).iter().map(pair_summary).collect(),
-            reactions: reactions(problem, state)
-                .into_iter()
-                .map(|(name, force)| (name, force.into()))
-                .collect(),
-            warnings: self
-                .judgement
-                .warnings(problem, ending)
-                .into_iter()
-                .map(WarningSummary::from)
-                .collect(),
-        };
+        let (case, seconds) = (&self.case, self.seconds());
+        let summary = self.tally.summary(case, problem, state, ending, seconds);
         summary.write(&self.folder.join("summary.json"))?;
         Ok(summary)
     }
 
-    fn note_work(&mut self, work: &LinearWork) {
-        self.solver.method = work.method.to_string();
-        self.solver.factorisations += work.factorisations;
-        self.solver.contact_corrections += work.contact_corrections;
-        if let Some(reason) = work.fall_back {
-            self.solver.fall_backs += 1;
-            self.solver.reason = Some(reason.to_string());
-        }
-    }
-
-    fn row(
-        &mut self,
-        problem: &Problem,
-        progress: Progress,
-        increment: &Increment,
-    ) -> Result<(), OutputError> {
-        let state = &increment.state;
-        let mut row: Vec<(String, f64)> = Vec::new();
-        let mut add = |name: &str, value: f64| row.push((name.to_owned(), value));
-        add("increment", progress.increment as f64);
-        add("step", (progress.step + 1) as f64);
-        add("time", state.time);
-        add("iterations", increment.iterations.len() as f64);
-        add("cutbacks", self.cut_backs as f64);
-        add("energy.kinetic", state.energies.kinetic);
-        add("energy.strain", state.energies.strain);
-        add("energy.external", state.energies.external);
-        add("energy.friction", state.energies.friction);
-        add("energy.contact", state.energies.contact);
-        add("energy.stabilisation", state.energies.stabilisation);
-        add("energy.numerical", state.energies.numerical);
-        add("energy.imbalance", state.energies.imbalance());
-        if is_dynamic(problem) {
-            let (linear, angular) = momentum(problem, state);
-            add_vector(&mut row, "momentum", &linear);
-            add_vector(&mut row, "angular_momentum", &angular);
-        }
-        for body in bodies(problem, state) {
-            add_vector(&mut row, &format!("centre.{}", body.name), &body.centre);
-            add_vector(&mut row, &format!("velocity.{}", body.name), &body.velocity);
-        }
-        for report in pairs(problem, state) {
-            add_pair(&mut row, &report);
-        }
-        for (name, force) in reactions(problem, state) {
-            add_vector(&mut row, &format!("reaction.{name}"), &force);
-        }
-        for rigid in rigid_bodies(problem, state) {
-            let name = &rigid.name;
-            add_vector(&mut row, &format!("torque.{name}"), &rigid.torque);
-            add_vector(
-                &mut row,
-                &format!("displacement.{name}"),
-                &rigid.displacement,
-            );
-            add_vector(&mut row, &format!("angle.{name}"), &rigid.angles);
-        }
-        let named: Vec<(&str, f64)> = row.iter().map(|(n, v)| (n.as_str(), *v)).collect();
-        self.history.append(&named)
-    }
-
     fn write_fields(&mut self, problem: &Problem, state: &State) -> Result<(), OutputError> {
-        let count = self.iterations.len();
+        let count = self.tally.iterations.len();
         self.written = Some(count);
         let mut parts = Vec::new();
         for (body, model) in problem.model.bodies.iter().enumerate() {
@@ -339,48 +239,6 @@ fn remove_fields(folder: &Path, increment: usize) -> Result<(), OutputError> {
         }
     }
     Ok(())
-}
-
-/// Whether any step has inertia.
-fn is_dynamic(problem: &Problem) -> bool {
-    let mut steps = problem.model.steps.iter();
-    steps.any(|step| step.procedure != Procedure::QuasiStatic)
-}
-
-fn pair_summary(report: &PairReport) -> PairSummary {
-    PairSummary {
-        name: report.name.clone(),
-        resultant_a: report.sides[0].force.into(),
-        resultant_b: report.sides[1].force.into(),
-        mismatch: report.mismatch,
-        stick: report.stick,
-        slip: report.slip,
-        open: report.open,
-        max_pressure: report.max_pressure,
-        dissipated: report.dissipated,
-    }
-}
-
-fn add_vector(row: &mut Vec<(String, f64)>, name: &str, vector: &Vec3) {
-    for (axis, value) in ["x", "y", "z"].iter().zip(vector.iter()) {
-        row.push((format!("{name}.{axis}"), *value));
-    }
-}
-
-fn add_pair(row: &mut Vec<(String, f64)>, report: &PairReport) {
-    let name = format!("pair.{}", report.name);
-    for (side, letter) in report.sides.iter().zip(["a", "b"]) {
-        add_vector(row, &format!("{name}.resultant_{letter}"), &side.force);
-        row.push((format!("{name}.pressure_integral_{letter}"), side.pressure));
-        row.push((format!("{name}.friction_integral_{letter}"), side.friction));
-    }
-    row.push((format!("{name}.mismatch"), report.mismatch));
-    row.push((format!("{name}.moment_mismatch"), report.moment_mismatch));
-    row.push((format!("{name}.stick"), report.stick as f64));
-    row.push((format!("{name}.slip"), report.slip as f64));
-    row.push((format!("{name}.open"), report.open as f64));
-    row.push((format!("{name}.max_pressure"), report.max_pressure));
-    row.push((format!("{name}.dissipated"), report.dissipated));
 }
 
 fn body_grid<'a>(problem: &'a Problem, state: &'a State, body: usize) -> Grid<'a> {

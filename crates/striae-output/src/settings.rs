@@ -11,6 +11,16 @@ pub struct Output {
     pub checkpoint_every: Option<NonZeroUsize>,
 }
 
+/// Fields after every increment, checkpoints after every ten.
+impl Default for Output {
+    fn default() -> Self {
+        Self {
+            fields: FieldOutput::Every(NonZeroUsize::MIN),
+            checkpoint_every: NonZeroUsize::new(10),
+        }
+    }
+}
+
 /// When fields are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FieldOutput {

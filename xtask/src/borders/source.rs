@@ -45,7 +45,7 @@ impl Place {
         Self {
             path: path.display().to_string(),
             layer: match package {
-                "striae" | "striae-bench" | "xtask" => Layer::Program,
+                "striae-cli" | "striae-bench" | "xtask" => Layer::Program,
                 name if FILE_CRATES.contains(&name) => Layer::Files,
                 _ => Layer::Pure,
             },
@@ -79,7 +79,8 @@ impl Code {
 }
 
 /// Crates that read or write files.
-const FILE_CRATES: [&str; 5] = [
+const FILE_CRATES: [&str; 6] = [
+    "striae-cases",
     "striae-deck",
     "striae-figure",
     "striae-files",
@@ -160,7 +161,7 @@ mod tests {
             ["crates/striae-mesh/src/mesh.rs:1: only the crates of input and output touch files"]
         );
         assert!(found("striae-output", "crates/striae-output/src/lib.rs", text).is_empty());
-        assert!(found("striae", "crates/striae/src/main.rs", text).is_empty());
+        assert!(found("striae-cli", "crates/striae-cli/src/main.rs", text).is_empty());
         assert!(found("striae-mesh", "crates/striae-mesh/tests/files.rs", text).is_empty());
     }
 
@@ -171,13 +172,16 @@ mod tests {
             found("striae-output", "crates/striae-output/src/a.rs", text).len(),
             1
         );
-        assert!(found("striae", "crates/striae/src/a.rs", text).is_empty());
+        assert!(found("striae-cli", "crates/striae-cli/src/a.rs", text).is_empty());
     }
 
     #[test]
     fn product_code_does_not_panic_but_tests_may() {
         let text = "fn f() {\n    g().unwrap();\n}\n";
-        assert_eq!(found("striae", "crates/striae/src/a.rs", text).len(), 1);
+        assert_eq!(
+            found("striae-cli", "crates/striae-cli/src/a.rs", text).len(),
+            1
+        );
         let tests = "crates/striae-law/src/friction/tests/laws.rs";
         assert!(found("striae-law", tests, text).is_empty());
     }
