@@ -15,6 +15,9 @@ pub enum Failure {
     /// The deck is faulty.
     #[error("{0}")]
     Deck(#[from] Faults),
+    /// A model is faulty.
+    #[error("{0}")]
+    Model(Box<striae::Error>),
     /// A folder that would be written exists.
     #[error("{} exists already; choose another name", .0.display())]
     Exists(PathBuf),
@@ -85,6 +88,7 @@ impl From<striae::Error> for Failure {
             striae::Error::Problem(error) => Self::Problem(error),
             striae::Error::Checkpoint(error) => Self::Checkpoint(error),
             striae::Error::Output(error) => Self::Results(error),
+            other => Self::Model(Box::new(other)),
         }
     }
 }
@@ -105,6 +109,7 @@ impl Failure {
     pub fn exit_code(&self) -> ExitCode {
         match self {
             Self::Deck(_)
+            | Self::Model(_)
             | Self::Exists(_)
             | Self::Checkpoint(_)
             | Self::Problem(_)

@@ -13,6 +13,7 @@ use std::path::{Path, PathBuf};
 
 use striae_contact::evaluation::Evaluation;
 use striae_deck::Deck;
+use striae_model::{Model, Validate};
 use striae_output::{
     Output, OutputError,
     checkpoint::{Checkpoint, Source, Written, fingerprint},
@@ -21,7 +22,6 @@ use striae_output::{
 };
 use striae_solve::{
     drive::{self, Continue, Point, Progress},
-    model::Model,
     newton::{Increment, IterationObserver},
     norms::Norms,
     outcome::{CutBack, Ending},
@@ -81,8 +81,12 @@ impl Simulation {
     /// A run of a model.
     ///
     /// # Errors
-    /// When the model cannot be solved.
+    /// All faults of the model, or why it cannot be solved.
     pub fn new(model: Model) -> Result<Self, Error> {
+        Self::of_valid(model.checked()?)
+    }
+
+    fn of_valid(model: Model) -> Result<Self, Error> {
         Ok(Self {
             problem: Problem::new(model)?,
             output: Output::default(),
@@ -97,7 +101,7 @@ impl Simulation {
     /// # Errors
     /// When its model cannot be solved.
     pub fn of(deck: Deck) -> Result<Self, Error> {
-        Ok(Self::new(deck.model)?.writing(deck.output))
+        Ok(Self::of_valid(deck.model)?.writing(deck.output))
     }
 
     /// A run of a deck in a file, written to `folder` with checkpoints, so that it
