@@ -114,8 +114,8 @@ impl<'s> FaultList<'s> {
         }
     }
 
-    pub(crate) fn push(&mut self, span: &Span, kind: FaultKind) {
-        let entry = (span.clone(), kind);
+    pub(crate) fn push(&mut self, span: &Span, kind: impl Into<FaultKind>) {
+        let entry = (span.clone(), kind.into());
         if !self.found.contains(&entry) {
             self.found.push(entry);
         }

@@ -7,6 +7,7 @@ use super::{
     value::Text,
 };
 use std::collections::{BTreeMap, BTreeSet};
+use striae_model::{FaultKind as ModelFault, nearest};
 
 /// The names of all things of one kind, by position.
 pub(crate) struct Names {
@@ -58,7 +59,7 @@ impl Names {
         // Where a thing has no readable name, this may be the one meant.
         if position.is_none() && self.names.iter().all(Option::is_some) {
             let known: BTreeSet<String> = self.names.iter().flatten().cloned().collect();
-            let kind = FaultKind::UnknownName {
+            let kind = ModelFault::UnknownName {
                 kind: self.kind,
                 name: name.value.0.clone(),
                 nearest: nearest(&name.value.0, known.iter().map(String::as_str)),
@@ -75,14 +76,4 @@ impl Names {
             .iter()
             .position(|known| known.as_deref() == Some(name))
     }
-}
-
-/// The most similar of the names, if one is similar at all.
-pub(crate) fn nearest<'n>(name: &str, known: impl IntoIterator<Item = &'n str>) -> Option<String> {
-    known
-        .into_iter()
-        .map(|known| (strsim::jaro_winkler(&name.to_lowercase(), known), known))
-        .filter(|(similarity, _)| *similarity > 0.75)
-        .max_by(|(a, _), (b, _)| a.total_cmp(b))
-        .map(|(_, known)| known.to_owned())
 }

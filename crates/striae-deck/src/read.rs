@@ -5,8 +5,8 @@ use super::{
     fault::FaultKind,
     faults::{FaultList, Span},
     form::{Alternative, Form, Key, Need, ticked},
-    names::nearest,
 };
+use striae_model::nearest;
 use toml::{
     Spanned,
     de::{DeTable, DeValue},

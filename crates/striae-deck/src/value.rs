@@ -4,11 +4,11 @@ use super::{
     fault::FaultKind,
     faults::FaultList,
     form::{Bound, Form},
-    names::nearest,
     read::{At, Place, Read, Value, unexpected},
 };
 use std::slice;
 use striae_mesh::Vec3;
+use striae_model::nearest;
 use toml::de::DeValue;
 
 /// A text that is not empty.

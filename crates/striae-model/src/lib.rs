@@ -21,7 +21,7 @@ pub use build::{
     axial, body, circumferential, equal_increments, model, pair, plane, radial, rigid,
     rigid_surface, solver, step, surface, tied, uniform,
 };
-pub use check::{Draft, DraftBody, DraftStep, Known, Named, Validate, misshapen};
+pub use check::{Draft, DraftBody, DraftPair, DraftStep, Known, Named, Validate, misshapen};
 pub use fault::{Fault, FaultKind, Faults};
 pub use fit::fitted;
 pub use names::nearest;

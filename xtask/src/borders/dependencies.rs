@@ -117,7 +117,7 @@ const LADDER: &[Row] = &[
             "striae-solve",
             "striae-surface",
         ],
-        outside: &["nalgebra", "serde_json", "strsim", "thiserror", "toml"],
+        outside: &["serde_json", "thiserror", "toml"],
     },
     Row {
         name: "striae",

@@ -1,10 +1,11 @@
 //! Materials and bodies.
 
 use super::{list, mesh, sets};
-use crate::{fault::FaultKind, faults::FaultList, names::Names, raw, read::At, value::Text};
+use crate::{faults::FaultList, names::Names, raw, read::At, value::Text};
 use std::path::Path;
 use striae_law::bulk::{LameConstants, Material};
 use striae_mesh::{Face, Mesh, NodeId};
+use striae_model::{DraftBody, FaultKind as ModelFault};
 use striae_solve::model::{Body, BodyId, ContactMass};
 
 /// All materials of the deck.
@@ -97,14 +98,14 @@ impl Bodies {
         self.bodies[body.0].mesh.as_ref()
     }
 
-    /// Density of a body, if its material states one.
-    pub(super) fn density(&self, body: BodyId) -> Option<f64> {
-        self.bodies[body.0].density
-    }
-
-    /// Ids of all bodies.
-    pub(super) fn ids(&self) -> impl Iterator<Item = BodyId> {
-        (0..self.bodies.len()).map(BodyId)
+    /// What is known of all bodies.
+    pub(super) fn drafts(&self) -> Vec<DraftBody<'_>> {
+        let bodies = self.bodies.iter().map(|body| DraftBody {
+            name: &body.name,
+            mesh: body.mesh.as_ref(),
+            density: body.density.unwrap_or(0.0),
+        });
+        bodies.collect()
     }
 
     /// Nodes of a set of a body.
@@ -216,7 +217,7 @@ fn lame_constants(
             let lambda = raw.lambda.as_ref()?;
             let shear = raw.shear_modulus.as_ref()?.value.0;
             if 3.0 * lambda.value.0 + 2.0 * shear <= 0.0 {
-                let kind = FaultKind::BulkModulus {
+                let kind = ModelFault::BulkModulus {
                     lambda: lambda.value.0,
                     shear,
                 };

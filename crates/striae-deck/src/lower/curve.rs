@@ -3,11 +3,12 @@
 use crate::{
     fault::FaultKind,
     faults::FaultList,
-    names::{Names, nearest},
+    names::Names,
     raw,
     read::At,
     value::{Number, Text},
 };
+use striae_model::{FaultKind as ModelFault, misshapen, nearest};
 use striae_solve::model::Curve;
 
 const BUILT_IN: [(&str, Curve); 3] = [
@@ -67,7 +68,7 @@ impl Curves {
             return Some(curve);
         }
         let Some(position) = self.names.position(&name.value.0) else {
-            let kind = FaultKind::UnknownName {
+            let kind = ModelFault::UnknownName {
                 kind: "curve",
                 name: name.value.0.clone(),
                 known: self.known.clone(),
@@ -102,19 +103,13 @@ fn table(raw: &raw::NamedCurve, faults: &mut FaultList<'_>) -> Option<Curve> {
              }| (*s, *c),
         )
         .collect();
-    let found = match pairs[..] {
-        [] | [_] => format!("but there are only {}", pairs.len()),
-        [(first, _), ..] if first != 0.0 => format!("but start at {first}"),
-        [.., (last, _)] if last != 1.0 => format!("but end at {last}"),
-        _ => match pairs.windows(2).find(|pair| pair[1].0 <= pair[0].0) {
-            Some(pair) => format!("but {} is followed by {}", pair[0].0, pair[1].0),
-            None => return Some(Curve::Table(pairs)),
-        },
+    let Some(found) = misshapen(&pairs) else {
+        return Some(Curve::Table(pairs));
     };
     let curve = raw
         .name
         .as_ref()
         .map_or(String::new(), |name| name.value.0.clone());
-    faults.push(&points.span, FaultKind::BadCurve { curve, found });
+    faults.push(&points.span, ModelFault::BadCurve { curve, found });
     None
 }

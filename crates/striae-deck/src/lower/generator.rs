@@ -1,7 +1,6 @@
 //! Parameters of mesh generators.
 
 use crate::{
-    fault::FaultKind,
     faults::FaultList,
     raw,
     read::At,
@@ -13,6 +12,7 @@ use striae_mesh::{
         Annulus, Block, CappedBlock, Grading, Half, HalfCylinder, Part, Pivot, Refinement, Rotation,
     },
 };
+use striae_model::FaultKind as ModelFault;
 
 /// A generator with its parameters.
 pub(super) enum Generator {
@@ -188,7 +188,7 @@ pub(super) fn nonzero(
     }
     faults.push(
         &raw.span,
-        FaultKind::ZeroVector {
+        ModelFault::ZeroVector {
             place: place.into(),
         },
     );

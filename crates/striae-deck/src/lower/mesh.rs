@@ -11,6 +11,7 @@ use crate::{
 use std::path::{Path, PathBuf};
 use striae_mesh::{Mesh, NodeId, Vec3};
 use striae_meshfile::{self as mesh_file};
+use striae_model::FaultKind as ModelFault;
 
 /// The mesh of a body; `None` after its faults have been noted.
 ///
@@ -59,7 +60,7 @@ fn made<T>(
         .map_err(|error| {
             faults.push(
                 span,
-                FaultKind::Mesh {
+                ModelFault::Mesh {
                     owner,
                     cause: error.to_string(),
                 },

@@ -1,12 +1,11 @@
 //! Rigid bodies and what they do.
 
-use super::{Parts, Scope, body::Bodies, generator::nonzero, list, mesh};
+use super::{Listed, Scope, body::Bodies, generator::nonzero, list, mesh};
 use crate::{fault::FaultKind, faults::FaultList, raw, read::At, value::Positive, value::vector};
-use std::{collections::BTreeSet, path::Path};
-use striae_mesh::{NodeId, Vec3};
-use striae_solve::model::{
-    BodyId, Freedom, RigidId, RigidInertia, RigidMotion, RigidShape, RigidSurface, Side,
-};
+use std::path::Path;
+use striae_mesh::Vec3;
+use striae_model::FaultKind as ModelFault;
+use striae_solve::model::{Freedom, RigidId, RigidInertia, RigidMotion, RigidShape, RigidSurface};
 
 /// The rigid bodies; `None` for the faulty ones.
 pub(super) fn bodies(
@@ -76,7 +75,7 @@ fn solid(
     faults: &mut FaultList<'_>,
 ) -> Option<RigidInertia> {
     if rigid.value.mass.is_some() || rigid.value.inertia.is_some() {
-        let kind = FaultKind::RigidInertia { rigid: name.into() };
+        let kind = ModelFault::RigidInertia { rigid: name.into() };
         faults.push(&rigid.span, kind);
         return None;
     }
@@ -114,44 +113,32 @@ fn inertia(
             Some(RigidInertia::aligned(mass, centre, moments))
         }
         _ => {
-            let kind = FaultKind::RigidInertia { rigid: name.into() };
+            let kind = ModelFault::RigidInertia { rigid: name.into() };
             faults.push(&rigid.span, kind);
             None
         }
     }
 }
 
-/// What the rigid bodies do in a step, or `None` after faults.
+/// What the rigid bodies do in a step.
 pub(super) fn motions(
     raw: &[At<raw::RigidMotion>],
-    step: &str,
     scope: &Scope<'_>,
     faults: &mut FaultList<'_>,
-) -> Option<Vec<RigidMotion>> {
-    let mut motions: Vec<RigidMotion> = Vec::new();
-    for motion in raw {
+) -> Listed<RigidMotion> {
+    Listed::new(raw, |motion| {
         let name = motion.value.surface.as_ref();
         let surface = name.and_then(|name| scope.rigid.find(name, faults));
         let curve = scope.curves.find(motion.value.curve.as_ref(), faults);
-        let (Some(surface), Some(curve)) = (surface.map(RigidId), curve) else {
-            continue;
-        };
-        if motions.iter().any(|other| other.surface == surface) {
-            let name = motion.value.surface.as_ref()?.value.0.clone();
-            let what = format!("the motion of rigid body `{name}`");
-            let step = step.into();
-            faults.push(&motion.span, FaultKind::StatedTwice { step, what });
-        }
         let target = |target: &Option<At<[_; 3]>>| target.as_ref().map(|at| vector(&at.value));
-        motions.push(RigidMotion {
-            surface,
+        Some(RigidMotion {
+            surface: RigidId(surface?),
             coordinates: coordinates(&motion.value),
             force: target(&motion.value.force),
             torque: target(&motion.value.torque),
-            curve,
-        });
-    }
-    (motions.len() == raw.len()).then_some(motions)
+            curve: curve?,
+        })
+    })
 }
 
 fn coordinates(raw: &raw::RigidMotion) -> [Freedom; 6] {
@@ -168,53 +155,4 @@ fn coordinates(raw: &raw::RigidMotion) -> [Freedom; 6] {
             None => Freedom::AsBefore,
         }
     })
-}
-
-/// Notes rigid bodies that are free though they have no mass and nothing touches them
-/// or is tied to them, and tied nodes that are prescribed as well.
-pub(super) fn check(parts: &Parts<'_>, faults: &mut FaultList<'_>) {
-    let &Parts {
-        bodies,
-        rigid,
-        pairs,
-        steps,
-        written,
-    } = parts;
-    let mut tied: BTreeSet<(BodyId, NodeId)> = BTreeSet::new();
-    for (body, nodes) in rigid.iter().flatten().flat_map(|rigid| &rigid.ties) {
-        tied.extend(nodes.iter().map(|node| (*body, *node)));
-    }
-    for (step, at) in steps.iter().zip(written) {
-        let Some(step) = step else { continue };
-        for motion in &step.rigid_motions {
-            let Some(body) = &rigid[motion.surface.0] else {
-                continue;
-            };
-            let touched = pairs.iter().flatten().any(|pair| {
-                let is = |side: &Side| matches!(side, Side::Rigid(id) if *id == motion.surface);
-                is(&pair.a) || is(&pair.b)
-            });
-            let heavy = !body.ties.is_empty() || body.inertia.is_some();
-            if motion.coordinates.contains(&Freedom::Free) && !touched && !heavy {
-                let kind = FaultKind::FreeRigid {
-                    rigid: body.name.clone(),
-                    step: step.name.clone(),
-                };
-                faults.push(&at.span, kind);
-            }
-        }
-        let prescribed = step.displacements.iter().find_map(|condition| {
-            let nodes = condition.nodes.iter();
-            let mut both = nodes.filter(|node| tied.contains(&(condition.body, **node)));
-            both.next().map(|node| (condition.body, *node))
-        });
-        if let Some((body, node)) = prescribed {
-            let kind = FaultKind::PrescribedTied {
-                step: step.name.clone(),
-                body: bodies.name(body).into(),
-                node,
-            };
-            faults.push(&at.span, kind);
-        }
-    }
 }

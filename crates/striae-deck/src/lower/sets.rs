@@ -3,12 +3,12 @@
 use crate::{
     fault::FaultKind,
     faults::FaultList,
-    names::nearest,
     raw,
     read::At,
     value::{Number, Text, vector},
 };
 use striae_mesh::{Face, Mesh, NodeId, Sets, Vec3};
+use striae_model::FaultKind as ModelFault;
 
 /// By how much of its size a box is widened, so that nodes on its sides are inside.
 const MARGIN: f64 = 1e-9;
@@ -97,20 +97,11 @@ pub(super) fn members<T: Ord + Copy>(
     set: &At<Text>,
     faults: &mut FaultList<'_>,
 ) -> Option<Vec<T>> {
-    let (name, body) = (set.value.0.clone(), body.to_owned());
-    let kind = match sets.get(&name) {
-        Some([]) => FaultKind::EmptySet { body, kind, name },
-        Some(members) => return Some(members.to_vec()),
-        None => FaultKind::UnknownSet {
-            body,
-            kind,
-            nearest: nearest(&name, sets.names()),
-            name,
-            known: sets.names().map(str::to_owned).collect(),
-        },
-    };
-    faults.push(&set.span, kind);
-    None
+    let members = ModelFault::members(kind, sets, body, &set.value.0);
+    members
+        .map(<[T]>::to_vec)
+        .map_err(|fault| faults.push(&set.span, *fault))
+        .ok()
 }
 
 fn insert<T: Ord + Copy>(
@@ -134,7 +125,7 @@ fn insert<T: Ord + Copy>(
     } else if members.is_empty() {
         faults.push(
             &name.span,
-            FaultKind::EmptySet {
+            ModelFault::EmptySet {
                 body,
                 kind,
                 name: set,

@@ -2,14 +2,13 @@
 
 use super::{contact::Surfaces, generator::nonzero, nodal};
 use crate::{
-    fault::FaultKind,
-    faults::{FaultList, Span},
+    faults::FaultList,
     raw,
     read::At,
     value::{Number, vector},
 };
-use striae_law::friction::{Friction, RequiredTextures};
 use striae_mesh::Vec3;
+use striae_model::FaultKind as ModelFault;
 use striae_solve::model::{RigidShape, RigidSurface, Side};
 use striae_surface::texture::{Axis, Field, Lines, Paint};
 
@@ -43,30 +42,6 @@ pub(super) fn paint(
     }))
 }
 
-/// Notes textures without which friction has no direction, or of which it has too many.
-pub(super) fn check_friction(
-    pair: &str,
-    friction: &Friction,
-    textures: &[Option<Paint>; 2],
-    span: &Span,
-    faults: &mut FaultList<'_>,
-) {
-    let found = textures.iter().flatten().count();
-    let required = match friction.required_textures() {
-        RequiredTextures::One if found != 1 => "one side",
-        RequiredTextures::Both if found != 2 => "both sides",
-        _ => return,
-    };
-    faults.push(
-        span,
-        FaultKind::Textures {
-            pair: pair.into(),
-            required,
-            found,
-        },
-    );
-}
-
 /// Notes a texture given at points or nodes of a plane, which has no nodes.
 pub(super) fn check_plane(
     surface: Option<&RigidSurface>,
@@ -84,7 +59,7 @@ pub(super) fn check_plane(
     if matches!(raw.value, raw::Texture::Points(_) | raw::Texture::Nodal(_)) {
         faults.push(
             &raw.span,
-            FaultKind::NodesOnPlane {
+            ModelFault::NodesOnPlane {
                 surface: name.clone(),
             },
         );

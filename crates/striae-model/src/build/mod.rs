@@ -17,7 +17,7 @@ pub use step::{Components, StepBuilder, equal_increments, step};
 use striae_solve::model::{Backend, Body, Model, Pair, RigidSurface, Solver, Strategy};
 
 use crate::{
-    check::{Draft, DraftStep, Known, Named, Validate},
+    check::{Draft, DraftPair, DraftStep, Known, Named, Validate},
     fault::{Fault, Faults},
     fit::fitted,
     path::{Path, Segment},
@@ -134,13 +134,15 @@ impl ModelBuilder {
             name: of.name(),
             part: part.as_ref(),
         });
-        let pairs = self.pairs.iter().zip(pairs).map(|(of, part)| Named {
+        let pairs = self.pairs.iter().zip(pairs).map(|(of, pair)| DraftPair {
             name: of.name(),
-            part: part.as_ref(),
+            pair: pair.as_ref(),
+            known: Known::Whole,
         });
         let steps = steps.iter().map(|resolved| DraftStep {
             step: &resolved.step,
             known: resolved.known,
+            displacements: resolved.displacements(),
         });
         Draft {
             bodies: Draft::bodies(&self.bodies),

@@ -279,6 +279,7 @@ impl StepBuilder {
         let mut resolved = Resolved {
             step: self.step.clone(),
             known: Known::Whole,
+            stated: self.displacements.len(),
             positions: BTreeMap::new(),
         };
         let path = Path::part("steps", index);
@@ -342,11 +343,20 @@ impl StepBuilder {
 pub(super) struct Resolved {
     pub(super) step: Step,
     pub(super) known: Known,
+    /// How many displacement conditions are stated.
+    stated: usize,
     /// Positions in the builder of what is known, by list.
     positions: BTreeMap<&'static str, Vec<usize>>,
 }
 
 impl Resolved {
+    /// Whether all displacement conditions are known.
+    pub(super) fn displacements(&self) -> Known {
+        let positions = self.positions.get("displacements");
+        let gaps = positions.is_some_and(|known| known.len() < self.stated);
+        if gaps { Known::InPart } else { Known::Whole }
+    }
+
     /// Position in the builder of an element of a list.
     pub(super) fn position(&self, list: &str, index: usize) -> usize {
         let known = self.positions.get(list);

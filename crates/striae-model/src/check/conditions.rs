@@ -99,7 +99,7 @@ pub(super) fn displacements(
     faults: &mut List,
 ) -> Known {
     let step = of.step;
-    let mut known = of.known;
+    let mut known = of.displacements;
     let mut stated = BTreeMap::new();
     for (index, condition) in step.displacements.iter().enumerate() {
         let path = path.clone().field("displacements").index(index);

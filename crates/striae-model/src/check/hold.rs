@@ -57,7 +57,7 @@ fn is_tied(draft: &Draft<'_>, body: BodyId) -> bool {
 
 fn touches(draft: &Draft<'_>, body: BodyId) -> bool {
     let is = |side: &Side| matches!(side, Side::Deformable { body: other, .. } if *other == body);
-    let mut pairs = draft.pairs.iter().filter_map(|pair| pair.part);
+    let mut pairs = draft.pairs.iter().filter_map(|pair| pair.pair);
     pairs.any(|pair| is(&pair.a) || is(&pair.b))
 }
 

@@ -54,6 +54,17 @@ pub struct DraftBody<'a> {
     pub density: f64,
 }
 
+/// A pair and whether its friction is known; without it only its sides are judged.
+#[derive(Clone, Copy, Debug)]
+pub struct DraftPair<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// The pair; `None` where its sides have faults already.
+    pub pair: Option<&'a Pair>,
+    /// Whether it is whole.
+    pub known: Known,
+}
+
 /// A step and whether all that it states is in it.
 #[derive(Clone, Copy, Debug)]
 pub struct DraftStep<'a> {
@@ -61,6 +72,8 @@ pub struct DraftStep<'a> {
     pub step: &'a Step,
     /// Whether it is whole.
     pub known: Known,
+    /// Whether all its displacement conditions are known.
+    pub displacements: Known,
 }
 
 /// A model of which parts may be missing. All ids must be those of parts.
@@ -71,7 +84,7 @@ pub struct Draft<'a> {
     /// Rigid surfaces.
     pub rigid_surfaces: Vec<Named<'a, RigidSurface>>,
     /// Contact pairs.
-    pub pairs: Vec<Named<'a, Pair>>,
+    pub pairs: Vec<DraftPair<'a>>,
     /// Steps.
     pub steps: Vec<DraftStep<'a>>,
     /// Whether anything else is missing.
@@ -117,13 +130,15 @@ impl<'a> Draft<'a> {
             name: &rigid.name,
             part: Some(rigid),
         });
-        let pairs = model.pairs.iter().map(|pair| Named {
+        let pairs = model.pairs.iter().map(|pair| DraftPair {
             name: &pair.name,
-            part: Some(pair),
+            pair: Some(pair),
+            known: Known::Whole,
         });
         let steps = model.steps.iter().map(|step| DraftStep {
             step,
             known: Known::Whole,
+            displacements: Known::Whole,
         });
         Self {
             bodies: Self::bodies(&model.bodies),
@@ -155,7 +170,7 @@ impl<'a> Draft<'a> {
             if impossible.is_empty() && partial.is_empty() {
                 hold::check(self, &mut faults);
             }
-            rigid::check(self, &partial, &mut faults);
+            rigid::check(self, &impossible, &partial, &mut faults);
             inertia::check(self, &partial, &mut faults);
             pairs::check_stabilised(self, &impossible, &partial, &mut faults);
         }

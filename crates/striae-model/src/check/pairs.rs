@@ -10,20 +10,28 @@ use striae_surface::texture::Paint;
 use super::{Draft, Known, List, Positions};
 use crate::{fault::FaultKind, path::Path};
 
-/// Notes faults of all pairs; returns those that are no pairs or not known.
+/// Notes faults of all pairs; returns those that are no pairs or not wholly known.
 pub(super) fn check(draft: &Draft<'_>, faults: &mut List) -> Positions {
     let mut impossible = Positions::new();
     let mut sound: Vec<&Pair> = Vec::new();
     for (index, named) in draft.pairs.iter().enumerate() {
-        let Some(pair) = named.part else {
+        let Some(pair) = named.pair else {
             impossible.insert(index);
             continue;
         };
         let path = Path::part("pairs", index);
         check_planes(draft, pair, &path, faults);
-        if let Some((part, kind)) = impossible_sides(draft, pair) {
-            let path = part.map_or(path.clone(), |side| path.clone().field(side));
-            faults.push(path, kind);
+        let wrong = impossible_sides(draft, pair);
+        if !wrong.is_empty() {
+            impossible.insert(index);
+            for (side, kind) in wrong {
+                let path = path.clone();
+                let path = side.map_or(path.clone(), |side| path.field(side));
+                faults.push(path, kind);
+            }
+            continue;
+        }
+        if named.known == Known::InPart {
             impossible.insert(index);
             continue;
         }
@@ -57,7 +65,7 @@ pub(super) fn check_stabilised(
         return;
     }
     for (index, named) in draft.pairs.iter().enumerate() {
-        if let Some(pair) = named.part
+        if let Some(pair) = named.pair
             && pair.stabilised
             && !impossible.contains(&index)
         {
@@ -87,20 +95,30 @@ pub(super) fn textures(
     })
 }
 
-/// Why two surfaces make no pair, and the side that is to blame if it is one.
-fn impossible_sides(draft: &Draft<'_>, pair: &Pair) -> Option<(Option<&'static str>, FaultKind)> {
-    for (side, name) in [(&pair.a, "a"), (&pair.b, "b")] {
-        if let Side::Rigid(rigid) = side
-            && let Some(body) = draft.rigid_surfaces[rigid.0].part
-            && matches!(body.shape, RigidShape::Bare)
-        {
-            let rigid = body.name.clone();
-            return Some((Some(name), FaultKind::NoSurface { rigid }));
-        }
+/// Why two surfaces make no pair, with the side that is to blame where it is one.
+fn impossible_sides(draft: &Draft<'_>, pair: &Pair) -> Vec<(Option<&'static str>, FaultKind)> {
+    let without_surface = |(side, name): (&Side, &'static str)| {
+        let Side::Rigid(rigid) = side else {
+            return None;
+        };
+        let body = draft.rigid_surfaces[rigid.0].part?;
+        let rigid = body.name.clone();
+        let bare = matches!(body.shape, RigidShape::Bare);
+        bare.then_some((Some(name), FaultKind::NoSurface { rigid }))
+    };
+    let sides = [(&pair.a, "a"), (&pair.b, "b")].into_iter();
+    let mut wrong: Vec<_> = sides.filter_map(without_surface).collect();
+    if wrong.is_empty() {
+        wrong.extend(wrong_together(draft, pair).map(|kind| (None, kind)));
     }
-    let pair_name = || pair.name.clone();
+    wrong
+}
+
+/// Why two surfaces cannot touch each other.
+fn wrong_together(draft: &Draft<'_>, pair: &Pair) -> Option<FaultKind> {
+    let name = || pair.name.clone();
     match (&pair.a, &pair.b) {
-        (Side::Rigid(_), Side::Rigid(_)) => Some((None, FaultKind::TwoRigid { pair: pair_name() })),
+        (Side::Rigid(_), Side::Rigid(_)) => Some(FaultKind::TwoRigid { pair: name() }),
         (
             Side::Deformable { body, faces: on_a },
             Side::Deformable {
@@ -112,12 +130,11 @@ fn impossible_sides(draft: &Draft<'_>, pair: &Pair) -> Option<(Option<&'static s
             let shared = of.mesh.map_or(0, |mesh| {
                 nodes(mesh, on_a).intersection(&nodes(mesh, on_b)).count()
             });
-            let kind = FaultKind::SelfContact {
-                pair: pair_name(),
+            Some(FaultKind::SelfContact {
+                pair: name(),
                 body: of.name.into(),
                 shared,
-            };
-            Some((None, kind))
+            })
         }
         _ => None,
     }

@@ -10,7 +10,12 @@ use super::{Draft, List, Positions};
 use crate::{fault::FaultKind, path::Path};
 
 /// Notes both in every whole step.
-pub(super) fn check(draft: &Draft<'_>, partial: &Positions, faults: &mut List) {
+pub(super) fn check(
+    draft: &Draft<'_>,
+    impossible: &Positions,
+    partial: &Positions,
+    faults: &mut List,
+) {
     let mut tied: BTreeSet<(BodyId, NodeId)> = BTreeSet::new();
     let rigid = draft.rigid_surfaces.iter().filter_map(|rigid| rigid.part);
     for (body, nodes) in rigid.flat_map(|rigid| &rigid.ties) {
@@ -21,7 +26,7 @@ pub(super) fn check(draft: &Draft<'_>, partial: &Positions, faults: &mut List) {
             continue;
         }
         let (step, path) = (of.step, Path::part("steps", index));
-        for rigid in free(draft, step) {
+        for rigid in free(draft, impossible, step) {
             let kind = FaultKind::FreeRigid {
                 rigid: draft.rigid_surfaces[rigid.0].name.into(),
                 step: step.name.clone(),
@@ -46,14 +51,17 @@ pub(super) fn check(draft: &Draft<'_>, partial: &Positions, faults: &mut List) {
 
 /// Rigid bodies that a step frees though nothing is tied to them, nothing touches them
 /// and they have no mass.
-fn free(draft: &Draft<'_>, step: &Step) -> Vec<RigidId> {
+fn free(draft: &Draft<'_>, impossible: &Positions, step: &Step) -> Vec<RigidId> {
     let nothing_moves = |rigid: &RigidId| {
         let Some(body) = draft.rigid_surfaces[rigid.0].part else {
             return false;
         };
         let is = |side: &Side| matches!(side, Side::Rigid(id) if id == rigid);
-        let mut pairs = draft.pairs.iter().filter_map(|pair| pair.part);
-        let touched = pairs.any(|pair| is(&pair.a) || is(&pair.b));
+        let pairs = draft.pairs.iter().enumerate();
+        let mut possible = pairs
+            .filter(|(index, _)| !impossible.contains(index))
+            .filter_map(|(_, pair)| pair.pair);
+        let touched = possible.any(|pair| is(&pair.a) || is(&pair.b));
         !touched && body.ties.is_empty() && body.inertia.is_none()
     };
     let motions = step.rigid_motions.iter();

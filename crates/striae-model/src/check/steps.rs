@@ -114,7 +114,7 @@ fn frictions(
             let what = format!("the friction of pair `{}`", named.name);
             faults.push(path.clone(), twice(step, what));
         }
-        let known = named.part.filter(|_| !impossible.contains(&pair.0));
+        let known = named.pair.filter(|_| !impossible.contains(&pair.0));
         if let Some(kind) =
             known.and_then(|pair| pairs::textures(&pair.name, friction, &pair.textures))
         {
