@@ -17,8 +17,8 @@ mod names;
 mod path;
 
 pub use build::{
-    BodyBuilder, Components, ModelBuilder, PairBuilder, RigidBuilder, SideBuilder, StepBuilder,
-    axial, body, circumferential, equal_increments, model, pair, plane, radial, rigid,
+    BodyBuilder, Component, Components, ModelBuilder, PairBuilder, RigidBuilder, SideBuilder,
+    StepBuilder, axial, body, circumferential, equal_increments, model, pair, plane, radial, rigid,
     rigid_surface, solver, step, surface, tied, uniform,
 };
 pub use check::{Draft, DraftBody, DraftPair, DraftStep, Known, Named, Validate, misshapen};

@@ -10,8 +10,8 @@ pub use striae_law::{
 };
 pub use striae_mesh::{Mesh, NodeId, Vec3, generate::Block};
 pub use striae_model::{
-    Curve, Freedom, Initial, LoadExtent, LoadKind, Model, Validate, body, circumferential, model,
-    pair, plane, rigid, step, surface, tied, uniform,
+    Component, Curve, Freedom, Initial, LoadExtent, LoadKind, Model, Validate, body,
+    circumferential, model, pair, plane, rigid, step, surface, tied, uniform,
 };
 pub use striae_output::{FieldOutput, Output};
 pub use striae_solve::outcome::Ending;

@@ -12,7 +12,7 @@ mod step;
 pub use paint::{axial, circumferential, radial, uniform};
 pub use pair::{PairBuilder, SideBuilder, pair, rigid, surface};
 pub use parts::{BodyBuilder, RigidBuilder, body, plane, rigid_surface, tied};
-pub use step::{Components, StepBuilder, equal_increments, step};
+pub use step::{Component, Components, StepBuilder, equal_increments, step};
 
 use striae_solve::model::{Backend, Body, Model, Pair, RigidSurface, Solver, Strategy};
 

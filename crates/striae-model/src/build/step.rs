@@ -43,6 +43,17 @@ impl From<[Option<f64>; 3]> for Components {
     }
 }
 
+/// A component of a displacement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Component {
+    /// Along `x`.
+    X,
+    /// Along `y`.
+    Y,
+    /// Along `z`.
+    Z,
+}
+
 /// A set of a body, by names.
 type Place = (String, String);
 
@@ -144,13 +155,15 @@ impl StepBuilder {
         self.displace(body, nodes, [0.0; 3])
     }
 
-    /// Ends prescribed displacements of a node set in the components that are true.
+    /// Ends prescribed displacements of a node set in these components.
     pub fn release(
         mut self,
         body: impl Into<String>,
         nodes: impl Into<String>,
-        components: [bool; 3],
+        components: &[Component],
     ) -> Self {
+        let components =
+            [Component::X, Component::Y, Component::Z].map(|one| components.contains(&one));
         self.releases
             .push(((body.into(), nodes.into()), components));
         self
@@ -270,6 +283,38 @@ impl StepBuilder {
         self
     }
 
+    fn resolve_displacements(
+        &self,
+        resolved: &mut Resolved,
+        path: &Path,
+        names: &Names<'_>,
+        faults: &mut Vec<Fault>,
+    ) {
+        resolved.step.displacements =
+            resolved.all("displacements", &self.displacements, |index, of| {
+                let ((body, set), components, curve) = of;
+                let path = path.clone().field("displacements").index(index);
+                let (body, nodes) = names.nodes(body, set, &path, faults)?;
+                Some(Displacement {
+                    set: set.clone(),
+                    body,
+                    nodes,
+                    components: components.0,
+                    curve: curve.clone(),
+                })
+            });
+        resolved.step.releases = resolved.all("releases", &self.releases, |index, of| {
+            let ((body, set), components) = of;
+            let path = path.clone().field("releases").index(index);
+            let (body, nodes) = names.nodes(body, set, &path, faults)?;
+            Some(Release {
+                body,
+                nodes,
+                components: *components,
+            })
+        });
+    }
+
     pub(super) fn resolved(
         &self,
         index: usize,
@@ -284,28 +329,7 @@ impl StepBuilder {
         };
         let path = Path::part("steps", index);
         let at = |list: &'static str, index| path.clone().field(list).index(index);
-        resolved.step.displacements =
-            resolved.all("displacements", &self.displacements, |index, of| {
-                let ((body, set), components, curve) = of;
-                let path = at("displacements", index);
-                let (body, nodes) = names.nodes(body, set, &path, faults)?;
-                Some(Displacement {
-                    set: set.clone(),
-                    body,
-                    nodes,
-                    components: components.0,
-                    curve: curve.clone(),
-                })
-            });
-        resolved.step.releases = resolved.all("releases", &self.releases, |index, of| {
-            let ((body, set), components) = of;
-            let (body, nodes) = names.nodes(body, set, &at("releases", index), faults)?;
-            Some(Release {
-                body,
-                nodes,
-                components: *components,
-            })
-        });
+        self.resolve_displacements(&mut resolved, &path, names, faults);
         resolved.step.loads = resolved.all("loads", &self.loads, |index, of| {
             let ((body, set), kind, extent, curve) = of;
             let (body, faces) = names.faces(body, set, &at("loads", index), faults)?;
