@@ -1,23 +1,11 @@
 //! Contact pairs and friction.
 
-use super::{body::Bodies, friction::friction, texture};
-use crate::{faults::FaultList, names::Names, raw, read::At};
-use std::path::Path;
+use super::{friction::friction, surfaces::Surfaces, texture};
+use crate::{faults::FaultList, raw, read::At};
 use striae_law::friction::Friction;
 use striae_model::Known;
-use striae_solve::model::{ClosedGaps, Enforcement, Initial, Pair, RigidId, RigidSurface, Side};
+use striae_solve::model::{ClosedGaps, Enforcement, Initial, Pair, RigidId, Side};
 use striae_surface::texture::Paint;
-
-/// What a side of a pair may refer to.
-pub(super) struct Surfaces<'r> {
-    pub(super) bodies: &'r Bodies,
-    pub(super) rigid_names: &'r Names,
-    pub(super) rigid: &'r [Option<RigidSurface>],
-    /// The deck as written, whose meshes know the numbers of their nodes.
-    pub(super) written: &'r raw::Simulation,
-    /// Folder that paths are relative to.
-    pub(super) base: &'r Path,
-}
 
 /// A pair as far as it is known.
 pub(super) struct LoweredPair {

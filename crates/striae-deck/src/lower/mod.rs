@@ -15,6 +15,7 @@ mod place;
 mod rigid;
 mod sets;
 mod step;
+mod surfaces;
 mod texture;
 
 use super::{
@@ -86,7 +87,7 @@ fn parts(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_>) -> Part
     let rigid = rigid::bodies(list(&raw.rigid), &bodies, base, faults);
     let names = list(&raw.pair).iter().map(|at| at.value.name.as_ref());
     let pair_names = Names::new("pair", names, faults);
-    let surfaces = contact::Surfaces {
+    let surfaces = surfaces::Surfaces {
         bodies: &bodies,
         rigid_names: &rigid_names,
         rigid: &rigid,

@@ -4,7 +4,7 @@
 //! or positions from 0 where it was generated or written in the deck. The paint has
 //! one direction for every node of the surface, in ascending order of their ids.
 
-use super::{contact::Surfaces, list};
+use super::{list, surfaces::Surfaces};
 use crate::{fault::FaultKind, faults::FaultList, raw};
 use std::path::PathBuf;
 use striae_mesh::NodeId;

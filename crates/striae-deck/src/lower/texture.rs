@@ -1,6 +1,6 @@
 //! Textures of the sides of a pair, and whether friction finds those it needs.
 
-use super::{contact::Surfaces, generator::nonzero, nodal};
+use super::{generator::nonzero, nodal, surfaces::Surfaces};
 use crate::{
     faults::FaultList,
     raw,
