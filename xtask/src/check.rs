@@ -1,11 +1,11 @@
-//! `cargo xtask check`: formatting, borders, lints, tests and documentation.
+//! `cargo xtask check`: formatting, borders, lints, tests, documentation and examples.
 //!
 //! Cheap checks come first. Everything is built in the release profile, so that
 //! one compilation of the dependencies serves tests and programs, and another,
 //! of types only, serves lints and documentation.
 
 use std::{
-    env,
+    env, fs,
     path::PathBuf,
     process::Command,
     time::{Duration, Instant},
@@ -63,7 +63,33 @@ pub fn check() -> Result<(), Fault> {
     for stage in &BUILT {
         timed(stage.name, || run(stage))?;
     }
+    timed("examples", examples)?;
     println!("all checks passed in {}", seconds(started.elapsed()));
+    Ok(())
+}
+
+/// Runs the examples of the library.
+fn examples() -> Result<(), Fault> {
+    let folder = PathBuf::from("crates/striae/examples");
+    let unreadable = |cause| Fault::Unreadable {
+        path: folder.clone(),
+        cause,
+    };
+    let mut names = Vec::new();
+    for entry in fs::read_dir(&folder).map_err(unreadable)? {
+        let path = entry.map_err(unreadable)?.path();
+        names.extend(
+            path.file_stem()
+                .map(|name| name.to_string_lossy().into_owned()),
+        );
+    }
+    names.sort();
+    for name in &names {
+        cargo(
+            &["run", "--release", "-p", "striae", "--example", name],
+            &[],
+        )?;
+    }
     Ok(())
 }
 
@@ -82,7 +108,7 @@ pub fn bench(arguments: &[String]) -> Result<(), Fault> {
 /// # Errors
 /// When it cannot be built.
 pub fn program() -> Result<PathBuf, Fault> {
-    cargo(&["build", "--release", "-p", "striae"], &[])?;
+    cargo(&["build", "--release", "-p", "striae-cli"], &[])?;
     let folder = env::var_os("CARGO_TARGET_DIR").map_or("target".into(), PathBuf::from);
     Ok(folder.join("release").join("striae"))
 }

@@ -8,7 +8,7 @@ use std::{
     time::Instant,
 };
 use striae_contact::evaluation::Evaluation;
-use striae_io::deck;
+use striae_deck as deck;
 use striae_solve::{
     drive::{Continue, Observer, Progress, run},
     model::{Backend, Model},

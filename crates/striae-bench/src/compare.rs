@@ -11,7 +11,7 @@ use std::{
     time::Instant,
 };
 use striae_contact::evaluation::Evaluation;
-use striae_io::summary::peak_rss_mib;
+use striae_output::summary::peak_rss_mib;
 use striae_solve::{
     drive::{Continue, Observer, Progress, run},
     model::Backend,

@@ -3,7 +3,7 @@
 use crate::compare::{child, number};
 use serde_json::{Value, json};
 use std::{error::Error, path::Path};
-use striae_io::figure::{Axis, Content, Figure, Marker, Panel, Series, Width, power_law};
+use striae_figure::{Axis, Content, Figure, Marker, Panel, Series, Width, power_law};
 
 const SIZES: [usize; 6] = [10_000, 20_000, 40_000, 80_000, 160_000, 300_000];
 

@@ -1,7 +1,7 @@
 //! Problems of about a given number of unknowns.
 
 use std::{error::Error, path::Path};
-use striae_io::deck;
+use striae_deck as deck;
 use striae_linalg::{SparseMatrix, Structure, Supervariable};
 use striae_mesh::generate::CappedBlock;
 use striae_solve::{

@@ -1,1 +1,170 @@
 //! Finite-element contact with anisotropic friction.
+//!
+//! # A first model
+//!
+//! A block is pressed onto a grooved floor and dragged across. Bodies and sets are
+//! called by name; [`build`](model::ModelBuilder::build) looks the names up and
+//! lists every fault of the model.
+//!
+//! ```
+//! use striae::prelude::*;
+//!
+//! # fn main() -> Result<(), Error> {
+//! let rubber = Material::neo_hookean(LameConstants::from_youngs_modulus(1e6, 0.3)?);
+//! let mesh = Block { divisions: [2, 2, 2], ..Block::default() }.mesh()?;
+//! let grooves = uniform([1.0, 0.0, 0.0]);
+//! let model = model("A block on a grooved floor")
+//!     .body(body("block", mesh, rubber))
+//!     .rigid(plane("floor", [0.0; 3], [0.0, 0.0, 1.0]))
+//!     .pair(
+//!         pair("sole", surface("block", "zmin"), rigid("floor").textured(grooves))
+//!             .friction(Friction::orthotropic(0.1, 0.4, SlipRule::Opposing)?),
+//!     )
+//!     .step(step("press").increments(2).displace("block", "zmax", [0.0, 0.0, -0.02]))
+//!     .step(step("drag").increments(5).displace("block", "zmax", [None, Some(0.3), None]))
+//!     .build()?;
+//!
+//! let run = Simulation::new(model)?.run()?;
+//! assert_eq!(run.ending, Ending::Completed);
+//!
+//! let sole = run.results().pair("sole").unwrap();
+//! let force = sole.sides[0].force;
+//! assert!((force.y / force.z + 0.4).abs() < 1e-3, "friction across the grooves");
+//! # Ok(()) }
+//! ```
+//!
+//! # Results
+//!
+//! [`Results`] reads a state by names. Nodal fields are slices in the order of the
+//! nodes of the mesh; contact is known at the nodes of a side. The
+//! [history](Finished::history) has a row for every increment.
+//!
+//! ```
+//! # use striae::prelude::*;
+//! # fn main() -> Result<(), Error> {
+//! # let steel = Material::linear_elastic(LameConstants::from_youngs_modulus(100.0, 0.0)?);
+//! # let model = model("A bar on a floor")
+//! #     .body(body("bar", Block::default().mesh()?, steel))
+//! #     .rigid(plane("floor", [0.0; 3], [0.0, 0.0, 1.0]))
+//! #     .pair(pair("foot", surface("bar", "zmin"), rigid("floor")))
+//! #     .step(step("press").increments(2).displace("bar", "zmax", [0.0, 0.0, -0.01]))
+//! #     .build()?;
+//! let run = Simulation::new(model)?.run()?;
+//! let results = run.results();
+//!
+//! let positions: &[Vec3] = results.positions("bar").unwrap();
+//! let lowest = positions.iter().map(|x| x.z).fold(f64::INFINITY, f64::min);
+//! assert!(lowest.abs() < 1e-9);
+//!
+//! for node in results.contact("foot", PairSide::A).unwrap() {
+//!     assert!((node.pressure - 1.0).abs() < 1e-9);
+//!     assert_eq!(node.status, Status::Slip);
+//! }
+//! let force = run.history.column("pair.foot.resultant_a.z").unwrap();
+//! assert_eq!(force.len(), 2);
+//! assert!((force[1] - 1.0).abs() < 1e-9);
+//! # Ok(()) }
+//! ```
+//!
+//! # Watching a run
+//!
+//! An [`Observer`] is told of every iteration and increment, and may stop the run. An
+//! [`Interrupt`] stops it from another thread.
+//!
+//! ```
+//! use striae::prelude::*;
+//!
+//! /// Stops when the contact force is large enough.
+//! struct UntilForce(f64);
+//!
+//! impl Observer for UntilForce {
+//!     fn increment(&mut self, converged: &Converged<'_>) -> Next {
+//!         match converged.results.pair("foot") {
+//!             Some(pair) if pair.sides[0].force.norm() > self.0 => Next::Stop,
+//!             _ => Next::Continue,
+//!         }
+//!     }
+//! }
+//! # fn main() -> Result<(), Error> {
+//! # let steel = Material::linear_elastic(LameConstants::from_youngs_modulus(100.0, 0.0)?);
+//! # let model = model("A bar on a floor")
+//! #     .body(body("bar", Block::default().mesh()?, steel))
+//! #     .rigid(plane("floor", [0.0; 3], [0.0, 0.0, 1.0]))
+//! #     .pair(pair("foot", surface("bar", "zmin"), rigid("floor")))
+//! #     .step(step("press").increments(4).displace("bar", "zmax", [0.0, 0.0, -0.01]))
+//! #     .build()?;
+//! let run = Simulation::new(model)?.run_with(&mut UntilForce(0.4))?;
+//! assert_eq!(run.ending, Ending::Interrupted { time: 0.5 });
+//! # Ok(()) }
+//! ```
+//!
+//! # Faults
+//!
+//! A model finds its own faults, all of them, each with the path of the part that is
+//! wrong. Models built by name and models whose fields are set by hand are judged alike.
+//!
+//! ```
+//! # use striae::prelude::*;
+//! # fn main() -> Result<(), Error> {
+//! # let steel = Material::linear_elastic(LameConstants::from_youngs_modulus(100.0, 0.0)?);
+//! let faults = model("A block on nothing")
+//!     .body(body("block", Block::default().mesh()?, steel))
+//!     .step(step("lift").displace("block", "top", [0.0, 0.0, 1.0]))
+//!     .build()
+//!     .unwrap_err();
+//! assert_eq!(
+//!     faults.0[0].to_string(),
+//!     "steps[0].displacements[0]: body `block` has no node set `top`; \
+//!      it has `all`, `xmax`, `xmin`, `ymax`, `ymin`, `zmax`, `zmin`",
+//! );
+//! # Ok(()) }
+//! ```
+//!
+//! # Files
+//!
+//! A run writes files only where it is told to: [`recorded`](Simulation::recorded)
+//! writes fields for ParaView, the history and a summary,
+//! [`resumable`](Simulation::resumable) also checkpoints.
+//! [`Simulation::open`] runs a deck as the program does, [`Simulation::resume`] goes on
+//! after an interruption, to the same results to the last bit.
+//!
+//! ```no_run
+//! # use striae::prelude::*;
+//! # fn main() -> Result<(), Error> {
+//! let run = Simulation::open("press.toml".as_ref(), "results/press")?.run()?;
+//! if let Ending::Interrupted { .. } = run.ending {
+//!     Simulation::resume("results/press".as_ref())?.run()?;
+//! }
+//! # Ok(()) }
+//! ```
+//!
+//! # Parts
+//!
+//! [`model`], [`mesh`], [`mesh_file`], [`law`], [`surface`], [`contact`], [`solve`],
+//! [`deck`] and [`output`] are the crates below, for what the names above do not reach;
+//! [`figures`] draws friction laws and textures. The `striae` program is a client of
+//! this crate.
+
+mod error;
+pub mod figures;
+mod interrupt;
+mod log;
+mod observer;
+pub mod prelude;
+mod results;
+mod simulation;
+
+pub use error::Error;
+pub use interrupt::{Before, Interrupt};
+pub use observer::{Converged, Next, Observer};
+pub use results::{PairSide, Results};
+pub use simulation::{Finished, Simulation, case_name};
+pub use striae_contact as contact;
+pub use striae_deck as deck;
+pub use striae_law as law;
+pub use striae_mesh as mesh;
+pub use striae_meshfile as mesh_file;
+pub use striae_model as model;
+pub use striae_output as output;
+pub use striae_solve as solve;
+pub use striae_surface as surface;

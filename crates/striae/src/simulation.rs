@@ -1,23 +1,27 @@
-//! A deck run to its end, with progress and output.
+//! A run from its model to its results.
+//!
+//! ```text
+//! Simulation::new(model)       a model built in Rust
+//!           ::of(deck)         a deck that has been read
+//!           ::open(path)       a deck in a file, whose run can be resumed
+//!           ::resume(folder)   a run that was stopped
+//!     .writing(output).recorded(folder, case).until(interrupt)
+//!     .run() or .run_with(observer) -> Finished
+//! ```
 
-use std::{
-    path::Path,
-    sync::{
-        Arc,
-        atomic::{AtomicBool, Ordering},
-    },
-};
+use std::path::{Path, PathBuf};
 
 use striae_contact::evaluation::Evaluation;
-use striae_io::{
-    OutputError,
-    checkpoint::{Checkpoint, CheckpointError, Source},
-    deck::Deck,
-    recorder::Recorder,
+use striae_deck::Deck;
+use striae_model::{Model, Validate};
+use striae_output::{
+    Output, OutputError,
+    checkpoint::{Checkpoint, Source, Written, fingerprint},
+    history::Table,
     summary::Summary,
 };
 use striae_solve::{
-    drive::{Continue, Observer, Point, Progress as Position, resume, run},
+    drive::{self, Continue, Point, Progress},
     newton::{Increment, IterationObserver},
     norms::Norms,
     outcome::{CutBack, Ending},
@@ -26,12 +30,26 @@ use striae_solve::{
 };
 
 use crate::{
-    failure::{Failure, INTERRUPTED},
-    progress::{Progress, Verbosity},
+    error::Error,
+    interrupt::Interrupt,
+    log::{Log, Recording},
+    observer::{Converged, Next, Observer},
+    results::Results,
 };
 
-/// A finished run.
+/// A run that can begin.
+#[derive(Clone, Debug)]
 pub struct Simulation {
+    problem: Problem,
+    output: Output,
+    recording: Option<Recording>,
+    begun: Option<(Written, Point)>,
+    interrupt: Interrupt,
+}
+
+/// A run that has ended.
+#[derive(Clone, Debug)]
+pub struct Finished {
     /// The problem.
     pub problem: Problem,
     /// The last converged state.
@@ -40,224 +58,279 @@ pub struct Simulation {
     pub steps: Vec<State>,
     /// How the run ended.
     pub ending: Ending,
-    /// What `summary.json` says.
+    /// What `summary.json` says: counts, resultants, warnings.
     pub summary: Summary,
+    /// A row an increment: resultants, reactions, motions, energies.
+    pub history: Table,
 }
 
-/// Set by the first interrupt; the second one ends the program.
-#[derive(Clone, Default)]
-pub struct Interrupt(Arc<AtomicBool>);
+impl Finished {
+    /// Results at the end of the run.
+    pub fn results(&self) -> Results<'_> {
+        Results::new(&self.problem, &self.state)
+    }
 
-impl Interrupt {
-    /// Listens to interrupts from the keyboard.
-    pub fn listen() -> Self {
-        let flag = Self::default();
-        let set = flag.0.clone();
-        // Without a handler an interrupt ends the program at once; results on disk stay valid.
-        let _ = ctrlc::set_handler(move || {
-            if set.swap(true, Ordering::Relaxed) {
-                std::process::exit(i32::from(INTERRUPTED));
-            }
-            eprintln!("stopping after this increment; interrupt again to stop at once");
+    /// Results at the end of a completed step, counted from 0.
+    pub fn at_end_of(&self, step: usize) -> Option<Results<'_>> {
+        let state = self.steps.get(step)?;
+        Some(Results::new(&self.problem, state))
+    }
+}
+
+impl Simulation {
+    /// A run of a model.
+    ///
+    /// # Errors
+    /// All faults of the model, or why it cannot be solved.
+    pub fn new(model: Model) -> Result<Self, Error> {
+        Self::of_valid(model.checked()?)
+    }
+
+    fn of_valid(model: Model) -> Result<Self, Error> {
+        Ok(Self {
+            problem: Problem::new(model)?,
+            output: Output::default(),
+            recording: None,
+            begun: None,
+            interrupt: Interrupt::default(),
+        })
+    }
+
+    /// A run of a deck that has been read.
+    ///
+    /// # Errors
+    /// When its model cannot be solved.
+    pub fn of(deck: Deck) -> Result<Self, Error> {
+        Ok(Self::of_valid(deck.model)?.writing(deck.output))
+    }
+
+    /// A run of a deck in a file, written to `folder` with checkpoints, so that it
+    /// can be [resumed](Self::resume).
+    ///
+    /// # Errors
+    /// All faults of the deck, or why its model cannot be solved.
+    pub fn open(deck: &Path, folder: impl Into<PathBuf>) -> Result<Self, Error> {
+        let simulation = Self::of(striae_deck::read(deck)?)?;
+        Ok(simulation.resumable(folder, case_name(deck), deck))
+    }
+
+    /// Goes on with a run from the checkpoint in its folder, to the same results to
+    /// the last bit. Its deck is read again and must not have changed.
+    ///
+    /// # Errors
+    /// When there is no checkpoint, or when it does not fit the deck or the output.
+    pub fn resume(folder: &Path) -> Result<Self, Error> {
+        let checkpoint = Checkpoint::read(folder)?;
+        let deck = striae_deck::read(&checkpoint.source.path)?;
+        Self::resume_from(deck, checkpoint, folder)
+    }
+
+    /// Goes on from a checkpoint with a deck that is at hand.
+    ///
+    /// # Errors
+    /// When the deck is not that of the checkpoint.
+    pub fn resume_from(deck: Deck, checkpoint: Checkpoint, folder: &Path) -> Result<Self, Error> {
+        let Checkpoint {
+            source,
+            written,
+            point,
+        } = checkpoint;
+        source.check(&deck.model, deck.output)?;
+        let mut simulation = Self::of(deck)?;
+        simulation.recording = Some(Recording {
+            folder: folder.to_owned(),
+            case: source.case.clone(),
+            source: Some(source),
         });
-        flag
+        simulation.begun = Some((written, point));
+        Ok(simulation)
     }
 
-    fn is_set(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
+    /// What is written and how often, if the run is recorded.
+    pub fn writing(mut self, output: Output) -> Self {
+        self.output = output;
+        self
     }
-}
 
-/// Runs a deck and writes its output to `folder`.
-///
-/// # Errors
-/// When the model cannot be solved or the output not be written.
-pub fn simulate(
-    deck: Deck,
-    case: &str,
-    folder: &Path,
-    verbosity: Verbosity,
-    interrupt: &Interrupt,
-) -> Result<Simulation, Failure> {
-    let recorder = Recorder::create(folder, case, deck.output)?;
-    let place = Place {
-        folder,
-        source: None,
-        point: None,
-    };
-    proceed(deck, recorder, place, verbosity, interrupt)
-}
+    /// Writes fields, history and summary to a folder.
+    pub fn recorded(mut self, folder: impl Into<PathBuf>, case: impl Into<String>) -> Self {
+        self.recording = Some(Recording {
+            folder: folder.into(),
+            case: case.into(),
+            source: None,
+        });
+        self
+    }
 
-/// Runs a deck from a file, with checkpoints.
-///
-/// # Errors
-/// When the model cannot be solved or the output not be written.
-pub fn simulate_file(
-    deck: Deck,
-    source: Source,
-    folder: &Path,
-    verbosity: Verbosity,
-    interrupt: &Interrupt,
-) -> Result<Simulation, Failure> {
-    let recorder = Recorder::create(folder, &source.case, deck.output)?;
-    let place = Place {
-        folder,
-        source: Some(source),
-        point: None,
-    };
-    proceed(deck, recorder, place, verbosity, interrupt)
-}
-
-/// Goes on from a checkpoint.
-///
-/// # Errors
-/// When the model cannot be solved or the output not be written.
-pub fn go_on(
-    deck: Deck,
-    checkpoint: Checkpoint,
-    folder: &Path,
-    verbosity: Verbosity,
-    interrupt: &Interrupt,
-) -> Result<Simulation, Failure> {
-    let Checkpoint {
-        source,
-        written,
-        point,
-    } = checkpoint;
-    let recorder = Recorder::resume(folder, &source.case, deck.output, &written);
-    let recorder = recorder.map_err(CheckpointError::Output)?;
-    let place = Place {
-        folder,
-        source: Some(source),
-        point: Some(point),
-    };
-    proceed(deck, recorder, place, verbosity, interrupt)
-}
-
-/// Where a run is written, which deck it is of, and where it goes on.
-struct Place<'a> {
-    folder: &'a Path,
-    source: Option<Source>,
-    point: Option<Point>,
-}
-
-fn proceed(
-    deck: Deck,
-    recorder: Recorder,
-    place: Place,
-    verbosity: Verbosity,
-    interrupt: &Interrupt,
-) -> Result<Simulation, Failure> {
-    let problem = Problem::new(deck.model)?;
-    let Place {
-        folder,
-        source,
-        point,
-    } = place;
-    let mut watch = Watch {
-        problem: &problem,
-        recorder,
-        folder,
-        source,
-        progress: Progress::new(&problem.model, verbosity),
-        interrupt,
-        steps: Vec::new(),
-        before: point.as_ref().map(|point| point.state.clone()),
-        failure: None,
-    };
-    let (state, ending) = match point {
-        None => {
-            let start = State::undeformed(&problem);
-            watch.before = Some(start.clone());
-            run(&problem, start, &mut watch)
+    /// Writes checkpoints besides, for which the deck is known by its path.
+    pub fn resumable(
+        self,
+        folder: impl Into<PathBuf>,
+        case: impl Into<String>,
+        deck: &Path,
+    ) -> Self {
+        let case = case.into();
+        let source = Source {
+            case: case.clone(),
+            path: std::path::absolute(deck).unwrap_or_else(|_| deck.to_owned()),
+            fingerprint: fingerprint(&self.problem.model, self.output),
+        };
+        let mut simulation = self.recorded(folder, case);
+        if let Some(recording) = &mut simulation.recording {
+            recording.source = Some(source);
         }
-        Some(point) => resume(&problem, point, &mut watch),
-    };
-    watch.progress.finish();
-    let Watch {
-        mut recorder,
-        steps,
-        failure,
-        ..
-    } = watch;
-    if let Some(failure) = failure {
-        return Err(failure.into());
+        simulation
     }
-    let summary = recorder.finish(&problem, &state, &ending)?;
-    if ending == Ending::Completed {
-        Checkpoint::remove(folder)?;
+
+    /// Stops after the increment in which the flag is set.
+    pub fn until(mut self, interrupt: &Interrupt) -> Self {
+        self.interrupt = interrupt.clone();
+        self
     }
-    Ok(Simulation {
-        problem,
-        state,
-        steps,
-        ending,
-        summary,
-    })
+
+    /// The problem: the model and what follows from it for the whole run.
+    pub fn problem(&self) -> &Problem {
+        &self.problem
+    }
+
+    /// Runs to the end.
+    ///
+    /// # Errors
+    /// When output cannot be written.
+    pub fn run(self) -> Result<Finished, Error> {
+        self.run_with(&mut ())
+    }
+
+    /// Runs to the end, or until the observer stops it.
+    ///
+    /// # Errors
+    /// When output cannot be written.
+    pub fn run_with(self, observer: &mut dyn Observer) -> Result<Finished, Error> {
+        let Self {
+            problem,
+            output,
+            recording,
+            begun,
+            interrupt,
+        } = self;
+        let (log, point) = match (recording, begun) {
+            (Some(recording), Some((written, point))) => {
+                (Log::resumed(recording, output, &written)?, Some(point))
+            }
+            (recording, _) => (Log::new(recording, output)?, None),
+        };
+        let start = match &point {
+            Some(point) => point.state.clone(),
+            None => State::undeformed(&problem),
+        };
+        let mut watch = Watch {
+            problem: &problem,
+            log,
+            observer,
+            interrupt,
+            steps: Vec::new(),
+            before: start.clone(),
+            failure: None,
+        };
+        let (state, ending) = match point {
+            None => drive::run(&problem, start, &mut watch),
+            Some(point) => drive::resume(&problem, point, &mut watch),
+        };
+        let Watch {
+            log,
+            steps,
+            failure,
+            ..
+        } = watch;
+        if let Some(failure) = failure {
+            return Err(failure.into());
+        }
+        let (summary, history) = log.finish(&problem, &state, &ending)?;
+        Ok(Finished {
+            problem,
+            state,
+            steps,
+            ending,
+            summary,
+            history,
+        })
+    }
 }
 
+/// Name of the case of a deck: the folder of a `deck.toml`, otherwise the name of the file.
+pub fn case_name(deck: &Path) -> String {
+    let stem = deck
+        .file_stem()
+        .map(|name| name.to_string_lossy().into_owned());
+    let full = std::path::absolute(deck).unwrap_or_else(|_| deck.to_owned());
+    let parent = full
+        .parent()
+        .and_then(Path::file_name)
+        .map(|name| name.to_string_lossy().into_owned());
+    match (stem.as_deref(), parent) {
+        (Some("deck"), Some(parent)) => parent,
+        _ => stem.unwrap_or_else(|| "run".to_owned()),
+    }
+}
+
+/// Takes down a run, passes it on to the observer and stops it.
 struct Watch<'a> {
     problem: &'a Problem,
-    recorder: Recorder,
-    folder: &'a Path,
-    source: Option<Source>,
-    progress: Progress,
-    interrupt: &'a Interrupt,
+    log: Log,
+    observer: &'a mut dyn Observer,
+    interrupt: Interrupt,
     steps: Vec<State>,
     /// State before the increment under way.
-    before: Option<State>,
+    before: State,
     failure: Option<OutputError>,
 }
 
 impl IterationObserver for Watch<'_> {
     fn iteration(&mut self, number: usize, norms: &Norms, contacts: &[Evaluation]) {
-        self.progress.iteration(number, norms, contacts);
+        self.observer.iteration(number, norms, contacts);
     }
 }
 
-impl Observer for Watch<'_> {
+impl drive::Observer for Watch<'_> {
     fn step(&mut self, _index: usize, _name: &str) {}
 
-    fn increment(&mut self, position: Position, increment: &Increment) -> Continue {
-        self.progress.increment(position, increment);
-        if position.fraction == 1.0 {
+    fn increment(&mut self, progress: Progress, increment: &Increment) -> Continue {
+        let next = self.observer.increment(&Converged {
+            progress,
+            increment,
+            results: Results::new(self.problem, &increment.state),
+        });
+        if progress.fraction == 1.0 {
             self.steps.push(increment.state.clone());
         }
-        if let Some(before) = self.before.replace(increment.state.clone()) {
-            self.recorder.judge(self.problem, &before, increment);
-        }
-        let recorded = self.recorder.increment(self.problem, position, increment);
-        self.failure = self.failure.take().or(recorded.err());
-        if self.source.is_some() && self.recorder.keeps(position.increment) {
-            self.next(Continue::Keep)
+        self.log.judge(self.problem, &self.before, increment);
+        self.before = increment.state.clone();
+        let taken_down = self.log.increment(self.problem, progress, increment);
+        self.failure = self.failure.take().or(taken_down.err());
+        if self.log.keeps(progress.increment) {
+            self.proceed(next, Continue::Keep)
         } else {
-            self.next(Continue::Yes)
+            self.proceed(next, Continue::Yes)
         }
     }
 
     fn point(&mut self, point: Point) {
-        let Some(source) = self.source.clone().filter(|_| self.failure.is_none()) else {
-            return;
-        };
-        let checkpoint = Checkpoint {
-            source,
-            written: self.recorder.written(),
-            point,
-        };
-        self.failure = checkpoint.write(self.folder).err();
+        if self.failure.is_none() {
+            self.failure = self.log.point(point).err();
+        }
     }
 
-    fn cut_back(&mut self, position: Position, reason: &CutBack) -> Continue {
-        self.recorder.cut_back();
-        self.progress.cut_back(position, reason);
-        self.next(Continue::Yes)
+    fn cut_back(&mut self, progress: Progress, reason: &CutBack) -> Continue {
+        self.log.cut_back();
+        let next = self.observer.cut_back(progress, reason);
+        self.proceed(next, Continue::Yes)
     }
 }
 
 impl Watch<'_> {
     /// What comes next if nothing stops the run.
-    fn next(&self, otherwise: Continue) -> Continue {
-        if self.failure.is_some() || self.interrupt.is_set() {
+    fn proceed(&self, next: Next, otherwise: Continue) -> Continue {
+        if self.failure.is_some() || self.interrupt.is_set() || next == Next::Stop {
             Continue::Stop
         } else {
             otherwise

@@ -3,7 +3,8 @@
 //! [`dependencies`] compares the manifests, as `cargo metadata` reports them,
 //! with the table of what each crate may depend on; [`source`] reads the text of
 //! every source file for what a dependency cannot tell: files touched outside
-//! `striae-io`, output below the program, unsafe code, files that are too long.
+//! the crates of input and output, output below the program, unsafe code, files
+//! that are too long.
 
 mod dependencies;
 mod metadata;

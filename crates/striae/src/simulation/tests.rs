@@ -3,7 +3,7 @@
 use std::{collections::BTreeMap, fs, path::PathBuf};
 
 use serde_json::Value;
-use striae_io::{checkpoint::fingerprint, deck};
+use striae_output::recorder::Recorder;
 
 use super::*;
 
@@ -17,22 +17,19 @@ const KEPT: &str = include_str!("tests/kept.toml");
 const PUSHED: &str = include_str!("tests/pushed.toml");
 
 fn read(text: &str) -> Deck {
-    deck::parse(text, "deck.toml", Path::new("")).unwrap()
-}
-
-fn source(deck: &Deck) -> Source {
-    Source {
-        case: "case".to_owned(),
-        path: "deck.toml".into(),
-        fingerprint: fingerprint(deck),
-    }
+    striae_deck::parse(text, "deck.toml", Path::new("")).unwrap()
 }
 
 /// An interrupt that has come already: the run ends after its first attempt.
 fn at_once() -> Interrupt {
     let interrupt = Interrupt::default();
-    interrupt.0.store(true, Ordering::Relaxed);
+    interrupt.set();
     interrupt
+}
+
+fn begun(deck: &Deck, folder: &Path) -> Simulation {
+    let simulation = Simulation::of(deck.clone()).unwrap();
+    simulation.resumable(folder, "case", Path::new("deck.toml"))
 }
 
 /// Every file of a run but its summary and checkpoint.
@@ -65,18 +62,18 @@ fn assert_same_in_pieces(text: &str, least: usize) -> Value {
     let place = tempfile::tempdir().unwrap();
     let [whole, pieces] = ["whole", "pieces"].map(|name| place.path().join(name));
     let deck = read(text);
-    let (quiet, never) = (Verbosity::Quiet, Interrupt::default());
-    simulate_file(deck.clone(), source(&deck), &whole, quiet, &never).unwrap();
-    let mut ending = simulate_file(deck.clone(), source(&deck), &pieces, quiet, &at_once())
+    begun(&deck, &whole).run().unwrap();
+    let mut ending = begun(&deck, &pieces)
+        .until(&at_once())
+        .run()
         .unwrap()
         .ending;
     let mut stops = 0;
     while let Ending::Interrupted { .. } = ending {
         stops += 1;
         let checkpoint = Checkpoint::read(&pieces).unwrap();
-        checkpoint.source.check(&deck).unwrap();
-        let resumed = go_on(deck.clone(), checkpoint, &pieces, quiet, &at_once());
-        ending = resumed.unwrap().ending;
+        let resumed = Simulation::resume_from(deck.clone(), checkpoint, &pieces).unwrap();
+        ending = resumed.until(&at_once()).run().unwrap().ending;
     }
     assert_eq!(ending, Ending::Completed);
     assert!(stops >= least, "{stops} stops");
@@ -123,14 +120,13 @@ fn a_run_with_a_pushed_body_is_the_same_in_pieces() {
 #[test]
 fn checkpoints_come_when_they_are_due_and_go_when_the_run_is_done() {
     let place = tempfile::tempdir().unwrap();
-    let (deck, never) = (read(DYNAMIC), Interrupt::default());
+    let deck = read(DYNAMIC);
     let recorder = Recorder::create(place.path(), "case", deck.output).unwrap();
     let due: Vec<usize> = (1..=8).filter(|&count| recorder.keeps(count)).collect();
     assert_eq!(due, [3, 6]);
-    let quiet = Verbosity::Quiet;
-    simulate_file(deck.clone(), source(&deck), place.path(), quiet, &at_once()).unwrap();
+    begun(&deck, place.path()).until(&at_once()).run().unwrap();
     assert!(Checkpoint::read(place.path()).is_ok());
-    let run = simulate_file(deck.clone(), source(&deck), place.path(), quiet, &never);
+    let run = begun(&deck, place.path()).run();
     assert_eq!(run.unwrap().ending, Ending::Completed);
     assert!(Checkpoint::read(place.path()).is_err());
 }

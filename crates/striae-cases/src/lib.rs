@@ -1,0 +1,203 @@
+//! Published and closed-form cases with what is known of them.
+//!
+//! A case is a folder of `cases/` with decks, a README and an `expected.toml`,
+//! all of them embedded here, and a function that runs the decks, measures
+//! quantities and draws figures. [`CASES`] lists them.
+
+/// The text of a file in `cases/`.
+macro_rules! embedded {
+    ($($path:tt)*) => {
+        include_str!(concat!("../../../cases/", $($path)*))
+    };
+}
+
+/// Decks of a case with their names.
+macro_rules! decks {
+    ($case:literal: $($name:literal),+ $(,)?) => {
+        [$(($name, embedded!($case, "/", $name, ".toml"))),+]
+    };
+}
+
+mod bar_impact;
+mod battery;
+mod comparison;
+mod contact_face;
+mod edge_contact;
+mod edge_release;
+mod failure;
+mod hertz_mindlin;
+mod hertz_mindlin_cylinders;
+mod hertz_mindlin_two_body;
+mod measure;
+mod million_unknowns;
+mod pad_on_incline;
+mod patch_frictionless;
+mod patch_slip;
+mod patch_stick;
+mod plate_on_rigid_plane;
+mod slip_surface;
+mod snake_scale;
+mod stick_tolerance;
+mod stiff_punch;
+pub mod study;
+mod two_blocks;
+mod tyre;
+mod tyre_locked;
+mod tyre_pressed;
+mod tyre_rolling;
+
+pub use failure::Failure;
+use study::Study;
+
+/// A case.
+pub struct Case {
+    /// Name, that of its folder.
+    pub name: &'static str,
+    /// What it shows, in one line.
+    pub title: &'static str,
+    /// What it must give: its `expected.toml`.
+    pub expected: &'static str,
+    /// What a reader should know: its README.
+    pub readme: &'static str,
+    /// Runs the decks, measures quantities and draws figures.
+    pub run: fn(&mut Study) -> Result<(), Failure>,
+}
+
+/// A case from the name of its folder and its function.
+macro_rules! case {
+    ($name:literal, $title:literal, $run:path) => {
+        Case {
+            name: $name,
+            title: $title,
+            expected: embedded!($name, "/expected.toml"),
+            readme: embedded!($name, "/README.md"),
+            run: $run,
+        }
+    };
+}
+
+/// All cases.
+pub const CASES: &[Case] = &[
+    case!(
+        "two-blocks",
+        "Two blocks, pressed and slid, beside two other codes",
+        two_blocks::run
+    ),
+    case!(
+        "stiff-punch",
+        "An offset punch on a larger base, for all ratios of stiffness and mesh size",
+        stiff_punch::run
+    ),
+    case!(
+        "edge-contact",
+        "A block whose edges press on a thin plate, ever more finely divided",
+        edge_contact::run
+    ),
+    case!(
+        "edge-release",
+        "A punch that slides off an edge, and one that is lifted and pressed again",
+        edge_release::run
+    ),
+    case!(
+        "patch-frictionless",
+        "Uniform pressure across arbitrary overlaps and meshes",
+        patch_frictionless::run
+    ),
+    case!(
+        "patch-stick",
+        "Stick on an oblique interface up to the load of the closed form",
+        patch_stick::run
+    ),
+    case!(
+        "plate-on-rigid-plane",
+        "A plate pushed along a rigid floor (code_aster SSNV128)",
+        plate_on_rigid_plane::run
+    ),
+    case!(
+        "pad-on-incline",
+        "A pad on an incline at the limit of friction (code_aster SSNV503)",
+        pad_on_incline::run
+    ),
+    case!(
+        "hertz-mindlin",
+        "A block with a spherical face, pressed and sheared, beside Mindlin's closed form",
+        hertz_mindlin::run
+    ),
+    case!(
+        "hertz-mindlin-cylinders",
+        "Two half cylinders, pressed and sheared, beside the closed form",
+        hertz_mindlin_cylinders::run
+    ),
+    case!(
+        "hertz-mindlin-two-body",
+        "A block with a spherical face, pressed onto and slid over an equally soft one",
+        hertz_mindlin_two_body::run
+    ),
+    case!(
+        "stick-tolerance",
+        "The strategy of the paper's Table 1 with three tolerances, beside the default",
+        stick_tolerance::run
+    ),
+    case!(
+        "patch-slip",
+        "Uniform slip of an oblique parallelepiped under every friction law",
+        patch_slip::run
+    ),
+    case!(
+        "snake-scale",
+        "Scaled blocks that drift when dragged, and stop when launched",
+        snake_scale::run
+    ),
+    case!(
+        "tyre-pressed",
+        "A tyre pressed onto a road and pushed over it",
+        tyre_pressed::run
+    ),
+    case!(
+        "tyre-locked",
+        "A tyre with a locked wheel that drifts as it slides",
+        tyre_locked::run
+    ),
+    case!(
+        "tyre-rolling",
+        "A tyre that rolls and hardly drifts",
+        tyre_rolling::run
+    ),
+    case!(
+        "bar-impact",
+        "An elastic bar flies against a rigid wall",
+        bar_impact::run
+    ),
+    case!(
+        "million-unknowns",
+        "Two stacked blocks with a million unknowns, by the iterative solver",
+        million_unknowns::run
+    ),
+    case!(
+        "slip-surface",
+        "Slip surface and direction of friction of two textured surfaces",
+        slip_surface::run
+    ),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+    use striae_output::expected::Expected;
+
+    #[test]
+    fn every_case_expects_something_and_judges_newton() {
+        let names: BTreeSet<&str> = CASES.iter().map(|case| case.name).collect();
+        assert_eq!(names.len(), CASES.len());
+        for case in CASES {
+            let expected = Expected::parse(case.expected).unwrap();
+            let solved = case.name != "slip-surface";
+            for name in ["newton.median", "newton.max", "cutbacks"] {
+                let judged = expected.quantities.iter().any(|q| q.name == name);
+                assert_eq!(judged, solved, "{}: {name}", case.name);
+            }
+            assert!(case.readme.starts_with(&format!("# {}", case.name)));
+        }
+    }
+}

@@ -1,0 +1,365 @@
+//! `striae law DECK`: what the friction of a deck, or of constants given on the
+//! command line, looks like.
+//!
+//! For textures at several angles `theta` it draws the slip surface `|tau|/varpi`
+//! over the direction of `-tau` and the angle between slip and `-tau`, or friction
+//! itself where it opposes slip, over the direction of slip, both directions from `e`
+//! (along `a_ba`, or the texture `a` of the only textured side), and prints the axes
+//! `A`, `P` and offset `h` of the slip surface where it is an ellipse, its extremes and
+//! where friction dissipates least; see [`striae_law::friction`].
+
+use std::{
+    io::Write,
+    path::{Path, PathBuf},
+};
+
+use striae::{
+    case_name,
+    figures::law::{SAMPLES, degrees, figure, law_name},
+};
+use striae_deck as deck;
+use striae_law::friction::{Analysis, Friction, Law, SlipSurface};
+use striae_solve::model::Model;
+
+use crate::failure::Failure;
+
+/// Show the friction of a deck or of constants, as figures and numbers.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The deck, of which every friction is shown.
+    #[arg(required_unless_present = "constants")]
+    deck: Option<PathBuf>,
+    #[command(flatten)]
+    constants: Constants,
+    /// Angles between the textures of the two sides, in degrees.
+    #[arg(long, value_delimiter = ',', default_values_t = [0.0, 45.0, 90.0, 135.0, 180.0])]
+    theta: Vec<f64>,
+    /// Folder for the figures; by default results/NAME, or results/law without a deck.
+    #[arg(long)]
+    out: Option<PathBuf>,
+}
+
+/// A friction in the words of a deck, without a deck.
+#[derive(clap::Args)]
+#[group(id = "constants", multiple = false, conflicts_with = "deck")]
+struct Constants {
+    /// For example `mu=0.3`.
+    #[arg(long, value_name = "KEY=VALUE,..")]
+    coulomb: Option<String>,
+    /// For example `mu=0.3,c_mag=0.1,c_ang=0.1,c_cen=0.5`.
+    #[arg(long, value_name = "KEY=VALUE,..")]
+    two_textures: Option<String>,
+    /// For example `mu_along=0.2,mu_across=0.4,slip_rule=associated`.
+    #[arg(long, value_name = "KEY=VALUE,..")]
+    orthotropic: Option<String>,
+    /// For example `mu_forward=0.2,mu_backward=0.4,mu_lateral=0.3`.
+    #[arg(long, value_name = "KEY=VALUE,..")]
+    nap: Option<String>,
+    /// For example `angles=[0,90,180,270],mu=[0.4,0.3,0.2,0.3]`.
+    #[arg(long, value_name = "KEY=VALUE,..")]
+    tabulated: Option<String>,
+}
+
+/// A friction and what to call it.
+struct Named {
+    title: String,
+    file: String,
+    friction: Friction,
+}
+
+/// Draws and prints every friction.
+pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    let (frictions, folder) = match (&arguments.deck, arguments.constants.given()) {
+        (Some(path), _) => {
+            let folder = Path::new("results").join(case_name(path));
+            (of_model(&deck::read(path)?.model), folder)
+        }
+        (None, Some((law, constants))) => {
+            let friction = deck::friction(&in_deck_words(law, constants), &format!("--{law}"))?;
+            let named = Named {
+                title: "constants".to_owned(),
+                file: law.to_owned(),
+                friction,
+            };
+            (vec![named], Path::new("results").join("law"))
+        }
+        (None, None) => (Vec::new(), PathBuf::new()),
+    };
+    let folder = arguments.out.clone().unwrap_or(folder);
+    if frictions.is_empty() {
+        writeln!(out, "the deck has no pair, so it has no friction")?;
+        return Ok(());
+    }
+    make_folder(&folder)?;
+    for named in &frictions {
+        show(named, &arguments.theta, &folder, out)?;
+    }
+    Ok(())
+}
+
+/// Makes a folder for figures.
+pub fn make_folder(folder: &Path) -> Result<(), Failure> {
+    std::fs::create_dir_all(folder).map_err(|cause| Failure::Unwritable {
+        path: folder.to_owned(),
+        cause,
+    })
+}
+
+impl Constants {
+    /// Name of the law and its constants.
+    fn given(&self) -> Option<(&'static str, &str)> {
+        [
+            ("coulomb", &self.coulomb),
+            ("two-textures", &self.two_textures),
+            ("orthotropic", &self.orthotropic),
+            ("nap", &self.nap),
+            ("tabulated", &self.tabulated),
+        ]
+        .into_iter()
+        .find_map(|(law, constants)| Some((law, constants.as_deref()?)))
+    }
+}
+
+/// `key=value,..` as keys of a `friction` table, numbers and words as TOML wants them;
+/// a value in brackets is a list and stays as it is.
+fn in_deck_words(law: &str, constants: &str) -> String {
+    let mut inside = false;
+    let between = |character: char| {
+        inside = match character {
+            '[' => true,
+            ']' => false,
+            _ => inside,
+        };
+        character == ',' && !inside
+    };
+    let constants = constants.split(between);
+    let constants = constants.filter(|one| !one.trim().is_empty());
+    let line = |one: &str| match one.split_once('=') {
+        Some((key, value)) => match (key.trim(), value.trim(), value.trim().parse::<f64>()) {
+            (key, _, Ok(number)) => format!("{key} = {number:?}\n"),
+            (key, list, _) if list.starts_with('[') => format!("{key} = {list}\n"),
+            (key, word, _) => format!("{key} = {word:?}\n"),
+        },
+        None => format!("{one}\n"),
+    };
+    format!("law = {law:?}\n") + &constants.map(line).collect::<String>()
+}
+
+/// The frictions of the pairs, and those that steps change them to.
+fn of_model(model: &Model) -> Vec<Named> {
+    let first = model.pairs.iter().map(|pair| Named {
+        title: format!("pair `{}`", pair.name),
+        file: format!("law-{}", pair.name),
+        friction: pair.friction.clone(),
+    });
+    let later = model.steps.iter().flat_map(|step| {
+        step.frictions.iter().map(|(pair, friction)| {
+            let pair = &model.pairs[pair.0].name;
+            Named {
+                title: format!("pair `{pair}` from step `{}`", step.name),
+                file: format!("law-{pair}-{}", step.name),
+                friction: friction.clone(),
+            }
+        })
+    });
+    first.chain(later).collect()
+}
+
+fn show(named: &Named, theta: &[f64], folder: &Path, out: &mut dyn Write) -> Result<(), Failure> {
+    let friction = &named.friction;
+    write!(out, "{}: {}", named.title, law_name(friction.law()))?;
+    if matches!(friction.law(), Law::Frictionless) {
+        return Ok(writeln!(out)?);
+    }
+    writeln!(out, ", {}", coefficient(friction))?;
+    let theta = match friction.law() {
+        Law::TwoTextures(_) => theta,
+        _ => &[0.0],
+    };
+    let analyses: Vec<Analysis> = theta
+        .iter()
+        .map(|theta| Analysis::new(friction, theta.to_radians(), SAMPLES))
+        .collect();
+    write!(out, "{}", table(friction, &analyses))?;
+    writeln!(out, "{}", verdict(&analyses))?;
+    figure(friction, &analyses).write(folder, &named.file)?;
+    let file = folder.join(&named.file);
+    writeln!(out, "wrote {}.svg, .png and .csv", file.display())?;
+    Ok(())
+}
+
+/// `varpi(p)` in words.
+fn coefficient(friction: &Friction) -> String {
+    let mu = friction.coefficient();
+    let mut words = format!("mu = {}", mu.at_rest());
+    let fast = mu.at_slip_rate(f64::MAX);
+    if fast != mu.at_rest() {
+        words += &format!(" at rest and {fast} in fast slip");
+    }
+    words += ", varpi = mu p";
+    if let Some(cap) = friction.shear_cap() {
+        words += &format!(" but at most {cap}");
+    }
+    words
+}
+
+/// Axes and extremes of the slip surfaces, a row an angle.
+fn table(friction: &Friction, analyses: &[Analysis]) -> String {
+    let two = matches!(friction.law(), Law::TwoTextures(_));
+    let mut text = String::from(
+        "  theta [deg]       A         P         h   max |w|  max angle(d, -tau) [deg]  least w . d\n",
+    );
+    for analysis in analyses {
+        let theta = if two {
+            degrees(analysis.theta).to_string()
+        } else {
+            "any".to_owned()
+        };
+        let axes = match &analysis.surface {
+            SlipSurface::Ellipse(ellipse) => {
+                [ellipse.across, ellipse.along, ellipse.offset].map(|length| format!("{length:.4}"))
+            }
+            SlipSurface::Star(_) => [(); 3].map(|()| "-".to_owned()),
+        };
+        let [across, along, offset] = axes;
+        text += &format!(
+            "  {theta:>11}  {across:>8}  {along:>8}  {offset:>8}  {:8.4}  {:24.3}  {:11.4}\n",
+            analysis.extremes.traction,
+            analysis.extremes.deviation.to_degrees(),
+            analysis.least.dissipation(),
+        );
+    }
+    text
+}
+
+/// That friction dissipates, and where it does least.
+fn verdict(analyses: &[Analysis]) -> String {
+    let Some(first) = analyses.first() else {
+        return String::new();
+    };
+    match &first.least_over_textures {
+        Some(least) => format!(
+            "  admissible: -tau . d / varpi is at least {:.6} over all textures and slips (at I0 = {:.6}, I1 = {:.6})",
+            least.value,
+            least.i0 + 0.0,
+            least.i1 + 0.0
+        ),
+        None => format!(
+            "  admissible: -tau . d / varpi is at least {:.6} over all slips (at {:.3} degrees from e)",
+            first.least.dissipation(),
+            first.least.slip.y.atan2(first.least.slip.x).to_degrees(),
+        ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::Parser;
+
+    #[derive(Parser)]
+    struct Program {
+        #[command(flatten)]
+        arguments: Arguments,
+    }
+
+    /// What is printed, or the failure.
+    fn said(words: &[&str], folder: &Path) -> Result<String, Failure> {
+        let folder = folder.to_string_lossy();
+        let words = ["law", "--out", &folder]
+            .into_iter()
+            .chain(words.iter().copied());
+        let mut out = Vec::new();
+        run(&Program::parse_from(words).arguments, &mut out)?;
+        Ok(String::from_utf8(out).unwrap())
+    }
+
+    #[test]
+    fn constants_give_figures_extremes_and_a_verdict() {
+        let scratch = tempfile::tempdir().unwrap();
+        let constants = "mu=0.3,c_mag=0.1,c_ang=0.1,c_cen=0.5";
+        let text = said(&["--two-textures", constants], scratch.path()).unwrap();
+        let row = |theta: &str| -> Vec<f64> {
+            let line = text.lines().find(|line| line.trim().starts_with(theta));
+            let words = line.unwrap().split_whitespace();
+            words.map(|word| word.parse().unwrap()).collect()
+        };
+        assert_eq!(row("0 ")[1..5], [1.1, 1.9, 0.2, 2.1], "{text}");
+        assert_eq!(row("180 ")[1..6], [0.9, 0.9, 0.0, 0.9, 0.0], "{text}");
+        assert!(
+            text.contains("admissible: -tau . d / varpi is at least 0.9"),
+            "{text}"
+        );
+        for ending in ["svg", "png", "csv"] {
+            let file = scratch.path().join(format!("two-textures.{ending}"));
+            assert!(file.metadata().unwrap().len() > 1000);
+        }
+    }
+
+    #[test]
+    fn all_laws_can_be_given_as_constants() {
+        let scratch = tempfile::tempdir().unwrap();
+        for (law, constants, row) in [
+            (
+                "--coulomb",
+                "mu=0.3,shear_cap=7",
+                "any    1.0000    1.0000    0.0000    1.0000",
+            ),
+            (
+                "--orthotropic",
+                "mu_along=0.2, mu_across=0.4, slip_rule=associated",
+                "any    0.5000    1.0000    0.0000    1.0000",
+            ),
+            (
+                "--nap",
+                "mu_forward=0.2,mu_backward=0.4,mu_lateral=0.3",
+                "any    0.7500    0.7500    0.2500    1.0000",
+            ),
+            (
+                "--tabulated",
+                "angles=[0, 120, 240],mu=[0.2,0.4,0.1],shear_cap=7",
+                "any         -         -         -    1.0000                     0.000       0.2500",
+            ),
+        ] {
+            let text = said(&[law, constants], scratch.path()).unwrap();
+            assert!(text.contains(row), "{text}");
+        }
+    }
+
+    #[test]
+    fn refused_constants_name_where_friction_would_create_energy() {
+        let scratch = tempfile::tempdir().unwrap();
+        let refused = |law: &str, constants: &str| {
+            let failure = said(&[law, constants], scratch.path()).unwrap_err();
+            assert!(matches!(failure, Failure::Deck(_)), "exit code 2");
+            failure.to_string()
+        };
+        let text = refused("--two-textures", "mu=0.3,c_mag=0,c_ang=-1,c_cen=0");
+        assert!(
+            text.contains("I0 = 1.000000 and slip with a_ba . d = I1 = 2.000000"),
+            "{text}"
+        );
+        let text = refused("--nap", "mu_forward=.05,mu_backward=.6,mu_lateral=.05");
+        assert!(text.contains("degrees from the texture"), "{text}");
+        let text = refused("--two-textures", "mu=0.3,c_mag=0,c_ang=0,c_cne=0");
+        assert!(text.contains("did you mean `c_cen`"), "{text}");
+        let text = refused("--tabulated", "angles=[0,90,360],mu=[0.1,0.2,0.1]");
+        assert!(text.contains("must span less than a turn"), "{text}");
+        let text = refused("--coulomb", "mu=much");
+        assert!(text.contains("must be a number of at least 0"), "{text}");
+        assert_eq!(scratch.path().read_dir().unwrap().count(), 0);
+    }
+
+    #[test]
+    fn every_friction_of_a_deck_is_shown() {
+        let scratch = tempfile::tempdir().unwrap();
+        let deck = scratch.path().join("deck.toml");
+        std::fs::write(&deck, include_str!("template.toml")).unwrap();
+        let text = said(&[&deck.to_string_lossy()], &scratch.path().join("figures")).unwrap();
+        assert!(
+            text.contains("pair `interface`: coulomb, mu = 0.3"),
+            "{text}"
+        );
+        assert!(scratch.path().join("figures/law-interface.csv").exists());
+    }
+}

@@ -1,0 +1,156 @@
+//! `striae run DECK`: a simulation from a deck to files.
+
+use std::{
+    io::Write,
+    path::{Path, PathBuf},
+};
+
+use striae::{Finished, Simulation, case_name};
+use striae_output::summary::Summary;
+use striae_solve::outcome::Ending;
+
+use crate::{
+    failure::Failure,
+    interrupt::listen,
+    progress::{Progress, Verbosity},
+};
+
+/// Run a deck.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The deck.
+    deck: PathBuf,
+    /// Folder for the output; by default results/NAME.
+    #[arg(long)]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    common: Common,
+}
+
+/// Options of everything that runs simulations.
+#[derive(clap::Args)]
+pub struct Common {
+    /// Number of threads; by default that of the machine.
+    #[arg(long)]
+    threads: Option<std::num::NonZeroUsize>,
+    /// Say nothing but errors and results.
+    #[arg(long)]
+    quiet: bool,
+    /// Show the residual norms of every iteration.
+    #[arg(short, long, conflicts_with = "quiet")]
+    verbose: bool,
+    /// End with exit code 1 if there are warnings.
+    #[arg(long)]
+    strict: bool,
+}
+
+/// What warnings do to the exit code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Strictness {
+    /// Nothing.
+    Lenient,
+    /// They make it 1.
+    Strict,
+}
+
+impl Common {
+    /// How much is said.
+    pub fn verbosity(&self) -> Verbosity {
+        match (self.quiet, self.verbose) {
+            (true, _) => Verbosity::Quiet,
+            (_, true) => Verbosity::Iterations,
+            _ => Verbosity::Normal,
+        }
+    }
+
+    /// What warnings do.
+    pub fn strictness(&self) -> Strictness {
+        if self.strict {
+            Strictness::Strict
+        } else {
+            Strictness::Lenient
+        }
+    }
+
+    /// Sets the number of threads for the whole program.
+    pub fn start_threads(&self) -> Result<(), Failure> {
+        let threads = self.threads.map_or(0, std::num::NonZeroUsize::get);
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build_global()
+            .map_err(|cause| Failure::Threads(cause.to_string()))
+    }
+}
+
+/// Runs the deck and prints what came of it.
+pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    arguments.common.start_threads()?;
+    let folder = arguments
+        .out
+        .clone()
+        .unwrap_or_else(|| Path::new("results").join(case_name(&arguments.deck)));
+    let simulation = Simulation::open(&arguments.deck, &folder)?;
+    let finished = watched(simulation, arguments.common.verbosity())?;
+    concluded(finished, &folder, arguments.common.strictness(), out)
+}
+
+/// Runs with progress, and stops at an interrupt from the keyboard.
+pub fn watched(simulation: Simulation, verbosity: Verbosity) -> Result<Finished, Failure> {
+    let mut progress = Progress::new(&simulation.problem().model, verbosity);
+    let finished = simulation.until(&listen()).run_with(&mut progress);
+    progress.finish();
+    Ok(finished?)
+}
+
+/// Prints what came of a run.
+pub fn concluded(
+    finished: Finished,
+    folder: &Path,
+    strictness: Strictness,
+    out: &mut dyn Write,
+) -> Result<(), Failure> {
+    let warnings = &finished.summary.warnings;
+    warn(&finished.summary);
+    write!(out, "{}", told(&finished.summary))?;
+    writeln!(out, "output in {}", folder.display())?;
+    match finished.ending {
+        Ending::Completed if strictness == Strictness::Strict && !warnings.is_empty() => {
+            Err(Failure::Warned(warnings.len()))
+        }
+        Ending::Completed => Ok(()),
+        Ending::Interrupted { time } => Err(Failure::Interrupted {
+            time,
+            folder: folder.to_owned(),
+        }),
+        ending @ Ending::Stopped { .. } => Err(Failure::Ended(Box::new(ending))),
+    }
+}
+
+/// Warnings of a run, on the standard error.
+pub fn warn(summary: &Summary) {
+    for warning in &summary.warnings {
+        eprintln!("warning: {}", warning.text);
+    }
+}
+
+/// A few lines on how a run went.
+pub fn told(summary: &Summary) -> String {
+    let mut lines = vec![format!(
+        "{}: {} increments, {} cut back; Newton iterations median {} largest {}; {} unknowns; {:.1} s",
+        summary.reason,
+        summary.increments,
+        summary.cutbacks,
+        summary.newton_median,
+        summary.newton_max,
+        summary.unknowns,
+        summary.wall_s,
+    )];
+    for pair in &summary.pairs {
+        let [x, y, z] = pair.resultant_a;
+        lines.push(format!(
+            "pair `{}`: force on a ({x:.6e}, {y:.6e}, {z:.6e}), mismatch {:.1e}; stick {}, slip {}, open {}; dissipated {:.6e}",
+            pair.name, pair.mismatch, pair.stick, pair.slip, pair.open, pair.dissipated
+        ));
+    }
+    lines.join("\n") + "\n"
+}

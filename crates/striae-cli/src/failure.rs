@@ -1,0 +1,131 @@
+//! Ways in which the program fails, and their exit codes.
+
+use std::{io, path::PathBuf, process::ExitCode};
+use striae_deck::Faults;
+use striae_figure::FigureError;
+use striae_output::{OutputError, checkpoint::CheckpointError};
+use striae_solve::{outcome::Ending, problem::ProblemError};
+
+/// Exit code of an interrupted program: 128 and the number of the signal, as shells have it.
+pub const INTERRUPTED: u8 = 130;
+
+/// Why the program did not do what it was asked for.
+#[derive(Debug, thiserror::Error)]
+pub enum Failure {
+    /// The deck is faulty.
+    #[error("{0}")]
+    Deck(#[from] Faults),
+    /// A model is faulty.
+    #[error("{0}")]
+    Model(Box<striae::Error>),
+    /// A folder that would be written exists.
+    #[error("{} exists already; choose another name", .0.display())]
+    Exists(PathBuf),
+    /// A file or folder cannot be written.
+    #[error("{} cannot be written: {cause}", path.display())]
+    Unwritable {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the operating system says.
+        cause: io::Error,
+    },
+    /// A run cannot be taken up again.
+    #[error("{0}")]
+    Checkpoint(#[from] CheckpointError),
+    /// A run was interrupted, and a checkpoint is there to go on from.
+    #[error("interrupted at time {time:.6}; `striae resume {}` goes on from there", folder.display())]
+    Interrupted {
+        /// Time of the last converged state.
+        time: f64,
+        /// Its folder.
+        folder: PathBuf,
+    },
+    /// The model cannot be solved.
+    #[error("{0}")]
+    Problem(#[from] ProblemError),
+    /// The run did not reach its end.
+    #[error("{0}")]
+    Ended(Box<Ending>),
+    /// The run went to its end, but not without warnings.
+    #[error("{}", warned(*.0))]
+    Warned(usize),
+    /// There is no case of this name.
+    #[error("there is no case `{name}`; known are {known}")]
+    UnknownCase {
+        /// What was asked for.
+        name: String,
+        /// All names.
+        known: String,
+    },
+    /// Cases did not give what is known of them.
+    #[error("outside the tolerances: {0}")]
+    Deviates(String),
+    /// Results cannot be written.
+    #[error("{0}")]
+    Results(#[from] OutputError),
+    /// A figure cannot be drawn or written.
+    #[error("{0}")]
+    Figure(#[from] FigureError),
+    /// The threads cannot be started.
+    #[error("the threads cannot be started: {0}")]
+    Threads(String),
+    /// The standard output cannot be written.
+    #[error("the output cannot be written: {0}")]
+    Output(#[from] io::Error),
+}
+
+fn warned(count: usize) -> String {
+    match count {
+        1 => "1 warning, which `--strict` does not allow".into(),
+        count => format!("{count} warnings, which `--strict` does not allow"),
+    }
+}
+
+impl From<striae::Error> for Failure {
+    fn from(error: striae::Error) -> Self {
+        match error {
+            striae::Error::Deck(faults) => Self::Deck(faults),
+            striae::Error::Problem(error) => Self::Problem(error),
+            striae::Error::Checkpoint(error) => Self::Checkpoint(error),
+            striae::Error::Output(error) => Self::Results(error),
+            other => Self::Model(Box::new(other)),
+        }
+    }
+}
+
+impl From<striae_cases::Failure> for Failure {
+    fn from(failure: striae_cases::Failure) -> Self {
+        match failure {
+            striae_cases::Failure::Simulation(error) => error.into(),
+            striae_cases::Failure::Ended(ending) => Self::Ended(ending),
+            striae_cases::Failure::Unwritable { path, cause } => Self::Unwritable { path, cause },
+            striae_cases::Failure::Figure(error) => Self::Figure(error),
+        }
+    }
+}
+
+impl Failure {
+    /// The exit code: 2 for bad input, 130 for an interrupt, 1 for everything else.
+    pub fn exit_code(&self) -> ExitCode {
+        match self {
+            Self::Deck(_)
+            | Self::Model(_)
+            | Self::Exists(_)
+            | Self::Checkpoint(_)
+            | Self::Problem(_)
+            | Self::UnknownCase { .. } => ExitCode::from(2),
+            Self::Interrupted { .. } => ExitCode::from(INTERRUPTED),
+            Self::Ended(ending) if matches!(**ending, Ending::Interrupted { .. }) => {
+                ExitCode::from(INTERRUPTED)
+            }
+            Self::Unwritable { .. }
+            | Self::Ended(_)
+            | Self::Warned(_)
+            | Self::Deviates(_)
+            | Self::Results(_)
+            | Self::Figure(_)
+            | Self::Threads(_)
+            | Self::Output(_) => ExitCode::from(1),
+        }
+    }
+}

@@ -1,0 +1,55 @@
+//! The `striae` program.
+//!
+//! Exit codes: 0 when all went well, 1 when a run or a file operation failed,
+//! 2 when what was asked for is not possible (bad arguments, a faulty deck, or a
+//! checkpoint that cannot be used), 130 when a run was interrupted from the keyboard.
+
+mod command;
+mod failure;
+mod forecast;
+mod interrupt;
+mod progress;
+
+use clap::{Parser, Subcommand};
+use std::{io, process::ExitCode};
+
+/// Finite-element contact with anisotropic friction.
+#[derive(Parser)]
+#[command(version)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    New(command::new::Arguments),
+    Check(command::check::Arguments),
+    Run(command::run::Arguments),
+    Resume(command::resume::Arguments),
+    Reproduce(command::reproduce::Arguments),
+    Law(command::law::Arguments),
+    Schema(command::schema::Arguments),
+    Texture(command::texture::Arguments),
+}
+
+fn main() -> ExitCode {
+    let out = &mut io::stdout();
+    let result = match Arguments::parse().command {
+        Command::New(arguments) => command::new::run(&arguments, out),
+        Command::Check(arguments) => command::check::run(&arguments, out),
+        Command::Run(arguments) => command::run::run(&arguments, out),
+        Command::Resume(arguments) => command::resume::run(&arguments, out),
+        Command::Reproduce(arguments) => command::reproduce::run(&arguments, out),
+        Command::Law(arguments) => command::law::run(&arguments, out),
+        Command::Schema(arguments) => command::schema::run(&arguments, out),
+        Command::Texture(arguments) => command::texture::run(&arguments, out),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("{failure}");
+            failure.exit_code()
+        }
+    }
+}

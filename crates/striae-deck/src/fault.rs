@@ -1,0 +1,166 @@
+//! What can be wrong with a deck, in the words shown to its author.
+//!
+//! Faults of what the deck describes are those of the model, [`striae_model::FaultKind`].
+
+/// One kind of fault with the names and numbers that explain it.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FaultKind {
+    /// The file cannot be read at all.
+    #[error("the deck cannot be read: {cause}")]
+    Unreadable {
+        /// What the operating system says.
+        cause: String,
+    },
+    /// The text is not TOML.
+    #[error("not valid TOML: {message}")]
+    Syntax {
+        /// What the parser says.
+        message: String,
+    },
+    /// A key that no table of this place has.
+    #[error("unknown key `{key}` in {place}{}", did_you_mean(.nearest))]
+    UnknownKey {
+        /// The key as written.
+        key: String,
+        /// The table.
+        place: String,
+        /// The most similar valid key.
+        nearest: Option<String>,
+    },
+    /// A required key is absent.
+    #[error("missing key `{key}` in {place}; expected {expected}")]
+    MissingKey {
+        /// The key.
+        key: String,
+        /// The table.
+        place: String,
+        /// What its value would be.
+        expected: String,
+    },
+    /// A value of the wrong type or outside its range.
+    #[error("{place} must be {expected}, but is {found}")]
+    Unexpected {
+        /// The key and its table.
+        place: String,
+        /// What it must be.
+        expected: String,
+        /// What it is.
+        found: String,
+    },
+    /// A text that is none of the words allowed.
+    #[error("{place} cannot be `{found}`; expected one of {}{}", quoted(.allowed), did_you_mean(.nearest))]
+    UnknownWord {
+        /// The key and its table.
+        place: String,
+        /// The text as written.
+        found: String,
+        /// The words allowed.
+        allowed: Vec<String>,
+        /// The most similar of them.
+        nearest: Option<String>,
+    },
+    /// None of several exclusive groups of keys is given.
+    #[error("{place} needs either {}", .choices.join(" or "))]
+    NoneOf {
+        /// The table.
+        place: String,
+        /// The groups.
+        choices: Vec<String>,
+    },
+    /// Keys of exclusive groups are given together.
+    #[error("`{first}` and `{second}` exclude each other in {place}; give either {}", .choices.join(" or "))]
+    Exclusive {
+        /// A key of one group.
+        first: String,
+        /// A key of another group.
+        second: String,
+        /// The table.
+        place: String,
+        /// The groups.
+        choices: Vec<String>,
+    },
+    /// Two things of one kind have the same name.
+    #[error("{kind} `{name}` is already defined in line {line}")]
+    DuplicateName {
+        /// Body, material, ...
+        kind: &'static str,
+        /// The name.
+        name: String,
+        /// Line of the first definition.
+        line: usize,
+    },
+    /// A curve takes the name of a built-in one.
+    #[error("`{name}` is a built-in curve; give this one another name")]
+    ReservedName {
+        /// The name.
+        name: String,
+    },
+    /// A set of the deck takes the name of another.
+    #[error("body `{body}` already has a {kind} set `{name}`")]
+    DuplicateSet {
+        /// The body.
+        body: String,
+        /// Node or facet.
+        kind: &'static str,
+        /// The set.
+        name: String,
+    },
+    /// A facet of a surface written in the deck names a node that is not there.
+    #[error(
+        "facet {facet} of rigid surface `{surface}` refers to node {node}, but there are {nodes} nodes counted from 0"
+    )]
+    MissingNode {
+        /// The rigid surface.
+        surface: String,
+        /// Position of the facet, from 0.
+        facet: usize,
+        /// The node it names.
+        node: usize,
+        /// How many nodes there are.
+        nodes: usize,
+    },
+    /// A density of what is no solid.
+    #[error("rigid body `{rigid}` has no inertia by its density: {cause}")]
+    RigidSolid {
+        /// The rigid body.
+        rigid: String,
+        /// What is wrong.
+        cause: String,
+    },
+    /// Friction constants that the law refuses.
+    #[error("this friction is not possible: {cause}")]
+    Friction {
+        /// What the law says.
+        cause: String,
+    },
+    /// A texture that cannot be read from its file.
+    #[error("the texture of {owner} cannot be read: {cause}")]
+    NodalTexture {
+        /// The body or rigid surface.
+        owner: String,
+        /// What its reader says.
+        cause: String,
+    },
+    /// A deck without bodies or steps.
+    #[error("the deck has no [[{key}]]; {need}")]
+    Nothing {
+        /// `body` or `step`.
+        key: &'static str,
+        /// Why one is needed.
+        need: &'static str,
+    },
+    /// What the deck describes is not possible.
+    #[error(transparent)]
+    Model(#[from] striae_model::FaultKind),
+}
+
+fn did_you_mean(nearest: &Option<String>) -> String {
+    nearest
+        .as_ref()
+        .map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
+}
+
+fn quoted(words: &[String]) -> String {
+    let words: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
+    words.join(", ")
+}

@@ -1,0 +1,195 @@
+//! Faults with their places in the text, and how they are shown.
+//!
+//! Each fault is shown as `file:line:column: message` above the line of the
+//! deck it is about, the part in question underlined:
+//!
+//! ```text
+//! deck.toml:9:31: unknown key `divsions` in [[body]] mesh; did you mean `divisions`?
+//!    9 | mesh = { generator = "block", divsions = [4, 4, 2] }
+//!      |                               ^^^^^^^^
+//! ```
+//!
+//! Lines and columns count from one; columns count characters.
+
+use super::fault::FaultKind;
+use std::{fmt, ops::Range};
+
+/// A range of bytes of the deck's text.
+pub type Span = Range<usize>;
+
+/// A place in the text of a deck.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Position {
+    /// Line, from one.
+    pub line: usize,
+    /// Column in characters, from one.
+    pub column: usize,
+}
+
+/// One fault of a deck.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fault {
+    /// File as the author calls it.
+    pub file: String,
+    /// Where it is; `None` where there is no text at all.
+    pub position: Option<Position>,
+    /// What is wrong.
+    pub kind: FaultKind,
+    excerpt: Option<Excerpt>,
+}
+
+/// All faults of a deck in the order of their positions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Faults(Vec<Fault>);
+
+#[derive(Clone, Debug, PartialEq)]
+struct Excerpt {
+    text: String,
+    length: usize,
+}
+
+impl Faults {
+    /// The only fault: the file cannot be read.
+    pub fn unreadable(file: &str, cause: &std::io::Error) -> Self {
+        let kind = FaultKind::Unreadable {
+            cause: cause.to_string(),
+        };
+        Self(vec![Fault {
+            file: file.into(),
+            position: None,
+            kind,
+            excerpt: None,
+        }])
+    }
+
+    /// The faults in the order of their positions.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = &Fault> {
+        self.0.iter()
+    }
+}
+
+impl fmt::Display for Faults {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for fault in &self.0 {
+            writeln!(f, "{fault}")?;
+            if let (Some(position), Some(excerpt)) = (fault.position, &fault.excerpt) {
+                let indent = " ".repeat(position.column - 1);
+                writeln!(f, "{:5} | {}", position.line, excerpt.text)?;
+                writeln!(f, "      | {indent}{}", "^".repeat(excerpt.length))?;
+            }
+        }
+        match self.0.len() {
+            1 => write!(f, "1 fault"),
+            count => write!(f, "{count} faults"),
+        }
+    }
+}
+
+impl std::error::Error for Faults {}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.position {
+            Some(Position { line, column }) => {
+                write!(f, "{}:{line}:{column}: {}", self.file, self.kind)
+            }
+            None => write!(f, "{}: {}", self.file, self.kind),
+        }
+    }
+}
+
+/// Faults found so far while a deck is read.
+pub(crate) struct FaultList<'s> {
+    file: &'s str,
+    text: &'s str,
+    found: Vec<(Span, FaultKind)>,
+}
+
+impl<'s> FaultList<'s> {
+    pub(crate) fn new(file: &'s str, text: &'s str) -> Self {
+        Self {
+            file,
+            text,
+            found: Vec::new(),
+        }
+    }
+
+    pub(crate) fn push(&mut self, span: &Span, kind: impl Into<FaultKind>) {
+        let entry = (span.clone(), kind.into());
+        if !self.found.contains(&entry) {
+            self.found.push(entry);
+        }
+    }
+
+    /// Whether a fault has been found inside the range.
+    pub(crate) fn within(&self, range: &Span) -> bool {
+        self.found
+            .iter()
+            .any(|(span, _)| range.start <= span.start && span.end <= range.end)
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.found.is_empty()
+    }
+
+    pub(crate) fn line(&self, span: &Span) -> usize {
+        position(self.text, span.start).line
+    }
+
+    pub(crate) fn into_faults(mut self) -> Faults {
+        self.found.sort_by_key(|(span, _)| span.start);
+        let located = |(span, kind)| locate(self.file, self.text, &span, kind);
+        Faults(self.found.into_iter().map(located).collect())
+    }
+}
+
+fn locate(file: &str, text: &str, span: &Span, kind: FaultKind) -> Fault {
+    let position = position(text, span.start);
+    let line = text
+        .split('\n')
+        .nth(position.line - 1)
+        .unwrap_or("")
+        .trim_end();
+    // Tabs would shift the underline, so they are shown as one blank.
+    let shown: String = line
+        .chars()
+        .map(|c| if c.is_control() { ' ' } else { c })
+        .collect();
+    let start = floor(text, span.start);
+    let end = floor(text, span.end.max(start));
+    let marked = text[start..end]
+        .split('\n')
+        .next()
+        .unwrap_or("")
+        .trim_end()
+        .chars()
+        .count();
+    let excerpt = Excerpt {
+        text: shown,
+        length: marked.max(1),
+    };
+    Fault {
+        file: file.into(),
+        position: Some(position),
+        kind,
+        excerpt: Some(excerpt),
+    }
+}
+
+fn position(text: &str, offset: usize) -> Position {
+    let before = &text[..floor(text, offset)];
+    let line_start = before.rfind('\n').map_or(0, |end| end + 1);
+    Position {
+        line: before.matches('\n').count() + 1,
+        column: before[line_start..].chars().count() + 1,
+    }
+}
+
+/// The last character boundary at or before `offset`.
+fn floor(text: &str, offset: usize) -> usize {
+    let mut offset = offset.min(text.len());
+    while !text.is_char_boundary(offset) {
+        offset -= 1;
+    }
+    offset
+}

@@ -1,0 +1,93 @@
+//! The deck: one TOML file that describes a whole simulation.
+//!
+//! Reading has two stages. The text becomes the tables of `raw`, in which every
+//! value has its form and its place in the text; these are lowered to the
+//! [`Model`], in which every name has become an id and every set its members.
+//! Both stages go on after a fault, so that [`Faults`] lists all there are.
+//!
+//! All quantities are in one consistent system of units chosen by the author.
+
+mod declare;
+mod fault;
+mod faults;
+mod form;
+mod lower;
+mod names;
+mod raw;
+mod read;
+mod schema;
+mod value;
+
+pub use fault::FaultKind;
+pub use faults::{Fault, Faults, Position};
+pub use schema::{json_schema, reference};
+
+use faults::FaultList;
+use std::path::Path;
+use striae_law::friction::Friction;
+use striae_output::Output;
+use striae_solve::model::Model;
+use toml::de::DeTable;
+
+/// A deck that has been found valid.
+#[derive(Clone, Debug)]
+pub struct Deck {
+    /// What is to be simulated.
+    pub model: Model,
+    /// What is to be written.
+    pub output: Output,
+}
+
+/// Reads a deck from a file; paths in it are relative to its folder.
+///
+/// # Errors
+/// All faults of the deck; one without position if the file cannot be read.
+pub fn read(path: &Path) -> Result<Deck, Faults> {
+    let file = path.display().to_string();
+    let text = std::fs::read_to_string(path).map_err(|cause| Faults::unreadable(&file, &cause))?;
+    parse(&text, &file, path.parent().unwrap_or(Path::new("")))
+}
+
+/// Reads a deck from its text.
+///
+/// `file` is what faults call it; paths in it are relative to `base`.
+///
+/// # Errors
+/// All faults of the deck.
+pub fn parse(text: &str, file: &str, base: &Path) -> Result<Deck, Faults> {
+    let mut faults = FaultList::new(file, text);
+    let deck = tables(text, &mut faults).and_then(|raw| lower::deck(&raw, base, &mut faults));
+    match deck {
+        Some(deck) if faults.is_empty() => Ok(deck),
+        _ => Err(faults.into_faults()),
+    }
+}
+
+/// Reads the keys of a `friction` table on their own, without a deck.
+///
+/// `file` is what faults call the text.
+///
+/// # Errors
+/// All faults of the keys and what the law refuses.
+pub fn friction(text: &str, file: &str) -> Result<Friction, Faults> {
+    let mut faults = FaultList::new(file, text);
+    let friction = tables::<raw::Friction>(text, &mut faults)
+        .and_then(|raw| lower::friction(&raw, &raw.span, &mut faults));
+    match friction {
+        Some(friction) if faults.is_empty() => Ok(friction),
+        _ => Err(faults.into_faults()),
+    }
+}
+
+/// The tables of a text.
+fn tables<T: read::Part>(text: &str, faults: &mut FaultList<'_>) -> Option<T> {
+    let (tree, errors) = DeTable::parse_recoverable(text);
+    for error in &errors {
+        let message = error.message().to_owned();
+        faults.push(&error.span().unwrap_or(0..0), FaultKind::Syntax { message });
+    }
+    if !errors.is_empty() {
+        return None;
+    }
+    read::read_keys(tree.get_ref(), 0..0, &read::Place::root(), faults)
+}

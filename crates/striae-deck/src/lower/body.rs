@@ -1,0 +1,233 @@
+//! Materials and bodies.
+
+use super::{list, mesh, sets};
+use crate::{faults::FaultList, names::Names, raw, read::At, value::Text};
+use std::path::Path;
+use striae_law::bulk::{LameConstants, Material};
+use striae_mesh::{Face, Mesh, NodeId};
+use striae_model::{DraftBody, FaultKind as ModelFault};
+use striae_solve::model::{Body, BodyId, ContactMass};
+
+/// All materials of the deck.
+pub(super) struct Materials {
+    names: Names,
+    materials: Vec<Option<Material>>,
+    densities: Vec<Option<f64>>,
+}
+
+/// All bodies of the deck, of which some may be faulty.
+pub(super) struct Bodies {
+    names: Names,
+    bodies: Vec<RawBody>,
+}
+
+struct RawBody {
+    name: String,
+    mesh: Option<Mesh>,
+    material: Option<Material>,
+    density: Option<f64>,
+    contact_mass: ContactMass,
+}
+
+impl Materials {
+    pub(super) fn new(raw: &[At<raw::Material>], faults: &mut FaultList<'_>) -> Self {
+        let names = Names::new(
+            "material",
+            raw.iter().map(|material| material.value.name.as_ref()),
+            faults,
+        );
+        let materials = raw
+            .iter()
+            .map(|material| lower_material(&material.value, faults))
+            .collect();
+        let density = |material: &At<raw::Material>| {
+            let density = material.value.density.as_ref();
+            density.map(|density| density.value.0)
+        };
+        Self {
+            names,
+            materials,
+            densities: raw.iter().map(density).collect(),
+        }
+    }
+
+    /// The material of that name, if it is sound, and its density, if it has one.
+    fn find(&self, name: &At<Text>, faults: &mut FaultList<'_>) -> (Option<Material>, Option<f64>) {
+        match self.names.find(name, faults) {
+            Some(at) => (self.materials[at], self.densities[at]),
+            None => (None, None),
+        }
+    }
+}
+
+impl Bodies {
+    pub(super) fn new(
+        raw: &[At<raw::Body>],
+        materials: &Materials,
+        base: &Path,
+        faults: &mut FaultList<'_>,
+    ) -> Self {
+        let names = Names::new(
+            "body",
+            raw.iter().map(|body| body.value.name.as_ref()),
+            faults,
+        );
+        let bodies = raw
+            .iter()
+            .map(|body| lower_body(&body.value, materials, base, faults))
+            .collect();
+        Self { names, bodies }
+    }
+
+    /// The body of that name.
+    pub(super) fn find(
+        &self,
+        name: Option<&At<Text>>,
+        faults: &mut FaultList<'_>,
+    ) -> Option<BodyId> {
+        self.names.find(name?, faults).map(BodyId)
+    }
+
+    /// Name of a body.
+    pub(super) fn name(&self, body: BodyId) -> &str {
+        &self.bodies[body.0].name
+    }
+
+    /// Mesh of a body, if it could be made.
+    pub(super) fn mesh(&self, body: BodyId) -> Option<&Mesh> {
+        self.bodies[body.0].mesh.as_ref()
+    }
+
+    /// What is known of all bodies.
+    pub(super) fn drafts(&self) -> Vec<DraftBody<'_>> {
+        let bodies = self.bodies.iter().map(|body| DraftBody {
+            name: &body.name,
+            mesh: body.mesh.as_ref(),
+            density: body.density.unwrap_or(0.0),
+        });
+        bodies.collect()
+    }
+
+    /// Nodes of a set of a body.
+    pub(super) fn nodes(
+        &self,
+        body: BodyId,
+        set: Option<&At<Text>>,
+        faults: &mut FaultList<'_>,
+    ) -> Option<Vec<NodeId>> {
+        sets::members(
+            "node",
+            &self.mesh(body)?.node_sets,
+            self.name(body),
+            set?,
+            faults,
+        )
+    }
+
+    /// Faces of a set of a body.
+    pub(super) fn faces(
+        &self,
+        body: BodyId,
+        set: Option<&At<Text>>,
+        faults: &mut FaultList<'_>,
+    ) -> Option<Vec<Face>> {
+        sets::members(
+            "facet",
+            &self.mesh(body)?.facet_sets,
+            self.name(body),
+            set?,
+            faults,
+        )
+    }
+
+    /// The bodies of the model, if none is faulty.
+    pub(super) fn finished(self) -> Option<Vec<Body>> {
+        self.bodies
+            .into_iter()
+            .map(|body| {
+                Some(Body {
+                    name: body.name,
+                    mesh: body.mesh?,
+                    material: body.material?,
+                    density: body.density.unwrap_or(0.0),
+                    contact_mass: body.contact_mass,
+                })
+            })
+            .collect()
+    }
+}
+
+fn lower_body(
+    raw: &raw::Body,
+    materials: &Materials,
+    base: &Path,
+    faults: &mut FaultList<'_>,
+) -> RawBody {
+    let name = raw
+        .name
+        .as_ref()
+        .map_or("", |name| &name.value.0)
+        .to_owned();
+    let (material, density) = match &raw.material {
+        Some(name) => materials.find(name, faults),
+        None => (None, None),
+    };
+    let mut mesh = raw
+        .mesh
+        .as_ref()
+        .and_then(|mesh| mesh::body_mesh(mesh, &name, base, faults));
+    if let Some(mesh) = &mut mesh {
+        sets::add_node_sets(mesh, &name, list(&raw.node_sets), faults);
+        sets::add_facet_sets(mesh, &name, list(&raw.facet_sets), faults);
+    }
+    RawBody {
+        name,
+        mesh,
+        material,
+        density,
+        contact_mass: match raw.contact_mass.as_ref().map(|mass| mass.value) {
+            None | Some(raw::ContactMass::Consistent) => ContactMass::Consistent,
+            Some(raw::ContactMass::Redistributed) => ContactMass::Redistributed,
+        },
+    }
+}
+
+fn lower_material(material: &raw::Material, faults: &mut FaultList<'_>) -> Option<Material> {
+    let law = material.law.as_ref()?;
+    let (raw::BulkLaw::NeoHookean(raw::NeoHookean { constants, .. })
+    | raw::BulkLaw::LinearElastic(raw::LinearElastic { constants, .. })) = law;
+    let constants = lame_constants(constants.as_ref()?, faults)?;
+    Some(match law {
+        raw::BulkLaw::NeoHookean(_) => Material::neo_hookean(constants),
+        raw::BulkLaw::LinearElastic(_) => Material::linear_elastic(constants),
+    })
+}
+
+fn lame_constants(
+    constants: &raw::ElasticConstants,
+    faults: &mut FaultList<'_>,
+) -> Option<LameConstants> {
+    match constants {
+        raw::ElasticConstants::Engineering(raw) => {
+            let (modulus, ratio) = (raw.youngs_modulus.as_ref()?, raw.poissons_ratio.as_ref()?);
+            // The reader has checked the ranges already.
+            LameConstants::from_youngs_modulus(modulus.value.0, ratio.value.0).ok()
+        }
+        raw::ElasticConstants::Lame(raw) => {
+            let lambda = raw.lambda.as_ref()?;
+            let shear = raw.shear_modulus.as_ref()?.value.0;
+            if 3.0 * lambda.value.0 + 2.0 * shear <= 0.0 {
+                let kind = ModelFault::BulkModulus {
+                    lambda: lambda.value.0,
+                    shear,
+                };
+                faults.push(&lambda.span, kind);
+                return None;
+            }
+            Some(LameConstants {
+                lambda: lambda.value.0,
+                shear,
+            })
+        }
+    }
+}

@@ -1,0 +1,143 @@
+//! Displacement conditions, releases and loads of a step.
+
+use super::{Listed, Scope, list};
+use crate::{
+    faults::FaultList,
+    raw,
+    read::At,
+    value::{Text, vector},
+};
+use std::collections::BTreeSet;
+use striae_mesh::NodeId;
+use striae_solve::model::{BodyId, Curve, Displacement, Load, LoadExtent, LoadKind, Release};
+
+/// One component of one node of a body.
+type Freedom = (BodyId, NodeId, usize);
+
+/// Which components are prescribed after the steps so far.
+#[derive(Default)]
+pub(super) struct History(BTreeSet<Freedom>);
+
+/// The releases of a step; one without components releases all that are prescribed.
+pub(super) fn releases(
+    raw: &[At<raw::Release>],
+    scope: &Scope<'_>,
+    history: &mut History,
+    faults: &mut FaultList<'_>,
+) -> Listed<Release> {
+    Listed::new(raw, |release| {
+        let (body, _, nodes) = nodes(&release.value.body, &release.value.nodes, scope, faults)?;
+        let prescribed = |component| {
+            let mut nodes = nodes.iter();
+            nodes.any(|node| history.0.contains(&(body, *node, component)))
+        };
+        let components = match &release.value.components {
+            Some(list) => [raw::Component::X, raw::Component::Y, raw::Component::Z]
+                .map(|component| list.value.iter().any(|listed| listed.value == component)),
+            None => [0, 1, 2].map(prescribed),
+        };
+        for component in (0..3).filter(|component| components[*component]) {
+            for &node in &nodes {
+                history.0.remove(&(body, node, component));
+            }
+        }
+        Some(Release {
+            body,
+            nodes,
+            components,
+        })
+    })
+}
+
+/// The displacement conditions of a step.
+pub(super) fn displacements(
+    raw: &[At<raw::Displacement>],
+    scope: &Scope<'_>,
+    history: &mut History,
+    faults: &mut FaultList<'_>,
+) -> Listed<Displacement> {
+    Listed::new(raw, |displacement| {
+        let value = &displacement.value;
+        let components = [&value.x, &value.y, &value.z]
+            .map(|target| target.as_ref().map(|target| target.value.0));
+        let curve = scope.curves.find(value.curve.as_ref(), faults);
+        let (body, set, nodes) = nodes(&value.body, &value.nodes, scope, faults)?;
+        for component in (0..3).filter(|component| components[*component].is_some()) {
+            history
+                .0
+                .extend(nodes.iter().map(|node| (body, *node, component)));
+        }
+        Some(Displacement {
+            set: set.into(),
+            body,
+            nodes,
+            components,
+            // A condition that prescribes nothing is a fault whatever its curve.
+            curve: match curve {
+                None if components == [None; 3] => Curve::Ramp,
+                curve => curve?,
+            },
+        })
+    })
+}
+
+/// The loads of a step.
+pub(super) fn loads(
+    raw: &raw::Step,
+    scope: &Scope<'_>,
+    faults: &mut FaultList<'_>,
+) -> Listed<Load> {
+    let tractions = Listed::new(list(&raw.traction), |At { value: raw, .. }| {
+        let kind = raw.vector.as_ref().map(|target| {
+            match raw.direction.as_ref().map(|direction| direction.value) {
+                None | Some(raw::Direction::Dead) => LoadKind::DeadTraction(vector(&target.value)),
+                Some(raw::Direction::Follower) => LoadKind::FollowerTraction(vector(&target.value)),
+            }
+        });
+        let place = (&raw.body, &raw.facets);
+        load(place, kind, &raw.extent, &raw.curve, scope, faults)
+    });
+    let pressures = Listed::new(list(&raw.pressure), |At { value: raw, .. }| {
+        let target = raw.value.as_ref();
+        let kind = target.map(|target| LoadKind::Pressure(target.value.0));
+        let place = (&raw.body, &raw.facets);
+        load(place, kind, &raw.extent, &raw.curve, scope, faults)
+    });
+    tractions.and(pressures)
+}
+
+fn load(
+    (body, facets): (&Option<At<Text>>, &Option<At<Text>>),
+    kind: Option<LoadKind>,
+    extent: &Option<At<raw::Extent>>,
+    curve: &Option<At<Text>>,
+    scope: &Scope<'_>,
+    faults: &mut FaultList<'_>,
+) -> Option<Load> {
+    let curve = scope.curves.find(curve.as_ref(), faults);
+    let body = scope.bodies.find(body.as_ref(), faults)?;
+    let faces = scope.bodies.faces(body, facets.as_ref(), faults)?;
+    let extent = match extent.as_ref().map(|extent| extent.value) {
+        None | Some(raw::Extent::Whole) => LoadExtent::Whole,
+        Some(raw::Extent::Exposed) => LoadExtent::Exposed,
+    };
+    Some(Load {
+        set: facets.as_ref()?.value.0.clone(),
+        body,
+        faces,
+        kind: kind?,
+        extent,
+        curve: curve?,
+    })
+}
+
+fn nodes<'r>(
+    body: &Option<At<Text>>,
+    set: &'r Option<At<Text>>,
+    scope: &Scope<'_>,
+    faults: &mut FaultList<'_>,
+) -> Option<(BodyId, &'r str, Vec<NodeId>)> {
+    let body = scope.bodies.find(body.as_ref(), faults)?;
+    let nodes = scope.bodies.nodes(body, set.as_ref(), faults)?;
+    Some((body, &set.as_ref()?.value.0, nodes))
+}

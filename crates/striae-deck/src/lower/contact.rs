@@ -1,0 +1,141 @@
+//! Contact pairs and friction.
+
+use super::{friction::friction, surfaces::Surfaces, texture};
+use crate::{faults::FaultList, raw, read::At};
+use striae_law::friction::Friction;
+use striae_model::Known;
+use striae_solve::model::{ClosedGaps, Enforcement, Initial, Pair, RigidId, Side};
+use striae_surface::texture::Paint;
+
+/// A pair as far as it is known.
+pub(super) struct LoweredPair {
+    /// The pair, without friction where that is faulty; `None` without its sides.
+    pub(super) pair: Option<Pair>,
+    /// Whether its friction is known.
+    pub(super) known: Known,
+}
+
+/// The pairs. A rigid surface becomes side `b`.
+pub(super) fn pairs(
+    raw: &[At<raw::Pair>],
+    surfaces: &Surfaces<'_>,
+    faults: &mut FaultList<'_>,
+) -> Vec<LoweredPair> {
+    let lower = |pair: &At<raw::Pair>| {
+        let friction = match &pair.value.friction {
+            Some(raw) => friction(&raw.value, &raw.span, faults),
+            None => Some(Friction::frictionless()),
+        };
+        let known = match friction {
+            Some(_) => Known::Whole,
+            None => Known::InPart,
+        };
+        let friction = friction.unwrap_or_else(Friction::frictionless);
+        LoweredPair {
+            pair: lower_pair(pair, friction, surfaces, faults),
+            known,
+        }
+    };
+    raw.iter().map(lower).collect()
+}
+
+fn lower_pair(
+    raw: &At<raw::Pair>,
+    friction: Friction,
+    surfaces: &Surfaces<'_>,
+    faults: &mut FaultList<'_>,
+) -> Option<Pair> {
+    let pair = &raw.value;
+    let name = pair
+        .name
+        .as_ref()
+        .map_or("", |name| &name.value.0)
+        .to_owned();
+    let a = pair
+        .a
+        .as_ref()
+        .and_then(|side| lower_side(&side.value, surfaces, faults));
+    let b = pair
+        .b
+        .as_ref()
+        .and_then(|side| lower_side(&side.value, surfaces, faults));
+    let ((a, texture_a), (b, texture_b)) = match (a?, b?) {
+        (a @ (Side::Rigid(_), _), b @ (Side::Deformable { .. }, _)) => (b, a),
+        sides => sides,
+    };
+    let textures = [texture_a, texture_b];
+    Some(Pair {
+        name,
+        a,
+        b,
+        textures,
+        friction,
+        enforcement: match pair
+            .enforcement
+            .as_ref()
+            .map(|enforcement| enforcement.value)
+        {
+            None | Some(raw::Enforcement::Weighted) => Enforcement::Weighted,
+            Some(raw::Enforcement::Collocated) => Enforcement::Collocated,
+        },
+        search_distance: pair
+            .search_distance
+            .as_ref()
+            .map(|distance| distance.value.0),
+        initial: pair
+            .initial
+            .as_ref()
+            .map_or(Initial::AsMeshed, |initial| lower_initial(&initial.value)),
+        stabilised: pair.stabilise.as_ref().is_some_and(|truth| truth.value.0),
+    })
+}
+
+fn lower_initial(raw: &raw::Initial) -> Initial {
+    /// Gaps that are closed by default, over the local facet size.
+    const SHARE: f64 = 0.1;
+    match raw {
+        raw::Initial::Word(raw::InitialWord::AsMeshed) => Initial::AsMeshed,
+        raw::Initial::Word(raw::InitialWord::Close) => Initial::Close(ClosedGaps::Share(SHARE)),
+        raw::Initial::Word(raw::InitialWord::Resolve) => Initial::Resolve,
+        raw::Initial::Close(raw) => {
+            let gap = raw.close.as_ref().map_or(0.0, |gap| gap.value.0);
+            Initial::Close(ClosedGaps::UpTo(gap))
+        }
+    }
+}
+
+/// A side with its texture.
+fn lower_side(
+    raw: &raw::Side,
+    surfaces: &Surfaces<'_>,
+    faults: &mut FaultList<'_>,
+) -> Option<(Side, Option<Paint>)> {
+    let side = lower_surface(raw, surfaces, faults);
+    let texture = match &raw.texture {
+        Some(raw) => texture::paint(&raw.value, side.as_ref(), surfaces, faults).map(Some),
+        None => Some(None),
+    };
+    Some((side?, texture?))
+}
+
+fn lower_surface(
+    raw: &raw::Side,
+    surfaces: &Surfaces<'_>,
+    faults: &mut FaultList<'_>,
+) -> Option<Side> {
+    match raw.surface.as_ref()? {
+        raw::SideSurface::Deformable(side) => {
+            let body = surfaces.bodies.find(side.body.as_ref(), faults)?;
+            let faces = surfaces.bodies.faces(body, side.facets.as_ref(), faults)?;
+            Some(Side::Deformable { body, faces })
+        }
+        raw::SideSurface::Rigid(side) => {
+            let name = side.rigid.as_ref()?;
+            let rigid = surfaces.rigid_names.find(name, faults)?;
+            if let Some(texture) = &raw.texture {
+                texture::check_plane(surfaces.rigid[rigid].as_ref(), texture, faults);
+            }
+            Some(Side::Rigid(RigidId(rigid)))
+        }
+    }
+}

@@ -1,0 +1,211 @@
+//! Parameters of mesh generators.
+
+use crate::{
+    faults::FaultList,
+    raw,
+    read::At,
+    value::{Count, Number, vector},
+};
+use striae_mesh::{
+    Mesh, MeshError, Vec3,
+    generate::{
+        Annulus, Block, CappedBlock, Grading, Half, HalfCylinder, Part, Pivot, Refinement, Rotation,
+    },
+};
+use striae_model::FaultKind as ModelFault;
+
+/// A generator with its parameters.
+pub(super) enum Generator {
+    Block(Block),
+    CappedBlock(CappedBlock),
+    HalfCylinder(HalfCylinder),
+    Annulus(Annulus),
+}
+
+impl Generator {
+    /// The generator, or `None` where a parameter could not be read.
+    pub(super) fn new(raw: &raw::Generator, faults: &mut FaultList<'_>) -> Option<Self> {
+        match raw {
+            raw::Generator::Block(raw) => block(raw, faults).map(Self::Block),
+            raw::Generator::CappedBlock(raw) => capped_block(raw).map(Self::CappedBlock),
+            raw::Generator::HalfCylinder(raw) => half_cylinder(raw).map(Self::HalfCylinder),
+            raw::Generator::Annulus(raw) => annulus(raw, faults).map(Self::Annulus),
+        }
+    }
+
+    /// The mesh.
+    pub(super) fn mesh(&self) -> Result<Mesh, MeshError> {
+        match self {
+            Self::Block(block) => block.mesh(),
+            Self::CappedBlock(block) => block.mesh(),
+            Self::HalfCylinder(slice) => slice.mesh(),
+            Self::Annulus(ring) => ring.mesh(),
+        }
+    }
+}
+
+fn block(raw: &raw::Block, faults: &mut FaultList<'_>) -> Option<Block> {
+    let rotation = match &raw.rotation {
+        Some(raw) => Some(rotation(&raw.value, faults)?),
+        None => None,
+    };
+    let along = |grading: fn(&raw::Gradings) -> &Option<At<raw::Grading>>| {
+        raw.grading
+            .as_ref()
+            .map_or(Some(Grading::Uniform), |gradings| {
+                lower_grading(grading(&gradings.value))
+            })
+    };
+    let [x, y, z] = &raw.size.as_ref()?.value;
+    Some(Block {
+        origin: point(&raw.origin),
+        size: Vec3::new(x.0, y.0, z.0),
+        divisions: counts(&raw.divisions)?,
+        gradings: [
+            along(|all| &all.x)?,
+            along(|all| &all.y)?,
+            along(|all| &all.z)?,
+        ],
+        rotation,
+        mesh_rotation: raw
+            .mesh_rotation
+            .as_ref()
+            .map_or(0.0, |angle| angle.value.0),
+        bottom_slopes: slopes(&raw.bottom_slopes),
+        top_slopes: slopes(&raw.top_slopes),
+        irregularity: raw.irregularity.as_ref().map_or(0.0, |part| part.value.0),
+        seed: raw.seed.as_ref().map_or(0, |seed| seed.value.0 as u64),
+    })
+}
+
+fn capped_block(raw: &raw::CappedBlock) -> Option<CappedBlock> {
+    let element_size = raw.element_size.as_ref()?.value.0;
+    let [x, y] = &raw.size.as_ref()?.value;
+    Some(CappedBlock {
+        apex: point(&raw.apex),
+        size: [x.0, y.0],
+        height: raw.height.as_ref()?.value.0,
+        radius: raw.radius.as_ref()?.value.0,
+        element_size,
+        fine_half_width: raw
+            .fine_half_width
+            .as_ref()
+            .map_or(2.0 * element_size, |width| width.value.0),
+        fine_depth: raw.fine_depth.as_ref().map_or(0.0, |depth| depth.value.0),
+        growth: raw.growth.as_ref().map_or(1.3, |growth| growth.value.0),
+        part: match raw.part.as_ref().map(|part| part.value) {
+            None | Some(raw::Part::Whole) => Part::Whole,
+            Some(raw::Part::Half) => Part::Half,
+        },
+    })
+}
+
+fn half_cylinder(raw: &raw::HalfCylinder) -> Option<HalfCylinder> {
+    let element_size = raw.element_size.as_ref()?.value.0;
+    Some(HalfCylinder {
+        apex: point(&raw.apex),
+        half: match raw.half.as_ref().map(|half| half.value) {
+            None | Some(raw::Half::Lower) => Half::Lower,
+            Some(raw::Half::Upper) => Half::Upper,
+        },
+        radius: raw.radius.as_ref()?.value.0,
+        thickness: raw.thickness.as_ref()?.value.0,
+        layers: raw.layers.as_ref().map_or(1, |layers| layers.value.0),
+        element_size,
+        fine_half_width: raw
+            .fine_half_width
+            .as_ref()
+            .map_or(5.0 * element_size, |width| width.value.0),
+        fine_depth: raw.fine_depth.as_ref().map_or(0.0, |depth| depth.value.0),
+        growth: raw.growth.as_ref().map_or(1.2, |growth| growth.value.0),
+    })
+}
+
+fn annulus(raw: &raw::Annulus, faults: &mut FaultList<'_>) -> Option<Annulus> {
+    let refinement = match &raw.refinement {
+        Some(At { value: raw, .. }) => Some(Refinement {
+            half_angle: raw.half_angle.as_ref()?.value.0,
+            ratio: raw.ratio.as_ref()?.value.0,
+        }),
+        None => None,
+    };
+    Some(Annulus {
+        centre: point(&raw.centre),
+        axis: match &raw.axis {
+            Some(axis) => nonzero(axis, "the axis of a ring", faults)?,
+            None => Vec3::y(),
+        },
+        inner_radius: raw.inner_radius.as_ref()?.value.0,
+        outer_radius: raw.outer_radius.as_ref()?.value.0,
+        width: raw.width.as_ref()?.value.0,
+        divisions: counts(&raw.divisions)?,
+        radial_grading: lower_grading(&raw.radial_grading)?,
+        axial_grading: lower_grading(&raw.axial_grading)?,
+        refinement,
+    })
+}
+
+fn lower_grading(raw: &Option<At<raw::Grading>>) -> Option<Grading> {
+    Some(match raw.as_ref().map(|raw| &raw.value) {
+        None => Grading::Uniform,
+        Some(raw::Grading::OneSided(raw)) => Grading::OneSided {
+            ratio: raw.one_sided.as_ref()?.value.0,
+        },
+        Some(raw::Grading::Symmetric(raw)) => Grading::Symmetric {
+            ratio: raw.symmetric.as_ref()?.value.0,
+        },
+        Some(raw::Grading::Lengths(raw)) => Grading::Lengths(
+            raw.lengths
+                .as_ref()?
+                .value
+                .iter()
+                .map(|length| length.value.0)
+                .collect(),
+        ),
+    })
+}
+
+fn rotation(raw: &raw::Rotation, faults: &mut FaultList<'_>) -> Option<Rotation> {
+    Some(Rotation {
+        axis: nonzero(raw.axis.as_ref()?, "the axis of a rotation", faults)?,
+        degrees: raw.degrees.as_ref()?.value.0,
+        about: raw
+            .about
+            .as_ref()
+            .map_or(Pivot::Centre, |about| Pivot::Point(vector(&about.value))),
+    })
+}
+
+/// A vector that is not zero.
+pub(super) fn nonzero(
+    raw: &At<[Number; 3]>,
+    place: &str,
+    faults: &mut FaultList<'_>,
+) -> Option<Vec3> {
+    let vector = vector(&raw.value);
+    if vector.norm() > 0.0 {
+        return Some(vector);
+    }
+    faults.push(
+        &raw.span,
+        ModelFault::ZeroVector {
+            place: place.into(),
+        },
+    );
+    None
+}
+
+fn point(raw: &Option<At<[Number; 3]>>) -> Vec3 {
+    raw.as_ref()
+        .map_or(Vec3::zeros(), |point| vector(&point.value))
+}
+
+fn counts(raw: &Option<At<[Count; 3]>>) -> Option<[usize; 3]> {
+    let [x, y, z] = &raw.as_ref()?.value;
+    Some([x.0, y.0, z.0])
+}
+
+fn slopes(raw: &Option<At<[Number; 2]>>) -> [f64; 2] {
+    raw.as_ref()
+        .map_or([0.0; 2], |slopes| [slopes.value[0].0, slopes.value[1].0])
+}

@@ -1,0 +1,104 @@
+//! Meshes of bodies and rigid surfaces, generated, read or written in the deck.
+
+use super::generator;
+use crate::{
+    fault::FaultKind,
+    faults::{FaultList, Span},
+    raw,
+    read::At,
+    value::vector,
+};
+use std::path::{Path, PathBuf};
+use striae_mesh::{Mesh, NodeId, Vec3};
+use striae_meshfile::{self as mesh_file};
+use striae_model::FaultKind as ModelFault;
+
+/// The mesh of a body; `None` after its faults have been noted.
+///
+/// What generators and files give has been checked to be consistent and to
+/// have no inverted element.
+pub(super) fn body_mesh(
+    raw: &At<raw::Mesh>,
+    body: &str,
+    base: &Path,
+    faults: &mut FaultList<'_>,
+) -> Option<Mesh> {
+    let owner = format!("body `{body}`");
+    match &raw.value {
+        raw::Mesh::File(file) => made(mesh_file::read(path(file, base)?), owner, &raw.span, faults),
+        raw::Mesh::Generated(generator) => {
+            let generator = generator::Generator::new(generator, faults)?;
+            made(generator.mesh(), owner, &raw.span, faults)
+        }
+    }
+}
+
+/// Positions and facets of a rigid surface; `None` after its faults have been noted.
+pub(super) fn surface(
+    raw: &At<raw::SurfaceMesh>,
+    name: &str,
+    base: &Path,
+    faults: &mut FaultList<'_>,
+) -> Option<(Vec<Vec3>, Vec<[NodeId; 4]>)> {
+    match &raw.value {
+        raw::SurfaceMesh::File(file) => {
+            let owner = format!("rigid surface `{name}`");
+            let read = mesh_file::read_rigid_surface(path(file, base)?);
+            made(read, owner, &raw.span, faults).map(|surface| (surface.positions, surface.facets))
+        }
+        raw::SurfaceMesh::Inline(surface) => inline_surface(surface, name, faults),
+    }
+}
+
+fn made<T>(
+    result: Result<T, impl std::error::Error>,
+    owner: String,
+    span: &Span,
+    faults: &mut FaultList<'_>,
+) -> Option<T> {
+    result
+        .map_err(|error| {
+            faults.push(
+                span,
+                ModelFault::Mesh {
+                    owner,
+                    cause: error.to_string(),
+                },
+            )
+        })
+        .ok()
+}
+
+fn path(raw: &raw::MeshFile, base: &Path) -> Option<PathBuf> {
+    Some(base.join(&raw.file.as_ref()?.value.0))
+}
+
+fn inline_surface(
+    raw: &raw::InlineSurface,
+    name: &str,
+    faults: &mut FaultList<'_>,
+) -> Option<(Vec<Vec3>, Vec<[NodeId; 4]>)> {
+    let positions: Vec<Vec3> = raw
+        .positions
+        .as_ref()?
+        .value
+        .iter()
+        .map(|position| vector(&position.value))
+        .collect();
+    let mut facets = Vec::new();
+    for (facet, corners) in raw.facets.as_ref()?.value.iter().enumerate() {
+        match corners.value.iter().find(|node| node.0 >= positions.len()) {
+            Some(node) => faults.push(
+                &corners.span,
+                FaultKind::MissingNode {
+                    surface: name.into(),
+                    facet,
+                    node: node.0,
+                    nodes: positions.len(),
+                },
+            ),
+            None => facets.push(corners.value.map(|node| NodeId::new(node.0))),
+        }
+    }
+    (facets.len() == raw.facets.as_ref()?.value.len()).then_some((positions, facets))
+}

@@ -1,0 +1,265 @@
+//! From the tables of a deck to the model: names become ids, sets their
+//! members, defaults their values; what contradicts itself is refused.
+
+mod body;
+mod condition;
+mod contact;
+mod curve;
+mod friction;
+mod generator;
+mod inertia;
+mod listed;
+mod mesh;
+mod nodal;
+mod place;
+mod rigid;
+mod sets;
+mod step;
+mod surfaces;
+mod texture;
+
+use super::{
+    Deck,
+    fault::FaultKind,
+    faults::{FaultList, Span},
+    names::Names,
+    raw,
+    read::At,
+    value::Text,
+};
+use body::Bodies;
+use contact::LoweredPair;
+pub(super) use friction::friction;
+use listed::Listed;
+use place::StepSpans;
+use std::{num::NonZeroUsize, path::Path};
+use step::LoweredStep;
+use striae_model::{
+    Draft, DraftPair, DraftStep, Fault, FaultKind as ModelFault, Known, Named, fitted,
+};
+use striae_output::{FieldOutput, Output};
+use striae_solve::model::{Backend, Model, RigidSurface, Solver, Strategy};
+
+/// What the parts of a deck refer to by name.
+struct Scope<'r> {
+    bodies: &'r Bodies,
+    rigid: &'r Names,
+    pair_names: &'r Names,
+    curves: &'r curve::Curves,
+}
+
+/// The deck, or `None` after its faults have been noted.
+pub(super) fn deck(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_>) -> Option<Deck> {
+    // Where the first stage found faults, what seems to be missing may be there.
+    let known = if faults.is_empty() {
+        Known::Whole
+    } else {
+        Known::InPart
+    };
+    let parts = parts(raw, base, faults);
+    let spans: Vec<StepSpans> = parts.steps.iter().map(|step| step.spans.clone()).collect();
+    note(parts.draft(raw, known).faults(), raw, &spans, faults);
+    nothing_missing(raw, faults);
+    if !faults.is_empty() {
+        return None;
+    }
+    let model = parts.model(raw)?;
+    let fitted = fitted(model).map_err(|found| note(found, raw, &spans, faults));
+    Some(Deck {
+        model: fitted.ok()?,
+        output: output(raw.output.as_ref().map(|output| &output.value)),
+    })
+}
+
+/// The parts of a model; those with faults are missing.
+struct Parts {
+    bodies: Bodies,
+    rigid: Vec<Option<RigidSurface>>,
+    pairs: Vec<LoweredPair>,
+    steps: Vec<LoweredStep>,
+}
+
+fn parts(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_>) -> Parts {
+    let materials = body::Materials::new(list(&raw.material), faults);
+    let bodies = Bodies::new(list(&raw.body), &materials, base, faults);
+    let names = list(&raw.rigid).iter().map(|at| at.value.name.as_ref());
+    let rigid_names = Names::new("rigid surface", names, faults);
+    let rigid = rigid::bodies(list(&raw.rigid), &bodies, base, faults);
+    let names = list(&raw.pair).iter().map(|at| at.value.name.as_ref());
+    let pair_names = Names::new("pair", names, faults);
+    let surfaces = surfaces::Surfaces {
+        bodies: &bodies,
+        rigid_names: &rigid_names,
+        rigid: &rigid,
+        written: raw,
+        base,
+    };
+    let pairs = contact::pairs(list(&raw.pair), &surfaces, faults);
+    let curves = curve::Curves::new(list(&raw.curve), faults);
+    let scope = Scope {
+        bodies: &bodies,
+        rigid: &rigid_names,
+        pair_names: &pair_names,
+        curves: &curves,
+    };
+    let steps = step::steps(list(&raw.step), &scope, faults);
+    Parts {
+        bodies,
+        rigid,
+        pairs,
+        steps,
+    }
+}
+
+impl Parts {
+    /// What is known of the model.
+    fn draft<'a>(&'a self, raw: &'a raw::Simulation, known: Known) -> Draft<'a> {
+        let rigid = list(&raw.rigid).iter().zip(&self.rigid);
+        let rigid = rigid.map(|(raw, part)| Named {
+            name: name(&raw.value.name),
+            part: part.as_ref(),
+        });
+        let pairs = list(&raw.pair).iter().zip(&self.pairs);
+        let pairs = pairs.map(|(raw, lowered)| DraftPair {
+            name: name(&raw.value.name),
+            pair: lowered.pair.as_ref(),
+            known: lowered.known,
+        });
+        let steps = self.steps.iter().map(|lowered| DraftStep {
+            step: &lowered.step,
+            known: lowered.known,
+            displacements: lowered.displacements,
+        });
+        Draft {
+            bodies: self.bodies.drafts(),
+            rigid_surfaces: rigid.collect(),
+            pairs: pairs.collect(),
+            steps: steps.collect(),
+            known,
+        }
+    }
+
+    /// The model, if nothing is missing.
+    fn model(self, raw: &raw::Simulation) -> Option<Model> {
+        Some(Model {
+            title: raw.title.as_ref()?.value.0.clone(),
+            bodies: self.bodies.finished()?,
+            rigid_surfaces: whole(self.rigid)?,
+            pairs: self
+                .pairs
+                .into_iter()
+                .map(|lowered| lowered.pair)
+                .collect::<Option<_>>()?,
+            steps: self.steps.into_iter().map(|lowered| lowered.step).collect(),
+            solver: solver(raw.solver.as_ref().map(|solver| &solver.value)),
+        })
+    }
+}
+
+/// Notes faults of the model where the deck states what is wrong.
+fn note(found: Vec<Fault>, raw: &raw::Simulation, steps: &[StepSpans], faults: &mut FaultList<'_>) {
+    for Fault { path, kind } in found {
+        let kind = match kind {
+            // The deck notes them itself, in its own words.
+            ModelFault::DuplicateName { .. } | ModelFault::Nothing { .. } => continue,
+            ModelFault::NotPrescribed {
+                step,
+                body,
+                component,
+                set,
+            } => ModelFault::NotPrescribed {
+                set: place::released_set(&path, raw, steps).unwrap_or(set),
+                step,
+                body,
+                component,
+            },
+            kind => kind,
+        };
+        faults.push(&place::span(&path, raw, steps), kind);
+    }
+}
+
+/// A name, empty where there is none that can be read.
+fn name(name: &Option<At<Text>>) -> &str {
+    name.as_ref().map_or("", |name| &name.value.0)
+}
+
+/// The elements of a list that may be absent.
+fn list<T>(list: &Option<At<Vec<At<T>>>>) -> &[At<T>] {
+    list.as_ref().map_or(&[], |list| &list.value)
+}
+
+/// All of a list or nothing.
+fn whole<T>(list: Vec<Option<T>>) -> Option<Vec<T>> {
+    list.into_iter().collect()
+}
+
+fn nothing_missing(raw: &raw::Simulation, faults: &mut FaultList<'_>) {
+    const START: Span = 0..0;
+    if list(&raw.body).is_empty() {
+        faults.push(
+            &START,
+            FaultKind::Nothing {
+                key: "body",
+                need: "there is nothing to simulate",
+            },
+        );
+    }
+    if list(&raw.step).is_empty() {
+        faults.push(
+            &START,
+            FaultKind::Nothing {
+                key: "step",
+                need: "there is nothing to do",
+            },
+        );
+    }
+}
+
+fn solver(raw: Option<&raw::SolverSettings>) -> Solver {
+    let backend = raw.and_then(|raw| raw.backend.as_ref());
+    let tolerance = raw.and_then(|raw| raw.tolerance.as_ref());
+    let iterations = raw.and_then(|raw| raw.largest_iterations.as_ref());
+    let default = striae_model::solver();
+    Solver {
+        backend: match backend.map(|backend| backend.value) {
+            None => default.backend,
+            Some(raw::Backend::Condensed) => Backend::Condensed,
+            Some(raw::Backend::Multifrontal) => Backend::Multifrontal,
+            Some(raw::Backend::Faer) => Backend::Faer,
+            Some(raw::Backend::Iterative) => Backend::Iterative,
+        },
+        strategy: strategy(raw),
+        tolerance: tolerance.map_or(default.tolerance, |tolerance| tolerance.value.0),
+        largest_iterations: iterations.map_or(default.largest_iterations, |at| at.value.0),
+        ..default
+    }
+}
+
+fn strategy(raw: Option<&raw::SolverSettings>) -> Strategy {
+    match raw.and_then(|raw| raw.strategy.as_ref()) {
+        Some(At {
+            value: raw::Strategy::Table1(raw),
+            ..
+        }) => Strategy::Table1 {
+            stick_tolerance: raw
+                .stick_tolerance
+                .as_ref()
+                .map_or(0.01, |share| share.value.0),
+        },
+        Some(_) | None => Strategy::Semismooth,
+    }
+}
+
+fn output(raw: Option<&raw::OutputSettings>) -> Output {
+    let every = raw
+        .and_then(|raw| raw.fields_every.as_ref())
+        .map_or(1, |every| every.value.0);
+    let checkpoint_every = raw
+        .and_then(|raw| raw.checkpoint_every.as_ref())
+        .map_or(10, |every| every.value.0);
+    Output {
+        fields: NonZeroUsize::new(every).map_or(FieldOutput::Last, FieldOutput::Every),
+        checkpoint_every: NonZeroUsize::new(checkpoint_every),
+    }
+}

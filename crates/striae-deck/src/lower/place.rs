@@ -1,0 +1,112 @@
+//! Where in a deck the parts of a model are written: from paths to spans.
+
+use std::collections::BTreeMap;
+
+use striae_model::{Path, Segment};
+
+use super::list;
+use crate::{faults::Span, raw, read::At, value::Text};
+
+/// Where the conditions of a step are written, by list.
+pub(super) type ConditionSpans = BTreeMap<&'static str, Vec<Span>>;
+
+/// Where a step is written.
+#[derive(Clone)]
+pub(super) struct StepSpans {
+    pub(super) whole: Span,
+    pub(super) increments: Span,
+    pub(super) conditions: ConditionSpans,
+}
+
+/// Where the part of a model at a path is written; the start of the deck where that is
+/// nowhere in particular.
+pub(super) fn span(path: &Path, raw: &raw::Simulation, steps: &[StepSpans]) -> Span {
+    use Segment::{Field, Index};
+    let found = match path.segments() {
+        [Field("pairs"), Index(index), rest @ ..] => {
+            let pair = list(&raw.pair).get(*index);
+            pair.map(|pair| of_pair(pair, rest))
+        }
+        [Field("steps"), Index(index), rest @ ..] => {
+            let step = steps.get(*index);
+            step.map(|step| of_step(step, rest))
+        }
+        [Field("rigid_surfaces"), Index(index), ..] => {
+            let rigid = list(&raw.rigid).get(*index);
+            rigid.map(|rigid| rigid.span.clone())
+        }
+        [Field("bodies"), Index(index), ..] => {
+            let body = list(&raw.body).get(*index);
+            body.map(|body| body.span.clone())
+        }
+        _ => None,
+    };
+    found.unwrap_or(0..0)
+}
+
+/// Name of the set that the release at a path is of.
+pub(super) fn released_set(
+    path: &Path,
+    raw: &raw::Simulation,
+    steps: &[StepSpans],
+) -> Option<String> {
+    let span = span(path, raw, steps);
+    let releases = list(&raw.step)
+        .iter()
+        .flat_map(|step| list(&step.value.release));
+    let mut releases = releases.filter(|release| release.span == span);
+    let set = releases.next()?.value.nodes.as_ref()?;
+    Some(set.value.0.clone())
+}
+
+fn of_step(step: &StepSpans, rest: &[Segment]) -> Span {
+    use Segment::{Field, Index};
+    let found = match rest {
+        [Field("increments"), ..] => Some(&step.increments),
+        [Field(list), Index(index), ..] => {
+            let conditions = step.conditions.get(list);
+            conditions.and_then(|spans| spans.get(*index))
+        }
+        _ => None,
+    };
+    found.unwrap_or(&step.whole).clone()
+}
+
+fn of_pair(pair: &At<raw::Pair>, rest: &[Segment]) -> Span {
+    use Segment::{Field, Index};
+    let raw = &pair.value;
+    let found = match rest {
+        [Field("friction"), ..] => raw.friction.as_ref().map(|at| &at.span),
+        [Field("stabilised"), ..] => raw.stabilise.as_ref().map(|at| &at.span),
+        [Field("initial"), ..] => raw.name.as_ref().map(|at| &at.span),
+        [Field("a"), ..] => rigid_name(raw, 0).map(|at| &at.span),
+        [Field("b"), ..] => rigid_name(raw, 1).map(|at| &at.span),
+        [Field("textures"), Index(side), ..] => {
+            let side = side_as_written(raw, *side);
+            side.and_then(|side| side.texture.as_ref())
+                .map(|texture| &texture.span)
+        }
+        _ => None,
+    };
+    found.unwrap_or(&pair.span).clone()
+}
+
+/// Name of the rigid surface that is a side of the model's pair.
+fn rigid_name(raw: &raw::Pair, side: usize) -> Option<&At<Text>> {
+    match side_as_written(raw, side)?.surface.as_ref()? {
+        raw::SideSurface::Rigid(side) => side.rigid.as_ref(),
+        raw::SideSurface::Deformable(_) => None,
+    }
+}
+
+/// A side of the model's pair, of which a lone rigid surface is side `b` wherever it
+/// is written.
+fn side_as_written(raw: &raw::Pair, side: usize) -> Option<&raw::Side> {
+    let [a, b] = [&raw.a, &raw.b].map(|side| side.as_ref().map(|at| &at.value));
+    let is_rigid = |side: Option<&raw::Side>| {
+        let surface = side.and_then(|side| side.surface.as_ref());
+        matches!(surface, Some(raw::SideSurface::Rigid(_)))
+    };
+    let swapped = is_rigid(a) && !is_rigid(b);
+    if swapped == (side == 1) { a } else { b }
+}

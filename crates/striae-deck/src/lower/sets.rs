@@ -1,0 +1,181 @@
+//! Sets of nodes and facets that a deck makes besides those of the mesh.
+
+use crate::{
+    fault::FaultKind,
+    faults::FaultList,
+    raw,
+    read::At,
+    value::{Number, Text, vector},
+};
+use striae_mesh::{Face, Mesh, NodeId, Sets, Vec3};
+use striae_model::FaultKind as ModelFault;
+
+/// By how much of its size a box is widened, so that nodes on its sides are inside.
+const MARGIN: f64 = 1e-9;
+
+/// Adds the node sets of a body to its mesh, in their order.
+pub(super) fn add_node_sets(
+    mesh: &mut Mesh,
+    body: &str,
+    raw: &[At<raw::NodeSet>],
+    faults: &mut FaultList<'_>,
+) {
+    for At { value: raw, .. } in raw {
+        let (Some(name), Some(members)) = (&raw.name, &raw.members) else {
+            continue;
+        };
+        let members = match members {
+            raw::NodeMembers::Nearest(raw) => raw
+                .nearest
+                .as_ref()
+                .map(|place| vec![nearest_node(mesh, place)]),
+            raw::NodeMembers::Common(raw) => raw.common.as_ref().and_then(|names| {
+                let sets = named("node", &mesh.node_sets, body, &names.value, faults)?;
+                let (first, rest) = sets.split_first()?;
+                Some(
+                    first
+                        .iter()
+                        .filter(|node| rest.iter().all(|set| set.contains(node)))
+                        .copied()
+                        .collect(),
+                )
+            }),
+            raw::NodeMembers::Union(raw) => union("node", &mesh.node_sets, body, raw, faults),
+            raw::NodeMembers::Box(raw) => region(&raw.from, &raw.to).map(|inside| {
+                let nodes = mesh.positions.iter().enumerate().filter(|(_, x)| inside(x));
+                nodes.map(|(index, _)| NodeId::new(index)).collect()
+            }),
+        };
+        if let Some(members) = members {
+            insert("node", &mut mesh.node_sets, body, name, members, faults);
+        }
+    }
+}
+
+/// Adds the facet sets of a body to its mesh, in their order.
+pub(super) fn add_facet_sets(
+    mesh: &mut Mesh,
+    body: &str,
+    raw: &[At<raw::FacetSet>],
+    faults: &mut FaultList<'_>,
+) {
+    for At { value: raw, .. } in raw {
+        let (Some(name), Some(members)) = (&raw.name, &raw.members) else {
+            continue;
+        };
+        let members: Option<Vec<Face>> = match members {
+            raw::FacetMembers::Union(raw) => union("facet", &mesh.facet_sets, body, raw, faults),
+            raw::FacetMembers::Box(raw) => raw.of.as_ref().and_then(|of| {
+                let faces = named(
+                    "facet",
+                    &mesh.facet_sets,
+                    body,
+                    std::slice::from_ref(of),
+                    faults,
+                )?
+                .concat();
+                let inside = region(&raw.from, &raw.to)?;
+                Some(
+                    faces
+                        .into_iter()
+                        .filter(|face| mesh.face_positions(*face).iter().all(&inside))
+                        .collect(),
+                )
+            }),
+        };
+        if let Some(members) = members {
+            insert("facet", &mut mesh.facet_sets, body, name, members, faults);
+        }
+    }
+}
+
+/// The members of the set of that name, or `None` after a fault.
+pub(super) fn members<T: Ord + Copy>(
+    kind: &'static str,
+    sets: &Sets<T>,
+    body: &str,
+    set: &At<Text>,
+    faults: &mut FaultList<'_>,
+) -> Option<Vec<T>> {
+    let members = ModelFault::members(kind, sets, body, &set.value.0);
+    members
+        .map(<[T]>::to_vec)
+        .map_err(|fault| faults.push(&set.span, *fault))
+        .ok()
+}
+
+fn insert<T: Ord + Copy>(
+    kind: &'static str,
+    sets: &mut Sets<T>,
+    body: &str,
+    name: &At<Text>,
+    members: Vec<T>,
+    faults: &mut FaultList<'_>,
+) {
+    let (body, set) = (body.to_owned(), name.value.0.clone());
+    if sets.get(&set).is_some() {
+        faults.push(
+            &name.span,
+            FaultKind::DuplicateSet {
+                body,
+                kind,
+                name: set,
+            },
+        );
+    } else if members.is_empty() {
+        faults.push(
+            &name.span,
+            ModelFault::EmptySet {
+                body,
+                kind,
+                name: set,
+            },
+        );
+    } else {
+        sets.insert(set, members);
+    }
+}
+
+fn named<T: Ord + Copy>(
+    kind: &'static str,
+    sets: &Sets<T>,
+    body: &str,
+    names: &[At<Text>],
+    faults: &mut FaultList<'_>,
+) -> Option<Vec<Vec<T>>> {
+    let found: Vec<Vec<T>> = names
+        .iter()
+        .filter_map(|name| members(kind, sets, body, name, faults))
+        .collect();
+    (found.len() == names.len()).then_some(found)
+}
+
+fn union<T: Ord + Copy>(
+    kind: &'static str,
+    sets: &Sets<T>,
+    body: &str,
+    raw: &raw::SetUnion,
+    faults: &mut FaultList<'_>,
+) -> Option<Vec<T>> {
+    Some(named(kind, sets, body, &raw.union.as_ref()?.value, faults)?.concat())
+}
+
+/// The node nearest to a place, the first of several.
+fn nearest_node(mesh: &Mesh, place: &At<[Number; 3]>) -> NodeId {
+    let place = vector(&place.value);
+    let distance = |index: &usize| (mesh.positions[*index] - place).norm_squared();
+    let nearest = (0..mesh.positions.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    NodeId::new(nearest.unwrap_or(0))
+}
+
+/// Whether a point is in the box.
+fn region(
+    from: &Option<At<[Number; 3]>>,
+    to: &Option<At<[Number; 3]>>,
+) -> Option<impl Fn(&Vec3) -> bool + use<>> {
+    let (from, to) = (vector(&from.as_ref()?.value), vector(&to.as_ref()?.value));
+    let margin = MARGIN * (to - from).norm();
+    Some(move |x: &Vec3| {
+        (0..3).all(|axis| (from[axis] - margin..=to[axis] + margin).contains(&x[axis]))
+    })
+}

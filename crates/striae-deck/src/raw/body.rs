@@ -1,0 +1,191 @@
+//! `[[material]]`, `[[body]]` and `[[rigid]]`.
+
+use super::{
+    super::declare::{choice, either, table, words},
+    FacetSet, Mesh, NodeSet,
+};
+use crate::{
+    read::At,
+    value::{Number, PoissonsRatio, Positive, Text, Whole},
+};
+
+table! {
+    /// A bulk material.
+    Material {
+        /// Unique name.
+        required name: Text,
+        /// Mass per volume at rest. Needed where there is inertia or gravity.
+        optional density: Positive,
+        /// Law and elastic constants.
+        include law: BulkLaw,
+    }
+}
+
+choice! {
+    /// Bulk law.
+    BulkLaw by law {
+        "neo-hookean" => NeoHookean(NeoHookean),
+        "linear-elastic" => LinearElastic(LinearElastic),
+    }
+}
+
+table! {
+    /// Compressible neo-Hookean solid for large strains.
+    NeoHookean {
+        /// Elastic constants.
+        include constants: ElasticConstants,
+    }
+}
+
+table! {
+    /// Linear elasticity for small strains and small rotations.
+    LinearElastic {
+        /// Elastic constants.
+        include constants: ElasticConstants,
+    }
+}
+
+either! {
+    /// Two elastic constants.
+    ElasticConstants {
+        Engineering(EngineeringConstants),
+        Lame(LameConstants),
+    }
+}
+
+table! {
+    /// Young's modulus and Poisson's ratio.
+    EngineeringConstants {
+        /// Young's modulus.
+        required youngs_modulus: Positive,
+        /// Poisson's ratio.
+        required poissons_ratio: PoissonsRatio,
+    }
+}
+
+table! {
+    /// Lame's constants.
+    LameConstants {
+        /// First Lame constant; the bulk modulus, `lambda + 2/3 shear_modulus`, must be positive.
+        required lambda: Number,
+        /// Shear modulus.
+        required shear_modulus: Positive,
+    }
+}
+
+table! {
+    /// A deformable body.
+    Body {
+        /// Unique name.
+        required name: Text,
+        /// Name of its material.
+        required material: Text,
+        /// Its mesh of eight-node hexahedra, read from a file or generated.
+        required mesh: Mesh,
+        /// Mass of the nodes of its contact surfaces in dynamic steps. Default: `consistent`.
+        optional contact_mass: ContactMass,
+        /// More sets of nodes.
+        optional node_sets: Vec<At<NodeSet>>,
+        /// More sets of facets.
+        optional facet_sets: Vec<At<FacetSet>>,
+    }
+}
+
+words! {
+    /// Mass of the nodes of contact surfaces.
+    ContactMass {
+        /// What the consistent mass matrix gives them.
+        Consistent = "consistent",
+        /// None: it is moved to the nodes behind, against oscillations of contact.
+        Redistributed = "redistributed",
+    }
+}
+
+table! {
+    /// A rigid body: a surface to touch, or what nodes are tied to.
+    Rigid {
+        /// Unique name.
+        required name: Text,
+        /// Its shape.
+        include shape: RigidShape,
+        /// Point about which it turns, and centre of a given `mass`. Default: the centre of the mass with `density`, else the origin.
+        optional reference: [Number; 3],
+        /// Density of the solid inside a closed `mesh`, from which mass, centre and moments of inertia follow. Default: none.
+        optional density: Positive,
+        /// Mass; needs `inertia`. Default: none.
+        optional mass: Positive,
+        /// Principal moments of inertia about the coordinate axes through the reference point; needs `mass`.
+        optional inertia: [Positive; 3],
+    }
+}
+
+either! {
+    /// Shape of a rigid surface.
+    RigidShape {
+        Plane(RigidPlane),
+        Mesh(RigidMesh),
+        Tied(RigidTied),
+    }
+}
+
+table! {
+    /// An unbounded plane.
+    RigidPlane {
+        /// The plane by a point of it and its normal.
+        required plane: Plane,
+    }
+}
+
+table! {
+    /// Nodes that follow the body.
+    RigidTied {
+        /// Sets of nodes that are tied to it.
+        required tied: Vec<At<Tie>>,
+    }
+}
+
+table! {
+    /// Nodes of a deformable body.
+    Tie {
+        /// Name of the body.
+        required body: Text,
+        /// Name of its node set.
+        required nodes: Text,
+    }
+}
+
+table! {
+    /// A point and a normal.
+    Plane {
+        /// A point of the plane.
+        required point: [Number; 3],
+        /// Normal of any length, out of the rigid half space.
+        required normal: [Number; 3],
+    }
+}
+
+table! {
+    /// A surface of triangles and quadrilaterals.
+    RigidMesh {
+        /// Its facets, outward by the right-hand rule.
+        required mesh: SurfaceMesh,
+    }
+}
+
+either! {
+    /// A surface mesh.
+    SurfaceMesh {
+        File(super::MeshFile),
+        Inline(InlineSurface),
+    }
+}
+
+table! {
+    /// A surface mesh written in the deck.
+    InlineSurface {
+        /// Positions of the nodes.
+        required positions: Vec<At<[Number; 3]>>,
+        /// Nodes of the facets, counted from 0, outward by the right-hand rule; a triangle repeats its last node.
+        required facets: Vec<At<[Whole<0>; 4]>>,
+    }
+}

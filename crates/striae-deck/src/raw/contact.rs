@@ -1,0 +1,228 @@
+//! `[[pair]]` and its friction.
+
+use super::Texture;
+use crate::{
+    declare::{choice, either, table, words},
+    faults::FaultList,
+    form::Form,
+    read::{Place, Read, Value, read_table, unexpected},
+    value::{All, NonNegative, Number, Positive, Text, Truth},
+};
+use toml::de::DeValue;
+
+table! {
+    /// Two surfaces that may touch; neither is master or slave.
+    Pair {
+        /// Unique name.
+        required name: Text,
+        /// First side.
+        required a: Side,
+        /// Second side.
+        required b: Side,
+        /// Friction from the start; steps may change it. Default: frictionless.
+        optional friction: Friction,
+        /// How contact is enforced. Default: `weighted`.
+        optional enforcement: Enforcement,
+        /// Distance over which contact is looked for ahead. It bears on the cost, not on the
+        /// result. Default: half the local facet size.
+        optional search_distance: Positive,
+        /// What is made of gaps and overlaps of the meshes before anything has moved: `as-meshed` takes gaps as they are and refuses overlaps of more than 2 % of the local facet size; `close` moves nodes without strain until overlaps are gone, and gaps of up to a tenth of the local facet size or up to the one that is given; `resolve` presses overlaps out in the course of the first step. Default: `as-meshed`.
+        optional initial: Initial,
+        /// Whether viscous forces between the sides carry bodies that nothing else holds across a gap, in steps without inertia. They fall to zero in the course of each step. Default: false.
+        optional stabilise: Truth,
+    }
+}
+
+/// What is made of gaps and overlaps of the meshes.
+#[derive(Clone, Debug)]
+pub(crate) enum Initial {
+    /// One of a few treatments.
+    Word(InitialWord),
+    /// Gaps are closed up to a given one.
+    Close(CloseGaps),
+}
+
+words! {
+    /// What is made of gaps and overlaps of the meshes.
+    InitialWord {
+        /// Gaps are as they are, overlaps a fault.
+        AsMeshed = "as-meshed",
+        /// Nodes are moved without strain.
+        Close = "close",
+        /// Overlaps are pressed out in the course of the first step.
+        Resolve = "resolve",
+    }
+}
+
+table! {
+    /// Gaps and overlaps closed without strain.
+    CloseGaps {
+        /// Largest gap that is closed.
+        required close: NonNegative,
+    }
+}
+
+impl Read for Initial {
+    fn read(value: &Value<'_>, place: &Place, faults: &mut FaultList<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::String(_) => InitialWord::read(value, place, faults).map(Self::Word),
+            DeValue::Table(_) => read_table(value, place, faults).map(Self::Close),
+            _ => unexpected(value, place, faults, &Self::form()),
+        }
+    }
+
+    fn form() -> Form {
+        Form::Any(vec![InitialWord::form(), CloseGaps::form()])
+    }
+}
+
+table! {
+    /// One side of a pair.
+    Side {
+        /// The surface.
+        include surface: SideSurface,
+        /// Texture painted on the surface at rest, which it follows as it deforms. Default: none.
+        optional texture: Texture,
+    }
+}
+
+either! {
+    /// The surface of a side.
+    SideSurface {
+        Deformable(DeformableSide),
+        Rigid(RigidSide),
+    }
+}
+
+table! {
+    /// Facets of a body.
+    DeformableSide {
+        /// Name of the body.
+        required body: Text,
+        /// Name of its facet set.
+        required facets: Text,
+    }
+}
+
+table! {
+    /// A rigid surface.
+    RigidSide {
+        /// Name of the rigid surface.
+        required rigid: Text,
+    }
+}
+
+words! {
+    /// How contact is enforced.
+    Enforcement {
+        /// Both sides share one traction field; gaps and slips are means weighted with it.
+        Weighted = "weighted",
+        /// Each side has a field of its own; gaps and slips are those at nodes (Jones & Papadopoulos).
+        Collocated = "collocated",
+    }
+}
+
+table! {
+    /// Friction between the two sides of a pair.
+    Friction {
+        /// Law and its constants.
+        include law: FrictionLaw,
+        /// Largest shear stress that friction can carry. Default: none.
+        optional shear_cap: Positive,
+        /// Decay of all coefficients with the rate of slip. Default: none.
+        optional decay: Decay,
+    }
+}
+
+table! {
+    /// Decay of friction from rest to fast slip, `kinetic + (static - kinetic) exp(-rate/slip_rate)`.
+    Decay {
+        /// Coefficients in fast slip over those at rest, which the law states.
+        required kinetic_over_static: NonNegative,
+        /// Rate of slip, length per time, at which the difference has fallen to 1/e.
+        required slip_rate: Positive,
+    }
+}
+
+choice! {
+    /// Friction law.
+    FrictionLaw by law {
+        "frictionless" => Frictionless(Frictionless),
+        "coulomb" => Coulomb(Coulomb),
+        "two-textures" => TwoTextures(TwoTextures),
+        "orthotropic" => Orthotropic(Orthotropic),
+        "nap" => Nap(Nap),
+        "tabulated" => Tabulated(Tabulated),
+    }
+}
+
+table! {
+    /// No friction.
+    Frictionless {}
+}
+
+table! {
+    /// Isotropic Coulomb friction.
+    Coulomb {
+        /// Coefficient of friction.
+        required mu: NonNegative,
+    }
+}
+
+table! {
+    /// Two textured surfaces.
+    TwoTextures {
+        /// Coefficient of friction.
+        required mu: NonNegative,
+        /// Dependence of the magnitude on the angle between the textures.
+        required c_mag: Number,
+        /// Dependence on the angle between slip and textures.
+        required c_ang: Number,
+        /// Difference between slip with and against the textures.
+        required c_cen: Number,
+    }
+}
+
+table! {
+    /// One textured surface with different friction along and across its texture.
+    Orthotropic {
+        /// Coefficient of friction along the texture.
+        required mu_along: NonNegative,
+        /// Coefficient of friction across the texture.
+        required mu_across: NonNegative,
+        /// Direction of slip. Default: `opposing`.
+        optional slip_rule: SlipRule,
+    }
+}
+
+words! {
+    /// Direction of slip.
+    SlipRule {
+        /// Each component of friction opposes that component of slip.
+        Opposing = "opposing",
+        /// Slip is normal to the slip surface.
+        Associated = "associated",
+    }
+}
+
+table! {
+    /// One textured surface with different friction with, against and across its nap.
+    Nap {
+        /// Coefficient of friction of slip with the nap.
+        required mu_forward: NonNegative,
+        /// Coefficient of friction of slip against the nap.
+        required mu_backward: NonNegative,
+        /// Coefficient of friction of slip across the nap.
+        required mu_lateral: NonNegative,
+    }
+}
+
+table! {
+    /// One textured surface with coefficients measured at many angles; friction opposes slip.
+    Tabulated {
+        /// Directions in which the textured surface slips over the other one: angles in degrees from its texture `a` (across the grooves, against a nap), counter-clockwise as seen from outside it; at least three, ascending, less than a turn.
+        required angles: All<Number>,
+        /// Coefficient of friction at each angle; monotone and smooth between them.
+        required mu: All<Positive>,
+    }
+}

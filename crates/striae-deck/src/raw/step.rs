@@ -1,0 +1,286 @@
+//! `[[curve]]` and `[[step]]` with its conditions.
+
+use super::Friction;
+use crate::{
+    declare::{either, table, words},
+    faults::FaultList,
+    form::Form,
+    read::{At, Place, Read, Value, read_table, unexpected},
+    value::{Count, Fraction, Number, Positive, Text},
+};
+use toml::de::DeValue;
+
+table! {
+    /// A piecewise linear curve for conditions to change along.
+    NamedCurve {
+        /// Unique name, other than `ramp`, `constant` and `smooth`, which are built in.
+        required name: Text,
+        /// Pairs of the fraction of the step, rising from 0 to 1, and the share of the change that is done then.
+        required points: Vec<At<[Number; 2]>>,
+    }
+}
+
+table! {
+    /// A part of the loading history. A condition holds until a later step states it again or releases it.
+    Step {
+        /// Unique name.
+        required name: Text,
+        /// Duration in (pseudo) time. Default: 1.
+        optional duration: Positive,
+        /// Implicit dynamics; an empty table takes the defaults. Default: a sequence of equilibria without inertia.
+        optional dynamics: Dynamics,
+        /// How the step is divided: a number of equal increments, or their sizes. Default: 10.
+        optional increments: Increments,
+        /// Velocities of whole bodies at the start of the step. Default: those they have.
+        optional velocity: Vec<At<Velocity>>,
+        /// Acceleration of gravity on all bodies; it stays until a later step states it again.
+        optional gravity: Gravity,
+        /// Prescribed displacements of nodes.
+        optional displacement: Vec<At<Displacement>>,
+        /// Prescribed displacements that end with the start of the step.
+        optional release: Vec<At<Release>>,
+        /// Tractions on facets.
+        optional traction: Vec<At<Traction>>,
+        /// Pressures on facets.
+        optional pressure: Vec<At<Pressure>>,
+        /// What rigid bodies do.
+        optional rigid: Vec<At<RigidMotion>>,
+        /// Changes of friction at the start of the step.
+        optional friction: Vec<At<FrictionChange>>,
+    }
+}
+
+table! {
+    /// Implicit dynamics by the generalised-alpha method.
+    Dynamics {
+        /// Spectral radius at infinite frequency: 1 keeps oscillations that the increments do not resolve, small values damp them. Default: 0.8.
+        optional spectral_radius: Fraction,
+    }
+}
+
+table! {
+    /// Velocity of a body, `vector + spin x (x - about)`.
+    Velocity {
+        /// The body.
+        include of: VelocityOf,
+        /// Velocity. Default: none.
+        optional vector: [Number; 3],
+        /// Angular velocity. Default: none.
+        optional spin: [Number; 3],
+        /// Point of the axis of the spin, in space. Default: the origin.
+        optional about: [Number; 3],
+    }
+}
+
+either! {
+    /// What has a velocity.
+    VelocityOf {
+        Body(VelocityOfBody),
+        Rigid(VelocityOfRigid),
+    }
+}
+
+table! {
+    /// A deformable body.
+    VelocityOfBody {
+        /// Name of the body.
+        required body: Text,
+    }
+}
+
+table! {
+    /// A rigid body with the nodes tied to it.
+    VelocityOfRigid {
+        /// Name of the rigid body.
+        required rigid: Text,
+    }
+}
+
+table! {
+    /// Acceleration of gravity, from the present value to the target.
+    Gravity {
+        /// Target of the acceleration.
+        required vector: [Number; 3],
+        /// How the target is approached: `ramp`, `constant`, `smooth` or the name of a curve. Default: `ramp`.
+        optional curve: Text,
+    }
+}
+
+/// How a step is divided.
+#[derive(Clone, Debug)]
+pub(crate) enum Increments {
+    /// Equal increments of this number, cut where needed.
+    Number(Count),
+    /// Sizes as fractions of the step.
+    Sizes(IncrementSizes),
+}
+
+impl Read for Increments {
+    fn read(value: &Value<'_>, place: &Place, faults: &mut FaultList<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::Integer(_) => Count::read(value, place, faults).map(Self::Number),
+            DeValue::Table(_) => read_table(value, place, faults).map(Self::Sizes),
+            _ => unexpected(value, place, faults, &Self::form()),
+        }
+    }
+
+    fn form() -> Form {
+        Form::Any(vec![Count::form(), IncrementSizes::form()])
+    }
+}
+
+table! {
+    /// Sizes of increments as fractions of the step.
+    IncrementSizes {
+        /// First increment. Default: a tenth, or the largest where that is smaller.
+        optional initial: Fraction,
+        /// Smallest increment before the run is given up. Default: a thousandth of the first.
+        optional smallest: Fraction,
+        /// Largest increment. Default: the first.
+        optional largest: Fraction,
+    }
+}
+
+table! {
+    /// Prescribed displacement of nodes, from the present value to the target.
+    Displacement {
+        /// Name of the body.
+        required body: Text,
+        /// Name of its node set.
+        required nodes: Text,
+        /// Target of the first component; an absent component is left as it is.
+        optional x: Number,
+        /// Target of the second component.
+        optional y: Number,
+        /// Target of the third component.
+        optional z: Number,
+        /// How the target is approached: `ramp`, `constant`, `smooth` or the name of a curve. Default: `ramp`.
+        optional curve: Text,
+    }
+}
+
+table! {
+    /// End of prescribed displacements.
+    Release {
+        /// Name of the body.
+        required body: Text,
+        /// Name of its node set.
+        required nodes: Text,
+        /// Components that become free. Default: all that are prescribed.
+        optional components: Vec<At<Component>>,
+    }
+}
+
+words! {
+    /// A component of a vector.
+    Component {
+        /// First component.
+        X = "x",
+        /// Second component.
+        Y = "y",
+        /// Third component.
+        Z = "z",
+    }
+}
+
+table! {
+    /// Force per area on facets.
+    Traction {
+        /// Name of the body.
+        required body: Text,
+        /// Name of its facet set.
+        required facets: Text,
+        /// Target of the traction.
+        required vector: [Number; 3],
+        /// Whether it keeps its direction. Default: `dead`.
+        optional direction: Direction,
+        /// Which part of the facets is loaded. Default: `whole`.
+        optional extent: Extent,
+        /// How the target is approached: `ramp`, `constant`, `smooth` or the name of a curve. Default: `ramp`.
+        optional curve: Text,
+    }
+}
+
+words! {
+    /// Behaviour of a traction while the facets move.
+    Direction {
+        /// Force per reference area of fixed direction.
+        Dead = "dead",
+        /// Force per current area that turns with the facet.
+        Follower = "follower",
+    }
+}
+
+words! {
+    /// Part of the facets that carries a load.
+    Extent {
+        /// All of it.
+        Whole = "whole",
+        /// Only what no other contact surface covers.
+        Exposed = "exposed",
+    }
+}
+
+table! {
+    /// Pressure on facets: force per current area against the current normal.
+    Pressure {
+        /// Name of the body.
+        required body: Text,
+        /// Name of its facet set.
+        required facets: Text,
+        /// Target of the pressure, positive inwards.
+        required value: Number,
+        /// Which part of the facets is loaded. Default: `whole`.
+        optional extent: Extent,
+        /// How the target is approached: `ramp`, `constant`, `smooth` or the name of a curve. Default: `ramp`.
+        optional curve: Text,
+    }
+}
+
+table! {
+    /// What a rigid body does. At first all its coordinates are held.
+    RigidMotion {
+        /// Name of the rigid body.
+        required surface: Text,
+        /// Target of the displacement of its reference point. Default: it stays free or where it is.
+        optional displacement: [Number; 3],
+        /// Targets of the angles it has turned about the fixed axes, in degrees. Default: they stay free or what they are.
+        optional rotation: [Number; 3],
+        /// Coordinates that forces decide from now on; they have no target.
+        optional free: Vec<At<Coordinate>>,
+        /// Target of the force that drives free coordinates, at the reference point.
+        optional force: [Number; 3],
+        /// Target of the torque that drives free coordinates.
+        optional torque: [Number; 3],
+        /// How the targets are approached: `ramp`, `constant`, `smooth` or the name of a curve. Default: `ramp`.
+        optional curve: Text,
+    }
+}
+
+words! {
+    /// A coordinate of a rigid body.
+    Coordinate {
+        /// Displacement along the first axis.
+        X = "x",
+        /// Displacement along the second axis.
+        Y = "y",
+        /// Displacement along the third axis.
+        Z = "z",
+        /// Angle about the first axis.
+        Rx = "rx",
+        /// Angle about the second axis.
+        Ry = "ry",
+        /// Angle about the third axis.
+        Rz = "rz",
+    }
+}
+
+table! {
+    /// Friction of a pair from the start of the step.
+    FrictionChange {
+        /// Name of the pair.
+        required pair: Text,
+        /// Its new friction.
+        include friction: Friction,
+    }
+}

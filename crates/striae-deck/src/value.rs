@@ -1,0 +1,217 @@
+//! Plain values: texts, numbers within bounds, lists.
+
+use super::{
+    fault::FaultKind,
+    faults::FaultList,
+    form::{Bound, Form},
+    read::{At, Place, Read, Value, unexpected},
+};
+use std::slice;
+use striae_mesh::Vec3;
+use striae_model::nearest;
+use toml::de::DeValue;
+
+/// A text that is not empty.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Text(pub(crate) String);
+
+impl Read for Text {
+    fn read(value: &Value<'_>, place: &Place, faults: &mut FaultList<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::String(text) if !text.trim().is_empty() => Some(Self(text.to_string())),
+            _ => unexpected(value, place, faults, &Self::form()),
+        }
+    }
+
+    fn form() -> Form {
+        Form::Text
+    }
+}
+
+/// `true` or `false`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Truth(pub(crate) bool);
+
+impl Read for Truth {
+    fn read(value: &Value<'_>, place: &Place, faults: &mut FaultList<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::Boolean(truth) => Some(Self(*truth)),
+            _ => unexpected(value, place, faults, &Self::form()),
+        }
+    }
+
+    fn form() -> Form {
+        Form::Truth
+    }
+}
+
+macro_rules! number {
+    ($(#[doc = $doc:literal] $name:ident [$($bound:expr),*])+) => { $(
+        #[doc = $doc]
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub(crate) struct $name(pub(crate) f64);
+
+        impl $name {
+            const BOUNDS: &'static [Bound] = &[$($bound),*];
+        }
+
+        impl Read for $name {
+            fn read(value: &Value<'_>, place: &Place, faults: &mut FaultList<'_>) -> Option<Self> {
+                match finite(value.get_ref()) {
+                    Some(number) if Self::BOUNDS.iter().all(|bound| bound.admits(number)) => Some(Self(number)),
+                    _ => unexpected(value, place, faults, &Self::form()),
+                }
+            }
+
+            fn form() -> Form {
+                Form::Number(Self::BOUNDS)
+            }
+        }
+    )+ };
+}
+
+number! {
+    /// Any finite number.
+    Number []
+    /// A number greater than zero.
+    Positive [Bound::Above(0.0)]
+    /// A number of at least zero.
+    NonNegative [Bound::AtLeast(0.0)]
+    /// A part of a whole.
+    Fraction [Bound::Above(0.0), Bound::AtMost(1.0)]
+    /// A part of less than half.
+    BelowHalf [Bound::AtLeast(0.0), Bound::Below(0.5)]
+    /// A ratio by which something grows.
+    Growth [Bound::AtLeast(1.0)]
+    /// A ratio of lateral contraction of a compressible material.
+    PoissonsRatio [Bound::Above(-1.0), Bound::Below(0.5)]
+}
+
+/// A whole number of at least `LEAST`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Whole<const LEAST: usize>(pub(crate) usize);
+
+/// A number of things of which there is at least one.
+pub(crate) type Count = Whole<1>;
+
+impl<const LEAST: usize> Read for Whole<LEAST> {
+    fn read(value: &Value<'_>, place: &Place, faults: &mut FaultList<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::Integer(integer) => usize::from_str_radix(integer.as_str(), integer.radix())
+                .ok()
+                .filter(|number| *number >= LEAST)
+                .map(Self)
+                .or_else(|| unexpected(value, place, faults, &Self::form())),
+            _ => unexpected(value, place, faults, &Self::form()),
+        }
+    }
+
+    fn form() -> Form {
+        Form::Whole(LEAST)
+    }
+}
+
+impl<T: Read, const N: usize> Read for [T; N] {
+    fn read(value: &Value<'_>, place: &Place, faults: &mut FaultList<'_>) -> Option<Self> {
+        let list: Vec<At<T>> = match value.get_ref() {
+            DeValue::Array(array) if array.len() == N => elements(array, place, faults),
+            _ => return unexpected(value, place, faults, &Self::form()),
+        };
+        let list: Vec<T> = list.into_iter().map(|element| element.value).collect();
+        list.try_into().ok()
+    }
+
+    fn form() -> Form {
+        Form::List(Box::new(T::form()), Some(N))
+    }
+}
+
+/// A list that is of no use if one of its elements cannot be read.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct All<T>(pub(crate) Vec<T>);
+
+impl<T: Read> Read for All<T> {
+    fn read(value: &Value<'_>, place: &Place, faults: &mut FaultList<'_>) -> Option<Self> {
+        let DeValue::Array(array) = value.get_ref() else {
+            return unexpected(value, place, faults, &Self::form());
+        };
+        let list: Vec<At<T>> = elements(array, place, faults);
+        let all = list.len() == array.len();
+        all.then(|| Self(list.into_iter().map(|element| element.value).collect()))
+    }
+
+    fn form() -> Form {
+        Form::List(Box::new(T::form()), None)
+    }
+}
+
+impl<T: Read> Read for Vec<At<T>> {
+    fn read(value: &Value<'_>, place: &Place, faults: &mut FaultList<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::Array(array) => Some(elements(array, place, faults)),
+            // The table is read all the same, as if it were the only one of the list.
+            DeValue::Table(_) if matches!(T::form(), Form::Table(_)) => {
+                unexpected::<Self>(value, place, faults, &Self::form());
+                Some(elements(slice::from_ref(value), place, faults))
+            }
+            _ => unexpected(value, place, faults, &Self::form()),
+        }
+    }
+
+    fn form() -> Form {
+        Form::List(Box::new(T::form()), None)
+    }
+}
+
+/// A vector from its three components.
+pub(crate) fn vector(components: &[Number; 3]) -> Vec3 {
+    Vec3::new(components[0].0, components[1].0, components[2].0)
+}
+
+/// Position of the text in the list of words allowed.
+pub(crate) fn word(
+    value: &Value<'_>,
+    place: &Place,
+    faults: &mut FaultList<'_>,
+    allowed: &[&'static str],
+) -> Option<usize> {
+    let DeValue::String(found) = value.get_ref() else {
+        let form = Form::Words(allowed.iter().map(|word| (*word, "")).collect());
+        return unexpected(value, place, faults, &form);
+    };
+    let position = allowed.iter().position(|word| word == found);
+    if position.is_none() {
+        let kind = FaultKind::UnknownWord {
+            place: place.to_string(),
+            found: found.to_string(),
+            allowed: allowed.iter().map(|word| (*word).into()).collect(),
+            nearest: nearest(found, allowed.iter().copied()),
+        };
+        faults.push(&value.span(), kind);
+    }
+    position
+}
+
+fn elements<T: Read>(array: &[Value<'_>], place: &Place, faults: &mut FaultList<'_>) -> Vec<At<T>> {
+    let place = place.element();
+    array
+        .iter()
+        .filter_map(|value| {
+            Some(At {
+                span: value.span(),
+                value: T::read(value, &place, faults)?,
+            })
+        })
+        .collect()
+}
+
+fn finite(value: &DeValue<'_>) -> Option<f64> {
+    let number = match value {
+        DeValue::Integer(integer) => {
+            i128::from_str_radix(integer.as_str(), integer.radix()).ok()? as f64
+        }
+        DeValue::Float(float) => float.as_str().parse().ok()?,
+        _ => return None,
+    };
+    number.is_finite().then_some(number)
+}

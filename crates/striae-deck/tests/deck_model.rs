@@ -1,0 +1,423 @@
+//! A good deck is lowered to the model it describes.
+//!
+//! Longer than other files, as it goes through all that a deck can say.
+
+mod deck;
+
+use deck::BASE;
+use std::{num::NonZeroUsize, path::Path};
+use striae_deck::{Deck, parse, read};
+use striae_law::{
+    bulk::{LameConstants, Material},
+    friction::Friction,
+};
+use striae_mesh::{NodeId, Vec3, generate::Block};
+use striae_output::FieldOutput;
+use striae_solve::model::{
+    Backend, BodyId, Curve, Enforcement, Freedom, Increments, LoadExtent, LoadKind, Mover, PairId,
+    Procedure, RigidId, RigidShape, Side, Solver, Strategy, Velocity,
+};
+
+use striae_surface::texture::{Field, Lines, Paint};
+
+fn lowered(text: &str) -> Deck {
+    parse(text, "deck.toml", Path::new("")).unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+#[test]
+fn bodies_have_their_meshes_and_materials() {
+    let model = lowered(BASE).model;
+    assert_eq!(model.title, "Two blocks");
+    let constants = LameConstants::from_youngs_modulus(1e6, 0.3).unwrap();
+    let size = Vec3::new(1.0, 1.0, 0.5);
+    let lower = Block {
+        size,
+        divisions: [4, 4, 2],
+        ..Block::default()
+    };
+    let upper = Block {
+        origin: Vec3::new(0.0, 0.0, 0.5),
+        size,
+        divisions: [3, 3, 2],
+        ..Block::default()
+    };
+    for (body, (name, block)) in model
+        .bodies
+        .iter()
+        .zip([("lower", lower), ("upper", upper)])
+    {
+        assert_eq!(body.name, name);
+        assert_eq!(body.mesh, block.mesh().unwrap());
+        assert_eq!(body.material, Material::neo_hookean(constants));
+    }
+    let RigidShape::Plane { point, normal } = &model.rigid_surfaces[0].shape else {
+        panic!("a plane")
+    };
+    assert_eq!(
+        (model.rigid_surfaces[0].name.as_str(), *point, *normal),
+        ("floor", Vec3::zeros(), Vec3::z())
+    );
+}
+
+#[test]
+fn decks_add_sets_to_meshes() {
+    let from = "divisions = [4, 4, 2] }";
+    let sets = format!(
+        "{from}\n\
+         node_sets = [\n\
+           {{ name = \"pin\", nearest = [0.1, -1, 0.1] }},\n\
+           {{ name = \"edge\", common = [\"xmin\", \"zmin\"] }},\n\
+           {{ name = \"ends\", union = [\"xmin\", \"xmax\", \"edge\"] }},\n\
+           {{ name = \"slab\", from = [0, 0, 0.25], to = [1, 1, 0.25] }},\n\
+         ]\n\
+         facet_sets = [\n\
+           {{ name = \"sides\", union = [\"xmin\", \"ymin\"] }},\n\
+           {{ name = \"half\", of = \"sides\", from = [0, 0, 0], to = [0.5, 1, 0.5] }},\n\
+         ]"
+    );
+    let mesh = &lowered(&BASE.replace(from, &sets)).model.bodies[0].mesh;
+    let nodes = |set: &str| mesh.node_sets.get(set).unwrap();
+    let at = |node: &NodeId| mesh.positions[node.index()];
+    let [pin] = nodes("pin") else {
+        panic!("one node")
+    };
+    assert_eq!(at(pin), Vec3::zeros());
+    assert_eq!(nodes("edge").len(), 5);
+    assert!(
+        nodes("edge")
+            .iter()
+            .all(|node| at(node).x == 0.0 && at(node).z == 0.0)
+    );
+    assert_eq!(nodes("ends").len(), 2 * 15);
+    assert_eq!(nodes("slab").len(), 25);
+    // Eight faces of `xmin` and, of the eight of `ymin`, those below x = 0.5.
+    assert_eq!(mesh.facet_sets.get("half").unwrap().len(), 8 + 4);
+}
+
+#[test]
+fn pairs_name_ids_and_faces() {
+    let model = lowered(BASE).model;
+    let pair = &model.pairs[0];
+    for (side, (id, set)) in [&pair.a, &pair.b]
+        .into_iter()
+        .zip([(0, "zmax"), (1, "zmin")])
+    {
+        let Side::Deformable { body, faces } = side else {
+            panic!("deformable")
+        };
+        assert_eq!(*body, BodyId(id));
+        assert_eq!(faces, model.bodies[id].mesh.facet_sets.get(set).unwrap());
+    }
+    assert_eq!(pair.friction, Friction::coulomb(0.3).unwrap());
+    assert_eq!(
+        (pair.enforcement, pair.search_distance, pair.stabilised),
+        (Enforcement::Weighted, None, false)
+    );
+}
+
+#[test]
+fn a_rigid_side_becomes_the_second_one() {
+    let text = BASE.replace(
+        r#"a = { body = "lower", facets = "zmax" }"#,
+        r#"a = { rigid = "floor" }"#,
+    );
+    let text = text.replace(
+        "mu = 0.3 }",
+        "mu = 0.3 }\nenforcement = \"collocated\"\nsearch_distance = 0.1\nstabilise = true",
+    );
+    let pair = &lowered(&text).model.pairs[0];
+    assert!(matches!(
+        pair.a,
+        Side::Deformable {
+            body: BodyId(1),
+            ..
+        }
+    ));
+    assert!(matches!(pair.b, Side::Rigid(RigidId(0))));
+    assert_eq!(
+        (pair.enforcement, pair.search_distance, pair.stabilised),
+        (Enforcement::Collocated, Some(0.1), true)
+    );
+}
+
+#[test]
+fn steps_state_what_they_change() {
+    let model = lowered(BASE).model;
+    let [press, slide] = &model.steps[..] else {
+        panic!("two steps")
+    };
+    assert_eq!((press.name.as_str(), press.duration), ("press", 2.0));
+    assert_eq!(
+        press.increments,
+        Increments {
+            initial: 0.1,
+            smallest: 1e-3,
+            largest: 0.2
+        }
+    );
+    let [bottom, top] = &press.displacements[..] else {
+        panic!("two conditions")
+    };
+    assert_eq!(
+        (bottom.set.as_str(), bottom.body, bottom.components),
+        ("zmin", BodyId(0), [Some(0.0); 3])
+    );
+    assert_eq!(bottom.curve, Curve::Ramp);
+    assert_eq!(
+        (top.body, top.components),
+        (BodyId(1), [None, None, Some(-0.02)])
+    );
+    assert_eq!(
+        top.curve,
+        Curve::Table(vec![(0.0, 0.0), (0.5, 1.0), (1.0, 0.0)])
+    );
+    let expected: Vec<NodeId> = model.bodies[1].mesh.node_sets.get("zmax").unwrap().to_vec();
+    assert_eq!(top.nodes, expected);
+    let [traction, pressure] = &press.loads[..] else {
+        panic!("two loads")
+    };
+    assert_eq!(traction.kind, LoadKind::FollowerTraction(Vec3::x()));
+    assert_eq!(
+        (traction.body, traction.extent),
+        (BodyId(1), LoadExtent::Whole)
+    );
+    assert_eq!(
+        (pressure.kind, pressure.extent),
+        (LoadKind::Pressure(3.0), LoadExtent::Exposed)
+    );
+
+    assert_eq!(slide.duration, 1.0);
+    assert_eq!(
+        slide.increments,
+        Increments {
+            initial: 0.1,
+            smallest: 1e-4,
+            largest: 0.1
+        }
+    );
+    assert_eq!(slide.releases[0].components, [false, false, true]);
+    assert_eq!(
+        slide.rigid_motions[0].coordinates[..3],
+        [0.0, 0.0, 0.1].map(Freedom::To)
+    );
+    assert_eq!(slide.frictions, [(PairId(0), Friction::frictionless())]);
+}
+
+#[test]
+fn settings_have_defaults() {
+    let deck = lowered(BASE);
+    let stated = Solver {
+        backend: Backend::Faer,
+        strategy: Strategy::Table1 {
+            stick_tolerance: 0.001,
+        },
+        tolerance: 1e-9,
+        largest_iterations: 15,
+        further_iterations: 0,
+    };
+    assert_eq!(deck.model.solver, stated);
+    assert_eq!(
+        deck.output.fields,
+        FieldOutput::Every(NonZeroUsize::new(2).unwrap())
+    );
+    let bare = lowered(&BASE[..BASE.find("[output]").unwrap()]);
+    let default = Solver {
+        backend: Backend::Condensed,
+        strategy: Strategy::Semismooth,
+        tolerance: 1e-10,
+        largest_iterations: 40,
+        further_iterations: 0,
+    };
+    assert_eq!(bare.model.solver, default);
+    assert_eq!(
+        bare.output.fields,
+        FieldOutput::Every(NonZeroUsize::new(1).unwrap())
+    );
+    let last = lowered(&BASE.replace("fields_every = 2", "fields_every = 0"));
+    assert_eq!(last.output.fields, FieldOutput::Last);
+}
+
+#[test]
+fn friction_takes_a_cap() {
+    let law = r#"{ law = "coulomb", mu = 0.2, shear_cap = 5 }"#;
+    let text = BASE.replace(r#"{ law = "coulomb", mu = 0.3 }"#, law);
+    let expected = Friction::coulomb(0.2).unwrap().with_shear_cap(5.0).unwrap();
+    assert_eq!(lowered(&text).model.pairs[0].friction, expected);
+}
+
+#[test]
+fn tables_of_friction_are_in_degrees() {
+    let law = r#"{ law = "tabulated", angles = [-90, 0, 90, 180], mu = [0.1, 0.2, 0.3, 0.4] }"#;
+    let text = BASE
+        .replace(r#"{ law = "coulomb", mu = 0.3 }"#, law)
+        .replace(
+            r#"facets = "zmin" }"#,
+            r#"facets = "zmin", texture = { uniform = [1, 0, 0] } }"#,
+        );
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let angles = [-quarter, 0.0, quarter, 2.0 * quarter];
+    let expected = Friction::tabulated(&angles, &[0.1, 0.2, 0.3, 0.4]).unwrap();
+    assert_eq!(lowered(&text).model.pairs[0].friction, expected);
+}
+
+#[test]
+fn textures_go_with_their_sides() {
+    let text = BASE
+        .replace(
+            r#"a = { body = "lower", facets = "zmax" }"#,
+            r#"a = { rigid = "floor", texture = { uniform = [0, 2, 0], turn = 180 } }"#,
+        )
+        .replace(
+            r#"facets = "zmin" }"#,
+            r#"facets = "zmin", texture = { points = [{ at = [0, 0, 0], direction = [1, 0, 0] }], width = 2 } }"#,
+        )
+        .replace(
+            r#"law = "coulomb", mu = 0.3"#,
+            r#"law = "two-textures", mu = 0.3, c_mag = 0.1, c_ang = 0.1, c_cen = 0.5"#,
+        );
+    let pair = &lowered(&text).model.pairs[0];
+    assert_eq!(
+        pair.friction,
+        Friction::two_textures(0.3, 0.1, 0.1, 0.5).unwrap()
+    );
+    let points = Paint::Points {
+        directions: vec![(Vec3::zeros(), Vec3::x())],
+        width: Some(2.0),
+    };
+    let lines = Lines::Uniform(2.0 * Vec3::y());
+    let field = Paint::Field(Field {
+        lines,
+        turn: std::f64::consts::PI,
+    });
+    assert_eq!(pair.textures, [Some(points), Some(field)]);
+}
+
+#[test]
+fn every_generator_makes_its_mesh() {
+    for mesh in [
+        r#"generator = "block", size = [1, 2, 3], divisions = [2, 3, 4], grading = { x = { one_sided = 3 }, y = { symmetric = 2 }, z = { lengths = [1, 2, 2, 1] } }, rotation = { axis = [0, 0, 2], degrees = 30, about = [0, 0, 0] }, mesh_rotation = 10, bottom_slopes = [0.1, 0], top_slopes = [0, 0.1], irregularity = 0.1, seed = 4"#,
+        r#"generator = "capped-block", size = [10, 10], height = 6.5, radius = 12, element_size = 1.6, apex = [0, 0, 1], fine_half_width = 2, fine_depth = 1, growth = 1.5, part = "half""#,
+        r#"generator = "half-cylinder", radius = 8, thickness = 1, element_size = 1, half = "upper", layers = 2"#,
+        r#"generator = "annulus", inner_radius = 0.2, outer_radius = 0.5, width = 0.4, divisions = [2, 24, 2], refinement = { half_angle = 20, ratio = 3 }"#,
+    ] {
+        let deck = format!(
+            "title = \"t\"\n[[material]]\nname = \"m\"\nlaw = \"linear-elastic\"\nlambda = 1\nshear_modulus = 1\n\
+             [[body]]\nname = \"b\"\nmaterial = \"m\"\nmesh = {{ {mesh} }}\n\
+             [[step]]\nname = \"s\"\ndisplacement = [{{ body = \"b\", nodes = \"ymin\", x = 0, y = 0, z = 0 }}]\n"
+        );
+        assert!(lowered(&deck).model.bodies[0].mesh.elements.len() >= 24);
+    }
+}
+
+#[test]
+fn elements_turned_inside_out_are_named() {
+    let twisted = "divisions = [4, 4, 2], mesh_rotation = 170";
+    let text = BASE.replace("divisions = [4, 4, 2]", twisted);
+    let faults = parse(&text, "deck.toml", Path::new("")).unwrap_err();
+    let said: Vec<String> = faults.iter().map(ToString::to_string).collect();
+    assert_eq!(said.len(), 1, "{said:?}");
+    assert!(said[0].starts_with("deck.toml:10:8: the mesh of body `lower` cannot be made: "));
+    assert!(
+        said[0].contains("turned inside out") && said[0].contains("element "),
+        "{said:?}"
+    );
+}
+
+#[test]
+fn inertia_gravity_and_decaying_friction() {
+    let text = BASE
+        .replace("youngs_modulus = 1e6", "density = 1000\nyoungs_modulus = 1e6")
+        .replace(
+            "duration = 2.0\n",
+            "duration = 2.0\ndynamics = { spectral_radius = 0.5 }\ngravity = { vector = [0, 0, -9.81], curve = \"constant\" }\nvelocity = [{ body = \"upper\", vector = [1, 2, 3], spin = [0, 0, 4], about = [5, 6, 7] }]\n",
+        )
+        .replace(
+            r#"{ law = "coulomb", mu = 0.3 }"#,
+            r#"{ law = "coulomb", mu = 0.3, decay = { kinetic_over_static = 0.5, slip_rate = 2 } }"#,
+        );
+    let model = parse(&text, "deck.toml", Path::new("")).unwrap().model;
+    assert!(model.bodies.iter().all(|body| body.density == 1000.0));
+    let [press, slide] = &model.steps[..] else {
+        panic!("two steps")
+    };
+    assert_eq!(
+        press.procedure,
+        Procedure::Dynamic {
+            spectral_radius: 0.5
+        }
+    );
+    assert_eq!(slide.procedure, Procedure::QuasiStatic);
+    let gravity = press.gravity.as_ref().unwrap();
+    assert_eq!(gravity.acceleration, Vec3::new(0.0, 0.0, -9.81));
+    assert_eq!(gravity.curve, Curve::Constant);
+    let expected = Velocity {
+        body: Mover::Deformable(BodyId(1)),
+        velocity: Vec3::new(1.0, 2.0, 3.0),
+        spin: Vec3::new(0.0, 0.0, 4.0),
+        about: Vec3::new(5.0, 6.0, 7.0),
+    };
+    assert_eq!(press.velocities, [expected]);
+    let fast = model.pairs[0].friction.cap(1.0, 2.0);
+    assert!((fast - 0.15 * (1.0 + (-1.0_f64).exp())).abs() < 1e-15);
+}
+
+#[test]
+fn a_density_gives_mass_centre_and_inertia() {
+    let text = BASE.replace(
+        "plane = { point = [0, 0, 0], normal = [0, 0, 1] }",
+        "mesh = { positions = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], facets = [[1, 2, 3, 3], [0, 2, 1, 1], [0, 1, 3, 3], [0, 3, 2, 2]] }\ndensity = 6",
+    );
+    let deck = parse(&text, "deck.toml", Path::new("")).unwrap_or_else(|faults| panic!("{faults}"));
+    let rigid = &deck.model.rigid_surfaces[0];
+    let inertia = rigid.inertia.unwrap();
+    // rho/6 is 1; second moments of the coordinates about the centre 3/80, products -1/80.
+    assert!((inertia.mass - 1.0).abs() < 1e-14);
+    assert!((rigid.reference - Vec3::repeat(0.25)).norm() < 1e-14);
+    let mut moments = inertia.moments;
+    moments.sort_by(f64::total_cmp);
+    for (found, expected) in moments.into_iter().zip([0.0625, 0.0625, 0.1]) {
+        assert!((found - expected).abs() < 1e-14, "{moments:?}");
+    }
+    let stated = text.replace("density = 6", "density = 6\nreference = [0, 0, 9]");
+    let deck =
+        parse(&stated, "deck.toml", Path::new("")).unwrap_or_else(|faults| panic!("{faults}"));
+    let rigid = &deck.model.rigid_surfaces[0];
+    assert_eq!(rigid.reference, Vec3::new(0.0, 0.0, 9.0));
+    assert_eq!(rigid.inertia, Some(inertia));
+}
+
+#[test]
+fn paths_are_relative_to_the_deck() {
+    let folder = tempfile::tempdir().unwrap();
+    let triangle = "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid s\n";
+    std::fs::write(folder.path().join("road.stl"), triangle).unwrap();
+    let text = BASE.replace(
+        "plane = { point = [0, 0, 0], normal = [0, 0, 1] }",
+        r#"mesh = { file = "road.stl" }"#,
+    );
+    let path = folder.path().join("deck.toml");
+    std::fs::write(&path, text).unwrap();
+    let deck = read(&path).unwrap_or_else(|faults| panic!("{faults}"));
+    let RigidShape::Facets { positions, facets } = &deck.model.rigid_surfaces[0].shape else {
+        panic!("facets")
+    };
+    assert_eq!((positions.len(), facets.len()), (3, 1));
+
+    let absent = read(&folder.path().join("absent.toml")).unwrap_err();
+    assert_eq!(absent.iter().len(), 1);
+    assert_eq!(absent.iter().next().unwrap().position, None);
+}
+
+#[test]
+fn faults_are_shown_with_the_line_underlined() {
+    let text = "title = \"t\u{e9}st\"\n[solver]\n\ttolerance = \"small\" # why\n";
+    let shown = parse(text, "a.toml", Path::new(""))
+        .unwrap_err()
+        .to_string();
+    let expected = "\
+a.toml:3:14: `tolerance` in [solver] must be a number greater than 0, but is the text \"small\"
+    3 |  tolerance = \"small\" # why
+      |              ^^^^^^^
+3 faults";
+    assert!(shown.ends_with(expected), "{shown}");
+}

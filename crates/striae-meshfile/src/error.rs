@@ -1,0 +1,126 @@
+//! What can be wrong with a mesh file.
+
+use std::path::{Path, PathBuf};
+use striae_mesh::MeshError;
+
+/// A mesh file that cannot be used.
+#[derive(Debug, thiserror::Error)]
+#[error("{}: {fault}", path.display())]
+pub struct MeshFileError {
+    /// The file.
+    pub path: PathBuf,
+    /// What is wrong with it.
+    #[source]
+    pub fault: MeshFileFault,
+}
+
+/// What is wrong with a mesh file.
+#[derive(Debug, thiserror::Error)]
+pub enum MeshFileFault {
+    /// The operating system refuses to read it.
+    #[error("cannot be read: {0}")]
+    Unreadable(#[source] std::io::Error),
+    /// Its name does not say what it holds.
+    #[error("unknown kind of file; expected {expected}")]
+    UnknownEnding {
+        /// The endings that are known.
+        expected: &'static str,
+    },
+    /// A line that is wrong or cannot be used.
+    #[error("line {line}: expected {expected}, found {found}{}", Remedy(remedy))]
+    Line {
+        /// Number of the line, from 1.
+        line: usize,
+        /// What should be there.
+        expected: String,
+        /// What is there.
+        found: String,
+        /// What to do about it.
+        remedy: Option<&'static str>,
+    },
+    /// A binary file that is shorter or longer than it says.
+    #[error("the file announces {announced} bytes, but has {found}")]
+    Length {
+        /// Number of bytes that follows from its header.
+        announced: u64,
+        /// Its number of bytes.
+        found: u64,
+    },
+    /// The file holds nothing of what is looked for.
+    #[error("expected {expected}, found none; {remedy}")]
+    Empty {
+        /// What is looked for.
+        expected: &'static str,
+        /// What to do about it.
+        remedy: &'static str,
+    },
+    /// Node data that are not there, or one of several that are.
+    #[error("{}", node_data(name, known))]
+    NodeData {
+        /// The name asked for.
+        name: Option<String>,
+        /// Names of all node data of the file.
+        known: Vec<String>,
+    },
+    /// A node without a vector.
+    #[error("it gives no vector to node {number} of the mesh")]
+    NoVector {
+        /// Number of the node in the file of the mesh.
+        number: u64,
+    },
+    /// The mesh is inconsistent.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+}
+
+impl MeshFileFault {
+    /// A wrong line.
+    pub(super) fn line(line: usize, expected: impl Into<String>, found: impl Into<String>) -> Self {
+        Self::Line {
+            line,
+            expected: expected.into(),
+            found: found.into(),
+            remedy: None,
+        }
+    }
+
+    /// The same fault with advice, if it is that of a line.
+    pub(super) fn with_remedy(mut self, advice: &'static str) -> Self {
+        if let Self::Line { remedy, .. } = &mut self {
+            *remedy = Some(advice);
+        }
+        self
+    }
+
+    /// The fault together with its file.
+    pub fn of(self, path: &Path) -> MeshFileError {
+        MeshFileError {
+            path: path.to_owned(),
+            fault: self,
+        }
+    }
+}
+
+fn node_data(name: &Option<String>, known: &[String]) -> String {
+    let named: Vec<String> = known.iter().map(|name| format!("`{name}`")).collect();
+    let known = match known.len() {
+        0 => "there is none".to_owned(),
+        _ => format!("there is {}", named.join(", ")),
+    };
+    match name {
+        Some(name) => format!("expected node data `{name}` once; {known}"),
+        None if named.is_empty() => format!("expected node data; {known}"),
+        None => format!("expected the name of one of the node data; {known}"),
+    }
+}
+
+struct Remedy<'a>(&'a Option<&'static str>);
+
+impl std::fmt::Display for Remedy<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.0 {
+            Some(remedy) => write!(f, "; {remedy}"),
+            None => Ok(()),
+        }
+    }
+}

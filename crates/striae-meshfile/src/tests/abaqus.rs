@@ -1,0 +1,174 @@
+//! Abaqus files, whole and broken.
+
+use super::{assert_explained, block, written};
+use crate::abaqus::body;
+use striae_mesh::{NodeId, Vec3};
+
+/// Two cubes side by side along x as an Abaqus file without sets.
+const TWO_CUBES: &str = "*HEADING
+ two cubes
+** a comment
+*Part, name=pair
+*Node
+1, 0., 0., 0.
+2, 1., 0., 0.
+3, 2., 0., 0.
+4, 0., 1.,
+5, 1., 1., 0.
+6, 2., 1., 0.
+11, 0., 0., 1.
+12, 1., 0., 1.
+13, 2., 0., 1.
+14, 0., 1., 1.
+15, 1., 1., 1.
+16, 2., 1., 1.
+*Element, type=C3D8R,
+ elset=Both
+7, 1, 2, 5, 4, 11, 12,
+15, 14
+8, 2, 3, 6, 5, 12, 13, 16, 15
+*End Part
+";
+
+#[test]
+fn abaqus_sets_are_resolved() {
+    let text = TWO_CUBES.to_owned()
+        + "*Assembly, name=all
+*Instance, name=pair-1, part=pair
+0., 0., 0.
+*End Instance
+*Node
+1, 9., 9., 9.
+*Nset, nset=low, generate
+1, 6
+*Nset, nset=Few, instance=pair-1
+pair-1.1, 4
+LOW
+*Nset, nset=few
+16,
+*Elset, elset=second
+8,
+*Nset, nset=corners, elset=second
+*Surface, type=ELEMENT, name=Right
+second, S4
+*Surface, name=Ends
+7, S6
+BOTH, S2
+*End Assembly
+*Material, name=rubber
+*Hyperelastic, neo hooke
+1., 0.1
+";
+    let mesh = body(&text).unwrap();
+    let ids = |list: &[u32]| -> Vec<NodeId> { list.iter().map(|&id| NodeId(id)).collect() };
+    assert_eq!(
+        mesh.node_sets.get("low"),
+        Some(ids(&[0, 1, 2, 3, 4, 5]).as_slice())
+    );
+    assert_eq!(
+        mesh.node_sets.get("Few"),
+        Some(ids(&[0, 1, 2, 3, 4, 5, 11]).as_slice())
+    );
+    assert_eq!(mesh.node_sets.get("corners").unwrap().len(), 8);
+    assert_eq!(mesh.element_sets.get("Both").unwrap().len(), 2);
+    let right = mesh.facet_sets.get("Right").unwrap();
+    assert_eq!(right.len(), 1);
+    assert_eq!(mesh.area_vector(right[0]), Vec3::x());
+    let normals: Vec<Vec3> = mesh
+        .facet_sets
+        .get("Ends")
+        .unwrap()
+        .iter()
+        .map(|&face| mesh.area_vector(face))
+        .collect();
+    assert_eq!(normals, [Vec3::z(), -Vec3::x(), Vec3::z()]);
+    assert_eq!(mesh.node_sets.get("Right").unwrap().len(), 4);
+}
+
+#[test]
+fn abaqus_faces_have_their_normals() {
+    for (side, normal) in [
+        ("S1", -Vec3::z()),
+        ("S2", Vec3::z()),
+        ("S3", -Vec3::y()),
+        ("S5", Vec3::y()),
+        ("S6", -Vec3::x()),
+    ] {
+        let text = format!("{TWO_CUBES}*SURFACE, NAME=one\n7, {side}\n");
+        let mesh = body(&text).unwrap();
+        let faces = mesh.facet_sets.get("one").unwrap();
+        assert_eq!(mesh.area_vector(faces[0]), normal, "{side}");
+    }
+}
+
+#[test]
+fn broken_abaqus_files_are_explained() {
+    for (text, parts) in [
+        ("1, 2\n*NODE\n", ["line 1", "a keyword such as *NODE"]),
+        ("*NODE\n1, 0, x, 0\n", ["line 2", "a coordinate"]),
+        ("*NODE\n1, 0\n1, 0\n", ["line 3", "has not been used"]),
+        ("*ELEMENT, TYPE=C3D4\n", ["line 1", "linear hexahedra"]),
+        (
+            "*ELEMENT, TYPE=C3D8\n1, 2, 3\n",
+            ["line 2", "eight node numbers"],
+        ),
+        ("*ELEMENT\n", ["line 1", "the parameter TYPE"]),
+        (
+            "*ELEMENT, TYPE=C3D8\n1,1,2,3,4,5,6,7,8\n",
+            ["line 2", "node 1, which the file does not define"],
+        ),
+        (
+            "*NSET, NSET=a, GENERATE\n5, 1\n",
+            ["line 2", "first <= last"],
+        ),
+        ("*NSET, NSET=a\nnone\n", ["line 2", "a set defined before"]),
+        ("*NGEN\n", ["line 1", "written out one by one"]),
+        ("*NODE, SYSTEM=C\n", ["line 1", "Cartesian"]),
+        (
+            "*PART, NAME=a\n*PART, NAME=b\n",
+            ["line 2", "a file of its own"],
+        ),
+        (
+            "*INSTANCE, NAME=a\n1., 0., 0.\n",
+            ["line 2", "move the part"],
+        ),
+        ("*SURFACE, NAME=a\n1, S7\n", ["line 2", "S1 to S6"]),
+        (
+            "*NODE\n1, 0, 0, 0\n",
+            ["expected 8-node hexahedra", "only they"],
+        ),
+    ] {
+        assert_explained(body(text).map(drop), parts);
+    }
+    let inner = format!("{TWO_CUBES}*SURFACE, NAME=mid\n7, S4\n");
+    let parts = [
+        "line 25: expected a face on the boundary of the body in set 'mid'",
+        "side 4 of element 7",
+    ];
+    assert_explained(body(&inner).map(drop), parts);
+    let inverted = TWO_CUBES.replace(
+        "8, 2, 3, 6, 5, 12, 13, 16, 15",
+        "8, 12, 13, 16, 15, 2, 3, 6, 5",
+    );
+    let parts = [
+        "line 22: expected a positive Jacobian determinant",
+        "element 8",
+    ];
+    assert_explained(body(&inverted).map(drop), parts);
+    let twice = TWO_CUBES.replace("8, 2, 3", "7, 2, 3");
+    assert_explained(
+        body(&twice).map(drop),
+        ["line 22", "element 7 for the second time"],
+    );
+}
+
+#[test]
+fn unused_nodes_are_left_out_also_of_sets() {
+    let mesh = block();
+    let text = written::abaqus(&mesh)
+        + "*NODE, NSET=reference\n99999, 5., 5.D0\n*NSET, NSET=mixed\n99999, 17\n";
+    let back = body(&text).unwrap();
+    assert_eq!(back.positions, mesh.positions);
+    assert_eq!(back.node_sets.get("reference"), None);
+    assert_eq!(back.node_sets.get("mixed"), Some([NodeId(1)].as_slice()));
+}

@@ -1,0 +1,139 @@
+//! Gmsh files, whole and broken.
+
+use super::assert_explained;
+use crate::gmsh::{body, rigid_surface};
+use crate::read_rigid_surface;
+use striae_mesh::{NodeId, Vec3};
+
+/// A cube of node 1 to 8 with the given elements and names, version 2.
+fn cube(names: &str, elements: &[&str]) -> String {
+    let mut text = format!(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n{names}$Nodes\n8\n\
+         1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n\
+         $EndNodes\n$Elements\n{}\n",
+        elements.len()
+    );
+    for element in elements {
+        text = text + element + "\n";
+    }
+    text + "$EndElements\n"
+}
+
+#[test]
+fn points_and_curves_make_node_sets() {
+    let names = "$PhysicalNames\n2\n0 4 \"tip\"\n1 4 \"edge of it\"\n$EndPhysicalNames\n";
+    let cells = ["1 15 2 4 1 7", "2 1 2 4 1 3 7", "3 5 2 4 1 1 2 3 4 5 6 7 8"];
+    let mesh = body(&cube(names, &cells)).unwrap();
+    assert_eq!(mesh.node_sets.get("tip"), Some([NodeId(6)].as_slice()));
+    let edge = [NodeId(2), NodeId(6)];
+    assert_eq!(mesh.node_sets.get("edge of it"), Some(edge.as_slice()));
+    let names: Vec<&str> = mesh.element_sets.names().collect();
+    assert_eq!(names, ["4", "all"], "a group without a name has its number");
+}
+
+#[test]
+fn quadrangles_of_no_group_and_in_any_order_are_fine() {
+    let cells = [
+        "1 3 0 1 2 3 4",
+        "2 3 2 9 1 8 7 6 5",
+        "3 5 0 1 2 3 4 5 6 7 8",
+    ];
+    let mesh = body(&cube("", &cells)).unwrap();
+    let top = mesh.facet_sets.get("9").unwrap();
+    assert_eq!(mesh.area_vector(top[0]), Vec3::z());
+    assert_eq!(mesh.facet_sets.names().count(), 1);
+    let stray = ["2 3 2 9 1 1 2 7 8", "3 5 0 1 2 3 4 5 6 7 8"];
+    let result = body(&cube("", &stray)).map(drop);
+    assert_explained(
+        result,
+        ["line 17", "a face on the boundary of the body in set '9'"],
+    );
+}
+
+#[test]
+fn broken_gmsh_files_are_explained() {
+    let two = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+    let four = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
+    for (text, parts) in [
+        ("hello\n".to_owned(), ["line 1", "$MeshFormat"]),
+        ("$Nodes\n".to_owned(), ["line 1", "$MeshFormat before all"]),
+        (
+            "$MeshFormat\n4.1 1 8\n".to_owned(),
+            ["line 2", "Mesh.Binary = 0"],
+        ),
+        (
+            "$MeshFormat\n4 0 8\n".to_owned(),
+            ["line 2", "Mesh.MshFileVersion = 4.1"],
+        ),
+        (
+            "$MeshFormat\n2.2 0 8\n$Nodes\n".to_owned(),
+            ["line 3: expected $EndMeshFormat", "`$Nodes`"],
+        ),
+        (
+            format!("{two}$Nodes\n2\n1 0 0 0\n"),
+            ["line 6", "the end of the file"],
+        ),
+        (
+            format!("{two}$Nodes\n1\n1 0 zero 0\n"),
+            ["line 6", "found `zero`"],
+        ),
+        (
+            format!("{two}$Elements\n1\n5 4 0 1 2 3 4\n$EndElements\n"),
+            [
+                "line 6: expected 8-node hexahedra",
+                "element type 4 (tetrahedron); recombine",
+            ],
+        ),
+        (
+            format!("{two}$Elements\n1\n5 92 0 1\n"),
+            ["line 6", "element type 92"],
+        ),
+        (
+            format!("{two}$Elements\n1\n5 2 1 4 1 2 3\n$EndElements\n"),
+            ["line 6", "(triangle)"],
+        ),
+        (
+            format!("{two}$Elements\n1\n5 5 0 1 2 3\n"),
+            ["line 6", "the end of the line"],
+        ),
+        (
+            format!("{two}$PhysicalNames\n1\n2 1 top\n"),
+            ["line 6", "quotation marks"],
+        ),
+        (
+            format!("{two}$Periodic\n0\n"),
+            ["$EndPeriodic", "the end of the file"],
+        ),
+        (
+            format!("{four}$Nodes\n1 1 1 1\n3 1 0\n"),
+            ["line 6", "the head of a block"],
+        ),
+        (
+            format!(
+                "{four}$Elements\n1 1 1 1\n3 1 17 1\n1 {}\n$EndElements\n",
+                "1 ".repeat(20)
+            ),
+            ["element type 17", "Mesh.ElementOrder = 1"],
+        ),
+    ] {
+        assert_explained(body(&text).map(drop), parts);
+    }
+    let nothing = rigid_surface(two).map(drop);
+    assert_explained(nothing, ["triangles or quadrangles", "mesh the surfaces"]);
+}
+
+#[test]
+fn rigid_surfaces_come_from_gmsh_with_triangles_and_quadrangles() {
+    let text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n6\n1 9 9 9\n2 0 0 0\n3 1 0 0\n4 1 1 0\n5 0 1 0\n6 2 0 0\n$EndNodes\n$Elements\n4\n1 15 2 1 1 1\n2 3 2 7 1 2 3 4 5\n3 3 2 8 1 2 3 4 5\n4 2 0 3 6 4\n$EndElements\n";
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("ground.msh");
+    std::fs::write(&path, text).unwrap();
+    let surface = read_rigid_surface(&path).unwrap();
+    assert_eq!(
+        surface.facets,
+        [[0, 1, 2, 3].map(NodeId), [1, 4, 2, 2].map(NodeId)]
+    );
+    assert_eq!(surface.positions[4], Vec3::new(2.0, 0.0, 0.0));
+    assert_eq!(surface.positions.len(), 5);
+    assert!(read_rigid_surface(folder.path().join("ground.obj")).is_err());
+}

@@ -1,0 +1,103 @@
+//! Meshes written by the tests come back; broken files are explained.
+
+mod abaqus;
+mod gmsh;
+mod node_vectors;
+mod stl;
+mod written;
+
+use super::{MeshFileFault, read};
+use crate as mesh_file;
+use proptest::prelude::*;
+use striae_mesh::generate::Block;
+use striae_mesh::{ElementId, Mesh, Vec3};
+
+#[test]
+fn meshes_come_back_from_all_formats() {
+    let mesh = block();
+    for (format, result) in [
+        ("msh 2", mesh_file::gmsh::body(&written::gmsh2(&mesh))),
+        ("msh 4", mesh_file::gmsh::body(&written::gmsh4(&mesh))),
+        ("inp", mesh_file::abaqus::body(&written::abaqus(&mesh))),
+    ] {
+        let back = result.unwrap_or_else(|fault| panic!("{format}: {fault}"));
+        assert_eq!(back, mesh, "{format}");
+    }
+}
+
+#[test]
+fn the_ending_chooses_the_format() {
+    let folder = tempfile::tempdir().unwrap();
+    let mesh = block();
+    let path = folder.path().join("block.MSH");
+    std::fs::write(&path, written::gmsh4(&mesh)).unwrap();
+    assert_eq!(read(&path).unwrap(), mesh);
+    let path = folder.path().join("block.inp");
+    std::fs::write(&path, written::abaqus(&mesh)).unwrap();
+    assert_eq!(read(&path).unwrap(), mesh);
+
+    let path = folder.path().join("block.vtk");
+    let error = read(&path).unwrap_err();
+    assert!(matches!(error.fault, MeshFileFault::UnknownEnding { .. }));
+    let error = read(folder.path().join("none.inp")).unwrap_err();
+    assert!(matches!(error.fault, MeshFileFault::Unreadable(_)));
+    assert!(error.to_string().contains("none.inp: cannot be read"));
+}
+
+proptest! {
+    #[test]
+    fn damaged_files_never_panic(cut in 0.0..1.0f64, at in 0.0..1.0f64, byte in 32..127u8) {
+        let mesh = Block::default().mesh().unwrap();
+        for text in [written::gmsh2(&mesh), written::gmsh4(&mesh), written::abaqus(&mesh)] {
+            let mut bytes = text.into_bytes();
+            let end = bytes.len();
+            let _ = any(&String::from_utf8_lossy(&bytes[..(cut * end as f64) as usize]));
+            bytes[(at * end as f64) as usize] = byte;
+            let _ = any(&String::from_utf8_lossy(&bytes));
+        }
+        let stl = written::stl_binary(&cube_triangles());
+        let _ = mesh_file::stl::rigid_surface(&stl[..(cut * stl.len() as f64) as usize]);
+    }
+}
+
+/// Every reader on the same text.
+fn any(text: &str) -> [bool; 4] {
+    [
+        mesh_file::gmsh::body(text).is_ok(),
+        mesh_file::gmsh::rigid_surface(text).is_ok(),
+        mesh_file::abaqus::body(text).is_ok(),
+        mesh_file::stl::rigid_surface(text.as_bytes()).is_ok(),
+    ]
+}
+
+fn block() -> Mesh {
+    let mut mesh = Block {
+        divisions: [2, 3, 2],
+        irregularity: 0.2,
+        ..Block::default()
+    }
+    .mesh()
+    .unwrap();
+    mesh.element_sets
+        .insert("lower half", (0..6).map(ElementId::new));
+    mesh
+}
+
+/// The surface of a unit cube, two triangles a side.
+fn cube_triangles() -> Vec<[Vec3; 3]> {
+    let mesh = Block::default().mesh().unwrap();
+    let faces = mesh.boundary_faces().into_iter();
+    faces
+        .flat_map(|face| {
+            let [a, b, c, d] = mesh.face_positions(face);
+            [[a, b, c], [a, c, d]]
+        })
+        .collect()
+}
+
+fn assert_explained(result: Result<(), MeshFileFault>, parts: [&str; 2]) {
+    let message = result.unwrap_err().to_string();
+    for part in parts {
+        assert!(message.contains(part), "{message} -- lacks: {part}");
+    }
+}

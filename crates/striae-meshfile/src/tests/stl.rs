@@ -1,0 +1,45 @@
+//! STL files, whole and broken.
+
+use super::{assert_explained, cube_triangles, written};
+use crate::{RigidSurfaceMesh, stl::rigid_surface};
+use striae_mesh::Vec3;
+
+fn volume(surface: &RigidSurfaceMesh) -> f64 {
+    let facets = surface.facets.iter();
+    facets
+        .map(|facet| {
+            let [a, b, c, d] = facet.map(|node| surface.positions[node.index()]);
+            (a.dot(&b.cross(&c)) + a.dot(&c.cross(&d))) / 6.0
+        })
+        .sum()
+}
+
+#[test]
+fn stl_triangles_share_their_corners() {
+    let mut triangles = cube_triangles();
+    triangles.push([Vec3::zeros(), Vec3::zeros(), Vec3::x()]);
+    for bytes in [
+        written::stl_ascii(&triangles),
+        written::stl_binary(&triangles),
+    ] {
+        let surface = rigid_surface(&bytes).unwrap();
+        assert_eq!((surface.positions.len(), surface.facets.len()), (8, 12));
+        assert!(surface.facets.iter().all(|facet| facet[2] == facet[3]));
+        assert!((volume(&surface) - 1.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn broken_stl_files_are_explained() {
+    let mut short = written::stl_binary(&cube_triangles());
+    short.pop();
+    assert_explained(
+        rigid_surface(&short).map(drop),
+        ["announces 684 bytes", "has 683"],
+    );
+    assert_explained(rigid_surface(b"abc").map(drop), ["84", "has 3"]);
+    let text = b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0\n";
+    assert_explained(rigid_surface(text).map(drop), ["line 4", "a coordinate"]);
+    let text = b"solid a\nendsolid a\n";
+    assert_explained(rigid_surface(text).map(drop), ["triangles", "export"]);
+}

@@ -1,0 +1,174 @@
+//! Models by names, as a deck writes them, in Rust.
+//!
+//! Bodies, sets, rigid surfaces and pairs are called by name; [`ModelBuilder::build`]
+//! looks them up, validates the model and closes the gaps that its pairs ask for.
+
+mod lookup;
+mod paint;
+mod pair;
+mod parts;
+mod step;
+
+pub use paint::{axial, circumferential, radial, uniform};
+pub use pair::{PairBuilder, SideBuilder, pair, rigid, surface};
+pub use parts::{BodyBuilder, RigidBuilder, body, plane, rigid_surface, tied};
+pub use step::{Component, Components, StepBuilder, equal_increments, step};
+
+use striae_solve::model::{Backend, Body, Model, Pair, RigidSurface, Solver, Strategy};
+
+use crate::{
+    check::{Draft, DraftPair, DraftStep, Known, Named, Validate},
+    fault::{Fault, Faults},
+    fit::fitted,
+    path::{Path, Segment},
+};
+use lookup::Names;
+use step::Resolved;
+
+/// A model under construction; see [`model`].
+#[derive(Clone, Debug)]
+pub struct ModelBuilder {
+    title: String,
+    bodies: Vec<Body>,
+    rigid: Vec<RigidBuilder>,
+    pairs: Vec<PairBuilder>,
+    steps: Vec<StepBuilder>,
+    solver: Solver,
+}
+
+/// A model of this title, without anything in it.
+pub fn model(title: impl Into<String>) -> ModelBuilder {
+    ModelBuilder {
+        title: title.into(),
+        bodies: Vec::new(),
+        rigid: Vec::new(),
+        pairs: Vec::new(),
+        steps: Vec::new(),
+        solver: solver(),
+    }
+}
+
+/// The solver where nothing else is said.
+pub fn solver() -> Solver {
+    Solver {
+        backend: Backend::Condensed,
+        strategy: Strategy::Semismooth,
+        tolerance: 1e-10,
+        largest_iterations: 40,
+        further_iterations: 0,
+    }
+}
+
+impl ModelBuilder {
+    /// Adds a deformable body.
+    pub fn body(mut self, body: BodyBuilder) -> Self {
+        self.bodies.push(body.body());
+        self
+    }
+
+    /// Adds a rigid body.
+    pub fn rigid(mut self, rigid: RigidBuilder) -> Self {
+        self.rigid.push(rigid);
+        self
+    }
+
+    /// Adds a contact pair.
+    pub fn pair(mut self, pair: PairBuilder) -> Self {
+        self.pairs.push(pair);
+        self
+    }
+
+    /// Adds a step after those before.
+    pub fn step(mut self, step: StepBuilder) -> Self {
+        self.steps.push(step);
+        self
+    }
+
+    /// Replaces the settings of the solver.
+    pub fn solver(mut self, solver: Solver) -> Self {
+        self.solver = solver;
+        self
+    }
+
+    /// The model, ready to be simulated.
+    ///
+    /// # Errors
+    /// All faults: unknown names, everything [`Validate`] finds, meshes that overlap.
+    pub fn build(self) -> Result<Model, Faults> {
+        let mut faults = Vec::new();
+        let names = Names::new(&self.bodies, &self.rigid, &self.pairs);
+        let rigid: Vec<Option<RigidSurface>> = (self.rigid.iter().enumerate())
+            .map(|(index, rigid)| rigid.resolved(index, &names, &mut faults))
+            .collect();
+        let pairs: Vec<Option<Pair>> = (self.pairs.iter().enumerate())
+            .map(|(index, pair)| pair.resolved(index, &names, &mut faults))
+            .collect();
+        let steps: Vec<Resolved> = (self.steps.iter().enumerate())
+            .map(|(index, step)| step.resolved(index, &names, &mut faults))
+            .collect();
+        if !faults.is_empty() {
+            let draft = self.draft(&rigid, &pairs, &steps);
+            let found = draft.faults().into_iter();
+            faults.extend(found.map(|fault| placed(fault, &steps)));
+            return Err(Faults(faults));
+        }
+        let model = Model {
+            title: self.title,
+            bodies: self.bodies,
+            rigid_surfaces: rigid.into_iter().flatten().collect(),
+            pairs: pairs.into_iter().flatten().collect(),
+            steps: steps.into_iter().map(|resolved| resolved.step).collect(),
+            solver: self.solver,
+        };
+        fitted(model.checked()?).map_err(Faults)
+    }
+
+    /// What is known where some names are not.
+    fn draft<'a>(
+        &'a self,
+        rigid: &'a [Option<RigidSurface>],
+        pairs: &'a [Option<Pair>],
+        steps: &'a [Resolved],
+    ) -> Draft<'a> {
+        let rigid = self.rigid.iter().zip(rigid).map(|(of, part)| Named {
+            name: of.name(),
+            part: part.as_ref(),
+        });
+        let pairs = self.pairs.iter().zip(pairs).map(|(of, pair)| DraftPair {
+            name: of.name(),
+            pair: pair.as_ref(),
+            known: Known::Whole,
+        });
+        let steps = steps.iter().map(|resolved| DraftStep {
+            step: &resolved.step,
+            known: resolved.known,
+            displacements: resolved.displacements(),
+        });
+        Draft {
+            bodies: Draft::bodies(&self.bodies),
+            rigid_surfaces: rigid.collect(),
+            pairs: pairs.collect(),
+            steps: steps.collect(),
+            known: Known::Whole,
+        }
+    }
+}
+
+/// The fault with the position that its condition has in the builder, where others
+/// before it are missing.
+fn placed(fault: Fault, steps: &[Resolved]) -> Fault {
+    let path = match *fault.path.segments() {
+        [
+            Segment::Field("steps"),
+            Segment::Index(step),
+            Segment::Field(list),
+            Segment::Index(index),
+            ..,
+        ] => {
+            let index = steps[step].position(list, index);
+            Path::part("steps", step).field(list).index(index)
+        }
+        _ => fault.path,
+    };
+    Fault { path, ..fault }
+}

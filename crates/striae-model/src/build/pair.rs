@@ -1,0 +1,147 @@
+//! Contact pairs.
+
+use striae_law::friction::Friction;
+use striae_solve::model::{Enforcement, Initial, Pair, Side};
+use striae_surface::texture::Paint;
+
+use super::lookup::Names;
+use crate::{fault::Fault, path::Path};
+
+/// A side of a pair; see [`surface`] and [`rigid`].
+#[derive(Clone, Debug)]
+pub struct SideBuilder {
+    owner: Owner,
+    texture: Option<Paint>,
+}
+
+#[derive(Clone, Debug)]
+enum Owner {
+    Body { body: String, facets: String },
+    Rigid(String),
+}
+
+/// A facet set of a deformable body.
+pub fn surface(body: impl Into<String>, facets: impl Into<String>) -> SideBuilder {
+    SideBuilder {
+        owner: Owner::Body {
+            body: body.into(),
+            facets: facets.into(),
+        },
+        texture: None,
+    }
+}
+
+/// A rigid surface.
+pub fn rigid(name: impl Into<String>) -> SideBuilder {
+    SideBuilder {
+        owner: Owner::Rigid(name.into()),
+        texture: None,
+    }
+}
+
+impl SideBuilder {
+    /// Paints a texture on the side at rest.
+    pub fn textured(mut self, paint: Paint) -> Self {
+        self.texture = Some(paint);
+        self
+    }
+
+    fn resolved(&self, path: &Path, names: &Names<'_>, faults: &mut Vec<Fault>) -> Option<Side> {
+        match &self.owner {
+            Owner::Body { body, facets } => {
+                let (body, faces) = names.faces(body, facets, path, faults)?;
+                Some(Side::Deformable { body, faces })
+            }
+            Owner::Rigid(name) => names.rigid(name, path, faults).map(Side::Rigid),
+        }
+    }
+}
+
+/// A contact pair; see [`pair`].
+#[derive(Clone, Debug)]
+pub struct PairBuilder {
+    name: String,
+    sides: [SideBuilder; 2],
+    friction: Friction,
+    enforcement: Enforcement,
+    search_distance: Option<f64>,
+    initial: Initial,
+    stabilised: bool,
+}
+
+/// Two surfaces that may touch, without friction. At least one is of a deformable body.
+pub fn pair(name: impl Into<String>, a: SideBuilder, b: SideBuilder) -> PairBuilder {
+    PairBuilder {
+        name: name.into(),
+        sides: [a, b],
+        friction: Friction::frictionless(),
+        enforcement: Enforcement::Weighted,
+        search_distance: None,
+        initial: Initial::AsMeshed,
+        stabilised: false,
+    }
+}
+
+impl PairBuilder {
+    /// Friction from the start; steps may change it.
+    pub fn friction(mut self, friction: Friction) -> Self {
+        self.friction = friction;
+        self
+    }
+
+    /// How contact is enforced.
+    pub fn enforcement(mut self, enforcement: Enforcement) -> Self {
+        self.enforcement = enforcement;
+        self
+    }
+
+    /// Distance over which contact is looked for ahead.
+    pub fn search_distance(mut self, distance: f64) -> Self {
+        self.search_distance = Some(distance);
+        self
+    }
+
+    /// What is made of gaps and overlaps of the meshes.
+    pub fn initial(mut self, initial: Initial) -> Self {
+        self.initial = initial;
+        self
+    }
+
+    /// Lets viscous forces carry bodies across gaps.
+    pub fn stabilised(mut self) -> Self {
+        self.stabilised = true;
+        self
+    }
+
+    pub(super) fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The pair; a rigid surface becomes side `b`.
+    pub(super) fn resolved(
+        &self,
+        index: usize,
+        names: &Names<'_>,
+        faults: &mut Vec<Fault>,
+    ) -> Option<Pair> {
+        let [a, b] = &self.sides;
+        let path = |side: &'static str| Path::part("pairs", index).field(side);
+        let on_a = a.resolved(&path("a"), names, faults);
+        let on_b = b.resolved(&path("b"), names, faults);
+        let (mut a, mut b) = ((on_a?, a.texture.clone()), (on_b?, b.texture.clone()));
+        if matches!(a.0, Side::Rigid(_)) {
+            std::mem::swap(&mut a, &mut b);
+        }
+        Some(Pair {
+            name: self.name.clone(),
+            a: a.0,
+            b: b.0,
+            textures: [a.1, b.1],
+            friction: self.friction.clone(),
+            enforcement: self.enforcement,
+            search_distance: self.search_distance,
+            initial: self.initial,
+            stabilised: self.stabilised,
+        })
+    }
+}

@@ -1,0 +1,127 @@
+//! Deformable and rigid bodies.
+
+use striae_law::bulk::Material;
+use striae_mesh::{Mesh, NodeId, Vec3};
+use striae_solve::model::{Body, ContactMass, RigidInertia, RigidShape, RigidSurface};
+
+use super::lookup::Names;
+use crate::{fault::Fault, path::Path};
+
+/// A deformable body; see [`body`].
+#[derive(Clone, Debug)]
+pub struct BodyBuilder(Body);
+
+/// A deformable body with the sets of its mesh, without density.
+pub fn body(name: impl Into<String>, mesh: Mesh, material: Material) -> BodyBuilder {
+    BodyBuilder(Body {
+        name: name.into(),
+        mesh,
+        material,
+        density: 0.0,
+        contact_mass: ContactMass::Consistent,
+    })
+}
+
+impl BodyBuilder {
+    /// Mass per reference volume, for inertia and gravity.
+    pub fn density(mut self, density: f64) -> Self {
+        self.0.density = density;
+        self
+    }
+
+    /// What becomes of the mass of contact nodes.
+    pub fn contact_mass(mut self, contact_mass: ContactMass) -> Self {
+        self.0.contact_mass = contact_mass;
+        self
+    }
+
+    pub(super) fn body(self) -> Body {
+        self.0
+    }
+}
+
+/// A rigid body; see [`plane`], [`rigid_surface`] and [`tied`].
+#[derive(Clone, Debug)]
+pub struct RigidBuilder {
+    surface: RigidSurface,
+    ties: Vec<(String, String)>,
+}
+
+/// An unbounded rigid plane; the normal points out of the rigid half space.
+pub fn plane(
+    name: impl Into<String>,
+    point: impl Into<Vec3>,
+    normal: impl Into<Vec3>,
+) -> RigidBuilder {
+    let normal: Vec3 = normal.into();
+    let shape = RigidShape::Plane {
+        point: point.into(),
+        normal: normal.try_normalize(0.0).unwrap_or(normal),
+    };
+    RigidBuilder::new(name, shape)
+}
+
+/// A rigid surface of facets, outward by the right-hand rule; a triangle repeats its
+/// last corner.
+pub fn rigid_surface(
+    name: impl Into<String>,
+    positions: Vec<Vec3>,
+    facets: Vec<[NodeId; 4]>,
+) -> RigidBuilder {
+    RigidBuilder::new(name, RigidShape::Facets { positions, facets })
+}
+
+/// A rigid body without a surface that a node set of a deformable body is tied to.
+pub fn tied(
+    name: impl Into<String>,
+    body: impl Into<String>,
+    nodes: impl Into<String>,
+) -> RigidBuilder {
+    let mut rigid = RigidBuilder::new(name, RigidShape::Bare);
+    rigid.ties.push((body.into(), nodes.into()));
+    rigid
+}
+
+impl RigidBuilder {
+    fn new(name: impl Into<String>, shape: RigidShape) -> Self {
+        Self {
+            surface: RigidSurface::new(name, shape),
+            ties: Vec::new(),
+        }
+    }
+
+    /// The point about which it turns.
+    pub fn reference(mut self, point: impl Into<Vec3>) -> Self {
+        self.surface.reference = point.into();
+        self
+    }
+
+    /// Mass and moments of inertia.
+    pub fn inertia(mut self, inertia: RigidInertia) -> Self {
+        self.surface.inertia = Some(inertia);
+        self
+    }
+
+    pub(super) fn name(&self) -> &str {
+        &self.surface.name
+    }
+
+    pub(super) fn resolved(
+        &self,
+        index: usize,
+        names: &Names<'_>,
+        faults: &mut Vec<Fault>,
+    ) -> Option<RigidSurface> {
+        let path = |tie| {
+            let list = Path::part("rigid_surfaces", index).field("ties");
+            list.index(tie)
+        };
+        let ties: Vec<_> = (self.ties.iter().enumerate())
+            .filter_map(|(tie, (body, nodes))| names.nodes(body, nodes, &path(tie), faults))
+            .collect();
+        (ties.len() == self.ties.len()).then(|| RigidSurface {
+            ties,
+            ..self.surface.clone()
+        })
+    }
+}

@@ -1,0 +1,406 @@
+//! Steps and what they state.
+//!
+//! Longer than other files, as it is the one list of all that a step can state.
+
+use std::collections::BTreeMap;
+
+use striae_law::friction::Friction;
+use striae_mesh::Vec3;
+use striae_solve::model::{
+    Curve, Displacement, Freedom, Gravity, Increments, Load, LoadExtent, LoadKind, Mover,
+    Procedure, Release, RigidMotion, Step, Velocity,
+};
+
+use super::lookup::Names;
+use crate::{check::Known, fault::Fault, path::Path};
+
+/// Smallest increment over the first one, where nothing else is said.
+const SMALLEST_OVER_INITIAL: f64 = 1e-3;
+
+/// So many equal increments, which are cut where they must be.
+pub fn equal_increments(number: usize) -> Increments {
+    let size = 1.0 / number as f64;
+    Increments {
+        initial: size,
+        smallest: size * SMALLEST_OVER_INITIAL,
+        largest: size,
+    }
+}
+
+/// Targets of the components of a displacement; `None` leaves a component as it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Components(pub [Option<f64>; 3]);
+
+impl From<[f64; 3]> for Components {
+    fn from(targets: [f64; 3]) -> Self {
+        Self(targets.map(Some))
+    }
+}
+
+impl From<[Option<f64>; 3]> for Components {
+    fn from(targets: [Option<f64>; 3]) -> Self {
+        Self(targets)
+    }
+}
+
+/// A component of a displacement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Component {
+    /// Along `x`.
+    X,
+    /// Along `y`.
+    Y,
+    /// Along `z`.
+    Z,
+}
+
+/// A set of a body, by names.
+type Place = (String, String);
+
+/// A step under construction; see [`step`].
+#[derive(Clone, Debug)]
+pub struct StepBuilder {
+    step: Step,
+    displacements: Vec<(Place, Components, Curve)>,
+    releases: Vec<(Place, [bool; 3])>,
+    loads: Vec<(Place, LoadKind, LoadExtent, Curve)>,
+    motions: Vec<(String, RigidMotion)>,
+    velocities: Vec<(Owner, Velocity)>,
+    frictions: Vec<(String, Friction)>,
+    last: Last,
+}
+
+#[derive(Clone, Debug)]
+enum Owner {
+    Body(String),
+    Rigid(String),
+}
+
+/// What was stated last.
+#[derive(Clone, Copy, Debug)]
+enum Last {
+    Nothing,
+    Displacement,
+    Load,
+    Motion,
+    Gravity,
+}
+
+/// A step without inertia, of duration 1 in ten equal increments.
+pub fn step(name: impl Into<String>) -> StepBuilder {
+    StepBuilder {
+        step: Step {
+            name: name.into(),
+            duration: 1.0,
+            procedure: Procedure::QuasiStatic,
+            increments: equal_increments(10),
+            velocities: Vec::new(),
+            gravity: None,
+            displacements: Vec::new(),
+            releases: Vec::new(),
+            loads: Vec::new(),
+            rigid_motions: Vec::new(),
+            frictions: Vec::new(),
+        },
+        displacements: Vec::new(),
+        releases: Vec::new(),
+        loads: Vec::new(),
+        motions: Vec::new(),
+        velocities: Vec::new(),
+        frictions: Vec::new(),
+        last: Last::Nothing,
+    }
+}
+
+impl StepBuilder {
+    /// Duration in (pseudo) time.
+    pub fn duration(mut self, duration: f64) -> Self {
+        self.step.duration = duration;
+        self
+    }
+
+    /// So many equal increments.
+    pub fn increments(self, number: usize) -> Self {
+        self.increment_sizes(equal_increments(number))
+    }
+
+    /// Increments of these sizes, over the duration.
+    pub fn increment_sizes(mut self, increments: Increments) -> Self {
+        self.step.increments = increments;
+        self
+    }
+
+    /// Gives the step inertia; see [`Procedure::Dynamic`].
+    pub fn dynamic(mut self, spectral_radius: f64) -> Self {
+        self.step.procedure = Procedure::Dynamic { spectral_radius };
+        self
+    }
+
+    /// Takes a node set to a displacement from its reference positions.
+    pub fn displace(
+        mut self,
+        body: impl Into<String>,
+        nodes: impl Into<String>,
+        components: impl Into<Components>,
+    ) -> Self {
+        let place = (body.into(), nodes.into());
+        self.displacements
+            .push((place, components.into(), Curve::Ramp));
+        self.last = Last::Displacement;
+        self
+    }
+
+    /// Holds a node set at its reference positions.
+    pub fn hold(self, body: impl Into<String>, nodes: impl Into<String>) -> Self {
+        self.displace(body, nodes, [0.0; 3])
+    }
+
+    /// Ends prescribed displacements of a node set in these components.
+    pub fn release(
+        mut self,
+        body: impl Into<String>,
+        nodes: impl Into<String>,
+        components: &[Component],
+    ) -> Self {
+        let components =
+            [Component::X, Component::Y, Component::Z].map(|one| components.contains(&one));
+        self.releases
+            .push(((body.into(), nodes.into()), components));
+        self
+    }
+
+    /// Loads a facet set.
+    pub fn load(
+        mut self,
+        body: impl Into<String>,
+        facets: impl Into<String>,
+        kind: LoadKind,
+        extent: LoadExtent,
+    ) -> Self {
+        let place = (body.into(), facets.into());
+        self.loads.push((place, kind, extent, Curve::Ramp));
+        self.last = Last::Load;
+        self
+    }
+
+    /// Presses on a facet set.
+    pub fn pressure(
+        self,
+        body: impl Into<String>,
+        facets: impl Into<String>,
+        pressure: f64,
+    ) -> Self {
+        let kind = LoadKind::Pressure(pressure);
+        self.load(body, facets, kind, LoadExtent::Whole)
+    }
+
+    /// Pulls on a facet set with a force per reference area.
+    pub fn traction(
+        self,
+        body: impl Into<String>,
+        facets: impl Into<String>,
+        traction: impl Into<Vec3>,
+    ) -> Self {
+        let kind = LoadKind::DeadTraction(traction.into());
+        self.load(body, facets, kind, LoadExtent::Whole)
+    }
+
+    /// Takes gravity to an acceleration.
+    pub fn gravity(mut self, acceleration: impl Into<Vec3>) -> Self {
+        self.step.gravity = Some(Gravity {
+            acceleration: acceleration.into(),
+            curve: Curve::Ramp,
+        });
+        self.last = Last::Gravity;
+        self
+    }
+
+    /// Takes coordinates of a rigid body to targets: displacement of its reference
+    /// point, angles in radians.
+    pub fn move_rigid(self, name: impl Into<String>, coordinates: [Freedom; 6]) -> Self {
+        self.drive_rigid(name, coordinates, None, None)
+    }
+
+    /// The same with a force at the reference point and a torque.
+    pub fn drive_rigid(
+        mut self,
+        name: impl Into<String>,
+        coordinates: [Freedom; 6],
+        force: Option<Vec3>,
+        torque: Option<Vec3>,
+    ) -> Self {
+        let motion = RigidMotion {
+            surface: striae_solve::model::RigidId(0),
+            coordinates,
+            force,
+            torque,
+            curve: Curve::Ramp,
+        };
+        self.motions.push((name.into(), motion));
+        self.last = Last::Motion;
+        self
+    }
+
+    /// Gives a deformable body a velocity at the start of the step.
+    pub fn velocity(self, body: impl Into<String>, velocity: impl Into<Vec3>) -> Self {
+        self.with_velocity(Owner::Body(body.into()), velocity.into())
+    }
+
+    /// Gives a rigid body a velocity at the start of the step.
+    pub fn rigid_velocity(self, name: impl Into<String>, velocity: impl Into<Vec3>) -> Self {
+        self.with_velocity(Owner::Rigid(name.into()), velocity.into())
+    }
+
+    fn with_velocity(mut self, owner: Owner, velocity: Vec3) -> Self {
+        let velocity = Velocity {
+            body: Mover::Deformable(striae_solve::model::BodyId(0)),
+            velocity,
+            spin: Vec3::zeros(),
+            about: Vec3::zeros(),
+        };
+        self.velocities.push((owner, velocity));
+        self
+    }
+
+    /// Changes the friction of a pair.
+    pub fn friction(mut self, pair: impl Into<String>, friction: Friction) -> Self {
+        self.frictions.push((pair.into(), friction));
+        self
+    }
+
+    /// Takes what was stated last to its target along a curve instead of a ramp.
+    pub fn along(mut self, curve: Curve) -> Self {
+        let of_last = match self.last {
+            Last::Nothing => None,
+            Last::Displacement => self.displacements.last_mut().map(|(_, _, curve)| curve),
+            Last::Load => self.loads.last_mut().map(|(_, _, _, curve)| curve),
+            Last::Motion => self.motions.last_mut().map(|(_, motion)| &mut motion.curve),
+            Last::Gravity => self.step.gravity.as_mut().map(|gravity| &mut gravity.curve),
+        };
+        if let Some(of_last) = of_last {
+            *of_last = curve;
+        }
+        self
+    }
+
+    fn resolve_displacements(
+        &self,
+        resolved: &mut Resolved,
+        path: &Path,
+        names: &Names<'_>,
+        faults: &mut Vec<Fault>,
+    ) {
+        resolved.step.displacements =
+            resolved.all("displacements", &self.displacements, |index, of| {
+                let ((body, set), components, curve) = of;
+                let path = path.clone().field("displacements").index(index);
+                let (body, nodes) = names.nodes(body, set, &path, faults)?;
+                Some(Displacement {
+                    set: set.clone(),
+                    body,
+                    nodes,
+                    components: components.0,
+                    curve: curve.clone(),
+                })
+            });
+        resolved.step.releases = resolved.all("releases", &self.releases, |index, of| {
+            let ((body, set), components) = of;
+            let path = path.clone().field("releases").index(index);
+            let (body, nodes) = names.nodes(body, set, &path, faults)?;
+            Some(Release {
+                body,
+                nodes,
+                components: *components,
+            })
+        });
+    }
+
+    pub(super) fn resolved(
+        &self,
+        index: usize,
+        names: &Names<'_>,
+        faults: &mut Vec<Fault>,
+    ) -> Resolved {
+        let mut resolved = Resolved {
+            step: self.step.clone(),
+            known: Known::Whole,
+            stated: self.displacements.len(),
+            positions: BTreeMap::new(),
+        };
+        let path = Path::part("steps", index);
+        let at = |list: &'static str, index| path.clone().field(list).index(index);
+        self.resolve_displacements(&mut resolved, &path, names, faults);
+        resolved.step.loads = resolved.all("loads", &self.loads, |index, of| {
+            let ((body, set), kind, extent, curve) = of;
+            let (body, faces) = names.faces(body, set, &at("loads", index), faults)?;
+            Some(Load {
+                set: set.clone(),
+                body,
+                faces,
+                kind: *kind,
+                extent: *extent,
+                curve: curve.clone(),
+            })
+        });
+        resolved.step.rigid_motions = resolved.all("rigid_motions", &self.motions, |index, of| {
+            let surface = names.rigid(&of.0, &at("rigid_motions", index), faults)?;
+            let motion = of.1.clone();
+            Some(RigidMotion { surface, ..motion })
+        });
+        resolved.step.velocities = resolved.all("velocities", &self.velocities, |index, of| {
+            let path = at("velocities", index);
+            let body = match &of.0 {
+                Owner::Body(name) => Mover::Deformable(names.body(name, &path, faults)?),
+                Owner::Rigid(name) => Mover::Rigid(names.rigid(name, &path, faults)?),
+            };
+            Some(Velocity { body, ..of.1 })
+        });
+        resolved.step.frictions = resolved.all("frictions", &self.frictions, |index, of| {
+            let pair = names.pair(&of.0, &at("frictions", index), faults)?;
+            Some((pair, of.1.clone()))
+        });
+        resolved
+    }
+}
+
+/// A step with ids for names, as far as these are known.
+pub(super) struct Resolved {
+    pub(super) step: Step,
+    pub(super) known: Known,
+    /// How many displacement conditions are stated.
+    stated: usize,
+    /// Positions in the builder of what is known, by list.
+    positions: BTreeMap<&'static str, Vec<usize>>,
+}
+
+impl Resolved {
+    /// Whether all displacement conditions are known.
+    pub(super) fn displacements(&self) -> Known {
+        let positions = self.positions.get("displacements");
+        let gaps = positions.is_some_and(|known| known.len() < self.stated);
+        if gaps { Known::InPart } else { Known::Whole }
+    }
+
+    /// Position in the builder of an element of a list.
+    pub(super) fn position(&self, list: &str, index: usize) -> usize {
+        let known = self.positions.get(list);
+        known.map_or(index, |positions| positions[index])
+    }
+
+    fn all<T, U>(
+        &mut self,
+        list: &'static str,
+        items: &[T],
+        mut resolve: impl FnMut(usize, &T) -> Option<U>,
+    ) -> Vec<U> {
+        let known: Vec<(usize, U)> = (items.iter().enumerate())
+            .filter_map(|(index, item)| Some((index, resolve(index, item)?)))
+            .collect();
+        if known.len() < items.len() {
+            self.known = Known::InPart;
+        }
+        let (positions, known) = known.into_iter().unzip();
+        self.positions.insert(list, positions);
+        known
+    }
+}

@@ -1,0 +1,102 @@
+//! Whether every body is held: a body that is in no contact pair and not tied must have all
+//! six rigid motions stopped by displacement conditions, in every step without inertia.
+//!
+//! A condition on component `i` of a node at `X` sees of the rigid motions
+//! `u = c + w x (X - X0)` the number `r . (c, w)` with the row
+//! `r = (e_i, (X - X0) x e_i)`. The motions are stopped when the rows have
+//! rank six. Lengths are scaled by the size of the body.
+
+use std::collections::BTreeSet;
+
+use nalgebra::{Matrix6, Vector6};
+use striae_mesh::{Mesh, NodeId, Vec3};
+use striae_solve::model::{BodyId, Procedure, Side, Step};
+
+use super::{Draft, List};
+use crate::{fault::FaultKind, path::Path};
+
+/// Eigenvalue of the normal matrix, relative to the largest, that counts as zero.
+const SINGULAR: f64 = 1e-9;
+
+/// Notes every body that can move freely, in the first step in which it can. All pairs
+/// and steps must be known, as each might be what holds the body.
+pub(super) fn check(draft: &Draft<'_>, faults: &mut List) {
+    for (index, of) in draft.bodies.iter().enumerate() {
+        let body = BodyId(index);
+        let Some(mesh) = of
+            .mesh
+            .filter(|_| !touches(draft, body) && !is_tied(draft, body))
+        else {
+            continue;
+        };
+        let mut prescribed = BTreeSet::new();
+        for (index, step) in draft.steps.iter().map(|of| of.step).enumerate() {
+            prescribe(&mut prescribed, step, body);
+            if step.procedure != Procedure::QuasiStatic {
+                continue;
+            }
+            let motions = free_motions(mesh, &prescribed);
+            if motions > 0 {
+                let kind = FaultKind::Free {
+                    body: of.name.to_owned(),
+                    step: step.name.clone(),
+                    motions,
+                };
+                faults.push(Path::part("steps", index), kind);
+                break;
+            }
+        }
+    }
+}
+
+fn is_tied(draft: &Draft<'_>, body: BodyId) -> bool {
+    let rigid = draft.rigid_surfaces.iter().filter_map(|rigid| rigid.part);
+    let mut ties = rigid.flat_map(|rigid| &rigid.ties);
+    ties.any(|(tied, _)| *tied == body)
+}
+
+fn touches(draft: &Draft<'_>, body: BodyId) -> bool {
+    let is = |side: &Side| matches!(side, Side::Deformable { body: other, .. } if *other == body);
+    let mut pairs = draft.pairs.iter().filter_map(|pair| pair.pair);
+    pairs.any(|pair| is(&pair.a) || is(&pair.b))
+}
+
+fn prescribe(prescribed: &mut BTreeSet<(NodeId, usize)>, step: &Step, body: BodyId) {
+    for release in step.releases.iter().filter(|release| release.body == body) {
+        prescribed.retain(|(node, component)| {
+            !(release.components[*component] && release.nodes.contains(node))
+        });
+    }
+    for condition in step
+        .displacements
+        .iter()
+        .filter(|condition| condition.body == body)
+    {
+        for component in (0..3).filter(|component| condition.components[*component].is_some()) {
+            prescribed.extend(condition.nodes.iter().map(|node| (*node, component)));
+        }
+    }
+}
+
+fn free_motions(mesh: &Mesh, prescribed: &BTreeSet<(NodeId, usize)>) -> usize {
+    let count = mesh.positions.len() as f64;
+    let centre = mesh.positions.iter().sum::<Vec3>() / count;
+    let size = mesh
+        .positions
+        .iter()
+        .map(|x| (x - centre).norm())
+        .fold(f64::MIN_POSITIVE, f64::max);
+    let mut normal = Matrix6::zeros();
+    for (node, component) in prescribed {
+        let e = Vec3::ith(*component, 1.0);
+        let arm = ((mesh.positions[node.index()] - centre) / size).cross(&e);
+        let row = Vector6::new(e.x, e.y, e.z, arm.x, arm.y, arm.z);
+        normal += row * row.transpose();
+    }
+    let eigenvalues = normal.symmetric_eigenvalues();
+    let largest = eigenvalues.max();
+    eigenvalues
+        .iter()
+        .filter(|value| **value <= SINGULAR * largest)
+        .count()
+}

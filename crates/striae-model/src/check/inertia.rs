@@ -1,0 +1,21 @@
+//! Densities where there is inertia or gravity.
+
+use striae_solve::model::{Procedure, Step};
+
+use super::{Draft, List, Positions};
+use crate::{fault::FaultKind, path::Path};
+
+/// Notes every body without density in the first step that needs it.
+pub(super) fn check(draft: &Draft<'_>, partial: &Positions, faults: &mut List) {
+    let needs = |step: &Step| step.gravity.is_some() || step.procedure != Procedure::QuasiStatic;
+    let mut steps = draft.steps.iter().enumerate();
+    let first = steps.find(|(index, of)| !partial.contains(index) && needs(of.step));
+    let Some((index, of)) = first else { return };
+    for body in draft.bodies.iter().filter(|body| body.density == 0.0) {
+        let kind = FaultKind::NoDensity {
+            body: body.name.into(),
+            step: of.step.name.clone(),
+        };
+        faults.push(Path::part("steps", index), kind);
+    }
+}

@@ -1,0 +1,239 @@
+//! Validation of a model: every fault there is, with its path.
+//!
+//! A [`Draft`] is a model of which parts may be missing, as a deck has when some of
+//! its tables are faulty: what is known is checked all the same, and what can only be
+//! judged as a whole is left out. A whole model is checked by [`Validate::faults`].
+
+mod conditions;
+mod hold;
+mod inertia;
+mod numbers;
+mod pairs;
+mod references;
+mod rigid;
+mod steps;
+
+pub use numbers::misshapen;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use striae_mesh::Mesh;
+use striae_solve::model::{Body, Model, Pair, RigidSurface, Step};
+
+use crate::{
+    fault::{Fault, FaultKind, Faults},
+    path::Path,
+};
+
+/// Whether everything is known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Known {
+    /// It is.
+    Whole,
+    /// Something is missing, so that what seems to be absent may be there.
+    InPart,
+}
+
+/// A part with its name; `None` where it has faults already.
+#[derive(Clone, Copy, Debug)]
+pub struct Named<'a, T> {
+    /// Its name.
+    pub name: &'a str,
+    /// The part.
+    pub part: Option<&'a T>,
+}
+
+/// What is known of a body.
+#[derive(Clone, Copy, Debug)]
+pub struct DraftBody<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Its mesh.
+    pub mesh: Option<&'a Mesh>,
+    /// Its density, zero if there is none.
+    pub density: f64,
+}
+
+/// A pair and whether its friction is known; without it only its sides are judged.
+#[derive(Clone, Copy, Debug)]
+pub struct DraftPair<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// The pair; `None` where its sides have faults already.
+    pub pair: Option<&'a Pair>,
+    /// Whether it is whole.
+    pub known: Known,
+}
+
+/// A step and whether all that it states is in it.
+#[derive(Clone, Copy, Debug)]
+pub struct DraftStep<'a> {
+    /// The step.
+    pub step: &'a Step,
+    /// Whether it is whole.
+    pub known: Known,
+    /// Whether all its displacement conditions are known.
+    pub displacements: Known,
+}
+
+/// A model of which parts may be missing. All ids must be those of parts.
+#[derive(Clone, Debug)]
+pub struct Draft<'a> {
+    /// Deformable bodies.
+    pub bodies: Vec<DraftBody<'a>>,
+    /// Rigid surfaces.
+    pub rigid_surfaces: Vec<Named<'a, RigidSurface>>,
+    /// Contact pairs.
+    pub pairs: Vec<DraftPair<'a>>,
+    /// Steps.
+    pub steps: Vec<DraftStep<'a>>,
+    /// Whether anything else is missing.
+    pub known: Known,
+}
+
+/// Models that find their own faults.
+pub trait Validate: Sized {
+    /// Every fault of the model; none if it can be simulated. Gaps and overlaps of
+    /// the meshes are judged by [`crate::fitted`].
+    fn faults(&self) -> Vec<Fault>;
+
+    /// The model, if it has no faults.
+    ///
+    /// # Errors
+    /// All faults.
+    fn checked(self) -> Result<Self, Faults> {
+        let faults = self.faults();
+        if faults.is_empty() {
+            Ok(self)
+        } else {
+            Err(Faults(faults))
+        }
+    }
+}
+
+impl Validate for Model {
+    fn faults(&self) -> Vec<Fault> {
+        let mut faults = references::faults(self);
+        // Ids of what is not there cannot be followed.
+        if faults.is_empty() {
+            faults = Draft::of(self).faults();
+            faults.extend(numbers::faults(self));
+        }
+        faults
+    }
+}
+
+impl<'a> Draft<'a> {
+    /// A whole model.
+    pub fn of(model: &'a Model) -> Self {
+        let rigid = model.rigid_surfaces.iter().map(|rigid| Named {
+            name: &rigid.name,
+            part: Some(rigid),
+        });
+        let pairs = model.pairs.iter().map(|pair| DraftPair {
+            name: &pair.name,
+            pair: Some(pair),
+            known: Known::Whole,
+        });
+        let steps = model.steps.iter().map(|step| DraftStep {
+            step,
+            known: Known::Whole,
+            displacements: Known::Whole,
+        });
+        Self {
+            bodies: Self::bodies(&model.bodies),
+            rigid_surfaces: rigid.collect(),
+            pairs: pairs.collect(),
+            steps: steps.collect(),
+            known: Known::Whole,
+        }
+    }
+
+    /// Whole bodies.
+    pub fn bodies(bodies: &'a [Body]) -> Vec<DraftBody<'a>> {
+        let bodies = bodies.iter().map(|body| DraftBody {
+            name: &body.name,
+            mesh: Some(&body.mesh),
+            density: body.density,
+        });
+        bodies.collect()
+    }
+
+    /// Every fault of what is known.
+    pub fn faults(&self) -> Vec<Fault> {
+        let mut faults = List::default();
+        self.nothing(&mut faults);
+        self.names(&mut faults);
+        let impossible = pairs::check(self, &mut faults);
+        let partial = steps::check(self, &impossible, &mut faults);
+        if self.known == Known::Whole {
+            if impossible.is_empty() && partial.is_empty() {
+                hold::check(self, &mut faults);
+            }
+            rigid::check(self, &impossible, &partial, &mut faults);
+            inertia::check(self, &partial, &mut faults);
+            pairs::check_stabilised(self, &impossible, &partial, &mut faults);
+        }
+        faults.0
+    }
+
+    fn nothing(&self, faults: &mut List) {
+        let mut empty = |list, what, need| {
+            faults.push(Path::of(list), FaultKind::Nothing { what, need });
+        };
+        if self.bodies.is_empty() {
+            empty("bodies", "body", "there is nothing to simulate");
+        }
+        if self.steps.is_empty() {
+            empty("steps", "step", "there is nothing to do");
+        }
+    }
+
+    fn names(&self, faults: &mut List) {
+        let bodies = self.bodies.iter().map(|body| body.name);
+        distinct("body", "bodies", bodies, faults);
+        let rigid = self.rigid_surfaces.iter().map(|rigid| rigid.name);
+        distinct("rigid surface", "rigid_surfaces", rigid, faults);
+        distinct(
+            "pair",
+            "pairs",
+            self.pairs.iter().map(|pair| pair.name),
+            faults,
+        );
+        let steps = self.steps.iter().map(|step| step.step.name.as_str());
+        distinct("step", "steps", steps, faults);
+    }
+}
+
+fn distinct<'n>(
+    kind: &'static str,
+    list: &'static str,
+    names: impl Iterator<Item = &'n str>,
+    faults: &mut List,
+) {
+    let mut first = BTreeMap::new();
+    for (index, name) in names.enumerate() {
+        let earlier = *first.entry(name).or_insert(index);
+        if earlier < index {
+            let kind = FaultKind::DuplicateName {
+                kind,
+                name: name.to_owned(),
+                first: Path::part(list, earlier),
+            };
+            faults.push(Path::part(list, index).field("name"), kind);
+        }
+    }
+}
+
+/// Faults found so far.
+#[derive(Default)]
+struct List(Vec<Fault>);
+
+impl List {
+    fn push(&mut self, path: Path, kind: FaultKind) {
+        self.0.push(Fault { path, kind });
+    }
+}
+
+/// Positions of parts that cannot be judged further.
+type Positions = BTreeSet<usize>;

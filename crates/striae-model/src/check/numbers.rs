@@ -1,0 +1,211 @@
+//! Numbers in their ranges, directions of some length, curves that rise.
+
+use striae_law::bulk::LameConstants;
+use striae_mesh::Vec3;
+use striae_solve::model::{
+    ClosedGaps, Curve, Initial, Model, Pair, Procedure, RigidInertia, RigidShape, Step,
+};
+use striae_surface::texture::{Lines, Paint};
+
+use super::List;
+use crate::{
+    fault::{Fault, FaultKind},
+    path::Path,
+};
+
+const POSITIVE: &str = "a positive number";
+const NOT_NEGATIVE: &str = "a number of at least 0";
+
+/// Every number of a model that is out of its range.
+pub(super) fn faults(model: &Model) -> Vec<Fault> {
+    let mut faults = List::default();
+    bodies(model, &mut faults);
+    rigid_surfaces(model, &mut faults);
+    for (index, pair) in model.pairs.iter().enumerate() {
+        of_pair(pair, &Path::part("pairs", index), &mut faults);
+    }
+    for (index, step) in model.steps.iter().enumerate() {
+        of_step(step, &Path::part("steps", index), &mut faults);
+    }
+    let path = Path::of("solver").field("tolerance");
+    let tolerance = model.solver.tolerance;
+    faults.range(path, "the tolerance", tolerance, POSITIVE);
+    faults.0
+}
+
+impl List {
+    fn range(&mut self, path: Path, what: &str, found: f64, expected: &'static str) {
+        let holds = found.is_finite()
+            && match expected {
+                POSITIVE => found > 0.0,
+                _ => found >= 0.0,
+            };
+        if !holds {
+            let what = what.to_owned();
+            let kind = FaultKind::Range {
+                what,
+                expected,
+                found,
+            };
+            self.push(path, kind);
+        }
+    }
+
+    fn direction(&mut self, path: Path, place: &str, direction: &Vec3) {
+        if direction.norm() == 0.0 || !direction.norm().is_finite() {
+            let place = place.to_owned();
+            self.push(path, FaultKind::ZeroVector { place });
+        }
+    }
+}
+
+fn bodies(model: &Model, faults: &mut List) {
+    for (index, body) in model.bodies.iter().enumerate() {
+        let path = Path::part("bodies", index);
+        let (name, LameConstants { lambda, shear }) = (&body.name, body.material.lame_constants());
+        let what = format!("the shear modulus of body `{name}`");
+        faults.range(path.clone().field("material"), &what, shear, POSITIVE);
+        if 3.0 * lambda + 2.0 * shear <= 0.0 {
+            let kind = FaultKind::BulkModulus { lambda, shear };
+            faults.push(path.clone().field("material"), kind);
+        }
+        let what = format!("the density of body `{name}`");
+        faults.range(
+            path.clone().field("density"),
+            &what,
+            body.density,
+            NOT_NEGATIVE,
+        );
+        let sound = body.mesh.check().and_then(|()| body.mesh.check_shape());
+        if let Err(error) = sound {
+            let kind = FaultKind::Mesh {
+                owner: format!("body `{name}`"),
+                cause: error.to_string(),
+            };
+            faults.push(path.field("mesh"), kind);
+        }
+    }
+}
+
+fn rigid_surfaces(model: &Model, faults: &mut List) {
+    for (index, rigid) in model.rigid_surfaces.iter().enumerate() {
+        let path = Path::part("rigid_surfaces", index);
+        if let RigidShape::Plane { normal, .. } = &rigid.shape {
+            let path = path.clone().field("shape");
+            faults.direction(path, "the normal of a plane", normal);
+        }
+        if rigid.inertia.is_some_and(|inertia| !is_possible(&inertia)) {
+            let rigid = rigid.name.clone();
+            faults.push(path.field("inertia"), FaultKind::RigidInertia { rigid });
+        }
+    }
+}
+
+/// Whether a body can have such a mass and such moments.
+fn is_possible(inertia: &RigidInertia) -> bool {
+    let RigidInertia { mass, moments, .. } = inertia;
+    let largest = moments.iter().copied().fold(0.0, f64::max);
+    let positive = *mass > 0.0 && moments.iter().all(|moment| *moment > 0.0);
+    positive && 2.0 * largest <= moments.iter().sum::<f64>() * (1.0 + 1e-12)
+}
+
+fn of_pair(pair: &Pair, path: &Path, faults: &mut List) {
+    let name = &pair.name;
+    if let Some(distance) = pair.search_distance {
+        let what = format!("the search distance of pair `{name}`");
+        faults.range(
+            path.clone().field("search_distance"),
+            &what,
+            distance,
+            POSITIVE,
+        );
+    }
+    if let Initial::Close(ClosedGaps::Share(gap) | ClosedGaps::UpTo(gap)) = pair.initial {
+        let what = format!("the gap that pair `{name}` closes");
+        faults.range(path.clone().field("initial"), &what, gap, NOT_NEGATIVE);
+    }
+    for (side, paint) in pair.textures.iter().enumerate() {
+        let path = || path.clone().field("textures").index(side);
+        match paint {
+            Some(Paint::Field(field)) => match &field.lines {
+                Lines::Uniform(direction) => {
+                    faults.direction(path(), "the direction of a texture", direction);
+                }
+                Lines::Circumferential(axis) | Lines::Axial(axis) | Lines::Radial(axis) => {
+                    faults.direction(path(), "the direction of an axis", &axis.direction);
+                }
+            },
+            Some(Paint::Points { directions, .. }) => {
+                for (_, direction) in directions {
+                    faults.direction(path(), "the direction of a texture", direction);
+                }
+            }
+            Some(Paint::Nodal(_) | Paint::Nodes { .. }) | None => {}
+        }
+    }
+}
+
+fn of_step(step: &Step, path: &Path, faults: &mut List) {
+    let name = &step.name;
+    let what = format!("the duration of step `{name}`");
+    faults.range(
+        path.clone().field("duration"),
+        &what,
+        step.duration,
+        POSITIVE,
+    );
+    let what = format!("the smallest increment of step `{name}`");
+    let increments = path.clone().field("increments");
+    faults.range(increments, &what, step.increments.smallest, POSITIVE);
+    if let Procedure::Dynamic { spectral_radius } = step.procedure
+        && !(0.0..=1.0).contains(&spectral_radius)
+    {
+        let kind = FaultKind::Range {
+            what: format!("the spectral radius of step `{name}`"),
+            expected: "a number from 0 to 1",
+            found: spectral_radius,
+        };
+        faults.push(path.clone().field("procedure"), kind);
+    }
+    let displacements = step.displacements.iter().map(|of| &of.curve);
+    curves("displacements", displacements, path, faults);
+    curves("loads", step.loads.iter().map(|of| &of.curve), path, faults);
+    let motions = step.rigid_motions.iter().map(|of| &of.curve);
+    curves("rigid_motions", motions, path, faults);
+    if let Some(gravity) = &step.gravity {
+        curve(&gravity.curve, path.clone().field("gravity"), faults);
+    }
+}
+
+fn curves<'c>(
+    list: &'static str,
+    all: impl Iterator<Item = &'c Curve>,
+    path: &Path,
+    faults: &mut List,
+) {
+    for (index, of) in all.enumerate() {
+        curve(of, path.clone().field(list).index(index), faults);
+    }
+}
+
+fn curve(curve: &Curve, path: Path, faults: &mut List) {
+    let Curve::Table(points) = curve else { return };
+    if let Some(found) = misshapen(points) {
+        let path = path.field("curve");
+        let curve = path.to_string();
+        faults.push(path, FaultKind::BadCurve { curve, found });
+    }
+}
+
+/// Why points make no curve.
+pub fn misshapen(points: &[(f64, f64)]) -> Option<String> {
+    match points[..] {
+        [] | [_] => Some(format!("but there are only {}", points.len())),
+        [(first, _), ..] if first != 0.0 => Some(format!("but start at {first}")),
+        [.., (last, _)] if last != 1.0 => Some(format!("but end at {last}")),
+        _ => {
+            let turns = points.windows(2).find(|pair| pair[1].0 <= pair[0].0);
+            turns.map(|pair| format!("but {} is followed by {}", pair[0].0, pair[1].0))
+        }
+    }
+}

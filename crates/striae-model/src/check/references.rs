@@ -1,0 +1,129 @@
+//! Ids, nodes and faces that are there.
+
+use striae_mesh::{Face, Mesh, NodeId};
+use striae_solve::model::{BodyId, Model, Mover, RigidId, RigidShape, Side};
+
+use super::List;
+use crate::{
+    fault::{Fault, FaultKind},
+    path::Path,
+};
+
+/// Every id of a model that nothing has.
+pub(super) fn faults(model: &Model) -> Vec<Fault> {
+    let mut check = Check {
+        model,
+        faults: List::default(),
+    };
+    for index in 0..model.rigid_surfaces.len() {
+        check.rigid_surface(index);
+    }
+    for (index, pair) in model.pairs.iter().enumerate() {
+        let path = Path::part("pairs", index);
+        check.side(&pair.a, path.clone().field("a"));
+        check.side(&pair.b, path.field("b"));
+    }
+    for index in 0..model.steps.len() {
+        check.step(index);
+    }
+    check.faults.0
+}
+
+struct Check<'m> {
+    model: &'m Model,
+    faults: List,
+}
+
+impl Check<'_> {
+    fn rigid_surface(&mut self, index: usize) {
+        let model = self.model;
+        let (rigid, path) = (
+            &model.rigid_surfaces[index],
+            Path::part("rigid_surfaces", index),
+        );
+        for (tie, (body, nodes)) in rigid.ties.iter().enumerate() {
+            self.nodes(*body, nodes, path.clone().field("ties").index(tie));
+        }
+        if let RigidShape::Facets { positions, facets } = &rigid.shape {
+            let corners = facets.iter().flatten().map(|corner| corner.index());
+            let path = path.field("shape");
+            self.within("node", corners, positions.len(), &path);
+        }
+    }
+
+    fn step(&mut self, index: usize) {
+        let model = self.model;
+        let (step, path) = (&model.steps[index], Path::part("steps", index));
+        let at = |list: &'static str, index: usize| path.clone().field(list).index(index);
+        for (index, condition) in step.displacements.iter().enumerate() {
+            let path = at("displacements", index);
+            self.nodes(condition.body, &condition.nodes, path);
+        }
+        for (index, release) in step.releases.iter().enumerate() {
+            self.nodes(release.body, &release.nodes, at("releases", index));
+        }
+        for (index, load) in step.loads.iter().enumerate() {
+            self.faces(load.body, &load.faces, at("loads", index));
+        }
+        for (index, velocity) in step.velocities.iter().enumerate() {
+            match velocity.body {
+                Mover::Deformable(body) => _ = self.body(body, &at("velocities", index)),
+                Mover::Rigid(rigid) => self.rigid(rigid, &at("velocities", index)),
+            }
+        }
+        for (index, motion) in step.rigid_motions.iter().enumerate() {
+            self.rigid(motion.surface, &at("rigid_motions", index));
+        }
+        for (index, (pair, _)) in step.frictions.iter().enumerate() {
+            let count = model.pairs.len();
+            self.within("pair", [pair.0], count, &at("frictions", index));
+        }
+    }
+
+    fn side(&mut self, side: &Side, path: Path) {
+        match side {
+            Side::Deformable { body, faces } => self.faces(*body, faces, path),
+            Side::Rigid(rigid) => self.rigid(*rigid, &path),
+        }
+    }
+
+    fn rigid(&mut self, rigid: RigidId, path: &Path) {
+        let count = self.model.rigid_surfaces.len();
+        self.within("rigid surface", [rigid.0], count, path);
+    }
+
+    fn body(&mut self, body: BodyId, path: &Path) -> Option<&Mesh> {
+        let bodies = &self.model.bodies;
+        self.within("body", [body.0], bodies.len(), path);
+        bodies.get(body.0).map(|body| &body.mesh)
+    }
+
+    fn nodes(&mut self, body: BodyId, nodes: &[NodeId], path: Path) {
+        if let Some(mesh) = self.body(body, &path) {
+            let count = mesh.positions.len();
+            self.within("node", nodes.iter().map(|node| node.index()), count, &path);
+        }
+    }
+
+    fn faces(&mut self, body: BodyId, faces: &[Face], path: Path) {
+        if let Some(mesh) = self.body(body, &path) {
+            let count = mesh.elements.len();
+            let elements = faces.iter().map(|face| face.element.index());
+            self.within("element", elements, count, &path);
+        }
+    }
+
+    /// Notes the first index that is none of so many.
+    fn within(
+        &mut self,
+        what: &'static str,
+        indices: impl IntoIterator<Item = usize>,
+        count: usize,
+        path: &Path,
+    ) {
+        if let Some(index) = indices.into_iter().find(|index| *index >= count) {
+            let kind = FaultKind::Missing { what, index, count };
+            self.faults.push(path.clone(), kind);
+        }
+    }
+}

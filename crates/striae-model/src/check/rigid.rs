@@ -1,0 +1,73 @@
+//! Rigid bodies that are free though nothing moves them, and tied nodes that are
+//! prescribed as well.
+
+use std::collections::BTreeSet;
+
+use striae_mesh::NodeId;
+use striae_solve::model::{BodyId, Freedom, RigidId, Side, Step};
+
+use super::{Draft, List, Positions};
+use crate::{fault::FaultKind, path::Path};
+
+/// Notes both in every whole step.
+pub(super) fn check(
+    draft: &Draft<'_>,
+    impossible: &Positions,
+    partial: &Positions,
+    faults: &mut List,
+) {
+    let mut tied: BTreeSet<(BodyId, NodeId)> = BTreeSet::new();
+    let rigid = draft.rigid_surfaces.iter().filter_map(|rigid| rigid.part);
+    for (body, nodes) in rigid.flat_map(|rigid| &rigid.ties) {
+        tied.extend(nodes.iter().map(|node| (*body, *node)));
+    }
+    for (index, of) in draft.steps.iter().enumerate() {
+        if partial.contains(&index) {
+            continue;
+        }
+        let (step, path) = (of.step, Path::part("steps", index));
+        for rigid in free(draft, impossible, step) {
+            let kind = FaultKind::FreeRigid {
+                rigid: draft.rigid_surfaces[rigid.0].name.into(),
+                step: step.name.clone(),
+            };
+            faults.push(path.clone(), kind);
+        }
+        let prescribed = step.displacements.iter().find_map(|condition| {
+            let nodes = condition.nodes.iter();
+            let mut both = nodes.filter(|node| tied.contains(&(condition.body, **node)));
+            both.next().map(|node| (condition.body, *node))
+        });
+        if let Some((body, node)) = prescribed {
+            let kind = FaultKind::PrescribedTied {
+                step: step.name.clone(),
+                body: draft.bodies[body.0].name.into(),
+                node,
+            };
+            faults.push(path, kind);
+        }
+    }
+}
+
+/// Rigid bodies that a step frees though nothing is tied to them, nothing touches them
+/// and they have no mass.
+fn free(draft: &Draft<'_>, impossible: &Positions, step: &Step) -> Vec<RigidId> {
+    let nothing_moves = |rigid: &RigidId| {
+        let Some(body) = draft.rigid_surfaces[rigid.0].part else {
+            return false;
+        };
+        let is = |side: &Side| matches!(side, Side::Rigid(id) if id == rigid);
+        let pairs = draft.pairs.iter().enumerate();
+        let mut possible = pairs
+            .filter(|(index, _)| !impossible.contains(index))
+            .filter_map(|(_, pair)| pair.pair);
+        let touched = possible.any(|pair| is(&pair.a) || is(&pair.b));
+        !touched && body.ties.is_empty() && body.inertia.is_none()
+    };
+    let motions = step.rigid_motions.iter();
+    let freed = motions.filter(|motion| motion.coordinates.contains(&Freedom::Free));
+    freed
+        .map(|motion| motion.surface)
+        .filter(nothing_moves)
+        .collect()
+}

@@ -1,0 +1,392 @@
+//! What can be wrong with a model, in words.
+//!
+//! Longer than other files, as it lists every kind of fault with its words.
+
+use std::fmt;
+
+use striae_mesh::NodeId;
+
+use crate::path::Path;
+
+/// A fault of a model and where it is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fault {
+    /// The part that is wrong.
+    pub path: Path,
+    /// What is wrong.
+    pub kind: FaultKind,
+}
+
+/// All faults of a model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Faults(pub Vec<Fault>);
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.path, self.kind)
+    }
+}
+
+impl fmt::Display for Faults {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for fault in &self.0 {
+            writeln!(f, "{fault}")?;
+        }
+        match self.0.len() {
+            1 => write!(f, "1 fault"),
+            count => write!(f, "{count} faults"),
+        }
+    }
+}
+
+impl std::error::Error for Faults {}
+
+/// One kind of fault with the names and numbers that explain it.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FaultKind {
+    /// Two things of one kind have the same name.
+    #[error("{kind} `{name}` is already defined as {first}")]
+    DuplicateName {
+        /// Body, rigid surface, ...
+        kind: &'static str,
+        /// The name.
+        name: String,
+        /// Where it was defined first.
+        first: Path,
+    },
+    /// A model without bodies or steps.
+    #[error("the model has no {what}; {need}")]
+    Nothing {
+        /// `body` or `step`.
+        what: &'static str,
+        /// Why one is needed.
+        need: &'static str,
+    },
+    /// An id that nothing has.
+    #[error("there is no {what} {index}; there are {count}, counted from 0")]
+    Missing {
+        /// Body, rigid surface, pair, node or element.
+        what: &'static str,
+        /// The id.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// A number outside its range.
+    #[error("{what} must be {expected}, but is {found}")]
+    Range {
+        /// What it is.
+        what: String,
+        /// What it must be.
+        expected: &'static str,
+        /// What it is instead.
+        found: f64,
+    },
+    /// A name that nothing has.
+    #[error("no {kind} is named `{name}`; {}{}", existing(.known), did_you_mean(.nearest))]
+    UnknownName {
+        /// Body, material, ...
+        kind: &'static str,
+        /// The name.
+        name: String,
+        /// What there is.
+        known: Vec<String>,
+        /// The most similar of them.
+        nearest: Option<String>,
+    },
+    /// A set that a body does not have.
+    #[error("body `{body}` has no {kind} set `{name}`; {}{}", it_has(.known), did_you_mean(.nearest))]
+    UnknownSet {
+        /// The body.
+        body: String,
+        /// Node or facet.
+        kind: &'static str,
+        /// The set.
+        name: String,
+        /// The sets it has.
+        known: Vec<String>,
+        /// The most similar of them.
+        nearest: Option<String>,
+    },
+    /// A set without members.
+    #[error("{kind} set `{name}` of body `{body}` is empty")]
+    EmptySet {
+        /// The body.
+        body: String,
+        /// Node or facet.
+        kind: &'static str,
+        /// The set.
+        name: String,
+    },
+    /// A mesh cannot be generated or read.
+    #[error("the mesh of {owner} cannot be made: {cause}")]
+    Mesh {
+        /// The body or rigid surface.
+        owner: String,
+        /// What its maker says.
+        cause: String,
+    },
+    /// A pair without a deformable side.
+    #[error("pair `{pair}` joins two rigid surfaces; at least one side must be a body")]
+    TwoRigid {
+        /// The pair.
+        pair: String,
+    },
+    /// A pair joins a body to itself.
+    #[error(
+        "pair `{pair}` joins body `{body}` to itself{}; contact of a body with itself is not supported: \
+         mesh its two parts as two bodies", sharing(.shared)
+    )]
+    SelfContact {
+        /// The pair.
+        pair: String,
+        /// The body.
+        body: String,
+        /// Nodes on both sides.
+        shared: usize,
+    },
+    /// Two pairs join the same surfaces.
+    #[error("pair `{pair}` joins the same two surfaces as pair `{other}`")]
+    SamePair {
+        /// The pair.
+        pair: String,
+        /// The earlier pair.
+        other: String,
+    },
+    /// A pair is stabilised, but all steps have inertia.
+    #[error(
+        "pair `{pair}` is stabilised, but every step is dynamic: there inertia carries bodies across gaps. Leave `stabilise` out"
+    )]
+    StabilisedByInertia {
+        /// The pair.
+        pair: String,
+    },
+    /// The meshes of a pair do not fit.
+    #[error("{fault}")]
+    Initial {
+        /// How.
+        fault: striae_solve::initial::InitialFault,
+    },
+    /// A displacement condition without a component.
+    #[error(
+        "the displacement of `{set}` of body `{body}` prescribes nothing; give at least one of `x`, `y`, `z`"
+    )]
+    NoComponent {
+        /// The body.
+        body: String,
+        /// The node set.
+        set: String,
+    },
+    /// One component of a node is prescribed twice in one step.
+    #[error(
+        "step `{step}` prescribes component `{component}` of {node} of body `{body}` twice: \
+         {first} by `{first_set}`, {second} by `{second_set}`"
+    )]
+    PrescribedTwice {
+        /// The step.
+        step: String,
+        /// The body.
+        body: String,
+        /// A node for which that is so.
+        node: NodeId,
+        /// `x`, `y` or `z`.
+        component: char,
+        /// The earlier target and curve.
+        first: String,
+        /// The earlier set.
+        first_set: String,
+        /// The later target and curve.
+        second: String,
+        /// The later set.
+        second_set: String,
+    },
+    /// A release of something that is free.
+    #[error(
+        "step `{step}` releases {component} of `{set}` of body `{body}`, which is not prescribed"
+    )]
+    NotPrescribed {
+        /// The step.
+        step: String,
+        /// The body.
+        body: String,
+        /// The node set.
+        set: String,
+        /// A component, or that there is none.
+        component: String,
+    },
+    /// The same thing is stated twice in one step.
+    #[error("step `{step}` states {what} twice")]
+    StatedTwice {
+        /// The step.
+        step: String,
+        /// What is stated.
+        what: String,
+    },
+    /// Sizes of increments that contradict each other.
+    #[error(
+        "increments of step `{step}` must satisfy smallest <= initial <= largest, but {smallest}, {initial}, {largest} do not"
+    )]
+    IncrementOrder {
+        /// The step.
+        step: String,
+        /// Smallest increment.
+        smallest: f64,
+        /// First increment.
+        initial: f64,
+        /// Largest increment.
+        largest: f64,
+    },
+    /// A velocity in a step in which nothing has one.
+    #[error(
+        "step `{step}` states a velocity but has no inertia; give it `dynamics = {{}}` or take the velocity out"
+    )]
+    VelocityWithoutInertia {
+        /// The step.
+        step: String,
+    },
+    /// A body without density where there is inertia or gravity.
+    #[error(
+        "body `{body}` has inertia or weight in step `{step}`, but its material has no `density`; give it one"
+    )]
+    NoDensity {
+        /// The body.
+        body: String,
+        /// The first step that needs it.
+        step: String,
+    },
+    /// Mass without inertia, inertia without mass, both and density, or moments that no body has.
+    #[error(
+        "rigid body `{rigid}` needs both `mass` and `inertia`, none of whose three moments exceeds the sum of the others, or `density` alone"
+    )]
+    RigidInertia {
+        /// The rigid body.
+        rigid: String,
+    },
+    /// A side that is a rigid body without a surface.
+    #[error("rigid body `{rigid}` has no surface to touch; give it a `plane` or a `mesh`")]
+    NoSurface {
+        /// The rigid body.
+        rigid: String,
+    },
+    /// A rigid body that nothing could move as it should.
+    #[error(
+        "step `{step}` frees coordinates of rigid body `{rigid}`; only bodies that nodes are tied to, that have a mass or that are a side of a pair can be free"
+    )]
+    FreeRigid {
+        /// The rigid body.
+        rigid: String,
+        /// The step.
+        step: String,
+    },
+    /// A node that follows a rigid body and is prescribed.
+    #[error(
+        "step `{step}` prescribes {node} of body `{body}`, which is tied to a rigid body; move the rigid body instead"
+    )]
+    PrescribedTied {
+        /// The step.
+        step: String,
+        /// The body.
+        body: String,
+        /// The first such node.
+        node: NodeId,
+    },
+    /// Points that do not make a curve.
+    #[error("the points of curve `{curve}` must rise in their first number from 0 to 1, {found}")]
+    BadCurve {
+        /// The curve.
+        curve: String,
+        /// What is wrong.
+        found: String,
+    },
+    /// Elastic constants of a material that is not stable.
+    #[error(
+        "`lambda` = {lambda} and `shear_modulus` = {shear} give a bulk modulus that is not positive"
+    )]
+    BulkModulus {
+        /// First Lame constant.
+        lambda: f64,
+        /// Shear modulus.
+        shear: f64,
+    },
+    /// Textures do not fit the friction law.
+    #[error(
+        "the friction of pair `{pair}` needs a texture on {required}; sides that have one: {found}"
+    )]
+    Textures {
+        /// The pair.
+        pair: String,
+        /// How many sides must have one.
+        required: &'static str,
+        /// How many do.
+        found: usize,
+    },
+    /// A texture given at nodes of a plane.
+    #[error(
+        "rigid surface `{surface}` is a plane without nodes, so its texture cannot be given at points or nodes"
+    )]
+    NodesOnPlane {
+        /// The rigid surface.
+        surface: String,
+    },
+    /// A direction of no length.
+    #[error("{place} must not be the zero vector")]
+    ZeroVector {
+        /// The key and its table.
+        place: String,
+    },
+    /// A body that can move without resistance.
+    #[error(
+        "body `{body}` is in no contact pair and {} in step `{step}`; prescribe displacements that hold it", leaves(.motions)
+    )]
+    Free {
+        /// The body.
+        body: String,
+        /// The first step in which it is free.
+        step: String,
+        /// How many of the six rigid motions are free.
+        motions: usize,
+    },
+}
+
+fn did_you_mean(nearest: &Option<String>) -> String {
+    nearest
+        .as_ref()
+        .map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
+}
+
+fn quoted(words: &[String]) -> String {
+    let words: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
+    words.join(", ")
+}
+
+fn existing(known: &[String]) -> String {
+    if known.is_empty() {
+        "there is none".into()
+    } else {
+        format!("there is {}", quoted(known))
+    }
+}
+
+fn it_has(known: &[String]) -> String {
+    if known.is_empty() {
+        "it has none".into()
+    } else {
+        format!("it has {}", quoted(known))
+    }
+}
+
+fn sharing(shared: &usize) -> String {
+    if *shared == 0 {
+        String::new()
+    } else {
+        format!(" (the two sides share {shared} nodes)")
+    }
+}
+
+fn leaves(motions: &usize) -> String {
+    match motions {
+        6 => "nothing holds it".into(),
+        1 => "one rigid motion of it is left free".into(),
+        _ => format!("{motions} rigid motions of it are left free"),
+    }
+}

@@ -1,0 +1,29 @@
+//! What is simulated: the parts of a model, builders by name, and validation.
+//!
+//! ```text
+//! model("title").body(..).pair(..).step(..)   names of bodies, sets and surfaces
+//!     .build()  -> Model or Faults             ids and members; gaps closed where asked for
+//! Model::faults() -> [Fault { path, kind }]    every fault there is, `pairs[0].friction: ...`
+//! ```
+//!
+//! No file format is known here. A deck is read by `striae-deck`, which maps the
+//! paths of faults back to lines and columns.
+
+mod build;
+mod check;
+mod fault;
+mod fit;
+mod names;
+mod path;
+
+pub use build::{
+    BodyBuilder, Component, Components, ModelBuilder, PairBuilder, RigidBuilder, SideBuilder,
+    StepBuilder, axial, body, circumferential, equal_increments, model, pair, plane, radial, rigid,
+    rigid_surface, solver, step, surface, tied, uniform,
+};
+pub use check::{Draft, DraftBody, DraftPair, DraftStep, Known, Named, Validate, misshapen};
+pub use fault::{Fault, FaultKind, Faults};
+pub use fit::fitted;
+pub use names::nearest;
+pub use path::{Path, Segment};
+pub use striae_solve::model::*;

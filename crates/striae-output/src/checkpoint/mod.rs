@@ -1,0 +1,203 @@
+//! A run under way in a file, exactly, so that it can go on as if it had not stopped.
+//!
+//! ```text
+//! DIR/checkpoint.bin = "striae checkpoint\n", format, CRC-32 of the rest,
+//!                      version of the program, source, what is on disk, point of the run
+//! ```
+//!
+//! Numbers are little-endian and have eight bytes. The file is written whole or not
+//! at all. The deck is known by a fingerprint of what it means, generated and read
+//! meshes included, so that a run never goes on with another one than it began with.
+
+mod code;
+mod error;
+
+use std::{
+    fmt::{self, Write},
+    io::ErrorKind,
+    path::{Path, PathBuf},
+};
+
+use striae_files::{FileError, write_atomically};
+use striae_solve::{drive::Point, model::Model};
+
+use crate::{Output, OutputError, vtk::Snapshot};
+use code::{Coded, coded};
+pub use error::CheckpointError;
+
+/// Name of the file in the folder of a run.
+pub const FILE: &str = "checkpoint.bin";
+
+/// First bytes of the file.
+const MAGIC: &[u8] = b"striae checkpoint\n";
+
+/// Number of the format, to be raised when the content changes.
+pub const FORMAT: u64 = 7;
+
+/// A run under way.
+#[derive(Clone, Debug)]
+pub struct Checkpoint {
+    /// Which deck is run.
+    pub source: Source,
+    /// What is on disk.
+    pub written: Written,
+    /// Where the run is.
+    pub point: Point,
+}
+
+/// The deck of a run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Source {
+    /// Name of the case.
+    pub case: String,
+    /// Path of the deck.
+    pub path: PathBuf,
+    /// What the deck means, see [`fingerprint`].
+    pub fingerprint: u64,
+}
+
+/// What a recorder has written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Written {
+    /// Newton iterations of every increment.
+    pub iterations: Vec<usize>,
+    /// Increments that were cut.
+    pub cut_backs: usize,
+    /// Unknowns of the last system.
+    pub unknowns: usize,
+    /// What the linear systems took.
+    pub solver: crate::summary::SolverSummary,
+    /// Increment of the last fields.
+    pub fields: Option<usize>,
+    /// Seconds spent.
+    pub seconds: f64,
+    /// Files of the bodies and of the contact surfaces.
+    pub series: [Vec<Snapshot>; 2],
+    /// What has been judged so far.
+    pub judgement: striae_solve::warning::Judgement,
+}
+
+/// A number that differs, but for rare coincidences, where models or what is
+/// written of them differ: in the deck itself or in a file that it reads.
+pub fn fingerprint(model: &Model, output: Output) -> u64 {
+    let mut hash = Hash(crc32fast::Hasher::new());
+    write!(hash, "{model:?} {output:?}").expect("a hash takes any text");
+    u64::from(hash.0.finalize())
+}
+
+struct Hash(crc32fast::Hasher);
+
+impl Write for Hash {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        self.0.update(text.as_bytes());
+        Ok(())
+    }
+}
+
+impl Checkpoint {
+    /// Writes the checkpoint to a folder.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn write(&self, folder: &Path) -> Result<(), OutputError> {
+        let mut content = Vec::new();
+        env!("CARGO_PKG_VERSION").to_owned().put(&mut content);
+        self.put(&mut content);
+        let mut bytes = MAGIC.to_vec();
+        FORMAT.put(&mut bytes);
+        u64::from(crc32fast::hash(&content)).put(&mut bytes);
+        bytes.append(&mut content);
+        write_atomically(&folder.join(FILE), &bytes)?;
+        Ok(())
+    }
+
+    /// Reads the checkpoint of a folder.
+    ///
+    /// # Errors
+    /// When there is none, or none that can be used.
+    pub fn read(folder: &Path) -> Result<Self, CheckpointError> {
+        let path = folder.join(FILE);
+        match std::fs::read(&path) {
+            Ok(bytes) => taken(&path, &bytes),
+            Err(cause) if cause.kind() == ErrorKind::NotFound => Err(CheckpointError::Missing {
+                folder: folder.to_owned(),
+            }),
+            Err(cause) => Err(CheckpointError::Unreadable { path, cause }),
+        }
+    }
+
+    /// Takes the checkpoint out of a folder, if there is one.
+    ///
+    /// # Errors
+    /// When the file is there and cannot be removed.
+    pub fn remove(folder: &Path) -> Result<(), OutputError> {
+        let path = folder.join(FILE);
+        match std::fs::remove_file(&path) {
+            Err(cause) if cause.kind() != ErrorKind::NotFound => {
+                Err(FileError::Write { path, cause }.into())
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+impl Source {
+    /// Whether the run is of this model.
+    ///
+    /// # Errors
+    /// When it began with another one.
+    pub fn check(&self, model: &Model, output: Output) -> Result<(), CheckpointError> {
+        if fingerprint(model, output) == self.fingerprint {
+            Ok(())
+        } else {
+            Err(CheckpointError::Changed {
+                deck: self.path.clone(),
+            })
+        }
+    }
+}
+
+fn taken(path: &Path, bytes: &[u8]) -> Result<Checkpoint, CheckpointError> {
+    let path = || path.to_owned();
+    let mut rest = bytes
+        .strip_prefix(MAGIC)
+        .ok_or_else(|| CheckpointError::Foreign { path: path() })?;
+    let damaged = || CheckpointError::Damaged { path: path() };
+    let found = u64::take(&mut rest).ok_or_else(damaged)?;
+    if found != FORMAT {
+        return Err(CheckpointError::Format {
+            path: path(),
+            found,
+        });
+    }
+    let sum = u64::take(&mut rest).ok_or_else(damaged)?;
+    if sum != u64::from(crc32fast::hash(rest)) {
+        return Err(damaged());
+    }
+    let found = String::take(&mut rest).ok_or_else(damaged)?;
+    if found != env!("CARGO_PKG_VERSION") {
+        return Err(CheckpointError::Version {
+            path: path(),
+            found,
+        });
+    }
+    let checkpoint = Checkpoint::take(&mut rest).filter(|_| rest.is_empty());
+    checkpoint.ok_or_else(damaged)
+}
+
+impl Coded for PathBuf {
+    fn put(&self, bytes: &mut Vec<u8>) {
+        self.to_string_lossy().into_owned().put(bytes);
+    }
+
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        String::take(bytes).map(Self::from)
+    }
+}
+
+coded! {
+    Checkpoint { source, written, point };
+    Source { case, path, fingerprint };
+    Written { iterations, cut_backs, unknowns, solver, fields, seconds, series, judgement };
+    Snapshot { time, parts };
+}

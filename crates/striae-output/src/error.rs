@@ -1,0 +1,65 @@
+//! Why results could not be written or read back.
+
+use std::path::PathBuf;
+
+use striae_files::FileError;
+
+/// What can go wrong while writing results or reading them back.
+#[derive(Debug, thiserror::Error)]
+pub enum OutputError {
+    /// A file cannot be written or read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The content of a file is not what it should be.
+    #[error("{}: {cause}", path.display())]
+    Content {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, and where.
+        cause: String,
+    },
+    /// An array has not one value for every point or cell.
+    #[error("{}: array `{array}` has {found} values where {expected} are needed", path.display())]
+    ArrayLength {
+        /// The file being written.
+        path: PathBuf,
+        /// The array.
+        array: String,
+        /// How many points or cells there are.
+        expected: usize,
+        /// How many values it has.
+        found: usize,
+    },
+    /// Two arrays, columns or entries share one name.
+    #[error("{}: `{name}` appears twice", path.display())]
+    Duplicate {
+        /// The file.
+        path: PathBuf,
+        /// The name.
+        name: String,
+    },
+    /// A cell names a point that does not exist.
+    #[error("{}: cell {cell} refers to point {point}, but there are {points} points", path.display())]
+    MissingPoint {
+        /// The file being written.
+        path: PathBuf,
+        /// The cell.
+        cell: usize,
+        /// The point it names.
+        point: usize,
+        /// How many points there are.
+        points: usize,
+    },
+    /// A row of a history has other columns than the first one.
+    #[error("{}: row {row} has {found} where column `{expected}` is due", path.display())]
+    Column {
+        /// The file being written.
+        path: PathBuf,
+        /// Number of the row, the first one being 1.
+        row: usize,
+        /// The column of the first row.
+        expected: String,
+        /// What the row has in its place.
+        found: String,
+    },
+}

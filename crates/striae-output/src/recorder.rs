@@ -1,0 +1,350 @@
+//! Writes a run to a folder: fields, history and summary.
+//!
+//! ```text
+//! DIR/history.csv           a row an increment
+//! DIR/bodies.pvd            displacement, velocity in dynamic steps, Cauchy stress, von Mises stress
+//! DIR/contact.pvd           gap, pressure, tractions, slip, normal, texture `s`,
+//!                           structural vector `a = n x s`, status, kept, pointed
+//! DIR/fields/*.vtu          what the collections list
+//! DIR/summary.json          how the run ended
+//! DIR/checkpoint.bin        where a run under way is, see [`crate::checkpoint`]
+//! ```
+//!
+//! Everything is on disk after each increment, so an interrupted run keeps all
+//! that has converged.
+
+use std::{
+    path::{Path, PathBuf},
+    time::Instant,
+};
+
+use striae_contact::unknowns::{NodeResult, Status as ContactStatus};
+use striae_files::FileError;
+use striae_mesh::{NodeId, Vec3};
+use striae_solve::{
+    drive::Progress,
+    element::{nodal_cauchy_stress, von_mises},
+    newton::Increment,
+    outcome::Ending,
+    problem::Problem,
+    state::State,
+};
+
+use crate::{
+    FieldOutput, Output, OutputError,
+    checkpoint::{Checkpoint, Written},
+    history::History,
+    row::row,
+    summary::Summary,
+    tally::Tally,
+    vtk::{Array, Cells, Grid, Series, Snapshot, Values, write},
+};
+
+/// Writes the output of one run.
+pub struct Recorder {
+    folder: PathBuf,
+    case: String,
+    output: Output,
+    /// Seconds spent before a restart.
+    spent: f64,
+    history: History,
+    bodies: Series,
+    contact: Series,
+    started: Instant,
+    tally: Tally,
+    written: Option<usize>,
+}
+
+impl Recorder {
+    /// Makes the folder and an empty history.
+    ///
+    /// # Errors
+    /// When the folder or a file cannot be written.
+    pub fn create(folder: &Path, case: &str, output: Output) -> Result<Self, OutputError> {
+        let fields = folder.join("fields");
+        std::fs::create_dir_all(&fields).map_err(|cause| FileError::Write {
+            path: fields.clone(),
+            cause,
+        })?;
+        // What an earlier run left behind is no part of this one.
+        Checkpoint::remove(folder)?;
+        Ok(Self {
+            history: History::create(folder.join("history.csv"))?,
+            bodies: Series::new(folder.join("bodies.pvd")),
+            contact: Series::new(folder.join("contact.pvd")),
+            folder: folder.to_owned(),
+            case: case.to_owned(),
+            output,
+            spent: 0.0,
+            started: Instant::now(),
+            tally: Tally::default(),
+            written: None,
+        })
+    }
+
+    /// Goes on where an earlier recorder was at a checkpoint.
+    ///
+    /// # Errors
+    /// When the output is not there, or cannot be written.
+    pub fn resume(
+        folder: &Path,
+        case: &str,
+        output: Output,
+        written: &Written,
+    ) -> Result<Self, OutputError> {
+        let rows = written.iterations.len();
+        if written.fields != Some(rows) {
+            remove_fields(&folder.join("fields"), rows)?;
+        }
+        let [bodies, contact] = &written.series;
+        Ok(Self {
+            history: History::resume(folder.join("history.csv"), rows)?,
+            bodies: Series::resumed(folder.join("bodies.pvd"), bodies.clone()),
+            contact: Series::resumed(folder.join("contact.pvd"), contact.clone()),
+            folder: folder.to_owned(),
+            case: case.to_owned(),
+            output,
+            spent: written.seconds,
+            started: Instant::now(),
+            tally: Tally {
+                iterations: written.iterations.clone(),
+                cut_backs: written.cut_backs,
+                unknowns: written.unknowns,
+                solver: written.solver.clone(),
+                judgement: written.judgement.clone(),
+            },
+            written: written.fields,
+        })
+    }
+
+    /// What is on disk, for a checkpoint.
+    pub fn written(&self) -> Written {
+        let tally = &self.tally;
+        Written {
+            iterations: tally.iterations.clone(),
+            cut_backs: tally.cut_backs,
+            unknowns: tally.unknowns,
+            solver: tally.solver.clone(),
+            fields: self.written,
+            seconds: self.seconds(),
+            series: [&self.bodies, &self.contact].map(|series| series.snapshots().to_vec()),
+            judgement: tally.judgement.clone(),
+        }
+    }
+
+    /// Whether a checkpoint is due after so many increments.
+    pub fn keeps(&self, increment: usize) -> bool {
+        let every = self.output.checkpoint_every;
+        every.is_some_and(|every| increment.is_multiple_of(every.get()))
+    }
+
+    fn seconds(&self) -> f64 {
+        self.spent + self.started.elapsed().as_secs_f64()
+    }
+
+    /// Judges a converged increment by what it came from.
+    pub fn judge(&mut self, problem: &Problem, before: &State, increment: &Increment) {
+        self.tally.judge(problem, before, increment);
+    }
+
+    /// Notes an increment that was cut.
+    pub fn cut_back(&mut self) {
+        self.tally.cut_backs += 1;
+    }
+
+    /// Writes a converged increment.
+    ///
+    /// # Errors
+    /// When a file cannot be written.
+    pub fn increment(
+        &mut self,
+        problem: &Problem,
+        progress: Progress,
+        increment: &Increment,
+    ) -> Result<(), OutputError> {
+        self.tally.increment(increment);
+        let row = row(problem, progress, increment, self.tally.cut_backs);
+        let named: Vec<(&str, f64)> = row.iter().map(|(n, v)| (n.as_str(), *v)).collect();
+        self.history.append(&named)?;
+        match self.output.fields {
+            FieldOutput::Every(every) if progress.increment.is_multiple_of(every.get()) => {
+                self.write_fields(problem, &increment.state)
+            }
+            FieldOutput::Every(_) | FieldOutput::Last => Ok(()),
+        }
+    }
+
+    /// Writes the last fields, if they are not there, and the summary.
+    ///
+    /// # Errors
+    /// When a file cannot be written.
+    pub fn finish(
+        &mut self,
+        problem: &Problem,
+        state: &State,
+        ending: &Ending,
+    ) -> Result<Summary, OutputError> {
+        let count = self.tally.iterations.len();
+        if count > 0 && self.written != Some(count) {
+            self.write_fields(problem, state)?;
+        }
+        let (case, seconds) = (&self.case, self.seconds());
+        let summary = self.tally.summary(case, problem, state, ending, seconds);
+        summary.write(&self.folder.join("summary.json"))?;
+        Ok(summary)
+    }
+
+    fn write_fields(&mut self, problem: &Problem, state: &State) -> Result<(), OutputError> {
+        let count = self.tally.iterations.len();
+        self.written = Some(count);
+        let mut parts = Vec::new();
+        for (body, model) in problem.model.bodies.iter().enumerate() {
+            let file = PathBuf::from(format!("fields/{}-{count:05}.vtu", model.name));
+            write(&self.folder.join(&file), &body_grid(problem, state, body))?;
+            parts.push((model.name.clone(), file));
+        }
+        let time = state.time;
+        self.bodies.append(Snapshot { time, parts })?;
+        let mut parts = Vec::new();
+        for pair in 0..problem.pairs.len() {
+            for side in 0..2 {
+                let Some(body) = problem.pairs[pair].bodies[side] else {
+                    continue;
+                };
+                let pair_name = &problem.model.pairs[pair].name;
+                let name = format!("{pair_name}-{}", problem.model.bodies[body].name);
+                let file = PathBuf::from(format!("fields/contact-{name}-{count:05}.vtu"));
+                write_surface(&self.folder.join(&file), problem, state, pair, side)?;
+                parts.push((name, file));
+            }
+        }
+        if parts.is_empty() {
+            return Ok(());
+        }
+        self.contact.append(Snapshot { time, parts })
+    }
+}
+
+/// Removes the fields of an increment, which an interrupted run writes out of turn.
+fn remove_fields(folder: &Path, increment: usize) -> Result<(), OutputError> {
+    let refused = |cause| FileError::Write {
+        path: folder.to_owned(),
+        cause,
+    };
+    let end = format!("-{increment:05}.vtu");
+    for entry in std::fs::read_dir(folder).map_err(refused)? {
+        let entry = entry.map_err(refused)?;
+        if entry.file_name().to_string_lossy().ends_with(&end) {
+            std::fs::remove_file(entry.path()).map_err(refused)?;
+        }
+    }
+    Ok(())
+}
+
+fn body_grid<'a>(problem: &'a Problem, state: &'a State, body: usize) -> Grid<'a> {
+    let range = problem.first_node[body]..problem.first_node[body + 1];
+    let points = &state.positions[range.clone()];
+    let model = &problem.model.bodies[body];
+    let displacement = points
+        .iter()
+        .zip(&problem.reference[range])
+        .map(|(x, reference)| x - reference);
+    let mut point_arrays = vec![Array::new(
+        "displacement",
+        Values::Vectors(displacement.collect()),
+    )];
+    let range = problem.first_node[body]..problem.first_node[body + 1];
+    let velocities = &state.velocities[range];
+    if velocities.iter().any(|velocity| *velocity != Vec3::zeros()) {
+        let velocities = Values::Vectors(velocities.to_vec());
+        point_arrays.push(Array::new("velocity", velocities));
+    }
+    let stress = nodal_cauchy_stress(
+        &model.mesh,
+        &problem.elements[body],
+        points,
+        &model.material,
+    );
+    if let Ok(stress) = stress {
+        let equivalent = stress.iter().map(von_mises).collect();
+        point_arrays.push(Array::new(
+            "cauchy_stress",
+            Values::SymmetricTensors(stress),
+        ));
+        point_arrays.push(Array::new("von_mises", Values::Scalars(equivalent)));
+    }
+    Grid {
+        points,
+        cells: Cells::Hexahedra(&model.mesh.elements),
+        point_arrays,
+        cell_arrays: Vec::new(),
+        time: state.time,
+    }
+}
+
+fn write_surface(
+    path: &Path,
+    problem: &Problem,
+    state: &State,
+    pair: usize,
+    side: usize,
+) -> Result<(), OutputError> {
+    let geometry = &problem.pairs[pair];
+    let Some(surface) = geometry.contact.sides[side].surface() else {
+        return Ok(());
+    };
+    let global = |node: usize| problem.surface_node(pair, side, node as u32);
+    let count = surface.nodes().len();
+    let points: Vec<Vec3> = (0..count)
+        .filter_map(global)
+        .map(|n| state.positions[n])
+        .collect();
+    let quads: Vec<[NodeId; 4]> = surface
+        .facets()
+        .iter()
+        .map(|corners| corners.map(NodeId))
+        .collect();
+    let nodes = &state.pairs[pair].nodes[side];
+    let scalars = |f: fn(&NodeResult) -> f64| Values::Scalars(nodes.iter().map(f).collect());
+    let vectors = |f: fn(&NodeResult) -> Vec3| Values::Vectors(nodes.iter().map(f).collect());
+    let status = nodes.iter().map(|node| match node.status {
+        ContactStatus::Open => 0,
+        ContactStatus::Stick => 1,
+        ContactStatus::Slip => 2,
+    });
+    // Points of a rigid side lodge with nodes of side `a`.
+    let lodged = &state.pairs[pair].points;
+    let lodges = |node: usize| side == 0 && lodged.get(node).is_some_and(Option::is_some);
+    let own = state.pairs[pair].pointed[side].iter().enumerate();
+    let pointed = own.map(|(node, own)| u8::from(*own) + 2 * u8::from(lodges(node)));
+    let codes = |nodes: &[bool]| Values::Codes(nodes.iter().copied().map(u8::from).collect());
+    let kept = &state.pairs[pair].kept;
+    let grid = Grid {
+        points: &points,
+        cells: Cells::Quadrilaterals(&quads),
+        point_arrays: vec![
+            Array::new("gap", scalars(|node| node.gap)),
+            Array::new("pressure", scalars(|node| node.pressure)),
+            Array::new(
+                "traction",
+                vectors(|node| node.tau - node.normal * node.pressure),
+            ),
+            Array::new("friction_traction", vectors(|node| node.tau)),
+            Array::new("mean_pressure", scalars(NodeResult::mean_pressure)),
+            Array::new("mean_traction", vectors(|node| node.mean)),
+            Array::new("slip", vectors(|node| node.slip)),
+            Array::new("normal", vectors(|node| node.normal)),
+            Array::new("texture", vectors(|node| node.texture)),
+            Array::new(
+                "structural_vector",
+                vectors(|node| node.normal.cross(&node.texture)),
+            ),
+            Array::new("status", Values::Codes(status.collect())),
+            Array::new("kept", codes(&kept[side])),
+            Array::new("pointed", Values::Codes(pointed.collect())),
+        ],
+        cell_arrays: Vec::new(),
+        time: state.time,
+    };
+    write(path, &grid)
+}

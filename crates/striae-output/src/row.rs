@@ -1,0 +1,91 @@
+//! The row of an increment in a history: resultants, reactions, motions and energies.
+
+use striae_mesh::Vec3;
+use striae_solve::{
+    drive::Progress,
+    dynamics::momentum,
+    model::Procedure,
+    newton::Increment,
+    problem::Problem,
+    report::{PairReport, bodies, pairs, reactions, rigid_bodies},
+};
+
+/// Columns and values of the row of a converged increment, before which `cut_backs`
+/// attempts were cut.
+pub fn row(
+    problem: &Problem,
+    progress: Progress,
+    increment: &Increment,
+    cut_backs: usize,
+) -> Vec<(String, f64)> {
+    let state = &increment.state;
+    let mut row: Vec<(String, f64)> = Vec::new();
+    let mut add = |name: &str, value: f64| row.push((name.to_owned(), value));
+    add("increment", progress.increment as f64);
+    add("step", (progress.step + 1) as f64);
+    add("time", state.time);
+    add("iterations", increment.iterations.len() as f64);
+    add("cutbacks", cut_backs as f64);
+    add("energy.kinetic", state.energies.kinetic);
+    add("energy.strain", state.energies.strain);
+    add("energy.external", state.energies.external);
+    add("energy.friction", state.energies.friction);
+    add("energy.contact", state.energies.contact);
+    add("energy.stabilisation", state.energies.stabilisation);
+    add("energy.numerical", state.energies.numerical);
+    add("energy.imbalance", state.energies.imbalance());
+    if is_dynamic(problem) {
+        let (linear, angular) = momentum(problem, state);
+        add_vector(&mut row, "momentum", &linear);
+        add_vector(&mut row, "angular_momentum", &angular);
+    }
+    for body in bodies(problem, state) {
+        add_vector(&mut row, &format!("centre.{}", body.name), &body.centre);
+        add_vector(&mut row, &format!("velocity.{}", body.name), &body.velocity);
+    }
+    for report in pairs(problem, state) {
+        add_pair(&mut row, &report);
+    }
+    for (name, force) in reactions(problem, state) {
+        add_vector(&mut row, &format!("reaction.{name}"), &force);
+    }
+    for rigid in rigid_bodies(problem, state) {
+        let name = &rigid.name;
+        add_vector(&mut row, &format!("torque.{name}"), &rigid.torque);
+        add_vector(
+            &mut row,
+            &format!("displacement.{name}"),
+            &rigid.displacement,
+        );
+        add_vector(&mut row, &format!("angle.{name}"), &rigid.angles);
+    }
+    row
+}
+
+/// Whether any step has inertia.
+fn is_dynamic(problem: &Problem) -> bool {
+    let mut steps = problem.model.steps.iter();
+    steps.any(|step| step.procedure != Procedure::QuasiStatic)
+}
+
+fn add_vector(row: &mut Vec<(String, f64)>, name: &str, vector: &Vec3) {
+    for (axis, value) in ["x", "y", "z"].iter().zip(vector.iter()) {
+        row.push((format!("{name}.{axis}"), *value));
+    }
+}
+
+fn add_pair(row: &mut Vec<(String, f64)>, report: &PairReport) {
+    let name = format!("pair.{}", report.name);
+    for (side, letter) in report.sides.iter().zip(["a", "b"]) {
+        add_vector(row, &format!("{name}.resultant_{letter}"), &side.force);
+        row.push((format!("{name}.pressure_integral_{letter}"), side.pressure));
+        row.push((format!("{name}.friction_integral_{letter}"), side.friction));
+    }
+    row.push((format!("{name}.mismatch"), report.mismatch));
+    row.push((format!("{name}.moment_mismatch"), report.moment_mismatch));
+    row.push((format!("{name}.stick"), report.stick as f64));
+    row.push((format!("{name}.slip"), report.slip as f64));
+    row.push((format!("{name}.open"), report.open as f64));
+    row.push((format!("{name}.max_pressure"), report.max_pressure));
+    row.push((format!("{name}.dissipated"), report.dissipated));
+}

@@ -1,0 +1,108 @@
+//! What a run has come to so far, whether or not it is written to files.
+
+use striae_solve::{
+    newton::{Increment, LinearWork},
+    outcome::Ending,
+    problem::Problem,
+    report::{PairReport, pairs, reactions},
+    state::State,
+    warning::Judgement,
+};
+
+use crate::summary::{
+    PairSummary, SolverSummary, Status, Summary, WarningSummary, newton_counts, peak_rss_mib,
+};
+
+/// Counts increments and judges them.
+#[derive(Clone, Debug, Default)]
+pub struct Tally {
+    /// Newton iterations of every increment.
+    pub iterations: Vec<usize>,
+    /// Increments that were cut.
+    pub cut_backs: usize,
+    /// Unknowns of the last system.
+    pub unknowns: usize,
+    /// What the linear systems took.
+    pub solver: SolverSummary,
+    /// What has been judged so far.
+    pub judgement: Judgement,
+}
+
+impl Tally {
+    /// Judges a converged increment by the state before it.
+    pub fn judge(&mut self, problem: &Problem, before: &State, increment: &Increment) {
+        self.judgement.converged(problem, before, increment);
+    }
+
+    /// Counts a converged increment.
+    pub fn increment(&mut self, increment: &Increment) {
+        self.iterations.push(increment.iterations.len());
+        self.unknowns = increment.unknowns;
+        self.note_work(&increment.work);
+    }
+
+    /// The summary of a run that has ended.
+    pub fn summary(
+        &self,
+        case: &str,
+        problem: &Problem,
+        state: &State,
+        ending: &Ending,
+        seconds: f64,
+    ) -> Summary {
+        let (newton_total, newton_max, newton_median) = newton_counts(&self.iterations);
+        Summary {
+            case: case.to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            status: match ending {
+                Ending::Completed => Status::Completed,
+                Ending::Stopped { .. } | Ending::Interrupted { .. } => Status::Stopped,
+            },
+            reason: ending.to_string(),
+            increments: self.iterations.len(),
+            cutbacks: self.cut_backs,
+            newton_total,
+            newton_max,
+            newton_median,
+            unknowns: self.unknowns,
+            solver: self.solver.clone(),
+            wall_s: seconds,
+            peak_rss_mib: peak_rss_mib(),
+            pairs: pairs(problem, state).iter().map(pair_summary).collect(),
+            reactions: reactions(problem, state)
+                .into_iter()
+                .map(|(name, force)| (name, force.into()))
+                .collect(),
+            warnings: self
+                .judgement
+                .warnings(problem, ending)
+                .into_iter()
+                .map(WarningSummary::from)
+                .collect(),
+        }
+    }
+
+    fn note_work(&mut self, work: &LinearWork) {
+        self.solver.method = work.method.to_string();
+        self.solver.factorisations += work.factorisations;
+        self.solver.contact_corrections += work.contact_corrections;
+        if let Some(reason) = work.fall_back {
+            self.solver.fall_backs += 1;
+            self.solver.reason = Some(reason.to_string());
+        }
+    }
+}
+
+fn pair_summary(report: &PairReport) -> PairSummary {
+    PairSummary {
+        name: report.name.clone(),
+        resultant_a: report.sides[0].force.into(),
+        resultant_b: report.sides[1].force.into(),
+        mismatch: report.mismatch,
+        stick: report.stick,
+        slip: report.slip,
+        open: report.open,
+        max_pressure: report.max_pressure,
+        dissipated: report.dissipated,
+    }
+}

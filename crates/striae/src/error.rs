@@ -1,0 +1,41 @@
+//! Why a simulation could not be made or run.
+
+use striae_deck::Faults;
+use striae_law::{bulk::InadmissibleModuli, friction::FrictionError};
+use striae_mesh::MeshError;
+use striae_meshfile::MeshFileError;
+use striae_output::{OutputError, checkpoint::CheckpointError};
+use striae_solve::problem::ProblemError;
+
+/// Why a simulation could not be made or run. A run that stops for a reason that
+/// physics has is no error, but an ending.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The deck is faulty.
+    #[error(transparent)]
+    Deck(#[from] Faults),
+    /// The model is faulty.
+    #[error(transparent)]
+    Model(#[from] striae_model::Faults),
+    /// The model cannot be solved.
+    #[error(transparent)]
+    Problem(#[from] ProblemError),
+    /// A run cannot be taken up again.
+    #[error(transparent)]
+    Checkpoint(#[from] CheckpointError),
+    /// Results cannot be written or read.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// A mesh cannot be generated.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// A mesh cannot be read.
+    #[error(transparent)]
+    MeshFile(#[from] MeshFileError),
+    /// Constants of a friction law are refused.
+    #[error(transparent)]
+    Friction(#[from] FrictionError),
+    /// Elastic constants are refused.
+    #[error(transparent)]
+    Moduli(#[from] InadmissibleModuli),
+}

@@ -1,0 +1,117 @@
+//! Slip surfaces of friction laws, and the angle between slip and traction.
+//!
+//! The slip surface is `|tau|/varpi` over the direction of `-tau`; beside it stands the
+//! angle between slip and `-tau`, or friction itself where it opposes slip, over the
+//! direction of slip. Both directions count from `e`, see [`striae_law::friction`].
+
+use striae_figure::{Axis, Content, Figure, Panel, Series, Width};
+use striae_law::friction::{Analysis, Friction, Law, SlipSample};
+
+/// Points of a slip surface that is drawn.
+pub const SAMPLES: usize = 720;
+
+/// Slip surfaces and friction of a law, for textures at the angles that were analysed.
+pub fn figure(friction: &Friction, analyses: &[Analysis]) -> Figure {
+    let curve = |analysis: &Analysis| Curve {
+        name: match friction.law() {
+            Law::TwoTextures(_) => format!("θ = {}°", degrees(analysis.theta)),
+            law => law_name(law).to_owned(),
+        },
+        samples: analysis.samples.clone(),
+    };
+    let curves: Vec<Curve> = analyses.iter().map(curve).collect();
+    let sizes = analyses.iter().map(|analysis| analysis.extremes.traction);
+    let largest = sizes.fold(0.0, f64::max);
+    let opposing = analyses
+        .iter()
+        .all(|analysis| analysis.extremes.deviation == 0.0);
+    let second = if opposing {
+        opposing_panel(&curves).titled("friction against slip")
+    } else {
+        deviation_panel(&curves).titled("slip and traction")
+    };
+    let panels = vec![
+        slip_surface_panel(&curves, largest).titled("slip surface"),
+        second,
+    ];
+    Figure::new(Width::Page, panels)
+}
+
+/// Samples of a slip surface under a name.
+pub struct Curve {
+    /// Name in the legend.
+    pub name: String,
+    /// The samples, once around.
+    pub samples: Vec<SlipSample>,
+}
+
+/// Polar panel of slip surfaces up to `largest`: `|tau|/varpi` over the direction of `-tau`.
+pub fn slip_surface_panel(curves: &[Curve], largest: f64) -> Panel {
+    let radius = Axis::linear("|τ| / ϖ over the direction of −τ", "").within(0.0, 1.05 * largest);
+    let series = curves.iter().map(|curve| {
+        let closed = curve.samples.iter().chain(curve.samples.first());
+        let points = closed.map(|sample| {
+            let w = sample.traction;
+            [w.y.atan2(w.x), w.norm()]
+        });
+        Series::new(&curve.name, Content::line(points.collect()))
+    });
+    series.fold(Panel::polar(radius), Panel::with)
+}
+
+/// Panel of the angle from slip to `-tau` over the direction of slip, in degrees.
+pub fn deviation_panel(curves: &[Curve]) -> Panel {
+    let y = Axis::linear("angle from slip to −τ", "°");
+    let series = curves.iter().map(|curve| {
+        let deviation = |sample: &SlipSample| sample.deviation.to_degrees();
+        Series::new(&curve.name, over_slip(&curve.samples, deviation))
+    });
+    series.fold(Panel::new(slip_axis(), y), Panel::with)
+}
+
+/// Panel of friction against slip over the direction of slip.
+fn opposing_panel(curves: &[Curve]) -> Panel {
+    let y = Axis::linear("−τ · d / ϖ", "").within(0.0, 1.05);
+    let series = curves.iter().map(|curve| {
+        let against = over_slip(&curve.samples, SlipSample::dissipation);
+        Series::new(&curve.name, against)
+    });
+    series.fold(Panel::new(slip_axis(), y), Panel::with)
+}
+
+/// Axis of the direction of slip, in degrees from `e`.
+pub fn slip_axis() -> Axis {
+    Axis::linear("direction of slip from e", "°").within(-180.0, 180.0)
+}
+
+/// A value of samples over their direction of slip, as a line along [`slip_axis`].
+pub fn over_slip(samples: &[SlipSample], value: impl Fn(&SlipSample) -> f64) -> Content {
+    let angle = |sample: &SlipSample| sample.slip.y.atan2(sample.slip.x).to_degrees();
+    let points = samples.iter().map(|sample| [angle(sample), value(sample)]);
+    let mut points: Vec<[f64; 2]> = points.collect();
+    points.sort_by(|one, other| one[0].total_cmp(&other[0]));
+    // Half a turn is one end of the line; it is the other one, too.
+    if let Some(&[end, value]) = points.last()
+        && end > 180.0 - 1e-6
+    {
+        points.insert(0, [end - 360.0, value]);
+    }
+    Content::line(points)
+}
+
+/// The name of a law in decks.
+pub fn law_name(law: &Law) -> &'static str {
+    match law {
+        Law::Frictionless => "frictionless",
+        Law::Coulomb => "coulomb",
+        Law::TwoTextures(_) => "two-textures",
+        Law::Orthotropic(_) => "orthotropic",
+        Law::Nap(_) => "nap",
+        Law::Tabulated(_) => "tabulated",
+    }
+}
+
+/// Degrees without the last digits that come of the conversion to radians.
+pub fn degrees(angle: f64) -> f64 {
+    (angle.to_degrees() * 1e9).round() / 1e9
+}

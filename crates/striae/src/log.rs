@@ -1,0 +1,181 @@
+//! What a run leaves behind: files and checkpoints, or values in memory only.
+
+use std::{path::PathBuf, time::Instant};
+
+use striae_output::{
+    Output, OutputError, Tally,
+    checkpoint::{Checkpoint, CheckpointError, Source, Written},
+    history::Table,
+    recorder::Recorder,
+    row,
+    summary::Summary,
+};
+use striae_solve::{
+    drive::{Point, Progress},
+    newton::Increment,
+    outcome::Ending,
+    problem::Problem,
+    state::State,
+};
+
+/// Where a run is written, and whether it can be resumed from there.
+#[derive(Clone, Debug)]
+pub(crate) struct Recording {
+    /// Folder of the output.
+    pub(crate) folder: PathBuf,
+    /// Name of the case.
+    pub(crate) case: String,
+    /// The deck, for checkpoints; without it there are none.
+    pub(crate) source: Option<Source>,
+}
+
+/// Takes down what happens.
+pub(crate) enum Log {
+    Memory(Box<Memory>),
+    Files(Box<Files>),
+}
+
+/// Values of a run that writes no files.
+pub(crate) struct Memory {
+    started: Instant,
+    tally: Tally,
+    history: Table,
+}
+
+/// Files of a run.
+pub(crate) struct Files {
+    recorder: Recorder,
+    recording: Recording,
+}
+
+impl Log {
+    /// The log of a run that begins.
+    pub(crate) fn new(recording: Option<Recording>, output: Output) -> Result<Self, OutputError> {
+        let Some(recording) = recording else {
+            return Ok(Self::Memory(Box::new(Memory {
+                started: Instant::now(),
+                tally: Tally::default(),
+                history: Table {
+                    columns: Vec::new(),
+                    rows: Vec::new(),
+                },
+            })));
+        };
+        let recorder = Recorder::create(&recording.folder, &recording.case, output)?;
+        Ok(Self::Files(Box::new(Files {
+            recorder,
+            recording,
+        })))
+    }
+
+    /// The log of a run that goes on.
+    pub(crate) fn resumed(
+        recording: Recording,
+        output: Output,
+        written: &Written,
+    ) -> Result<Self, CheckpointError> {
+        let Recording { folder, case, .. } = &recording;
+        let recorder = Recorder::resume(folder, case, output, written)?;
+        Ok(Self::Files(Box::new(Files {
+            recorder,
+            recording,
+        })))
+    }
+
+    /// Whether a checkpoint is due.
+    pub(crate) fn keeps(&self, increment: usize) -> bool {
+        match self {
+            Self::Memory(_) => false,
+            Self::Files(files) => {
+                files.recording.source.is_some() && files.recorder.keeps(increment)
+            }
+        }
+    }
+
+    /// Judges a converged increment by the state before it.
+    pub(crate) fn judge(&mut self, problem: &Problem, before: &State, increment: &Increment) {
+        match self {
+            Self::Memory(memory) => memory.tally.judge(problem, before, increment),
+            Self::Files(files) => files.recorder.judge(problem, before, increment),
+        }
+    }
+
+    /// Takes down a converged increment.
+    pub(crate) fn increment(
+        &mut self,
+        problem: &Problem,
+        progress: Progress,
+        increment: &Increment,
+    ) -> Result<(), OutputError> {
+        match self {
+            Self::Memory(memory) => {
+                memory.increment(problem, progress, increment);
+                Ok(())
+            }
+            Self::Files(files) => files.recorder.increment(problem, progress, increment),
+        }
+    }
+
+    /// Counts an increment that was cut.
+    pub(crate) fn cut_back(&mut self) {
+        match self {
+            Self::Memory(memory) => memory.tally.cut_backs += 1,
+            Self::Files(files) => files.recorder.cut_back(),
+        }
+    }
+
+    /// Writes a checkpoint, where there are any.
+    pub(crate) fn point(&self, point: Point) -> Result<(), OutputError> {
+        let Self::Files(files) = self else {
+            return Ok(());
+        };
+        let Some(source) = files.recording.source.clone() else {
+            return Ok(());
+        };
+        let checkpoint = Checkpoint {
+            source,
+            written: files.recorder.written(),
+            point,
+        };
+        checkpoint.write(&files.recording.folder)
+    }
+
+    /// Summary and history of a run that has ended.
+    pub(crate) fn finish(
+        self,
+        problem: &Problem,
+        state: &State,
+        ending: &Ending,
+    ) -> Result<(Summary, Table), OutputError> {
+        match self {
+            Self::Memory(memory) => {
+                let seconds = memory.started.elapsed().as_secs_f64();
+                let case = &problem.model.title;
+                let summary = memory.tally.summary(case, problem, state, ending, seconds);
+                Ok((summary, memory.history))
+            }
+            Self::Files(files) => {
+                let Files {
+                    mut recorder,
+                    recording,
+                } = *files;
+                let summary = recorder.finish(problem, state, ending)?;
+                if *ending == Ending::Completed {
+                    Checkpoint::remove(&recording.folder)?;
+                }
+                let history = Table::read(&recording.folder.join("history.csv"))?;
+                Ok((summary, history))
+            }
+        }
+    }
+}
+
+impl Memory {
+    fn increment(&mut self, problem: &Problem, progress: Progress, increment: &Increment) {
+        self.tally.increment(increment);
+        let row = row(problem, progress, increment, self.tally.cut_backs);
+        let (columns, values) = row.into_iter().unzip();
+        self.history.columns = columns;
+        self.history.rows.push(values);
+    }
+}

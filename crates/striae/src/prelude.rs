@@ -1,0 +1,18 @@
+//! What most programs need: `use striae::prelude::*;`.
+
+pub use crate::{
+    Converged, Error, Finished, Interrupt, Next, Observer, PairSide, Results, Simulation,
+};
+pub use striae_contact::unknowns::{NodeResult, Status};
+pub use striae_law::{
+    bulk::{LameConstants, Material},
+    friction::{Friction, SlipRule},
+};
+pub use striae_mesh::{Mesh, NodeId, Vec3, generate::Block};
+pub use striae_model::{
+    Component, Curve, Freedom, Initial, LoadExtent, LoadKind, Model, Validate, body,
+    circumferential, model, pair, plane, rigid, step, surface, tied, uniform,
+};
+pub use striae_output::{FieldOutput, Output};
+pub use striae_solve::outcome::Ending;
+pub use striae_surface::texture::Paint;
