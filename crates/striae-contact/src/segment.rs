@@ -125,9 +125,12 @@ pub fn segment(
     let polygon = pair.polygon()?;
     let (mass, plane_slopes) = pair.integrals(&polygon, derivatives);
     let slopes = plane_slopes.map(|in_plane| {
-        let normal = pair_slopes([a, b], [&n_a, &n_b], compliance);
-        let mass = in_plane.in_space(&pair.plane, &pair.corners, &normal);
-        Box::new(Slopes { normal, mass })
+        let mut slopes = Box::new(Slopes {
+            normal: pair_slopes([a, b], [&n_a, &n_b], compliance),
+            mass: [[0.0; 24]; PAIRS],
+        });
+        in_plane.in_space(&pair.plane, &pair.corners, &mut slopes);
+        slopes
     });
     Some(Segment {
         normal,

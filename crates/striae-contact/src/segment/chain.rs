@@ -14,10 +14,10 @@
 //! dy_i = e_i . dx - (n . r)(e_i . dn)
 //! ```
 
-use nalgebra::Matrix3;
 use striae_mesh::Vec3;
 
 use super::{
+    Slopes,
     fan::Fan,
     plane_facet::Vec2,
     polygon::{CutEdge, Label, Vertex},
@@ -101,13 +101,9 @@ impl CornerSlopes {
         }
     }
 
-    /// Derivatives by the corners in space: of pair `(c, d)` in the row of its index.
-    pub fn in_space(
-        &self,
-        plane: &Plane,
-        corners: &[Vec3; 8],
-        normal: &[Matrix3<f64>; 8],
-    ) -> [[f64; 24]; PAIRS] {
+    /// Fills in the derivatives by the corners in space, where those of the normal are known.
+    pub fn in_space(&self, plane: &Plane, corners: &[Vec3; 8], slopes: &mut Slopes) {
+        let Slopes { normal, mass } = slopes;
         let mut turn = [[0.0; PAIRS]; 2];
         let mut by_turn = [[0.0; 24]; 2];
         for axis in 0..2 {
@@ -118,10 +114,9 @@ impl CornerSlopes {
                 by_turn[axis][3 * corner..3 * corner + 3].copy_from_slice(slope.as_slice());
             }
         }
-        let mut slopes = [[0.0; 24]; PAIRS];
         for pair in 0..PAIRS {
             let (c, d) = functions(pair);
-            let row = &mut slopes[super::pair_index(c, d)];
+            let row = &mut mass[super::pair_index(c, d)];
             for corner in 0..8 {
                 let [first, second] = self.0[corner].each_ref().map(|by_pair| by_pair[pair]);
                 let by_x = plane.axes[0] * first + plane.axes[1] * second;
@@ -130,6 +125,5 @@ impl CornerSlopes {
             add(row, turn[0][pair], &by_turn[0]);
             add(row, turn[1][pair], &by_turn[1]);
         }
-        slopes
     }
 }
