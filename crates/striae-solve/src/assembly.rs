@@ -145,7 +145,7 @@ fn on_this_thread(
     let strain = system.elements(trial)?;
     system.point_masses();
     system.carried(imposed);
-    let background = system.with_contact(&of_contact);
+    let background = system.with_contact(of_contact);
     system.condense(imposed);
     let norms = system.norms(trial, &contacts);
     system.idle(setting.selections);
