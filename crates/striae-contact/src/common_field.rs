@@ -20,7 +20,7 @@ use crate::{
     frame::Frames,
     pairing::SIGNS,
     places::{ChainedSum, Places},
-    segment::pair_index,
+    segment_rows::AtCorners,
     selection::Selection,
     term::{Field, Jacobian, LocalTerm, Row},
     traction::NodalTractions,
@@ -175,21 +175,12 @@ impl CommonField<'_> {
             }
         }
         if let Some(slopes) = &segment.slopes {
+            let components = [0, 1, 2].map(|axis| AtCorners(q.map(|q| q[axis])));
             for &c in &corners {
-                let mut by_x = [[0.0; 24]; 3];
-                for d in 0..8 {
-                    let mass = &slopes.mass[pair_index(c, d)];
-                    for axis in 0..3 {
-                        let factor = SIGNS[c] * q[d][axis];
-                        if factor != 0.0 {
-                            let sum = by_x[axis].iter_mut().zip(mass);
-                            sum.for_each(|(sum, slope)| *sum += factor * slope);
-                        }
-                    }
-                }
+                let by_mass = components.each_ref().map(|q| q.of_mass(slopes, c));
                 for (e, first) in owners.iter().enumerate() {
                     let Some(first) = first else { continue };
-                    let direct = Matrix3::from_fn(|row, axis| by_x[row][3 * e + axis]);
+                    let direct = Matrix3::from_fn(|row, axis| SIGNS[c] * by_mass[row][e][axis]);
                     block.add(*first, c, &(direct + by_n[c] * slopes.normal[e]));
                 }
             }
