@@ -19,13 +19,14 @@ use crate::{
     field::FacetForces,
     frame::Frames,
     pairing::SIGNS,
-    segment::pair_index,
+    places::{ChainedSum, Places},
+    segment_rows::AtCorners,
     selection::Selection,
     term::{Field, Jacobian, LocalTerm, Row},
     traction::NodalTractions,
     transported::Transported,
     unknowns::Tractions,
-    weighted::{Patch, add_chained, side_sign},
+    weighted::{Patch, side_sign},
 };
 
 /// What the common field depends on.
@@ -123,10 +124,12 @@ impl CommonField<'_> {
             traction.value += turned.value * sign;
             traction.by_n += turned.by_n * sign;
             traction.friction = tau.value.norm();
-            let jacobian = &mut traction.jacobian;
-            add_chained(jacobian, &(turned.by_vector * sign), &tau.jacobian);
+            let most = tau.jacobian.len() + frame.n.jacobian.len();
+            traction.jacobian.reserve(most);
+            let mut sum = ChainedSum::onto(&mut traction.jacobian);
+            sum.add(&(turned.by_vector * sign), &tau.jacobian);
             // The sign of the normal cancels that of the friction.
-            add_chained(jacobian, &turned.by_from, &frame.n.jacobian);
+            sum.add(&turned.by_from, &frame.n.jacobian);
         }
         traction
     }
@@ -152,17 +155,10 @@ impl CommonField<'_> {
                 (0..3).map(move |axis| (first + axis as u32, Field::Momentum, -forces[c][axis]))
             })
             .collect();
-        let mut block = Columns::new(3 * corners.len());
+        let mut block = Columns::new();
         for first in owners.iter().flatten() {
-            block.reserve(*first);
+            block.of(*first);
         }
-        for traction in tractions {
-            traction
-                .jacobian
-                .iter()
-                .for_each(|entry| block.reserve(entry.0));
-        }
-        block.lay_out();
         // `alpha_ck` with the sign of the rows, which state `-f`.
         let share = |c: usize, shares: &[f64; 8]| -> f64 {
             let sum: f64 = (0..8).map(|d| segment.mass[c][d] * shares[d]).sum();
@@ -170,103 +166,95 @@ impl CommonField<'_> {
         };
         let mut by_n = [Matrix3::zeros(); 8];
         for ((_, shares), traction) in patch.kept.iter().zip(tractions) {
-            let alphas: Vec<f64> = corners.iter().map(|&c| share(c, shares)).collect();
-            for (&c, alpha) in corners.iter().zip(&alphas) {
-                by_n[c] += traction.by_n * *alpha;
+            let alphas: [f64; 8] = std::array::from_fn(|c| share(c, shares));
+            for (by_n, alpha) in by_n.iter_mut().zip(alphas) {
+                *by_n += traction.by_n * alpha;
             }
             for (first, inner) in &traction.jacobian {
                 block.add_multiples(*first, &alphas, inner);
             }
         }
         if let Some(slopes) = &segment.slopes {
-            for (at, &c) in corners.iter().enumerate() {
-                let mut by_x = [[0.0; 24]; 3];
-                for d in 0..8 {
-                    let mass = &slopes.mass[pair_index(c, d)];
-                    for axis in 0..3 {
-                        let factor = SIGNS[c] * q[d][axis];
-                        if factor != 0.0 {
-                            let sum = by_x[axis].iter_mut().zip(mass);
-                            sum.for_each(|(sum, slope)| *sum += factor * slope);
-                        }
-                    }
-                }
+            let components = [0, 1, 2].map(|axis| AtCorners(q.map(|q| q[axis])));
+            for &c in &corners {
+                let by_mass = components.each_ref().map(|q| q.of_mass(slopes, c));
                 for (e, first) in owners.iter().enumerate() {
                     let Some(first) = first else { continue };
-                    let direct = Matrix3::from_fn(|row, axis| by_x[row][3 * e + axis]);
-                    block.add(*first, at, &(direct + by_n[c] * slopes.normal[e]));
+                    let direct = Matrix3::from_fn(|row, axis| SIGNS[c] * by_mass[row][e][axis]);
+                    block.add(*first, c, &(direct + by_n[c] * slopes.normal[e]));
                 }
             }
         }
-        block.term(&rows)
+        block.term(&rows, &corners)
     }
 }
 
-/// A dense block of rows over triples of columns.
+/// Derivatives of the forces on the eight corners by triples of unknowns.
 struct Columns {
-    rows: usize,
+    places: Places,
     triples: Vec<u32>,
-    tangent: Vec<f64>,
+    /// By triple: entries of a matrix, column by column, of all corners.
+    blocks: Vec<[[f64; 8]; 9]>,
 }
 
 impl Columns {
-    fn new(rows: usize) -> Self {
+    fn new() -> Self {
         Self {
-            rows,
-            triples: Vec::with_capacity(48),
-            tangent: Vec::new(),
+            places: Places::none(),
+            triples: Vec::with_capacity(64),
+            blocks: Vec::with_capacity(64),
         }
     }
 
-    fn reserve(&mut self, first: u32) {
-        if let Err(at) = self.triples.binary_search(&first) {
-            self.triples.insert(at, first);
+    fn of(&mut self, first: u32) -> &mut [[f64; 8]; 9] {
+        let next = self.triples.len();
+        let at = self.places.find(first, next);
+        if at == next {
+            self.triples.push(first);
+            self.blocks.push([[0.0; 8]; 9]);
         }
+        &mut self.blocks[at]
     }
 
-    fn lay_out(&mut self) {
-        self.tangent = vec![0.0; self.rows * 3 * self.triples.len()];
-    }
-
-    fn column(&self, first: u32) -> usize {
-        3 * self.triples.partition_point(|triple| *triple < first)
-    }
-
-    /// Adds to the rows of the corner in place `at`.
-    fn add(&mut self, first: u32, at: usize, inner: &Matrix3<f64>) {
-        let (column, width) = (self.column(first), 3 * self.triples.len());
-        for row in 0..3 {
-            let start = (3 * at + row) * width + column;
-            for axis in 0..3 {
-                self.tangent[start + axis] += inner[(row, axis)];
-            }
+    /// Adds to the rows of a corner.
+    fn add(&mut self, first: u32, corner: usize, inner: &Matrix3<f64>) {
+        for (sums, entry) in self.of(first).iter_mut().zip(inner) {
+            sums[corner] += entry;
         }
     }
 
     /// Adds multiples of a matrix to the rows of all corners.
-    fn add_multiples(&mut self, first: u32, factors: &[f64], inner: &Matrix3<f64>) {
-        let (column, width) = (self.column(first), 3 * self.triples.len());
-        for (at, factor) in factors.iter().enumerate() {
-            for row in 0..3 {
-                let start = (3 * at + row) * width + column;
-                for axis in 0..3 {
-                    self.tangent[start + axis] += factor * inner[(row, axis)];
-                }
+    fn add_multiples(&mut self, first: u32, factors: &[f64; 8], inner: &Matrix3<f64>) {
+        for (sums, entry) in self.of(first).iter_mut().zip(inner) {
+            for corner in 0..8 {
+                sums[corner] += factors[corner] * entry;
             }
         }
     }
 
-    fn term(self, rows: &[Row]) -> LocalTerm {
+    /// The rows of some corners.
+    fn term(&self, rows: &[Row], corners: &[usize]) -> LocalTerm {
+        let mut order: Vec<usize> = (0..self.triples.len()).collect();
+        order.sort_unstable_by_key(|&at| self.triples[at]);
+        let mut tangent = Vec::with_capacity(9 * corners.len() * order.len());
+        for &corner in corners {
+            for row in 0..3 {
+                for &at in &order {
+                    let block = &self.blocks[at];
+                    tangent.extend([0, 1, 2].map(|axis| block[3 * axis + row][corner]));
+                }
+            }
+        }
+        let mut columns = Vec::with_capacity(3 * order.len());
+        for &at in &order {
+            columns.extend(self.triples[at]..self.triples[at] + 3);
+        }
         LocalTerm {
             rows: rows.iter().map(|row| row.0).collect(),
             fields: rows.iter().map(|row| row.1).collect(),
             residual: rows.iter().map(|row| row.2).collect(),
-            columns: self
-                .triples
-                .iter()
-                .flat_map(|first| *first..first + 3)
-                .collect(),
-            tangent: self.tangent,
+            columns,
+            tangent,
         }
     }
 }

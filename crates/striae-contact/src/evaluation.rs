@@ -18,6 +18,7 @@ use crate::{
     pair::Enforcement,
     pairing::{paired_facets, topology},
     pointed::{self, PointedTerm, RigidPoints, Tip},
+    ramp::{self, Ramp},
     segment::Derivatives,
     segment_rows::{Given, Slip, segment_rows},
     selection::Selection,
@@ -109,17 +110,17 @@ pub fn evaluate(
     };
     let tau = nodal_tractions(configuration, selection, &surroundings, tractions);
     if configuration.pair.enforcement == Enforcement::Weighted {
-        weighted::add_ramp_to_gaps(configuration, selection, tractions, &mut kinematics);
+        ramp::add_to_gaps(configuration, selection, tractions, &mut kinematics);
         if slip == Slip::Wanted {
-            weighted::add_ramp_to_slips(
+            let ramp = Ramp {
                 configuration,
                 start,
                 selection,
-                &frames,
+                frames: &frames,
                 tractions,
-                &tau,
-                &mut kinematics,
-            )?;
+                tau: &tau,
+            };
+            ramp.add_to_slips(&mut kinematics)?;
         }
     }
     let stage = Stage {

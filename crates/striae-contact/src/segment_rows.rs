@@ -83,7 +83,7 @@ pub fn segment_rows(
         rows.slopes = vec![[[0.0; 3 * ROWS]; 8]; 8];
     }
     let along: [f64; 8] = std::array::from_fn(|d| n.dot(&(paired.x[d] - origin)));
-    let along = Signed(std::array::from_fn(|d| SIGNS[d] * along[d] + offsets[d]));
+    let along = AtCorners(std::array::from_fn(|d| SIGNS[d] * along[d] + offsets[d]));
     for c in 0..8 {
         let sum = paired.difference(c, &paired.x, &origin);
         let left = paired.segment.mass[c].iter().zip(&offsets);
@@ -104,12 +104,12 @@ pub fn segment_rows(
     rows
 }
 
-/// Values at the corners with their signs.
-struct Signed([f64; 8]);
+/// A value at each corner.
+pub(crate) struct AtCorners(pub(crate) [f64; 8]);
 
-impl Signed {
-    /// `sum_d s_d v_d dD_cd/dx_e` for all corners `e`.
-    fn of_mass(&self, slopes: &Slopes, c: usize) -> [Vec3; 8] {
+impl AtCorners {
+    /// `sum_d v_d dD_cd/dx_e` for all corners `e`.
+    pub(crate) fn of_mass(&self, slopes: &Slopes, c: usize) -> [Vec3; 8] {
         let mut sum = [0.0; 24];
         for (d, value) in self.0.iter().enumerate() {
             if *value != 0.0 {
@@ -191,8 +191,8 @@ impl Moved {
         let turned = self.y.map(|y| self.turn * y);
         // On a plane `y` is the way of side `a` relative to it.
         let sign = |d: usize| if self.on_plane { 1.0 } else { SIGNS[d] };
-        let components: [Signed; 3] =
-            [0, 1, 2].map(|axis| Signed(std::array::from_fn(|d| sign(d) * turned[d][axis])));
+        let components: [AtCorners; 3] =
+            [0, 1, 2].map(|axis| AtCorners(std::array::from_fn(|d| sign(d) * turned[d][axis])));
         for c in 0..8 {
             let mass = &paired.segment.mass[c];
             let sum: Vec3 = (0..8).map(|d| turned[d] * (sign(d) * mass[d])).sum();

@@ -9,6 +9,8 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::{Derivative, DualSVec64};
 use striae_mesh::Vec3;
 
+use crate::places::Places;
+
 /// Some rows of the residual and their derivatives.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LocalTerm {
@@ -77,10 +79,11 @@ impl<'a> Lanes<'a> {
 
     /// First unknowns of the triples that any lane depends on, ascending.
     pub fn triples(&self) -> Vec<u32> {
-        let mut triples: Vec<u32> = Vec::with_capacity(48);
+        let mut triples: Vec<u32> = Vec::with_capacity(64);
+        let mut places = Places::none();
         let mut add = |first: u32| {
-            if let Err(at) = triples.binary_search(&first) {
-                triples.insert(at, first);
+            if places.find(first, triples.len()) == triples.len() {
+                triples.push(first);
             }
         };
         for source in &self.0 {
@@ -95,13 +98,15 @@ impl<'a> Lanes<'a> {
                 Source::Constant(_) => {}
             }
         }
+        triples.sort_unstable();
         triples
     }
 
     /// Derivatives of rows by the unknowns of `triples`, column by column.
     pub fn chained<const R: usize>(&self, gradient: &[[f64; R]], triples: &[u32]) -> Vec<[f64; R]> {
         let mut columns = vec![[0.0; R]; 3 * triples.len()];
-        let position = |first: u32| 3 * triples.partition_point(|triple| *triple < first);
+        let mut places = Places::of(triples.iter().copied());
+        let mut position = |first: u32| 3 * places.find(first, triples.len());
         let mut lane = 0;
         for source in &self.0 {
             match source {

@@ -76,6 +76,8 @@ pub struct TractionBasis {
     pub rows: [Vec<Vec<(u32, f64)>>; 2],
     /// Weak kept nodes.
     pub ramp: Vec<Weak>,
+    /// Rows of `E` by place among the kept nodes, ascending.
+    pub coupling: Vec<Vec<(u32, f64)>>,
 }
 
 impl TractionBasis {
@@ -101,6 +103,7 @@ impl TractionBasis {
             flexibility: choice.flexibility.clone(),
             kept,
             ramp: Vec::new(),
+            coupling: Vec::new(),
         };
         for (k, &KeptNode { side, node }) in basis.kept.iter().enumerate() {
             basis.index[side][node as usize] = Some(k as u32);
@@ -111,6 +114,7 @@ impl TractionBasis {
             basis.rows[side][node as usize] = row;
         }
         basis.ramp = basis.ramp(interface, &mass, &transfer.released);
+        basis.coupling = coupling(&basis.ramp, basis.kept.len());
         basis
     }
 
@@ -149,6 +153,29 @@ impl TractionBasis {
         });
         weak.collect()
     }
+}
+
+/// Rows of `E` of so many kept nodes.
+fn coupling(ramp: &[Weak], kept: usize) -> Vec<Vec<(u32, f64)>> {
+    let mut rows: Vec<Vec<(u32, f64)>> = vec![Vec::new(); kept];
+    for weak in ramp {
+        for &(k, weight) in &weak.row {
+            let part = |&(l, other): &(u32, f64)| (l, weak.coefficient * weight * other);
+            rows[k as usize].extend(weak.row.iter().map(part));
+        }
+    }
+    for row in &mut rows {
+        // Stable, so that terms add up in the order of the weak nodes.
+        row.sort_by_key(|&(l, _)| l);
+        row.dedup_by(|next, sum| {
+            let same = next.0 == sum.0;
+            if same {
+                sum.1 += next.1;
+            }
+            same
+        });
+    }
+    rows
 }
 
 /// `e_k` minus a row of sum one; its own entry is the sum of the others, which is zero

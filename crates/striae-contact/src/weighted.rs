@@ -9,9 +9,8 @@
 //!      + 1/w_k sum_l E_kl R(n_k, n_l) (tau_l - tau^n_l)
 //! ```
 //!
-//! `w_k = integral phi_k da` is frozen in an increment. The ramp `E` lets weakly independent
-//! nodes fade into transferred ones; of the friction it takes the increment, so that sticking
-//! nodes do not creep. Slip is seen from the node's own side.
+//! `w_k = integral phi_k da` is frozen in an increment. Slip is seen from the node's own
+//! side. The terms with `E` are those of [`crate::ramp`].
 
 use nalgebra::Matrix3;
 use rayon::prelude::*;
@@ -19,17 +18,15 @@ use striae_mesh::Vec3;
 
 use crate::{
     configuration::Configuration,
-    converged_friction::{CollapsedFacets, converged_friction},
     frame::{Frame, Frames, Tracked},
     kinematics::{Kinematics, Presence, Report, TrackedScalar},
     pairing::PairedFacets,
+    places::{ChainedSum, Places},
     pointed,
     segment_rows::{ROWS, SegmentRows, Slip},
     selection::Selection,
     term::{Gradient, Jacobian},
-    traction::NodalTractions,
     transported::Transported,
-    unknowns::Tractions,
 };
 
 /// A segment with its rows and the kept nodes whose basis functions live on it.
@@ -55,7 +52,7 @@ impl Patch {
         } else {
             0.5
         };
-        let mut kept: Vec<(u32, [f64; 8])> = Vec::with_capacity(12);
+        let mut kept: Vec<(u32, [f64; 8])> = Vec::with_capacity(16);
         for corner in 0..8 {
             let Some((side, node)) = paired.node(configuration, corner) else {
                 continue;
@@ -116,6 +113,7 @@ struct Sum<'a> {
     gap: f64,
     slip: Vec3,
     slip_by_n: Matrix3<f64>,
+    places: Places,
     triples: Vec<u32>,
     blocks: Vec<[f64; 3 * ROWS]>,
     /// `alpha_ck` of the same nodes.
@@ -131,6 +129,7 @@ impl<'a> Sum<'a> {
             gap: 0.0,
             slip: Vec3::zeros(),
             slip_by_n: Matrix3::zeros(),
+            places: Places::none(),
             triples: Vec::with_capacity(48),
             blocks: Vec::with_capacity(48),
             alphas: Vec::with_capacity(48),
@@ -192,15 +191,14 @@ impl<'a> Sum<'a> {
     }
 
     fn add_block(&mut self, first: u32, block: &[f64; 3 * ROWS], alpha: f64) {
-        let at = match self.triples.binary_search(&first) {
-            Ok(at) => at,
-            Err(at) => {
-                self.triples.insert(at, first);
-                self.blocks.insert(at, [0.0; 3 * ROWS]);
-                self.alphas.insert(at, 0.0);
-                at
-            }
-        };
+        let next = self.triples.len();
+        let at = self.places.find(first, next);
+        if at == next {
+            self.triples.push(first);
+            self.blocks.push(*block);
+            self.alphas.push(alpha);
+            return;
+        }
         for (sum, part) in self.blocks[at].iter_mut().zip(block) {
             *sum += part;
         }
@@ -221,7 +219,8 @@ impl<'a> Sum<'a> {
             })
             .collect();
         if let Some(frame) = self.frame {
-            add_chained(&mut jacobian, &(self.slip_by_n * share), &frame.n.jacobian);
+            let mut sum = ChainedSum::at(self.places, &mut jacobian);
+            sum.add(&(self.slip_by_n * share), &frame.n.jacobian);
         }
         let alphas = self.alphas.iter().map(|alpha| alpha * share);
         Kinematics {
@@ -258,115 +257,6 @@ pub fn add_chained(jacobian: &mut Jacobian, by: &Matrix3<f64>, inner: &Jacobian)
 /// 1 on side `a`, -1 on side `b`: how normal and friction of a node are seen from side `a`.
 pub fn side_sign(side: usize) -> f64 {
     if side == 0 { 1.0 } else { -1.0 }
-}
-
-/// Adds what the ramp does to the gaps.
-pub fn add_ramp_to_gaps(
-    configuration: &Configuration,
-    selection: &Selection,
-    tractions: &Tractions,
-    kinematics: &mut [Kinematics],
-) {
-    let numbering = configuration.pair.numbering();
-    for weak in selection.ramp() {
-        let pressure = |&(l, weight): &(u32, f64)| {
-            let kept = selection.kept()[l as usize];
-            weight * tractions.nodes[kept.side][kept.node as usize][0]
-        };
-        let jump: f64 = weak.row.iter().map(pressure).sum();
-        for &(k, weight) in &weak.row {
-            let share = weak.coefficient * weight / selection.weight(k as usize);
-            let gap = &mut kinematics[k as usize].gap;
-            gap.value += share * jump;
-            for &(l, other) in &weak.row {
-                let kept = selection.kept()[l as usize];
-                let first = numbering.traction(kept.side, kept.node);
-                let slope = Vec3::x() * (share * other);
-                match gap.gradient.iter_mut().find(|entry| entry.0 == first) {
-                    Some((_, sum)) => *sum += slope,
-                    None => gap.gradient.push((first, slope)),
-                }
-            }
-        }
-    }
-}
-
-/// Adds what the ramp does to the slips, by the friction gained in the increment.
-///
-/// # Errors
-/// Where the facets around a node had collapsed to a line.
-pub fn add_ramp_to_slips(
-    configuration: &Configuration,
-    start: &Configuration,
-    selection: &Selection,
-    frames: &Frames,
-    tractions: &Tractions,
-    tau: &NodalTractions,
-    kinematics: &mut [Kinematics],
-) -> Result<(), CollapsedFacets> {
-    for weak in selection.ramp() {
-        let parts: Result<Vec<Gained>, CollapsedFacets> = weak
-            .row
-            .iter()
-            .filter_map(|&(k, weight)| {
-                let (side, node) = selection.kept()[k as usize].place();
-                let frame = frames[side][node].as_ref()?;
-                let old = tractions.tau_n[side][node];
-                let place = (side, node as u32);
-                let old = converged_friction(configuration, start, place, frame, old);
-                Some(old.map(|old| Gained {
-                    k: k as usize,
-                    weight,
-                    sign: side_sign(side),
-                    frame,
-                    friction: gained(&tau[side][node], &old),
-                }))
-            })
-            .collect();
-        let parts = parts?;
-        for to in &parts {
-            let share = weak.coefficient * to.weight / selection.weight(to.k);
-            let slip = &mut kinematics[to.k].slip;
-            for from in &parts {
-                from.add_to(slip, to, share);
-            }
-        }
-    }
-    Ok(())
-}
-
-/// Friction that a kept node has gained, with its weight in a row of the ramp.
-struct Gained<'a> {
-    k: usize,
-    weight: f64,
-    sign: f64,
-    frame: &'a Frame,
-    friction: Tracked,
-}
-
-impl Gained<'_> {
-    fn add_to(&self, slip: &mut Tracked, to: &Gained, share: f64) {
-        // Normals and frictions of nodes of different sides point against each other.
-        let facing = self.sign * to.sign;
-        let factor = share * self.weight * facing;
-        let from = self.frame.n.value * facing;
-        let turned = Transported::new(&self.friction.value, &from, &to.frame.n.value);
-        slip.value += turned.value * factor;
-        let jacobian = &mut slip.jacobian;
-        let by_friction = turned.by_vector * factor;
-        add_chained(jacobian, &by_friction, &self.friction.jacobian);
-        let by_from = turned.by_from * (factor * facing);
-        add_chained(jacobian, &by_from, &self.frame.n.jacobian);
-        add_chained(jacobian, &(turned.by_n * factor), &to.frame.n.jacobian);
-    }
-}
-
-/// `tau - tau^n'`.
-fn gained(tau: &Tracked, old: &Tracked) -> Tracked {
-    let mut gained = tau.clone();
-    gained.value -= old.value;
-    add_chained(&mut gained.jacobian, &-Matrix3::identity(), &old.jacobian);
-    gained
 }
 
 /// What is reported of every node of both sides.

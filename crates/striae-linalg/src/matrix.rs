@@ -56,25 +56,19 @@ impl SparseMatrix {
         );
         let row_runs = runs(&self.structure, rows);
         let column_runs = runs(&self.structure, columns);
-        let edges = self.edges(rows, columns, &row_runs, &column_runs)?;
-        for (row_run, edges) in row_runs.iter().zip(edges.chunks(column_runs.len().max(1))) {
+        let mut edges = self.edges(rows, columns, &row_runs, &column_runs)?;
+        for (row_run, edges) in row_runs
+            .iter()
+            .zip(edges.chunks_mut(column_runs.len().max(1)))
+        {
+            for (run, edge) in column_runs.iter().zip(edges.iter_mut()) {
+                *edge = self.structure.column(*edge) + columns[run.begin] - run.first;
+            }
             for r in row_run.begin..row_run.end {
-                let local = rows[r] - self.structure.group(row_run.owner).start;
+                let local = rows[r] - row_run.first;
                 let row = &mut self.values[self.structure.row(row_run.owner, local)];
                 let dense = &block[r * columns.len()..][..columns.len()];
-                for (run, &edge) in column_runs.iter().zip(edges) {
-                    let (first, offset) = (self.structure.column(edge), run.first);
-                    let dense = &dense[run.begin..run.end];
-                    if run.is_consecutive {
-                        let at = first + columns[run.begin] - offset;
-                        let values = row[at..at + dense.len()].iter_mut().zip(dense);
-                        values.for_each(|(value, d)| *value += d);
-                    } else {
-                        for (column, d) in columns[run.begin..run.end].iter().zip(dense) {
-                            row[first + column - offset] += d;
-                        }
-                    }
-                }
+                add_runs(row, dense, columns, &column_runs, edges);
             }
         }
         Ok(())
@@ -309,8 +303,31 @@ struct Run {
     is_consecutive: bool,
 }
 
+/// Adds the values of all runs of columns to a row that has the first of each run at `places`.
+fn add_runs(row: &mut [f64], dense: &[f64], columns: &[usize], runs: &[Run], places: &[usize]) {
+    for (run, &place) in runs.iter().zip(places) {
+        let dense = &dense[run.begin..run.end];
+        if !run.is_consecutive {
+            for (column, d) in columns[run.begin..run.end].iter().zip(dense) {
+                row[place + column - columns[run.begin]] += d;
+            }
+            continue;
+        }
+        let values = &mut row[place..place + dense.len()];
+        // Most supervariables are triples.
+        if let ([x, y, z], [by_x, by_y, by_z]) = (&mut *values, dense) {
+            *x += by_x;
+            *y += by_y;
+            *z += by_z;
+        } else {
+            let values = values.iter_mut().zip(dense);
+            values.for_each(|(value, d)| *value += d);
+        }
+    }
+}
+
 fn runs(structure: &Structure, unknowns: &[usize]) -> Vec<Run> {
-    let mut runs: Vec<Run> = Vec::with_capacity(unknowns.len());
+    let mut runs: Vec<Run> = Vec::with_capacity(unknowns.len() / 3 + 1);
     for (k, &unknown) in unknowns.iter().enumerate() {
         let owner = structure.owner(unknown).0;
         match runs.last_mut() {

@@ -29,7 +29,7 @@ use striae_contact::{
 use striae_linalg::{SparseMatrix, Supervariable};
 use striae_mesh::{FacetId, Vec3};
 use terms::{Answer, Triple};
-use ties::{Moving, Tie};
+use ties::{Moving, Scratch, Tie};
 
 use crate::{
     layout::Layout,
@@ -145,7 +145,7 @@ fn on_this_thread(
     let strain = system.elements(trial)?;
     system.point_masses();
     system.carried(imposed);
-    let background = system.with_contact(&of_contact);
+    let background = system.with_contact(of_contact);
     system.condense(imposed);
     let norms = system.norms(trial, &contacts);
     system.idle(setting.selections);
@@ -195,6 +195,7 @@ struct System<'a> {
     /// Unknowns of every pair.
     triples: Vec<Vec<Option<Triple>>>,
     outside: Vec<Vec<Supervariable>>,
+    scratch: Scratch,
 }
 
 impl<'a> System<'a> {
@@ -221,6 +222,7 @@ impl<'a> System<'a> {
             longest_push: vec![0.0; problem.model.rigid_surfaces.len()],
             triples: Vec::new(),
             outside: Vec::new(),
+            scratch: Scratch::default(),
         };
         system.find_ties(trial, imposed);
         system

@@ -14,10 +14,10 @@
 //! dy_i = e_i . dx - (n . r)(e_i . dn)
 //! ```
 
-use nalgebra::Matrix3;
 use striae_mesh::Vec3;
 
 use super::{
+    Slopes,
     fan::Fan,
     plane_facet::Vec2,
     polygon::{CutEdge, Label, Vertex},
@@ -58,13 +58,15 @@ impl Plane {
 }
 
 /// Derivatives of all pairs by the coordinates of each corner in the plane.
-pub(super) struct CornerSlopes([[ByPair; 2]; 8]);
+pub(super) struct CornerSlopes(pub(super) [[ByPair; 2]; 8]);
 
-impl CornerSlopes {
-    /// With the slopes by vertices, and by a centre, passed on to the corners.
-    pub fn new(slopes: PlaneSlopes, polygon: &[Vertex], fan: &Fan, places: &[Vec2; 8]) -> Self {
-        let mut corners = Self(slopes.by_corners());
-        let mut vertices = slopes.vertices;
+impl PlaneSlopes<'_> {
+    /// Passes the slopes by vertices, and by a centre, on to the corners.
+    pub fn pass_on(self, polygon: &[Vertex], fan: &Fan, places: &[Vec2; 8]) {
+        let Self {
+            corners,
+            mut vertices,
+        } = self;
         if let Some(centre) = vertices.get(polygon.len()).copied() {
             let share = 1.0 / fan.around.len() as f64;
             for at in &fan.around {
@@ -78,7 +80,13 @@ impl CornerSlopes {
                 Label::Crossing(edges) => corners.pass_crossing(edges, places, by_place),
             }
         }
-        corners
+    }
+}
+
+impl CornerSlopes {
+    /// No dependence.
+    pub fn zero() -> Self {
+        Self([[[0.0; PAIRS]; 2]; 8])
     }
 
     fn pass(&mut self, corner: usize, share: f64, by_place: &[ByPair; 2]) {
@@ -101,13 +109,9 @@ impl CornerSlopes {
         }
     }
 
-    /// Derivatives by the corners in space: of pair `(c, d)` in the row of its index.
-    pub fn in_space(
-        &self,
-        plane: &Plane,
-        corners: &[Vec3; 8],
-        normal: &[Matrix3<f64>; 8],
-    ) -> [[f64; 24]; PAIRS] {
+    /// Fills in the derivatives by the corners in space, where those of the normal are known.
+    pub fn in_space(&self, plane: &Plane, corners: &[Vec3; 8], slopes: &mut Slopes) {
+        let Slopes { normal, mass } = slopes;
         let mut turn = [[0.0; PAIRS]; 2];
         let mut by_turn = [[0.0; 24]; 2];
         for axis in 0..2 {
@@ -118,10 +122,9 @@ impl CornerSlopes {
                 by_turn[axis][3 * corner..3 * corner + 3].copy_from_slice(slope.as_slice());
             }
         }
-        let mut slopes = [[0.0; 24]; PAIRS];
         for pair in 0..PAIRS {
             let (c, d) = functions(pair);
-            let row = &mut slopes[super::pair_index(c, d)];
+            let row = &mut mass[super::pair_index(c, d)];
             for corner in 0..8 {
                 let [first, second] = self.0[corner].each_ref().map(|by_pair| by_pair[pair]);
                 let by_x = plane.axes[0] * first + plane.axes[1] * second;
@@ -130,6 +133,5 @@ impl CornerSlopes {
             add(row, turn[0][pair], &by_turn[0]);
             add(row, turn[1][pair], &by_turn[1]);
         }
-        slopes
     }
 }

@@ -128,14 +128,11 @@ impl Selection {
     /// node under tension would count as closed, since the ramp takes the tension for a gap.
     pub fn stiffness(&self, k: usize) -> [f64; 2] {
         let flexibility = self.basis.flexibility[k];
-        let of_node = |weak: &Weak| -> f64 {
-            let entries = weak.row.iter().filter(|entry| entry.0 as usize == k);
-            entries
-                .map(|(_, value)| weak.coefficient * value * value)
-                .sum()
-        };
-        let ramp: f64 = self.ramp().iter().map(of_node).sum();
-        let ramp = ramp / self.weight(k);
+        let own = self.coupling().get(k).and_then(|row| {
+            let at = row.binary_search_by_key(&(k as u32), |entry| entry.0);
+            at.ok().map(|at| row[at].1)
+        });
+        let ramp = own.unwrap_or(0.0) / self.weight(k);
         if flexibility > 0.0 {
             [1.0 / (flexibility + ramp), 1.0 / (0.1 * flexibility + ramp)]
         } else {
@@ -146,6 +143,11 @@ impl Selection {
     /// Weakly independent kept nodes.
     pub fn ramp(&self) -> &[Weak] {
         &self.basis.ramp
+    }
+
+    /// Rows of `E` by place among the kept nodes of the field.
+    pub fn coupling(&self) -> &[Vec<(u32, f64)>] {
+        &self.basis.coupling
     }
 
     /// What was opposite to a kept node at the start.

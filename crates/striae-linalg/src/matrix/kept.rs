@@ -36,21 +36,23 @@ impl SparseMatrix {
         assert!(rest.is_empty(), "as many values as kept rows have");
     }
 
-    /// Adds to the rows of the kept supervariables.
+    /// Adds to the rows of the kept supervariables; returns what they were before.
     ///
     /// # Panics
     /// When there are not as many values as [`kept_rows`](Self::kept_rows) returns.
-    pub fn add_kept_rows(&mut self, values: &[f64]) {
-        let mut rest = values;
+    pub fn add_kept_rows(&mut self, mut values: Vec<f64>) -> Vec<f64> {
+        let mut rest = values.as_mut_slice();
         for range in kept_rows(&self.structure) {
-            let (own, others) = rest.split_at(range.len());
-            let targets = self.values[range].iter_mut();
-            targets
-                .zip(own)
-                .for_each(|(target, value)| *target += value);
+            let (own, others) = rest.split_at_mut(range.len());
+            for (target, value) in self.values[range].iter_mut().zip(own) {
+                let before = *target;
+                *target += *value;
+                *value = before;
+            }
             rest = others;
         }
         assert!(rest.is_empty(), "as many values as kept rows have");
+        values
     }
 
     /// `y += A x` in the rows of the kept supervariables.

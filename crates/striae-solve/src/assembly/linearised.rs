@@ -99,14 +99,13 @@ impl System<'_> {
     }
 
     /// Puts contact back; returns what there is without it.
-    pub(super) fn with_contact(&mut self, contact: &OfContact) -> Background {
+    pub(super) fn with_contact(&mut self, contact: OfContact) -> Background {
         let background = Background {
-            rows: self.matrix.kept_rows(),
+            rows: self.matrix.add_kept_rows(contact.rows),
             residual: self.residual.clone(),
             applied: self.forces.applied.clone(),
             force_scale: self.force_scale,
         };
-        self.matrix.add_kept_rows(&contact.rows);
         let residual = self.residual.iter_mut().zip(&contact.residual);
         residual.for_each(|(sum, part)| *sum += part);
         background

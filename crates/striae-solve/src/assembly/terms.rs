@@ -82,6 +82,7 @@ impl System<'_> {
 
     /// Adds a contact term; remembers its clique where it has no place.
     pub(super) fn add_term(&mut self, pair: usize, term: &LocalTerm, answer: Answer) {
+        let slots = std::mem::take(&mut self.scratch.slots);
         let slot = |unknown: &u32| {
             let (triple, axis) = (self.triple(pair, *unknown), *unknown as usize % 3);
             Slot {
@@ -90,8 +91,11 @@ impl System<'_> {
                 against: triple.against,
             }
         };
-        let mut rows: Vec<Slot> = term.rows.iter().map(slot).collect();
-        let columns: Vec<Slot> = term.columns.iter().map(slot).collect();
+        let [mut rows, mut columns] = slots;
+        rows.clear();
+        rows.extend(term.rows.iter().map(slot));
+        columns.clear();
+        columns.extend(term.columns.iter().map(slot));
         if answer != Answer::Opposite {
             rows.iter_mut().for_each(|row| row.against = None);
         }
@@ -110,6 +114,7 @@ impl System<'_> {
             clique.dedup();
             self.outside.push(clique);
         }
+        self.scratch.slots = [rows, columns];
     }
 
     /// Adds the answer to the force of a row to what acts on the body on the other side.

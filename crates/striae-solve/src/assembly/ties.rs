@@ -45,6 +45,14 @@ impl Slot {
     }
 }
 
+/// Lists that are made anew for every block, rows first.
+#[derive(Default)]
+pub(super) struct Scratch {
+    /// Of a contact term.
+    pub(super) slots: [Vec<Slot>; 2],
+    unknowns: [Vec<usize>; 2],
+}
+
 /// How a tied node follows its body.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tie {
@@ -150,8 +158,13 @@ impl System<'_> {
             slot.against.is_some() || position.is_some_and(|(node, _)| self.tie(node).is_some())
         };
         if !rows.iter().chain(columns).any(tied) {
-            let unknowns = |slots: &[Slot]| slots.iter().map(|s| s.unknown).collect::<Vec<_>>();
-            return self.matrix.add(&unknowns(rows), &unknowns(columns), block);
+            let unknowns = &mut self.scratch.unknowns;
+            for (unknowns, slots) in unknowns.iter_mut().zip([rows, columns]) {
+                unknowns.clear();
+                unknowns.extend(slots.iter().map(|slot| slot.unknown));
+            }
+            let [rows, columns] = unknowns;
+            return self.matrix.add(rows, columns, block);
         }
         let rows = self.spread(rows, Kind::Row);
         let columns = self.spread(columns, Kind::Column);
