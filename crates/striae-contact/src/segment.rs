@@ -126,12 +126,8 @@ pub fn segment(
     let normal = pair_normal([&n_a, &n_b], compliance)?;
     let pair = PlanePair::new([a, b], normal)?;
     let polygon = pair.polygon()?;
-    let mut in_plane = match derivatives {
-        Derivatives::None => None,
-        Derivatives::First => Some(CornerSlopes::zero()),
-    };
-    let mass = pair.integrals(&polygon, in_plane.as_mut());
-    let slopes = in_plane.as_ref().map(|in_plane| {
+    let (mass, plane_slopes) = pair.integrals(&polygon, derivatives);
+    let slopes = plane_slopes.map(|in_plane| {
         let mut slopes = Box::new(Slopes {
             normal: pair_slopes([a, b], [&n_a, &n_b], compliance),
             mass: [[0.0; 24]; PAIRS],
@@ -213,8 +209,11 @@ impl PlanePair {
         (twice_area(&polygon) > 0.1 * self.tolerance * longest).then_some(polygon)
     }
 
-    /// Integrals over a polygon; adds their derivatives if they are asked for.
-    fn integrals(&self, polygon: &[Vertex], slopes: Option<&mut CornerSlopes>) -> [f64; PAIRS] {
+    fn integrals(
+        &self,
+        polygon: &[Vertex],
+        derivatives: Derivatives,
+    ) -> ([f64; PAIRS], Option<CornerSlopes>) {
         let [a, b] = self.facets.each_ref().map(PlaneFacet::distortion);
         let distortion = a.max(b);
         let (rule, apex): (&[_], _) = if distortion <= AFFINE {
@@ -226,7 +225,10 @@ impl PlanePair {
         };
         let fan = fan(polygon, apex);
         let mut mass = [0.0; PAIRS];
-        let mut slopes = slopes.map(|corners| PlaneSlopes::new(corners, fan.places.len()));
+        let mut slopes = match derivatives {
+            Derivatives::None => None,
+            Derivatives::First => Some(PlaneSlopes::zero(fan.places.len())),
+        };
         for indices in &fan.triangles {
             let triangle = Triangle {
                 places: indices.map(|at| fan.places[at]),
@@ -234,9 +236,7 @@ impl PlanePair {
             };
             add_triangle(&self.facets, &triangle, rule, &mut mass, slopes.as_mut());
         }
-        if let Some(slopes) = slopes {
-            slopes.pass_on(polygon, &fan, &self.places);
-        }
-        mass
+        let slopes = slopes.map(|own| CornerSlopes::new(own, polygon, &fan, &self.places));
+        (mass, slopes)
     }
 }

@@ -58,15 +58,13 @@ impl Plane {
 }
 
 /// Derivatives of all pairs by the coordinates of each corner in the plane.
-pub(super) struct CornerSlopes(pub(super) [[ByPair; 2]; 8]);
+pub(super) struct CornerSlopes([[ByPair; 2]; 8]);
 
-impl PlaneSlopes<'_> {
-    /// Passes the slopes by vertices, and by a centre, on to the corners.
-    pub fn pass_on(self, polygon: &[Vertex], fan: &Fan, places: &[Vec2; 8]) {
-        let Self {
-            corners,
-            mut vertices,
-        } = self;
+impl CornerSlopes {
+    /// With the slopes by vertices, and by a centre, passed on to the corners.
+    pub fn new(slopes: PlaneSlopes, polygon: &[Vertex], fan: &Fan, places: &[Vec2; 8]) -> Self {
+        let mut corners = Self(slopes.by_corners());
+        let mut vertices = slopes.vertices;
         if let Some(centre) = vertices.get(polygon.len()).copied() {
             let share = 1.0 / fan.around.len() as f64;
             for at in &fan.around {
@@ -80,13 +78,7 @@ impl PlaneSlopes<'_> {
                 Label::Crossing(edges) => corners.pass_crossing(edges, places, by_place),
             }
         }
-    }
-}
-
-impl CornerSlopes {
-    /// No dependence.
-    pub fn zero() -> Self {
-        Self([[[0.0; PAIRS]; 2]; 8])
+        corners
     }
 
     fn pass(&mut self, corner: usize, share: f64, by_place: &[ByPair; 2]) {

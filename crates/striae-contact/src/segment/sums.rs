@@ -10,10 +10,7 @@
 //! The 36 pairs `c <= d` are kept in three runs: both of `a`, one of each, both of
 //! `b`. A corner of `a` moves the first two, a corner of `b` the last two.
 
-use super::{
-    chain::CornerSlopes,
-    plane_facet::{PlaneFacet, PlaneWeights, Vec2},
-};
+use super::plane_facet::{PlaneFacet, PlaneWeights, Vec2};
 
 /// Number of pairs `c <= d` of eight functions.
 pub(super) const PAIRS: usize = 36;
@@ -59,27 +56,34 @@ const TOUCHED: usize = LAST;
 type ByOwn = [f64; TOUCHED];
 
 /// Derivatives of all pairs by coordinates in the plane.
-pub(super) struct PlaneSlopes<'a> {
-    /// By the two coordinates of each of the eight corners, while the polygon rests.
-    pub corners: &'a mut CornerSlopes,
+pub(super) struct PlaneSlopes {
+    /// By the two coordinates of each of the eight corners, through coordinates on facets.
+    own: [[[ByOwn; 2]; 4]; 2],
     /// By the two coordinates of each vertex of the polygon and of its centre.
     pub vertices: Vec<[ByPair; 2]>,
 }
 
-impl<'a> PlaneSlopes<'a> {
+impl PlaneSlopes {
     /// No dependence yet on this many vertices.
-    pub fn new(corners: &'a mut CornerSlopes, vertices: usize) -> Self {
+    pub fn zero(vertices: usize) -> Self {
         Self {
-            corners,
+            own: [[[[0.0; TOUCHED]; 2]; 4]; 2],
             vertices: vec![[[0.0; PAIRS]; 2]; vertices],
         }
     }
 
-    /// By a coordinate of a corner: the pairs that have a function of its side.
-    fn own(&mut self, side: usize, k: usize, axis: usize) -> &mut ByOwn {
-        self.corners.0[4 * side + k][axis][MIXED * side..]
-            .first_chunk_mut()
-            .expect("there are as many pairs from either end")
+    /// By the coordinates of each corner, while the polygon rests.
+    pub fn by_corners(&self) -> [[ByPair; 2]; 8] {
+        let mut corners = [[[0.0; PAIRS]; 2]; 8];
+        for side in 0..2 {
+            for k in 0..4 {
+                for axis in 0..2 {
+                    let target = &mut corners[4 * side + k][axis][MIXED * side..][..TOUCHED];
+                    target.copy_from_slice(&self.own[side][k][axis]);
+                }
+            }
+        }
+        corners
     }
 }
 
@@ -114,7 +118,7 @@ pub(super) fn add_triangle(
             for side in 0..2 {
                 for k in 0..4 {
                     let factor = -weight * [&a, &b][side].value[k];
-                    add(slopes.own(side, k, axis), factor, &gradients[side]);
+                    add(&mut slopes.own[side][k][axis], factor, &gradients[side]);
                 }
             }
             let total = total(&gradients);
