@@ -45,12 +45,12 @@ enum Solver {
     /// With the flexibilities of the bodies.
     Compliant(Compliant),
     /// By elimination, where a body has no flexibility.
-    Eliminated(Interface),
+    Eliminated(Box<Interface>),
 }
 
 impl Default for Solver {
     fn default() -> Self {
-        Self::Eliminated(Interface::default())
+        Self::Eliminated(Box::default())
     }
 }
 
@@ -126,7 +126,10 @@ impl Condensed {
         };
         let solver = match solver {
             Ok(solver) => solver,
-            Err(rows) => Solver::Eliminated(Interface::factor(&places, rows, &blocks, smallest)?),
+            Err(rows) => {
+                let interface = Interface::factor(&places, rows, &blocks, smallest)?;
+                Solver::Eliminated(Box::new(interface))
+            }
         };
         let bodies = self.analyses(precision).map(|a| a.factor_entries);
         let eliminated = untouched.iter().flatten().map(Untouched::entries);
