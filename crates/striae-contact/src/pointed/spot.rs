@@ -162,7 +162,7 @@ fn between_nodes(
 }
 
 /// The facet that a tip faces within `reach`, along the normal of that facet. The one that a
-/// node was in at the start of an increment holds it until it is [`AWAY`] beyond its edges:
+/// node was in at the start of an increment holds it until it is `AWAY` beyond its edges:
 /// between two facets that dip towards each other either normal drives it to the other.
 pub fn faced(configuration: &Configuration, tip: Tip, reach: f64) -> Option<Hit> {
     let (x, normal) = (tip.position(configuration), tip.normal(configuration));

@@ -163,14 +163,3 @@ fn bodies_that_only_contact_holds_have_no_flexibility() {
 fn what_is_too_much_for_gmres_is_handed_back() {
     assert!(system(0.3, 2.0).factored().is_none());
 }
-
-#[test]
-fn entries_that_rows_have_in_single_runs_are_taken_together() {
-    let marks = |rows: &[usize]| {
-        let mut marked = vec![NONE; 60];
-        rows.iter().for_each(|&row| marked[row] = 0);
-        runs(&marked)
-    };
-    assert_eq!(marks(&[]), []);
-    assert_eq!(marks(&[3, 4, 5, 16, 40]), [3..17, 40..41]);
-}
