@@ -33,8 +33,9 @@ use untouched::Untouched;
 
 /// Time of an operation of a substitution, which waits for memory, over that of a factorisation.
 const SUBSTITUTION: f64 = 5.0;
-/// Operations that take as long as the evaluation of contact takes for one multiplier.
-const EVALUATION: f64 = 6e5;
+/// Unknowns whose part of an iteration takes about two and a half times as long as a
+/// multiplier takes in a correction of contact alone.
+const WORTH: usize = 60;
 /// Not kept.
 const NONE: u32 = u32::MAX;
 
@@ -276,13 +277,19 @@ impl Condensed {
             .unwrap_or_default()
     }
 
-    /// Work of evaluating contact and factoring its system over that of factoring the interior.
+    /// Whether there are so few multipliers that correcting contact alone is worth while.
+    pub(crate) fn has_little_contact(&self) -> bool {
+        let contact = self.numeric.as_ref().map(|numeric| &numeric.contact);
+        let multipliers = contact.map_or(0, ContactSystem::multipliers);
+        WORTH * multipliers <= self.structure.unknowns()
+    }
+
+    /// Work of factoring the contact system over that of factoring the interior.
     pub(crate) fn share_of_contact(&self) -> f64 {
         let work = |contact: &ContactSystem| {
             let eliminated = contact.untouched.iter().flatten();
             eliminated.map(Untouched::flops).sum::<f64>()
                 + 2.0 / 3.0 * (contact.dense_order() as f64).powi(3)
-                + EVALUATION * contact.multipliers() as f64
         };
         let contact = self.numeric.as_ref().map(|numeric| &numeric.contact);
         let bodies: f64 = self.analyses(self.precision()).map(|a| a.flops).sum();
