@@ -402,9 +402,7 @@ impl LinearSolver for Automatic {
     fn has_interior(&self) -> bool {
         let condensed = self.condensed.as_ref();
         self.factored == Some(Method::Condensed)
-            && condensed.is_some_and(|condensed| {
-                condensed.has_little_contact() && condensed.share_of_contact() <= CHEAP
-            })
+            && condensed.is_some_and(|condensed| condensed.share_of_contact() <= CHEAP)
     }
 
     fn solve_other_contact(

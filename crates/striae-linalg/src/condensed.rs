@@ -33,9 +33,6 @@ use untouched::Untouched;
 
 /// Time of an operation of a substitution, which waits for memory, over that of a factorisation.
 const SUBSTITUTION: f64 = 5.0;
-/// Unknowns whose part of an iteration takes about two and a half times as long as a
-/// multiplier takes in a correction of contact alone.
-const WORTH: usize = 60;
 /// Not kept.
 const NONE: u32 = u32::MAX;
 
@@ -275,13 +272,6 @@ impl Condensed {
             .as_ref()
             .map(|n| n.precision)
             .unwrap_or_default()
-    }
-
-    /// Whether there are so few multipliers that correcting contact alone is worth while.
-    pub(crate) fn has_little_contact(&self) -> bool {
-        let contact = self.numeric.as_ref().map(|numeric| &numeric.contact);
-        let multipliers = contact.map_or(0, ContactSystem::multipliers);
-        WORTH * multipliers <= self.structure.unknowns()
     }
 
     /// Work of factoring the contact system over that of factoring the interior.

@@ -36,7 +36,6 @@ pub(super) struct ContactSystem {
     /// Flexibilities of the bodies at what contact touches, if all bodies have one.
     flexibility: Option<Flexibility>,
     solver: Solver,
-    multipliers: usize,
 }
 
 /// How the contact system is solved.
@@ -61,11 +60,6 @@ impl ContactSystem {
             Solver::Compliant(compliant) => compliant.dense_order(),
             Solver::Eliminated(interface) => interface.dense_order(),
         }
-    }
-
-    /// Multipliers that contact has, but for known ones.
-    pub(super) fn multipliers(&self) -> usize {
-        self.multipliers
     }
 
     fn entries(&self) -> usize {
@@ -111,8 +105,6 @@ impl Condensed {
         for own in untouched.iter().flatten() {
             own.set_apart(&mut kinds, &mut rows);
         }
-        let is_multiplier = |kind: &&Kind| **kind == Kind::Multiplier;
-        let multipliers = kinds.iter().filter(is_multiplier).count();
         let places = Places { kinds };
         let blocks = self.blocks(&untouched);
         let flexibility =
@@ -140,7 +132,6 @@ impl Condensed {
             untouched,
             flexibility,
             solver,
-            multipliers,
         };
         let report = FactorReport {
             factor_entries: contact.entries() + others,
