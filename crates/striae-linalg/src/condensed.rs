@@ -274,6 +274,12 @@ impl Condensed {
             .unwrap_or_default()
     }
 
+    /// Order of the dense part of the contact system.
+    pub(crate) fn order_of_contact(&self) -> usize {
+        let contact = self.numeric.as_ref().map(|numeric| &numeric.contact);
+        contact.map_or(0, ContactSystem::dense_order)
+    }
+
     /// Work of factoring the contact system over that of factoring the interior.
     pub(crate) fn share_of_contact(&self) -> f64 {
         let work = |contact: &ContactSystem| {
