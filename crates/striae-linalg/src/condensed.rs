@@ -274,10 +274,10 @@ impl Condensed {
             .unwrap_or_default()
     }
 
-    /// Order of the dense part of the contact system.
-    pub(crate) fn order_of_contact(&self) -> usize {
+    /// Bulk unknowns of the contact system beyond its multipliers.
+    pub(crate) fn freedom_of_contact(&self) -> usize {
         let contact = self.numeric.as_ref().map(|numeric| &numeric.contact);
-        contact.map_or(0, ContactSystem::dense_order)
+        contact.map_or(0, ContactSystem::freedom)
     }
 
     /// Work of factoring the contact system over that of factoring the interior.

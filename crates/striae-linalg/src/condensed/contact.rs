@@ -62,6 +62,14 @@ impl ContactSystem {
         }
     }
 
+    /// Bulk unknowns beyond the multipliers; order of the dense matrix after an elimination.
+    pub(super) fn freedom(&self) -> usize {
+        match &self.solver {
+            Solver::Compliant(compliant) => compliant.freedom(),
+            Solver::Eliminated(interface) => interface.dense_order(),
+        }
+    }
+
     fn entries(&self) -> usize {
         match &self.solver {
             Solver::Compliant(compliant) => compliant.entries(),
