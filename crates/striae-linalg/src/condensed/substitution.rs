@@ -2,7 +2,7 @@
 
 use super::{Condensed, Numeric, contact::ContactSystem};
 use crate::{
-    equilibration::Equilibration, interface::Purpose, matrix::SparseMatrix, singularity::Factors,
+    equilibration::Equilibration, matrix::SparseMatrix, singularity::Factors,
     structure::Supervariable,
 };
 use rayon::prelude::*;
@@ -12,7 +12,6 @@ pub(super) struct Substitution<'a> {
     pub(super) condensed: &'a Condensed,
     pub(super) numeric: &'a Numeric,
     pub(super) matrix: &'a SparseMatrix,
-    pub(super) purpose: Purpose,
 }
 
 impl Factors for Substitution<'_> {
@@ -34,13 +33,15 @@ impl Factors for Substitution<'_> {
                 rhs[k as usize] = y[u];
             }
         }
-        let contact = &self.numeric.contact;
         let ContactSystem {
-            known, untouched, ..
-        } = contact;
+            known,
+            untouched,
+            interface,
+            ..
+        } = &self.numeric.contact;
         let eliminated = untouched.iter().flatten();
         eliminated.clone().for_each(|own| own.condense(&mut rhs));
-        let mut z = contact.solve(&self.condensed.blocks(untouched), &rhs, self.purpose);
+        let mut z = interface.solve(&self.condensed.blocks(untouched), &rhs);
         for own in eliminated {
             let places = own.eliminated().iter();
             places.for_each(|&k| z[k as usize] = rhs[k as usize]);
