@@ -10,7 +10,10 @@ use striae_contact::{
     selection::{Before, Selection},
     unknowns::Tractions,
 };
-use striae_law::{bulk::Material, friction::Friction};
+use striae_law::{
+    bulk::{LameConstants, Material},
+    friction::Friction,
+};
 use striae_linalg::{Automatic, LinearSolver, MultifrontalLu};
 use striae_solve::{
     assembly::{Contact, Setting, StepContext, Trial, assemble},
@@ -65,10 +68,10 @@ pub fn all(groups: &[String], sizes: &[usize]) -> Results {
 /// Responses of the laws at a point.
 fn law() -> Results {
     const COUNT: usize = 1000;
-    let rubber = Material::NeoHookean {
+    let rubber = Material::neo_hookean(LameConstants {
         lambda: 0.657,
         shear: 0.164,
-    };
+    });
     let gradient = |k: usize| {
         let mut f = Matrix3::identity();
         f[(0, 1)] = 1e-4 * k as f64;

@@ -16,6 +16,31 @@ fn constants() {
         )],
         &["5:10: `lambda` = -1 and `shear_modulus` = 1 give a bulk modulus that is not positive"],
     );
+    for (what, law, expected) in [
+        (
+            "rubber without shear modulus",
+            "law = \"mooney-rivlin\"\nc10 = 0.1\nc01 = -0.2\npoissons_ratio = 0.49",
+            "2:1: the material is not admissible: the constants give the shear modulus -0.2 at rest, it must be positive",
+        ),
+        (
+            "rubber without terms",
+            "law = \"ogden\"\nterms = []\nbulk_modulus = 10",
+            "2:1: the material is not admissible: the law has no term, it needs at least one",
+        ),
+        (
+            "an exponent of zero",
+            "law = \"ogden\"\nterms = [{ mu = 1, alpha = 2 }, { mu = 1, alpha = 0 }]\nbulk_modulus = 10",
+            "2:1: the material is not admissible: `alpha` of term 1 is 0, it must be positive or negative",
+        ),
+        (
+            "chains that are locked at rest",
+            "law = \"arruda-boyce\"\nmu = 1\nlocking_stretch = 1\nbulk_modulus = 10",
+            "2:1: the material is not admissible: `locking_stretch` is 1, it must be above 1",
+        ),
+    ] {
+        let base = "law = \"neo-hookean\"\nyoungs_modulus = 1e6\npoissons_ratio = 0.3";
+        misstated(what, &[(base, law)], &[expected]);
+    }
     misstated(
         "friction that creates energy",
         &[(

@@ -60,6 +60,86 @@ fn bodies_have_their_meshes_and_materials() {
 }
 
 #[test]
+fn decks_have_all_bulk_laws() {
+    use striae_law::bulk::{Hyperelastic, Isochoric, OgdenTerm, Volumetric};
+    let constants = LameConstants::from_youngs_modulus(1e6, 0.3).unwrap();
+    let rubber = |isochoric| {
+        Material::Hyperelastic(Hyperelastic::new(isochoric, 20.0, Volumetric::Quadratic).unwrap())
+    };
+    let ogden = Isochoric::Ogden(Box::new([
+        OgdenTerm {
+            mu: 0.63,
+            alpha: 1.3,
+        },
+        OgdenTerm {
+            mu: -0.01,
+            alpha: -2.0,
+        },
+    ]));
+    let yeoh = Isochoric::Yeoh {
+        c10: 0.3,
+        c20: -0.01,
+        c30: 0.002,
+    };
+    let by_ratio = Hyperelastic::with_poissons_ratio(
+        Isochoric::NeoHookean { shear: 0.5 },
+        0.49,
+        Volumetric::Logarithmic,
+    );
+    let chains = Isochoric::ArrudaBoyce {
+        mu: 0.4,
+        locking_stretch: 3.0,
+    };
+    let gent = Isochoric::Gent {
+        shear: 0.5,
+        limit: 30.0,
+    };
+    let (c10, c01) = (0.2, 0.05);
+    for (law, expected) in [
+        (
+            "law = \"neo-hookean\"\nyoungs_modulus = 1e6\npoissons_ratio = 0.3\nvolumetric = \"logarithmic\"",
+            Material::neo_hookean_with(constants, Volumetric::Logarithmic),
+        ),
+        (
+            "law = \"linear-elastic\"\nyoungs_modulus = 1e6\npoissons_ratio = 0.3",
+            Material::linear_elastic(constants),
+        ),
+        (
+            "law = \"isochoric-neo-hookean\"\nshear_modulus = 0.5\npoissons_ratio = 0.49\nvolumetric = \"logarithmic\"",
+            Material::Hyperelastic(by_ratio.unwrap()),
+        ),
+        (
+            "law = \"mooney-rivlin\"\nc10 = 0.2\nc01 = 0.05\nbulk_modulus = 20",
+            rubber(Isochoric::MooneyRivlin { c10, c01 }),
+        ),
+        (
+            "law = \"yeoh\"\nc10 = 0.3\nc20 = -0.01\nc30 = 0.002\nbulk_modulus = 20",
+            rubber(yeoh),
+        ),
+        (
+            "law = \"ogden\"\nterms = [{ mu = 0.63, alpha = 1.3 }, { mu = -0.01, alpha = -2 }]\nbulk_modulus = 20",
+            rubber(ogden),
+        ),
+        (
+            "law = \"gent\"\nshear_modulus = 0.5\nlimit = 30\nbulk_modulus = 20",
+            rubber(gent),
+        ),
+        (
+            "law = \"arruda-boyce\"\nmu = 0.4\nlocking_stretch = 3\nbulk_modulus = 20",
+            rubber(chains),
+        ),
+    ] {
+        let base = "law = \"neo-hookean\"\nyoungs_modulus = 1e6\npoissons_ratio = 0.3";
+        let text = BASE.replacen(base, law, 1);
+        assert_ne!(text, BASE.replacen(base, "", 1));
+        let model = striae_deck::parse(&text, "deck.toml", Path::new("."))
+            .unwrap()
+            .model;
+        assert_eq!(model.bodies[0].material, expected);
+    }
+}
+
+#[test]
 fn decks_add_sets_to_meshes() {
     let from = "divisions = [4, 4, 2] }";
     let sets = format!(

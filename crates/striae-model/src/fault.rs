@@ -308,6 +308,12 @@ pub enum FaultKind {
         /// Shear modulus.
         shear: f64,
     },
+    /// The constants of a bulk law are inadmissible.
+    #[error("the material is not admissible: {cause}")]
+    Material {
+        /// Which constant, and why.
+        cause: String,
+    },
     /// Textures do not fit the friction law.
     #[error(
         "the friction of pair `{pair}` needs a texture on {required}; sides that have one: {found}"

@@ -1,7 +1,10 @@
 //! Why a simulation could not be made or run.
 
 use striae_deck::Faults;
-use striae_law::{bulk::InadmissibleModuli, friction::FrictionError};
+use striae_law::{
+    bulk::{InadmissibleHyperelastic, InadmissibleModuli},
+    friction::FrictionError,
+};
 use striae_mesh::MeshError;
 use striae_meshfile::MeshFileError;
 use striae_output::{OutputError, checkpoint::CheckpointError};
@@ -38,4 +41,7 @@ pub enum Error {
     /// Elastic constants are refused.
     #[error(transparent)]
     Moduli(#[from] InadmissibleModuli),
+    /// Constants of rubber are refused.
+    #[error(transparent)]
+    Rubber(#[from] InadmissibleHyperelastic),
 }

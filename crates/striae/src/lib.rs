@@ -120,6 +120,51 @@
 //! # Ok(()) }
 //! ```
 //!
+//! # Laws of one's own
+//!
+//! A friction law implements [`FrictionLaw`](law::friction::FrictionLaw), a bulk law
+//! [`BulkLaw`](law::bulk::BulkLaw), in any crate. Batteries hold it against mechanics
+//! before it meets a mesh; `examples/own_laws.rs` has one of each.
+//!
+//! ```
+//! use striae::law::bulk::{BulkLaw, Response, ResponseError, battery};
+//! use striae::nalgebra::Matrix3;
+//! use striae::prelude::*;
+//!
+//! /// Two laws side by side, each with half the volume.
+//! #[derive(Debug)]
+//! struct Mixture([Material; 2]);
+//!
+//! impl BulkLaw for Mixture {
+//!     fn name(&self) -> &str {
+//!         "mixture"
+//!     }
+//!
+//!     fn response(&self, f: &Matrix3<f64>) -> Result<Response, ResponseError> {
+//!         let [a, b] = [self.0[0].response(f)?, self.0[1].response(f)?];
+//!         Ok(Response {
+//!             energy: 0.5 * (a.energy + b.energy),
+//!             first_piola: (a.first_piola + b.first_piola) * 0.5,
+//!             tangent: (a.tangent + b.tangent) * 0.5,
+//!         })
+//!     }
+//!
+//!     fn lame_constants(&self) -> LameConstants {
+//!         let [a, b] = [self.0[0].lame_constants(), self.0[1].lame_constants()];
+//!         LameConstants {
+//!             lambda: 0.5 * (a.lambda + b.lambda),
+//!             shear: 0.5 * (a.shear + b.shear),
+//!         }
+//!     }
+//! }
+//! # fn main() -> Result<(), Error> {
+//! let soft = Material::neo_hookean(LameConstants::from_youngs_modulus(1.0, 0.3)?);
+//! let hard = Material::neo_hookean(LameConstants::from_youngs_modulus(9.0, 0.2)?);
+//! let mixture = Material::own(Mixture([soft, hard]));
+//! assert_eq!(battery(&mixture), []);
+//! # Ok(()) }
+//! ```
+//!
 //! # Files
 //!
 //! A run writes files only where it is told to: [`recorded`](Simulation::recorded)
@@ -142,7 +187,8 @@
 //!
 //! [`model`], [`mesh`], [`mesh_file`], [`law`], [`surface`], [`contact`], [`solve`],
 //! [`deck`] and [`output`] are the crates below, for what the names above do not reach;
-//! [`figures`] draws friction laws and textures. The `striae` program is a client of
+//! [`figures`] draws friction laws and textures. Laws of one's own are written with
+//! [`nalgebra`] and [`num_dual`], which are handed on. The `striae` program is a client of
 //! this crate.
 
 mod error;
@@ -156,6 +202,8 @@ mod simulation;
 
 pub use error::Error;
 pub use interrupt::{Before, Interrupt};
+pub use nalgebra;
+pub use num_dual;
 pub use observer::{Converged, Next, Observer};
 pub use results::{PairSide, Results};
 pub use simulation::{Finished, Simulation, case_name};

@@ -5,7 +5,7 @@ pub use crate::{
 };
 pub use striae_contact::unknowns::{NodeResult, Status};
 pub use striae_law::{
-    bulk::{LameConstants, Material},
+    bulk::{Hyperelastic, Isochoric, LameConstants, Material, OgdenTerm, Volumetric},
     friction::{Friction, SlipRule},
 };
 pub use striae_mesh::{Mesh, NodeId, Vec3, generate::Block};

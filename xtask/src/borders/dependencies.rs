@@ -27,7 +27,7 @@ const LADDER: &[Row] = &[
     },
     Row {
         name: "striae-law",
-        own: &[],
+        own: &["striae-verify"],
         outside: &["nalgebra", "num-dual", "thiserror"],
     },
     Row {
@@ -133,7 +133,7 @@ const LADDER: &[Row] = &[
             "striae-solve",
             "striae-surface",
         ],
-        outside: &["nalgebra", "thiserror"],
+        outside: &["nalgebra", "num-dual", "thiserror"],
     },
     Row {
         name: "striae-cases",

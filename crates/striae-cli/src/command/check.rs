@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use std::{collections::BTreeSet, io::Write, path::PathBuf};
 use striae_contact::{initial::Fit, interference::Spot};
 use striae_deck as deck;
-use striae_law::bulk::Material;
+use striae_law::bulk::LameConstants;
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::{
     initial::{ROUND_OFF, fits, other_name, surface_node},
@@ -47,10 +47,8 @@ fn summary(model: &Model) -> Result<String, Failure> {
 }
 
 fn body_line(body: &Body) -> String {
-    let (law, lambda, shear) = match body.material {
-        Material::NeoHookean { lambda, shear } => ("neo-Hookean", lambda, shear),
-        Material::LinearElastic { lambda, shear } => ("linear elastic", lambda, shear),
-    };
+    let law = body.material.name();
+    let LameConstants { lambda, shear } = body.material.lame_constants();
     format!(
         "  body `{}`: {} nodes, {} elements, smallest scaled Jacobian {:.3}; {law}, lambda = {lambda:.6e}, G = {shear:.6e}",
         body.name,

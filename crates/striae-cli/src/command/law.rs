@@ -15,10 +15,10 @@ use std::{
 
 use striae::{
     case_name,
-    figures::law::{SAMPLES, degrees, figure, law_name},
+    figures::law::{SAMPLES, degrees, figure},
 };
 use striae_deck as deck;
-use striae_law::friction::{Analysis, Friction, Law, SlipSurface};
+use striae_law::friction::{Analysis, Friction, Law, RequiredTextures, SlipSurface};
 use striae_solve::model::Model;
 
 use crate::failure::Failure;
@@ -167,14 +167,15 @@ fn of_model(model: &Model) -> Vec<Named> {
 
 fn show(named: &Named, theta: &[f64], folder: &Path, out: &mut dyn Write) -> Result<(), Failure> {
     let friction = &named.friction;
-    write!(out, "{}: {}", named.title, law_name(friction.law()))?;
+    write!(out, "{}: {}", named.title, friction.law().name())?;
     if matches!(friction.law(), Law::Frictionless) {
         return Ok(writeln!(out)?);
     }
     writeln!(out, ", {}", coefficient(friction))?;
-    let theta = match friction.law() {
-        Law::TwoTextures(_) => theta,
-        _ => &[0.0],
+    let theta = if friction.required_textures() == RequiredTextures::Both {
+        theta
+    } else {
+        &[0.0]
     };
     let analyses: Vec<Analysis> = theta
         .iter()
@@ -205,7 +206,7 @@ fn coefficient(friction: &Friction) -> String {
 
 /// Axes and extremes of the slip surfaces, a row an angle.
 fn table(friction: &Friction, analyses: &[Analysis]) -> String {
-    let two = matches!(friction.law(), Law::TwoTextures(_));
+    let two = friction.required_textures() == RequiredTextures::Both;
     let mut text = String::from(
         "  theta [deg]       A         P         h   max |w|  max angle(d, -tau) [deg]  least w . d\n",
     );
@@ -219,7 +220,7 @@ fn table(friction: &Friction, analyses: &[Analysis]) -> String {
             SlipSurface::Ellipse(ellipse) => {
                 [ellipse.across, ellipse.along, ellipse.offset].map(|length| format!("{length:.4}"))
             }
-            SlipSurface::Star(_) => [(); 3].map(|()| "-".to_owned()),
+            SlipSurface::Star(_) | SlipSurface::Oblique(_) => [(); 3].map(|()| "-".to_owned()),
         };
         let [across, along, offset] = axes;
         text += &format!(

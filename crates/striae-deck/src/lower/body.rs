@@ -1,11 +1,11 @@
 //! Materials and bodies.
 
-use super::{list, mesh, sets};
+use super::{list, material, mesh, sets};
 use crate::{faults::FaultList, names::Names, raw, read::At, value::Text};
 use std::path::Path;
-use striae_law::bulk::{LameConstants, Material};
+use striae_law::bulk::Material;
 use striae_mesh::{Face, Mesh, NodeId};
-use striae_model::{DraftBody, FaultKind as ModelFault};
+use striae_model::DraftBody;
 use striae_solve::model::{Body, BodyId, ContactMass};
 
 /// All materials of the deck.
@@ -38,7 +38,7 @@ impl Materials {
         );
         let materials = raw
             .iter()
-            .map(|material| lower_material(&material.value, faults))
+            .map(|raw| material::material(&raw.value, &raw.span, faults))
             .collect();
         let density = |material: &At<raw::Material>| {
             let density = material.value.density.as_ref();
@@ -54,7 +54,7 @@ impl Materials {
     /// The material of that name, if it is sound, and its density, if it has one.
     fn find(&self, name: &At<Text>, faults: &mut FaultList<'_>) -> (Option<Material>, Option<f64>) {
         match self.names.find(name, faults) {
-            Some(at) => (self.materials[at], self.densities[at]),
+            Some(at) => (self.materials[at].clone(), self.densities[at]),
             None => (None, None),
         }
     }
@@ -189,45 +189,5 @@ fn lower_body(
             None | Some(raw::ContactMass::Consistent) => ContactMass::Consistent,
             Some(raw::ContactMass::Redistributed) => ContactMass::Redistributed,
         },
-    }
-}
-
-fn lower_material(material: &raw::Material, faults: &mut FaultList<'_>) -> Option<Material> {
-    let law = material.law.as_ref()?;
-    let (raw::BulkLaw::NeoHookean(raw::NeoHookean { constants, .. })
-    | raw::BulkLaw::LinearElastic(raw::LinearElastic { constants, .. })) = law;
-    let constants = lame_constants(constants.as_ref()?, faults)?;
-    Some(match law {
-        raw::BulkLaw::NeoHookean(_) => Material::neo_hookean(constants),
-        raw::BulkLaw::LinearElastic(_) => Material::linear_elastic(constants),
-    })
-}
-
-fn lame_constants(
-    constants: &raw::ElasticConstants,
-    faults: &mut FaultList<'_>,
-) -> Option<LameConstants> {
-    match constants {
-        raw::ElasticConstants::Engineering(raw) => {
-            let (modulus, ratio) = (raw.youngs_modulus.as_ref()?, raw.poissons_ratio.as_ref()?);
-            // The reader has checked the ranges already.
-            LameConstants::from_youngs_modulus(modulus.value.0, ratio.value.0).ok()
-        }
-        raw::ElasticConstants::Lame(raw) => {
-            let lambda = raw.lambda.as_ref()?;
-            let shear = raw.shear_modulus.as_ref()?.value.0;
-            if 3.0 * lambda.value.0 + 2.0 * shear <= 0.0 {
-                let kind = ModelFault::BulkModulus {
-                    lambda: lambda.value.0,
-                    shear,
-                };
-                faults.push(&lambda.span, kind);
-                return None;
-            }
-            Some(LameConstants {
-                lambda: lambda.value.0,
-                shear,
-            })
-        }
     }
 }

@@ -9,6 +9,7 @@ mod friction;
 mod generator;
 mod inertia;
 mod listed;
+mod material;
 mod mesh;
 mod nodal;
 mod place;

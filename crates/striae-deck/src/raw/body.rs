@@ -26,6 +26,46 @@ choice! {
     BulkLaw by law {
         "neo-hookean" => NeoHookean(NeoHookean),
         "linear-elastic" => LinearElastic(LinearElastic),
+        "isochoric-neo-hookean" => IsochoricNeoHookean(IsochoricNeoHookean),
+        "mooney-rivlin" => MooneyRivlin(MooneyRivlin),
+        "yeoh" => Yeoh(Yeoh),
+        "ogden" => Ogden(Ogden),
+        "gent" => Gent(Gent),
+        "arruda-boyce" => ArrudaBoyce(ArrudaBoyce),
+    }
+}
+
+words! {
+    /// Form of the volumetric energy for the volume ratio `J` and a modulus `k`.
+    Volumetric {
+        /// `k/2 (J - 1)^2`.
+        Quadratic = "quadratic",
+        /// `k/2 ln^2 J`.
+        Logarithmic = "logarithmic",
+    }
+}
+
+either! {
+    /// How far rubber changes its volume.
+    Compressibility {
+        BulkModulus(BulkModulus),
+        Ratio(Ratio),
+    }
+}
+
+table! {
+    /// The bulk modulus.
+    BulkModulus {
+        /// Bulk modulus `K`.
+        required bulk_modulus: Positive,
+    }
+}
+
+table! {
+    /// Poisson's ratio.
+    Ratio {
+        /// Poisson's ratio at rest.
+        required poissons_ratio: PoissonsRatio,
     }
 }
 
@@ -34,6 +74,100 @@ table! {
     NeoHookean {
         /// Elastic constants.
         include constants: ElasticConstants,
+        /// Form of the volumetric energy, with `k = lambda`. Default: `quadratic`.
+        optional volumetric: Volumetric,
+    }
+}
+
+table! {
+    /// Rubber with the energy `G/2 (I1 - 3)`, nearly incompressible.
+    IsochoricNeoHookean {
+        /// Shear modulus `G`.
+        required shear_modulus: Positive,
+        /// Bulk modulus or Poisson's ratio.
+        include compressibility: Compressibility,
+        /// Form of the volumetric energy. Default: `quadratic`.
+        optional volumetric: Volumetric,
+    }
+}
+
+table! {
+    /// Rubber with the energy `c10 (I1 - 3) + c01 (I2 - 3)`, nearly incompressible.
+    MooneyRivlin {
+        /// Constant of the first invariant.
+        required c10: Number,
+        /// Constant of the second invariant; `c10 + c01` must be positive.
+        required c01: Number,
+        /// Bulk modulus or Poisson's ratio.
+        include compressibility: Compressibility,
+        /// Form of the volumetric energy. Default: `quadratic`.
+        optional volumetric: Volumetric,
+    }
+}
+
+table! {
+    /// Rubber with a cubic energy of `I1 - 3`, nearly incompressible.
+    Yeoh {
+        /// Constant of `I1 - 3`, half the shear modulus at rest.
+        required c10: Positive,
+        /// Constant of `(I1 - 3)^2`.
+        required c20: Number,
+        /// Constant of `(I1 - 3)^3`.
+        required c30: Number,
+        /// Bulk modulus or Poisson's ratio.
+        include compressibility: Compressibility,
+        /// Form of the volumetric energy. Default: `quadratic`.
+        optional volumetric: Volumetric,
+    }
+}
+
+table! {
+    /// Rubber with the energy `sum mu/alpha (l1^alpha + l2^alpha + l3^alpha - 3)` of the isochoric stretches, nearly incompressible.
+    Ogden {
+        /// Terms; the shear modulus at rest, half the sum of `mu alpha`, must be positive.
+        required terms: Vec<At<OgdenTerm>>,
+        /// Bulk modulus or Poisson's ratio.
+        include compressibility: Compressibility,
+        /// Form of the volumetric energy. Default: `quadratic`.
+        optional volumetric: Volumetric,
+    }
+}
+
+table! {
+    /// A term of Ogden's law. Other programs write `2 mu/alpha^2` where this one writes `mu/alpha`.
+    OgdenTerm {
+        /// Modulus.
+        required mu: Number,
+        /// Exponent, not zero.
+        required alpha: Number,
+    }
+}
+
+table! {
+    /// Rubber whose chains have a finite length: energy `-G Jm/2 ln(1 - (I1 - 3)/Jm)`, nearly incompressible.
+    Gent {
+        /// Shear modulus `G`.
+        required shear_modulus: Positive,
+        /// `Jm`, the limit of `I1 - 3`.
+        required limit: Positive,
+        /// Bulk modulus or Poisson's ratio.
+        include compressibility: Compressibility,
+        /// Form of the volumetric energy. Default: `quadratic`.
+        optional volumetric: Volumetric,
+    }
+}
+
+table! {
+    /// Rubber by the eight-chain model, its first five terms, nearly incompressible.
+    ArrudaBoyce {
+        /// Modulus `mu`, near the shear modulus at rest.
+        required mu: Positive,
+        /// Stretch at which the chains lock, above 1.
+        required locking_stretch: Positive,
+        /// Bulk modulus or Poisson's ratio.
+        include compressibility: Compressibility,
+        /// Form of the volumetric energy. Default: `quadratic`.
+        optional volumetric: Volumetric,
     }
 }
 

@@ -10,15 +10,27 @@
 //! to the component `F_iJ` (`i` current, `J` reference), symmetric because `W`
 //! exists. Units are those of the moduli.
 //!
-//! A law is one file: parameters, formula, source, response.
+//! A law is one file: parameters, formula, source, response. Laws of one's own implement
+//! [`BulkLaw`] in any crate.
 
+mod battery;
+mod hyperelastic;
+mod invariants;
 mod linear_elastic;
 mod moduli;
 mod neo_hookean;
+mod ogden;
+mod own;
 #[cfg(test)]
 mod tests;
+mod volumetric;
 
+pub use battery::{Violation, battery};
+pub use hyperelastic::{Hyperelastic, InadmissibleHyperelastic, Isochoric};
 pub use moduli::{InadmissibleModuli, LameConstants};
+pub use ogden::OgdenTerm;
+pub use own::{BulkLaw, Own};
+pub use volumetric::Volumetric;
 
 use nalgebra::{Matrix3, SMatrix};
 
@@ -26,7 +38,7 @@ use nalgebra::{Matrix3, SMatrix};
 pub type Tangent = SMatrix<f64, 9, 9>;
 
 /// A bulk material.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Material {
     /// Compressible neo-Hookean solid.
     NeoHookean {
@@ -34,6 +46,8 @@ pub enum Material {
         lambda: f64,
         /// Shear modulus `G`.
         shear: f64,
+        /// Form of the volumetric energy.
+        volumetric: Volumetric,
     },
     /// Linear elasticity of small strains.
     LinearElastic {
@@ -42,6 +56,10 @@ pub enum Material {
         /// Shear modulus `G`.
         shear: f64,
     },
+    /// Rubber, with isochoric and volumetric energies apart.
+    Hyperelastic(Hyperelastic),
+    /// A law from outside the crate.
+    Own(Own),
 }
 
 /// Answer of a material to a deformation gradient.
@@ -55,19 +73,39 @@ pub struct Response {
     pub tangent: Tangent,
 }
 
-/// A deformation gradient that turns the material inside out.
+/// Why a material has no answer to a deformation gradient.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("the deformation gradient has determinant {determinant:.6e}, it must be positive")]
-pub struct Inverted {
-    /// Determinant `J` of the deformation gradient.
-    pub determinant: f64,
+pub enum ResponseError {
+    /// The material is turned inside out.
+    #[error("the deformation gradient has determinant {determinant:.6e}, it must be positive")]
+    Inverted {
+        /// Determinant `J` of the deformation gradient.
+        determinant: f64,
+    },
+    /// The material is stretched beyond what its law allows.
+    #[error("the invariant I1 - 3 is {strain:.6e}, the law ends at {limit:.6e}")]
+    Overstretched {
+        /// `I1 - 3` of the isochoric deformation.
+        strain: f64,
+        /// The limit of the law.
+        limit: f64,
+    },
 }
 
 impl Material {
     /// The neo-Hookean solid with the given Lame constants.
     pub fn neo_hookean(constants: LameConstants) -> Self {
+        Self::neo_hookean_with(constants, Volumetric::Quadratic)
+    }
+
+    /// The neo-Hookean solid with the given Lame constants and volumetric energy.
+    pub fn neo_hookean_with(constants: LameConstants, volumetric: Volumetric) -> Self {
         let LameConstants { lambda, shear } = constants;
-        Self::NeoHookean { lambda, shear }
+        Self::NeoHookean {
+            lambda,
+            shear,
+            volumetric,
+        }
     }
 
     /// Linear elasticity with the given Lame constants.
@@ -76,21 +114,40 @@ impl Material {
         Self::LinearElastic { lambda, shear }
     }
 
+    /// A law from outside the crate.
+    pub fn own(law: impl BulkLaw + 'static) -> Self {
+        Self::Own(Own::new(law))
+    }
+
+    /// The name of the law.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::NeoHookean { .. } => "neo-Hookean",
+            Self::LinearElastic { .. } => "linear elastic",
+            Self::Hyperelastic(law) => law.isochoric().name(),
+            Self::Own(own) => own.law().name(),
+        }
+    }
+
     /// Energy, stress and tangent at the deformation gradient `F`.
     ///
     /// # Errors
     ///
-    /// [`Inverted`] where the law needs `det F > 0` and does not get it.
-    pub fn response(&self, deformation_gradient: &Matrix3<f64>) -> Result<Response, Inverted> {
-        match *self {
-            Self::NeoHookean { lambda, shear } => {
-                neo_hookean::response(lambda, shear, deformation_gradient)
-            }
-            Self::LinearElastic { lambda, shear } => Ok(linear_elastic::response(
+    /// [`ResponseError`] where the law needs `det F > 0` and does not get it, or ends
+    /// at a smaller stretch.
+    pub fn response(&self, deformation_gradient: &Matrix3<f64>) -> Result<Response, ResponseError> {
+        let f = deformation_gradient;
+        match self {
+            Self::NeoHookean {
                 lambda,
                 shear,
-                deformation_gradient,
-            )),
+                volumetric,
+            } => neo_hookean::response(*lambda, *shear, *volumetric, f),
+            Self::LinearElastic { lambda, shear } => {
+                Ok(linear_elastic::response(*lambda, *shear, f))
+            }
+            Self::Hyperelastic(law) => law.response(f),
+            Self::Own(own) => own.law().response(f),
         }
     }
 
@@ -103,22 +160,27 @@ impl Material {
     pub fn cauchy_stress(
         &self,
         deformation_gradient: &Matrix3<f64>,
-    ) -> Result<Matrix3<f64>, Inverted> {
+    ) -> Result<Matrix3<f64>, ResponseError> {
         let first_piola = self.response(deformation_gradient)?.first_piola;
         Ok(match self {
-            Self::NeoHookean { .. } => {
+            Self::LinearElastic { .. } => first_piola,
+            _ => {
                 first_piola * deformation_gradient.transpose() / deformation_gradient.determinant()
             }
-            Self::LinearElastic { .. } => first_piola,
         })
     }
 
     /// The Lame constants of the small-strain limit.
     pub fn lame_constants(&self) -> LameConstants {
-        match *self {
-            Self::NeoHookean { lambda, shear } | Self::LinearElastic { lambda, shear } => {
-                LameConstants { lambda, shear }
+        match self {
+            Self::NeoHookean { lambda, shear, .. } | Self::LinearElastic { lambda, shear } => {
+                LameConstants {
+                    lambda: *lambda,
+                    shear: *shear,
+                }
             }
+            Self::Hyperelastic(law) => law.lame_constants(),
+            Self::Own(own) => own.law().lame_constants(),
         }
     }
 }

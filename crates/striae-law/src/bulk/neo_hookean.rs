@@ -3,17 +3,19 @@
 //! With `J = det F`, `C = F^T F`, Lame constant `lambda` and shear modulus `G`,
 //!
 //! ```text
-//! W = G/2 (tr C - 3) - G ln J + lambda/2 (J - 1)^2
-//! P = G (F - F^-T) + lambda (J - 1) J F^-T
-//! A_iJkL = G d_ik d_JL + (G - lambda (J - 1) J) B_iL B_kJ + lambda (2 J - 1) J B_iJ B_kL,   B = F^-T
+//! W = G/2 (tr C - 3) - G ln J + U(J) ,   U = lambda/2 (J - 1)^2  or  lambda/2 ln^2 J
+//! P = G (F - F^-T) + J U' F^-T
+//! A_iJkL = G d_ik d_JL + (G - J U') B_iL B_kJ + J (J U')' B_iJ B_kL,   B = F^-T
 //! ```
 //!
-//! the law of Jones & Papadopoulos, "Simulating anisotropic frictional response
+//! the first `U` is that of Jones & Papadopoulos, "Simulating anisotropic frictional response
 //! using smoothly interpolated traction fields", Comput. Methods Appl. Mech.
-//! Engrg. (2006). `W` grows without bound both as `J -> 0` and as `J -> oo`;
-//! small strains obey linear elasticity with `lambda` and `G`.
+//! Engrg. (2006), the second that of many programs, for example FEBio and GetFEM. `W`
+//! grows without bound both as `J -> 0` and as `J -> oo`; small strains obey linear
+//! elasticity with `lambda` and `G`.
 
-use super::{Inverted, Response, Tangent};
+use super::invariants::inverse;
+use super::{Response, ResponseError, Tangent, Volumetric};
 use nalgebra::Matrix3;
 use num_dual::DualNum;
 
@@ -21,6 +23,7 @@ use num_dual::DualNum;
 pub(super) fn energy<D: DualNum<Primitive = f64> + Copy>(
     lambda: f64,
     shear: f64,
+    volumetric: Volumetric,
     deformation_gradient: &Matrix3<D>,
 ) -> D {
     let [first, second, third] = [0, 1, 2].map(|j| deformation_gradient.column(j).clone_owned());
@@ -28,23 +31,23 @@ pub(super) fn energy<D: DualNum<Primitive = f64> + Copy>(
     let trace_c = deformation_gradient
         .iter()
         .fold(D::from(0.0), |sum, component| sum + *component * *component);
-    let dilatation = determinant - 1.0;
     (trace_c - 3.0) * (0.5 * shear) - determinant.ln() * shear
-        + dilatation * dilatation * (0.5 * lambda)
+        + volumetric.energy(lambda, determinant)
 }
 
 #[allow(non_snake_case)]
-pub(super) fn response(lambda: f64, G: f64, F: &Matrix3<f64>) -> Result<Response, Inverted> {
-    let J = F.determinant();
-    let B = match F.try_inverse() {
-        Some(inverse) if J > 0.0 => inverse.transpose(),
-        _ => return Err(Inverted { determinant: J }),
-    };
-    let volumetric = lambda * (J - 1.0) * J;
+pub(super) fn response(
+    lambda: f64,
+    G: f64,
+    volumetric: Volumetric,
+    F: &Matrix3<f64>,
+) -> Result<Response, ResponseError> {
+    let (J, B) = inverse(F)?;
+    let (pressure, stiffness) = volumetric.pressure(lambda, J);
     Ok(Response {
-        energy: energy(lambda, G, F),
-        first_piola: (F - B) * G + B * volumetric,
-        tangent: tangent(G, G - volumetric, lambda * (2.0 * J - 1.0) * J, &B),
+        energy: energy(lambda, G, volumetric, F),
+        first_piola: (F - B) * G + B * pressure,
+        tangent: tangent(G, G - pressure, stiffness, &B),
     })
 }
 

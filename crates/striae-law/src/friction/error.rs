@@ -39,6 +39,30 @@ pub enum FrictionError {
         /// Dissipation over `p |du|`, zero or negative.
         dissipation: f64,
     },
+    /// Friction by a law from outside would create energy.
+    #[error(
+        "friction would create energy: at {theta:.3} degrees between the textures, slip at \
+         {degrees:.3} degrees from them gives a dissipation -tau . d / varpi = {dissipation:.6}"
+    )]
+    CreatesEnergyAt {
+        /// Angle between the textures, in degrees; 0 where there are not two.
+        theta: f64,
+        /// Angle of slip from the texture or the bisector of the two, in degrees.
+        degrees: f64,
+        /// Dissipation over `varpi |du|`, zero or negative.
+        dissipation: f64,
+    },
+    /// The forces of a law from outside do not surround the origin.
+    #[error(
+        "law `{law}` has no slip surface at {theta:.3} degrees between the textures: `L` must be \
+         regular in the tangent plane and `|L^-1 eta|` below 1"
+    )]
+    NoSlipSurface {
+        /// Name of the law.
+        law: String,
+        /// Angle between the textures, in degrees.
+        theta: f64,
+    },
     /// A table has not one coefficient an angle.
     #[error(
         "the table has angles: {angles}, but coefficients: {coefficients}; each angle needs one"

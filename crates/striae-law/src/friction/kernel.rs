@@ -42,14 +42,14 @@ impl<D> Textures<D> {
 
 impl<D: DualNum<Primitive = f64> + Copy> Textures<D> {
     /// The texture of the only textured surface.
-    pub(super) fn only(&self) -> Option<Vector3<D>> {
+    pub fn only(&self) -> Option<Vector3<D>> {
         self.own.xor(self.opposite)
     }
 
     /// The texture of the only textured surface, and the direction a quarter turn from
     /// it, counter-clockwise as seen from outside that surface; both as seen from the
     /// surface that carries the point, whose unit normal is `n`.
-    pub(super) fn only_axes(&self, n: &Vector3<D>) -> Option<[Vector3<D>; 2]> {
+    pub fn only_axes(&self, n: &Vector3<D>) -> Option<[Vector3<D>; 2]> {
         match (self.own, self.opposite) {
             (Some(a), None) => Some([a, n.cross(&a)]),
             (None, Some(a)) => Some([a, a.cross(n)]),
@@ -58,7 +58,7 @@ impl<D: DualNum<Primitive = f64> + Copy> Textures<D> {
     }
 
     /// The textures of both surfaces.
-    pub(super) fn both(&self) -> Option<(Vector3<D>, Vector3<D>)> {
+    pub fn both(&self) -> Option<(Vector3<D>, Vector3<D>)> {
         self.own.zip(self.opposite)
     }
 }
@@ -91,12 +91,21 @@ pub struct Kernel<'a, D> {
 impl<'a, D: DualNum<Primitive = f64> + Copy> Kernel<'a, D> {
     /// Isotropic friction: `L = K = I`, `eta = 0`.
     pub fn identity() -> Self {
-        Self::along_slip(Matrix3::identity(), Vector3::zeros())
+        Self::affine(Matrix3::identity(), Vector3::zeros())
     }
 
-    /// A law stated in the slip direction: `K = I`.
-    pub(super) fn along_slip(l: Matrix3<D>, eta: Vector3<D>) -> Self {
+    /// `-tau = L z + varpi eta` with `K = I`: a law stated in the slip direction.
+    pub fn affine(l: Matrix3<D>, eta: Vector3<D>) -> Self {
         Self::opposing(Map::Affine { l, eta })
+    }
+
+    /// The same law with slip along `K z`.
+    pub fn with_slip_map(self, k: Matrix3<D>, k_inverse: Matrix3<D>) -> Self {
+        Self {
+            k,
+            k_inverse,
+            ..self
+        }
     }
 
     /// Tabulated friction: `K = I`.

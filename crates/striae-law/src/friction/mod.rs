@@ -12,13 +12,16 @@
 //! surface that carries the point.
 
 mod analysis;
+mod battery;
 mod coefficient;
 mod coulomb;
 mod ellipse;
 mod error;
 mod kernel;
 mod nap;
+mod oblique;
 mod orthotropic;
+mod own;
 mod periodic;
 mod published;
 mod slip_surface;
@@ -30,12 +33,15 @@ mod two_textures;
 mod tests;
 
 pub use analysis::Analysis;
+pub use battery::{Violation, battery};
 pub use coefficient::Coefficient;
 pub use ellipse::Ellipse;
 pub use error::FrictionError;
 pub use kernel::{Kernel, Map, Textures};
 pub use nap::Nap;
+pub use oblique::Oblique;
 pub use orthotropic::Orthotropic;
+pub use own::{FrictionLaw, Lane, Own};
 pub use published::Published;
 pub use slip_surface::{Extremes, SlipRule, SlipSample, SlipSurface};
 pub use star::Star;
@@ -69,6 +75,23 @@ pub enum Law {
     Nap(Nap),
     /// One textured surface, coefficients at many angles.
     Tabulated(Tabulated),
+    /// A law from outside the crate.
+    Own(Own),
+}
+
+impl Law {
+    /// The name of the law in decks, or the one it has given itself.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Frictionless => "frictionless",
+            Self::Coulomb => "coulomb",
+            Self::TwoTextures(_) => "two-textures",
+            Self::Orthotropic(_) => "orthotropic",
+            Self::Nap(_) => "nap",
+            Self::Tabulated(_) => "tabulated",
+            Self::Own(own) => own.law().name(),
+        }
+    }
 }
 
 /// Which of the two surfaces must carry a texture.
@@ -152,6 +175,16 @@ impl Friction {
         Ok(Self::new(Law::Tabulated(law), Coefficient::constant(mu)?))
     }
 
+    /// A law from outside the crate, scaled with the coefficient `mu`; see [`FrictionLaw`].
+    ///
+    /// # Errors
+    /// When `mu` is negative, or friction would create energy for some textures and some
+    /// slip direction.
+    pub fn own(law: impl FrictionLaw + 'static, mu: f64) -> Result<Self, FrictionError> {
+        let coefficient = Coefficient::constant(mu)?;
+        Ok(Self::new(Law::Own(Own::new(law)?), coefficient))
+    }
+
     /// Lets all coefficients decay with the slip rate, from the stated values
     /// at rest to `kinetic_over_static` times them; see [`Coefficient`].
     ///
@@ -196,10 +229,11 @@ impl Friction {
 
     /// Which surfaces must carry a texture for [`Friction::kernel`] to exist.
     pub fn required_textures(&self) -> RequiredTextures {
-        match self.law {
+        match &self.law {
             Law::Frictionless | Law::Coulomb => RequiredTextures::Any,
             Law::Orthotropic(_) | Law::Nap(_) | Law::Tabulated(_) => RequiredTextures::One,
             Law::TwoTextures(_) => RequiredTextures::Both,
+            Law::Own(own) => own.law().required_textures(),
         }
     }
 
@@ -241,6 +275,7 @@ impl Friction {
             Law::Orthotropic(law) => law.kernel(&only()),
             Law::Nap(law) => law.kernel(&only()),
             Law::Tabulated(law) => law.kernel(textures.only_axes(normal).expect(ONE)),
+            Law::Own(own) => own.kernel(normal, textures),
         }
     }
 
@@ -253,6 +288,10 @@ impl Friction {
             Law::Orthotropic(law) => law.slip_surface(),
             Law::Nap(law) => law.slip_surface(),
             Law::Tabulated(law) => return SlipSurface::Star(law.slip_surface()),
+            Law::Own(own) => {
+                let surface = own.slip_surface(theta);
+                return SlipSurface::Oblique(surface.expect("the law was judged when it was made"));
+            }
         })
     }
 

@@ -72,7 +72,7 @@ impl Nap {
         let A = D::from(self.lateral);
         let P = D::from(self.mean());
         let L = Matrix3::identity() * A + e * e.transpose() * (P - A);
-        Kernel::along_slip(L, e * D::from(self.offset()))
+        Kernel::affine(L, e * D::from(self.offset()))
     }
 
     /// The slip surface in the frame `e` (against the nap) and across it.

@@ -59,7 +59,7 @@ impl Orthotropic {
         };
         let L = diagonal(self.along, self.across);
         match self.rule {
-            SlipRule::Opposing => Kernel::along_slip(L, Vector3::zeros()),
+            SlipRule::Opposing => Kernel::affine(L, Vector3::zeros()),
             SlipRule::Associated => Kernel {
                 map: Map::Affine {
                     l: L,

@@ -5,7 +5,7 @@
 
 use nalgebra::Vector2;
 
-use super::{ellipse::Ellipse, star::Star};
+use super::{ellipse::Ellipse, oblique::Oblique, star::Star};
 
 /// Which slip direction belongs to a traction on the slip surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,6 +23,8 @@ pub enum SlipSurface {
     Ellipse(Ellipse),
     /// Of tabulated friction.
     Star(Star),
+    /// Of affine laws from outside.
+    Oblique(Oblique),
 }
 
 /// One point of a slip surface.
@@ -60,6 +62,7 @@ impl SlipSurface {
         match self {
             Self::Ellipse(ellipse) => ellipse.at(angle),
             Self::Star(star) => star.at(angle),
+            Self::Oblique(oblique) => oblique.at(angle),
         }
     }
 
@@ -73,6 +76,7 @@ impl SlipSurface {
         match self {
             Self::Ellipse(ellipse) => ellipse.gauge(v),
             Self::Star(star) => star.gauge(v),
+            Self::Oblique(oblique) => oblique.gauge(v),
         }
     }
 
@@ -82,6 +86,7 @@ impl SlipSurface {
         match self {
             Self::Ellipse(ellipse) => ellipse.angle(v),
             Self::Star(star) => star.angle(v),
+            Self::Oblique(oblique) => oblique.angle(v),
         }
     }
 
@@ -90,6 +95,7 @@ impl SlipSurface {
         match self {
             Self::Ellipse(ellipse) => ellipse.extremes(),
             Self::Star(star) => star.extremes(),
+            Self::Oblique(oblique) => oblique.extremes(),
         }
     }
 
@@ -98,6 +104,7 @@ impl SlipSurface {
         match self {
             Self::Ellipse(ellipse) => ellipse.least_dissipation(),
             Self::Star(star) => star.least_dissipation(),
+            Self::Oblique(oblique) => oblique.least_dissipation(),
         }
     }
 }

@@ -112,7 +112,7 @@ impl TwoTextures {
         let A = I0 * self.c_mag + 1.0;
         let B = (I0 + 1.0) * self.c_ang;
         let L = Matrix3::identity() * A + a * a.transpose() * B;
-        Kernel::along_slip(L, a * (B * self.c_cen))
+        Kernel::affine(L, a * (B * self.c_cen))
     }
 
     /// The slip surface for textures at the angle `theta` (radians), in the frame

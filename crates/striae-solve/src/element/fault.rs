@@ -23,6 +23,19 @@ pub enum ElementError {
         /// Determinant of the deformation gradient.
         determinant: f64,
     },
+    /// In the current configuration, beyond what the material allows.
+    #[error(
+        "stretched beyond the law of its material: I1 - 3 = {strain:.6e} at Gauss point \
+         {gauss_point}, the law ends at {limit:.6e}"
+    )]
+    Overstretched {
+        /// Local number of the Gauss point, `0..8`.
+        gauss_point: usize,
+        /// `I1 - 3` of the isochoric deformation.
+        strain: f64,
+        /// The limit of the law.
+        limit: f64,
+    },
 }
 
 /// An [`ElementError`] and the element it befell.

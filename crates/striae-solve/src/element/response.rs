@@ -7,7 +7,7 @@ use super::{
 };
 use nalgebra::Matrix3;
 use pulp::{Arch, Simd, WithSimd};
-use striae_law::bulk::{Inverted, Material, Tangent};
+use striae_law::bulk::{Material, ResponseError, Tangent};
 use striae_mesh::Vec3;
 
 /// Energy of an element with its first and second derivatives.
@@ -66,7 +66,7 @@ impl ReferenceElement {
         let mut tangents = [Tangent::zeros(); 8];
         for g in 0..8 {
             let f = self.deformation_gradient(g, current);
-            let response = material.response(&f).map_err(inverted_at(g))?;
+            let response = material.response(&f).map_err(error_at(g))?;
             element.energy += self.weights[g] * response.energy;
             self.add_force(g, &response.first_piola, &mut element.force);
             tangents[g] = response.tangent;
@@ -167,9 +167,16 @@ fn mirror(block: &mut Block) {
 }
 
 /// The error of the material as an error of the element at Gauss point `g`.
-pub(super) fn inverted_at(g: usize) -> impl Fn(Inverted) -> ElementError {
-    move |inverted| ElementError::Inverted {
-        gauss_point: g,
-        determinant: inverted.determinant,
+pub(super) fn error_at(g: usize) -> impl Fn(ResponseError) -> ElementError {
+    move |error| match error {
+        ResponseError::Inverted { determinant } => ElementError::Inverted {
+            gauss_point: g,
+            determinant,
+        },
+        ResponseError::Overstretched { strain, limit } => ElementError::Overstretched {
+            gauss_point: g,
+            strain,
+            limit,
+        },
     }
 }

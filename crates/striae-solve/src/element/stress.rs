@@ -11,7 +11,7 @@
 //! volumes of the elements as weights (Hinton & Campbell 1974,
 //! doi:10.1002/nme.1620080303). Uniform stress is reproduced exactly.
 
-use super::response::inverted_at;
+use super::response::error_at;
 use super::shape::{CORNERS, shape};
 use super::{ElementError, ElementFault, ReferenceElement};
 use nalgebra::Matrix3;
@@ -76,7 +76,7 @@ impl ReferenceElement {
         let mut stress = [Matrix3::zeros(); 8];
         for (g, sigma) in stress.iter_mut().enumerate() {
             let f = self.deformation_gradient(g, current);
-            *sigma = material.cauchy_stress(&f).map_err(inverted_at(g))?;
+            *sigma = material.cauchy_stress(&f).map_err(error_at(g))?;
         }
         Ok(stress)
     }

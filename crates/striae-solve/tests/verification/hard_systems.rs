@@ -16,13 +16,13 @@ use striae_solve::{
 };
 
 /// A block of the given width, `gap` above the middle of a larger one whose bottom is held.
-fn blocks(materials: [Material; 2], width: f64, gap: f64) -> Model {
+fn blocks([first, second]: [Material; 2], width: f64, gap: f64) -> Model {
     let lower = block([0.0; 3], [1.0, 1.0, 0.5], [3, 3, 2]).mesh().unwrap();
     let begin = 0.5 * (1.0 - width);
     let upper = block([begin, begin, 0.5 + gap], [width, width, 0.5], [2, 2, 2]);
     let mut model = model(vec![
-        body("lower", lower, materials[0]),
-        body("upper", upper.mesh().unwrap(), materials[1]),
+        body("lower", lower, first),
+        body("upper", upper.mesh().unwrap(), second),
     ]);
     model.touch(("lower", "zmax"), ("upper", "zmin"), coulomb(0.4));
     let mut step = step();
@@ -58,7 +58,7 @@ fn touching(run: &Run) -> usize {
 #[test]
 fn nearly_incompressible_bodies() {
     let soft = rubber(1.0, 0.499);
-    let run = pressed([soft, soft], 0.6, 0.0, [0.002, 0.0, -0.01]);
+    let run = pressed([soft.clone(), soft], 0.6, 0.0, [0.002, 0.0, -0.01]);
     assert!(touching(&run) > 0);
 }
 
@@ -74,13 +74,13 @@ fn steel_on_rubber() {
 #[test]
 fn contact_much_smaller_than_an_element() {
     let soft = rubber(1.0, 0.3);
-    let run = pressed([soft, soft], 0.05, 0.0, [0.0, 0.0, -0.002]);
+    let run = pressed([soft.clone(), soft], 0.05, 0.0, [0.0, 0.0, -0.002]);
     assert!(touching(&run) > 0);
 }
 
 #[test]
 fn contact_comes_to_rest_on_linear_bodies() {
-    let mut model = blocks([rubber(1.0, 0.3); 2], 0.25, 0.0);
+    let mut model = blocks([rubber(1.0, 0.3), rubber(1.0, 0.3)], 0.25, 0.0);
     let finer = block([0.0; 3], [1.0, 1.0, 0.5], [9, 9, 9]).mesh().unwrap();
     model.bodies[0] = body("lower", finer, rubber(1.0, 0.3));
     model.pairs.clear();
@@ -108,21 +108,21 @@ fn contact_comes_to_rest_on_linear_bodies() {
 #[test]
 fn contact_over_whole_faces() {
     let soft = rubber(1.0, 0.3);
-    let run = pressed([soft, soft], 1.0, 0.0, [0.002, 0.0, -0.01]);
+    let run = pressed([soft.clone(), soft], 1.0, 0.0, [0.002, 0.0, -0.01]);
     assert!(touching(&run) >= 16);
 }
 
 #[test]
 fn no_contact_at_all() {
     let soft = rubber(1.0, 0.3);
-    let run = pressed([soft, soft], 0.6, 1.0, [0.01, 0.0, -0.05]);
+    let run = pressed([soft.clone(), soft], 0.6, 1.0, [0.01, 0.0, -0.05]);
     assert_eq!(touching(&run), 0);
 }
 
 #[test]
 fn a_body_held_by_friction_alone() {
     let soft = rubber(1.0, 0.3);
-    let mut model = blocks([soft, soft], 0.6, 0.0);
+    let mut model = blocks([soft.clone(), soft], 0.6, 0.0);
     let pull = LoadKind::DeadTraction(Vec3::new(0.001, 0.0, -0.01));
     let load = model.load("upper", "zmax", pull, LoadExtent::Whole);
     model.steps[0].loads = vec![load];
@@ -198,7 +198,7 @@ fn slices_between_walls() {
 #[test]
 fn differences_are_over_the_largest() {
     let soft = rubber(1.0, 0.3);
-    let run = pressed([soft, soft], 0.6, 0.0, [0.002, 0.0, -0.01]);
+    let run = pressed([soft.clone(), soft], 0.6, 0.0, [0.002, 0.0, -0.01]);
     let (state, mut other) = (run.last(), run.last().clone());
     assert_eq!(Difference::between(state, &other), Difference::default());
     let extent = state.positions.iter().map(|x| x.norm()).fold(0.0, f64::max);

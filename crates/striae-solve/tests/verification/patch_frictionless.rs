@@ -43,8 +43,8 @@ fn materials() -> [Material; 2] {
 /// Stretches `a`, `b` under the pressure, by Newton's method.
 fn stretches(material: &Material) -> [f64; 2] {
     let (g, lambda) = match material {
-        Material::NeoHookean { lambda, shear } => (*shear, *lambda),
-        Material::LinearElastic { .. } => unreachable!(),
+        Material::NeoHookean { lambda, shear, .. } => (*shear, *lambda),
+        _ => unreachable!(),
     };
     let residual = |v: Vector2<f64>| {
         let j = v.x * v.x * v.y;

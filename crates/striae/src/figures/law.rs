@@ -15,7 +15,7 @@ pub fn figure(friction: &Friction, analyses: &[Analysis]) -> Figure {
     let curve = |analysis: &Analysis| Curve {
         name: match friction.law() {
             Law::TwoTextures(_) => format!("θ = {}°", degrees(analysis.theta)),
-            law => law_name(law).to_owned(),
+            law => law.name().to_owned(),
         },
         samples: analysis.samples.clone(),
     };
@@ -97,18 +97,6 @@ pub fn over_slip(samples: &[SlipSample], value: impl Fn(&SlipSample) -> f64) -> 
         points.insert(0, [end - 360.0, value]);
     }
     Content::line(points)
-}
-
-/// The name of a law in decks.
-pub fn law_name(law: &Law) -> &'static str {
-    match law {
-        Law::Frictionless => "frictionless",
-        Law::Coulomb => "coulomb",
-        Law::TwoTextures(_) => "two-textures",
-        Law::Orthotropic(_) => "orthotropic",
-        Law::Nap(_) => "nap",
-        Law::Tabulated(_) => "tabulated",
-    }
 }
 
 /// Degrees without the last digits that come of the conversion to radians.

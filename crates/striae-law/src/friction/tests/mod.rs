@@ -1,10 +1,10 @@
 //! Tests of the friction laws: one battery for all, then what is particular to each.
 
 mod admissibility;
-mod battery;
 mod coefficient;
 mod errata;
 mod laws;
+mod own;
 mod reference;
 mod slip_surface;
 mod tabulated;

@@ -1,0 +1,180 @@
+//! What every bulk law must do, in one call.
+//!
+//! A law of one's own is held against the laws of elasticity before it meets a mesh: free of
+//! energy and stress at rest, `P = dW/dF`, `A = dP/dF = A^T`, and `W(Q F) = W(F)` for every
+//! rotation `Q`. Derivatives are judged by the order at which finite-difference errors fall,
+//! so no tolerance has to be chosen.
+
+use std::fmt;
+
+use nalgebra::{DMatrix, DVector, Matrix3};
+use striae_verify::derivative::directional;
+use striae_verify::{Difference, Random};
+
+use super::{Material, Response, ResponseError};
+
+/// Something a bulk law gets wrong.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Violation {
+    /// A deformation near the state of rest has no answer.
+    #[error("the law has no answer to a deformation gradient near the identity: {0}")]
+    NoResponse(ResponseError),
+    /// Energy or stress at rest.
+    #[error(
+        "at rest the energy is {energy:.6e} and the norm of the stress {stress:.6e}, both must be 0"
+    )]
+    Rest {
+        /// Stored energy.
+        energy: f64,
+        /// Norm of the stress.
+        stress: f64,
+    },
+    /// The stress is not the derivative of the energy.
+    #[error("the stress is not the derivative of the energy\n{0}")]
+    Stress(String),
+    /// The tangent is not the derivative of the stress.
+    #[error("the tangent is not the derivative of the stress\n{0}")]
+    Tangent(String),
+    /// The tangent is not symmetric.
+    #[error("the tangent differs from its transpose by {0:.3e} of its norm")]
+    Asymmetric(f64),
+    /// A rotation changes the energy or more than the direction of the stress.
+    #[error(
+        "a rotation changes the energy by {energy:.3e} and the turned-back stress by {stress:.3e}"
+    )]
+    NotObjective {
+        /// Change of the energy, over the shear modulus.
+        energy: f64,
+        /// Norm of the change of the stress, over the shear modulus.
+        stress: f64,
+    },
+}
+
+/// States in which the law is looked at.
+const STATES: u64 = 5;
+/// Largest disturbance of a component of the identity.
+const AMPLITUDE: f64 = 0.15;
+/// Differences below this share of the shear modulus are round-off.
+const ROUND_OFF: f64 = 1e-10;
+
+/// Everything the law of a material gets wrong, empty for a sound elastic law.
+///
+/// [`Material::LinearElastic`] is not objective, which is what it is found guilty of.
+pub fn battery(material: &Material) -> Vec<Violation> {
+    let mut violations = Vec::new();
+    let mut judge = |judged: Result<(), Violation>| violations.extend(judged.err());
+    judge(rest(material));
+    for seed in 0..STATES {
+        let mut random = Random::new(seed);
+        let f = random.near_identity(AMPLITUDE);
+        let q = *random.rotation().matrix();
+        let Ok(response) = material.response(&f) else {
+            judge(
+                material
+                    .response(&f)
+                    .map(|_| ())
+                    .map_err(Violation::NoResponse),
+            );
+            continue;
+        };
+        judge(symmetric(&response));
+        judge(objective(material, &f, &q));
+        judge(consistent(material, &f, &response, &mut random));
+    }
+    violations.sort_by_key(Violation::kind);
+    violations.dedup_by_key(|violation| violation.kind());
+    violations
+}
+
+impl Violation {
+    fn kind(&self) -> u8 {
+        match self {
+            Self::NoResponse(_) => 0,
+            Self::Rest { .. } => 1,
+            Self::Stress(_) => 2,
+            Self::Tangent(_) => 3,
+            Self::Asymmetric(_) => 4,
+            Self::NotObjective { .. } => 5,
+        }
+    }
+}
+
+fn rest(material: &Material) -> Result<(), Violation> {
+    let rest = material
+        .response(&Matrix3::identity())
+        .map_err(Violation::NoResponse)?;
+    let (energy, stress) = (rest.energy, rest.first_piola.norm());
+    let scale = ROUND_OFF * material.lame_constants().shear;
+    if energy.abs() <= scale && stress <= scale {
+        Ok(())
+    } else {
+        Err(Violation::Rest { energy, stress })
+    }
+}
+
+fn symmetric(response: &Response) -> Result<(), Violation> {
+    let tangent = &response.tangent;
+    let share = (tangent - tangent.transpose()).norm() / tangent.norm();
+    if share <= ROUND_OFF {
+        Ok(())
+    } else {
+        Err(Violation::Asymmetric(share))
+    }
+}
+
+fn objective(material: &Material, f: &Matrix3<f64>, q: &Matrix3<f64>) -> Result<(), Violation> {
+    let response = |f: &Matrix3<f64>| material.response(f).map_err(Violation::NoResponse);
+    let (before, after) = (response(f)?, response(&(q * f))?);
+    let shear = material.lame_constants().shear;
+    let energy = (before.energy - after.energy).abs() / shear;
+    let stress = (before.first_piola - q.transpose() * after.first_piola).norm() / shear;
+    if energy <= ROUND_OFF && stress <= ROUND_OFF {
+        Ok(())
+    } else {
+        Err(Violation::NotObjective { energy, stress })
+    }
+}
+
+/// Stress and tangent against differences along a random direction.
+fn consistent(
+    material: &Material,
+    f: &Matrix3<f64>,
+    response: &Response,
+    random: &mut Random,
+) -> Result<(), Violation> {
+    let (x, direction) = (components(f), random.unit(9));
+    let at = |x: &DVector<f64>| material.response(&Matrix3::from_row_slice(x.as_slice()));
+    let unknown = |_| f64::NAN;
+    let energy = |x: &DVector<f64>| {
+        DVector::from_element(1, at(x).map_or_else(unknown, |response| response.energy))
+    };
+    let stress = |x: &DVector<f64>| {
+        at(x).map_or_else(
+            |_| DVector::from_element(9, f64::NAN),
+            |response| components(&response.first_piola),
+        )
+    };
+    let slope = components(&response.first_piola).dot(&direction);
+    let slope = DVector::from_element(1, slope);
+    directional(Difference::Central, energy, &slope, &x, &direction)
+        .map_err(|wrong| Violation::Stress(words(&wrong)))?;
+    let tangent = DMatrix::from_iterator(9, 9, response.tangent.iter().copied());
+    directional(
+        Difference::Central,
+        stress,
+        &(tangent * &direction),
+        &x,
+        &direction,
+    )
+    .map_err(|wrong| Violation::Tangent(words(&wrong)))?;
+    Ok(())
+}
+
+fn words(wrong: &impl fmt::Display) -> String {
+    wrong.to_string().trim_end().to_owned()
+}
+
+/// Components in the order of the tangent, row by row.
+fn components(f: &Matrix3<f64>) -> DVector<f64> {
+    DVector::from_iterator(9, f.transpose().iter().copied())
+}
