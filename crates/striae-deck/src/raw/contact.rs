@@ -187,9 +187,9 @@ table! {
     /// One textured surface with different friction along and across its texture.
     Orthotropic {
         /// Coefficient of friction along the texture.
-        required mu_along: NonNegative,
+        required mu_along: Positive,
         /// Coefficient of friction across the texture.
-        required mu_across: NonNegative,
+        required mu_across: Positive,
         /// Direction of slip. Default: `opposing`.
         optional slip_rule: SlipRule,
     }
@@ -209,11 +209,11 @@ table! {
     /// One textured surface with different friction with, against and across its nap.
     Nap {
         /// Coefficient of friction of slip with the nap.
-        required mu_forward: NonNegative,
+        required mu_forward: Positive,
         /// Coefficient of friction of slip against the nap.
-        required mu_backward: NonNegative,
+        required mu_backward: Positive,
         /// Coefficient of friction of slip across the nap.
-        required mu_lateral: NonNegative,
+        required mu_lateral: Positive,
     }
 }
 
