@@ -29,6 +29,7 @@ enum Command {
     Resume(command::resume::Arguments),
     Reproduce(command::reproduce::Arguments),
     Law(command::law::Arguments),
+    Material(command::material::Arguments),
     Schema(command::schema::Arguments),
     Texture(command::texture::Arguments),
 }
@@ -42,6 +43,7 @@ fn main() -> ExitCode {
         Command::Resume(arguments) => command::resume::run(&arguments, out),
         Command::Reproduce(arguments) => command::reproduce::run(&arguments, out),
         Command::Law(arguments) => command::law::run(&arguments, out),
+        Command::Material(arguments) => command::material::run(&arguments, out),
         Command::Schema(arguments) => command::schema::run(&arguments, out),
         Command::Texture(arguments) => command::texture::run(&arguments, out),
     };

@@ -2,6 +2,7 @@
 
 pub mod check;
 pub mod law;
+pub mod material;
 pub mod new;
 pub mod reproduce;
 pub mod resume;

@@ -13,6 +13,7 @@
 //! A law is one file: parameters, formula, source, response. Laws of one's own implement
 //! [`BulkLaw`] in any crate.
 
+mod analysis;
 mod battery;
 mod hyperelastic;
 mod invariants;
@@ -25,6 +26,7 @@ mod own;
 mod tests;
 mod volumetric;
 
+pub use analysis::{Mode, TestState};
 pub use battery::{Violation, battery};
 pub use hyperelastic::{Hyperelastic, InadmissibleHyperelastic, Isochoric};
 pub use moduli::{InadmissibleModuli, LameConstants};

@@ -9,6 +9,7 @@ use striae_verify::{Random, assert_derivative};
 const LAMBDA: f64 = 1.7;
 const SHEAR: f64 = 0.6;
 
+mod analysis;
 mod rubber;
 
 fn laws() -> [Material; 3] {

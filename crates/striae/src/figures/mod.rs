@@ -1,6 +1,8 @@
-//! Pictures of what a model says before anything runs: friction laws and textures.
+//! Pictures of what a model says before anything runs: friction laws, materials and
+//! textures.
 
 pub mod law;
+pub mod material;
 mod surface;
 pub mod texture;
 

@@ -1,0 +1,113 @@
+//! `striae material DECK`: what the materials of a deck do in uniaxial, equibiaxial and
+//! planar tests, and where they are stable; see [`striae::figures::material`].
+
+use std::{
+    io::Write,
+    path::{Path, PathBuf},
+};
+
+use striae::{
+    case_name,
+    figures::material::{Test, figure},
+};
+use striae_deck as deck;
+use striae_law::bulk::LameConstants;
+use striae_solve::model::Body;
+
+use super::law::make_folder;
+use crate::failure::Failure;
+
+/// Show the materials of a deck as figures and numbers.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The deck, of which the material of every body is shown.
+    deck: PathBuf,
+    /// Smallest stretch, in compression.
+    #[arg(long, default_value_t = 0.5, value_parser = compressed)]
+    from: f64,
+    /// Largest stretch, in tension.
+    #[arg(long, default_value_t = 3.0, value_parser = stretched)]
+    to: f64,
+    /// Folder for the figures; by default results/NAME.
+    #[arg(long)]
+    out: Option<PathBuf>,
+}
+
+/// Draws and prints every material once.
+pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    let model = deck::read(&arguments.deck)?.model;
+    let folder = Path::new("results").join(case_name(&arguments.deck));
+    let folder = arguments.out.clone().unwrap_or(folder);
+    if model.bodies.is_empty() {
+        writeln!(out, "the deck has no body, so it has no material")?;
+        return Ok(());
+    }
+    make_folder(&folder)?;
+    for (at, body) in model.bodies.iter().enumerate() {
+        let same = |other: &&Body| other.material == body.material;
+        match model.bodies[..at].iter().find(same) {
+            Some(other) => writeln!(out, "body `{}`: as body `{}`", body.name, other.name)?,
+            None => show(body, arguments, &folder, out)?,
+        }
+    }
+    Ok(())
+}
+
+fn show(
+    body: &Body,
+    arguments: &Arguments,
+    folder: &Path,
+    out: &mut dyn Write,
+) -> Result<(), Failure> {
+    let constants = body.material.lame_constants();
+    let LameConstants { lambda, shear } = constants;
+    writeln!(
+        out,
+        "body `{}`: {}; at rest E = {:.6e}, nu = {:.6}, G = {shear:.6e}, K = {:.6e}",
+        body.name,
+        body.material.name(),
+        constants.youngs_modulus(),
+        constants.poissons_ratio(),
+        lambda + 2.0 / 3.0 * shear,
+    )?;
+    let tests = Test::all(&body.material, arguments.from, arguments.to);
+    writeln!(
+        out,
+        "  test         stretch from        to  nominal stress from            to  stable from        to"
+    )?;
+    for test in &tests {
+        let ends = test.states.first().zip(test.states.last());
+        let (first, last) = ends.expect("the state of rest is one of them");
+        let [stable, unstable] = test.stable();
+        writeln!(
+            out,
+            "  {:<11}  {:12.4}  {:8.4}  {:19.6e}  {:12.6e}  {stable:11.4}  {unstable:8.4}",
+            test.mode.name(),
+            first.stretch,
+            last.stretch,
+            first.nominal,
+            last.nominal,
+        )?;
+    }
+    let file = format!("material-{}", body.name);
+    figure(body.material.name(), &tests).write(folder, &file)?;
+    let file = folder.join(file);
+    writeln!(out, "wrote {}.svg, .png and .csv", file.display())?;
+    Ok(())
+}
+
+fn compressed(text: &str) -> Result<f64, String> {
+    within(text, 0.0, 1.0)
+}
+
+fn stretched(text: &str) -> Result<f64, String> {
+    within(text, 1.0, f64::INFINITY)
+}
+
+fn within(text: &str, above: f64, below: f64) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number > above && number < below => Ok(number),
+        _ if below.is_finite() => Err(format!("it must be a number between {above} and {below}")),
+        _ => Err(format!("it must be a number above {above}")),
+    }
+}
