@@ -16,6 +16,7 @@
 //! of the order of one side's unknowns remains. Threads do not change a bit.
 
 mod assembled;
+mod compliant;
 
 use crate::{
     dense::{self, Leftover},
@@ -25,6 +26,7 @@ use crate::{
 };
 use assembled::Assembled;
 pub(crate) use assembled::{Block, Kind, Places};
+pub(crate) use compliant::{Compliant, Purpose, Trial};
 use rayon::prelude::*;
 use std::ops::Range;
 
