@@ -39,12 +39,9 @@ const REUSED: f64 = 0.25;
 const LARGEST_DENSE: usize = 6 << 30;
 /// Factorisations by LU after a failure before the condensed solver is tried again.
 const PATIENCE: usize = 8;
-/// Work of the contact system over that of the interior up to which it is worth
-/// correcting contact alone.
+/// Work of a dense system of what contact leaves free, over that of the interior, up to
+/// which it is worth correcting contact alone.
 const CHEAP: f64 = 0.1;
-/// Bulk unknowns that multipliers leave free, up to which it is worth that whatever the
-/// interior takes: contact with rigid surfaces.
-const SMALL: usize = 20;
 /// Iterations of GMRES below which older factors are not worth a try.
 const FEWEST: usize = 3;
 /// Most iterations of GMRES with older factors.
@@ -405,9 +402,7 @@ impl LinearSolver for Automatic {
     fn has_interior(&self) -> bool {
         let condensed = self.condensed.as_ref();
         self.factored == Some(Method::Condensed)
-            && condensed.is_some_and(|condensed| {
-                condensed.freedom_of_contact() <= SMALL || condensed.share_of_contact() <= CHEAP
-            })
+            && condensed.is_some_and(|condensed| condensed.share_of_contact() <= CHEAP)
     }
 
     fn solve_other_contact(

@@ -274,18 +274,16 @@ impl Condensed {
             .unwrap_or_default()
     }
 
-    /// Bulk unknowns of the contact system beyond its multipliers.
-    pub(crate) fn freedom_of_contact(&self) -> usize {
-        let contact = self.numeric.as_ref().map(|numeric| &numeric.contact);
-        contact.map_or(0, ContactSystem::freedom)
-    }
-
-    /// Work of factoring the contact system over that of factoring the interior.
+    /// Work of factoring what contact leaves free, and of eliminating what it does not
+    /// touch, over that of factoring the interior.
+    ///
+    /// It tells contact that holds most of what it touches, or that bodies outweigh, from
+    /// contact of whole faces of two bodies, whichever way the contact system is solved.
     pub(crate) fn share_of_contact(&self) -> f64 {
         let work = |contact: &ContactSystem| {
             let eliminated = contact.untouched.iter().flatten();
             eliminated.map(Untouched::flops).sum::<f64>()
-                + 2.0 / 3.0 * (contact.dense_order() as f64).powi(3)
+                + 2.0 / 3.0 * (contact.freedom as f64).powi(3)
         };
         let contact = self.numeric.as_ref().map(|numeric| &numeric.contact);
         let bodies: f64 = self.analyses(self.precision()).map(|a| a.flops).sum();

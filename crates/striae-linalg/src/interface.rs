@@ -17,6 +17,7 @@
 
 mod assembled;
 mod compliant;
+mod freedom;
 
 use crate::{
     dense::{self, Leftover},
@@ -27,6 +28,7 @@ use crate::{
 use assembled::Assembled;
 pub(crate) use assembled::{Block, Kind, Places};
 pub(crate) use compliant::{Compliant, Purpose, Trial};
+pub(crate) use freedom::freedom;
 use rayon::prelude::*;
 use std::ops::Range;
 

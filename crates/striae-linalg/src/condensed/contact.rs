@@ -8,7 +8,7 @@ use crate::{
     equilibration::Equilibration,
     error::SolveError,
     flexibility::Flexibility,
-    interface::{Block, Compliant, Interface, Kind, Places, Purpose, Trial},
+    interface::{self, Block, Compliant, Interface, Kind, Places, Purpose, Trial},
     matrix::SparseMatrix,
     real::Precision,
     solver::{FactorReport, Method},
@@ -36,6 +36,8 @@ pub(super) struct ContactSystem {
     /// Flexibilities of the bodies at what contact touches, if all bodies have one.
     flexibility: Option<Flexibility>,
     solver: Solver,
+    /// Bulk unknowns that its multipliers leave free.
+    pub(super) freedom: usize,
 }
 
 /// How the contact system is solved.
@@ -58,14 +60,6 @@ impl ContactSystem {
     pub(super) fn dense_order(&self) -> usize {
         match &self.solver {
             Solver::Compliant(compliant) => compliant.dense_order(),
-            Solver::Eliminated(interface) => interface.dense_order(),
-        }
-    }
-
-    /// Bulk unknowns beyond the multipliers; order of the dense matrix after an elimination.
-    pub(super) fn freedom(&self) -> usize {
-        match &self.solver {
-            Solver::Compliant(compliant) => compliant.freedom(),
             Solver::Eliminated(interface) => interface.dense_order(),
         }
     }
@@ -113,6 +107,7 @@ impl Condensed {
         for own in untouched.iter().flatten() {
             own.set_apart(&mut kinds, &mut rows);
         }
+        let freedom = interface::freedom(&kinds, &rows);
         let places = Places { kinds };
         let blocks = self.blocks(&untouched);
         let flexibility =
@@ -140,6 +135,7 @@ impl Condensed {
             untouched,
             flexibility,
             solver,
+            freedom,
         };
         let report = FactorReport {
             factor_entries: contact.entries() + others,

@@ -111,13 +111,6 @@ impl Compliant {
         self.multipliers.len()
     }
 
-    /// Bulk unknowns beyond the multipliers.
-    pub(crate) fn freedom(&self) -> usize {
-        let is_bulk = |kind: &&Kind| matches!(kind, Kind::Bulk { .. });
-        let bulk = self.kinds.iter().filter(is_bulk).count();
-        bulk.saturating_sub(self.multipliers.len())
-    }
-
     /// Entries of the factors.
     pub(crate) fn entries(&self) -> usize {
         self.factors.lu.len()
