@@ -39,8 +39,8 @@ const REUSED: f64 = 0.25;
 const LARGEST_DENSE: usize = 6 << 30;
 /// Factorisations by LU after a failure before the condensed solver is tried again.
 const PATIENCE: usize = 8;
-/// Work of the contact system over that of the interior up to which it is worth
-/// correcting contact alone.
+/// Work of a dense system of what contact leaves free, over that of the interior, up to
+/// which it is worth correcting contact alone.
 const CHEAP: f64 = 0.1;
 /// Iterations of GMRES below which older factors are not worth a try.
 const FEWEST: usize = 3;

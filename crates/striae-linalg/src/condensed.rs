@@ -18,6 +18,7 @@ use crate::{
     equilibration::Equilibration,
     error::SolveError,
     gmres::Ends,
+    interface::Purpose,
     matrix::SparseMatrix,
     real::Precision,
     refinement,
@@ -211,6 +212,7 @@ impl Condensed {
             condensed: self,
             numeric,
             matrix,
+            purpose: Purpose::Answer,
         };
         refinement::solve(matrix, &numeric.scaling, &factors, rhs, x)
     }
@@ -228,6 +230,7 @@ impl Condensed {
             condensed: self,
             numeric,
             matrix,
+            purpose: Purpose::Precondition,
         };
         refinement::solve_nearby(matrix, &numeric.scaling, &factors, (rhs, x), ends)
     }
@@ -255,6 +258,7 @@ impl Condensed {
             condensed: self,
             numeric,
             matrix,
+            purpose: Purpose::Answer,
         };
         factors.solve_in_place(&mut x);
         numeric.scaling.scale_columns(&mut x);
@@ -270,12 +274,16 @@ impl Condensed {
             .unwrap_or_default()
     }
 
-    /// Work of factoring the contact system over that of factoring the interior.
+    /// Work of factoring what contact leaves free, and of eliminating what it does not
+    /// touch, over that of factoring the interior.
+    ///
+    /// It tells contact that holds most of what it touches, or that bodies outweigh, from
+    /// contact of whole faces of two bodies, whichever way the contact system is solved.
     pub(crate) fn share_of_contact(&self) -> f64 {
         let work = |contact: &ContactSystem| {
             let eliminated = contact.untouched.iter().flatten();
             eliminated.map(Untouched::flops).sum::<f64>()
-                + 2.0 / 3.0 * (contact.interface.dense_order() as f64).powi(3)
+                + 2.0 / 3.0 * (contact.freedom as f64).powi(3)
         };
         let contact = self.numeric.as_ref().map(|numeric| &numeric.contact);
         let bodies: f64 = self.analyses(self.precision()).map(|a| a.flops).sum();

@@ -84,9 +84,18 @@ impl Equilibration {
         multipliers.iter().for_each(|&m| is_multiplier[m] = true);
         let mut largest = vec![0.0_f64; n];
         for i in (0..structure.supervariables()).filter(|&i| structure.is_kept(Supervariable(i))) {
-            for u in structure.bulk_group(i) {
-                for (v, a) in matrix.row(u).filter(|&(v, _)| is_multiplier[v]) {
-                    largest[v] = largest[v].max(a.abs() * scaling.rows[u]);
+            for edge in structure.edges(i) {
+                let target = structure.target(edge);
+                let own = structure.bulk_group(target).end..structure.group(target).end;
+                if own.is_empty() {
+                    continue;
+                }
+                let offset = structure.column(edge) + own.start - structure.group(target).start;
+                for (local, u) in structure.bulk_group(i).enumerate() {
+                    let values = &matrix.values()[structure.row(i, local)][offset..];
+                    for (v, a) in own.clone().zip(values) {
+                        largest[v] = largest[v].max(a.abs() * scaling.rows[u]);
+                    }
                 }
             }
         }

@@ -16,6 +16,8 @@
 //! of the order of one side's unknowns remains. Threads do not change a bit.
 
 mod assembled;
+mod compliant;
+mod freedom;
 
 use crate::{
     dense::{self, Leftover},
@@ -25,6 +27,8 @@ use crate::{
 };
 use assembled::Assembled;
 pub(crate) use assembled::{Block, Kind, Places};
+pub(crate) use compliant::{Compliant, Purpose, Trial};
+pub(crate) use freedom::freedom;
 use rayon::prelude::*;
 use std::ops::Range;
 

@@ -32,6 +32,7 @@ mod descent;
 mod equilibration;
 mod error;
 mod faer_lu;
+mod flexibility;
 mod front;
 mod gmres;
 mod interface;

@@ -10,7 +10,7 @@
 use std::collections::BTreeSet;
 
 /// Share of the largest entry in its row that a pivot must have.
-const THRESHOLD: f64 = 0.1;
+pub(crate) const THRESHOLD: f64 = 0.1;
 /// Entry of an equilibrated matrix that counts as zero.
 const TINY: f64 = 1e-9;
 /// Share of the largest entry in its row below which an entry is dropped at the start.

@@ -1,13 +1,14 @@
 //! The contact system of the condensed solver, from the matrix to its factors.
 
 use super::{
-    Condensed, NONE, Numeric,
-    untouched::{self, Untouched},
+    Condensed, Numeric,
+    untouched::{self, Touched, Untouched},
 };
 use crate::{
     equilibration::Equilibration,
     error::SolveError,
-    interface::{Block, Interface, Kind, Places},
+    flexibility::Flexibility,
+    interface::{self, Block, Compliant, Interface, Kind, Places, Purpose, Trial},
     matrix::SparseMatrix,
     real::Precision,
     solver::{FactorReport, Method},
@@ -19,6 +20,9 @@ use rayon::prelude::*;
 /// Smallest pivots of a regular contact system, on an interior of either precision.
 const SINGULAR: f64 = 1e-12;
 const SINGULAR_SINGLE: f64 = 1e-5;
+/// Smallest pivots of the scaled stiffness of a body that is not held by contact alone.
+const UNSUPPORTED: f64 = 1e-8;
+const UNSUPPORTED_SINGLE: f64 = 1e-4;
 
 /// Factors of the contact system.
 #[derive(Debug, Default)]
@@ -29,7 +33,54 @@ pub(super) struct ContactSystem {
     touched: Vec<bool>,
     /// The others, body by body.
     pub(super) untouched: Vec<Option<Untouched>>,
-    pub(super) interface: Interface,
+    /// Flexibilities of the bodies at what contact touches, if all bodies have one.
+    flexibility: Option<Flexibility>,
+    solver: Solver,
+    /// Bulk unknowns that its multipliers leave free.
+    pub(super) freedom: usize,
+}
+
+/// How the contact system is solved.
+#[derive(Debug)]
+enum Solver {
+    /// With the flexibilities of the bodies.
+    Compliant(Compliant),
+    /// By elimination, where a body has no flexibility.
+    Eliminated(Box<Interface>),
+}
+
+impl Default for Solver {
+    fn default() -> Self {
+        Self::Eliminated(Box::default())
+    }
+}
+
+impl ContactSystem {
+    /// Order of the dense matrix.
+    pub(super) fn dense_order(&self) -> usize {
+        match &self.solver {
+            Solver::Compliant(compliant) => compliant.dense_order(),
+            Solver::Eliminated(interface) => interface.dense_order(),
+        }
+    }
+
+    fn entries(&self) -> usize {
+        match &self.solver {
+            Solver::Compliant(compliant) => compliant.entries(),
+            Solver::Eliminated(interface) => interface.entries(),
+        }
+    }
+
+    /// Solves for all kept unknowns.
+    pub(super) fn solve(&self, blocks: &[Block<'_>], rhs: &[f64], purpose: Purpose) -> Vec<f64> {
+        match (&self.solver, &self.flexibility) {
+            (Solver::Compliant(compliant), Some(flexibility)) => {
+                compliant.solve((blocks, flexibility), rhs, purpose)
+            }
+            (Solver::Compliant(_), None) => unreachable!("it was factored with flexibilities"),
+            (Solver::Eliminated(interface), _) => interface.solve(blocks, rhs),
+        }
+    }
 }
 
 impl Condensed {
@@ -44,21 +95,51 @@ impl Condensed {
         let known = known(matrix, &prescribed);
         let mut kinds = self.kinds(&known);
         let mut rows = self.rows(matrix, &scaling, &known);
-        let smallest = match precision {
-            Precision::Single => SINGULAR_SINGLE,
-            Precision::Double => SINGULAR,
+        let (smallest, unsupported) = match precision {
+            Precision::Single => (SINGULAR_SINGLE, UNSUPPORTED_SINGLE),
+            Precision::Double => (SINGULAR, UNSUPPORTED),
         };
-        let (touched, untouched) = self.untouched((&kinds, &rows), smallest, older);
+        let trial = match &older.solver {
+            Solver::Compliant(_) => Trial::Waived,
+            Solver::Eliminated(_) => Trial::Due,
+        };
+        let (touched, untouched, kept) = self.untouched((&kinds, &rows), smallest, older);
         for own in untouched.iter().flatten() {
             own.set_apart(&mut kinds, &mut rows);
         }
+        let freedom = interface::freedom(&kinds, &rows);
         let places = Places { kinds };
-        let interface = Interface::factor(&places, rows, &self.blocks(&untouched), smallest)?;
+        let blocks = self.blocks(&untouched);
+        let flexibility =
+            kept.or_else(|| Flexibility::new(&blocks, (&places.kinds, &rows), unsupported));
+        let solver = match &flexibility {
+            Some(flexibility) => {
+                Compliant::factor(&places, rows, (&blocks, flexibility), (smallest, trial))
+                    .map(Solver::Compliant)
+            }
+            None => Err(rows),
+        };
+        let solver = match solver {
+            Ok(solver) => solver,
+            Err(rows) => {
+                let interface = Interface::factor(&places, rows, &blocks, smallest)?;
+                Solver::Eliminated(Box::new(interface))
+            }
+        };
         let bodies = self.analyses(precision).map(|a| a.factor_entries);
         let eliminated = untouched.iter().flatten().map(Untouched::entries);
+        let others = bodies.chain(eliminated).sum::<usize>();
+        let contact = ContactSystem {
+            known,
+            touched,
+            untouched,
+            flexibility,
+            solver,
+            freedom,
+        };
         let report = FactorReport {
-            factor_entries: interface.entries() + bodies.chain(eliminated).sum::<usize>(),
-            dense_order: interface.dense_order(),
+            factor_entries: contact.entries() + others,
+            dense_order: contact.dense_order(),
             method: Method::Condensed,
             ..FactorReport::default()
         };
@@ -66,12 +147,7 @@ impl Condensed {
             scaling,
             prescribed,
             precision,
-            contact: ContactSystem {
-                known,
-                touched,
-                untouched,
-                interface,
-            },
+            contact,
         });
         Ok(report)
     }
@@ -83,20 +159,16 @@ impl Condensed {
         (kinds, rows): (&[Kind], &[Row]),
         smallest: f64,
         older: ContactSystem,
-    ) -> (Vec<bool>, Vec<Option<Untouched>>) {
-        let mut touched = untouched::touched(kinds, rows);
-        let before = older.touched;
-        let is_more = |(&now, &before): (&bool, &bool)| now && !before;
-        if !before.is_empty() && !touched.iter().zip(&before).any(is_more) {
-            return (before, older.untouched);
+    ) -> (Vec<bool>, Vec<Option<Untouched>>, Option<Flexibility>) {
+        let Touched { touched, is_more } = untouched::touched(kinds, rows, older.touched);
+        if !is_more {
+            return (touched, older.untouched, older.flexibility);
         }
-        let sum = touched.iter_mut().zip(&before);
-        sum.for_each(|(now, before)| *now |= before);
         let blocks = self.complements();
         let blocks = blocks.iter();
         let eliminated = blocks.map(|block| Untouched::new(block, rows, &touched, smallest));
         let eliminated = eliminated.collect();
-        (touched, eliminated)
+        (touched, eliminated, None)
     }
 
     /// Schur complements of all bodies.
@@ -142,16 +214,29 @@ impl Condensed {
 
     /// Scaled entries between the kept unknowns, but for known ones.
     fn rows(&self, matrix: &SparseMatrix, scaling: &Equilibration, known: &[bool]) -> Vec<Row> {
+        let structure = matrix.structure();
         let row = |&u: &u32| {
             let u = u as usize;
             if known[u] {
                 return Row::new();
             }
-            matrix
-                .row(u)
-                .filter(|&(v, a)| a != 0.0 && self.place[v] != NONE && !known[v])
-                .map(|(v, a)| (self.place[v], a * scaling.rows[u] * scaling.columns[v]))
-                .collect()
+            let owner = structure.owner(u).0;
+            let values = &matrix.values()[structure.row(owner, u - structure.group(owner).start)];
+            let factor = scaling.rows[u];
+            let mut row = Row::with_capacity(values.len());
+            for edge in structure.edges(owner) {
+                let target = structure.target(edge);
+                if !structure.is_kept(Supervariable(target)) {
+                    continue;
+                }
+                let values = &values[structure.column(edge)..];
+                for (v, &a) in structure.group(target).zip(values) {
+                    if a != 0.0 && !known[v] {
+                        row.push((self.place[v], a * factor * scaling.columns[v]));
+                    }
+                }
+            }
+            row
         };
         self.kept.par_iter().map(row).collect()
     }

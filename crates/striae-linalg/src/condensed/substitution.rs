@@ -2,7 +2,7 @@
 
 use super::{Condensed, Numeric, contact::ContactSystem};
 use crate::{
-    equilibration::Equilibration, matrix::SparseMatrix, singularity::Factors,
+    equilibration::Equilibration, interface::Purpose, matrix::SparseMatrix, singularity::Factors,
     structure::Supervariable,
 };
 use rayon::prelude::*;
@@ -12,6 +12,7 @@ pub(super) struct Substitution<'a> {
     pub(super) condensed: &'a Condensed,
     pub(super) numeric: &'a Numeric,
     pub(super) matrix: &'a SparseMatrix,
+    pub(super) purpose: Purpose,
 }
 
 impl Factors for Substitution<'_> {
@@ -33,15 +34,13 @@ impl Factors for Substitution<'_> {
                 rhs[k as usize] = y[u];
             }
         }
+        let contact = &self.numeric.contact;
         let ContactSystem {
-            known,
-            untouched,
-            interface,
-            ..
-        } = &self.numeric.contact;
+            known, untouched, ..
+        } = contact;
         let eliminated = untouched.iter().flatten();
         eliminated.clone().for_each(|own| own.condense(&mut rhs));
-        let mut z = interface.solve(&self.condensed.blocks(untouched), &rhs);
+        let mut z = contact.solve(&self.condensed.blocks(untouched), &rhs, self.purpose);
         for own in eliminated {
             let places = own.eliminated().iter();
             places.for_each(|&k| z[k as usize] = rhs[k as usize]);

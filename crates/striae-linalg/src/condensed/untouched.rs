@@ -221,32 +221,48 @@ fn smallest_pivot<T: Real>(columns: &[T], size: usize) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
+/// Kept unknowns that contact touches or has touched.
+pub(super) struct Touched {
+    /// Which they are.
+    pub(super) touched: Vec<bool>,
+    /// Whether there are more than before.
+    pub(super) is_more: bool,
+}
+
 /// Which kept unknowns contact touches: bulk unknowns that share an entry with a
 /// multiplier, with another body, or one whose mirror image is not the same. What is
-/// solved for apart counts as touched.
-pub(super) fn touched(kinds: &[Kind], rows: &[Row]) -> Vec<bool> {
+/// solved for apart counts as touched, and what was touched `before`, if that is known.
+pub(super) fn touched(kinds: &[Kind], rows: &[Row], before: Vec<bool>) -> Touched {
     let entry = |i: u32, j: u32| {
         let row = &rows[i as usize];
         let found = row.binary_search_by_key(&j, |e| e.0);
         found.map_or(0.0, |at| row[at].1)
     };
+    let is_new = |k: usize| before.get(k).is_none_or(|touched| !touched);
     let by_row = rows.par_iter().enumerate().with_min_len(64);
     let coupled = by_row.flat_map_iter(|(k, row)| {
         let own = k as u32;
-        let couples = move |&&(c, a): &&(u32, f64)| match (kinds[k], kinds[c as usize]) {
-            (Kind::Bulk { block, .. }, Kind::Bulk { block: other, .. }) => {
-                block != other || (a - entry(c, own)).abs() > ASYMMETRIC
-            }
-            _ => true,
+        let own_is_new = is_new(k);
+        let couples = move |&&(c, a): &&(u32, f64)| {
+            (own_is_new || is_new(c as usize))
+                && match (kinds[k], kinds[c as usize]) {
+                    (Kind::Bulk { block, .. }, Kind::Bulk { block: other, .. }) => {
+                        block != other || (a - entry(c, own)).abs() > ASYMMETRIC
+                    }
+                    _ => true,
+                }
         };
         let entries = row.iter().filter(couples);
         entries.flat_map(move |&(c, _)| [own, c])
     });
+    let coupled: Vec<u32> = coupled.collect();
     let apart = kinds.iter().map(|&kind| kind == Kind::Apart);
     let mut touched: Vec<bool> = apart.collect();
-    let coupled: Vec<u32> = coupled.collect();
     coupled.into_iter().for_each(|k| touched[k as usize] = true);
-    touched
+    let is_more = before.is_empty() || (0..touched.len()).any(|k| touched[k] && is_new(k));
+    let sum = touched.iter_mut().zip(&before);
+    sum.for_each(|(now, before)| *now |= before);
+    Touched { touched, is_more }
 }
 
 #[cfg(test)]
@@ -267,6 +283,6 @@ mod tests {
         rows[4].push((6, -0.1));
         rows[7].insert(0, (5, 1.0));
         let expected = [false, false, true, true, true, true, true, true, true];
-        assert_eq!(touched(&kinds, &rows), expected);
+        assert_eq!(touched(&kinds, &rows, Vec::new()).touched, expected);
     }
 }
