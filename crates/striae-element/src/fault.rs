@@ -2,24 +2,22 @@
 
 use striae_mesh::ElementId;
 
-/// An element that is turned inside out at a Gauss point.
+/// An element that is turned inside out at a quadrature point.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum ElementError {
     /// In the reference configuration: the mesh is at fault.
-    #[error(
-        "the reference shape is degenerate: Jacobian {determinant:.6e} at Gauss point {gauss_point}"
-    )]
+    #[error("the reference shape is degenerate: Jacobian {determinant:.6e} at Gauss point {point}")]
     Degenerate {
-        /// Local number of the Gauss point, `0..8`.
-        gauss_point: usize,
+        /// Local number of the quadrature point.
+        point: usize,
         /// Determinant of `dX/dxi`.
         determinant: f64,
     },
     /// In the current configuration: the step is at fault.
-    #[error("turned inside out: det F = {determinant:.6e} at Gauss point {gauss_point}")]
+    #[error("turned inside out: det F = {determinant:.6e} at Gauss point {point}")]
     Inverted {
-        /// Local number of the Gauss point, `0..8`.
-        gauss_point: usize,
+        /// Local number of the quadrature point.
+        point: usize,
         /// Determinant of the deformation gradient.
         determinant: f64,
     },
