@@ -165,7 +165,7 @@ fn assembly(model: &striae_solve::model::Model) -> Result<Value, Box<dyn Error>>
     let elements = model
         .bodies
         .iter()
-        .map(|body| body.mesh.elements.len())
+        .map(|body| body.mesh.element_count())
         .sum();
     Ok(timed("assembly", "elements", elements, || {
         let contact = Contact::Known(Vec::new());

@@ -136,10 +136,11 @@ pub fn stiffness(model: &Model) -> Result<SparseMatrix, Box<dyn Error>> {
     let layout = Layout::new(&problem, Extent::default());
     let mut cliques = Vec::new();
     for (body, model) in problem.model.bodies.iter().enumerate() {
-        let nodes = |corners: &[striae_mesh::NodeId; 8]| {
-            corners.map(|node| Supervariable(problem.node(body, node)))
+        let nodes = |corners| -> Vec<Supervariable> {
+            let nodes = problem.nodes(body, corners).into_iter();
+            nodes.map(Supervariable).collect()
         };
-        cliques.extend(model.mesh.elements.iter().map(nodes));
+        cliques.extend(model.mesh.elements().map(nodes));
     }
     let structure = Structure::from_cliques(layout.offsets().to_vec(), &cliques)?;
     let mut matrix = SparseMatrix::zero(&structure);

@@ -46,10 +46,11 @@ pub fn stress_error(run: &Run, expected: &Matrix3<f64>) -> f64 {
     let (problem, state) = (&run.finished.problem, &run.finished.state);
     let mut largest = 0.0_f64;
     for (body, model) in problem.model.bodies.iter().enumerate() {
-        let elements = model.mesh.elements.iter().zip(&problem.elements[body]);
+        let elements = model.mesh.elements().zip(problem.elements[body].iter());
         for (corners, element) in elements {
-            let current = corners.map(|node| state.positions[problem.node(body, node)]);
-            let Ok(stresses) = element.gauss_stress(&current, &model.material) else {
+            let nodes = problem.nodes(body, corners).into_iter();
+            let current: Vec<Vec3> = nodes.map(|node| state.positions[node]).collect();
+            let Ok(stresses) = element.stress(&current, &model.material) else {
                 return f64::NAN;
             };
             for stress in stresses {

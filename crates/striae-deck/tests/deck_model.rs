@@ -385,7 +385,7 @@ fn every_generator_makes_its_mesh() {
              [[body]]\nname = \"b\"\nmaterial = \"m\"\nmesh = {{ {mesh} }}\n\
              [[step]]\nname = \"s\"\ndisplacement = [{{ body = \"b\", nodes = \"ymin\", x = 0, y = 0, z = 0 }}]\n"
         );
-        assert!(lowered(&deck).model.bodies[0].mesh.elements.len() >= 24);
+        assert!(lowered(&deck).model.bodies[0].mesh.element_count() >= 24);
     }
 }
 

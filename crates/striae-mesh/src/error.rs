@@ -1,6 +1,6 @@
 //! What can be wrong with a mesh or with the parameters of a generator.
 
-use crate::{ElementId, Face, NodeId};
+use crate::{CellKind, ElementId, Face, NodeId};
 
 /// What can be wrong with a mesh or with the parameters of a generator.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -16,8 +16,10 @@ pub enum MeshError {
         nodes: usize,
     },
     /// An element names one node at two corners.
-    #[error("{element} has {node} at two of its corners; a hexahedron needs eight different nodes")]
+    #[error("{element} has {node} at two of its corners; a {kind} needs {} different nodes", kind.corner_count())]
     RepeatedNode {
+        /// Its kind.
+        kind: CellKind,
         /// The element.
         element: ElementId,
         /// The node it names twice.

@@ -29,34 +29,20 @@ macro_rules! id {
 }
 
 id!(NodeId, "A node of one mesh.", "node");
-id!(ElementId, "A hexahedral element of one mesh.", "element");
+id!(ElementId, "An element of one mesh.", "element");
 id!(FacetId, "A facet of one surface.", "facet");
 
-/// One of the six faces of a hexahedral element.
+/// A face of an element: a triangle or a quadrilateral.
 ///
 /// Local face numbers and the corners of each face, ordered so that the normal
-/// by the right-hand rule points out of the element, are in [`Face::CORNERS`].
+/// by the right-hand rule points out of the element, are in
+/// [`CellShape::faces`](crate::CellShape::faces).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Face {
     /// The element that owns the face.
     pub element: ElementId,
-    /// Local number of the face, `0..6`.
+    /// Local number of the face.
     pub side: u8,
-}
-
-impl Face {
-    /// Local corners of the six faces, outward by the right-hand rule; the
-    /// element's corners are numbered as VTK's hexahedron (bottom face
-    /// `0 1 2 3` counter-clockwise seen from the top, then the top face).
-    /// Sides: `0` = -zeta, `1` = +zeta, `2` = -eta, `3` = +xi, `4` = +eta, `5` = -xi.
-    pub const CORNERS: [[usize; 4]; 6] = [
-        [0, 3, 2, 1],
-        [4, 5, 6, 7],
-        [0, 1, 5, 4],
-        [1, 2, 6, 5],
-        [2, 3, 7, 6],
-        [3, 0, 4, 7],
-    ];
 }
 
 impl fmt::Display for Face {

@@ -1,17 +1,19 @@
-//! Hexahedral meshes of bodies.
+//! Meshes of bodies.
 //!
 //! A [`Mesh`] is immutable once built: node positions in the reference
-//! configuration, eight-node hexahedra and named sets. Everything that moves
-//! lives above this crate. Lengths are in the units of the user.
+//! configuration, blocks of cells of one kind each, and named sets. Everything that
+//! moves lives above this crate. Lengths are in the units of the user.
 //!
 //! | module | what it adds |
 //! | --- | --- |
 //! | [`Mesh`] | the mesh and the checks every mesh passes |
-//! | topology | boundary faces, nodes of faces, faces of nodes, neighbours |
+//! | [`CellKind`] | the kinds of cells, with faces, interpolation and quadrature |
+//! | topology | boundary faces, nodes of faces, faces of nodes |
 //! | [`quality`] | Jacobians, volumes, areas, sizes |
 //! | [`generate`] | blocks, capped blocks, half cylinders, rings |
 //! | [`Renumbering`] | permuted numbering and rigid motion, for invariance tests |
 
+mod cell;
 mod error;
 pub mod generate;
 mod id;
@@ -22,11 +24,13 @@ mod sets;
 mod topology;
 mod transform;
 
+pub use cell::{CellBlock, CellKind, CellShape, MAX_CORNERS};
 pub use error::MeshError;
 pub use id::{ElementId, Face, FacetId, NodeId};
 pub use mesh::Mesh;
 pub use quality::Quality;
 pub use sets::Sets;
+pub use topology::sorted_face;
 pub use transform::Renumbering;
 
 /// A point or vector in space.

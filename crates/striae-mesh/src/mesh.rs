@@ -1,14 +1,16 @@
 //! The mesh of one body and the checks it has to pass.
 
-use crate::{ElementId, Face, MeshError, NodeId, Sets, Vec3};
+use crate::{CellBlock, CellKind, ElementId, Face, MeshError, NodeId, Sets, Vec3};
 
-/// Eight-node hexahedra over nodes in the reference configuration.
+/// Cells over nodes in the reference configuration.
+///
+/// The cells of the blocks, counted through in their order, are the elements.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     /// Reference position `X` of every node.
     pub positions: Vec<Vec3>,
-    /// Corners of every element, numbered as VTK's hexahedron.
-    pub elements: Vec<[NodeId; 8]>,
+    /// The elements, in blocks of one kind each.
+    pub blocks: Vec<CellBlock>,
     /// Named sets of nodes.
     pub node_sets: Sets<NodeId>,
     /// Named sets of element faces on the boundary of the body.
@@ -22,10 +24,10 @@ impl Mesh {
     ///
     /// # Errors
     /// Those of [`Mesh::check`].
-    pub fn new(positions: Vec<Vec3>, elements: Vec<[NodeId; 8]>) -> Result<Self, MeshError> {
+    pub fn new(positions: Vec<Vec3>, blocks: Vec<CellBlock>) -> Result<Self, MeshError> {
         let mesh = Self {
             positions,
-            elements,
+            blocks,
             node_sets: Sets::default(),
             facet_sets: Sets::default(),
             element_sets: Sets::default(),
@@ -49,26 +51,59 @@ impl Mesh {
         self.check_sets()
     }
 
-    /// Nodes of a face, outward by the right-hand rule.
-    pub fn face_nodes(&self, face: Face) -> [NodeId; 4] {
-        let corners = &self.elements[face.element.index()];
-        Face::CORNERS[face.side as usize].map(|corner| corners[corner])
+    /// How many elements there are.
+    pub fn element_count(&self) -> usize {
+        self.blocks.iter().map(CellBlock::len).sum()
     }
 
-    /// Positions of the corners of a face, outward by the right-hand rule.
+    /// Corners of every element in turn.
+    pub fn elements(&self) -> impl Iterator<Item = &[NodeId]> {
+        self.blocks.iter().flat_map(CellBlock::cells)
+    }
+
+    /// Corners of an element.
+    pub fn corners(&self, element: ElementId) -> &[NodeId] {
+        let (block, at) = self.place(element);
+        block.corners(at)
+    }
+
+    /// Kind of an element.
+    pub fn kind(&self, element: ElementId) -> CellKind {
+        self.place(element).0.kind
+    }
+
+    /// Nodes of a face, outward by the right-hand rule; a triangle repeats its last node.
+    pub fn face_nodes(&self, face: Face) -> [NodeId; 4] {
+        let (block, at) = self.place(face.element);
+        face_nodes(block, at, face.side)
+    }
+
+    /// Positions of the corners of a face, as [`Mesh::face_nodes`].
     pub fn face_positions(&self, face: Face) -> [Vec3; 4] {
         self.face_nodes(face)
             .map(|node| self.positions[node.index()])
     }
 
     /// Positions of the corners of an element.
-    pub fn element_positions(&self, element: ElementId) -> [Vec3; 8] {
-        self.elements[element.index()].map(|node| self.positions[node.index()])
+    pub fn element_positions(&self, element: ElementId) -> Vec<Vec3> {
+        let corners = self.corners(element).iter();
+        corners.map(|node| self.positions[node.index()]).collect()
+    }
+
+    /// Block of an element and its place there.
+    fn place(&self, element: ElementId) -> (&CellBlock, usize) {
+        let mut first = 0;
+        let placed = self.blocks.iter().find_map(|block| {
+            let at = element.index() - first;
+            first += block.len();
+            (at < block.len()).then_some((block, at))
+        });
+        placed.expect("an element of this mesh")
     }
 
     fn check_elements(&self) -> Result<(), MeshError> {
         let nodes = self.positions.len();
-        for (index, corners) in self.elements.iter().enumerate() {
+        for (index, corners) in self.elements().enumerate() {
             let element = ElementId::new(index);
             if let Some(&node) = corners.iter().find(|node| node.index() >= nodes) {
                 return Err(MeshError::MissingNode {
@@ -79,7 +114,11 @@ impl Mesh {
             }
             for (corner, &node) in corners.iter().enumerate() {
                 if corners[..corner].contains(&node) {
-                    return Err(MeshError::RepeatedNode { element, node });
+                    return Err(MeshError::RepeatedNode {
+                        element,
+                        node,
+                        kind: self.kind(element),
+                    });
                 }
             }
         }
@@ -88,7 +127,7 @@ impl Mesh {
 
     fn check_nodes(&self) -> Result<(), MeshError> {
         let mut used = vec![false; self.positions.len()];
-        for node in self.elements.iter().flatten() {
+        for node in self.elements().flatten() {
             used[node.index()] = true;
         }
         let orphans: Vec<NodeId> = (0..used.len())
@@ -111,7 +150,7 @@ impl Mesh {
     }
 
     fn check_sets(&self) -> Result<(), MeshError> {
-        let (nodes, elements) = (self.positions.len(), self.elements.len());
+        let (nodes, elements) = (self.positions.len(), self.element_count());
         for (set, members) in self.node_sets.iter() {
             if let Some(&node) = members.iter().find(|node| node.index() >= nodes) {
                 let set = set.to_owned();
@@ -142,6 +181,13 @@ impl Mesh {
     }
 }
 
+/// Nodes of a side of a cell in its place in a block; a triangle repeats its last node.
+pub(crate) fn face_nodes(block: &CellBlock, at: usize, side: u8) -> [NodeId; 4] {
+    let corners = block.corners(at);
+    let face = block.kind.shape().faces[side as usize];
+    [0, 1, 2, face.len() - 1].map(|at| corners[face[at]])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -159,7 +205,7 @@ mod tests {
     #[test]
     fn missing_and_repeated_nodes_are_named() {
         let mut mesh = two_elements();
-        mesh.elements[1][3] = NodeId(99);
+        mesh.blocks[0].nodes[11] = NodeId(99);
         assert_eq!(
             mesh.check(),
             Err(MeshError::MissingNode {
@@ -168,13 +214,14 @@ mod tests {
                 nodes: 12
             })
         );
-        mesh.elements[1][3] = mesh.elements[1][0];
-        let node = mesh.elements[1][0];
+        let node = mesh.blocks[0].nodes[8];
+        mesh.blocks[0].nodes[11] = node;
         assert_eq!(
             mesh.check(),
             Err(MeshError::RepeatedNode {
                 element: ElementId(1),
-                node
+                node,
+                kind: CellKind::Hexahedron,
             })
         );
     }
@@ -240,8 +287,8 @@ mod tests {
     #[test]
     fn three_elements_in_one_face_are_refused() {
         let mut mesh = two_elements();
-        let twice = mesh.elements[1];
-        mesh.elements.push(twice);
+        let twice = mesh.blocks[0].corners(1).to_vec();
+        mesh.blocks[0].nodes.extend(twice);
         assert!(matches!(mesh.check(), Err(MeshError::CrowdedFace { .. })));
     }
 }

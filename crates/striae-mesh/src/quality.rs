@@ -1,26 +1,13 @@
 //! Shape of the elements: Jacobians, volumes, areas and sizes.
 //!
-//! With the trilinear map `X(xi)` of an element the Jacobian determinant is
-//! `J = dX/dxi . (dX/deta x dX/dzeta)`, `8 J = volume` for a parallelepiped.
-//! It is of degree two in each coordinate, so that the sum over the 2 x 2 x 2
-//! Gauss points is the exact volume. The scaled Jacobian of a corner is the
-//! triple product of the unit vectors along its three edges: 1 at a right
-//! angle, 0 or less where the element is degenerate or inside out
+//! With the map `X(xi) = sum_a N_a(xi) X_a` of an element the Jacobian determinant is
+//! `J = dX/dxi . (dX/deta x dX/dzeta)`; its sum over the quadrature points of the kind is
+//! the exact volume. The scaled Jacobian of a corner is the triple product of the unit
+//! vectors along three edges that meet there, over that of the regular cell: 1 at a
+//! right angle of a hexahedron, 0 or less where the element is degenerate or inside out
 //! (Knupp, SIAM J. Sci. Comput. 23 (2001) 193, doi:10.1137/S1064827500371499).
 
-use crate::{ElementId, Face, Mesh, MeshError, Vec3};
-
-/// Signs of the natural coordinates of the eight corners.
-pub const CORNERS: [[f64; 3]; 8] = [
-    [-1.0, -1.0, -1.0],
-    [1.0, -1.0, -1.0],
-    [1.0, 1.0, -1.0],
-    [-1.0, 1.0, -1.0],
-    [-1.0, -1.0, 1.0],
-    [1.0, -1.0, 1.0],
-    [1.0, 1.0, 1.0],
-    [-1.0, 1.0, 1.0],
-];
+use crate::{CellKind, ElementId, Face, Mesh, MeshError, NodeId, Vec3};
 
 /// Scaled Jacobians below this are listed in [`Quality::slivers`].
 pub const SMALL_SCALED_JACOBIAN: f64 = 0.05;
@@ -28,7 +15,7 @@ pub const SMALL_SCALED_JACOBIAN: f64 = 0.05;
 /// Shape of all elements of a mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quality {
-    /// Smallest scaled Jacobian over all corners, 1 for a mesh of bricks.
+    /// Smallest scaled Jacobian over all corners, 1 for a mesh of regular cells.
     pub smallest_scaled_jacobian: f64,
     /// The element that has it.
     pub worst: ElementId,
@@ -48,25 +35,23 @@ pub struct Quality {
     pub longest_edge: f64,
 }
 
-/// Jacobian determinant of a hexahedron at natural coordinates `xi`.
-pub fn jacobian_determinant(corners: &[Vec3; 8], xi: [f64; 3]) -> f64 {
+/// Jacobian determinant of a cell at natural coordinates `xi`.
+pub fn jacobian_determinant(kind: CellKind, corners: &[Vec3], xi: [f64; 3]) -> f64 {
     let mut columns = [Vec3::zeros(); 3];
-    for (x, s) in corners.iter().zip(&CORNERS) {
-        let f = [0, 1, 2].map(|axis| 1.0 + s[axis] * xi[axis]);
-        columns[0] += x * (0.125 * s[0] * f[1] * f[2]);
-        columns[1] += x * (0.125 * f[0] * s[1] * f[2]);
-        columns[2] += x * (0.125 * f[0] * f[1] * s[2]);
+    let gradients = (kind.shape().gradients)(&Vec3::from(xi));
+    for (x, gradient) in corners.iter().zip(gradients) {
+        for axis in 0..3 {
+            columns[axis] += x * gradient[axis];
+        }
     }
     columns[0].dot(&columns[1].cross(&columns[2]))
 }
 
-/// Smallest triple product of unit edge vectors over the eight corners.
-pub fn scaled_jacobian(corners: &[Vec3; 8]) -> f64 {
-    (0..8)
-        .map(|corner| {
-            let [a, b, c] = EDGES[corner].map(|end| (corners[end] - corners[corner]).normalize());
-            a.dot(&b.cross(&c))
-        })
+/// Smallest scaled Jacobian over the corners of a cell.
+pub fn scaled_jacobian(kind: CellKind, corners: &[Vec3]) -> f64 {
+    let shape = kind.shape();
+    edges(kind, corners)
+        .map(|edges| triple_product(edges.map(|edge| edge.normalize())) / shape.regular)
         .fold(f64::INFINITY, minimum)
 }
 
@@ -86,9 +71,8 @@ impl Mesh {
             shortest_edge: f64::INFINITY,
             longest_edge: 0.0,
         };
-        for index in 0..self.elements.len() {
-            let element = ElementId::new(index);
-            quality.include(element, &self.element_positions(element));
+        for (element, kind, nodes) in self.numbered() {
+            quality.include(element, kind, &self.at(nodes));
         }
         quality
     }
@@ -98,41 +82,39 @@ impl Mesh {
     /// # Errors
     /// [`MeshError::Inverted`] names the first element that has not.
     pub fn check_shape(&self) -> Result<(), MeshError> {
-        let determinant = |element| smallest_determinant(&self.element_positions(element));
-        let mut inverted = (0..self.elements.len())
-            .map(ElementId::new)
-            .filter(|&element| !is_positive(determinant(element)));
+        let mut inverted = self.numbered().filter_map(|(element, kind, nodes)| {
+            let determinant = smallest_determinant(kind, &self.at(nodes));
+            (!is_positive(determinant)).then_some((element, determinant))
+        });
         match inverted.next() {
             None => Ok(()),
-            Some(element) => Err(MeshError::Inverted {
+            Some((element, determinant)) => Err(MeshError::Inverted {
                 count: 1 + inverted.count(),
                 element,
-                determinant: determinant(element),
+                determinant,
             }),
         }
     }
 
     /// Volume of the mesh.
     pub fn volume(&self) -> f64 {
-        (0..self.elements.len())
-            .map(|index| self.element_volume(ElementId::new(index)))
+        self.numbered()
+            .map(|(_, kind, nodes)| volume(kind, &self.at(nodes)))
             .sum()
     }
 
     /// Volume of an element, negative when it is inside out.
     pub fn element_volume(&self, element: ElementId) -> f64 {
-        let corners = self.element_positions(element);
-        gauss_points()
-            .map(|xi| jacobian_determinant(&corners, xi))
-            .sum()
+        volume(self.kind(element), &self.element_positions(element))
     }
 
     /// Cube root of the mean volume of an element, 0 for an empty mesh.
     pub fn characteristic_size(&self) -> f64 {
-        (self.volume() / self.elements.len().max(1) as f64).cbrt()
+        (self.volume() / self.element_count().max(1) as f64).cbrt()
     }
 
-    /// Area of faces by 2 x 2 Gauss points, exact for plane faces.
+    /// Area of faces by 2 x 2 Gauss points, exact for plane faces: a triangle is a
+    /// quadrilateral with one side of no length.
     pub fn area(&self, faces: &[Face]) -> f64 {
         faces
             .iter()
@@ -145,12 +127,25 @@ impl Mesh {
         let [a, b, c, d] = self.face_positions(face);
         0.5 * (c - a).cross(&(d - b))
     }
+
+    /// Elements with their ids and kinds.
+    fn numbered(&self) -> impl Iterator<Item = (ElementId, CellKind, &[NodeId])> {
+        let cells = self.blocks.iter();
+        let cells = cells.flat_map(|block| block.cells().map(|corners| (block.kind, corners)));
+        let cells = cells.enumerate();
+        cells.map(|(index, (kind, corners))| (ElementId::new(index), kind, corners))
+    }
+
+    fn at(&self, nodes: &[NodeId]) -> Vec<Vec3> {
+        let nodes = nodes.iter();
+        nodes.map(|node| self.positions[node.index()]).collect()
+    }
 }
 
 impl Quality {
-    fn include(&mut self, element: ElementId, corners: &[Vec3; 8]) {
-        let determinant = smallest_determinant(corners);
-        let scaled = scaled_jacobian(corners);
+    fn include(&mut self, element: ElementId, kind: CellKind, corners: &[Vec3]) {
+        let determinant = smallest_determinant(kind, corners);
+        let scaled = scaled_jacobian(kind, corners);
         if !is_positive(determinant) {
             self.inverted.push(element);
         } else if scaled < SMALL_SCALED_JACOBIAN {
@@ -161,39 +156,39 @@ impl Quality {
             self.worst = element;
         }
         self.smallest_determinant = minimum(self.smallest_determinant, determinant);
-        for corner in 0..8 {
-            for end in EDGES[corner] {
-                let length = (corners[end] - corners[corner]).norm();
-                self.shortest_edge = self.shortest_edge.min(length);
-                self.longest_edge = self.longest_edge.max(length);
-            }
+        for edge in edges(kind, corners).flatten() {
+            let length = edge.norm();
+            self.shortest_edge = self.shortest_edge.min(length);
+            self.longest_edge = self.longest_edge.max(length);
         }
     }
 }
 
-/// The ends of the three edges of every corner, right-handed.
-const EDGES: [[usize; 3]; 8] = [
-    [1, 3, 4],
-    [2, 0, 5],
-    [3, 1, 6],
-    [0, 2, 7],
-    [7, 5, 0],
-    [4, 6, 1],
-    [5, 7, 2],
-    [6, 4, 3],
-];
+/// Three edges at every corner, right-handed.
+fn edges(kind: CellKind, corners: &[Vec3]) -> impl Iterator<Item = [Vec3; 3]> {
+    let trihedra = kind.shape().trihedra.iter();
+    trihedra.map(|&[corner, a, b, c]| [a, b, c].map(|end| corners[end] - corners[corner]))
+}
 
-fn smallest_determinant(corners: &[Vec3; 8]) -> f64 {
-    CORNERS
-        .into_iter()
-        .chain(gauss_points())
-        .map(|xi| jacobian_determinant(corners, xi))
+fn triple_product([a, b, c]: [Vec3; 3]) -> f64 {
+    a.dot(&b.cross(&c))
+}
+
+/// Smallest Jacobian determinant over corners and quadrature points.
+fn smallest_determinant(kind: CellKind, corners: &[Vec3]) -> f64 {
+    let shape = kind.shape();
+    let points = shape.points.iter();
+    edges(kind, corners)
+        .map(|edges| triple_product(edges) * shape.corner_jacobian)
+        .chain(points.map(|&(xi, _)| jacobian_determinant(kind, corners, xi)))
         .fold(f64::INFINITY, minimum)
 }
 
-fn gauss_points() -> impl Iterator<Item = [f64; 3]> {
-    let g = 1.0 / 3f64.sqrt();
-    CORNERS.into_iter().map(move |corner| corner.map(|s| s * g))
+fn volume(kind: CellKind, corners: &[Vec3]) -> f64 {
+    let points = kind.shape().points.iter();
+    points
+        .map(|&(xi, weight)| jacobian_determinant(kind, corners, xi) * weight)
+        .sum()
 }
 
 fn face_area(corners: &[Vec3; 4]) -> f64 {
@@ -221,15 +216,16 @@ fn is_positive(value: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::NodeId;
-    use crate::generate::Block;
+    use crate::{CellBlock, generate::Block};
 
     fn hexahedron(corners: [Vec3; 8]) -> Mesh {
-        Mesh::new(corners.to_vec(), vec![[0, 1, 2, 3, 4, 5, 6, 7].map(NodeId)]).unwrap()
+        let cell = CellBlock::hexahedra([[0, 1, 2, 3, 4, 5, 6, 7].map(NodeId)]);
+        Mesh::new(corners.to_vec(), vec![cell]).unwrap()
     }
 
     fn cube() -> [Vec3; 8] {
-        CORNERS.map(|c| Vec3::from(c) * 0.5)
+        let corners = CellKind::Hexahedron.shape().corners;
+        std::array::from_fn(|a| Vec3::from(corners[a]) * 0.5)
     }
 
     #[test]
@@ -261,10 +257,9 @@ mod tests {
         }
         .mesh()
         .unwrap();
-        mesh.elements[1].swap(0, 4);
-        mesh.elements[1].swap(1, 5);
-        mesh.elements[1].swap(2, 6);
-        mesh.elements[1].swap(3, 7);
+        for corner in 8..12 {
+            mesh.blocks[0].nodes.swap(corner, corner + 4);
+        }
         assert_eq!(mesh.quality().inverted, [ElementId(1)]);
         assert!(matches!(
             mesh.check_shape(),

@@ -1,9 +1,9 @@
 //! Which faces bound the body, which nodes and elements touch which.
 //!
-//! Two elements are neighbours across a face when they have its four nodes in
-//! common; a face of one element only is on the boundary.
+//! Two elements share a face when they have all its nodes in common; a face of one
+//! element only is on the boundary.
 
-use crate::{ElementId, Face, Mesh, MeshError, NodeId};
+use crate::{ElementId, Face, Mesh, MeshError, NodeId, mesh::face_nodes};
 
 impl Mesh {
     /// Faces that belong to one element only, in ascending order.
@@ -18,7 +18,7 @@ impl Mesh {
         boundary
     }
 
-    /// Boundary faces with all four nodes in `nodes`, in ascending order.
+    /// Boundary faces with all their nodes in `nodes`, in ascending order.
     pub fn faces_of_nodes(&self, nodes: &[NodeId]) -> Vec<Face> {
         let mut chosen = vec![false; self.positions.len()];
         for node in nodes {
@@ -44,22 +44,10 @@ impl Mesh {
         nodes
     }
 
-    /// For every element its neighbours across the six faces, `None` on the boundary.
-    pub fn element_neighbours(&self) -> Vec<[Option<ElementId>; 6]> {
-        let mut neighbours = vec![[None; 6]; self.elements.len()];
-        for group in self.faces_by_nodes().chunk_by(|a, b| a.0 == b.0) {
-            if let [(_, a), (_, b)] = group {
-                neighbours[a.element.index()][a.side as usize] = Some(b.element);
-                neighbours[b.element.index()][b.side as usize] = Some(a.element);
-            }
-        }
-        neighbours
-    }
-
     /// For every node the elements that have it as a corner, in ascending order.
     pub fn elements_of_nodes(&self) -> Vec<Vec<ElementId>> {
         let mut elements = vec![Vec::new(); self.positions.len()];
-        for (index, corners) in self.elements.iter().enumerate() {
+        for (index, corners) in self.elements().enumerate() {
             for node in corners {
                 elements[node.index()].push(ElementId::new(index));
             }
@@ -81,22 +69,34 @@ impl Mesh {
 
     /// All faces of all elements, sorted by their sorted nodes.
     fn faces_by_nodes(&self) -> Vec<([NodeId; 4], Face)> {
-        let mut faces: Vec<([NodeId; 4], Face)> = (0..self.elements.len())
-            .flat_map(|index| {
-                (0..6).map(move |side| Face {
-                    element: ElementId::new(index),
-                    side,
-                })
-            })
-            .map(|face| {
-                let mut nodes = self.face_nodes(face);
-                nodes.sort_unstable();
-                (nodes, face)
-            })
-            .collect();
+        let mut faces = Vec::new();
+        let mut element = 0;
+        for block in &self.blocks {
+            let sides = block.kind.shape().faces.len() as u8;
+            for at in 0..block.len() {
+                let id = ElementId::new(element + at);
+                faces.extend((0..sides).map(|side| {
+                    let nodes = face_nodes(block, at, side);
+                    (sorted_face(nodes), Face { element: id, side })
+                }));
+            }
+            element += block.len();
+        }
         faces.sort_unstable();
         faces
     }
+}
+
+/// Nodes of a face in the order that two elements agree on: ascending, and a triangle
+/// repeats its largest.
+pub fn sorted_face(mut nodes: [NodeId; 4]) -> [NodeId; 4] {
+    if nodes[2] == nodes[3] {
+        nodes[..3].sort_unstable();
+        nodes[3] = nodes[2];
+    } else {
+        nodes.sort_unstable();
+    }
+    nodes
 }
 
 #[cfg(test)]
@@ -119,7 +119,7 @@ mod tests {
     fn boundary_agrees_with_brute_force() {
         let mesh = block();
         let node_set = |face| -> HashSet<NodeId> { mesh.face_nodes(face).into_iter().collect() };
-        let all: Vec<Face> = (0..mesh.elements.len())
+        let all: Vec<Face> = (0..mesh.element_count())
             .flat_map(|e| {
                 (0..6).map(move |side| Face {
                     element: ElementId::new(e),
@@ -134,19 +134,6 @@ mod tests {
             .collect();
         assert_eq!(mesh.boundary_faces(), alone);
         assert_eq!(alone.len(), 2 * (3 * 4 + 4 * 2 + 2 * 3));
-    }
-
-    #[test]
-    fn neighbours_are_mutual_and_complete() {
-        let mesh = block();
-        let neighbours = mesh.element_neighbours();
-        for (index, across) in neighbours.iter().enumerate() {
-            for neighbour in across.iter().flatten() {
-                assert!(neighbours[neighbour.index()].contains(&Some(ElementId::new(index))));
-            }
-        }
-        let open = neighbours.iter().flatten().filter(|n| n.is_none()).count();
-        assert_eq!(open, mesh.boundary_faces().len());
     }
 
     #[test]
@@ -165,11 +152,11 @@ mod tests {
         let touching = mesh.elements_of_nodes();
         assert_eq!(
             touching.iter().map(Vec::len).sum::<usize>(),
-            8 * mesh.elements.len()
+            8 * mesh.element_count()
         );
         for (node, elements) in touching.iter().enumerate() {
             for element in elements {
-                assert!(mesh.elements[element.index()].contains(&NodeId::new(node)));
+                assert!(mesh.corners(*element).contains(&NodeId::new(node)));
             }
         }
     }

@@ -4,7 +4,7 @@
 //! show it.
 
 use crate::random::Random;
-use crate::{ElementId, Face, Mesh, MeshError, NodeId, Sets, Vec3};
+use crate::{CellBlock, ElementId, Face, Mesh, MeshError, NodeId, Sets, Vec3};
 use nalgebra::Rotation3;
 
 /// New numbers of nodes and elements, by old number.
@@ -21,7 +21,7 @@ impl Renumbering {
     pub fn shuffled(mesh: &Mesh, seed: u64) -> Self {
         let mut random = Random::new(seed);
         let nodes = random.permutation(mesh.positions.len());
-        let elements = random.permutation(mesh.elements.len());
+        let elements = random.permutation(mesh.element_count());
         Self {
             nodes: nodes.into_iter().map(NodeId::new).collect(),
             elements: elements.into_iter().map(ElementId::new).collect(),
@@ -51,7 +51,7 @@ impl Mesh {
     /// [`MeshError::NotPermutation`] when the new numbers do not fit the mesh.
     pub fn renumbered(&self, renumbering: &Renumbering) -> Result<Self, MeshError> {
         let Renumbering { nodes, elements } = renumbering;
-        let counts = (self.positions.len(), self.elements.len());
+        let counts = (self.positions.len(), self.element_count());
         check_count(nodes.len(), counts.0, "node")?;
         check_count(elements.len(), counts.1, "element")?;
         let old = renumbering.inverse()?;
@@ -61,17 +61,18 @@ impl Mesh {
             element: element(face.element),
             ..face
         };
+        let cells = old.elements.iter();
+        let mut blocks = CellBlock::runs(cells.map(|&id| (self.kind(id), self.corners(id))));
+        for corner in blocks.iter_mut().flat_map(|block| &mut block.nodes) {
+            *corner = node(*corner);
+        }
         Ok(Self {
             positions: old
                 .nodes
                 .iter()
                 .map(|id| self.positions[id.index()])
                 .collect(),
-            elements: old
-                .elements
-                .iter()
-                .map(|id| self.elements[id.index()].map(node))
-                .collect(),
+            blocks,
             node_sets: mapped(&self.node_sets, node),
             facet_sets: mapped(&self.facet_sets, face),
             element_sets: mapped(&self.element_sets, element),

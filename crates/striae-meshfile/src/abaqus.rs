@@ -14,12 +14,12 @@ mod keywords;
 mod sets;
 
 use super::MeshFileFault;
-use super::collected::{Collected, FileFace, Hexahedron};
+use super::collected::{Collected, FileElement, FileFace};
 use super::lines::parsed;
 use keywords::{Keyword, Row, keywords};
 use sets::LabelSets;
 use std::collections::HashSet;
-use striae_mesh::{Mesh, Vec3};
+use striae_mesh::{CellKind, Mesh, Vec3};
 
 /// The mesh of a body.
 pub(super) fn body(text: &str) -> Result<Mesh, MeshFileFault> {
@@ -150,30 +150,30 @@ impl Reader {
     /// Rows `number, corners..`.
     fn elements(&mut self, keyword: &Keyword<'_>) -> Result<(), MeshFileFault> {
         let kind = keyword.required("TYPE")?.to_uppercase();
-        if !is_hexahedron(&kind) {
-            return Err(keyword
-                .fault("TYPE=C3D8 or one of its variants (only 8-node hexahedra are supported)")
-                .with_remedy("mesh the part with linear hexahedra"));
-        }
+        let kind = cell(&kind).ok_or_else(|| {
+            let fault = keyword.fault("TYPE=C3D4, C3D5, C3D6, C3D8 or one of their variants");
+            fault.with_remedy("mesh the part with linear elements")
+        })?;
+        let expected = format!("an element number and {} node numbers", kind.corner_count());
         keyword.refuse_input()?;
         for row in keyword.joined_rows() {
             let numbers: Vec<u64> = row
                 .words
                 .iter()
-                .map(|word| parsed(row.line, word, "an element number and eight node numbers"))
+                .map(|word| parsed(row.line, word, &expected))
                 .collect::<Result<_, _>>()?;
-            let [number, corners @ ..] = numbers.as_slice() else {
-                return Err(row.fault("an element number and eight node numbers"));
+            let (number, corners) = match numbers.as_slice() {
+                [number, corners @ ..] if corners.len() == kind.corner_count() => (number, corners),
+                _ => return Err(row.fault(&expected)),
             };
-            let corners = <[u64; 8]>::try_from(corners)
-                .map_err(|_| row.fault("an element number and eight node numbers"))?;
             if let Some(set) = keyword.parameter("ELSET") {
                 self.element_sets.push(set, row.line, *number);
             }
-            self.mesh.hexahedra.push(Hexahedron {
+            self.mesh.elements.push(FileElement {
+                kind,
                 line: row.line,
                 number: *number,
-                corners,
+                corners: corners.to_vec(),
             });
         }
         Ok(())
@@ -187,9 +187,9 @@ impl Reader {
         let members = self.element_sets.get(elements);
         let members = members.ok_or_else(|| keyword.fault("an element set defined before"))?;
         let chosen: HashSet<u64> = members.iter().map(|member| member.1).collect();
-        for element in &self.mesh.hexahedra {
+        for element in &self.mesh.elements {
             if chosen.contains(&element.number) {
-                for corner in element.corners {
+                for &corner in &element.corners {
                     self.node_sets.push(name, keyword.line, corner);
                 }
             }
@@ -234,10 +234,16 @@ impl Reader {
     }
 }
 
-/// `C3D8` and letters, such as `C3D8R` or `C3D8IH`.
-fn is_hexahedron(kind: &str) -> bool {
-    let variant = kind.strip_prefix("C3D8");
-    variant.is_some_and(|variant| variant.chars().all(|c| c.is_ascii_alphabetic()))
+/// The kind of `C3D` with the number of nodes and letters, such as `C3D8R` or `C3D6H`.
+fn cell(kind: &str) -> Option<CellKind> {
+    let nodes = kind.strip_prefix("C3D")?;
+    match nodes.trim_end_matches(|c: char| c.is_ascii_alphabetic()) {
+        "4" => Some(CellKind::Tetrahedron),
+        "5" => Some(CellKind::Pyramid),
+        "6" => Some(CellKind::Wedge),
+        "8" => Some(CellKind::Hexahedron),
+        _ => None,
+    }
 }
 
 fn side(word: &str) -> Option<u8> {

@@ -2,15 +2,17 @@
 
 use super::MeshFileFault;
 use std::collections::{BTreeMap, HashMap};
-use striae_mesh::{ElementId, Face, Mesh, MeshError, NodeId, Sets, Vec3};
+use striae_mesh::{
+    CellBlock, CellKind, ElementId, Face, Mesh, MeshError, NodeId, Sets, Vec3, sorted_face,
+};
 
-/// Nodes, hexahedra and sets by the numbers of the file.
+/// Nodes, elements and sets by the numbers of the file.
 #[derive(Default)]
 pub(super) struct Collected {
     /// Position by node number.
     pub(super) nodes: BTreeMap<u64, Vec3>,
-    /// Hexahedra in the order of the file.
-    pub(super) hexahedra: Vec<Hexahedron>,
+    /// Elements in the order of the file.
+    pub(super) elements: Vec<FileElement>,
     /// Node numbers with the line that names them.
     pub(super) node_sets: BTreeMap<String, Vec<(usize, u64)>>,
     /// Element numbers with the line that names them.
@@ -19,11 +21,12 @@ pub(super) struct Collected {
     pub(super) facet_sets: BTreeMap<String, Vec<(usize, FileFace)>>,
 }
 
-/// A hexahedron of the file.
-pub(super) struct Hexahedron {
+/// An element of the file.
+pub(super) struct FileElement {
     pub(super) line: usize,
     pub(super) number: u64,
-    pub(super) corners: [u64; 8],
+    pub(super) kind: CellKind,
+    pub(super) corners: Vec<u64>,
 }
 
 /// A face as a file names it.
@@ -37,21 +40,20 @@ pub(super) enum FileFace {
 
 impl Collected {
     /// The mesh, checked.
-    pub(super) fn mesh(self) -> Result<Mesh, MeshFileFault> {
-        if self.hexahedra.is_empty() {
+    pub(super) fn mesh(mut self) -> Result<Mesh, MeshFileFault> {
+        if self.elements.is_empty() {
             return Err(MeshFileFault::Empty {
-                expected: "8-node hexahedra",
-                remedy: "only they make a body",
+                expected: "tetrahedra, pyramids, wedges or hexahedra",
+                remedy: "mesh the volume of the body and save it",
             });
         }
+        // Few blocks of many cells: elements of one kind together, in the order of the file.
+        self.elements.sort_by_key(|element| element.kind);
         let node_ids = self.node_ids()?;
         let element_ids = self.element_ids()?;
-        let elements = self.hexahedra.iter();
         let mut mesh = Mesh::new(
             node_ids.keys().map(|number| self.nodes[number]).collect(),
-            elements
-                .map(|element| element.corners.map(|number| node_ids[&number]))
-                .collect(),
+            self.blocks(&node_ids),
         )?;
         self.check_shape(&mesh)?;
         mesh.facet_sets = self.facet_sets(&mesh, &node_ids, &element_ids)?;
@@ -69,8 +71,8 @@ impl Collected {
     /// New ids of the nodes that elements use, in ascending order of their numbers.
     fn node_ids(&self) -> Result<BTreeMap<u64, NodeId>, MeshFileFault> {
         let mut ids = BTreeMap::new();
-        for element in &self.hexahedra {
-            for number in element.corners {
+        for element in &self.elements {
+            for &number in &element.corners {
                 if !self.nodes.contains_key(&number) {
                     return Err(missing(element.line, "node", number));
                 }
@@ -83,9 +85,19 @@ impl Collected {
         Ok(ids)
     }
 
+    fn blocks(&self, node_ids: &BTreeMap<u64, NodeId>) -> Vec<CellBlock> {
+        let corners = |element: &FileElement| -> Vec<NodeId> {
+            let numbers = element.corners.iter();
+            numbers.map(|number| node_ids[number]).collect()
+        };
+        let cells = self.elements.iter().map(|e| (e.kind, corners(e)));
+        let cells: Vec<(CellKind, Vec<NodeId>)> = cells.collect();
+        CellBlock::runs(cells.iter().map(|(kind, corners)| (*kind, &corners[..])))
+    }
+
     fn element_ids(&self) -> Result<HashMap<u64, ElementId>, MeshFileFault> {
         let mut ids = HashMap::new();
-        for (index, element) in self.hexahedra.iter().enumerate() {
+        for (index, element) in self.elements.iter().enumerate() {
             if ids.insert(element.number, ElementId::new(index)).is_some() {
                 let found = format!("element {} for the second time", element.number);
                 return Err(MeshFileFault::line(
@@ -105,7 +117,7 @@ impl Collected {
                 determinant,
                 ..
             }) => {
-                let Hexahedron { line, number, .. } = &self.hexahedra[element.index()];
+                let FileElement { line, number, .. } = &self.elements[element.index()];
                 let found = format!("element {number} with {determinant:.3e}");
                 let fault = MeshFileFault::line(*line, "a positive Jacobian determinant", found);
                 Err(fault.with_remedy("repair the mesh or reverse the order of the corners"))
@@ -127,7 +139,7 @@ impl Collected {
         let boundary: HashMap<[NodeId; 4], Face> = mesh
             .boundary_faces()
             .into_iter()
-            .map(|face| (sorted(mesh.face_nodes(face)), face))
+            .map(|face| (sorted_face(mesh.face_nodes(face)), face))
             .collect();
         for (name, members) in &self.facet_sets {
             let mut faces = Vec::with_capacity(members.len());
@@ -138,10 +150,12 @@ impl Collected {
                         let element = *element_ids
                             .get(&number)
                             .ok_or_else(|| missing(line, "element", number))?;
-                        Some(mesh.face_nodes(Face { element, side }))
+                        let sides = mesh.kind(element).shape().faces.len();
+                        let face = Face { element, side };
+                        (usize::from(side) < sides).then(|| mesh.face_nodes(face))
                     }
                 };
-                let on_boundary = nodes.and_then(|nodes| boundary.get(&sorted(nodes)));
+                let on_boundary = nodes.and_then(|nodes| boundary.get(&sorted_face(nodes)));
                 faces.push(*on_boundary.ok_or_else(|| not_on_boundary(line, name, face))?);
             }
             sets.insert(name, faces);
@@ -205,11 +219,6 @@ fn corner_nodes(numbers: [u64; 4], node_ids: &BTreeMap<u64, NodeId>) -> Option<[
     Some(nodes)
 }
 
-fn sorted(mut nodes: [NodeId; 4]) -> [NodeId; 4] {
-    nodes.sort_unstable();
-    nodes
-}
-
 fn missing(line: usize, what: &str, number: u64) -> MeshFileFault {
     let found = format!("{what} {number}, which the file does not define");
     MeshFileFault::line(line, format!("an existing {what}"), found)
@@ -222,5 +231,5 @@ fn not_on_boundary(line: usize, set: &str, face: FileFace) -> MeshFileFault {
     };
     let expected = format!("a face on the boundary of the body in set '{set}'");
     MeshFileFault::line(line, expected, found)
-        .with_remedy("sets of faces hold outer faces of hexahedra only")
+        .with_remedy("sets of faces hold outer faces of the body only")
 }

@@ -19,15 +19,11 @@ use std::{
 };
 
 use striae_contact::unknowns::{NodeResult, Status as ContactStatus};
+use striae_element::{nodal_cauchy_stress, von_mises};
 use striae_files::FileError;
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::{
-    drive::Progress,
-    element::{nodal_cauchy_stress, von_mises},
-    newton::Increment,
-    outcome::Ending,
-    problem::Problem,
-    state::State,
+    drive::Progress, newton::Increment, outcome::Ending, problem::Problem, state::State,
 };
 
 use crate::{
@@ -275,7 +271,7 @@ fn body_grid<'a>(problem: &'a Problem, state: &'a State, body: usize) -> Grid<'a
     }
     Grid {
         points,
-        cells: Cells::Hexahedra(&model.mesh.elements),
+        cells: Cells::Blocks(&model.mesh.blocks),
         point_arrays,
         cell_arrays: Vec::new(),
         time: state.time,

@@ -1,20 +1,24 @@
 //! Mass matrices of elements, with the mass of contact nodes moved where that is asked for.
 
+use striae_element::{Mass, redistributed};
+use striae_mesh::ElementId;
+
 use crate::{
-    element::redistributed,
     model::{ContactMass, Model, Side},
     problem::Problem,
 };
 
 impl Problem {
     /// Mass matrix of an element of a body.
-    pub fn mass(&self, body: usize, element: usize) -> [[f64; 8]; 8] {
+    pub fn mass(&self, body: usize, element: ElementId) -> Mass {
         let model = &self.model.bodies[body];
-        let mass = self.elements[body][element].mass(model.density);
-        let nodes = model.mesh.elements[element].map(|node| self.node(body, node));
-        let massless = nodes.map(|node| self.massless[node]);
-        if massless.contains(&true) {
-            redistributed(&mass, &massless)
+        let element_of_body = self.elements[body].get(element);
+        let mass = element_of_body.mass(model.density);
+        let corners = model.mesh.corners(element).iter();
+        let massless = corners.map(|&node| self.massless[self.node(body, node)]);
+        if massless.clone().any(|massless| massless) {
+            let massless: Vec<bool> = massless.collect();
+            redistributed(element_of_body.kind(), &mass, &massless)
         } else {
             mass
         }
@@ -36,10 +40,10 @@ pub(crate) fn massless(model: &Model, first_node: &[usize], nodes: usize) -> Vec
         }
     }
     for (body, first) in model.bodies.iter().zip(first_node) {
-        for corners in &body.mesh.elements {
-            let nodes = corners.map(|node| first + node.index());
-            if nodes.iter().all(|&node| massless[node]) {
-                nodes.iter().for_each(|&node| massless[node] = false);
+        for corners in body.mesh.elements() {
+            let nodes = || corners.iter().map(|node| first + node.index());
+            if nodes().all(|node| massless[node]) {
+                nodes().for_each(|node| massless[node] = false);
             }
         }
     }

@@ -18,7 +18,7 @@
 //! `(a_m - a_f) dt`; components that are prescribed have the velocity and
 //! acceleration of their curve, unshifted, so their weights are those of forces.
 
-use striae_mesh::Vec3;
+use striae_mesh::{ElementId, Vec3};
 
 use crate::{
     assembly::{Imposed, StepContext},
@@ -316,11 +316,11 @@ pub fn mass_times(problem: &Problem, vectors: &[Vec3]) -> Vec<Vec3> {
         if model.density == 0.0 {
             continue;
         }
-        for (at, corners) in model.mesh.elements.iter().enumerate() {
-            let nodes = corners.map(|node| problem.node(body, node));
-            let mass = problem.mass(body, at);
-            for a in 0..8 {
-                for b in 0..8 {
+        for (at, corners) in model.mesh.elements().enumerate() {
+            let nodes = problem.nodes(body, corners);
+            let mass = problem.mass(body, ElementId::new(at));
+            for a in 0..nodes.len() {
+                for b in 0..nodes.len() {
                     product[nodes[a]] += vectors[nodes[b]] * mass[a][b];
                 }
             }

@@ -5,7 +5,6 @@ mod contact_mass;
 mod curve;
 pub mod drive;
 pub mod dynamics;
-pub mod element;
 pub mod freedom;
 pub mod initial;
 pub mod interference;

@@ -27,6 +27,8 @@ pub struct Model {
     pub solver: Solver,
 }
 
+pub use striae_element::Formulation;
+
 /// A deformable body.
 #[derive(Clone, Debug)]
 pub struct Body {
@@ -36,6 +38,8 @@ pub struct Body {
     pub mesh: Mesh,
     /// Bulk material.
     pub material: Material,
+    /// How its elements take up strain.
+    pub formulation: Formulation,
     /// Mass per reference volume; zero where neither inertia nor gravity asks for it.
     pub density: f64,
     /// Mass of the nodes of its contact surfaces.

@@ -35,7 +35,7 @@ pub enum CutBack {
         /// Name of the body.
         body: String,
         /// Which and how.
-        element: crate::element::ElementFault,
+        element: striae_element::ElementFault,
     },
     /// A load has no direction.
     #[error("body `{body}`, facet set `{set}`: {error}")]

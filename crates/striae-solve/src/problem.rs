@@ -7,6 +7,7 @@ use striae_contact::{
     pair::{ContactPair, Geometry, Side as ContactSide},
     texture::SideTexture,
 };
+use striae_element::{ElementFault, Elements};
 use striae_mesh::{Face, FacetId, NodeId, Vec3};
 use striae_surface::{
     normal::nodal_normals,
@@ -15,9 +16,7 @@ use striae_surface::{
 };
 
 use crate::{
-    contact_mass,
-    element::{ElementFault, ReferenceElement, reference_elements},
-    interference,
+    contact_mass, interference,
     model::{Model, Pair, RigidShape, Side},
     plan::{StepPlan, plans},
 };
@@ -32,7 +31,7 @@ pub struct Problem {
     /// Reference position of every global node.
     pub reference: Vec<Vec3>,
     /// Reference elements of every body.
-    pub elements: Vec<Vec<ReferenceElement>>,
+    pub elements: Vec<Elements>,
     /// Contact pairs.
     pub pairs: Vec<PairGeometry>,
     /// What holds in each step.
@@ -140,11 +139,12 @@ impl Problem {
         for body in &model.bodies {
             reference.extend_from_slice(&body.mesh.positions);
             first_node.push(reference.len());
-            let of_body =
-                reference_elements(&body.mesh).map_err(|fault| ProblemError::Element {
+            let of_body = Elements::new(&body.mesh, body.formulation).map_err(|fault| {
+                ProblemError::Element {
                     body: body.name.clone(),
                     fault,
-                })?;
+                }
+            })?;
             elements.push(of_body);
         }
         let (tied, mass_points) = crate::rigid::ties(&model, &first_node, &mut reference);
@@ -180,6 +180,11 @@ impl Problem {
     /// Global number of a node of a body.
     pub fn node(&self, body: usize, node: NodeId) -> usize {
         self.first_node[body] + node.index()
+    }
+
+    /// Global numbers of nodes of a body.
+    pub fn nodes(&self, body: usize, nodes: &[NodeId]) -> Vec<usize> {
+        nodes.iter().map(|&node| self.node(body, node)).collect()
     }
 
     /// Body and node of a global node number.

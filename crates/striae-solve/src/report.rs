@@ -89,7 +89,7 @@ pub fn bodies(problem: &Problem, state: &State) -> Vec<BodyReport> {
     names
         .map(|(body, model)| {
             let (mut mass, mut centre, mut velocity) = (0.0, Vec3::zeros(), Vec3::zeros());
-            let elements = model.mesh.elements.iter().zip(&problem.elements[body]);
+            let elements = model.mesh.elements().zip(problem.elements[body].iter());
             for (corners, element) in elements {
                 for (corner, share) in corners.iter().zip(element.mass(1.0)) {
                     let node = problem.node(body, *corner);

@@ -26,6 +26,7 @@ use striae_contact::{
     pointed::choice::PIERCED,
 };
 use striae_law::bulk::Material;
+use striae_mesh::Vec3;
 
 use crate::{
     initial::{fits, may_meet, other_name},
@@ -348,9 +349,11 @@ fn rotation(problem: &Problem, state: &State) -> f64 {
     let bodies = problem.model.bodies.iter().zip(&problem.elements);
     let angles = bodies.enumerate().filter(|(_, (body, _))| is_linear(body));
     let angles = angles.map(|(at, (body, elements))| -> f64 {
-        let turned = elements.iter().zip(&body.mesh.elements);
+        let turned = elements.iter().zip(body.mesh.elements());
         let angles = turned.map(|(element, corners)| {
-            element.rotation(&corners.map(|node| state.positions[problem.node(at, node)]))
+            let nodes = problem.nodes(at, corners).into_iter();
+            let x: Vec<Vec3> = nodes.map(|node| state.positions[node]).collect();
+            element.rotation(&x)
         });
         angles.fold(0.0, f64::max)
     });

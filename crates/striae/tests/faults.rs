@@ -79,6 +79,7 @@ fn block(name: &str, z: f64) -> striae::model::Body {
             lambda: 1.0,
             shear: 1.0,
         }),
+        formulation: striae::model::Formulation::Standard,
         density: 0.0,
         contact_mass: ContactMass::Consistent,
     }

@@ -31,6 +31,11 @@ const LADDER: &[Row] = &[
         outside: &["nalgebra", "num-dual", "thiserror"],
     },
     Row {
+        name: "striae-element",
+        own: &["striae-law", "striae-mesh"],
+        outside: &["nalgebra", "pulp", "thiserror"],
+    },
+    Row {
         name: "striae-surface",
         own: &["striae-mesh"],
         outside: &["nalgebra", "num-dual", "thiserror"],
@@ -49,12 +54,13 @@ const LADDER: &[Row] = &[
         name: "striae-solve",
         own: &[
             "striae-contact",
+            "striae-element",
             "striae-law",
             "striae-linalg",
             "striae-mesh",
             "striae-surface",
         ],
-        outside: &["nalgebra", "num-dual", "pulp", "rayon", "thiserror"],
+        outside: &["nalgebra", "num-dual", "rayon", "thiserror"],
     },
     Row {
         name: "striae-model",
@@ -92,6 +98,7 @@ const LADDER: &[Row] = &[
         name: "striae-output",
         own: &[
             "striae-contact",
+            "striae-element",
             "striae-files",
             "striae-mesh",
             "striae-solve",

@@ -8,7 +8,7 @@ use striae_law::bulk::LameConstants;
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::{
     initial::{ROUND_OFF, fits, other_name, surface_node},
-    model::{Body, Model, Pair, PairId, RigidShape, RigidSurface, Side},
+    model::{Body, Formulation, Model, Pair, PairId, RigidShape, RigidSurface, Side},
     newton::{Analysis, Estimate, estimate},
     problem::Problem,
     stabilisation::first_increment,
@@ -49,11 +49,15 @@ fn summary(model: &Model) -> Result<String, Failure> {
 fn body_line(body: &Body) -> String {
     let law = body.material.name();
     let LameConstants { lambda, shear } = body.material.lame_constants();
+    let formulation = match body.formulation {
+        Formulation::Standard => "",
+        Formulation::MeanDilatation => " with mean dilatation",
+    };
     format!(
-        "  body `{}`: {} nodes, {} elements, smallest scaled Jacobian {:.3}; {law}, lambda = {lambda:.6e}, G = {shear:.6e}",
+        "  body `{}`: {} nodes, {} elements{formulation}, smallest scaled Jacobian {:.3}; {law}, lambda = {lambda:.6e}, G = {shear:.6e}",
         body.name,
         body.mesh.positions.len(),
-        body.mesh.elements.len(),
+        body.mesh.element_count(),
         body.mesh.quality().smallest_scaled_jacobian,
     )
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 use striae_law::bulk::Material;
 use striae_mesh::{Face, Mesh, NodeId};
 use striae_model::DraftBody;
-use striae_solve::model::{Body, BodyId, ContactMass};
+use striae_solve::model::{Body, BodyId, ContactMass, Formulation};
 
 /// All materials of the deck.
 pub(super) struct Materials {
@@ -26,6 +26,7 @@ struct RawBody {
     mesh: Option<Mesh>,
     material: Option<Material>,
     density: Option<f64>,
+    formulation: Option<Formulation>,
     contact_mass: ContactMass,
 }
 
@@ -145,10 +146,13 @@ impl Bodies {
         self.bodies
             .into_iter()
             .map(|body| {
+                let material = body.material?;
+                let suited = Formulation::suited_to(&material);
                 Some(Body {
                     name: body.name,
                     mesh: body.mesh?,
-                    material: body.material?,
+                    formulation: body.formulation.unwrap_or(suited),
+                    material,
                     density: body.density.unwrap_or(0.0),
                     contact_mass: body.contact_mass,
                 })
@@ -185,6 +189,10 @@ fn lower_body(
         mesh,
         material,
         density,
+        formulation: raw.formulation.as_ref().map(|word| match word.value {
+            raw::Formulation::Standard => Formulation::Standard,
+            raw::Formulation::MeanDilatation => Formulation::MeanDilatation,
+        }),
         contact_mass: match raw.contact_mass.as_ref().map(|mass| mass.value) {
             None | Some(raw::ContactMass::Consistent) => ContactMass::Consistent,
             Some(raw::ContactMass::Redistributed) => ContactMass::Redistributed,

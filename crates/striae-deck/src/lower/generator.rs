@@ -7,7 +7,7 @@ use crate::{
     value::{Count, Number, vector},
 };
 use striae_mesh::{
-    Mesh, MeshError, Vec3,
+    CellKind, Mesh, MeshError, Vec3,
     generate::{
         Annulus, Block, CappedBlock, Grading, Half, HalfCylinder, Part, Pivot, Refinement, Rotation,
     },
@@ -61,6 +61,12 @@ fn block(raw: &raw::Block, faults: &mut FaultList<'_>) -> Option<Block> {
         origin: point(&raw.origin),
         size: Vec3::new(x.0, y.0, z.0),
         divisions: counts(&raw.divisions)?,
+        cells: match raw.cells.as_ref().map(|cells| cells.value) {
+            None | Some(raw::Cells::Hexahedra) => CellKind::Hexahedron,
+            Some(raw::Cells::Wedges) => CellKind::Wedge,
+            Some(raw::Cells::Pyramids) => CellKind::Pyramid,
+            Some(raw::Cells::Tetrahedra) => CellKind::Tetrahedron,
+        },
         gradings: [
             along(|all| &all.x)?,
             along(|all| &all.y)?,

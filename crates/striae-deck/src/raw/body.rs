@@ -214,14 +214,26 @@ table! {
         required name: Text,
         /// Name of its material.
         required material: Text,
-        /// Its mesh of eight-node hexahedra, read from a file or generated.
+        /// Its mesh, read from a file or generated.
         required mesh: Mesh,
+        /// How its elements take up strain. Default: `mean-dilatation` where Poisson's ratio is above 0.45, else `standard`.
+        optional formulation: Formulation,
         /// Mass of the nodes of its contact surfaces in dynamic steps. Default: `consistent`.
         optional contact_mass: ContactMass,
         /// More sets of nodes.
         optional node_sets: Vec<At<NodeSet>>,
         /// More sets of facets.
         optional facet_sets: Vec<At<FacetSet>>,
+    }
+}
+
+words! {
+    /// How elements take up strain.
+    Formulation {
+        /// By displacements alone; locks where volumes can hardly change.
+        Standard = "standard",
+        /// With pressure and volume constant in the element; linear tetrahedra lock also with it.
+        MeanDilatation = "mean-dilatation",
     }
 }
 

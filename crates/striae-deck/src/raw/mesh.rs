@@ -7,7 +7,7 @@ use crate::{
 };
 
 either! {
-    /// A mesh of eight-node hexahedra.
+    /// A mesh of a body.
     Mesh {
         File(MeshFile),
         Generated(Generator),
@@ -39,8 +39,10 @@ table! {
         optional origin: [Number; 3],
         /// Edge lengths.
         required size: [Positive; 3],
-        /// Elements along the edges.
+        /// Hexahedra along the edges.
         required divisions: [Count; 3],
+        /// What they are divided into. Default: `hexahedra`, which are left whole.
+        optional cells: Cells,
         /// Interval lengths along the edges. Default: equal.
         optional grading: Gradings,
         /// Rotation of the whole block. Default: none.
@@ -55,6 +57,20 @@ table! {
         optional irregularity: BelowHalf,
         /// Seed of the random displacement. Default: 0.
         optional seed: Whole<0>,
+    }
+}
+
+words! {
+    /// Kinds of elements.
+    Cells {
+        /// With eight nodes.
+        Hexahedra = "hexahedra",
+        /// With six nodes, two in each hexahedron, standing along the third axis.
+        Wedges = "wedges",
+        /// With five nodes, six in each hexahedron.
+        Pyramids = "pyramids",
+        /// With four nodes, six in each hexahedron.
+        Tetrahedra = "tetrahedra",
     }
 }
 

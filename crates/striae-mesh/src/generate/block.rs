@@ -1,4 +1,4 @@
-//! A box of hexahedra, in several ways less regular than a box.
+//! A box of cells, in several ways less regular than a box.
 //!
 //! Starting from the graded lattice in the box `[0, a] x [0, b] x [0, c]`:
 //!
@@ -14,14 +14,16 @@
 //!    `z = s_x (x - a/2) + s_y (y - b/2)` and `z = c + ...`, columns of nodes are
 //!    stretched linearly between them, and the volume stays `a b c`;
 //! 4. rotation and shift of the whole.
+//!
+//! Cells of other kinds are made by dividing the hexahedra.
 
-use super::Grading;
 use super::grid::{Closure, Grid, Side, named_mesh};
+use super::{Grading, division::Division};
 use crate::random::Random;
-use crate::{Mesh, MeshError, Vec3};
+use crate::{CellKind, Mesh, MeshError, Vec3};
 use nalgebra::{Rotation3, Unit};
 
-/// A box of hexahedra with sides `xmin xmax ymin ymax zmin zmax`, named before
+/// A box of cells with sides `xmin xmax ymin ymax zmin zmax`, named before
 /// rotation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Block {
@@ -29,8 +31,10 @@ pub struct Block {
     pub origin: Vec3,
     /// Lengths of the edges; default 1.
     pub size: Vec3,
-    /// Number of elements along `x, y, z`; default 1.
+    /// Number of hexahedra along `x, y, z`; default 1.
     pub divisions: [usize; 3],
+    /// What the hexahedra are divided into; default hexahedra. Wedges stand along `z`.
+    pub cells: CellKind,
     /// Interval lengths along `x, y, z`; default uniform.
     pub gradings: [Grading; 3],
     /// Rotation of the whole block; default none.
@@ -76,6 +80,7 @@ impl Default for Block {
             origin: Vec3::zeros(),
             size: Vec3::repeat(1.0),
             divisions: [1; 3],
+            cells: CellKind::Hexahedron,
             gradings: Default::default(),
             rotation: None,
             mesh_rotation: 0.0,
@@ -102,7 +107,7 @@ impl Block {
             nodes[axis].iter_mut().for_each(|x| *x *= self.size[axis]);
         }
         let mut random = Random::new(self.seed);
-        let positions = grid.positions(|lattice| {
+        let mut positions = grid.positions(|lattice| {
             let x = irregular(&nodes, lattice, self.irregularity, &mut random);
             self.place(self.slope(self.turn(x)))
         });
@@ -114,7 +119,9 @@ impl Block {
             ("zmin", grid.faces(Side::FirstK)),
             ("zmax", grid.faces(Side::LastK)),
         ];
-        named_mesh(positions, grid.elements(), sides)
+        let division = Division::new(grid.elements(), self.cells, &mut positions);
+        let sides = sides.map(|(name, faces)| (name, division.faces(&faces)));
+        named_mesh(positions, division.cells, sides)
     }
 
     fn check_parameters(&self) -> Result<(), MeshError> {

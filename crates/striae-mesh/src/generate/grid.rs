@@ -3,7 +3,7 @@
 //! Local axes `xi, eta, zeta` of the elements run along `i, j, k`. A lattice may
 //! close upon itself along `k`, so that its last layer meets its first.
 
-use crate::{ElementId, Face, Mesh, MeshError, NodeId, Vec3};
+use crate::{CellBlock, ElementId, Face, Mesh, MeshError, NodeId, Vec3};
 
 /// A lattice of `divisions[0] x divisions[1] x divisions[2]` elements.
 pub(super) struct Grid {
@@ -50,7 +50,7 @@ impl Grid {
     }
 
     /// All elements, `i` running fastest.
-    pub(super) fn elements(&self) -> Vec<[NodeId; 8]> {
+    pub(super) fn elements(&self) -> CellBlock {
         let [ni, nj, nk] = self.divisions;
         let mut elements = Vec::with_capacity(ni * nj * nk);
         for k in 0..nk {
@@ -69,7 +69,7 @@ impl Grid {
                 }
             }
         }
-        elements
+        CellBlock::hexahedra(elements)
     }
 
     /// Element faces on one side.
@@ -126,10 +126,10 @@ pub(super) fn check_element_count(
 /// The checked mesh with its sides named as facet and node sets.
 pub(super) fn named_mesh<'a>(
     positions: Vec<Vec3>,
-    elements: Vec<[NodeId; 8]>,
+    elements: CellBlock,
     sides: impl IntoIterator<Item = (&'a str, Vec<Face>)>,
 ) -> Result<Mesh, MeshError> {
-    let mut mesh = Mesh::new(positions, elements)?;
+    let mut mesh = Mesh::new(positions, vec![elements])?;
     for (name, faces) in sides {
         mesh.node_sets.insert(name, mesh.nodes_of_faces(&faces));
         mesh.facet_sets.insert(name, faces);
@@ -137,7 +137,7 @@ pub(super) fn named_mesh<'a>(
     mesh.node_sets
         .insert("all", (0..mesh.positions.len()).map(NodeId::new));
     mesh.element_sets
-        .insert("all", (0..mesh.elements.len()).map(ElementId::new));
+        .insert("all", (0..mesh.element_count()).map(ElementId::new));
     mesh.check()?;
     mesh.check_shape()?;
     Ok(mesh)

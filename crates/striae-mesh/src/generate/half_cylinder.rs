@@ -7,7 +7,7 @@
 
 use super::grid::{check_element_count, named_mesh};
 use super::half_disc::HalfDisc;
-use crate::{ElementId, Face, Mesh, MeshError, NodeId, Vec3};
+use crate::{CellBlock, ElementId, Face, Mesh, MeshError, NodeId, Vec3};
 
 /// A slice of a half cylinder along `y`, with sides `flat`, `arc`, `ymin`, `ymax`.
 #[derive(Clone, Debug, PartialEq)]
@@ -89,7 +89,7 @@ impl HalfCylinder {
             .collect();
         let sheet = disc.node_count();
         let quadrangles = disc.quadrangles();
-        let elements: Vec<[NodeId; 8]> = (0..self.layers)
+        let elements = (0..self.layers)
             .flat_map(|layer| quadrangles.iter().map(move |q| (layer, q)))
             .map(|(layer, &[a, b, c, d])| {
                 let (near, far) = (layer * sheet, (layer + 1) * sheet);
@@ -104,8 +104,8 @@ impl HalfCylinder {
                     far + b,
                 ]
                 .map(NodeId::new)
-            })
-            .collect();
+            });
+        let elements = CellBlock::hexahedra(elements);
         named_mesh(positions, elements, self.sides(&disc))
     }
 

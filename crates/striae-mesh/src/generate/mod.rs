@@ -2,7 +2,7 @@
 //!
 //! | generator | body |
 //! | --- | --- |
-//! | [`Block`] | box, graded, turned, with oblique faces, turned or irregular mesh inside |
+//! | [`Block`] | box, graded, turned, with oblique faces, turned or irregular mesh inside, of cells of any kind |
 //! | [`CappedBlock`] | block with a spherical lower face, fine at its lowest point |
 //! | [`HalfCylinder`] | slice of a half cylinder, fine at the end of its middle radius |
 //! | [`Annulus`] | ring of rectangular section, a tyre |
@@ -30,6 +30,7 @@
 mod annulus;
 mod block;
 mod capped_block;
+mod division;
 mod grading;
 mod grid;
 mod half_cylinder;

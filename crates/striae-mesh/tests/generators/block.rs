@@ -3,7 +3,7 @@
 use crate::{area, assert_close, assert_sets_share_out_the_boundary, normals};
 use proptest::prelude::*;
 use striae_mesh::generate::{Block, Grading, Pivot, Rotation};
-use striae_mesh::{MeshError, Vec3};
+use striae_mesh::{CellKind, MeshError, Vec3};
 
 const BLOCK_SIDES: [(&str, [f64; 3]); 6] = [
     ("xmin", [-1.0, 0.0, 0.0]),
@@ -50,7 +50,7 @@ fn block_counts_and_order_are_those_of_the_lattice() {
     }
     .mesh()
     .unwrap();
-    assert_eq!((mesh.positions.len(), mesh.elements.len()), (60, 24));
+    assert_eq!((mesh.positions.len(), mesh.element_count()), (60, 24));
     assert_eq!(mesh.positions[1], Vec3::new(0.5, 0.0, 0.0));
     assert_eq!(mesh.positions[59], Vec3::repeat(1.0));
     assert_close(mesh.quality().smallest_scaled_jacobian, 1.0, 1e-14);
@@ -227,5 +227,39 @@ proptest! {
         let mesh = block.mesh().unwrap();
         prop_assert!(mesh.quality().smallest_scaled_jacobian > 0.05);
         prop_assert!((mesh.volume() / size.iter().product::<f64>() - 1.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn cells_of_all_kinds_fill_the_same_block() {
+    let counts = [
+        (CellKind::Tetrahedron, 6, 2),
+        (CellKind::Pyramid, 6, 1),
+        (CellKind::Wedge, 2, 1),
+        (CellKind::Hexahedron, 1, 1),
+    ];
+    for (cells, parts, facets_a_side) in counts {
+        let block = Block {
+            size: Vec3::new(2.0, 1.0, 1.5),
+            divisions: [3, 2, 4],
+            irregularity: 0.15,
+            mesh_rotation: 10.0,
+            cells,
+            ..Block::default()
+        };
+        let mesh = block.mesh().unwrap();
+        assert_sets_share_out_the_boundary(&mesh, &BLOCK_SIDES.map(|(name, _)| name));
+        assert_eq!(mesh.element_count(), 24 * parts);
+        assert_close(mesh.volume(), 3.0, 1e-13);
+        assert!(mesh.quality().smallest_scaled_jacobian > 0.1, "{cells}");
+        for (set, count) in [("xmin", 8), ("ymax", 12)] {
+            assert_eq!(
+                mesh.facet_sets.get(set).unwrap().len(),
+                facets_a_side * count
+            );
+        }
+        for (set, exact) in [("xmin", 1.5), ("ymax", 3.0), ("zmax", 2.0)] {
+            assert_close(area(&mesh, set), exact, 1e-13);
+        }
     }
 }

@@ -75,7 +75,7 @@ fn half_a_block_is_half_of_the_whole() {
     };
     let (whole, half) = (whole.mesh().unwrap(), half.mesh().unwrap());
     assert_sets_share_out_the_boundary(&half, &CAP_SIDES);
-    assert_eq!(2 * half.elements.len(), whole.elements.len());
+    assert_eq!(2 * half.element_count(), whole.element_count());
     assert_close(2.0 * half.volume(), whole.volume(), 1e-13);
     for node in half.node_sets.get("ymin").unwrap() {
         assert_eq!(half.positions[node.index()].y, 0.0);

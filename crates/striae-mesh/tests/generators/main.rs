@@ -31,7 +31,7 @@ pub(crate) fn assert_sets_share_out_the_boundary(mesh: &Mesh, sets: &[&str]) {
     assert_eq!(faces, mesh.boundary_faces());
     let count = mesh.positions.len();
     assert_eq!(mesh.node_sets.get("all").unwrap().len(), count);
-    let count = mesh.elements.len();
+    let count = mesh.element_count();
     assert_eq!(mesh.element_sets.get("all").unwrap().len(), count);
     let closed: Vec3 = faces.iter().map(|&face| mesh.area_vector(face)).sum();
     assert!(closed.norm() < 1e-12 * mesh.area(&faces));

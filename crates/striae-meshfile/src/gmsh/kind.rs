@@ -1,6 +1,7 @@
 //! Gmsh's element types.
 
 use super::super::MeshFileFault;
+use striae_mesh::CellKind;
 
 /// An element type by its number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,7 +33,6 @@ const KINDS: [(&str, usize, usize); 19] = [
 impl Kind {
     pub(super) const TRIANGLE: Self = Self(2);
     pub(super) const QUADRANGLE: Self = Self(3);
-    pub(super) const HEXAHEDRON: Self = Self(5);
 
     /// The type of a number from 1 to 19.
     pub(super) fn new(line: usize, number: usize) -> Result<Self, MeshFileFault> {
@@ -46,6 +46,17 @@ impl Kind {
         )
     }
 
+    /// The kind of cell that elements of this type are.
+    pub(super) fn cell(self) -> Option<CellKind> {
+        match self.0 {
+            4 => Some(CellKind::Tetrahedron),
+            5 => Some(CellKind::Hexahedron),
+            6 => Some(CellKind::Wedge),
+            7 => Some(CellKind::Pyramid),
+            _ => None,
+        }
+    }
+
     pub(super) fn dimension(self) -> usize {
         KINDS[self.0 - 1].1
     }
@@ -54,19 +65,15 @@ impl Kind {
         KINDS[self.0 - 1].2
     }
 
-    /// The fault of this type where another one is needed.
-    pub(super) fn fault(self, line: usize, needed: Self) -> MeshFileFault {
-        let expected = match needed {
-            Self::HEXAHEDRON => "8-node hexahedra (only they are supported)",
-            _ => "4-node quadrangles as faces (or triangles of a rigid surface)",
+    /// The fault of this type where it cannot be used.
+    pub(super) fn fault(self, line: usize) -> MeshFileFault {
+        let expected = match self.dimension() {
+            3 => "linear tetrahedra, pyramids, prisms or hexahedra",
+            _ => "3-node triangles or 4-node quadrangles as faces",
         };
         let found = format!("element type {} ({})", self.0, KINDS[self.0 - 1].0);
-        let higher_order = KINDS[self.0 - 1].0.contains("-node");
-        let remedy = if higher_order { LOWER_ORDER } else { RECOMBINE };
-        MeshFileFault::line(line, expected, found).with_remedy(remedy)
+        MeshFileFault::line(line, expected, found).with_remedy(LOWER_ORDER)
     }
 }
 
 const LOWER_ORDER: &str = "mesh with Mesh.ElementOrder = 1";
-const RECOMBINE: &str =
-    "recombine the mesh in Gmsh (Recombine Surface, transfinite or extruded volumes)";

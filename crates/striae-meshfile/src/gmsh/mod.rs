@@ -2,14 +2,14 @@
 //!
 //! A file is a sequence of sections `$Name .. $EndName`. Both versions lead to
 //! the same list of nodes and cells; a cell knows the physical groups it is in.
-//! Gmsh numbers the corners of quadrangles and hexahedra as VTK does.
+//! Gmsh numbers the corners of all linear cells as [`striae_mesh::CellKind`] does.
 
 mod kind;
 mod node_data;
 mod version2;
 mod version4;
 
-use super::collected::{Collected, FileFace, Hexahedron};
+use super::collected::{Collected, FileElement, FileFace};
 use super::lines::{Line, Lines};
 use super::{MeshFileFault, RigidSurfaceMesh};
 use kind::Kind;
@@ -31,11 +31,14 @@ pub(super) fn collected(text: &str) -> Result<Collected, MeshFileFault> {
         let groups = cell.groups.iter().map(|group| file.name(cell, *group));
         match cell.kind.dimension() {
             3 => {
-                let corners = cell.corners::<8>(Kind::HEXAHEDRON)?;
+                let kind = cell.kind.cell();
+                let kind = kind.ok_or_else(|| cell.kind.fault(cell.line))?;
+                let corners = cell.nodes.clone();
                 // A cell of several groups is written several times in version 2.
-                let number = *known.entry(corners).or_insert(cell.number);
+                let number = *known.entry(corners.clone()).or_insert(cell.number);
                 if number == cell.number {
-                    mesh.hexahedra.push(Hexahedron {
+                    mesh.elements.push(FileElement {
+                        kind,
                         line: cell.line,
                         number,
                         corners,
@@ -48,7 +51,7 @@ pub(super) fn collected(text: &str) -> Result<Collected, MeshFileFault> {
             }
             2 if cell.groups.is_empty() => {}
             2 => {
-                let corners = FileFace::Corners(cell.corners::<4>(Kind::QUADRANGLE)?);
+                let corners = FileFace::Corners(cell.facet()?);
                 for name in groups {
                     let set = mesh.facet_sets.entry(name).or_default();
                     set.push((cell.line, corners));
@@ -197,21 +200,13 @@ impl File {
 }
 
 impl Cell {
-    /// The nodes of a cell that has to be of a certain kind with `N` corners.
-    fn corners<const N: usize>(&self, kind: Kind) -> Result<[u64; N], MeshFileFault> {
-        match <[u64; N]>::try_from(self.nodes.as_slice()) {
-            Ok(corners) if self.kind == kind => Ok(corners),
-            _ => Err(self.kind.fault(self.line, kind)),
-        }
-    }
-
-    /// The corners of a triangle, the last one twice, or quadrangle.
+    /// The corners of a quadrangle, or of a triangle with the last one twice.
     fn facet(&self) -> Result<[u64; 4], MeshFileFault> {
-        if self.kind == Kind::TRIANGLE {
-            let [a, b, c] = self.corners::<3>(Kind::TRIANGLE)?;
-            return Ok([a, b, c, c]);
+        match (self.kind, self.nodes.as_slice()) {
+            (Kind::TRIANGLE, &[a, b, c]) => Ok([a, b, c, c]),
+            (Kind::QUADRANGLE, &[a, b, c, d]) => Ok([a, b, c, d]),
+            _ => Err(self.kind.fault(self.line)),
         }
-        self.corners::<4>(Kind::QUADRANGLE)
     }
 }
 

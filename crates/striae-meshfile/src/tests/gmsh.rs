@@ -78,10 +78,10 @@ fn broken_gmsh_files_are_explained() {
             ["line 6", "found `zero`"],
         ),
         (
-            format!("{two}$Elements\n1\n5 4 0 1 2 3 4\n$EndElements\n"),
+            format!("{two}$Elements\n1\n5 14 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14\n$EndElements\n"),
             [
-                "line 6: expected 8-node hexahedra",
-                "element type 4 (tetrahedron); recombine",
+                "line 6: expected linear tetrahedra",
+                "element type 14 (14-node pyramid); mesh with",
             ],
         ),
         (
@@ -89,8 +89,8 @@ fn broken_gmsh_files_are_explained() {
             ["line 6", "element type 92"],
         ),
         (
-            format!("{two}$Elements\n1\n5 2 1 4 1 2 3\n$EndElements\n"),
-            ["line 6", "(triangle)"],
+            format!("{two}$Elements\n1\n5 9 1 4 1 2 3 4 5 6\n$EndElements\n"),
+            ["line 6", "(6-node triangle)"],
         ),
         (
             format!("{two}$Elements\n1\n5 5 0 1 2 3\n"),

@@ -22,8 +22,11 @@ fn joined(numbers: impl IntoIterator<Item = u32>, separator: &str) -> String {
 }
 
 fn elements(mesh: &Mesh) -> impl Iterator<Item = (ElementId, String)> {
-    let corners = mesh.elements.iter().enumerate();
-    corners.map(|(index, corners)| (ElementId::new(index), joined(corners.map(node), " ")))
+    let corners = mesh.elements().enumerate();
+    corners.map(|(index, corners)| {
+        let nodes = corners.iter().map(|&id| node(id));
+        (ElementId::new(index), joined(nodes, " "))
+    })
 }
 
 /// Version 2.2: an element of two groups is written twice.

@@ -2,7 +2,7 @@
 
 use striae_law::bulk::Material;
 use striae_mesh::{Mesh, NodeId, Vec3};
-use striae_solve::model::{Body, ContactMass, RigidInertia, RigidShape, RigidSurface};
+use striae_solve::model::{Body, ContactMass, Formulation, RigidInertia, RigidShape, RigidSurface};
 
 use super::lookup::Names;
 use crate::{fault::Fault, path::Path};
@@ -11,11 +11,13 @@ use crate::{fault::Fault, path::Path};
 #[derive(Clone, Debug)]
 pub struct BodyBuilder(Body);
 
-/// A deformable body with the sets of its mesh, without density.
+/// A deformable body with the sets of its mesh, without density; elements of the
+/// formulation that [suits](Formulation::suited_to) the material.
 pub fn body(name: impl Into<String>, mesh: Mesh, material: Material) -> BodyBuilder {
     BodyBuilder(Body {
         name: name.into(),
         mesh,
+        formulation: Formulation::suited_to(&material),
         material,
         density: 0.0,
         contact_mass: ContactMass::Consistent,
@@ -26,6 +28,12 @@ impl BodyBuilder {
     /// Mass per reference volume, for inertia and gravity.
     pub fn density(mut self, density: f64) -> Self {
         self.0.density = density;
+        self
+    }
+
+    /// How its elements take up strain.
+    pub fn formulation(mut self, formulation: Formulation) -> Self {
+        self.0.formulation = formulation;
         self
     }
 

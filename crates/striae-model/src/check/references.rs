@@ -107,7 +107,7 @@ impl Check<'_> {
 
     fn faces(&mut self, body: BodyId, faces: &[Face], path: Path) {
         if let Some(mesh) = self.body(body, &path) {
-            let count = mesh.elements.len();
+            let count = mesh.element_count();
             let elements = faces.iter().map(|face| face.element.index());
             self.within("element", elements, count, &path);
         }

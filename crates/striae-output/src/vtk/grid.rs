@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use nalgebra::Matrix3;
-use striae_mesh::{NodeId, Vec3};
+use striae_mesh::{CellBlock, CellKind, NodeId, Vec3};
 
 use crate::OutputError;
 
@@ -26,8 +26,8 @@ pub struct Grid<'a> {
 /// How points make cells; corners are numbered as in VTK.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cells<'a> {
-    /// Eight-node hexahedra.
-    Hexahedra(&'a [[NodeId; 8]]),
+    /// The elements of a mesh.
+    Blocks(&'a [CellBlock]),
     /// Four-node quadrilaterals.
     Quadrilaterals(&'a [[NodeId; 4]]),
     /// Three-node triangles.
@@ -95,7 +95,7 @@ impl Cells<'_> {
     /// How many cells there are.
     pub fn len(&self) -> usize {
         match self {
-            Self::Hexahedra(cells) => cells.len(),
+            Self::Blocks(blocks) => blocks.iter().map(CellBlock::len).sum(),
             Self::Quadrilaterals(cells) => cells.len(),
             Self::Triangles(cells) => cells.len(),
             Self::Polygons(cells) => cells.len(),
@@ -107,28 +107,47 @@ impl Cells<'_> {
         self.len() == 0
     }
 
-    /// Corners of cell `index`.
-    pub(super) fn corners(&self, index: usize) -> &[NodeId] {
+    /// Calls `visit` with VTK's code for the shape and with the corners of every cell.
+    pub(super) fn each(&self, mut visit: impl FnMut(u8, &[NodeId])) {
         match self {
-            Self::Hexahedra(cells) => &cells[index],
-            Self::Quadrilaterals(cells) => &cells[index],
-            Self::Triangles(cells) => &cells[index],
-            Self::Polygons(cells) => &cells[index],
+            Self::Blocks(blocks) => {
+                for block in *blocks {
+                    let shape = solid(block.kind);
+                    for corners in block.cells() {
+                        match *corners {
+                            // VTK's wedge has the normal of its first triangle outward.
+                            [a, b, c, d, e, f] => visit(shape, &[a, c, b, d, f, e]),
+                            _ => visit(shape, corners),
+                        }
+                    }
+                }
+            }
+            Self::Quadrilaterals(cells) => cells.iter().for_each(|cell| visit(polygon(cell), cell)),
+            Self::Triangles(cells) => cells.iter().for_each(|cell| visit(polygon(cell), cell)),
+            Self::Polygons(cells) => cells.iter().for_each(|cell| visit(polygon(cell), cell)),
         }
     }
+}
 
-    /// VTK's code for the shape of cell `index`.
-    pub(super) fn shape(&self, index: usize) -> u8 {
-        const TRIANGLE: u8 = 5;
-        const POLYGON: u8 = 7;
-        const QUAD: u8 = 9;
-        const HEXAHEDRON: u8 = 12;
-        match (self, self.corners(index).len()) {
-            (Self::Hexahedra(_), _) => HEXAHEDRON,
-            (_, 3) => TRIANGLE,
-            (_, 4) => QUAD,
-            _ => POLYGON,
-        }
+/// VTK's code for a kind of cell.
+fn solid(kind: CellKind) -> u8 {
+    match kind {
+        CellKind::Tetrahedron => 10,
+        CellKind::Hexahedron => 12,
+        CellKind::Wedge => 13,
+        CellKind::Pyramid => 14,
+    }
+}
+
+/// VTK's code for a polygon.
+fn polygon(corners: &[NodeId]) -> u8 {
+    const TRIANGLE: u8 = 5;
+    const POLYGON: u8 = 7;
+    const QUAD: u8 = 9;
+    match corners.len() {
+        3 => TRIANGLE,
+        4 => QUAD,
+        _ => POLYGON,
     }
 }
 
@@ -137,18 +156,21 @@ impl Grid<'_> {
     pub(super) fn check(&self, path: &Path) -> Result<(), OutputError> {
         check_arrays(path, &self.point_arrays, self.points.len())?;
         check_arrays(path, &self.cell_arrays, self.cells.len())?;
-        for cell in 0..self.cells.len() {
-            let corners = self.cells.corners(cell);
-            if let Some(missing) = corners.iter().find(|id| id.index() >= self.points.len()) {
-                return Err(OutputError::MissingPoint {
-                    path: path.to_owned(),
-                    cell,
-                    point: missing.index(),
-                    points: self.points.len(),
-                });
-            }
+        let (mut cell, mut missing) = (0, None);
+        self.cells.each(|_, corners| {
+            let beyond = corners.iter().find(|id| id.index() >= self.points.len());
+            missing = missing.or(beyond.map(|id| (cell, id.index())));
+            cell += 1;
+        });
+        match missing {
+            None => Ok(()),
+            Some((cell, point)) => Err(OutputError::MissingPoint {
+                path: path.to_owned(),
+                cell,
+                point,
+                points: self.points.len(),
+            }),
         }
-        Ok(())
     }
 }
 

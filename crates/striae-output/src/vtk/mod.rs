@@ -12,10 +12,10 @@
 //! ```no_run
 //! use striae_output::vtk::{self, Array, Cells, Grid, Values};
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! # let (points, elements, displacement) = (vec![], vec![], vec![]);
+//! # let (points, blocks, displacement) = (vec![], vec![], vec![]);
 //! let grid = Grid {
 //!     points: &points,
-//!     cells: Cells::Hexahedra(&elements),
+//!     cells: Cells::Blocks(&blocks),
 //!     point_arrays: vec![Array::new("displacement", Values::Vectors(displacement))],
 //!     cell_arrays: vec![],
 //!     time: 0.5,

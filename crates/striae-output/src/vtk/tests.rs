@@ -1,6 +1,6 @@
 use nalgebra::Matrix3;
 use proptest::prelude::*;
-use striae_mesh::{NodeId, Vec3};
+use striae_mesh::{CellBlock, NodeId, Vec3};
 
 use super::decode::{array, attribute};
 use super::xml::encode;
@@ -26,7 +26,7 @@ fn cube() -> Vec<Vec3> {
 #[test]
 fn every_kind_of_array_survives_bit_by_bit() {
     let points = cube();
-    let cells = [ids([0, 1, 2, 3, 4, 5, 6, 7])];
+    let cells = [CellBlock::hexahedra([ids([0, 1, 2, 3, 4, 5, 6, 7])])];
     let tensor = Matrix3::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0);
     let scalars = vec![
         0.1,
@@ -40,7 +40,7 @@ fn every_kind_of_array_survives_bit_by_bit() {
     ];
     let grid = Grid {
         points: &points,
-        cells: Cells::Hexahedra(&cells),
+        cells: Cells::Blocks(&cells),
         point_arrays: vec![
             Array::new("gap <n>", Values::Scalars(scalars.clone())),
             Array::new("normal", Values::Vectors(points.clone())),

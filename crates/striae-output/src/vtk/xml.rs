@@ -80,13 +80,12 @@ fn piece(grid: &Grid, appended: &mut Appended) -> String {
 fn connectivity(cells: Cells, appended: &mut Appended) -> String {
     let (mut corners, mut offsets, mut shapes) = (Vec::new(), Vec::new(), Vec::new());
     let mut end = 0_i64;
-    for cell in 0..cells.len() {
-        let nodes = cells.corners(cell);
+    cells.each(|shape, nodes| {
         corners.extend(nodes.iter().flat_map(|id| i64::from(id.0).to_le_bytes()));
         end += nodes.len() as i64;
         offsets.extend(end.to_le_bytes());
-        shapes.push(cells.shape(cell));
-    }
+        shapes.push(shape);
+    });
     element("Int64", "connectivity", 1, &[], corners, appended)
         + &element("Int64", "offsets", 1, &[], offsets, appended)
         + &element("UInt8", "types", 1, &[], shapes, appended)

@@ -3,15 +3,12 @@
 
 use rayon::prelude::*;
 use std::ops::Range;
+use striae_element::{ElementBlock, ElementError, ElementFault, ElementResponse, Stiffness};
 use striae_linalg::OutsidePattern;
-use striae_mesh::{ElementId, NodeId};
+use striae_mesh::{ElementId, MAX_CORNERS, NodeId, Vec3};
 
 use super::{Fault, System, Trial, ties::Slot};
-use crate::{
-    element::{ElementError, ElementFault, ElementResponse},
-    outcome::CutBack,
-    problem::Problem,
-};
+use crate::{outcome::CutBack, problem::Problem};
 
 /// Elements whose responses are kept at a time: few enough for the cache.
 const CHUNK: usize = 128;
@@ -29,53 +26,64 @@ impl System<'_> {
         let problem = self.context.problem;
         let mut sums = Sums::default();
         for (body, elements) in problem.elements.iter().enumerate() {
-            let count = elements.len();
-            let chunk = |start: usize| start.min(count)..(start + CHUNK).min(count);
-            let buffer = || vec![ElementResponse::default(); CHUNK.min(count)];
-            let (mut ready, mut next) = (buffer(), buffer());
-            let mut results = respond(problem, body, trial, chunk(0), &mut ready);
-            for start in (0..count).step_by(CHUNK) {
-                let (added, following) = rayon::join(
-                    || self.add_elements(body, start, &mut ready, &results, &mut sums),
-                    || respond(problem, body, trial, chunk(start + CHUNK), &mut next),
-                );
-                added?;
-                results = following;
-                std::mem::swap(&mut ready, &mut next);
+            for (first, block) in elements.blocks() {
+                self.block(&Place { body, first, block }, trial, &mut sums)?;
             }
         }
         self.force_scale = sums.square_of_forces.sqrt();
         Ok(sums.energy)
     }
 
-    /// Adds the elements of a body from `start` on.
+    /// The elements of a block.
+    fn block(&mut self, place: &Place, trial: &Trial, sums: &mut Sums) -> Result<(), Fault> {
+        let problem = self.context.problem;
+        let count = place.block.count();
+        let empty = ElementResponse::zero(place.block.kind().corner_count());
+        let chunk = |start: usize| start.min(count)..(start + CHUNK).min(count);
+        let buffer = || vec![empty.clone(); CHUNK.min(count)];
+        let (mut ready, mut next) = (buffer(), buffer());
+        let mut results = respond(problem, place, trial, chunk(0), &mut ready);
+        for start in (0..count).step_by(CHUNK) {
+            let (added, following) = rayon::join(
+                || self.add_elements(place, start, &mut ready, &results, sums),
+                || respond(problem, place, trial, chunk(start + CHUNK), &mut next),
+            );
+            added?;
+            results = following;
+            std::mem::swap(&mut ready, &mut next);
+        }
+        Ok(())
+    }
+
+    /// Adds the elements of a block from `start` on.
     fn add_elements(
         &mut self,
-        body: usize,
+        place: &Place,
         start: usize,
         responses: &mut [ElementResponse],
         results: &[Result<(), ElementError>],
         sums: &mut Sums,
     ) -> Result<(), Fault> {
         let problem = self.context.problem;
-        let model = &problem.model.bodies[body];
+        let model = &problem.model.bodies[place.body];
         for ((at, response), result) in (start..).zip(responses).zip(results) {
+            let element = ElementId::new(place.first + at);
             result.map_err(|error| {
                 Fault::CutBack(CutBack::InvertedElement {
                     body: model.name.clone(),
-                    element: ElementFault {
-                        element: ElementId::new(at),
-                        error,
-                    },
+                    element: ElementFault { element, error },
                 })
             })?;
             sums.energy += response.energy;
-            let nodes = model.mesh.elements[at].map(|n: NodeId| problem.node(body, n));
-            let mass = (model.density > 0.0).then(|| problem.mass(body, at));
-            self.weigh(&nodes, mass.as_ref(), response);
-            sums.square_of_forces += response.force.iter().map(|f| f * f).sum::<f64>();
-            self.add_response(&nodes, response)
-                .map_err(|_| Fault::Pattern(vec![self.clique(&nodes)]))?;
+            let corners = model.mesh.corners(element);
+            let mut nodes = [0; MAX_CORNERS];
+            let nodes = globals(problem, place.body, corners, &mut nodes);
+            let mass = (model.density > 0.0).then(|| problem.mass(place.body, element));
+            self.weigh(nodes, mass.as_ref(), response);
+            let forces = response.force.as_flattened().iter();
+            sums.square_of_forces += forces.map(|f| f * f).sum::<f64>();
+            self.add_response(nodes, response)
+                .map_err(|_| Fault::Pattern(vec![self.clique(nodes)]))?;
         }
         Ok(())
     }
@@ -83,25 +91,41 @@ impl System<'_> {
     /// Adds force and stiffness of an element, leaving out prescribed rows.
     fn add_response(
         &mut self,
-        nodes: &[usize; 8],
+        nodes: &[usize],
         response: &ElementResponse,
     ) -> Result<(), OutsidePattern> {
-        let (force, stiffness) = (&response.force, &response.stiffness);
-        if nodes.iter().any(|&node| self.tie(node).is_some()) {
-            let unknowns: [usize; 24] =
-                std::array::from_fn(|at| self.layout.position(nodes[at / 3]) + at % 3);
-            return self.add_dense(nodes, &unknowns, force, &stiffness.by_rows());
-        }
-        for (&node, force) in nodes.iter().zip(force.chunks_exact(3)) {
+        let stiffness = &response.stiffness;
+        let tied = nodes.iter().any(|&node| self.tie(node).is_some());
+        match (tied, nodes.len()) {
+            (false, 4) => self.add_stiffness::<4>(nodes, stiffness),
+            (false, 5) => self.add_stiffness::<5>(nodes, stiffness),
+            (false, 6) => self.add_stiffness::<6>(nodes, stiffness),
+            (false, 8) => self.add_stiffness::<8>(nodes, stiffness),
+            _ => {
+                let (unknowns, tangent) = (self.unknowns(nodes), stiffness.by_rows());
+                let force = response.force.as_flattened();
+                return self.add_dense(nodes, &unknowns, force, &tangent);
+            }
+        }?;
+        for (&node, force) in nodes.iter().zip(&response.force) {
             let first = self.layout.position(node);
-            let residual = &mut self.residual[first..first + 3];
-            residual
-                .iter_mut()
-                .zip(force)
-                .for_each(|(sum, f)| *sum += f);
+            let residual = self.residual[first..first + 3].iter_mut();
+            residual.zip(force).for_each(|(sum, f)| *sum += f);
         }
-        let fixed = nodes.map(|node| &self.context.fixed[3 * node..3 * node + 3]);
-        let members = nodes.map(|node| self.layout.supervariable(node));
+        Ok(())
+    }
+
+    /// Adds the stiffness of an element with `N` corners, none of them tied.
+    fn add_stiffness<const N: usize>(
+        &mut self,
+        nodes: &[usize],
+        stiffness: &Stiffness,
+    ) -> Result<(), OutsidePattern> {
+        let fixed: [_; N] = std::array::from_fn(|a| {
+            let first = 3 * nodes[a];
+            &self.context.fixed[first..first + 3]
+        });
+        let members: [_; N] = std::array::from_fn(|a| self.layout.supervariable(nodes[a]));
         self.matrix.add_blocks(&members, |a, b| {
             let mut block = stiffness.between(a, b);
             for (row, is_fixed) in block.iter_mut().zip(fixed[a]) {
@@ -111,6 +135,12 @@ impl System<'_> {
             }
             block
         })
+    }
+
+    /// The position unknowns of nodes.
+    pub(super) fn unknowns(&self, nodes: &[usize]) -> Vec<usize> {
+        let first = nodes.iter().map(|&node| self.layout.position(node));
+        first.flat_map(|first| first..first + 3).collect()
     }
 
     /// Adds a square block of position unknowns, leaving out prescribed rows.
@@ -139,14 +169,23 @@ impl System<'_> {
     }
 }
 
-/// Responses of some elements of a body, written over older ones.
+/// A block of elements and where it belongs.
+struct Place<'a> {
+    body: usize,
+    /// First element in the mesh.
+    first: usize,
+    block: &'a dyn ElementBlock,
+}
+
+/// Responses of some elements of a block, written over older ones.
 fn respond(
     problem: &Problem,
-    body: usize,
+    place: &Place,
     trial: &Trial,
     range: Range<usize>,
     responses: &mut [ElementResponse],
 ) -> Vec<Result<(), ElementError>> {
+    let &Place { body, first, block } = place;
     let model = &problem.model.bodies[body];
     let count = range.len();
     responses[..count]
@@ -154,9 +193,25 @@ fn respond(
         .zip(range)
         .with_min_len(8)
         .map(|(response, at)| {
-            let corners = &model.mesh.elements[at];
-            let x = corners.map(|n| trial.positions[problem.node(body, n)]);
-            problem.elements[body][at].respond(&x, &model.material, response)
+            let corners = model.mesh.corners(ElementId::new(first + at));
+            let mut x = [Vec3::zeros(); MAX_CORNERS];
+            for (x, node) in x.iter_mut().zip(corners) {
+                *x = trial.positions[problem.node(body, *node)];
+            }
+            block.respond(at, &x[..corners.len()], &model.material, response)
         })
         .collect()
+}
+
+/// Global numbers of corners, in the room given.
+fn globals<'a>(
+    problem: &Problem,
+    body: usize,
+    corners: &[NodeId],
+    room: &'a mut [usize; MAX_CORNERS],
+) -> &'a [usize] {
+    for (node, corner) in room.iter_mut().zip(corners) {
+        *node = problem.node(body, *corner);
+    }
+    &room[..corners.len()]
 }

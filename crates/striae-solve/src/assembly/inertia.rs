@@ -9,10 +9,10 @@
 //! and every node the part `a_f (f_int - f_ext)_0` of the last converged state.
 //! Without inertia `a_f = 0` and `a_alpha = 0`.
 
+use striae_element::{ElementResponse, Mass};
 use striae_mesh::Vec3;
 
 use super::{Imposed, System, Trial};
-use crate::element::ElementResponse;
 
 /// What elements need of the increment.
 pub(super) struct Inertia {
@@ -42,32 +42,33 @@ impl System<'_> {
     /// Weighs the response of an element and adds its mass and weight.
     pub(super) fn weigh(
         &mut self,
-        nodes: &[usize; 8],
-        mass: Option<&[[f64; 8]; 8]>,
+        nodes: &[usize],
+        mass: Option<&Mass>,
         response: &mut ElementResponse,
     ) {
         let share = self.inertia.share_of_end;
-        for (corner, &node) in nodes.iter().enumerate() {
-            let force = Vec3::from_column_slice(&response.force[3 * corner..3 * corner + 3]);
-            self.forces.internal[node] += force;
+        for (force, &node) in response.force.iter().zip(nodes) {
+            self.forces.internal[node] += Vec3::from(*force);
         }
         if share != 1.0 {
-            response.force.iter_mut().for_each(|f| *f *= share);
+            let forces = response.force.as_flattened_mut().iter_mut();
+            forces.for_each(|f| *f *= share);
             response.stiffness.scale(share);
         }
         let Some(mass) = mass else { return };
-        for a in 0..8 {
+        for a in 0..nodes.len() {
             let total: f64 = mass[a].iter().sum();
             let weight = self.inertia.gravity * total;
             self.forces.applied[nodes[a]] += weight;
             let mut force = -weight * share;
             if let Some(accelerations) = &self.inertia.accelerations {
-                let inertia: Vec3 = (0..8).map(|b| accelerations[nodes[b]] * mass[a][b]).sum();
+                let shares = nodes.iter().zip(&mass[a]);
+                let inertia: Vec3 = shares.map(|(&node, m)| accelerations[node] * *m).sum();
                 self.forces.inertia[nodes[a]] += inertia;
                 force += inertia;
             }
             for axis in 0..3 {
-                response.force[3 * a + axis] += force[axis];
+                response.force[a][axis] += force[axis];
             }
         }
         if self.inertia.stiffness > 0.0 {
@@ -75,13 +76,13 @@ impl System<'_> {
         }
     }
 
-    fn add_mass(&self, nodes: &[usize; 8], mass: &[[f64; 8]; 8], response: &mut ElementResponse) {
-        for b in 0..8 {
+    fn add_mass(&self, nodes: &[usize], mass: &Mass, response: &mut ElementResponse) {
+        for b in 0..nodes.len() {
             for axis in 0..3 {
                 if self.context.fixed[3 * nodes[b] + axis] {
                     continue;
                 }
-                for a in 0..8 {
+                for a in 0..nodes.len() {
                     let value = mass[a][b] * self.inertia.stiffness;
                     response.stiffness.add_along(axis, a, b, value);
                 }

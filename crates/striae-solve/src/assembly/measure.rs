@@ -1,11 +1,11 @@
 //! Norms of the residual, field by field.
 
 use striae_contact::evaluation::Evaluation;
+use striae_element::Element;
 use striae_mesh::Vec3;
 
 use super::{System, Trial};
 use crate::{
-    element::ReferenceElement,
     norms::{Norms, Scales},
     problem::Problem,
 };
@@ -75,7 +75,7 @@ fn round_off(problem: &Problem, positions: &[Vec3], inertia: f64) -> f64 {
         .map(|(body, elements)| {
             let constants = body.material.lame_constants();
             let modulus = constants.lambda + 2.0 * constants.shear;
-            let of_element = |element: &ReferenceElement| {
+            let of_element = |element: Element| {
                 let stiffness = modulus * element.stiffness_per_modulus();
                 let stiffness = stiffness + body.density * element.volume() * inertia;
                 (stiffness * extent).powi(2)

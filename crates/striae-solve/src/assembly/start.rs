@@ -8,7 +8,7 @@
 //! ```
 
 use striae_linalg::SparseMatrix;
-use striae_mesh::Vec3;
+use striae_mesh::{ElementId, Vec3};
 
 use super::{Imposed, StepContext, System, Trial};
 use crate::{
@@ -96,19 +96,20 @@ impl System<'_> {
     fn masses(&mut self) {
         let problem = self.context.problem;
         for (body, model) in problem.model.bodies.iter().enumerate() {
-            for (at, corners) in model.mesh.elements.iter().enumerate() {
-                let mass = problem.mass(body, at);
-                let nodes = corners.map(|node| problem.node(body, node));
-                let unknowns: [usize; 24] =
-                    std::array::from_fn(|at| self.layout.position(nodes[at / 3]) + at % 3);
-                let mut block = [0.0; 576];
-                for at in 0..192 {
-                    let (a, b, axis) = (at / 24, at / 3 % 8, at % 3);
-                    if !self.context.fixed[3 * nodes[b] + axis] {
-                        block[(3 * a + axis) * 24 + 3 * b + axis] = mass[a][b];
+            for (at, corners) in model.mesh.elements().enumerate() {
+                let mass = problem.mass(body, ElementId::new(at));
+                let nodes = problem.nodes(body, corners);
+                let unknowns = self.unknowns(&nodes);
+                let count = unknowns.len();
+                let mut block = vec![0.0; count * count];
+                for (at, entry) in block.iter_mut().enumerate() {
+                    let (row, column) = (at / count, at % count);
+                    let (b, axis) = (column / 3, column % 3);
+                    if row % 3 == axis && !self.context.fixed[3 * nodes[b] + axis] {
+                        *entry = mass[row / 3][b];
                     }
                 }
-                self.add_dense(&nodes, &unknowns, &[0.0; 24], &block)
+                self.add_dense(&nodes, &unknowns, &vec![0.0; count], &block)
                     .expect("elements are in the pattern");
             }
         }

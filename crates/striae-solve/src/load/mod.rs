@@ -20,12 +20,12 @@
 //!
 //! Forces are external: they count against the internal ones. Their derivative
 //! by the positions is exact, and in general not symmetric. Unknown `3 a + i`
-//! is the component `i` of corner `a`; corners as [`Face::CORNERS`].
+//! is the component `i` of corner `a`; corners as [`Mesh::face_nodes`].
 //!
 //! [`traction`] is the integrand at any point of the face over any scalar, for
 //! loads that are integrated over a part of the face which itself moves.
 //!
-//! [`Face::CORNERS`]: striae_mesh::Face::CORNERS
+//! [`Mesh::face_nodes`]: striae_mesh::Mesh::face_nodes
 
 mod integrand;
 mod response;

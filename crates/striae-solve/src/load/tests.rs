@@ -4,7 +4,7 @@ use super::*;
 use crate::model::LoadKind;
 use nalgebra::{DMatrix, DVector, Rotation3, Unit, Vector3};
 use num_dual::DualSVec64;
-use striae_mesh::{Face, Vec3};
+use striae_mesh::{CellBlock, Mesh, NodeId, Vec3};
 use striae_verify::{Random, assert_derivative};
 
 const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
@@ -117,8 +117,9 @@ fn pressure_on_a_closed_surface_balances_and_has_a_potential() {
     });
     let mut force = [Vec3::zeros(); 8];
     let mut tangent = DMatrix::<f64>::zeros(24, 24);
-    for side in Face::CORNERS {
-        let face = side.map(|a| cube[a]);
+    let cell = CellBlock::hexahedra([std::array::from_fn(NodeId::new)]);
+    for side in cell.kind.shape().faces {
+        let face: [Vec3; 4] = std::array::from_fn(|a| cube[side[a]]);
         let load = response(&LoadKind::Pressure(1.3), &face, &face).unwrap();
         let global = |row: usize| 3 * side[row / 3] + row % 3;
         for row in 0..UNKNOWNS {
@@ -132,9 +133,7 @@ fn pressure_on_a_closed_surface_balances_and_has_a_potential() {
     assert!(force.iter().sum::<Vec3>().norm() < 1e-14);
     assert!(moment.norm() < 1e-14);
     // The potential is p V, homogeneous of degree 3 in the positions.
-    let volume = crate::element::ReferenceElement::new(&cube)
-        .unwrap()
-        .volume();
+    let volume = Mesh::new(cube.to_vec(), vec![cell]).unwrap().volume();
     let virial: f64 = (0..8).map(|a| cube[a].dot(&force[a])).sum();
     assert!((virial + 3.0 * 1.3 * volume).abs() < 1e-14);
     assert!((&tangent - tangent.transpose()).norm() < 1e-14);

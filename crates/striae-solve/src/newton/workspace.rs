@@ -150,9 +150,10 @@ impl Workspace {
         // Elements at tied nodes couple the others with the rigid body, which is no bulk.
         let mut tied: Vec<Vec<Supervariable>> = Vec::new();
         for (body, model) in problem.model.bodies.iter().enumerate() {
-            for corners in &model.mesh.elements {
-                let nodes = corners.map(|node| problem.node(body, node));
-                let mut owners = nodes.map(|node| layout.owner(problem, node)).to_vec();
+            for corners in model.mesh.elements() {
+                let nodes = problem.nodes(body, corners);
+                let owners = nodes.iter().map(|&node| layout.owner(problem, node));
+                let mut owners: Vec<Supervariable> = owners.collect();
                 owners.sort_unstable();
                 owners.dedup();
                 let free = nodes.iter().filter(|&&node| problem.tie_of[node].is_none());

@@ -37,9 +37,10 @@ fn check(oblique: &Oblique, degrees: f64) {
     let error = largest_distance(run.positions(0), &expected);
     assert!(error < 1e-8, "{what}: displacements off by {error:.1e}");
     let body = &run.problem.model.bodies[0];
-    for (corners, element) in body.mesh.elements.iter().zip(&run.problem.elements[0]) {
-        let x = corners.map(|node| run.positions(0)[node.index()]);
-        for stress in element.gauss_stress(&x, &body.material).unwrap() {
+    for (corners, element) in body.mesh.elements().zip(run.problem.elements[0].iter()) {
+        let corners = corners.iter();
+        let x: Vec<Vec3> = corners.map(|node| run.positions(0)[node.index()]).collect();
+        for stress in element.stress(&x, &body.material).unwrap() {
             let error = (stress - sliding.stress).amax();
             assert!(error < 1e-8, "{what}: stress off by {error:.1e}");
         }

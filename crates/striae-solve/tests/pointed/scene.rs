@@ -14,8 +14,8 @@ use striae_mesh::{
 use striae_solve::{
     drive::{Continue, Observer, Progress, run},
     model::{
-        Backend, Body, BodyId, ContactMass, Curve, Displacement, Increments, Initial, Model, Pair,
-        Procedure, RigidId, RigidShape, RigidSurface, Side, Solver, Step, Strategy,
+        Backend, Body, BodyId, ContactMass, Curve, Displacement, Formulation, Increments, Initial,
+        Model, Pair, Procedure, RigidId, RigidShape, RigidSurface, Side, Solver, Step, Strategy,
     },
     newton::{Increment, IterationObserver},
     norms::Norms,
@@ -47,6 +47,7 @@ fn body(name: &str, mesh: Mesh, modulus: f64) -> Body {
         name: name.to_owned(),
         mesh,
         material: rubber(modulus),
+        formulation: Formulation::Standard,
         density: 0.0,
         contact_mass: ContactMass::Consistent,
     }

@@ -9,8 +9,8 @@ use striae_mesh::{Vec3, generate::Block};
 use striae_solve::{
     drive::{Continue, Observer, Progress, run},
     model::{
-        Backend, Body, BodyId, ContactMass, Curve, Displacement, Increments, Initial, Model, Pair,
-        Procedure, Side, Solver, Step, Strategy,
+        Backend, Body, BodyId, ContactMass, Curve, Displacement, Formulation, Increments, Initial,
+        Model, Pair, Procedure, Side, Solver, Step, Strategy,
     },
     newton::{Increment, IterationObserver},
     norms::Norms,
@@ -194,6 +194,7 @@ fn body(name: &str, modulus: f64, origin: [f64; 3], size: [f64; 3], divisions: u
         name: name.to_owned(),
         mesh: mesh.mesh().expect("a block"),
         material: Material::linear_elastic(constants.expect("constants")),
+        formulation: Formulation::Standard,
         density: 0.0,
         contact_mass: ContactMass::Consistent,
     }

@@ -41,7 +41,7 @@ impl Setting {
             body(
                 ["lower", "upper"][at],
                 self.meshes[at].clone(),
-                materials[at],
+                materials[at].clone(),
             )
         });
         let mut model = model(self.body_order.map(|at| named[at].clone()).to_vec());

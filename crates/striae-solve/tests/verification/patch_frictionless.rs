@@ -10,7 +10,7 @@
 use crate::scene::{Places, Run, block, body, largest_distance, model, rubber, step};
 use nalgebra::{Matrix2, Matrix3, Vector2};
 use striae_law::{bulk::Material, friction::Friction};
-use striae_mesh::{Vec3, generate::Block};
+use striae_mesh::{CellKind, Vec3, generate::Block};
 use striae_solve::model::{LoadExtent, LoadKind, Model};
 
 const PRESSURE: f64 = 0.1;
@@ -143,9 +143,10 @@ fn check_bodies(what: &str, run: &Run, case: &Case, tolerance: f64) {
             error < tolerance,
             "{what}, body {body}: displacements off by {error:.1e}"
         );
-        for (corners, element) in model.mesh.elements.iter().zip(&run.problem.elements[body]) {
-            let x = corners.map(|n| run.positions(body)[n.index()]);
-            for stress in element.gauss_stress(&x, &model.material).unwrap() {
+        for (corners, element) in model.mesh.elements().zip(run.problem.elements[body].iter()) {
+            let corners = corners.iter();
+            let x: Vec<Vec3> = corners.map(|n| run.positions(body)[n.index()]).collect();
+            for stress in element.stress(&x, &model.material).unwrap() {
                 let error = (stress - expected_stress).amax();
                 assert!(
                     error < tolerance * PRESSURE,
@@ -226,5 +227,25 @@ fn irregular_meshes() {
         case.lower.irregularity = 0.2;
         case.lower.seed = 1;
         check("irregular", &case);
+    }
+}
+
+#[test]
+fn cells_of_all_kinds() {
+    let kinds = [
+        [CellKind::Hexahedron, CellKind::Tetrahedron],
+        [CellKind::Tetrahedron, CellKind::Hexahedron],
+        [CellKind::Tetrahedron, CellKind::Tetrahedron],
+        [CellKind::Wedge, CellKind::Hexahedron],
+        [CellKind::Wedge, CellKind::Tetrahedron],
+        [CellKind::Pyramid, CellKind::Wedge],
+    ];
+    for [lower, upper] in kinds {
+        for divisions in [[3, 4], [4, 3]] {
+            let mut case = case([0.125, 0.125], [0.75, 0.75], divisions);
+            case.lower.cells = lower;
+            case.upper.cells = upper;
+            check(&format!("{upper} on {lower}"), &case);
+        }
     }
 }

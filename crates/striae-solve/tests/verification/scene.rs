@@ -9,9 +9,9 @@ use striae_mesh::{Face, Mesh, NodeId, Vec3, generate::Block};
 use striae_solve::{
     drive::{Continue, Observer, Progress, run},
     model::{
-        Backend, Body, BodyId, ContactMass, Curve, Displacement, Increments, Initial, Load,
-        LoadExtent, LoadKind, Model, Pair, PairId, Procedure, RigidId, RigidShape, RigidSurface,
-        Side, Solver, Step, Strategy,
+        Backend, Body, BodyId, ContactMass, Curve, Displacement, Formulation, Increments, Initial,
+        Load, LoadExtent, LoadKind, Model, Pair, PairId, Procedure, RigidId, RigidShape,
+        RigidSurface, Side, Solver, Step, Strategy,
     },
     newton::{Increment, IterationObserver, LinearWork},
     norms::Norms,
@@ -186,6 +186,7 @@ pub fn body(name: &str, mesh: Mesh, material: Material) -> Body {
     Body {
         name: name.to_owned(),
         mesh,
+        formulation: Formulation::suited_to(&material),
         material,
         density: 0.0,
         contact_mass: ContactMass::Consistent,

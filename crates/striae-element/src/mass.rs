@@ -17,33 +17,39 @@
 //! of Khenous, Laborde & Renard (Eur. J. Mech. A/Solids 27, 2008), who choose the
 //! shares otherwise; moments of inertia change by the order of the elements.
 
-use super::ReferenceElement;
-use super::shape::{CORNERS, gauss_point, shape};
+use super::{reference::Reference, rule::Rule};
+use striae_mesh::{CellKind, MAX_CORNERS};
 
-impl ReferenceElement {
-    /// The scalar mass matrix `m_ab`; every component of the position has the
-    /// same one. `density` is mass per reference volume.
-    pub fn mass(&self, density: f64) -> [[f64; 8]; 8] {
-        let mut mass = [[0.0; 8]; 8];
-        for (g, weight) in self.weights.iter().enumerate() {
-            let values = shape(&gauss_point(g));
-            for a in 0..8 {
-                for b in 0..8 {
-                    mass[a][b] += density * weight * values[a] * values[b];
-                }
+/// The scalar mass matrix `m_ab`; every component of the position has the same one.
+/// Zero beyond the last corner.
+pub type Mass = [[f64; MAX_CORNERS]; MAX_CORNERS];
+
+/// The mass matrix; `density` is mass per reference volume.
+pub(super) fn consistent<const N: usize, const Q: usize>(
+    rule: &Rule<N, Q>,
+    element: &Reference<N, Q>,
+    density: f64,
+) -> Mass {
+    let mut mass = Mass::default();
+    for (values, weight) in rule.values.iter().zip(&element.weights) {
+        for a in 0..N {
+            for b in 0..N {
+                mass[a][b] += density * weight * values[a] * values[b];
             }
         }
-        mass
     }
+    mass
 }
 
 /// The mass matrix with the mass of `massless` corners moved to the others, of which
 /// there has to be one.
-pub fn redistributed(mass: &[[f64; 8]; 8], massless: &[bool; 8]) -> [[f64; 8]; 8] {
-    let shares: [[f64; 8]; 8] = std::array::from_fn(|from| shares(from, massless));
-    let mut moved = [[0.0; 8]; 8];
-    for (a, row) in mass.iter().enumerate() {
-        for (b, m) in row.iter().enumerate() {
+pub fn redistributed(kind: CellKind, mass: &Mass, massless: &[bool]) -> Mass {
+    let shares: Vec<Vec<f64>> = (0..massless.len())
+        .map(|from| shares(kind, from, massless))
+        .collect();
+    let mut moved = Mass::default();
+    for (a, row) in mass.iter().enumerate().take(massless.len()) {
+        for (b, m) in row.iter().enumerate().take(massless.len()) {
             for (to_a, share_a) in shares[a].iter().enumerate() {
                 for (to_b, share_b) in shares[b].iter().enumerate() {
                     moved[to_a][to_b] += share_a * m * share_b;
@@ -55,17 +61,13 @@ pub fn redistributed(mass: &[[f64; 8]; 8], massless: &[bool; 8]) -> [[f64; 8]; 8
 }
 
 /// Parts of a corner's shape function that the corners get.
-fn shares(from: usize, massless: &[bool; 8]) -> [f64; 8] {
-    let steps = |to: usize| {
-        (0..3)
-            .filter(|&j| CORNERS[from][j] != CORNERS[to][j])
-            .count()
-    };
-    let keeping = || (0..8).filter(|&to| !massless[to]);
+fn shares(kind: CellKind, from: usize, massless: &[bool]) -> Vec<f64> {
+    let steps = |to: usize| kind.edges_between(from, to);
+    let keeping = || (0..massless.len()).filter(|&to| !massless[to]);
     let least = keeping().map(steps).min();
     let nearest = |&to: &usize| Some(steps(to)) == least;
     let count = keeping().filter(nearest).count();
-    let mut shares = [0.0; 8];
+    let mut shares = vec![0.0; massless.len()];
     keeping()
         .filter(nearest)
         .for_each(|to| shares[to] = 1.0 / count as f64);

@@ -1,55 +1,70 @@
 //! The unit cube as a block of elements with dense matrices.
 
-use super::*;
-use crate::element::{ReferenceElement, reference_elements};
 use nalgebra::{DMatrix, DVector};
-use striae_mesh::{Mesh, NodeId, generate};
+use striae_element::{Elements, Formulation};
+use striae_law::bulk::Material;
+use striae_mesh::{CellKind, Mesh, NodeId, Vec3, generate};
 
-/// A block of `n^3` elements over the unit cube.
-pub(super) struct Block {
-    pub(super) mesh: Mesh,
-    pub(super) reference: Vec<ReferenceElement>,
+/// Kind of the cells and formulation of the elements.
+pub(crate) type Kind = (CellKind, Formulation);
+
+/// All kinds of elements.
+pub(crate) fn kinds() -> impl Iterator<Item = Kind> {
+    let formulations = [Formulation::Standard, Formulation::MeanDilatation];
+    let kinds = CellKind::ALL.into_iter();
+    kinds.flat_map(move |cells| formulations.map(|formulation| (cells, formulation)))
+}
+
+/// A block of `n^3` hexahedra, or cells made of them, over the unit cube.
+pub(crate) struct Block {
+    pub(crate) mesh: Mesh,
+    pub(crate) reference: Elements,
 }
 
 /// A nodal force with its derivative by the node positions.
-pub(super) type Force = (DVector<f64>, DMatrix<f64>);
+pub(crate) type Force = (DVector<f64>, DMatrix<f64>);
 
 impl Block {
     /// The block with nodes disturbed by up to the fraction `irregularity` of a
     /// mesh size; those on faces and edges of the cube stay on them.
-    pub(super) fn new(n: usize, irregularity: f64) -> Self {
+    pub(crate) fn new(n: usize, irregularity: f64, (cells, formulation): Kind) -> Self {
         let block = generate::Block {
             divisions: [n; 3],
+            cells,
             irregularity,
             seed: n as u64,
             ..generate::Block::default()
         };
-        let mesh = block.mesh().unwrap();
-        let reference = reference_elements(&mesh).unwrap();
+        Self::of(block.mesh().unwrap(), formulation)
+    }
+
+    /// A mesh with its elements.
+    pub(crate) fn of(mesh: Mesh, formulation: Formulation) -> Self {
+        let reference = Elements::new(&mesh, formulation).unwrap();
         Self { mesh, reference }
     }
 
     /// Whether an unknown belongs to a node on the surface of the cube.
-    pub(super) fn on_boundary(&self, unknown: usize) -> bool {
+    pub(crate) fn on_boundary(&self, unknown: usize) -> bool {
         let position = self.mesh.positions[unknown / 3];
         position.iter().any(|&x| x == 0.0 || x == 1.0)
     }
 
     /// No force at all.
-    pub(super) fn zero(&self) -> Force {
+    pub(crate) fn zero(&self) -> Force {
         let size = 3 * self.mesh.positions.len();
         (DVector::zeros(size), DMatrix::zeros(size, size))
     }
 
     /// Internal force at the node positions `x`.
-    pub(super) fn internal(&self, x: &[Vec3], material: &Material) -> Force {
+    pub(crate) fn internal(&self, x: &[Vec3], material: &Material) -> Force {
         let mut total = self.zero();
-        for (corners, element) in self.mesh.elements.iter().zip(&self.reference) {
-            let current = corners.map(|node| x[node.index()]);
+        for (corners, element) in self.mesh.elements().zip(self.reference.iter()) {
+            let current: Vec<Vec3> = corners.iter().map(|node| x[node.index()]).collect();
             let local = element.response(&current, material).unwrap();
             scatter(
                 corners,
-                &local.force,
+                local.force.as_flattened(),
                 &local.stiffness.by_rows(),
                 &mut total,
             );
@@ -58,7 +73,7 @@ impl Block {
     }
 
     /// Newton's method from `start`; the unknowns named by `fixed` rest.
-    pub(super) fn solve(
+    pub(crate) fn solve(
         &self,
         material: &Material,
         external: impl Fn(&[Vec3]) -> Force,
@@ -86,7 +101,7 @@ impl Block {
 }
 
 /// Adds a local force and tangent to the whole.
-pub(super) fn scatter(nodes: &[NodeId], force: &[f64], tangent: &[f64], total: &mut Force) {
+pub(crate) fn scatter(nodes: &[NodeId], force: &[f64], tangent: &[f64], total: &mut Force) {
     let global = |row: usize| 3 * nodes[row / 3].index() + row % 3;
     for row in 0..force.len() {
         total.0[global(row)] += force[row];

@@ -2,35 +2,33 @@
 
 use striae_mesh::ElementId;
 
-/// An element that is turned inside out at a Gauss point.
+/// An element that is turned inside out at a quadrature point.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum ElementError {
     /// In the reference configuration: the mesh is at fault.
-    #[error(
-        "the reference shape is degenerate: Jacobian {determinant:.6e} at Gauss point {gauss_point}"
-    )]
+    #[error("the reference shape is degenerate: Jacobian {determinant:.6e} at Gauss point {point}")]
     Degenerate {
-        /// Local number of the Gauss point, `0..8`.
-        gauss_point: usize,
+        /// Local number of the quadrature point.
+        point: usize,
         /// Determinant of `dX/dxi`.
         determinant: f64,
     },
     /// In the current configuration: the step is at fault.
-    #[error("turned inside out: det F = {determinant:.6e} at Gauss point {gauss_point}")]
+    #[error("turned inside out: det F = {determinant:.6e} at Gauss point {point}")]
     Inverted {
-        /// Local number of the Gauss point, `0..8`.
-        gauss_point: usize,
+        /// Local number of the quadrature point.
+        point: usize,
         /// Determinant of the deformation gradient.
         determinant: f64,
     },
     /// In the current configuration, beyond what the material allows.
     #[error(
         "stretched beyond the law of its material: I1 - 3 = {strain:.6e} at Gauss point \
-         {gauss_point}, the law ends at {limit:.6e}"
+         {point}, the law ends at {limit:.6e}"
     )]
     Overstretched {
-        /// Local number of the Gauss point, `0..8`.
-        gauss_point: usize,
+        /// Local number of the quadrature point.
+        point: usize,
         /// `I1 - 3` of the isochoric deformation.
         strain: f64,
         /// The limit of the law.

@@ -1,0 +1,333 @@
+//! Elements of a mesh in blocks of one kind.
+//!
+//! | kind | corners | points |
+//! | --- | --- | --- |
+//! | tetrahedron | 4 | 4 |
+//! | pyramid | 5 | 8 |
+//! | wedge | 6 | 6 |
+//! | hexahedron | 8 | 8 |
+
+use super::{
+    ElementError, ElementFault, ElementResponse, Formulation, Mass,
+    mass::consistent,
+    reference::Reference,
+    response::error_at,
+    rule::{Rule, hexahedron_recovery, pyramid_recovery, tetrahedron_recovery, wedge_recovery},
+};
+use nalgebra::Matrix3;
+use std::{fmt::Debug, sync::Arc};
+use striae_law::bulk::Material;
+use striae_mesh::{CellKind, ElementId, Mesh, Vec3};
+
+/// The reference elements of a mesh.
+#[derive(Clone, Debug)]
+pub struct Elements {
+    /// With the first element of each.
+    blocks: Vec<(usize, Arc<dyn ElementBlock>)>,
+}
+
+/// Elements of one kind, counted from 0 within the block.
+///
+/// Current positions `x` are those of the corners of an element, in their order.
+pub trait ElementBlock: Debug + Send + Sync {
+    /// Kind of the elements.
+    fn kind(&self) -> CellKind;
+
+    /// How many elements there are.
+    fn count(&self) -> usize;
+
+    /// Response of an element, written over an older one of the same kind.
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError::Inverted`] where the material is turned inside out.
+    fn respond(
+        &self,
+        at: usize,
+        x: &[Vec3],
+        material: &Material,
+        response: &mut ElementResponse,
+    ) -> Result<(), ElementError>;
+
+    /// Mass matrix of an element; `density` is mass per reference volume.
+    fn mass(&self, at: usize, density: f64) -> Mass;
+
+    /// Reference volume of an element.
+    fn volume(&self, at: usize) -> f64;
+
+    /// Mean of `sum_g w |G_a|^2` over the corners: what a modulus is multiplied by to give
+    /// the mean of the diagonal of a stiffness, `h/3` in a cube and `V/h^2` across what is flat.
+    fn stiffness_per_modulus(&self, at: usize) -> f64;
+
+    /// Angle by which an element is turned on average.
+    fn rotation(&self, at: usize, x: &[Vec3]) -> f64;
+
+    /// Cauchy stress at the quadrature points.
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError::Inverted`] where the material is turned inside out.
+    fn stress(
+        &self,
+        at: usize,
+        x: &[Vec3],
+        material: &Material,
+    ) -> Result<Vec<Matrix3<f64>>, ElementError>;
+
+    /// Cauchy stress continued from the quadrature points to the corners.
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError::Inverted`] where the material is turned inside out.
+    fn corner_stress(
+        &self,
+        at: usize,
+        x: &[Vec3],
+        material: &Material,
+    ) -> Result<Vec<Matrix3<f64>>, ElementError>;
+}
+
+/// One element.
+#[derive(Clone, Copy, Debug)]
+pub struct Element<'a> {
+    block: &'a dyn ElementBlock,
+    at: usize,
+}
+
+impl Elements {
+    /// The reference elements of a mesh, in the order of its elements.
+    ///
+    /// # Errors
+    ///
+    /// The first element whose reference shape is degenerate.
+    pub fn new(mesh: &Mesh, formulation: Formulation) -> Result<Self, ElementFault> {
+        let mut first = 0;
+        let mut blocks = Vec::with_capacity(mesh.blocks.len());
+        for cells in &mesh.blocks {
+            let corners: Vec<Vec3> = (cells.nodes.iter())
+                .map(|node| mesh.positions[node.index()])
+                .collect();
+            let block =
+                block(cells.kind, formulation, &corners).map_err(|(at, error)| ElementFault {
+                    element: ElementId::new(first + at),
+                    error,
+                })?;
+            blocks.push((first, block));
+            first += cells.len();
+        }
+        Ok(Self { blocks })
+    }
+
+    /// The blocks, each with the number of its first element.
+    pub fn blocks(&self) -> impl Iterator<Item = (usize, &dyn ElementBlock)> {
+        self.blocks.iter().map(|(first, block)| (*first, &**block))
+    }
+
+    /// All elements in the order of the mesh.
+    pub fn iter(&self) -> impl Iterator<Item = Element<'_>> {
+        self.blocks()
+            .flat_map(|(_, block)| (0..block.count()).map(move |at| Element { block, at }))
+    }
+
+    /// An element of the mesh.
+    pub fn get(&self, element: ElementId) -> Element<'_> {
+        let index = element.index();
+        let place = self.blocks.partition_point(|(first, _)| *first <= index) - 1;
+        let (first, block) = &self.blocks[place];
+        Element {
+            block: &**block,
+            at: index - first,
+        }
+    }
+}
+
+impl Element<'_> {
+    /// See [`ElementBlock::respond`].
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError::Inverted`] where the material is turned inside out.
+    pub fn response(
+        &self,
+        x: &[Vec3],
+        material: &Material,
+    ) -> Result<ElementResponse, ElementError> {
+        let mut response = ElementResponse::zero(self.block.kind().corner_count());
+        self.block.respond(self.at, x, material, &mut response)?;
+        Ok(response)
+    }
+
+    /// See [`ElementBlock::mass`].
+    pub fn mass(&self, density: f64) -> Mass {
+        self.block.mass(self.at, density)
+    }
+
+    /// See [`ElementBlock::volume`].
+    pub fn volume(&self) -> f64 {
+        self.block.volume(self.at)
+    }
+
+    /// See [`ElementBlock::stiffness_per_modulus`].
+    pub fn stiffness_per_modulus(&self) -> f64 {
+        self.block.stiffness_per_modulus(self.at)
+    }
+
+    /// See [`ElementBlock::rotation`].
+    pub fn rotation(&self, x: &[Vec3]) -> f64 {
+        self.block.rotation(self.at, x)
+    }
+
+    /// See [`ElementBlock::stress`].
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError::Inverted`] where the material is turned inside out.
+    pub fn stress(
+        &self,
+        x: &[Vec3],
+        material: &Material,
+    ) -> Result<Vec<Matrix3<f64>>, ElementError> {
+        self.block.stress(self.at, x, material)
+    }
+
+    /// See [`ElementBlock::corner_stress`].
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError::Inverted`] where the material is turned inside out.
+    pub fn corner_stress(
+        &self,
+        x: &[Vec3],
+        material: &Material,
+    ) -> Result<Vec<Matrix3<f64>>, ElementError> {
+        self.block.corner_stress(self.at, x, material)
+    }
+
+    /// Kind of the element.
+    pub fn kind(&self) -> CellKind {
+        self.block.kind()
+    }
+}
+
+/// A block that is made, or the first element that is degenerate.
+type Made = Result<Arc<dyn ElementBlock>, (usize, ElementError)>;
+
+/// The table of kinds.
+fn block(kind: CellKind, formulation: Formulation, corners: &[Vec3]) -> Made {
+    match kind {
+        CellKind::Tetrahedron => {
+            Cells::<4, 4>::made(kind, formulation, tetrahedron_recovery(), corners)
+        }
+        CellKind::Pyramid => Cells::<5, 8>::made(kind, formulation, pyramid_recovery(), corners),
+        CellKind::Wedge => Cells::<6, 6>::made(kind, formulation, wedge_recovery(), corners),
+        CellKind::Hexahedron => {
+            Cells::<8, 8>::made(kind, formulation, hexahedron_recovery(), corners)
+        }
+    }
+}
+
+/// Elements of a kind with `N` corners and `Q` quadrature points.
+#[derive(Debug)]
+struct Cells<const N: usize, const Q: usize> {
+    kind: CellKind,
+    formulation: Formulation,
+    rule: Rule<N, Q>,
+    elements: Vec<Reference<N, Q>>,
+}
+
+impl<const N: usize, const Q: usize> Cells<N, Q> {
+    fn made(
+        kind: CellKind,
+        formulation: Formulation,
+        recovery: [[f64; Q]; N],
+        corners: &[Vec3],
+    ) -> Made {
+        let rule = Rule::new(kind, recovery);
+        let elements = corners.as_chunks::<N>().0.iter().enumerate();
+        let elements = elements.map(|(at, x)| Reference::new(&rule, x).map_err(|e| (at, e)));
+        let elements = elements.collect::<Result<_, _>>()?;
+        Ok(Arc::new(Self {
+            kind,
+            formulation,
+            rule,
+            elements,
+        }))
+    }
+}
+
+impl<const N: usize, const Q: usize> ElementBlock for Cells<N, Q> {
+    fn kind(&self) -> CellKind {
+        self.kind
+    }
+
+    fn count(&self) -> usize {
+        self.elements.len()
+    }
+
+    fn respond(
+        &self,
+        at: usize,
+        x: &[Vec3],
+        material: &Material,
+        response: &mut ElementResponse,
+    ) -> Result<(), ElementError> {
+        let element = &self.elements[at];
+        match self.formulation {
+            Formulation::Standard => element.respond(all(x), material, response),
+            Formulation::MeanDilatation => {
+                element.respond_with_mean_dilatation(all(x), material, response)
+            }
+        }
+    }
+
+    fn mass(&self, at: usize, density: f64) -> Mass {
+        consistent(&self.rule, &self.elements[at], density)
+    }
+
+    fn volume(&self, at: usize) -> f64 {
+        self.elements[at].volume()
+    }
+
+    fn stiffness_per_modulus(&self, at: usize) -> f64 {
+        self.elements[at].stiffness_per_modulus()
+    }
+
+    fn rotation(&self, at: usize, x: &[Vec3]) -> f64 {
+        self.elements[at].rotation(all(x))
+    }
+
+    fn stress(
+        &self,
+        at: usize,
+        x: &[Vec3],
+        material: &Material,
+    ) -> Result<Vec<Matrix3<f64>>, ElementError> {
+        let element = &self.elements[at];
+        if self.formulation == Formulation::MeanDilatation {
+            return element.stress_with_mean_dilatation(all(x), material);
+        }
+        (0..Q)
+            .map(|g| {
+                let f = element.deformation_gradient(g, all(x));
+                material.cauchy_stress(&f).map_err(error_at(g))
+            })
+            .collect()
+    }
+
+    fn corner_stress(
+        &self,
+        at: usize,
+        x: &[Vec3],
+        material: &Material,
+    ) -> Result<Vec<Matrix3<f64>>, ElementError> {
+        let stress = self.stress(at, x, material)?;
+        let corners = self.rule.recovery.iter();
+        let at_corner = |weights: &[f64; Q]| (0..Q).map(|g| stress[g] * weights[g]).sum();
+        Ok(corners.map(at_corner).collect())
+    }
+}
+
+/// Positions of the corners as an array.
+fn all<const N: usize>(x: &[Vec3]) -> &[Vec3; N] {
+    x.try_into().expect("a position for each corner")
+}

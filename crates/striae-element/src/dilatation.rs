@@ -1,0 +1,222 @@
+//! Mean dilatation: an element that does not lock where volumes cannot change.
+//!
+//! Pressure and volume ratio are constant in the element. With them condensed, the
+//! energy is that of the deformation gradients whose volume ratio is the mean one,
+//!
+//! ```text
+//! theta = sum_g w J / V,   alpha = (theta/J)^(1/3),   Fbar = alpha F
+//! W_e   = sum_g w W(Fbar)
+//! ```
+//!
+//! (Simo, Taylor & Pister, Comput. Methods Appl. Mech. Eng. 51 (1985) 177,
+//! doi:10.1016/0045-7825(85)90033-7). `W` is any law. With `Pbar`, `Abar` of the law at
+//! `Fbar`, `H = F^-T`, `pi = Pbar : Fbar / 3` and the pressure `p = sum_g w pi / (theta V)`
+//!
+//! ```text
+//! P     = alpha Pbar + (p J - pi) H                           f_a = sum_g w P G_a
+//! M     = alpha (Pbar + Abar : Fbar),   m = M : F
+//! A     = alpha^2 Abar - (M x H + H x M)/3 + (p J + m/9) H x H - (p J - pi) H_iL H_kJ
+//! b_a   = sum_g w J H G_a / (theta V),   c_a = sum_g w (M/3 - m/9 H) G_a
+//! K     = sum_g w G_a A G_b + c x b + b x c + (sum_g w m/9 - p theta V) b x b,
+//! ```
+//!
+//! which is the derivative of `f` and symmetric. Where gradients are constant in the
+//! element (tetrahedra) all is as without it.
+
+use super::{
+    ElementError, ElementResponse, Stiffness, reference::Reference, response::error_at,
+    stiffness::COMPONENTS,
+};
+use nalgebra::{Matrix3, SVector};
+use striae_law::bulk::{Material, Response, Tangent};
+use striae_mesh::Vec3;
+
+/// A matrix by components `3 i + J`.
+type Vector9 = SVector<f64, 9>;
+
+/// Deformation at a quadrature point.
+struct Point {
+    /// `F`.
+    gradient: Matrix3<f64>,
+    /// `F^-T`.
+    inverse_transposed: Matrix3<f64>,
+    /// `J`.
+    ratio: f64,
+}
+
+/// Pressure and volume of an element, and how they change.
+struct Whole<const N: usize> {
+    /// `p`.
+    pressure: f64,
+    /// `b_a`.
+    volume_slopes: [[f64; 3]; N],
+    /// `c_a`.
+    pressure_slopes: [[f64; 3]; N],
+    /// `sum_g w m/9 - p theta V`.
+    curvature: f64,
+}
+
+impl<const N: usize, const Q: usize> Reference<N, Q> {
+    /// As [`Reference::respond`], with mean dilatation.
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError::Inverted`] where the element is turned inside out.
+    pub(super) fn respond_with_mean_dilatation(
+        &self,
+        current: &[Vec3; N],
+        material: &Material,
+        element: &mut ElementResponse,
+    ) -> Result<(), ElementError> {
+        let (points, volume) = self.points(current)?;
+        let (laws, scales) = self.laws(&points, volume, material)?;
+        let pressure = self.mean(|g| laws[g].1) / volume;
+        element.energy = (0..Q).map(|g| self.weights[g] * laws[g].0.energy).sum();
+        let mut whole = Whole {
+            pressure,
+            volume_slopes: [[0.0; 3]; N],
+            pressure_slopes: [[0.0; 3]; N],
+            curvature: -pressure * volume,
+        };
+        let mut force = [[0.0; 3]; N];
+        let mut tangents = [Tangent::zeros(); Q];
+        for g in 0..Q {
+            let (point, (law, third)) = (&points[g], &laws[g]);
+            let (h, excess) = (&point.inverse_transposed, pressure * point.ratio - third);
+            self.add_force(g, &(law.first_piola * scales[g] + h * excess), &mut force);
+            tangents[g] = self.local_tangent(g, point, law, scales[g], *third, volume, &mut whole);
+        }
+        element.force.copy_from_slice(&force);
+        self.sum(&tangents, &mut element.stiffness);
+        add_products(&whole, &mut element.stiffness);
+        Ok(())
+    }
+
+    /// Cauchy stress at the quadrature points: the deviator of the law and the common
+    /// pressure,
+    ///
+    /// ```text
+    /// sigma = theta/J dev(sigma(Fbar)) + (sum_g w tr(sigma(Fbar))/3 / V) I.
+    /// ```
+    pub(super) fn stress_with_mean_dilatation(
+        &self,
+        current: &[Vec3; N],
+        material: &Material,
+    ) -> Result<Vec<Matrix3<f64>>, ElementError> {
+        let (points, volume) = self.points(current)?;
+        let theta = volume / self.volume();
+        let mut stress = Vec::with_capacity(Q);
+        for (g, point) in points.iter().enumerate() {
+            let scaled = point.gradient * (theta / point.ratio).cbrt();
+            stress.push(material.cauchy_stress(&scaled).map_err(error_at(g))?);
+        }
+        let pressure = self.mean(|g| stress[g].trace() / 3.0) / self.volume();
+        for (sigma, point) in stress.iter_mut().zip(&points) {
+            let mean = Matrix3::identity() * (sigma.trace() / 3.0);
+            *sigma = (*sigma - mean) * (theta / point.ratio) + Matrix3::identity() * pressure;
+        }
+        Ok(stress)
+    }
+
+    /// Deformation at all points, and the current volume `theta V`.
+    fn points(&self, current: &[Vec3; N]) -> Result<(Vec<Point>, f64), ElementError> {
+        let mut points = Vec::with_capacity(Q);
+        for g in 0..Q {
+            let gradient = self.deformation_gradient(g, current);
+            let ratio = gradient.determinant();
+            let inverse = gradient.try_inverse().filter(|_| ratio > 0.0);
+            let inverse = inverse.ok_or(ElementError::Inverted {
+                point: g,
+                determinant: ratio,
+            })?;
+            points.push(Point {
+                gradient,
+                inverse_transposed: inverse.transpose(),
+                ratio,
+            });
+        }
+        let volume = self.mean(|g| points[g].ratio);
+        Ok((points, volume))
+    }
+
+    /// The law at `Fbar` with `pi`, and `alpha`, at all points.
+    #[allow(clippy::type_complexity)]
+    fn laws(
+        &self,
+        points: &[Point],
+        volume: f64,
+        material: &Material,
+    ) -> Result<(Vec<(Response, f64)>, [f64; Q]), ElementError> {
+        let theta = volume / self.volume();
+        let scales: [f64; Q] = std::array::from_fn(|g| (theta / points[g].ratio).cbrt());
+        let mut laws = Vec::with_capacity(Q);
+        for (g, point) in points.iter().enumerate() {
+            let scaled = point.gradient * scales[g];
+            let law = material.response(&scaled).map_err(error_at(g))?;
+            laws.push((law, law.first_piola.dot(&scaled) / 3.0));
+        }
+        Ok((laws, scales))
+    }
+
+    /// The tangent at a point for the mean volume held; adds what the point gives to the rest.
+    #[allow(clippy::too_many_arguments)]
+    fn local_tangent(
+        &self,
+        g: usize,
+        point: &Point,
+        law: &Response,
+        scale: f64,
+        third: f64,
+        volume: f64,
+        whole: &mut Whole<N>,
+    ) -> Tangent {
+        let (f, h) = (vector(&point.gradient), vector(&point.inverse_transposed));
+        let m = (vector(&law.first_piola) + law.tangent * f * scale) * scale;
+        let ninth = m.dot(&f) / 9.0;
+        let excess = whole.pressure * point.ratio - third;
+        let weight = self.weights[g];
+        whole.curvature += weight * ninth;
+        let volume_slope = point.inverse_transposed * (point.ratio / volume);
+        self.add_force(g, &volume_slope, &mut whole.volume_slopes);
+        self.add_force(
+            g,
+            &matrix(&(m / 3.0 - h * ninth)),
+            &mut whole.pressure_slopes,
+        );
+        let product = m * h.transpose();
+        let mut tangent = law.tangent * (scale * scale) - (product + product.transpose()) / 3.0
+            + h * h.transpose() * (whole.pressure * point.ratio + ninth);
+        for (row, column) in (0..81).map(|at| (at / 9, at % 9)) {
+            let ((i, j), (k, l)) = ((row / 3, row % 3), (column / 3, column % 3));
+            tangent[(row, column)] -= excess * h[3 * i + l] * h[3 * k + j];
+        }
+        tangent
+    }
+
+    /// `sum_g w value`.
+    fn mean(&self, value: impl Fn(usize) -> f64) -> f64 {
+        (0..Q).map(|g| self.weights[g] * value(g)).sum()
+    }
+}
+
+/// Adds `c x b + b x c + s b x b`.
+fn add_products<const N: usize>(whole: &Whole<N>, stiffness: &mut Stiffness) {
+    let (b, c) = (&whole.volume_slopes, &whole.pressure_slopes);
+    for ((i, k), block) in COMPONENTS.into_iter().zip(stiffness.blocks_mut::<N>()) {
+        for row in 0..N {
+            for column in 0..N {
+                let mixed = c[row][i] * b[column][k] + b[row][i] * c[column][k];
+                let square = whole.curvature * (b[row][i] * b[column][k]);
+                block[row][column] += mixed + square;
+            }
+        }
+    }
+}
+
+fn vector(matrix: &Matrix3<f64>) -> Vector9 {
+    Vector9::from_fn(|at, _| matrix[(at / 3, at % 3)])
+}
+
+fn matrix(vector: &Vector9) -> Matrix3<f64> {
+    Matrix3::from_fn(|i, j| vector[3 * i + j])
+}

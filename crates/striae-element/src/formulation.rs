@@ -1,0 +1,30 @@
+//! How elements take up strain.
+
+use striae_law::bulk::Material;
+
+/// How the elements of a body take up strain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Formulation {
+    /// By displacements alone, all of the deformation gradient at every point. Locks
+    /// where volumes can hardly change.
+    Standard,
+    /// With pressure and volume ratio constant in the element. Linear tetrahedra are
+    /// the same without it: they lock.
+    MeanDilatation,
+}
+
+/// Poisson's ratio above which elements with displacements alone are too stiff.
+const LOCKING: f64 = 0.45;
+
+impl Formulation {
+    /// What a material asks for: mean dilatation above a Poisson's ratio of 0.45.
+    pub fn suited_to(material: &Material) -> Self {
+        let constants = material.lame_constants();
+        let poissons_ratio = 0.5 * constants.lambda / (constants.lambda + constants.shear);
+        if poissons_ratio > LOCKING {
+            Self::MeanDilatation
+        } else {
+            Self::Standard
+        }
+    }
+}

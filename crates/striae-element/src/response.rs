@@ -1,0 +1,185 @@
+//! Stored energy, internal force and consistent stiffness of an element.
+
+use super::{
+    ElementError, Stiffness,
+    reference::{Gradients, Reference},
+    stiffness::COMPONENTS,
+};
+use nalgebra::Matrix3;
+use pulp::{Arch, Simd, WithSimd};
+use striae_law::bulk::{Material, ResponseError, Tangent};
+use striae_mesh::Vec3;
+
+/// Energy of an element with its first and second derivatives.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ElementResponse {
+    /// Stored energy.
+    pub energy: f64,
+    /// Internal force on every corner, the derivative of the energy by its position.
+    pub force: Vec<[f64; 3]>,
+    /// Derivative of the force, symmetric to the last bit.
+    pub stiffness: Stiffness,
+}
+
+impl ElementResponse {
+    /// Room for the response of an element.
+    pub fn zero(corners: usize) -> Self {
+        Self {
+            energy: 0.0,
+            force: vec![[0.0; 3]; corners],
+            stiffness: Stiffness::zero(corners),
+        }
+    }
+}
+
+impl<const N: usize, const Q: usize> Reference<N, Q> {
+    /// Response to current corner positions `x`, written over an older one.
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError::Inverted`] where the material is turned inside out.
+    pub(super) fn respond(
+        &self,
+        current: &[Vec3; N],
+        material: &Material,
+        element: &mut ElementResponse,
+    ) -> Result<(), ElementError> {
+        element.energy = 0.0;
+        let mut force = [[0.0; 3]; N];
+        let mut tangents = [Tangent::zeros(); Q];
+        for g in 0..Q {
+            let f = self.deformation_gradient(g, current);
+            let response = material.response(&f).map_err(error_at(g))?;
+            element.energy += self.weights[g] * response.energy;
+            self.add_force(g, &response.first_piola, &mut force);
+            tangents[g] = response.tangent;
+        }
+        element.force.copy_from_slice(&force);
+        self.sum(&tangents, &mut element.stiffness);
+        Ok(())
+    }
+
+    /// `f_ai += w P_iJ G_a,J` at quadrature point `g`.
+    pub(super) fn add_force(
+        &self,
+        g: usize,
+        first_piola: &Matrix3<f64>,
+        force: &mut [[f64; 3]; N],
+    ) {
+        let [x, y, z] = &self.gradients[g];
+        let stress = first_piola * self.weights[g];
+        for a in 0..N {
+            for i in 0..3 {
+                force[a][i] +=
+                    stress[(i, 0)] * x[a] + stress[(i, 1)] * y[a] + stress[(i, 2)] * z[a];
+            }
+        }
+    }
+
+    /// The stiffness from the tangents at the quadrature points.
+    pub(super) fn sum(&self, tangents: &[Tangent; Q], stiffness: &mut Stiffness) {
+        Arch::new().dispatch(Sum {
+            element: self,
+            tangents,
+            stiffness,
+        });
+    }
+}
+
+/// The stiffness from the tangents, by as many lanes as the processor has: they are filled
+/// with corners, so that sums do not depend on their number.
+struct Sum<'a, const N: usize, const Q: usize> {
+    element: &'a Reference<N, Q>,
+    tangents: &'a [Tangent; Q],
+    stiffness: &'a mut Stiffness,
+}
+
+impl<const N: usize, const Q: usize> WithSimd for Sum<'_, N, Q> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let gradients = self.element.gradients.as_flattened();
+        for ((i, k), block) in COMPONENTS.into_iter().zip(self.stiffness.blocks_mut::<N>()) {
+            let right = right(self.element, self.tangents, i, k);
+            let right = right.as_flattened();
+            // Some rows at a time in registers: as many as divide the corners.
+            match N {
+                4 | 8 => product::<N, 4>(gradients, right, block),
+                6 => product::<N, 3>(gradients, right, block),
+                _ => product::<N, 1>(gradients, right, block),
+            }
+            if i == k {
+                mirror(block);
+            }
+        }
+    }
+}
+
+/// `sum_L w A_iJkL G_b,L` for two components `i`, `k` by quadrature point, `J` and corner.
+#[inline(always)]
+fn right<const N: usize, const Q: usize>(
+    element: &Reference<N, Q>,
+    tangents: &[Tangent; Q],
+    i: usize,
+    k: usize,
+) -> [Gradients<N>; Q] {
+    let mut right = [[[0.0; N]; 3]; Q];
+    for g in 0..Q {
+        let ([x, y, z], weight) = (&element.gradients[g], element.weights[g]);
+        for j in 0..3 {
+            let [t_x, t_y, t_z] =
+                [0, 1, 2].map(|l| tangents[g].data.0[3 * k + l][3 * i + j] * weight);
+            for b in 0..N {
+                right[g][j][b] = t_x * x[b] + t_y * y[b] + t_z * z[b];
+            }
+        }
+    }
+    right
+}
+
+/// `K_ab = sum_gJ G_a,J R_gJ,b`, a product of a tall and a wide matrix, `ROWS` rows at a
+/// time.
+#[inline(always)]
+fn product<const N: usize, const ROWS: usize>(
+    left: &[[f64; N]],
+    right: &[[f64; N]],
+    block: &mut [[f64; N]; N],
+) {
+    for (first, rows) in (0..N).step_by(ROWS).zip(block.chunks_exact_mut(ROWS)) {
+        let mut sums = [[0.0; N]; ROWS];
+        for (left, right) in left.iter().zip(right) {
+            for a in 0..ROWS {
+                for b in 0..N {
+                    sums[a][b] += left[first + a] * right[b];
+                }
+            }
+        }
+        rows.copy_from_slice(&sums);
+    }
+}
+
+/// Makes a block symmetric to the last bit.
+#[inline(always)]
+fn mirror<const N: usize>(block: &mut [[f64; N]; N]) {
+    for a in 0..N {
+        for b in 0..a {
+            block[b][a] = block[a][b];
+        }
+    }
+}
+
+/// The error of the material as an error of the element at quadrature point `g`.
+pub(super) fn error_at(g: usize) -> impl Fn(ResponseError) -> ElementError {
+    move |error| match error {
+        ResponseError::Inverted { determinant } => ElementError::Inverted {
+            point: g,
+            determinant,
+        },
+        ResponseError::Overstretched { strain, limit } => ElementError::Overstretched {
+            point: g,
+            strain,
+            limit,
+        },
+    }
+}

@@ -1,0 +1,69 @@
+//! The stiffness of an element by components: of the blocks
+//!
+//! ```text
+//! K_ik = df_ai/dx_bk,    a, b over the corners,
+//! ```
+//!
+//! those with `i <= k`, as a law with an energy makes `K_ki` the transpose of `K_ik`.
+
+/// Components of the blocks that are kept.
+pub(super) const COMPONENTS: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
+
+/// Derivative of the internal force of an element by its corner positions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stiffness {
+    corners: usize,
+    /// Block by block, row by row.
+    entries: Vec<f64>,
+}
+
+impl Stiffness {
+    pub(super) fn zero(corners: usize) -> Self {
+        Self {
+            corners,
+            entries: vec![0.0; COMPONENTS.len() * corners * corners],
+        }
+    }
+
+    /// Derivative of the force on corner `a` by the position of corner `b`.
+    pub fn between(&self, a: usize, b: usize) -> [[f64; 3]; 3] {
+        let n = self.corners;
+        let (there, back) = (a * n + b, b * n + a);
+        let at = |block: usize, place: usize| self.entries[block * n * n + place];
+        [
+            [at(0, there), at(1, there), at(2, there)],
+            [at(1, back), at(3, there), at(4, there)],
+            [at(2, back), at(4, back), at(5, there)],
+        ]
+    }
+
+    /// All entries, row by row; unknown `3 a + i` is component `i` of corner `a`.
+    pub fn by_rows(&self) -> Vec<f64> {
+        let unknowns = 3 * self.corners;
+        let entry =
+            |row: usize, column: usize| self.between(row / 3, column / 3)[row % 3][column % 3];
+        let rows = (0..unknowns).flat_map(|row| (0..unknowns).map(move |column| (row, column)));
+        rows.map(|(row, column)| entry(row, column)).collect()
+    }
+
+    /// Multiplies all entries.
+    pub fn scale(&mut self, factor: f64) {
+        self.entries.iter_mut().for_each(|k| *k *= factor);
+    }
+
+    /// Adds to the derivative of the force on corner `a` by the position of corner `b`, both
+    /// along one axis.
+    pub fn add_along(&mut self, axis: usize, a: usize, b: usize, value: f64) {
+        let n = self.corners;
+        self.entries[[0, 3, 5][axis] * n * n + a * n + b] += value;
+    }
+
+    /// The blocks of [`COMPONENTS`] for `N` corners, by the corners `a` and `b`.
+    pub(super) fn blocks_mut<const N: usize>(
+        &mut self,
+    ) -> impl Iterator<Item = &mut [[f64; N]; N]> {
+        let (rows, _) = self.entries.as_chunks_mut::<N>();
+        let (blocks, _) = rows.as_chunks_mut::<N>();
+        blocks.iter_mut()
+    }
+}
