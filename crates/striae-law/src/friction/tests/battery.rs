@@ -4,7 +4,8 @@ use nalgebra::{DMatrix, DVector, SVector, Vector2, Vector3};
 use num_dual::{DualNum, jacobian};
 use striae_verify::{Random, assert_derivative};
 
-use crate::friction::{Friction, Map, RequiredTextures, Textures};
+use super::slipping;
+use crate::friction::{Friction, RequiredTextures, Textures};
 
 /// Runs the battery on a law that is not frictionless.
 pub(super) fn check(friction: &Friction) {
@@ -85,11 +86,11 @@ fn unit_tangent(normal: &Vector3<f64>, random: &mut Random) -> Vector3<f64> {
 /// The least cap whose slip surface holds `v`, from the kernel by bisection.
 fn least_cap(friction: &Friction, place: &Place, v: &Vector3<f64>) -> f64 {
     let kernel = friction.kernel(&place.normal, &place.textures);
-    let Map::Affine { l, eta } = kernel.map else {
-        return v.norm() / kernel.traction(1.0, &v.normalize()).norm();
+    let inverse = kernel.l.try_inverse().unwrap();
+    let outside = |cap: f64| {
+        let z = inverse * (v - kernel.eta * cap);
+        z.norm() > cap * kernel.reach(&z)
     };
-    let inverse = l.try_inverse().unwrap();
-    let outside = |cap: f64| (inverse * (v - eta * cap)).norm() > cap;
     let (mut low, mut high) = (0.0, 1.0);
     while outside(high) {
         high *= 2.0;
@@ -111,7 +112,8 @@ fn keeps_inside_the_slip_surface(friction: &Friction, place: &Place, random: &mu
     let (e, s, theta) = place.frame();
     let surface = friction.slip_surface(theta);
     for share in [1.0, random.uniform(0.0, 1.0)] {
-        let z = unit_tangent(&place.normal, random) * (share * cap);
+        let d = unit_tangent(&place.normal, random);
+        let z = d * (share * cap * kernel.reach(&d));
         let v = -kernel.traction(cap, &z);
         let gauge = surface.gauge(&Vector2::new(v.dot(&e), v.dot(&s)));
         assert!((gauge - least_cap(friction, place, &v)).abs() < 1e-12);
@@ -126,7 +128,7 @@ fn keeps_inside_the_slip_surface(friction: &Friction, place: &Place, random: &mu
 fn dissipates(friction: &Friction, place: &Place, random: &mut Random) {
     let kernel = friction.kernel(&place.normal, &place.textures);
     let z = unit_tangent(&place.normal, random);
-    assert!((kernel.k * z).dot(&kernel.traction(1.0, &z)) < 0.0);
+    assert!((kernel.k * z).dot(&slipping(&kernel, 1.0, &z)) < 0.0);
 }
 
 fn meets_the_closed_form(friction: &Friction, place: &Place, random: &mut Random) {
@@ -136,7 +138,7 @@ fn meets_the_closed_form(friction: &Friction, place: &Place, random: &mut Random
     let (sine, cosine) = expected.angle.sin_cos();
     let z = e * cosine + s * sine;
     let in_plane = |v: Vector2<f64>| e * v.x + s * v.y;
-    assert!((in_plane(expected.traction) + kernel.traction(1.0, &z)).norm() < 1e-12);
+    assert!((in_plane(expected.traction) + slipping(&kernel, 1.0, &z)).norm() < 1e-12);
     assert!((in_plane(expected.slip) - (kernel.k * z).normalize()).norm() < 1e-12);
 }
 
@@ -153,6 +155,7 @@ fn is_equivariant_under_rotation(friction: &Friction, place: &Place, random: &mu
     let kernel = friction.kernel(&place.normal, &place.textures);
     let image = friction.kernel(&turned.normal, &turned.textures);
     assert!((image.traction(0.9, &(q * z)) - q * kernel.traction(0.9, &z)).norm() < 1e-13);
+    assert!((image.reach(&(q * z)) - kernel.reach(&z)).abs() < 1e-13);
     assert!((image.k * (q * z) - q * (kernel.k * z)).norm() < 1e-12);
 }
 
@@ -162,6 +165,7 @@ fn gives_opposite_forces_to_the_two_sides(friction: &Friction, place: &Place, ra
     let a = friction.kernel(&place.normal, &place.textures);
     let b = friction.kernel(&swapped.normal, &swapped.textures);
     assert!((a.traction(0.9, &z) + b.traction(0.9, &-z)).norm() < 1e-14);
+    assert!((a.reach(&z) - b.reach(&-z)).abs() < 1e-14);
     assert!((a.k * z - b.k * z).norm() < 1e-14);
 }
 
@@ -170,13 +174,13 @@ fn inverts_the_slip_map(friction: &Friction, place: &Place) {
     assert!((kernel.k * kernel.k_inverse - nalgebra::Matrix3::identity()).norm() < 1e-13);
 }
 
-/// `(tau, K^-1 z, K z)` as a function of pressure, slip rate, `z`, textures and
+/// `(tau, K^-1 z, K z, rho)` as a function of pressure, slip rate, `z`, textures and
 /// normal.
 fn response<D: DualNum<Primitive = f64> + Copy>(
     friction: &Friction,
     place: &Place,
     x: &SVector<D, 14>,
-) -> SVector<D, 9> {
+) -> SVector<D, 10> {
     let vector = |i: usize| Vector3::new(x[i], x[i + 1], x[i + 2]);
     let textures = Textures {
         own: place.textures.own.map(|_| vector(5)),
@@ -189,7 +193,8 @@ fn response<D: DualNum<Primitive = f64> + Copy>(
     SVector::from_fn(|i, _| match i {
         0..3 => tau[i],
         3..6 => k_inverse_z[i - 3],
-        _ => k_z[i - 6],
+        6..9 => k_z[i - 6],
+        _ => kernel.reach(&z),
     })
 }
 
@@ -211,7 +216,7 @@ fn has_exact_derivatives(friction: &Friction, place: &Place, random: &mut Random
         |x| DVector::from_column_slice(response(friction, place, &fixed(x)).as_slice()),
         |x| {
             let (_, slope) = jacobian(|x| response(friction, place, &x), &fixed(x));
-            DMatrix::from_fn(9, 14, |i, j| slope[(i, j)])
+            DMatrix::from_fn(10, 14, |i, j| slope[(i, j)])
         },
         &x,
     );
