@@ -9,6 +9,9 @@
 //! |y| <= varpi  : du = 0   else z = varpi y/|y|
 //! ```
 //!
+//! with `varpi rho(y)` for `varpi` where friction is tabulated, see
+//! [`striae_law::friction::Kernel::reach`].
+//!
 //! The slip row is linearised with the globalised Jacobian of Hueeber, Stadler
 //! & Wohlmuth (SIAM J. Sci. Comput. 30, 2008, doi:10.1137/060671061),
 //!

@@ -264,6 +264,7 @@ impl Evaluation {
                     textures: &stage.textures[side][node],
                     slipped: stage.tractions.slipped[side][node],
                     before: stage.tractions.statuses[side][node],
+                    begun: stage.tractions.begun[side][node],
                     unknowns: stage.tractions.nodes[side][node],
                     tau: stage.tau[side][node].value,
                 };

@@ -21,8 +21,9 @@
 //! omega = max(0.2, 1/(1 + |g|/g_0)),
 //! ```
 //!
-//! never falls within an increment and is 1 once the gap is closed. In `z` the
-//! slip surface is a circle for every law, so the return is radial for all.
+//! never falls within an increment and is 1 once the gap is closed. The return
+//! is radial for every law; for a table `rho` is that of the direction of `z`
+//! or `y`.
 //!
 //! Source: Jones & Papadopoulos (2006), Table 1 and equation (59), with `rho` for
 //! the erroneous `omega varpi`. The paper's `tol_s` is read as an overshoot of

@@ -14,9 +14,12 @@ pub struct Tractions {
     pub tau_n: [Vec<[f64; 2]>; 2],
     /// Whether each node slipped in the last converged increment, by side.
     pub slipped: [Vec<bool>; 2],
-    /// Status of each node in the last iteration, by side; open before the first.
-    /// It counts with a corrector only.
+    /// Status of each node in the last iteration, by side; before the first, slip where a
+    /// node slipped in the last increment and else open.
+    /// It counts with a corrector, and where friction decays with the slip rate.
     pub statuses: [Vec<Status>; 2],
+    /// How often each node has begun to slip in the increment, by side.
+    pub begun: [Vec<u32>; 2],
 }
 
 impl Tractions {
@@ -27,6 +30,7 @@ impl Tractions {
             slipped: nodes.map(|count| vec![false; count]),
             tau_n: nodes.map(|count| vec![[0.0; 2]; count]),
             statuses: nodes.map(|count| vec![Status::Open; count]),
+            begun: nodes.map(|count| vec![0; count]),
         }
     }
 }

@@ -10,13 +10,19 @@
 //! ```
 //!
 //! One that cannot slip at all has `z = 0`.
+//!
+//! Where friction decays with the slip rate it may fall faster with slip than the bodies let
+//! go: with `f(d) = F - k d - varpi(d/dt)`, `f'(0)` is positive, and Newton's method goes
+//! backwards from rest. `varpi` is convex, so `f` is concave, and from the right of the
+//! solution Newton's method does not turn back. The kinetic coefficient leads there: a node
+//! that sticks, slips and sticks begins with it at every second time.
 
 use nalgebra::{Matrix2, Vector2};
 
 use super::{
     mobility::Mobility,
     node::Iteration,
-    state::{N, NodeState, Q, TRACTION},
+    state::{N, NodeState, Q, Rate, TRACTION},
 };
 use crate::{configuration::Configuration, table_1::Corrector, term::Field, unknowns::Status};
 
@@ -37,11 +43,26 @@ pub(super) fn tangential(
     if friction.cap(1.0, 0.0) == 0.0 {
         return (Status::Slip, z.map(traction));
     }
+    let rate = match iteration {
+        Iteration::Later { slip_weight } => {
+            let r = r * slip_weight;
+            Rate::Along([0, 1].map(|at| z[at].re + r * state.turned[at].re))
+        }
+        Iteration::First | Iteration::Corrected(_) => Rate::Present,
+    };
+    let varpi = state.varpi(configuration, p, rate);
     let node = Friction {
         state,
+        configuration,
         mobility: Mobility::new(state),
         size: configuration.size(state.node.side, state.node.node),
-        varpi: state.varpi(configuration, p),
+        begun: match state.node.before {
+            Status::Open | Status::Stick if state.node.begun % 2 == 1 => {
+                state.varpi(configuration, p, Rate::Endless)
+            }
+            Status::Open | Status::Stick | Status::Slip => varpi,
+        },
+        varpi,
         z,
     };
     match iteration {
@@ -54,9 +75,12 @@ pub(super) fn tangential(
 /// Friction at a closed node.
 struct Friction<'a> {
     state: &'a NodeState<'a>,
+    configuration: &'a Configuration<'a>,
     mobility: Mobility,
     size: f64,
     varpi: Q,
+    /// The same for the row of slip: of endless slip where the node begins to slip again.
+    begun: Q,
     z: [Q; 2],
 }
 
@@ -64,7 +88,7 @@ impl Friction<'_> {
     /// In the first iteration: nodes that slipped go on.
     fn first(&self) -> (Status, [TangentialRow; 2]) {
         let [z1, z2] = self.z.map(|z| z.re);
-        if self.state.node.slipped && z1.hypot(z2) > 0.5 * self.varpi.re {
+        if self.state.node.slipped && z1.hypot(z2) > 0.5 * self.least_radius() {
             (Status::Slip, self.continued())
         } else {
             (Status::Stick, self.stick())
@@ -78,12 +102,17 @@ impl Friction<'_> {
                 let w = &way.of_friction;
                 let [z, turned] = [&self.z, &self.state.turned].map(|v| part(w, v).re);
                 let y = z + r * turned;
-                (y.abs() > self.varpi.re).then(|| along(w, y, &self.z, &self.varpi))
+                let way = w.map(|w| Q::combination([(y.signum(), &w)]));
+                let radius = self.reaching(&self.varpi, &way).re;
+                self.slips(y.abs(), radius, way.map(|way| way.re))
+                    .then(|| along(&way, &self.z, &self.reaching(&self.begun, &way)))
             }
             Mobility::Free | Mobility::Held => {
                 let y = self.y(r);
                 let length = y[0].re.hypot(y[1].re);
-                (length > self.varpi.re).then(|| slip(&self.z, &y, &self.varpi))
+                let radius = self.reaching(&self.varpi, &y).re;
+                self.slips(length, radius, y.map(|y| y.re))
+                    .then(|| slip(&self.z, &y, &self.reaching(&self.begun, &y)))
             }
         };
         self.slip_or_stick(slips)
@@ -91,24 +120,68 @@ impl Friction<'_> {
 
     /// The corrector decides.
     fn corrected(&self, r: f64, corrector: Corrector) -> (Status, [TangentialRow; 2]) {
-        let radius = Q::combination([(corrector.inflation.factor(), &self.varpi)]);
+        let inflated = Q::combination([(corrector.inflation.factor(), &self.varpi)]);
+        let radius = |direction: &[Q; 2]| self.reaching(&inflated, direction);
         let slips = |z: [f64; 2], turned: [f64; 2]| {
             let before = self.state.node.before;
-            corrector.status(before, z, turned, radius.re) == Status::Slip
+            corrector.status(before, z, turned, radius(&self.z).re) == Status::Slip
         };
         let turned = &self.state.turned;
         let rows = match &self.mobility {
             Mobility::Along(way) => {
                 let w = &way.of_friction;
                 let [z, turned] = [&self.z, turned].map(|v| part(w, v).re);
-                slips([z, 0.0], [turned, 0.0]).then(|| along(w, z + r * turned, &self.z, &radius))
+                slips([z, 0.0], [turned, 0.0]).then(|| {
+                    let sign = (z + r * turned).signum();
+                    let way = w.map(|w| Q::combination([(sign, &w)]));
+                    along(&way, &self.z, &radius(&way))
+                })
             }
             Mobility::Free | Mobility::Held => {
                 let [z, turned] = [&self.z, turned].map(|v| [v[0].re, v[1].re]);
-                slips(z, turned).then(|| slip(&self.z, &self.y(r), &radius))
+                slips(z, turned).then(|| {
+                    let y = self.y(r);
+                    slip(&self.z, &y, &radius(&y))
+                })
             }
         };
         self.slip_or_stick(rows)
+    }
+
+    /// The radius of the slip surface at which slip goes on: where friction decays with the
+    /// slip rate, `|z|` is that of the rate so far.
+    fn continued_radius(&self) -> Q {
+        let radius = self.reaching(&self.varpi, &self.z);
+        let [z1, z2] = self.z.map(|z| z.re);
+        let share = match self.configuration.pair.friction.decays() {
+            true if radius.re > 0.0 => (z1.hypot(z2) / radius.re).min(1.0),
+            _ => 1.0,
+        };
+        Q::combination([(share, &radius)])
+    }
+
+    /// The radius of the slip surface at the highest slip rates.
+    fn least_radius(&self) -> f64 {
+        let p = self.state.node.unknowns[0];
+        let kinetic = self.state.varpi(self.configuration, p, Rate::Endless);
+        self.reaching(&kinetic, &self.z).re
+    }
+
+    /// Whether a node slips, by the length of `y` and the radius of the slip surface in its
+    /// direction. Where friction decays with the slip rate, a node that turns around sticks
+    /// first: from there its friction at rest decides.
+    fn slips(&self, length: f64, radius: f64, y: [f64; 2]) -> bool {
+        let [first, second] = &self.state.turned;
+        let turns = self.configuration.pair.friction.decays()
+            && self.state.node.before == Status::Slip
+            && first.re * y[0] + second.re * y[1] < 0.0;
+        length > radius && !turns
+    }
+
+    /// `varpi rho`, the radius of the slip surface in a direction.
+    fn reaching(&self, varpi: &Q, direction: &[Q; 2]) -> Q {
+        let reach = self.state.reach(self.configuration, direction);
+        Q::product(varpi, &reach)
     }
 
     fn slip_or_stick(&self, slip: Option<[TangentialRow; 2]>) -> (Status, [TangentialRow; 2]) {
@@ -124,16 +197,13 @@ impl Friction<'_> {
         [0, 1].map(|at| Q::combination([(1.0, &self.z[at]), (r, &turned[at])]))
     }
 
-    /// Slip that goes on in the direction of `z`: `|z| = varpi` and no slip
+    /// Slip that goes on in the direction of `z`: `|z| = varpi rho` and no slip
     /// across, or no `z` across where the node cannot move that way.
     fn continued(&self) -> [TangentialRow; 2] {
         let z = &self.z;
+        let radius = self.continued_radius();
         let direction = Vector2::new(z[0].re, z[1].re).normalize();
-        let along = Q::combination([
-            (direction.x, &z[0]),
-            (direction.y, &z[1]),
-            (-1.0, &self.varpi),
-        ]);
+        let along = Q::combination([(direction.x, &z[0]), (direction.y, &z[1]), (-1.0, &radius)]);
         let across = |v: &[Q; 2]| Q::combination([(direction.x, &v[1]), (-direction.y, &v[0])]);
         let second = match self.mobility {
             Mobility::Free => self.resting(across(&self.state.turned)),
@@ -173,19 +243,19 @@ fn part(q: &[Q; 2], v: &[Q; 2]) -> Q {
     Q::combination([(1.0, &first), (1.0, &second)])
 }
 
-/// `z = varpi sign(y) w`.
-fn along(w: &[Q; 2], y: f64, z: &[Q; 2], varpi: &Q) -> [TangentialRow; 2] {
+/// `z = radius way`, `way` a unit vector.
+fn along(way: &[Q; 2], z: &[Q; 2], radius: &Q) -> [TangentialRow; 2] {
     [0, 1].map(|at| {
-        let limit = Q::product(varpi, &w[at]);
-        traction(Q::combination([(1.0, &z[at]), (-y.signum(), &limit)]))
+        let limit = Q::product(radius, &way[at]);
+        traction(Q::combination([(1.0, &z[at]), (-1.0, &limit)]))
     })
 }
 
-/// `z = varpi y/|y|`.
-fn slip(z: &[Q; 2], y: &[Q; 2], varpi: &Q) -> [TangentialRow; 2] {
+/// `z = radius y/|y|`.
+fn slip(z: &[Q; 2], y: &[Q; 2], limit: &Q) -> [TangentialRow; 2] {
     let zv = Vector2::new(z[0].re, z[1].re);
     let yv = Vector2::new(y[0].re, y[1].re);
-    let (length, radius) = (yv.norm(), varpi.re);
+    let (length, radius) = (yv.norm(), limit.re);
     let direction = yv / length;
     let f = zv * direction.transpose() / radius.max(zv.norm()).max(f64::MIN_POSITIVE);
     let alpha = if zv.norm() > 0.0 {
@@ -209,7 +279,7 @@ fn slip(z: &[Q; 2], y: &[Q; 2], varpi: &Q) -> [TangentialRow; 2] {
             (1.0, &z[at]),
             (-m[(at, 0)], &y[0]),
             (-m[(at, 1)], &y[1]),
-            (-direction[at], varpi),
+            (-direction[at], limit),
         ]);
         let residual = zv[at] - radius * direction[at];
         (Field::Traction, residual, row.slope)

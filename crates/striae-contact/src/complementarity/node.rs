@@ -44,6 +44,8 @@ pub struct ContactNode<'a> {
     pub slipped: bool,
     /// Status in the iteration before.
     pub before: Status,
+    /// How often it has begun to slip in the increment.
+    pub begun: u32,
     /// `p`, `z1`, `z2`.
     pub unknowns: [f64; 3],
     /// Friction traction `tau`.

@@ -10,8 +10,8 @@ use crate::{
     configuration::Configuration,
     kinematics::{Kinematics, Presence},
     quantity::Quantity,
-    term::{Lanes, Source, parts, variable3},
-    traction::{Cap, on_lanes, push_textures},
+    term::{Lanes, Source, gradient, parts, variable3},
+    traction::{Cap, in_frame, on_lanes, push_textures},
     unknown::{Numbering, Unknown},
     unknowns::{NodeResult, Status},
 };
@@ -35,6 +35,17 @@ const TEXTURES: usize = 16;
 
 /// Derivative of the gap below which nothing can change it.
 const FIXED: f64 = 1e-9;
+
+/// The slip rate that friction is asked for at.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Rate {
+    /// The present one.
+    Present,
+    /// The present one where the slip goes along `y`, else none.
+    Along([f64; 2]),
+    /// Slip without end.
+    Endless,
+}
 
 /// Gap and slip of a node as functions of the unknowns.
 pub(super) struct NodeState<'a> {
@@ -177,14 +188,22 @@ impl<'a> NodeState<'a> {
         })
     }
 
-    /// `varpi` at the pressure `p` and the present slip rate, without derivatives by the
-    /// slip where it vanishes.
-    pub(super) fn varpi(&self, configuration: &Configuration, p: f64) -> Q {
+    /// `varpi` at the pressure `p` and a slip rate, without derivatives by the slip where
+    /// it vanishes.
+    pub(super) fn varpi(&self, configuration: &Configuration, p: f64, rate: Rate) -> Q {
         let [first, second] = &self.slip;
         let length = first.re.hypot(second.re);
-        let rate = length / configuration.elapsed;
+        let present = length / configuration.elapsed;
+        let rate = match rate {
+            Rate::Present => present,
+            Rate::Along(y) => {
+                let goes = y[0] * self.turned[0].re + y[1] * self.turned[1].re;
+                if goes > 0.0 { present } else { 0.0 }
+            }
+            Rate::Endless => f64::INFINITY,
+        };
         let cap = Cap::new(&configuration.pair.friction, p, rate);
-        let by_slip = if length > 0.0 {
+        let by_slip = if length > 0.0 && rate == present {
             cap.by_rate / (configuration.elapsed * length)
         } else {
             0.0
@@ -195,6 +214,37 @@ impl<'a> NodeState<'a> {
         Q {
             re: cap.value,
             ..varpi
+        }
+    }
+
+    /// `rho`, how far `z` reaches over `varpi` in a direction with components along the
+    /// tangents.
+    pub(super) fn reach(&self, configuration: &Configuration, direction: &[Q; 2]) -> Q {
+        let friction = &configuration.pair.friction;
+        if !friction.turns() {
+            return Q::constant(1.0);
+        }
+        let frame = self.node.frame;
+        let components = direction.each_ref().map(|component| component.re);
+        // Lanes of the law, then those of the direction.
+        let normal: Vector3<DualSVec64<12>> = variable3(&frame.n.value, 0);
+        let textures = on_lanes(self.node.textures, 3);
+        let vector = variable3(&in_frame(frame, components), 9);
+        let reach = friction.kernel(&normal, &textures).reach(&vector);
+        let by = gradient(&reach);
+        let by_vector = Vec3::new(by[9], by[10], by[11]);
+        let by_components = frame.t.each_ref().map(|t| by_vector.dot(&t.value));
+        let [first, second] = direction;
+        let mut rho = Q::combination([(by_components[0], first), (by_components[1], second)]);
+        for (axis, component) in components.iter().enumerate() {
+            rho.depend(TANGENTS + 3 * axis, &(by_vector * *component));
+        }
+        for (lane, by) in by[..9].iter().enumerate() {
+            rho.slope[of_law(lane)] += by;
+        }
+        Q {
+            re: reach.re,
+            ..rho
         }
     }
 }

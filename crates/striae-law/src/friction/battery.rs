@@ -10,7 +10,7 @@ use num_dual::{DualNum, jacobian};
 use striae_verify::derivative::directional;
 use striae_verify::{Difference, Random};
 
-use super::{Friction, Map, RequiredTextures, Textures};
+use super::{Friction, Kernel, RequiredTextures, Textures};
 
 /// Something a friction law gets wrong.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -147,6 +147,11 @@ impl Place {
     }
 }
 
+/// Friction traction of slip with `z` along the unit vector `d`.
+fn slipping(kernel: &Kernel<'_, f64>, cap: f64, d: &Vector3<f64>) -> Vector3<f64> {
+    kernel.traction(cap, &(d * (cap * kernel.reach(d))))
+}
+
 fn unit_tangent(normal: &Vector3<f64>, random: &mut Random) -> Vector3<f64> {
     normal.cross(&random.unit3()).normalize()
 }
@@ -163,13 +168,13 @@ fn small(error: f64, violation: impl FnOnce(f64) -> Violation) -> Result<(), Vio
 /// The least cap whose slip surface holds `v`, from the kernel by bisection.
 fn least_cap(friction: &Friction, place: &Place, v: &Vector3<f64>) -> f64 {
     let kernel = friction.kernel(&place.normal, &place.textures);
-    let Map::Affine { l, eta } = kernel.map else {
-        return v.norm() / kernel.traction(1.0, &v.normalize()).norm();
-    };
-    let Some(inverse) = l.try_inverse() else {
+    let Some(inverse) = kernel.l.try_inverse() else {
         return f64::NAN;
     };
-    let outside = |cap: f64| (inverse * (v - eta * cap)).norm() > cap;
+    let outside = |cap: f64| {
+        let z = inverse * (v - kernel.eta * cap);
+        z.norm() > cap * kernel.reach(&z)
+    };
     let (mut low, mut high) = (0.0, 1.0);
     while outside(high) && high < 1e6 {
         high *= 2.0;
@@ -195,7 +200,8 @@ fn keeps_inside_the_slip_surface(
     let (e, s, theta) = place.frame();
     let surface = friction.slip_surface(theta);
     for share in [1.0, random.uniform(0.0, 1.0)] {
-        let z = unit_tangent(&place.normal, random) * (share * cap);
+        let d = unit_tangent(&place.normal, random);
+        let z = d * (share * cap * kernel.reach(&d));
         let v = -kernel.traction(cap, &z);
         let gauge = surface.gauge(&Vector2::new(v.dot(&e), v.dot(&s)));
         let wrong = |expected: f64| Violation::SlipSurface { gauge, expected };
@@ -214,7 +220,7 @@ fn dissipates(friction: &Friction, place: &Place, random: &mut Random) -> Result
     let kernel = friction.kernel(&place.normal, &place.textures);
     let z = unit_tangent(&place.normal, random);
     let slip = (kernel.k * z).normalize();
-    let dissipation = -slip.dot(&kernel.traction(1.0, &z));
+    let dissipation = -slip.dot(&slipping(&kernel, 1.0, &z));
     if dissipation > 0.0 {
         Ok(())
     } else {
@@ -233,7 +239,7 @@ fn meets_the_closed_form(
     let (sine, cosine) = expected.angle.sin_cos();
     let z = e * cosine + s * sine;
     let in_plane = |v: Vector2<f64>| e * v.x + s * v.y;
-    let force = (in_plane(expected.traction) + kernel.traction(1.0, &z)).norm();
+    let force = (in_plane(expected.traction) + slipping(&kernel, 1.0, &z)).norm();
     let slip = (in_plane(expected.slip) - (kernel.k * z).normalize()).norm();
     small(force.max(slip), Violation::ClosedForm)
 }
@@ -255,8 +261,9 @@ fn is_equivariant_under_rotation(
     let kernel = friction.kernel(&place.normal, &place.textures);
     let image = friction.kernel(&turned.normal, &turned.textures);
     let force = (image.traction(0.9, &(q * z)) - q * kernel.traction(0.9, &z)).norm();
+    let reach = (image.reach(&(q * z)) - kernel.reach(&z)).abs();
     let slip = (image.k * (q * z) - q * (kernel.k * z)).norm();
-    small(force.max(slip), Violation::NotObjective)
+    small(force.max(slip).max(reach), Violation::NotObjective)
 }
 
 fn gives_opposite_forces_to_the_two_sides(
@@ -269,8 +276,9 @@ fn gives_opposite_forces_to_the_two_sides(
     let a = friction.kernel(&place.normal, &place.textures);
     let b = friction.kernel(&swapped.normal, &swapped.textures);
     let force = (a.traction(0.9, &z) + b.traction(0.9, &-z)).norm();
+    let reach = (a.reach(&z) - b.reach(&-z)).abs();
     let slip = (a.k * z - b.k * z).norm();
-    small(force.max(slip), Violation::Sides)
+    small(force.max(slip).max(reach), Violation::Sides)
 }
 
 fn inverts_the_slip_map(friction: &Friction, place: &Place) -> Result<(), Violation> {
@@ -279,13 +287,13 @@ fn inverts_the_slip_map(friction: &Friction, place: &Place) -> Result<(), Violat
     small(error, Violation::Inverse)
 }
 
-/// `(tau, K^-1 z, K z)` as a function of pressure, slip rate, `z`, textures and
+/// `(tau, K^-1 z, K z, rho)` as a function of pressure, slip rate, `z`, textures and
 /// normal.
 fn response<D: DualNum<Primitive = f64> + Copy>(
     friction: &Friction,
     place: &Place,
     x: &SVector<D, 14>,
-) -> SVector<D, 9> {
+) -> SVector<D, 10> {
     let vector = |i: usize| Vector3::new(x[i], x[i + 1], x[i + 2]);
     let textures = Textures {
         own: place.textures.own.map(|_| vector(5)),
@@ -298,7 +306,8 @@ fn response<D: DualNum<Primitive = f64> + Copy>(
     SVector::from_fn(|i, _| match i {
         0..3 => tau[i],
         3..6 => k_inverse_z[i - 3],
-        _ => k_z[i - 6],
+        6..9 => k_z[i - 6],
+        _ => kernel.reach(&z),
     })
 }
 
@@ -315,7 +324,7 @@ fn has_exact_derivatives(
     let x = DVector::from_iterator(14, [1.2, 0.4].into_iter().chain(coordinates));
     let fixed = |x: &DVector<f64>| SVector::<f64, 14>::from_column_slice(x.as_slice());
     let (_, slope) = jacobian(|x| response(friction, place, &x), &fixed(&x));
-    let slope = DMatrix::from_fn(9, 14, |i, j| slope[(i, j)]);
+    let slope = DMatrix::from_fn(10, 14, |i, j| slope[(i, j)]);
     let value = |x: &DVector<f64>| {
         DVector::from_column_slice(response(friction, place, &fixed(x)).as_slice())
     };

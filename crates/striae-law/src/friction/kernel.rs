@@ -1,15 +1,15 @@
 //! The common form of every friction law at a contact point.
 //!
 //! ```text
-//! -tau = L z + varpi eta ,   |z| <= varpi ,   slip du parallel to K z when |z| = varpi
-//! -tau = rho(phi) z          of tabulated friction, `phi` the direction of `z`, K = I
+//! -tau = L z + varpi eta ,   |z| <= varpi rho ,   slip du parallel to K z when |z| = varpi rho
 //! ```
 //!
-//! In the variable `z` the law is isotropic Coulomb friction, so stick and slip
-//! are the two sides of one projection, `z = Proj(z + r K^-1 du)` onto the disc
-//! of radius `varpi`. `L` and `K` act on vectors of the common tangent plane;
-//! they are stored as regular 3x3 matrices, `eta` as a tangent vector. `z`,
-//! `varpi` and `tau` are stresses, the rest has no unit.
+//! `rho` is 1 but for tabulated friction, where it depends on the direction of `z` and
+//! `L = K = I`, `eta = 0`. In the variable `z` all other laws are isotropic Coulomb friction,
+//! so stick and slip are the two sides of one projection, `z = Proj(z + r K^-1 du)` onto the
+//! disc of radius `varpi`, and of one towards the centre for a table. `L` and `K` act on
+//! vectors of the common tangent plane; they are stored as regular 3x3 matrices, `eta` as a
+//! tangent vector. `z`, `varpi` and `tau` are stresses, the rest has no unit.
 //!
 //! Source: closed form of the slip rule (36) of Jones & Papadopoulos (2006),
 //! "Simulating anisotropic frictional response using smoothly interpolated
@@ -63,29 +63,19 @@ impl<D: DualNum<Primitive = f64> + Copy> Textures<D> {
     }
 }
 
-/// From `z` to the traction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Map<'a, D> {
-    /// `-tau = L z + varpi eta`.
-    Affine {
-        /// `L`.
-        l: Matrix3<D>,
-        /// `eta`, the offset of the slip surface over `varpi`.
-        eta: Vector3<D>,
-    },
-    /// `-tau = rho(phi) z`.
-    Radial(Radial<'a, D>),
-}
-
 /// A friction law at a contact point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kernel<'a, D> {
-    /// From `z` to the traction.
-    pub map: Map<'a, D>,
+    /// `L`.
+    pub l: Matrix3<D>,
+    /// `eta`, the offset of the slip surface over `varpi`.
+    pub eta: Vector3<D>,
     /// `K`, from `z` to the direction of slip; identity for laws stated in the slip direction.
     pub k: Matrix3<D>,
     /// The inverse of `K`.
     pub k_inverse: Matrix3<D>,
+    /// `rho`, where it is not 1.
+    radial: Option<Radial<'a, D>>,
 }
 
 impl<'a, D: DualNum<Primitive = f64> + Copy> Kernel<'a, D> {
@@ -96,7 +86,13 @@ impl<'a, D: DualNum<Primitive = f64> + Copy> Kernel<'a, D> {
 
     /// `-tau = L z + varpi eta` with `K = I`: a law stated in the slip direction.
     pub fn affine(l: Matrix3<D>, eta: Vector3<D>) -> Self {
-        Self::opposing(Map::Affine { l, eta })
+        Self {
+            l,
+            eta,
+            k: Matrix3::identity(),
+            k_inverse: Matrix3::identity(),
+            radial: None,
+        }
     }
 
     /// The same law with slip along `K z`.
@@ -108,24 +104,24 @@ impl<'a, D: DualNum<Primitive = f64> + Copy> Kernel<'a, D> {
         }
     }
 
-    /// Tabulated friction: `K = I`.
+    /// Tabulated friction: `L = K = I`, `eta = 0`.
     pub(super) fn radial(radial: Radial<'a, D>) -> Self {
-        Self::opposing(Map::Radial(radial))
-    }
-
-    fn opposing(map: Map<'a, D>) -> Self {
         Self {
-            map,
-            k: Matrix3::identity(),
-            k_inverse: Matrix3::identity(),
+            radial: Some(radial),
+            ..Self::identity()
         }
     }
 
     /// Friction traction `tau` for the cap `varpi`.
     pub fn traction(&self, cap: D, z: &Vector3<D>) -> Vector3<D> {
-        match &self.map {
-            Map::Affine { l, eta } => -(l * z + eta * cap),
-            Map::Radial(radial) => -radial.of(z),
+        -(self.l * z + self.eta * cap)
+    }
+
+    /// `rho` in the direction of `z`: how far it reaches over `varpi`.
+    pub fn reach(&self, z: &Vector3<D>) -> D {
+        match &self.radial {
+            None => D::one(),
+            Some(radial) => radial.reach(z),
         }
     }
 }

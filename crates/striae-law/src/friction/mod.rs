@@ -1,9 +1,9 @@
-//! Friction laws on the common kernel `-tau = L z + varpi eta`, `|z| <= varpi`, and its
-//! sibling `-tau = rho(phi) z` for measured coefficients.
+//! Friction laws on the common kernel `-tau = L z + varpi eta`, `|z| <= varpi`, or
+//! `|z| <= varpi rho` with `rho` by the direction of `z` for measured coefficients.
 //!
 //! A [`Friction`] joins a [`Law`] (the shape of the slip surface and the slip
 //! rule), a [`Coefficient`] and, if wanted, a cap on the shear stress. It gives
-//! the solver two functions: the radius [`Friction::cap`] of the disc of `z`
+//! the solver two functions: the radius [`Friction::cap`] of the slip surface of `z`
 //! and the [`Kernel`] that turns `z` into a traction. Both are generic over
 //! dual numbers, so their derivatives are exact.
 //!
@@ -37,7 +37,7 @@ pub use battery::{Violation, battery};
 pub use coefficient::Coefficient;
 pub use ellipse::Ellipse;
 pub use error::FrictionError;
-pub use kernel::{Kernel, Map, Textures};
+pub use kernel::{Kernel, Textures};
 pub use nap::Nap;
 pub use oblique::Oblique;
 pub use orthotropic::Orthotropic;
@@ -217,6 +217,11 @@ impl Friction {
         &self.coefficient
     }
 
+    /// Whether how far `z` reaches depends on its direction; see [`Kernel::reach`].
+    pub fn turns(&self) -> bool {
+        matches!(self.law, Law::Tabulated(_))
+    }
+
     /// Whether `varpi` depends on the slip rate.
     pub fn decays(&self) -> bool {
         self.coefficient.decays()
@@ -237,7 +242,7 @@ impl Friction {
         }
     }
 
-    /// Radius of the disc of `z`: `varpi = mu(v) p`, at most the shear cap, and
+    /// Radius of the slip surface of `z`, over its reach: `varpi = mu(v) p`, at most the shear cap, and
     /// zero where the pressure is not compressive.
     ///
     /// Kinks, with one-sided derivatives taken on the side the value lies on: at

@@ -25,7 +25,7 @@ use num_dual::DualNum;
 
 use super::ellipse::Ellipse;
 use super::error::{FrictionError, positive};
-use super::kernel::{Kernel, Map};
+use super::kernel::Kernel;
 use super::slip_surface::SlipRule;
 
 /// Coefficients of the law over the larger one, and slip rule.
@@ -60,14 +60,10 @@ impl Orthotropic {
         let L = diagonal(self.along, self.across);
         match self.rule {
             SlipRule::Opposing => Kernel::affine(L, Vector3::zeros()),
-            SlipRule::Associated => Kernel {
-                map: Map::Affine {
-                    l: L,
-                    eta: Vector3::zeros(),
-                },
-                k: diagonal(1.0 / self.along, 1.0 / self.across),
-                k_inverse: L,
-            },
+            SlipRule::Associated => {
+                let k = diagonal(1.0 / self.along, 1.0 / self.across);
+                Kernel::affine(L, Vector3::zeros()).with_slip_map(k, L)
+            }
         }
     }
 

@@ -7,7 +7,7 @@ use nalgebra::{Matrix2, Matrix3, Rotation3, Vector2, Vector3};
 use num_dual::{DualNum, DualSVec64};
 
 use super::oblique::Oblique;
-use super::{FrictionError, Kernel, Map, RequiredTextures, Textures};
+use super::{FrictionError, Kernel, RequiredTextures, Textures};
 
 /// First-order dual numbers over the normal and the textures of the two surfaces.
 pub type Lane = DualSVec64<9>;
@@ -120,19 +120,10 @@ impl Own {
             opposite: opposite.map(|_| lanes[2]),
         };
         let kernel = self.0.kernel(&lanes[0], &textures);
-        let Map::Affine { l, eta } = kernel.map else {
-            unreachable!("kernels of laws from outside are affine")
-        };
         let changes = change(&given);
         let lift = |x: Lane| lifted(&x, &changes);
-        Kernel {
-            map: Map::Affine {
-                l: l.map(lift),
-                eta: eta.map(lift),
-            },
-            k: kernel.k.map(lift),
-            k_inverse: kernel.k_inverse.map(lift),
-        }
+        Kernel::affine(kernel.l.map(lift), kernel.eta.map(lift))
+            .with_slip_map(kernel.k.map(lift), kernel.k_inverse.map(lift))
     }
 
     /// The slip surface, in the frame of the only texture or of the bisector of the two,
@@ -145,14 +136,11 @@ impl Own {
             RequiredTextures::Both => (Some(at(-0.5 * theta)), Some(at(0.5 * theta))),
         };
         let kernel = self.kernel(&Vector3::z(), &Textures { own, opposite });
-        let Map::Affine { l, eta } = kernel.map else {
-            unreachable!("kernels of laws from outside are affine")
-        };
-        Oblique::new(plane(&l), Vector2::new(eta.x, eta.y), plane(&kernel.k)).ok_or_else(|| {
-            FrictionError::NoSlipSurface {
-                law: self.0.name().to_owned(),
-                theta: theta.to_degrees(),
-            }
+        let eta = Vector2::new(kernel.eta.x, kernel.eta.y);
+        let surface = Oblique::new(plane(&kernel.l), eta, plane(&kernel.k));
+        surface.ok_or_else(|| FrictionError::NoSlipSurface {
+            law: self.0.name().to_owned(),
+            theta: theta.to_degrees(),
         })
     }
 }

@@ -7,7 +7,7 @@
 //! `-s` and `s`. With the largest coefficient `mu` of the table as scale, `varpi = mu p`,
 //!
 //! ```text
-//! -tau = rho(phi) z ,   rho(phi) = mu(phi)/mu ,   |z| <= varpi ,   du parallel to z when |z| = varpi
+//! -tau = z ,   |z| <= varpi rho(phi) ,   rho(phi) = mu(phi)/mu ,   du parallel to z on the rim
 //! -tau = mu(phi) p d    while slipping
 //! ```
 //!
@@ -25,31 +25,23 @@
 //! # Admissible tables
 //!
 //! Slip dissipates `mu(phi) p |du|`. The interpolant stays within the least and the
-//! largest coefficient, so positive ones suffice. They also make `z -> tau` a
-//! continuous bijection that keeps directions.
+//! largest coefficient, so positive ones suffice.
 //!
 //! # Derivative
 //!
-//! With `r = z/|z|` and `t` a quarter turn from it,
+//! With `r = z/|z|` and `t` a quarter turn from it, towards which `phi` grows,
 //!
 //! ```text
-//! -dtau = (rho I + rho' r t^T) dz ,    z /= 0 .
+//! drho = rho'(phi) (t . dz)/|z| ,    z /= 0 .
 //! ```
 //!
-//! It depends on the direction of `z` alone and is bounded, so `tau` is Lipschitz;
-//! `tau` has degree 1 in `z`, so `-tau(z) = (rho I + rho' r t^T) z` and `tau` is
-//! strongly semismooth at `z = 0` too, where it has no derivative unless `rho` is
-//! constant. There, the mean over all directions stands for it,
-//!
-//! ```text
-//! L_0 = mean(rho I + rho' r t^T) = 2 mean(rho r r^T) ,
-//! ```
-//!
-//! which is an element of the generalised Jacobian, as that is the convex hull of the
-//! derivatives nearby, and the linear map closest to `-tau` on a circle.
+//! Only rows of slip ask for it. The traction itself is linear in `z`: with the circle
+//! `|z| <= varpi` and `-tau = rho(phi) z` instead, a node that sticks with little friction
+//! has a traction that bends with the direction of `z`, and Newton's method turns `z` around
+//! without end.
 
-use nalgebra::{Matrix2, Vector3};
-use num_dual::{Dual64, DualNum};
+use nalgebra::Vector3;
+use num_dual::DualNum;
 
 use super::error::{FrictionError, finite};
 use super::kernel::Kernel;
@@ -60,11 +52,9 @@ use super::star::Star;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tabulated {
     rho: Periodic,
-    /// `L_0` in the axes of the texture.
-    at_rest: Matrix2<f64>,
 }
 
-/// `-tau = rho(phi) z` at a contact point.
+/// `rho(phi)` at a contact point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Radial<'a, D> {
     law: &'a Tabulated,
@@ -76,8 +66,6 @@ pub struct Radial<'a, D> {
 const LEAST: usize = 3;
 /// Difference below which two angles are the same, in radians.
 const SAME: f64 = 1e-9;
-/// Directions over which the derivative is averaged.
-const DIRECTIONS: u32 = 720;
 
 impl Tabulated {
     /// The coefficients `mu` at `angles` (radians), which ascend and span less than a turn.
@@ -90,11 +78,10 @@ impl Tabulated {
         let largest = mu.iter().copied().fold(0.0, f64::max);
         let shares: Vec<f64> = mu.iter().map(|mu| mu / largest).collect();
         let rho = Periodic::through(angles, &shares);
-        let at_rest = mean_derivative(&rho);
-        Ok(Self { rho, at_rest })
+        Ok(Self { rho })
     }
 
-    /// `tau(z)` for the unit texture of the textured surface and the direction a
+    /// The law for the unit texture of the textured surface and the direction a
     /// quarter turn from it.
     pub fn kernel<D: DualNum<Primitive = f64> + Copy>(
         &self,
@@ -110,35 +97,21 @@ impl Tabulated {
 }
 
 impl<D: DualNum<Primitive = f64> + Copy> Radial<'_, D> {
-    /// `rho(phi) z`, by `L_0` at `z = 0`.
+    /// `rho(phi)` in the direction of `z`; without derivatives at `z = 0`.
     ///
     /// The angle is that of the value of `z`, to which its variation adds
     /// `t . dz/|z|`; quotients of components would not do where one vanishes.
-    pub(super) fn of(&self, z: &Vector3<D>) -> Vector3<D> {
+    pub(super) fn reach(&self, z: &Vector3<D>) -> D {
         let [x, y] = self.axes.map(|axis| axis.dot(z));
         let length = x.re().hypot(y.re());
         if length < f64::MIN_POSITIVE.sqrt() {
-            let l = &self.law.at_rest;
-            return self.axes[0] * (x * l.m11 + y * l.m12) + self.axes[1] * (x * l.m21 + y * l.m22);
+            return self.law.rho.at(D::zero());
         }
         let (cosine, sine) = (x.re() / length, y.re() / length);
         let (along, across) = (x * cosine + y * sine, y * cosine - x * sine);
         let phi = (across / along).atan() + sine.atan2(cosine);
-        z * self.law.rho.at(phi)
+        self.law.rho.at(phi)
     }
-}
-
-/// `mean(rho I + rho' r t^T)`.
-fn mean_derivative(rho: &Periodic) -> Matrix2<f64> {
-    let derivative = |at: u32| {
-        let phi = f64::from(at) * std::f64::consts::TAU / f64::from(DIRECTIONS);
-        let (sine, cosine) = phi.sin_cos();
-        let rho = rho.at(Dual64::from(phi).derivative());
-        let turning = Matrix2::new(-sine * cosine, cosine * cosine, -sine * sine, sine * cosine);
-        Matrix2::identity() * rho.re + turning * rho.eps
-    };
-    let sum: Matrix2<f64> = (0..DIRECTIONS).map(derivative).sum();
-    sum / f64::from(DIRECTIONS)
 }
 
 fn check(angles: &[f64], mu: &[f64]) -> Result<(), FrictionError> {

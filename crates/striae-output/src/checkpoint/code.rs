@@ -172,7 +172,7 @@ pub(super) use coded;
 coded! {
     NodeResult { gap, pressure, tau, slip, normal, texture, mean, status };
     FacetForces { force, area, pressure, friction };
-    Tractions { nodes, tau_n, slipped, statuses };
+    Tractions { nodes, tau_n, slipped, statuses, begun };
     Worst { kind, pair, value, time };
     Judgement { worst, forces, pressures, energy, step };
     SolverSummary { method, factorisations, contact_corrections, fall_backs, reason };

@@ -7,6 +7,7 @@ use striae_contact::{
     segment::ON_EDGE,
     selection::Selection,
     table_1::{Corrector, Inflation},
+    unknowns::Status,
 };
 use striae_linalg::REDUCTION;
 
@@ -161,7 +162,8 @@ impl Attempt<'_> {
             self.history.push(&assembled.contacts);
             observer.iteration(number, &norms, &assembled.contacts);
             // A part of a correction leaves prescribed displacements on their way.
-            let settled = taken == Taken::Whole && is_final(iteration);
+            let settled =
+                taken == Taken::Whole && is_final(iteration) && self.labels_rest(&assembled);
             if norms.largest() <= solver.tolerance && settled {
                 if further == 0 {
                     return Ok(assembled);
@@ -175,6 +177,22 @@ impl Attempt<'_> {
             self.closed = closed(&assembled.contacts);
             self.judge(number, &norms)?;
         }
+    }
+
+    /// Whether the labels of all nodes are those of the iteration before, where friction
+    /// decays with the slip rate: a node that begins to slip may have the row of another rate.
+    fn labels_rest(&self, assembled: &Assembled) -> bool {
+        let pairs = &self.context.problem.model.pairs;
+        let contacts = self.trial.tractions.iter().zip(&assembled.contacts);
+        contacts
+            .zip(pairs)
+            .filter(|(_, pair)| pair.friction.decays())
+            .all(|((before, now), _)| {
+                let sides = before.statuses.iter().zip(&now.nodes);
+                sides
+                    .flat_map(|(before, now)| before.iter().zip(now))
+                    .all(|(before, now)| (*before == Status::Slip) == (now.status == Status::Slip))
+            })
     }
 
     /// Whether the last iterations go back and forth over a jump of the integrals of contact.

@@ -3,7 +3,7 @@
 use striae_contact::{
     complementarity::Iteration,
     evaluation::Evaluation,
-    unknowns::{NodeResult, Tractions},
+    unknowns::{Status, Tractions},
 };
 use striae_mesh::Vec3;
 
@@ -16,9 +16,15 @@ use crate::{
 
 /// Gives the nodes of a trial state the status they have been found to have.
 pub(super) fn labelled(trial: &mut Trial, contacts: &[Evaluation]) {
-    let side = |nodes: &Vec<NodeResult>| nodes.iter().map(|node| node.status).collect();
     for (tractions, contact) in trial.tractions.iter_mut().zip(contacts) {
-        tractions.statuses = contact.nodes.each_ref().map(side);
+        let before = tractions.statuses.iter_mut().zip(&mut tractions.begun);
+        for ((statuses, begun), nodes) in before.zip(&contact.nodes) {
+            let labels = statuses.iter_mut().zip(begun).zip(nodes);
+            for ((status, begun), node) in labels {
+                *begun += u32::from(node.status == Status::Slip && *status != Status::Slip);
+                *status = node.status;
+            }
+        }
     }
 }
 

@@ -39,10 +39,10 @@ pub(super) fn contact_at_rest(
     let enough = before.map_or(AT_REST, |norm| (LEFT * norm * norm).max(0.1 * tolerance));
     let background = &assembled.background;
     let mut whole = correction.to_vec();
-    let mut contacts = assembled.contacts.clone();
+    let mut from = trial.clone();
+    labelled(&mut from, &assembled.contacts);
     for pass in 0..=MOST {
-        let mut next = corrected(setting, workspace.system(), trial, &whole, 1.0);
-        labelled(&mut next, &contacts);
+        let next = corrected(setting, workspace.system(), &from, &whole, 1.0);
         let moved = (&next, whole.as_slice());
         let found = workspace.assemble_contact(setting, background, moved, Iteration::LATER);
         let found = found.ok()?;
@@ -57,7 +57,7 @@ pub(super) fn contact_at_rest(
             .iter_mut()
             .zip(&further)
             .for_each(|(sum, part)| *sum += part);
-        contacts = found.contacts;
+        labelled(&mut from, &found.contacts);
     }
     None
 }

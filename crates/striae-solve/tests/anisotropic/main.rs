@@ -12,3 +12,4 @@ mod convergence;
 mod guided;
 mod patch;
 mod sliding;
+mod sticking;

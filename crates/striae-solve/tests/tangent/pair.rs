@@ -129,6 +129,7 @@ impl<'a> PairFunction<'a> {
             tau_n: self.tau_n.clone(),
             slipped: self.counts.map(|count| vec![false; count]),
             statuses,
+            begun: self.counts.map(|count| vec![0; count]),
         }
     }
 

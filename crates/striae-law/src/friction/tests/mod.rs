@@ -9,7 +9,9 @@ mod reference;
 mod slip_surface;
 mod tabulated;
 
-use super::{Ellipse, SlipSample};
+use nalgebra::Vector3;
+
+use super::{Ellipse, Kernel, SlipSample};
 
 /// Points at equal angles, dense enough for brute force.
 fn dense(surface: &Ellipse) -> Vec<SlipSample> {
@@ -23,4 +25,9 @@ fn assert_reads(value: f64, printed: f64, decimals: i32) {
         (value - printed).abs() <= half_a_digit,
         "{value} does not read {printed}"
     );
+}
+
+/// Friction traction of slip with `z` along the unit vector `d`.
+fn slipping(kernel: &Kernel<'_, f64>, cap: f64, d: &Vector3<f64>) -> Vector3<f64> {
+    kernel.traction(cap, &(d * (cap * kernel.reach(d))))
 }

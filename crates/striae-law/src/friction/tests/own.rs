@@ -4,8 +4,8 @@ use nalgebra::{Matrix3, Vector3};
 use striae_verify::Random;
 
 use crate::friction::{
-    Friction, FrictionError, FrictionLaw, Kernel, Lane, Law, Map, RequiredTextures, SlipRule,
-    Textures, Violation, battery,
+    Friction, FrictionError, FrictionLaw, Kernel, Lane, Law, RequiredTextures, SlipRule, Textures,
+    Violation, battery,
 };
 
 /// A law written as a function.
@@ -169,14 +169,5 @@ fn laws_of_ones_own_are_known_by_their_name_and_equal_to_themselves() {
     let sample = surface.at(1.0);
     assert!((surface.gauge(&sample.traction) - 1.0).abs() < 1e-14);
     assert!((surface.angle(&sample.traction) - 1.0).abs() < 1e-14);
-    let n = Vector3::<f64>::z();
-    let textures = Textures {
-        own: Some(Vector3::x()),
-        opposite: None,
-    };
-    assert!(matches!(
-        friction.kernel(&n, &textures).map,
-        Map::Affine { .. }
-    ));
     assert!(matches!(friction.law(), Law::Own(_)));
 }

@@ -1,10 +1,11 @@
 //! What is particular to tabulated friction.
 
-use nalgebra::{Matrix3, Vector3};
-use num_dual::{Dual64, jacobian};
+use nalgebra::Vector3;
+use num_dual::{Dual64, gradient};
 use proptest::prelude::*;
 use striae_verify::{Random, fitted_rate};
 
+use super::slipping;
 use crate::friction::{
     Friction, FrictionError, SlipRule, SlipSurface, Textures, periodic::Periodic,
 };
@@ -48,9 +49,7 @@ fn upper(friction: &Friction, a: &Vector3<f64>, d: &Vector3<f64>) -> Vector3<f64
         opposite: None,
     };
     let cap = friction.cap(1.0, 0.0);
-    -friction
-        .kernel(&-Vector3::z(), &textures)
-        .traction(cap, &(d * cap))
+    -slipping(&friction.kernel(&-Vector3::z(), &textures), cap, d)
 }
 
 /// The same where the lower surface has the texture `a`.
@@ -60,9 +59,7 @@ fn lower(friction: &Friction, a: &Vector3<f64>, d: &Vector3<f64>) -> Vector3<f64
         opposite: Some(-*a),
     };
     let cap = friction.cap(1.0, 0.0);
-    -friction
-        .kernel(&-Vector3::z(), &textures)
-        .traction(cap, &(d * cap))
+    -slipping(&friction.kernel(&-Vector3::z(), &textures), cap, d)
 }
 
 const ANGLES: [f64; 5] = [0.0, 50.0, 90.0, 180.0, 270.0];
@@ -117,6 +114,8 @@ fn equal_coefficients_are_coulomb_friction() {
         let z = tangent();
         let tau = |friction: &Friction| friction.kernel(&normal, &textures).traction(0.7, &z);
         assert_eq!(tau(&table), tau(&coulomb));
+        let reach = table.kernel(&normal, &textures).reach(&z);
+        assert!((reach - 1.0).abs() < 1e-15);
         assert_eq!(table.cap(1.3, 0.0), coulomb.cap(1.3, 0.0));
     }
 }
@@ -159,48 +158,36 @@ fn fine_tables_of_other_laws_oppose_slip_as_those_do() {
     }
 }
 
-#[test]
-fn at_rest_the_mean_derivative_stands_in() {
-    let friction = tabulated(&ANGLES, &MU).unwrap();
-    let textures = Textures {
-        own: Some(Vector3::x()),
-        opposite: None,
-    };
-    let kernel = friction.kernel(&Vector3::z(), &textures);
-    assert_eq!(kernel.traction(0.5, &Vector3::zeros()), Vector3::zeros());
-    let derivative = derivative(&friction, &Vector3::zeros());
-    // 2 mean(rho r r^T), which the mean over all directions of the derivative is, too.
-    let count = 7200;
-    let mut expected = Matrix3::zeros();
-    for i in 0..count {
-        let r = unit(360.0 * f64::from(i) / f64::from(count));
-        let rho = -kernel.traction(1.0, &r).dot(&r);
-        expected += r * r.transpose() * (2.0 * rho / f64::from(count));
-    }
-    // Both means are trapezoidal sums of functions with kinks: O(1/720^2) apart.
-    assert!(
-        (derivative + expected).amax() < 1e-5,
-        "{derivative} {expected}"
-    );
-    assert!(
-        derivative[(0, 1)].abs() > 1e-3 && (derivative[(0, 0)] - derivative[(1, 1)]).abs() > 1e-3
-    );
-}
-
-/// `dtau/dz` with the texture along `x`, seen from above.
-fn derivative(friction: &Friction, z: &Vector3<f64>) -> Matrix3<f64> {
-    let (_, slope) = jacobian(
+/// `drho/dz` with the texture along `x`, seen from above.
+fn derivative(friction: &Friction, z: &Vector3<f64>) -> Vector3<f64> {
+    let (_, slope) = gradient(
         |z| {
             let textures = Textures {
                 own: Some(Vector3::x().map(|x: f64| x.into())),
                 opposite: None,
             };
             let normal = Vector3::z().map(|x: f64| x.into());
-            friction.kernel(&normal, &textures).traction(1.0.into(), &z)
+            friction.kernel(&normal, &textures).reach(&z)
         },
         z,
     );
     slope
+}
+
+#[test]
+fn traction_below_the_slip_surface_is_linear_whatever_the_table() {
+    let friction = tabulated(&ANGLES, &MU).unwrap();
+    let textures = Textures {
+        own: Some(Vector3::x()),
+        opposite: None,
+    };
+    let kernel = friction.kernel(&Vector3::z(), &textures);
+    for degrees in [0.0, 20.0, 70.0, 200.0] {
+        let z = unit(degrees) * 0.01;
+        assert_eq!(kernel.traction(0.5, &z), -z);
+    }
+    assert!(kernel.reach(&Vector3::zeros()) > 0.0);
+    assert_eq!(derivative(&friction, &Vector3::zeros()), Vector3::zeros());
 }
 
 #[test]
@@ -221,13 +208,13 @@ fn derivatives_are_right_along_the_axes_and_of_any_size_of_z() {
             }
         };
         let [r, t] = [unit(degrees), unit(degrees + 90.0)].map(|v| v.map(exact));
-        let tau = |turn: f64| kernel.traction(1.0, &unit(degrees + turn.to_degrees()));
+        let rho = |turn: f64| kernel.reach(&unit(degrees + turn.to_degrees()));
         let h = 1e-5;
-        let turning = (tau(h) - tau(-h)) / (2.0 * h);
+        let turning = (rho(h) - rho(-h)) / (2.0 * h);
         for size in [1.0, 1e-9, 1e-120] {
-            let slope = derivative(&friction, &(r * size));
-            assert!((slope * r - tau(0.0)).norm() < 1e-14, "{degrees}, {size}");
-            assert!((slope * t - turning).norm() < 1e-9, "{degrees}, {size}");
+            let slope = derivative(&friction, &(r * size)) * size;
+            assert!(slope.dot(&r).abs() < 1e-14, "{degrees}, {size}");
+            assert!((slope.dot(&t) - turning).abs() < 1e-9, "{degrees}, {size}");
         }
     }
 }
