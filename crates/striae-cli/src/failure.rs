@@ -4,6 +4,7 @@ use std::{io, path::PathBuf, process::ExitCode};
 use striae_deck::Faults;
 use striae_figure::FigureError;
 use striae_output::{OutputError, checkpoint::CheckpointError};
+use striae_report::ReportError;
 use striae_solve::{outcome::Ending, problem::ProblemError};
 
 /// Exit code of an interrupted program: 128 and the number of the signal, as shells have it.
@@ -66,6 +67,9 @@ pub enum Failure {
     /// A figure cannot be drawn or written.
     #[error("{0}")]
     Figure(#[from] FigureError),
+    /// There is no report.
+    #[error("{0}")]
+    Report(#[from] ReportError),
     /// The threads cannot be started.
     #[error("the threads cannot be started: {0}")]
     Threads(String),
@@ -113,6 +117,7 @@ impl Failure {
             | Self::Exists(_)
             | Self::Checkpoint(_)
             | Self::Problem(_)
+            | Self::Report(ReportError::Nothing(_))
             | Self::UnknownCase { .. } => ExitCode::from(2),
             Self::Interrupted { .. } => ExitCode::from(INTERRUPTED),
             Self::Ended(ending) if matches!(**ending, Ending::Interrupted { .. }) => {
@@ -124,6 +129,7 @@ impl Failure {
             | Self::Deviates(_)
             | Self::Results(_)
             | Self::Figure(_)
+            | Self::Report(_)
             | Self::Threads(_)
             | Self::Output(_) => ExitCode::from(1),
         }

@@ -9,6 +9,7 @@ mod failure;
 mod forecast;
 mod interrupt;
 mod progress;
+mod reporting;
 
 use clap::{Parser, Subcommand};
 use std::{io, process::ExitCode};
@@ -27,6 +28,7 @@ enum Command {
     Check(command::check::Arguments),
     Run(command::run::Arguments),
     Resume(command::resume::Arguments),
+    Report(command::report::Arguments),
     Reproduce(command::reproduce::Arguments),
     Law(command::law::Arguments),
     Schema(command::schema::Arguments),
@@ -40,6 +42,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => command::check::run(&arguments, out),
         Command::Run(arguments) => command::run::run(&arguments, out),
         Command::Resume(arguments) => command::resume::run(&arguments, out),
+        Command::Report(arguments) => command::report::run(&arguments, out),
         Command::Reproduce(arguments) => command::reproduce::run(&arguments, out),
         Command::Law(arguments) => command::law::run(&arguments, out),
         Command::Schema(arguments) => command::schema::run(&arguments, out),

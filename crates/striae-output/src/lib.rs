@@ -6,8 +6,10 @@
 pub mod checkpoint;
 mod error;
 pub mod expected;
+mod folder;
 pub mod history;
 pub mod recorder;
+mod rigid;
 mod row;
 mod settings;
 pub mod summary;

@@ -145,6 +145,7 @@
 //! [`figures`] draws friction laws and textures. The `striae` program is a client of
 //! this crate.
 
+mod beside;
 mod error;
 pub mod figures;
 mod interrupt;

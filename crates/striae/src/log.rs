@@ -82,6 +82,14 @@ impl Log {
         })))
     }
 
+    /// Takes down the state in which a run begins.
+    pub(crate) fn start(&mut self, problem: &Problem, state: &State) -> Result<(), OutputError> {
+        match self {
+            Self::Memory(_) => Ok(()),
+            Self::Files(files) => files.recorder.start(problem, state),
+        }
+    }
+
     /// Whether a checkpoint is due.
     pub(crate) fn keeps(&self, increment: usize) -> bool {
         match self {

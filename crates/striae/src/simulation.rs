@@ -30,6 +30,7 @@ use striae_solve::{
 };
 
 use crate::{
+    beside,
     error::Error,
     interrupt::Interrupt,
     log::{Log, Recording},
@@ -213,15 +214,25 @@ impl Simulation {
             begun,
             interrupt,
         } = self;
-        let (log, point) = match (recording, begun) {
+        let (mut log, point) = match (recording, begun) {
             (Some(recording), Some((written, point))) => {
                 (Log::resumed(recording, output, &written)?, Some(point))
             }
-            (recording, _) => (Log::new(recording, output)?, None),
+            (recording, _) => {
+                let log = Log::new(recording.clone(), output)?;
+                if let Some(recording) = &recording {
+                    beside::write(recording, &problem.model)?;
+                }
+                (log, None)
+            }
         };
         let start = match &point {
             Some(point) => point.state.clone(),
-            None => State::undeformed(&problem),
+            None => {
+                let start = State::undeformed(&problem);
+                log.start(&problem, &start)?;
+                start
+            }
         };
         let mut watch = Watch {
             problem: &problem,

@@ -3,6 +3,7 @@
 pub mod check;
 pub mod law;
 pub mod new;
+pub mod report;
 pub mod reproduce;
 pub mod resume;
 pub mod run;
