@@ -206,7 +206,7 @@ const LADDER: &[Row] = &[
     Row {
         name: "xtask",
         own: &[],
-        outside: &["flate2", "serde_json", "thiserror"],
+        outside: &["flate2", "png", "serde_json", "thiserror"],
     },
 ];
 

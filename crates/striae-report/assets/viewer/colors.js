@@ -1,6 +1,8 @@
-// Colour maps: viridis for what has one sign, blue to red about zero for what has two.
+// Colour maps: viridis for what has one sign, blue to red about zero for what has two, and
+// from grey to dark red for what contact transmits, so that nothing looks like nothing.
 
 const VIRIDIS = ["#440154", "#482878", "#3e4a89", "#31688e", "#26828e", "#1f9e89", "#35b779", "#6dcd59", "#b4de2c", "#fde725"];
+const HEAT = ["#dde2e6", "#f3dfab", "#f5b86d", "#e8824d", "#cb4e3b", "#96243a", "#5a0f35"];
 const BLUE_RED = ["#2a4ea0", "#5c86c9", "#9dbce0", "#d6e2ee", "#f4f2ee", "#f3d5c3", "#e39f83", "#c9604f", "#9c1c2b"];
 const STATUS = [
   { code: 0, name: "open", color: "#b9c2c9" },
@@ -22,17 +24,18 @@ function mixed(stops, share) {
 }
 
 /** Stops and limits for values from low to high. */
-function palette(name, low, high) {
+function palette(name, low, high, kind) {
   if (name === "status") return { stops: STATUS.map((s) => s.color), low: -0.5, high: 2.5, bands: 3 };
   if (low < 0 && high > 0 && Math.min(-low, high) > 0.05 * Math.max(-low, high)) {
     const reach = Math.max(-low, high);
     return { stops: BLUE_RED, low: -reach, high: reach };
   }
-  return { stops: VIRIDIS, low, high };
+  const transmitted = kind === "contact" && low >= 0 && name !== "gap";
+  return { stops: transmitted ? HEAT : VIRIDIS, low, high };
 }
 
 /** Colours from low to high, 256 of them or one a band, for the texture and the legend. */
-function steps(colors, bands) {
+function colorSteps(colors, bands) {
   const count = bands || 256;
   const share = (at) => (bands ? at / Math.max(1, bands - 1) : at / 255);
   return Array.from({ length: count }, (_, at) => mixed(colors.stops, share(at)));
@@ -40,7 +43,7 @@ function steps(colors, bands) {
 
 /** The colours as a texture of two rows, the second for what is not known. */
 function colorTexture(colors, bands) {
-  const row = steps(colors, bands);
+  const row = colorSteps(colors, bands);
   const none = channels(UNKNOWN);
   const bytes = new Uint8Array(row.length * 8);
   row.forEach((color, at) => bytes.set([...color, 255], 4 * at));
@@ -54,7 +57,7 @@ function colorTexture(colors, bands) {
 
 /** The same as a CSS gradient, upwards. */
 function gradient(colors, bands) {
-  const row = steps(colors, bands);
+  const row = colorSteps(colors, bands);
   const css = (color) => `rgb(${color.join(" ")})`;
   const stop = (color, at) => {
     if (!bands) return `${css(color)} ${(100 * at) / (row.length - 1)}%`;

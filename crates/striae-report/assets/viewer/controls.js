@@ -51,7 +51,7 @@ class Controls {
   fillComponents() {
     const order = this.fields.get(byId("field").value)?.order ?? ["value"];
     byId("component").replaceChildren(...order.map((name) => element("option", { value: name, textContent: name })));
-    byId("component").disabled = order.length === 1;
+    byId("component").parentElement.hidden = order.length === 1;
   }
 
   fillArrows() {
@@ -64,8 +64,13 @@ class Controls {
   }
 
   fillParts() {
+    const pairs = new Set();
     for (const part of this.view.parts) {
-      const box = element("input", { type: "checkbox", checked: true });
+      // The two sides of a pair lie on each other: at first one is shown.
+      const pair = part.head.kind === "contact" && part.head.name.slice(0, part.head.name.lastIndexOf(`-${this.bodyOf(part)}`));
+      part.visible = !pair || !pairs.has(pair);
+      pairs.add(pair);
+      const box = element("input", { type: "checkbox", checked: part.visible });
       box.addEventListener("change", () => {
         part.visible = box.checked;
         this.refresh();
@@ -75,6 +80,10 @@ class Controls {
       const kind = part.head.kind === "contact" ? "contact " : "";
       byId("parts").append(element("label", {}, box, swatch, kind + part.head.name));
     }
+  }
+
+  bodyOf(part) {
+    return part.head.follows ? results.parts[part.head.follows[0]].name : "";
   }
 
   listen() {
@@ -143,15 +152,16 @@ class Controls {
     const extremes = this.extremes(chosen, component);
     const [low, high] = this.limits(extremes);
     const bands = byId("bands").checked;
-    const colors = palette(chosen.name, low, high);
+    const colors = palette(chosen.name, low, high, chosen.kind);
     this.view.color(values, colors, bands);
     this.legend(chosen, component, extremes, colors, bands);
   }
 
-  /** Least and largest value in the files, at this time or all. */
+  /** Least and largest value in the files of what is shown, at this time or all. */
   extremes(chosen, component) {
     const all = byId("range").value === "all";
-    const known = [...chosen.on.values()].flatMap((field) => {
+    const shownFields = [...chosen.on].filter(([at]) => this.view.parts[at].visible).map(([, field]) => field);
+    const known = shownFields.flatMap((field) => {
       const times = field.views[component];
       return all ? times : [times[this.time]];
     });
