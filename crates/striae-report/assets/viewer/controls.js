@@ -43,7 +43,7 @@ class Controls {
       }
       if (group.children.length) select.append(group);
     }
-    const first = ["contact/pressure", "body/cauchy_stress", "body/displacement"].find((key) => this.fields.has(key));
+    const first = ["contact/mean_pressure", "contact/pressure", "body/cauchy_stress", "body/displacement"].find((key) => this.fields.has(key));
     select.value = first ?? "";
     this.fillComponents();
   }
@@ -210,8 +210,7 @@ class Controls {
     if (arrows) for (const [at, field] of arrows.on) vectors[at] = await components(field, this.time);
     const size = 2 ** Number(byId("arrow-size").value);
     const scale = arrows && UNIT_VECTORS.includes(arrows.name) ? 0.7 : 1;
-    const toNode = arrows !== undefined && ["traction"].includes(arrows.name);
-    this.view.drawArrows(vectors, size * scale, toNode);
+    this.view.drawArrows(vectors, size * scale);
   }
 
   drawCut() {

@@ -37,7 +37,8 @@ function inWords(name) {
   const known = {
     cauchy_stress: "Cauchy stress",
     von_mises: "von Mises stress",
-    pressure: "contact pressure",
+    mean_pressure: "contact pressure, force over area",
+    pressure: "contact pressure, nodal",
     traction: "contact traction",
     status: "contact status",
     kept: "nodes with traction unknowns",

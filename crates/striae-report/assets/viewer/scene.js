@@ -3,7 +3,7 @@
 const dark = matchMedia("(prefers-color-scheme: dark)");
 const INK = { edge: () => (dark.matches ? "#0c0f12" : "#27313a"), arrow: () => (dark.matches ? "#ffd27a" : "#1b2a38") };
 const BODY_COLORS = ["#b7c3cd", "#cbbfae", "#b3c7b8", "#c7b6c6", "#c9c6a8", "#aebfd0"];
-const RIGID_COLOR = "#8d979f";
+const RIGID_COLOR = "#a4adb4";
 const MOST_ARROWS = 700;
 
 class View {
@@ -169,7 +169,7 @@ class View {
   }
 
   /** Arrows at nodes of parts: vectors by part, and the length of the longest. */
-  drawArrows(vectors, size, toNode) {
+  drawArrows(vectors, size) {
     for (const group of this.arrows ?? []) {
       this.scene.remove(group);
       group.dispose();
@@ -186,7 +186,7 @@ class View {
     const long = size * 0.07 * this.size;
     const matrices = [];
     for (const part of this.parts.filter((part) => vectors[part.at] && part.visible)) {
-      matrices.push(...this.arrowsOf(part, vectors[part.at], long / longest, longest, toNode));
+      matrices.push(...this.arrowsOf(part, vectors[part.at], long / longest, longest));
     }
     const material = new THREE.MeshLambertMaterial({ color: INK.arrow() });
     for (const shape of arrowShapes()) {
@@ -200,7 +200,7 @@ class View {
     this.recolored();
   }
 
-  arrowsOf(part, vectors, scale, longest, toNode) {
+  arrowsOf(part, vectors, scale, longest) {
     const places = part.places.array;
     const [turn, up, along, at] = [new THREE.Quaternion(), new THREE.Vector3(0, 0, 1), new THREE.Vector3(), new THREE.Vector3()];
     const matrices = [];
@@ -210,7 +210,6 @@ class View {
       if (!(length > 0.004 * longest)) continue;
       turn.setFromUnitVectors(up, along.clone().divideScalar(length));
       at.fromArray(places, 3 * node);
-      if (toNode) at.addScaledVector(along, -scale);
       const long = length * scale;
       // Short arrows keep some of their width, so that they are seen.
       const wide = Math.sqrt(length / longest) * longest * scale;
