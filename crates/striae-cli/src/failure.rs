@@ -109,6 +109,11 @@ impl From<striae_cases::Failure> for Failure {
 }
 
 impl Failure {
+    /// Whether nobody reads what the program prints any more, as after `| head`.
+    pub fn is_broken_pipe(&self) -> bool {
+        matches!(self, Self::Output(cause) if cause.kind() == io::ErrorKind::BrokenPipe)
+    }
+
     /// The exit code: 2 for bad input, 130 for an interrupt, 1 for everything else.
     pub fn exit_code(&self) -> ExitCode {
         match self {
@@ -118,6 +123,7 @@ impl Failure {
             | Self::Checkpoint(_)
             | Self::Problem(_)
             | Self::Report(ReportError::Nothing(_))
+            | Self::Results(OutputError::Occupied(_) | OutputError::InUse(_))
             | Self::UnknownCase { .. } => ExitCode::from(2),
             Self::Interrupted { .. } => ExitCode::from(INTERRUPTED),
             Self::Ended(ending) if matches!(**ending, Ending::Interrupted { .. }) => {

@@ -2,7 +2,8 @@
 //!
 //! Exit codes: 0 when all went well, 1 when a run or a file operation failed,
 //! 2 when what was asked for is not possible (bad arguments, a faulty deck, or a
-//! checkpoint that cannot be used), 130 when a run was interrupted from the keyboard.
+//! checkpoint that cannot be used), 130 when a run was interrupted from the
+//! keyboard or by another signal that asks it to end.
 
 mod command;
 mod failure;
@@ -12,7 +13,10 @@ mod progress;
 mod reporting;
 
 use clap::{Parser, Subcommand};
-use std::{io, process::ExitCode};
+use std::{
+    io::{self, Write},
+    process::ExitCode,
+};
 
 /// Finite-element contact with anisotropic friction.
 #[derive(Parser)]
@@ -50,8 +54,9 @@ fn main() -> ExitCode {
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
+        Err(failure) if failure.is_broken_pipe() => failure.exit_code(),
         Err(failure) => {
-            eprintln!("{failure}");
+            let _ = writeln!(io::stderr(), "{failure}");
             failure.exit_code()
         }
     }

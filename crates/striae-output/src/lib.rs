@@ -17,6 +17,7 @@ mod tally;
 pub mod vtk;
 
 pub use error::OutputError;
+pub use folder::Existing;
 pub use row::row;
 pub use settings::{FieldOutput, Output};
 pub use tally::Tally;

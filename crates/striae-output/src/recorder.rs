@@ -14,8 +14,7 @@
 //! Bodies and rigid surfaces are also written as they are at time 0; contact is known
 //! after the first increment.
 //!
-//! Everything is on disk after each increment, so an interrupted run keeps all
-//! that has converged.
+//! Everything is on disk after each increment.
 
 use std::{
     path::{Path, PathBuf},
@@ -23,7 +22,6 @@ use std::{
 };
 
 use striae_contact::unknowns::{NodeResult, Status as ContactStatus};
-use striae_files::FileError;
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::{
     drive::Progress,
@@ -36,8 +34,8 @@ use striae_solve::{
 
 use crate::{
     FieldOutput, Output, OutputError,
-    checkpoint::{Checkpoint, Written},
-    folder::remove_fields,
+    checkpoint::Written,
+    folder::{Claim, Existing, remove_fields},
     history::History,
     rigid::RigidGrid,
     row::row,
@@ -48,6 +46,7 @@ use crate::{
 
 /// Writes the output of one run.
 pub struct Recorder {
+    _claim: Claim,
     folder: PathBuf,
     case: String,
     output: Output,
@@ -68,16 +67,15 @@ impl Recorder {
     /// Makes the folder and an empty history.
     ///
     /// # Errors
-    /// When the folder or a file cannot be written.
-    pub fn create(folder: &Path, case: &str, output: Output) -> Result<Self, OutputError> {
-        let fields = folder.join("fields");
-        std::fs::create_dir_all(&fields).map_err(|cause| FileError::Write {
-            path: fields.clone(),
-            cause,
-        })?;
-        // What an earlier run left behind is no part of this one.
-        Checkpoint::remove(folder)?;
+    /// When a file cannot be written, or the folder belongs to other results or another run.
+    pub fn create(
+        folder: &Path,
+        case: &str,
+        output: Output,
+        existing: Existing,
+    ) -> Result<Self, OutputError> {
         Ok(Self {
+            _claim: Claim::new(folder, existing)?,
             history: History::create(folder.join("history.csv"))?,
             bodies: Series::new(folder.join("bodies.pvd")),
             contact: Series::new(folder.join("contact.pvd")),
@@ -103,12 +101,14 @@ impl Recorder {
         output: Output,
         written: &Written,
     ) -> Result<Self, OutputError> {
+        let claim = Claim::of(folder)?;
         let rows = written.iterations.len();
         if written.fields != Some(rows) {
             remove_fields(&folder.join("fields"), rows)?;
         }
         let [bodies, contact, rigid] = &written.series;
         Ok(Self {
+            _claim: claim,
             history: History::resume(folder.join("history.csv"), rows)?,
             bodies: Series::resumed(folder.join("bodies.pvd"), bodies.clone()),
             contact: Series::resumed(folder.join("contact.pvd"), contact.clone()),

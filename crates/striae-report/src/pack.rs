@@ -24,6 +24,9 @@ const PREDICTIONS: [(Prediction, char); 3] = [
     (Prediction::Both, 'b'),
 ];
 
+/// Codes of a row on which predictions are tried, about.
+const SAMPLES: usize = 2000;
+
 /// A block and what is needed to undo the predictions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Packed {
@@ -48,7 +51,8 @@ pub fn codes(times: &[&[u16]], components: usize) -> Packed {
             let best = costs.min_by_key(|(cost, _)| *cost);
             let (prediction, letter) = best.map_or(PREDICTIONS[0], |(_, known)| *known);
             predictions.push(letter);
-            folded.extend(differences(prediction, row, before));
+            let differences = (0..row.len()).map(|at| difference(prediction, row, before, at));
+            folded.extend(differences);
         }
         last = Some(codes);
     }
@@ -60,28 +64,25 @@ pub fn codes(times: &[&[u16]], components: usize) -> Packed {
     }
 }
 
-/// Bits that differences take, about; of some of them.
+/// Bits that differences take, about; of some of them, evenly spread.
 fn cost(prediction: Prediction, row: &[u16], before: Option<&[u16]>) -> u64 {
-    let bits = differences(prediction, row, before).map(|d| u64::from(16 - d.leading_zeros()));
-    bits.sum()
+    let some = (0..row.len()).step_by(row.len() / SAMPLES + 1);
+    let bits = some.map(|at| 16 - difference(prediction, row, before, at).leading_zeros());
+    bits.map(u64::from).sum()
 }
 
-fn differences(
-    prediction: Prediction,
-    row: &[u16],
-    before: Option<&[u16]>,
-) -> impl Iterator<Item = u16> {
-    let earlier = move |at: usize| before.map_or(0, |before| before[at]);
-    (0..row.len()).map(move |at| {
-        let left = if at > 0 { row[at - 1] } else { 0 };
-        let earlier_left = if at > 0 { earlier(at - 1) } else { 0 };
-        let expected = match prediction {
-            Prediction::Space => left,
-            Prediction::Time => earlier(at),
-            Prediction::Both => earlier(at).wrapping_add(left).wrapping_sub(earlier_left),
-        };
-        folded(row[at].wrapping_sub(expected))
-    })
+/// What the prediction of a code leaves, folded.
+fn difference(prediction: Prediction, row: &[u16], before: Option<&[u16]>, at: usize) -> u16 {
+    let earlier = |at: usize| before.map_or(0, |before| before[at]);
+    let left = |of: &dyn Fn(usize) -> u16| if at > 0 { of(at - 1) } else { 0 };
+    let expected = match prediction {
+        Prediction::Space => left(&|at| row[at]),
+        Prediction::Time => earlier(at),
+        Prediction::Both => {
+            (earlier(at).wrapping_add(left(&|at| row[at]))).wrapping_sub(left(&earlier))
+        }
+    };
+    folded(row[at].wrapping_sub(expected))
 }
 
 fn folded(difference: u16) -> u16 {

@@ -7,12 +7,13 @@
 
 use std::collections::BTreeMap;
 
+use rayon::prelude::*;
 use serde::Serialize;
 use striae_output::summary::Summary;
 
 use crate::{
     LIMIT, ReportError, invariants,
-    pack::{self, base64},
+    pack::{self, Packed, base64},
     part::{Field, Part, parts},
     results::{Kind, Results},
 };
@@ -136,6 +137,11 @@ fn part_head<'a>(part: &'a Part, stride: usize, count: usize, blocks: &mut Block
     let skin = &part.skin;
     let follows = part.follows.as_ref();
     let follows = follows.map(|(body, nodes)| [*body, blocks.add(pack::indices(nodes, 1))]);
+    let packed = part
+        .arrays
+        .par_iter()
+        .map(|field| packed(field, stride, count));
+    let packed: Vec<Packed> = packed.collect();
     let rest = part
         .rest
         .iter()
@@ -150,14 +156,22 @@ fn part_head<'a>(part: &'a Part, stride: usize, count: usize, blocks: &mut Block
         rest: blocks.add(pack::reals(rest)),
         motion: part.motion,
         follows,
-        fields: (part.arrays.iter())
-            .map(|field| field_head(field, stride, count, blocks))
+        fields: (part.arrays.iter().zip(packed))
+            .map(|(field, packed)| field_head(field, packed, stride, count, blocks))
             .collect(),
     }
 }
 
+/// The codes of a field at the times that are kept.
+fn packed(field: &Field, stride: usize, count: usize) -> Packed {
+    let moments = kept(count, stride).filter_map(|at| field.times[at].as_ref());
+    let known: Vec<&[u16]> = moments.map(|moment| &moment.quantised.codes[..]).collect();
+    pack::codes(&known, field.components)
+}
+
 fn field_head<'a>(
     field: &'a Field,
+    packed: Packed,
     stride: usize,
     count: usize,
     blocks: &mut Blocks,
@@ -165,10 +179,6 @@ fn field_head<'a>(
     let moments: Vec<_> = kept(count, stride)
         .map(|at| field.times[at].as_ref())
         .collect();
-    let known: Vec<&[u16]> = (moments.iter().flatten())
-        .map(|moment| &moment.quantised.codes[..])
-        .collect();
-    let packed = pack::codes(&known, field.components);
     let order = invariants::views(field.components);
     let view = |(at, name): (usize, &&'static str)| {
         let extremes = moments

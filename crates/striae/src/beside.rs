@@ -23,8 +23,9 @@ const ANGLES: [f64; 5] = [0.0, 45.0, 90.0, 135.0, 180.0];
 /// Writes deck and figures to the folder of a run that begins.
 pub(crate) fn write(recording: &Recording, model: &Model) -> Result<(), Error> {
     let folder = &recording.folder;
-    if let Some(source) = &recording.source {
-        let text = read_text(&source.path)?;
+    // A deck that did not come from a file has no copy.
+    let source = recording.source.as_ref();
+    if let Some(Ok(text)) = source.map(|source| read_text(&source.path)) {
         write_atomically(&folder.join("deck.toml"), text.as_bytes())?;
     }
     for named in frictions(model) {

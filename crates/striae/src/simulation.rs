@@ -15,7 +15,7 @@ use striae_contact::evaluation::Evaluation;
 use striae_deck::Deck;
 use striae_model::{Model, Validate};
 use striae_output::{
-    Output, OutputError,
+    Existing, Output, OutputError,
     checkpoint::{Checkpoint, Source, Written, fingerprint},
     history::Table,
     summary::Summary,
@@ -142,6 +142,7 @@ impl Simulation {
             folder: folder.to_owned(),
             case: source.case.clone(),
             source: Some(source),
+            existing: Existing::Keep,
         });
         simulation.begun = Some((written, point));
         Ok(simulation)
@@ -159,6 +160,7 @@ impl Simulation {
             folder: folder.into(),
             case: case.into(),
             source: None,
+            existing: Existing::Keep,
         });
         self
     }
@@ -181,6 +183,15 @@ impl Simulation {
             recording.source = Some(source);
         }
         simulation
+    }
+
+    /// What becomes of results that are in the folder already; without a word they stay,
+    /// and the run does not begin.
+    pub fn over(mut self, existing: Existing) -> Self {
+        if let Some(recording) = &mut self.recording {
+            recording.existing = existing;
+        }
+        self
     }
 
     /// Stops after the increment in which the flag is set.

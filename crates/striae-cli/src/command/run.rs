@@ -6,7 +6,7 @@ use std::{
 };
 
 use striae::{Finished, Simulation, case_name};
-use striae_output::summary::Summary;
+use striae_output::{Existing, summary::Summary};
 use striae_solve::outcome::Ending;
 
 use crate::{
@@ -24,6 +24,9 @@ pub struct Arguments {
     /// Folder for the output; by default results/NAME.
     #[arg(long)]
     out: Option<PathBuf>,
+    /// Remove the results of an earlier run from that folder first.
+    #[arg(long)]
+    overwrite: bool,
     #[command(flatten)]
     common: Common,
     #[command(flatten)]
@@ -107,7 +110,12 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
         .out
         .clone()
         .unwrap_or_else(|| Path::new("results").join(case_name(&arguments.deck)));
-    let simulation = Simulation::open(&arguments.deck, &folder)?;
+    let existing = if arguments.overwrite {
+        Existing::Replace
+    } else {
+        Existing::Keep
+    };
+    let simulation = Simulation::open(&arguments.deck, &folder)?.over(existing);
     let verbosity = arguments.common.verbosity();
     let finished = watched(simulation, verbosity, arguments.report.of(&folder))?;
     concluded(finished, &folder, arguments.common.strictness(), out)
@@ -157,7 +165,7 @@ pub fn concluded(
 /// Warnings of a run, on the standard error.
 pub fn warn(summary: &Summary) {
     for warning in &summary.warnings {
-        eprintln!("warning: {}", warning.text);
+        let _ = writeln!(std::io::stderr(), "warning: {}", warning.text);
     }
 }
 
