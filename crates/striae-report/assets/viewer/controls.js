@@ -76,7 +76,7 @@ class Controls {
         this.refresh();
       });
       const swatch = element("i", { className: "swatch" });
-      swatch.style.background = part.head.kind === "contact" ? "linear-gradient(90deg, #31688e, #b4de2c)" : part.color;
+      swatch.style.background = part.head.kind === "contact" ? "linear-gradient(90deg, #f5b86d, #96243a)" : part.color;
       const kind = part.head.kind === "contact" ? "contact " : "";
       byId("parts").append(element("label", {}, box, swatch, kind + part.head.name));
     }
@@ -128,7 +128,7 @@ class Controls {
     const arrows = this.fields.get(byId("arrows").value);
     if (!this.opacityChosen) {
       const through = chosen?.kind === "contact" || arrows?.kind === "contact";
-      byId("opacity").value = through ? 0.15 : 1;
+      byId("opacity").value = through ? 0.1 : 1;
     }
     view.opacity = Number(byId("opacity").value);
     view.edged = byId("edges").checked;

@@ -37,8 +37,8 @@ function inWords(name) {
   const known = {
     cauchy_stress: "Cauchy stress",
     von_mises: "von Mises stress",
-    mean_pressure: "contact pressure, force over area",
-    pressure: "contact pressure, nodal",
+    mean_pressure: "mean contact pressure",
+    pressure: "nodal contact pressure",
     traction: "contact traction",
     status: "contact status",
     kept: "nodes with traction unknowns",
