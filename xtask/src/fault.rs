@@ -40,6 +40,9 @@ pub enum Fault {
     /// An option is not understood.
     #[error("{0}")]
     Option(String),
+    /// A report does not do what it should in a browser, or there is no browser.
+    #[error("{0}")]
+    Browser(String),
     /// Scenes came out wrong.
     #[error("{count} of {of} scenes came out wrong")]
     Scenes {

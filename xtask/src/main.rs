@@ -5,18 +5,21 @@
 //! | `check` | all that has to hold before a change goes in; see [`check`] |
 //! | `borders` | the border check alone, in a second; see [`borders`] |
 //! | `scenes` | random scenes of contact, judged from their output; see [`scenes`] |
+//! | `report-test` | reports in headless Chromium; see [`browser`] |
 //! | `bench` | times of parts and of whole runs; see `crates/striae-bench/README.md` |
 //!
 //! Exit codes: 0 when all is well, 1 when a check failed, 2 for an unknown task.
 
 mod borders;
+mod browser;
 mod check;
 mod fault;
 mod scenes;
 
 use std::{env, process::ExitCode};
 
-const USAGE: &str = "usage: cargo xtask check | borders | scenes [OPTIONS] | bench [ARGUMENTS]";
+const USAGE: &str =
+    "usage: cargo xtask check | borders | scenes [OPTIONS] | report-test | bench [ARGUMENTS]";
 
 fn main() -> ExitCode {
     let tasks: Vec<String> = env::args().skip(1).collect();
@@ -24,6 +27,7 @@ fn main() -> ExitCode {
         ["check"] => check::check(),
         ["borders"] => borders::check(),
         ["scenes", ..] => scenes::scenes(&tasks[1..]),
+        ["report-test"] => browser::report_test(),
         ["bench", ..] => check::bench(&tasks[1..]),
         _ => {
             eprintln!("{USAGE}");

@@ -7,7 +7,7 @@ use std::{
 
 use striae_deck::{self as deck, Deck};
 use striae_figure::Figure;
-use striae_output::{history::Table, summary::Summary};
+use striae_output::{Existing, history::Table, summary::Summary};
 use striae_solve::outcome::Ending;
 
 use striae::{Finished, Simulation};
@@ -119,7 +119,9 @@ impl<'a> Study<'a> {
     /// there are the measurement and not judged.
     pub fn run_to_limit(&mut self, name: &str, deck: Deck) -> Result<Run, Failure> {
         let folder = self.folder.join(name);
-        let simulation = Simulation::of(deck)?.recorded(folder, name);
+        let simulation = Simulation::of(deck)?
+            .recorded(folder, name)
+            .over(Existing::Replace);
         let title = format!("{}: {name}", self.case);
         let finished = self.runner.run(&title, simulation)?;
         if let Ending::Interrupted { .. } = finished.ending {

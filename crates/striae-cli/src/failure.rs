@@ -4,6 +4,7 @@ use std::{io, path::PathBuf, process::ExitCode};
 use striae_deck::Faults;
 use striae_figure::FigureError;
 use striae_output::{OutputError, checkpoint::CheckpointError};
+use striae_report::ReportError;
 use striae_solve::{outcome::Ending, problem::ProblemError};
 
 /// Exit code of an interrupted program: 128 and the number of the signal, as shells have it.
@@ -66,6 +67,9 @@ pub enum Failure {
     /// A figure cannot be drawn or written.
     #[error("{0}")]
     Figure(#[from] FigureError),
+    /// There is no report.
+    #[error("{0}")]
+    Report(#[from] ReportError),
     /// The threads cannot be started.
     #[error("the threads cannot be started: {0}")]
     Threads(String),
@@ -105,6 +109,11 @@ impl From<striae_cases::Failure> for Failure {
 }
 
 impl Failure {
+    /// Whether nobody reads what the program prints any more, as after `| head`.
+    pub fn is_broken_pipe(&self) -> bool {
+        matches!(self, Self::Output(cause) if cause.kind() == io::ErrorKind::BrokenPipe)
+    }
+
     /// The exit code: 2 for bad input, 130 for an interrupt, 1 for everything else.
     pub fn exit_code(&self) -> ExitCode {
         match self {
@@ -113,6 +122,8 @@ impl Failure {
             | Self::Exists(_)
             | Self::Checkpoint(_)
             | Self::Problem(_)
+            | Self::Report(ReportError::Nothing(_))
+            | Self::Results(OutputError::Occupied(_) | OutputError::InUse(_))
             | Self::UnknownCase { .. } => ExitCode::from(2),
             Self::Interrupted { .. } => ExitCode::from(INTERRUPTED),
             Self::Ended(ending) if matches!(**ending, Ending::Interrupted { .. }) => {
@@ -124,6 +135,7 @@ impl Failure {
             | Self::Deviates(_)
             | Self::Results(_)
             | Self::Figure(_)
+            | Self::Report(_)
             | Self::Threads(_)
             | Self::Output(_) => ExitCode::from(1),
         }

@@ -1,4 +1,6 @@
-//! Interrupts from the keyboard.
+//! Interrupts from the keyboard, and SIGTERM and SIGHUP, which are taken alike.
+
+use std::io::Write;
 
 use striae::{Before, Interrupt};
 
@@ -14,7 +16,8 @@ pub fn listen() -> Interrupt {
         if set.set() == Before::Set {
             std::process::exit(i32::from(INTERRUPTED));
         }
-        eprintln!("stopping after this increment; interrupt again to stop at once");
+        let text = "stopping after this increment; interrupt again to stop at once";
+        let _ = writeln!(std::io::stderr(), "{text}");
     });
     interrupt
 }

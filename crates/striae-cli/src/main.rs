@@ -2,16 +2,21 @@
 //!
 //! Exit codes: 0 when all went well, 1 when a run or a file operation failed,
 //! 2 when what was asked for is not possible (bad arguments, a faulty deck, or a
-//! checkpoint that cannot be used), 130 when a run was interrupted from the keyboard.
+//! checkpoint that cannot be used), 130 when a run was interrupted from the
+//! keyboard or by another signal that asks it to end.
 
 mod command;
 mod failure;
 mod forecast;
 mod interrupt;
 mod progress;
+mod reporting;
 
 use clap::{Parser, Subcommand};
-use std::{io, process::ExitCode};
+use std::{
+    io::{self, Write},
+    process::ExitCode,
+};
 
 /// Finite-element contact with anisotropic friction.
 #[derive(Parser)]
@@ -27,6 +32,7 @@ enum Command {
     Check(command::check::Arguments),
     Run(command::run::Arguments),
     Resume(command::resume::Arguments),
+    Report(command::report::Arguments),
     Reproduce(command::reproduce::Arguments),
     Law(command::law::Arguments),
     Material(command::material::Arguments),
@@ -41,6 +47,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => command::check::run(&arguments, out),
         Command::Run(arguments) => command::run::run(&arguments, out),
         Command::Resume(arguments) => command::resume::run(&arguments, out),
+        Command::Report(arguments) => command::report::run(&arguments, out),
         Command::Reproduce(arguments) => command::reproduce::run(&arguments, out),
         Command::Law(arguments) => command::law::run(&arguments, out),
         Command::Material(arguments) => command::material::run(&arguments, out),
@@ -49,8 +56,9 @@ fn main() -> ExitCode {
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
+        Err(failure) if failure.is_broken_pipe() => failure.exit_code(),
         Err(failure) => {
-            eprintln!("{failure}");
+            let _ = writeln!(io::stderr(), "{failure}");
             failure.exit_code()
         }
     }

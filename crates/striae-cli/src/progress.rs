@@ -2,7 +2,7 @@
 //!
 //! Everything goes to the standard error, so that results can be piped.
 
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use striae::{Converged, Next, Observer};
@@ -70,7 +70,8 @@ impl Progress {
     fn line(&self, text: &str) {
         match &self.bar {
             Some(bar) => bar.println(text),
-            None => eprintln!("{text}"),
+            // A terminal that is gone does not end the run.
+            None => drop(writeln!(std::io::stderr(), "{text}")),
         }
     }
 }
@@ -122,7 +123,7 @@ impl Observer for Progress {
             bar.set_position(done as u64);
             bar.set_message(text);
         } else if self.verbosity != Verbosity::Quiet {
-            eprintln!("{:5}  {text}", position.increment);
+            let _ = writeln!(std::io::stderr(), "{:5}  {text}", position.increment);
         }
         Next::Continue
     }

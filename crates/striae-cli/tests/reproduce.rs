@@ -150,12 +150,16 @@ fn a_run_writes_what_it_says() {
     let expected = [
         "bodies.pvd",
         "contact.pvd",
+        "deck.toml",
         "fields",
         "history.csv",
+        "law-sole.svg",
+        "rigid.pvd",
         "summary.json",
     ];
     assert_eq!(names(&results), expected);
     let fields = [
+        "block-00000.vtu",
         "block-00001.vtu",
         "block-00002.vtu",
         "contact-sole-block-00001.vtu",

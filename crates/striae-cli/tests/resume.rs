@@ -82,6 +82,11 @@ fn stderr(output: &Output) -> String {
 
 /// Starts the program and interrupts it after some lines of progress; what it then said.
 fn interrupted(folder: &Path, arguments: &[&str], lines: usize) -> String {
+    ended_by("-INT", folder, arguments, lines)
+}
+
+/// The same with any signal.
+fn ended_by(signal: &str, folder: &Path, arguments: &[&str], lines: usize) -> String {
     let mut command = program(folder, arguments);
     let mut child = command
         .stdout(Stdio::null())
@@ -93,7 +98,7 @@ fn interrupted(folder: &Path, arguments: &[&str], lines: usize) -> String {
         said.next().unwrap().unwrap();
     }
     let id = child.id().to_string();
-    let sent = Command::new("kill").args(["-INT", &id]).status().unwrap();
+    let sent = Command::new("kill").args([signal, &id]).status().unwrap();
     assert!(sent.success());
     let last = said.map(Result::unwrap).last().unwrap();
     assert_eq!(child.wait().unwrap().code(), Some(130), "{last}");
@@ -134,6 +139,77 @@ fn interrupted_runs_give_the_files_of_uninterrupted_ones() {
     let again = striae(place, &["resume", "results/cube"]);
     assert_eq!(again.status.code(), Some(2));
     assert!(stderr(&again).contains("results/cube has no checkpoint.bin"));
+}
+
+#[test]
+fn other_signals_that_end_programs_interrupt_a_run() {
+    let folder = stopped();
+    for signal in ["-TERM", "-HUP"] {
+        let last = ended_by(signal, folder.path(), &["resume", "results/cube"], 3);
+        assert!(last.starts_with("interrupted at time"), "{signal}: {last}");
+    }
+}
+
+#[test]
+fn results_are_overwritten_only_when_told_to() {
+    let folder = stopped();
+    let place = folder.path();
+    let again = striae(place, &["run", "cube.toml"]);
+    assert_eq!(again.status.code(), Some(2));
+    let said = stderr(&again);
+    assert!(said.contains("`--overwrite`"), "{said}");
+    assert!(place.join("results/cube/checkpoint.bin").exists());
+    let deck = DECK.replace("increments = 2000", "increments = 2");
+    fs::write(place.join("cube.toml"), deck).unwrap();
+    let over = striae(place, &["run", "cube.toml", "--overwrite", "--quiet"]);
+    assert!(over.status.success(), "{}", stderr(&over));
+    assert!(!place.join("results/cube/checkpoint.bin").exists());
+    let fields = fs::read_dir(place.join("results/cube/fields")).unwrap();
+    let latest = fields.map(|file| file.unwrap().file_name().into_string().unwrap());
+    let number = |name: String| name.rsplit('-').next().unwrap().to_owned();
+    assert_eq!(latest.map(number).max().unwrap(), "00004.vtu");
+}
+
+#[test]
+fn two_runs_do_not_share_a_folder() {
+    let folder = stopped();
+    let place = folder.path();
+    let mut first = program(place, &["resume", "results/cube"]);
+    let mut first = first
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut said = BufReader::new(first.stderr.take().unwrap()).lines();
+    said.next().unwrap().unwrap();
+    for arguments in [
+        &["resume", "results/cube"][..],
+        &["run", "cube.toml", "--overwrite"],
+    ] {
+        let second = striae(place, arguments);
+        assert_eq!(second.status.code(), Some(2));
+        let text = stderr(&second);
+        assert!(
+            text.contains("another run writes to results/cube"),
+            "{text}"
+        );
+    }
+    first.kill().unwrap();
+    first.wait().unwrap();
+}
+
+#[test]
+fn a_reader_that_has_enough_is_no_fault() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = program(folder.path(), &["schema"]);
+    let mut child = command
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(stderr(&output), "");
 }
 
 #[test]

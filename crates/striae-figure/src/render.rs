@@ -25,6 +25,19 @@ const DOTS_PER_INCH: f64 = 300.0;
 const OVERSAMPLING: usize = 3;
 
 impl Figure {
+    /// Writes the figure as SVG alone.
+    ///
+    /// # Errors
+    /// When it cannot be drawn or the file not written.
+    pub fn write_svg(&self, path: &Path) -> Result<(), FigureError> {
+        let drawn = page(self).and_then(|page| svg(&page));
+        let text = drawn.map_err(|cause| FigureError::Description {
+            path: path.to_owned(),
+            cause,
+        })?;
+        Ok(write_atomically(path, text.as_bytes())?)
+    }
+
     /// Writes `NAME.svg`, `NAME.png` and `NAME.csv` into a folder.
     pub fn write(&self, folder: &Path, name: &str) -> Result<(), FigureError> {
         let path = |extension: &str| folder.join(format!("{name}.{extension}"));

@@ -18,6 +18,12 @@ pub enum OutputError {
         /// What is wrong, and where.
         cause: String,
     },
+    /// The folder of a new run holds results.
+    #[error("{} holds the results of an earlier run; choose another folder, or replace them with `--overwrite`", .0.display())]
+    Occupied(PathBuf),
+    /// Another run writes to the folder.
+    #[error("another run writes to {}", .0.display())]
+    InUse(PathBuf),
     /// An array has not one value for every point or cell.
     #[error("{}: array `{array}` has {found} values where {expected} are needed", path.display())]
     ArrayLength {

@@ -6,8 +6,10 @@
 pub mod checkpoint;
 mod error;
 pub mod expected;
+mod folder;
 pub mod history;
 pub mod recorder;
+mod rigid;
 mod row;
 mod settings;
 pub mod summary;
@@ -15,6 +17,7 @@ mod tally;
 pub mod vtk;
 
 pub use error::OutputError;
+pub use folder::Existing;
 pub use row::row;
 pub use settings::{FieldOutput, Output};
 pub use tally::Tally;

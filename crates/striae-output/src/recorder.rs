@@ -5,13 +5,16 @@
 //! DIR/bodies.pvd            displacement, velocity in dynamic steps, Cauchy stress, von Mises stress
 //! DIR/contact.pvd           gap, pressure, tractions, slip, normal, texture `s`,
 //!                           structural vector `a = n x s`, status, kept, pointed
+//! DIR/rigid.pvd             rigid surfaces: displacement, texture `s`, structural vector
 //! DIR/fields/*.vtu          what the collections list
 //! DIR/summary.json          how the run ended
 //! DIR/checkpoint.bin        where a run under way is, see [`crate::checkpoint`]
 //! ```
 //!
-//! Everything is on disk after each increment, so an interrupted run keeps all
-//! that has converged.
+//! Bodies and rigid surfaces are also written as they are at time 0; contact is known
+//! after the first increment.
+//!
+//! Everything is on disk after each increment.
 
 use std::{
     path::{Path, PathBuf},
@@ -20,7 +23,6 @@ use std::{
 
 use striae_contact::unknowns::{NodeResult, Status as ContactStatus};
 use striae_element::{nodal_cauchy_stress, von_mises};
-use striae_files::FileError;
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::{
     drive::Progress, newton::Increment, outcome::Ending, problem::Problem, state::State,
@@ -28,8 +30,10 @@ use striae_solve::{
 
 use crate::{
     FieldOutput, Output, OutputError,
-    checkpoint::{Checkpoint, Written},
+    checkpoint::Written,
+    folder::{Claim, Existing, remove_fields},
     history::History,
+    rigid::RigidGrid,
     row::row,
     summary::Summary,
     tally::Tally,
@@ -38,6 +42,7 @@ use crate::{
 
 /// Writes the output of one run.
 pub struct Recorder {
+    _claim: Claim,
     folder: PathBuf,
     case: String,
     output: Output,
@@ -46,6 +51,9 @@ pub struct Recorder {
     history: History,
     bodies: Series,
     contact: Series,
+    rigid: Series,
+    /// Rigid surfaces at rest, once they are needed.
+    rigid_grids: Option<Vec<RigidGrid>>,
     started: Instant,
     tally: Tally,
     written: Option<usize>,
@@ -55,19 +63,20 @@ impl Recorder {
     /// Makes the folder and an empty history.
     ///
     /// # Errors
-    /// When the folder or a file cannot be written.
-    pub fn create(folder: &Path, case: &str, output: Output) -> Result<Self, OutputError> {
-        let fields = folder.join("fields");
-        std::fs::create_dir_all(&fields).map_err(|cause| FileError::Write {
-            path: fields.clone(),
-            cause,
-        })?;
-        // What an earlier run left behind is no part of this one.
-        Checkpoint::remove(folder)?;
+    /// When a file cannot be written, or the folder belongs to other results or another run.
+    pub fn create(
+        folder: &Path,
+        case: &str,
+        output: Output,
+        existing: Existing,
+    ) -> Result<Self, OutputError> {
         Ok(Self {
+            _claim: Claim::new(folder, existing)?,
             history: History::create(folder.join("history.csv"))?,
             bodies: Series::new(folder.join("bodies.pvd")),
             contact: Series::new(folder.join("contact.pvd")),
+            rigid: Series::new(folder.join("rigid.pvd")),
+            rigid_grids: None,
             folder: folder.to_owned(),
             case: case.to_owned(),
             output,
@@ -88,15 +97,19 @@ impl Recorder {
         output: Output,
         written: &Written,
     ) -> Result<Self, OutputError> {
+        let claim = Claim::of(folder)?;
         let rows = written.iterations.len();
         if written.fields != Some(rows) {
             remove_fields(&folder.join("fields"), rows)?;
         }
-        let [bodies, contact] = &written.series;
+        let [bodies, contact, rigid] = &written.series;
         Ok(Self {
+            _claim: claim,
             history: History::resume(folder.join("history.csv"), rows)?,
             bodies: Series::resumed(folder.join("bodies.pvd"), bodies.clone()),
             contact: Series::resumed(folder.join("contact.pvd"), contact.clone()),
+            rigid: Series::resumed(folder.join("rigid.pvd"), rigid.clone()),
+            rigid_grids: None,
             folder: folder.to_owned(),
             case: case.to_owned(),
             output,
@@ -123,7 +136,8 @@ impl Recorder {
             solver: tally.solver.clone(),
             fields: self.written,
             seconds: self.seconds(),
-            series: [&self.bodies, &self.contact].map(|series| series.snapshots().to_vec()),
+            series: [&self.bodies, &self.contact, &self.rigid]
+                .map(|series| series.snapshots().to_vec()),
             judgement: tally.judgement.clone(),
         }
     }
@@ -146,6 +160,19 @@ impl Recorder {
     /// Notes an increment that was cut.
     pub fn cut_back(&mut self) {
         self.tally.cut_backs += 1;
+    }
+
+    /// Writes bodies and rigid surfaces as a run finds them, unless only its end is wanted.
+    ///
+    /// # Errors
+    /// When a file cannot be written.
+    pub fn start(&mut self, problem: &Problem, state: &State) -> Result<(), OutputError> {
+        if self.output.fields == FieldOutput::Last {
+            return Ok(());
+        }
+        self.written = Some(0);
+        self.write_bodies(problem, state, 0)?;
+        self.write_rigid(problem, state, 0)
     }
 
     /// Writes a converged increment.
@@ -193,6 +220,17 @@ impl Recorder {
     fn write_fields(&mut self, problem: &Problem, state: &State) -> Result<(), OutputError> {
         let count = self.tally.iterations.len();
         self.written = Some(count);
+        self.write_bodies(problem, state, count)?;
+        self.write_rigid(problem, state, count)?;
+        self.write_contact(problem, state, count)
+    }
+
+    fn write_bodies(
+        &mut self,
+        problem: &Problem,
+        state: &State,
+        count: usize,
+    ) -> Result<(), OutputError> {
         let mut parts = Vec::new();
         for (body, model) in problem.model.bodies.iter().enumerate() {
             let file = PathBuf::from(format!("fields/{}-{count:05}.vtu", model.name));
@@ -200,7 +238,35 @@ impl Recorder {
             parts.push((model.name.clone(), file));
         }
         let time = state.time;
-        self.bodies.append(Snapshot { time, parts })?;
+        self.bodies.append(Snapshot { time, parts })
+    }
+
+    fn write_rigid(
+        &mut self,
+        problem: &Problem,
+        state: &State,
+        count: usize,
+    ) -> Result<(), OutputError> {
+        let grids = self
+            .rigid_grids
+            .get_or_insert_with(|| RigidGrid::all(problem));
+        if grids.is_empty() {
+            return Ok(());
+        }
+        let written = grids
+            .iter()
+            .map(|rigid| rigid.write(&self.folder, problem, state, count));
+        let (time, parts) = (state.time, written.collect::<Result<_, _>>()?);
+        self.rigid.append(Snapshot { time, parts })
+    }
+
+    fn write_contact(
+        &mut self,
+        problem: &Problem,
+        state: &State,
+        count: usize,
+    ) -> Result<(), OutputError> {
+        let time = state.time;
         let mut parts = Vec::new();
         for pair in 0..problem.pairs.len() {
             for side in 0..2 {
@@ -219,22 +285,6 @@ impl Recorder {
         }
         self.contact.append(Snapshot { time, parts })
     }
-}
-
-/// Removes the fields of an increment, which an interrupted run writes out of turn.
-fn remove_fields(folder: &Path, increment: usize) -> Result<(), OutputError> {
-    let refused = |cause| FileError::Write {
-        path: folder.to_owned(),
-        cause,
-    };
-    let end = format!("-{increment:05}.vtu");
-    for entry in std::fs::read_dir(folder).map_err(refused)? {
-        let entry = entry.map_err(refused)?;
-        if entry.file_name().to_string_lossy().ends_with(&end) {
-            std::fs::remove_file(entry.path()).map_err(refused)?;
-        }
-    }
-    Ok(())
 }
 
 fn body_grid<'a>(problem: &'a Problem, state: &'a State, body: usize) -> Grid<'a> {

@@ -1,6 +1,8 @@
 //! Why a simulation could not be made or run.
 
 use striae_deck::Faults;
+use striae_figure::FigureError;
+use striae_files::FileError;
 use striae_law::{
     bulk::{InadmissibleHyperelastic, InadmissibleModuli},
     friction::FrictionError,
@@ -29,6 +31,12 @@ pub enum Error {
     /// Results cannot be written or read.
     #[error(transparent)]
     Output(#[from] OutputError),
+    /// A figure cannot be drawn or written.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+    /// A file cannot be copied to the results.
+    #[error(transparent)]
+    File(#[from] FileError),
     /// A mesh cannot be generated.
     #[error(transparent)]
     Mesh(#[from] MeshError),

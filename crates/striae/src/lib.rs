@@ -191,6 +191,7 @@
 //! [`nalgebra`] and [`num_dual`], which are handed on. The `striae` program is a client of
 //! this crate.
 
+mod beside;
 mod error;
 pub mod figures;
 mod interrupt;

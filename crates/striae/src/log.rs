@@ -3,7 +3,7 @@
 use std::{path::PathBuf, time::Instant};
 
 use striae_output::{
-    Output, OutputError, Tally,
+    Existing, Output, OutputError, Tally,
     checkpoint::{Checkpoint, CheckpointError, Source, Written},
     history::Table,
     recorder::Recorder,
@@ -27,6 +27,8 @@ pub(crate) struct Recording {
     pub(crate) case: String,
     /// The deck, for checkpoints; without it there are none.
     pub(crate) source: Option<Source>,
+    /// What becomes of results that are there.
+    pub(crate) existing: Existing,
 }
 
 /// Takes down what happens.
@@ -61,7 +63,12 @@ impl Log {
                 },
             })));
         };
-        let recorder = Recorder::create(&recording.folder, &recording.case, output)?;
+        let recorder = Recorder::create(
+            &recording.folder,
+            &recording.case,
+            output,
+            recording.existing,
+        )?;
         Ok(Self::Files(Box::new(Files {
             recorder,
             recording,
@@ -80,6 +87,14 @@ impl Log {
             recorder,
             recording,
         })))
+    }
+
+    /// Takes down the state in which a run begins.
+    pub(crate) fn start(&mut self, problem: &Problem, state: &State) -> Result<(), OutputError> {
+        match self {
+            Self::Memory(_) => Ok(()),
+            Self::Files(files) => files.recorder.start(problem, state),
+        }
     }
 
     /// Whether a checkpoint is due.

@@ -15,7 +15,7 @@ use striae_contact::evaluation::Evaluation;
 use striae_deck::Deck;
 use striae_model::{Model, Validate};
 use striae_output::{
-    Output, OutputError,
+    Existing, Output, OutputError,
     checkpoint::{Checkpoint, Source, Written, fingerprint},
     history::Table,
     summary::Summary,
@@ -30,6 +30,7 @@ use striae_solve::{
 };
 
 use crate::{
+    beside,
     error::Error,
     interrupt::Interrupt,
     log::{Log, Recording},
@@ -141,6 +142,7 @@ impl Simulation {
             folder: folder.to_owned(),
             case: source.case.clone(),
             source: Some(source),
+            existing: Existing::Keep,
         });
         simulation.begun = Some((written, point));
         Ok(simulation)
@@ -158,6 +160,7 @@ impl Simulation {
             folder: folder.into(),
             case: case.into(),
             source: None,
+            existing: Existing::Keep,
         });
         self
     }
@@ -180,6 +183,15 @@ impl Simulation {
             recording.source = Some(source);
         }
         simulation
+    }
+
+    /// What becomes of results that are in the folder already; without a word they stay,
+    /// and the run does not begin.
+    pub fn over(mut self, existing: Existing) -> Self {
+        if let Some(recording) = &mut self.recording {
+            recording.existing = existing;
+        }
+        self
     }
 
     /// Stops after the increment in which the flag is set.
@@ -213,15 +225,25 @@ impl Simulation {
             begun,
             interrupt,
         } = self;
-        let (log, point) = match (recording, begun) {
+        let (mut log, point) = match (recording, begun) {
             (Some(recording), Some((written, point))) => {
                 (Log::resumed(recording, output, &written)?, Some(point))
             }
-            (recording, _) => (Log::new(recording, output)?, None),
+            (recording, _) => {
+                let log = Log::new(recording.clone(), output)?;
+                if let Some(recording) = &recording {
+                    beside::write(recording, &problem.model)?;
+                }
+                (log, None)
+            }
         };
         let start = match &point {
             Some(point) => point.state.clone(),
-            None => State::undeformed(&problem),
+            None => {
+                let start = State::undeformed(&problem);
+                log.start(&problem, &start)?;
+                start
+            }
         };
         let mut watch = Watch {
             problem: &problem,

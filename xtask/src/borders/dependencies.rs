@@ -102,11 +102,24 @@ const LADDER: &[Row] = &[
             "striae-files",
             "striae-mesh",
             "striae-solve",
+            "striae-surface",
         ],
         outside: &[
             "crc32fast",
             "flate2",
             "nalgebra",
+            "serde",
+            "serde_json",
+            "thiserror",
+            "toml",
+        ],
+    },
+    Row {
+        name: "striae-report",
+        own: &["striae-files", "striae-output"],
+        outside: &[
+            "flate2",
+            "rayon",
             "serde",
             "serde_json",
             "thiserror",
@@ -132,6 +145,7 @@ const LADDER: &[Row] = &[
             "striae-contact",
             "striae-deck",
             "striae-figure",
+            "striae-files",
             "striae-law",
             "striae-mesh",
             "striae-meshfile",
@@ -170,6 +184,7 @@ const LADDER: &[Row] = &[
             "striae-law",
             "striae-mesh",
             "striae-output",
+            "striae-report",
             "striae-solve",
             "striae-surface",
         ],
@@ -198,7 +213,7 @@ const LADDER: &[Row] = &[
     Row {
         name: "xtask",
         own: &[],
-        outside: &["flate2", "serde_json", "thiserror"],
+        outside: &["flate2", "png", "serde_json", "thiserror"],
     },
 ];
 

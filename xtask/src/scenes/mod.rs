@@ -24,9 +24,9 @@ mod random;
 mod run;
 mod scene;
 mod summary;
-mod vector;
+pub mod vector;
 mod verdict;
-mod vtu;
+pub mod vtu;
 
 use std::{
     fs,

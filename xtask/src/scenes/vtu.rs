@@ -124,6 +124,16 @@ impl Grid {
             .then(|| vectors(&array.values))
     }
 
+    /// Numbers of an array, or lengths of its vectors; none without such an array.
+    pub fn sizes(&self, name: &str) -> Vec<f64> {
+        let length = |vector: &[f64]| vector.iter().map(|x| x * x).sum::<f64>().sqrt();
+        match self.arrays.get(name) {
+            Some(array) if array.components == 1 => array.values.clone(),
+            Some(array) => array.values.chunks(array.components).map(length).collect(),
+            None => Vec::new(),
+        }
+    }
+
     /// Whether all numbers are finite.
     pub fn is_finite(&self) -> bool {
         let finite = |array: &Array| array.values.iter().all(|x| x.is_finite());

@@ -15,7 +15,7 @@ use std::{
 
 use striae::{
     case_name,
-    figures::law::{SAMPLES, degrees, figure},
+    figures::law::{SAMPLES, degrees, figure, frictions},
 };
 use striae_deck as deck;
 use striae_law::friction::{Analysis, Friction, Law, RequiredTextures, SlipSurface};
@@ -145,24 +145,14 @@ fn in_deck_words(law: &str, constants: &str) -> String {
     format!("law = {law:?}\n") + &constants.map(line).collect::<String>()
 }
 
-/// The frictions of the pairs, and those that steps change them to.
+/// The frictions of a model.
 fn of_model(model: &Model) -> Vec<Named> {
-    let first = model.pairs.iter().map(|pair| Named {
-        title: format!("pair `{}`", pair.name),
-        file: format!("law-{}", pair.name),
-        friction: pair.friction.clone(),
+    let named = frictions(model).map(|named| Named {
+        title: named.title,
+        file: format!("law-{}", named.file),
+        friction: named.friction.clone(),
     });
-    let later = model.steps.iter().flat_map(|step| {
-        step.frictions.iter().map(|(pair, friction)| {
-            let pair = &model.pairs[pair.0].name;
-            Named {
-                title: format!("pair `{pair}` from step `{}`", step.name),
-                file: format!("law-{pair}-{}", step.name),
-                friction: friction.clone(),
-            }
-        })
-    });
-    first.chain(later).collect()
+    named.collect()
 }
 
 fn show(named: &Named, theta: &[f64], folder: &Path, out: &mut dyn Write) -> Result<(), Failure> {

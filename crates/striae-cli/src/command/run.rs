@@ -6,13 +6,14 @@ use std::{
 };
 
 use striae::{Finished, Simulation, case_name};
-use striae_output::summary::Summary;
+use striae_output::{Existing, summary::Summary};
 use striae_solve::outcome::Ending;
 
 use crate::{
     failure::Failure,
     interrupt::listen,
     progress::{Progress, Verbosity},
+    reporting::Reporting,
 };
 
 /// Run a deck.
@@ -23,8 +24,28 @@ pub struct Arguments {
     /// Folder for the output; by default results/NAME.
     #[arg(long)]
     out: Option<PathBuf>,
+    /// Remove the results of an earlier run from that folder first.
+    #[arg(long)]
+    overwrite: bool,
     #[command(flatten)]
     common: Common,
+    #[command(flatten)]
+    report: Reported,
+}
+
+/// Whether there is a report.
+#[derive(clap::Args)]
+pub struct Reported {
+    /// Write report.html beside the results, again and again as the run goes on.
+    #[arg(long)]
+    report: bool,
+}
+
+impl Reported {
+    /// The folder of which a report is made, if one is.
+    pub fn of(&self, folder: &Path) -> Option<PathBuf> {
+        self.report.then(|| folder.to_owned())
+    }
 }
 
 /// Options of everything that runs simulations.
@@ -89,17 +110,32 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
         .out
         .clone()
         .unwrap_or_else(|| Path::new("results").join(case_name(&arguments.deck)));
-    let simulation = Simulation::open(&arguments.deck, &folder)?;
-    let finished = watched(simulation, arguments.common.verbosity())?;
+    let existing = if arguments.overwrite {
+        Existing::Replace
+    } else {
+        Existing::Keep
+    };
+    let simulation = Simulation::open(&arguments.deck, &folder)?.over(existing);
+    let verbosity = arguments.common.verbosity();
+    let finished = watched(simulation, verbosity, arguments.report.of(&folder))?;
     concluded(finished, &folder, arguments.common.strictness(), out)
 }
 
-/// Runs with progress, and stops at an interrupt from the keyboard.
-pub fn watched(simulation: Simulation, verbosity: Verbosity) -> Result<Finished, Failure> {
+/// Runs with progress, stops at an interrupt, and makes the report of a folder if one is given.
+pub fn watched(
+    simulation: Simulation,
+    verbosity: Verbosity,
+    report: Option<PathBuf>,
+) -> Result<Finished, Failure> {
     let mut progress = Progress::new(&simulation.problem().model, verbosity);
-    let finished = simulation.until(&listen()).run_with(&mut progress);
+    let mut reporting = Reporting::new(&mut progress, report.clone());
+    let finished = simulation.until(&listen()).run_with(&mut reporting);
     progress.finish();
-    Ok(finished?)
+    let finished = finished?;
+    if let Some(folder) = report {
+        striae_report::write(&folder, &folder.join(striae_report::FILE))?;
+    }
+    Ok(finished)
 }
 
 /// Prints what came of a run.
@@ -129,7 +165,7 @@ pub fn concluded(
 /// Warnings of a run, on the standard error.
 pub fn warn(summary: &Summary) {
     for warning in &summary.warnings {
-        eprintln!("warning: {}", warning.text);
+        let _ = writeln!(std::io::stderr(), "warning: {}", warning.text);
     }
 }
 

@@ -71,8 +71,8 @@ pub struct Written {
     pub fields: Option<usize>,
     /// Seconds spent.
     pub seconds: f64,
-    /// Files of the bodies and of the contact surfaces.
-    pub series: [Vec<Snapshot>; 2],
+    /// Files of the bodies, of the contact surfaces and of the rigid ones.
+    pub series: [Vec<Snapshot>; 3],
     /// What has been judged so far.
     pub judgement: striae_solve::warning::Judgement,
 }

@@ -5,7 +5,8 @@
 //! zlib (`vtkZLibDataCompressor`), little endian, with `UInt64` headers. Real
 //! numbers are `Float64` and survive a round trip bit by bit. The time of the
 //! state is the field array `TimeValue`.
-//! [`Series`] strings such files together in time as a `.pvd` collection.
+//! [`Series`] strings such files together in time as a `.pvd` collection. [`Stored`] and
+//! [`read_series`] read both back.
 //!
 //! Source: "VTK XML file formats", <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>.
 //!
@@ -28,11 +29,13 @@ mod appended;
 #[cfg(test)]
 mod decode;
 mod grid;
+mod read;
 mod series;
 #[cfg(test)]
 mod tests;
 mod xml;
 
 pub use grid::{Array, Cells, Grid, Values};
+pub use read::{Stored, StoredCells, StoredValues, read_series};
 pub use series::{Series, Snapshot};
 pub use xml::write;

@@ -215,3 +215,57 @@ fn exactly_full_blocks_survive() {
         assert_eq!(array(&encode(&grid), "v").reals(), values);
     }
 }
+
+#[test]
+fn files_are_read_back() {
+    let points = cube();
+    let cells = [CellBlock::hexahedra([ids([0, 1, 2, 3, 4, 5, 6, 7])])];
+    let names = ["gap <n> & \"m\"", "status"];
+    let grid = Grid {
+        points: &points,
+        cells: Cells::Blocks(&cells),
+        point_arrays: vec![
+            Array::new(names[0], Values::Scalars((0..8).map(f64::from).collect())),
+            Array::new(names[1], Values::Codes((0..8).collect())),
+            Array::new("u", Values::Vectors(points.clone())),
+        ],
+        cell_arrays: vec![Array::new("body", Values::Integers(vec![-7]))],
+        time: 0.25,
+    };
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("cube.vtu");
+    write(&path, &grid).unwrap();
+    let stored = Stored::open(&path).unwrap();
+    assert_eq!(stored.time, 0.25);
+    let found: Vec<_> = stored.names().collect();
+    assert_eq!(found, [(names[0], 1), (names[1], 1), ("u", 3)]);
+    let expected: Vec<[f64; 3]> = points.iter().map(|p| [p.x, p.y, p.z]).collect();
+    assert_eq!(stored.points(&path).unwrap(), expected);
+    let read = stored.cells(&path).unwrap();
+    let read: Vec<_> = read.iter().collect();
+    assert_eq!(read, [(12, &[0, 1, 2, 3, 4, 5, 6, 7][..])]);
+    for name in names {
+        let values = stored.array(&path, name).unwrap().unwrap();
+        assert_eq!(values.numbers, (0..8).map(f64::from).collect::<Vec<_>>());
+    }
+    assert_eq!(stored.array(&path, "body").unwrap(), None);
+    let whole = std::fs::read(&path).unwrap();
+    std::fs::write(&path, &whole[..whole.len() / 2]).unwrap();
+    let read = Stored::open(&path).and_then(|stored| stored.array(&path, "u"));
+    assert!(read.is_err_and(|error| error.to_string().contains("damaged")));
+}
+
+#[test]
+fn collections_are_read_back() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("run.pvd");
+    let mut series = Series::new(&path);
+    for step in 0..3 {
+        let parts = ["lower & co", "upper"];
+        let parts = parts.map(|name| (name.to_owned(), format!("run/{name}_{step}.vtu").into()));
+        let time = 0.1 * f64::from(step);
+        let parts = parts.into();
+        series.append(Snapshot { time, parts }).unwrap();
+    }
+    assert_eq!(read_series(&path).unwrap(), series.snapshots());
+}

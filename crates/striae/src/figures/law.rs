@@ -6,32 +6,79 @@
 
 use striae_figure::{Axis, Content, Figure, Panel, Series, Width};
 use striae_law::friction::{Analysis, Friction, Law, SlipSample};
+use striae_solve::model::Model;
 
 /// Points of a slip surface that is drawn.
 pub const SAMPLES: usize = 720;
 
+/// A friction of a model.
+pub struct Named<'a> {
+    /// Where it holds, in words.
+    pub title: String,
+    /// Name of its pair, and of the step that changes it.
+    pub file: String,
+    /// The friction.
+    pub friction: &'a Friction,
+}
+
+/// The frictions of the pairs, and those that steps change them to.
+pub fn frictions(model: &Model) -> impl Iterator<Item = Named<'_>> {
+    let first = model.pairs.iter().map(|pair| Named {
+        title: format!("pair `{}`", pair.name),
+        file: pair.name.clone(),
+        friction: &pair.friction,
+    });
+    let later = model.steps.iter().flat_map(|step| {
+        step.frictions.iter().map(|(pair, friction)| {
+            let pair = &model.pairs[pair.0].name;
+            Named {
+                title: format!("pair `{pair}` from step `{}`", step.name),
+                file: format!("{pair}-{}", step.name),
+                friction,
+            }
+        })
+    });
+    first.chain(later)
+}
+
 /// Slip surfaces and friction of a law, for textures at the angles that were analysed.
 pub fn figure(friction: &Friction, analyses: &[Analysis]) -> Figure {
+    drawn(friction, analyses, 1.0, "ϖ")
+}
+
+/// The same times the coefficient of friction at rest: `|tau|/p` under pressures at which
+/// no cap on the shear stress is reached.
+pub fn coefficients(friction: &Friction, analyses: &[Analysis]) -> Figure {
+    drawn(friction, analyses, friction.coefficient().at_rest(), "p")
+}
+
+/// Slip surfaces and friction times `mu`, over what is called `unit`.
+fn drawn(friction: &Friction, analyses: &[Analysis], mu: f64, unit: &str) -> Figure {
     let curve = |analysis: &Analysis| Curve {
         name: match friction.law() {
             Law::TwoTextures(_) => format!("θ = {}°", degrees(analysis.theta)),
             law => law.name().to_owned(),
         },
-        samples: analysis.samples.clone(),
+        samples: (analysis.samples.iter())
+            .map(|sample| SlipSample {
+                traction: sample.traction * mu,
+                ..*sample
+            })
+            .collect(),
     };
     let curves: Vec<Curve> = analyses.iter().map(curve).collect();
     let sizes = analyses.iter().map(|analysis| analysis.extremes.traction);
-    let largest = sizes.fold(0.0, f64::max);
+    let largest = mu * sizes.fold(0.0, f64::max);
     let opposing = analyses
         .iter()
         .all(|analysis| analysis.extremes.deviation == 0.0);
     let second = if opposing {
-        opposing_panel(&curves).titled("friction against slip")
+        opposing_panel(&curves, mu, unit).titled("friction against slip")
     } else {
         deviation_panel(&curves).titled("slip and traction")
     };
     let panels = vec![
-        slip_surface_panel(&curves, largest).titled("slip surface"),
+        polar_panel(&curves, largest, unit).titled("slip surface"),
         second,
     ];
     Figure::new(Width::Page, panels)
@@ -47,7 +94,12 @@ pub struct Curve {
 
 /// Polar panel of slip surfaces up to `largest`: `|tau|/varpi` over the direction of `-tau`.
 pub fn slip_surface_panel(curves: &[Curve], largest: f64) -> Panel {
-    let radius = Axis::linear("|τ| / ϖ over the direction of −τ", "").within(0.0, 1.05 * largest);
+    polar_panel(curves, largest, "ϖ")
+}
+
+fn polar_panel(curves: &[Curve], largest: f64, unit: &str) -> Panel {
+    let label = format!("|τ| / {unit} over the direction of −τ");
+    let radius = Axis::linear(label, "").within(0.0, 1.05 * largest);
     let series = curves.iter().map(|curve| {
         let closed = curve.samples.iter().chain(curve.samples.first());
         let points = closed.map(|sample| {
@@ -70,8 +122,9 @@ pub fn deviation_panel(curves: &[Curve]) -> Panel {
 }
 
 /// Panel of friction against slip over the direction of slip.
-fn opposing_panel(curves: &[Curve]) -> Panel {
-    let y = Axis::linear("−τ · d / ϖ", "").within(0.0, 1.05);
+fn opposing_panel(curves: &[Curve], mu: f64, unit: &str) -> Panel {
+    let label = format!("−τ · d / {unit}");
+    let y = Axis::linear(label, "").within(0.0, 1.05 * mu);
     let series = curves.iter().map(|curve| {
         let against = over_slip(&curve.samples, SlipSample::dissipation);
         Series::new(&curve.name, against)

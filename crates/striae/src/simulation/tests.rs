@@ -3,7 +3,7 @@
 use std::{collections::BTreeMap, fs, path::PathBuf};
 
 use serde_json::Value;
-use striae_output::recorder::Recorder;
+use striae_output::{Existing, recorder::Recorder};
 
 use super::*;
 
@@ -29,7 +29,8 @@ fn at_once() -> Interrupt {
 
 fn begun(deck: &Deck, folder: &Path) -> Simulation {
     let simulation = Simulation::of(deck.clone()).unwrap();
-    simulation.resumable(folder, "case", Path::new("deck.toml"))
+    let simulation = simulation.resumable(folder, "case", Path::new("deck.toml"));
+    simulation.over(Existing::Replace)
 }
 
 /// Every file of a run but its summary and checkpoint.
@@ -121,9 +122,10 @@ fn a_run_with_a_pushed_body_is_the_same_in_pieces() {
 fn checkpoints_come_when_they_are_due_and_go_when_the_run_is_done() {
     let place = tempfile::tempdir().unwrap();
     let deck = read(DYNAMIC);
-    let recorder = Recorder::create(place.path(), "case", deck.output).unwrap();
+    let recorder = Recorder::create(place.path(), "case", deck.output, Existing::Keep).unwrap();
     let due: Vec<usize> = (1..=8).filter(|&count| recorder.keeps(count)).collect();
     assert_eq!(due, [3, 6]);
+    drop(recorder);
     begun(&deck, place.path()).until(&at_once()).run().unwrap();
     assert!(Checkpoint::read(place.path()).is_ok());
     let run = begun(&deck, place.path()).run();

@@ -1,0 +1,167 @@
+//! The folder of a run: one run at a time, and nothing of an earlier one beside it.
+//!
+//! A run holds a lock on its folder for as long as it lasts, where the system can lock
+//! folders (Unix); it ends with the process, however that ends.
+
+use std::{
+    fs::{self, File, TryLockError},
+    io::ErrorKind,
+    path::Path,
+};
+
+use striae_files::FileError;
+
+use crate::{OutputError, checkpoint};
+
+/// What becomes of the results of an earlier run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Existing {
+    /// They stay, and the new run does not begin.
+    #[default]
+    Keep,
+    /// They are removed before the new run begins.
+    Replace,
+}
+
+/// Files by which results are known.
+const RESULTS: [&str; 6] = [
+    "history.csv",
+    "bodies.pvd",
+    "contact.pvd",
+    "rigid.pvd",
+    "summary.json",
+    checkpoint::FILE,
+];
+
+/// A folder that is written by nobody else.
+#[derive(Debug)]
+pub(crate) struct Claim {
+    /// Locked until it is dropped.
+    _folder: Option<File>,
+}
+
+impl Claim {
+    /// A folder with results, to go on with.
+    pub(crate) fn of(folder: &Path) -> Result<Self, OutputError> {
+        let file = File::open(folder).ok();
+        let lock = file.as_ref().map(File::try_lock);
+        if matches!(lock, Some(Err(TryLockError::WouldBlock))) {
+            return Err(OutputError::InUse(folder.to_owned()));
+        }
+        Ok(Self { _folder: file })
+    }
+
+    /// A folder for a new run, made where there is none.
+    pub(crate) fn new(folder: &Path, existing: Existing) -> Result<Self, OutputError> {
+        let fields = folder.join("fields");
+        fs::create_dir_all(&fields).map_err(|cause| FileError::Write {
+            path: fields.clone(),
+            cause,
+        })?;
+        let claim = Self::of(folder)?;
+        if !RESULTS.iter().any(|name| folder.join(name).exists()) {
+            return Ok(claim);
+        }
+        match existing {
+            Existing::Keep => Err(OutputError::Occupied(folder.to_owned())),
+            Existing::Replace => {
+                remove_results(folder)?;
+                Ok(claim)
+            }
+        }
+    }
+}
+
+/// Removes what runs write; anything else in the folder stays, and so does the deck.
+fn remove_results(folder: &Path) -> Result<(), OutputError> {
+    for name in RESULTS.into_iter().chain(["report.html"]) {
+        removed(&folder.join(name))?;
+    }
+    remove_where(folder, |name| {
+        name.starts_with("law-") && name.ends_with(".svg")
+    })?;
+    remove_where(&folder.join("fields"), |name| name.ends_with(".vtu"))
+}
+
+fn removed(path: &Path) -> Result<(), OutputError> {
+    match fs::remove_file(path) {
+        Err(cause) if cause.kind() != ErrorKind::NotFound => Err(FileError::Write {
+            path: path.to_owned(),
+            cause,
+        }
+        .into()),
+        _ => Ok(()),
+    }
+}
+
+fn remove_where(folder: &Path, goes: impl Fn(&str) -> bool) -> Result<(), OutputError> {
+    let refused = |cause| FileError::Write {
+        path: folder.to_owned(),
+        cause,
+    };
+    for entry in fs::read_dir(folder).map_err(refused)? {
+        let entry = entry.map_err(refused)?;
+        if goes(&entry.file_name().to_string_lossy()) {
+            removed(&entry.path())?;
+        }
+    }
+    Ok(())
+}
+
+/// Removes the fields of an increment, which an interrupted run writes out of turn.
+pub(crate) fn remove_fields(folder: &Path, increment: usize) -> Result<(), OutputError> {
+    let end = format!("-{increment:05}.vtu");
+    remove_where(folder, |name| name.ends_with(&end))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = fs::read_dir(folder).unwrap();
+        let mut names: Vec<String> = entries
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn results_are_kept_unless_they_are_to_be_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        Claim::new(folder, Existing::Keep).unwrap();
+        let written = [
+            "history.csv",
+            "law-a.svg",
+            "fields/a-00001.vtu",
+            "report.html",
+        ];
+        let others = ["deck.toml", "notes.txt", "fields/notes.txt"];
+        for name in written.iter().chain(&others) {
+            fs::write(folder.join(name), "1").unwrap();
+        }
+        let refused = Claim::new(folder, Existing::Keep);
+        assert!(matches!(refused, Err(OutputError::Occupied(_))));
+        assert_eq!(names(folder).len(), 6);
+        Claim::new(folder, Existing::Replace).unwrap();
+        assert_eq!(names(folder), ["deck.toml", "fields", "notes.txt"]);
+        assert_eq!(names(&folder.join("fields")), ["notes.txt"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_folder_belongs_to_one_run_at_a_time() {
+        let folder = tempfile::tempdir().unwrap();
+        let first = Claim::new(folder.path(), Existing::Replace).unwrap();
+        for second in [
+            Claim::new(folder.path(), Existing::Replace),
+            Claim::of(folder.path()),
+        ] {
+            assert!(matches!(second, Err(OutputError::InUse(_))));
+        }
+        drop(first);
+        Claim::of(folder.path()).unwrap();
+    }
+}

@@ -1,0 +1,301 @@
+//! Reads files that [`write`](super::write) made: arrays by name, each decompressed when
+//! it is asked for.
+//!
+//! Cells may be of any of VTK's types; see [`Stored::cells`]. Files of other programs are
+//! read as far as they are of the same form: one piece, raw appended arrays in blocks
+//! compressed by zlib, `UInt64` headers, little endian.
+
+use std::{io::Read, path::Path};
+
+use flate2::read::ZlibDecoder;
+
+use crate::OutputError;
+use striae_files::{FileError, read_text};
+
+/// What begins the appended section.
+const SECTION: &[u8] = b"<AppendedData encoding=\"raw\">";
+
+/// A grid in a file.
+pub struct Stored {
+    bytes: Vec<u8>,
+    /// Where the appended section begins, behind its underscore.
+    section: usize,
+    arrays: Vec<Described>,
+    /// Time of the state.
+    pub time: f64,
+}
+
+/// What the text of a file says of an array.
+struct Described {
+    /// `Points`, `Cells`, `PointData` or `CellData`.
+    group: String,
+    name: String,
+    number: String,
+    components: usize,
+    offset: usize,
+}
+
+/// Cells of any shapes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StoredCells {
+    /// Corners of all cells, one after the other.
+    pub corners: Vec<usize>,
+    /// End of each cell in `corners`.
+    pub ends: Vec<usize>,
+    /// VTK's codes of the shapes.
+    pub shapes: Vec<u8>,
+}
+
+impl StoredCells {
+    /// Shape and corners of every cell.
+    pub fn iter(&self) -> impl Iterator<Item = (u8, &[usize])> {
+        let starts = std::iter::once(&0).chain(&self.ends);
+        let spans = starts.zip(&self.ends).zip(&self.shapes);
+        spans.map(|((start, end), shape)| (*shape, &self.corners[*start..*end]))
+    }
+}
+
+/// Values of an array.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StoredValues {
+    /// Numbers of a point: 1, 3, 6 or 9.
+    pub components: usize,
+    /// Numbers point by point.
+    pub numbers: Vec<f64>,
+}
+
+impl Stored {
+    /// Reads the text of a file; arrays wait until they are asked for.
+    ///
+    /// # Errors
+    /// When the file cannot be read or is of another form.
+    pub fn open(path: &Path) -> Result<Self, OutputError> {
+        let bytes = std::fs::read(path).map_err(|cause| FileError::Read {
+            path: path.to_owned(),
+            cause,
+        })?;
+        Self::of(bytes).map_err(content(path))
+    }
+
+    fn of(bytes: Vec<u8>) -> Result<Self, String> {
+        let tag = position(&bytes, SECTION).ok_or("no raw appended section")?;
+        let after = tag + SECTION.len();
+        let underscore = bytes[after..].iter().position(|byte| *byte == b'_');
+        let section = after + underscore.ok_or("no raw appended section")? + 1;
+        let text = std::str::from_utf8(&bytes[..tag]).map_err(|cause| cause.to_string())?;
+        for (name, expected) in [
+            ("header_type", "UInt64"),
+            ("byte_order", "LittleEndian"),
+            ("compressor", "vtkZLibDataCompressor"),
+        ] {
+            let found = attribute(text, name).unwrap_or_default();
+            if found != expected {
+                return Err(format!("`{name}` is `{found}`, not `{expected}`"));
+            }
+        }
+        let (arrays, time) = described(text)?;
+        Ok(Self {
+            arrays,
+            time,
+            section,
+            bytes,
+        })
+    }
+
+    /// Names of the arrays with a value a point, and their numbers a point.
+    pub fn names(&self) -> impl Iterator<Item = (&str, usize)> {
+        let points = self.arrays.iter().filter(|a| a.group == "PointData");
+        points.map(|array| (array.name.as_str(), array.components))
+    }
+
+    /// Positions of the points.
+    ///
+    /// # Errors
+    /// When the array is missing or damaged.
+    pub fn points(&self, path: &Path) -> Result<Vec<[f64; 3]>, OutputError> {
+        let values = self
+            .find("Points", None)
+            .and_then(|array| self.values(array));
+        let numbers = values.map_err(content(path))?.numbers;
+        let rows = numbers.chunks_exact(3);
+        Ok(rows.map(|row| [row[0], row[1], row[2]]).collect())
+    }
+
+    /// The cells.
+    ///
+    /// # Errors
+    /// When an array is missing or damaged.
+    pub fn cells(&self, path: &Path) -> Result<StoredCells, OutputError> {
+        let whole = |name| {
+            let values = self
+                .find("Cells", Some(name))
+                .and_then(|array| self.values(array));
+            let numbers = values.map_err(content(path))?.numbers;
+            Ok::<_, OutputError>(numbers.into_iter().map(|number| number as usize))
+        };
+        let cells = StoredCells {
+            corners: whole("connectivity")?.collect(),
+            ends: whole("offsets")?.collect(),
+            shapes: whole("types")?.map(|code| code as u8).collect(),
+        };
+        let sound = cells.ends.is_sorted()
+            && cells.ends.last().copied().unwrap_or(0) == cells.corners.len()
+            && cells.ends.len() == cells.shapes.len();
+        if sound {
+            Ok(cells)
+        } else {
+            Err(content(path)("the cells do not fit each other".to_owned()))
+        }
+    }
+
+    /// An array with a value a point; `None` where there is none of that name.
+    ///
+    /// # Errors
+    /// When it is damaged.
+    pub fn array(&self, path: &Path, name: &str) -> Result<Option<StoredValues>, OutputError> {
+        match self.find("PointData", Some(name)) {
+            Err(_) => Ok(None),
+            Ok(array) => self.values(array).map(Some).map_err(content(path)),
+        }
+    }
+
+    fn find(&self, group: &str, name: Option<&str>) -> Result<&Described, String> {
+        let fits =
+            |array: &&Described| array.group == group && name.is_none_or(|name| array.name == name);
+        let found = self.arrays.iter().find(fits);
+        found.ok_or_else(|| format!("no array `{}`", name.unwrap_or(group)))
+    }
+
+    fn values(&self, array: &Described) -> Result<StoredValues, String> {
+        let damaged = || format!("array `{}` is damaged", array.name);
+        let bytes = inflated(&self.bytes, self.section + array.offset).ok_or_else(damaged)?;
+        let numbers = numbers(&array.number, &bytes)
+            .ok_or_else(|| format!("array `{}` is of type `{}`", array.name, array.number))?;
+        Ok(StoredValues {
+            components: array.components,
+            numbers,
+        })
+    }
+}
+
+/// Reads a collection.
+///
+/// # Errors
+/// When the file cannot be read or is of another form.
+pub fn read_series(path: &Path) -> Result<Vec<super::Snapshot>, OutputError> {
+    let text = read_text(path)?;
+    let mut snapshots: Vec<super::Snapshot> = Vec::new();
+    for tag in text.split('<').filter(|tag| tag.starts_with("DataSet ")) {
+        let word = |name| attribute(tag, name).ok_or_else(|| format!("an entry without `{name}`"));
+        let entry = || {
+            let time = word("timestep")?;
+            let time: f64 = time.parse().map_err(|_| format!("`{time}` is no time"))?;
+            Ok((time, plain(word("name")?), plain(word("file")?)))
+        };
+        let (time, name, file) = entry().map_err(content(path))?;
+        match snapshots.last_mut() {
+            Some(last) if last.time == time && last.parts.iter().all(|(n, _)| *n != name) => {
+                last.parts.push((name, file.into()));
+            }
+            _ => snapshots.push(super::Snapshot {
+                time,
+                parts: vec![(name, file.into())],
+            }),
+        }
+    }
+    Ok(snapshots)
+}
+
+fn content(path: &Path) -> impl Fn(String) -> OutputError {
+    move |cause| OutputError::Content {
+        path: path.to_owned(),
+        cause,
+    }
+}
+
+fn described(text: &str) -> Result<(Vec<Described>, f64), String> {
+    let (mut arrays, mut group, mut time) = (Vec::new(), String::new(), 0.0);
+    for tag in text.split('<').skip(1) {
+        let name = tag.split([' ', '>', '/']).next().unwrap_or_default();
+        match name {
+            "Points" | "Cells" | "PointData" | "CellData" => group = name.to_owned(),
+            "DataArray" if attribute(tag, "Name") == Some("TimeValue") => {
+                let value = tag.split('>').nth(1).unwrap_or_default().trim();
+                time = value.parse().map_err(|_| format!("`{value}` is no time"))?;
+            }
+            "DataArray" => {
+                let word = |name| attribute(tag, name).ok_or(format!("an array without `{name}`"));
+                let whole = |name| {
+                    let word = word(name)?;
+                    word.parse().map_err(|_| format!("`{word}` is no `{name}`"))
+                };
+                arrays.push(Described {
+                    group: group.clone(),
+                    name: plain(word("Name")?),
+                    number: word("type")?.to_owned(),
+                    components: whole("NumberOfComponents")?,
+                    offset: whole("offset")?,
+                });
+            }
+            _ => {}
+        }
+    }
+    Ok((arrays, time))
+}
+
+fn attribute<'a>(tag: &'a str, name: &str) -> Option<&'a str> {
+    let after = tag.split_once(&format!(" {name}=\""))?.1;
+    Some(after.split_once('"')?.0)
+}
+
+/// Text without XML's escapes.
+fn plain(text: &str) -> String {
+    text.replace("&lt;", "<")
+        .replace("&gt;", ">")
+        .replace("&quot;", "\"")
+        .replace("&apos;", "'")
+        .replace("&amp;", "&")
+}
+
+fn position(bytes: &[u8], wanted: &[u8]) -> Option<usize> {
+    bytes
+        .windows(wanted.len())
+        .position(|window| window == wanted)
+}
+
+fn inflated(bytes: &[u8], start: usize) -> Option<Vec<u8>> {
+    let word = |index: usize| {
+        let at = start.checked_add(8 * index)?;
+        let word = bytes.get(at..at + 8)?;
+        usize::try_from(u64::from_le_bytes(word.try_into().ok()?)).ok()
+    };
+    let blocks = word(0)?;
+    let mut at = start + 8 * (3 + blocks);
+    let mut all = Vec::new();
+    for block in 0..blocks {
+        let end = at.checked_add(word(3 + block)?)?;
+        let mut decoder = ZlibDecoder::new(bytes.get(at..end)?);
+        decoder.read_to_end(&mut all).ok()?;
+        at = end;
+    }
+    Some(all)
+}
+
+fn numbers(kind: &str, bytes: &[u8]) -> Option<Vec<f64>> {
+    macro_rules! words {
+        ($type:ty) => {{
+            let words = bytes.as_chunks::<{ size_of::<$type>() }>().0.iter();
+            words
+                .map(|word| <$type>::from_le_bytes(*word) as f64)
+                .collect()
+        }};
+    }
+    Some(match kind {
+        "Float64" => words!(f64),
+        "Float32" => words!(f32),
+        "Int64" => words!(i64),
+        "Int32" => words!(i32),
+        "UInt8" => words!(u8),
+        _ => return None,
+    })
+}

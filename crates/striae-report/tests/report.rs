@@ -1,0 +1,195 @@
+//! Reports of small results that are made here, decoded from their pages by other means.
+
+mod decoded;
+
+use std::path::Path;
+
+use decoded::Page;
+use nalgebra::Matrix3;
+use striae_mesh::{CellBlock, NodeId, Vec3};
+use striae_output::vtk::{Array, Cells, Grid, Series, Snapshot, Values, write};
+use striae_report::{ReportError, render};
+
+/// Two cubes on each other, the upper face of which is a side of a pair.
+const HEIGHTS: [f64; 3] = [0.0, 1.0, 2.0];
+
+fn rest() -> Vec<Vec3> {
+    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let places = HEIGHTS
+        .iter()
+        .flat_map(|z| corners.map(|[x, y]| Vec3::new(x, y, *z)));
+    places.collect()
+}
+
+/// Displacements and stresses after so many increments.
+fn fields(count: usize) -> (Vec<Vec3>, Vec<Matrix3<f64>>) {
+    let size = count as f64;
+    let u = |x: &Vec3| Vec3::new(0.01 * size * x.z, 0.0, -0.02 * size * x.z * x.z);
+    let stress = |x: &Vec3| {
+        let shear = 3.0 * size * x.x;
+        Matrix3::new(
+            -size,
+            0.0,
+            shear,
+            0.0,
+            x.y,
+            0.0,
+            shear,
+            0.0,
+            -7.0 * size * x.z,
+        )
+    };
+    let rest = rest();
+    (
+        rest.iter().map(u).collect(),
+        rest.iter().map(stress).collect(),
+    )
+}
+
+/// Writes results at times 0 to `last`; contact from 1 on.
+fn results(folder: &Path, last: usize) {
+    std::fs::create_dir_all(folder.join("fields")).unwrap();
+    let mut bodies = Series::new(folder.join("bodies.pvd"));
+    let mut contact = Series::new(folder.join("contact.pvd"));
+    let corners = |first: u32| std::array::from_fn(|at| NodeId(first + at as u32));
+    let cells = [CellBlock::hexahedra([0, 4].map(corners))];
+    for count in 0..=last {
+        let (u, stress) = fields(count);
+        let points: Vec<Vec3> = rest().iter().zip(&u).map(|(x, u)| x + u).collect();
+        let time = count as f64 / 4.0;
+        let file = format!("fields/column-{count:05}.vtu");
+        let grid = Grid {
+            points: &points,
+            cells: Cells::Blocks(&cells),
+            point_arrays: vec![
+                Array::new("displacement", Values::Vectors(u)),
+                Array::new("cauchy_stress", Values::SymmetricTensors(stress)),
+            ],
+            cell_arrays: vec![],
+            time,
+        };
+        write(&folder.join(&file), &grid).unwrap();
+        let parts = vec![("column".to_owned(), file.into())];
+        bodies.append(Snapshot { time, parts }).unwrap();
+        if count == 0 {
+            continue;
+        }
+        let file = format!("fields/contact-top-column-{count:05}.vtu");
+        let pressures = (0..4).map(|node| f64::from(node) / 3.0 + count as f64);
+        let grid = Grid {
+            points: &points[8..],
+            cells: Cells::Quadrilaterals(&[[0, 1, 2, 3].map(NodeId)]),
+            point_arrays: vec![Array::new("pressure", Values::Scalars(pressures.collect()))],
+            cell_arrays: vec![],
+            time,
+        };
+        write(&folder.join(&file), &grid).unwrap();
+        let parts = vec![("top-column".to_owned(), file.into())];
+        contact.append(Snapshot { time, parts }).unwrap();
+    }
+}
+
+#[test]
+fn numbers_of_a_page_are_those_of_the_files() {
+    let folder = tempfile::tempdir().unwrap();
+    results(folder.path(), 5);
+    let page = Page::of(&render(folder.path()).unwrap());
+    assert_eq!(page.head["times"].as_array().unwrap().len(), 6);
+    let column = &page.head["parts"][0];
+    assert_eq!(column["nodes"], 12, "all nodes are on the skin");
+    assert_eq!(page.indices(&column["triangles"], 3).len(), 3 * 20);
+    for time in 0..=5 {
+        let (u, stress) = fields(time);
+        for (name, numbers) in [
+            (
+                "displacement",
+                u.iter().flat_map(|u| [u.x, u.y, u.z]).collect::<Vec<_>>(),
+            ),
+            (
+                "cauchy_stress",
+                (stress.iter())
+                    .flat_map(|s| {
+                        [
+                            s[(0, 0)],
+                            s[(1, 1)],
+                            s[(2, 2)],
+                            s[(0, 1)],
+                            s[(1, 2)],
+                            s[(0, 2)],
+                        ]
+                    })
+                    .collect(),
+            ),
+        ] {
+            let found = page.field(column, name, time).unwrap();
+            let spread = |all: &[f64]| {
+                let high = all.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+                high - all.iter().copied().fold(f64::INFINITY, f64::min)
+            };
+            let bound = 0.51 / 65534.0 * spread(&numbers) + 1e-15;
+            for (a, b) in found.iter().zip(&numbers) {
+                assert!((a - b).abs() <= bound, "{name} at {time}: {a} {b}");
+            }
+        }
+        let size = time as f64;
+        let lengths = u.iter().map(|u| u.norm()).fold(0.0, f64::max);
+        let field = decoded::field(column, "displacement");
+        assert_eq!(field["views"]["magnitude"][time][1], lengths);
+        let field = decoded::field(column, "cauchy_stress");
+        assert_eq!(field["views"]["zz"][time][0], 0.0 - 14.0 * size);
+    }
+}
+
+#[test]
+fn sides_of_pairs_follow_their_bodies() {
+    let folder = tempfile::tempdir().unwrap();
+    results(folder.path(), 3);
+    let page = Page::of(&render(folder.path()).unwrap());
+    let side = &page.head["parts"][1];
+    assert_eq!(side["kind"], "contact");
+    assert_eq!(side["follows"][0], 0);
+    assert_eq!(page.indices(&side["follows"][1], 1), [8, 9, 10, 11]);
+    assert_eq!(
+        page.field(side, "pressure", 0),
+        None,
+        "there is none before the first increment"
+    );
+    let found = page.field(side, "pressure", 2).unwrap();
+    assert!((found[3] - 3.0).abs() < 1e-4 && (found[0] - 2.0).abs() < 1e-4);
+}
+
+#[test]
+fn runs_under_way_and_odd_names_are_reported() {
+    let folder = tempfile::tempdir().unwrap();
+    results(folder.path(), 1);
+    let deck = "title = \"</script> & <b>\"\n[[step]]\nname = \"press\"\n";
+    std::fs::write(folder.path().join("deck.toml"), deck).unwrap();
+    std::fs::write(
+        folder.path().join("law-sole.svg"),
+        "<?xml?><svg id=\"law\"></svg>",
+    )
+    .unwrap();
+    let text = render(folder.path()).unwrap();
+    assert_eq!(text.matches("<script>").count(), 1);
+    assert!(text.contains("<title>&lt;/script&gt; &amp; &lt;b&gt;</title>"));
+    assert!(text.contains("<figcaption>sole</figcaption><svg id=\"law\">"));
+    let page = Page::of(&text);
+    assert_eq!(page.head["title"], "</script> & <b>");
+    assert_eq!(page.head["steps"][0], "press");
+    assert!(page.head["summary"].is_null());
+}
+
+#[test]
+fn folders_without_results_and_damaged_files_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    assert!(matches!(
+        render(folder.path()),
+        Err(ReportError::Nothing(_))
+    ));
+    results(folder.path(), 2);
+    let file = folder.path().join("fields/column-00002.vtu");
+    let whole = std::fs::read(&file).unwrap();
+    std::fs::write(&file, &whole[..whole.len() - 200]).unwrap();
+    let error = render(folder.path()).unwrap_err().to_string();
+    assert!(error.contains("column-00002.vtu"), "{error}");
+}

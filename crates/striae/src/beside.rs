@@ -1,0 +1,45 @@
+//! What stands beside the results so that they tell what was run: the deck, and what its
+//! friction looks like.
+//!
+//! ```text
+//! DIR/deck.toml                the deck as it was when the run began
+//! DIR/law-PAIR.svg             coefficients of friction of a pair
+//! DIR/law-PAIR-STEP.svg        those that a step changes them to
+//! ```
+
+use striae_files::{read_text, write_atomically};
+use striae_law::friction::{Analysis, Law};
+use striae_solve::model::Model;
+
+use crate::{
+    error::Error,
+    figures::law::{SAMPLES, coefficients, frictions},
+    log::Recording,
+};
+
+/// Angles between two textures at which their friction is drawn, in degrees.
+const ANGLES: [f64; 5] = [0.0, 45.0, 90.0, 135.0, 180.0];
+
+/// Writes deck and figures to the folder of a run that begins.
+pub(crate) fn write(recording: &Recording, model: &Model) -> Result<(), Error> {
+    let folder = &recording.folder;
+    // A deck that did not come from a file has no copy.
+    let source = recording.source.as_ref();
+    if let Some(Ok(text)) = source.map(|source| read_text(&source.path)) {
+        write_atomically(&folder.join("deck.toml"), text.as_bytes())?;
+    }
+    for named in frictions(model) {
+        let angles: &[f64] = match named.friction.law() {
+            Law::Frictionless => continue,
+            _ if named.friction.coefficient().at_rest() == 0.0 => continue,
+            Law::TwoTextures(_) => &ANGLES,
+            _ => &ANGLES[..1],
+        };
+        let analyses: Vec<Analysis> = (angles.iter())
+            .map(|angle| Analysis::new(named.friction, angle.to_radians(), SAMPLES))
+            .collect();
+        let file = folder.join(format!("law-{}.svg", named.file));
+        coefficients(named.friction, &analyses).write_svg(&file)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,63 @@
+//! `cargo xtask report-test`: reports in a real browser.
+//!
+//! It runs small decks with the program, makes their reports, opens them from disk in
+//! headless Chromium and uses them as a person would: no error on the console, no request
+//! but for the page itself, a picture that is not blank, slider, field, arrows and cut that
+//! change it, and a legend with the extremes of the VTU files. Pictures are kept in
+//! `target/report` to be looked at.
+//!
+//! Chromium is Debian's package `chromium`, or what `CHROMIUM` names; `.ci/run` installs it.
+//! It is driven by its protocol over pipes: messages in JSON, ended by a zero byte.
+
+mod chromium;
+mod decks;
+mod picture;
+mod use_it;
+
+use std::{fs, path::PathBuf, process::Command, time::Instant};
+
+use crate::{check, fault::Fault};
+use chromium::Chromium;
+
+/// Tests reports in a browser.
+///
+/// # Errors
+/// When the program or the browser cannot be had, or a report does not do what it should.
+pub fn report_test() -> Result<(), Fault> {
+    let started = Instant::now();
+    let program = fs::canonicalize(check::program()?).map_err(unusable("the program"))?;
+    let folder = PathBuf::from("target/report");
+    fs::create_dir_all(&folder).map_err(unusable("target/report"))?;
+    let folder = fs::canonicalize(&folder).map_err(unusable("target/report"))?;
+    let mut browser = Chromium::start()?;
+    for (name, deck) in decks::DECKS {
+        let path = folder.join(name).with_extension("toml");
+        fs::write(&path, deck).map_err(unusable("a deck"))?;
+        let results = folder.join(name);
+        if results.exists() {
+            fs::remove_dir_all(&results).map_err(unusable("old results"))?;
+        }
+        let command = Command::new(&program)
+            .arg("run")
+            .arg(&path)
+            .args(["--quiet", "--report", "--out"])
+            .arg(&results)
+            .output()
+            .map_err(unusable("the program"))?;
+        if !command.status.success() {
+            let said = String::from_utf8_lossy(&command.stderr).into_owned();
+            return Err(Fault::Browser(format!("{name}: {said}")));
+        }
+        let faults = use_it::tried(&mut browser, &results, &folder.join(name))?;
+        if !faults.is_empty() {
+            return Err(Fault::Browser(format!("{name}: {}", faults.join("\n"))));
+        }
+        println!("report of {name}: all well");
+    }
+    println!("reports tested in {:.0} s", started.elapsed().as_secs_f64());
+    Ok(())
+}
+
+fn unusable(what: &str) -> impl Fn(std::io::Error) -> Fault {
+    move |cause| Fault::Browser(format!("{what}: {cause}"))
+}
