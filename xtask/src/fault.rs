@@ -40,6 +40,9 @@ pub enum Fault {
     /// An option is not understood.
     #[error("{0}")]
     Option(String),
+    /// There is no interpreter for the Python package.
+    #[error("there is no Python 3.10 or newer that makes virtual environments")]
+    NoPython,
     /// Scenes came out wrong.
     #[error("{count} of {of} scenes came out wrong")]
     Scenes {

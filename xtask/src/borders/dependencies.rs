@@ -169,6 +169,11 @@ const LADDER: &[Row] = &[
         outside: &["clap", "ctrlc", "indicatif", "rayon", "thiserror"],
     },
     Row {
+        name: "striae-py",
+        own: &["striae"],
+        outside: &["nalgebra", "numpy", "pyo3", "rayon"],
+    },
+    Row {
         name: "striae-bench",
         own: &[
             "striae-contact",
