@@ -60,7 +60,8 @@ def draw_patch(pair: PairResults, axes: Optional[Axes], side: str) -> Axes:
     shown.set_clim(0.0, max(float(pressure.max(initial=0.0)), np.finfo(float).tiny))
     on.add_collection(shown)
     on.figure.colorbar(shown, ax=on, label="mean pressure", shrink=0.8)
-    _arrows(on, flat, known.friction @ np.column_stack([across, up]), known.facets)
+    tractions = known.mean_traction + pressure[:, None] * known.normal
+    _arrows(on, flat, tractions @ np.column_stack([across, up]), known.facets)
     on.set_aspect("equal")
     on.autoscale_view()
     on.set_xlabel(_axis_name(across))
@@ -82,9 +83,13 @@ def _arrows(on: Any, places: Floats, vectors: Floats, facets: Any) -> None:
         *vectors[drawn].T,
         angles="xy",
         scale_units="xy",
-        scale=largest / (1.2 * edge),
+        scale=largest / (2.0 * edge),
         color="tab:red",
-        width=0.004,
+        width=0.003,
+        headwidth=3.5,
+        headlength=4.5,
+        headaxislength=4.0,
+        minshaft=2.0,
     )
 
 
@@ -104,6 +109,8 @@ def _axis_name(direction: Floats) -> str:
 
 def draw_friction(friction: Friction, axes: Optional[Axes], theta: float) -> Axes:
     """The slip surface as a curve, friction over pressure, with arrows of slip from it."""
+    from ._friction import TwoTextures
+
     on = _axes(axes)
     surface = friction.slip_surface(theta, 360)
     closed = np.vstack([surface.friction, surface.friction[:1]])
@@ -128,7 +135,8 @@ def draw_friction(friction: Friction, axes: Optional[Axes], theta: float) -> Axe
     on.set_aspect("equal")
     on.set_xlabel("across the texture (a)")
     on.set_ylabel("along the texture (-s)")
-    on.set_title(repr(friction), fontsize="medium")
+    at = f"\ntextures at {theta:g} degrees" if isinstance(friction, TwoTextures) else ""
+    on.set_title(repr(friction) + at, fontsize="small")
     on.legend(loc="upper right", fontsize="small")
     return on
 
