@@ -26,7 +26,7 @@ const INTERPRETERS: [&str; 7] = [
 /// What is asked of an interpreter.
 const FIT: &str = "import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 10))";
 /// What the tests need besides the wheel.
-const NEEDED: [&str; 6] = ["pytest", "numpy", "matplotlib", "pandas", "meshio", "mypy"];
+const NEEDED: [&str; 5] = ["pytest", "numpy", "matplotlib", "pandas", "meshio"];
 
 /// Builds the wheel and tests it.
 ///
@@ -39,11 +39,13 @@ pub fn check() -> Result<(), Fault> {
     };
     let wheels = target().join("wheels");
     let main = environment(newest)?;
-    pip(&main, &["maturin>=1.7,<2"])?;
+    pip(&main, &["maturin>=1.7,<2", "mypy", "basedpyright"])?;
     let out = wheels.display().to_string();
     run(main.join("maturin"), &["build", "--release", "--out", &out])?;
     test(&main, &wheels)?;
     run(main.join("mypy"), &[])?;
+    let interpreter = main.join("python").display().to_string();
+    run(main.join("basedpyright"), &["--pythonpath", &interpreter])?;
     if oldest != newest {
         test(&environment(oldest)?, &wheels)?;
     }
