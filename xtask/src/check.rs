@@ -1,4 +1,5 @@
-//! `cargo xtask check`: formatting, borders, lints, tests, documentation and examples.
+//! `cargo xtask check`: formatting, borders, lints, tests, documentation, examples and,
+//! where there is Python, its package.
 //!
 //! Cheap checks come first. Everything is built in the release profile, so that
 //! one compilation of the dependencies serves tests and programs, and another,
@@ -11,7 +12,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use crate::{borders, fault::Fault};
+use crate::{borders, fault::Fault, python};
 
 /// A check that is one call of cargo.
 struct Stage {
@@ -64,6 +65,11 @@ pub fn check() -> Result<(), Fault> {
         timed(stage.name, || run(stage))?;
     }
     timed("examples", examples)?;
+    if python::is_possible() {
+        timed("python", python::check)?;
+    } else {
+        println!("== python passed over: {}", Fault::NoPython);
+    }
     println!("all checks passed in {}", seconds(started.elapsed()));
     Ok(())
 }

@@ -3,6 +3,7 @@
 //! | task | what it does |
 //! | --- | --- |
 //! | `check` | all that has to hold before a change goes in; see [`check`] |
+//! | `python` | the Python package: wheel, types, tests; see [`python`] |
 //! | `borders` | the border check alone, in a second; see [`borders`] |
 //! | `scenes` | random scenes of contact, judged from their output; see [`scenes`] |
 //! | `report-test` | reports in headless Chromium; see [`browser`] |
@@ -14,17 +15,18 @@ mod borders;
 mod browser;
 mod check;
 mod fault;
+mod python;
 mod scenes;
 
 use std::{env, process::ExitCode};
 
-const USAGE: &str =
-    "usage: cargo xtask check | borders | scenes [OPTIONS] | report-test | bench [ARGUMENTS]";
+const USAGE: &str = "usage: cargo xtask check | python | borders | scenes [OPTIONS] | report-test | bench [ARGUMENTS]";
 
 fn main() -> ExitCode {
     let tasks: Vec<String> = env::args().skip(1).collect();
     let result = match tasks.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["check"] => check::check(),
+        ["python"] => python::check(),
         ["borders"] => borders::check(),
         ["scenes", ..] => scenes::scenes(&tasks[1..]),
         ["report-test"] => browser::report_test(),

@@ -18,8 +18,9 @@ mod path;
 
 pub use build::{
     BodyBuilder, Component, Components, ModelBuilder, PairBuilder, RigidBuilder, SideBuilder,
-    StepBuilder, axial, body, circumferential, equal_increments, model, pair, plane, radial, rigid,
-    rigid_surface, solver, step, surface, tied, uniform,
+    StepBuilder, axial, body, circumferential, equal_increments, extended, model, nodal, painted,
+    pair, plane, radial, rigid, rigid_solid, rigid_surface, solver, step, surface, tied, turned,
+    uniform,
 };
 pub use check::{Draft, DraftBody, DraftPair, DraftStep, Known, Named, Validate, misshapen};
 pub use fault::{Fault, FaultKind, Faults};

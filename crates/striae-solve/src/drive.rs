@@ -86,6 +86,19 @@ pub fn run(problem: &Problem, state: State, observer: &mut dyn Observer) -> (Sta
     run_steps(problem, 0, state, 0, &mut workspace, observer)
 }
 
+/// Runs the steps from number `first` on, from the `state` at the end of those before,
+/// which took so many `increments`.
+pub fn run_after(
+    problem: &Problem,
+    first: usize,
+    state: State,
+    increments: usize,
+    observer: &mut dyn Observer,
+) -> (State, Ending) {
+    let mut workspace = Workspace::new(problem.model.solver.backend);
+    run_steps(problem, first, state, increments, &mut workspace, observer)
+}
+
 /// Goes on from a point of an earlier run, with the same results to the last bit.
 pub fn resume(problem: &Problem, point: Point, observer: &mut dyn Observer) -> (State, Ending) {
     let mut workspace = Workspace::recalled(problem, &point.memory);

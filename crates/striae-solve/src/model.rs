@@ -202,6 +202,12 @@ pub enum ClosedGaps {
     UpTo(f64),
 }
 
+impl Default for ClosedGaps {
+    fn default() -> Self {
+        Self::Share(0.1)
+    }
+}
+
 /// A part of the loading history.
 ///
 /// A condition holds from the step that states it until a later step states

@@ -28,6 +28,9 @@ pub enum Error {
     /// A run cannot be taken up again.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
+    /// Further steps begin where a run has ended, not in the middle of its steps.
+    #[error("only a completed run can be continued with further steps; this one was stopped")]
+    NotCompleted,
     /// Results cannot be written or read.
     #[error(transparent)]
     Output(#[from] OutputError),

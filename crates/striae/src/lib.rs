@@ -210,6 +210,7 @@ pub use results::{PairSide, Results};
 pub use simulation::{Finished, Simulation, case_name};
 pub use striae_contact as contact;
 pub use striae_deck as deck;
+pub use striae_element as element;
 pub use striae_law as law;
 pub use striae_mesh as mesh;
 pub use striae_meshfile as mesh_file;

@@ -1,10 +1,12 @@
 //! Results of a state: nodal fields as slices, forces of pairs, reactions.
 
+use nalgebra::Matrix3;
 use striae_contact::unknowns::NodeResult;
+use striae_element::nodal_cauchy_stress;
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::{
     problem::Problem,
-    report::{self, PairReport},
+    report::{self, PairReport, RigidReport},
     state::State,
 };
 
@@ -55,6 +57,16 @@ impl<'a> Results<'a> {
         Some(positions.zip(reference).map(|(x, rest)| x - rest).collect())
     }
 
+    /// Cauchy stress at the nodes of a body, see [`nodal_cauchy_stress`].
+    pub fn stresses(&self, body: &str) -> Option<Vec<Matrix3<f64>>> {
+        let index = self.body_index(body)?;
+        let model = &self.problem.model.bodies[index];
+        let elements = &self.problem.elements[index];
+        let positions = self.positions(body)?;
+        let stress = nodal_cauchy_stress(&model.mesh, elements, positions, &model.material);
+        Some(stress.expect("converged elements are not inverted"))
+    }
+
     /// Velocities of the nodes of a body, zero without inertia.
     pub fn velocities(&self, body: &str) -> Option<&'a [Vec3]> {
         self.of_body(body, &self.state.velocities)
@@ -92,6 +104,12 @@ impl<'a> Results<'a> {
         report::pairs(self.problem, self.state).into_iter().nth(at)
     }
 
+    /// Displacement, angles and torque of a rigid body.
+    pub fn rigid_body(&self, name: &str) -> Option<RigidReport> {
+        let all = report::rigid_bodies(self.problem, self.state);
+        all.into_iter().find(|rigid| rigid.name == name)
+    }
+
     /// Force that holds a node set, `body.set`, or a rigid surface, by its name.
     pub fn reaction(&self, name: &str) -> Option<Vec3> {
         let all = report::reactions(self.problem, self.state);
@@ -104,9 +122,13 @@ impl<'a> Results<'a> {
         pairs.position(|pair| pair.name == name)
     }
 
-    fn of_body(&self, name: &str, field: &'a [Vec3]) -> Option<&'a [Vec3]> {
+    fn body_index(&self, name: &str) -> Option<usize> {
         let mut bodies = self.problem.model.bodies.iter();
-        let body = bodies.position(|body| body.name == name)?;
+        bodies.position(|body| body.name == name)
+    }
+
+    fn of_body(&self, name: &str, field: &'a [Vec3]) -> Option<&'a [Vec3]> {
+        let body = self.body_index(name)?;
         field.get(self.problem.first_node[body]..self.problem.first_node[body + 1])
     }
 }

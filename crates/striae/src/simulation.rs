@@ -5,15 +5,19 @@
 //!           ::of(deck)         a deck that has been read
 //!           ::open(path)       a deck in a file, whose run can be resumed
 //!           ::resume(folder)   a run that was stopped
+//!           ::after(run, steps) a run that has ended, with further steps
 //!     .writing(output).recorded(folder, case).until(interrupt)
 //!     .run() or .run_with(observer) -> Finished
 //! ```
 
-use std::path::{Path, PathBuf};
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 use striae_contact::evaluation::Evaluation;
 use striae_deck::Deck;
-use striae_model::{Model, Validate};
+use striae_model::{Model, StepBuilder, Validate, extended};
 use striae_output::{
     Existing, Output, OutputError,
     checkpoint::{Checkpoint, Source, Written, fingerprint},
@@ -41,22 +45,35 @@ use crate::{
 /// A run that can begin.
 #[derive(Clone, Debug)]
 pub struct Simulation {
-    problem: Problem,
+    problem: Arc<Problem>,
     output: Output,
     recording: Option<Recording>,
-    begun: Option<(Written, Point)>,
+    begun: Begun,
     interrupt: Interrupt,
+}
+
+/// Where a run begins.
+#[derive(Clone, Debug)]
+enum Begun {
+    /// At rest.
+    Undeformed,
+    /// After so many steps and increments of an earlier run, in the state it came to.
+    After(Box<(usize, usize, State)>),
+    /// Where a recorded run was stopped.
+    Stopped(Box<(Written, Point)>),
 }
 
 /// A run that has ended.
 #[derive(Clone, Debug)]
 pub struct Finished {
     /// The problem.
-    pub problem: Problem,
+    pub problem: Arc<Problem>,
     /// The last converged state.
     pub state: State,
     /// States at the ends of all completed steps.
     pub steps: Vec<State>,
+    /// Increments since the undeformed state.
+    pub increments: usize,
     /// How the run ended.
     pub ending: Ending,
     /// What `summary.json` says: counts, resultants, warnings.
@@ -89,10 +106,10 @@ impl Simulation {
 
     fn of_valid(model: Model) -> Result<Self, Error> {
         Ok(Self {
-            problem: Problem::new(model)?,
+            problem: Arc::new(Problem::new(model)?),
             output: Output::default(),
             recording: None,
-            begun: None,
+            begun: Begun::Undeformed,
             interrupt: Interrupt::default(),
         })
     }
@@ -144,7 +161,24 @@ impl Simulation {
             source: Some(source),
             existing: Existing::Keep,
         });
-        simulation.begun = Some((written, point));
+        simulation.begun = Begun::Stopped(Box::new((written, point)));
+        Ok(simulation)
+    }
+
+    /// Goes on from the end of a completed run with further steps. Times and numbers of
+    /// steps and increments go on; history and summary are those of the further steps.
+    ///
+    /// # Errors
+    /// When the earlier run was stopped before its end, all faults of the further steps,
+    /// or why they cannot be solved.
+    pub fn after(run: &Finished, steps: Vec<StepBuilder>) -> Result<Self, Error> {
+        if run.ending != Ending::Completed {
+            return Err(Error::NotCompleted);
+        }
+        let model = &run.problem.model;
+        let mut simulation = Self::of_valid(extended(model.clone(), steps)?)?;
+        let begun = (model.steps.len(), run.increments, run.state.clone());
+        simulation.begun = Begun::After(Box::new(begun));
         Ok(simulation)
     }
 
@@ -201,7 +235,7 @@ impl Simulation {
     }
 
     /// The problem: the model and what follows from it for the whole run.
-    pub fn problem(&self) -> &Problem {
+    pub fn problem(&self) -> &Arc<Problem> {
         &self.problem
     }
 
@@ -225,26 +259,26 @@ impl Simulation {
             begun,
             interrupt,
         } = self;
-        let (mut log, point) = match (recording, begun) {
-            (Some(recording), Some((written, point))) => {
-                (Log::resumed(recording, output, &written)?, Some(point))
+        let mut log = match (recording, &begun) {
+            (Some(recording), Begun::Stopped(stopped)) => {
+                Log::resumed(recording, output, &stopped.0)?
             }
             (recording, _) => {
                 let log = Log::new(recording.clone(), output)?;
                 if let Some(recording) = &recording {
                     beside::write(recording, &problem.model)?;
                 }
-                (log, None)
+                log
             }
         };
-        let start = match &point {
-            Some(point) => point.state.clone(),
-            None => {
-                let start = State::undeformed(&problem);
-                log.start(&problem, &start)?;
-                start
-            }
+        let (start, before) = match &begun {
+            Begun::Undeformed => (State::undeformed(&problem), 0),
+            Begun::After(after) => (after.2.clone(), after.1),
+            Begun::Stopped(stopped) => (stopped.1.state.clone(), stopped.1.increments),
         };
+        if !matches!(begun, Begun::Stopped(_)) {
+            log.start(&problem, &start)?;
+        }
         let mut watch = Watch {
             problem: &problem,
             log,
@@ -252,15 +286,21 @@ impl Simulation {
             interrupt,
             steps: Vec::new(),
             before: start.clone(),
+            increments: before,
             failure: None,
         };
-        let (state, ending) = match point {
-            None => drive::run(&problem, start, &mut watch),
-            Some(point) => drive::resume(&problem, point, &mut watch),
+        let (state, ending) = match begun {
+            Begun::Undeformed => drive::run(&problem, start, &mut watch),
+            Begun::After(after) => {
+                let (steps, increments, _) = *after;
+                drive::run_after(&problem, steps, start, increments, &mut watch)
+            }
+            Begun::Stopped(stopped) => drive::resume(&problem, stopped.1, &mut watch),
         };
         let Watch {
             log,
             steps,
+            increments,
             failure,
             ..
         } = watch;
@@ -272,6 +312,7 @@ impl Simulation {
             problem,
             state,
             steps,
+            increments,
             ending,
             summary,
             history,
@@ -304,6 +345,8 @@ struct Watch<'a> {
     steps: Vec<State>,
     /// State before the increment under way.
     before: State,
+    /// Increments that have converged since the undeformed state.
+    increments: usize,
     failure: Option<OutputError>,
 }
 
@@ -327,6 +370,7 @@ impl drive::Observer for Watch<'_> {
         }
         self.log.judge(self.problem, &self.before, increment);
         self.before = increment.state.clone();
+        self.increments = progress.increment;
         let taken_down = self.log.increment(self.problem, progress, increment);
         self.failure = self.failure.take().or(taken_down.err());
         if self.log.keeps(progress.increment) {

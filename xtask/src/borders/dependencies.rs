@@ -144,6 +144,7 @@ const LADDER: &[Row] = &[
         own: &[
             "striae-contact",
             "striae-deck",
+            "striae-element",
             "striae-figure",
             "striae-files",
             "striae-law",
@@ -189,6 +190,11 @@ const LADDER: &[Row] = &[
             "striae-surface",
         ],
         outside: &["clap", "ctrlc", "indicatif", "rayon", "thiserror"],
+    },
+    Row {
+        name: "striae-py",
+        own: &["striae"],
+        outside: &["nalgebra", "numpy", "pyo3", "rayon"],
     },
     Row {
         name: "striae-bench",

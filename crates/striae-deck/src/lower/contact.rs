@@ -91,11 +91,9 @@ fn lower_pair(
 }
 
 fn lower_initial(raw: &raw::Initial) -> Initial {
-    /// Gaps that are closed by default, over the local facet size.
-    const SHARE: f64 = 0.1;
     match raw {
         raw::Initial::Word(raw::InitialWord::AsMeshed) => Initial::AsMeshed,
-        raw::Initial::Word(raw::InitialWord::Close) => Initial::Close(ClosedGaps::Share(SHARE)),
+        raw::Initial::Word(raw::InitialWord::Close) => Initial::Close(ClosedGaps::default()),
         raw::Initial::Word(raw::InitialWord::Resolve) => Initial::Resolve,
         raw::Initial::Close(raw) => {
             let gap = raw.close.as_ref().map_or(0.0, |gap| gap.value.0);

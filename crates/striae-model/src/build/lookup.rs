@@ -3,7 +3,6 @@
 use striae_mesh::{Face, NodeId, Sets};
 use striae_solve::model::{Body, BodyId, PairId, RigidId};
 
-use super::{PairBuilder, RigidBuilder};
 use crate::{
     fault::{Fault, FaultKind},
     names::nearest,
@@ -18,15 +17,11 @@ pub(super) struct Names<'a> {
 }
 
 impl<'a> Names<'a> {
-    pub(super) fn new(
-        bodies: &'a [Body],
-        rigid: &'a [RigidBuilder],
-        pairs: &'a [PairBuilder],
-    ) -> Self {
+    pub(super) fn new(bodies: &'a [Body], rigid: Vec<&'a str>, pairs: Vec<&'a str>) -> Self {
         Self {
             bodies,
-            rigid: rigid.iter().map(RigidBuilder::name).collect(),
-            pairs: pairs.iter().map(PairBuilder::name).collect(),
+            rigid,
+            pairs,
         }
     }
 

@@ -3,15 +3,17 @@
 //! Bodies, sets, rigid surfaces and pairs are called by name; [`ModelBuilder::build`]
 //! looks them up, validates the model and closes the gaps that its pairs ask for.
 
+mod extend;
 mod lookup;
 mod paint;
 mod pair;
 mod parts;
 mod step;
 
-pub use paint::{axial, circumferential, radial, uniform};
+pub use extend::extended;
+pub use paint::{axial, circumferential, nodal, painted, radial, turned, uniform};
 pub use pair::{PairBuilder, SideBuilder, pair, rigid, surface};
-pub use parts::{BodyBuilder, RigidBuilder, body, plane, rigid_surface, tied};
+pub use parts::{BodyBuilder, RigidBuilder, body, plane, rigid_solid, rigid_surface, tied};
 pub use step::{Component, Components, StepBuilder, equal_increments, step};
 
 use striae_solve::model::{Backend, Body, Model, Pair, RigidSurface, Solver, Strategy};
@@ -23,7 +25,7 @@ use crate::{
     path::{Path, Segment},
 };
 use lookup::Names;
-use step::Resolved;
+use step::{Prescribed, Resolved};
 
 /// A model under construction; see [`model`].
 #[derive(Clone, Debug)]
@@ -96,20 +98,23 @@ impl ModelBuilder {
     /// All faults: unknown names, everything [`Validate`] finds, meshes that overlap.
     pub fn build(self) -> Result<Model, Faults> {
         let mut faults = Vec::new();
-        let names = Names::new(&self.bodies, &self.rigid, &self.pairs);
+        let rigid = self.rigid.iter().map(RigidBuilder::name).collect();
+        let pairs = self.pairs.iter().map(PairBuilder::name).collect();
+        let names = Names::new(&self.bodies, rigid, pairs);
         let rigid: Vec<Option<RigidSurface>> = (self.rigid.iter().enumerate())
             .map(|(index, rigid)| rigid.resolved(index, &names, &mut faults))
             .collect();
         let pairs: Vec<Option<Pair>> = (self.pairs.iter().enumerate())
             .map(|(index, pair)| pair.resolved(index, &names, &mut faults))
             .collect();
+        let mut prescribed = Prescribed::default();
         let steps: Vec<Resolved> = (self.steps.iter().enumerate())
-            .map(|(index, step)| step.resolved(index, &names, &mut faults))
+            .map(|(index, step)| step.resolved(index, &names, &mut prescribed, &mut faults))
             .collect();
         if !faults.is_empty() {
             let draft = self.draft(&rigid, &pairs, &steps);
             let found = draft.faults().into_iter();
-            faults.extend(found.map(|fault| placed(fault, &steps)));
+            faults.extend(found.map(|fault| placed(fault, 0, &steps)));
             return Err(Faults(faults));
         }
         let model = Model {
@@ -155,8 +160,8 @@ impl ModelBuilder {
 }
 
 /// The fault with the position that its condition has in the builder, where others
-/// before it are missing.
-fn placed(fault: Fault, steps: &[Resolved]) -> Fault {
+/// before it are missing; the builder's steps count from `first`.
+fn placed(fault: Fault, first: usize, steps: &[Resolved]) -> Fault {
     let path = match *fault.path.segments() {
         [
             Segment::Field("steps"),
@@ -164,8 +169,8 @@ fn placed(fault: Fault, steps: &[Resolved]) -> Fault {
             Segment::Field(list),
             Segment::Index(index),
             ..,
-        ] => {
-            let index = steps[step].position(list, index);
+        ] if step >= first => {
+            let index = steps[step - first].position(list, index);
             Path::part("steps", step).field(list).index(index)
         }
         _ => fault.path,

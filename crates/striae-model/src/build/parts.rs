@@ -2,7 +2,10 @@
 
 use striae_law::bulk::Material;
 use striae_mesh::{Mesh, NodeId, Vec3};
-use striae_solve::model::{Body, ContactMass, Formulation, RigidInertia, RigidShape, RigidSurface};
+use striae_solve::{
+    model::{Body, ContactMass, Formulation, RigidInertia, RigidShape, RigidSurface},
+    solid::{self, SolidError},
+};
 
 use super::lookup::Names;
 use crate::{fault::Fault, path::Path};
@@ -43,6 +46,26 @@ impl BodyBuilder {
         self
     }
 
+    /// A set of the nodes whose reference positions meet a condition.
+    pub fn nodes_where(mut self, set: impl Into<String>, holds: impl Fn(&Vec3) -> bool) -> Self {
+        let nodes = self.nodes_that(holds);
+        self.0.mesh.node_sets.insert(set, nodes);
+        self
+    }
+
+    /// A set of the boundary faces all of whose corners meet a condition at rest.
+    pub fn facets_where(mut self, set: impl Into<String>, holds: impl Fn(&Vec3) -> bool) -> Self {
+        let faces = self.0.mesh.faces_of_nodes(&self.nodes_that(holds));
+        self.0.mesh.facet_sets.insert(set, faces);
+        self
+    }
+
+    fn nodes_that(&self, holds: impl Fn(&Vec3) -> bool) -> Vec<NodeId> {
+        let positions = self.0.mesh.positions.iter().enumerate();
+        let chosen = positions.filter(|(_, position)| holds(position));
+        chosen.map(|(node, _)| NodeId::new(node)).collect()
+    }
+
     pub(super) fn body(self) -> Body {
         self.0
     }
@@ -79,6 +102,22 @@ pub fn rigid_surface(
     RigidBuilder::new(name, RigidShape::Facets { positions, facets })
 }
 
+/// A rigid solid of uniform density inside closed facets, which turns about its centre
+/// of mass.
+///
+/// # Errors
+/// When the facets leave the solid open, or look inward.
+pub fn rigid_solid(
+    name: impl Into<String>,
+    positions: Vec<Vec3>,
+    facets: Vec<[NodeId; 4]>,
+    density: f64,
+) -> Result<RigidBuilder, SolidError> {
+    let inertia = solid::inertia(&positions, &facets, density)?;
+    let rigid = rigid_surface(name, positions, facets);
+    Ok(rigid.reference(inertia.centre).inertia(inertia))
+}
+
 /// A rigid body without a surface that a node set of a deformable body is tied to.
 pub fn tied(
     name: impl Into<String>,
@@ -96,6 +135,12 @@ impl RigidBuilder {
             surface: RigidSurface::new(name, shape),
             ties: Vec::new(),
         }
+    }
+
+    /// Ties another node set of a deformable body to it.
+    pub fn and_tied(mut self, body: impl Into<String>, nodes: impl Into<String>) -> Self {
+        self.ties.push((body.into(), nodes.into()));
+        self
     }
 
     /// The point about which it turns.

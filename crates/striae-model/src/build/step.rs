@@ -2,12 +2,12 @@
 //!
 //! Longer than other files, as it is the one list of all that a step can state.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use striae_law::friction::Friction;
-use striae_mesh::Vec3;
+use striae_mesh::{NodeId, Vec3};
 use striae_solve::model::{
-    Curve, Displacement, Freedom, Gravity, Increments, Load, LoadExtent, LoadKind, Mover,
+    BodyId, Curve, Displacement, Freedom, Gravity, Increments, Load, LoadExtent, LoadKind, Mover,
     Procedure, Release, RigidMotion, Step, Velocity,
 };
 
@@ -62,12 +62,21 @@ type Place = (String, String);
 pub struct StepBuilder {
     step: Step,
     displacements: Vec<(Place, Components, Curve)>,
-    releases: Vec<(Place, [bool; 3])>,
+    releases: Vec<(Place, Released)>,
     loads: Vec<(Place, LoadKind, LoadExtent, Curve)>,
     motions: Vec<(String, RigidMotion)>,
     velocities: Vec<(Owner, Velocity)>,
     frictions: Vec<(String, Friction)>,
     last: Last,
+}
+
+/// Which components a release sets free.
+#[derive(Clone, Copy, Debug)]
+enum Released {
+    /// These.
+    Chosen([bool; 3]),
+    /// All that are prescribed.
+    Prescribed,
 }
 
 #[derive(Clone, Debug)]
@@ -83,6 +92,7 @@ enum Last {
     Displacement,
     Load,
     Motion,
+    Velocity,
     Gravity,
 }
 
@@ -164,8 +174,15 @@ impl StepBuilder {
     ) -> Self {
         let components =
             [Component::X, Component::Y, Component::Z].map(|one| components.contains(&one));
-        self.releases
-            .push(((body.into(), nodes.into()), components));
+        let place = (body.into(), nodes.into());
+        self.releases.push((place, Released::Chosen(components)));
+        self
+    }
+
+    /// Ends all prescribed displacements of a node set.
+    pub fn release_all(mut self, body: impl Into<String>, nodes: impl Into<String>) -> Self {
+        let place = (body.into(), nodes.into());
+        self.releases.push((place, Released::Prescribed));
         self
     }
 
@@ -253,12 +270,23 @@ impl StepBuilder {
 
     fn with_velocity(mut self, owner: Owner, velocity: Vec3) -> Self {
         let velocity = Velocity {
-            body: Mover::Deformable(striae_solve::model::BodyId(0)),
+            body: Mover::Deformable(BodyId(0)),
             velocity,
             spin: Vec3::zeros(),
             about: Vec3::zeros(),
         };
         self.velocities.push((owner, velocity));
+        self.last = Last::Velocity;
+        self
+    }
+
+    /// Adds a spin (radians per time) about an axis through a point to the velocity that
+    /// was stated last.
+    pub fn spinning(mut self, spin: impl Into<Vec3>, about: impl Into<Vec3>) -> Self {
+        if let (Last::Velocity, Some((_, velocity))) = (self.last, self.velocities.last_mut()) {
+            velocity.spin = spin.into();
+            velocity.about = about.into();
+        }
         self
     }
 
@@ -271,7 +299,7 @@ impl StepBuilder {
     /// Takes what was stated last to its target along a curve instead of a ramp.
     pub fn along(mut self, curve: Curve) -> Self {
         let of_last = match self.last {
-            Last::Nothing => None,
+            Last::Nothing | Last::Velocity => None,
             Last::Displacement => self.displacements.last_mut().map(|(_, _, curve)| curve),
             Last::Load => self.loads.last_mut().map(|(_, _, _, curve)| curve),
             Last::Motion => self.motions.last_mut().map(|(_, motion)| &mut motion.curve),
@@ -288,6 +316,7 @@ impl StepBuilder {
         resolved: &mut Resolved,
         path: &Path,
         names: &Names<'_>,
+        prescribed: &Prescribed,
         faults: &mut Vec<Fault>,
     ) {
         resolved.step.displacements =
@@ -307,10 +336,14 @@ impl StepBuilder {
             let ((body, set), components) = of;
             let path = path.clone().field("releases").index(index);
             let (body, nodes) = names.nodes(body, set, &path, faults)?;
+            let components = match components {
+                Released::Chosen(components) => *components,
+                Released::Prescribed => prescribed.on(body, &nodes),
+            };
             Some(Release {
                 body,
                 nodes,
-                components: *components,
+                components,
             })
         });
     }
@@ -319,6 +352,7 @@ impl StepBuilder {
         &self,
         index: usize,
         names: &Names<'_>,
+        prescribed: &mut Prescribed,
         faults: &mut Vec<Fault>,
     ) -> Resolved {
         let mut resolved = Resolved {
@@ -329,7 +363,8 @@ impl StepBuilder {
         };
         let path = Path::part("steps", index);
         let at = |list: &'static str, index| path.clone().field(list).index(index);
-        self.resolve_displacements(&mut resolved, &path, names, faults);
+        self.resolve_displacements(&mut resolved, &path, names, prescribed, faults);
+        prescribed.after(&resolved.step);
         resolved.step.loads = resolved.all("loads", &self.loads, |index, of| {
             let ((body, set), kind, extent, curve) = of;
             let (body, faces) = names.faces(body, set, &at("loads", index), faults)?;
@@ -360,6 +395,38 @@ impl StepBuilder {
             Some((pair, of.1.clone()))
         });
         resolved
+    }
+}
+
+/// What is prescribed after the steps so far: components of nodes of bodies.
+#[derive(Default)]
+pub(super) struct Prescribed(BTreeSet<(BodyId, NodeId, usize)>);
+
+impl Prescribed {
+    /// Components that are prescribed at some of these nodes.
+    fn on(&self, body: BodyId, nodes: &[NodeId]) -> [bool; 3] {
+        [0, 1, 2].map(|axis| {
+            nodes
+                .iter()
+                .any(|node| self.0.contains(&(body, *node, axis)))
+        })
+    }
+
+    /// Takes the releases of a step, then its displacements, into account.
+    pub(super) fn after(&mut self, step: &Step) {
+        for release in &step.releases {
+            for axis in (0..3).filter(|axis| release.components[*axis]) {
+                for node in &release.nodes {
+                    self.0.remove(&(release.body, *node, axis));
+                }
+            }
+        }
+        for stated in &step.displacements {
+            for axis in (0..3).filter(|axis| stated.components[*axis].is_some()) {
+                let nodes = stated.nodes.iter().map(|node| (stated.body, *node, axis));
+                self.0.extend(nodes);
+            }
+        }
     }
 }
 

@@ -1,0 +1,137 @@
+"""Finite-element contact with anisotropic friction.
+
+A block is pressed onto a grooved floor and dragged across:
+
+>>> import striae as st
+>>> rubber = st.NeoHookean(youngs_modulus=1e6, poissons_ratio=0.3)
+>>> pad = st.Body("pad", st.block(divisions=(2, 2, 2)), rubber)
+>>> floor = st.Plane("floor", texture=(1, 0, 0))
+>>> law = st.Orthotropic(along=0.1, across=0.4)
+>>> model = st.Model([pad], [floor], [st.Pair(pad["zmin"], floor, law)])
+>>> _ = model.step("press", pad["zmax"].displace(x=0, y=0, z=-0.02), increments=2)
+>>> _ = model.step("drag", pad["zmax"].displace(y=0.3), increments=5)
+>>> run = model.run()
+>>> force = run[-1].pair(0).force
+>>> float(round(force[1] / force[2], 3))
+-0.4
+
+Quantities are in one consistent system of units of your choice, for instance m, N, Pa, s, kg;
+docstrings say what each is. Angles are in degrees. Nodes count from 0.
+"""
+
+from ._body import Body, BodySet
+from ._errors import (
+    Fault,
+    ModelError,
+    RunInterrupted,
+    RunStopped,
+    RunWarning,
+)
+from ._friction import (
+    Coulomb,
+    Friction,
+    Frictionless,
+    Nap,
+    Orthotropic,
+    SlipSurface,
+    Tabulated,
+    TwoTextures,
+)
+from ._material import (
+    ArrudaBoyce,
+    Gent,
+    IsochoricNeoHookean,
+    LinearElastic,
+    Material,
+    MooneyRivlin,
+    NeoHookean,
+    Ogden,
+    Rubber,
+    Yeoh,
+)
+from ._mesh import Grading, Mesh, annulus, block, capped_block, half_cylinder, read_mesh
+from ._model import Check, Fit, Model, Solver
+from ._pair import Pair
+from ._results import (
+    BodyResults,
+    Energies,
+    Increment,
+    PairResults,
+    RigidResults,
+    SideResults,
+    Status,
+)
+from ._rigid import Plane, Rigid, RigidBody, RigidSurface
+from ._run import History, Run, resume
+from ._step import Condition, Dynamics, Increments, Step, gravity
+from ._sweep import Sweep, SweepPoint, sweep
+from ._texture import Axial, Circumferential, Nodal, Painted, Radial, Texture, Uniform
+
+__all__ = [
+    "ArrudaBoyce",
+    "Axial",
+    "Body",
+    "BodyResults",
+    "BodySet",
+    "Check",
+    "Circumferential",
+    "Condition",
+    "Coulomb",
+    "Dynamics",
+    "Energies",
+    "Fault",
+    "Fit",
+    "Friction",
+    "Frictionless",
+    "Gent",
+    "Grading",
+    "History",
+    "Increment",
+    "Increments",
+    "IsochoricNeoHookean",
+    "LinearElastic",
+    "Material",
+    "Mesh",
+    "Model",
+    "ModelError",
+    "MooneyRivlin",
+    "Nap",
+    "NeoHookean",
+    "Nodal",
+    "Ogden",
+    "Orthotropic",
+    "Painted",
+    "Pair",
+    "PairResults",
+    "Plane",
+    "Radial",
+    "Rigid",
+    "RigidBody",
+    "RigidResults",
+    "RigidSurface",
+    "Rubber",
+    "Run",
+    "RunInterrupted",
+    "RunStopped",
+    "RunWarning",
+    "SideResults",
+    "SlipSurface",
+    "Solver",
+    "Status",
+    "Step",
+    "Sweep",
+    "SweepPoint",
+    "Tabulated",
+    "Texture",
+    "TwoTextures",
+    "Uniform",
+    "Yeoh",
+    "annulus",
+    "block",
+    "capped_block",
+    "gravity",
+    "half_cylinder",
+    "read_mesh",
+    "resume",
+    "sweep",
+]

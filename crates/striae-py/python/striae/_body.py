@@ -1,0 +1,223 @@
+"""Deformable bodies and their sets."""
+
+from __future__ import annotations
+
+from typing import Any, Literal, Optional, Union
+
+from . import _check as check
+from . import _striae as native
+from ._check import Curve, Members, Vector
+from ._errors import refuse
+from ._material import Material
+from ._mesh import Mesh, listed
+from ._step import Condition
+from ._texture import Texture, texture
+
+Extent = Literal["whole", "exposed"]
+
+
+class BodySet:
+    """A set of nodes, of facets, or both, of a body, by its name: ``body["top"]``."""
+
+    def __init__(self, body: Body, name: str, texture: Optional[Texture] = None) -> None:
+        """Sets are got from bodies, ``body["top"]``."""
+        self.body = body
+        """The body."""
+        self.name = name
+        """Name of the set."""
+        self.texture = texture
+        """Texture of the surface, if it has one."""
+
+    def textured(self, along: Union[Texture, Vector]) -> BodySet:
+        """The surface with a texture, as a side of a pair.
+
+        along: a texture, or one direction of any length.
+        """
+        return BodySet(self.body, self.name, texture(along))
+
+    def displace(
+        self,
+        *,
+        x: Optional[float] = None,
+        y: Optional[float] = None,
+        z: Optional[float] = None,
+        curve: Curve = "ramp",
+    ) -> Condition:
+        """Takes the nodes to a displacement from their positions at rest.
+
+        x, y, z: targets (length); a component that is left out stays as it is.
+        curve: how the targets are approached.
+        """
+        given = [("x", x), ("y", y), ("z", z)]
+        targets = [None if value is None else check.number(value, axis) for axis, value in given]
+        if all(target is None for target in targets):
+            raise refuse(str(self), "a displacement needs at least one of x, y and z")
+        along = check.curve(curve, "curve")
+        body, name = self.body.name, self.name
+        return Condition(
+            f"displacement of {self}", lambda step: step.displace(body, name, targets, along)
+        )
+
+    def hold(self) -> Condition:
+        """Holds the nodes at their positions at rest."""
+        return self.displace(x=0.0, y=0.0, z=0.0)
+
+    def release(self, *components: Literal["x", "y", "z"]) -> Condition:
+        """Ends prescribed displacements of the nodes.
+
+        components: those that become free; all that are prescribed where none is given.
+        """
+        axes = ["x", "y", "z"]
+        chosen = [axes.index(check.word(one, axes, "components")) for one in components]
+        body, name = self.body.name, self.name
+        return Condition(f"release of {self}", lambda step: step.release(body, name, chosen))
+
+    def pressure(
+        self, value: float, *, extent: Extent = "whole", curve: Curve = "ramp"
+    ) -> Condition:
+        """Presses on the facets, against their current normals.
+
+        value: target, positive inwards (force per current area).
+        extent: ``whole``, or ``exposed``: only what no other contact surface covers.
+        curve: how the target is approached.
+        """
+        target, along = check.number(value, "value"), check.curve(curve, "curve")
+        exposed = check.word(extent, ("whole", "exposed"), "extent") == "exposed"
+        body, name = self.body.name, self.name
+        return Condition(
+            f"pressure on {self}",
+            lambda step: step.pressure(body, name, target, exposed, along),
+        )
+
+    def traction(
+        self,
+        value: Vector,
+        *,
+        direction: Literal["dead", "follower"] = "dead",
+        extent: Extent = "whole",
+        curve: Curve = "ramp",
+    ) -> Condition:
+        """Pulls on the facets.
+
+        value: target (force per reference area, per current area of a follower).
+        direction: ``dead``: it stays; ``follower``: it turns with the facet.
+        extent: ``whole``, or ``exposed``: only what no other contact surface covers.
+        curve: how the target is approached.
+        """
+        target, along = check.vector(value, "value"), check.curve(curve, "curve")
+        follower = check.word(direction, ("dead", "follower"), "direction") == "follower"
+        exposed = check.word(extent, ("whole", "exposed"), "extent") == "exposed"
+        body, name = self.body.name, self.name
+        return Condition(
+            f"traction on {self}",
+            lambda step: step.traction(body, name, target, follower, exposed, along),
+        )
+
+    def __repr__(self) -> str:
+        return f"{self.body.name}[{self.name!r}]"
+
+
+class Body:
+    """A deformable body."""
+
+    name: str
+    """Unique name."""
+    mesh: Mesh
+    """Mesh of the body at rest."""
+    material: Optional[Material]
+    """Bulk material; none is known here of a body from a deck."""
+    density: Optional[float]
+    """Mass per volume at rest."""
+
+    def __init__(
+        self,
+        name: str,
+        mesh: Any,
+        material: Material,
+        *,
+        density: Optional[float] = None,
+        contact_mass: Literal["consistent", "redistributed"] = "consistent",
+        formulation: Optional[Literal["standard", "mean-dilatation"]] = None,
+    ) -> None:
+        """Makes a body.
+
+        name: unique name.
+        mesh: a :class:`Mesh`, a path, or a mesh of meshio or pyvista; see :meth:`Mesh.of`.
+        material: bulk material.
+        density: mass per volume at rest, for inertia and gravity.
+        contact_mass: mass of the nodes of contact surfaces in dynamic steps: ``consistent``,
+            or ``redistributed`` to the nodes behind, against oscillations of contact.
+        formulation: of its elements, ``standard`` or ``mean-dilatation``, which does not lock
+            where volumes can hardly change; by default the latter where Poisson's ratio at
+            rest is above 0.45.
+        """
+        self.name = check.name(name, "name")
+        self.mesh = Mesh.of(mesh)
+        self.material = check.kind(material, Material, "material")
+        self.density = None if density is None else check.positive(density, "density")
+        known = ("consistent", "redistributed")
+        self._redistributed = check.word(contact_mass, known, "contact_mass") == "redistributed"
+        self._formulation = (
+            None
+            if formulation is None
+            else check.word(formulation, ("standard", "mean-dilatation"), "formulation")
+        )
+
+    @classmethod
+    def _known(cls, name: str, mesh: Mesh) -> Body:
+        body = cls.__new__(cls)
+        body.name, body.mesh = name, mesh
+        body.material, body.density, body._redistributed = None, None, False
+        body._formulation = None
+        return body
+
+    def __getitem__(self, name: str) -> BodySet:
+        """A set of the body; name: of a node set or facet set of the mesh."""
+        nodes, facets = self.mesh.node_sets, self.mesh.facet_sets
+        if name not in nodes and name not in facets:
+            have = listed({**nodes, **facets})
+            raise refuse(f"body `{self.name}`", f"there is no set `{name}`{have}")
+        return BodySet(self, name)
+
+    def add_set(self, name: str, members: Members) -> BodySet:
+        """Adds a set of nodes, and of the facets of the boundary all of whose corners are
+        among them, and returns it.
+
+        name: of the set; one of the same name is replaced.
+        members: numbers of the nodes, a boolean mask over all nodes, or a function that takes
+            their positions (length), of shape (n, 3), and returns a mask.
+        """
+        with_nodes = self.mesh.with_sets(nodes={name: members})
+        chosen = with_nodes.node_sets[name]
+        if not len(chosen):
+            raise refuse(f"body `{self.name}`", f"no node is in set `{name}`")
+        self.mesh = with_nodes.with_sets(facets={name: chosen})
+        return BodySet(self, name)
+
+    def velocity(
+        self,
+        value: Vector = (0.0, 0.0, 0.0),
+        *,
+        spin: Vector = (0.0, 0.0, 0.0),
+        about: Vector = (0.0, 0.0, 0.0),
+    ) -> Condition:
+        """Gives the body the velocity ``value + spin x (x - about)`` at the start of a dynamic
+        step.
+
+        value: velocity (length per time).
+        spin: angular velocity (radians per time).
+        about: a point of the axis of the spin (length).
+        """
+        v, w = check.vector(value, "value"), check.vector(spin, "spin")
+        point, name = check.vector(about, "about"), self.name
+        return Condition(f"velocity of {name}", lambda step: step.velocity(name, v, w, point))
+
+    def _part(
+        self,
+    ) -> tuple[str, native.Mesh, native.Material, Optional[float], bool, Optional[str]]:
+        material = check.kind(self.material, Material, "material")
+        mesh, mass = self.mesh._native, self._redistributed
+        return self.name, mesh, material._native, self.density, mass, self._formulation
+
+    def __repr__(self) -> str:
+        return f"Body({self.name!r}, {self.mesh!r}, {self.material!r})"

@@ -1,0 +1,159 @@
+"""Arguments of Python as the numbers and arrays that the native part takes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, Literal, TypeAlias, TypeVar, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from ._errors import refuse
+
+Floats: TypeAlias = npt.NDArray[np.float64]
+Ints: TypeAlias = npt.NDArray[np.int64]
+Vector: TypeAlias = Union[Sequence[float], Floats]
+Curve: TypeAlias = Union[Literal["ramp", "constant", "smooth"], Sequence[tuple[float, float]]]
+Members: TypeAlias = Union[npt.ArrayLike, Callable[[Floats], npt.ArrayLike]]
+
+CURVES = ("ramp", "constant", "smooth")
+
+T = TypeVar("T")
+
+
+def array(value: Any, path: str) -> npt.NDArray[Any]:
+    """The value as an array of numbers."""
+    try:
+        found = np.asarray(value)
+    except ValueError:
+        raise refuse(path, "the rows must all have the same length") from None
+    if found.dtype.kind not in "iuf":
+        raise refuse(path, f"numbers are needed, but the array has dtype {found.dtype}")
+    return found
+
+
+def finite(found: npt.NDArray[Any], path: str) -> Floats:
+    """Floats in C order, all of them finite."""
+    floats = np.ascontiguousarray(found, dtype=np.float64)
+    bad = ~np.isfinite(floats)
+    if bad.any():
+        row = int(np.argwhere(bad)[0][0])
+        raise refuse(path, f"row {row} is not finite: {floats[row].tolist()}")
+    return floats
+
+
+def rows(value: Any, path: str) -> Floats:
+    """An array of shape (n, 3)."""
+    found = array(value, path)
+    if found.ndim != 2 or found.shape[1] != 3:
+        raise refuse(path, f"an array of shape (n, 3) is needed, but it has shape {found.shape}")
+    return finite(found, path)
+
+
+def indices(value: Any, columns: int, path: str) -> Ints:
+    """An array of integers of shape (n, columns)."""
+    found = integers(value, path)
+    if found.ndim != 2 or found.shape[1] != columns:
+        raise refuse(
+            path, f"an array of shape (n, {columns}) is needed, but it has shape {found.shape}"
+        )
+    return found
+
+
+def integers(value: Any, path: str) -> Ints:
+    """Integers that are not negative, in C order."""
+    found = array(value, path)
+    if found.size == 0:
+        found = found.astype(np.int64)
+    if found.dtype.kind not in "iu":
+        raise refuse(path, f"integers are needed, but the array has dtype {found.dtype}")
+    if found.size and int(found.min()) < 0:
+        raise refuse(path, f"numbers count from 0, but there is {int(found.min())}")
+    return np.ascontiguousarray(found, dtype=np.int64)
+
+
+def vector(value: Any, path: str, count: int = 3) -> list[float]:
+    """So many finite numbers."""
+    found = array(value, path)
+    if found.shape != (count,):
+        raise refuse(path, f"{count} numbers are needed, but it has shape {found.shape}")
+    if not np.isfinite(found).all():
+        raise refuse(path, f"numbers must be finite, but they are {found.tolist()}")
+    return [float(number) for number in found]
+
+
+def counts(value: Any, path: str, count: int = 3) -> list[int]:
+    """So many integers of at least 1."""
+    found = integers(value, path)
+    if found.shape != (count,):
+        raise refuse(path, f"{count} integers are needed, but it has shape {found.shape}")
+    if int(found.min()) < 1:
+        raise refuse(path, f"at least 1 is needed, but there is {int(found.min())}")
+    return [int(number) for number in found]
+
+
+def number(value: Any, path: str) -> float:
+    """A finite number."""
+    if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
+        raise refuse(path, f"a number is needed, not {value!r}")
+    if not np.isfinite(value):
+        raise refuse(path, f"a finite number is needed, not {value!r}")
+    return float(value)
+
+
+def positive(value: Any, path: str) -> float:
+    """A positive number."""
+    found = number(value, path)
+    if not found > 0.0:
+        raise refuse(path, f"it must be positive, but is {found}")
+    return found
+
+
+def whole(value: Any, path: str, least: int = 1) -> int:
+    """An integer of at least `least`."""
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
+        raise refuse(path, f"an integer is needed, not {value!r}")
+    if value < least:
+        raise refuse(path, f"it must be at least {least}, but is {value}")
+    return int(value)
+
+
+def word(value: Any, known: Sequence[str], path: str) -> str:
+    """One of a few words."""
+    if value not in known:
+        listed = ", ".join(f"`{one}`" for one in known)
+        raise refuse(path, f"one of {listed} is needed, not {value!r}")
+    return str(value)
+
+
+def name(value: Any, path: str) -> str:
+    """A name that is not empty."""
+    if not isinstance(value, str):
+        raise TypeError(f"{path}: a name is needed, not {value!r}")
+    if not value:
+        raise refuse(path, "a name must not be empty")
+    return value
+
+
+def kind(value: Any, class_: type[T], path: str) -> T:
+    """An object of a class."""
+    if not isinstance(value, class_):
+        raise TypeError(
+            f"{path}: an object of class {class_.__name__} is needed, not {type(value).__name__}"
+        )
+    return value
+
+
+def curve(value: Any, path: str) -> str | list[tuple[float, float]]:
+    """The name of a curve, or its points."""
+    if isinstance(value, str):
+        return word(value, CURVES, path)
+    found = array(value, path)
+    if found.ndim != 2 or found.shape[1] != 2:
+        raise refuse(
+            path,
+            "the name of a curve or points (fraction of the step, share of the change) are"
+            f" needed, but it has shape {found.shape}",
+        )
+    points = finite(found, path)
+    return [(float(s), float(c)) for s, c in points]

@@ -1,0 +1,79 @@
+"""Exceptions and warnings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from ._run import Run
+
+
+class Fault(NamedTuple):
+    """One fault of a model: the part that is wrong, and what is wrong with it."""
+
+    path: str
+    """The part, such as ``steps[1].displacements[0]``, counted from 0."""
+    message: str
+    """What was found and what is needed."""
+
+
+class ModelError(ValueError):
+    """A model, or a part of it, cannot be simulated.
+
+    It lists every fault there is, each with the path of the part that is wrong.
+    """
+
+    faults: list[Fault]
+    """All faults, each a path and a message."""
+
+    def __init__(self, faults: Iterable[tuple[str, str]]) -> None:
+        """Makes the exception from faults, pairs of path and message."""
+        self.faults = [Fault(path, message) for path, message in faults]
+        super().__init__(self.faults)
+
+    def __str__(self) -> str:
+        lines = [f"{fault.path}: {fault.message}" for fault in self.faults]
+        if len(lines) > 1:
+            lines.append(f"{len(lines)} faults")
+        return "\n".join(lines)
+
+
+class RunStopped(RuntimeError):
+    """A run ended before its last step was done; the message says why.
+
+    What had converged is in :attr:`run`, and on disk if the run was recorded.
+    """
+
+    run: Run
+    """The run up to its last converged increment."""
+
+    def __init__(self, run: Run) -> None:
+        """Makes the exception from the run that was stopped."""
+        super().__init__(run.reason)
+        self.run = run
+
+
+class RunInterrupted(KeyboardInterrupt):
+    """A run was interrupted from the keyboard.
+
+    It ends after the increment under way. What had converged is in :attr:`run`, and on
+    disk if the run was recorded.
+    """
+
+    run: Run
+    """The run up to its last converged increment."""
+
+    def __init__(self, run: Run) -> None:
+        """Makes the exception from the run that was interrupted."""
+        super().__init__(run.reason)
+        self.run = run
+
+
+class RunWarning(UserWarning):
+    """Results of a run are doubtful; the message says why."""
+
+
+def refuse(path: str, message: str) -> ModelError:
+    """The exception with one fault."""
+    return ModelError([(path, message)])

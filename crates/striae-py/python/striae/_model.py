@@ -1,0 +1,317 @@
+"""Models: bodies, pairs and steps."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from functools import cached_property
+from typing import Literal, NamedTuple, Optional, Union
+
+from . import _check as check
+from . import _striae as native
+from ._body import Body
+from ._errors import refuse
+from ._friction import Friction, Frictionless
+from ._mesh import Mesh
+from ._pair import Pair, _change
+from ._rigid import Rigid
+from ._run import Callback, Keep, Path, Run, concluded, record, watch
+from ._step import Condition, Dynamics, Increments, Step
+
+BACKENDS = ("condensed", "multifrontal", "faer", "iterative")
+
+
+class Solver:
+    """Newton's method and the linear solver."""
+
+    def __init__(
+        self,
+        backend: Literal["condensed", "multifrontal", "faer", "iterative"] = "condensed",
+        *,
+        tolerance: float = 1e-10,
+        largest_iterations: int = 40,
+    ) -> None:
+        """Makes the settings.
+
+        backend: factorisation: ``condensed`` (bodies by Cholesky, contact by dense algebra,
+            and another one where that does not pay), ``multifrontal``, ``faer``, ``iterative``.
+        tolerance: relative tolerance of every residual field (no unit).
+        largest_iterations: iterations after which an increment is cut.
+        """
+        self.backend = check.word(backend, BACKENDS, "backend")
+        """Factorisation."""
+        self.tolerance = check.positive(tolerance, "tolerance")
+        """Relative tolerance of every residual field (no unit)."""
+        self.largest_iterations = check.whole(largest_iterations, "largest_iterations")
+        """Iterations after which an increment is cut."""
+
+
+class Fit(NamedTuple):
+    """How the meshes of a pair fit before anything has moved."""
+
+    pair: str
+    """Name of the pair."""
+    gap: Optional[float]
+    """Smallest gap; ``None`` where the sides do not face each other (length)."""
+    overlap: float
+    """Deepest overlap (length)."""
+    distance: float
+    """Nearest distance of the sides, whatever faces what (length)."""
+
+
+class Check(NamedTuple):
+    """What :meth:`Model.check` found."""
+
+    unknowns: int
+    """Unknowns at the start."""
+    fits: list[Fit]
+    """How the pairs fit."""
+    warnings: list[str]
+    """What is likely to be meant otherwise."""
+
+
+class Model:
+    """What is to be simulated. Quantities are in one consistent system of units of your choice."""
+
+    _title: str
+    _base: Optional[native.Model]
+    _earlier: list[str]
+    _bodies: list[Body]
+    _rigid: list[Rigid]
+    _pairs: list[Pair]
+    _steps: list[Step]
+    _solver: Solver
+    _running: int
+    _last_run: Optional[Run]
+
+    def __init__(
+        self,
+        bodies: Sequence[Body] = (),
+        rigid: Sequence[Rigid] = (),
+        pairs: Sequence[Pair] = (),
+        *,
+        steps: Sequence[Step] = (),
+        title: str = "model",
+        solver: Optional[Solver] = None,
+    ) -> None:
+        """Makes a model.
+
+        bodies: deformable bodies.
+        rigid: rigid bodies.
+        pairs: contact pairs.
+        steps: the loading history; :meth:`step` adds to it.
+        title: a line that says what it is.
+        solver: settings of the solver.
+        """
+        self._begin(title)
+        self._bodies = [check.kind(one, Body, "bodies") for one in bodies]
+        self._rigid = [check.kind(one, Rigid, "rigid") for one in rigid]
+        self._pairs = [check.kind(one, Pair, "pairs") for one in pairs]
+        self._steps = [check.kind(one, Step, "steps") for one in steps]
+        self._solver = Solver() if solver is None else check.kind(solver, Solver, "solver")
+
+    def _begin(self, title: str) -> None:
+        self._title = title
+        self._base, self._earlier = None, []
+        self._bodies, self._rigid, self._pairs, self._steps = [], [], [], []
+        self._solver = Solver()
+        self._running = 0
+        self._last_run = None
+
+    @classmethod
+    def _of(cls, base: native.Model) -> Model:
+        model = cls.__new__(cls)
+        model._begin(base.title)
+        model._base, model._earlier = base, base.steps()
+        names = enumerate(base.bodies())
+        model._bodies = [Body._known(name, Mesh._of(base.mesh(at))) for at, name in names]
+        model._rigid = [Rigid._known(name) for name in base.rigid()]
+        return model
+
+    @classmethod
+    def from_deck(cls, path: Path) -> Model:
+        """The model of a deck; further steps can be added.
+
+        path: the deck, a TOML file.
+        """
+        return cls._of(native.Model.from_deck(os.fspath(path)))
+
+    @classmethod
+    def from_text(cls, text: str, folder: Path = ".") -> Model:
+        """The model of a deck that is at hand as text.
+
+        text: the deck, TOML.
+        folder: to which paths in the deck are relative.
+        """
+        return cls._of(native.Model.from_text(text, os.fspath(folder)))
+
+    def step(
+        self,
+        name: str,
+        *conditions: Condition,
+        duration: float = 1.0,
+        increments: Union[int, Increments] = 10,
+        dynamics: Optional[Dynamics] = None,
+    ) -> Step:
+        """Adds a step after those before.
+
+        name: unique name.
+        conditions: what the step states.
+        duration: in (pseudo) time.
+        increments: number of equal increments, cut where needed, or their sizes.
+        dynamics: inertia; without it the step is a sequence of equilibria.
+        """
+        if self._running:
+            raise RuntimeError("the model is running; change it when the run has ended")
+        made = Step(
+            name, *conditions, duration=duration, increments=increments, dynamics=dynamics
+        )
+        self._steps.append(made)
+        return made
+
+    @property
+    def title(self) -> str:
+        """A line that says what the model is."""
+        return self._title
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        """Deformable bodies."""
+        return tuple(self._bodies)
+
+    @property
+    def rigid(self) -> tuple[Rigid, ...]:
+        """Rigid bodies."""
+        return tuple(self._rigid)
+
+    @property
+    def body_names(self) -> list[str]:
+        """Names of the deformable bodies."""
+        return [body.name for body in self._bodies]
+
+    @property
+    def rigid_names(self) -> list[str]:
+        """Names of the rigid bodies."""
+        return [rigid.name for rigid in self._rigid]
+
+    @property
+    def pair_names(self) -> list[str]:
+        """Names of the pairs."""
+        return [pair.name for pair in self._pairs] if self._base is None else self._base.pairs()
+
+    @property
+    def step_names(self) -> list[str]:
+        """Names of the steps."""
+        return self._earlier + [step.name for step in self._steps]
+
+    @property
+    def last_run(self) -> Optional[Run]:
+        """The last run of the model, also if an exception ended it."""
+        return self._last_run
+
+    def body(self, name: str) -> Body:
+        """A deformable body; name: of the body."""
+        return self._bodies[self._position("body", self.body_names, name)]
+
+    def rigid_body(self, name: str) -> Rigid:
+        """A rigid body; name: of the body."""
+        return self._rigid[self._position("rigid body", self.rigid_names, name)]
+
+    def friction(self, pair: Union[int, str]) -> Friction:
+        """Friction of a pair from the start; pair: its name, or its number from 0."""
+        index = self._position("pair", self.pair_names, pair)
+        if self._base is None:
+            law = self._pairs[index].friction
+            return Frictionless() if law is None else law
+        return Friction._of(self._base.friction(index), f"friction of {self.pair_names[index]}")
+
+    def change_friction(self, pair: Union[int, str], friction: Friction) -> Condition:
+        """Changes the friction of a pair at the start of a step.
+
+        pair: its name, or its number from 0.
+        friction: the new law.
+        """
+        return _change(self.pair_names[self._position("pair", self.pair_names, pair)], friction)
+
+    def check(self) -> Check:
+        """Finds all faults; raises :class:`ModelError` with them, or says how the meshes fit.
+
+        Nothing is computed yet. :meth:`run` checks, too.
+        """
+        unknowns, fits, warnings = self._compiled().check()
+        named = zip(self.pair_names, fits)
+        return Check(unknowns, [Fit(name, *fit) for name, fit in named], warnings)
+
+    def run(
+        self,
+        on_increment: Optional[Callback] = None,
+        *,
+        output: Optional[Path] = None,
+        case: Optional[str] = None,
+        fields_every: Optional[int] = None,
+        keep: Keep = "all",
+        threads: Optional[int] = None,
+        on_stop: Literal["raise", "return"] = "raise",
+    ) -> Run:
+        """Runs the model.
+
+        Other threads of Python go on meanwhile. Ctrl-C ends the run after the increment under
+        way and raises :class:`RunInterrupted`; an exception of ``on_increment`` ends it, too.
+        In both cases files are complete and :attr:`last_run` has what had converged.
+
+        on_increment: called with each converged increment on the thread that runs the model;
+            if it returns ``False``, the run ends there.
+        output: folder for the files that the program writes (fields for ParaView, history,
+            summary); nothing is written by default.
+        case: name of the case in these files; the title, or that of the deck, by default.
+        fields_every: increments between files of fields; 0: only the last.
+        keep: increments of which the state is kept in memory: ``all``, ``steps`` (the last
+            one of each step), ``last``, or a number, every so many. The last is always kept.
+        threads: number of threads; that of the machine by default. Results do not depend on it.
+        on_stop: what becomes of a run that cannot reach its end: ``raise``
+            :class:`RunStopped`, or ``return`` it.
+        """
+        check.word(on_stop, ("raise", "return"), "on_stop")
+        watching = watch(on_increment, keep, threads, self)
+        recording = record(output, case, fields_every)
+        compiled = self._compiled()
+        self._running += 1
+        try:
+            ended = native.run(compiled, watching, recording)
+        finally:
+            self._running -= 1
+        return concluded(ended, self, on_stop)
+
+    def _compiled(self) -> native.Model:
+        steps = [step._native for step in self._steps]
+        if self._base is not None:
+            return self._base.extended(steps) if steps else self._base
+        solver = self._solver
+        return native.Model.build(
+            self._title,
+            [body._part() for body in self._bodies],
+            [one._native for one in self._rigid if one._native is not None],
+            [pair._native for pair in self._pairs],
+            steps,
+            (solver.backend, solver.tolerance, solver.largest_iterations),
+        )
+
+    @cached_property
+    def _meshes(self) -> dict[str, Mesh]:
+        return {body.name: body.mesh for body in self._bodies}
+
+    def _position(self, kind: str, names: Sequence[str], which: Union[int, str]) -> int:
+        if isinstance(which, str):
+            if which not in names:
+                known = ", ".join(f"`{name}`" for name in names) or "none"
+                raise refuse("model", f"no {kind} is named `{which}`; there is {known}")
+            return names.index(which)
+        if not -len(names) <= which < len(names):
+            raise refuse("model", f"there is no {kind} {which}; there are {len(names)}, from 0")
+        return range(len(names))[which]
+
+    def __repr__(self) -> str:
+        return (
+            f"Model({self._title!r}, bodies {self.body_names}, rigid {self.rigid_names},"
+            f" pairs {self.pair_names}, steps {self.step_names})"
+        )

@@ -1,0 +1,101 @@
+"""Contact pairs."""
+
+from __future__ import annotations
+
+from typing import Literal, Optional, Union
+
+from . import _check as check
+from . import _striae as native
+from ._body import BodySet
+from ._errors import refuse
+from ._friction import Friction
+from ._rigid import Rigid
+from ._step import Condition
+
+
+class Pair:
+    """Two surfaces that may touch; neither is master or slave.
+
+    Side ``a`` is the first one, but a rigid surface always becomes side ``b``.
+    """
+
+    def __init__(
+        self,
+        a: Union[BodySet, Rigid],
+        b: Union[BodySet, Rigid],
+        friction: Optional[Friction] = None,
+        *,
+        name: Optional[str] = None,
+        initial: Union[Literal["as-meshed", "close", "resolve"], float] = "as-meshed",
+        stabilise: bool = False,
+        enforcement: Literal["weighted", "collocated"] = "weighted",
+        search_distance: Optional[float] = None,
+    ) -> None:
+        """Makes a pair.
+
+        a, b: facet sets of bodies, with their textures, or rigid bodies.
+        friction: law from the start; steps may change it. Frictionless by default.
+        name: unique name; made of the names of the bodies by default.
+        initial: what is made of gaps and overlaps of the meshes: ``as-meshed`` takes gaps as
+            they are and refuses overlaps, ``close`` moves nodes without strain, ``resolve``
+            presses overlaps out in the first step; a number closes gaps up to it (length).
+        stabilise: whether viscous forces carry bodies that nothing else holds across a gap,
+            in steps without inertia; they fall to zero within the step.
+        enforcement: ``weighted``, or ``collocated`` as in the paper, for comparison.
+        search_distance: over which contact is looked for ahead (length); it bears on the
+            cost, not on the result.
+        """
+        for side, path in [(a, "a"), (b, "b")]:
+            if not isinstance(side, (BodySet, Rigid)):
+                raise TypeError(
+                    f"{path}: a set such as body['top'] or a rigid body is needed,"
+                    f" not {type(side).__name__}"
+                )
+        if friction is not None:
+            check.kind(friction, Friction, "friction")
+        owners = [side.body.name if isinstance(side, BodySet) else side.name for side in (a, b)]
+        self.name = "-".join(owners) if name is None else check.name(name, "name")
+        """Unique name."""
+        self.a = a
+        """First side."""
+        self.b = b
+        """Second side."""
+        self.friction = friction
+        """Friction law from the start."""
+        sides = [_side(a), _side(b)]
+        textures = [side.texture._native if side.texture is not None else None for side in (a, b)]
+        law = None if friction is None else friction._native
+        made = native.Pair(self.name, sides, (textures[0], textures[1]), law)
+        if isinstance(initial, str):
+            treatment = check.word(initial, ("as-meshed", "close", "resolve"), "initial")
+            if treatment == "close":
+                made = made.closed(None)
+            elif treatment == "resolve":
+                made = made.resolved()
+        else:
+            made = made.closed(check.number(initial, "initial"))
+        if check.word(enforcement, ("weighted", "collocated"), "enforcement") == "collocated":
+            made = made.collocated()
+        if search_distance is not None:
+            made = made.searching(check.positive(search_distance, "search_distance"))
+        self._native = made.stabilised() if stabilise else made
+
+    def change_friction(self, friction: Friction) -> Condition:
+        """Changes the friction of the pair at the start of a step; friction: the new law."""
+        return _change(self.name, friction)
+
+    def __repr__(self) -> str:
+        return f"Pair({self.a!r}, {self.b!r}, {self.friction!r}, name={self.name!r})"
+
+
+def _change(name: str, friction: Friction) -> Condition:
+    law = check.kind(friction, Friction, "friction")._native
+    return Condition(f"friction of {name}", lambda step: step.friction(name, law))
+
+
+def _side(side: Union[BodySet, Rigid]) -> tuple[str, Optional[str]]:
+    if isinstance(side, Rigid):
+        return side.name, None
+    if side.name not in side.body.mesh.facet_sets:
+        raise refuse(f"body `{side.body.name}`", f"set `{side.name}` has no facets")
+    return side.body.name, side.name

@@ -1,0 +1,261 @@
+"""Runs that have ended, and their histories."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Literal, Optional, Union, overload
+
+import numpy as np
+
+from . import _check as check
+from . import _striae as native
+from ._check import Floats
+from ._errors import RunInterrupted, RunStopped, RunWarning, refuse
+from ._mesh import frozen
+from ._results import Increment
+from ._step import Step
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from pandas import DataFrame
+
+    from ._model import Model
+
+Path = Union[str, os.PathLike[str]]
+Callback = Callable[[Increment], Optional[bool]]
+Keep = Union[Literal["all", "steps", "last"], int]
+
+#: So many increments are between states that are kept if only the last one is.
+NEVER = 2**62
+
+
+class History(Mapping[str, Floats]):
+    """Resultants, reactions, motions and energies over the increments, by column.
+
+    Columns are named as in ``history.csv``: ``time``, ``pair.NAME.resultant_a.z``,
+    ``reaction.BODY.SET.x``, ``energy.friction``, ... They are views of one table that cannot
+    be written to.
+    """
+
+    def __init__(self, columns: list[str], rows: Floats) -> None:
+        """Histories are got from a run, ``run.history``."""
+        self._columns = {name: index for index, name in enumerate(columns)}
+        self._rows = frozen(rows)
+
+    @property
+    def table(self) -> Floats:
+        """All columns, of shape (increments, columns), in units of each column."""
+        return self._rows
+
+    def __getitem__(self, column: str) -> Floats:
+        """A column, of shape (increments,), in its unit; column: its name."""
+        if column not in self._columns:
+            close = [name for name in self._columns if column in name][:8]
+            hint = f"; similar are {close}" if close else ""
+            raise KeyError(f"no column is named `{column}`{hint}")
+        found: Floats = self._rows[:, self._columns[column]]
+        return found
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
+
+    def to_pandas(self) -> DataFrame:
+        """The table as a data frame of pandas."""
+        import pandas
+
+        return pandas.DataFrame(self._rows.copy(), columns=list(self._columns))
+
+    def plot(self, *columns: str, axes: Optional[Axes] = None) -> Axes:
+        """Draws columns over time with matplotlib.
+
+        columns: their names; the forces of all pairs by default.
+        axes: where they are drawn; on a new figure by default.
+        """
+        from ._plot import draw_history
+
+        return draw_history(self, columns, axes)
+
+    def __repr__(self) -> str:
+        return f"<history of {len(self._rows)} increments, {len(self)} columns>"
+
+
+class Run(Sequence[Increment]):
+    """A run that has ended: the sequence of the increments that were kept."""
+
+    def __init__(self, run: native.Run, model: Model) -> None:
+        """Runs are made by :meth:`Model.run`."""
+        self._native, self._model = run, model
+        self._history = History(*run.history())
+        self._increments = [Increment(results, model) for results in run.kept()]
+
+    @property
+    def model(self) -> Model:
+        """The model that was run, with its steps."""
+        return self._model
+
+    @property
+    def ending(self) -> str:
+        """``completed``, ``interrupted`` or ``stopped``."""
+        return self._native.ending
+
+    @property
+    def reason(self) -> str:
+        """How the run ended, in a sentence."""
+        return self._native.reason
+
+    @property
+    def warnings(self) -> list[str]:
+        """What makes the results doubtful."""
+        return self._native.warnings()
+
+    @property
+    def history(self) -> History:
+        """Resultants, reactions, motions and energies over the increments."""
+        return self._history
+
+    @property
+    def unknowns(self) -> int:
+        """Number of unknowns of the system."""
+        return self._native.unknowns
+
+    @property
+    def seconds(self) -> float:
+        """Time on the clock (seconds)."""
+        return self._native.seconds
+
+    @property
+    def cut_backs(self) -> int:
+        """Number of increments that failed and were tried again with smaller ones."""
+        return self._native.cut_backs
+
+    @overload
+    def __getitem__(self, index: int) -> Increment: ...
+    @overload
+    def __getitem__(self, index: slice) -> list[Increment]: ...
+    def __getitem__(self, index: Union[int, slice]) -> Union[Increment, list[Increment]]:
+        """An increment that was kept; index: from 0, or from the end."""
+        return self._increments[index]
+
+    def __len__(self) -> int:
+        return len(self._increments)
+
+    def plot(self) -> Figure:
+        """Draws the run with matplotlib: forces over time, and of each pair the contact patch
+        at the end and its friction law."""
+        from ._plot import draw_run
+
+        return draw_run(self)
+
+    def to_pyvista(self) -> Any:
+        """Bodies and contact surfaces at the end, see :meth:`Increment.to_pyvista`."""
+        return self[-1].to_pyvista()
+
+    def continue_with(
+        self,
+        *steps: Step,
+        on_increment: Optional[Callback] = None,
+        output: Optional[Path] = None,
+        fields_every: Optional[int] = None,
+        keep: Keep = "all",
+        threads: Optional[int] = None,
+        on_stop: Literal["raise", "return"] = "raise",
+    ) -> Run:
+        """Goes on from the end of this run, which must be completed, with further steps.
+
+        Time and the numbers of increments go on; conditions hold until the further steps state
+        them again. The history is that of the further steps.
+
+        steps: the further steps.
+        on_increment, output, fields_every, keep, threads, on_stop: as of :meth:`Model.run`.
+        """
+        if not steps:
+            raise refuse("steps", "at least one step is needed")
+        native_steps = [check.kind(step, Step, "steps")._native for step in steps]
+        # For the names of parts and steps in results that are told of on the way.
+        model = type(self._model)._of(self._native.model())
+        model._earlier += [step.name for step in steps]
+        watching = watch(on_increment, keep, threads, model)
+        recording = record(output, self._model.title, fields_every)
+        ended = self._native.continued(native_steps, watching, recording)
+        return concluded(ended, type(model)._of(ended[0].model()), on_stop)
+
+    def __repr__(self) -> str:
+        return f"<run: {self.reason}; {len(self)} increments are kept>"
+
+
+def watch(
+    on_increment: Optional[Callback], keep: Keep, threads: Optional[int], model: Model
+) -> tuple[Optional[Callable[[native.Results], object]], int, Optional[int]]:
+    """What is told and kept of a run, for the native part."""
+    if on_increment is not None and not callable(on_increment):
+        raise TypeError("on_increment: a function that takes an increment is needed")
+    words = {"all": 1, "steps": 0, "last": NEVER}
+    every = words[check.word(keep, list(words), "keep")] if isinstance(keep, str) else keep
+    if not isinstance(keep, str):
+        check.whole(keep, "keep")
+    if threads is not None:
+        check.whole(threads, "threads")
+    told = on_increment
+    if told is None:
+        return None, every, threads
+    return lambda results: told(Increment(results, model)), every, threads
+
+
+def record(
+    output: Optional[Path], case: Optional[str], fields_every: Optional[int]
+) -> Optional[tuple[str, Optional[str], Optional[int]]]:
+    """Where a run is written, for the native part."""
+    if fields_every is not None:
+        check.whole(fields_every, "fields_every", 0)
+    if output is None:
+        return None
+    return os.fspath(output), case, fields_every
+
+
+def concluded(
+    ended: tuple[native.Run, Optional[BaseException]], model: Model, on_stop: str
+) -> Run:
+    """The run, or the exception that it ended with."""
+    found, exception = ended
+    run = Run(found, model)
+    model._last_run = run
+    if isinstance(exception, KeyboardInterrupt):
+        raise RunInterrupted(run) from None
+    if exception is not None:
+        raise exception
+    if run.ending == "stopped" and check.word(on_stop, ("raise", "return"), "on_stop") == "raise":
+        raise RunStopped(run)
+    for text in run.warnings:
+        warnings.warn(text, RunWarning, stacklevel=3)
+    return run
+
+
+def resume(
+    folder: Path,
+    *,
+    fields_every: Optional[int] = None,
+    on_increment: Optional[Callback] = None,
+    keep: Keep = "all",
+    threads: Optional[int] = None,
+    on_stop: Literal["raise", "return"] = "raise",
+) -> Run:
+    """Goes on with a recorded run of a deck that was interrupted, to the same files bit by bit.
+
+    folder: the output of the run.
+    fields_every: as it was when the run began.
+    on_increment, keep, threads, on_stop: as of :meth:`Model.run`.
+    """
+    from ._model import Model
+
+    model = Model.from_deck(native.deck_of(os.fspath(folder)))
+    watching = watch(on_increment, keep, threads, model)
+    if fields_every is not None:
+        check.whole(fields_every, "fields_every", 0)
+    ended = native.resume(os.fspath(folder), fields_every, watching)
+    return concluded(ended, model, on_stop)

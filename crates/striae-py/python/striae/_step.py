@@ -1,0 +1,116 @@
+"""Steps of the loading history and what they state.
+
+A condition holds from the step that states it until a later step states the same again or
+releases it. It takes its quantity from the present value to the target along a curve:
+``ramp``, ``constant`` (at once), ``smooth``, or points (fraction of the step, share of the
+change) from 0 to 1 with straight lines between them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Union
+
+from . import _check as check
+from . import _striae as native
+from ._check import Curve, Vector
+from ._errors import refuse
+
+
+class Condition:
+    """What a step states: made by sets of bodies, rigid bodies, pairs and :func:`gravity`."""
+
+    def __init__(self, told: str, apply: Callable[[native.Step], None]) -> None:
+        """Conditions are made by the methods of what they are about, such as
+        ``body["top"].displace(z=-1)``."""
+        self._told, self._apply = told, apply
+
+    def __repr__(self) -> str:
+        return f"<{self._told}>"
+
+
+def gravity(acceleration: Vector, *, curve: Curve = "ramp") -> Condition:
+    """Gravity on all bodies with a density, until a later step states it again.
+
+    acceleration: target (length per time squared).
+    curve: how the target is approached.
+    """
+    target, along = check.vector(acceleration, "acceleration"), check.curve(curve, "curve")
+    return Condition(f"gravity {target}", lambda step: step.gravity(target, along))
+
+
+class Increments:
+    """Sizes of the increments of a step, as fractions of its duration."""
+
+    def __init__(
+        self,
+        initial: float = 0.1,
+        *,
+        smallest: Union[float, None] = None,
+        largest: Union[float, None] = None,
+    ) -> None:
+        """Makes the sizes.
+
+        initial: first increment (fraction of the step).
+        smallest: increment below which the run is given up; a thousandth of the first by
+            default (fraction of the step).
+        largest: the first by default (fraction of the step).
+        """
+        self.initial = check.positive(initial, "initial")
+        """First increment (fraction of the step)."""
+        self.smallest = (
+            1e-3 * self.initial if smallest is None else check.positive(smallest, "smallest")
+        )
+        """Increment below which the run is given up (fraction of the step)."""
+        self.largest = self.initial if largest is None else check.positive(largest, "largest")
+        """Largest increment (fraction of the step)."""
+
+
+class Dynamics:
+    """Implicit dynamics by the generalised-alpha method."""
+
+    def __init__(self, spectral_radius: float = 0.8) -> None:
+        """Makes the settings.
+
+        spectral_radius: at infinite frequency, above 0 and at most 1 (no unit): 1 keeps
+            oscillations that the increments do not resolve, small values damp them.
+        """
+        self.spectral_radius = check.positive(spectral_radius, "spectral_radius")
+        """Spectral radius at infinite frequency (no unit)."""
+        if self.spectral_radius > 1.0:
+            raise refuse("spectral_radius", f"it must be at most 1, but is {spectral_radius}")
+
+
+class Step:
+    """A part of the loading history."""
+
+    def __init__(
+        self,
+        name: str,
+        *conditions: Condition,
+        duration: float = 1.0,
+        increments: Union[int, Increments] = 10,
+        dynamics: Union[Dynamics, None] = None,
+    ) -> None:
+        """Makes a step.
+
+        name: unique name.
+        conditions: what the step states.
+        duration: in (pseudo) time.
+        increments: number of equal increments, cut where needed, or their sizes.
+        dynamics: inertia; without it the step is a sequence of equilibria.
+        """
+        self.name = check.name(name, "name")
+        """Name of the step."""
+        self._native = native.Step(name, check.positive(duration, "duration"))
+        if isinstance(increments, Increments):
+            self._native.sizes(increments.initial, increments.smallest, increments.largest)
+        else:
+            self._native.equal(check.whole(increments, "increments"))
+        if dynamics is not None:
+            self._native.dynamic(check.kind(dynamics, Dynamics, "dynamics").spectral_radius)
+        for condition in conditions:
+            check.kind(condition, Condition, f"step `{name}`")._apply(self._native)
+
+    def __repr__(self) -> str:
+        return f"Step({self.name!r})"

@@ -1,0 +1,41 @@
+//! The native part of the Python package `striae`: meshes, laws, models, runs and results
+//! of the library of the same name, as Python's objects and numpy's arrays.
+//!
+//! What users see is written in Python (`python/striae`) and calls this module by plain
+//! names, numbers and arrays; nothing here is public. All arrays that leave are new ones
+//! that Python owns.
+
+mod array;
+mod fault;
+mod friction;
+mod generate;
+mod material;
+mod mesh;
+mod model;
+mod pair;
+mod results;
+mod rigid;
+mod run;
+mod step;
+mod texture;
+
+use pyo3::prelude::*;
+
+/// The native module.
+#[pymodule]
+mod _striae {
+    #[pymodule_export]
+    use super::{
+        friction::Friction,
+        generate::{annulus, block, capped_block, half_cylinder},
+        material::Material,
+        mesh::{Mesh, read_mesh, read_rigid_surface},
+        model::Model,
+        pair::Pair,
+        results::Results,
+        rigid::Rigid,
+        run::{Run, deck_of, resume, run},
+        step::Step,
+        texture::Texture,
+    };
+}

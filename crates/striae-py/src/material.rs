@@ -1,0 +1,95 @@
+//! Bulk materials.
+
+use pyo3::prelude::*;
+use striae::law::bulk;
+
+use crate::fault::refused;
+
+/// A bulk material.
+#[pyclass(frozen, module = "striae._striae")]
+pub struct Material(pub bulk::Material);
+
+#[pymethods]
+impl Material {
+    #[staticmethod]
+    fn neo_hookean(youngs_modulus: f64, poissons_ratio: f64) -> PyResult<Self> {
+        let constants = engineering("NeoHookean", youngs_modulus, poissons_ratio)?;
+        Ok(Self(bulk::Material::neo_hookean(constants)))
+    }
+
+    #[staticmethod]
+    fn linear_elastic(youngs_modulus: f64, poissons_ratio: f64) -> PyResult<Self> {
+        let constants = engineering("LinearElastic", youngs_modulus, poissons_ratio)?;
+        Ok(Self(bulk::Material::linear_elastic(constants)))
+    }
+
+    /// Rubber: the name of its law, its constants in the order of the law, and its bulk
+    /// modulus or Poisson's ratio.
+    #[staticmethod]
+    fn rubber(
+        law: &str,
+        constants: Vec<f64>,
+        bulk_modulus: Option<f64>,
+        poissons_ratio: Option<f64>,
+        logarithmic: bool,
+    ) -> PyResult<Self> {
+        let isochoric = isochoric(law, &constants)
+            .ok_or_else(|| refused(law, "it has another number of constants"))?;
+        let volumetric = match logarithmic {
+            true => bulk::Volumetric::Logarithmic,
+            false => bulk::Volumetric::Quadratic,
+        };
+        let made = match (bulk_modulus, poissons_ratio) {
+            (Some(modulus), None) => bulk::Hyperelastic::new(isochoric, modulus, volumetric),
+            (None, Some(ratio)) => {
+                bulk::Hyperelastic::with_poissons_ratio(isochoric, ratio, volumetric)
+            }
+            _ => {
+                let text = "either `bulk_modulus` or `poissons_ratio` is needed";
+                return Err(refused(law, text));
+            }
+        };
+        let made = made.map_err(|error| refused(law, error))?;
+        Ok(Self(bulk::Material::Hyperelastic(made)))
+    }
+
+    /// Young's modulus and Poisson's ratio at rest.
+    fn constants(&self) -> (f64, f64) {
+        let constants = self.0.lame_constants();
+        (constants.youngs_modulus(), constants.poissons_ratio())
+    }
+
+    /// Energy per reference volume, first Piola-Kirchhoff stress by rows.
+    fn response(&self, deformation_gradient: [[f64; 3]; 3]) -> PyResult<(f64, [[f64; 3]; 3])> {
+        let gradient = nalgebra::Matrix3::from(deformation_gradient).transpose();
+        let response = self.0.response(&gradient);
+        let response = response.map_err(|error| refused("deformation_gradient", error))?;
+        Ok((response.energy, response.first_piola.transpose().into()))
+    }
+}
+
+fn isochoric(law: &str, constants: &[f64]) -> Option<bulk::Isochoric> {
+    Some(match (law, constants) {
+        ("IsochoricNeoHookean", &[shear]) => bulk::Isochoric::NeoHookean { shear },
+        ("MooneyRivlin", &[c10, c01]) => bulk::Isochoric::MooneyRivlin { c10, c01 },
+        ("Yeoh", &[c10, c20, c30]) => bulk::Isochoric::Yeoh { c10, c20, c30 },
+        ("Gent", &[shear, limit]) => bulk::Isochoric::Gent { shear, limit },
+        ("ArrudaBoyce", &[mu, locking_stretch]) => bulk::Isochoric::ArrudaBoyce {
+            mu,
+            locking_stretch,
+        },
+        ("Ogden", terms) if terms.len().is_multiple_of(2) => {
+            let term = |pair: &[f64]| bulk::OgdenTerm {
+                mu: pair[0],
+                alpha: pair[1],
+            };
+            bulk::Isochoric::Ogden(terms.chunks(2).map(term).collect())
+        }
+        _ => return None,
+    })
+}
+
+fn engineering(law: &str, youngs_modulus: f64, ratio: f64) -> PyResult<bulk::LameConstants> {
+    bulk::LameConstants::from_youngs_modulus(youngs_modulus, ratio)
+        .map_err(|error| refused(law, error))
+}

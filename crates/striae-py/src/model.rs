@@ -1,0 +1,207 @@
+//! Models that have been found valid.
+
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use pyo3::prelude::*;
+use striae::{
+    Error, deck,
+    model::{self, extended},
+    output::Output,
+    solve::{
+        initial::fits,
+        model::{Backend, ContactMass, Formulation},
+        newton::estimate,
+        problem::Problem,
+        warning::warnings_at_start,
+    },
+};
+
+use crate::{
+    fault::{model_faults, raised},
+    friction::Friction,
+    material::Material,
+    mesh::Mesh,
+    pair::Pair,
+    rigid::Rigid,
+    step::Step,
+};
+
+/// A model that has been found valid, and where it comes from.
+#[pyclass(frozen, module = "striae._striae")]
+pub struct Model {
+    /// The model.
+    pub model: Arc<model::Model>,
+    /// What a deck says is to be written.
+    pub output: Output,
+    /// The deck, if that is all there is to the model.
+    pub deck: Option<PathBuf>,
+}
+
+/// Name, mesh, material, density, whether the mass of contact nodes is moved, and formulation.
+type Body<'py> = (
+    String,
+    PyRef<'py, Mesh>,
+    PyRef<'py, Material>,
+    Option<f64>,
+    bool,
+    Option<String>,
+);
+
+/// Backend, tolerance and largest number of iterations.
+type Solver = (String, f64, usize);
+
+/// Smallest gap, largest overlap and nearest distance of a pair.
+type Fit = (Option<f64>, f64, f64);
+
+#[pymethods]
+impl Model {
+    #[staticmethod]
+    fn build(
+        title: &str,
+        bodies: Vec<Body<'_>>,
+        rigid: Vec<PyRef<'_, Rigid>>,
+        pairs: Vec<PyRef<'_, Pair>>,
+        steps: Vec<PyRef<'_, Step>>,
+        solver: Solver,
+    ) -> PyResult<Self> {
+        let mut built = model::model(title).solver(settings(solver));
+        for (name, mesh, material, density, redistributed, formulation) in bodies {
+            let mut body = model::body(name, mesh.0.clone(), material.0.clone());
+            body = match formulation.as_deref() {
+                Some("mean-dilatation") => body.formulation(Formulation::MeanDilatation),
+                Some(_) => body.formulation(Formulation::Standard),
+                None => body,
+            };
+            if let Some(density) = density {
+                body = body.density(density);
+            }
+            if redistributed {
+                body = body.contact_mass(ContactMass::Redistributed);
+            }
+            built = built.body(body);
+        }
+        for rigid in rigid {
+            built = built.rigid(rigid.0.clone());
+        }
+        for pair in pairs {
+            built = built.pair(pair.0.clone());
+        }
+        for step in steps {
+            built = built.step(step.0.clone());
+        }
+        let model = built.build().map_err(|faults| model_faults(&faults))?;
+        Ok(Self::of(model))
+    }
+
+    #[staticmethod]
+    fn from_deck(path: PathBuf) -> PyResult<Self> {
+        let read = deck::read(&path).map_err(|faults| raised(Error::Deck(faults), "deck"))?;
+        Ok(Self {
+            model: Arc::new(read.model),
+            output: read.output,
+            deck: Some(path),
+        })
+    }
+
+    #[staticmethod]
+    fn from_text(text: &str, folder: PathBuf) -> PyResult<Self> {
+        let read = deck::parse(text, "deck", Path::new(&folder));
+        let read = read.map_err(|faults| raised(Error::Deck(faults), "deck"))?;
+        Ok(Self {
+            output: read.output,
+            ..Self::of(read.model)
+        })
+    }
+
+    /// The model with more steps.
+    fn extended(&self, steps: Vec<PyRef<'_, Step>>) -> PyResult<Self> {
+        let steps = steps.iter().map(|step| step.0.clone()).collect();
+        let model = extended((*self.model).clone(), steps);
+        let model = model.map_err(|faults| model_faults(&faults))?;
+        Ok(Self {
+            output: self.output,
+            ..Self::of(model)
+        })
+    }
+
+    #[getter]
+    fn title(&self) -> String {
+        self.model.title.clone()
+    }
+
+    fn bodies(&self) -> Vec<String> {
+        let bodies = self.model.bodies.iter();
+        bodies.map(|body| body.name.clone()).collect()
+    }
+
+    fn rigid(&self) -> Vec<String> {
+        let rigid = self.model.rigid_surfaces.iter();
+        rigid.map(|rigid| rigid.name.clone()).collect()
+    }
+
+    fn pairs(&self) -> Vec<String> {
+        let pairs = self.model.pairs.iter();
+        pairs.map(|pair| pair.name.clone()).collect()
+    }
+
+    fn steps(&self) -> Vec<String> {
+        let steps = self.model.steps.iter();
+        steps.map(|step| step.name.clone()).collect()
+    }
+
+    /// Mesh of a body, as it is after gaps have been closed.
+    fn mesh(&self, body: usize) -> Mesh {
+        Mesh(self.model.bodies[body].mesh.clone())
+    }
+
+    /// Friction of a pair from the start.
+    fn friction(&self, pair: usize) -> Friction {
+        Friction(self.model.pairs[pair].friction.clone())
+    }
+
+    /// Unknowns at the start, how the pairs fit, and warnings.
+    fn check(&self, py: Python<'_>) -> PyResult<(usize, Vec<Fit>, Vec<String>)> {
+        let model = self.model.clone();
+        let checked = py.detach(move || {
+            let fits = fits(&model);
+            let warnings = warnings_at_start(&model, &fits);
+            let problem = Problem::new((*model).clone()).map_err(Error::Problem)?;
+            let unknowns = estimate(&problem).map_or(0, |estimate| estimate.unknowns);
+            let told = fits.iter().flatten().map(|fit| {
+                let gap = fit.gap.as_ref().map(|gap| gap.gap);
+                let overlap = fit.overlap.as_ref().map_or(0.0, |overlap| overlap.depth);
+                (gap, overlap, fit.distance)
+            });
+            let warnings = warnings.iter().map(ToString::to_string);
+            Ok((unknowns, told.collect(), warnings.collect()))
+        });
+        checked.map_err(|error: Error| raised(error, "model"))
+    }
+}
+
+impl Model {
+    fn of(model: model::Model) -> Self {
+        Self {
+            model: Arc::new(model),
+            output: Output::default(),
+            deck: None,
+        }
+    }
+}
+
+fn settings((backend, tolerance, largest_iterations): Solver) -> model::Solver {
+    model::Solver {
+        backend: match backend.as_str() {
+            "multifrontal" => Backend::Multifrontal,
+            "faer" => Backend::Faer,
+            "iterative" => Backend::Iterative,
+            _ => Backend::Condensed,
+        },
+        tolerance,
+        largest_iterations,
+        ..model::solver()
+    }
+}

@@ -1,0 +1,66 @@
+//! Contact pairs under construction.
+
+use pyo3::prelude::*;
+use striae::{
+    model::{self, Initial, PairBuilder, SideBuilder},
+    solve::model::{ClosedGaps, Enforcement},
+};
+
+use crate::{friction::Friction, texture::Texture};
+
+/// Names of a body and its facet set, or of a rigid body alone.
+type Surface = (String, Option<String>);
+
+/// A contact pair.
+#[pyclass(frozen, module = "striae._striae")]
+pub struct Pair(pub PairBuilder);
+
+#[pymethods]
+impl Pair {
+    #[new]
+    fn new(
+        name: &str,
+        sides: [Surface; 2],
+        textures: (Option<PyRef<'_, Texture>>, Option<PyRef<'_, Texture>>),
+        friction: Option<PyRef<'_, Friction>>,
+    ) -> Self {
+        let [a, b] = sides.map(|(owner, facets)| match facets {
+            Some(facets) => model::surface(owner, facets),
+            None => model::rigid(owner),
+        });
+        let pair = model::pair(name, textured(a, textures.0), textured(b, textures.1));
+        Self(match friction {
+            Some(friction) => pair.friction(friction.0.clone()),
+            None => pair,
+        })
+    }
+
+    fn collocated(&self) -> Self {
+        Self(self.0.clone().enforcement(Enforcement::Collocated))
+    }
+
+    fn searching(&self, distance: f64) -> Self {
+        Self(self.0.clone().search_distance(distance))
+    }
+
+    fn stabilised(&self) -> Self {
+        Self(self.0.clone().stabilised())
+    }
+
+    fn resolved(&self) -> Self {
+        Self(self.0.clone().initial(Initial::Resolve))
+    }
+
+    /// Gaps closed up to a given one, or a share of the local facet size.
+    fn closed(&self, gap: Option<f64>) -> Self {
+        let gaps = gap.map_or_else(ClosedGaps::default, ClosedGaps::UpTo);
+        Self(self.0.clone().initial(Initial::Close(gaps)))
+    }
+}
+
+fn textured(side: SideBuilder, texture: Option<PyRef<'_, Texture>>) -> SideBuilder {
+    match texture {
+        Some(texture) => side.textured(texture.0.clone()),
+        None => side,
+    }
+}

@@ -1,0 +1,393 @@
+//! Runs: the library computes on a thread of its own without the interpreter, while the
+//! thread that asked for the run answers to increments and to the keyboard.
+//!
+//! ```text
+//! caller's thread                      thread of the run
+//! recv_timeout  <- increment -------   converged, waits where it is to be told
+//! callback      -- go on or stop -->
+//! each tick: signals -> Interrupt ->   stops after the increment under way
+//! ```
+
+use std::{
+    num::NonZeroUsize,
+    path::PathBuf,
+    sync::{
+        Arc,
+        mpsc::{Receiver, RecvTimeoutError, Sender, channel},
+    },
+    thread,
+    time::Duration,
+};
+
+use numpy::{PyArray1, PyArrayMethods};
+use pyo3::{exceptions::PyRuntimeError, prelude::*};
+use striae::{
+    Converged, Error, Finished, Interrupt, Next, Observer, Simulation, case_name,
+    output::{FieldOutput, Output, checkpoint::Checkpoint},
+    solve::{drive::Progress, outcome::Ending, problem::Problem},
+};
+
+use crate::{
+    array::Array2,
+    fault::raised,
+    model::Model,
+    results::{Kept, Results},
+    step::Step,
+};
+
+/// Time between two looks at the keyboard.
+const TICK: Duration = Duration::from_millis(50);
+/// Stack of the thread of a run, as large as that of a program's first thread.
+const STACK: usize = 8 << 20;
+
+/// A run that has ended.
+#[pyclass(frozen, module = "striae._striae")]
+pub struct Run {
+    finished: Finished,
+    kept: Vec<Arc<Kept>>,
+}
+
+/// A run, and the exception that stopped it.
+type Ended = (Run, Option<PyErr>);
+
+#[pymethods]
+impl Run {
+    /// `completed`, `interrupted` or `stopped`.
+    #[getter]
+    fn ending(&self) -> &'static str {
+        match self.finished.ending {
+            Ending::Completed => "completed",
+            Ending::Interrupted { .. } => "interrupted",
+            Ending::Stopped { .. } => "stopped",
+        }
+    }
+
+    #[getter]
+    fn reason(&self) -> String {
+        self.finished.ending.to_string()
+    }
+
+    #[getter]
+    fn unknowns(&self) -> usize {
+        self.finished.summary.unknowns
+    }
+
+    #[getter]
+    fn seconds(&self) -> f64 {
+        self.finished.summary.wall_s
+    }
+
+    #[getter]
+    fn cut_backs(&self) -> usize {
+        self.finished.summary.cutbacks
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        let warnings = self.finished.summary.warnings.iter();
+        warnings.map(|warning| warning.text.clone()).collect()
+    }
+
+    /// Names of the columns of the history, and its rows.
+    fn history<'py>(&self, py: Python<'py>) -> PyResult<(Vec<String>, Array2<'py, f64>)> {
+        let table = &self.finished.history;
+        let (rows, columns) = (table.rows.len(), table.columns.len());
+        let numbers = table.rows.iter().flatten().copied().collect();
+        let array = PyArray1::from_vec(py, numbers).reshape([rows, columns])?;
+        Ok((table.columns.clone(), array))
+    }
+
+    /// States that are kept.
+    fn kept(&self) -> Vec<Results> {
+        let kept = self.kept.iter().map(|kept| Results {
+            problem: self.finished.problem.clone(),
+            kept: kept.clone(),
+        });
+        kept.collect()
+    }
+
+    /// The model that was run.
+    fn model(&self) -> Model {
+        Model {
+            model: Arc::new(self.finished.problem.model.clone()),
+            output: Output::default(),
+            deck: None,
+        }
+    }
+
+    /// Goes on with further steps.
+    fn continued(
+        &self,
+        py: Python<'_>,
+        steps: Vec<PyRef<'_, Step>>,
+        watching: Watching,
+        recording: Option<Recording>,
+    ) -> PyResult<Ended> {
+        let steps = steps.iter().map(|step| step.0.clone()).collect();
+        let simulation = Simulation::after(&self.finished, steps);
+        let simulation = simulation.map_err(|error| raised(error, "model"))?;
+        watched(
+            py,
+            recorded(simulation, Output::default(), recording, None),
+            watching,
+        )
+    }
+}
+
+/// What is told and kept of a run: the function that is called with the results of each
+/// increment, and stops the run by `False`; increments between states that are kept (0: the
+/// ends of steps); the number of threads, that of the machine if `None`.
+type Watching = (Option<Py<PyAny>>, usize, Option<usize>);
+
+/// Where a run is written: the folder, the name of the case, increments between fields
+/// (0: the last only).
+type Recording = (PathBuf, Option<String>, Option<usize>);
+
+/// Runs a model.
+#[pyfunction]
+pub fn run(
+    py: Python<'_>,
+    model: PyRef<'_, Model>,
+    watching: Watching,
+    recording: Option<Recording>,
+) -> PyResult<Ended> {
+    let (of, output) = (model.model.clone(), model.output);
+    let simulation = py.detach(|| Simulation::new((*of).clone()));
+    let simulation = simulation.map_err(|error| raised(error, "model"))?;
+    let simulation = recorded(simulation, output, recording, model.deck.clone());
+    watched(py, simulation, watching)
+}
+
+/// Goes on with a recorded run of a deck.
+#[pyfunction]
+pub fn resume(
+    py: Python<'_>,
+    folder: PathBuf,
+    fields_every: Option<usize>,
+    watching: Watching,
+) -> PyResult<Ended> {
+    let simulation = py.detach(|| {
+        let checkpoint = Checkpoint::read(&folder)?;
+        let mut deck = striae::deck::read(&checkpoint.source.path)?;
+        deck.output = writing(deck.output, fields_every);
+        Simulation::resume_from(deck, checkpoint, &folder)
+    });
+    let simulation = simulation.map_err(|error| raised(error, "model"))?;
+    watched(py, simulation, watching)
+}
+
+fn recorded(
+    simulation: Simulation,
+    output: Output,
+    recording: Option<Recording>,
+    deck: Option<PathBuf>,
+) -> Simulation {
+    let Some(recording) = recording else {
+        return simulation;
+    };
+    let (folder, case, fields_every) = recording;
+    let title = simulation.problem().model.title.clone();
+    let simulation = simulation.writing(writing(output, fields_every));
+    match deck {
+        Some(deck) => {
+            let case = case.unwrap_or_else(|| case_name(&deck));
+            simulation.resumable(folder, case, &deck)
+        }
+        None => simulation.recorded(folder, case.unwrap_or(title)),
+    }
+}
+
+/// What is written, with so many increments between fields if they are stated.
+fn writing(output: Output, fields_every: Option<usize>) -> Output {
+    let Some(every) = fields_every else {
+        return output;
+    };
+    let fields = NonZeroUsize::new(every).map_or(FieldOutput::Last, FieldOutput::Every);
+    Output { fields, ..output }
+}
+
+/// Keeps states and tells of them.
+struct Messenger {
+    told: Option<(Sender<Arc<Kept>>, Receiver<Next>)>,
+    keep: usize,
+    kept: Vec<Arc<Kept>>,
+    /// The last increment and its iterations.
+    latest: Option<(Progress, usize)>,
+}
+
+impl Observer for Messenger {
+    fn increment(&mut self, converged: &Converged<'_>) -> Next {
+        let progress = converged.progress;
+        let iterations = converged.increment.iterations.len();
+        self.latest = Some((progress, iterations));
+        let is_kept = match self.keep {
+            0 => progress.fraction == 1.0,
+            every => progress.increment.is_multiple_of(every),
+        };
+        if !is_kept && self.told.is_none() {
+            return Next::Continue;
+        }
+        let kept = Arc::new(Kept {
+            progress,
+            iterations,
+            state: converged.increment.state.clone(),
+        });
+        if is_kept {
+            self.kept.push(kept.clone());
+        }
+        let Some((told, answers)) = &self.told else {
+            return Next::Continue;
+        };
+        // Whoever asked for the run has gone if there is no answer.
+        match told.send(kept) {
+            Ok(()) => answers.recv().unwrap_or(Next::Stop),
+            Err(_) => Next::Stop,
+        }
+    }
+}
+
+/// Runs while the caller's thread listens.
+fn watched(py: Python<'_>, simulation: Simulation, watching: Watching) -> PyResult<Ended> {
+    let (on_increment, keep, threads) = watching;
+    let problem = simulation.problem().clone();
+    let interrupt = Interrupt::default();
+    let simulation = simulation.until(&interrupt);
+    let (told, heard) = channel();
+    let (answer, answers) = channel();
+    let (alive, ended) = channel::<()>();
+    let is_told = on_increment.is_some();
+    let work = move || {
+        let mut messenger = Messenger {
+            told: is_told.then_some((told, answers)),
+            keep,
+            kept: Vec::new(),
+            latest: None,
+        };
+        let finished = in_pool(threads, || simulation.run_with(&mut messenger));
+        // Whoever listens learns that the run has ended.
+        messenger.told = None;
+        drop(alive);
+        (finished, messenger)
+    };
+    let (outcome, stopped) = py.detach(move || {
+        thread::scope(|scope| {
+            let builder = thread::Builder::new()
+                .name("striae".into())
+                .stack_size(STACK);
+            let worker = builder.spawn_scoped(scope, work).map_err(PyErr::from)?;
+            let callback = on_increment.map(|function| Callback {
+                function,
+                problem,
+                heard,
+                answer,
+            });
+            let stopped = listen(callback.as_ref(), &ended, &interrupt);
+            let outcome = worker
+                .join()
+                .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+            Ok::<_, PyErr>((outcome, stopped))
+        })
+    })?;
+    let (finished, messenger) = outcome;
+    let finished = finished?.map_err(|error: Error| raised(error, "model"))?;
+    Ok((ended_with(finished, messenger), stopped))
+}
+
+/// The run with its last state among those that are kept.
+fn ended_with(finished: Finished, messenger: Messenger) -> Run {
+    let mut kept = messenger.kept;
+    let last = kept.last().map(|kept| kept.progress);
+    if let Some((progress, iterations)) = messenger.latest
+        && last != Some(progress)
+    {
+        kept.push(Arc::new(Kept {
+            progress,
+            iterations,
+            state: finished.state.clone(),
+        }));
+    }
+    Run { finished, kept }
+}
+
+/// The function of Python that is told of increments.
+struct Callback {
+    function: Py<PyAny>,
+    problem: Arc<Problem>,
+    heard: Receiver<Arc<Kept>>,
+    answer: Sender<Next>,
+}
+
+impl Callback {
+    /// Whether the run goes on after an increment.
+    fn told(&self, kept: Arc<Kept>) -> PyResult<Next> {
+        Python::attach(|py| {
+            py.check_signals()?;
+            let results = Results {
+                problem: self.problem.clone(),
+                kept,
+            };
+            let answer = self.function.call1(py, (results,))?;
+            let stops = answer
+                .bind(py)
+                .extract::<bool>()
+                .is_ok_and(|goes_on| !goes_on);
+            Ok(if stops { Next::Stop } else { Next::Continue })
+        })
+    }
+}
+
+/// Answers until the run has ended; returns the exception that stopped it.
+fn listen(
+    callback: Option<&Callback>,
+    ended: &Receiver<()>,
+    interrupt: &Interrupt,
+) -> Option<PyErr> {
+    let mut stopped: Option<PyErr> = None;
+    loop {
+        let heard = match callback {
+            Some(callback) => callback.heard.recv_timeout(TICK).map(Some),
+            None => ended.recv_timeout(TICK).map(|()| None),
+        };
+        match (heard, callback) {
+            (Ok(Some(kept)), Some(callback)) => {
+                let answered = match &stopped {
+                    None => callback.told(kept),
+                    Some(_) => Ok(Next::Stop),
+                };
+                let next = answered.unwrap_or_else(|error| {
+                    stopped = Some(error);
+                    Next::Stop
+                });
+                // A run that has panicked hears no answer.
+                let _ = callback.answer.send(next);
+            }
+            (Ok(_), _) => {}
+            (Err(RecvTimeoutError::Timeout), _) => {
+                if let Err(error) = Python::attach(|py| py.check_signals()) {
+                    interrupt.set();
+                    stopped.get_or_insert(error);
+                }
+            }
+            (Err(RecvTimeoutError::Disconnected), _) => return stopped,
+        }
+    }
+}
+
+/// Computes in a pool of so many threads.
+fn in_pool<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
+    let Some(threads) = threads else {
+        return Ok(work());
+    };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = pool.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+    Ok(pool.install(work))
+}
+
+/// The deck of a recorded run that can be resumed.
+#[pyfunction]
+pub fn deck_of(folder: PathBuf) -> PyResult<PathBuf> {
+    let checkpoint = Checkpoint::read(&folder).map_err(Error::Checkpoint);
+    Ok(checkpoint
+        .map_err(|error| raised(error, "deck"))?
+        .source
+        .path)
+}

@@ -1,0 +1,179 @@
+//! Steps under construction.
+
+use pyo3::{exceptions::PyValueError, prelude::*};
+use striae::model::{
+    Component, Curve, Freedom, Increments, LoadExtent, LoadKind, StepBuilder, equal_increments,
+    step,
+};
+
+use crate::friction::Friction;
+
+/// The name of a curve, or its points.
+#[derive(FromPyObject)]
+pub enum Along {
+    Word(String),
+    Points(Vec<(f64, f64)>),
+}
+
+impl Along {
+    fn curve(self) -> PyResult<Curve> {
+        match self {
+            Self::Points(points) => Ok(Curve::Table(points)),
+            Self::Word(word) => match word.as_str() {
+                "ramp" => Ok(Curve::Ramp),
+                "constant" => Ok(Curve::Constant),
+                "smooth" => Ok(Curve::Smooth),
+                _ => Err(PyValueError::new_err(format!("no curve is named `{word}`"))),
+            },
+        }
+    }
+}
+
+/// A step.
+#[pyclass(module = "striae._striae")]
+pub struct Step(pub StepBuilder);
+
+impl Step {
+    fn build(&mut self, add: impl FnOnce(StepBuilder) -> StepBuilder) {
+        self.0 = add(self.0.clone());
+    }
+}
+
+#[pymethods]
+impl Step {
+    #[new]
+    fn new(name: &str, duration: f64) -> Self {
+        Self(step(name).duration(duration))
+    }
+
+    fn equal(&mut self, number: usize) {
+        self.build(|step| step.increment_sizes(equal_increments(number)));
+    }
+
+    fn sizes(&mut self, initial: f64, smallest: f64, largest: f64) {
+        let sizes = Increments {
+            initial,
+            smallest,
+            largest,
+        };
+        self.build(|step| step.increment_sizes(sizes));
+    }
+
+    fn dynamic(&mut self, spectral_radius: f64) {
+        self.build(|step| step.dynamic(spectral_radius));
+    }
+
+    fn displace(
+        &mut self,
+        body: &str,
+        nodes: &str,
+        components: [Option<f64>; 3],
+        along: Along,
+    ) -> PyResult<()> {
+        let curve = along.curve()?;
+        self.build(|step| step.displace(body, nodes, components).along(curve));
+        Ok(())
+    }
+
+    /// Sets components free, all that are prescribed where none is named.
+    fn release(&mut self, body: &str, nodes: &str, components: Vec<usize>) {
+        let axes = [Component::X, Component::Y, Component::Z];
+        let chosen = components.iter().filter_map(|axis| axes.get(*axis));
+        let chosen: Vec<Component> = chosen.copied().collect();
+        self.build(|step| match &chosen[..] {
+            [] => step.release_all(body, nodes),
+            chosen => step.release(body, nodes, chosen),
+        });
+    }
+
+    fn pressure(
+        &mut self,
+        body: &str,
+        facets: &str,
+        pressure: f64,
+        exposed: bool,
+        along: Along,
+    ) -> PyResult<()> {
+        self.load(body, facets, LoadKind::Pressure(pressure), exposed, along)
+    }
+
+    fn traction(
+        &mut self,
+        body: &str,
+        facets: &str,
+        traction: [f64; 3],
+        follower: bool,
+        exposed: bool,
+        along: Along,
+    ) -> PyResult<()> {
+        let kind = if follower {
+            LoadKind::FollowerTraction(traction.into())
+        } else {
+            LoadKind::DeadTraction(traction.into())
+        };
+        self.load(body, facets, kind, exposed, along)
+    }
+
+    fn gravity(&mut self, acceleration: [f64; 3], along: Along) -> PyResult<()> {
+        let curve = along.curve()?;
+        self.build(|step| step.gravity(acceleration).along(curve));
+        Ok(())
+    }
+
+    /// Targets of the coordinates of a rigid body, the angles in degrees, and which are free.
+    fn move_rigid(
+        &mut self,
+        name: &str,
+        targets: [Option<f64>; 6],
+        free: [bool; 6],
+        force: Option<[f64; 3]>,
+        torque: Option<[f64; 3]>,
+        along: Along,
+    ) -> PyResult<()> {
+        let curve = along.curve()?;
+        let coordinates = std::array::from_fn(|at| match targets[at] {
+            _ if free[at] => Freedom::Free,
+            Some(angle) if at >= 3 => Freedom::To(angle.to_radians()),
+            Some(target) => Freedom::To(target),
+            None => Freedom::AsBefore,
+        });
+        let (force, torque) = (force.map(Into::into), torque.map(Into::into));
+        self.build(|step| {
+            let driven = step.drive_rigid(name, coordinates, force, torque);
+            driven.along(curve)
+        });
+        Ok(())
+    }
+
+    fn velocity(&mut self, body: &str, v: [f64; 3], spin: [f64; 3], about: [f64; 3]) {
+        self.build(|step| step.velocity(body, v).spinning(spin, about));
+    }
+
+    fn rigid_velocity(&mut self, name: &str, v: [f64; 3], spin: [f64; 3], about: [f64; 3]) {
+        self.build(|step| step.rigid_velocity(name, v).spinning(spin, about));
+    }
+
+    fn friction(&mut self, pair: &str, friction: PyRef<'_, Friction>) {
+        self.build(|step| step.friction(pair, friction.0.clone()));
+    }
+}
+
+impl Step {
+    fn load(
+        &mut self,
+        body: &str,
+        facets: &str,
+        kind: LoadKind,
+        exposed: bool,
+        along: Along,
+    ) -> PyResult<()> {
+        let curve = along.curve()?;
+        let extent = if exposed {
+            LoadExtent::Exposed
+        } else {
+            LoadExtent::Whole
+        };
+        self.build(|step| step.load(body, facets, kind, extent).along(curve));
+        Ok(())
+    }
+}

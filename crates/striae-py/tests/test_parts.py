@@ -1,0 +1,249 @@
+"""Meshes, materials, laws, textures, rigid bodies and loads."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import striae as st
+
+
+def test_generators_have_their_volume_and_sets() -> None:
+    assert st.block((1, 2, 3), (2, 2, 2)).volume == pytest.approx(6)
+    graded = st.block(divisions=(4, 1, 1), grading={"x": st.Grading.one_sided(8)})
+    x = np.unique(graded.points[:, 0])
+    assert (x[-1] - x[-2]) / (x[1] - x[0]) == pytest.approx(8)
+    turned = st.block((2, 1, 1), rotation=((0, 0, 1), 90), about=(0, 0, 0))
+    assert turned.points[:, 1].max() == pytest.approx(2)
+    assert set(st.half_cylinder().facet_sets) >= {"ymin", "ymax"}
+    assert "zmax" in st.capped_block().facet_sets
+    ring = st.annulus(inner_radius=1, outer_radius=2, width=1, divisions=(4, 64, 2))
+    assert ring.volume == pytest.approx(3 * np.pi, rel=5e-3)
+
+
+def test_sets_are_made_on_the_fly(rubber: st.NeoHookean) -> None:
+    body = st.Body("pad", st.block(divisions=(4, 4, 1)), rubber)
+    spot = body.add_set("spot", lambda x: (x[:, 2] == 0) & (x[:, 0] <= 0.5))
+    assert spot.name == "spot"
+    assert len(body.mesh.facet_sets["spot"]) == 8
+    assert len(body.mesh.node_sets["spot"]) == 15
+    quads = body.mesh.facet_sets["spot"]
+    again = body.mesh.with_sets(facets={"again": quads[:, ::-1]})
+    assert np.array_equal(again.facet_sets["again"], quads)
+    assert "again" not in body.mesh.facet_sets
+    assert np.array_equal(body.mesh.surface_nodes("spot"), body.mesh.node_sets["spot"])
+
+
+def test_boundary_facets_look_outward() -> None:
+    mesh = st.block(divisions=(2, 2, 2))
+    corners = mesh.points[mesh.boundary]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    outward = corners.mean(axis=1) - 0.5
+    assert ((normals * outward).sum(axis=1) > 0).all()
+
+
+def test_meshes_of_meshio_and_files(tmp_path: Path, rubber: st.NeoHookean) -> None:
+    meshio = pytest.importorskip("meshio")
+    ours = st.block(divisions=(2, 2, 2))
+    unused = np.vstack([[9.0, 9.0, 9.0], ours.points])
+    top = ours.facet_sets["zmax"] + 1
+    theirs = meshio.Mesh(
+        unused,
+        [("quad", top), ("hexahedron", ours.cells["hexahedron"] + 1)],
+        cell_sets={"lid": [np.arange(4), np.array([], dtype=int)]},
+        point_sets={"corner": np.array([0, 1])},
+    )
+    mesh = st.Body("pad", theirs, rubber).mesh
+    assert np.array_equal(mesh.points, ours.points)
+    assert np.array_equal(mesh.facet_sets["lid"], ours.facet_sets["zmax"])
+    assert np.array_equal(mesh.node_sets["lid"], ours.node_sets["zmax"])
+    assert mesh.node_sets["corner"].tolist() == [0]
+    groups = meshio.Mesh(
+        ours.points,
+        [("quad", top - 1), ("hexahedron", ours.cells["hexahedron"])],
+        cell_data={"gmsh:physical": [np.full(4, 7), np.full(8, 1)]},
+        field_data={"lid": np.array([7, 2]), "solid": np.array([1, 3])},
+    )
+    assert np.array_equal(st.Mesh.of(groups).facet_sets["lid"], ours.facet_sets["zmax"])
+    path = tmp_path / "pad.inp"
+    meshio.Mesh(ours.points, [("hexahedron", ours.cells["hexahedron"])]).write(path)
+    assert st.Body("pad", path, rubber).mesh.volume == pytest.approx(1)
+
+
+def test_materials_answer_to_a_deformation(rubber: st.NeoHookean) -> None:
+    assert np.allclose(rubber.stress(np.eye(3)), 0)
+    shear = np.array([[1, 1e-6, 0], [0, 1, 0], [0, 0, 1]])
+    modulus = 1e6 / 2.6
+    assert rubber.stress(shear)[0, 1] == pytest.approx(1e-6 * modulus, rel=1e-5)
+    assert st.LinearElastic(1e6, 0.3).energy(shear) == pytest.approx(0.5e-12 * modulus, rel=1e-5)
+    with pytest.raises(st.ModelError, match="determinant"):
+        rubber.stress(-np.eye(3))
+
+
+def test_slip_surfaces_have_the_coefficients() -> None:
+    surface = st.Orthotropic(along=0.1, across=0.4).slip_surface(count=4)
+    assert np.allclose(np.linalg.norm(surface.friction, axis=1), [0.4, 0.1, 0.4, 0.1])
+    nap = st.Nap(forward=0.2, backward=0.6, lateral=0.4).slip_surface(count=4)
+    assert np.allclose(nap.friction[::2, 0], [0.6, -0.2])
+    assert (nap.dissipation > 0).all()
+    table = st.Tabulated(np.arange(0, 360, 90), [0.5, 0.2, 0.3, 0.2]).slip_surface(count=4)
+    assert np.allclose(np.linalg.norm(table.friction, axis=1), [0.5, 0.2, 0.3, 0.2])
+    assert np.allclose(st.Frictionless().slip_surface().friction, 0)
+
+
+def drift(texture: object, rubber: st.NeoHookean) -> float:
+    """Sideways over forward friction of a block dragged along x on a textured floor."""
+    body = st.Body("pad", st.block(divisions=(2, 2, 2)), rubber)
+    floor = st.Plane("floor")
+    side = body["zmin"].textured(texture)  # type: ignore[arg-type]
+    model = st.Model([body], [floor], [st.Pair(side, floor, st.Orthotropic(0.1, 0.4))])
+    model.step("press", body["zmax"].displace(x=0, y=0, z=-0.02), increments=1)
+    model.step("drag", body["zmax"].displace(x=0.4), increments=4)
+    force = model.run(keep="last")[-1].pair(0).force
+    return float(force[1] / force[0])
+
+
+def test_textures_turn_friction(rubber: st.NeoHookean) -> None:
+    s = np.array([1, 1, 0]) / np.sqrt(2)
+    mesh = st.block(divisions=(2, 2, 2))
+    count = len(mesh.surface_nodes("zmin"))
+    expected = drift(s, rubber)
+    # Grooves at 45 degrees: tau is along (mu_1 + mu_2, mu_1 - mu_2)/2.
+    assert expected == pytest.approx(-0.6, abs=0.02)
+    assert drift(st.Nodal(np.tile(s, (count, 1))), rubber) == pytest.approx(expected)
+    assert drift(st.Painted([[0, 0, 0]], [s], width=1.0), rubber) == pytest.approx(expected)
+    assert drift(st.Axial(s), rubber) == pytest.approx(expected)
+    # From outside, that is from below, counter-clockwise is from x to -y.
+    assert drift(st.Uniform((1, 0, 0), turn=-45), rubber) == pytest.approx(expected)
+    assert drift(st.Uniform((1, 0, 0)), rubber) == pytest.approx(0, abs=1e-6)
+    circles = st.Circumferential((0, 0, 1), point=(0.5, -1e6, 0), turn=-45)
+    assert abs(drift(circles, rubber)) == pytest.approx(0.6, abs=0.02)
+    assert abs(drift(st.Radial((0, 0, 1), point=(-1e6, 0.5, 0)), rubber)) < 1e-3
+
+
+def test_rigid_bodies_press_and_are_driven(rubber: st.NeoHookean) -> None:
+    body = st.Body("pad", st.block(divisions=(2, 2, 2)), rubber)
+    lid = st.block((3, 3, 1), origin=(-1, -1, 1))
+    stamp = st.RigidSurface("stamp", (lid.points, {"quad": lid.boundary}), density=2.0)
+    model = st.Model([body], [stamp], [st.Pair(body["zmax"], stamp)])
+    model.step("press", body["zmin"].hold(), stamp.move(displacement=(0, 0, -0.01)), increments=2)
+    model.step(
+        "weigh", stamp.move(free=["z"], force=(0, 0, -2e3)), increments=2
+    )
+    run = model.run(keep="steps")
+    assert run[0].rigid("stamp").displacement[2] == pytest.approx(-0.01)
+    assert run[1].pair(0).force[2] == pytest.approx(-2e3, rel=1e-6)
+
+
+def test_tied_bodies_turn(rubber: st.NeoHookean) -> None:
+    body = st.Body("pad", st.block(divisions=(2, 2, 2)), rubber)
+    grip = st.RigidBody("grip", [body["zmax"]], reference=(0.5, 0.5, 1))
+    model = st.Model([body], [grip])
+    model.step("twist", body["zmin"].hold(), grip.move(rotation=(0, 0, 10)), increments=2)
+    end = model.run()[-1]
+    assert end.rigid("grip").rotation[2] == pytest.approx(10)
+    assert end.rigid("grip").torque[2] > 0
+
+
+def test_loads_are_carried(rubber: st.NeoHookean) -> None:
+    soft = st.LinearElastic(1e6, 0.0)
+    for load, expected in [
+        (lambda s: s.traction((0, 0, -1e3)), 1e3),
+        (lambda s: s.traction((0, 0, -1e3), direction="follower"), 1e3),
+        (lambda s: s.pressure(1e3, extent="exposed", curve="smooth"), 1e3),
+    ]:
+        body = st.Body("bar", st.block(), soft)
+        model = st.Model([body])
+        model.step("load", body["zmin"].hold(), load(body["zmax"]), increments=1)
+        assert model.run()[-1].reaction("bar", "zmin")[2] == pytest.approx(expected, rel=1e-6)
+
+
+def test_gravity_inertia_and_spin(rubber: st.NeoHookean) -> None:
+    body = st.Body("bar", st.block(divisions=(2, 2, 2)), rubber, density=1e3)
+    model = st.Model([body])
+    spin = body.velocity((1, 0, 0), spin=(0, 0, 2), about=(0.5, 0.5, 0))
+    dynamics = st.Dynamics(0.8)
+    model.step("fly", spin, st.gravity((0, 0, -10), curve="constant"), duration=1e-2, dynamics=dynamics)
+    end = model.run()[-1]
+    assert end.body("bar").velocity[:, 0].mean() == pytest.approx(1, rel=1e-2)
+    assert end.body("bar").velocity[:, 2].mean() == pytest.approx(-0.1, rel=1e-2)
+    corner = end.body("bar").velocity[np.argmax(body.mesh.points.sum(axis=1))]
+    assert corner[1] == pytest.approx(1, rel=0.1)
+
+
+def test_curves_and_increment_sizes(pad: st.Body) -> None:
+    model = st.Model([pad])
+    curve = [(0, 0), (0.5, 1), (1, 0.25)]
+    pull = pad["zmax"].displace(z=0.1, curve=curve)
+    sizes = st.Increments(0.25, smallest=0.01, largest=0.25)
+    model.step("pull", pad["zmin"].hold(), pull, increments=sizes, duration=4)
+    run = model.run()
+    top = pad.mesh.node_sets["zmax"][0]
+    found = [increment.body("pad").displacement[top, 2] for increment in run]
+    assert np.allclose(found, [0.05, 0.1, 0.0625, 0.025])
+    assert run.history["time"].tolist() == [1, 2, 3, 4]
+
+
+def test_releases_end_what_is_prescribed(pad: st.Body) -> None:
+    model = st.Model([pad])
+    model.step("pull", pad["zmin"].hold(), pad["zmax"].displace(z=0.1), increments=1)
+    model.step("let go", pad["zmax"].release(), increments=1)
+    assert np.abs(model.run()[-1].body("pad").displacement).max() < 1e-8
+
+
+def test_friction_changes_between_steps(model: st.Model, pad: st.Body) -> None:
+    pair = model._pairs[0]
+    model.step("ease", pair.change_friction(st.Orthotropic(0.1, 0.2)), pad["zmax"].displace(y=0.6))
+    force = model.run(keep="last")[-1].pair(0).force
+    assert force[1] / force[2] == pytest.approx(-0.2, abs=1e-3)
+
+
+def test_check_tells_how_meshes_fit(model: st.Model, pad: st.Body) -> None:
+    found = model.check()
+    assert found.unknowns > 81
+    (fit,) = found.fits
+    assert fit.pair == "pad-floor" and fit.gap == pytest.approx(0) and fit.overlap == 0
+    far = st.Plane("far", point=(0, 0, -0.5))
+    model = st.Model([pad], [far], [st.Pair(pad["zmin"], far)])
+    model.step("hold", pad["zmax"].hold())
+    assert model.check().fits[0].gap == pytest.approx(0.5)
+
+
+def test_gaps_are_closed_where_asked_for(rubber: st.NeoHookean) -> None:
+    body = st.Body("pad", st.block(origin=(0, 0, 0.01), divisions=(2, 2, 2)), rubber)
+    floor = st.Plane("floor")
+    for initial, gap in [("as-meshed", 0.01), ("close", 0.0), (0.02, 0.0), (0.001, 0.01)]:
+        pair = st.Pair(body["zmin"], floor, initial=initial)  # type: ignore[arg-type]
+        model = st.Model([body], [floor], [pair])
+        model.step("hold", body["zmax"].hold())
+        assert model.check().fits[0].gap == pytest.approx(gap, abs=1e-12)
+
+
+def test_solvers_agree(model: st.Model) -> None:
+    expected = model.run()[-1].pair(0).force
+    for backend in ("multifrontal", "faer", "iterative"):
+        model._solver = st.Solver(backend)
+        difference = model.run()[-1].pair(0).force - expected
+        assert np.linalg.norm(difference) < 1e-9 * np.linalg.norm(expected)
+
+
+def test_pictures_are_drawn(model: st.Model, tmp_path: Path) -> None:
+    run = model.run()
+    figure = run.plot()
+    figure.savefig(tmp_path / "run.png")
+    assert len(figure.axes) == 4  # history, patch, its colours, law
+    assert (tmp_path / "run.png").stat().st_size > 10_000
+    axes = run.history.plot("energy.friction", "energy.strain")
+    assert [line.get_label() for line in axes.lines] == ["energy.friction", "energy.strain"]
+    st.TwoTextures(0.3, 0.4, 0.1, 0.2).plot(theta=30)
+    run[-1].pair(0).plot()
+
+
+def test_grids_of_pyvista_have_the_fields(model: st.Model) -> None:
+    pytest.importorskip("pyvista")
+    blocks = model.run().to_pyvista()
+    assert list(blocks.keys()) == ["pad", "contact-pad-floor-a"]
+    assert blocks["pad"].n_points == 27 and blocks["pad"].n_cells == 8
+    assert "pressure" in blocks["contact-pad-floor-a"].point_data
+    assert st.Mesh.of(blocks["pad"]).volume == pytest.approx(blocks["pad"].volume)

@@ -1,0 +1,95 @@
+"""Every public name has types and a docstring, with units where it has numbers."""
+
+from __future__ import annotations
+
+import doctest
+import inspect
+import re
+import typing
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+import striae as st
+
+#: Words that say the unit of a number, or what stands for one.
+UNIT = re.compile(
+    r"\((?:[^)]*\b(?:length|force|mass|degrees|radians|time|seconds|no unit|fraction|per|unit)\b)"
+    r"|counts? from 0|unit|number|coordinates|name|index|increments"
+)
+
+
+def public() -> Iterator[tuple[str, object]]:
+    """All public names, and those in classes."""
+    for name in st.__all__:
+        thing = getattr(st, name)
+        yield name, thing
+        if inspect.isclass(thing):
+            for part, member in vars(thing).items():
+                special = part == "__init__" and not issubclass(thing, tuple)
+                if special or not part.startswith("_"):
+                    yield f"{name}.{part}", member
+
+
+def function_of(thing: object) -> object:
+    if isinstance(thing, property):
+        return thing.fget
+    if isinstance(thing, (classmethod, staticmethod)):
+        return thing.__func__
+    return getattr(thing, "func", thing)
+
+
+ALL = list(public())
+
+
+def test_everything_is_listed() -> None:
+    names = {name for name in vars(st) if not name.startswith("_")}
+    assert names == set(st.__all__)
+    assert (Path(st.__file__).parent / "py.typed").exists()
+
+
+@pytest.mark.parametrize("name, thing", ALL, ids=[name for name, _ in ALL])
+def test_it_has_a_docstring(name: str, thing: object) -> None:
+    if isinstance(thing, (int, st.Status)):
+        return
+    assert inspect.getdoc(function_of(thing)), name
+
+
+@pytest.mark.parametrize("name, thing", ALL, ids=[name for name, _ in ALL])
+def test_it_has_types(name: str, thing: object) -> None:
+    function = function_of(thing)
+    if not inspect.isfunction(function):
+        return
+    parameters = list(inspect.signature(function).parameters.values())
+    parameters = [one for one in parameters if one.name not in ("self", "cls")]
+    for parameter in parameters:
+        assert parameter.annotation is not inspect.Parameter.empty, f"{name}: {parameter}"
+    assert "return" in function.__annotations__, name
+
+
+@pytest.mark.parametrize("name, thing", ALL, ids=[name for name, _ in ALL])
+def test_numbers_have_units(name: str, thing: object) -> None:
+    """Each argument is explained; arrays and numbers that come out have a unit."""
+    function = function_of(thing)
+    if not inspect.isfunction(function):
+        return
+    text = inspect.getdoc(function) or ""
+    names = [one for one in inspect.signature(function).parameters if one not in ("self", "cls")]
+    internal = inspect.getdoc(function) and "got from" in text or "made by" in text
+    for parameter in names if not internal else []:
+        assert re.search(rf"\b{parameter}\b", text), f"{name} does not explain {parameter}"
+    returned = str(function.__annotations__.get("return"))
+    if returned in ("Floats", "float"):
+        assert UNIT.search(text), f"{name} has no unit"
+
+
+def test_the_example_of_the_docstring_holds() -> None:
+    assert doctest.testmod(st).failed == 0
+
+
+def test_hints_resolve() -> None:
+    for name in ("Body", "Model", "Pair", "Step"):
+        init = getattr(st, name).__init__
+        module = inspect.getmodule(init)
+        assert module is not None
+        typing.get_type_hints(init, vars(module))

@@ -1,0 +1,299 @@
+"""Wrong uses and the exact words that meet them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import striae as st
+
+POINTS = st.block().points
+CELLS = st.block().cells["hexahedron"]
+RUBBER = st.NeoHookean(1e6, 0.3)
+
+
+def pad() -> st.Body:
+    return st.Body("pad", st.block(), RUBBER)
+
+
+def nan_points() -> Any:
+    points = np.array(POINTS)
+    points[3, 1] = np.nan
+    return points
+
+
+def built(*steps: Any, **parts: Any) -> st.Model:
+    body = pad()
+    model = st.Model(parts.get("bodies", [body]), parts.get("rigid", []), parts.get("pairs", []))
+    for number, conditions in enumerate(steps):
+        model.step(f"s{number}", *conditions(body))
+    return model
+
+
+def floored(law: st.Friction | None, texture: Any = None) -> st.Model:
+    body, floor = pad(), st.Plane("floor", texture=texture)
+    model = st.Model([body], [floor], [st.Pair(body["zmin"], floor, law)])
+    model.step("press", body["zmax"].displace(x=0, y=0, z=-0.01))
+    return model
+
+
+SETS = "`all`, `xmax`, `xmin`, `ymax`, `ymin`, `zmax`, `zmin`"
+
+#: What is done, and the words.
+MODEL_ERRORS: list[tuple[Callable[[], Any], str]] = [
+    (
+        lambda: st.Mesh(POINTS[:, :2], {"hexahedron": CELLS}),
+        "points: an array of shape (n, 3) is needed, but it has shape (8, 2)",
+    ),
+    (
+        lambda: st.Mesh(POINTS.ravel(), {"hexahedron": CELLS}),
+        "points: an array of shape (n, 3) is needed, but it has shape (24,)",
+    ),
+    (
+        lambda: st.Mesh([["a", "b", "c"]], {"hexahedron": CELLS}),
+        "points: numbers are needed, but the array has dtype <U1",
+    ),
+    (
+        lambda: st.Mesh(POINTS.astype(complex), {"hexahedron": CELLS}),
+        "points: numbers are needed, but the array has dtype complex128",
+    ),
+    (
+        lambda: st.Mesh([[0, 0, 0], [1, 0]], {"hexahedron": CELLS}),  # type: ignore[list-item]
+        "points: the rows must all have the same length",
+    ),
+    (
+        lambda: st.Mesh(nan_points(), {"hexahedron": CELLS}),
+        "points: row 3 is not finite: [1.0, nan, 0.0]",
+    ),
+    (
+        lambda: st.Mesh(POINTS, {"hexahedron20": CELLS}),
+        "cells: the kinds are ['hexahedron', 'wedge', 'pyramid', 'tetra'],"
+        " but there is ['hexahedron20']",
+    ),
+    (
+        lambda: st.Mesh(POINTS, {"hexahedron": CELLS[:, :6]}),
+        "cells: an array of shape (n, 8) is needed, but it has shape (1, 6)",
+    ),
+    (
+        lambda: st.Mesh(POINTS, {"hexahedron": CELLS.astype(float)}),
+        "cells: integers are needed, but the array has dtype float64",
+    ),
+    (
+        lambda: st.Mesh(POINTS, {"hexahedron": CELLS - 1}),
+        "cells: numbers count from 0, but there is -1",
+    ),
+    (
+        lambda: st.Mesh(POINTS, {"hexahedron": CELLS + 1}),
+        "mesh: element 0 refers to node 8, but the mesh has 8 nodes",
+    ),
+    (
+        lambda: st.Mesh(np.vstack([POINTS, [2, 2, 2]]), {"hexahedron": CELLS}),
+        "mesh: 1 nodes belong to no element, the first is node 8",
+    ),
+    (
+        lambda: st.Mesh(POINTS, {"hexahedron": CELLS}, node_sets={"top": [0, 9]}),
+        "mesh: node set 'top' refers to node 9, but the mesh has 8 nodes",
+    ),
+    (
+        lambda: st.Mesh(POINTS, {"hexahedron": CELLS}, node_sets={"top": [True, False]}),
+        "node set `top`: a mask of shape (8,) is needed, but it has shape (2,)",
+    ),
+    (
+        lambda: st.Mesh(POINTS, {"hexahedron": CELLS}, node_sets={"top": lambda x: x[:, 2]}),
+        "node set `top`: the function must return a mask, but its dtype is float64",
+    ),
+    (
+        lambda: st.Mesh(POINTS, {"hexahedron": CELLS}, facet_sets={"top": [[0, 1, 2, 4]]}),
+        "facet set `top`: row 0, [0, 1, 2, 4], is no face of the boundary",
+    ),
+    (lambda: st.block(size=(1, 1)), "size: 3 numbers are needed, but it has shape (2,)"),
+    (lambda: st.block(divisions=(2, 0, 2)), "divisions: at least 1 is needed, but there is 0"),
+    (
+        lambda: st.block(divisions=(2.5, 1, 1)),  # type: ignore[arg-type]
+        "divisions: integers are needed, but the array has dtype float64",
+    ),
+    (
+        lambda: st.block(grading={"w": st.Grading.one_sided(2)}),
+        "grading: the keys are ['x', 'y', 'z'], but there is ['w']",
+    ),
+    (
+        lambda: st.read_mesh("a.vtk"),
+        "mesh: a.vtk: unknown kind of file; expected .msh (Gmsh) or .inp (Abaqus)",
+    ),
+    (
+        lambda: st.NeoHookean(-1.0, 0.3),
+        "NeoHookean: Young's modulus is -1, it must be positive and finite",
+    ),
+    (
+        lambda: st.NeoHookean(1.0, 0.5),
+        "NeoHookean: Poisson's ratio is 0.5, it must be above -1 and below 0.5",
+    ),
+    (lambda: st.Coulomb(float("nan")), "mu: a finite number is needed, not nan"),
+    (lambda: st.Coulomb(-0.1), "Coulomb: mu = -0.1 is refused: it must be zero or positive, and finite"),
+    (lambda: st.Coulomb("0.3"), "mu: a number is needed, not '0.3'"),  # type: ignore[arg-type]
+    (
+        lambda: st.Nap(forward=0.1, backward=2.0, lateral=0.1),
+        "Nap: friction would create energy: slip at 120.000 degrees from the texture `a` gives a"
+        " dissipation -tau . d / p = -0.137500",
+    ),
+    (
+        lambda: st.Tabulated([0, 90, 45], [0.1, 0.2, 0.3]),
+        "Tabulated: the angle 45.000 degrees after 90.000 degrees is refused: the angles of a"
+        " table must ascend",
+    ),
+    (
+        lambda: st.Tabulated([0, 90, 180], [0.1, 0.2]),
+        "Tabulated: the table has angles: 3, but coefficients: 2; each angle needs one",
+    ),
+    (
+        lambda: st.Orthotropic(0.1, 0.2, "other"),  # type: ignore[arg-type]
+        "slip_rule: one of `opposing`, `associated` is needed, not 'other'",
+    ),
+    (lambda: st.Plane("f", normal=(0, 0, 0)), "normal: a direction must not be the zero vector"),
+    (lambda: st.Uniform((0, 0, 0)), "texture: a direction must not be the zero vector"),
+    (
+        lambda: st.Painted([[0, 0, 0]], [[1, 0, 0], [0, 1, 0]]),
+        "directions: there are 2 for 1 places",
+    ),
+    (
+        lambda: st.Plane("f", mass=1.0),
+        "rigid body `f`: mass and inertia must be given together",
+    ),
+    (
+        lambda: st.RigidSurface("r", (POINTS, {"triangle": [[0, 1, 9]]})),
+        "rigid body `r`: a facet refers to node 9, but there are 8 points",
+    ),
+    (lambda: st.RigidBody("r", []), "rigid body `r`: at least one set of nodes is needed"),
+    (lambda: pad()["top"], f"body `pad`: there is no set `top`; it has {SETS}"),
+    (
+        lambda: pad().add_set("none", lambda x: x[:, 0] > 5),
+        "body `pad`: no node is in set `none`",
+    ),
+    (
+        lambda: pad()["zmax"].displace(),
+        "pad['zmax']: a displacement needs at least one of x, y and z",
+    ),
+    (
+        lambda: pad()["zmax"].displace(x=1, curve="bent"),  # type: ignore[arg-type]
+        "curve: one of `ramp`, `constant`, `smooth` is needed, not 'bent'",
+    ),
+    (
+        lambda: pad()["zmax"].release("w"),  # type: ignore[arg-type]
+        "components: one of `x`, `y`, `z` is needed, not 'w'",
+    ),
+    (
+        lambda: built().run(),
+        "steps: the model has no step; there is nothing to do",
+    ),
+    (
+        lambda: built(lambda body: [st.Body("other", st.block(), RUBBER)["zmax"].hold()]).check(),
+        "steps[0].displacements[0]: no body is named `other`; there is `pad`",
+    ),
+    (
+        lambda: floored(st.Nap(0.2, 0.3, 0.25)).check(),
+        "pairs[0].friction: the friction of pair `pad-floor` needs a texture on one side;"
+        " sides that have one: 0",
+    ),
+    (
+        lambda: built(lambda body: [st.gravity((0, 0, -9.81)), body["zmin"].hold()]).check(),
+        "steps[0]: body `pad` has inertia or weight in step `s0`, but its material has no"
+        " `density`; give it one",
+    ),
+    (
+        lambda: built(lambda body: [body["zmin"].hold(), body["zmin"].displace(x=1)]).check(),
+        "steps[0].displacements[1]: step `s0` prescribes component `x` of node 0 of body `pad`"
+        " twice: 0 by `zmin`, 1 by `zmin`",
+    ),
+    (
+        lambda: floored(None).run(keep="some"),  # type: ignore[arg-type]
+        "keep: one of `all`, `steps`, `last` is needed, not 'some'",
+    ),
+    (lambda: floored(None).run(threads=0), "threads: it must be at least 1, but is 0"),
+    (
+        lambda: floored(None).friction("sole"),
+        "model: no pair is named `sole`; there is `pad-floor`",
+    ),
+    (lambda: floored(None).friction(3), "model: there is no pair 3; there are 1, from 0"),
+    (lambda: st.sweep(floored, {"law": []}), "parameter `law`: it has no values"),
+    (
+        lambda: st.Model.from_deck("none.toml"),
+        "none.toml: the deck cannot be read: No such file or directory (os error 2)",
+    ),
+]
+
+TYPE_ERRORS: list[tuple[Callable[[], Any], str]] = [
+    (
+        lambda: st.Mesh(POINTS, CELLS),  # type: ignore[arg-type]
+        "cells: a mapping such as {'hexahedron': corners} is needed, not ndarray",
+    ),
+    (
+        lambda: st.Body("pad", 3, RUBBER),
+        "mesh: a Mesh, a path, or a mesh of meshio or pyvista is needed, not int",
+    ),
+    (
+        lambda: st.Body("pad", st.block(), "rubber"),  # type: ignore[arg-type]
+        "material: an object of class Material is needed, not str",
+    ),
+    (
+        lambda: st.Pair(pad(), st.Plane("floor")),  # type: ignore[arg-type]
+        "a: a set such as body['top'] or a rigid body is needed, not Body",
+    ),
+    (
+        lambda: st.Model().step("press", "down"),  # type: ignore[arg-type]
+        "step `press`: an object of class Condition is needed, not str",
+    ),
+    (lambda: st.Friction(), "use Frictionless, Coulomb, Orthotropic, Nap, TwoTextures or Tabulated"),
+]
+
+
+@pytest.mark.parametrize("wrong, words", MODEL_ERRORS, ids=[words[:50] for _, words in MODEL_ERRORS])
+def test_a_wrong_use_is_refused_in_these_words(wrong: Callable[[], Any], words: str) -> None:
+    with pytest.raises(st.ModelError) as caught:
+        wrong()
+    assert str(caught.value) == words
+    (fault,) = caught.value.faults
+    assert f"{fault.path}: {fault.message}" == words
+
+
+@pytest.mark.parametrize("wrong, words", TYPE_ERRORS, ids=[words[:50] for _, words in TYPE_ERRORS])
+def test_a_wrong_type_is_refused_in_these_words(wrong: Callable[[], Any], words: str) -> None:
+    with pytest.raises(TypeError) as caught:
+        wrong()
+    assert str(caught.value) == words
+
+
+def test_all_faults_of_a_model_are_told_at_once() -> None:
+    body, floor = pad(), st.Plane("floor")
+    pairs = [st.Pair(body["zmin"], floor, st.Nap(0.2, 0.3, 0.25), name="p")]
+    model = st.Model([body, pad()], [floor], pairs)
+    model.step("press", body["zmax"].displace(z=-1), body["zmax"].displace(z=-2))
+    with pytest.raises(st.ModelError) as caught:
+        model.check()
+    assert len(caught.value.faults) >= 3
+    assert str(caught.value).endswith(f"{len(caught.value.faults)} faults")
+    assert isinstance(caught.value, ValueError)
+
+
+def test_faults_of_a_deck_have_lines_and_columns(tmp_path: Path) -> None:
+    deck = tmp_path / "deck.toml"
+    deck.write_text('title = "x"\n[[step]]\nnme = "press"\n')
+    with pytest.raises(st.ModelError) as caught:
+        st.Model.from_deck(deck)
+    paths = [fault.path for fault in caught.value.faults]
+    assert f"{deck}:3:1" in paths
+
+
+def test_arrays_of_any_layout_are_understood() -> None:
+    expected = st.Mesh(POINTS, {"hexahedron": CELLS})
+    fortran = np.asfortranarray(POINTS)
+    strided = np.repeat(POINTS, 2, axis=0)[::2]
+    small = CELLS.astype(np.uint16)
+    listed = POINTS.tolist()
+    integers = POINTS.astype(np.int32)
+    for points in (fortran, strided, listed, integers):
+        mesh = st.Mesh(points, {"hexahedron": small})
+        assert np.array_equal(mesh.points, expected.points)
+        assert np.array_equal(mesh.cells["hexahedron"], expected.cells["hexahedron"])
