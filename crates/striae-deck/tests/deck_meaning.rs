@@ -654,7 +654,7 @@ fn triangles_where_four_corners_are_needed() {
             ),
         ],
         &[
-            "20:5: collocated contact in pair `interface` needs facets with four corners, and body `lower` has triangles there; mesh it with hexahedra, wedges or pyramids that show quadrilaterals",
+            "18:1: collocated contact in pair `interface` needs facets with four corners, and body `lower` has triangles there; mesh it with hexahedra, wedges or pyramids that show quadrilaterals",
         ],
     );
 }

@@ -52,7 +52,7 @@ fn quadrangles_of_no_group_and_in_any_order_are_fine() {
 
 #[test]
 fn elements_of_several_kinds_make_a_block_each() {
-    // A cube cut into a wedge below the diagonal of its sides and two more beside it.
+    // A cube cut along a diagonal into a wedge, and a tetrahedron and a pyramid beside it.
     let cells = [
         "1 6 2 1 1 1 2 4 5 6 8",
         "2 4 2 1 1 2 3 4 7",
@@ -67,7 +67,7 @@ fn elements_of_several_kinds_make_a_block_each() {
         [CellKind::Tetrahedron, CellKind::Pyramid, CellKind::Wedge]
     );
     assert!((mesh.volume() - 1.0).abs() < 1e-15);
-    assert_eq!(mesh.boundary_faces().len(), 9);
+    assert_eq!(mesh.boundary_faces().len(), 10);
     let area = |set| mesh.area_vector(mesh.facet_sets.get(set).unwrap()[0]);
     assert_eq!([area("8"), area("9")], [Vec3::z() * 0.5, -Vec3::y()]);
 }
