@@ -657,3 +657,29 @@ facet_sets = [{ name = "strip", of = "zmax", from = [0, 0, 0], to = [1, 1, 0.4] 
         &["11:24: facet set `strip` of body `lower` is empty"],
     );
 }
+
+#[test]
+fn triangles_where_four_corners_are_needed() {
+    let tetrahedra = "divisions = [4, 4, 2], cells = \"tetrahedra\" }";
+    misstated(
+        "load on parts of triangles",
+        &[("divisions = [4, 4, 2] }", tetrahedra)],
+        &[
+            "35:13: a load on the exposed part of `xmin` needs facets with four corners, and body `lower` has triangles there; mesh it with hexahedra, wedges or pyramids that show quadrilaterals",
+        ],
+    );
+    misstated(
+        "collocated contact of triangles",
+        &[
+            ("divisions = [4, 4, 2] }", tetrahedra),
+            (r#"value = 3, extent = "exposed""#, "value = 3"),
+            (
+                r#"law = "coulomb", mu = 0.3 }"#,
+                "law = \"coulomb\", mu = 0.3 }\nenforcement = \"collocated\"",
+            ),
+        ],
+        &[
+            "18:1: collocated contact in pair `interface` needs facets with four corners, and body `lower` has triangles there; mesh it with hexahedra, wedges or pyramids that show quadrilaterals",
+        ],
+    );
+}

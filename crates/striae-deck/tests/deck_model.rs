@@ -11,11 +11,11 @@ use striae_law::{
     bulk::{LameConstants, Material},
     friction::Friction,
 };
-use striae_mesh::{NodeId, Vec3, generate::Block};
+use striae_mesh::{CellKind, NodeId, Vec3, generate::Block};
 use striae_output::FieldOutput;
 use striae_solve::model::{
-    Backend, BodyId, Curve, Enforcement, Freedom, Increments, LoadExtent, LoadKind, Mover, PairId,
-    Procedure, RigidId, RigidShape, Side, Solver, Strategy, Velocity,
+    Backend, BodyId, Curve, Enforcement, Formulation, Freedom, Increments, LoadExtent, LoadKind,
+    Mover, PairId, Procedure, RigidId, RigidShape, Side, Solver, Strategy, Velocity,
 };
 
 use striae_surface::texture::{Field, Lines, Paint};
@@ -136,6 +136,29 @@ fn decks_have_all_bulk_laws() {
             .unwrap()
             .model;
         assert_eq!(model.bodies[0].material, expected);
+    }
+}
+
+#[test]
+fn bodies_have_the_elements_of_their_deck() {
+    let body = |from: &str, to: &str| {
+        let mut bodies = lowered(&BASE.replace(from, to)).model.bodies;
+        bodies.swap_remove(0)
+    };
+    let ratio = |nu: &str| body("poissons_ratio = 0.3", nu).formulation;
+    assert_eq!(ratio("poissons_ratio = 0.45"), Formulation::Standard);
+    assert_eq!(ratio("poissons_ratio = 0.46"), Formulation::MeanDilatation);
+    let stated = "name = \"lower\"\nformulation = \"mean-dilatation\"\nmaterial";
+    let body_with = body("name = \"lower\"\nmaterial", stated);
+    assert_eq!(body_with.formulation, Formulation::MeanDilatation);
+    for (cells, kind) in [
+        ("wedges", CellKind::Wedge),
+        ("pyramids", CellKind::Pyramid),
+        ("hexahedra", CellKind::Hexahedron),
+    ] {
+        let with = format!("divisions = [4, 4, 2], cells = \"{cells}\" }}");
+        let mesh = body("divisions = [4, 4, 2] }", &with).mesh;
+        assert_eq!(mesh.blocks[0].kind, kind);
     }
 }
 

@@ -2,8 +2,8 @@
 //!
 //! | ending | format | what is read |
 //! | --- | --- | --- |
-//! | `.msh` | Gmsh, ASCII, versions 2 and 4.1 | hexahedra; physical volumes as element sets, surfaces as facet and node sets, curves and points as node sets |
-//! | `.inp` | Abaqus | `C3D8` elements of any variant, `*NSET`, `*ELSET`, `*SURFACE` |
+//! | `.msh` | Gmsh, ASCII, versions 2 and 4.1 | linear cells; physical volumes as element sets, surfaces as facet and node sets, curves and points as node sets |
+//! | `.inp` | Abaqus | `C3D4`, `C3D5`, `C3D6` and `C3D8` elements of any variant, `*NSET`, `*ELSET`, `*SURFACE` |
 //! | `.stl` | STL, ASCII and binary | triangles of a rigid surface |
 //! | `.csv` | lines `node,x,y,z` | vectors at nodes; so do `$NodeData` of three components in `.msh` |
 //!

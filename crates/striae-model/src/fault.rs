@@ -54,6 +54,16 @@ pub enum FaultKind {
         /// Where it was defined first.
         first: Path,
     },
+    /// Facets with three corners where four are needed.
+    #[error(
+        "{what} needs facets with four corners, and body `{body}` has triangles there; mesh it with hexahedra, wedges or pyramids that show quadrilaterals"
+    )]
+    Triangles {
+        /// What needs them.
+        what: String,
+        /// Name of the body.
+        body: String,
+    },
     /// A model without bodies or steps.
     #[error("the model has no {what}; {need}")]
     Nothing {

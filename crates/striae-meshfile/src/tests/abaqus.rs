@@ -164,7 +164,7 @@ fn broken_abaqus_files_are_explained() {
 
 #[test]
 fn unused_nodes_are_left_out_also_of_sets() {
-    let mesh = block();
+    let mesh = block(striae_mesh::CellKind::Hexahedron);
     let text = written::abaqus(&mesh)
         + "*NODE, NSET=reference\n99999, 5., 5.D0\n*NSET, NSET=mixed\n99999, 17\n";
     let back = body(&text).unwrap();

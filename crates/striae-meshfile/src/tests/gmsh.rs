@@ -3,7 +3,7 @@
 use super::assert_explained;
 use crate::gmsh::{body, rigid_surface};
 use crate::read_rigid_surface;
-use striae_mesh::{NodeId, Vec3};
+use striae_mesh::{CellKind, NodeId, Vec3};
 
 /// A cube of node 1 to 8 with the given elements and names, version 2.
 fn cube(names: &str, elements: &[&str]) -> String {
@@ -48,6 +48,28 @@ fn quadrangles_of_no_group_and_in_any_order_are_fine() {
         result,
         ["line 17", "a face on the boundary of the body in set '9'"],
     );
+}
+
+#[test]
+fn elements_of_several_kinds_make_a_block_each() {
+    // A cube cut along a diagonal into a wedge, and a tetrahedron and a pyramid beside it.
+    let cells = [
+        "1 6 2 1 1 1 2 4 5 6 8",
+        "2 4 2 1 1 2 3 4 7",
+        "3 7 2 1 1 2 4 8 6 7",
+        "4 2 2 8 1 5 6 8",
+        "5 3 2 9 1 1 2 6 5",
+    ];
+    let mesh = body(&cube("", &cells)).unwrap();
+    let kinds: Vec<CellKind> = mesh.blocks.iter().map(|block| block.kind).collect();
+    assert_eq!(
+        kinds,
+        [CellKind::Tetrahedron, CellKind::Pyramid, CellKind::Wedge]
+    );
+    assert!((mesh.volume() - 1.0).abs() < 1e-15);
+    assert_eq!(mesh.boundary_faces().len(), 10);
+    let area = |set| mesh.area_vector(mesh.facet_sets.get(set).unwrap()[0]);
+    assert_eq!([area("8"), area("9")], [Vec3::z() * 0.5, -Vec3::y()]);
 }
 
 #[test]

@@ -10,25 +10,27 @@ use super::{MeshFileFault, read};
 use crate as mesh_file;
 use proptest::prelude::*;
 use striae_mesh::generate::Block;
-use striae_mesh::{ElementId, Mesh, Vec3};
+use striae_mesh::{CellKind, ElementId, Mesh, Vec3};
 
 #[test]
 fn meshes_come_back_from_all_formats() {
-    let mesh = block();
-    for (format, result) in [
-        ("msh 2", mesh_file::gmsh::body(&written::gmsh2(&mesh))),
-        ("msh 4", mesh_file::gmsh::body(&written::gmsh4(&mesh))),
-        ("inp", mesh_file::abaqus::body(&written::abaqus(&mesh))),
-    ] {
-        let back = result.unwrap_or_else(|fault| panic!("{format}: {fault}"));
-        assert_eq!(back, mesh, "{format}");
+    for cells in CellKind::ALL {
+        let mesh = block(cells);
+        for (format, result) in [
+            ("msh 2", mesh_file::gmsh::body(&written::gmsh2(&mesh))),
+            ("msh 4", mesh_file::gmsh::body(&written::gmsh4(&mesh))),
+            ("inp", mesh_file::abaqus::body(&written::abaqus(&mesh))),
+        ] {
+            let back = result.unwrap_or_else(|fault| panic!("{cells}, {format}: {fault}"));
+            assert_eq!(back, mesh, "{cells}, {format}");
+        }
     }
 }
 
 #[test]
 fn the_ending_chooses_the_format() {
     let folder = tempfile::tempdir().unwrap();
-    let mesh = block();
+    let mesh = block(CellKind::Hexahedron);
     let path = folder.path().join("block.MSH");
     std::fs::write(&path, written::gmsh4(&mesh)).unwrap();
     assert_eq!(read(&path).unwrap(), mesh);
@@ -70,10 +72,11 @@ fn any(text: &str) -> [bool; 4] {
     ]
 }
 
-fn block() -> Mesh {
+fn block(cells: CellKind) -> Mesh {
     let mut mesh = Block {
         divisions: [2, 3, 2],
         irregularity: 0.2,
+        cells,
         ..Block::default()
     }
     .mesh()

@@ -117,7 +117,7 @@ fn lists_give_vectors_line_by_line() {
 
 #[test]
 fn numbers_of_nodes_are_those_of_the_file() {
-    let mesh = block();
+    let mesh = block(striae_mesh::CellKind::Hexahedron);
     let expected: Vec<u64> = (0..mesh.positions.len() as u64)
         .map(|id| 10 * id + 7)
         .collect();
@@ -153,7 +153,10 @@ fn the_ending_chooses_the_reader() {
         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 9 9 9\n5 0 0 0\n3 1 0 0\n4 1 1 0\n$EndNodes\n$Elements\n1\n2 2 0 4 5 3\n$EndElements\n",
     );
     assert_eq!(rigid_node_numbers(&ground).unwrap(), [4, 5, 3]);
-    let cube = write("cube.msh", &written::gmsh4(&block()));
+    let cube = write(
+        "cube.msh",
+        &written::gmsh4(&block(striae_mesh::CellKind::Hexahedron)),
+    );
     assert_eq!(node_numbers(&cube).unwrap()[..3], [7, 17, 27]);
     assert!(
         node_numbers(&csv)

@@ -1,7 +1,7 @@
 //! Mesh files as other programs write them, with numbers unlike our ids.
 
 use std::fmt::Write;
-use striae_mesh::{ElementId, Mesh, NodeId, Vec3};
+use striae_mesh::{CellKind, ElementId, Face, Mesh, NodeId, Vec3};
 
 /// Number of a node in the file.
 fn node(id: NodeId) -> u32 {
@@ -29,6 +29,24 @@ fn elements(mesh: &Mesh) -> impl Iterator<Item = (ElementId, String)> {
     })
 }
 
+/// Gmsh's type and the corners of a triangle or quadrangle.
+fn facet(mesh: &Mesh, face: Face) -> (u8, String) {
+    match mesh.face_nodes(face) {
+        [a, b, c, d] if c == d => (2, joined([a, b, c].map(node), " ")),
+        corners => (3, joined(corners.map(node), " ")),
+    }
+}
+
+/// Gmsh's type of the elements, all of one kind.
+fn gmsh_kind(mesh: &Mesh) -> u8 {
+    match mesh.blocks[0].kind {
+        CellKind::Tetrahedron => 4,
+        CellKind::Hexahedron => 5,
+        CellKind::Wedge => 6,
+        CellKind::Pyramid => 7,
+    }
+}
+
 /// Version 2.2: an element of two groups is written twice.
 pub(super) fn gmsh2(mesh: &Mesh) -> String {
     let mut text = String::from("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
@@ -37,17 +55,18 @@ pub(super) fn gmsh2(mesh: &Mesh) -> String {
     for (group, (name, faces)) in mesh.facet_sets.iter().enumerate() {
         names.push(format!("2 {} \"{name}\"", group + 1));
         for &face in faces {
-            let corners = joined(mesh.face_nodes(face).map(node), " ");
-            cells.push(format!("3 2 {} 1 {corners}", group + 1));
+            let (kind, corners) = facet(mesh, face);
+            cells.push(format!("{kind} 2 {} 1 {corners}", group + 1));
         }
     }
     names.push("3 98 \"all\"".into());
     names.push("3 99 \"lower half\"".into());
+    let kind = gmsh_kind(mesh);
     for (id, corners) in elements(mesh) {
-        cells.push(format!("5 3 98 1 0 {corners}"));
+        cells.push(format!("{kind} 3 98 1 0 {corners}"));
         let lower = mesh.element_sets.get("lower half");
         if lower.is_some_and(|set| set.contains(&id)) {
-            cells.push(format!("5 2 99 1 {corners}"));
+            cells.push(format!("{kind} 2 99 1 {corners}"));
         }
     }
     let _ = write!(
@@ -100,13 +119,10 @@ pub(super) fn gmsh4(mesh: &Mesh) -> String {
     let _ = writeln!(text, "{} 0 1 9999", sides.len() + 2);
     let mut number = 1;
     for (group, (_, faces)) in sides.iter().enumerate() {
-        let _ = writeln!(text, "2 {} 3 {}", group + 21, faces.len());
+        let (kind, _) = facet(mesh, faces[0]);
+        let _ = writeln!(text, "2 {} {kind} {}", group + 21, faces.len());
         for &face in *faces {
-            let _ = writeln!(
-                text,
-                "{number} {}",
-                joined(mesh.face_nodes(face).map(node), " ")
-            );
+            let _ = writeln!(text, "{number} {}", facet(mesh, face).1);
             number += 1;
         }
     }
@@ -116,7 +132,8 @@ pub(super) fn gmsh4(mesh: &Mesh) -> String {
             .filter(|(id, _)| lower.contains(id) == part)
             .map(|(id, corners)| format!("{} {corners}\n", element(id)))
             .collect();
-        let _ = write!(text, "3 {volume} 5 {}\n{}", rows.len(), rows.concat());
+        let kind = gmsh_kind(mesh);
+        let _ = write!(text, "3 {volume} {kind} {}\n{}", rows.len(), rows.concat());
     }
     text + "$EndElements\n"
 }
@@ -134,7 +151,8 @@ pub(super) fn abaqus(mesh: &Mesh) -> String {
             x.z
         );
     }
-    text += "*ELEMENT, TYPE=C3D8H\n";
+    let corners = mesh.blocks[0].kind.corner_count();
+    let _ = writeln!(text, "*ELEMENT, TYPE=C3D{corners}H");
     for (id, corners) in elements(mesh) {
         let _ = writeln!(text, "{}, {}", element(id), corners.replace(' ', ", "));
     }

@@ -12,6 +12,7 @@ mod pairs;
 mod references;
 mod rigid;
 mod steps;
+mod triangles;
 
 pub use numbers::misshapen;
 
@@ -166,6 +167,7 @@ impl<'a> Draft<'a> {
         self.names(&mut faults);
         let impossible = pairs::check(self, &mut faults);
         let partial = steps::check(self, &impossible, &mut faults);
+        triangles::check(self, &mut faults);
         if self.known == Known::Whole {
             if impossible.is_empty() && partial.is_empty() {
                 hold::check(self, &mut faults);

@@ -1,6 +1,6 @@
 use nalgebra::Matrix3;
 use proptest::prelude::*;
-use striae_mesh::{CellBlock, NodeId, Vec3};
+use striae_mesh::{CellBlock, CellKind, NodeId, Vec3};
 
 use super::decode::{array, attribute};
 use super::xml::encode;
@@ -80,6 +80,30 @@ fn every_kind_of_array_survives_bit_by_bit() {
     );
     assert_eq!(array(&file, "offsets").integers(), [8]);
     assert_eq!(array(&file, "types").integers(), [12]);
+}
+
+#[test]
+fn cells_carry_the_shape_and_the_corners_of_their_kind() {
+    let points = cube();
+    let nodes = |count: u32| (0..count).map(NodeId).collect();
+    let blocks = CellKind::ALL.map(|kind| CellBlock {
+        kind,
+        nodes: nodes(kind.corner_count() as u32),
+    });
+    let grid = Grid {
+        points: &points,
+        cells: Cells::Blocks(&blocks),
+        point_arrays: vec![],
+        cell_arrays: vec![Array::new("block", Values::Integers(vec![0, 1, 2, 3]))],
+        time: 0.0,
+    };
+    let file = encode(&grid);
+    assert_eq!(array(&file, "types").integers(), [10, 14, 13, 12]);
+    assert_eq!(array(&file, "offsets").integers(), [4, 9, 15, 23]);
+    let corners = array(&file, "connectivity").integers();
+    assert_eq!(corners[4..9], [0, 1, 2, 3, 4]);
+    // The first triangle of VTK's wedge looks outward.
+    assert_eq!(corners[9..15], [0, 2, 1, 3, 5, 4]);
 }
 
 #[test]

@@ -1,4 +1,5 @@
-//! Loads on four-node faces, with 2x2 Gauss points.
+//! Loads on faces with three or four nodes, with 2x2 Gauss points. A triangle repeats its
+//! last corner; in the quadrilateral folded upon it the points are exact.
 //!
 //! With the tangents `g_1 = x,xi`, `g_2 = x,eta` of the bilinear face, its
 //! normal `m = g_1 x g_2` (outward, `|m| = da/dxi deta`), `n = m/|m|`, and the

@@ -81,11 +81,13 @@ impl Block {
         fixed: impl Fn(usize) -> bool,
     ) -> Vec<Vec3> {
         let free: Vec<usize> = (0..3 * start.len()).filter(|&u| !fixed(u)).collect();
+        let constants = material.lame_constants();
+        let round_off = 1e-14 * (constants.lambda + 2.0 * constants.shear);
         let mut x = start.to_vec();
         for _ in 0..12 {
             let ((force, stiffness), (load, tangent)) = (self.internal(&x, material), external(&x));
             let residual = (force - load).select_rows(&free);
-            if residual.norm() < 1e-14 {
+            if residual.norm() < round_off {
                 return x;
             }
             let matrix = (stiffness - tangent)
