@@ -10,11 +10,11 @@
 use std::collections::BTreeSet;
 
 /// Share of the largest entry in its row that a pivot must have.
-pub(crate) const THRESHOLD: f64 = 0.1;
+const THRESHOLD: f64 = 0.1;
 /// Entry of an equilibrated matrix that counts as zero.
 const TINY: f64 = 1e-9;
 /// Share of the largest entry in its row below which an entry is dropped at the start.
-const DROPPED: f64 = 1e-16;
+pub(crate) const DROPPED: f64 = 1e-16;
 
 /// Entries of a row with their columns, rising.
 pub(crate) type Row = Vec<(u32, f64)>;
