@@ -90,8 +90,8 @@ impl Sliding {
         let [own, opposite] = angles.map(|angle| angle.map(|angle| along(angle).cross(&Vec3::z())));
         let kernel = friction.kernel(&-Vec3::z(), &Textures { own, opposite });
         let cap = friction.cap(pressure(), 0.0);
-        let z = (kernel.k_inverse * along(DIRECTION)).normalize() * cap;
-        let tau = kernel.traction(cap, &z);
+        let way = (kernel.k_inverse * along(DIRECTION)).normalize();
+        let tau = kernel.traction(cap, &(way * (cap * kernel.reach(&way))));
         let mut gradient = Matrix3::identity();
         gradient.set_column(2, &(-tau / SHEAR_MODULUS + Vec3::z() * STRETCH));
         Self { gradient }
