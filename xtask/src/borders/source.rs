@@ -79,13 +79,14 @@ impl Code {
 }
 
 /// Crates that read or write files.
-const FILE_CRATES: [&str; 6] = [
+const FILE_CRATES: [&str; 7] = [
     "striae-cases",
     "striae-deck",
     "striae-figure",
     "striae-files",
     "striae-meshfile",
     "striae-output",
+    "striae-report",
 ];
 const FILES: [&str; 4] = ["std::fs", "std::io", "File::open", "File::create"];
 const PRINTS: [&str; 4] = ["println!", "print!", "io::stdout", "io::stderr"];
