@@ -164,6 +164,9 @@ fn a_run_writes_what_it_says() {
         "block-00002.vtu",
         "contact-sole-block-00001.vtu",
         "contact-sole-block-00002.vtu",
+        "rigid-floor-00000.vtu",
+        "rigid-floor-00001.vtu",
+        "rigid-floor-00002.vtu",
     ];
     assert_eq!(names(&results.join("fields")), fields);
     let history = fs::read_to_string(results.join("history.csv")).unwrap();
