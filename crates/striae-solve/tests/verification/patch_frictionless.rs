@@ -69,7 +69,7 @@ fn stretches(material: &Material) -> [f64; 2] {
 }
 
 fn pressed(case: &Case, order: [usize; 2]) -> Model {
-    let [hard, soft] = case.materials;
+    let [hard, soft] = case.materials.clone();
     let bodies = vec![
         body("lower", case.lower.mesh().unwrap(), hard),
         body("upper", case.upper.mesh().unwrap(), soft),
@@ -244,7 +244,7 @@ fn cells_of_all_kinds() {
         for divisions in [[3, 4], [4, 3]] {
             // Nothing is exposed, also when pressed: loads on parts of triangles are refused.
             let mut case = case([0.0, 0.0], [1.0, 1.0], divisions);
-            case.materials[0] = case.materials[1];
+            case.materials[0] = case.materials[1].clone();
             case.lower.cells = lower;
             case.upper.cells = upper;
             check(&format!("{upper} on {lower}"), &case);
