@@ -10,25 +10,24 @@
 //!     .run() or .run_with(observer) -> Finished
 //! ```
 
+mod watch;
+
 use std::{
     path::{Path, PathBuf},
     sync::Arc,
 };
 
-use striae_contact::evaluation::Evaluation;
 use striae_deck::Deck;
 use striae_model::{Model, StepBuilder, Validate, extended};
 use striae_output::{
-    Existing, Output, OutputError,
+    Existing, Output,
     checkpoint::{Checkpoint, Source, Written, fingerprint},
     history::Table,
     summary::Summary,
 };
 use striae_solve::{
-    drive::{self, Continue, Point, Progress},
-    newton::{Increment, IterationObserver},
-    norms::Norms,
-    outcome::{CutBack, Ending},
+    drive::{self, Point},
+    outcome::Ending,
     problem::Problem,
     state::State,
 };
@@ -38,9 +37,10 @@ use crate::{
     error::Error,
     interrupt::Interrupt,
     log::{Log, Recording},
-    observer::{Converged, Next, Observer},
+    observer::Observer,
     results::Results,
 };
+use watch::Watch;
 
 /// A run that can begin.
 #[derive(Clone, Debug)]
@@ -333,74 +333,6 @@ pub fn case_name(deck: &Path) -> String {
     match (stem.as_deref(), parent) {
         (Some("deck"), Some(parent)) => parent,
         _ => stem.unwrap_or_else(|| "run".to_owned()),
-    }
-}
-
-/// Takes down a run, passes it on to the observer and stops it.
-struct Watch<'a> {
-    problem: &'a Problem,
-    log: Log,
-    observer: &'a mut dyn Observer,
-    interrupt: Interrupt,
-    steps: Vec<State>,
-    /// State before the increment under way.
-    before: State,
-    /// Increments that have converged since the undeformed state.
-    increments: usize,
-    failure: Option<OutputError>,
-}
-
-impl IterationObserver for Watch<'_> {
-    fn iteration(&mut self, number: usize, norms: &Norms, contacts: &[Evaluation]) {
-        self.observer.iteration(number, norms, contacts);
-    }
-}
-
-impl drive::Observer for Watch<'_> {
-    fn step(&mut self, _index: usize, _name: &str) {}
-
-    fn increment(&mut self, progress: Progress, increment: &Increment) -> Continue {
-        let next = self.observer.increment(&Converged {
-            progress,
-            increment,
-            results: Results::new(self.problem, &increment.state),
-        });
-        if progress.fraction == 1.0 {
-            self.steps.push(increment.state.clone());
-        }
-        self.log.judge(self.problem, &self.before, increment);
-        self.before = increment.state.clone();
-        self.increments = progress.increment;
-        let taken_down = self.log.increment(self.problem, progress, increment);
-        self.failure = self.failure.take().or(taken_down.err());
-        if self.log.keeps(progress.increment) {
-            self.proceed(next, Continue::Keep)
-        } else {
-            self.proceed(next, Continue::Yes)
-        }
-    }
-
-    fn point(&mut self, point: Point) {
-        if self.failure.is_none() {
-            self.failure = self.log.point(point).err();
-        }
-    }
-
-    fn cut_back(&mut self, progress: Progress, reason: &CutBack) -> Continue {
-        self.log.cut_back();
-        let next = self.observer.cut_back(progress, reason);
-        self.proceed(next, Continue::Yes)
-    }
-}
-
-impl Watch<'_> {
-    /// What comes next if nothing stops the run.
-    fn proceed(&self, next: Next, otherwise: Continue) -> Continue {
-        if self.failure.is_some() || self.interrupt.is_set() || next == Next::Stop {
-            Continue::Stop
-        } else {
-            otherwise
-        }
     }
 }
 
