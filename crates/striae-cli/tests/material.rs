@@ -15,12 +15,12 @@ poissons_ratio = 0.4999
 [[body]]
 name = "one"
 material = "rubber"
-mesh = { generator = "block", divisions = [1, 1, 1] }
+mesh = { generator = "block", size = [1, 1, 1], divisions = [1, 1, 1] }
 
 [[body]]
 name = "two"
 material = "rubber"
-mesh = { generator = "block", origin = [2, 0, 0], divisions = [1, 1, 1] }
+mesh = { generator = "block", origin = [2, 0, 0], size = [1, 1, 1], divisions = [1, 1, 1] }
 
 [[step]]
 name = "rest"

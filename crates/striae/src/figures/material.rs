@@ -63,9 +63,12 @@ pub fn figure(name: &str, tests: &[Test]) -> Figure {
         };
         let stable = Content::line(points(first, last));
         panel = panel.with(Series::new(test.mode.name(), stable).colored(color));
-        for unstable in [points(0.0, first), points(last, f64::INFINITY)] {
+        for (side, unstable) in [
+            ("compression", points(0.0, first)),
+            ("tension", points(last, f64::INFINITY)),
+        ] {
             if unstable.len() > 1 {
-                let name = format!("{}, unstable", test.mode.name());
+                let name = format!("{}, unstable in {side}", test.mode.name());
                 panel = panel.with(Series::new(&name, Content::dashed(unstable)).colored(color));
             }
         }
