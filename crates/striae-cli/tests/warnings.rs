@@ -64,7 +64,7 @@ fn warnings(folder: &Path) -> Vec<WarningSummary> {
 }
 
 const RUN: [&str; 3] = ["run", "--out", "out"];
-const STRICT: [&str; 4] = ["run", "--strict", "--out", "out"];
+const STRICT: [&str; 5] = ["run", "--strict", "--overwrite", "--out", "out"];
 
 #[test]
 fn a_pair_that_never_touched_is_a_warning_and_strictly_exit_code_1() {
