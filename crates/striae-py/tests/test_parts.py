@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -247,3 +248,52 @@ def test_grids_of_pyvista_have_the_fields(model: st.Model) -> None:
     assert blocks["pad"].n_points == 27 and blocks["pad"].n_cells == 8
     assert "pressure" in blocks["contact-pad-floor-a"].point_data
     assert st.Mesh.of(blocks["pad"]).volume == pytest.approx(blocks["pad"].volume)
+
+
+@pytest.mark.parametrize("kind", ["hexahedron", "wedge", "pyramid", "tetra"])
+def test_meshes_of_all_kinds_of_cells_are_pressed(kind: Any) -> None:
+    made = st.block(divisions=(2, 2, 2), cells=kind)
+    assert list(made.cells) == [kind]
+    assert made.volume == pytest.approx(1, rel=1e-14)
+    again = st.Mesh(made.points, made.cells, facet_sets=made.facet_sets, node_sets=made.node_sets)
+    assert np.array_equal(again.cells[kind], made.cells[kind])
+    rubber = st.MooneyRivlin(0.2, 0.05, poissons_ratio=0.49)
+    block, floor = st.Body("block", again, rubber), st.Plane("floor")
+    model = st.Model([block], [floor], [st.Pair(block["zmin"], floor)])
+    model.step("press", block["zmax"].displace(x=0, y=0, z=-0.05), increments=1)
+    force = model.run()[-1].pair(0).force
+    assert 0.05 < force[2] < 0.3
+
+
+def test_triangles_are_facets_in_any_order() -> None:
+    made = st.block(cells="tetra")
+    top = made.facet_sets["zmax"]
+    assert (top[:, 2] == top[:, 3]).all()
+    again = made.with_sets(facets={"lid": np.roll(top[:, :3], 1, axis=1)})
+    assert np.array_equal(again.facet_sets["lid"], top)
+
+
+def test_rubber_has_the_moduli_of_its_constants() -> None:
+    ratio = 0.4
+    laws: list[tuple[st.Material, float]] = [
+        (st.IsochoricNeoHookean(0.5, poissons_ratio=ratio), 0.5),
+        (st.MooneyRivlin(0.2, 0.05, poissons_ratio=ratio), 0.5),
+        (st.Yeoh(0.3, -0.01, 0.002, poissons_ratio=ratio), 0.6),
+        (st.Ogden([(0.63, 1.3), (-0.01, -2.0)], poissons_ratio=ratio), 0.4195),
+        (st.Gent(0.5, 30.0, poissons_ratio=ratio, volumetric="logarithmic"), 0.5),
+    ]
+    for law, shear in laws:
+        assert law.poissons_ratio == pytest.approx(ratio, rel=1e-12)
+        assert law.youngs_modulus == pytest.approx(2 * shear * (1 + ratio), rel=1e-12)
+        assert np.abs(law.stress(np.eye(3))).max() < 1e-12
+    chains = st.ArrudaBoyce(0.5, 3.0, bulk_modulus=100.0)
+    assert chains.youngs_modulus > 1.5
+
+
+def test_rubber_that_is_no_solid_is_refused() -> None:
+    with pytest.raises(st.ModelError, match="the shear modulus -0.2 at rest"):
+        st.MooneyRivlin(0.1, -0.2, poissons_ratio=0.49)
+    with pytest.raises(st.ModelError, match="either `bulk_modulus` or `poissons_ratio` is needed"):
+        st.Gent(0.5, 30.0)
+    with pytest.raises(st.ModelError, match="`alpha` of term 0 is 0"):
+        st.Ogden([(1.0, 0.0)], bulk_modulus=10.0)
