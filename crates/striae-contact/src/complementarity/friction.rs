@@ -100,12 +100,11 @@ impl Friction<'_> {
         let slips = match &self.mobility {
             Mobility::Along(way) => {
                 let w = &way.of_friction;
-                let [z, turned] = [&self.z, &self.state.turned].map(|v| part(w, v).re);
-                let y = z + r * turned;
-                let way = w.map(|w| Q::combination([(y.signum(), &w)]));
+                let y = self.along(w, r);
+                let way = w.map(|w| Q::combination([(y.re.signum(), &w)]));
                 let radius = self.reaching(&self.varpi, &way).re;
-                self.slips(y.abs(), radius, way.map(|way| way.re))
-                    .then(|| along(&way, &self.z, &self.reaching(&self.begun, &way)))
+                self.slips(y.re.abs(), radius, way.map(|way| way.re))
+                    .then(|| along(w, &self.z, &y, &self.reaching(&self.begun, &way)))
             }
             Mobility::Free | Mobility::Held => {
                 let y = self.y(r);
@@ -132,9 +131,9 @@ impl Friction<'_> {
                 let w = &way.of_friction;
                 let [z, turned] = [&self.z, turned].map(|v| part(w, v).re);
                 slips([z, 0.0], [turned, 0.0]).then(|| {
-                    let sign = (z + r * turned).signum();
-                    let way = w.map(|w| Q::combination([(sign, &w)]));
-                    along(&way, &self.z, &radius(&way))
+                    let y = self.along(w, r);
+                    let way = w.map(|w| Q::combination([(y.re.signum(), &w)]));
+                    along(w, &self.z, &y, &radius(&way))
                 })
             }
             Mobility::Free | Mobility::Held => {
@@ -197,6 +196,12 @@ impl Friction<'_> {
         [0, 1].map(|at| Q::combination([(1.0, &self.z[at]), (r, &turned[at])]))
     }
 
+    /// `w . (z + r K^-1 du)`.
+    fn along(&self, w: &[Q; 2], r: f64) -> Q {
+        let [z, turned] = [&self.z, &self.state.turned].map(|v| part(w, v));
+        Q::combination([(1.0, &z), (r, &turned)])
+    }
+
     /// Slip that goes on in the direction of `z`: `|z| = varpi rho` and no slip
     /// across, or no `z` across where the node cannot move that way.
     fn continued(&self) -> [TangentialRow; 2] {
@@ -218,10 +223,8 @@ impl Friction<'_> {
         match &self.mobility {
             Mobility::Free => slip.map(|slip| self.resting(slip)),
             Mobility::Along(way) => {
-                let [first, second] = &way.of_friction;
-                let across = [Q::combination([(-1.0, second)]), *first];
                 let resting = part(&way.of_slip, slip);
-                [self.resting(resting), traction(part(&across, &self.z))]
+                [self.resting(resting), across(&way.of_friction, &self.z)]
             }
             Mobility::Held => self.z.map(traction),
         }
@@ -243,12 +246,43 @@ fn part(q: &[Q; 2], v: &[Q; 2]) -> Q {
     Q::combination([(1.0, &first), (1.0, &second)])
 }
 
-/// `z = radius way`, `way` a unit vector.
-fn along(way: &[Q; 2], z: &[Q; 2], radius: &Q) -> [TangentialRow; 2] {
-    [0, 1].map(|at| {
-        let limit = Q::product(radius, &way[at]);
-        traction(Q::combination([(1.0, &z[at]), (-1.0, &limit)]))
-    })
+/// No `z` across the unit vector `w`.
+fn across(w: &[Q; 2], z: &[Q; 2]) -> TangentialRow {
+    let [first, second] = w;
+    let across = [Q::combination([(-1.0, second)]), *first];
+    traction(part(&across, z))
+}
+
+/// `z = radius sign(y) w`: [`slip`] along the unit vector `w`, with its Jacobian that does not
+/// let a node whose slip turns around jump from one side of the slip surface to the other.
+fn along(w: &[Q; 2], z: &[Q; 2], y: &Q, limit: &Q) -> [TangentialRow; 2] {
+    let zw = part(w, z);
+    let (sign, radius) = (y.re.signum(), limit.re);
+    let m = globalised(zw.re.abs(), zw.re * sign, radius) * radius / y.re.abs();
+    let row = Q::combination([(1.0, &zw), (-m, y), (-sign, limit)]);
+    let residual = zw.re - radius * sign;
+    [(Field::Traction, residual, row.slope), across(w, z)]
+}
+
+/// `1 - f beta` for `|z|` and its part along `y`.
+fn globalised(length: f64, along: f64, radius: f64) -> f64 {
+    let f = along / radius.max(length).max(f64::MIN_POSITIVE);
+    1.0 - f * damping(length, along, radius)
+}
+
+/// `beta`, by which the Jacobian is damped where `z` points against `y`.
+fn damping(length: f64, along: f64, radius: f64) -> f64 {
+    let alpha = if length > 0.0 { along / length } else { 0.0 };
+    let delta = if radius > 0.0 {
+        (length / radius).min(1.0)
+    } else {
+        1.0
+    };
+    if alpha < 0.0 {
+        1.0 / (1.0 - alpha * delta)
+    } else {
+        1.0
+    }
 }
 
 /// `z = radius y/|y|`.
@@ -258,21 +292,7 @@ fn slip(z: &[Q; 2], y: &[Q; 2], limit: &Q) -> [TangentialRow; 2] {
     let (length, radius) = (yv.norm(), limit.re);
     let direction = yv / length;
     let f = zv * direction.transpose() / radius.max(zv.norm()).max(f64::MIN_POSITIVE);
-    let alpha = if zv.norm() > 0.0 {
-        zv.dot(&direction) / zv.norm()
-    } else {
-        0.0
-    };
-    let delta = if radius > 0.0 {
-        (zv.norm() / radius).min(1.0)
-    } else {
-        1.0
-    };
-    let beta = if alpha < 0.0 {
-        1.0 / (1.0 - alpha * delta)
-    } else {
-        1.0
-    };
+    let beta = damping(zv.norm(), zv.dot(&direction), radius);
     let m = (Matrix2::identity() - f * beta) * (radius / length);
     [0, 1].map(|at| {
         let row = Q::combination([
