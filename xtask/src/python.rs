@@ -45,7 +45,8 @@ pub fn check() -> Result<(), Fault> {
     test(&main, &wheels)?;
     run(main.join("mypy"), &[])?;
     let interpreter = main.join("python").display().to_string();
-    run(main.join("basedpyright"), &["--pythonpath", &interpreter])?;
+    let here = ["--project", "pyproject.toml", "--pythonpath", &interpreter];
+    run(main.join("basedpyright"), &here)?;
     if oldest != newest {
         test(&environment(oldest)?, &wheels)?;
     }
