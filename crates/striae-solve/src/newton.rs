@@ -12,6 +12,7 @@ mod cycling;
 mod departure;
 mod energy;
 mod failure;
+mod flight;
 mod passage;
 mod release;
 mod rest;

@@ -148,6 +148,20 @@ pub enum CutBack {
         /// Fraction of the step that was reached.
         reached: f64,
     },
+    /// A body has flown off.
+    #[error(
+        "body `{body}` is not held: {node} would fly off by {way:.1e}, {times:.0e} times the size of the model; hold it by displacements or contact, or give the step inertia with `dynamics = {{}}`"
+    )]
+    Flown {
+        /// Name of the body.
+        body: String,
+        /// The node that flies furthest.
+        node: striae_mesh::NodeId,
+        /// How far.
+        way: f64,
+        /// The same over the size of the undeformed bodies.
+        times: f64,
+    },
     /// The linear system could not be solved.
     #[error("{place}: {error}")]
     LinearSystem {

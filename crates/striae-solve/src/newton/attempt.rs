@@ -17,6 +17,7 @@ use super::{
     cycling::{History, WINDOW},
     departure::first_positions,
     failure::{linear_system, missed},
+    flight::flown,
     passage::passage,
     release::{closed, released},
     rest::contact_at_rest,
@@ -112,6 +113,7 @@ impl Attempt<'_> {
         let mut assembled = workspace.assemble(&self.setting(), &self.trial, Iteration::First)?;
         for repetition in 0.. {
             assembled = self.converge(assembled, workspace, observer)?;
+            flown(&self.setting(), &self.trial).map_or(Ok(()), Err)?;
             let missed = missed(&self.setting(), &self.trial);
             let pierced = self.pierced(&assembled);
             if repetition == REPETITIONS {

@@ -43,6 +43,7 @@ pub(super) fn released(
         reason,
         CutBack::NoConvergence { .. }
             | CutBack::Diverged { .. }
+            | CutBack::Flown { .. }
             | CutBack::InvertedElement { .. }
             | CutBack::LinearSystem { .. }
     );

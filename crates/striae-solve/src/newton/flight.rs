@@ -1,0 +1,90 @@
+//! Bodies that nothing holds and that fly off.
+//!
+//! The norms judge a residual against the forces in the elements. A body that Newton's method has
+//! thrown far away is stretched on its way, the forces in it grow beyond all others, and the
+//! residual is small against them, or against what round-off leaves of them. No equilibrium of
+//! the model is there: without inertia a node does not go many times the size of the model
+//! further than what drives it.
+
+use striae_mesh::Vec3;
+
+use crate::{
+    assembly::{Setting, Trial},
+    model::Procedure,
+    outcome::CutBack,
+};
+
+/// Way in one increment, over the size of the undeformed bodies, beyond what is prescribed.
+const FARTHEST: f64 = 100.0;
+
+/// The node that flies furthest, if one does.
+pub(super) fn flown(setting: &Setting, trial: &Trial) -> Option<CutBack> {
+    let context = setting.context;
+    let problem = context.problem;
+    if problem.model.steps[context.index].procedure != Procedure::QuasiStatic {
+        return None;
+    }
+    let (before, size) = (&setting.state.positions, size(&problem.reference));
+    let (node, way) = furthest(before, &trial.positions)?;
+    if way <= FARTHEST * size + prescribed(setting, trial) {
+        return None;
+    }
+    let (body, node) = problem.body_node(node);
+    Some(CutBack::Flown {
+        body: problem.model.bodies[body].name.clone(),
+        node,
+        way,
+        times: way / size,
+    })
+}
+
+/// Diagonal of the box around all nodes.
+fn size(reference: &[Vec3]) -> f64 {
+    let Some(&first) = reference.first() else {
+        return 0.0;
+    };
+    let ends = reference.iter().fold((first, first), |(least, most), x| {
+        (least.inf(x), most.sup(x))
+    });
+    (ends.1 - ends.0).norm()
+}
+
+/// The node with the longest way.
+fn furthest(before: &[Vec3], now: &[Vec3]) -> Option<(usize, f64)> {
+    let ways = before.iter().zip(now).map(|(from, to)| (to - from).norm());
+    ways.enumerate()
+        .reduce(|most, way| if way.1 > most.1 { way } else { most })
+}
+
+/// The longest way that is prescribed, of nodes or of rigid bodies.
+fn prescribed(setting: &Setting, trial: &Trial) -> f64 {
+    let (imposed, state) = (setting.imposed, setting.state);
+    let of_nodes = imposed.positions.iter();
+    let of_nodes = of_nodes.map(|&(node, axis, to)| (to - state.positions[node][axis]).abs());
+    let of_bodies = trial.rigid.iter().zip(&imposed.before).zip(&imposed.rigid);
+    let of_bodies = of_bodies.flat_map(|((now, before), given)| {
+        let way = now.displacement - before.displacement;
+        (0..3)
+            .filter(|&axis| given[axis].is_some())
+            .map(move |axis| way[axis].abs())
+    });
+    of_nodes.chain(of_bodies).fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_size_is_that_of_the_box_and_the_longest_way_is_found() {
+        let before = [
+            Vec3::zeros(),
+            Vec3::new(3.0, 0.0, 0.0),
+            Vec3::new(0.0, 4.0, 0.0),
+        ];
+        let mut now = before;
+        now[2].z = -7.0;
+        assert_eq!(size(&before), 5.0);
+        assert_eq!(furthest(&before, &now), Some((2, 7.0)));
+    }
+}
