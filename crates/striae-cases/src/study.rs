@@ -8,7 +8,7 @@ use std::{
 use striae_deck::{self as deck, Deck};
 use striae_figure::Figure;
 use striae_output::{Existing, history::Table, summary::Summary};
-use striae_solve::outcome::Ending;
+use striae_solve::{model::Enforcement, outcome::Ending};
 
 use striae::{Finished, Simulation};
 
@@ -47,6 +47,8 @@ pub struct Study<'a> {
     pub case: &'a str,
     /// How much is run.
     pub extent: Extent,
+    /// Enforcement of contact in every pair, where it is not that of the decks.
+    pub enforcement: Option<Enforcement>,
     /// Where everything is written.
     pub folder: PathBuf,
     /// Runs the simulations.
@@ -74,6 +76,7 @@ impl<'a> Study<'a> {
         Self {
             case,
             extent,
+            enforcement: None,
             folder,
             runner,
             quantities: Vec::new(),
@@ -83,10 +86,15 @@ impl<'a> Study<'a> {
         }
     }
 
-    /// Reads an embedded deck.
+    /// Reads an embedded deck, and sets the enforcement of its pairs if one is asked for.
     pub fn deck(&self, name: &str, text: &str) -> Result<Deck, Failure> {
         let file = format!("cases/{}/{name}.toml", self.case);
-        Ok(deck::parse(text, &file, Path::new("")).map_err(striae::Error::from)?)
+        let mut deck = deck::parse(text, &file, Path::new("")).map_err(striae::Error::from)?;
+        if let Some(enforcement) = self.enforcement {
+            let pairs = deck.model.pairs.iter_mut();
+            pairs.for_each(|pair| pair.enforcement = enforcement);
+        }
+        Ok(deck)
     }
 
     /// Reads an embedded deck with passages replaced, each of which it holds once.
