@@ -67,7 +67,7 @@ fn the_stress_of_what_points_have_come_to_is_that_of_the_increment() {
             let mut random = Random::new(32);
             let kind = CellKind::Hexahedron;
             let single = Single::distorted(kind, formulation, &mut random, 0.0);
-            let shape = Matrix3::identity() + random.matrix3() * 0.1;
+            let shape = random.near_identity(0.1);
             let x: Vec<Vec3> = single.reference.iter().map(|x| shape * x).collect();
             let rest = vec![0.0; material.variables() * single.elements.points()];
             let past = Past {

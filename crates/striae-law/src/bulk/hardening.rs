@@ -40,7 +40,9 @@ pub enum InadmissibleHardening {
         needed: &'static str,
     },
     /// Saturation below the first yield stress.
-    #[error("`saturation_stress` is {saturation}, it must be at least `yield_stress`, {first}")]
+    #[error(
+        "the stress of saturation is {saturation}, it must be at least `yield_stress`, {first}"
+    )]
     Saturation {
         /// The stress of saturation.
         saturation: f64,
@@ -91,7 +93,7 @@ impl Hardening {
         if !(yield_stress > 0.0 && yield_stress.is_finite()) {
             return refused("yield_stress", yield_stress, "positive and finite");
         }
-        for (name, value) in [("hardening_modulus", modulus), ("saturation_rate", rate)] {
+        for (name, value) in [("hardening_modulus", modulus), ("rate", rate)] {
             if !(value >= 0.0 && value.is_finite()) {
                 return refused(name, value, "at least 0 and finite");
             }

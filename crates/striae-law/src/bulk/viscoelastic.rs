@@ -25,8 +25,8 @@
 //!
 //! Sources: the multiplicative split and the logarithmic flow of Reese & Govindjee, Int. J.
 //! Solids Struct. 35 (1998) 3455-3482, doi:10.1016/S0020-7683(97)00217-5; the potential of
-//! Fancello, Ponthot & Stainier, Int. J. Numer. Methods Eng. 65 (2006) 1831-1864,
-//! doi:10.1002/nme.1525. The ratios are those of Holzapfel, "Nonlinear Solid Mechanics"
+//! Fancello, Ponthot & Stainier, Int. J. Numer. Methods Eng. 65 (2006) 1831-1864.
+//! The ratios are those of Holzapfel, "Nonlinear Solid Mechanics"
 //! (2000), section 6.10. Why not the convolution of that book: `docs/decisions/viscoelasticity.md`.
 
 use super::spectrum::{FLOW, Spectrum};

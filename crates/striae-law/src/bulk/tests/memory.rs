@@ -47,3 +47,45 @@ fn shear(k: f64) -> Matrix3<f64> {
 fn diagonal(logarithms: [f64; 3]) -> Matrix3<f64> {
     Matrix3::from_diagonal(&logarithms.map(f64::exp).into())
 }
+
+/// Rubber that says it gains energy by flowing.
+#[derive(Debug)]
+struct Gaining;
+
+impl BulkLaw for Gaining {
+    fn name(&self) -> &str {
+        "gaining"
+    }
+
+    fn response(&self, f: &Matrix3<f64>) -> Result<Response, ResponseError> {
+        laws()[0].response(f)
+    }
+
+    fn variables(&self) -> usize {
+        1
+    }
+
+    fn respond(
+        &self,
+        f: &Matrix3<f64>,
+        past: Past,
+        present: &mut Present,
+    ) -> Result<Response, ResponseError> {
+        present.variables[0] = past.variables[0] + past.elapsed;
+        present.dissipated = -past.elapsed;
+        self.response(f)
+    }
+
+    fn lame_constants(&self) -> LameConstants {
+        laws()[0].lame_constants()
+    }
+}
+
+#[test]
+fn the_battery_finds_flow_that_gains_energy() {
+    let found = battery(&Material::own(Gaining));
+    assert!(
+        matches!(found[..], [Violation::Dissipation(gain)] if gain < 0.0),
+        "{found:?}"
+    );
+}

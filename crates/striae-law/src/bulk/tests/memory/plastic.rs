@@ -129,7 +129,7 @@ fn wrong_hardening_is_refused() {
     );
     assert_eq!(
         text(Hardening::voce(2.0, 1.0, 1.0, 0.0)),
-        "`saturation_stress` is 1, it must be at least `yield_stress`, 2"
+        "the stress of saturation is 1, it must be at least `yield_stress`, 2"
     );
     assert_eq!(
         text(Hardening::table(&[[0.1, 1.0]])),
