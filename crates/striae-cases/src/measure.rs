@@ -50,7 +50,9 @@ pub fn stress_error(run: &Run, expected: &Matrix3<f64>) -> f64 {
         for (corners, element) in elements {
             let nodes = problem.nodes(body, corners).into_iter();
             let current: Vec<Vec3> = nodes.map(|node| state.positions[node]).collect();
-            let Ok(stresses) = element.stress(&current, &model.material) else {
+            let variables = element.variables(model.material.variables());
+            let variables = &state.histories[body][variables];
+            let Ok(stresses) = element.stress(&current, &model.material, variables) else {
                 return f64::NAN;
             };
             for stress in stresses {

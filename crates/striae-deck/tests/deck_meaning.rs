@@ -37,6 +37,21 @@ fn constants() {
             "law = \"arruda-boyce\"\nmu = 1\nlocking_stretch = 1\nbulk_modulus = 10",
             "2:1: the material is not admissible: `locking_stretch` is 1, it must be above 1",
         ),
+        (
+            "branches that are none",
+            "law = \"gent\"\nshear_modulus = 1\nlimit = 30\nbulk_modulus = 10\nrelaxation = []",
+            "7:14: the material is not admissible: there is no branch, at least one is needed",
+        ),
+        (
+            "saturation below the yield stress",
+            "law = \"elastic-plastic\"\nyoungs_modulus = 1\npoissons_ratio = 0.3\nyield_stress = 2\nsaturation = { stress = 1, rate = 1 }",
+            "2:1: the material is not admissible: the stress of saturation is 1, it must be at least `yield_stress`, 2",
+        ),
+        (
+            "a table of hardening that falls",
+            "law = \"elastic-plastic\"\nyoungs_modulus = 1\npoissons_ratio = 0.3\nyield_table = [[0, 2], [0.1, 1]]",
+            "2:1: the material is not admissible: pair 1 of the table: its plastic strain must be larger than that before, its stress positive and not smaller",
+        ),
     ] {
         let base = "law = \"neo-hookean\"\nyoungs_modulus = 1e6\npoissons_ratio = 0.3";
         misstated(what, &[(base, law)], &[expected]);

@@ -61,7 +61,9 @@ fn bodies_have_their_meshes_and_materials() {
 
 #[test]
 fn decks_have_all_bulk_laws() {
-    use striae_law::bulk::{Hyperelastic, Isochoric, OgdenTerm, Volumetric};
+    use striae_law::bulk::{
+        Branch, Hardening, Hyperelastic, Isochoric, OgdenTerm, Plastic, Viscoelastic, Volumetric,
+    };
     let constants = LameConstants::from_youngs_modulus(1e6, 0.3).unwrap();
     let rubber = |isochoric| {
         Material::Hyperelastic(Hyperelastic::new(isochoric, 20.0, Volumetric::Quadratic).unwrap())
@@ -95,6 +97,13 @@ fn decks_have_all_bulk_laws() {
         limit: 30.0,
     };
     let (c10, c01) = (0.2, 0.05);
+    let slow = Isochoric::NeoHookean { shear: 0.5 };
+    let slow = Hyperelastic::new(slow, 20.0, Volumetric::Quadratic).unwrap();
+    let branches = [(0.5, 0.1), (2.0, 10.0)].map(|(ratio, time)| Branch { ratio, time });
+    let metal = |hardening: Result<Hardening, _>| {
+        Material::Plastic(Plastic::new(constants, hardening.unwrap()))
+    };
+    let pairs = [[0.0, 100.0], [0.1, 150.0]];
     for (law, expected) in [
         (
             "law = \"neo-hookean\"\nyoungs_modulus = 1e6\npoissons_ratio = 0.3\nvolumetric = \"logarithmic\"",
@@ -127,6 +136,22 @@ fn decks_have_all_bulk_laws() {
         (
             "law = \"arruda-boyce\"\nmu = 0.4\nlocking_stretch = 3\nbulk_modulus = 20",
             rubber(chains),
+        ),
+        (
+            "law = \"isochoric-neo-hookean\"\nshear_modulus = 0.5\nbulk_modulus = 20\nrelaxation = [{ ratio = 0.5, time = 0.1 }, { ratio = 2, time = 10 }]",
+            Material::Viscoelastic(Viscoelastic::new(slow, &branches).unwrap()),
+        ),
+        (
+            "law = \"elastic-plastic\"\nyoungs_modulus = 1e6\npoissons_ratio = 0.3\nyield_stress = 100",
+            metal(Hardening::linear(100.0, 0.0)),
+        ),
+        (
+            "law = \"elastic-plastic\"\nyoungs_modulus = 1e6\npoissons_ratio = 0.3\nyield_stress = 100\nhardening_modulus = 7\nsaturation = { stress = 200, rate = 5 }",
+            metal(Hardening::voce(100.0, 200.0, 5.0, 7.0)),
+        ),
+        (
+            "law = \"elastic-plastic\"\nyoungs_modulus = 1e6\npoissons_ratio = 0.3\nyield_table = [[0, 100], [0.1, 150]]",
+            metal(Hardening::table(&pairs)),
         ),
     ] {
         let base = "law = \"neo-hookean\"\nyoungs_modulus = 1e6\npoissons_ratio = 0.3";

@@ -73,7 +73,7 @@ colour = "red""#,
             "",
         )],
         &[
-            "2:1: missing key `law` in [[material]]; expected one of `neo-hookean`, `linear-elastic`, `isochoric-neo-hookean`, `mooney-rivlin`, `yeoh`, `ogden`, `gent`, `arruda-boyce`",
+            "2:1: missing key `law` in [[material]]; expected one of `neo-hookean`, `linear-elastic`, `isochoric-neo-hookean`, `mooney-rivlin`, `yeoh`, `ogden`, `gent`, `arruda-boyce`, `elastic-plastic`",
         ],
     );
     misread(
@@ -355,7 +355,7 @@ fn words() {
         "unknown material law",
         &[(r#""neo-hookean""#, r#""neohookean""#)],
         &[
-            "4:7: `law` in [[material]] cannot be `neohookean`; expected one of `neo-hookean`, `linear-elastic`, `isochoric-neo-hookean`, `mooney-rivlin`, `yeoh`, `ogden`, `gent`, `arruda-boyce`; did you mean `neo-hookean`?",
+            "4:7: `law` in [[material]] cannot be `neohookean`; expected one of `neo-hookean`, `linear-elastic`, `isochoric-neo-hookean`, `mooney-rivlin`, `yeoh`, `ogden`, `gent`, `arruda-boyce`, `elastic-plastic`; did you mean `neo-hookean`?",
         ],
     );
     misread(

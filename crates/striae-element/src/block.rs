@@ -15,26 +15,36 @@ use super::{
     rule::{Rule, hexahedron_recovery, pyramid_recovery, tetrahedron_recovery, wedge_recovery},
 };
 use nalgebra::Matrix3;
-use std::{fmt::Debug, sync::Arc};
-use striae_law::bulk::Material;
+use std::{fmt::Debug, ops::Range, sync::Arc};
+use striae_law::bulk::{Material, Past};
 use striae_mesh::{CellKind, ElementId, Mesh, Vec3};
 
 /// The reference elements of a mesh.
 #[derive(Clone, Debug)]
 pub struct Elements {
-    /// With the first element of each.
-    blocks: Vec<(usize, Arc<dyn ElementBlock>)>,
+    /// With the first element and the first quadrature point of each.
+    blocks: Vec<([usize; 2], Arc<dyn ElementBlock>)>,
 }
 
 /// Elements of one kind, counted from 0 within the block.
 ///
-/// Current positions `x` are those of the corners of an element, in their order.
+/// Current positions `x` are those of the corners of an element, in their order. What its
+/// quadrature points have been through stands in the [`Past`] one after the other; it is
+/// empty where the material has no memory.
 pub trait ElementBlock: Debug + Send + Sync {
     /// Kind of the elements.
     fn kind(&self) -> CellKind;
 
     /// How many elements there are.
     fn count(&self) -> usize;
+
+    /// Reference volumes that belong to the quadrature points of an element.
+    fn weights(&self, at: usize) -> &[f64];
+
+    /// How many quadrature points an element has.
+    fn points(&self) -> usize {
+        self.kind().shape().points.len()
+    }
 
     /// Response of an element, written over an older one of the same kind.
     ///
@@ -46,6 +56,7 @@ pub trait ElementBlock: Debug + Send + Sync {
         at: usize,
         x: &[Vec3],
         material: &Material,
+        past: Past,
         response: &mut ElementResponse,
     ) -> Result<(), ElementError>;
 
@@ -62,7 +73,7 @@ pub trait ElementBlock: Debug + Send + Sync {
     /// Angle by which an element is turned on average.
     fn rotation(&self, at: usize, x: &[Vec3]) -> f64;
 
-    /// Cauchy stress at the quadrature points.
+    /// Cauchy stress at the quadrature points, which have come to the variables given.
     ///
     /// # Errors
     ///
@@ -72,6 +83,7 @@ pub trait ElementBlock: Debug + Send + Sync {
         at: usize,
         x: &[Vec3],
         material: &Material,
+        variables: &[f64],
     ) -> Result<Vec<Matrix3<f64>>, ElementError>;
 
     /// Cauchy stress continued from the quadrature points to the corners.
@@ -84,6 +96,7 @@ pub trait ElementBlock: Debug + Send + Sync {
         at: usize,
         x: &[Vec3],
         material: &Material,
+        variables: &[f64],
     ) -> Result<Vec<Matrix3<f64>>, ElementError>;
 }
 
@@ -92,6 +105,8 @@ pub trait ElementBlock: Debug + Send + Sync {
 pub struct Element<'a> {
     block: &'a dyn ElementBlock,
     at: usize,
+    /// Its first quadrature point among those of the mesh.
+    first_point: usize,
 }
 
 impl Elements {
@@ -101,7 +116,7 @@ impl Elements {
     ///
     /// The first element whose reference shape is degenerate.
     pub fn new(mesh: &Mesh, formulation: Formulation) -> Result<Self, ElementFault> {
-        let mut first = 0;
+        let (mut first, mut first_point) = (0, 0);
         let mut blocks = Vec::with_capacity(mesh.blocks.len());
         for cells in &mesh.blocks {
             let corners: Vec<Vec3> = (cells.nodes.iter())
@@ -112,31 +127,49 @@ impl Elements {
                     element: ElementId::new(first + at),
                     error,
                 })?;
-            blocks.push((first, block));
+            blocks.push(([first, first_point], block));
             first += cells.len();
+            first_point += cells.len() * cells.kind.shape().points.len();
         }
         Ok(Self { blocks })
     }
 
-    /// The blocks, each with the number of its first element.
-    pub fn blocks(&self) -> impl Iterator<Item = (usize, &dyn ElementBlock)> {
+    /// The blocks, each with the numbers of its first element and its first quadrature point.
+    pub fn blocks(&self) -> impl Iterator<Item = ([usize; 2], &dyn ElementBlock)> {
         self.blocks.iter().map(|(first, block)| (*first, &**block))
+    }
+
+    /// How many quadrature points there are.
+    pub fn points(&self) -> usize {
+        let counts = self.blocks.iter();
+        let points = counts.map(|(_, block)| block.count() * block.points());
+        points.sum()
     }
 
     /// All elements in the order of the mesh.
     pub fn iter(&self) -> impl Iterator<Item = Element<'_>> {
-        self.blocks()
-            .flat_map(|(_, block)| (0..block.count()).map(move |at| Element { block, at }))
+        self.blocks().flat_map(|([_, first_point], block)| {
+            (0..block.count()).map(move |at| Element {
+                block,
+                at,
+                first_point: first_point + at * block.points(),
+            })
+        })
     }
 
     /// An element of the mesh.
     pub fn get(&self, element: ElementId) -> Element<'_> {
         let index = element.index();
-        let place = self.blocks.partition_point(|(first, _)| *first <= index) - 1;
-        let (first, block) = &self.blocks[place];
+        let place = self
+            .blocks
+            .partition_point(|([first, _], _)| *first <= index)
+            - 1;
+        let ([first, first_point], block) = &self.blocks[place];
+        let at = index - first;
         Element {
             block: &**block,
-            at: index - first,
+            at,
+            first_point: first_point + at * block.points(),
         }
     }
 }
@@ -151,10 +184,31 @@ impl Element<'_> {
         &self,
         x: &[Vec3],
         material: &Material,
+        past: Past,
     ) -> Result<ElementResponse, ElementError> {
-        let mut response = ElementResponse::zero(self.block.kind().corner_count());
-        self.block.respond(self.at, x, material, &mut response)?;
+        let mut response = ElementResponse::zero(self.block.kind(), material);
+        let block = self.block;
+        block.respond(self.at, x, material, past, &mut response)?;
         Ok(response)
+    }
+
+    /// Places of the variables of its quadrature points among those of the mesh, where each
+    /// point has so many.
+    pub fn variables(&self, each: usize) -> Range<usize> {
+        let points = self.first_point..self.first_point + self.block.points();
+        points.start * each..points.end * each
+    }
+
+    /// Mean of a variable over the volume.
+    pub fn mean(&self, variables: &[f64], variable: usize) -> f64 {
+        let weights = self.block.weights(self.at);
+        let each = variables.len() / weights.len();
+        let values = variables.iter().skip(variable).step_by(each);
+        let sum: f64 = values
+            .zip(weights)
+            .map(|(value, weight)| value * weight)
+            .sum();
+        sum / self.volume()
     }
 
     /// See [`ElementBlock::mass`].
@@ -186,8 +240,9 @@ impl Element<'_> {
         &self,
         x: &[Vec3],
         material: &Material,
+        variables: &[f64],
     ) -> Result<Vec<Matrix3<f64>>, ElementError> {
-        self.block.stress(self.at, x, material)
+        self.block.stress(self.at, x, material, variables)
     }
 
     /// See [`ElementBlock::corner_stress`].
@@ -199,8 +254,9 @@ impl Element<'_> {
         &self,
         x: &[Vec3],
         material: &Material,
+        variables: &[f64],
     ) -> Result<Vec<Matrix3<f64>>, ElementError> {
-        self.block.corner_stress(self.at, x, material)
+        self.block.corner_stress(self.at, x, material, variables)
     }
 
     /// Kind of the element.
@@ -264,18 +320,23 @@ impl<const N: usize, const Q: usize> ElementBlock for Cells<N, Q> {
         self.elements.len()
     }
 
+    fn weights(&self, at: usize) -> &[f64] {
+        &self.elements[at].weights
+    }
+
     fn respond(
         &self,
         at: usize,
         x: &[Vec3],
         material: &Material,
+        past: Past,
         response: &mut ElementResponse,
     ) -> Result<(), ElementError> {
         let element = &self.elements[at];
         match self.formulation {
-            Formulation::Standard => element.respond(all(x), material, response),
+            Formulation::Standard => element.respond(all(x), material, past, response),
             Formulation::MeanDilatation => {
-                element.respond_with_mean_dilatation(all(x), material, response)
+                element.respond_with_mean_dilatation(all(x), material, past, response)
             }
         }
     }
@@ -301,15 +362,19 @@ impl<const N: usize, const Q: usize> ElementBlock for Cells<N, Q> {
         at: usize,
         x: &[Vec3],
         material: &Material,
+        variables: &[f64],
     ) -> Result<Vec<Matrix3<f64>>, ElementError> {
         let element = &self.elements[at];
         if self.formulation == Formulation::MeanDilatation {
-            return element.stress_with_mean_dilatation(all(x), material);
+            return element.stress_with_mean_dilatation(all(x), material, variables);
         }
+        let each = variables.len() / Q;
         (0..Q)
             .map(|g| {
                 let f = element.deformation_gradient(g, all(x));
-                material.cauchy_stress(&f).map_err(error_at(g))
+                let variables = &variables[g * each..(g + 1) * each];
+                let stress = material.cauchy_stress_after(&f, variables);
+                stress.map_err(error_at(g))
             })
             .collect()
     }
@@ -319,8 +384,9 @@ impl<const N: usize, const Q: usize> ElementBlock for Cells<N, Q> {
         at: usize,
         x: &[Vec3],
         material: &Material,
+        variables: &[f64],
     ) -> Result<Vec<Matrix3<f64>>, ElementError> {
-        let stress = self.stress(at, x, material)?;
+        let stress = self.stress(at, x, material, variables)?;
         let corners = self.rule.recovery.iter();
         let at_corner = |weights: &[f64; Q]| (0..Q).map(|g| stress[g] * weights[g]).sum();
         Ok(corners.map(at_corner).collect())

@@ -20,7 +20,8 @@
 //! K     = sum_g w G_a A G_b + c x b + b x c + (sum_g w m/9 - p theta V) b x b,
 //! ```
 //!
-//! which is the derivative of `f` and symmetric. Where gradients are constant in the
+//! which is the derivative of `f` and symmetric. Points of a material with a memory remember
+//! what they have been through by `Fbar`. Where gradients are constant in the
 //! element (tetrahedra) all is as without it.
 
 use super::{
@@ -28,7 +29,7 @@ use super::{
     stiffness::COMPONENTS,
 };
 use nalgebra::{Matrix3, SVector};
-use striae_law::bulk::{Material, Response, Tangent};
+use striae_law::bulk::{Material, Past, Response, Tangent};
 use striae_mesh::Vec3;
 
 /// A matrix by components `3 i + J`.
@@ -66,10 +67,11 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
         &self,
         current: &[Vec3; N],
         material: &Material,
+        past: Past,
         element: &mut ElementResponse,
     ) -> Result<(), ElementError> {
         let (points, volume) = self.points(current)?;
-        let (laws, scales) = self.laws(&points, volume, material)?;
+        let (laws, scales) = self.laws(&points, volume, material, past, element)?;
         let pressure = self.mean(|g| laws[g].1) / volume;
         element.energy = (0..Q).map(|g| self.weights[g] * laws[g].0.energy).sum();
         let mut whole = Whole {
@@ -102,13 +104,17 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
         &self,
         current: &[Vec3; N],
         material: &Material,
+        variables: &[f64],
     ) -> Result<Vec<Matrix3<f64>>, ElementError> {
         let (points, volume) = self.points(current)?;
         let theta = volume / self.volume();
+        let each = variables.len() / Q;
         let mut stress = Vec::with_capacity(Q);
         for (g, point) in points.iter().enumerate() {
             let scaled = point.gradient * (theta / point.ratio).cbrt();
-            stress.push(material.cauchy_stress(&scaled).map_err(error_at(g))?);
+            let variables = &variables[g * each..(g + 1) * each];
+            let found = material.cauchy_stress_after(&scaled, variables);
+            stress.push(found.map_err(error_at(g))?);
         }
         let pressure = self.mean(|g| stress[g].trace() / 3.0) / self.volume();
         for (sigma, point) in stress.iter_mut().zip(&points) {
@@ -139,20 +145,27 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
         Ok((points, volume))
     }
 
-    /// The law at `Fbar` with `pi`, and `alpha`, at all points.
+    /// The law at `Fbar` with `pi`, and `alpha`, at all points; writes down what they come to.
     #[allow(clippy::type_complexity)]
     fn laws(
         &self,
         points: &[Point],
         volume: f64,
         material: &Material,
+        past: Past,
+        element: &mut ElementResponse,
     ) -> Result<(Vec<(Response, f64)>, [f64; Q]), ElementError> {
         let theta = volume / self.volume();
         let scales: [f64; Q] = std::array::from_fn(|g| (theta / points[g].ratio).cbrt());
         let mut laws = Vec::with_capacity(Q);
+        element.dissipated = 0.0;
         for (g, point) in points.iter().enumerate() {
             let scaled = point.gradient * scales[g];
-            let law = material.response(&scaled).map_err(error_at(g))?;
+            let mut present = element.present(g, Q);
+            let law = material.respond(&scaled, past.of_point(g, Q), &mut present);
+            let dissipated = present.dissipated;
+            let law = law.map_err(error_at(g))?;
+            element.dissipated += self.weights[g] * dissipated;
             laws.push((law, law.first_piola.dot(&scaled) / 3.0));
         }
         Ok((laws, scales))

@@ -17,8 +17,12 @@ pub enum Formulation {
 const LOCKING: f64 = 0.45;
 
 impl Formulation {
-    /// What a material asks for: mean dilatation above a Poisson's ratio of 0.45.
+    /// What a material asks for: mean dilatation above a Poisson's ratio of 0.45, and where it
+    /// yields, as plastic flow keeps the volume.
     pub fn suited_to(material: &Material) -> Self {
+        if matches!(material, Material::Plastic(_)) {
+            return Self::MeanDilatation;
+        }
         let constants = material.lame_constants();
         let poissons_ratio = 0.5 * constants.lambda / (constants.lambda + constants.shear);
         if poissons_ratio > LOCKING {

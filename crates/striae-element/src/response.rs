@@ -7,8 +7,8 @@ use super::{
 };
 use nalgebra::Matrix3;
 use pulp::{Arch, Simd, WithSimd};
-use striae_law::bulk::{Material, ResponseError, Tangent};
-use striae_mesh::Vec3;
+use striae_law::bulk::{Material, Past, Present, ResponseError, Tangent};
+use striae_mesh::{CellKind, Vec3};
 
 /// Energy of an element with its first and second derivatives.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,15 +19,31 @@ pub struct ElementResponse {
     pub force: Vec<[f64; 3]>,
     /// Derivative of the force, symmetric to the last bit.
     pub stiffness: Stiffness,
+    /// Energy that has been dissipated since the last converged state.
+    pub dissipated: f64,
+    /// What the quadrature points have come to, one after the other.
+    pub variables: Vec<f64>,
 }
 
 impl ElementResponse {
-    /// Room for the response of an element.
-    pub fn zero(corners: usize) -> Self {
+    /// Room for the response of an element of a material.
+    pub fn zero(kind: CellKind, material: &Material) -> Self {
+        let corners = kind.corner_count();
         Self {
             energy: 0.0,
             force: vec![[0.0; 3]; corners],
             stiffness: Stiffness::zero(corners),
+            dissipated: 0.0,
+            variables: vec![0.0; material.variables() * kind.shape().points.len()],
+        }
+    }
+
+    /// Where one of `count` points writes what it has come to.
+    pub(super) fn present(&mut self, point: usize, count: usize) -> Present<'_> {
+        let each = self.variables.len() / count;
+        Present {
+            variables: &mut self.variables[point * each..(point + 1) * each],
+            dissipated: 0.0,
         }
     }
 }
@@ -42,15 +58,20 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
         &self,
         current: &[Vec3; N],
         material: &Material,
+        past: Past,
         element: &mut ElementResponse,
     ) -> Result<(), ElementError> {
-        element.energy = 0.0;
+        (element.energy, element.dissipated) = (0.0, 0.0);
         let mut force = [[0.0; 3]; N];
         let mut tangents = [Tangent::zeros(); Q];
         for g in 0..Q {
             let f = self.deformation_gradient(g, current);
-            let response = material.response(&f).map_err(error_at(g))?;
+            let mut present = element.present(g, Q);
+            let response = material.respond(&f, past.of_point(g, Q), &mut present);
+            let dissipated = present.dissipated;
+            let response = response.map_err(error_at(g))?;
             element.energy += self.weights[g] * response.energy;
+            element.dissipated += self.weights[g] * dissipated;
             self.add_force(g, &response.first_piola, &mut force);
             tangents[g] = response.tangent;
         }

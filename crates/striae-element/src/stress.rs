@@ -17,8 +17,8 @@ use striae_law::bulk::Material;
 use striae_mesh::{ElementId, Mesh, Vec3};
 
 /// Cauchy stress at every node of a mesh, whose reference elements are
-/// `reference` and whose current node positions are `positions`; zero at nodes
-/// without an element.
+/// `reference`, whose current node positions are `positions` and whose quadrature points
+/// have come to `variables`; zero at nodes without an element.
 ///
 /// # Errors
 ///
@@ -28,12 +28,15 @@ pub fn nodal_cauchy_stress(
     reference: &Elements,
     positions: &[Vec3],
     material: &Material,
+    variables: &[f64],
 ) -> Result<Vec<Matrix3<f64>>, ElementFault> {
+    let each = material.variables();
     let mut stress = vec![Matrix3::zeros(); positions.len()];
     let mut volume = vec![0.0; positions.len()];
     for (index, (corners, element)) in mesh.elements().zip(reference.iter()).enumerate() {
         let current: Vec<Vec3> = corners.iter().map(|node| positions[node.index()]).collect();
-        let at_corners = element.corner_stress(&current, material);
+        let variables = &variables[element.variables(each)];
+        let at_corners = element.corner_stress(&current, material, variables);
         let at_corners = at_corners.map_err(|error| ElementFault {
             element: ElementId::new(index),
             error,

@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! DIR/history.csv           a row an increment
-//! DIR/bodies.pvd            displacement, velocity in dynamic steps, Cauchy stress, von Mises stress
+//! DIR/bodies.pvd            displacement, velocity in dynamic steps, Cauchy stress, von Mises stress,
+//!                           named variables of laws with a memory by element
 //! DIR/contact.pvd           gap, pressure, tractions, slip, normal, texture `s`,
 //!                           structural vector `a = n x s`, status, kept, pointed
 //! DIR/rigid.pvd             rigid surfaces: displacement, texture `s`, structural vector
@@ -310,6 +311,7 @@ fn body_grid<'a>(problem: &'a Problem, state: &'a State, body: usize) -> Grid<'a
         &problem.elements[body],
         points,
         &model.material,
+        &state.histories[body],
     );
     if let Ok(stress) = stress {
         let equivalent = stress.iter().map(von_mises).collect();
@@ -323,9 +325,25 @@ fn body_grid<'a>(problem: &'a Problem, state: &'a State, body: usize) -> Grid<'a
         points,
         cells: Cells::Blocks(&model.mesh.blocks),
         point_arrays,
-        cell_arrays: Vec::new(),
+        cell_arrays: memory(problem, state, body),
         time: state.time,
     }
+}
+
+/// Means over the elements of what the points of a body remember, as far as it has a name.
+fn memory(problem: &Problem, state: &State, body: usize) -> Vec<Array> {
+    let material = &problem.model.bodies[body].material;
+    let (elements, each) = (&problem.elements[body], material.variables());
+    let fields = material.fields().into_iter();
+    fields
+        .map(|field| {
+            let means = elements.iter().map(|element| {
+                let variables = &state.histories[body][element.variables(each)];
+                element.mean(variables, field.variable)
+            });
+            Array::new(field.name, Values::Scalars(means.collect()))
+        })
+        .collect()
 }
 
 fn write_surface(

@@ -12,6 +12,7 @@ mod terms;
 mod ties;
 
 pub use context::{Imposed, ImposedRate, StepContext};
+pub use elements::OfBodies;
 
 use inertia::Inertia;
 pub use linearised::{Background, ContactAssembled, assemble_contact};
@@ -82,8 +83,8 @@ pub struct Assembled {
     pub norms: Norms,
     /// Nodal forces.
     pub forces: NodalForces,
-    /// Stored energy.
-    pub strain: f64,
+    /// What bodies store, lose and come to.
+    pub bodies: OfBodies,
     /// Contact of every pair.
     pub contacts: Vec<Evaluation>,
     /// All but contact.
@@ -142,7 +143,7 @@ fn on_this_thread(
     let of_contact = system.set_contact_aside();
     let contact_time = started.elapsed();
     system.loads(&configurations, trial, imposed)?;
-    let strain = system.elements(trial)?;
+    let bodies = system.elements(trial, setting.state, imposed.flowing())?;
     system.point_masses();
     system.carried(imposed);
     let background = system.with_contact(of_contact);
@@ -158,7 +159,7 @@ fn on_this_thread(
         residual,
         norms,
         forces,
-        strain,
+        bodies,
         contacts,
         background,
         contact_time,

@@ -26,6 +26,9 @@ pub struct State {
     pub accelerations: Vec<Vec3>,
     /// Pose of every rigid body.
     pub rigid: Vec<Pose>,
+    /// What the quadrature points of every body have been through: the variables of its
+    /// material by block, element and point. Empty for materials without a memory.
+    pub histories: Vec<Vec<f64>>,
     /// State of every pair.
     pub pairs: Vec<PairState>,
     /// Nodal forces.
@@ -90,6 +93,8 @@ pub struct Energies {
     /// Work of reactions, loads and moving rigid surfaces, and of what changes
     /// velocities at once at the start of a step.
     pub external: f64,
+    /// Work dissipated by viscous and plastic flow in all bodies.
+    pub inelastic: f64,
     /// Work dissipated by friction in all pairs.
     pub friction: f64,
     /// Work of contact forces beyond friction at nodes: that of impacts, of pressure on
@@ -106,7 +111,8 @@ impl Energies {
     /// External work that is found nowhere: the work of the residual forces that
     /// Newton's method leaves, if all forces are right.
     pub fn imbalance(&self) -> f64 {
-        let lost = self.friction + self.contact + self.stabilisation + self.numerical;
+        let dissipated = self.inelastic + self.friction;
+        let lost = dissipated + self.contact + self.stabilisation + self.numerical;
         self.external - (self.kinetic + self.strain + lost)
     }
 }
@@ -137,6 +143,9 @@ impl State {
             velocities: vec![Vec3::zeros(); problem.reference.len()],
             accelerations: vec![Vec3::zeros(); problem.reference.len()],
             rigid: vec![Pose::at_rest(); problem.model.rigid_surfaces.len()],
+            histories: (problem.variables().into_iter())
+                .map(|count| vec![0.0; count])
+                .collect(),
             pairs: problem
                 .pairs
                 .iter()

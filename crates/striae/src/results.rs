@@ -63,7 +63,9 @@ impl<'a> Results<'a> {
         let model = &self.problem.model.bodies[index];
         let elements = &self.problem.elements[index];
         let positions = self.positions(body)?;
-        let stress = nodal_cauchy_stress(&model.mesh, elements, positions, &model.material);
+        let variables = &self.state.histories[index];
+        let stress =
+            nodal_cauchy_stress(&model.mesh, elements, positions, &model.material, variables);
         Some(stress.expect("converged elements are not inverted"))
     }
 

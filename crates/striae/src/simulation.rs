@@ -21,7 +21,7 @@ use striae_deck::Deck;
 use striae_model::{Model, StepBuilder, Validate, extended};
 use striae_output::{
     Existing, Output,
-    checkpoint::{Checkpoint, Source, Written, fingerprint},
+    checkpoint::{self, Checkpoint, CheckpointError, Source, Written, fingerprint},
     history::Table,
     summary::Summary,
 };
@@ -155,6 +155,15 @@ impl Simulation {
         } = checkpoint;
         source.check(&deck.model, deck.output)?;
         let mut simulation = Self::of(deck)?;
+        let remembered = simulation.problem.variables();
+        let fits = |state: &State| {
+            let found = state.histories.iter().map(Vec::len);
+            found.eq(remembered.iter().copied())
+        };
+        if !(fits(&point.start) && fits(&point.state)) {
+            let path = folder.join(checkpoint::FILE);
+            return Err(CheckpointError::Damaged { path }.into());
+        }
         simulation.recording = Some(Recording {
             folder: folder.to_owned(),
             case: source.case.clone(),

@@ -6,8 +6,8 @@ use crate::{
     read::At,
 };
 use striae_law::bulk::{
-    Hyperelastic, InadmissibleHyperelastic, Isochoric, LameConstants, Material, OgdenTerm,
-    Volumetric,
+    Branch, Hardening, Hyperelastic, InadmissibleHardening, InadmissibleHyperelastic, Isochoric,
+    LameConstants, Material, OgdenTerm, Plastic, Viscoelastic, Volumetric,
 };
 use striae_model::FaultKind as ModelFault;
 
@@ -28,31 +28,102 @@ pub(super) fn material(
             let constants = lame_constants(law.constants.as_ref()?, faults)?;
             Some(Material::linear_elastic(constants))
         }
-        _ => rubber(law)?
-            .map(Material::Hyperelastic)
-            .map_err(|error| {
-                let cause = error.to_string();
-                faults.push(span, ModelFault::Material { cause });
-            })
-            .ok(),
+        raw::BulkLaw::ElasticPlastic(law) => {
+            let constants = lame_constants(law.constants.as_ref()?, faults)?;
+            let hardening = hardening(law.hardening.as_ref()?)?;
+            let hardening = admissible(hardening, span, faults)?;
+            Some(Material::Plastic(Plastic::new(constants, hardening)))
+        }
+        _ => {
+            let (made, relaxation) = rubber(law)?;
+            let slow = admissible(made, span, faults)?;
+            let Some(relaxation) = relaxation else {
+                return Some(Material::Hyperelastic(slow));
+            };
+            let branches: Option<Vec<Branch>> = relaxation.value.iter().map(branch).collect();
+            let made = Viscoelastic::new(slow, &branches?);
+            admissible(made, &relaxation.span, faults).map(Material::Viscoelastic)
+        }
     }
 }
 
-/// The rubber, or `None` where a constant could not be read.
-fn rubber(law: &raw::BulkLaw) -> Option<Result<Hyperelastic, InadmissibleHyperelastic>> {
-    let (isochoric, compressibility, form) = match law {
-        raw::BulkLaw::NeoHookean(_) | raw::BulkLaw::LinearElastic(_) => return None,
+/// What was made, or `None` after the reason why not has been noted.
+fn admissible<T, E: ToString>(
+    made: Result<T, E>,
+    span: &Span,
+    faults: &mut FaultList<'_>,
+) -> Option<T> {
+    made.map_err(|error| {
+        let cause = error.to_string();
+        faults.push(span, ModelFault::Material { cause });
+    })
+    .ok()
+}
+
+fn branch(raw: &At<raw::Branch>) -> Option<Branch> {
+    Some(Branch {
+        ratio: raw.value.ratio.as_ref()?.value.0,
+        time: raw.value.time.as_ref()?.value.0,
+    })
+}
+
+/// The hardening, or `None` where a constant could not be read.
+fn hardening(raw: &raw::Hardening) -> Option<Result<Hardening, InadmissibleHardening>> {
+    Some(match raw {
+        raw::Hardening::Smooth(raw) => {
+            let first = raw.yield_stress.as_ref()?.value.0;
+            let modulus = raw.hardening_modulus.as_ref();
+            let modulus = modulus.map_or(0.0, |modulus| modulus.value.0);
+            let Some(saturation) = &raw.saturation else {
+                return Some(Hardening::linear(first, modulus));
+            };
+            let stress = saturation.value.stress.as_ref()?.value.0;
+            let rate = saturation.value.rate.as_ref()?.value.0;
+            Hardening::voce(first, stress, rate, modulus)
+        }
+        raw::Hardening::Table(raw) => {
+            let pairs = raw.yield_table.as_ref()?.value.iter();
+            let pairs: Vec<[f64; 2]> = pairs.map(|pair| pair.value.map(|x| x.0)).collect();
+            Hardening::table(&pairs)
+        }
+    })
+}
+
+/// Branches that relax.
+type Relaxation<'a> = Option<&'a At<Vec<At<raw::Branch>>>>;
+
+/// The rubber and what relaxes beside it, or `None` where a constant could not be read.
+fn rubber(
+    law: &raw::BulkLaw,
+) -> Option<(
+    Result<Hyperelastic, InadmissibleHyperelastic>,
+    Relaxation<'_>,
+)> {
+    let (isochoric, compressibility, form, relaxation) = match law {
+        raw::BulkLaw::NeoHookean(_)
+        | raw::BulkLaw::LinearElastic(_)
+        | raw::BulkLaw::ElasticPlastic(_) => return None,
         raw::BulkLaw::IsochoricNeoHookean(law) => {
             let shear = law.shear_modulus.as_ref()?.value.0;
             let isochoric = Isochoric::NeoHookean { shear };
-            (isochoric, &law.compressibility, &law.volumetric)
+            (
+                isochoric,
+                &law.compressibility,
+                &law.volumetric,
+                &law.relaxation,
+            )
         }
         raw::BulkLaw::MooneyRivlin(law) => {
             let isochoric = Isochoric::MooneyRivlin {
                 c10: law.c10.as_ref()?.value.0,
                 c01: law.c01.as_ref()?.value.0,
             };
-            (isochoric, &law.compressibility, &law.volumetric)
+            (
+                isochoric,
+                &law.compressibility,
+                &law.volumetric,
+                &law.relaxation,
+            )
         }
         raw::BulkLaw::Yeoh(law) => {
             let isochoric = Isochoric::Yeoh {
@@ -60,30 +131,50 @@ fn rubber(law: &raw::BulkLaw) -> Option<Result<Hyperelastic, InadmissibleHyperel
                 c20: law.c20.as_ref()?.value.0,
                 c30: law.c30.as_ref()?.value.0,
             };
-            (isochoric, &law.compressibility, &law.volumetric)
+            (
+                isochoric,
+                &law.compressibility,
+                &law.volumetric,
+                &law.relaxation,
+            )
         }
         raw::BulkLaw::Ogden(law) => {
             let terms = law.terms.as_ref()?.value.iter().map(ogden_term);
             let isochoric = Isochoric::Ogden(terms.collect::<Option<_>>()?);
-            (isochoric, &law.compressibility, &law.volumetric)
+            (
+                isochoric,
+                &law.compressibility,
+                &law.volumetric,
+                &law.relaxation,
+            )
         }
         raw::BulkLaw::Gent(law) => {
             let isochoric = Isochoric::Gent {
                 shear: law.shear_modulus.as_ref()?.value.0,
                 limit: law.limit.as_ref()?.value.0,
             };
-            (isochoric, &law.compressibility, &law.volumetric)
+            (
+                isochoric,
+                &law.compressibility,
+                &law.volumetric,
+                &law.relaxation,
+            )
         }
         raw::BulkLaw::ArrudaBoyce(law) => {
             let isochoric = Isochoric::ArrudaBoyce {
                 mu: law.mu.as_ref()?.value.0,
                 locking_stretch: law.locking_stretch.as_ref()?.value.0,
             };
-            (isochoric, &law.compressibility, &law.volumetric)
+            (
+                isochoric,
+                &law.compressibility,
+                &law.volumetric,
+                &law.relaxation,
+            )
         }
     };
     let form = volumetric(form.as_ref());
-    Some(match compressibility.as_ref()? {
+    let made = match compressibility.as_ref()? {
         raw::Compressibility::BulkModulus(raw) => {
             Hyperelastic::new(isochoric, raw.bulk_modulus.as_ref()?.value.0, form)
         }
@@ -91,7 +182,8 @@ fn rubber(law: &raw::BulkLaw) -> Option<Result<Hyperelastic, InadmissibleHyperel
             let ratio = raw.poissons_ratio.as_ref()?.value.0;
             Hyperelastic::with_poissons_ratio(isochoric, ratio, form)
         }
-    })
+    };
+    Some((made, relaxation.as_ref()))
 }
 
 fn ogden_term(raw: &At<raw::OgdenTerm>) -> Option<OgdenTerm> {

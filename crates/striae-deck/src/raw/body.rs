@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     read::At,
-    value::{Number, PoissonsRatio, Positive, Text, Whole},
+    value::{NonNegative, Number, PoissonsRatio, Positive, Text, Whole},
 };
 
 table! {
@@ -32,6 +32,7 @@ choice! {
         "ogden" => Ogden(Ogden),
         "gent" => Gent(Gent),
         "arruda-boyce" => ArrudaBoyce(ArrudaBoyce),
+        "elastic-plastic" => ElasticPlastic(ElasticPlastic),
     }
 }
 
@@ -88,6 +89,8 @@ table! {
         include compressibility: Compressibility,
         /// Form of the volumetric energy. Default: `quadratic`.
         optional volumetric: Volumetric,
+        /// Branches whose stress relaxes, beside the law, which is that of slow deformations. Default: none.
+        optional relaxation: Vec<At<Branch>>,
     }
 }
 
@@ -102,6 +105,8 @@ table! {
         include compressibility: Compressibility,
         /// Form of the volumetric energy. Default: `quadratic`.
         optional volumetric: Volumetric,
+        /// Branches whose stress relaxes, beside the law, which is that of slow deformations. Default: none.
+        optional relaxation: Vec<At<Branch>>,
     }
 }
 
@@ -118,6 +123,8 @@ table! {
         include compressibility: Compressibility,
         /// Form of the volumetric energy. Default: `quadratic`.
         optional volumetric: Volumetric,
+        /// Branches whose stress relaxes, beside the law, which is that of slow deformations. Default: none.
+        optional relaxation: Vec<At<Branch>>,
     }
 }
 
@@ -130,6 +137,8 @@ table! {
         include compressibility: Compressibility,
         /// Form of the volumetric energy. Default: `quadratic`.
         optional volumetric: Volumetric,
+        /// Branches whose stress relaxes, beside the law, which is that of slow deformations. Default: none.
+        optional relaxation: Vec<At<Branch>>,
     }
 }
 
@@ -154,6 +163,8 @@ table! {
         include compressibility: Compressibility,
         /// Form of the volumetric energy. Default: `quadratic`.
         optional volumetric: Volumetric,
+        /// Branches whose stress relaxes, beside the law, which is that of slow deformations. Default: none.
+        optional relaxation: Vec<At<Branch>>,
     }
 }
 
@@ -168,6 +179,66 @@ table! {
         include compressibility: Compressibility,
         /// Form of the volumetric energy. Default: `quadratic`.
         optional volumetric: Volumetric,
+        /// Branches whose stress relaxes, beside the law, which is that of slow deformations. Default: none.
+        optional relaxation: Vec<At<Branch>>,
+    }
+}
+
+table! {
+    /// A spring and a dashpot in series. Where other programs state the share `g` of the modulus of sudden deformations, the ratio is `g/(1 - sum of all g)`.
+    Branch {
+        /// Modulus over that of slow deformations.
+        required ratio: Positive,
+        /// Relaxation time.
+        required time: Positive,
+    }
+}
+
+table! {
+    /// Metal that yields by von Mises' rule, for large strains, with isotropic hardening.
+    ElasticPlastic {
+        /// Elastic constants.
+        include constants: ElasticConstants,
+        /// Yield stress over the equivalent plastic strain.
+        include hardening: Hardening,
+    }
+}
+
+either! {
+    /// Yield stress over the equivalent plastic strain `p`.
+    Hardening {
+        Smooth(SmoothHardening),
+        Table(HardeningTable),
+    }
+}
+
+table! {
+    /// A formula: `Y0 + (Ys - Y0) (1 - exp(-d p)) + H p`.
+    SmoothHardening {
+        /// First yield stress `Y0`.
+        required yield_stress: Positive,
+        /// Hardening modulus `H`. Default: 0.
+        optional hardening_modulus: NonNegative,
+        /// Saturation by Voce's law. Default: none.
+        optional saturation: Saturation,
+    }
+}
+
+table! {
+    /// Saturation by Voce's law.
+    Saturation {
+        /// Stress `Ys`, at least the first yield stress.
+        required stress: Positive,
+        /// Rate `d` over the plastic strain.
+        required rate: Positive,
+    }
+}
+
+table! {
+    /// Straight lines.
+    HardeningTable {
+        /// Pairs of equivalent plastic strain, from 0 on, and yield stress, which must not fall; the last stress holds beyond.
+        required yield_table: Vec<At<[Number; 2]>>,
     }
 }
 

@@ -1,10 +1,12 @@
 //! Checks of single elements of every kind.
 
 mod mass;
+mod memory;
 mod single;
 
 use super::{Element, ElementResponse, Elements, Formulation};
-use striae_law::bulk::{LameConstants, Material};
+
+use striae_law::bulk::{LameConstants, Material, Past};
 use striae_mesh::{CellBlock, CellKind, Mesh, NodeId, Vec3};
 use striae_verify::Random;
 
@@ -56,7 +58,9 @@ impl Single {
     }
 
     fn response(&self, x: &[Vec3], material: &Material) -> ElementResponse {
-        self.element().response(x, material).unwrap()
+        self.element()
+            .response(x, material, Past::default())
+            .unwrap()
     }
 
     /// Each corner disturbed by at most `amplitude`.

@@ -129,8 +129,8 @@ fn a_homogeneous_deformation_has_the_energy_and_stress_of_the_law() {
         let energy = single.response(&x, &neo_hookean()).energy;
         assert!((energy - law.energy * element.volume()).abs() < 1e-15);
         let sigma = neo_hookean().cauchy_stress(&f).unwrap();
-        let at_points = element.stress(&x, &neo_hookean()).unwrap();
-        let at_corners = element.corner_stress(&x, &neo_hookean()).unwrap();
+        let at_points = element.stress(&x, &neo_hookean(), &[]).unwrap();
+        let at_corners = element.corner_stress(&x, &neo_hookean(), &[]).unwrap();
         assert_eq!(at_corners.len(), x.len());
         for stress in at_points.into_iter().chain(at_corners) {
             assert!((stress - sigma).norm() < 1e-14);
@@ -164,7 +164,7 @@ fn faults_name_the_configuration() {
             ElementError::Degenerate { point: 0, determinant } if (determinant + 0.125).abs() < 1e-14
         ));
         assert!(matches!(
-            single.element().response(&flipped, &neo_hookean()),
+            single.element().response(&flipped, &neo_hookean(), Past::default()),
             Err(ElementError::Inverted { point: 0, determinant }) if (determinant + 1.0).abs() < 1e-14
         ));
     }

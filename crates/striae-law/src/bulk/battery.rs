@@ -2,7 +2,9 @@
 //!
 //! A law of one's own is held against the laws of elasticity before it meets a mesh: free of
 //! energy and stress at rest, `P = dW/dF`, `A = dP/dF = A^T`, and `W(Q F) = W(F)` for every
-//! rotation `Q`. Derivatives are judged by the order at which finite-difference errors fall,
+//! rotation `Q`. A law with a memory is led along a random path first; what it remembers is
+//! held while derivatives are taken, `P = dW/dF` is asked for only of laws without one, and
+//! the dissipation must not be negative. Derivatives are judged by the order at which finite-difference errors fall,
 //! so no tolerance has to be chosen.
 
 use std::fmt;
@@ -11,7 +13,7 @@ use nalgebra::{DMatrix, DVector, Matrix3};
 use striae_verify::derivative::directional;
 use striae_verify::{Difference, Random};
 
-use super::{Material, Response, ResponseError};
+use super::{Material, Past, Present, Response, ResponseError};
 
 /// Something a bulk law gets wrong.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -38,6 +40,9 @@ pub enum Violation {
     /// The tangent is not symmetric.
     #[error("the tangent differs from its transpose by {0:.3e} of its norm")]
     Asymmetric(f64),
+    /// Less than nothing is dissipated.
+    #[error("the dissipation of an increment is {0:.6e}, it must not be negative")]
+    Dissipation(f64),
     /// A rotation changes the energy or more than the direction of the stress.
     #[error(
         "a rotation changes the energy by {energy:.3e} and the turned-back stress by {stress:.3e}"
@@ -54,6 +59,9 @@ pub enum Violation {
 const STATES: u64 = 5;
 /// Largest disturbance of a component of the identity.
 const AMPLITUDE: f64 = 0.15;
+/// Increments in which a law with a memory is led to a state, each of this duration.
+const INCREMENTS: usize = 4;
+const ELAPSED: f64 = 0.3;
 /// Differences below this share of the shear modulus are round-off.
 const ROUND_OFF: f64 = 1e-10;
 
@@ -66,20 +74,23 @@ pub fn battery(material: &Material) -> Vec<Violation> {
     judge(rest(material));
     for seed in 0..STATES {
         let mut random = Random::new(seed);
+        let point = match Point::led(material, &mut random) {
+            Ok(point) => point,
+            Err(wrong) => {
+                judge(Err(wrong));
+                continue;
+            }
+        };
         let f = random.near_identity(AMPLITUDE);
         let q = *random.rotation().matrix();
-        let Ok(response) = material.response(&f) else {
-            judge(
-                material
-                    .response(&f)
-                    .map(|_| ())
-                    .map_err(Violation::NoResponse),
-            );
-            continue;
-        };
-        judge(symmetric(&response));
-        judge(objective(material, &f, &q));
-        judge(consistent(material, &f, &response, &mut random));
+        match point.response(&f) {
+            Ok((response, _)) => {
+                judge(symmetric(&response));
+                judge(point.objective(&f, &q));
+                judge(point.consistent(&f, &response, &mut random));
+            }
+            Err(wrong) => judge(Err(wrong)),
+        }
     }
     violations.sort_by_key(Violation::kind);
     violations.dedup_by_key(|violation| violation.kind());
@@ -95,6 +106,7 @@ impl Violation {
             Self::Tangent(_) => 3,
             Self::Asymmetric(_) => 4,
             Self::NotObjective { .. } => 5,
+            Self::Dissipation(_) => 6,
         }
     }
 }
@@ -122,52 +134,93 @@ fn symmetric(response: &Response) -> Result<(), Violation> {
     }
 }
 
-fn objective(material: &Material, f: &Matrix3<f64>, q: &Matrix3<f64>) -> Result<(), Violation> {
-    let response = |f: &Matrix3<f64>| material.response(f).map_err(Violation::NoResponse);
-    let (before, after) = (response(f)?, response(&(q * f))?);
-    let shear = material.lame_constants().shear;
-    let energy = (before.energy - after.energy).abs() / shear;
-    let stress = (before.first_piola - q.transpose() * after.first_piola).norm() / shear;
-    if energy <= ROUND_OFF && stress <= ROUND_OFF {
-        Ok(())
-    } else {
-        Err(Violation::NotObjective { energy, stress })
-    }
+/// A point of a material and what it has been through.
+struct Point<'a> {
+    material: &'a Material,
+    variables: Vec<f64>,
 }
 
-/// Stress and tangent against differences along a random direction.
-fn consistent(
-    material: &Material,
-    f: &Matrix3<f64>,
-    response: &Response,
-    random: &mut Random,
-) -> Result<(), Violation> {
-    let (x, direction) = (components(f), random.unit(9));
-    let at = |x: &DVector<f64>| material.response(&Matrix3::from_row_slice(x.as_slice()));
-    let unknown = |_| f64::NAN;
-    let energy = |x: &DVector<f64>| {
-        DVector::from_element(1, at(x).map_or_else(unknown, |response| response.energy))
-    };
-    let stress = |x: &DVector<f64>| {
-        at(x).map_or_else(
-            |_| DVector::from_element(9, f64::NAN),
-            |response| components(&response.first_piola),
-        )
-    };
-    let slope = components(&response.first_piola).dot(&direction);
-    let slope = DVector::from_element(1, slope);
-    directional(Difference::Central, energy, &slope, &x, &direction)
-        .map_err(|wrong| Violation::Stress(words(&wrong)))?;
-    let tangent = DMatrix::from_iterator(9, 9, response.tangent.iter().copied());
-    directional(
-        Difference::Central,
-        stress,
-        &(tangent * &direction),
-        &x,
-        &direction,
-    )
-    .map_err(|wrong| Violation::Tangent(words(&wrong)))?;
-    Ok(())
+impl<'a> Point<'a> {
+    /// A point at the end of a random path; at rest where there is no memory.
+    fn led(material: &'a Material, random: &mut Random) -> Result<Self, Violation> {
+        let mut point = Self {
+            material,
+            variables: vec![0.0; material.variables()],
+        };
+        if !point.variables.is_empty() {
+            for _ in 0..INCREMENTS {
+                let f = random.near_identity(AMPLITUDE);
+                let (_, (variables, dissipated)) = point.response(&f)?;
+                if dissipated.is_nan() || dissipated < 0.0 {
+                    return Err(Violation::Dissipation(dissipated));
+                }
+                point.variables = variables;
+            }
+        }
+        Ok(point)
+    }
+
+    /// The response with the variables that follow and what is dissipated.
+    fn response(&self, f: &Matrix3<f64>) -> Result<(Response, (Vec<f64>, f64)), Violation> {
+        let mut variables = self.variables.clone();
+        let past = Past {
+            variables: &self.variables,
+            elapsed: ELAPSED,
+        };
+        let mut present = Present {
+            variables: &mut variables,
+            dissipated: 0.0,
+        };
+        let response = self.material.respond(f, past, &mut present);
+        let dissipated = present.dissipated;
+        let response = response.map_err(Violation::NoResponse)?;
+        Ok((response, (variables, dissipated)))
+    }
+
+    fn objective(&self, f: &Matrix3<f64>, q: &Matrix3<f64>) -> Result<(), Violation> {
+        let (before, _) = self.response(f)?;
+        let (after, _) = self.response(&(q * f))?;
+        let shear = self.material.lame_constants().shear;
+        let energy = (before.energy - after.energy).abs() / shear;
+        let stress = (before.first_piola - q.transpose() * after.first_piola).norm() / shear;
+        if energy <= ROUND_OFF && stress <= ROUND_OFF {
+            Ok(())
+        } else {
+            Err(Violation::NotObjective { energy, stress })
+        }
+    }
+
+    /// Stress and tangent against differences along a random direction.
+    fn consistent(
+        &self,
+        f: &Matrix3<f64>,
+        response: &Response,
+        random: &mut Random,
+    ) -> Result<(), Violation> {
+        let (x, direction) = (components(f), random.unit(9));
+        let at = |x: &DVector<f64>| self.response(&Matrix3::from_row_slice(x.as_slice()));
+        let energy = |x: &DVector<f64>| {
+            let energy = at(x).map_or(f64::NAN, |(response, _)| response.energy);
+            DVector::from_element(1, energy)
+        };
+        let stress = |x: &DVector<f64>| {
+            at(x).map_or_else(
+                |_| DVector::from_element(9, f64::NAN),
+                |(response, _)| components(&response.first_piola),
+            )
+        };
+        if self.variables.is_empty() {
+            let slope = components(&response.first_piola).dot(&direction);
+            let slope = DVector::from_element(1, slope);
+            directional(Difference::Central, energy, &slope, &x, &direction)
+                .map_err(|wrong| Violation::Stress(words(&wrong)))?;
+        }
+        let tangent = DMatrix::from_iterator(9, 9, response.tangent.iter().copied());
+        let slope = tangent * &direction;
+        directional(Difference::Central, stress, &slope, &x, &direction)
+            .map_err(|wrong| Violation::Tangent(words(&wrong)))?;
+        Ok(())
+    }
 }
 
 fn words(wrong: &impl fmt::Display) -> String {

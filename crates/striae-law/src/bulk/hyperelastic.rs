@@ -26,8 +26,8 @@
 use super::invariants::{self, Invariant};
 use super::ogden;
 use super::{LameConstants, OgdenTerm, Response, ResponseError, Volumetric};
-use nalgebra::Matrix3;
-use num_dual::DualNum;
+use nalgebra::{Matrix3, Vector3};
+use num_dual::{DualNum, hessian};
 
 /// Isochoric part of the stored energy. Moduli are stresses.
 #[derive(Clone, Debug, PartialEq)]
@@ -275,6 +275,42 @@ impl Isochoric {
             }
             Self::Ogden(_) => unreachable!("Ogden's law has its own response"),
         }
+    }
+
+    /// `W_iso` with its first and second derivatives by the logarithmic principal stretches,
+    /// of which the deviator counts.
+    ///
+    /// # Errors
+    ///
+    /// [`ResponseError::Overstretched`] beyond the length of the chains.
+    pub(super) fn principal(
+        &self,
+        strains: &Vector3<f64>,
+    ) -> Result<(f64, Vector3<f64>, Matrix3<f64>), ResponseError> {
+        if let Self::Gent { limit, .. } = self {
+            let mean = strains.mean();
+            let strain = strains.map(|e| (2.0 * (e - mean)).exp_m1()).sum();
+            if strain >= *limit {
+                let limit = *limit;
+                return Err(ResponseError::Overstretched { strain, limit });
+            }
+        }
+        Ok(hessian(
+            |strains| {
+                let mean = (strains[0] + strains[1] + strains[2]) / 3.0;
+                let powers = |exponent: f64| {
+                    let power = |a: usize| ((strains[a] - mean) * exponent).exp();
+                    power(0) + power(1) + power(2)
+                };
+                match self {
+                    Self::Ogden(terms) => terms.iter().fold(Invariant::from(0.0), |sum, term| {
+                        sum + (powers(term.alpha) - 3.0) * (term.mu / term.alpha)
+                    }),
+                    _ => self.energy(powers(2.0), powers(-2.0)),
+                }
+            },
+            strains,
+        ))
     }
 
     /// Refuses a stretch beyond the length of the chains.

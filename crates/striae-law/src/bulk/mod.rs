@@ -10,11 +10,16 @@
 //! to the component `F_iJ` (`i` current, `J` reference), symmetric because `W`
 //! exists. Units are those of the moduli.
 //!
+//! Laws with a memory have no energy that all stress comes from; they answer to a deformation
+//! after a [`Past`] and say what is dissipated. Their `A` is symmetric all the same.
+//!
 //! A law is one file: parameters, formula, source, response. Laws of one's own implement
 //! [`BulkLaw`] in any crate.
 
 mod analysis;
 mod battery;
+mod hardening;
+mod history;
 mod hyperelastic;
 mod invariants;
 mod linear_elastic;
@@ -22,16 +27,23 @@ mod moduli;
 mod neo_hookean;
 mod ogden;
 mod own;
+mod plastic;
+mod spectrum;
 #[cfg(test)]
 mod tests;
+mod viscoelastic;
 mod volumetric;
 
 pub use analysis::{Mode, TestState};
 pub use battery::{Violation, battery};
+pub use hardening::{Hardening, InadmissibleHardening};
+pub use history::{Field, Past, Present};
 pub use hyperelastic::{Hyperelastic, InadmissibleHyperelastic, Isochoric};
 pub use moduli::{InadmissibleModuli, LameConstants};
 pub use ogden::OgdenTerm;
 pub use own::{BulkLaw, Own};
+pub use plastic::Plastic;
+pub use viscoelastic::{Branch, InadmissibleBranch, Viscoelastic};
 pub use volumetric::Volumetric;
 
 use nalgebra::{Matrix3, SMatrix};
@@ -60,6 +72,10 @@ pub enum Material {
     },
     /// Rubber, with isochoric and volumetric energies apart.
     Hyperelastic(Hyperelastic),
+    /// Rubber whose stress relaxes.
+    Viscoelastic(Viscoelastic),
+    /// Metal that yields.
+    Plastic(Plastic),
     /// A law from outside the crate.
     Own(Own),
 }
@@ -127,11 +143,53 @@ impl Material {
             Self::NeoHookean { .. } => "neo-Hookean",
             Self::LinearElastic { .. } => "linear elastic",
             Self::Hyperelastic(law) => law.isochoric().name(),
+            Self::Viscoelastic(_) => "viscoelastic",
+            Self::Plastic(_) => "elastic-plastic",
             Self::Own(own) => own.law().name(),
         }
     }
 
-    /// Energy, stress and tangent at the deformation gradient `F`.
+    /// How many variables a point remembers; none where the law has no memory.
+    pub fn variables(&self) -> usize {
+        match self {
+            Self::Viscoelastic(law) => law.variables(),
+            Self::Plastic(law) => law.variables(),
+            Self::Own(own) => own.law().variables(),
+            _ => 0,
+        }
+    }
+
+    /// Variables that are written with the results.
+    pub fn fields(&self) -> Vec<Field> {
+        match self {
+            Self::Plastic(law) => law.fields(),
+            Self::Own(own) => own.law().fields(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// Energy, stress and tangent at the deformation gradient `F` after what a point has
+    /// been through; see [`Past`].
+    ///
+    /// # Errors
+    ///
+    /// As [`Material::response`].
+    pub fn respond(
+        &self,
+        deformation_gradient: &Matrix3<f64>,
+        past: Past,
+        present: &mut Present,
+    ) -> Result<Response, ResponseError> {
+        match self {
+            Self::Viscoelastic(law) => law.respond(deformation_gradient, past, present),
+            Self::Plastic(law) => law.respond(deformation_gradient, past, present),
+            Self::Own(own) => own.law().respond(deformation_gradient, past, present),
+            _ => self.response(deformation_gradient),
+        }
+    }
+
+    /// Energy, stress and tangent at the deformation gradient `F`; of a law with a memory
+    /// what a point at rest answers at once.
     ///
     /// # Errors
     ///
@@ -149,6 +207,19 @@ impl Material {
                 Ok(linear_elastic::response(*lambda, *shear, f))
             }
             Self::Hyperelastic(law) => law.response(f),
+            Self::Viscoelastic(_) | Self::Plastic(_) => {
+                let rest = vec![0.0; self.variables()];
+                let mut present = rest.clone();
+                let past = Past {
+                    variables: &rest,
+                    elapsed: 0.0,
+                };
+                let mut present = Present {
+                    variables: &mut present,
+                    dissipated: 0.0,
+                };
+                self.respond(f, past, &mut present)
+            }
             Self::Own(own) => own.law().response(f),
         }
     }
@@ -164,12 +235,37 @@ impl Material {
         deformation_gradient: &Matrix3<f64>,
     ) -> Result<Matrix3<f64>, ResponseError> {
         let first_piola = self.response(deformation_gradient)?.first_piola;
-        Ok(match self {
-            Self::LinearElastic { .. } => first_piola,
-            _ => {
-                first_piola * deformation_gradient.transpose() / deformation_gradient.determinant()
-            }
-        })
+        Ok(self.cauchy(&first_piola, deformation_gradient))
+    }
+
+    /// Cauchy stress at the deformation gradient `F` where the point has come to what it
+    /// remembers.
+    ///
+    /// # Errors
+    ///
+    /// As [`Material::response`].
+    pub fn cauchy_stress_after(
+        &self,
+        deformation_gradient: &Matrix3<f64>,
+        variables: &[f64],
+    ) -> Result<Matrix3<f64>, ResponseError> {
+        let past = Past {
+            variables,
+            elapsed: 0.0,
+        };
+        let mut present = Present {
+            variables: &mut variables.to_vec(),
+            dissipated: 0.0,
+        };
+        let response = self.respond(deformation_gradient, past, &mut present)?;
+        Ok(self.cauchy(&response.first_piola, deformation_gradient))
+    }
+
+    fn cauchy(&self, first_piola: &Matrix3<f64>, f: &Matrix3<f64>) -> Matrix3<f64> {
+        match self {
+            Self::LinearElastic { .. } => *first_piola,
+            _ => first_piola * f.transpose() / f.determinant(),
+        }
     }
 
     /// The Lame constants of the small-strain limit.
@@ -182,6 +278,8 @@ impl Material {
                 }
             }
             Self::Hyperelastic(law) => law.lame_constants(),
+            Self::Viscoelastic(law) => law.lame_constants(),
+            Self::Plastic(law) => law.lame_constants(),
             Self::Own(own) => own.law().lame_constants(),
         }
     }

@@ -181,8 +181,8 @@ coded! {
     Wrench { force, torque };
     Pose { displacement, turned, rotation };
     NodalForces { internal, inertia, reaction, applied, contact, stabilisation, stabilised, rigid, pushed };
-    Energies { kinetic, strain, external, friction, contact, stabilisation, numerical };
-    State { time, positions, velocities, accelerations, rigid, pairs, forces, energies };
+    Energies { kinetic, strain, external, inelastic, friction, contact, stabilisation, numerical };
+    State { time, positions, velocities, accelerations, rigid, histories, pairs, forces, energies };
     Extent { nodes };
     FactoredInterior { values, scales, prescribed, single };
     Experience { too_coarse, taken, interior };

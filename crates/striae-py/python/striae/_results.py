@@ -44,6 +44,8 @@ class Energies(NamedTuple):
     """Stored elastic energy."""
     external: float
     """Work of reactions, loads and moving rigid bodies."""
+    inelastic: float
+    """Work dissipated by viscous and plastic flow in the bodies."""
     friction: float
     """Work dissipated by friction."""
     contact: float

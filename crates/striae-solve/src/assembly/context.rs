@@ -80,6 +80,18 @@ pub struct ImposedRate {
     pub acceleration: f64,
 }
 
+impl Imposed {
+    /// Time in which materials flow: none where nothing says how long it is since the last
+    /// converged state, as nothing has happened since then.
+    pub fn flowing(&self) -> f64 {
+        if self.elapsed.is_finite() {
+            self.elapsed
+        } else {
+            0.0
+        }
+    }
+}
+
 impl<'a> StepContext<'a> {
     /// The context of step `index` that starts from `start`.
     pub fn new(problem: &'a Problem, index: usize, start: &'a State) -> Self {

@@ -4,11 +4,12 @@
 use rayon::prelude::*;
 use std::ops::Range;
 use striae_element::{ElementBlock, ElementError, ElementFault, ElementResponse, Stiffness};
+use striae_law::bulk::Past;
 use striae_linalg::OutsidePattern;
 use striae_mesh::{ElementId, MAX_CORNERS, NodeId, Vec3};
 
 use super::{Fault, System, Trial, ties::Slot};
-use crate::{outcome::CutBack, problem::Problem};
+use crate::{outcome::CutBack, problem::Problem, state::State};
 
 /// Elements whose responses are kept at a time: few enough for the cache.
 const CHUNK: usize = 128;
@@ -16,29 +17,56 @@ const CHUNK: usize = 128;
 /// Sums over all elements.
 #[derive(Default)]
 struct Sums {
-    energy: f64,
+    of_bodies: OfBodies,
     square_of_forces: f64,
 }
 
+/// What bodies store, lose and come to.
+#[derive(Clone, Debug, Default)]
+pub struct OfBodies {
+    /// Stored energy.
+    pub strain: f64,
+    /// Energy that has been dissipated since the last converged state.
+    pub dissipated: f64,
+    /// What their quadrature points have come to, as in [`State::histories`].
+    pub histories: Vec<Vec<f64>>,
+}
+
 impl System<'_> {
-    /// Internal forces and stiffness; returns the stored energy.
-    pub(super) fn elements(&mut self, trial: &Trial) -> Result<f64, Fault> {
+    /// Internal forces and stiffness.
+    pub(super) fn elements(
+        &mut self,
+        trial: &Trial,
+        state: &State,
+        elapsed: f64,
+    ) -> Result<OfBodies, Fault> {
         let problem = self.context.problem;
         let mut sums = Sums::default();
         for (body, elements) in problem.elements.iter().enumerate() {
+            let variables = state.histories[body].as_slice();
+            let past = Past { variables, elapsed };
+            let room = Vec::with_capacity(variables.len());
+            sums.of_bodies.histories.push(room);
             for (first, block) in elements.blocks() {
-                self.block(&Place { body, first, block }, trial, &mut sums)?;
+                let place = Place {
+                    body,
+                    first,
+                    block,
+                    past,
+                };
+                self.block(&place, trial, &mut sums)?;
             }
         }
         self.force_scale = sums.square_of_forces.sqrt();
-        Ok(sums.energy)
+        Ok(sums.of_bodies)
     }
 
     /// The elements of a block.
     fn block(&mut self, place: &Place, trial: &Trial, sums: &mut Sums) -> Result<(), Fault> {
         let problem = self.context.problem;
         let count = place.block.count();
-        let empty = ElementResponse::zero(place.block.kind().corner_count());
+        let material = &problem.model.bodies[place.body].material;
+        let empty = ElementResponse::zero(place.block.kind(), material);
         let chunk = |start: usize| start.min(count)..(start + CHUNK).min(count);
         let buffer = || vec![empty.clone(); CHUNK.min(count)];
         let (mut ready, mut next) = (buffer(), buffer());
@@ -67,14 +95,16 @@ impl System<'_> {
         let problem = self.context.problem;
         let model = &problem.model.bodies[place.body];
         for ((at, response), result) in (start..).zip(responses).zip(results) {
-            let element = ElementId::new(place.first + at);
+            let element = ElementId::new(place.first[0] + at);
             result.map_err(|error| {
                 Fault::CutBack(CutBack::InvertedElement {
                     body: model.name.clone(),
                     element: ElementFault { element, error },
                 })
             })?;
-            sums.energy += response.energy;
+            sums.of_bodies.strain += response.energy;
+            sums.of_bodies.dissipated += response.dissipated;
+            sums.of_bodies.histories[place.body].extend_from_slice(&response.variables);
             let corners = model.mesh.corners(element);
             let mut nodes = [0; MAX_CORNERS];
             let nodes = globals(problem, place.body, corners, &mut nodes);
@@ -172,9 +202,22 @@ impl System<'_> {
 /// A block of elements and where it belongs.
 struct Place<'a> {
     body: usize,
-    /// First element in the mesh.
-    first: usize,
+    /// First element and first quadrature point in the mesh.
+    first: [usize; 2],
     block: &'a dyn ElementBlock,
+    /// What the quadrature points of the body have been through.
+    past: Past<'a>,
+}
+
+impl Place<'_> {
+    /// What an element of the block has been through.
+    fn past(&self, at: usize, each: usize) -> Past<'_> {
+        let first = (self.first[1] + at * self.block.points()) * each;
+        Past {
+            variables: &self.past.variables[first..first + self.block.points() * each],
+            elapsed: self.past.elapsed,
+        }
+    }
 }
 
 /// Responses of some elements of a block, written over older ones.
@@ -185,9 +228,14 @@ fn respond(
     range: Range<usize>,
     responses: &mut [ElementResponse],
 ) -> Vec<Result<(), ElementError>> {
-    let &Place { body, first, block } = place;
+    let &Place {
+        body,
+        first: [first, _],
+        block,
+        ..
+    } = place;
     let model = &problem.model.bodies[body];
-    let count = range.len();
+    let (count, each) = (range.len(), model.material.variables());
     responses[..count]
         .par_iter_mut()
         .zip(range)
@@ -198,7 +246,8 @@ fn respond(
             for (x, node) in x.iter_mut().zip(corners) {
                 *x = trial.positions[problem.node(body, *node)];
             }
-            block.respond(at, &x[..corners.len()], &model.material, response)
+            let past = place.past(at, each);
+            block.respond(at, &x[..corners.len()], &model.material, past, response)
         })
         .collect()
 }

@@ -61,6 +61,7 @@ pub(super) fn accepted(
         velocities,
         accelerations,
         rigid: trial.rigid,
+        histories: assembled.bodies.histories,
         pairs,
         forces: assembled.forces,
         energies,

@@ -7,10 +7,11 @@
 //! ```text
 //! external  += d . (a f_ext,0 + (1 - a) f_ext,1) + work of reactions and of moving surfaces
 //!            + work of the forces and torques on rigid bodies, du . F + dt . M
+//! inelastic += what viscous and plastic flow dissipate by the laws of the materials
 //! friction  += sum A (-tau_1 . du) over the nodes at which friction is collocated
 //! stabilisation += k |relative displacement|^2 over the dashpots
 //! contact   += -d . (f_con + f_sta) on all sides - friction - stabilisation
-//! numerical += d . (a f_int,0 + (1 - a) f_int,1) - change of strain energy
+//! numerical += d . (a f_int,0 + (1 - a) f_int,1) - change of strain energy - inelastic
 //!            + dt v . M e + d' . M a_alpha
 //!            - sum (1 - a) (dr - dt x r_1) . h_1 + a (dr - dt x r_0) . h_0 at tied nodes
 //!            - sum (dr - dt x r) . f_con over the nodes that push a moving body
@@ -31,8 +32,8 @@
 //! the right hand sides by Chung & Hulbert's formulas, see [`crate::dynamics`]; for
 //! prescribed components, which follow their curves, the left ones. The last lines
 //! are how far the chords `dr` of the arms `r` are from arcs. Neither looks at the assembled
-//! inertia forces or at the residual. So external work equals kinetic, strain, friction,
-//! contact and numerical energy up to the residual that Newton's method leaves only if
+//! inertia forces or at the residual. So external work equals kinetic, strain, inelastic,
+//! friction, contact and numerical energy up to the residual that Newton's method leaves only if
 //! mass, inertia, contact and tie forces are those of the equations that were solved. No
 //! node can dissipate less than nothing, as the law of friction holds there at the end.
 
@@ -70,19 +71,24 @@ impl Ends<'_> {
         let (resisted, stabilisation) = (self.resisted(|_| true), self.stabilisation());
         let resisted = resisted - self.work_of_stabilisation();
         let before = &self.state.energies;
-        let strain = self.assembled.strain;
+        let (strain, inelastic) = (
+            self.assembled.bodies.strain,
+            self.assembled.bodies.dissipated,
+        );
         // What jumps of contact forces take is counted as contact, not as time integration.
         let (held, shifted) = (
             self.held_weight(),
             0.5 - self.scheme().map_or(0.0, |s| s.alpha_f),
         );
         let (fully, contact) = (self.contact(held), self.contact(shifted));
-        let lost = self.internal() - (strain - before.strain) + self.inertia() - self.arcs();
+        let stored = strain - before.strain;
+        let lost = self.internal() - (stored + inelastic) + self.inertia() - self.arcs();
         let lost = lost + (fully - contact);
         Energies {
             kinetic: kinetic_energy(self.context.problem, self.velocities),
             strain,
             external: before.external + self.external(),
+            inelastic: before.inelastic + inelastic,
             friction: before.friction + friction,
             contact: before.contact + contact - friction + (resisted - stabilisation),
             stabilisation: before.stabilisation + stabilisation,

@@ -40,7 +40,7 @@ fn check(oblique: &Oblique, degrees: f64) {
     for (corners, element) in body.mesh.elements().zip(run.problem.elements[0].iter()) {
         let corners = corners.iter();
         let x: Vec<Vec3> = corners.map(|node| run.positions(0)[node.index()]).collect();
-        for stress in element.stress(&x, &body.material).unwrap() {
+        for stress in element.stress(&x, &body.material, &[]).unwrap() {
             let error = (stress - sliding.stress).amax();
             assert!(error < 1e-8, "{what}: stress off by {error:.1e}");
         }

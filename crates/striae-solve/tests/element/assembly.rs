@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 use striae_element::{Elements, Formulation};
-use striae_law::bulk::Material;
+use striae_law::bulk::{Material, Past};
 use striae_mesh::{CellKind, Mesh, NodeId, Vec3, generate};
 
 /// Kind of the cells and formulation of the elements.
@@ -61,7 +61,9 @@ impl Block {
         let mut total = self.zero();
         for (corners, element) in self.mesh.elements().zip(self.reference.iter()) {
             let current: Vec<Vec3> = corners.iter().map(|node| x[node.index()]).collect();
-            let local = element.response(&current, material).unwrap();
+            let local = element
+                .response(&current, material, Past::default())
+                .unwrap();
             scatter(
                 corners,
                 local.force.as_flattened(),

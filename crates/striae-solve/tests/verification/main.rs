@@ -11,6 +11,7 @@ mod energies;
 mod friction_history;
 mod hard_systems;
 mod invariance;
+mod memory;
 mod passages;
 mod patch_frictionless;
 mod patch_stick;

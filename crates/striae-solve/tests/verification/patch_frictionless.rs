@@ -146,7 +146,7 @@ fn check_bodies(what: &str, run: &Run, case: &Case, tolerance: f64) {
         for (corners, element) in model.mesh.elements().zip(run.problem.elements[body].iter()) {
             let corners = corners.iter();
             let x: Vec<Vec3> = corners.map(|n| run.positions(body)[n.index()]).collect();
-            for stress in element.stress(&x, &model.material).unwrap() {
+            for stress in element.stress(&x, &model.material, &[]).unwrap() {
                 let error = (stress - expected_stress).amax();
                 assert!(
                     error < tolerance * PRESSURE,

@@ -95,6 +95,29 @@ fn a_quasi_static_run_is_the_same_in_pieces() {
 }
 
 #[test]
+fn a_run_of_bodies_that_remember_is_the_same_in_pieces() {
+    let rubber = "law = \"neo-hookean\"\nyoungs_modulus = 1e6\npoissons_ratio = 0.3\n";
+    let relaxing = "law = \"yeoh\"\nc10 = 1e5\nc20 = 0\nc30 = 0\npoissons_ratio = 0.4\n\
+                    relaxation = [{ ratio = 1, time = 0.5 }]\n\
+                    [[material]]\nname = \"metal\"\nlaw = \"elastic-plastic\"\n\
+                    youngs_modulus = 1e6\npoissons_ratio = 0.3\nyield_stress = 2e4\n";
+    let upper = "name = \"upper\"\nmaterial = \"rubber\"";
+    let text = QUASI_STATIC.replace(rubber, relaxing);
+    let text = text.replace(upper, "name = \"upper\"\nmaterial = \"metal\"");
+    assert_same_in_pieces(&text, 10);
+    let other = read(&text.replace("time = 0.5", "time = 0.4"));
+    let place = tempfile::tempdir().unwrap();
+    let deck = read(&text);
+    begun(&deck, place.path()).until(&at_once()).run().unwrap();
+    let checkpoint = Checkpoint::read(place.path()).unwrap();
+    assert!(Simulation::resume_from(other, checkpoint.clone(), place.path()).is_err());
+    let mut short = checkpoint;
+    short.point.state.histories[1].pop();
+    let refused = Simulation::resume_from(deck, short, place.path()).unwrap_err();
+    assert!(refused.to_string().contains("is damaged"), "{refused}");
+}
+
+#[test]
 fn a_run_on_older_factors_is_the_same_in_pieces() {
     let summary = assert_same_in_pieces(KEPT, 5);
     let count = |of: &Value| of.as_u64().unwrap();
