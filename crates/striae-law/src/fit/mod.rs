@@ -41,7 +41,9 @@
 //! Angles are in radians, friction has no unit.
 
 mod basis;
+mod error;
 mod least_squares;
+mod reading;
 mod student;
 #[cfg(test)]
 mod tests;
@@ -49,10 +51,13 @@ mod tests;
 use std::fmt;
 
 use nalgebra::{DMatrix, DVector, Vector2};
-use thiserror::Error;
 
-use crate::friction::{Friction, FrictionError, SlipRule};
+pub use error::FitError;
+pub use reading::Reading;
+
+use crate::friction::{Friction, SlipRule};
 use basis::Shape;
+use reading::mean_friction;
 
 /// Least dissipation of a fitted law over the mean measured friction.
 const LEAST_DISSIPATION: f64 = 1e-3;
@@ -60,44 +65,6 @@ const LEAST_DISSIPATION: f64 = 1e-3;
 const ITERATIONS: usize = 200;
 /// Change of the parameters, over their size, that ends it.
 const SETTLED: f64 = 1e-14;
-
-/// Friction measured in one direction of slip.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reading {
-    /// Direction of slip of the textured surface from `e`, counter-clockwise as seen from
-    /// outside that surface (radians).
-    pub slip: f64,
-    /// Friction that opposes slip over pressure, `w . d`.
-    pub against: f64,
-    /// Friction a quarter turn from there, `w . d_perp`, where it was measured.
-    pub across: Option<f64>,
-    /// Angle between the textures `a_a` and `a_b'` of two textured surfaces (radians).
-    pub theta: f64,
-    /// Standard deviation in proportion to that of other readings.
-    pub spread: f64,
-}
-
-impl Reading {
-    /// Friction that was measured in the direction of slip only.
-    pub fn against(slip: f64, friction: f64) -> Self {
-        Self {
-            slip,
-            against: friction,
-            across: None,
-            theta: 0.0,
-            spread: 1.0,
-        }
-    }
-
-    /// Friction of the size `|w|` with its direction: the angle of `w = -tau/p` from `e`.
-    pub fn directed(slip: f64, friction: f64, direction: f64) -> Self {
-        let (sine, cosine) = (direction - slip).sin_cos();
-        Self {
-            across: Some(friction * sine),
-            ..Self::against(slip, friction * cosine)
-        }
-    }
-}
 
 /// A law whose constants are sought.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -178,54 +145,6 @@ pub enum Standing {
     AtBound,
 }
 
-/// Why a law cannot be fitted.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum FitError {
-    /// A reading is no number.
-    #[error("reading {reading} has the {quantity} {value}, but a finite number is needed")]
-    NotFinite {
-        /// Its number, from 0.
-        reading: usize,
-        /// What is wrong with it.
-        quantity: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// A spread is not positive.
-    #[error("reading {reading} has the spread {spread}, but it must be positive")]
-    Spread {
-        /// Its number, from 0.
-        reading: usize,
-        /// The spread.
-        spread: f64,
-    },
-    /// Friction does not oppose slip on the whole.
-    #[error(
-        "the mean friction against slip is {mean}, but it must be positive: state the angle of slip, \
-         not that of the force on the surface"
-    )]
-    NotOpposing {
-        /// The mean.
-        mean: f64,
-    },
-    /// The measurements leave constants open.
-    #[error(
-        "the measurements do not determine the constants of the law `{law}`: it needs {needed}"
-    )]
-    Undetermined {
-        /// Name of the law.
-        law: &'static str,
-        /// What it needs.
-        needed: &'static str,
-    },
-    /// A level of confidence is none.
-    #[error("the level of confidence {0} is refused: it must lie between 0 and 1, such as 0.95")]
-    Level(f64),
-    /// What was found is no law.
-    #[error(transparent)]
-    Refused(#[from] FrictionError),
-}
-
 impl Sought {
     /// The name of the law in decks.
     pub fn name(self) -> &'static str {
@@ -268,7 +187,10 @@ impl Sought {
 /// # Errors
 /// When readings are not finite or do not oppose slip, or do not determine the constants.
 pub fn fit(sought: Sought, readings: &[Reading], level: f64) -> Result<Fit, FitError> {
-    let mean = check(readings, level)?;
+    if !(level > 0.0 && level < 1.0) {
+        return Err(FitError::Level(level));
+    }
+    let mean = mean_friction(readings)?;
     let shape = Shape::new(sought, readings);
     let undetermined = || FitError::Undetermined {
         law: sought.name(),
@@ -306,42 +228,6 @@ pub fn fit(sought: Sought, readings: &[Reading], level: f64) -> Result<Fit, FitE
             Standing::AtBound
         },
     })
-}
-
-/// Looks at the readings; their mean friction against slip.
-fn check(readings: &[Reading], level: f64) -> Result<f64, FitError> {
-    if !(level > 0.0 && level < 1.0) {
-        return Err(FitError::Level(level));
-    }
-    for (number, reading) in readings.iter().enumerate() {
-        let quantities = [
-            ("angle of slip", reading.slip),
-            ("friction", reading.against),
-            ("friction across slip", reading.across.unwrap_or(0.0)),
-            ("angle between the textures", reading.theta),
-            ("spread", reading.spread),
-        ];
-        if let Some((quantity, value)) = quantities.into_iter().find(|(_, x)| !x.is_finite()) {
-            return Err(FitError::NotFinite {
-                reading: number,
-                quantity,
-                value,
-            });
-        }
-        if reading.spread <= 0.0 {
-            let spread = reading.spread;
-            return Err(FitError::Spread {
-                reading: number,
-                spread,
-            });
-        }
-    }
-    let sum: f64 = readings.iter().map(|reading| reading.against).sum();
-    let mean = sum / readings.len().max(1) as f64;
-    if mean <= 0.0 && !readings.is_empty() {
-        return Err(FitError::NotOpposing { mean });
-    }
-    Ok(mean)
 }
 
 /// The parameters, whether no bound holds them, and `(J^T W J)^-1`.
