@@ -1,8 +1,10 @@
 //! Ways in which the program fails, and their exit codes.
 
 use std::{io, path::PathBuf, process::ExitCode};
+use striae::measurements::MeasurementFaults;
 use striae_deck::Faults;
 use striae_figure::FigureError;
+use striae_law::fit::FitError;
 use striae_output::{OutputError, checkpoint::CheckpointError};
 use striae_report::ReportError;
 use striae_solve::{outcome::Ending, problem::ProblemError};
@@ -70,6 +72,12 @@ pub enum Failure {
     /// There is no report.
     #[error("{0}")]
     Report(#[from] ReportError),
+    /// A file of measurements is faulty.
+    #[error("{0}")]
+    Measurements(#[from] MeasurementFaults),
+    /// Measurements give no law.
+    #[error("{0}")]
+    Fit(#[from] FitError),
     /// The threads cannot be started.
     #[error("the threads cannot be started: {0}")]
     Threads(String),
@@ -122,6 +130,8 @@ impl Failure {
             | Self::Exists(_)
             | Self::Checkpoint(_)
             | Self::Problem(_)
+            | Self::Measurements(_)
+            | Self::Fit(_)
             | Self::Report(ReportError::Nothing(_))
             | Self::Results(OutputError::Occupied(_) | OutputError::InUse(_))
             | Self::UnknownCase { .. } => ExitCode::from(2),

@@ -5,6 +5,8 @@
 //! [`Model`], in which every name has become an id and every set its members.
 //! Both stages go on after a fault, so that [`Faults`] lists all there are.
 //!
+//! [`write()`] goes the other way, from a model to a text that reads back to it.
+//!
 //! All quantities are in one consistent system of units chosen by the author.
 
 mod declare;
@@ -17,10 +19,12 @@ mod raw;
 mod read;
 mod schema;
 mod value;
+mod write;
 
 pub use fault::FaultKind;
 pub use faults::{Fault, Faults, Position};
 pub use schema::{json_schema, reference};
+pub use write::{Unstated, write};
 
 use faults::FaultList;
 use std::path::Path;

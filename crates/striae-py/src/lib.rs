@@ -7,6 +7,7 @@
 
 mod array;
 mod fault;
+mod fit;
 mod friction;
 mod generate;
 mod material;
@@ -26,6 +27,7 @@ use pyo3::prelude::*;
 mod _striae {
     #[pymodule_export]
     use super::{
+        fit::fit_friction,
         friction::Friction,
         generate::{annulus, block, capped_block, half_cylinder},
         material::Material,

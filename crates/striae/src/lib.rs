@@ -187,7 +187,8 @@
 //!
 //! [`model`], [`mesh`], [`mesh_file`], [`law`], [`surface`], [`contact`], [`solve`],
 //! [`deck`] and [`output`] are the crates below, for what the names above do not reach;
-//! [`figures`] draws friction laws and textures. Laws of one's own are written with
+//! [`figures`] draws friction laws and textures, [`measurements`] reads measured friction for
+//! [`law::fit`]. Laws of one's own are written with
 //! [`nalgebra`] and [`num_dual`], which are handed on. The `striae` program is a client of
 //! this crate.
 
@@ -196,6 +197,7 @@ mod error;
 pub mod figures;
 mod interrupt;
 mod log;
+pub mod measurements;
 mod observer;
 pub mod prelude;
 mod results;

@@ -1,6 +1,7 @@
 //! The subcommands, one module each.
 
 pub mod check;
+pub mod fit;
 pub mod law;
 pub mod material;
 pub mod new;

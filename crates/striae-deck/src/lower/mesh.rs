@@ -9,7 +9,7 @@ use crate::{
     value::vector,
 };
 use std::path::{Path, PathBuf};
-use striae_mesh::{Mesh, NodeId, Vec3};
+use striae_mesh::{CellBlock, CellKind, Mesh, NodeId, Vec3};
 use striae_meshfile::{self as mesh_file};
 use striae_model::FaultKind as ModelFault;
 
@@ -26,6 +26,7 @@ pub(super) fn body_mesh(
     let owner = format!("body `{body}`");
     match &raw.value {
         raw::Mesh::File(file) => made(mesh_file::read(path(file, base)?), owner, &raw.span, faults),
+        raw::Mesh::Inline(mesh) => inline_mesh(mesh, owner, &raw.span, faults),
         raw::Mesh::Generated(generator) => {
             let generator = generator::Generator::new(generator, faults)?;
             made(generator.mesh(), owner, &raw.span, faults)
@@ -71,6 +72,37 @@ fn made<T>(
 
 fn path(raw: &raw::MeshFile, base: &Path) -> Option<PathBuf> {
     Some(base.join(&raw.file.as_ref()?.value.0))
+}
+
+/// A mesh written in the deck.
+fn inline_mesh(
+    raw: &raw::InlineMesh,
+    owner: String,
+    span: &Span,
+    faults: &mut FaultList<'_>,
+) -> Option<Mesh> {
+    let positions = raw.positions.as_ref()?.value.iter();
+    let positions: Vec<Vec3> = positions.map(|at| vector(&at.value)).collect();
+    let mut cells: Vec<(CellKind, Vec<NodeId>)> = Vec::new();
+    for cell in &raw.cells.as_ref()?.value {
+        let corners = cell.value.0.iter().map(|node| NodeId::new(node.0));
+        let corners: Vec<NodeId> = corners.collect();
+        let kinds = CellKind::ALL.into_iter();
+        match kinds
+            .filter(|kind| kind.corner_count() == corners.len())
+            .next()
+        {
+            Some(kind) => cells.push((kind, corners)),
+            None => {
+                let cause = format!("no kind of element has corners: {}", corners.len());
+                faults.push(&cell.span, ModelFault::Mesh { owner, cause });
+                return None;
+            }
+        }
+    }
+    let blocks = CellBlock::runs(cells.iter().map(|(kind, corners)| (*kind, &corners[..])));
+    let mesh = Mesh::new(positions, blocks).and_then(|mesh| mesh.check_shape().map(|()| mesh));
+    made(mesh, owner, span, faults)
 }
 
 fn inline_surface(

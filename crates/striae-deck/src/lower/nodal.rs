@@ -72,7 +72,7 @@ fn mesh_file_of(side: &Side, surfaces: &Surfaces<'_>) -> Option<PathBuf> {
             let body = &list(&written.body)[body.0].value;
             match &body.mesh.as_ref()?.value {
                 raw::Mesh::File(file) => file,
-                raw::Mesh::Generated(_) => return None,
+                raw::Mesh::Generated(_) | raw::Mesh::Inline(_) => return None,
             }
         }
         Side::Rigid(rigid) => match list(&written.rigid)[rigid.0].value.shape.as_ref()? {

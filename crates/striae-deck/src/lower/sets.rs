@@ -7,7 +7,8 @@ use crate::{
     read::At,
     value::{Number, Text, vector},
 };
-use striae_mesh::{Face, Mesh, NodeId, Sets, Vec3};
+use std::collections::BTreeSet;
+use striae_mesh::{ElementId, Face, Mesh, NodeId, Sets, Vec3};
 use striae_model::FaultKind as ModelFault;
 
 /// By how much of its size a box is widened, so that nodes on its sides are inside.
@@ -45,6 +46,7 @@ pub(super) fn add_node_sets(
                 let nodes = mesh.positions.iter().enumerate().filter(|(_, x)| inside(x));
                 nodes.map(|(index, _)| NodeId::new(index)).collect()
             }),
+            raw::NodeMembers::Listed(raw) => listed_nodes(mesh, body, raw, faults),
         };
         if let Some(members) = members {
             insert("node", &mut mesh.node_sets, body, name, members, faults);
@@ -82,6 +84,7 @@ pub(super) fn add_facet_sets(
                         .collect(),
                 )
             }),
+            raw::FacetMembers::Listed(raw) => listed_facets(mesh, body, raw, faults),
         };
         if let Some(members) = members {
             insert("facet", &mut mesh.facet_sets, body, name, members, faults);
@@ -158,6 +161,58 @@ fn union<T: Ord + Copy>(
     faults: &mut FaultList<'_>,
 ) -> Option<Vec<T>> {
     Some(named(kind, sets, body, &raw.union.as_ref()?.value, faults)?.concat())
+}
+
+/// Nodes by number.
+fn listed_nodes(
+    mesh: &Mesh,
+    body: &str,
+    raw: &raw::ListedNodes,
+    faults: &mut FaultList<'_>,
+) -> Option<Vec<NodeId>> {
+    let numbers = raw.numbers.as_ref()?;
+    let nodes = numbers.value.0.iter().map(|number| number.0);
+    let (count, largest) = (mesh.positions.len(), nodes.clone().max().unwrap_or(0));
+    if largest >= count {
+        let cause = format!("there is no node {largest}: it has nodes: {count}, from 0");
+        faults.push(&numbers.span, unknown_member(body, cause));
+        return None;
+    }
+    Some(nodes.map(NodeId::new).collect())
+}
+
+/// Sides of elements by number.
+fn listed_facets(
+    mesh: &Mesh,
+    body: &str,
+    raw: &raw::ListedFacets,
+    faults: &mut FaultList<'_>,
+) -> Option<Vec<Face>> {
+    let boundary: BTreeSet<Face> = mesh.boundary_faces().into_iter().collect();
+    let mut faces = Vec::new();
+    for At { value, span } in &raw.sides.as_ref()?.value {
+        let [element, side] = value.map(|number| number.0);
+        let face = u8::try_from(side).ok().map(|side| Face {
+            element: ElementId::new(element),
+            side,
+        });
+        match face.filter(|face| boundary.contains(face)) {
+            Some(face) => faces.push(face),
+            None => {
+                let cause = format!("side {side} of element {element} is not on its boundary");
+                faults.push(span, unknown_member(body, cause));
+                return None;
+            }
+        }
+    }
+    Some(faces)
+}
+
+fn unknown_member(body: &str, cause: String) -> ModelFault {
+    ModelFault::Mesh {
+        owner: format!("body `{body}`"),
+        cause,
+    }
 }
 
 /// The node nearest to a place, the first of several.

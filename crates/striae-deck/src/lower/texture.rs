@@ -35,6 +35,12 @@ pub(super) fn paint(
         ),
         raw::Texture::Points(raw) => return points(raw, faults),
         raw::Texture::Nodal(raw) => return nodal::paint(raw, side?, surfaces, faults),
+        raw::Texture::Listed(raw) => {
+            let directions = raw.directions.as_ref()?.value.iter();
+            return Some(Paint::Nodal(
+                directions.map(|at| vector(&at.value)).collect(),
+            ));
+        }
     };
     Some(Paint::Field(Field {
         lines,
@@ -56,7 +62,10 @@ pub(super) fn check_plane(
     else {
         return;
     };
-    if matches!(raw.value, raw::Texture::Points(_) | raw::Texture::Nodal(_)) {
+    if matches!(
+        raw.value,
+        raw::Texture::Points(_) | raw::Texture::Nodal(_) | raw::Texture::Listed(_)
+    ) {
         faults.push(
             &raw.span,
             ModelFault::NodesOnPlane {

@@ -3,13 +3,14 @@
 use crate::{
     declare::{choice, either, table, words},
     read::At,
-    value::{BelowHalf, Count, Growth, NonNegative, Number, Positive, Text, Whole},
+    value::{All, BelowHalf, Count, Growth, NonNegative, Number, Positive, Text, Whole},
 };
 
 either! {
     /// A mesh of a body.
     Mesh {
         File(MeshFile),
+        Inline(InlineMesh),
         Generated(Generator),
     }
 }
@@ -19,6 +20,16 @@ table! {
     MeshFile {
         /// Path relative to the deck.
         required file: Text,
+    }
+}
+
+table! {
+    /// A mesh of a body written in the deck, without sets.
+    InlineMesh {
+        /// Positions of the nodes.
+        required positions: Vec<At<[Number; 3]>>,
+        /// Corners of the elements, nodes counted from 0 and ordered as Abaqus and Gmsh do: eight of a hexahedron, six of a wedge, five of a pyramid, four of a tetrahedron.
+        required cells: Vec<At<All<Whole<0>>>>,
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::{
     declare::{either, table},
     read::At,
-    value::{Number, Text},
+    value::{All, Number, Text, Whole},
 };
 
 table! {
@@ -23,6 +23,7 @@ either! {
         Common(CommonNodes),
         Union(SetUnion),
         Box(NodesInBox),
+        Listed(ListedNodes),
     }
 }
 
@@ -61,6 +62,14 @@ table! {
 }
 
 table! {
+    /// Nodes by number.
+    ListedNodes {
+        /// Numbers of the nodes, counted from 0 in the order of the mesh.
+        required numbers: All<Whole<0>>,
+    }
+}
+
+table! {
     /// A set of facets besides those of the mesh.
     FacetSet {
         /// Name that no other facet set of the body has.
@@ -75,6 +84,7 @@ either! {
     FacetMembers {
         Union(SetUnion),
         Box(FacetsInBox),
+        Listed(ListedFacets),
     }
 }
 
@@ -87,5 +97,13 @@ table! {
         required from: [Number; 3],
         /// Corner of largest coordinates.
         required to: [Number; 3],
+    }
+}
+
+table! {
+    /// Sides of elements by number.
+    ListedFacets {
+        /// Element and side of each facet, counted from 0; sides in the order of Abaqus.
+        required sides: Vec<At<[Whole<0>; 2]>>,
     }
 }

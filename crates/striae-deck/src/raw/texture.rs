@@ -15,6 +15,7 @@ either! {
         Radial(RadialTexture),
         Points(PointTexture),
         Nodal(NodalTexture),
+        Listed(ListedTexture),
     }
 }
 
@@ -75,6 +76,14 @@ table! {
         required nodal: Text,
         /// Name of the node data of a Gmsh file. Default: the only ones.
         optional name: Text,
+    }
+}
+
+table! {
+    /// A direction at every node of the surface, written in the deck.
+    ListedTexture {
+        /// Directions in ascending order of the nodes, of which the tangential part counts.
+        required directions: Vec<At<[Number; 3]>>,
     }
 }
 

@@ -65,6 +65,12 @@ impl Coefficient {
         self.decay.is_some()
     }
 
+    /// Kinetic over static value and decay rate, where it decays.
+    pub fn decay(&self) -> Option<[f64; 2]> {
+        self.decay
+            .map(|decay| [decay.kinetic_over_static, decay.rate])
+    }
+
     /// Value at the slip rate `v >= 0`.
     pub fn at_slip_rate<D: DualNum<Primitive = f64> + Copy>(&self, slip_rate: D) -> D {
         let mu_s = D::from(self.at_rest);

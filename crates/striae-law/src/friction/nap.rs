@@ -66,6 +66,11 @@ impl Nap {
         }
     }
 
+    /// Coefficients with the nap, against it and across it over the largest one.
+    pub fn shares(&self) -> [f64; 3] {
+        [self.forward, self.backward, self.lateral]
+    }
+
     /// `L`, `eta` and `K` for the unit texture `e` of the textured surface.
     #[allow(non_snake_case)]
     pub fn kernel<D: DualNum<Primitive = f64> + Copy>(&self, e: &Vector3<D>) -> Kernel<'static, D> {

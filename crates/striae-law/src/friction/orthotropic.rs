@@ -50,6 +50,16 @@ impl Orthotropic {
         })
     }
 
+    /// Coefficients along the grooves and across them over the larger one.
+    pub fn shares(&self) -> [f64; 2] {
+        [self.along, self.across]
+    }
+
+    /// The slip rule.
+    pub fn rule(&self) -> SlipRule {
+        self.rule
+    }
+
     /// `L`, `eta` and `K` for the unit texture `a` of either surface.
     #[allow(non_snake_case)]
     pub fn kernel<D: DualNum<Primitive = f64> + Copy>(&self, a: &Vector3<D>) -> Kernel<'static, D> {

@@ -81,6 +81,11 @@ impl Tabulated {
         Ok(Self { rho })
     }
 
+    /// Angles (radians) and coefficients over the largest one.
+    pub fn points(&self) -> impl Iterator<Item = [f64; 2]> {
+        self.rho.points()
+    }
+
     /// The law for the unit texture of the textured surface and the direction a
     /// quarter turn from it.
     pub fn kernel<D: DualNum<Primitive = f64> + Copy>(

@@ -100,6 +100,11 @@ impl TwoTextures {
         }
     }
 
+    /// The constants `c_mag`, `c_ang` and `c_cen`.
+    pub fn constants(&self) -> [f64; 3] {
+        [self.c_mag, self.c_ang, self.c_cen]
+    }
+
     /// `L`, `eta` and `K` for the unit textures `own = a_a` and `opposite = a_b'`.
     #[allow(non_snake_case)]
     pub fn kernel<D: DualNum<Primitive = f64> + Copy>(

@@ -27,6 +27,7 @@ from ._errors import (
     RunStopped,
     RunWarning,
 )
+from ._fit import FrictionFit, fit_friction
 from ._friction import (
     Coulomb,
     Friction,
@@ -82,6 +83,7 @@ __all__ = [
     "Fault",
     "Fit",
     "Friction",
+    "FrictionFit",
     "Frictionless",
     "Gent",
     "Grading",
@@ -129,6 +131,7 @@ __all__ = [
     "annulus",
     "block",
     "capped_block",
+    "fit_friction",
     "gravity",
     "half_cylinder",
     "read_mesh",

@@ -141,6 +141,35 @@ def draw_friction(friction: Friction, axes: Optional[Axes], theta: float) -> Axe
     return on
 
 
+def draw_fit(
+    friction: Friction, measured: tuple[Floats, Floats, Floats], axes: Optional[Axes]
+) -> Axes:
+    """Friction against slip over the direction of slip: readings as marks, the law as lines,
+    of two textured surfaces at each angle between the textures."""
+    from ._friction import TwoTextures
+
+    on = _axes(axes)
+    slip, theta, against = measured
+    two = friction._told.startswith(TwoTextures.__name__)
+    angles = np.unique(theta) if two else np.zeros(1)
+    for number, angle in enumerate(angles):
+        here = theta == angle if two else np.full(len(theta), True)
+        label = f", textures at {np.degrees(angle):g} degrees" if two else ""
+        degrees = (np.degrees(slip[here]) + 180.0) % 360.0 - 180.0
+        on.plot(degrees, against[here], "o", color=f"C{number}", label=f"measured{label}")
+        surface = friction.slip_surface(float(np.degrees(angle)), 360)
+        order = np.argsort(surface.slip_angle)
+        law = np.degrees(surface.slip_angle[order])
+        on.plot(law, surface.dissipation[order], color=f"C{number}", label=f"law{label}")
+    on.set_xlabel("direction of slip (degrees)")
+    on.set_ylabel("friction against slip over pressure")
+    on.set_ylim(bottom=0.0)
+    on.set_title(repr(friction), fontsize="small")
+    on.legend(fontsize="small")
+    on.grid(alpha=0.3)
+    return on
+
+
 def draw_run(run: Run) -> Figure:
     """Forces over time, and of each pair the contact patch at the end and its friction."""
     from matplotlib import pyplot

@@ -96,6 +96,18 @@ class Material:
         self, deformation_gradient: list[list[float]]
     ) -> tuple[float, list[list[float]]]: ...
 
+def fit_friction(
+    law: str,
+    measured: tuple[_Floats, _Floats, _Floats, Optional[_Floats], _Floats],
+    level: float,
+) -> tuple[
+    Friction,
+    list[tuple[str, float, Optional[tuple[float, float]]]],
+    Optional[float],
+    int,
+    bool,
+]: ...
+
 class Friction:
     @staticmethod
     def frictionless() -> Friction: ...

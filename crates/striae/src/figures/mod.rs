@@ -1,6 +1,7 @@
-//! Pictures of what a model says before anything runs: friction laws, materials and
+//! Pictures of what a model says before anything runs: friction laws, fits of them, materials and
 //! textures.
 
+pub mod fit;
 pub mod law;
 pub mod material;
 mod surface;

@@ -1,0 +1,179 @@
+//! `striae fit MEASUREMENTS --law LAW`: constants of a friction law from measured friction.
+//!
+//! It prints the law as a table of a deck, the interval of each constant and how far the
+//! readings scatter about the law; see [`striae_law::fit`].
+
+use std::{
+    io::Write,
+    path::{Path, PathBuf},
+};
+
+use striae::{figures, measurements};
+use striae_law::{
+    fit::{ConstantName, Fit, Reading, Sought, Standing, fit},
+    friction::SlipRule,
+};
+
+use super::law::make_folder;
+use crate::failure::Failure;
+
+/// Find the constants of a friction law from measurements.
+///
+/// MEASUREMENTS is a text file with commas between numbers, one reading a line, under a line
+/// with the names of columns: `angle`, the direction in which the textured surface slips, in
+/// degrees from its texture `a` (across the grooves, against a nap; of two textures from the
+/// bisector of both); `friction`, tangential over normal force, or `tangential` and `normal`;
+/// and where they are known `direction`, the angle of the force that drags the textured
+/// surface, `theta`, the angle between the textures of two surfaces, and `spread`, the standard
+/// deviation of a reading in proportion to others.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The file of measurements.
+    measurements: PathBuf,
+    /// The law.
+    #[arg(long, value_enum)]
+    law: LawName,
+    /// Direction of slip by the orthotropic law.
+    #[arg(long, value_enum, default_value = "opposing")]
+    slip_rule: RuleName,
+    /// Probability with which a constant lies in its interval.
+    #[arg(long, default_value_t = 0.95)]
+    level: f64,
+    /// Draws measurements and law; written as .svg, .png and .csv.
+    #[arg(long, value_name = "NAME.svg")]
+    plot: Option<PathBuf>,
+}
+
+/// Laws that can be fitted, by their names in decks.
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum LawName {
+    Coulomb,
+    Orthotropic,
+    Nap,
+    TwoTextures,
+    Tabulated,
+}
+
+/// Slip rules by their names in decks.
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum RuleName {
+    Opposing,
+    Associated,
+}
+
+impl Arguments {
+    fn sought(&self) -> Sought {
+        match (self.law, self.slip_rule) {
+            (LawName::Coulomb, _) => Sought::Coulomb,
+            (LawName::Orthotropic, RuleName::Opposing) => Sought::Orthotropic(SlipRule::Opposing),
+            (LawName::Orthotropic, RuleName::Associated) => {
+                Sought::Orthotropic(SlipRule::Associated)
+            }
+            (LawName::Nap, _) => Sought::Nap,
+            (LawName::TwoTextures, _) => Sought::TwoTextures,
+            (LawName::Tabulated, _) => Sought::Tabulated,
+        }
+    }
+}
+
+/// Fits, prints and draws.
+pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    let readings = measurements::read(&arguments.measurements)?;
+    let sought = arguments.sought();
+    let found = fit(sought, &readings, arguments.level)?;
+    writeln!(out, "{}\n", snippet(sought, &found))?;
+    write!(out, "{}", intervals(&found))?;
+    writeln!(out, "{}", verdict(&found, &readings))?;
+    if let Some(plot) = &arguments.plot {
+        let folder = plot.parent().unwrap_or(Path::new(""));
+        let name = plot
+            .file_stem()
+            .unwrap_or(plot.as_os_str())
+            .to_string_lossy();
+        if folder != Path::new("") {
+            make_folder(folder)?;
+        }
+        figures::fit::figure(&found, &readings).write(folder, &name)?;
+        let file = folder.join(&*name);
+        writeln!(out, "wrote {}.svg, .png and .csv", file.display())?;
+    }
+    Ok(())
+}
+
+/// The law as a deck states it.
+fn snippet(sought: Sought, found: &Fit) -> String {
+    let mut text = format!("friction = {{ law = \"{}\"", sought.name());
+    let list = |numbers: Vec<String>| numbers.join(", ");
+    if sought == Sought::Tabulated {
+        let angle = |name: ConstantName| match name {
+            ConstantName::MuAt(angle) => Some(figures::law::degrees(angle).to_string()),
+            ConstantName::Key(_) => None,
+        };
+        let angles = found.constants.iter().filter_map(|one| angle(one.name));
+        let mu = found.constants.iter().map(|one| rounded(one.value));
+        let (angles, mu) = (list(angles.collect()), list(mu.collect()));
+        return text + &format!(", angles = [{angles}], mu = [{mu}] }}");
+    }
+    for constant in &found.constants {
+        text += &format!(", {} = {}", constant.name, rounded(constant.value));
+    }
+    if sought == Sought::Orthotropic(SlipRule::Associated) {
+        text += ", slip_rule = \"associated\"";
+    }
+    text + " }"
+}
+
+/// Six digits, more than any measurement has.
+fn rounded(value: f64) -> String {
+    let digits = 5 - value.abs().log10().floor().clamp(-300.0, 5.0) as i32;
+    let text = format!("{value:.*}", digits.unsigned_abs() as usize);
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
+}
+
+/// A line for each constant.
+fn intervals(found: &Fit) -> String {
+    let level = figures_of(100.0 * found.level);
+    let width = found.constants.iter().map(|one| one.name.to_string().len());
+    let width = width.max().unwrap_or(0);
+    let line = |one: &striae_law::fit::Constant| {
+        let interval = match one.interval {
+            Some([low, high]) if low.is_finite() => {
+                format!("   {level} % within {low:.4} .. {high:.4}")
+            }
+            Some(_) => "   open: the measurements do not bound it".to_owned(),
+            None => String::new(),
+        };
+        let name = one.name.to_string();
+        format!("  {name:<width$}  {:8.4}{interval}\n", one.value)
+    };
+    found.constants.iter().map(line).collect()
+}
+
+fn figures_of(number: f64) -> String {
+    ((number * 1e6).round() / 1e6).to_string()
+}
+
+/// How good the law is.
+fn verdict(found: &Fit, readings: &[Reading]) -> String {
+    let mean = readings.iter().map(|reading| reading.against).sum::<f64>() / readings.len() as f64;
+    let mut text = format!("  readings: {}", readings.len());
+    match found.deviation {
+        Some(deviation) => {
+            let share = 100.0 * deviation / mean;
+            text += &format!(
+                ", degrees of freedom: {}, standard deviation of a reading from the law: \
+                 {deviation:.4} ({share:.1} % of the mean friction {mean:.4})",
+                found.degrees_of_freedom
+            );
+        }
+        None => text += ", as many as constants: there is nothing to tell their errors by",
+    }
+    if found.standing == Standing::AtBound {
+        text += "\n  the law that is closest to the readings would create energy; this is the \
+                 closest one that does not. Look at the angles of the readings, or try another law";
+    }
+    text
+}

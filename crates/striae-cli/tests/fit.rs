@@ -1,0 +1,97 @@
+//! `striae fit` from outside: constants, pictures and refused measurements.
+
+use std::{
+    fs,
+    process::{Command, Output},
+};
+
+const MEASUREMENTS: &str = "\
+# made-up readings, as an example
+angle, friction
+0,   0.41
+45,  0.33
+90,  0.21
+135, 0.31
+180, 0.39
+270, 0.19
+";
+
+fn fit(text: &str, words: &[&str]) -> (Output, tempfile::TempDir) {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("m.csv"), text).expect("a file");
+    let output = Command::new(env!("CARGO_BIN_EXE_striae"))
+        .args(["fit", "m.csv"])
+        .args(words)
+        .current_dir(folder.path())
+        .output()
+        .expect("the program starts");
+    (output, folder)
+}
+
+/// The example of the book, whose numbers follow from the normal equations by hand.
+#[test]
+fn constants_come_as_a_table_of_a_deck_with_their_intervals() {
+    let (output, folder) = fit(
+        MEASUREMENTS,
+        &["--law", "orthotropic", "--plot", "made/r.svg"],
+    );
+    let told = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success(), "{output:?}");
+    let book = include_str!("../../../docs/book/how-to/fit-friction.md");
+    let (table, rest) = told.split_once("wrote").expect("files are named");
+    assert!(book.contains(table), "{told}");
+    assert!(rest.contains("made/r.svg, .png and .csv"), "{told}");
+    for kind in ["svg", "png", "csv"] {
+        assert!(folder.path().join(format!("made/r.{kind}")).exists());
+    }
+}
+
+#[test]
+fn every_law_is_fitted() {
+    let mut around = String::from("angle,friction,direction,theta\n");
+    for i in 0..24 {
+        let (angle, theta) = (15 * i, 40 * (i % 3));
+        around += &format!(
+            "{angle},{},{angle},{theta}\n",
+            0.3 + 0.001 * f64::from(i % 5)
+        );
+    }
+    for (law, key) in [
+        ("coulomb", "{ law = \"coulomb\", mu = 0.30"),
+        ("nap", "mu_backward = 0.30"),
+        ("two-textures", "c_mag = "),
+        ("tabulated", "angles = [0, 15, 30, "),
+    ] {
+        let (output, _) = fit(&around, &["--law", law, "--plot", "r.svg"]);
+        let told = String::from_utf8_lossy(&output.stdout);
+        assert!(output.status.success() && told.contains(key), "{output:?}");
+    }
+    let (output, _) = fit(
+        &around,
+        &["--law", "orthotropic", "--slip-rule", "associated"],
+    );
+    assert!(String::from_utf8_lossy(&output.stdout).contains("slip_rule = \"associated\" }"));
+}
+
+#[test]
+fn faults_have_places_and_exit_code_2() {
+    for (text, words) in [
+        (
+            "angle, friction\n0, much\n",
+            "m.csv:2:4: `much` is no finite number",
+        ),
+        (
+            "angle, friction\n0, .3\n",
+            "it needs slip in three directions",
+        ),
+        (
+            "angle, friction\n0, -.3\n",
+            "the mean friction against slip is -0.3",
+        ),
+    ] {
+        let (output, _) = fit(text, &["--law", "nap"]);
+        assert_eq!(output.status.code(), Some(2));
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert!(told.contains(words), "{told}");
+    }
+}

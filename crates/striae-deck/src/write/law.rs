@@ -1,0 +1,119 @@
+//! Friction laws and materials.
+
+use striae_law::{
+    bulk::{Isochoric, Material, Volumetric},
+    friction::{Friction, Law, SlipRule},
+};
+
+use super::value::{degrees, list, number, read_as};
+
+/// The keys of a friction table in braces; `None` for a law of one's own.
+pub(super) fn friction(friction: &Friction) -> Option<String> {
+    Some(format!("{{ {} }}", friction_keys(friction)?))
+}
+
+/// The keys of a friction table.
+pub(super) fn friction_keys(friction: &Friction) -> Option<String> {
+    let law = friction.law();
+    let mu = friction.coefficient().at_rest();
+    let coefficient = |share: f64| read_as(share, share * mu, |found| found / mu);
+    let mut text = format!("law = \"{}\"", law.name());
+    let mut constant = |key: &str, value: f64| text += &format!(", {key} = {}", number(value));
+    match law {
+        Law::Frictionless => {}
+        Law::Coulomb => constant("mu", mu),
+        Law::TwoTextures(two) => {
+            let [c_mag, c_ang, c_cen] = two.constants();
+            constant("mu", mu);
+            constant("c_mag", c_mag);
+            constant("c_ang", c_ang);
+            constant("c_cen", c_cen);
+        }
+        Law::Orthotropic(law) => {
+            let [along, across] = law.shares().map(coefficient);
+            constant("mu_along", along);
+            constant("mu_across", across);
+            text += match law.rule() {
+                SlipRule::Opposing => ", slip_rule = \"opposing\"",
+                SlipRule::Associated => ", slip_rule = \"associated\"",
+            };
+        }
+        Law::Nap(law) => {
+            let [forward, backward, lateral] = law.shares().map(coefficient);
+            constant("mu_forward", forward);
+            constant("mu_backward", backward);
+            constant("mu_lateral", lateral);
+        }
+        Law::Tabulated(table) => {
+            let angles = list(table.points().map(|[angle, _]| number(degrees(angle))));
+            let mu = list(table.points().map(|[_, share]| number(coefficient(share))));
+            text += &format!(", angles = {angles}, mu = {mu}");
+        }
+        Law::Own(_) => return None,
+    }
+    if let Some(cap) = friction.shear_cap() {
+        text += &format!(", shear_cap = {}", number(cap));
+    }
+    if let Some([ratio, rate]) = friction.coefficient().decay() {
+        let (ratio, rate) = (number(ratio), number(rate));
+        text += &format!(", decay = {{ kinetic_over_static = {ratio}, slip_rate = {rate} }}");
+    }
+    Some(text)
+}
+
+/// Lines of a material but for its name; `None` for a law of one's own.
+pub(super) fn material(material: &Material) -> Option<String> {
+    let stated = |law: &str, constants: &[(&str, f64)]| {
+        let constant = |(key, value): &(&str, f64)| format!("{key} = {}\n", number(*value));
+        let constants: String = constants.iter().map(constant).collect();
+        format!("law = \"{law}\"\n{constants}")
+    };
+    let volumetric = |form: Volumetric| match form {
+        Volumetric::Quadratic => "volumetric = \"quadratic\"\n",
+        Volumetric::Logarithmic => "volumetric = \"logarithmic\"\n",
+    };
+    match material {
+        Material::NeoHookean {
+            lambda,
+            shear,
+            volumetric: form,
+        } => {
+            let constants = [("lambda", *lambda), ("shear_modulus", *shear)];
+            Some(stated("neo-hookean", &constants) + volumetric(*form))
+        }
+        Material::LinearElastic { lambda, shear } => {
+            let constants = [("lambda", *lambda), ("shear_modulus", *shear)];
+            Some(stated("linear-elastic", &constants))
+        }
+        Material::Hyperelastic(rubber) => {
+            let law = material.name();
+            let isochoric = match rubber.isochoric() {
+                Isochoric::NeoHookean { shear } => stated(law, &[("shear_modulus", *shear)]),
+                Isochoric::MooneyRivlin { c10, c01 } => {
+                    stated(law, &[("c10", *c10), ("c01", *c01)])
+                }
+                Isochoric::Yeoh { c10, c20, c30 } => {
+                    stated(law, &[("c10", *c10), ("c20", *c20), ("c30", *c30)])
+                }
+                Isochoric::Gent { shear, limit } => {
+                    stated(law, &[("shear_modulus", *shear), ("limit", *limit)])
+                }
+                Isochoric::ArrudaBoyce {
+                    mu,
+                    locking_stretch,
+                } => stated(law, &[("mu", *mu), ("locking_stretch", *locking_stretch)]),
+                Isochoric::Ogden(terms) => {
+                    let term = |term: &striae_law::bulk::OgdenTerm| {
+                        let (mu, alpha) = (number(term.mu), number(term.alpha));
+                        format!("{{ mu = {mu}, alpha = {alpha} }}")
+                    };
+                    let terms = list(terms.iter().map(term));
+                    stated(law, &[]) + &format!("terms = {terms}\n")
+                }
+            };
+            let bulk = format!("bulk_modulus = {}\n", number(rubber.bulk()));
+            Some(isochoric + &bulk + volumetric(rubber.volumetric()))
+        }
+        Material::Own(_) => None,
+    }
+}

@@ -1,0 +1,134 @@
+//! Bodies: meshes with their sets, and materials.
+
+use striae_mesh::{Face, Mesh, NodeId, Sets};
+use striae_solve::model::{BodyId, ContactMass, Formulation, Model};
+
+use super::value::{list, number, text, vector};
+use super::{Writer, law};
+
+/// Sets of the bodies: those of the meshes, and those that had no name.
+pub(super) struct Meshes<'m> {
+    model: &'m Model,
+    /// One for each body.
+    nodes: Vec<Sets<NodeId>>,
+    facets: Vec<Sets<Face>>,
+}
+
+impl<'m> Meshes<'m> {
+    pub(super) fn new(model: &'m Model) -> Self {
+        let count = model.bodies.len();
+        Self {
+            model,
+            nodes: vec![Sets::default(); count],
+            facets: vec![Sets::default(); count],
+        }
+    }
+
+    /// Name of the set of these nodes, if it may be `preferred`.
+    pub(super) fn nodes(&mut self, body: BodyId, preferred: &str, members: &[NodeId]) -> String {
+        let known = &self.model.bodies[body.0].mesh.node_sets;
+        name(known, &mut self.nodes[body.0], preferred, members)
+    }
+
+    /// Name of the set of these facets.
+    pub(super) fn facets(&mut self, body: BodyId, preferred: &str, members: &[Face]) -> String {
+        let known = &self.model.bodies[body.0].mesh.facet_sets;
+        name(known, &mut self.facets[body.0], preferred, members)
+    }
+}
+
+/// Name of a set with these members; a new one where there is none.
+fn name<T: Ord + Copy>(
+    known: &Sets<T>,
+    added: &mut Sets<T>,
+    preferred: &str,
+    members: &[T],
+) -> String {
+    let mut sorted = members.to_vec();
+    sorted.sort_unstable();
+    sorted.dedup();
+    if known.get(preferred) == Some(&sorted[..]) {
+        return preferred.to_owned();
+    }
+    let mut all = known.iter().chain(added.iter());
+    if let Some((name, _)) = all.find(|(_, members)| *members == &sorted[..]) {
+        return name.to_owned();
+    }
+    let free = |name: &String| known.get(name).is_none() && added.get(name).is_none();
+    let mut names = (1..).map(|number| format!("set-{number}"));
+    let name = names.find(free).expect("there are more numbers than sets");
+    added.insert(name.clone(), sorted);
+    name
+}
+
+impl Writer<'_> {
+    /// A body and its material.
+    pub(super) fn body(&mut self, at: usize) -> String {
+        let body = &self.model.bodies[at];
+        let Some(material) = law::material(&body.material) else {
+            let part = format!("body `{}`", body.name);
+            self.refuse(part, "its material is a law of one's own");
+            return String::new();
+        };
+        let (name, formulation) = (text(&body.name), body.formulation);
+        let formulation = match formulation {
+            Formulation::Standard => "standard",
+            Formulation::MeanDilatation => "mean-dilatation",
+        };
+        let mass = match body.contact_mass {
+            ContactMass::Consistent => "consistent",
+            ContactMass::Redistributed => "redistributed",
+        };
+        let density = match body.density {
+            0.0 => String::new(),
+            density => format!("density = {}\n", number(density)),
+        };
+        format!(
+            "\n[[material]]\nname = {name}\n{density}{material}\n[[body]]\nname = {name}\n\
+             material = {name}\nformulation = \"{formulation}\"\ncontact_mass = \"{mass}\"\n\
+             mesh = {}\nnode_sets = {}\nfacet_sets = {}\n",
+            mesh(&body.mesh),
+            sets(
+                "numbers",
+                &[&body.mesh.node_sets, &self.meshes.nodes[at]],
+                |node| { node.0.to_string() }
+            ),
+            sets(
+                "sides",
+                &[&body.mesh.facet_sets, &self.meshes.facets[at]],
+                |face| { format!("[{}, {}]", face.element.0, face.side) }
+            ),
+        )
+    }
+}
+
+/// Positions and cells.
+fn mesh(mesh: &Mesh) -> String {
+    let positions = mesh.positions.iter().map(vector);
+    let cells = mesh.elements().map(corners);
+    format!(
+        "{{ positions = {}, cells = {} }}",
+        lines(positions),
+        lines(cells)
+    )
+}
+
+/// Numbers of nodes.
+pub(super) fn corners(nodes: &[NodeId]) -> String {
+    list(nodes.iter().map(|node| node.0.to_string()))
+}
+
+/// A list with a line for each item.
+pub(super) fn lines(items: impl Iterator<Item = String>) -> String {
+    let items = items.map(|item| format!("    {item},\n"));
+    format!("[\n{}]", items.collect::<String>())
+}
+
+fn sets<T: Ord + Copy>(key: &str, sets: &[&Sets<T>], member: impl Fn(&T) -> String) -> String {
+    let all = sets.iter().flat_map(|sets| sets.iter());
+    let all = all.filter(|(_, members)| !members.is_empty());
+    lines(all.map(|(name, members)| {
+        let members = list(members.iter().map(&member));
+        format!("{{ name = {}, {key} = {members} }}", text(name))
+    }))
+}

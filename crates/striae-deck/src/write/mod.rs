@@ -1,0 +1,149 @@
+//! Models as decks: text that reads back to an equal model.
+//!
+//! Everything a model says is written, nothing is left to defaults that may change, and
+//! numbers have as many digits as they need to be the same again. Meshes stand in the text by
+//! positions, cells and numbers of members of sets: how they were generated or where they
+//! were read is no part of a model. Gaps that were closed are closed in these meshes.
+//!
+//! Where a deck states a quantity in other terms than a model (degrees for radians, a normal
+//! of any length, coefficients for their shares in the largest), the number that is written
+//! is the one that gives the same bits when it is read, see `value`.
+
+mod law;
+mod mesh;
+mod pair;
+mod rigid;
+mod step;
+mod value;
+
+use std::fmt;
+
+use mesh::Meshes;
+use striae_output::{FieldOutput, Output};
+use striae_solve::model::{Backend, Curve, Model, Solver, Strategy};
+use value::{number, text};
+
+/// What a model says and a deck cannot.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub struct Unstated {
+    /// Parts of the model and why a deck cannot state them.
+    pub parts: Vec<(String, &'static str)>,
+}
+
+impl fmt::Display for Unstated {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (number, (part, reason)) in self.parts.iter().enumerate() {
+            let end = if number == 0 { "" } else { "\n" };
+            write!(f, "{end}{part}: {reason}")?;
+        }
+        Ok(())
+    }
+}
+
+/// The text of a deck.
+///
+/// # Errors
+/// All that the model says and a deck cannot: laws of one's own, textures at chosen nodes,
+/// motions of single coordinates of rigid bodies.
+pub fn write(model: &Model, output: &Output) -> Result<String, Unstated> {
+    let mut writer = Writer {
+        model,
+        meshes: Meshes::new(model),
+        curves: Vec::new(),
+        unstated: Vec::new(),
+    };
+    let steps: String = (0..model.steps.len()).map(|at| writer.step(at)).collect();
+    let pairs: String = (0..model.pairs.len()).map(|at| writer.pair(at)).collect();
+    let rigid = 0..model.rigid_surfaces.len();
+    let rigid: String = rigid.map(|at| writer.rigid(at)).collect();
+    let bodies: String = (0..model.bodies.len()).map(|at| writer.body(at)).collect();
+    if !writer.unstated.is_empty() {
+        let parts = writer.unstated;
+        return Err(Unstated { parts });
+    }
+    let title = format!("title = {}\n", text(&model.title));
+    let (output, solver) = (settings(output), solver(&model.solver));
+    Ok(title + &output + &solver + &bodies + &rigid + &pairs + &writer.curves() + &steps)
+}
+
+/// A model on its way to text.
+struct Writer<'m> {
+    model: &'m Model,
+    meshes: Meshes<'m>,
+    /// Tables of curves, by number.
+    curves: Vec<&'m [(f64, f64)]>,
+    unstated: Vec<(String, &'static str)>,
+}
+
+impl<'m> Writer<'m> {
+    /// Notes what cannot be stated.
+    fn refuse(&mut self, part: impl Into<String>, reason: &'static str) {
+        self.unstated.push((part.into(), reason));
+    }
+
+    /// `, curve = ...`, nothing for the ramp.
+    fn curve(&mut self, curve: &'m Curve) -> String {
+        let name = match curve {
+            Curve::Ramp => return String::new(),
+            Curve::Constant => "constant".to_owned(),
+            Curve::Smooth => "smooth".to_owned(),
+            Curve::Table(points) => {
+                let known = self.curves.iter().position(|known| *known == &points[..]);
+                let at = known.unwrap_or_else(|| {
+                    self.curves.push(points);
+                    self.curves.len() - 1
+                });
+                curve_name(at)
+            }
+        };
+        format!(", curve = {}", text(&name))
+    }
+
+    fn curves(&self) -> String {
+        let curve = |(at, points): (usize, &&[(f64, f64)])| {
+            let points = value::list(
+                points
+                    .iter()
+                    .map(|(s, c)| value::list([*s, *c].map(number))),
+            );
+            let name = text(&curve_name(at));
+            format!("\n[[curve]]\nname = {name}\npoints = {points}\n")
+        };
+        self.curves.iter().enumerate().map(curve).collect()
+    }
+}
+
+fn curve_name(at: usize) -> String {
+    format!("curve-{}", at + 1)
+}
+
+fn settings(output: &Output) -> String {
+    let fields = match output.fields {
+        FieldOutput::Every(every) => every.get(),
+        FieldOutput::Last => 0,
+    };
+    let checkpoints = output.checkpoint_every.map_or(0, |every| every.get());
+    format!("\n[output]\nfields_every = {fields}\ncheckpoint_every = {checkpoints}\n")
+}
+
+fn solver(solver: &Solver) -> String {
+    let backend = match solver.backend {
+        Backend::Condensed => "condensed",
+        Backend::Multifrontal => "multifrontal",
+        Backend::Faer => "faer",
+        Backend::Iterative => "iterative",
+    };
+    let strategy = match solver.strategy {
+        Strategy::Semismooth => "{ method = \"semismooth\" }".to_owned(),
+        Strategy::Table1 { stick_tolerance } => {
+            let tolerance = number(stick_tolerance);
+            format!("{{ method = \"table-1\", stick_tolerance = {tolerance} }}")
+        }
+    };
+    format!(
+        "\n[solver]\nbackend = \"{backend}\"\nstrategy = {strategy}\ntolerance = {}\n\
+         largest_iterations = {}\n",
+        number(solver.tolerance),
+        solver.largest_iterations
+    )
+}

@@ -1,0 +1,98 @@
+//! Pairs: sides, textures, friction.
+
+use striae_solve::model::{Enforcement, Initial, Pair, Side};
+use striae_surface::texture::{Axis, Lines, Paint};
+
+use super::mesh::lines;
+use super::value::{degrees, number, text, vector};
+use super::{Writer, law};
+
+impl Writer<'_> {
+    /// A pair.
+    pub(super) fn pair(&mut self, at: usize) -> String {
+        let pair = &self.model.pairs[at];
+        let [a, b] = [0, 1].map(|side| self.side(pair, side));
+        let friction = law::friction(&pair.friction).unwrap_or_else(|| {
+            let part = format!("pair `{}`", pair.name);
+            self.refuse(part, "its friction is a law of one's own");
+            String::new()
+        });
+        let enforcement = match pair.enforcement {
+            Enforcement::Weighted => "weighted",
+            Enforcement::Collocated => "collocated",
+        };
+        let initial = match pair.initial {
+            // What was to be closed is closed in the meshes that are written.
+            Initial::AsMeshed | Initial::Close(_) => "as-meshed",
+            Initial::Resolve => "resolve",
+        };
+        let search = pair.search_distance.map_or_else(String::new, |distance| {
+            format!("search_distance = {}\n", number(distance))
+        });
+        format!(
+            "\n[[pair]]\nname = {}\na = {a}\nb = {b}\nfriction = {friction}\n\
+             enforcement = \"{enforcement}\"\n{search}initial = \"{initial}\"\nstabilise = {}\n",
+            text(&pair.name),
+            pair.stabilised
+        )
+    }
+
+    fn side(&mut self, pair: &Pair, side: usize) -> String {
+        let surface = match [&pair.a, &pair.b][side] {
+            Side::Deformable { body, faces } => {
+                let set = self.meshes.facets(*body, "", faces);
+                let body = &self.model.bodies[body.0].name;
+                format!("body = {}, facets = {}", text(body), text(&set))
+            }
+            Side::Rigid(rigid) => {
+                let rigid = &self.model.rigid_surfaces[rigid.0].name;
+                format!("rigid = {}", text(rigid))
+            }
+        };
+        let texture = match &pair.textures[side] {
+            None => String::new(),
+            Some(paint) => match texture(paint) {
+                Some(told) => format!(", texture = {told}"),
+                None => {
+                    let part = format!("texture of pair `{}`", pair.name);
+                    self.refuse(part, "it is given at chosen nodes");
+                    String::new()
+                }
+            },
+        };
+        format!("{{ {surface}{texture} }}")
+    }
+}
+
+fn texture(paint: &Paint) -> Option<String> {
+    let told = match paint {
+        Paint::Field(field) => {
+            let lines = match &field.lines {
+                Lines::Uniform(direction) => format!("uniform = {}", vector(direction)),
+                Lines::Circumferential(about) => format!("circumferential = {}", axis(about)),
+                Lines::Axial(along) => format!("axial = {}", axis(along)),
+                Lines::Radial(from) => format!("radial = {}", axis(from)),
+            };
+            format!("{lines}, turn = {}", number(degrees(field.turn)))
+        }
+        Paint::Nodal(directions) => {
+            format!("directions = {}", lines(directions.iter().map(vector)))
+        }
+        Paint::Points { directions, width } => {
+            let points = lines(directions.iter().map(|(at, direction)| {
+                let (at, direction) = (vector(at), vector(direction));
+                format!("{{ at = {at}, direction = {direction} }}")
+            }));
+            let width =
+                width.map_or_else(String::new, |width| format!(", width = {}", number(width)));
+            format!("points = {points}{width}")
+        }
+        Paint::Nodes { .. } => return None,
+    };
+    Some(format!("{{ {told} }}"))
+}
+
+fn axis(axis: &Axis) -> String {
+    let (point, direction) = (vector(&axis.point), vector(&axis.direction));
+    format!("{{ point = {point}, direction = {direction} }}")
+}

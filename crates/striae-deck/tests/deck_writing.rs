@@ -1,0 +1,91 @@
+//! Models written as decks read back to the same models.
+
+use std::path::{Path, PathBuf};
+
+use striae_deck::{Deck, parse, read, write};
+use striae_mesh::Sets;
+use striae_solve::model::{Initial, Model};
+
+/// All decks of the published cases.
+fn published() -> Vec<PathBuf> {
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases");
+    let entries = |folder: &Path| -> Vec<PathBuf> {
+        let entries = std::fs::read_dir(folder).expect("a folder");
+        entries.map(|entry| entry.expect("an entry").path()).collect()
+    };
+    let folders = entries(&cases).into_iter().filter(|path| path.is_dir());
+    let files = folders.flat_map(|folder| entries(&folder));
+    let mut decks: Vec<PathBuf> = files
+        .filter(|path| {
+            path.extension().is_some_and(|end| end == "toml") && !path.ends_with("expected.toml")
+        })
+        .collect();
+    decks.sort();
+    decks
+}
+
+/// The model in every bit but for what no deck states: sets of elements, and that gaps of
+/// its meshes have been closed.
+fn told(model: &Model) -> String {
+    let mut model = model.clone();
+    for body in &mut model.bodies {
+        body.mesh.element_sets = Sets::default();
+    }
+    for pair in &mut model.pairs {
+        if let Initial::Close(_) = pair.initial {
+            pair.initial = Initial::AsMeshed;
+        }
+    }
+    format!("{model:?}")
+}
+
+/// The deck is written, read and written again.
+fn assert_round_trip(deck: &Deck, name: &str) {
+    let text = write(&deck.model, &deck.output).expect("a deck can state it");
+    let again = parse(&text, name, Path::new("")).unwrap_or_else(|faults| panic!("{faults}"));
+    let [one, other] = [told(&deck.model), told(&again.model)];
+    if one != other {
+        let at = one.bytes().zip(other.bytes()).take_while(|(a, b)| a == b).count();
+        let from = at.saturating_sub(200);
+        let [one, other] = [&one, &other].map(|text| text.get(from..at + 80).unwrap_or(""));
+        panic!("{name}:\n{one}\n{other}");
+    }
+    assert_eq!(deck.output, again.output);
+    assert_eq!(write(&again.model, &again.output).expect("it was written before"), text);
+}
+
+#[test]
+fn all_published_decks_read_back_to_the_same_models() {
+    let decks = published();
+    assert!(decks.len() > 40);
+    for path in decks {
+        let deck = read(&path).unwrap_or_else(|faults| panic!("{faults}"));
+        assert_round_trip(&deck, &path.display().to_string());
+    }
+}
+
+const EVERYTHING: &str = include_str!("deck/everything.toml");
+
+#[test]
+fn all_that_a_deck_can_say_is_written() {
+    let deck = parse(EVERYTHING, "everything", Path::new("")).unwrap_or_else(|f| panic!("{f}"));
+    assert_round_trip(&deck, "everything");
+}
+
+#[test]
+fn members_by_number_are_judged() {
+    let faulty = |from: &str, to: &str| {
+        let text = write(
+            &parse(EVERYTHING, "everything", Path::new("")).expect("a deck").model,
+            &Default::default(),
+        );
+        let text = text.expect("a deck").replacen(from, to, 1);
+        parse(&text, "deck", Path::new("")).unwrap_err().to_string()
+    };
+    let told = faulty("sides = [[0, ", "sides = [[9999, ");
+    assert!(told.contains("of element 9999 is not on its boundary"), "{told}");
+    let told = faulty("numbers = [0, ", "numbers = [9999, ");
+    assert!(told.contains("there is no node 9999: it has nodes: "), "{told}");
+    let told = faulty("cells = [\n    [", "cells = [\n    [0, ");
+    assert!(told.contains("no kind of element has corners: 9"), "{told}");
+}

@@ -1,0 +1,53 @@
+//! Why measurements give no law.
+
+use thiserror::Error;
+
+use crate::friction::FrictionError;
+
+/// Why a law cannot be fitted.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum FitError {
+    /// A reading is no number.
+    #[error("reading {reading} has the {quantity} {value}, but a finite number is needed")]
+    NotFinite {
+        /// Its number, from 0.
+        reading: usize,
+        /// What is wrong with it.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A spread is not positive.
+    #[error("reading {reading} has the spread {spread}, but it must be positive")]
+    Spread {
+        /// Its number, from 0.
+        reading: usize,
+        /// The spread.
+        spread: f64,
+    },
+    /// Friction does not oppose slip on the whole.
+    #[error(
+        "the mean friction against slip is {mean}, but it must be positive: state the angle of slip, \
+         not that of the force on the surface"
+    )]
+    NotOpposing {
+        /// The mean.
+        mean: f64,
+    },
+    /// The measurements leave constants open.
+    #[error(
+        "the measurements do not determine the constants of the law `{law}`: it needs {needed}"
+    )]
+    Undetermined {
+        /// Name of the law.
+        law: &'static str,
+        /// What it needs.
+        needed: &'static str,
+    },
+    /// A level of confidence is none.
+    #[error("the level of confidence {0} is refused: it must lie between 0 and 1, such as 0.95")]
+    Level(f64),
+    /// What was found is no law.
+    #[error(transparent)]
+    Refused(#[from] FrictionError),
+}

@@ -1,0 +1,188 @@
+"""Friction laws from measured friction."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Literal, Optional, Union
+
+import numpy as np
+
+from . import _check as check
+from . import _striae as native
+from ._check import Floats
+from ._errors import refuse
+from ._friction import Coulomb, Friction, Nap, Orthotropic, Tabulated, TwoTextures
+from ._mesh import frozen
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+#: Laws that can be fitted, and their names in decks.
+LAWS: dict[type[Friction], str] = {
+    Coulomb: "coulomb",
+    Orthotropic: "orthotropic",
+    Nap: "nap",
+    TwoTextures: "two-textures",
+    Tabulated: "tabulated",
+}
+
+
+class FrictionFit:
+    """A friction law with constants that were fitted to measurements."""
+
+    def __init__(
+        self,
+        friction: Friction,
+        found: tuple[list[tuple[str, float, Optional[tuple[float, float]]]], Optional[float], int],
+        at_bound: bool,
+        level: float,
+        measured: tuple[Floats, Floats, Floats, Optional[Floats]],
+    ) -> None:
+        """Fits are made by :func:`fit_friction`."""
+        constants, self._deviation, self._freedom = found
+        self._friction, self._at_bound, self._level = friction, at_bound, level
+        self._constants = {name.removeprefix("mu_"): value for name, value, _ in constants}
+        self._intervals = {name.removeprefix("mu_"): ends for name, _, ends in constants}
+        self._measured = measured
+
+    @property
+    def friction(self) -> Friction:
+        """The law, for :class:`Pair`."""
+        return self._friction
+
+    @property
+    def constants(self) -> dict[str, float]:
+        """Constants by the name they have as arguments of the law, such as ``forward``; of a
+        table ``mu at 30 degrees`` (no unit)."""
+        return dict(self._constants)
+
+    @property
+    def intervals(self) -> dict[str, Optional[tuple[float, float]]]:
+        """Intervals in which the constants lie with the probability :attr:`level` (no unit).
+
+        ``None`` where nothing is left to tell errors by, or where :attr:`at_bound`; infinite
+        ends where the measurements do not bound a constant.
+        """
+        return dict(self._intervals)
+
+    @property
+    def level(self) -> float:
+        """Probability with which each constant lies in its interval (no unit)."""
+        return self._level
+
+    @property
+    def deviation(self) -> Optional[float]:
+        """Standard deviation of a reading of spread 1 from the law (no unit)."""
+        return self._deviation
+
+    @property
+    def degrees_of_freedom(self) -> int:
+        """Measured numbers less constants."""
+        return self._freedom
+
+    @property
+    def at_bound(self) -> bool:
+        """Whether the law closest to the measurements would create energy; this one is the
+        closest one that does not."""
+        return self._at_bound
+
+    def plot(self, axes: Optional[Axes] = None) -> Axes:
+        """Draws friction against slip over the direction of slip, measured and by the law.
+
+        axes: where it is drawn; on a new figure by default.
+        """
+        from ._plot import draw_fit
+
+        slip, theta, against, _ = self._measured
+        return draw_fit(self._friction, (slip, theta, against), axes)
+
+    def __repr__(self) -> str:
+        return f"<fit of {self._friction!r} to {len(self._measured[0])} readings>"
+
+
+def fit_friction(
+    angles: Union[Sequence[float], Floats],
+    forces: Union[Sequence[float], Sequence[Sequence[float]], Floats],
+    law: type[Friction] = Tabulated,
+    *,
+    slip_rule: Literal["opposing", "associated"] = "opposing",
+    theta: Union[float, Sequence[float], Floats] = 0.0,
+    spread: Union[float, Sequence[float], Floats] = 1.0,
+    level: float = 0.95,
+) -> FrictionFit:
+    """Finds the constants of a friction law from measurements, by least squares.
+
+    The law that is found dissipates in all directions of slip. Readings are taken as
+    independent and normally distributed.
+
+    angles: direction in which the textured surface slips at each reading, from its texture
+        ``a`` (across the grooves, against a nap), counter-clockwise as seen from outside it;
+        of two textured surfaces from the bisector of both textures (degrees).
+    forces: tangential over normal force at each reading: of shape (n,) the part against slip,
+        of shape (n, 2) the components of ``-tau/p``, the force that drags the textured
+        surface, along ``a`` and a quarter turn from it, as in :class:`SlipSurface` (no unit).
+    law: the class of the law: :class:`Coulomb`, :class:`Orthotropic`, :class:`Nap`,
+        :class:`TwoTextures` or :class:`Tabulated`.
+    slip_rule: that of :class:`Orthotropic`.
+    theta: angle between the textures of two surfaces at each reading (degrees).
+    spread: standard deviation of each reading in proportion to that of others (no unit).
+    level: probability with which each constant lies in its interval (no unit).
+    """
+    if law not in LAWS:
+        known = ", ".join(one.__name__ for one in LAWS)
+        raise TypeError(f"law: one of the classes {known} is needed, not {law!r}")
+    rule = check.word(slip_rule, ("opposing", "associated"), "slip_rule")
+    slip = np.radians(_column(angles, None, "angles"))
+    against, across = _forces(forces, slip)
+    textures = np.radians(_column(theta, len(slip), "theta"))
+    spreads = _column(spread, len(slip), "spread")
+    name = "associated" if law is Orthotropic and rule == "associated" else LAWS[law]
+    measured = (slip, textures, against, across, spreads)
+    probability = check.number(level, "level")
+    found, constants, deviation, freedom, at_bound = native.fit_friction(
+        name, measured, probability
+    )
+    friction = Friction._of(found, _told(law, constants, rule))
+    kept = (frozen(slip), frozen(textures), frozen(against), across)
+    summary = (constants, deviation, freedom)
+    return FrictionFit(friction, summary, at_bound, probability, kept)
+
+
+def _column(value: Any, count: Optional[int], path: str) -> Floats:
+    """An array of so many numbers, which may be stated by one number."""
+    found = check.array(value, path)
+    if found.ndim == 0 and count is not None:
+        found = np.full(count, found)
+    if found.ndim != 1:
+        raise refuse(path, f"an array of one dimension is needed, not of {found.ndim}")
+    if count is not None and len(found) != count:
+        raise refuse(path, f"numbers: {len(found)}, but angles: {count}; each needs one")
+    return check.finite(found, path)
+
+
+def _forces(forces: Any, slip: Floats) -> tuple[Floats, Optional[Floats]]:
+    """Friction against and across slip."""
+    found = check.array(forces, "forces")
+    if found.ndim != 2:
+        return _column(forces, len(slip), "forces"), None
+    if found.shape != (len(slip), 2):
+        needed = f"({len(slip)},) or ({len(slip)}, 2)"
+        raise refuse("forces", f"shape {needed} is needed, but it has shape {found.shape}")
+    vectors = check.finite(found, "forces")
+    cosine, sine = np.cos(slip), np.sin(slip)
+    against = vectors[:, 0] * cosine + vectors[:, 1] * sine
+    across = vectors[:, 1] * cosine - vectors[:, 0] * sine
+    return np.ascontiguousarray(against), np.ascontiguousarray(across)
+
+
+def _told(
+    law: type[Friction],
+    constants: list[tuple[str, float, Optional[tuple[float, float]]]],
+    rule: str,
+) -> str:
+    if law is Tabulated:
+        return f"Tabulated({len(constants)} angles)"
+    told = [f"{name.removeprefix('mu_')}={value:.4g}" for name, value, _ in constants]
+    if law is Orthotropic:
+        told.append(f"slip_rule={rule!r}")
+    return f"{law.__name__}({', '.join(told)})"

@@ -1,0 +1,64 @@
+//! Constants of friction laws from measured friction.
+
+use numpy::PyReadonlyArray1;
+use pyo3::prelude::*;
+use striae::law::{
+    fit::{Reading, Sought, Standing, fit},
+    friction::SlipRule,
+};
+
+use crate::{fault::refused, friction::Friction};
+
+/// Angles of slip and between the textures (radians), friction against and, where it was
+/// measured, across slip, and spreads.
+type Measured<'py> = (
+    PyReadonlyArray1<'py, f64>,
+    PyReadonlyArray1<'py, f64>,
+    PyReadonlyArray1<'py, f64>,
+    Option<PyReadonlyArray1<'py, f64>>,
+    PyReadonlyArray1<'py, f64>,
+);
+
+/// Name, value and interval of a constant.
+type Constant = (String, f64, Option<(f64, f64)>);
+
+/// The law, its constants, the standard deviation of a reading, degrees of freedom, and
+/// whether the law is at the bound of what dissipates.
+type Found = (Friction, Vec<Constant>, Option<f64>, usize, bool);
+
+/// Fits a law that is known by its name in decks, `associated` for orthotropic friction by
+/// that rule.
+#[pyfunction]
+pub fn fit_friction(law: &str, measured: Measured<'_>, level: f64) -> PyResult<Found> {
+    let sought = match law {
+        "coulomb" => Sought::Coulomb,
+        "orthotropic" => Sought::Orthotropic(SlipRule::Opposing),
+        "associated" => Sought::Orthotropic(SlipRule::Associated),
+        "nap" => Sought::Nap,
+        "two-textures" => Sought::TwoTextures,
+        _ => Sought::Tabulated,
+    };
+    let (slip, theta, against, across, spread) = &measured;
+    let [slip, theta, against, spread] = [slip, theta, against, spread].map(|one| one.as_array());
+    let across = across.as_ref().map(|across| across.as_array());
+    let readings = (0..slip.len()).map(|i| Reading {
+        slip: slip[i],
+        against: against[i],
+        across: across.map(|across| across[i]),
+        theta: theta[i],
+        spread: spread[i],
+    });
+    let readings: Vec<Reading> = readings.collect();
+    let found = fit(sought, &readings, level).map_err(|error| refused("fit_friction", error))?;
+    let constants = found.constants.iter().map(|one| {
+        let interval = one.interval.map(|[low, high]| (low, high));
+        (one.name.to_string(), one.value, interval)
+    });
+    Ok((
+        Friction(found.friction),
+        constants.collect(),
+        found.deviation,
+        found.degrees_of_freedom,
+        found.standing == Standing::AtBound,
+    ))
+}

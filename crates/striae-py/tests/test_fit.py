@@ -1,0 +1,113 @@
+"""Friction laws fitted to measurements."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import striae as st
+
+ROOT = Path(__file__).parents[3]
+LAWS: list[tuple[st.Friction, dict[str, float]]] = [
+    (st.Coulomb(0.3), {"mu": 0.3}),
+    (st.Orthotropic(0.2, 0.35), {"along": 0.2, "across": 0.35}),
+    (st.Orthotropic(0.2, 0.35, "associated"), {"along": 0.2, "across": 0.35}),
+    (st.Nap(0.11, 0.14, 0.2), {"forward": 0.11, "backward": 0.14, "lateral": 0.2}),
+]
+
+
+@pytest.mark.parametrize("law, constants", LAWS, ids=[repr(law) for law, _ in LAWS])
+@pytest.mark.parametrize("directed", [False, True], ids=["against", "directed"])
+def test_exact_measurements_give_the_law(
+    law: st.Friction, constants: dict[str, float], directed: bool
+) -> None:
+    surface = law.slip_surface(count=24)
+    angles = np.degrees(surface.slip_angle)
+    forces = surface.friction if directed else surface.dissipation
+    rule: Any = "associated" if "associated" in repr(law) else "opposing"
+    fit = st.fit_friction(angles, forces, type(law), slip_rule=rule)
+    assert fit.constants == pytest.approx(constants, rel=1e-12)
+    assert fit.degrees_of_freedom == 24 * (1 + (directed and "mu" not in constants)) - len(
+        constants
+    )
+    assert fit.deviation == pytest.approx(0.0, abs=1e-12) and not fit.at_bound
+    for name, ends in fit.intervals.items():
+        assert ends is not None and ends[0] <= fit.constants[name] <= ends[1]
+    found = fit.friction.slip_surface(count=24)
+    assert np.allclose(found.friction, surface.friction, atol=1e-12)
+
+
+def test_two_textures_need_several_angles_between_them() -> None:
+    law = st.TwoTextures(0.5, c_mag=0.2, c_ang=0.15, c_cen=0.8)
+    surfaces = {theta: law.slip_surface(theta, 24) for theta in (0.0, 60.0, 120.0)}
+    angles = np.degrees(np.concatenate([one.slip_angle for one in surfaces.values()]))
+    forces = np.concatenate([one.dissipation for one in surfaces.values()])
+    fit = st.fit_friction(angles, forces, st.TwoTextures, theta=np.repeat(list(surfaces), 24))
+    expected = {"mu": 0.5, "c_mag": 0.2, "c_ang": 0.15, "c_cen": 0.8}
+    assert fit.constants == pytest.approx(expected, rel=1e-11)
+    assert len(fit.plot().lines) == 6
+    with pytest.raises(st.ModelError, match="two or more angles `theta` between the textures"):
+        st.fit_friction(angles[:24], forces[:24], st.TwoTextures)
+
+
+def test_a_table_averages_what_was_measured_at_one_angle() -> None:
+    fit = st.fit_friction([0, 0, 120, 240, 240], [0.2, 0.3, 0.5, 0.4, 0.4])
+    expected = {"mu at 0 degrees": 0.25, "mu at 120 degrees": 0.5, "mu at 240 degrees": 0.4}
+    assert fit.constants == pytest.approx(expected)
+    assert repr(fit) == "<fit of Tabulated(3 angles) to 5 readings>"
+    assert fit.degrees_of_freedom == 2 and fit.level == 0.95
+
+
+def test_a_wider_spread_counts_less() -> None:
+    fit = st.fit_friction([0, 0], [0.2, 0.5], st.Coulomb, spread=[1.0, 2.0])
+    assert fit.constants["mu"] == pytest.approx((4 * 0.2 + 0.5) / 5)
+
+
+def test_a_law_that_would_create_energy_is_not_found() -> None:
+    angles = np.arange(0.0, 360.0, 15.0)
+    slip = np.radians(angles)
+    forces = np.column_stack([0.275 + 0.325 * np.cos(slip), 0.05 * np.sin(slip)])
+    fit = st.fit_friction(angles, forces, st.Nap)
+    assert fit.at_bound and set(fit.intervals.values()) == {None}
+    assert fit.friction.slip_surface(count=720).dissipation.min() > 0
+
+
+WRONG: list[tuple[dict[str, Any], str]] = [
+    ({"angles": [[0]]}, "angles: an array of one dimension is needed, not of 2"),
+    ({"forces": [0.1, 0.2]}, "forces: numbers: 2, but angles: 3; each needs one"),
+    (
+        {"forces": np.ones((2, 2))},
+        "forces: shape (3,) or (3, 2) is needed, but it has shape (2, 2)",
+    ),
+    ({"forces": [0.1, np.nan, 0.2]}, "forces: row 1 is not finite: nan"),
+    ({"theta": [0.0, 1.0]}, "theta: numbers: 2, but angles: 3; each needs one"),
+    (
+        {"spread": 0.0},
+        "fit_friction: reading 0 has the spread 0, but it must be positive",
+    ),
+    (
+        {"level": 95},
+        "fit_friction: the level of confidence 95 is refused: it must lie between 0 and 1, such"
+        " as 0.95",
+    ),
+    (
+        {"forces": [-0.1, -0.1, -0.1]},
+        "fit_friction: the mean friction against slip is -0.1, but it must be positive: state"
+        " the angle of slip, not that of the force on the surface",
+    ),
+]
+
+
+@pytest.mark.parametrize("wrong, words", WRONG)
+def test_wrong_measurements_are_refused(wrong: dict[str, Any], words: str) -> None:
+    given: dict[str, Any] = {"angles": [0, 90, 180], "forces": [0.1, 0.2, 0.3], "law": st.Nap}
+    with pytest.raises(st.ModelError) as error:
+        st.fit_friction(**{**given, **wrong})
+    assert str(error.value) == words
+
+
+def test_a_law_is_a_class() -> None:
+    with pytest.raises(TypeError, match="law: one of the classes Coulomb, Orthotropic, Nap"):
+        st.fit_friction([0], [0.1], st.Frictionless)
