@@ -32,7 +32,7 @@ pub const FILE: &str = "checkpoint.bin";
 const MAGIC: &[u8] = b"striae checkpoint\n";
 
 /// Number of the format, to be raised when the content changes.
-pub const FORMAT: u64 = 8;
+pub const FORMAT: u64 = 9;
 
 /// A run under way.
 #[derive(Clone, Debug)]
