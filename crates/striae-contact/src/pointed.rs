@@ -55,7 +55,10 @@ pub fn kinematics(
     let node = node as u32;
     let tip = selection.tip(side, node);
     let gap = match Spot::new(configuration, tip) {
-        Some(spot) => spot.gap,
+        Some(spot) => TrackedScalar {
+            value: spot.gap.value + tip.left(),
+            ..spot.gap
+        },
         // It is open where it sees nothing.
         None => TrackedScalar {
             value: f64::INFINITY,

@@ -10,31 +10,18 @@
 //! facets are open by more than [`CLOSING`] in the mean and without pressure. A node stays
 //! pointed while it is pressed and the mean gap is larger than [`CLOSING`].
 //!
-//! A point of a rigid surface pierces if it lies deeper than `PIERCED` in a facet, and that
-//! facet
-//!
-//! - stands back from it by more than `SHARP` in the mean, or by half of that where the point
-//!   is deeper than [`DEEP`], pressed by the field or not, or
-//! - is open by more than `CLOSING` in the mean and without pressure, so that nothing
-//!   else feels the point.
-//!
-//! A facet on a smooth rigid surface of radius `R` stands back by `h^2/(12 R)`, which is less
-//! than `CLOSING` for `R > 4 h`. One facet gets one new point at a time, the deepest, and points
-//! keep a distance of [`APART`] of the facet size from each other: more than the facets can
-//! follow would leave the pressures undetermined. For the same reason they keep it from pointed
-//! nodes. A node next to a vertex that pierces its facet is inside the rigid surface, too; with
-//! rows for both, a large pressure of one would stand against tension of the other.
+//! Points of rigid surfaces are chosen in [`points`].
 
 use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
-use striae_surface::facet::Shape;
 
-use super::{RigidPoint, RigidPoints, Spot, Tip, faced, ridge::candidates};
+pub mod points;
+
+use super::{RigidPoint, Tip, faced};
 use crate::{
     configuration::Configuration,
     pair::Enforcement,
     pairing::{Scope, paired_facets},
-    projection::Hit,
     segment::Derivatives,
     selection::{Kept, Selection, compliances},
     unknowns::NodeResult,
@@ -45,9 +32,6 @@ pub const PIERCED: f64 = 0.02;
 
 /// Mean gap of its own facets beyond its own from which it is sharp, over their size.
 pub const SHARP: f64 = 0.1;
-
-/// Depth from which half of that is enough for a rigid point, over the facet size.
-pub const DEEP: f64 = 0.08;
 
 /// Mean gap of its own facets down to which a node stays pointed, over their size.
 pub const CLOSING: f64 = 0.02;
@@ -83,7 +67,7 @@ pub fn pierced(
     if configuration.pair.enforcement != Enforcement::Weighted {
         return Pierced::default();
     }
-    let points = pierced_points(configuration, selection, carried);
+    let points = points::pierced(configuration, selection, carried);
     let mut nodes = pierced_nodes(configuration, selection, carried);
     let felt: Vec<Vec3> = (selection.points.iter().flatten())
         .chain(points.iter().map(|(_, point)| point))
@@ -188,94 +172,6 @@ fn inside(configuration: &Configuration, side: usize, node: u32) -> Option<f64> 
     (hit.gap < -PIERCED * size).then_some(hit.gap)
 }
 
-/// A rigid point in a facet.
-struct Inside {
-    point: RigidPoint,
-    hit: Hit,
-    size: f64,
-}
-
-/// Points of a rigid side that pierce a facet, the deepest of every facet.
-fn pierced_points(
-    configuration: &Configuration,
-    selection: &Selection,
-    carried: &[Vec<[f64; 3]>; 2],
-) -> Vec<(u32, RigidPoint)> {
-    if selection.points.is_empty() {
-        return Vec::new();
-    }
-    let mut deep: Vec<Inside> = candidates(configuration, selection.depth)
-        .into_par_iter()
-        .with_min_len(16)
-        .filter_map(|point| in_facet(configuration, point, selection.depth))
-        .filter(|inside| inside.hit.gap < -PIERCED * inside.size)
-        .collect();
-    if deep.is_empty() {
-        return Vec::new();
-    }
-    let means = facet_gaps(configuration, selection.scope());
-    deep.retain(|inside| {
-        let unfelt = !is_pressed(configuration, carried, inside.hit.facet);
-        means[inside.hit.facet.index()].is_none_or(|mean| {
-            let stands_back = mean - inside.hit.gap;
-            let deep = inside.hit.gap < -DEEP * inside.size;
-            let share = if deep { 0.5 * SHARP } else { SHARP };
-            stands_back > share * inside.size || unfelt && mean > CLOSING * inside.size
-        })
-    });
-    let share = |inside: &Inside| inside.hit.gap / inside.size;
-    deep.sort_by(|a, b| share(a).total_cmp(&share(b)));
-    let mut taken = felt(configuration, selection);
-    let mut lodged = selection.points.clone();
-    let mut facets: Vec<FacetId> = Vec::new();
-    let mut points = Vec::new();
-    for inside in &deep {
-        let x = inside.point.position(configuration);
-        if facets.contains(&inside.hit.facet) || !are_apart(&taken, &x, inside.size) {
-            continue;
-        }
-        let Some(node) = lodging(configuration, &lodged, &inside.hit) else {
-            continue;
-        };
-        lodged[node as usize] = Some(inside.point);
-        taken.push(x);
-        facets.push(inside.hit.facet);
-        points.push((node, inside.point));
-    }
-    points
-}
-
-/// Where rigid points and nodes of side `a` are that are pointed already.
-fn felt(configuration: &Configuration, selection: &Selection) -> Vec<Vec3> {
-    let own = configuration.side(0);
-    let points = selection.points.iter().flatten();
-    let points = points.map(|point| point.position(configuration));
-    let nodes = (0..own.x.len()).filter(|&node| selection.is_pointed(0, node as u32));
-    points.chain(nodes.map(|node| own.x[node])).collect()
-}
-
-/// The facet that a rigid point is in or faces.
-fn in_facet(configuration: &Configuration, point: RigidPoint, depth: f64) -> Option<Inside> {
-    let tip = Tip::Rigid(point);
-    let hit = faced(configuration, tip, tip.reach(configuration) + depth)?;
-    let own = configuration.side(0);
-    let sizes = own.corners(hit.facet).map(|node| own.sizes[node as usize]);
-    Some(Inside {
-        point,
-        hit,
-        size: 0.25 * sizes.iter().sum::<f64>(),
-    })
-}
-
-/// The corner of the facet that is nearest to a point and lodges none yet.
-fn lodging(configuration: &Configuration, lodged: &RigidPoints, hit: &Hit) -> Option<u32> {
-    let corners = configuration.side(0).corners(hit.facet);
-    let weights = Shape::of(&corners).weights(hit.xi, hit.eta).value;
-    let free = (0..4).filter(|&at| lodged[corners[at] as usize].is_none());
-    let nearest = free.max_by(|&a, &b| weights[a].total_cmp(&weights[b]));
-    nearest.map(|at| corners[at])
-}
-
 /// Pointed nodes of a converged configuration that are so in the next increment too.
 pub fn staying(
     configuration: &Configuration,
@@ -300,76 +196,6 @@ pub fn staying(
         }
     }
     staying
-}
-
-/// A rigid point that stays, with the node that it lodged with and the one that it will.
-pub struct Stay {
-    /// Node before.
-    pub from: u32,
-    /// Node from now on: a corner of the facet that the point is in.
-    pub to: u32,
-    /// The point.
-    pub point: RigidPoint,
-}
-
-/// Rigid points of a converged configuration that are pointed in the next increment too.
-pub fn staying_points(
-    configuration: &Configuration,
-    points: &RigidPoints,
-    nodes: &[Vec<NodeResult>; 2],
-) -> Vec<Stay> {
-    if points.iter().all(Option::is_none) {
-        return Vec::new();
-    }
-    let compliances = compliances(configuration);
-    let scope = Scope {
-        compliances: &compliances,
-        depth: 0.0,
-    };
-    let gaps = facet_gaps(configuration, scope);
-    let numbered = points.iter().enumerate();
-    let pressed: Vec<(u32, RigidPoint, Hit)> = numbered
-        .filter_map(|(node, point)| {
-            let tip = Tip::Rigid((*point)?);
-            let hit = Spot::new(configuration, tip)?.hit?;
-            let size = configuration.size(1, node as u32);
-            let stays = nodes[1][node].pressure > 0.0
-                && gaps[hit.facet.index()].is_none_or(|gap| gap > CLOSING * size);
-            stays.then_some((node as u32, (*point)?, hit))
-        })
-        .collect();
-    let mut lodged: RigidPoints = vec![None; points.len()];
-    let is_at = |hit: &Hit, node: u32| configuration.side(0).corners(hit.facet).contains(&node);
-    let (at_home, away): (Vec<_>, Vec<_>) = pressed
-        .into_iter()
-        .partition(|(node, _, hit)| is_at(hit, *node));
-    let mut stays = Vec::new();
-    for (from, point, hit) in at_home.into_iter().chain(away) {
-        let to = if is_at(&hit, from) {
-            Some(from)
-        } else {
-            lodging(configuration, &lodged, &hit)
-        };
-        if let Some(to) = to {
-            lodged[to as usize] = Some(point);
-            stays.push(Stay { from, to, point });
-        }
-    }
-    stays
-}
-
-/// Mean gap over the segments of every facet of side `a`.
-fn facet_gaps(configuration: &Configuration, scope: Scope) -> Vec<Option<f64>> {
-    let mut sums = vec![[0.0; 2]; configuration.side(0).surface.facets().len()];
-    for paired in paired_facets(configuration, scope, Derivatives::None, |_| true) {
-        if let Some(facet) = paired.facets[0] {
-            let [gap, area] = &mut sums[facet.index()];
-            *gap += paired.mean_gap(configuration) * paired.segment.area;
-            *area += paired.segment.area;
-        }
-    }
-    let mean = |[gap, area]: [f64; 2]| (area > 0.0).then(|| gap / area);
-    sums.into_iter().map(mean).collect()
 }
 
 /// `integral N_I g / integral N_I` at all nodes with facets near the other side.

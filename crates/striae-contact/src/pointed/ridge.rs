@@ -1,7 +1,7 @@
 //! Points of a rigid surface that may pierce a facet.
 //!
-//! These are the vertices of convex edges, and of every convex edge the middle of what passes over each facet
-//! of side `a`: an edge from `A` to `B` is cut with the planes through the edges of the facet
+//! These are the vertices of convex edges, and of every convex edge the middle of what passes
+//! over each facet of side `a`: an edge from `A` to `B` is cut with the planes through the edges of the facet
 //! along its normal `m`, so that it is over the facet for `t` in `[t_0, t_1]`,
 //!
 //! ```text
@@ -9,8 +9,9 @@
 //! ```
 //!
 //! An edge is convex if the facets beside it fall away from each other by more than
-//! [`BENT`], or if there is one facet only. Facets of a smooth surface of radius `R` do so by
-//! their size over `R`; they close in the mean.
+//! [`FLAT`], or if there is one facet only. Those that do so by more than [`BENT`] are sharp.
+//! Facets of a smooth surface of radius `R` fall away by their size over `R`. The angle is
+//! taken across the edge: facets of a ridge may be as long as it is.
 
 use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
@@ -23,8 +24,11 @@ use crate::{
     search::Bounds,
 };
 
-/// Sine of the angle by which one facet falls away from the plane of the other.
+/// Sine of the angle by which one facet falls away from the plane of the other at a sharp edge.
 const BENT: f64 = 0.25;
+
+/// The same at an edge that is none.
+const FLAT: f64 = 0.02;
 
 /// Length of edge over a facet below which its neighbours stand for it, over the facet size.
 const SHORT: f64 = 0.2;
@@ -32,27 +36,39 @@ const SHORT: f64 = 0.2;
 /// Cosine of the angle between the normals from which an edge faces a facet.
 const FACING: f64 = 0.2;
 
+/// How much an edge, or the sharpest edge of a vertex, is bent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Bend {
+    /// By less than [`BENT`].
+    Blunt,
+    /// By more, or it bounds the surface.
+    Sharp,
+}
+
 /// All points that are near side `a`, given how deep they may be beyond its reach.
-pub fn candidates(configuration: &Configuration, depth: f64) -> Vec<RigidPoint> {
+pub fn candidates(configuration: &Configuration, depth: f64) -> Vec<(RigidPoint, Bend)> {
     let [a, b] = [0, 1].map(|side| configuration.side(side));
     let reach = farthest(configuration) + depth;
     let Some(near) = a.tree.bounds().map(|bounds| bounds.inflated(reach)) else {
         return Vec::new();
     };
     let is_near = |points: &[Vec3]| near.meets(&Bounds::around(points.iter().copied()));
-    let found: Vec<Vec<RigidPoint>> = (0..b.x.len() as u32)
+    let found: Vec<Vec<(RigidPoint, Bend)>> = (0..b.x.len() as u32)
         .into_par_iter()
         .with_min_len(32)
         .map(|vertex| {
             let mut points = Vec::new();
-            let mut edges = edges(b, vertex).peekable();
-            if edges.peek().is_some() && is_near(&[b.x[vertex as usize]]) {
-                points.push(RigidPoint::vertex(vertex));
+            let edges: Vec<Edge> = edges(b, vertex).collect();
+            if let Some(bend) = edges.iter().map(|edge| edge.bend).max()
+                && is_near(&[b.x[vertex as usize]])
+            {
+                points.push((RigidPoint::vertex(vertex), bend));
             }
             // Of the two vertices of an edge one lists it.
-            for edge in edges.filter(|edge| edge.listed) {
+            for edge in edges.iter().filter(|edge| edge.listed) {
                 if is_near(&edge.nodes.map(|node| b.x[node as usize])) {
-                    points.extend(over_facets(a, b, &edge, reach));
+                    let over = over_facets(a, b, edge, reach);
+                    points.extend(over.map(|point| (point, edge.bend)));
                 }
             }
             points
@@ -66,6 +82,7 @@ struct Edge {
     nodes: [u32; 2],
     /// Mean normal of its facets.
     normal: Vec3,
+    bend: Bend,
     /// Whether it belongs to the list of its first vertex.
     listed: bool,
 }
@@ -77,21 +94,33 @@ fn edges<'a>(b: &'a Snapshot<'_>, vertex: u32) -> impl Iterator<Item = Edge> + '
         let mut beside = b.surface.corners(corner.next).iter();
         let other = beside.find(|other| other.next == vertex);
         let one = facet_normal(&b.corner_positions(corner.facet));
-        let normal = match other {
-            None => one,
+        let (normal, bend) = match other {
+            None => (one, Bend::Sharp),
             Some(other) => {
-                let centre = centre(b, other.facet);
-                let away = centre - b.x[vertex as usize];
-                let falls = -one.dot(&away) > BENT * away.norm();
-                falls.then(|| one + facet_normal(&b.corner_positions(other.facet)))?
+                let along = b.x[corner.next as usize] - b.x[vertex as usize];
+                let away = centre(b, other.facet) - b.x[vertex as usize];
+                let across = away - along * (away.dot(&along) / along.norm_squared());
+                let falls = -one.dot(&across) / across.norm();
+                let normal = one + facet_normal(&b.corner_positions(other.facet));
+                (normal, bend(falls)?)
             }
         };
         Some(Edge {
             nodes: [vertex, corner.next],
             normal: normal.try_normalize(1e-6)?,
+            bend,
             listed: other.is_none() || vertex < corner.next,
         })
     })
+}
+
+/// Bend by the sine of the angle by which facets fall away; `None` if they do not.
+fn bend(falls: f64) -> Option<Bend> {
+    if falls > BENT {
+        Some(Bend::Sharp)
+    } else {
+        (falls > FLAT).then_some(Bend::Blunt)
+    }
 }
 
 fn centre(side: &Snapshot, facet: FacetId) -> Vec3 {
@@ -119,6 +148,7 @@ fn over_facets<'a>(
         (passes && long).then_some(RigidPoint {
             ends,
             share: 0.5 * (from + to),
+            left: 0.0,
         })
     })
 }

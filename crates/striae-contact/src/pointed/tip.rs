@@ -14,6 +14,8 @@ pub struct RigidPoint {
     pub ends: [u32; 2],
     /// Share `s` of the way from the first to the second.
     pub share: f64,
+    /// Depth that its row leaves to it.
+    pub left: f64,
 }
 
 /// Points of a rigid surface with traction unknowns, by the node of side `a` that they lodge
@@ -26,7 +28,13 @@ impl RigidPoint {
         Self {
             ends: [node; 2],
             share: 0.0,
+            left: 0.0,
         }
+    }
+
+    /// The same point with a depth that is left to it.
+    pub fn leaving(self, left: f64) -> Self {
+        Self { left, ..self }
     }
 
     /// Where it is.
@@ -66,6 +74,14 @@ pub enum Tip {
 }
 
 impl Tip {
+    /// Depth that is left to it: its row states `g + left` for the gap.
+    pub fn left(&self) -> f64 {
+        match self {
+            Self::Node { .. } => 0.0,
+            Self::Rigid(point) => point.left,
+        }
+    }
+
     /// Its side.
     pub fn side(&self) -> usize {
         match self {

@@ -177,7 +177,7 @@ coded! {
     Judgement { worst, forces, pressures, energy, step };
     SolverSummary { method, factorisations, contact_corrections, fall_backs, reason };
     PairState { tractions, kept, pointed, points, carried, nodes, facets, dissipated };
-    RigidPoint { ends, share };
+    RigidPoint { ends, share, left };
     Wrench { force, torque };
     Pose { displacement, turned, rotation };
     NodalForces { internal, inertia, reaction, applied, contact, stabilisation, stabilised, rigid, pushed };

@@ -4,7 +4,7 @@
 use striae_contact::{
     configuration::Configuration,
     evaluation::Evaluation,
-    pointed::{self, Pierced, RigidPoints, choice::staying_points, staying},
+    pointed::{self, Pierced, RigidPoints, choice::points, staying},
     selection::{Before, Selection},
     unknowns::{Status, Tractions},
 };
@@ -30,7 +30,7 @@ pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected
         .enumerate()
         .map(|(pair, of_pair)| {
             let start = context.configuration(pair, &state.positions, &state.rigid);
-            let stays = staying_points(&start, &of_pair.points, &of_pair.nodes);
+            let stays = points::staying(&start, &of_pair.points, &of_pair.nodes);
             let mut points: RigidPoints = vec![None; of_pair.points.len()];
             let mut tractions = of_pair.tractions.clone();
             for stay in &stays {

@@ -200,7 +200,11 @@ fn points(start: &Configuration) -> RigidPoints {
         return Vec::new();
     }
     let mut points = vec![None; start.side(0).x.len()];
-    let on = |ends: [u32; 2], share: f64| RigidPoint { ends, share };
+    let on = |ends: [u32; 2], share: f64| RigidPoint {
+        ends,
+        share,
+        left: 0.01,
+    };
     let all = [
         RigidPoint::vertex(4),
         on([1, 4], 0.4),

@@ -17,7 +17,7 @@ const LAW: f64 = 1e-6;
 const TENSION: f64 = 1e-8;
 /// Gap over the size of a facet.
 const GAP: f64 = 1e-6;
-/// Pressures below this share of the largest are none.
+/// Pressures below this share of the largest are none, as are excesses of friction.
 const NOTHING: f64 = 1e-9;
 /// Pressures below this share of the softest modulus are none: contact that has opened leaves
 /// residuals of the solver's tolerance over 1e-4 of that modulus.
@@ -129,9 +129,10 @@ fn friction(
         if tau <= nothing {
             continue;
         }
-        // An excess that would be none at a larger pressure is none here.
         let used = pair.law.use_of(&point, pair.cap);
-        findings.note("law", (used - 1.0) / LAW, || {
+        // A solver's tolerance is a share of the largest pressure, also where there is little.
+        let excess = tau * (1.0 - 1.0 / used) / nothing;
+        findings.note("law", excess.min((used - 1.0) / LAW), || {
             place(
                 node,
                 format!(
@@ -197,5 +198,20 @@ mod tests {
         assert_eq!(failed(p, [0.0, 1e-5, 0.1, 0.0], t), ["product"]);
         assert_eq!(failed(p, g, [0.3, -0.151, 0.0, 0.0]), ["law"]);
         assert_eq!(failed(p, g, [0.3, -0.1, 0.01, 0.0]), ["law"]);
+    }
+
+    #[test]
+    fn friction_in_excess_is_held_against_the_largest_pressure() {
+        let excessive = |p: f64, excess: f64| {
+            failed(
+                [1.0, p, 0.0, 0.0],
+                [0.0; 4],
+                [0.0, 0.3 * p + excess, 0.0, 0.0],
+            )
+        };
+        assert!(excessive(1e-5, 0.5e-9).is_empty());
+        assert_eq!(excessive(1e-5, 2e-9), ["law"]);
+        assert!(excessive(1.0, 0.2e-6).is_empty());
+        assert_eq!(excessive(1.0, 0.4e-6), ["law"]);
     }
 }
