@@ -43,6 +43,9 @@ pub enum Fault {
     /// A report does not do what it should in a browser, or there is no browser.
     #[error("{0}")]
     Browser(String),
+    /// The book cannot be built, or a link of it leads nowhere.
+    #[error("{0}")]
+    Book(String),
     /// There is no interpreter for the Python package.
     #[error("there is no Python 3.10 or newer that makes virtual environments")]
     NoPython,

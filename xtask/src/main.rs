@@ -7,10 +7,13 @@
 //! | `borders` | the border check alone, in a second; see [`borders`] |
 //! | `scenes` | random scenes of contact, judged from their output; see [`scenes`] |
 //! | `report-test` | reports in headless Chromium; see [`browser`] |
+//! | `book` | the book as HTML, its links checked; see [`book`] |
+//! | `mathematics` | formulas of the book, for mdBook; see [`book::mathematics`] |
 //! | `bench` | times of parts and of whole runs; see `crates/striae-bench/README.md` |
 //!
 //! Exit codes: 0 when all is well, 1 when a check failed, 2 for an unknown task.
 
+mod book;
 mod borders;
 mod browser;
 mod check;
@@ -20,7 +23,7 @@ mod scenes;
 
 use std::{env, process::ExitCode};
 
-const USAGE: &str = "usage: cargo xtask check | python | borders | scenes [OPTIONS] | report-test | bench [ARGUMENTS]";
+const USAGE: &str = "usage: cargo xtask check | python | borders | scenes [OPTIONS] | report-test | book | bench [ARGUMENTS]";
 
 fn main() -> ExitCode {
     let tasks: Vec<String> = env::args().skip(1).collect();
@@ -30,6 +33,8 @@ fn main() -> ExitCode {
         ["borders"] => borders::check(),
         ["scenes", ..] => scenes::scenes(&tasks[1..]),
         ["report-test"] => browser::report_test(),
+        ["book", ..] => book::book(&tasks[1..]),
+        ["mathematics", ..] => book::mathematics::preprocess(&tasks[1..]),
         ["bench", ..] => check::bench(&tasks[1..]),
         _ => {
             eprintln!("{USAGE}");

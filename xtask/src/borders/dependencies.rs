@@ -219,7 +219,14 @@ const LADDER: &[Row] = &[
     Row {
         name: "xtask",
         own: &[],
-        outside: &["flate2", "png", "serde_json", "thiserror"],
+        outside: &[
+            "flate2",
+            "math-core",
+            "png",
+            "pulldown-cmark",
+            "serde_json",
+            "thiserror",
+        ],
     },
 ];
 
