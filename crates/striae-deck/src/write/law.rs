@@ -1,7 +1,9 @@
 //! Friction laws and materials.
 
 use striae_law::{
-    bulk::{Isochoric, Material, Volumetric},
+    bulk::{
+        Branch, Hardening, HardeningForm, Hyperelastic, Isochoric, Material, OgdenTerm, Volumetric,
+    },
     friction::{Friction, Law, SlipRule},
 };
 
@@ -63,15 +65,6 @@ pub(super) fn friction_keys(friction: &Friction) -> Option<String> {
 
 /// Lines of a material but for its name; `None` for a law of one's own.
 pub(super) fn material(material: &Material) -> Option<String> {
-    let stated = |law: &str, constants: &[(&str, f64)]| {
-        let constant = |(key, value): &(&str, f64)| format!("{key} = {}\n", number(*value));
-        let constants: String = constants.iter().map(constant).collect();
-        format!("law = \"{law}\"\n{constants}")
-    };
-    let volumetric = |form: Volumetric| match form {
-        Volumetric::Quadratic => "volumetric = \"quadratic\"\n",
-        Volumetric::Logarithmic => "volumetric = \"logarithmic\"\n",
-    };
     match material {
         Material::NeoHookean {
             lambda,
@@ -85,35 +78,86 @@ pub(super) fn material(material: &Material) -> Option<String> {
             let constants = [("lambda", *lambda), ("shear_modulus", *shear)];
             Some(stated("linear-elastic", &constants))
         }
-        Material::Hyperelastic(rubber) => {
-            let law = material.name();
-            let isochoric = match rubber.isochoric() {
-                Isochoric::NeoHookean { shear } => stated(law, &[("shear_modulus", *shear)]),
-                Isochoric::MooneyRivlin { c10, c01 } => {
-                    stated(law, &[("c10", *c10), ("c01", *c01)])
-                }
-                Isochoric::Yeoh { c10, c20, c30 } => {
-                    stated(law, &[("c10", *c10), ("c20", *c20), ("c30", *c30)])
-                }
-                Isochoric::Gent { shear, limit } => {
-                    stated(law, &[("shear_modulus", *shear), ("limit", *limit)])
-                }
-                Isochoric::ArrudaBoyce {
-                    mu,
-                    locking_stretch,
-                } => stated(law, &[("mu", *mu), ("locking_stretch", *locking_stretch)]),
-                Isochoric::Ogden(terms) => {
-                    let term = |term: &striae_law::bulk::OgdenTerm| {
-                        let (mu, alpha) = (number(term.mu), number(term.alpha));
-                        format!("{{ mu = {mu}, alpha = {alpha} }}")
-                    };
-                    let terms = list(terms.iter().map(term));
-                    stated(law, &[]) + &format!("terms = {terms}\n")
-                }
+        Material::Hyperelastic(rubber) => Some(hyperelastic(rubber)),
+        Material::Viscoelastic(law) => {
+            let branch = |branch: &Branch| {
+                let (ratio, time) = (number(branch.ratio), number(branch.time));
+                format!("{{ ratio = {ratio}, time = {time} }}")
             };
-            let bulk = format!("bulk_modulus = {}\n", number(rubber.bulk()));
-            Some(isochoric + &bulk + volumetric(rubber.volumetric()))
+            let branches = list(law.branches().iter().map(branch));
+            Some(hyperelastic(law.slow()) + &format!("relaxation = {branches}\n"))
+        }
+        Material::Plastic(law) => {
+            let of = law.lame_constants();
+            let constants = [("lambda", of.lambda), ("shear_modulus", of.shear)];
+            Some(stated("elastic-plastic", &constants) + &hardening(law.hardening()))
         }
         Material::Own(_) => None,
+    }
+}
+
+/// The name of a law and constants of it.
+fn stated(law: &str, constants: &[(&str, f64)]) -> String {
+    let constant = |(key, value): &(&str, f64)| format!("{key} = {}\n", number(*value));
+    let constants: String = constants.iter().map(constant).collect();
+    format!("law = \"{law}\"\n{constants}")
+}
+
+fn volumetric(form: Volumetric) -> &'static str {
+    match form {
+        Volumetric::Quadratic => "volumetric = \"quadratic\"\n",
+        Volumetric::Logarithmic => "volumetric = \"logarithmic\"\n",
+    }
+}
+
+fn hyperelastic(rubber: &Hyperelastic) -> String {
+    let law = rubber.isochoric().name();
+    let isochoric = match rubber.isochoric() {
+        Isochoric::NeoHookean { shear } => stated(law, &[("shear_modulus", *shear)]),
+        Isochoric::MooneyRivlin { c10, c01 } => stated(law, &[("c10", *c10), ("c01", *c01)]),
+        Isochoric::Yeoh { c10, c20, c30 } => {
+            stated(law, &[("c10", *c10), ("c20", *c20), ("c30", *c30)])
+        }
+        Isochoric::Gent { shear, limit } => {
+            stated(law, &[("shear_modulus", *shear), ("limit", *limit)])
+        }
+        Isochoric::ArrudaBoyce {
+            mu,
+            locking_stretch,
+        } => stated(law, &[("mu", *mu), ("locking_stretch", *locking_stretch)]),
+        Isochoric::Ogden(terms) => {
+            let term = |term: &OgdenTerm| {
+                let (mu, alpha) = (number(term.mu), number(term.alpha));
+                format!("{{ mu = {mu}, alpha = {alpha} }}")
+            };
+            let terms = list(terms.iter().map(term));
+            stated(law, &[]) + &format!("terms = {terms}\n")
+        }
+    };
+    let bulk = format!("bulk_modulus = {}\n", number(rubber.bulk()));
+    isochoric + &bulk + volumetric(rubber.volumetric())
+}
+
+fn hardening(hardening: &Hardening) -> String {
+    match hardening.form() {
+        HardeningForm::Smooth {
+            yield_stress,
+            modulus,
+            saturation,
+            rate,
+        } => {
+            let [first, modulus] = [*yield_stress, *modulus].map(number);
+            let mut text = format!("yield_stress = {first}\nhardening_modulus = {modulus}\n");
+            if *rate > 0.0 {
+                let [stress, rate] = [*saturation, *rate].map(number);
+                text += &format!("saturation = {{ stress = {stress}, rate = {rate} }}\n");
+            }
+            text
+        }
+        HardeningForm::Table(pairs) => {
+            let pair =
+                |[strain, stress]: &[f64; 2]| format!("[{}, {}]", number(*strain), number(*stress));
+            format!("yield_table = {}\n", list(pairs.iter().map(pair)))
+        }
     }
 }

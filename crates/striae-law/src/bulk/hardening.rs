@@ -13,16 +13,23 @@
 
 /// Yield stress over the equivalent plastic strain.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Hardening(Form);
+pub struct Hardening(HardeningForm);
 
+/// How the yield stress is stated.
 #[derive(Clone, Debug, PartialEq)]
-enum Form {
+pub enum HardeningForm {
+    /// `Y = Y0 + (Ys - Y0) (1 - exp(-d p)) + H p`.
     Smooth {
+        /// First yield stress `Y0`.
         yield_stress: f64,
+        /// Hardening modulus `H`.
         modulus: f64,
+        /// Stress of saturation `Ys`; `Y0` where nothing saturates.
         saturation: f64,
+        /// Rate of saturation `d`.
         rate: f64,
     },
+    /// Pairs of equivalent plastic strain and yield stress.
     Table(Box<[[f64; 2]]>),
 }
 
@@ -104,7 +111,7 @@ impl Hardening {
                 first: yield_stress,
             });
         }
-        Ok(Self(Form::Smooth {
+        Ok(Self(HardeningForm::Smooth {
             yield_stress,
             modulus,
             saturation,
@@ -134,13 +141,18 @@ impl Hardening {
         if pairs.is_empty() {
             return Err(InadmissibleHardening::Start);
         }
-        Ok(Self(Form::Table(pairs.into())))
+        Ok(Self(HardeningForm::Table(pairs.into())))
+    }
+
+    /// How it is stated.
+    pub fn form(&self) -> &HardeningForm {
+        &self.0
     }
 
     /// `Y(p)`.
     pub fn stress(&self, plastic: f64) -> f64 {
         match &self.0 {
-            Form::Smooth {
+            HardeningForm::Smooth {
                 yield_stress,
                 modulus,
                 saturation,
@@ -149,7 +161,7 @@ impl Hardening {
                 let saturated = -(-rate * plastic).exp_m1();
                 yield_stress + (saturation - yield_stress) * saturated + modulus * plastic
             }
-            Form::Table(pairs) => {
+            HardeningForm::Table(pairs) => {
                 let [strain, stress] = pairs[below(pairs, plastic)];
                 stress + self.slope(plastic) * (plastic - strain)
             }
@@ -159,13 +171,13 @@ impl Hardening {
     /// `dY/dp`; at the corners of a table that to the right.
     pub fn slope(&self, plastic: f64) -> f64 {
         match &self.0 {
-            Form::Smooth {
+            HardeningForm::Smooth {
                 yield_stress,
                 modulus,
                 saturation,
                 rate,
             } => modulus + (saturation - yield_stress) * rate * (-rate * plastic).exp(),
-            Form::Table(pairs) => {
+            HardeningForm::Table(pairs) => {
                 let at = below(pairs, plastic);
                 let next = pairs.get(at + 1);
                 next.map_or(0.0, |next| {
@@ -178,8 +190,8 @@ impl Hardening {
     /// Integral of `Y` from one plastic strain to a later one.
     pub fn work(&self, from: f64, to: f64) -> f64 {
         match &self.0 {
-            Form::Smooth { .. } if to <= from => 0.0,
-            Form::Smooth {
+            HardeningForm::Smooth { .. } if to <= from => 0.0,
+            HardeningForm::Smooth {
                 yield_stress,
                 modulus,
                 saturation,
@@ -193,7 +205,7 @@ impl Hardening {
                 let short = (-rate * from).exp() * (-rate * way).exp_m1() / rate;
                 straight + (saturation - yield_stress) * (way + short)
             }
-            Form::Table(pairs) => {
+            HardeningForm::Table(pairs) => {
                 let corners = pairs.iter().map(|pair| pair[0]);
                 let between =
                     corners.filter(|strain| (from..to).contains(strain) && *strain > from);

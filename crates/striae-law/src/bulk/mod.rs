@@ -36,7 +36,7 @@ mod volumetric;
 
 pub use analysis::{Mode, TestState};
 pub use battery::{Violation, battery};
-pub use hardening::{Hardening, InadmissibleHardening};
+pub use hardening::{Hardening, HardeningForm, InadmissibleHardening};
 pub use history::{Field, Past, Present};
 pub use hyperelastic::{Hyperelastic, InadmissibleHyperelastic, Isochoric};
 pub use moduli::{InadmissibleModuli, LameConstants};
