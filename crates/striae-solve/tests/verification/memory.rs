@@ -1,6 +1,6 @@
 //! Bodies that remember: viscoelastic rubber and metal that yields.
 
-use crate::scene::{Run, block, body, coulomb, increments, model, plane, step};
+use crate::scene::{Places, Run, block, body, coulomb, increments, model, plane, step};
 use striae_law::bulk::{
     Branch, Hardening, Hyperelastic, Isochoric, LameConstants, Material, Plastic, Viscoelastic,
     Volumetric,
