@@ -40,7 +40,7 @@ fn constants() {
         (
             "branches that are none",
             "law = \"gent\"\nshear_modulus = 1\nlimit = 30\nbulk_modulus = 10\nrelaxation = []",
-            "7:14: the material is not admissible: there is no branch, at least one is needed",
+            "8:14: the material is not admissible: there is no branch, at least one is needed",
         ),
         (
             "saturation below the yield stress",

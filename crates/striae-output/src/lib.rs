@@ -3,6 +3,7 @@
 //! [`recorder`] writes a run under way; [`expected`] judges quantities of one that
 //! has ended.
 
+mod bodies;
 pub mod checkpoint;
 mod error;
 pub mod expected;

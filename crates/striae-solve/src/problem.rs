@@ -128,13 +128,6 @@ fn at_node(node: Option<NodeId>) -> String {
 }
 
 impl Problem {
-    /// How many variables the quadrature points of every body remember together.
-    pub fn variables(&self) -> Vec<usize> {
-        let bodies = self.model.bodies.iter().zip(&self.elements);
-        let counts = bodies.map(|(body, elements)| body.material.variables() * elements.points());
-        counts.collect()
-    }
-
     /// Prepares a model.
     ///
     /// # Errors

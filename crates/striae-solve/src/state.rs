@@ -134,7 +134,18 @@ impl NodalForces {
     }
 }
 
+/// How many variables the quadrature points of every body remember together.
+fn variables(problem: &Problem) -> impl Iterator<Item = usize> {
+    let bodies = problem.model.bodies.iter().zip(&problem.elements);
+    bodies.map(|(body, elements)| body.material.variables() * elements.points())
+}
+
 impl State {
+    /// Whether its bodies remember as much as those of a problem.
+    pub fn remembers_as(&self, problem: &Problem) -> bool {
+        self.histories.iter().map(Vec::len).eq(variables(problem))
+    }
+
     /// The undeformed state at time zero.
     pub fn undeformed(problem: &Problem) -> Self {
         Self {
@@ -143,9 +154,7 @@ impl State {
             velocities: vec![Vec3::zeros(); problem.reference.len()],
             accelerations: vec![Vec3::zeros(); problem.reference.len()],
             rigid: vec![Pose::at_rest(); problem.model.rigid_surfaces.len()],
-            histories: (problem.variables().into_iter())
-                .map(|count| vec![0.0; count])
-                .collect(),
+            histories: variables(problem).map(|count| vec![0.0; count]).collect(),
             pairs: problem
                 .pairs
                 .iter()

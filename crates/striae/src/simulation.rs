@@ -155,12 +155,8 @@ impl Simulation {
         } = checkpoint;
         source.check(&deck.model, deck.output)?;
         let mut simulation = Self::of(deck)?;
-        let remembered = simulation.problem.variables();
-        let fits = |state: &State| {
-            let found = state.histories.iter().map(Vec::len);
-            found.eq(remembered.iter().copied())
-        };
-        if !(fits(&point.start) && fits(&point.state)) {
+        let states = [&point.start, &point.state];
+        if !(states.iter()).all(|state| state.remembers_as(&simulation.problem)) {
             let path = folder.join(checkpoint::FILE);
             return Err(CheckpointError::Damaged { path }.into());
         }

@@ -89,17 +89,38 @@ fn hardening(raw: &raw::Hardening) -> Option<Result<Hardening, InadmissibleHarde
     })
 }
 
-/// Branches that relax.
-type Relaxation<'a> = Option<&'a At<Vec<At<raw::Branch>>>>;
+/// What all laws of rubber have beside their isochoric part.
+type Common<'a> = (
+    &'a Option<raw::Compressibility>,
+    &'a Option<At<raw::Volumetric>>,
+    &'a Option<At<Vec<At<raw::Branch>>>>,
+);
 
 /// The rubber and what relaxes beside it, or `None` where a constant could not be read.
+#[allow(clippy::type_complexity)]
 fn rubber(
     law: &raw::BulkLaw,
 ) -> Option<(
     Result<Hyperelastic, InadmissibleHyperelastic>,
-    Relaxation<'_>,
+    Option<&At<Vec<At<raw::Branch>>>>,
 )> {
-    let (isochoric, compressibility, form, relaxation) = match law {
+    let (isochoric, (compressibility, form, relaxation)) = isochoric(law)?;
+    let form = volumetric(form.as_ref());
+    let made = match compressibility.as_ref()? {
+        raw::Compressibility::BulkModulus(raw) => {
+            Hyperelastic::new(isochoric, raw.bulk_modulus.as_ref()?.value.0, form)
+        }
+        raw::Compressibility::Ratio(raw) => {
+            let ratio = raw.poissons_ratio.as_ref()?.value.0;
+            Hyperelastic::with_poissons_ratio(isochoric, ratio, form)
+        }
+    };
+    Some((made, relaxation.as_ref()))
+}
+
+/// The isochoric part of rubber.
+fn isochoric(law: &raw::BulkLaw) -> Option<(Isochoric, Common<'_>)> {
+    Some(match law {
         raw::BulkLaw::NeoHookean(_)
         | raw::BulkLaw::LinearElastic(_)
         | raw::BulkLaw::ElasticPlastic(_) => return None,
@@ -172,18 +193,7 @@ fn rubber(
                 &law.relaxation,
             )
         }
-    };
-    let form = volumetric(form.as_ref());
-    let made = match compressibility.as_ref()? {
-        raw::Compressibility::BulkModulus(raw) => {
-            Hyperelastic::new(isochoric, raw.bulk_modulus.as_ref()?.value.0, form)
-        }
-        raw::Compressibility::Ratio(raw) => {
-            let ratio = raw.poissons_ratio.as_ref()?.value.0;
-            Hyperelastic::with_poissons_ratio(isochoric, ratio, form)
-        }
-    };
-    Some((made, relaxation.as_ref()))
+    })
 }
 
 fn ogden_term(raw: &At<raw::OgdenTerm>) -> Option<OgdenTerm> {

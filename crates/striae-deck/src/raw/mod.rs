@@ -6,6 +6,7 @@
 
 mod body;
 mod contact;
+mod material;
 mod mesh;
 mod sets;
 mod settings;
@@ -13,7 +14,9 @@ mod step;
 mod texture;
 
 use super::{declare::table, read::At};
-pub(crate) use {body::*, contact::*, mesh::*, sets::*, settings::*, step::*, texture::*};
+pub(crate) use {
+    body::*, contact::*, material::*, mesh::*, sets::*, settings::*, step::*, texture::*,
+};
 
 use super::value::Text;
 
