@@ -13,12 +13,14 @@
 //! operations a second.
 
 use striae_model::{Backend, Model, Side};
+use striae_output::available_bytes;
 use striae_solve::{
     newton::{Analysis, Estimate, estimate},
     problem::Problem,
 };
 
 use super::{Advice, Topic};
+use crate::error::Error;
 
 /// Nodes up to which the linear system is analysed.
 const COUNTED: usize = 60_000;
@@ -26,6 +28,8 @@ const COUNTED: usize = 60_000;
 const ITERATED: usize = 450_000;
 /// Iterations in an increment.
 const ITERATIONS: f64 = 6.0;
+/// Memory by formula over that which suffices.
+const UNCERTAIN: f64 = 1.5;
 /// Operations a second.
 const PACE: f64 = 4e9;
 
@@ -63,6 +67,21 @@ impl Cost {
             operations,
             increments: increments(model),
         }
+    }
+
+    /// Whether that much memory does, for all that a formula can say.
+    ///
+    /// # Errors
+    /// [`Error::Memory`] where it certainly does not.
+    pub fn fits(&self, available: f64) -> Result<(), Error> {
+        if self.bytes <= UNCERTAIN * available {
+            return Ok(());
+        }
+        Err(Error::Memory {
+            unknowns: self.unknowns,
+            needed: self.bytes,
+            available,
+        })
     }
 
     /// Seconds of a run.
@@ -111,6 +130,7 @@ pub(super) fn look(model: &Model, advice: &mut Advice) {
             ),
         );
         time(&cost, advice);
+        memory(&cost, advice);
         return;
     }
     let problem = match Problem::new(model.clone()) {
@@ -155,6 +175,19 @@ fn counted(model: &Model, estimate: &Estimate, advice: &mut Advice) {
         increments: increments(model),
     };
     time(&cost, advice);
+    memory(&cost, advice);
+}
+
+fn memory(cost: &Cost, advice: &mut Advice) {
+    let Some(available) = available_bytes().filter(|available| cost.bytes > *available) else {
+        return;
+    };
+    let text = format!(
+        "a run takes about {:.1} GB of memory, and {:.1} GB are available here",
+        cost.bytes / 1e9,
+        available / 1e9
+    );
+    advice.warn(Topic::Cost, "", text);
 }
 
 fn time(cost: &Cost, advice: &mut Advice) {
@@ -170,4 +203,25 @@ fn time(cost: &Cost, advice: &mut Advice) {
         cost.increments
     );
     advice.note(Topic::Cost, "", text);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_system_beyond_memory_is_refused_by_name() {
+        let cost = Cost {
+            unknowns: 3_000_000,
+            bytes: 15e9,
+            operations: 1.4e11,
+            increments: 10.0,
+        };
+        assert!(cost.fits(11e9).is_ok());
+        let refused = cost.fits(8e9).expect_err("too much").to_string();
+        assert!(
+            refused.starts_with("3000000 unknowns take about 15.0 GB, and 8.0 GB are available")
+        );
+        assert_eq!(cost.seconds(), 10.0 * 6.0 * 1.4e11 / 4e9);
+    }
 }
