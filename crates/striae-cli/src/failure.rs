@@ -46,6 +46,9 @@ pub enum Failure {
     /// The model cannot be solved.
     #[error("{0}")]
     Problem(#[from] ProblemError),
+    /// A model has faults that have been printed.
+    #[error("this deck cannot be run: {}", faulty(*.0))]
+    Impossible(usize),
     /// The run did not reach its end.
     #[error("{0}")]
     Ended(Box<Ending>),
@@ -84,6 +87,13 @@ pub enum Failure {
     /// The standard output cannot be written.
     #[error("the output cannot be written: {0}")]
     Output(#[from] io::Error),
+}
+
+fn faulty(count: usize) -> String {
+    match count {
+        1 => "it has a fault".into(),
+        count => format!("it has {count} faults"),
+    }
 }
 
 fn warned(count: usize) -> String {
@@ -134,6 +144,7 @@ impl Failure {
             | Self::Fit(_)
             | Self::Report(ReportError::Nothing(_))
             | Self::Results(OutputError::Occupied(_) | OutputError::InUse(_))
+            | Self::Impossible(_)
             | Self::UnknownCase { .. } => ExitCode::from(2),
             Self::Interrupted { .. } => ExitCode::from(INTERRUPTED),
             Self::Ended(ending) if matches!(**ending, Ending::Interrupted { .. }) => {

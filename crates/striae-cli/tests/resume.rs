@@ -269,7 +269,18 @@ fn what_cannot_be_gone_on_with_is_refused() {
     );
     let short = history.lines().next().unwrap().to_owned() + "\n";
     let file = "results/cube/history.csv";
-    refused(file, short.as_bytes(), "0 rows where");
+    refused(file, short.as_bytes(), "history.csv is damaged");
+    let start = history.find('\n').unwrap() + 1;
+    let changed = |at: usize, mut bytes: Vec<u8>| {
+        bytes[at] ^= 1;
+        bytes
+    };
+    let bytes = changed(start, history.clone().into_bytes());
+    refused(file, &bytes, "history.csv is damaged");
+    let file = "results/cube/fields/block-00000.vtu";
+    let fields = fs::read(place.join(file)).unwrap();
+    let bytes = changed(fields.len() / 2, fields);
+    refused(file, &bytes, "block-00000.vtu is damaged");
     let nowhere = striae(place, &["resume", "nowhere"]);
     assert_eq!(nowhere.status.code(), Some(2));
     assert!(stderr(&nowhere).contains("nowhere has no checkpoint.bin"));

@@ -67,16 +67,16 @@ const RUN: [&str; 3] = ["run", "--out", "out"];
 const STRICT: [&str; 5] = ["run", "--strict", "--overwrite", "--out", "out"];
 
 #[test]
-fn a_pair_that_never_touched_is_a_warning_and_strictly_exit_code_1() {
+fn a_pair_that_never_meets_is_a_warning_and_strictly_exit_code_1() {
     let folder = tempfile::tempdir().unwrap();
     let gap = deck(0.1, 0.08, 1);
     let lenient = striae(folder.path(), &gap, &RUN);
     assert_eq!(lenient.status.code(), Some(0), "{}", stderr(&lenient));
-    let said = "warning: pair `sole` has never touched";
+    let said = "warning: pair `sole` can never meet";
     assert!(stderr(&lenient).contains(said), "{}", stderr(&lenient));
     let found = warnings(folder.path());
     assert_eq!(found.len(), 1);
-    assert_eq!(found[0].kind, "never-touched");
+    assert_eq!(found[0].kind, "never-meets");
     assert_eq!(found[0].pair.as_deref(), Some("sole"));
     let strict = striae(folder.path(), &gap, &STRICT);
     assert_eq!(strict.status.code(), Some(1));

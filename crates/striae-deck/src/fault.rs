@@ -141,6 +141,20 @@ pub enum FaultKind {
         /// What its reader says.
         cause: String,
     },
+    /// Two probes have the same name.
+    #[error("there is another probe `{name}`")]
+    ProbeTwice {
+        /// The name.
+        name: String,
+    },
+    /// A probe is nowhere.
+    #[error("probe `{name}` is nowhere: {cause}")]
+    Probe {
+        /// Its name.
+        name: String,
+        /// What is wrong.
+        cause: String,
+    },
     /// A deck without bodies or steps.
     #[error("the deck has no [[{key}]]; {need}")]
     Nothing {

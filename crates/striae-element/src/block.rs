@@ -192,6 +192,22 @@ impl Element<'_> {
         Ok(response)
     }
 
+    /// Energy stored in the state that the points remember.
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError::Inverted`] where the material is turned inside out.
+    pub fn stored_energy(
+        &self,
+        x: &[Vec3],
+        material: &Material,
+        variables: &[f64],
+    ) -> Result<f64, ElementError> {
+        let elapsed = 0.0;
+        let past = Past { variables, elapsed };
+        Ok(self.response(x, material, past)?.energy)
+    }
+
     /// Places of the variables of its quadrature points among those of the mesh, where each
     /// point has so many.
     pub fn variables(&self, each: usize) -> Range<usize> {

@@ -12,6 +12,9 @@ use crate::{CellKind, ElementId, Face, Mesh, MeshError, NodeId, Vec3};
 /// Scaled Jacobians below this are listed in [`Quality::slivers`].
 pub const SMALL_SCALED_JACOBIAN: f64 = 0.05;
 
+/// How many elements [`Quality::poorest`] lists.
+pub const POOREST: usize = 5;
+
 /// Shape of all elements of a mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quality {
@@ -19,6 +22,8 @@ pub struct Quality {
     pub smallest_scaled_jacobian: f64,
     /// The element that has it.
     pub worst: ElementId,
+    /// The elements with the smallest scaled Jacobians, at most [`POOREST`], smallest first.
+    pub poorest: Vec<(ElementId, f64)>,
     /// Smallest Jacobian determinant over corners and Gauss points.
     pub smallest_determinant: f64,
     /// Elements with a determinant that is not positive at a corner or Gauss point.
@@ -63,6 +68,7 @@ impl Mesh {
         let mut quality = Quality {
             smallest_scaled_jacobian: f64::INFINITY,
             worst: ElementId(0),
+            poorest: Vec::new(),
             smallest_determinant: f64::INFINITY,
             inverted: Vec::new(),
             slivers: Vec::new(),
@@ -155,12 +161,26 @@ impl Quality {
             self.smallest_scaled_jacobian = scaled;
             self.worst = element;
         }
+        self.rank(element, scaled);
         self.smallest_determinant = minimum(self.smallest_determinant, determinant);
         for edge in edges(kind, corners).flatten() {
             let length = edge.norm();
             self.shortest_edge = self.shortest_edge.min(length);
             self.longest_edge = self.longest_edge.max(length);
         }
+    }
+}
+
+impl Quality {
+    /// Lists an element if it is among the poorest; of equals those with the lowest numbers.
+    fn rank(&mut self, element: ElementId, scaled: f64) {
+        let is_full = self.poorest.len() == POOREST;
+        if is_full && self.poorest.last().is_some_and(|last| last.1 <= scaled) {
+            return;
+        }
+        let at = self.poorest.partition_point(|known| known.1 <= scaled);
+        self.poorest.insert(at, (element, scaled));
+        self.poorest.truncate(POOREST);
     }
 }
 
@@ -237,6 +257,25 @@ mod tests {
         assert!((quality.characteristic_size - 1.0).abs() < 1e-15);
         assert_eq!((quality.shortest_edge, quality.longest_edge), (1.0, 1.0));
         assert!(quality.inverted.is_empty() && quality.slivers.is_empty());
+    }
+
+    #[test]
+    fn the_poorest_elements_are_listed_in_order() {
+        let mut mesh = Block {
+            divisions: [8, 1, 1],
+            ..Block::default()
+        }
+        .mesh()
+        .unwrap();
+        let moved = mesh.corners(ElementId(6))[6];
+        mesh.positions[moved.index()].z += 0.5;
+        let poorest = mesh.quality().poorest;
+        let ids: Vec<usize> = poorest.iter().map(|(element, _)| element.index()).collect();
+        assert_eq!(poorest.len(), POOREST);
+        assert_eq!(poorest[0].0, mesh.quality().worst);
+        assert!(ids[..2].iter().all(|id| [6, 7].contains(id)), "{ids:?}");
+        assert_eq!(ids[2..], [0, 1, 2]);
+        assert!(poorest.windows(2).all(|pair| pair[0].1 <= pair[1].1));
     }
 
     #[test]

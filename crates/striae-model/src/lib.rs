@@ -13,6 +13,7 @@ mod build;
 mod check;
 mod fault;
 mod fit;
+mod motions;
 mod names;
 mod path;
 
@@ -25,6 +26,7 @@ pub use build::{
 pub use check::{Draft, DraftBody, DraftPair, DraftStep, Known, Named, Validate, misshapen};
 pub use fault::{Fault, FaultKind, Faults};
 pub use fit::fitted;
+pub use motions::RigidMotions;
 pub use names::nearest;
 pub use path::{Path, Segment};
 pub use striae_solve::model::*;

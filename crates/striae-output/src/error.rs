@@ -18,6 +18,9 @@ pub enum OutputError {
         /// What is wrong, and where.
         cause: String,
     },
+    /// A file of a run is not what the run wrote.
+    #[error("{} is damaged: it has changed or shrunk since the run wrote it; restore it, or run the deck anew", .0.display())]
+    Damaged(PathBuf),
     /// The folder of a new run holds results.
     #[error("{} holds the results of an earlier run; choose another folder, or replace them with `--overwrite`", .0.display())]
     Occupied(PathBuf),

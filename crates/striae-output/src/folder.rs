@@ -24,13 +24,15 @@ pub enum Existing {
 }
 
 /// Files by which results are known.
-const RESULTS: [&str; 6] = [
+const RESULTS: [&str; 8] = [
     "history.csv",
+    "probes.csv",
     "bodies.pvd",
     "contact.pvd",
     "rigid.pvd",
     "summary.json",
     checkpoint::FILE,
+    checkpoint::END,
 ];
 
 /// A folder that is written by nobody else.

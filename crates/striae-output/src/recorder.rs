@@ -2,10 +2,12 @@
 //!
 //! ```text
 //! DIR/history.csv           a row an increment
-//! DIR/bodies.pvd            displacement, velocity in dynamic steps, Cauchy stress, von Mises stress,
-//!                           named variables of laws with a memory by element
-//! DIR/contact.pvd           gap, pressure, tractions, slip, normal, texture `s`,
-//!                           structural vector `a = n x s`, status, kept, pointed
+//! DIR/probes.csv            the same of places that are watched, see [`crate::Probe`]
+//! DIR/bodies.pvd            fields of bodies, see [`crate::BodyField`], and named variables
+//!                           of laws with a memory by element
+//! DIR/contact.pvd           gap, pressure, tractions, slip, what it has done since the start,
+//!                           normal, texture `s`, structural vector `a = n x s`, status,
+//!                           kept, pointed; wear depth
 //! DIR/rigid.pvd             rigid surfaces: displacement, texture `s`, structural vector
 //! DIR/fields/*.vtu          what the collections list
 //! DIR/summary.json          how the run ended
@@ -22,8 +24,6 @@ use std::{
     time::Instant,
 };
 
-use striae_contact::unknowns::{NodeResult, Status as ContactStatus};
-use striae_mesh::{NodeId, Vec3};
 use striae_solve::{
     drive::Progress, newton::Increment, outcome::Ending, problem::Problem, state::State,
 };
@@ -32,14 +32,24 @@ use crate::{
     FieldOutput, Output, OutputError,
     bodies::body_grid,
     checkpoint::Written,
+    checksums::{Checksums, check, sum},
     folder::{Claim, Existing, remove_fields},
     history::History,
+    probes::Probes,
     rigid::RigidGrid,
     row::row,
     summary::Summary,
+    surfaces::write_surface,
     tally::Tally,
-    vtk::{Array, Cells, Grid, Series, Snapshot, Values, write},
+    vtk::{Series, Snapshot, write},
+    worn::Worn,
 };
+
+/// Tables, which grow.
+const TABLES: [&str; 2] = ["history.csv", "probes.csv"];
+
+/// Time over the interval of fields that is round-off.
+const ROUND_OFF: f64 = 1e-9;
 
 /// Writes the output of one run.
 pub struct Recorder {
@@ -58,6 +68,11 @@ pub struct Recorder {
     started: Instant,
     tally: Tally,
     written: Option<usize>,
+    worn: Worn,
+    /// Places that are watched, once they are found.
+    probes: Option<Probes>,
+    /// Checksums of the files of fields.
+    sums: Checksums,
 }
 
 impl Recorder {
@@ -85,6 +100,9 @@ impl Recorder {
             started: Instant::now(),
             tally: Tally::default(),
             written: None,
+            worn: Worn::default(),
+            probes: None,
+            sums: Checksums::new(),
         })
     }
 
@@ -99,6 +117,9 @@ impl Recorder {
         written: &Written,
     ) -> Result<Self, OutputError> {
         let claim = Claim::of(folder)?;
+        check(folder, &written.sums)?;
+        let fields = written.sums.iter();
+        let fields = fields.filter(|(name, _)| !TABLES.contains(&name.as_str()));
         let rows = written.iterations.len();
         if written.fields != Some(rows) {
             remove_fields(&folder.join("fields"), rows)?;
@@ -124,13 +145,26 @@ impl Recorder {
                 judgement: written.judgement.clone(),
             },
             written: written.fields,
+            worn: written.worn.clone(),
+            probes: None,
+            sums: fields.cloned().collect(),
         })
     }
 
     /// What is on disk, for a checkpoint.
-    pub fn written(&self) -> Written {
+    ///
+    /// # Errors
+    /// When a file cannot be read back.
+    pub fn written(&self) -> Result<Written, OutputError> {
         let tally = &self.tally;
-        Written {
+        let mut sums = self.sums.clone();
+        for name in TABLES
+            .into_iter()
+            .filter(|name| self.folder.join(name).exists())
+        {
+            sums.push(sum(&self.folder, Path::new(name))?);
+        }
+        Ok(Written {
             iterations: tally.iterations.clone(),
             cut_backs: tally.cut_backs,
             unknowns: tally.unknowns,
@@ -140,7 +174,27 @@ impl Recorder {
             series: [&self.bodies, &self.contact, &self.rigid]
                 .map(|series| series.snapshots().to_vec()),
             judgement: tally.judgement.clone(),
+            worn: self.worn.clone(),
+            sums,
+        })
+    }
+
+    /// Notes checksums of the fields that were written last.
+    fn sum_up(&mut self) -> Result<(), OutputError> {
+        for series in [&self.bodies, &self.contact, &self.rigid] {
+            for (_, file) in series
+                .snapshots()
+                .last()
+                .into_iter()
+                .flat_map(|last| &last.parts)
+            {
+                let noted = sum(&self.folder, file)?;
+                if !self.sums.contains(&noted) {
+                    self.sums.push(noted);
+                }
+            }
         }
+        Ok(())
     }
 
     /// Whether a checkpoint is due after so many increments.
@@ -173,7 +227,8 @@ impl Recorder {
         }
         self.written = Some(0);
         self.write_bodies(problem, state, 0)?;
-        self.write_rigid(problem, state, 0)
+        self.write_rigid(problem, state, 0)?;
+        self.sum_up()
     }
 
     /// Writes a converged increment.
@@ -190,12 +245,51 @@ impl Recorder {
         let row = row(problem, progress, increment, self.tally.cut_backs);
         let named: Vec<(&str, f64)> = row.iter().map(|(n, v)| (n.as_str(), *v)).collect();
         self.history.append(&named)?;
-        match self.output.fields {
-            FieldOutput::Every(every) if progress.increment.is_multiple_of(every.get()) => {
-                self.write_fields(problem, &increment.state)
-            }
-            FieldOutput::Every(_) | FieldOutput::Last => Ok(()),
+        self.worn.add(&increment.state);
+        self.watch(problem, progress, &increment.state)?;
+        let is_due = match self.output.fields {
+            FieldOutput::Every(every) => progress.increment.is_multiple_of(every.get()),
+            FieldOutput::Interval(interval) => self.has_passed(interval, increment.state.time),
+            FieldOutput::Last => false,
+        };
+        match is_due {
+            true => self.write_fields(problem, &increment.state),
+            false => Ok(()),
         }
+    }
+
+    /// Whether a multiple of the interval lies between the last fields and now.
+    fn has_passed(&self, interval: f64, time: f64) -> bool {
+        let series = [&self.bodies, &self.contact, &self.rigid];
+        let last = series
+            .into_iter()
+            .flat_map(|series| series.snapshots().last());
+        let last = last.map(|snapshot| snapshot.time).fold(0.0, f64::max);
+        let multiples = |time: f64| (time / interval * (1.0 + ROUND_OFF)).floor();
+        multiples(time) > multiples(last)
+    }
+
+    /// Writes the row of all probes.
+    fn watch(
+        &mut self,
+        problem: &Problem,
+        progress: Progress,
+        state: &State,
+    ) -> Result<(), OutputError> {
+        if self.output.probes.is_empty() {
+            return Ok(());
+        }
+        let before = self.tally.iterations.len() - 1;
+        let file = match &mut self.probes {
+            Some(known) => known,
+            none => none.insert(Probes::open(
+                self.folder.join("probes.csv"),
+                problem,
+                &self.output.probes,
+                before,
+            )?),
+        };
+        file.append(problem, progress, state)
     }
 
     /// Writes the last fields, if they are not there, and the summary.
@@ -223,7 +317,8 @@ impl Recorder {
         self.written = Some(count);
         self.write_bodies(problem, state, count)?;
         self.write_rigid(problem, state, count)?;
-        self.write_contact(problem, state, count)
+        self.write_contact(problem, state, count)?;
+        self.sum_up()
     }
 
     fn write_bodies(
@@ -233,10 +328,18 @@ impl Recorder {
         count: usize,
     ) -> Result<(), OutputError> {
         let mut parts = Vec::new();
+        let chosen = self.output.bodies.as_ref();
         for (body, model) in problem.model.bodies.iter().enumerate() {
+            if chosen.is_some_and(|chosen| !chosen.contains(&model.name)) {
+                continue;
+            }
             let file = PathBuf::from(format!("fields/{}-{count:05}.vtu", model.name));
-            write(&self.folder.join(&file), &body_grid(problem, state, body))?;
+            let grid = body_grid(problem, state, body, &self.output.body_fields);
+            write(&self.folder.join(&file), &grid)?;
             parts.push((model.name.clone(), file));
+        }
+        if parts.is_empty() {
+            return Ok(());
         }
         let time = state.time;
         self.bodies.append(Snapshot { time, parts })
@@ -277,7 +380,10 @@ impl Recorder {
                 let pair_name = &problem.model.pairs[pair].name;
                 let name = format!("{pair_name}-{}", problem.model.bodies[body].name);
                 let file = PathBuf::from(format!("fields/contact-{name}-{count:05}.vtu"));
-                write_surface(&self.folder.join(&file), problem, state, pair, side)?;
+                let nodes = state.pairs[pair].nodes[side].len();
+                let worn = self.worn.of(pair, side, nodes);
+                let wear = (&worn[..], self.output.wear_coefficient);
+                write_surface(&self.folder.join(&file), problem, state, pair, side, wear)?;
                 parts.push((name, file));
             }
         }
@@ -286,71 +392,4 @@ impl Recorder {
         }
         self.contact.append(Snapshot { time, parts })
     }
-}
-
-fn write_surface(
-    path: &Path,
-    problem: &Problem,
-    state: &State,
-    pair: usize,
-    side: usize,
-) -> Result<(), OutputError> {
-    let geometry = &problem.pairs[pair];
-    let Some(surface) = geometry.contact.sides[side].surface() else {
-        return Ok(());
-    };
-    let global = |node: usize| problem.surface_node(pair, side, node as u32);
-    let count = surface.nodes().len();
-    let points: Vec<Vec3> = (0..count)
-        .filter_map(global)
-        .map(|n| state.positions[n])
-        .collect();
-    let quads: Vec<[NodeId; 4]> = surface
-        .facets()
-        .iter()
-        .map(|corners| corners.map(NodeId))
-        .collect();
-    let nodes = &state.pairs[pair].nodes[side];
-    let scalars = |f: fn(&NodeResult) -> f64| Values::Scalars(nodes.iter().map(f).collect());
-    let vectors = |f: fn(&NodeResult) -> Vec3| Values::Vectors(nodes.iter().map(f).collect());
-    let status = nodes.iter().map(|node| match node.status {
-        ContactStatus::Open => 0,
-        ContactStatus::Stick => 1,
-        ContactStatus::Slip => 2,
-    });
-    // Points of a rigid side lodge with nodes of side `a`.
-    let lodged = &state.pairs[pair].points;
-    let lodges = |node: usize| side == 0 && lodged.get(node).is_some_and(Option::is_some);
-    let own = state.pairs[pair].pointed[side].iter().enumerate();
-    let pointed = own.map(|(node, own)| u8::from(*own) + 2 * u8::from(lodges(node)));
-    let codes = |nodes: &[bool]| Values::Codes(nodes.iter().copied().map(u8::from).collect());
-    let kept = &state.pairs[pair].kept;
-    let grid = Grid {
-        points: &points,
-        cells: Cells::Quadrilaterals(&quads),
-        point_arrays: vec![
-            Array::new("gap", scalars(|node| node.gap)),
-            Array::new("pressure", scalars(|node| node.pressure)),
-            Array::new(
-                "traction",
-                vectors(|node| node.tau - node.normal * node.pressure),
-            ),
-            Array::new("friction_traction", vectors(|node| node.tau)),
-            Array::new("mean_pressure", scalars(NodeResult::mean_pressure)),
-            Array::new("mean_traction", vectors(|node| node.mean)),
-            Array::new("slip", vectors(|node| node.slip)),
-            Array::new("normal", vectors(|node| node.normal)),
-            Array::new("texture", vectors(|node| node.texture)),
-            Array::new(
-                "structural_vector",
-                vectors(|node| node.normal.cross(&node.texture)),
-            ),
-            Array::new("status", Values::Codes(status.collect())),
-            Array::new("kept", codes(&kept[side])),
-            Array::new("pointed", Values::Codes(pointed.collect())),
-        ],
-        cell_arrays: Vec::new(),
-        time: state.time,
-    };
-    write(path, &grid)
 }

@@ -89,4 +89,6 @@ fn add_pair(row: &mut Vec<(String, f64)>, report: &PairReport) {
     row.push((format!("{name}.open"), report.open as f64));
     row.push((format!("{name}.max_pressure"), report.max_pressure));
     row.push((format!("{name}.dissipated"), report.dissipated));
+    row.push((format!("{name}.area"), report.sides[0].pressed));
+    add_vector(row, &format!("{name}.centre"), &report.sides[0].centre);
 }

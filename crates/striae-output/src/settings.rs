@@ -2,30 +2,94 @@
 
 use std::num::NonZeroUsize;
 
+use striae_mesh::Vec3;
+
 /// What a run writes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Output {
     /// When fields are written.
     pub fields: FieldOutput,
+    /// Names of the bodies whose fields are written; `None`: all.
+    pub bodies: Option<Vec<String>>,
+    /// Fields of bodies.
+    pub body_fields: Vec<BodyField>,
+    /// Archard's coefficient `k`, wear depth over pressure and slip; `None`: wear is not
+    /// written.
+    pub wear_coefficient: Option<f64>,
+    /// What is written to `probes.csv` after every increment.
+    pub probes: Vec<Probe>,
     /// Increments between checkpoints; `None`: only when interrupted.
     pub checkpoint_every: Option<NonZeroUsize>,
 }
 
-/// Fields after every increment, checkpoints after every ten.
+/// Fields of all bodies after every increment, checkpoints after every ten.
 impl Default for Output {
     fn default() -> Self {
         Self {
             fields: FieldOutput::Every(NonZeroUsize::MIN),
+            bodies: None,
+            body_fields: BodyField::USUAL.to_vec(),
+            wear_coefficient: None,
+            probes: Vec::new(),
             checkpoint_every: NonZeroUsize::new(10),
         }
     }
 }
 
 /// When fields are written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FieldOutput {
     /// After every so many increments, and after the last.
     Every(NonZeroUsize),
+    /// After the first increment that reaches each multiple of a time, and after the last.
+    Interval(f64),
     /// After the last increment only.
     Last,
+}
+
+/// A field of a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BodyField {
+    /// Displacement.
+    Displacement,
+    /// Velocity, in dynamic steps.
+    Velocity,
+    /// Cauchy stress.
+    CauchyStress,
+    /// Equivalent stress of von Mises.
+    VonMises,
+    /// Principal values of the Cauchy stress, the largest first.
+    PrincipalStress,
+    /// Stored energy per reference volume of the elements at each node.
+    StrainEnergyDensity,
+}
+
+impl BodyField {
+    /// What is written unless something else is chosen.
+    pub const USUAL: [Self; 4] = [
+        Self::Displacement,
+        Self::Velocity,
+        Self::CauchyStress,
+        Self::VonMises,
+    ];
+}
+
+/// A place of a body that is watched.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Probe {
+    /// Name of its columns.
+    pub name: String,
+    /// Name of the body.
+    pub body: String,
+    /// Where it is.
+    pub place: ProbePlace,
+}
+
+/// Where a probe is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ProbePlace {
+    /// A material point, by its place in the reference configuration.
+    Point(Vec3),
+    /// The mean over the nodes of a set.
+    Nodes(String),
 }

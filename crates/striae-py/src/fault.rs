@@ -1,6 +1,6 @@
 //! Faults of the library as the exceptions of the package.
 
-use pyo3::{exceptions::PyRuntimeError, prelude::*};
+use pyo3::{exceptions::{PyMemoryError, PyRuntimeError}, prelude::*};
 use striae::Error;
 
 /// `striae.ModelError` with these faults, each a path and a message.
@@ -39,6 +39,7 @@ pub fn raised(error: Error, place: &str) -> PyErr {
             });
             model_error(told.collect())
         }
+        Error::Memory { .. } => PyMemoryError::new_err(error.to_string()),
         Error::Output(_)
         | Error::Checkpoint(_)
         | Error::Figure(_)

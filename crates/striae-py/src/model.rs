@@ -122,7 +122,7 @@ impl Model {
         let model = extended((*self.model).clone(), steps);
         let model = model.map_err(|faults| model_faults(&faults))?;
         Ok(Self {
-            output: self.output,
+            output: self.output.clone(),
             ..Self::of(model)
         })
     }

@@ -150,7 +150,7 @@ pub fn run(
     watching: Watching,
     recording: Option<Recording>,
 ) -> PyResult<Ended> {
-    let (of, output) = (model.model.clone(), model.output);
+    let (of, output) = (model.model.clone(), model.output.clone());
     let simulation = py.detach(|| Simulation::new((*of).clone()));
     let simulation = simulation.map_err(|error| raised(error, "model"))?;
     let simulation = recorded(simulation, output, recording, model.deck.clone());

@@ -7,6 +7,7 @@
 
 mod close;
 mod reach;
+mod translation;
 
 use striae_contact::{
     configuration::Configuration,
@@ -25,6 +26,7 @@ use crate::{
 
 pub use close::close;
 pub use reach::may_meet;
+pub use translation::nearest_approach;
 
 /// Overlap over the local facet size that is no fault of the mesh.
 pub const LARGEST_OVERLAP: f64 = 0.02;

@@ -14,6 +14,7 @@ pub mod model;
 pub mod newton;
 pub mod norms;
 pub mod outcome;
+pub mod painting;
 pub mod plan;
 pub mod problem;
 pub mod repetition;

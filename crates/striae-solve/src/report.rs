@@ -44,6 +44,10 @@ pub struct SideReport {
     pub friction: f64,
     /// Covered area.
     pub area: f64,
+    /// Area that belongs to nodes under pressure.
+    pub pressed: f64,
+    /// Centre of pressure: `integral p x da` over that of `p`; zero without pressure.
+    pub centre: Vec3,
 }
 
 /// Reports of all pairs.
@@ -187,17 +191,43 @@ fn side(problem: &Problem, state: &State, pair: usize, side: usize) -> SideRepor
     let Some(surface) = problem.pairs[pair].contact.sides[side].surface() else {
         return sum;
     };
+    let mut normal = 0.0;
     let facets: &[(FacetId, FacetForces)] = &state.pairs[pair].facets[side];
     for (facet, forces) in facets {
         sum.pressure += forces.pressure;
         sum.friction += forces.friction;
         sum.area += forces.area.iter().sum::<f64>();
-        for (corner, force) in surface.facets()[facet.index()].iter().zip(&forces.force) {
+        let corners = &surface.facets()[facet.index()];
+        for (corner, area) in corners.iter().zip(&forces.area) {
+            let node = &state.pairs[pair].nodes[side][*corner as usize];
+            sum.pressed += if node.pressure > 0.0 { *area } else { 0.0 };
+        }
+        let n = normal_of(problem, state, (pair, side), corners);
+        for (corner, force) in corners.iter().zip(&forces.force) {
             if let Some(node) = problem.surface_node(pair, side, *corner) {
                 sum.force += force;
                 sum.moment += state.positions[node].cross(force);
+                normal -= force.dot(&n);
+                sum.centre -= state.positions[node] * force.dot(&n);
             }
         }
     }
+    sum.centre = match normal > 0.0 {
+        true => sum.centre / normal,
+        false => Vec3::zeros(),
+    };
     sum
+}
+
+/// Unit normal of a facet, by its diagonals.
+fn normal_of(
+    problem: &Problem,
+    state: &State,
+    (pair, side): (usize, usize),
+    corners: &[u32; 4],
+) -> Vec3 {
+    let at = |corner: u32| problem.surface_node(pair, side, corner);
+    let [a, b, c, d] =
+        corners.map(|corner| at(corner).map_or(Vec3::zeros(), |n| state.positions[n]));
+    (c - a).cross(&(d - b)).normalize()
 }

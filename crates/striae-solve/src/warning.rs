@@ -480,7 +480,7 @@ pub fn warnings_at_start(model: &Model, fits: &[Option<Fit>]) -> Vec<Warning> {
                 limit: 0.0,
                 time: 0.0,
                 text: format!(
-                    "pair `{name}` can never meet: `{a}` and `{b}` are {distance:.3e} apart, and no prescribed displacement goes as far"
+                    "pair `{name}` can never meet: `{a}` and `{b}` are {distance:.3e} apart, and no prescribed displacement closes that"
                 ),
             });
         }

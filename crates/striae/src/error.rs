@@ -25,6 +25,19 @@ pub enum Error {
     /// The model cannot be solved.
     #[error(transparent)]
     Problem(#[from] ProblemError),
+    /// The machine has not the memory.
+    #[error(
+        "{unknowns} unknowns take about {:.1} GB, and {:.1} GB are available; choose `backend = \"iterative\"` where another one is stated, a coarser mesh, or a larger machine",
+        needed / 1e9, available / 1e9
+    )]
+    Memory {
+        /// Unknowns of a linear system.
+        unknowns: usize,
+        /// Bytes that it takes, by formula.
+        needed: f64,
+        /// Bytes that there are.
+        available: f64,
+    },
     /// A run cannot be taken up again.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),

@@ -120,6 +120,9 @@
 //! # Ok(()) }
 //! ```
 //!
+//! [`Advice`](advice::Advice) goes further: it says what a valid model is, and what
+//! about it looks like a mistake.
+//!
 //! # Laws of one's own
 //!
 //! A friction law implements [`FrictionLaw`](law::friction::FrictionLaw), a bulk law
@@ -192,6 +195,7 @@
 //! [`nalgebra`] and [`num_dual`], which are handed on. The `striae` program is a client of
 //! this crate.
 
+pub mod advice;
 mod beside;
 mod error;
 pub mod figures;

@@ -12,7 +12,7 @@ use striae_output::{
 };
 use striae_solve::{
     drive::{Point, Progress},
-    newton::Increment,
+    newton::{Increment, Memory as Grown},
     outcome::Ending,
     problem::Problem,
     state::State,
@@ -149,10 +149,44 @@ impl Log {
         };
         let checkpoint = Checkpoint {
             source,
-            written: files.recorder.written(),
+            written: files.recorder.written()?,
             point,
         };
         checkpoint.write(&files.recording.folder)
+    }
+
+    /// Writes the checkpoint of the end of a run, from which it can go on with other
+    /// steps, where there are any.
+    pub(crate) fn end(
+        &self,
+        problem: &Problem,
+        increments: usize,
+        state: &State,
+    ) -> Result<(), OutputError> {
+        let Self::Files(files) = self else {
+            return Ok(());
+        };
+        let (Some(source), Some(step)) = (
+            files.recording.source.clone(),
+            problem.model.steps.len().checked_sub(1),
+        ) else {
+            return Ok(());
+        };
+        let checkpoint = Checkpoint {
+            source,
+            written: files.recorder.written()?,
+            point: Point {
+                step,
+                increments,
+                fraction: 1.0,
+                size: 1.0,
+                search: Vec::new(),
+                start: state.clone(),
+                state: state.clone(),
+                memory: Grown::default(),
+            },
+        };
+        checkpoint.write_end(&files.recording.folder)
     }
 
     /// Summary and history of a run that has ended.

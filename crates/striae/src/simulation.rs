@@ -6,10 +6,12 @@
 //!           ::open(path)       a deck in a file, whose run can be resumed
 //!           ::resume(folder)   a run that was stopped
 //!           ::after(run, steps) a run that has ended, with further steps
+//!           ::resume_with(folder, deck) a run with the steps of another deck
 //!     .writing(output).recorded(folder, case).until(interrupt)
 //!     .run() or .run_with(observer) -> Finished
 //! ```
 
+mod branch;
 mod watch;
 
 use std::{
@@ -20,8 +22,11 @@ use std::{
 use striae_deck::Deck;
 use striae_model::{Model, StepBuilder, Validate, extended};
 use striae_output::{
-    Existing, Output,
-    checkpoint::{self, Checkpoint, CheckpointError, Source, Written, fingerprint},
+    Existing, Output, available_bytes,
+    checkpoint::{
+        self, Checkpoint, CheckpointError, Source, Written, fingerprint, part_fingerprints,
+        step_fingerprints,
+    },
     history::Table,
     summary::Summary,
 };
@@ -33,6 +38,7 @@ use striae_solve::{
 };
 
 use crate::{
+    advice::Cost,
     beside,
     error::Error,
     interrupt::Interrupt,
@@ -59,6 +65,8 @@ enum Begun {
     Undeformed,
     /// After so many steps and increments of an earlier run, in the state it came to.
     After(Box<(usize, usize, State)>),
+    /// Where a run was stopped, in files of its own.
+    Within(Box<Point>),
     /// Where a recorded run was stopped.
     Stopped(Box<(Written, Point)>),
 }
@@ -105,6 +113,9 @@ impl Simulation {
     }
 
     fn of_valid(model: Model) -> Result<Self, Error> {
+        if let Some(available) = available_bytes() {
+            Cost::estimated(&model).fits(available)?;
+        }
         Ok(Self {
             problem: Arc::new(Problem::new(model)?),
             output: Output::default(),
@@ -153,7 +164,7 @@ impl Simulation {
             written,
             point,
         } = checkpoint;
-        source.check(&deck.model, deck.output)?;
+        source.check(&deck.model, &deck.output)?;
         let mut simulation = Self::of(deck)?;
         let states = [&point.start, &point.state];
         if !(states.iter()).all(|state| state.remembers_as(&simulation.problem)) {
@@ -215,7 +226,9 @@ impl Simulation {
         let source = Source {
             case: case.clone(),
             path: std::path::absolute(deck).unwrap_or_else(|_| deck.to_owned()),
-            fingerprint: fingerprint(&self.problem.model, self.output),
+            fingerprint: fingerprint(&self.problem.model, &self.output),
+            parts: part_fingerprints(&self.problem.model),
+            steps: step_fingerprints(&self.problem.model),
         };
         let mut simulation = self.recorded(folder, case);
         if let Some(recording) = &mut simulation.recording {
@@ -279,6 +292,7 @@ impl Simulation {
         let (start, before) = match &begun {
             Begun::Undeformed => (State::undeformed(&problem), 0),
             Begun::After(after) => (after.2.clone(), after.1),
+            Begun::Within(point) => (point.state.clone(), point.increments),
             Begun::Stopped(stopped) => (stopped.1.state.clone(), stopped.1.increments),
         };
         if !matches!(begun, Begun::Stopped(_)) {
@@ -300,6 +314,7 @@ impl Simulation {
                 let (steps, increments, _) = *after;
                 drive::run_after(&problem, steps, start, increments, &mut watch)
             }
+            Begun::Within(point) => drive::resume(&problem, *point, &mut watch),
             Begun::Stopped(stopped) => drive::resume(&problem, stopped.1, &mut watch),
         };
         let Watch {
@@ -311,6 +326,9 @@ impl Simulation {
         } = watch;
         if let Some(failure) = failure {
             return Err(failure.into());
+        }
+        if ending == Ending::Completed {
+            log.end(&problem, increments, &state)?;
         }
         let (summary, history) = log.finish(&problem, &state, &ending)?;
         Ok(Finished {

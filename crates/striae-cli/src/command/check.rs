@@ -1,49 +1,60 @@
-//! `striae check DECK`: validation and a summary of what would be simulated.
+//! `striae check DECK`: validation, a summary of what would be simulated, and advice; see
+//! [`striae::advice`].
 
 use crate::failure::Failure;
 use std::{collections::BTreeSet, io::Write, path::PathBuf};
-use striae_contact::{initial::Fit, interference::Spot};
+use striae::advice::Advice;
 use striae_deck as deck;
 use striae_law::bulk::LameConstants;
-use striae_mesh::{NodeId, Vec3};
+use striae_mesh::NodeId;
 use striae_solve::{
-    initial::{ROUND_OFF, fits, other_name, surface_node},
-    model::{Body, Formulation, Model, Pair, PairId, RigidShape, RigidSurface, Side},
-    newton::{Analysis, Estimate, estimate},
-    problem::Problem,
+    model::{Body, Formulation, Model, Pair, RigidShape, RigidSurface, Side},
     stabilisation::first_increment,
-    warning::warnings_at_start,
 };
 
-/// Check a deck and summarise what it describes.
+/// Check a deck: its faults, or what it describes, with warnings and notes.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// The deck.
     pub deck: PathBuf,
 }
 
-/// Reads the deck and prints the summary.
+/// Reads the deck and prints the summary and the advice.
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let deck = deck::read(&arguments.deck)?;
-    write!(out, "{}", summary(&deck.model)?)?;
-    Ok(())
+    let advice = Advice::of(&deck.model);
+    write!(out, "{}", summary(&deck.model, &advice))?;
+    match advice.faults.len() {
+        0 => Ok(()),
+        count => Err(Failure::Impossible(count)),
+    }
 }
 
-fn summary(model: &Model) -> Result<String, Failure> {
+fn summary(model: &Model, advice: &Advice) -> String {
     let mut lines = vec![model.title.clone()];
     lines.extend(model.bodies.iter().map(body_line));
     lines.extend(model.rigid_surfaces.iter().map(rigid_line));
-    let fits = fits(model);
-    for (index, (pair, fit)) in model.pairs.iter().zip(&fits).enumerate() {
-        lines.push(pair_line(pair, model));
-        lines.extend(fit.iter().map(|fit| fit_line(model, PairId(index), fit)));
-    }
+    lines.extend(model.pairs.iter().map(|pair| pair_line(pair, model)));
     lines.extend((0..model.steps.len()).map(|step| step_line(model, step)));
-    lines.extend(size_lines(model)?);
-    let warnings = warnings_at_start(model, &fits);
-    lines.extend(warnings.iter().map(|warning| format!("warning: {warning}")));
-    lines.push("no faults".into());
-    Ok(lines.join("\n") + "\n")
+    for (class, remarks) in [
+        ("note", &advice.notes),
+        ("warning", &advice.warnings),
+        ("fault", &advice.faults),
+    ] {
+        lines.extend(remarks.iter().map(|remark| format!("{class}: {remark}")));
+    }
+    let counted = |count: usize, one: &str| match count {
+        0 => format!("no {one}s"),
+        1 => format!("1 {one}"),
+        _ => format!("{count} {one}s"),
+    };
+    let [faults, warnings] = [&advice.faults, &advice.warnings].map(Vec::len);
+    lines.push(format!(
+        "{}, {}",
+        counted(faults, "fault"),
+        counted(warnings, "warning")
+    ));
+    lines.join("\n") + "\n"
 }
 
 fn body_line(body: &Body) -> String {
@@ -54,11 +65,10 @@ fn body_line(body: &Body) -> String {
         Formulation::MeanDilatation => " with mean dilatation",
     };
     format!(
-        "  body `{}`: {} nodes, {} elements{formulation}, smallest scaled Jacobian {:.3}; {law}, lambda = {lambda:.6e}, G = {shear:.6e}",
+        "  body `{}`: {} nodes, {} elements{formulation}; {law}, lambda = {lambda:.6e}, G = {shear:.6e}",
         body.name,
         body.mesh.positions.len(),
         body.mesh.element_count(),
-        body.mesh.quality().smallest_scaled_jacobian,
     )
 }
 
@@ -92,47 +102,6 @@ fn pair_line(pair: &Pair, model: &Model) -> String {
     format!("  pair `{}`: {a} and {b}{stabilised}", pair.name)
 }
 
-/// Smallest gap and deepest overlap of a pair, and where.
-fn fit_line(model: &Model, pair: PairId, fit: &Fit) -> String {
-    let at = |side: usize, spot: Spot, x: &Vec3| {
-        let spot = match spot {
-            Spot::Node(node) => surface_node(model, pair, side, node).map(|node| node.to_string()),
-            Spot::Centre(facet) => Some(format!("the centre of {facet}")),
-        };
-        format!(
-            "{} of `{}` ({:.6}, {:.6}, {:.6})",
-            spot.unwrap_or_default(),
-            other_name(model, pair, 1 - side),
-            x.x,
-            x.y,
-            x.z
-        )
-    };
-    let gap = match &fit.gap {
-        Some(gap) => {
-            let place = at(gap.side, gap.spot, &gap.point);
-            format!("smallest gap {:.3e} at {place}", gap.gap)
-        }
-        None => format!(
-            "the sides do not face each other; nearest distance {:.3e}",
-            fit.distance
-        ),
-    };
-    let overlap = fit
-        .overlap
-        .as_ref()
-        .filter(|overlap| overlap.share() > ROUND_OFF);
-    let overlap = overlap.map_or("no overlap".into(), |overlap| {
-        let place = at(overlap.side, overlap.spot, &overlap.point);
-        let share = 100.0 * overlap.share();
-        format!(
-            "largest overlap {:.3e} ({share:.1} % of the facet size) at {place}",
-            overlap.depth
-        )
-    });
-    format!("    {gap}; {overlap}")
-}
-
 fn step_line(model: &Model, index: usize) -> String {
     let step = &model.steps[index];
     let first = first_increment(model, index);
@@ -156,49 +125,20 @@ fn side_nodes(side: &Side, model: &Model) -> BTreeSet<NodeId> {
     }
 }
 
-/// Unknowns of the first linear system, and what solvers take for it.
-fn size_lines(model: &Model) -> Result<Vec<String>, Failure> {
-    let problem = Problem::new(model.clone())?;
-    let Estimate {
-        unknowns,
-        analysis,
-        others,
-    } = match estimate(&problem) {
-        Ok(estimate) => estimate,
-        Err(reason) => {
-            return Ok(vec![format!(
-                "  the undeformed state cannot be evaluated: {reason}"
-            )]);
-        }
-    };
-    let cost = |analysis: &Analysis| {
-        let megabytes = analysis.peak_bytes as f64 / 1e6;
-        format!("{megabytes:.1} MB and {:.1e} operations", analysis.flops)
-    };
-    let mut lines = vec![format!(
-        "  unknowns {unknowns} at the start; a factorisation ({}) takes about {}",
-        analysis.method,
-        cost(&analysis)
-    )];
-    let other = |other: &Analysis| format!("    otherwise by {}: {}", other.method, cost(other));
-    lines.extend(others.iter().map(other));
-    Ok(lines)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use std::path::Path;
     use striae_contact::selection::{Before, Selection};
-    use striae_solve::{assembly::StepContext, state::State};
+    use striae_solve::{assembly::StepContext, problem::Problem, state::State};
 
     #[test]
     fn the_summary_counts_what_the_deck_describes() {
         let text = include_str!("template.toml");
         let deck = deck::parse(text, "deck.toml", Path::new("")).unwrap();
-        let said = summary(&deck.model).unwrap();
+        let said = summary(&deck.model, &Advice::of(&deck.model));
         assert!(
-            said.contains("body `lower`: 75 nodes, 32 elements, smallest scaled Jacobian 1.000"),
+            said.contains("body `lower`: 75 nodes, 32 elements; neo-Hookean"),
             "{said}"
         );
         assert!(said.contains(
@@ -209,7 +149,13 @@ mod tests {
         let tractions = 3 * kept_at_the_start(&deck.model);
         let unknowns = format!("unknowns {} at", displacements + tractions);
         assert!(said.contains(&unknowns), "{unknowns}: {said}");
-        for method in ["(condensed) takes", "by multifrontal: ", "by iterative: "] {
+        for method in [
+            "(condensed) takes",
+            "by multifrontal: ",
+            "by iterative: ",
+            "smallest scaled Jacobian 1.000",
+            "\nno faults, no warnings\n",
+        ] {
             assert!(said.contains(method), "{said}");
         }
     }

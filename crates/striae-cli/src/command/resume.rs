@@ -1,17 +1,31 @@
-//! `striae resume DIR`: goes on with a run that was stopped, to the same results.
+//! `striae resume DIR`: goes on with a run that was stopped, to the same results, or with
+//! other steps.
 
-use std::{io::Write, path::PathBuf};
+use std::{
+    io::Write,
+    path::{Path, PathBuf},
+};
 
-use striae::Simulation;
+use striae::{Simulation, case_name};
+use striae_output::Existing;
 
 use super::run::{Common, Reported, concluded, watched};
 use crate::failure::Failure;
 
-/// Go on with a run from its last checkpoint.
+/// Go on with a run from its last checkpoint, as it was or with other steps.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// Folder of the run.
     folder: PathBuf,
+    /// A deck with the same bodies and pairs, which begins with the steps that are done.
+    #[arg(long, value_name = "DECK")]
+    with: Option<PathBuf>,
+    /// Folder for the output of the other steps; by default results/NAME of that deck.
+    #[arg(long, requires = "with")]
+    out: Option<PathBuf>,
+    /// Remove the results of an earlier run from that folder first.
+    #[arg(long, requires = "with")]
+    overwrite: bool,
     #[command(flatten)]
     common: Common,
     #[command(flatten)]
@@ -21,9 +35,27 @@ pub struct Arguments {
 /// Goes on from the checkpoint in the folder and prints what came of it.
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     arguments.common.start_threads()?;
-    let simulation = Simulation::resume(&arguments.folder)?;
-    let report = arguments.report.of(&arguments.folder);
+    let (simulation, folder) = match &arguments.with {
+        None => (
+            Simulation::resume(&arguments.folder)?,
+            arguments.folder.clone(),
+        ),
+        Some(deck) => branched(arguments, deck)?,
+    };
+    let report = arguments.report.of(&folder);
     let finished = watched(simulation, arguments.common.verbosity(), report)?;
     let strictness = arguments.common.strictness();
-    concluded(finished, &arguments.folder, strictness, out)
+    concluded(finished, &folder, strictness, out)
+}
+
+/// The run with other steps, and its folder.
+fn branched(arguments: &Arguments, deck: &Path) -> Result<(Simulation, PathBuf), Failure> {
+    let own = || Path::new("results").join(case_name(deck));
+    let folder = arguments.out.clone().unwrap_or_else(own);
+    let existing = match arguments.overwrite {
+        true => Existing::Replace,
+        false => Existing::Keep,
+    };
+    let simulation = Simulation::resume_with(&arguments.folder, deck, &folder)?;
+    Ok((simulation.over(existing), folder))
 }

@@ -6,7 +6,7 @@ use std::{
 };
 
 use striae::{Finished, Simulation, case_name};
-use striae_output::{Existing, summary::Summary};
+use striae_output::{Existing, checkpoint::FILE, summary::Summary};
 use striae_solve::outcome::Ending;
 
 use crate::{
@@ -154,11 +154,13 @@ pub fn concluded(
             Err(Failure::Warned(warnings.len()))
         }
         Ending::Completed => Ok(()),
-        Ending::Interrupted { time } => Err(Failure::Interrupted {
+        Ending::Interrupted { time } if folder.join(FILE).exists() => Err(Failure::Interrupted {
             time,
             folder: folder.to_owned(),
         }),
-        ending @ Ending::Stopped { .. } => Err(Failure::Ended(Box::new(ending))),
+        ending @ (Ending::Stopped { .. } | Ending::Interrupted { .. }) => {
+            Err(Failure::Ended(Box::new(ending)))
+        }
     }
 }
 

@@ -12,6 +12,7 @@ mod listed;
 mod material;
 mod mesh;
 mod nodal;
+mod output;
 mod place;
 mod rigid;
 mod sets;
@@ -33,12 +34,11 @@ use contact::LoweredPair;
 pub(super) use friction::friction;
 use listed::Listed;
 use place::StepSpans;
-use std::{num::NonZeroUsize, path::Path};
+use std::path::Path;
 use step::LoweredStep;
 use striae_model::{
     Draft, DraftPair, DraftStep, Fault, FaultKind as ModelFault, Known, Named, fitted,
 };
-use striae_output::{FieldOutput, Output};
 use striae_solve::model::{Backend, Model, RigidSurface, Solver, Strategy};
 
 /// What the parts of a deck refer to by name.
@@ -64,11 +64,15 @@ pub(super) fn deck(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_
     if !faults.is_empty() {
         return None;
     }
+    let output = output::output(raw.output.as_ref(), &parts.bodies, faults);
+    if !faults.is_empty() {
+        return None;
+    }
     let model = parts.model(raw)?;
     let fitted = fitted(model).map_err(|found| note(found, raw, &spans, faults));
     Some(Deck {
         model: fitted.ok()?,
-        output: output(raw.output.as_ref().map(|output| &output.value)),
+        output,
     })
 }
 
@@ -249,18 +253,5 @@ fn strategy(raw: Option<&raw::SolverSettings>) -> Strategy {
                 .map_or(0.01, |share| share.value.0),
         },
         Some(_) | None => Strategy::Semismooth,
-    }
-}
-
-fn output(raw: Option<&raw::OutputSettings>) -> Output {
-    let every = raw
-        .and_then(|raw| raw.fields_every.as_ref())
-        .map_or(1, |every| every.value.0);
-    let checkpoint_every = raw
-        .and_then(|raw| raw.checkpoint_every.as_ref())
-        .map_or(10, |every| every.value.0);
-    Output {
-        fields: NonZeroUsize::new(every).map_or(FieldOutput::Last, FieldOutput::Every),
-        checkpoint_every: NonZeroUsize::new(checkpoint_every),
     }
 }

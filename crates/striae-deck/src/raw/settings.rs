@@ -1,8 +1,9 @@
 //! `[output]` and `[solver]`.
 
 use crate::{
-    declare::{choice, table, words},
-    value::{Count, Positive, Whole},
+    declare::{choice, either, table, words},
+    read::At,
+    value::{Count, Number, Positive, Text, Whole},
 };
 
 table! {
@@ -10,8 +11,72 @@ table! {
     OutputSettings {
         /// Increments between files of fields; 0: only the last. Default: 1.
         optional fields_every: Whole<0>,
+        /// Time between files of fields, in the place of `fields_every`: they are written after the first increment that reaches each multiple of it.
+        optional fields_interval: Positive,
+        /// Names of the bodies whose fields are written. Default: all.
+        optional bodies: Vec<At<Text>>,
+        /// Fields of bodies. Default: `displacement`, `velocity`, `cauchy-stress` and `von-mises`.
+        optional body_fields: Vec<At<BodyField>>,
+        /// Archard's coefficient `k`, wear depth over pressure and slip: writes the field `wear_depth` of contact surfaces. Default: none.
+        optional wear_coefficient: Positive,
+        /// Places whose displacement and stress are written to `probes.csv` after every increment.
+        optional probes: Vec<At<Probe>>,
         /// Increments between checkpoints, from which `striae resume` goes on; 0: only when interrupted. Default: 10.
         optional checkpoint_every: Whole<0>,
+    }
+}
+
+words! {
+    /// A field of a body.
+    BodyField {
+        /// Displacement.
+        Displacement = "displacement",
+        /// Velocity, in dynamic steps.
+        Velocity = "velocity",
+        /// Cauchy stress at the nodes.
+        CauchyStress = "cauchy-stress",
+        /// Equivalent stress of von Mises.
+        VonMises = "von-mises",
+        /// Principal values of the Cauchy stress, the largest first.
+        PrincipalStress = "principal-stress",
+        /// Stored energy per volume at rest of the elements at each node.
+        StrainEnergyDensity = "strain-energy-density",
+    }
+}
+
+table! {
+    /// A place of a body that is watched.
+    Probe {
+        /// Name of its columns.
+        required name: Text,
+        /// Name of the body.
+        required body: Text,
+        /// Where it is.
+        include place: ProbePlace,
+    }
+}
+
+either! {
+    /// Where a probe is.
+    ProbePlace {
+        Point(ProbePoint),
+        Nodes(ProbeNodes),
+    }
+}
+
+table! {
+    /// A material point.
+    ProbePoint {
+        /// Its place before anything has moved; values are interpolated.
+        required point: [Number; 3],
+    }
+}
+
+table! {
+    /// The mean over a set of nodes.
+    ProbeNodes {
+        /// Name of the node set.
+        required nodes: Text,
     }
 }
 

@@ -11,6 +11,7 @@
 
 mod law;
 mod mesh;
+mod output;
 mod pair;
 mod rigid;
 mod step;
@@ -19,7 +20,7 @@ mod value;
 use std::fmt;
 
 use mesh::Meshes;
-use striae_output::{FieldOutput, Output};
+use striae_output::Output;
 use striae_solve::model::{Backend, Curve, Model, Solver, Strategy};
 use value::{number, text};
 
@@ -62,7 +63,7 @@ pub fn write(model: &Model, output: &Output) -> Result<String, Unstated> {
         return Err(Unstated { parts });
     }
     let title = format!("title = {}\n", text(&model.title));
-    let (output, solver) = (settings(output), solver(&model.solver));
+    let (output, solver) = (output::output(output), solver(&model.solver));
     Ok(title + &output + &solver + &bodies + &rigid + &pairs + &writer.curves() + &steps)
 }
 
@@ -115,15 +116,6 @@ impl<'m> Writer<'m> {
 
 fn curve_name(at: usize) -> String {
     format!("curve-{}", at + 1)
-}
-
-fn settings(output: &Output) -> String {
-    let fields = match output.fields {
-        FieldOutput::Every(every) => every.get(),
-        FieldOutput::Last => 0,
-    };
-    let checkpoints = output.checkpoint_every.map_or(0, |every| every.get());
-    format!("\n[output]\nfields_every = {fields}\ncheckpoint_every = {checkpoints}\n")
 }
 
 fn solver(solver: &Solver) -> String {

@@ -1,22 +1,14 @@
 //! Whether every body is held: a body that is in no contact pair and not tied must have all
-//! six rigid motions stopped by displacement conditions, in every step without inertia.
-//!
-//! A condition on component `i` of a node at `X` sees of the rigid motions
-//! `u = c + w x (X - X0)` the number `r . (c, w)` with the row
-//! `r = (e_i, (X - X0) x e_i)`. The motions are stopped when the rows have
-//! rank six. Lengths are scaled by the size of the body.
+//! six rigid motions stopped by displacement conditions, in every step without inertia,
+//! see [`RigidMotions`].
 
 use std::collections::BTreeSet;
 
-use nalgebra::{Matrix6, Vector6};
 use striae_mesh::{Mesh, NodeId, Vec3};
 use striae_solve::model::{BodyId, Procedure, Side, Step};
 
 use super::{Draft, List};
-use crate::{fault::FaultKind, path::Path};
-
-/// Eigenvalue of the normal matrix, relative to the largest, that counts as zero.
-const SINGULAR: f64 = 1e-9;
+use crate::{fault::FaultKind, motions::RigidMotions, path::Path};
 
 /// Notes every body that can move freely, in the first step in which it can. All pairs
 /// and steps must be known, as each might be what holds the body.
@@ -79,24 +71,9 @@ fn prescribe(prescribed: &mut BTreeSet<(NodeId, usize)>, step: &Step, body: Body
 }
 
 fn free_motions(mesh: &Mesh, prescribed: &BTreeSet<(NodeId, usize)>) -> usize {
-    let count = mesh.positions.len() as f64;
-    let centre = mesh.positions.iter().sum::<Vec3>() / count;
-    let size = mesh
-        .positions
-        .iter()
-        .map(|x| (x - centre).norm())
-        .fold(f64::MIN_POSITIVE, f64::max);
-    let mut normal = Matrix6::zeros();
+    let mut motions = RigidMotions::of(mesh);
     for (node, component) in prescribed {
-        let e = Vec3::ith(*component, 1.0);
-        let arm = ((mesh.positions[node.index()] - centre) / size).cross(&e);
-        let row = Vector6::new(e.x, e.y, e.z, arm.x, arm.y, arm.z);
-        normal += row * row.transpose();
+        motions.stop(&mesh.positions[node.index()], &Vec3::ith(*component, 1.0));
     }
-    let eigenvalues = normal.symmetric_eigenvalues();
-    let largest = eigenvalues.max();
-    eigenvalues
-        .iter()
-        .filter(|value| **value <= SINGULAR * largest)
-        .count()
+    motions.left()
 }

@@ -67,6 +67,25 @@ pub enum CheckpointError {
         /// The deck.
         deck: PathBuf,
     },
+    /// The new deck has other parts than the run.
+    #[error(
+        "{part} is not the same in the run and in the new deck; only steps, solver and output may differ"
+    )]
+    Differs {
+        /// What it is called.
+        part: String,
+    },
+    /// The new deck does not begin with the steps that are done.
+    #[error(
+        "{step} is done, and the new deck does not begin with it as it was; state it again, and further steps after it"
+    )]
+    StepDiffers {
+        /// What it is called.
+        step: String,
+    },
+    /// The new deck has no step that is not done.
+    #[error("the new deck has no step after those that are done")]
+    NothingLeft,
     /// The files beside it are not those it was written with.
     #[error("the output beside the checkpoint does not fit it: {0}")]
     Output(#[from] OutputError),

@@ -3,6 +3,7 @@
 //! ```text
 //! DIR/checkpoint.bin = "striae checkpoint\n", format, CRC-32 of the rest,
 //!                      version of the program, source, what is on disk, point of the run
+//! DIR/end.bin          the same at the end of a completed run
 //! ```
 //!
 //! Numbers are little-endian and have eight bytes. The file is written whole or not
@@ -19,14 +20,20 @@ use std::{
 };
 
 use striae_files::{FileError, write_atomically};
-use striae_solve::{drive::Point, model::Model};
+use striae_solve::{
+    drive::Point,
+    model::{Model, Step},
+};
 
-use crate::{Output, OutputError, vtk::Snapshot};
+use crate::{Checksums, Output, OutputError, vtk::Snapshot, worn::Worn};
 use code::{Coded, coded};
 pub use error::CheckpointError;
 
 /// Name of the file in the folder of a run.
 pub const FILE: &str = "checkpoint.bin";
+
+/// Name of that which a completed run leaves.
+pub const END: &str = "end.bin";
 
 /// First bytes of the file.
 const MAGIC: &[u8] = b"striae checkpoint\n";
@@ -54,6 +61,10 @@ pub struct Source {
     pub path: PathBuf,
     /// What the deck means, see [`fingerprint`].
     pub fingerprint: u64,
+    /// What each body, rigid surface and pair means, by its name.
+    pub parts: Vec<(String, u64)>,
+    /// What each step means.
+    pub steps: Vec<(String, u64)>,
 }
 
 /// What a recorder has written.
@@ -75,13 +86,46 @@ pub struct Written {
     pub series: [Vec<Snapshot>; 3],
     /// What has been judged so far.
     pub judgement: striae_solve::warning::Judgement,
+    /// What slip has done so far.
+    pub worn: Worn,
+    /// Checksums of the files.
+    pub sums: Checksums,
 }
 
 /// A number that differs, but for rare coincidences, where models or what is
 /// written of them differ: in the deck itself or in a file that it reads.
-pub fn fingerprint(model: &Model, output: Output) -> u64 {
+pub fn fingerprint(model: &Model, output: &Output) -> u64 {
     let mut hash = Hash(crc32fast::Hasher::new());
     write!(hash, "{model:?} {output:?}").expect("a hash takes any text");
+    u64::from(hash.0.finalize())
+}
+
+/// Fingerprints of the bodies, rigid surfaces and pairs of a model, by what they are called.
+pub fn part_fingerprints(model: &Model) -> Vec<(String, u64)> {
+    let bodies = model.bodies.iter();
+    let bodies = bodies.map(|body| (format!("body `{}`", body.name), of(body)));
+    let rigid = model.rigid_surfaces.iter();
+    let rigid = rigid.map(|rigid| (format!("rigid surface `{}`", rigid.name), of(rigid)));
+    let pairs = model.pairs.iter();
+    let pairs = pairs.map(|pair| (format!("pair `{}`", pair.name), of(pair)));
+    bodies.chain(rigid).chain(pairs).collect()
+}
+
+/// Fingerprints of the steps of a model, by what they are called.
+pub fn step_fingerprints(model: &Model) -> Vec<(String, u64)> {
+    let steps = model.steps.iter();
+    let steps = steps.map(|step| (format!("step `{}`", step.name), step_fingerprint(step)));
+    steps.collect()
+}
+
+/// Fingerprint of a step.
+pub fn step_fingerprint(step: &Step) -> u64 {
+    of(step)
+}
+
+fn of(part: &impl fmt::Debug) -> u64 {
+    let mut hash = Hash(crc32fast::Hasher::new());
+    write!(hash, "{part:?}").expect("a hash takes any text");
     u64::from(hash.0.finalize())
 }
 
@@ -100,6 +144,18 @@ impl Checkpoint {
     /// # Errors
     /// When the file cannot be written.
     pub fn write(&self, folder: &Path) -> Result<(), OutputError> {
+        self.write_as(&folder.join(FILE))
+    }
+
+    /// Writes it as that of the end of a completed run.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn write_end(&self, folder: &Path) -> Result<(), OutputError> {
+        self.write_as(&folder.join(END))
+    }
+
+    fn write_as(&self, path: &Path) -> Result<(), OutputError> {
         let mut content = Vec::new();
         env!("CARGO_PKG_VERSION").to_owned().put(&mut content);
         self.put(&mut content);
@@ -107,7 +163,7 @@ impl Checkpoint {
         FORMAT.put(&mut bytes);
         u64::from(crc32fast::hash(&content)).put(&mut bytes);
         bytes.append(&mut content);
-        write_atomically(&folder.join(FILE), &bytes)?;
+        write_atomically(path, &bytes)?;
         Ok(())
     }
 
@@ -123,6 +179,18 @@ impl Checkpoint {
                 folder: folder.to_owned(),
             }),
             Err(cause) => Err(CheckpointError::Unreadable { path, cause }),
+        }
+    }
+
+    /// Reads the checkpoint of a folder, or that of the end of a completed run.
+    ///
+    /// # Errors
+    /// When there is none, or none that can be used.
+    pub fn read_last(folder: &Path) -> Result<Self, CheckpointError> {
+        let end = folder.join(END);
+        match (Self::read(folder), std::fs::read(&end)) {
+            (Err(CheckpointError::Missing { .. }), Ok(bytes)) => taken(&end, &bytes),
+            (read, _) => read,
         }
     }
 
@@ -146,7 +214,7 @@ impl Source {
     ///
     /// # Errors
     /// When it began with another one.
-    pub fn check(&self, model: &Model, output: Output) -> Result<(), CheckpointError> {
+    pub fn check(&self, model: &Model, output: &Output) -> Result<(), CheckpointError> {
         if fingerprint(model, output) == self.fingerprint {
             Ok(())
         } else {
@@ -154,6 +222,38 @@ impl Source {
                 deck: self.path.clone(),
             })
         }
+    }
+}
+
+impl Source {
+    /// Whether a model has the bodies, rigid surfaces and pairs of the run.
+    ///
+    /// # Errors
+    /// The first of them that it has not, or has besides.
+    pub fn check_parts(&self, model: &Model) -> Result<(), CheckpointError> {
+        let found = part_fingerprints(model);
+        let differs = |one: &[(String, u64)], other: &[(String, u64)]| {
+            let mut parts = one.iter().filter(|part| !other.contains(part));
+            parts.next().map(|(name, _)| name.clone())
+        };
+        let mut differs = differs(&self.parts, &found).or_else(|| differs(&found, &self.parts));
+        if found != self.parts {
+            differs = differs.or_else(|| Some("the order of bodies, surfaces or pairs".into()));
+        }
+        differs.map_or(Ok(()), |part| Err(CheckpointError::Differs { part }))
+    }
+
+    /// Whether a model begins with the steps that the run has done, so many.
+    ///
+    /// # Errors
+    /// The first of them that differs.
+    pub fn check_steps(&self, model: &Model, done: usize) -> Result<(), CheckpointError> {
+        let found = step_fingerprints(model);
+        let mut steps = self.steps.iter().enumerate().take(done);
+        let differs = steps.find(|(at, step)| found.get(*at) != Some(step));
+        differs.map_or(Ok(()), |(_, (name, _))| {
+            Err(CheckpointError::StepDiffers { step: name.clone() })
+        })
     }
 }
 
@@ -197,7 +297,8 @@ impl Coded for PathBuf {
 
 coded! {
     Checkpoint { source, written, point };
-    Source { case, path, fingerprint };
-    Written { iterations, cut_backs, unknowns, solver, fields, seconds, series, judgement };
+    Source { case, path, fingerprint, parts, steps };
+    Written { iterations, cut_backs, unknowns, solver, fields, seconds, series, judgement, worn, sums };
+    Worn { pairs };
     Snapshot { time, parts };
 }

@@ -1,28 +1,41 @@
 //! Whether the sides of a pair can ever meet.
 //!
 //! What only prescribed displacements move goes as far as the farthest of them, and its
-//! deformation adds no more than that again. Loads, inertia, ties and free coordinates
-//! may take a body anywhere.
+//! deformation adds no more than that again; what it moves as one piece goes where
+//! [`nearest_approach`] says. Loads, inertia, ties and free coordinates may take a body
+//! anywhere.
 
 use striae_contact::initial::Fit;
 use striae_mesh::Vec3;
 
+use super::translation::nearest_approach;
 use crate::model::{BodyId, Freedom, Model, PairId, Procedure, RigidId, Side};
 
+/// Distance over that at the start that is none.
+const ROUND_OFF: f64 = 1e-9;
 /// Motion that deformation may add, over that of what is prescribed.
 const DEFORMATION: f64 = 2.0;
 
 /// Whether a pair that fits like this may meet in some step.
 pub fn may_meet(model: &Model, pair: PairId, fit: &Fit) -> bool {
+    if fit.overlap.is_some() {
+        return true;
+    }
     let of_pair = &model.pairs[pair.0];
     let reach = |side: &Side| match side {
         Side::Deformable { body, .. } => body_reach(model, *body),
         Side::Rigid(rigid) => rigid_reach(model, *rigid),
     };
     match (reach(&of_pair.a), reach(&of_pair.b)) {
-        (Some(a), Some(b)) => fit.distance <= DEFORMATION * (a + b) || fit.overlap.is_some(),
+        (Some(a), Some(b)) => fit.distance <= DEFORMATION * (a + b) && comes_near(model, pair, fit),
         _ => true,
     }
+}
+
+/// Whether sides that move as one piece come as near as round-off.
+fn comes_near(model: &Model, pair: PairId, fit: &Fit) -> bool {
+    let left = nearest_approach(model, pair);
+    left.is_none_or(|left| left <= ROUND_OFF * fit.distance)
 }
 
 /// How far prescribed displacements take a body; `None`: anywhere.

@@ -1,0 +1,51 @@
+//! What a run writes.
+
+use striae_output::{BodyField, FieldOutput, Output, Probe, ProbePlace};
+
+use super::value::{list, number, text, vector};
+
+/// The table of output.
+pub(super) fn output(output: &Output) -> String {
+    let fields = match output.fields {
+        FieldOutput::Every(every) => format!("fields_every = {every}"),
+        FieldOutput::Last => "fields_every = 0".to_owned(),
+        FieldOutput::Interval(time) => format!("fields_interval = {}", number(time)),
+    };
+    let checkpoints = output.checkpoint_every.map_or(0, |every| every.get());
+    let mut table = format!("\n[output]\n{fields}\ncheckpoint_every = {checkpoints}\n");
+    if let Some(bodies) = &output.bodies {
+        let bodies = list(bodies.iter().map(|name| text(name)));
+        table += &format!("bodies = {bodies}\n");
+    }
+    if output.body_fields != BodyField::USUAL {
+        let fields = list(output.body_fields.iter().map(|field| text(word(*field))));
+        table += &format!("body_fields = {fields}\n");
+    }
+    if let Some(coefficient) = output.wear_coefficient {
+        table += &format!("wear_coefficient = {}\n", number(coefficient));
+    }
+    if !output.probes.is_empty() {
+        table += &format!("probes = {}\n", list(output.probes.iter().map(probe)));
+    }
+    table
+}
+
+fn word(field: BodyField) -> &'static str {
+    match field {
+        BodyField::Displacement => "displacement",
+        BodyField::Velocity => "velocity",
+        BodyField::CauchyStress => "cauchy-stress",
+        BodyField::VonMises => "von-mises",
+        BodyField::PrincipalStress => "principal-stress",
+        BodyField::StrainEnergyDensity => "strain-energy-density",
+    }
+}
+
+fn probe(probe: &Probe) -> String {
+    let (name, body) = (text(&probe.name), text(&probe.body));
+    let place = match &probe.place {
+        ProbePlace::Point(at) => format!("point = {}", vector(at)),
+        ProbePlace::Nodes(set) => format!("nodes = {}", text(set)),
+    };
+    format!("{{ name = {name}, body = {body}, {place} }}")
+}

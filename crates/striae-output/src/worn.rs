@@ -1,0 +1,51 @@
+//! What slip has done to the nodes of contact surfaces since the start of a run.
+//!
+//! Over the increments with the slip `du`, pressure `p` and friction traction `tau`
+//!
+//! ```text
+//! accumulated slip       sum |du|
+//! friction work per area sum -tau . du
+//! wear depth             k sum p |du|        (Archard 1953, doi:10.1063/1.1721448)
+//! ```
+//!
+//! with pressure and traction at the end of the increment. Open nodes do not slip.
+
+use striae_contact::unknowns::Status;
+use striae_solve::state::State;
+
+/// Sums at a node: slip, friction work per area, pressure times slip.
+pub type Sums = [f64; 3];
+
+/// Sums at the surface nodes of all pairs, by side.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Worn {
+    /// By pair, side and node.
+    pub pairs: Vec<[Vec<Sums>; 2]>,
+}
+
+impl Worn {
+    /// Adds what happened in the increment that led to a state.
+    pub fn add(&mut self, state: &State) {
+        self.pairs.resize_with(state.pairs.len(), Default::default);
+        for (sums, of_pair) in self.pairs.iter_mut().zip(&state.pairs) {
+            for (sums, nodes) in sums.iter_mut().zip(&of_pair.nodes) {
+                sums.resize(nodes.len(), [0.0; 3]);
+                let nodes = sums.iter_mut().zip(nodes);
+                for (sums, node) in nodes.filter(|(_, node)| node.status != Status::Open) {
+                    let slip = node.slip.norm();
+                    sums[0] += slip;
+                    sums[1] -= node.tau.dot(&node.slip);
+                    sums[2] += node.pressure * slip;
+                }
+            }
+        }
+    }
+
+    /// Sums at the nodes of a side, zero before the first increment.
+    pub fn of(&self, pair: usize, side: usize, nodes: usize) -> Vec<Sums> {
+        let known = self.pairs.get(pair).map(|sides| sides[side].clone());
+        let mut sums = known.unwrap_or_default();
+        sums.resize(nodes, [0.0; 3]);
+        sums
+    }
+}

@@ -1,0 +1,159 @@
+//! Sides that prescribed displacements move as one piece, and how near that takes them.
+//!
+//! A body of which all prescribed nodes have the same displacement in every step, and that
+//! nothing else moves, goes along without strain until it touches. With the gap `h` of the
+//! sides along a direction `d` and displacements in the boxes `U_a` and `U_b`, they stay
+//! apart while `max d . (u_a - u_b) < h`.
+
+use std::collections::BTreeSet;
+
+use striae_mesh::Vec3;
+
+use crate::model::{
+    BodyId, Curve, Displacement, Freedom, Model, PairId, Procedure, RigidId, RigidShape, Side, Step,
+};
+
+/// Smallest and largest displacement along every axis.
+type Ranges = [(f64, f64); 3];
+
+/// How near the sides of a pair come that move as one piece each, along the direction in
+/// which they stay farthest apart; negative where they may overlap. `None` where one of
+/// them may deform before it touches.
+pub fn nearest_approach(model: &Model, pair: PairId) -> Option<f64> {
+    let of_pair = &model.pairs[pair.0];
+    let ways = [way(model, pair, &of_pair.a)?, way(model, pair, &of_pair.b)?];
+    let directions = match normal(model, &of_pair.b) {
+        Some(normal) => vec![-normal],
+        None => (0..3)
+            .flat_map(|axis| [1.0, -1.0].map(|sign| Vec3::ith(axis, sign)))
+            .collect(),
+    };
+    let left = directions.iter().map(|d| {
+        let [a, b] = [&of_pair.a, &of_pair.b].map(|side| extent(model, side, d));
+        let approach = farthest(&ways[0], d) + farthest(&ways[1], &-d);
+        b.0 - a.1 - approach
+    });
+    Some(left.fold(f64::NEG_INFINITY, f64::max))
+}
+
+/// Largest displacement along a direction.
+fn farthest(way: &Ranges, d: &Vec3) -> f64 {
+    let along = way.iter().enumerate();
+    along
+        .map(|(axis, (low, high))| (low * d[axis]).max(high * d[axis]))
+        .sum()
+}
+
+fn normal(model: &Model, side: &Side) -> Option<Vec3> {
+    let Side::Rigid(rigid) = side else {
+        return None;
+    };
+    match &model.rigid_surfaces[rigid.0].shape {
+        RigidShape::Plane { normal, .. } => Some(normal.normalize()),
+        RigidShape::Facets { .. } | RigidShape::Bare => None,
+    }
+}
+
+/// Where a side begins and ends along a direction.
+fn extent(model: &Model, side: &Side, d: &Vec3) -> (f64, f64) {
+    let over = |positions: &mut dyn Iterator<Item = Vec3>| {
+        positions.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+            (low.min(x.dot(d)), high.max(x.dot(d)))
+        })
+    };
+    match side {
+        Side::Deformable { body, faces } => {
+            let mesh = &model.bodies[body.0].mesh;
+            over(&mut faces.iter().flat_map(|&face| mesh.face_positions(face)))
+        }
+        Side::Rigid(rigid) => match &model.rigid_surfaces[rigid.0].shape {
+            RigidShape::Plane { point, .. } => (point.dot(d), f64::INFINITY),
+            RigidShape::Facets { positions, .. } => over(&mut positions.iter().copied()),
+            RigidShape::Bare => (f64::NEG_INFINITY, f64::INFINITY),
+        },
+    }
+}
+
+fn way(model: &Model, pair: PairId, side: &Side) -> Option<Ranges> {
+    match side {
+        Side::Deformable { body, .. } => body_way(model, pair, *body),
+        Side::Rigid(rigid) => rigid_way(model, *rigid),
+    }
+}
+
+fn body_way(model: &Model, pair: PairId, body: BodyId) -> Option<Ranges> {
+    let is = |side: &Side| matches!(side, Side::Deformable { body: other, .. } if *other == body);
+    let mut others = model.pairs.iter().enumerate();
+    let touched = others.any(|(at, other)| at != pair.0 && (is(&other.a) || is(&other.b)));
+    let mut ties = model.rigid_surfaces.iter().flat_map(|rigid| &rigid.ties);
+    if touched || ties.any(|(tied, _)| *tied == body) {
+        return None;
+    }
+    let mut ranges = [(0.0, 0.0); 3];
+    let mut first: [Option<BTreeSet<&str>>; 3] = [None, None, None];
+    for step in &model.steps {
+        if is_moved_otherwise(step, body) {
+            return None;
+        }
+        for axis in 0..3 {
+            let stated = step.displacements.iter().filter(|of| of.body == body);
+            let stated = stated.filter_map(|of| Some((of, of.components[axis]?)));
+            let stated: Vec<(&Displacement, f64)> = stated.collect();
+            let Some((one, target)) = stated.first() else {
+                continue;
+            };
+            let sets: BTreeSet<&str> = stated.iter().map(|(of, _)| of.set.as_str()).collect();
+            let differs =
+                |(of, other): &(&Displacement, f64)| other != target || of.curve != one.curve;
+            if stated.iter().any(differs) || *first[axis].get_or_insert(sets.clone()) != sets {
+                return None;
+            }
+            ranges[axis] = with(ranges[axis], *target, &one.curve);
+        }
+    }
+    first.iter().any(Option::is_some).then_some(ranges)
+}
+
+fn is_moved_otherwise(step: &Step, body: BodyId) -> bool {
+    step.procedure != Procedure::QuasiStatic
+        || step.gravity.is_some()
+        || step.loads.iter().any(|load| load.body == body)
+        || step.releases.iter().any(|release| release.body == body)
+}
+
+fn rigid_way(model: &Model, rigid: RigidId) -> Option<Ranges> {
+    let mut ranges = [(0.0, 0.0); 3];
+    for step in &model.steps {
+        for motion in step.rigid_motions.iter().filter(|of| of.surface == rigid) {
+            for (at, coordinate) in motion.coordinates.iter().enumerate() {
+                match coordinate {
+                    Freedom::AsBefore => {}
+                    Freedom::To(target) if at < 3 => {
+                        ranges[at] = with(ranges[at], *target, &motion.curve);
+                    }
+                    Freedom::To(angle) if *angle == 0.0 => {}
+                    Freedom::To(_) | Freedom::Free => return None,
+                }
+            }
+        }
+    }
+    Some(ranges)
+}
+
+/// The range with all that lies on the way from any of it to a target.
+fn with((low, high): (f64, f64), target: f64, curve: &Curve) -> (f64, f64) {
+    let (least, most) = match curve {
+        Curve::Ramp | Curve::Constant | Curve::Smooth => (0.0, 1.0),
+        Curve::Table(points) => points
+            .iter()
+            .fold((0.0_f64, 1.0_f64), |(least, most), (_, c)| {
+                (least.min(*c), most.max(*c))
+            }),
+    };
+    let ends = [low, high]
+        .into_iter()
+        .flat_map(|start| [least, most].map(|c| start + c * (target - start)));
+    ends.fold((low, high), |(low, high), end| {
+        (low.min(end), high.max(end))
+    })
+}

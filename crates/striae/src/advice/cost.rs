@@ -1,0 +1,227 @@
+//! Unknowns, memory and time of a run.
+//!
+//! The linear systems of models up to [`COUNTED`] nodes are analysed. Beyond, factors have
+//! about as many entries and operations as nested dissection gives on blocks of `n`
+//! unknowns, and the iterative solver takes what it took on a million:
+//!
+//! ```text
+//! direct      180 MB (n/2e4)^(4/3),  1.3e10 (n/2e4)^2 operations
+//! iterative   5 kB n,                4.6e4 n operations
+//! ```
+//!
+//! Time is that of six iterations an increment, with the fewest increments, at 4e9
+//! operations a second.
+
+use striae_model::{Backend, Model, Side};
+use striae_output::available_bytes;
+use striae_solve::{
+    newton::{Analysis, Estimate, estimate},
+    problem::Problem,
+};
+
+use super::{Advice, Topic};
+use crate::error::Error;
+
+/// Nodes up to which the linear system is analysed.
+const COUNTED: usize = 60_000;
+/// Unknowns from which on the solver that chooses by cost iterates.
+const ITERATED: usize = 450_000;
+/// Iterations in an increment.
+const ITERATIONS: f64 = 6.0;
+/// Memory by formula over that which suffices.
+const UNCERTAIN: f64 = 1.5;
+/// Operations a second.
+const PACE: f64 = 4e9;
+
+/// What a run will take, more or less.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cost {
+    /// Unknowns of a linear system.
+    pub unknowns: usize,
+    /// Memory at its highest, in bytes.
+    pub bytes: f64,
+    /// Operations of a factorisation or solution.
+    pub operations: f64,
+    /// Increments, if none has to be cut.
+    pub increments: f64,
+}
+
+impl Cost {
+    /// By formula, in no time.
+    pub fn estimated(model: &Model) -> Self {
+        let unknowns = unknowns(model);
+        let n = unknowns as f64;
+        let iterates = match model.solver.backend {
+            Backend::Iterative => true,
+            Backend::Condensed => unknowns > ITERATED,
+            Backend::Multifrontal | Backend::Faer => false,
+        };
+        let scale = n / 2e4;
+        let (bytes, operations) = match iterates {
+            true => (5e3 * n, 4.6e4 * n),
+            false => (180e6 * scale.powf(4.0 / 3.0), 1.3e10 * scale * scale),
+        };
+        Self {
+            unknowns,
+            bytes,
+            operations,
+            increments: increments(model),
+        }
+    }
+
+    /// Whether that much memory does, for all that a formula can say.
+    ///
+    /// # Errors
+    /// [`Error::Memory`] where it certainly does not.
+    pub fn fits(&self, available: f64) -> Result<(), Error> {
+        if self.bytes <= UNCERTAIN * available {
+            return Ok(());
+        }
+        Err(Error::Memory {
+            unknowns: self.unknowns,
+            needed: self.bytes,
+            available,
+        })
+    }
+
+    /// Seconds of a run.
+    pub fn seconds(&self) -> f64 {
+        self.increments * ITERATIONS * self.operations / PACE
+    }
+}
+
+/// Displacements of all nodes, and tractions of half the nodes of contact surfaces.
+fn unknowns(model: &Model) -> usize {
+    let nodes: usize = model.bodies.iter().map(|of| of.mesh.positions.len()).sum();
+    let sides = model.pairs.iter().flat_map(|pair| [&pair.a, &pair.b]);
+    let facets: usize = sides
+        .map(|side| match side {
+            Side::Deformable { faces, .. } => faces.len(),
+            Side::Rigid(_) => 0,
+        })
+        .sum();
+    3 * nodes + 3 * facets / 2
+}
+
+fn increments(model: &Model) -> f64 {
+    let steps = model.steps.iter().map(|step| step.increments);
+    steps
+        .map(|of| (1.0 / of.initial.min(of.largest)).ceil())
+        .sum()
+}
+
+/// Notes unknowns, memory and time.
+pub(super) fn look(model: &Model, advice: &mut Advice) {
+    let nodes: usize = model.bodies.iter().map(|of| of.mesh.positions.len()).sum();
+    if nodes > COUNTED {
+        let cost = Cost::estimated(model);
+        let Cost {
+            unknowns,
+            bytes,
+            operations,
+            ..
+        } = cost;
+        advice.note(
+            Topic::Cost,
+            "",
+            format!(
+                "unknowns about {unknowns}; by formula, a solution takes about {:.1} GB and {operations:.1e} operations",
+                bytes / 1e9
+            ),
+        );
+        time(&cost, advice);
+        memory(&cost, advice);
+        return;
+    }
+    let problem = match Problem::new(model.clone()) {
+        Ok(problem) => problem,
+        Err(error) => return advice.fault(Topic::Shape, "", error.to_string()),
+    };
+    match estimate(&problem) {
+        Ok(estimate) => counted(model, &estimate, advice),
+        Err(reason) => {
+            let text = format!("the undeformed state cannot be evaluated: {reason}");
+            advice.fault(Topic::Cost, "", text);
+        }
+    }
+}
+
+fn counted(model: &Model, estimate: &Estimate, advice: &mut Advice) {
+    let Estimate {
+        unknowns,
+        analysis,
+        others,
+    } = estimate;
+    let megabytes = |analysis: &Analysis| {
+        let megabytes = analysis.peak_bytes as f64 / 1e6;
+        format!("{megabytes:.1} MB and {:.1e} operations", analysis.flops)
+    };
+    let others = others.iter();
+    let others = others.map(|other| format!("; by {}: {}", other.method, megabytes(other)));
+    advice.note(
+        Topic::Cost,
+        "",
+        format!(
+            "unknowns {unknowns} at the start; a factorisation ({}) takes about {}{}",
+            analysis.method,
+            megabytes(analysis),
+            others.collect::<String>()
+        ),
+    );
+    let cost = Cost {
+        unknowns: *unknowns,
+        bytes: analysis.peak_bytes as f64,
+        operations: analysis.flops,
+        increments: increments(model),
+    };
+    time(&cost, advice);
+    memory(&cost, advice);
+}
+
+fn memory(cost: &Cost, advice: &mut Advice) {
+    let Some(available) = available_bytes().filter(|available| cost.bytes > *available) else {
+        return;
+    };
+    let text = format!(
+        "a run takes about {:.1} GB of memory, and {:.1} GB are available here",
+        cost.bytes / 1e9,
+        available / 1e9
+    );
+    advice.warn(Topic::Cost, "", text);
+}
+
+fn time(cost: &Cost, advice: &mut Advice) {
+    let seconds = cost.seconds();
+    let time = match seconds {
+        ..1.0 => "less than a second".to_owned(),
+        ..120.0 => format!("some {seconds:.0} s"),
+        ..7200.0 => format!("some {:.0} min", seconds / 60.0),
+        _ => format!("some {:.0} h", seconds / 3600.0),
+    };
+    let text = format!(
+        "{} increments at least; with six iterations each the linear systems take {time}",
+        cost.increments
+    );
+    advice.note(Topic::Cost, "", text);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_system_beyond_memory_is_refused_by_name() {
+        let cost = Cost {
+            unknowns: 3_000_000,
+            bytes: 15e9,
+            operations: 1.4e11,
+            increments: 10.0,
+        };
+        assert!(cost.fits(11e9).is_ok());
+        let refused = cost.fits(8e9).expect_err("too much").to_string();
+        assert!(
+            refused.starts_with("3000000 unknowns take about 15.0 GB, and 8.0 GB are available")
+        );
+        assert_eq!(cost.seconds(), 10.0 * 6.0 * 1.4e11 / 4e9);
+    }
+}

@@ -1,0 +1,123 @@
+//! Gaps and overlaps of pairs, pairs that never meet, surfaces that look away.
+
+use striae_contact::{initial::Fit, interference::Spot};
+use striae_mesh::Vec3;
+use striae_model::{Model, Pair, PairId, RigidShape, Side};
+use striae_solve::{
+    initial::{ROUND_OFF, other_name, surface_node},
+    warning::warnings_at_start,
+};
+
+use super::{Advice, Topic};
+
+/// Cosine between the normals of surfaces that face each other.
+const FACING: f64 = -0.2;
+/// Length of the sum of area vectors over the area from which on a surface is almost plane.
+const PLANE: f64 = 0.95;
+
+/// Notes how every pair fits.
+pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
+    for (index, (pair, fit)) in model.pairs.iter().zip(fits).enumerate() {
+        let Some(fit) = fit else { continue };
+        let text = format!("pair `{}`: {}", pair.name, words(model, PairId(index), fit));
+        advice.note(Topic::Fit, &pair.name, text);
+        if looks_away(model, pair) {
+            let [a, b] = [1, 0].map(|side| other_name(model, PairId(index), side));
+            let text = format!(
+                "pair `{}`: the surface of `{a}` looks away from that of `{b}`, so they cannot touch; name the facets that face each other, or turn the normal of a rigid side round",
+                pair.name
+            );
+            advice.warn(Topic::Facing, &pair.name, text);
+        }
+    }
+    for warning in warnings_at_start(model, fits) {
+        let name = warning.pair.unwrap_or_default();
+        advice.warn(Topic::NeverMeets, &name, warning.text);
+    }
+}
+
+/// Smallest gap and deepest overlap of a pair, and where.
+fn words(model: &Model, pair: PairId, fit: &Fit) -> String {
+    let at = |side: usize, spot: Spot, x: &Vec3| {
+        let spot = match spot {
+            Spot::Node(node) => surface_node(model, pair, side, node).map(|node| node.to_string()),
+            Spot::Centre(facet) => Some(format!("the centre of {facet}")),
+        };
+        format!(
+            "{} of `{}` ({:.6}, {:.6}, {:.6})",
+            spot.unwrap_or_default(),
+            other_name(model, pair, 1 - side),
+            x.x,
+            x.y,
+            x.z
+        )
+    };
+    let gap = match &fit.gap {
+        Some(gap) => {
+            let place = at(gap.side, gap.spot, &gap.point);
+            format!("smallest gap {:.3e} at {place}", gap.gap)
+        }
+        None => format!(
+            "the sides do not face each other; nearest distance {:.3e}",
+            fit.distance
+        ),
+    };
+    let overlap = fit
+        .overlap
+        .as_ref()
+        .filter(|overlap| overlap.share() > ROUND_OFF);
+    let overlap = overlap.map_or("no overlap".into(), |overlap| {
+        let place = at(overlap.side, overlap.spot, &overlap.point);
+        let share = 100.0 * overlap.share();
+        format!(
+            "largest overlap {:.3e} ({share:.1} % of the facet size) at {place}",
+            overlap.depth
+        )
+    });
+    format!("{gap}; {overlap}")
+}
+
+/// Whether no facets of the sides face each other, as far as their normals tell.
+fn looks_away(model: &Model, pair: &Pair) -> bool {
+    let a = area_vectors(model, &pair.a);
+    let b = match &pair.b {
+        Side::Rigid(rigid) => match &model.rigid_surfaces[rigid.0].shape {
+            RigidShape::Plane { normal, .. } => {
+                let n = normal.normalize();
+                return a.iter().all(|v| v.dot(&n) > FACING * v.norm());
+            }
+            _ => area_vectors(model, &pair.b),
+        },
+        Side::Deformable { .. } => area_vectors(model, &pair.b),
+    };
+    match (plane(&a), plane(&b)) {
+        (Some(a), Some(b)) => a.dot(&b) > FACING,
+        _ => false,
+    }
+}
+
+fn area_vectors(model: &Model, side: &Side) -> Vec<Vec3> {
+    match side {
+        Side::Deformable { body, faces } => {
+            let mesh = &model.bodies[body.0].mesh;
+            faces.iter().map(|&face| mesh.area_vector(face)).collect()
+        }
+        Side::Rigid(rigid) => match &model.rigid_surfaces[rigid.0].shape {
+            RigidShape::Facets { positions, facets } => {
+                let facets = facets.iter();
+                let corners = facets.map(|facet| facet.map(|node| positions[node.index()]));
+                corners
+                    .map(|[a, b, c, d]| (c - a).cross(&(d - b)) * 0.5)
+                    .collect()
+            }
+            RigidShape::Plane { .. } | RigidShape::Bare => Vec::new(),
+        },
+    }
+}
+
+/// Normal of a surface that is almost plane.
+fn plane(vectors: &[Vec3]) -> Option<Vec3> {
+    let sum: Vec3 = vectors.iter().sum();
+    let area: f64 = vectors.iter().map(|v| v.norm()).sum();
+    (area > 0.0 && sum.norm() > PLANE * area).then(|| sum.normalize())
+}

@@ -1,0 +1,69 @@
+//! Coefficients of friction over all directions, in the user's own constants.
+
+use std::f64::consts::PI;
+
+use striae_law::friction::{Friction, Law, RequiredTextures};
+use striae_model::Model;
+
+use super::{Advice, Topic};
+
+/// Directions of slip that are looked at.
+const DIRECTIONS: usize = 360;
+/// Angles between two textures that are looked at.
+const ANGLES: usize = 37;
+/// Smallest over largest coefficient that is as good as none.
+const NONE: f64 = 0.02;
+
+/// Notes the range of every friction, and warns where one direction has none.
+pub(super) fn look(model: &Model, advice: &mut Advice) {
+    for pair in &model.pairs {
+        of_pair(&pair.name, "", &pair.friction, advice);
+    }
+    for step in &model.steps {
+        for (pair, friction) in &step.frictions {
+            let when = format!(" from step `{}` on", step.name);
+            of_pair(&model.pairs[pair.0].name, &when, friction, advice);
+        }
+    }
+}
+
+fn of_pair(name: &str, when: &str, friction: &Friction, advice: &mut Advice) {
+    if matches!(friction.law(), Law::Frictionless | Law::Coulomb) {
+        return;
+    }
+    let [low, high] = range(friction);
+    let over = match friction.required_textures() {
+        RequiredTextures::Both => "all directions of slip and angles between the textures",
+        RequiredTextures::Any | RequiredTextures::One => "all directions of slip",
+    };
+    let text = format!(
+        "pair `{name}`: coefficients of friction{when} are {low:.4} to {high:.4} over {over}"
+    );
+    if low < NONE * high {
+        advice.warn(
+            Topic::Friction,
+            name,
+            format!("{text}: in one of them there is hardly any friction"),
+        );
+    } else {
+        advice.note(Topic::Friction, name, text);
+    }
+}
+
+/// Smallest and largest friction over pressure.
+fn range(friction: &Friction) -> [f64; 2] {
+    let angles = match friction.required_textures() {
+        RequiredTextures::Both => ANGLES,
+        RequiredTextures::Any | RequiredTextures::One => 1,
+    };
+    let at_rest = friction.coefficient().at_slip_rate(0.0);
+    let surfaces = (0..angles).map(|at| PI * at as f64 / (ANGLES - 1) as f64);
+    let sizes = surfaces.flat_map(|theta| {
+        let samples = friction.slip_surface(theta).sampled(DIRECTIONS);
+        samples.into_iter().map(|sample| sample.traction.norm())
+    });
+    let range = sizes.fold([f64::INFINITY, 0.0], |[low, high], size| {
+        [low.min(size), high.max(size)]
+    });
+    range.map(|size: f64| at_rest * size)
+}

@@ -1,0 +1,150 @@
+//! What holds each body in the first step: prescribed nodes, ties, contact.
+//!
+//! Rigid motions that prescribed nodes leave free have to be stopped by contact. A pair that
+//! touches stops all of them that its friction and normals reach, whatever its size; one
+//! that is open stops none unless it is stabilised. In later steps contact may have closed.
+
+use std::collections::BTreeSet;
+
+use striae_contact::initial::Fit;
+use striae_law::friction::Law;
+use striae_mesh::{Mesh, NodeId, Vec3};
+use striae_model::{Body, BodyId, Model, PairId, Procedure, RigidMotions, Side, Step};
+
+use super::{Advice, Topic};
+
+/// Gap over the size of an element that is none.
+const TOUCHING: f64 = 1e-6;
+
+/// Notes what holds every body, and warns of those that nothing holds at first.
+pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
+    let Some(step) = model.steps.first() else {
+        return;
+    };
+    for (index, body) in model.bodies.iter().enumerate() {
+        let id = BodyId(index);
+        if let Some(rigid) = model
+            .rigid_surfaces
+            .iter()
+            .find(|rigid| rigid.ties.iter().any(|(tied, _)| *tied == id))
+        {
+            let text = format!("body `{}` is tied to `{}`", body.name, rigid.name);
+            advice.note(Topic::Hold, &body.name, text);
+            continue;
+        }
+        let mut motions = prescribed(&body.mesh, step, id);
+        match motions.left() {
+            0 => {
+                let text = format!("body `{}` is held by its prescribed nodes", body.name);
+                advice.note(Topic::Hold, &body.name, text);
+            }
+            _ => by_contact(model, fits, (id, body), &mut motions, advice),
+        }
+    }
+}
+
+fn prescribed(mesh: &Mesh, step: &Step, body: BodyId) -> RigidMotions {
+    let conditions = step.displacements.iter().filter(|of| of.body == body);
+    let components: BTreeSet<(NodeId, usize)> = conditions
+        .flat_map(|of| {
+            let axes = (0..3).filter(|&axis| of.components[axis].is_some());
+            axes.flat_map(|axis| of.nodes.iter().map(move |node| (*node, axis)))
+        })
+        .collect();
+    let mut motions = RigidMotions::of(mesh);
+    for (node, axis) in components {
+        motions.stop(&mesh.positions[node.index()], &Vec3::ith(axis, 1.0));
+    }
+    motions
+}
+
+fn by_contact(
+    model: &Model,
+    fits: &[Option<Fit>],
+    (id, body): (BodyId, &Body),
+    motions: &mut RigidMotions,
+    advice: &mut Advice,
+) {
+    let name = &body.name;
+    let is = |side: &Side| matches!(side, Side::Deformable { body: of, .. } if *of == id);
+    let pairs = model.pairs.iter().enumerate();
+    let pairs = pairs.filter(|(_, pair)| is(&pair.a) || is(&pair.b));
+    let pairs: Vec<usize> = pairs.map(|(index, _)| index).collect();
+    let list = |pairs: &[usize]| {
+        let names = pairs
+            .iter()
+            .map(|&at| format!("`{}`", model.pairs[at].name));
+        names.collect::<Vec<_>>().join(", ")
+    };
+    let left = motions.words();
+    let text = format!("prescribed nodes leave body `{name}` free to move {left}");
+    if model.steps[0].procedure != Procedure::QuasiStatic {
+        let text = format!("{text}; its inertia resists");
+        advice.note(Topic::Hold, name, text);
+        return;
+    }
+    let tolerance = TOUCHING * body.mesh.characteristic_size();
+    let holds = |at: &usize| {
+        let fit = fits[*at].as_ref();
+        let touches = fit.is_some_and(|fit| fit.distance <= tolerance || fit.overlap.is_some());
+        touches || model.pairs[*at].stabilised
+    };
+    let (closed, open): (Vec<usize>, Vec<usize>) = pairs.iter().partition(|at| holds(at));
+    for &pair in &closed {
+        stop_by(model, PairId(pair), id, motions);
+    }
+    if motions.left() == 0 {
+        let text = format!("{text}; contact of {} has to hold it", list(&closed));
+        advice.note(Topic::Hold, name, text);
+        return;
+    }
+    let left = motions.words();
+    let why = match (&closed[..], &open[..]) {
+        (_, []) => format!(
+            "the contact of {} leaves it free {left}, as it has no friction",
+            list(&closed)
+        ),
+        ([], _) => format!("nothing holds it before {} closes", list(&open)),
+        _ => format!(
+            "with the contact of {} it is free {left} before {} closes",
+            list(&closed),
+            list(&open)
+        ),
+    };
+    let remedy = match &open[..] {
+        [] => "prescribe these motions",
+        _ => {
+            "prescribe these motions, begin with the surfaces in contact, or set `stabilise = true` in the pair"
+        }
+    };
+    let text = format!("{text}, and {why}; {remedy}");
+    advice.warn(Topic::Hold, name, text);
+}
+
+/// Stops what closed contact of a pair stops.
+fn stop_by(model: &Model, pair: PairId, body: BodyId, motions: &mut RigidMotions) {
+    let pair = &model.pairs[pair.0];
+    let mesh = &model.bodies[body.0].mesh;
+    let first = model.steps.first();
+    let changes = first.into_iter().flat_map(|step| &step.frictions);
+    let mut changed = changes.filter(|(of, _)| model.pairs[of.0].name == pair.name);
+    let friction = changed
+        .next()
+        .map_or(&pair.friction, |(_, friction)| friction);
+    let is_rough =
+        !matches!(friction.law(), Law::Frictionless) && friction.coefficient().at_rest() > 0.0;
+    for side in [&pair.a, &pair.b] {
+        let Side::Deformable { body: of, faces } = side else {
+            continue;
+        };
+        for &face in faces.iter().filter(|_| *of == body) {
+            let normal = mesh.area_vector(face).normalize();
+            for x in mesh.face_positions(face) {
+                match is_rough || pair.stabilised {
+                    true => (0..3).for_each(|axis| motions.stop(&x, &Vec3::ith(axis, 1.0))),
+                    false => motions.stop(&x, &normal),
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! Extent and volume of bodies, the poorest elements, and elements that lock.
+
+use striae_mesh::{CellKind, Mesh, Vec3, quality::SMALL_SCALED_JACOBIAN};
+use striae_model::{Body, Formulation, Model};
+
+use super::{Advice, Topic};
+
+/// Scaled Jacobian below which elements are worth a look.
+const POOR: f64 = 0.3;
+/// Poisson's ratio from which on volumes can hardly change.
+const STIFF_VOLUME: f64 = 0.45;
+
+/// Notes the shape of every body.
+pub(super) fn look(model: &Model, advice: &mut Advice) {
+    for body in &model.bodies {
+        shape(body, advice);
+        locking(body, advice);
+    }
+}
+
+/// Smallest and largest coordinates of nodes.
+pub(super) fn extent(mesh: &Mesh) -> [Vec3; 2] {
+    let start = [f64::INFINITY, f64::NEG_INFINITY].map(Vec3::repeat);
+    let positions = mesh.positions.iter();
+    positions.fold(start, |[low, high], x| [low.inf(x), high.sup(x)])
+}
+
+/// Poisson's ratio at rest.
+pub(super) fn poissons_ratio(body: &Body) -> f64 {
+    let constants = body.material.lame_constants();
+    0.5 * constants.lambda / (constants.lambda + constants.shear)
+}
+
+/// Young's modulus at rest.
+pub(super) fn youngs_modulus(body: &Body) -> f64 {
+    2.0 * body.material.lame_constants().shear * (1.0 + poissons_ratio(body))
+}
+
+fn shape(body: &Body, advice: &mut Advice) {
+    let name = &body.name;
+    let [low, high] = extent(&body.mesh);
+    let quality = body.mesh.quality();
+    let at = |x: &Vec3| format!("({:.6}, {:.6}, {:.6})", x.x, x.y, x.z);
+    advice.note(
+        Topic::Shape,
+        name,
+        format!(
+            "body `{name}` lies between {} and {} and has the volume {:.6e}; its edges are {:.3e} to {:.3e} long, the smallest scaled Jacobian {:.3}",
+            at(&low),
+            at(&high),
+            quality.volume,
+            quality.shortest_edge,
+            quality.longest_edge,
+            quality.smallest_scaled_jacobian
+        ),
+    );
+    if quality.smallest_scaled_jacobian < POOR {
+        let poorest = quality.poorest.iter();
+        let poorest = poorest.map(|(element, scaled)| format!("{element} ({scaled:.3})"));
+        let poorest = poorest.collect::<Vec<_>>().join(", ");
+        let text = format!(
+            "body `{name}`: the elements of the poorest shape, by their scaled Jacobian, which is 1 for regular ones: {poorest}"
+        );
+        match quality.slivers.len() {
+            0 => advice.note(Topic::Shape, name, text),
+            count => advice.warn(
+                Topic::Shape,
+                name,
+                format!("{text}; {count} of them below {SMALL_SCALED_JACOBIAN} are nearly flat"),
+            ),
+        }
+    }
+}
+
+fn locking(body: &Body, advice: &mut Advice) {
+    let name = &body.name;
+    let nu = poissons_ratio(body);
+    let mut kinds = body.mesh.blocks.iter().map(|block| block.kind);
+    let tetrahedra = kinds.any(|kind| kind == CellKind::Tetrahedron);
+    if nu > STIFF_VOLUME && body.formulation == Formulation::Standard {
+        advice.warn(
+            Topic::Locking,
+            name,
+            format!(
+                "body `{name}` has Poisson's ratio {nu:.4} and the standard formulation: its elements lock, being far too stiff; use `formulation = \"mean-dilatation\"`"
+            ),
+        );
+    } else if nu > STIFF_VOLUME && tetrahedra {
+        advice.warn(
+            Topic::Locking,
+            name,
+            format!(
+                "body `{name}` has Poisson's ratio {nu:.4} and four-node tetrahedra, which lock in every formulation; use hexahedra"
+            ),
+        );
+    } else if tetrahedra {
+        advice.note(
+            Topic::Locking,
+            name,
+            format!(
+                "body `{name}` has four-node tetrahedra, which are stiffer than hexahedra of the same size; compare with a finer mesh"
+            ),
+        );
+    }
+}

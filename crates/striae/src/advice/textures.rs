@@ -1,0 +1,53 @@
+//! Textures that have no direction on their surface.
+
+use striae_model::{Model, Pair, RigidShape, Side};
+use striae_solve::painting;
+use striae_surface::texture::{Lines, Paint};
+
+use super::{Advice, Topic};
+
+/// Sine of the angle between a direction and the normal that is none.
+const ALONG: f64 = 1e-6;
+/// The same from which on the direction is in doubt: six degrees.
+const NEARLY: f64 = 0.1;
+
+/// Notes textures that cannot be painted, and those nearly along the normal of a plane.
+pub(super) fn look(model: &Model, advice: &mut Advice) {
+    for error in painting::faults(model) {
+        advice.fault(Topic::Texture, "", error.to_string());
+    }
+    for pair in &model.pairs {
+        on_plane(model, pair, advice);
+    }
+}
+
+fn on_plane(model: &Model, pair: &Pair, advice: &mut Advice) {
+    let (Side::Rigid(rigid), Some(Paint::Field(field))) = (&pair.b, &pair.textures[1]) else {
+        return;
+    };
+    let rigid = &model.rigid_surfaces[rigid.0];
+    let (RigidShape::Plane { normal, .. }, Lines::Uniform(direction)) = (&rigid.shape, field.lines)
+    else {
+        return;
+    };
+    let sine = direction.normalize().cross(&normal.normalize()).norm();
+    let (name, plane) = (&pair.name, &rigid.name);
+    if sine < ALONG {
+        advice.fault(
+            Topic::Texture,
+            name,
+            format!(
+                "pair `{name}`: the texture of `{plane}` is along its normal, so it has no direction in the plane"
+            ),
+        );
+    } else if sine < NEARLY {
+        advice.warn(
+            Topic::Texture,
+            name,
+            format!(
+                "pair `{name}`: the texture of `{plane}` is only {:.1} degrees from its normal; what is left of it in the plane gives the direction",
+                sine.asin().to_degrees()
+            ),
+        );
+    }
+}

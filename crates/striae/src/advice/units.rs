@@ -1,0 +1,124 @@
+//! Whether moduli, sizes, loads and densities can be in one system of units.
+//!
+//! A load `t` on a body of modulus `E` strains it by about `t/E`; strains below 1e-8, or
+//! above 1, are hardly meant. Solids have moduli up to about 1.2e12 Pa, which is 1.2e6 MPa
+//! and 1.7e8 psi: a modulus above 2e8 is in pascals or the like, so that lengths are in
+//! metres. Waves run with `sqrt(E/rho)`, in no solid faster than 2e4 m/s = 2e7 mm/s.
+
+use striae_model::{Body, BodyId, LoadKind, Model, RigidId, Side};
+
+use super::{
+    Advice, Topic,
+    shape::{extent, youngs_modulus},
+};
+
+/// Strain by loads that is too small to be meant.
+const NO_STRAIN: f64 = 1e-8;
+/// The same for a force over the square of the size, which is but an estimate.
+const NO_STRAIN_BY_FORCE: f64 = 1e-11;
+/// Moduli between these are in pascals.
+const PASCALS: [f64; 2] = [2e8, 2e12];
+/// Extent from which on lengths beside such moduli look like millimetres.
+const LONG: f64 = 20.0;
+/// Speed of waves that no solid has in any usual system of units.
+const FASTEST: f64 = 1e8;
+
+/// Warns of bodies whose numbers do not go together.
+pub(super) fn look(model: &Model, advice: &mut Advice) {
+    for (index, body) in model.bodies.iter().enumerate() {
+        let modulus = youngs_modulus(body);
+        loads(model, BodyId(index), modulus, advice);
+        forces(model, BodyId(index), modulus, advice);
+        lengths(body, modulus, advice);
+        waves(body, modulus, advice);
+    }
+}
+
+fn loads(model: &Model, body: BodyId, modulus: f64, advice: &mut Advice) {
+    let loads = model.steps.iter().flat_map(|step| &step.loads);
+    let largest = loads
+        .filter(|load| load.body == body)
+        .map(|load| match load.kind {
+            LoadKind::DeadTraction(t) | LoadKind::FollowerTraction(t) => t.norm(),
+            LoadKind::Pressure(p) => p.abs(),
+        })
+        .fold(0.0, f64::max);
+    let name = &model.bodies[body.0].name;
+    let strain = largest / modulus;
+    let about = format!(
+        "body `{name}`: its largest load, {largest:.3e}, over its Young's modulus, {modulus:.3e}, is a strain of {strain:.1e}"
+    );
+    if largest > 0.0 && strain < NO_STRAIN {
+        advice.warn(
+            Topic::Units,
+            name,
+            format!(
+                "{about}, hardly any; are both in one system of units, such as N, mm and MPa, or N, m and Pa?"
+            ),
+        );
+    } else if strain > 1.0 {
+        advice.warn(
+            Topic::Units,
+            name,
+            format!("{about}: it would be crushed or torn; are both in one system of units?"),
+        );
+    }
+}
+
+/// Forces on rigid bodies that press on a body or are tied to it.
+fn forces(model: &Model, body: BodyId, modulus: f64, advice: &mut Advice) {
+    let motions = model.steps.iter().flat_map(|step| &step.rigid_motions);
+    let forces = motions.filter(|motion| meets(model, motion.surface, body));
+    let forces = forces.filter_map(|motion| motion.force.map(|force| force.norm()));
+    let largest = forces.fold(0.0, f64::max);
+    let Body { name, mesh, .. } = &model.bodies[body.0];
+    let [low, high] = extent(mesh);
+    let size = (high - low).norm();
+    let strain = largest / (modulus * size * size);
+    if largest > 0.0 && strain < NO_STRAIN_BY_FORCE {
+        advice.warn(
+            Topic::Units,
+            name,
+            format!(
+                "body `{name}`: the largest force that drives what it meets, {largest:.3e}, hardly strains a body of the size {size:.3e} and Young's modulus {modulus:.3e} (by some {strain:.1e}); are they in one system of units?"
+            ),
+        );
+    }
+}
+
+fn meets(model: &Model, rigid: RigidId, body: BodyId) -> bool {
+    let is_body = |side: &Side| matches!(side, Side::Deformable { body: of, .. } if *of == body);
+    let is_rigid = |side: &Side| matches!(side, Side::Rigid(of) if *of == rigid);
+    let mut pairs = model.pairs.iter();
+    let mut ties = model.rigid_surfaces[rigid.0].ties.iter();
+    pairs.any(|pair| is_body(&pair.a) && is_rigid(&pair.b)) || ties.any(|(of, _)| *of == body)
+}
+
+fn lengths(body: &Body, modulus: f64, advice: &mut Advice) {
+    let [low, high] = extent(&body.mesh);
+    let longest = (high - low).max();
+    let name = &body.name;
+    if modulus > PASCALS[0] && modulus < PASCALS[1] && longest > LONG {
+        advice.warn(
+            Topic::Units,
+            name,
+            format!(
+                "body `{name}`: a Young's modulus of {modulus:.3e} must be in pascals, so lengths are in metres, and it would be {longest:.3e} m long; with lengths in mm, moduli and pressures are in MPa"
+            ),
+        );
+    }
+}
+
+fn waves(body: &Body, modulus: f64, advice: &mut Advice) {
+    let (name, density) = (&body.name, body.density);
+    let speed = (modulus / density).sqrt();
+    if density > 0.0 && speed > FASTEST {
+        advice.warn(
+            Topic::Units,
+            name,
+            format!(
+                "body `{name}`: with Young's modulus {modulus:.3e} and density {density:.3e} waves would run at {speed:.1e}, faster than in any solid; with N, mm and s densities are in t/mm^3 and moduli in MPa"
+            ),
+        );
+    }
+}

@@ -1,0 +1,316 @@
+//! Each physical mistake is found, and nothing else with it.
+
+use std::path::Path;
+
+use striae::{
+    advice::{Advice, Topic},
+    deck::{self, Deck, Faults},
+};
+
+/// A pad on a floor without a mistake.
+const DECK: &str = r#"
+title = "A pad on a floor"
+
+[[material]]
+name = "rubber"
+law = "neo-hookean"
+youngs_modulus = 1e6
+poissons_ratio = 0.3
+
+[[body]]
+name = "pad"
+material = "rubber"
+mesh = { generator = "block", origin = [0, 0, 0], size = [1, 1, 1], divisions = [3, 3, 3] }
+
+[[rigid]]
+name = "floor"
+plane = { point = [0, 0, 0], normal = [0, 0, 1] }
+
+[[pair]]
+name = "sole"
+a = { body = "pad", facets = "zmin" }
+b = { rigid = "floor" }
+friction = { law = "coulomb", mu = 0.3 }
+
+[[step]]
+name = "press"
+displacement = [{ body = "pad", nodes = "zmax", x = 0, y = 0, z = -0.02 }]
+"#;
+
+const PRESSED: &str =
+    r#"displacement = [{ body = "pad", nodes = "zmax", x = 0, y = 0, z = -0.02 }]"#;
+const LOADED: &str = r#"pressure = [{ body = "pad", facets = "zmax", value = 10 }]"#;
+const PAD: &str = "origin = [0, 0, 0], size = [1, 1, 1], divisions = [3, 3, 3]";
+const COULOMB: &str = r#"friction = { law = "coulomb", mu = 0.3 }"#;
+const FLOOR: &str = r#"b = { rigid = "floor" }"#;
+
+/// The deck with passages replaced.
+fn read(passages: &[[&str; 2]]) -> Result<Deck, Faults> {
+    let text = passages.iter().fold(DECK.to_owned(), |text, [old, new]| {
+        assert_eq!(text.matches(old).count(), 1, "`{old}`");
+        text.replace(old, new)
+    });
+    deck::parse(&text, "deck.toml", Path::new(""))
+}
+
+fn advice(passages: &[[&str; 2]]) -> Advice {
+    Advice::of(&read(passages).expect("a valid deck").model)
+}
+
+/// The only warning of the deck with passages replaced.
+fn warning(passages: &[[&str; 2]]) -> (Topic, String) {
+    let advice = advice(passages);
+    assert_eq!(advice.faults, []);
+    let [warning] = &advice.warnings[..] else {
+        panic!("{:?}", advice.warnings);
+    };
+    (warning.topic, warning.text.clone())
+}
+
+fn assert_warned(passages: &[[&str; 2]], topic: Topic, words: &str) {
+    let (found, text) = warning(passages);
+    assert_eq!(found, topic, "{text}");
+    assert!(text.contains(words), "{text}");
+}
+
+/// What a deck that is refused says.
+fn refusal(passages: &[[&str; 2]]) -> String {
+    read(passages).expect_err("a fault").to_string()
+}
+
+#[test]
+fn a_sound_deck_has_notes_only() {
+    let advice = advice(&[]);
+    assert_eq!((&advice.faults, &advice.warnings), (&vec![], &vec![]));
+    let said = |topic: Topic, words: &str| {
+        let mut notes = advice.notes.iter().filter(|note| note.topic == topic);
+        assert!(
+            notes.any(|note| note.text.contains(words)),
+            "{words}: {:?}",
+            advice.notes
+        );
+    };
+    said(
+        Topic::Shape,
+        "between (0.000000, 0.000000, 0.000000) and (1.000000, 1.000000, 1.000000)",
+    );
+    said(Topic::Shape, "volume 1.000000e0");
+    said(Topic::Hold, "held by its prescribed nodes");
+    said(Topic::Fit, "smallest gap 0.000e0");
+    said(Topic::Cost, "unknowns");
+}
+
+#[test]
+fn millimetres_with_pascals() {
+    let steel = ["youngs_modulus = 1e6", "youngs_modulus = 2.1e11"];
+    let large = [PAD, "size = [40, 40, 20], divisions = [3, 3, 3]"];
+    assert_warned(&[steel, large], Topic::Units, "lengths are in metres");
+    let small = [PAD, "size = [0.04, 0.04, 0.02], divisions = [3, 3, 3]"];
+    assert_eq!(
+        advice(&[steel, small, [PRESSED, &PRESSED.replace("0.02", "0.0002")]]).warnings,
+        []
+    );
+    // A pressure in MPa beside a modulus in Pa, whatever the lengths.
+    assert_warned(&[steel, [PRESSED, LOADED]], Topic::Units, "hardly any");
+    let megapascals = ["youngs_modulus = 1e6", "youngs_modulus = 2.1e5"];
+    assert_eq!(
+        advice(&[megapascals, large, [PRESSED, LOADED]]).warnings,
+        []
+    );
+    let soft = ["youngs_modulus = 1e6", "youngs_modulus = 1"];
+    assert_warned(&[soft, [PRESSED, LOADED]], Topic::Units, "crushed");
+}
+
+#[test]
+fn a_density_from_another_system_of_units() {
+    let dense = [
+        "youngs_modulus = 1e6",
+        "youngs_modulus = 2.1e11\ndensity = 7.85e-9",
+    ];
+    assert_warned(&[dense], Topic::Units, "waves");
+}
+
+#[test]
+fn the_wrong_side_of_a_plane() {
+    let away = ["normal = [0, 0, 1]", "normal = [0, 0, -1]"];
+    assert_warned(&[away], Topic::Facing, "looks away");
+    let behind = [
+        PAD,
+        "origin = [0, 0, 0.5], size = [1, 1, 1], divisions = [3, 3, 3]",
+    ];
+    let refused = refusal(&[away, behind]);
+    assert!(
+        refused.contains("turn the normal of `floor` round"),
+        "{refused}"
+    );
+}
+
+#[test]
+fn a_gap_that_is_never_closed() {
+    let above = [
+        PAD,
+        "origin = [0, 0, 0.1], size = [1, 1, 1], divisions = [3, 3, 3]",
+    ];
+    for motion in ["-0.06", "0.2", "-0.0999"] {
+        let moved = PRESSED.replace("-0.02", motion);
+        assert_warned(
+            &[above, [PRESSED, &moved]],
+            Topic::NeverMeets,
+            "can never meet",
+        );
+    }
+    let closed = PRESSED.replace("-0.02", "-0.1001");
+    assert_eq!(advice(&[above, [PRESSED, &closed]]).warnings, []);
+}
+
+#[test]
+fn a_body_that_nothing_holds() {
+    let above = [
+        PAD,
+        "origin = [0, 0, 0.1], size = [1, 1, 1], divisions = [3, 3, 3]",
+    ];
+    let loaded = [PRESSED, LOADED];
+    assert_warned(
+        &[above, loaded],
+        Topic::Hold,
+        "nothing holds it before `sole` closes",
+    );
+    let stabilised = [COULOMB, &format!("{COULOMB}\nstabilise = true")];
+    assert_eq!(advice(&[above, loaded, stabilised]).warnings, []);
+    let smooth = [COULOMB, r#"friction = { law = "frictionless" }"#];
+    assert_warned(
+        &[loaded, smooth],
+        Topic::Hold,
+        "along x, along y and about z, as it has no friction",
+    );
+    // Friction holds it once it touches.
+    let advice = advice(&[loaded]);
+    assert_eq!(advice.warnings, []);
+    let hold = advice.notes.iter().find(|note| note.topic == Topic::Hold);
+    assert!(hold.is_some_and(|note| note.text.contains("`sole` has to hold it")));
+}
+
+#[test]
+fn volumes_that_can_hardly_change_in_standard_hexahedra() {
+    let nearly = ["poissons_ratio = 0.3", "poissons_ratio = 0.499"];
+    let standard = ["[[rigid]]", "formulation = \"standard\"\n\n[[rigid]]"];
+    assert_warned(&[nearly, standard], Topic::Locking, "mean-dilatation");
+    assert_eq!(advice(&[nearly]).warnings, []);
+    let tetrahedra = [
+        PAD,
+        "size = [1, 1, 1], divisions = [3, 3, 3], cells = \"tetrahedra\"",
+    ];
+    assert_warned(
+        &[nearly, tetrahedra],
+        Topic::Locking,
+        "four-node tetrahedra",
+    );
+    let notes = advice(&[tetrahedra]).notes;
+    assert!(
+        notes.iter().any(|note| note.topic == Topic::Locking),
+        "{notes:?}"
+    );
+}
+
+#[test]
+fn an_overlap() {
+    let inside = [
+        PAD,
+        "origin = [0, 0, -0.1], size = [1, 1, 1], divisions = [3, 3, 3]",
+    ];
+    let refused = refusal(&[inside]);
+    assert!(refused.contains("1.000e-1 inside `floor`"), "{refused}");
+}
+
+#[test]
+fn a_pair_that_cannot_meet() {
+    let top = [r#"facets = "zmin""#, r#"facets = "zmax""#];
+    let advice = advice(&[top]);
+    let topics: Vec<Topic> = advice
+        .warnings
+        .iter()
+        .map(|warning| warning.topic)
+        .collect();
+    assert_eq!(topics, [Topic::Facing, Topic::NeverMeets]);
+}
+
+#[test]
+fn a_direction_without_friction() {
+    let grooved = [
+        FLOOR,
+        r#"b = { rigid = "floor", texture = { uniform = [1, 0, 0] } }"#,
+    ];
+    let law = |constants: &str| format!("friction = {{ {constants} }}");
+    let none = law(r#"law = "orthotropic", mu_along = 0, mu_across = 0.4"#);
+    let refused = refusal(&[grooved, [COULOMB, &none]]);
+    assert!(
+        refused.contains("`mu_along`") && refused.contains("greater than 0"),
+        "{refused}"
+    );
+    let hardly = law(r#"law = "orthotropic", mu_along = 0.001, mu_across = 0.4"#);
+    assert_warned(
+        &[grooved, [COULOMB, &hardly]],
+        Topic::Friction,
+        "0.0010 to 0.4000",
+    );
+    let some = law(r#"law = "nap", mu_forward = 0.2, mu_backward = 0.6, mu_lateral = 0.4"#);
+    let notes = advice(&[grooved, [COULOMB, &some]]).notes;
+    let range = notes.iter().find(|note| note.topic == Topic::Friction);
+    assert!(
+        range.is_some_and(|note| note.text.contains("0.2000 to 0.6000")),
+        "{notes:?}"
+    );
+}
+
+#[test]
+fn a_texture_along_the_normal() {
+    let law = r#"friction = { law = "orthotropic", mu_along = 0.2, mu_across = 0.4 }"#;
+    for (part, textured, words) in [
+        (
+            FLOOR,
+            r#"b = { rigid = "floor", texture = { uniform = [0, 0, 1] } }"#,
+            "along its normal",
+        ),
+        (
+            r#"a = { body = "pad", facets = "zmin" }"#,
+            r#"a = { body = "pad", facets = "zmin", texture = { uniform = [0, 0, 1] } }"#,
+            "no tangential part",
+        ),
+    ] {
+        let advice = advice(&[[part, textured], [COULOMB, law]]);
+        assert_eq!(advice.faults.len(), 1);
+        assert_eq!(advice.faults[0].topic, Topic::Texture);
+        assert!(advice.faults[0].text.contains(words), "{:?}", advice.faults);
+    }
+}
+
+#[test]
+fn thin_bending() {
+    let strip = |divisions: &str| {
+        format!("origin = [0, 0, 0.2], size = [10, 1, 0.1], divisions = {divisions}")
+    };
+    let bent = r#"displacement = [
+        { body = "pad", nodes = "xmin", x = 0, y = 0, z = 0 },
+        { body = "pad", nodes = "xmax", z = -0.5 },
+    ]"#;
+    // 1 + (1/0.1)^2/2.6 times as stiff.
+    assert_warned(
+        &[[PAD, &strip("[10, 1, 1]")], [PRESSED, bent]],
+        Topic::Bending,
+        "39.5 times",
+    );
+    assert_warned(
+        &[[PAD, &strip("[10, 1, 4]")], [PRESSED, bent]],
+        Topic::Bending,
+        "39.5 times",
+    );
+    let fine = advice(&[[PAD, &strip("[250, 1, 1]")], [PRESSED, bent]]);
+    assert_eq!(fine.warnings, []);
+    assert!(fine.notes.iter().all(|note| note.topic != Topic::Bending));
+    // On the floor it does not bend.
+    let flat = [PAD, "size = [10, 1, 0.1], divisions = [10, 1, 1]"];
+    assert_eq!(
+        advice(&[flat, [PRESSED, &PRESSED.replace("0.02", "0.002")]]).warnings,
+        []
+    );
+}

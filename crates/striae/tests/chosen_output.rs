@@ -1,0 +1,221 @@
+//! Output by choice: fields, bodies, intervals, probes, what slip has done, resultants.
+
+use std::path::Path;
+
+use striae::{
+    Simulation, deck,
+    output::{
+        Existing,
+        history::Table,
+        vtk::{Snapshot, Stored, read_series},
+    },
+};
+
+const DECK: &str = r#"
+title = "A bar pressed on a floor and drawn over it"
+
+[[material]]
+name = "solid"
+law = "linear-elastic"
+youngs_modulus = 1000
+poissons_ratio = 0
+
+[[body]]
+name = "bar"
+material = "solid"
+mesh = { generator = "block", origin = [2, 3, 0], size = [1, 1, 2], divisions = [3, 2, 2], cells = "CELLS" }
+
+[[body]]
+name = "weight"
+material = "solid"
+mesh = { generator = "block", origin = [9, 9, 0], size = [1, 1, 1], divisions = [1, 1, 1] }
+
+[[rigid]]
+name = "floor"
+plane = { point = [0, 0, 0], normal = [0, 0, 1] }
+
+[[pair]]
+name = "foot"
+a = { body = "bar", facets = "zmin" }
+b = { rigid = "floor" }
+friction = { law = "coulomb", mu = 0.5 }
+
+[[step]]
+name = "press"
+increments = 4
+displacement = [
+    { body = "bar", nodes = "zmax", z = -0.02 },
+    { body = "bar", nodes = "all", x = 0, y = 0 },
+    { body = "weight", nodes = "all", x = 0, y = 0, z = 0 },
+]
+
+[[step]]
+name = "draw"
+increments = 8
+displacement = [{ body = "bar", nodes = "all", x = 0.1 }]
+
+[output]
+fields_interval = 0.5
+bodies = ["bar"]
+body_fields = ["displacement", "principal-stress", "strain-energy-density"]
+wear_coefficient = 0.001
+probes = [
+    { name = "middle", body = "bar", point = [2.4, 3.3, 0.7] },
+    { name = "top", body = "bar", nodes = "zmax" },
+]
+"#;
+
+/// Pressure, friction coefficient and way of the drawn bar.
+const PRESSURE: f64 = 10.0;
+const MU: f64 = 0.5;
+const WAY: f64 = 0.1;
+
+fn run(folder: &Path, cells: &str) {
+    let deck = deck::parse(&DECK.replace("CELLS", cells), "deck.toml", Path::new("")).unwrap();
+    let simulation = Simulation::of(deck).unwrap();
+    let simulation = simulation.recorded(folder, "bar").over(Existing::Replace);
+    simulation.run().unwrap();
+}
+
+fn snapshots(folder: &Path, name: &str) -> Vec<Snapshot> {
+    read_series(&folder.join(name)).unwrap()
+}
+
+fn assert_all(folder: &Path, snapshot: &Snapshot, name: &str, expected: &[f64]) {
+    let path = folder.join(&snapshot.parts[0].1);
+    let values = Stored::open(&path)
+        .unwrap()
+        .array(&path, name)
+        .unwrap()
+        .unwrap();
+    assert_eq!(values.components, expected.len());
+    for value in values.numbers.chunks(expected.len()) {
+        for (value, expected) in value.iter().zip(expected) {
+            let error = (value - expected).abs();
+            assert!(
+                error < 1e-6 * (1.0 + expected.abs()),
+                "{name}: {value} for {expected}"
+            );
+        }
+    }
+}
+
+#[test]
+fn fields_bodies_and_intervals_are_those_chosen() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    run(folder, "hexahedra");
+    let bodies = snapshots(folder, "bodies.pvd");
+    let times: Vec<f64> = bodies.iter().map(|snapshot| snapshot.time).collect();
+    assert_eq!(times, [0.0, 0.5, 1.0, 1.5, 2.0]);
+    let names: Vec<&str> = bodies[1].parts.iter().map(|part| part.0.as_str()).collect();
+    assert_eq!(names, ["bar"]);
+    let path = folder.join(&bodies[1].parts[0].1);
+    let stored = Stored::open(&path).unwrap();
+    let names: Vec<&str> = stored.names().map(|name| name.0).collect();
+    assert_eq!(
+        names,
+        ["displacement", "principal_stress", "strain_energy_density"]
+    );
+    // Half the energy of stress and strain, uniaxial.
+    assert_all(
+        folder,
+        &bodies[2],
+        "principal_stress",
+        &[0.0, 0.0, -PRESSURE],
+    );
+    assert_all(
+        folder,
+        &bodies[2],
+        "strain_energy_density",
+        &[0.5 * PRESSURE * 0.01],
+    );
+}
+
+#[test]
+fn slip_work_and_wear_add_up() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    run(folder, "hexahedra");
+    let contact = snapshots(folder, "contact.pvd");
+    let last = contact.last().unwrap();
+    assert_all(folder, last, "accumulated_slip", &[WAY]);
+    assert_all(folder, last, "friction_work", &[MU * PRESSURE * WAY]);
+    assert_all(folder, last, "wear_depth", &[0.001 * PRESSURE * WAY]);
+    let history = Table::read(&folder.join("history.csv")).unwrap();
+    let end = |name: &str| *history.column(name).unwrap().last().unwrap();
+    // On an area of 1 the work is that of the pair.
+    assert!((end("pair.foot.dissipated") - MU * PRESSURE * WAY).abs() < 1e-6);
+    assert!((end("pair.foot.area") - 1.0).abs() < 1e-9);
+    for (axis, expected) in [("x", 2.5 + WAY), ("y", 3.5), ("z", 0.0)] {
+        let centre = end(&format!("pair.foot.centre.{axis}"));
+        assert!((centre - expected).abs() < 1e-9, "{axis}: {centre}");
+    }
+}
+
+#[test]
+fn probes_are_watched_in_every_increment() {
+    for cells in ["hexahedra", "wedges", "pyramids", "tetrahedra"] {
+        let folder = tempfile::tempdir().unwrap();
+        run(folder.path(), cells);
+        let probes = Table::read(&folder.path().join("probes.csv")).unwrap();
+        assert_eq!(probes.rows.len(), 12);
+        let end = |name: &str| *probes.column(name).unwrap().last().unwrap();
+        for (name, expected) in [
+            ("time", 2.0),
+            ("middle.displacement.x", WAY),
+            ("middle.displacement.z", -0.01 * 0.7),
+            ("middle.stress.zz", -PRESSURE),
+            ("middle.stress.xy", 0.0),
+            ("middle.von_mises", PRESSURE),
+            ("top.displacement.z", -0.02),
+        ] {
+            assert!((end(name) - expected).abs() < 1e-6, "{name}: {}", end(name));
+        }
+    }
+}
+
+#[test]
+fn what_is_not_there_is_refused_where_it_is_written() {
+    for (old, new, words) in [
+        (
+            r#"bodies = ["bar"]"#,
+            r#"bodies = ["bat"]"#,
+            "did you mean `bar`",
+        ),
+        (
+            "[2.4, 3.3, 0.7]",
+            "[0, 0, 0]",
+            "probe `middle` is nowhere: (0, 0, 0) is outside",
+        ),
+        (
+            r#"nodes = "zmax" },
+]"#,
+            r#"nodes = "lid" },
+]"#,
+            "no node set `lid`",
+        ),
+        (
+            r#"name = "top""#,
+            r#"name = "middle""#,
+            "another probe `middle`",
+        ),
+        (
+            "fields_interval = 0.5",
+            "fields_interval = 0.5\nfields_every = 2",
+            "exclude each other",
+        ),
+        (
+            r#""principal-stress""#,
+            r#""principal-stres""#,
+            "did you mean `principal-stress`",
+        ),
+    ] {
+        assert_eq!(DECK.matches(old).count(), 1, "{old}");
+        let text = DECK.replace("CELLS", "hexahedra").replace(old, new);
+        let refused = deck::parse(&text, "deck.toml", Path::new(""))
+            .unwrap_err()
+            .to_string();
+        assert!(refused.contains(words), "{refused}");
+    }
+}
