@@ -13,6 +13,7 @@ mod generate;
 mod material;
 mod mesh;
 mod model;
+mod own;
 mod pair;
 mod results;
 mod rigid;
@@ -33,6 +34,7 @@ mod _striae {
         material::Material,
         mesh::{Mesh, read_mesh, read_rigid_surface},
         model::Model,
+        own::own_material,
         pair::Pair,
         results::Results,
         rigid::Rigid,

@@ -31,6 +31,7 @@ use crate::{
     array::Array2,
     fault::raised,
     model::Model,
+    own::Raised,
     results::{Kept, Results},
     step::Step,
 };
@@ -45,6 +46,7 @@ const STACK: usize = 8 << 20;
 pub struct Run {
     finished: Finished,
     kept: Vec<Arc<Kept>>,
+    raised: Vec<Raised>,
 }
 
 /// A run, and the exception that stopped it.
@@ -111,6 +113,7 @@ impl Run {
             model: Arc::new(self.finished.problem.model.clone()),
             output: Output::default(),
             deck: None,
+            raised: self.raised.clone(),
         }
     }
 
@@ -129,6 +132,7 @@ impl Run {
             py,
             recorded(simulation, Output::default(), recording, None),
             watching,
+            self.raised.clone(),
         )
     }
 }
@@ -154,7 +158,7 @@ pub fn run(
     let simulation = py.detach(|| Simulation::new((*of).clone()));
     let simulation = simulation.map_err(|error| raised(error, "model"))?;
     let simulation = recorded(simulation, output, recording, model.deck.clone());
-    watched(py, simulation, watching)
+    watched(py, simulation, watching, model.raised.clone())
 }
 
 /// Goes on with a recorded run of a deck.
@@ -172,7 +176,7 @@ pub fn resume(
         Simulation::resume_from(deck, checkpoint, &folder)
     });
     let simulation = simulation.map_err(|error| raised(error, "model"))?;
-    watched(py, simulation, watching)
+    watched(py, simulation, watching, Vec::new())
 }
 
 fn recorded(
@@ -246,7 +250,13 @@ impl Observer for Messenger {
 }
 
 /// Runs while the caller's thread listens.
-fn watched(py: Python<'_>, simulation: Simulation, watching: Watching) -> PyResult<Ended> {
+fn watched(
+    py: Python<'_>,
+    simulation: Simulation,
+    watching: Watching,
+    laws: Vec<Raised>,
+) -> PyResult<Ended> {
+    let listened = laws.clone();
     let (on_increment, keep, threads) = watching;
     let problem = simulation.problem().clone();
     let interrupt = Interrupt::default();
@@ -280,7 +290,7 @@ fn watched(py: Python<'_>, simulation: Simulation, watching: Watching) -> PyResu
                 heard,
                 answer,
             });
-            let stopped = listen(callback.as_ref(), &ended, &interrupt);
+            let stopped = listen(callback.as_ref(), &ended, &interrupt, &listened);
             let outcome = worker
                 .join()
                 .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
@@ -289,11 +299,12 @@ fn watched(py: Python<'_>, simulation: Simulation, watching: Watching) -> PyResu
     })?;
     let (finished, messenger) = outcome;
     let finished = finished?.map_err(|error: Error| raised(error, "model"))?;
-    Ok((ended_with(finished, messenger), stopped))
+    let stopped = stopped.or_else(|| laws.iter().find_map(Raised::take));
+    Ok((ended_with(finished, messenger, laws), stopped))
 }
 
 /// The run with its last state among those that are kept.
-fn ended_with(finished: Finished, messenger: Messenger) -> Run {
+fn ended_with(finished: Finished, messenger: Messenger, raised: Vec<Raised>) -> Run {
     let mut kept = messenger.kept;
     let last = kept.last().map(|kept| kept.progress);
     if let Some((progress, iterations)) = messenger.latest
@@ -305,7 +316,11 @@ fn ended_with(finished: Finished, messenger: Messenger) -> Run {
             state: finished.state.clone(),
         }));
     }
-    Run { finished, kept }
+    Run {
+        finished,
+        kept,
+        raised,
+    }
 }
 
 /// The function of Python that is told of increments.
@@ -340,6 +355,7 @@ fn listen(
     callback: Option<&Callback>,
     ended: &Receiver<()>,
     interrupt: &Interrupt,
+    raised: &[Raised],
 ) -> Option<PyErr> {
     let mut stopped: Option<PyErr> = None;
     loop {
@@ -362,6 +378,9 @@ fn listen(
             }
             (Ok(_), _) => {}
             (Err(RecvTimeoutError::Timeout), _) => {
+                if raised.iter().any(Raised::is_set) {
+                    interrupt.set();
+                }
                 if let Err(error) = Python::attach(|py| py.check_signals()) {
                     interrupt.set();
                     stopped.get_or_insert(error);

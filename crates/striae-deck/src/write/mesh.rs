@@ -50,8 +50,8 @@ fn name<T: Ord + Copy>(
     if known.get(preferred) == Some(&sorted[..]) {
         return preferred.to_owned();
     }
-    let mut all = known.iter().chain(added.iter());
-    if let Some((name, _)) = all.find(|(_, members)| *members == &sorted[..]) {
+    let same = |(_, members): &(&str, &[T])| *members == &sorted[..];
+    if let Some((name, _)) = known.iter().chain(added.iter()).find(same) {
         return name.to_owned();
     }
     let free = |name: &String| known.get(name).is_none() && added.get(name).is_none();
