@@ -11,15 +11,17 @@ fn published() -> Vec<PathBuf> {
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases");
     let entries = |folder: &Path| -> Vec<PathBuf> {
         let entries = std::fs::read_dir(folder).expect("a folder");
-        entries.map(|entry| entry.expect("an entry").path()).collect()
+        entries
+            .map(|entry| entry.expect("an entry").path())
+            .collect()
     };
     let folders = entries(&cases).into_iter().filter(|path| path.is_dir());
     let files = folders.flat_map(|folder| entries(&folder));
-    let mut decks: Vec<PathBuf> = files
-        .filter(|path| {
-            path.extension().is_some_and(|end| end == "toml") && !path.ends_with("expected.toml")
-        })
-        .collect();
+    let is_deck = |path: &PathBuf| {
+        let text = std::fs::read_to_string(path).unwrap_or_default();
+        path.extension().is_some_and(|end| end == "toml") && text.contains("[[body]]")
+    };
+    let mut decks: Vec<PathBuf> = files.filter(is_deck).collect();
     decks.sort();
     decks
 }
@@ -45,23 +47,38 @@ fn assert_round_trip(deck: &Deck, name: &str) {
     let again = parse(&text, name, Path::new("")).unwrap_or_else(|faults| panic!("{faults}"));
     let [one, other] = [told(&deck.model), told(&again.model)];
     if one != other {
-        let at = one.bytes().zip(other.bytes()).take_while(|(a, b)| a == b).count();
+        let at = one
+            .bytes()
+            .zip(other.bytes())
+            .take_while(|(a, b)| a == b)
+            .count();
         let from = at.saturating_sub(200);
         let [one, other] = [&one, &other].map(|text| text.get(from..at + 80).unwrap_or(""));
         panic!("{name}:\n{one}\n{other}");
     }
     assert_eq!(deck.output, again.output);
-    assert_eq!(write(&again.model, &again.output).expect("it was written before"), text);
+    assert_eq!(
+        write(&again.model, &again.output).expect("it was written before"),
+        text
+    );
 }
+
+/// Nodes of the largest model that is written; the deck of a million unknowns would take a
+/// minute.
+const NODES: usize = 50_000;
 
 #[test]
 fn all_published_decks_read_back_to_the_same_models() {
-    let decks = published();
-    assert!(decks.len() > 40);
-    for path in decks {
+    let mut written = 0;
+    for path in published() {
         let deck = read(&path).unwrap_or_else(|faults| panic!("{faults}"));
-        assert_round_trip(&deck, &path.display().to_string());
+        let bodies = deck.model.bodies.iter();
+        if bodies.map(|body| body.mesh.positions.len()).sum::<usize>() < NODES {
+            assert_round_trip(&deck, &path.display().to_string());
+            written += 1;
+        }
     }
+    assert!(written > 30, "{written}");
 }
 
 const EVERYTHING: &str = include_str!("deck/everything.toml");
@@ -76,16 +93,24 @@ fn all_that_a_deck_can_say_is_written() {
 fn members_by_number_are_judged() {
     let faulty = |from: &str, to: &str| {
         let text = write(
-            &parse(EVERYTHING, "everything", Path::new("")).expect("a deck").model,
+            &parse(EVERYTHING, "everything", Path::new(""))
+                .expect("a deck")
+                .model,
             &Default::default(),
         );
         let text = text.expect("a deck").replacen(from, to, 1);
         parse(&text, "deck", Path::new("")).unwrap_err().to_string()
     };
     let told = faulty("sides = [[0, ", "sides = [[9999, ");
-    assert!(told.contains("of element 9999 is not on its boundary"), "{told}");
+    assert!(
+        told.contains("of element 9999 is not on its boundary"),
+        "{told}"
+    );
     let told = faulty("numbers = [0, ", "numbers = [9999, ");
-    assert!(told.contains("there is no node 9999: it has nodes: "), "{told}");
+    assert!(
+        told.contains("there is no node 9999: it has nodes: "),
+        "{told}"
+    );
     let told = faulty("cells = [\n    [", "cells = [\n    [0, ");
     assert!(told.contains("no kind of element has corners: 9"), "{told}");
 }
