@@ -87,11 +87,8 @@ fn inline_mesh(
     for cell in &raw.cells.as_ref()?.value {
         let corners = cell.value.0.iter().map(|node| NodeId::new(node.0));
         let corners: Vec<NodeId> = corners.collect();
-        let kinds = CellKind::ALL.into_iter();
-        match kinds
-            .filter(|kind| kind.corner_count() == corners.len())
-            .next()
-        {
+        let mut kinds = CellKind::ALL.into_iter();
+        match kinds.find(|kind| kind.corner_count() == corners.len()) {
             Some(kind) => cells.push((kind, corners)),
             None => {
                 let cause = format!("no kind of element has corners: {}", corners.len());
