@@ -10,6 +10,7 @@ mod fault;
 mod fit;
 mod friction;
 mod generate;
+mod listen;
 mod material;
 mod mesh;
 mod model;

@@ -13,10 +13,9 @@ use std::{
     path::PathBuf,
     sync::{
         Arc,
-        mpsc::{Receiver, RecvTimeoutError, Sender, channel},
+        mpsc::{Receiver, Sender, channel},
     },
     thread,
-    time::Duration,
 };
 
 use numpy::{PyArray1, PyArrayMethods};
@@ -24,20 +23,19 @@ use pyo3::{exceptions::PyRuntimeError, prelude::*};
 use striae::{
     Converged, Error, Finished, Interrupt, Next, Observer, Simulation, case_name,
     output::{FieldOutput, Output, checkpoint::Checkpoint},
-    solve::{drive::Progress, outcome::Ending, problem::Problem},
+    solve::{drive::Progress, outcome::Ending},
 };
 
 use crate::{
     array::Array2,
     fault::raised,
+    listen::{Callback, listen},
     model::Model,
     own::Raised,
     results::{Kept, Results},
     step::Step,
 };
 
-/// Time between two looks at the keyboard.
-const TICK: Duration = Duration::from_millis(50);
 /// Stack of the thread of a run, as large as that of a program's first thread.
 const STACK: usize = 8 << 20;
 
@@ -320,74 +318,6 @@ fn ended_with(finished: Finished, messenger: Messenger, raised: Vec<Raised>) -> 
         finished,
         kept,
         raised,
-    }
-}
-
-/// The function of Python that is told of increments.
-struct Callback {
-    function: Py<PyAny>,
-    problem: Arc<Problem>,
-    heard: Receiver<Arc<Kept>>,
-    answer: Sender<Next>,
-}
-
-impl Callback {
-    /// Whether the run goes on after an increment.
-    fn told(&self, kept: Arc<Kept>) -> PyResult<Next> {
-        Python::attach(|py| {
-            py.check_signals()?;
-            let results = Results {
-                problem: self.problem.clone(),
-                kept,
-            };
-            let answer = self.function.call1(py, (results,))?;
-            let stops = answer
-                .bind(py)
-                .extract::<bool>()
-                .is_ok_and(|goes_on| !goes_on);
-            Ok(if stops { Next::Stop } else { Next::Continue })
-        })
-    }
-}
-
-/// Answers until the run has ended; returns the exception that stopped it.
-fn listen(
-    callback: Option<&Callback>,
-    ended: &Receiver<()>,
-    interrupt: &Interrupt,
-    raised: &[Raised],
-) -> Option<PyErr> {
-    let mut stopped: Option<PyErr> = None;
-    loop {
-        let heard = match callback {
-            Some(callback) => callback.heard.recv_timeout(TICK).map(Some),
-            None => ended.recv_timeout(TICK).map(|()| None),
-        };
-        match (heard, callback) {
-            (Ok(Some(kept)), Some(callback)) => {
-                let answered = match &stopped {
-                    None => callback.told(kept),
-                    Some(_) => Ok(Next::Stop),
-                };
-                let next = answered.unwrap_or_else(|error| {
-                    stopped = Some(error);
-                    Next::Stop
-                });
-                // A run that has panicked hears no answer.
-                let _ = callback.answer.send(next);
-            }
-            (Ok(_), _) => {}
-            (Err(RecvTimeoutError::Timeout), _) => {
-                if raised.iter().any(Raised::is_set) {
-                    interrupt.set();
-                }
-                if let Err(error) = Python::attach(|py| py.check_signals()) {
-                    interrupt.set();
-                    stopped.get_or_insert(error);
-                }
-            }
-            (Err(RecvTimeoutError::Disconnected), _) => return stopped,
-        }
     }
 }
 
