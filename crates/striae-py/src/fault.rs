@@ -1,6 +1,9 @@
 //! Faults of the library as the exceptions of the package.
 
-use pyo3::{exceptions::{PyMemoryError, PyRuntimeError}, prelude::*};
+use pyo3::{
+    exceptions::{PyMemoryError, PyRuntimeError},
+    prelude::*,
+};
 use striae::Error;
 
 /// `striae.ModelError` with these faults, each a path and a message.

@@ -10,9 +10,11 @@ mod fault;
 mod fit;
 mod friction;
 mod generate;
+mod listen;
 mod material;
 mod mesh;
 mod model;
+mod own;
 mod pair;
 mod results;
 mod rigid;
@@ -33,6 +35,7 @@ mod _striae {
         material::Material,
         mesh::{Mesh, read_mesh, read_rigid_surface},
         model::Model,
+        own::own_material,
         pair::Pair,
         results::Results,
         rigid::Rigid,

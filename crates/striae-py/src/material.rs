@@ -3,24 +3,29 @@
 use pyo3::prelude::*;
 use striae::law::bulk;
 
-use crate::fault::refused;
+use crate::{fault::refused, own::Raised};
 
 /// A bulk material.
 #[pyclass(frozen, module = "striae._striae")]
-pub struct Material(pub bulk::Material);
+pub struct Material(
+    /// The material.
+    pub bulk::Material,
+    /// What a function that states its law has raised.
+    pub Option<Raised>,
+);
 
 #[pymethods]
 impl Material {
     #[staticmethod]
     fn neo_hookean(youngs_modulus: f64, poissons_ratio: f64) -> PyResult<Self> {
         let constants = engineering("NeoHookean", youngs_modulus, poissons_ratio)?;
-        Ok(Self(bulk::Material::neo_hookean(constants)))
+        Ok(Self(bulk::Material::neo_hookean(constants), None))
     }
 
     #[staticmethod]
     fn linear_elastic(youngs_modulus: f64, poissons_ratio: f64) -> PyResult<Self> {
         let constants = engineering("LinearElastic", youngs_modulus, poissons_ratio)?;
-        Ok(Self(bulk::Material::linear_elastic(constants)))
+        Ok(Self(bulk::Material::linear_elastic(constants), None))
     }
 
     /// Rubber: the name of its law, its constants in the order of the law, and its bulk
@@ -50,7 +55,7 @@ impl Material {
             }
         };
         let made = made.map_err(|error| refused(law, error))?;
-        Ok(Self(bulk::Material::Hyperelastic(made)))
+        Ok(Self(bulk::Material::Hyperelastic(made), None))
     }
 
     /// Young's modulus and Poisson's ratio at rest.

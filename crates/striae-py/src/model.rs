@@ -20,10 +20,11 @@ use striae::{
 };
 
 use crate::{
-    fault::{model_faults, raised},
+    fault::{model_error, model_faults, raised},
     friction::Friction,
     material::Material,
     mesh::Mesh,
+    own::Raised,
     pair::Pair,
     rigid::Rigid,
     step::Step,
@@ -38,6 +39,8 @@ pub struct Model {
     pub output: Output,
     /// The deck, if that is all there is to the model.
     pub deck: Option<PathBuf>,
+    /// What functions that state laws have raised.
+    pub raised: Vec<Raised>,
 }
 
 /// Name, mesh, material, density, whether the mass of contact nodes is moved, and formulation.
@@ -67,6 +70,7 @@ impl Model {
         steps: Vec<PyRef<'_, Step>>,
         solver: Solver,
     ) -> PyResult<Self> {
+        let raised = bodies.iter().filter_map(|body| body.2.1.clone()).collect();
         let mut built = model::model(title).solver(settings(solver));
         for (name, mesh, material, density, redistributed, formulation) in bodies {
             let mut body = model::body(name, mesh.0.clone(), material.0.clone());
@@ -93,7 +97,10 @@ impl Model {
             built = built.step(step.0.clone());
         }
         let model = built.build().map_err(|faults| model_faults(&faults))?;
-        Ok(Self::of(model))
+        Ok(Self {
+            raised,
+            ..Self::of(model)
+        })
     }
 
     #[staticmethod]
@@ -103,6 +110,7 @@ impl Model {
             model: Arc::new(read.model),
             output: read.output,
             deck: Some(path),
+            raised: Vec::new(),
         })
     }
 
@@ -123,7 +131,16 @@ impl Model {
         let model = model.map_err(|faults| model_faults(&faults))?;
         Ok(Self {
             output: self.output.clone(),
+            raised: self.raised.clone(),
             ..Self::of(model)
+        })
+    }
+
+    /// The text of a deck that reads back to the model.
+    fn to_deck(&self) -> PyResult<String> {
+        deck::write(&self.model, &self.output).map_err(|unstated| {
+            let parts = unstated.parts.into_iter();
+            model_error(parts.map(|(part, why)| (part, why.to_owned())).collect())
         })
     }
 
@@ -188,6 +205,7 @@ impl Model {
             model: Arc::new(model),
             output: Output::default(),
             deck: None,
+            raised: Vec::new(),
         }
     }
 }

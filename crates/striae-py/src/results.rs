@@ -94,7 +94,7 @@ impl Results {
 
     /// Cauchy stress at the nodes of a body.
     fn stress<'py>(&self, py: Python<'py>, body: &str) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        let stress = self.results().stresses(body).unwrap_or_default();
+        let stress = py.detach(|| self.results().stresses(body).unwrap_or_default());
         let count = stress.len();
         // Symmetric, so rows are columns.
         let numbers = stress.iter().flat_map(|sigma| sigma.iter().copied());
@@ -103,7 +103,7 @@ impl Results {
 
     /// Equivalent stress at the nodes of a body.
     fn von_mises<'py>(&self, py: Python<'py>, body: &str) -> Bound<'py, PyArray1<f64>> {
-        let stress = self.results().stresses(body).unwrap_or_default();
+        let stress = py.detach(|| self.results().stresses(body).unwrap_or_default());
         PyArray1::from_vec(py, stress.iter().map(von_mises).collect())
     }
 

@@ -13,10 +13,9 @@ use std::{
     path::PathBuf,
     sync::{
         Arc,
-        mpsc::{Receiver, RecvTimeoutError, Sender, channel},
+        mpsc::{Receiver, Sender, channel},
     },
     thread,
-    time::Duration,
 };
 
 use numpy::{PyArray1, PyArrayMethods};
@@ -24,19 +23,19 @@ use pyo3::{exceptions::PyRuntimeError, prelude::*};
 use striae::{
     Converged, Error, Finished, Interrupt, Next, Observer, Simulation, case_name,
     output::{FieldOutput, Output, checkpoint::Checkpoint},
-    solve::{drive::Progress, outcome::Ending, problem::Problem},
+    solve::{drive::Progress, outcome::Ending},
 };
 
 use crate::{
     array::Array2,
     fault::raised,
+    listen::{Callback, listen},
     model::Model,
+    own::Raised,
     results::{Kept, Results},
     step::Step,
 };
 
-/// Time between two looks at the keyboard.
-const TICK: Duration = Duration::from_millis(50);
 /// Stack of the thread of a run, as large as that of a program's first thread.
 const STACK: usize = 8 << 20;
 
@@ -45,6 +44,7 @@ const STACK: usize = 8 << 20;
 pub struct Run {
     finished: Finished,
     kept: Vec<Arc<Kept>>,
+    raised: Vec<Raised>,
 }
 
 /// A run, and the exception that stopped it.
@@ -111,6 +111,7 @@ impl Run {
             model: Arc::new(self.finished.problem.model.clone()),
             output: Output::default(),
             deck: None,
+            raised: self.raised.clone(),
         }
     }
 
@@ -129,6 +130,7 @@ impl Run {
             py,
             recorded(simulation, Output::default(), recording, None),
             watching,
+            self.raised.clone(),
         )
     }
 }
@@ -154,7 +156,7 @@ pub fn run(
     let simulation = py.detach(|| Simulation::new((*of).clone()));
     let simulation = simulation.map_err(|error| raised(error, "model"))?;
     let simulation = recorded(simulation, output, recording, model.deck.clone());
-    watched(py, simulation, watching)
+    watched(py, simulation, watching, model.raised.clone())
 }
 
 /// Goes on with a recorded run of a deck.
@@ -172,7 +174,7 @@ pub fn resume(
         Simulation::resume_from(deck, checkpoint, &folder)
     });
     let simulation = simulation.map_err(|error| raised(error, "model"))?;
-    watched(py, simulation, watching)
+    watched(py, simulation, watching, Vec::new())
 }
 
 fn recorded(
@@ -246,7 +248,13 @@ impl Observer for Messenger {
 }
 
 /// Runs while the caller's thread listens.
-fn watched(py: Python<'_>, simulation: Simulation, watching: Watching) -> PyResult<Ended> {
+fn watched(
+    py: Python<'_>,
+    simulation: Simulation,
+    watching: Watching,
+    laws: Vec<Raised>,
+) -> PyResult<Ended> {
+    let listened = laws.clone();
     let (on_increment, keep, threads) = watching;
     let problem = simulation.problem().clone();
     let interrupt = Interrupt::default();
@@ -280,7 +288,7 @@ fn watched(py: Python<'_>, simulation: Simulation, watching: Watching) -> PyResu
                 heard,
                 answer,
             });
-            let stopped = listen(callback.as_ref(), &ended, &interrupt);
+            let stopped = listen(callback.as_ref(), &ended, &interrupt, &listened);
             let outcome = worker
                 .join()
                 .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
@@ -289,11 +297,12 @@ fn watched(py: Python<'_>, simulation: Simulation, watching: Watching) -> PyResu
     })?;
     let (finished, messenger) = outcome;
     let finished = finished?.map_err(|error: Error| raised(error, "model"))?;
-    Ok((ended_with(finished, messenger), stopped))
+    let stopped = stopped.or_else(|| laws.iter().find_map(Raised::take));
+    Ok((ended_with(finished, messenger, laws), stopped))
 }
 
 /// The run with its last state among those that are kept.
-fn ended_with(finished: Finished, messenger: Messenger) -> Run {
+fn ended_with(finished: Finished, messenger: Messenger, raised: Vec<Raised>) -> Run {
     let mut kept = messenger.kept;
     let last = kept.last().map(|kept| kept.progress);
     if let Some((progress, iterations)) = messenger.latest
@@ -305,70 +314,10 @@ fn ended_with(finished: Finished, messenger: Messenger) -> Run {
             state: finished.state.clone(),
         }));
     }
-    Run { finished, kept }
-}
-
-/// The function of Python that is told of increments.
-struct Callback {
-    function: Py<PyAny>,
-    problem: Arc<Problem>,
-    heard: Receiver<Arc<Kept>>,
-    answer: Sender<Next>,
-}
-
-impl Callback {
-    /// Whether the run goes on after an increment.
-    fn told(&self, kept: Arc<Kept>) -> PyResult<Next> {
-        Python::attach(|py| {
-            py.check_signals()?;
-            let results = Results {
-                problem: self.problem.clone(),
-                kept,
-            };
-            let answer = self.function.call1(py, (results,))?;
-            let stops = answer
-                .bind(py)
-                .extract::<bool>()
-                .is_ok_and(|goes_on| !goes_on);
-            Ok(if stops { Next::Stop } else { Next::Continue })
-        })
-    }
-}
-
-/// Answers until the run has ended; returns the exception that stopped it.
-fn listen(
-    callback: Option<&Callback>,
-    ended: &Receiver<()>,
-    interrupt: &Interrupt,
-) -> Option<PyErr> {
-    let mut stopped: Option<PyErr> = None;
-    loop {
-        let heard = match callback {
-            Some(callback) => callback.heard.recv_timeout(TICK).map(Some),
-            None => ended.recv_timeout(TICK).map(|()| None),
-        };
-        match (heard, callback) {
-            (Ok(Some(kept)), Some(callback)) => {
-                let answered = match &stopped {
-                    None => callback.told(kept),
-                    Some(_) => Ok(Next::Stop),
-                };
-                let next = answered.unwrap_or_else(|error| {
-                    stopped = Some(error);
-                    Next::Stop
-                });
-                // A run that has panicked hears no answer.
-                let _ = callback.answer.send(next);
-            }
-            (Ok(_), _) => {}
-            (Err(RecvTimeoutError::Timeout), _) => {
-                if let Err(error) = Python::attach(|py| py.check_signals()) {
-                    interrupt.set();
-                    stopped.get_or_insert(error);
-                }
-            }
-            (Err(RecvTimeoutError::Disconnected), _) => return stopped,
-        }
+    Run {
+        finished,
+        kept,
+        raised,
     }
 }
 

@@ -93,8 +93,8 @@ WRONG: list[tuple[dict[str, Any], str]] = [
         " as 0.95",
     ),
     (
-        {"forces": [-0.1, -0.1, -0.1]},
-        "fit_friction: the mean friction against slip is -0.1, but it must be positive: state"
+        {"forces": [-0.25, -0.25, -0.25]},
+        "fit_friction: the mean friction against slip is -0.25, but it must be positive: state"
         " the angle of slip, not that of the force on the surface",
     ),
 ]

@@ -12,7 +12,7 @@
 //! | `theta` | angle between the textures of two surfaces (degrees); optional, 0 |
 //! | `spread` | standard deviation in proportion to that of other readings (no unit); optional, 1 |
 
-use std::{fmt, path::Path};
+use std::fmt;
 
 use striae_law::fit::Reading;
 
@@ -45,6 +45,16 @@ pub struct MeasurementFault {
     pub message: String,
 }
 
+impl MeasurementFaults {
+    /// That a file cannot be read.
+    pub fn unreadable(file: &str, cause: &std::io::Error) -> Self {
+        Self {
+            file: file.to_owned(),
+            faults: vec![fault(None, format!("it cannot be read: {cause}"))],
+        }
+    }
+}
+
 impl fmt::Display for MeasurementFaults {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (number, fault) in self.faults.iter().enumerate() {
@@ -57,21 +67,6 @@ impl fmt::Display for MeasurementFaults {
             f.write_str(&fault.message)?;
         }
         Ok(())
-    }
-}
-
-/// Readings of a file.
-///
-/// # Errors
-/// All its faults.
-pub fn read(path: &Path) -> Result<Vec<Reading>, MeasurementFaults> {
-    let file = path.display().to_string();
-    match std::fs::read_to_string(path) {
-        Ok(text) => parse(&text, &file),
-        Err(cause) => Err(MeasurementFaults {
-            file,
-            faults: vec![fault(None, format!("it cannot be read: {cause}"))],
-        }),
     }
 }
 

@@ -8,7 +8,10 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use striae::{figures, measurements};
+use striae::{
+    figures,
+    measurements::{self, MeasurementFaults},
+};
 use striae_law::{
     fit::{ConstantName, Fit, Reading, Sought, Standing, fit},
     friction::SlipRule,
@@ -78,7 +81,10 @@ impl Arguments {
 
 /// Fits, prints and draws.
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    let readings = measurements::read(&arguments.measurements)?;
+    let file = arguments.measurements.display().to_string();
+    let text = std::fs::read_to_string(&arguments.measurements)
+        .map_err(|cause| MeasurementFaults::unreadable(&file, &cause))?;
+    let readings = measurements::parse(&text, &file)?;
     let sought = arguments.sought();
     let found = fit(sought, &readings, arguments.level)?;
     writeln!(out, "{}\n", snippet(sought, &found))?;

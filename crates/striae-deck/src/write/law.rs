@@ -111,27 +111,33 @@ fn volumetric(form: Volumetric) -> &'static str {
 }
 
 fn hyperelastic(rubber: &Hyperelastic) -> String {
-    let law = rubber.isochoric().name();
     let isochoric = match rubber.isochoric() {
-        Isochoric::NeoHookean { shear } => stated(law, &[("shear_modulus", *shear)]),
-        Isochoric::MooneyRivlin { c10, c01 } => stated(law, &[("c10", *c10), ("c01", *c01)]),
+        Isochoric::NeoHookean { shear } => {
+            stated("isochoric-neo-hookean", &[("shear_modulus", *shear)])
+        }
+        Isochoric::MooneyRivlin { c10, c01 } => {
+            stated("mooney-rivlin", &[("c10", *c10), ("c01", *c01)])
+        }
         Isochoric::Yeoh { c10, c20, c30 } => {
-            stated(law, &[("c10", *c10), ("c20", *c20), ("c30", *c30)])
+            stated("yeoh", &[("c10", *c10), ("c20", *c20), ("c30", *c30)])
         }
         Isochoric::Gent { shear, limit } => {
-            stated(law, &[("shear_modulus", *shear), ("limit", *limit)])
+            stated("gent", &[("shear_modulus", *shear), ("limit", *limit)])
         }
         Isochoric::ArrudaBoyce {
             mu,
             locking_stretch,
-        } => stated(law, &[("mu", *mu), ("locking_stretch", *locking_stretch)]),
+        } => stated(
+            "arruda-boyce",
+            &[("mu", *mu), ("locking_stretch", *locking_stretch)],
+        ),
         Isochoric::Ogden(terms) => {
             let term = |term: &OgdenTerm| {
                 let (mu, alpha) = (number(term.mu), number(term.alpha));
                 format!("{{ mu = {mu}, alpha = {alpha} }}")
             };
             let terms = list(terms.iter().map(term));
-            stated(law, &[]) + &format!("terms = {terms}\n")
+            stated("ogden", &[]) + &format!("terms = {terms}\n")
         }
     };
     let bulk = format!("bulk_modulus = {}\n", number(rubber.bulk()));

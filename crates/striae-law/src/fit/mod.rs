@@ -3,7 +3,7 @@
 //! A [`Reading`] is friction over pressure, `w = -tau/p`, in one direction of slip `d`: the
 //! part of it that opposes slip, `w . d`, and, where the tester measures it, the part across
 //! slip. In the frame `(e, e_perp)` of the law (the texture `a` of the only textured
-//! surface, or the bisector of `a_a` and `a_b'`), [`basis`] writes every law as
+//! surface, or the bisector of `a_a` and `a_b'`), the file `basis.rs` writes every law as
 //!
 //! ```text
 //! w(d) = sum_k q_k w_k(d) ,

@@ -47,6 +47,7 @@ from ._material import (
     MooneyRivlin,
     NeoHookean,
     Ogden,
+    OwnMaterial,
     Rubber,
     Yeoh,
 )
@@ -102,6 +103,7 @@ __all__ = [
     "Nodal",
     "Ogden",
     "Orthotropic",
+    "OwnMaterial",
     "Painted",
     "Pair",
     "PairResults",

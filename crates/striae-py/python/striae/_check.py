@@ -13,10 +13,17 @@ from ._errors import refuse
 Floats: TypeAlias = npt.NDArray[np.float64]
 Ints: TypeAlias = npt.NDArray[np.int64]
 Vector: TypeAlias = Union[Sequence[float], Floats]
-Curve: TypeAlias = Union[Literal["ramp", "constant", "smooth"], Sequence[tuple[float, float]]]
+Curve: TypeAlias = Union[
+    Literal["ramp", "constant", "smooth"],
+    Sequence[tuple[float, float]],
+    Callable[[float], float],
+]
 Members: TypeAlias = Union[npt.ArrayLike, Callable[[Floats], npt.ArrayLike]]
 
 CURVES = ("ramp", "constant", "smooth")
+
+#: Straight pieces of a curve that is given by a function.
+PIECES = 1000
 
 T = TypeVar("T")
 
@@ -145,9 +152,12 @@ def kind(value: Any, class_: type[T], path: str) -> T:
 
 
 def curve(value: Any, path: str) -> str | list[tuple[float, float]]:
-    """The name of a curve, or its points."""
+    """The name of a curve, or its points; those of a function are taken once, here."""
     if isinstance(value, str):
         return word(value, CURVES, path)
+    if callable(value):
+        fractions = [at / PIECES for at in range(PIECES + 1)]
+        return [(at, number(value(at), f"{path} at {at}")) for at in fractions]
     found = array(value, path)
     if found.ndim != 2 or found.shape[1] != 2:
         raise refuse(

@@ -6,7 +6,7 @@ the row of scales, ``a = n x s`` across; for scales ``a`` points from root to fr
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Union
 
 import numpy as np
@@ -189,3 +189,18 @@ class Tabulated(Friction):
         radians = np.radians(given[0]).tolist()
         self._native = native.Friction.tabulated(radians, given[1].astype(np.float64).tolist())
         self._told = f"Tabulated({len(radians)} angles)"
+
+    @classmethod
+    def sampled(cls, mu: Callable[[float], float], count: int = 360) -> Tabulated:
+        """Makes the law from a function, its polar curve, which is called for each angle once.
+
+        Between the angles the law is monotone and smooth; it differs from the function by the
+        square of their distance and less.
+
+        mu: coefficient of friction (no unit) of slip at an angle (degrees).
+        count: number of angles, from 0 at equal distances.
+        """
+        if not callable(mu):
+            raise TypeError("mu: a function of the angle is needed")
+        angles = [360.0 * at / check.whole(count, "count", 3) for at in range(count)]
+        return cls(angles, [check.number(mu(angle), f"mu at {angle} degrees") for angle in angles])

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Literal, Optional, Union
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _check as check
 from . import _striae as native
 from ._check import Floats
+from ._errors import refuse
 
 
 class Material:
@@ -245,3 +247,59 @@ class Ogden(Rubber):
         pairs = [check.vector(term, "terms", 2) for term in terms]
         constants = [number for pair in pairs for number in pair]
         self._make(constants, bulk_modulus, poissons_ratio, volumetric)
+
+
+class OwnMaterial(Material):
+    """An elastic law that a function of Python states.
+
+    It is called for each integration point in each iteration, one call at a time, so such a
+    model is slow. An exception in it ends the run and is raised.
+    """
+
+    def __init__(
+        self,
+        response: Callable[[Floats], Optional[tuple[float, npt.ArrayLike, npt.ArrayLike]]],
+        name: str = "own",
+    ) -> None:
+        """Makes the material, and holds the function against the laws of elasticity: no energy
+        and stress at rest, stress and tangent that are derivatives, a symmetric tangent, and
+        indifference to rotations. Otherwise one :class:`ModelError` says what is wrong.
+
+        response: from the deformation gradient ``F``, of shape (3, 3) (no unit), to the stored
+            energy (per reference volume), the first Piola-Kirchhoff stress ``P``, of shape
+            (3, 3) (force per reference area), and the tangent ``dP_iJ/dF_kL``, of shape
+            (3, 3, 3, 3) (force per reference area); ``None`` where it allows no such
+            deformation, and the increment is cut. It must answer the same each time.
+        name: of the law in messages.
+        """
+        if not callable(response):
+            raise TypeError("response: a function of the deformation gradient is needed")
+        self._name = check.name(name, "name")
+        self._native = native.own_material(name, _checked(response, name))
+        self.youngs_modulus, self.poissons_ratio = self._native.constants()
+
+    def __repr__(self) -> str:
+        return f"OwnMaterial(name={self._name!r})"
+
+
+def _checked(
+    response: Callable[[Floats], Optional[tuple[float, npt.ArrayLike, npt.ArrayLike]]], name: str
+) -> Callable[[Floats], Optional[tuple[float, Floats, Floats]]]:
+    """The function with its answers as numbers and arrays of the right shapes."""
+
+    def called(gradient: Floats) -> Optional[tuple[float, Floats, Floats]]:
+        answer = response(gradient)
+        if answer is None:
+            return None
+        if not isinstance(answer, tuple) or len(answer) != 3:
+            raise refuse(name, "energy, stress and tangent are needed, or None")
+        energy, stress, tangent = answer
+        found = [check.array(stress, f"{name}: stress"), check.array(tangent, f"{name}: tangent")]
+        for array, what, shape in zip(found, ("stress", "tangent"), ((3, 3), (3, 3, 3, 3))):
+            if array.shape != shape:
+                text = f"it must have shape {shape}, but has {array.shape}"
+                raise refuse(f"{name}: {what}", text)
+        floats = [np.ascontiguousarray(array, dtype=np.float64) for array in found]
+        return check.number(energy, f"{name}: energy"), floats[0], floats[1]
+
+    return called

@@ -145,6 +145,20 @@ class Model:
         """
         return cls._of(native.Model.from_text(text, os.fspath(folder)))
 
+    def to_deck(self, path: Optional[Path] = None) -> str:
+        """The model as the text of a deck, from which :meth:`from_text` and the program make an
+        equal one: runs of both have the same bits.
+
+        Meshes are written out in it, however they were made, and so are all defaults.
+
+        path: file to which it is written, too.
+        """
+        text = self._compiled().to_deck()
+        if path is not None:
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text)
+        return text
+
     def step(
         self,
         name: str,

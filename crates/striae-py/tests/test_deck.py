@@ -1,0 +1,52 @@
+"""Models as decks."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import striae as st
+
+ROOT = Path(__file__).parents[3]
+
+
+def assert_same_runs(one: st.Model, other: st.Model) -> None:
+    one_run, other_run = one.run(), other.run()
+    assert one_run.ending == other_run.ending == "completed"
+    assert np.array_equal(one_run.history.table, other_run.history.table)
+    for name in one.body_names:
+        first, second = one_run[-1].body(name), other_run[-1].body(name)
+        assert np.array_equal(first.position, second.position)
+
+
+def test_a_model_is_a_deck_that_runs_to_the_same_bits(model: st.Model, tmp_path: Path) -> None:
+    path = tmp_path / "deck.toml"
+    text = model.to_deck(path)
+    assert path.read_text() == text
+    again = st.Model.from_deck(path)
+    assert again.to_deck() == text
+    assert_same_runs(model, again)
+
+
+@pytest.mark.parametrize("case", ["two-blocks", "pad-on-incline"])
+def test_a_deck_is_written_with_the_steps_that_were_added(case: str) -> None:
+    decks = [one for one in sorted((ROOT / "cases" / case).glob("*.toml"))]
+    deck = next(one for one in decks if one.name != "expected.toml")
+    model = st.Model.from_deck(deck)
+    model.step("more", increments=1)
+    again = st.Model.from_text(model.to_deck())
+    assert again.step_names == [*model.step_names]
+    assert again.to_deck() == model.to_deck()
+
+
+def test_textures_of_all_kinds_are_written(rubber: st.NeoHookean) -> None:
+    pad = st.Body("pad", st.block(divisions=(2, 2, 2)), rubber)
+    floor = st.Plane("floor", normal=(0.1, 0.2, 1))
+    directions = np.tile([1.0, 0.5, 0.0], (9, 1))
+    for texture in [st.Nodal(directions), st.Circumferential((0, 0, 1), turn=33.3)]:
+        side = pad["zmin"].textured(texture)
+        model = st.Model([pad], [floor], [st.Pair(side, floor, st.Nap(0.2, 0.3, 0.25))])
+        model.step("press", pad["zmax"].displace(x=0, y=0, z=-0.01))
+        text = model.to_deck()
+        assert st.Model.from_text(text).to_deck() == text

@@ -1,0 +1,126 @@
+"""Functions of Python in models."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Optional
+
+import numpy as np
+import pytest
+import striae as st
+
+
+def pushed(pad: st.Body, floor: st.Plane, curve: object) -> st.Run:
+    model = st.Model([pad], [floor], [st.Pair(pad["zmin"], floor)])
+    model.step("press", pad["zmax"].displace(x=0, y=0, z=-0.02, curve=curve), increments=8)  # type: ignore[arg-type]
+    return model.run()
+
+
+def test_a_function_is_a_curve(pad: st.Body, floor: st.Plane) -> None:
+    """The tops follow it at every increment."""
+    run = pushed(pad, floor, lambda s: math.sin(math.pi * s))
+    top = pad.mesh.points[:, 2] > 1 - 1e-9
+    for increment in run:
+        expected = -0.02 * math.sin(math.pi * increment.fraction)
+        found = increment.body("pad").displacement[top, 2]
+        assert np.allclose(found, expected, atol=1e-9)
+
+
+def test_functions_of_named_curves_give_their_bits(pad: st.Body, floor: st.Plane) -> None:
+    ramp, same = pushed(pad, floor, "ramp"), pushed(pad, floor, lambda s: s)
+    assert np.allclose(ramp.history.table, same.history.table, rtol=1e-9, atol=1e-12)
+
+
+def test_a_polar_curve_is_a_law() -> None:
+    def mu(angle: float) -> float:
+        return 0.3 + 0.1 * math.cos(math.radians(angle)) ** 2
+
+    errors = []
+    for count in (45, 90, 180):
+        surface = st.Tabulated.sampled(mu, count).slip_surface(count=1001)
+        exact = [mu(angle) for angle in np.degrees(surface.slip_angle)]
+        errors.append(float(np.abs(surface.dissipation - exact).max()))
+    assert errors[0] / errors[1] > 3.5 and errors[1] / errors[2] > 3.5
+    assert repr(st.Tabulated.sampled(mu)) == "Tabulated(360 angles)"
+
+
+def test_what_functions_raise_is_raised(pad: st.Body, floor: st.Plane) -> None:
+    with pytest.raises(ZeroDivisionError):
+        pushed(pad, floor, lambda s: 1 / s)
+    with pytest.raises(st.ModelError, match="curve at 0.0: a finite number is needed, not nan"):
+        pushed(pad, floor, lambda s: float("nan"))
+    with pytest.raises(st.ModelError, match="mu at 90.0 degrees: a number is needed, not 'much'"):
+        st.Tabulated.sampled(lambda angle: "much" if angle == 90 else 0.3, 4)  # type: ignore[arg-type, return-value]
+    with pytest.raises(st.ModelError, match="refused: it must be positive and finite"):
+        st.Tabulated.sampled(lambda angle: 0.1 + 0.2 * math.cos(math.radians(angle)))
+
+
+def neo_hookean(F: Any) -> tuple[float, Any, Any]:
+    """Energy ``G/2 (I1 - 3 - 2 ln J) + k/2 (J - 1)^2`` with G = 4e5 and k = 6e5."""
+    G, k = 4e5, 6e5
+    J, inverse = float(np.linalg.det(F)), np.linalg.inv(F).T
+    one = np.eye(3)
+    energy = 0.5 * G * (float((F * F).sum()) - 3.0 - 2.0 * math.log(J)) + 0.5 * k * (J - 1) ** 2
+    stress = G * (F - inverse) + k * (J - 1) * J * inverse
+    tangent = (
+        G * np.einsum("ik,jl->ijkl", one, one)
+        + (G - k * (J - 1) * J) * np.einsum("il,kj->ijkl", inverse, inverse)
+        + k * (2 * J - 1) * J * np.einsum("ij,kl->ijkl", inverse, inverse)
+    )
+    return energy, stress, tangent
+
+
+def dragged(material: st.Material, threads: Optional[int] = None) -> st.Run:
+    pad = st.Body("pad", st.block(divisions=(2, 2, 2)), material)
+    floor = st.Plane("floor", texture=(1, 0, 0))
+    law = st.Orthotropic(along=0.1, across=0.4)
+    model = st.Model([pad], [floor], [st.Pair(pad["zmin"], floor, law)])
+    model.step("press", pad["zmax"].displace(x=0, y=0, z=-0.02), increments=2)
+    model.step("drag", pad["zmax"].displace(y=0.1), increments=2)
+    return model.run(threads=threads)
+
+
+def test_a_function_is_a_material() -> None:
+    """A law of the library, stated again, gives its results; threads do not bear on them."""
+    own = st.OwnMaterial(neo_hookean, "again")
+    known = st.NeoHookean(youngs_modulus=own.youngs_modulus, poissons_ratio=own.poissons_ratio)
+    run, other = dragged(own), dragged(known)
+    assert np.allclose(run.history.table, other.history.table, rtol=1e-8, atol=1e-4)
+    assert np.array_equal(run.history.table, dragged(own, threads=1).history.table)
+    assert np.allclose(run[-1].body("pad").stress, other[-1].body("pad").stress, rtol=1e-6)
+    assert repr(own) == "OwnMaterial(name='again')"
+
+
+def test_an_exception_in_a_material_ends_the_run() -> None:
+    calls = []
+
+    def failing(F: Any) -> tuple[float, Any, Any]:
+        calls.append(1)
+        if len(calls) > 2000 and abs(F[2, 2] - 1) > 0.01:
+            raise ArithmeticError("enough")
+        return neo_hookean(F)
+
+    with pytest.raises(ArithmeticError, match="enough"):
+        material = st.OwnMaterial(failing)
+        for _ in range(10):
+            dragged(material)
+
+
+def test_materials_are_judged_before_a_run() -> None:
+    def wrong(F: Any) -> tuple[float, Any, Any]:
+        energy, stress, tangent = neo_hookean(F)
+        return energy + 1.0, 1.1 * stress, tangent
+
+    with pytest.raises(st.ModelError) as error:
+        st.OwnMaterial(wrong, "wrong")
+    told = str(error.value)
+    assert "wrong: at rest the energy is 1.0" in told
+    assert "the stress is not the derivative of the energy" in told
+    with pytest.raises(st.ModelError, match="own: stress: it must have shape"):
+        st.OwnMaterial(lambda F: (0.0, np.zeros(3), np.zeros((3, 3, 3, 3))))
+    with pytest.raises(st.ModelError, match="no answer to the undeformed state"):
+        st.OwnMaterial(lambda F: None)
+    with pytest.raises(st.ModelError, match="a law of one's own"):
+        model = st.Model([st.Body("pad", st.block(), st.OwnMaterial(neo_hookean))])
+        model.step("rest", model.body("pad")["all"].hold())
+        model.to_deck()
