@@ -90,7 +90,7 @@ pub struct Assembled {
     pub contacts: Vec<Evaluation>,
     /// All but contact.
     pub background: Background,
-    /// Time that contact took, for profiles only.
+    /// Time that contact took on the clock, most of it beside the bodies; for profiles only.
     pub contact_time: Duration,
 }
 
