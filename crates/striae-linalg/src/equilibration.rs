@@ -7,6 +7,7 @@
 
 use crate::{error::SolveError, matrix::SparseMatrix, structure::Supervariable};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Most sweeps over the matrix; each halves the exponents that are left.
 const SWEEPS: usize = 12;
@@ -70,9 +71,8 @@ impl Equilibration {
         };
         let mut multipliers = Vec::new();
         for i in 0..structure.supervariables() {
-            let bulk = structure.bulk_group(i);
-            multipliers.extend(bulk.end..structure.group(i).end);
-            for u in bulk {
+            multipliers.extend(structure.multiplier_group(i));
+            for u in structure.bulk_group(i) {
                 let scale = match older {
                     Some(older) => older.columns[u],
                     None => root(matrix.get(u, u).unwrap_or(0.0).abs()),
@@ -82,27 +82,14 @@ impl Equilibration {
         }
         let mut is_multiplier = vec![false; n];
         multipliers.iter().for_each(|&m| is_multiplier[m] = true);
-        let mut largest = vec![0.0_f64; n];
-        for i in (0..structure.supervariables()).filter(|&i| structure.is_kept(Supervariable(i))) {
-            for edge in structure.edges(i) {
-                let target = structure.target(edge);
-                let own = structure.bulk_group(target).end..structure.group(target).end;
-                if own.is_empty() {
-                    continue;
-                }
-                let offset = structure.column(edge) + own.start - structure.group(target).start;
-                for (local, u) in structure.bulk_group(i).enumerate() {
-                    let values = &matrix.values()[structure.row(i, local)][offset..];
-                    for (v, a) in own.clone().zip(values) {
-                        largest[v] = largest[v].max(a.abs() * scaling.rows[u]);
-                    }
-                }
-            }
-        }
+        let kept_bulk = |i: usize| match structure.is_kept(Supervariable(i)) {
+            true => structure.bulk_group(i),
+            false => 0..0,
+        };
+        let mut largest = largest_in_columns(matrix, &scaling.rows, |_| true, kept_bulk);
         for i in 0..structure.supervariables() {
-            let bulk = structure.bulk_group(i);
-            if !bulk.is_empty() {
-                let own = &mut largest[bulk.end..structure.group(i).end];
+            if !structure.bulk_group(i).is_empty() {
+                let own = &mut largest[structure.multiplier_group(i)];
                 let common = own.iter().copied().fold(0.0, f64::max);
                 own.fill(common);
             }
@@ -110,27 +97,31 @@ impl Equilibration {
         multipliers
             .iter()
             .for_each(|&m| scaling.columns[m] = inverse(largest[m]));
-        for &m in &multipliers {
-            let known = |v: usize| !is_multiplier[v] || largest[v] > 0.0;
-            let entries = matrix.row(m).filter(|&(v, _)| known(v));
-            let size = entries.map(|(v, a)| a.abs() * scaling.columns[v]);
-            scaling.rows[m] = inverse(size.fold(0.0, f64::max));
-        }
         let unknown = |v: usize| is_multiplier[v] && largest[v] == 0.0;
-        let mut late = vec![0.0_f64; n];
-        for &m in &multipliers {
-            for (v, a) in matrix.row(m).filter(|&(v, _)| unknown(v)) {
-                late[v] = late[v].max(a.abs() * scaling.rows[m]);
-            }
-        }
+        let columns: Vec<f64> = (0..n)
+            .map(|v| if unknown(v) { 0.0 } else { scaling.columns[v] })
+            .collect();
+        scaling.scale_rows_of(matrix, &multipliers, &columns);
+        let with_unknown = |i: usize| structure.multiplier_group(i).any(unknown);
+        let others = |i: usize| structure.multiplier_group(i);
+        let late = largest_in_columns(matrix, &scaling.rows, with_unknown, others);
         for &m in multipliers.iter().filter(|&&m| unknown(m)) {
             scaling.columns[m] = inverse(late[m]);
         }
-        for &m in &multipliers {
-            let sizes = matrix.row(m).map(|(v, a)| a.abs() * scaling.columns[v]);
-            scaling.rows[m] = inverse(sizes.fold(0.0, f64::max));
-        }
+        let columns = scaling.columns.clone();
+        scaling.scale_rows_of(matrix, &multipliers, &columns);
         Ok(scaling)
+    }
+
+    /// Scales some rows to the largest of their entries times `columns`.
+    fn scale_rows_of(&mut self, matrix: &SparseMatrix, rows: &[usize], columns: &[f64]) {
+        let sizes = rows.par_iter().with_min_len(16);
+        let sizes: Vec<f64> = sizes
+            .map(|&row| inverse(largest_in_row(matrix, row, columns)))
+            .collect();
+        for (&row, size) in rows.iter().zip(sizes) {
+            self.rows[row] = size;
+        }
     }
 
     /// `b := R b`, from the equations of `A` to those of `R A C`.
@@ -142,6 +133,61 @@ impl Equilibration {
     pub(crate) fn scale_columns(&self, x: &mut [f64]) {
         x.iter_mut().zip(&self.columns).for_each(|(x, c)| *x *= c);
     }
+}
+
+/// Largest magnitude of the entries of a row times factors of the columns.
+fn largest_in_row(matrix: &SparseMatrix, row: usize, columns: &[f64]) -> f64 {
+    let structure = matrix.structure();
+    let i = structure.owner(row).0;
+    let mut values = &matrix.values()[structure.row(i, row - structure.group(i).start)];
+    let mut largest = 0.0_f64;
+    for group in structure.column_groups(i) {
+        let (own, others) = values.split_at(group.len());
+        values = others;
+        for (a, factor) in own.iter().zip(&columns[group]) {
+            largest = largest.max(a.abs() * factor);
+        }
+    }
+    largest
+}
+
+/// Largest magnitude of the entries in each column of the multipliers of some supervariables,
+/// in some rows of each neighbour, times factors of the rows; zero in all other columns.
+fn largest_in_columns(
+    matrix: &SparseMatrix,
+    factors: &[f64],
+    wanted: impl Fn(usize) -> bool + Sync,
+    rows: impl Fn(usize) -> Range<usize> + Sync,
+) -> Vec<f64> {
+    let structure = matrix.structure();
+    let of_one = |&t: &usize| {
+        let own = structure.multiplier_group(t);
+        let mut largest = vec![0.0_f64; own.len()];
+        for i in structure.edges(t).map(|edge| structure.target(edge)) {
+            let rows = rows(i);
+            // The pattern is symmetric, so the mirrored edge exists.
+            let Some(edge) = structure.edge(i, t).filter(|_| !rows.is_empty()) else {
+                continue;
+            };
+            let offset = structure.column(edge) + own.start - structure.group(t).start;
+            for row in rows {
+                let place = structure.row(i, row - structure.group(i).start);
+                let entries = &matrix.values()[place][offset..];
+                for (largest, a) in largest.iter_mut().zip(entries) {
+                    *largest = largest.max(a.abs() * factors[row]);
+                }
+            }
+        }
+        largest
+    };
+    let has_any = |t: &usize| !structure.multiplier_group(*t).is_empty() && wanted(*t);
+    let owners: Vec<usize> = (0..structure.supervariables()).filter(has_any).collect();
+    let found: Vec<Vec<f64>> = owners.par_iter().with_min_len(8).map(of_one).collect();
+    let mut largest = vec![0.0; structure.unknowns()];
+    for (&t, found) in owners.iter().zip(found) {
+        largest[structure.multiplier_group(t)].copy_from_slice(&found);
+    }
+    largest
 }
 
 /// Power of two nearest to `1/sqrt(maximum)` in the exponent; one for zero.

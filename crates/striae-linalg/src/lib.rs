@@ -60,7 +60,7 @@ pub use automatic::Automatic;
 pub use error::{OutsidePattern, SolveError, StructureError};
 pub use faer::Mat;
 pub use faer_lu::FaerLu;
-pub use matrix::SparseMatrix;
+pub use matrix::{PlacedBlock, SparseMatrix};
 pub use multifrontal::MultifrontalLu;
 pub use ordering::nested_dissection;
 pub use real::Precision;

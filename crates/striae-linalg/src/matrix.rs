@@ -4,11 +4,18 @@
 //! by its supervariable and needs no column indices of its own.
 
 mod kept;
+mod scatter;
+
+pub use scatter::PlacedBlock;
 
 use crate::{
     error::OutsidePattern,
     structure::{Structure, Supervariable},
 };
+use rayon::prelude::*;
+
+/// Values that a thread sets to zero at a time.
+const PIECE: usize = 1 << 16;
 
 /// A square matrix on the pattern of a [`Structure`].
 #[derive(Clone, Debug)]
@@ -33,7 +40,8 @@ impl SparseMatrix {
 
     /// Sets all values to zero.
     pub fn clear(&mut self) {
-        self.values.fill(0.0);
+        let pieces = self.values.par_chunks_mut(PIECE);
+        pieces.for_each(|piece| piece.fill(0.0));
     }
 
     /// Adds a dense block, `block[r * columns.len() + c]` to entry `(rows[r], columns[c])`.

@@ -30,7 +30,9 @@ impl SparseMatrix {
             for i in supervariables {
                 // With the other sign, as products are subtracted.
                 own.clear();
-                own.extend(self.structure().row_columns(i).map(|column| -x[column]));
+                for group in self.structure().column_groups(i) {
+                    own.extend(x[group].iter().map(|x| -x));
+                }
                 let (rows, others) = rest.split_at_mut(self.structure().group(i).len());
                 rest = others;
                 rows.fill(0.0);
@@ -51,14 +53,16 @@ impl SparseMatrix {
             let mut own = Vec::new();
             for i in supervariables {
                 own.clear();
-                own.extend(self.structure().row_columns(i).map(|c| (x[c], units[c])));
+                for group in self.structure().column_groups(i) {
+                    own.extend(x[group.clone()].iter().zip(&units[group]));
+                }
                 let group = self.structure().group(i);
                 let (rows, others) = rest.split_at_mut(group.len());
                 rest = others;
                 for (local, (row, b)) in rows.iter_mut().zip(&b[group]).enumerate() {
                     let (mut sum, mut terms, mut norm) = (0.0, 0.0, 0.0);
                     let values = &self.values()[self.structure().row(i, local)];
-                    for (a, (x, unit)) in values.iter().zip(&own) {
+                    for (a, &(x, unit)) in values.iter().zip(&own) {
                         sum += a * x;
                         terms += (a * x).abs();
                         norm += a.abs() * unit;

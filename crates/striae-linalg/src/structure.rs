@@ -192,6 +192,11 @@ impl Structure {
         start..start + self.0.bulk[i] as usize
     }
 
+    /// The unknowns of supervariable `i` that are no bulk.
+    pub(crate) fn multiplier_group(&self, i: usize) -> Range<usize> {
+        self.bulk_group(i).end..self.group(i).end
+    }
+
     /// Whether an edge belongs to the bulk.
     pub(crate) fn is_bulk_edge(&self, edge: usize) -> bool {
         self.0.bulk_edges[edge]
@@ -279,7 +284,18 @@ impl Structure {
 
     /// Columns of the entries of the rows of supervariable `i`, in storage order.
     pub(crate) fn row_columns(&self, i: usize) -> impl Iterator<Item = usize> + '_ {
-        self.edges(i).flat_map(|edge| self.group(self.target(edge)))
+        self.column_groups(i).flatten()
+    }
+
+    /// The same, by the supervariables that the columns belong to.
+    pub(crate) fn column_groups(&self, i: usize) -> impl Iterator<Item = Range<usize>> + '_ {
+        self.edges(i).map(|edge| self.group(self.target(edge)))
+    }
+
+    /// Where the values of all rows of supervariable `i` are.
+    pub(crate) fn rows(&self, i: usize) -> Range<usize> {
+        let start = self.0.values[i];
+        start..start + self.group(i).len() * self.row_length(i)
     }
 }
 

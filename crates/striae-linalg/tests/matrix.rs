@@ -1,7 +1,9 @@
 //! Patterns and values.
 
 use proptest::prelude::*;
-use striae_linalg::{OutsidePattern, SparseMatrix, Structure, StructureError, Supervariable};
+use striae_linalg::{
+    OutsidePattern, PlacedBlock, SparseMatrix, Structure, StructureError, Supervariable,
+};
 
 fn s(list: &[usize]) -> Vec<Supervariable> {
     list.iter().map(|&i| Supervariable(i)).collect()
@@ -142,6 +144,46 @@ proptest! {
             prop_assert!(expected.row(row).eq(found.row(row)));
         }
     }
+}
+
+proptest! {
+    #[test]
+    fn blocks_added_at_once_are_those_added_one_by_one(
+        values in prop::collection::vec(-1.0..1.0_f64, 40 * 12),
+        rows in prop::collection::vec(prop::array::uniform3(0_usize..9), 40),
+        columns in prop::collection::vec(prop::array::uniform4(0_usize..9), 40),
+    ) {
+        let structure = Structure::from_cliques(vec![0, 3, 5, 9], &[s(&[0, 1, 2])]);
+        let mut expected = SparseMatrix::zero(&structure.unwrap());
+        let mut found = expected.clone();
+        let mut blocks = Vec::new();
+        for ((values, rows), columns) in values.chunks(12).zip(&rows).zip(&columns) {
+            // The first row is left out.
+            expected.add(&rows[1..], columns, &values[4..]).unwrap();
+            blocks.push(PlacedBlock {
+                rows: vec![(rows[1], 1), (rows[2], 2)],
+                columns: columns.to_vec(),
+                values,
+            });
+        }
+        found.add_all(&blocks).unwrap();
+        for row in 0..9 {
+            prop_assert!(expected.row(row).eq(found.row(row)));
+        }
+    }
+}
+
+#[test]
+fn blocks_outside_the_pattern_are_named() {
+    let block = |row: usize, column: usize| PlacedBlock {
+        rows: vec![(1, 0), (row, 0)],
+        columns: vec![3, column],
+        values: &[1.0; 2],
+    };
+    let mut matrix = SparseMatrix::zero(&structure());
+    let blocks = [block(3, 0), block(0, 4), block(2, 1), block(4, 1)];
+    assert_eq!(matrix.add_all(&blocks), Err(vec![1, 3]));
+    assert_eq!(matrix.add_all(&[]), Ok(()));
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Residual and tangent of the whole problem at a trial state.
 
+mod blocks;
 mod context;
 mod elements;
 mod inertia;
@@ -29,13 +30,14 @@ use striae_contact::{
 };
 use striae_linalg::{SparseMatrix, Supervariable};
 use striae_mesh::{FacetId, Vec3};
-use terms::{Answer, Triple};
+use terms::Triple;
 use ties::{Moving, Scratch, Tie};
 
 use crate::{
     layout::Layout,
     norms::Norms,
     outcome::CutBack,
+    problem::Problem,
     rigid::Pose,
     state::{NodalForces, State},
 };
@@ -89,7 +91,7 @@ pub struct Assembled {
     pub contacts: Vec<Evaluation>,
     /// All but contact.
     pub background: Background,
-    /// Time that contact took, for profiles only.
+    /// Time that contact took on the clock, most of it beside the bodies; for profiles only.
     pub contact_time: Duration,
 }
 
@@ -127,26 +129,23 @@ fn on_this_thread(
     matrix.clear();
     let imposed = setting.imposed;
     let mut system = System::new(setting.context, layout, matrix, trial, imposed);
-    let started = Instant::now();
     let configurations = configurations(setting, trial);
-    let contacts = match contact {
-        Contact::Known(contacts) => contacts,
-        Contact::Evaluated(iteration) => {
-            system.contacts(&configurations, setting, trial, iteration)?
-        }
-    };
-    system.add_contacts(&configurations, &contacts);
+    for (pair, configuration) in configurations.iter().enumerate() {
+        system.find_triples(pair, configuration);
+    }
+    // Bodies are added while contact is evaluated.
+    let (evaluated, bodies) = rayon::join(
+        || timed(|| contact.evaluated(&configurations, setting, trial)),
+        || system.bodies(&configurations, setting, trial),
+    );
+    let (contacts, evaluation_time) = evaluated;
+    let (contacts, bodies) = (contacts?, bodies?);
+    let background = system.background();
+    let ((), adding_time) = timed(|| system.add_contacts(&contacts));
     system.stabilise(trial, imposed);
     if !system.outside.is_empty() {
         return Err(Fault::Pattern(system.outside));
     }
-    let of_contact = system.set_contact_aside();
-    let contact_time = started.elapsed();
-    system.loads(&configurations, trial, imposed)?;
-    let bodies = system.elements(trial, setting.state, imposed.flowing())?;
-    system.point_masses();
-    system.carried(imposed);
-    let background = system.with_contact(of_contact);
     system.condense(imposed);
     let norms = system.norms(trial, &contacts);
     system.idle(setting.selections);
@@ -162,7 +161,7 @@ fn on_this_thread(
         bodies,
         contacts,
         background,
-        contact_time,
+        contact_time: evaluation_time + adding_time,
     })
 }
 
@@ -230,61 +229,90 @@ impl<'a> System<'a> {
     }
 }
 
-impl System<'_> {
+/// What something returns, and how long it took.
+fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
+    let started = Instant::now();
+    let result = work();
+    (result, started.elapsed())
+}
+
+impl Contact {
     /// Contact of every pair.
-    fn contacts(
-        &self,
+    fn evaluated(
+        self,
         configurations: &[Configuration],
         setting: &Setting,
         trial: &Trial,
-        iteration: Iteration,
     ) -> Result<Vec<Evaluation>, Fault> {
-        let mut contacts = Vec::with_capacity(configurations.len());
-        for (pair, configuration) in configurations.iter().enumerate() {
-            let state = setting.state;
-            let start = self
-                .context
-                .configuration(pair, &state.positions, &state.rigid);
-            let evaluation = evaluate(
-                configuration,
-                &start,
-                &setting.selections[pair],
-                &trial.tractions[pair],
-                &self.context.fixed_on_pair[pair],
-                iteration,
-            )
-            .map_err(|error| Fault::CutBack(self.not_evaluated(pair, error)))?;
-            contacts.push(evaluation);
+        match self {
+            Self::Known(contacts) => Ok(contacts),
+            Self::Evaluated(iteration) => contacts(configurations, setting, trial, iteration),
         }
-        Ok(contacts)
+    }
+}
+
+/// Contact of every pair.
+fn contacts(
+    configurations: &[Configuration],
+    setting: &Setting,
+    trial: &Trial,
+    iteration: Iteration,
+) -> Result<Vec<Evaluation>, Fault> {
+    let (context, state) = (setting.context, setting.state);
+    let mut contacts = Vec::with_capacity(configurations.len());
+    for (pair, configuration) in configurations.iter().enumerate() {
+        let evaluation = evaluate(
+            configuration,
+            &context.configuration(pair, &state.positions, &state.rigid),
+            &setting.selections[pair],
+            &trial.tractions[pair],
+            &context.fixed_on_pair[pair],
+            iteration,
+        )
+        .map_err(|error| Fault::CutBack(not_evaluated(context.problem, pair, error)))?;
+        contacts.push(evaluation);
+    }
+    Ok(contacts)
+}
+
+fn not_evaluated(problem: &Problem, pair: usize, collapse: Collapse) -> CutBack {
+    let (Collapse::Texture(CollapsedTexture { side, node })
+    | Collapse::Facets(CollapsedFacets { side, node })) = collapse;
+    let global = problem.carrier(pair, side, node).unwrap_or(0);
+    let (body, node) = problem.body_node(global);
+    let pair = problem.model.pairs[pair].name.clone();
+    let body = problem.model.bodies[body].name.clone();
+    match collapse {
+        Collapse::Texture(_) => CutBack::CollapsedTexture { pair, body, node },
+        Collapse::Facets(_) => CutBack::CollapsedFacets { pair, body, node },
+    }
+}
+
+impl System<'_> {
+    /// Everything but contact.
+    fn bodies(
+        &mut self,
+        configurations: &[Configuration],
+        setting: &Setting,
+        trial: &Trial,
+    ) -> Result<OfBodies, Fault> {
+        let imposed = setting.imposed;
+        self.loads(configurations, trial, imposed)?;
+        let bodies = self.elements(trial, setting.state, imposed.flowing())?;
+        self.point_masses();
+        self.carried(imposed);
+        Ok(bodies)
     }
 
     /// Adds contact to the system; what is outside the pattern is noted.
-    fn add_contacts(&mut self, configurations: &[Configuration], contacts: &[Evaluation]) {
+    fn add_contacts(&mut self, contacts: &[Evaluation]) {
         for (pair, evaluation) in contacts.iter().enumerate() {
-            self.find_triples(pair, &configurations[pair]);
-            for term in &evaluation.terms {
-                self.add_term(pair, term, Answer::Opposite);
-            }
+            self.add_terms(pair, &evaluation.terms);
             for side in 0..2 {
                 for (facet, forces) in &evaluation.facets[side] {
                     self.contact_forces(pair, side, *facet, &forces.force);
                 }
             }
-        }
-    }
-
-    fn not_evaluated(&self, pair: usize, collapse: Collapse) -> CutBack {
-        let problem = self.context.problem;
-        let (Collapse::Texture(CollapsedTexture { side, node })
-        | Collapse::Facets(CollapsedFacets { side, node })) = collapse;
-        let global = problem.carrier(pair, side, node).unwrap_or(0);
-        let (body, node) = problem.body_node(global);
-        let pair = problem.model.pairs[pair].name.clone();
-        let body = problem.model.bodies[body].name.clone();
-        match collapse {
-            Collapse::Texture(_) => CutBack::CollapsedTexture { pair, body, node },
-            Collapse::Facets(_) => CutBack::CollapsedFacets { pair, body, node },
         }
     }
 

@@ -152,10 +152,14 @@ impl Compliant {
     /// `y := (A + S) z`.
     fn multiply(&self, blocks: &[Block<'_>], z: &[f64], y: &mut [f64]) {
         self.rows_times(z, y, |_| true);
-        for block in blocks {
-            match block.values {
-                Values::Single(values) => add_product(block.places, values, z, y),
-                Values::Double(values) => add_product(block.places, values, z, y),
+        let products = blocks.par_iter().map(|block| match block.values {
+            Values::Single(values) => product(block.places, values, z),
+            Values::Double(values) => product(block.places, values, z),
+        });
+        let products: Vec<Vec<f64>> = products.collect();
+        for (block, product) in blocks.iter().zip(products) {
+            for (&k, value) in block.places.iter().zip(product) {
+                y[k as usize] += value;
             }
         }
         let kinds = self.kinds.iter().zip(y);
@@ -171,7 +175,7 @@ impl Compliant {
         chunks.for_each(|((rows, kinds), y)| {
             for ((row, kind), y) in rows.iter().zip(kinds).zip(y) {
                 if of(*kind) {
-                    *y = row.iter().map(|&(c, a)| a * z[c as usize]).sum();
+                    *y = row_times(row, z);
                 }
             }
         });
@@ -196,6 +200,19 @@ impl Compliant {
     }
 }
 
+/// A sparse row times a vector, in four sums that need not wait for each other.
+fn row_times(row: &[(u32, f64)], z: &[f64]) -> f64 {
+    let product = |&(c, a): &(u32, f64)| a * z[c as usize];
+    let (fours, rest) = row.as_chunks::<4>();
+    let mut sums = [0.0; 4];
+    for four in fours {
+        let entries = sums.iter_mut().zip(four);
+        entries.for_each(|(sum, entry)| *sum += product(entry));
+    }
+    let rest: f64 = rest.iter().map(product).sum();
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+}
+
 fn active((kind, value): (&Kind, &f64)) -> f64 {
     match kind {
         Kind::Apart => 0.0,
@@ -203,28 +220,27 @@ fn active((kind, value): (&Kind, &f64)) -> f64 {
     }
 }
 
-/// `y += S z` in the precision of a complement.
-fn add_product<T: Real>(places: &[u32], values: &[T], z: &[f64], y: &mut [f64]) {
+/// `S z` in the precision of a complement.
+fn product<T: Real>(places: &[u32], values: &[T], z: &[f64]) -> Vec<f64> {
     let x: Vec<T> = places.iter().map(|&k| T::of(-z[k as usize])).collect();
     let mut product = vec![T::default(); places.len()];
-    subtract(
-        &mut product,
-        triangular::Block::new(values, places.len()),
-        &x,
-    );
-    for (&k, value) in places.iter().zip(product) {
-        y[k as usize] += value.double();
-    }
+    let complement = triangular::Block::new(values, places.len());
+    subtract(&mut product, complement, &x);
+    product.into_iter().map(Real::double).collect()
 }
 
 /// `z += factor F y`.
 fn add_flexible<T: Real>(inverses: &[Inverse<T>], y: &[f64], z: &mut [f64], factor: f64) {
-    for inverse in inverses {
-        let places = &inverse.places;
-        let x: Vec<T> = places.iter().map(|&k| T::of(y[k as usize])).collect();
-        let mut product = vec![T::default(); places.len()];
+    let products = inverses.par_iter().map(|inverse| {
+        let x = inverse.places.iter().map(|&k| T::of(y[k as usize]));
+        let x: Vec<T> = x.collect();
+        let mut product = vec![T::default(); x.len()];
         inverse.product(&x, &mut product);
-        for (&k, value) in places.iter().zip(product) {
+        product
+    });
+    let products: Vec<Vec<T>> = products.collect();
+    for (inverse, product) in inverses.iter().zip(products) {
+        for (&k, value) in inverse.places.iter().zip(product) {
             z[k as usize] += factor * value.double();
         }
     }

@@ -2,24 +2,27 @@
 
 use super::SparseMatrix;
 use crate::structure::{Structure, Supervariable};
+use rayon::prelude::*;
 use std::ops::Range;
+
+/// Supervariables whose rows a thread copies at a time.
+const OWNERS: usize = 16;
 
 impl SparseMatrix {
     /// Values in the rows of the kept supervariables.
     pub fn kept_rows(&self) -> Vec<f64> {
         let count = kept_rows(&self.structure).map(|range| range.len()).sum();
-        let mut values = Vec::with_capacity(count);
+        let mut values = vec![0.0; count];
+        let mut copies = Vec::new();
+        let mut rest = values.as_mut_slice();
         for range in kept_rows(&self.structure) {
-            values.extend_from_slice(&self.values[range]);
+            let (own, others) = rest.split_at_mut(range.len());
+            copies.push((own, range));
+            rest = others;
         }
+        let copies = copies.into_par_iter().with_min_len(OWNERS);
+        copies.for_each(|(own, range)| own.copy_from_slice(&self.values[range]));
         values
-    }
-
-    /// Sets the rows of the kept supervariables to zero.
-    pub fn clear_kept_rows(&mut self) {
-        for range in kept_rows(&self.structure) {
-            self.values[range].fill(0.0);
-        }
     }
 
     /// Overwrites the rows of the kept supervariables.
@@ -34,25 +37,6 @@ impl SparseMatrix {
             rest = others;
         }
         assert!(rest.is_empty(), "as many values as kept rows have");
-    }
-
-    /// Adds to the rows of the kept supervariables; returns what they were before.
-    ///
-    /// # Panics
-    /// When there are not as many values as [`kept_rows`](Self::kept_rows) returns.
-    pub fn add_kept_rows(&mut self, mut values: Vec<f64>) -> Vec<f64> {
-        let mut rest = values.as_mut_slice();
-        for range in kept_rows(&self.structure) {
-            let (own, others) = rest.split_at_mut(range.len());
-            for (target, value) in self.values[range].iter_mut().zip(own) {
-                let before = *target;
-                *target += *value;
-                *value = before;
-            }
-            rest = others;
-        }
-        assert!(rest.is_empty(), "as many values as kept rows have");
-        values
     }
 
     /// `y += A x` in the rows of the kept supervariables.

@@ -15,7 +15,7 @@ use striae_contact::{complementarity::Iteration, evaluation::Evaluation};
 use striae_linalg::SparseMatrix;
 use striae_mesh::Vec3;
 
-use super::{Fault, Setting, System, Trial, configurations};
+use super::{Fault, Setting, System, Trial, configurations, contacts};
 use crate::{layout::Layout, norms::Norms};
 
 /// All but contact at a trial state.
@@ -37,12 +37,6 @@ pub struct ContactAssembled {
     pub norms: Norms,
     /// Contact of every pair.
     pub contacts: Vec<Evaluation>,
-}
-
-/// What contact has put into a system.
-pub(super) struct OfContact {
-    rows: Vec<f64>,
-    residual: Vec<f64>,
 }
 
 /// Evaluates contact at a trial state `change` away from where the background was
@@ -70,8 +64,11 @@ pub fn assemble_contact(
     let mut system = System::new(context, layout, matrix, trial, imposed);
     system.linear_background(background, change);
     let configurations = configurations(setting, trial);
-    let contacts = system.contacts(&configurations, setting, trial, iteration)?;
-    system.add_contacts(&configurations, &contacts);
+    for (pair, configuration) in configurations.iter().enumerate() {
+        system.find_triples(pair, configuration);
+    }
+    let contacts = contacts(&configurations, setting, trial, iteration)?;
+    system.add_contacts(&contacts);
     system.stabilise(trial, imposed);
     if !system.outside.is_empty() {
         return Err(Fault::Pattern(system.outside));
@@ -87,28 +84,14 @@ pub fn assemble_contact(
 }
 
 impl System<'_> {
-    /// Takes what contact has put in out of matrix and residual.
-    pub(super) fn set_contact_aside(&mut self) -> OfContact {
-        let rows = self.matrix.kept_rows();
-        self.matrix.clear_kept_rows();
-        let nothing = vec![0.0; self.residual.len()];
-        OfContact {
-            rows,
-            residual: std::mem::replace(&mut self.residual, nothing),
-        }
-    }
-
-    /// Puts contact back; returns what there is without it.
-    pub(super) fn with_contact(&mut self, contact: OfContact) -> Background {
-        let background = Background {
-            rows: self.matrix.add_kept_rows(contact.rows),
+    /// What there is before contact is added.
+    pub(super) fn background(&self) -> Background {
+        Background {
+            rows: self.matrix.kept_rows(),
             residual: self.residual.clone(),
             applied: self.forces.applied.clone(),
             force_scale: self.force_scale,
-        };
-        let residual = self.residual.iter_mut().zip(&contact.residual);
-        residual.for_each(|(sum, part)| *sum += part);
-        background
+        }
     }
 
     /// Fills in the background at a state `change` away from it.

@@ -40,10 +40,10 @@ pub(super) enum Answer {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Triple {
     /// The first of its unknowns.
-    first: usize,
+    pub(super) first: usize,
     owner: Supervariable,
     /// The node whose position it is.
-    position: Option<usize>,
+    pub(super) position: Option<usize>,
     /// The rigid body that moves on the other side.
     against: Option<usize>,
 }
@@ -75,7 +75,7 @@ impl System<'_> {
         self.triples.push(triples);
     }
 
-    fn triple(&self, pair: usize, unknown: u32) -> &Triple {
+    pub(super) fn triple(&self, pair: usize, unknown: u32) -> &Triple {
         let triple = &self.triples[pair][unknown as usize / 3];
         triple.as_ref().expect("terms refer to active unknowns")
     }
@@ -107,14 +107,19 @@ impl System<'_> {
             || self.add_rows(&rows, &columns, &term.tangent).is_err()
             || self.turn(&rows, &columns, &term.residual, answer).is_err()
         {
-            let unknowns = term.rows.iter().chain(&term.columns);
-            let mut clique: Vec<_> = unknowns.map(|u| self.triple(pair, *u).owner).collect();
-            clique.extend(self.opposite_body(pair));
-            clique.sort_unstable();
-            clique.dedup();
-            self.outside.push(clique);
+            self.outside.push(self.clique_of(pair, term));
         }
         self.scratch.slots = [rows, columns];
+    }
+
+    /// Supervariables that a term couples.
+    pub(super) fn clique_of(&self, pair: usize, term: &LocalTerm) -> Vec<Supervariable> {
+        let unknowns = term.rows.iter().chain(&term.columns);
+        let mut clique: Vec<_> = unknowns.map(|u| self.triple(pair, *u).owner).collect();
+        clique.extend(self.opposite_body(pair));
+        clique.sort_unstable();
+        clique.dedup();
+        clique
     }
 
     /// Adds the answer to the force of a row to what acts on the body on the other side.
@@ -130,13 +135,13 @@ impl System<'_> {
     }
 
     /// Supervariable of the rigid body on the other side, if it moves.
-    fn opposite_body(&self, pair: usize) -> Option<Supervariable> {
+    pub(super) fn opposite_body(&self, pair: usize) -> Option<Supervariable> {
         let rigid = self.context.problem.pairs[pair].rigid;
         rigid.and_then(|rigid| self.layout.body(rigid))
     }
 
     /// Whether the supervariables of a term are among those that are kept.
-    fn is_known(&self, pair: usize, term: &LocalTerm) -> bool {
+    pub(super) fn is_known(&self, pair: usize, term: &LocalTerm) -> bool {
         let structure = self.matrix.structure();
         let mut unknowns = term.rows.iter().chain(term.columns.iter().step_by(3));
         let mut body = self.opposite_body(pair).into_iter();
