@@ -122,7 +122,12 @@ impl Failure {
             | Self::Exists(_)
             | Self::Checkpoint(_)
             | Self::Problem(_)
-            | Self::Report(ReportError::Nothing(_))
+            | Self::Report(
+                ReportError::Nothing(_)
+                | ReportError::Field { .. }
+                | ReportError::Component { .. }
+                | ReportError::View,
+            )
             | Self::Results(OutputError::Occupied(_) | OutputError::InUse(_))
             | Self::UnknownCase { .. } => ExitCode::from(2),
             Self::Interrupted { .. } => ExitCode::from(INTERRUPTED),

@@ -4,6 +4,7 @@ pub mod check;
 pub mod law;
 pub mod material;
 pub mod new;
+pub mod picture;
 pub mod report;
 pub mod reproduce;
 pub mod resume;
