@@ -20,6 +20,9 @@ const PREFERRED: [&str; 3] = ["pressure", "cauchy_stress", "displacement"];
 /// Color of what has no field.
 const GREY: Color = [0.80, 0.81, 0.84];
 
+/// Values whose spread over their size is below this are equal.
+const EQUAL: f64 = 1e-6;
+
 /// How much of a surface is seen that one sees through.
 const VEIL: f64 = 0.32;
 
@@ -212,7 +215,8 @@ fn known<'a>(part: &'a Part, name: &str) -> Option<&'a Field> {
     fields.find(|field| field.name == name && field.times[0].is_some())
 }
 
-/// The larger side of each pair, as the sides lie on each other.
+/// The smaller side of each pair, as the sides lie on each other and the larger one has nodes
+/// beside the contact, to which tractions are continued.
 fn one_side_each<'a>(sides: &[&'a Part], parts: &[Part]) -> Vec<&'a Part> {
     let pair = |side: &Part| {
         let body = side.follows.as_ref().map(|(body, _)| &parts[*body].name);
@@ -225,7 +229,7 @@ fn one_side_each<'a>(sides: &[&'a Part], parts: &[Part]) -> Vec<&'a Part> {
     let mut kept: Vec<&Part> = Vec::new();
     for side in sides {
         match kept.iter_mut().find(|other| pair(other) == pair(side)) {
-            Some(other) if extent(side) > extent(other) => *other = side,
+            Some(other) if extent(side) < extent(other) => *other = side,
             Some(_) => {}
             None => kept.push(side),
         }
@@ -251,7 +255,12 @@ fn limits(shown: &[&Part], field: &str, view: usize) -> [f64; 2] {
         .filter_map(|part| known(part, field)?.times[0].as_ref());
     let extremes = moments.filter_map(|moment| moment.extremes.get(view).copied().flatten());
     let both = extremes.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
-    both.unwrap_or([0.0, 0.0])
+    let [least, largest] = both.unwrap_or([0.0, 0.0]);
+    // What is equal but for the tolerance of the solution has one colour.
+    if largest - least > EQUAL * least.abs().max(largest.abs()) {
+        return [least, largest];
+    }
+    [0.5 * (least + largest); 2]
 }
 
 /// Values of a view at the nodes of the skin.

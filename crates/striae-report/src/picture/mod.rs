@@ -5,7 +5,7 @@
 //!                   [`crate::part`]      [`layer`]  [`canvas`], [`view`]
 //! ```
 //!
-//! A field of contact is drawn on the sides of pairs, one of each pair, and bodies and rigid
+//! A field of contact is drawn on the smaller side of each pair, and bodies and rigid
 //! surfaces are seen through. Any other field is drawn on the bodies. The projection is
 //! orthographic. Numbers under the colour bar are the extremes of what is drawn, the inside
 //! of bodies included, as in the [report](crate).
