@@ -92,6 +92,8 @@ impl From<striae::Error> for Failure {
             striae::Error::Problem(error) => Self::Problem(error),
             striae::Error::Checkpoint(error) => Self::Checkpoint(error),
             striae::Error::Output(error) => Self::Results(error),
+            striae::Error::Figure(error) => Self::Figure(error),
+            striae::Error::File(error) => Self::Results(error.into()),
             other => Self::Model(Box::new(other)),
         }
     }

@@ -16,6 +16,7 @@
 //! minutes. Unix only, as it sends signals; a full disk needs the right to mount one, and
 //! is passed over where there is none.
 
+mod damage;
 mod disk;
 mod folder;
 mod trials;
