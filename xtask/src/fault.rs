@@ -46,6 +46,9 @@ pub enum Fault {
     /// The book cannot be built, or a link of it leads nowhere.
     #[error("{0}")]
     Book(String),
+    /// A run did not endure what it must.
+    #[error("{0}")]
+    Endurance(String),
     /// There is no interpreter for the Python package.
     #[error("there is no Python 3.10 or newer that makes virtual environments")]
     NoPython,

@@ -9,6 +9,7 @@
 //! | `report-test` | reports in headless Chromium; see [`browser`] |
 //! | `book` | the book as HTML, its links checked; see [`book`] |
 //! | `mathematics` | formulas of the book, for mdBook; see [`book::mathematics`] |
+//! | `endurance` | runs that are killed, interrupted, short of disk, damaged; see [`endurance`] |
 //! | `bench` | times of parts and of whole runs; see `crates/striae-bench/README.md` |
 //!
 //! Exit codes: 0 when all is well, 1 when a check failed, 2 for an unknown task.
@@ -17,13 +18,14 @@ mod book;
 mod borders;
 mod browser;
 mod check;
+mod endurance;
 mod fault;
 mod python;
 mod scenes;
 
 use std::{env, process::ExitCode};
 
-const USAGE: &str = "usage: cargo xtask check | python | borders | scenes [OPTIONS] | report-test | book | bench [ARGUMENTS]";
+const USAGE: &str = "usage: cargo xtask check | python | borders | scenes [OPTIONS] | report-test | book | endurance | bench [ARGUMENTS]";
 
 fn main() -> ExitCode {
     let tasks: Vec<String> = env::args().skip(1).collect();
@@ -35,6 +37,7 @@ fn main() -> ExitCode {
         ["report-test"] => browser::report_test(),
         ["book", ..] => book::book(&tasks[1..]),
         ["mathematics", ..] => book::mathematics::preprocess(&tasks[1..]),
+        ["endurance", ..] => endurance::endurance(&tasks[1..]),
         ["bench", ..] => check::bench(&tasks[1..]),
         _ => {
             eprintln!("{USAGE}");

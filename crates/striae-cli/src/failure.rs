@@ -110,6 +110,8 @@ impl From<striae::Error> for Failure {
             striae::Error::Problem(error) => Self::Problem(error),
             striae::Error::Checkpoint(error) => Self::Checkpoint(error),
             striae::Error::Output(error) => Self::Results(error),
+            striae::Error::Figure(error) => Self::Figure(error),
+            striae::Error::File(error) => Self::Results(error.into()),
             other => Self::Model(Box::new(other)),
         }
     }
@@ -142,7 +144,12 @@ impl Failure {
             | Self::Problem(_)
             | Self::Measurements(_)
             | Self::Fit(_)
-            | Self::Report(ReportError::Nothing(_))
+            | Self::Report(
+                ReportError::Nothing(_)
+                | ReportError::Field { .. }
+                | ReportError::Component { .. }
+                | ReportError::View,
+            )
             | Self::Results(OutputError::Occupied(_) | OutputError::InUse(_))
             | Self::Impossible(_)
             | Self::UnknownCase { .. } => ExitCode::from(2),

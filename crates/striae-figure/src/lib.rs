@@ -11,6 +11,8 @@
 //! (<https://doi.org/10.1371/journal.pone.0199239>); both are safe for
 //! colour-blind readers. Legends stand above the axes and cover no data.
 //!
+//! [`Dots`] are pictures that somebody else draws, with words and a colour bar on them.
+//!
 //! ```no_run
 //! use striae_figure::{Axis, Content, Figure, Panel, Series, Width};
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -25,6 +27,7 @@ mod arrows;
 mod axis;
 mod color;
 mod description;
+mod dots;
 mod error;
 mod extent;
 mod fit;
@@ -45,5 +48,6 @@ pub use color::Color;
 pub use description::{
     Aspect, Axis, Content, Figure, Frame, Limits, Line, Marker, Panel, Scale, Series, Width,
 };
+pub use dots::{Dot, Dots, color_map};
 pub use error::FigureError;
 pub use fit::{PowerLaw, power_law};

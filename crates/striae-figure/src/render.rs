@@ -240,7 +240,11 @@ fn averaged(fine: &[u8], [width, height]: [usize; 2]) -> Vec<u8> {
     coarse
 }
 
-fn encoded(pixels: &[u8], [width, height]: [usize; 2]) -> Result<Vec<u8>, png::EncodingError> {
+/// An RGB picture of columns and rows as PNG.
+pub(super) fn encoded(
+    pixels: &[u8],
+    [width, height]: [usize; 2],
+) -> Result<Vec<u8>, png::EncodingError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width as u32, height as u32);
     encoder.set_color(png::ColorType::Rgb);

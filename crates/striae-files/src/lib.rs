@@ -41,12 +41,21 @@ pub fn write_atomically(path: &Path, content: &[u8]) -> Result<(), FileError> {
     name.push(path.file_name().unwrap_or_default());
     name.push(".partial");
     let partial = path.with_file_name(name);
-    fs::write(&partial, content)
-        .and_then(|()| fs::rename(&partial, path))
-        .map_err(|cause| FileError::Write {
+    let written = fs::write(&partial, content).and_then(|()| fs::rename(&partial, path));
+    written.map_err(|cause| {
+        // On a full disk the neighbour takes room that others need.
+        let _ = fs::remove_file(&partial);
+        FileError::Write {
             path: path.to_owned(),
             cause,
-        })
+        }
+    })
+}
+
+/// Whether a file of this name is what [`write_atomically`] had not finished when the
+/// program was killed.
+pub fn is_partial(name: &str) -> bool {
+    name.starts_with('.') && name.ends_with(".partial")
 }
 
 /// Reads a whole text file.
@@ -93,6 +102,16 @@ mod tests {
         assert!(error.starts_with(&start("write")), "{error}");
         let error = read_text(&path).unwrap_err().to_string();
         assert!(error.starts_with(&start("read")), "{error}");
+    }
+
+    #[test]
+    fn what_cannot_be_finished_is_not_left_over() {
+        let folder = tempfile::tempdir().unwrap();
+        let taken = folder.path().join("a.txt");
+        fs::create_dir(&taken).unwrap();
+        write_atomically(&taken, b"1").unwrap_err();
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+        assert!(is_partial(".a.txt.partial") && !is_partial("a.txt"));
     }
 
     #[test]

@@ -43,12 +43,18 @@ pub(crate) struct Claim {
 }
 
 impl Claim {
-    /// A folder with results, to go on with.
+    /// A folder with results, to go on with. What a run that was killed has not finished
+    /// writing is removed.
     pub(crate) fn of(folder: &Path) -> Result<Self, OutputError> {
         let file = File::open(folder).ok();
         let lock = file.as_ref().map(File::try_lock);
         if matches!(lock, Some(Err(TryLockError::WouldBlock))) {
             return Err(OutputError::InUse(folder.to_owned()));
+        }
+        for folder in [folder, &folder.join("fields")] {
+            if folder.exists() {
+                remove_where(folder, striae_files::is_partial)?;
+            }
         }
         Ok(Self { _folder: file })
     }
@@ -150,6 +156,23 @@ mod tests {
         Claim::new(folder, Existing::Replace).unwrap();
         assert_eq!(names(folder), ["deck.toml", "fields", "notes.txt"]);
         assert_eq!(names(&folder.join("fields")), ["notes.txt"]);
+    }
+
+    #[test]
+    fn what_was_not_finished_is_removed() {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        Claim::new(folder, Existing::Keep).unwrap();
+        for name in [
+            ".checkpoint.bin.partial",
+            "fields/.a-00001.vtu.partial",
+            "notes",
+        ] {
+            fs::write(folder.join(name), "1").unwrap();
+        }
+        Claim::of(folder).unwrap();
+        assert_eq!(names(folder), ["fields", "notes"]);
+        assert!(names(&folder.join("fields")).is_empty());
     }
 
     #[cfg(unix)]

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use striae_figure::FigureError;
 use striae_files::FileError;
 use striae_output::OutputError;
 
@@ -17,6 +18,30 @@ pub enum ReportError {
     /// A file cannot be read or written.
     #[error(transparent)]
     File(#[from] FileError),
+    /// There is no field of this name at the time.
+    #[error("there is no field `{name}`; there are {known}")]
+    Field {
+        /// What was asked for.
+        name: String,
+        /// All names.
+        known: String,
+    },
+    /// A field has no component of this name.
+    #[error("`{field}` has no component `{name}`; it has {known}")]
+    Component {
+        /// The field.
+        field: String,
+        /// What was asked for.
+        name: String,
+        /// All names.
+        known: String,
+    },
+    /// A direction of view has no length.
+    #[error("a view along (0, 0, 0) shows nothing")]
+    View,
+    /// A picture cannot be written.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
     /// The files of a part at different times do not belong together.
     #[error("{}: {found} points where the files before have {expected}", path.display())]
     Points {

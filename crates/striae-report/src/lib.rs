@@ -1,4 +1,5 @@
-//! The results of a run as one HTML file that opens anywhere, without a network.
+//! The results of a run as one HTML file that opens anywhere, without a network, and as
+//! [pictures](picture).
 //!
 //! ```text
 //! results folder -> Results -> parts: skin, motion, arrays -> page
@@ -22,6 +23,7 @@ mod invariants;
 mod pack;
 mod page;
 mod part;
+pub mod picture;
 mod quantised;
 mod results;
 

@@ -43,6 +43,14 @@ impl Quantised {
             codes: turned.map(code).collect(),
         }
     }
+
+    /// The number of a code; NaN where there is none.
+    pub fn number(&self, code: u16) -> f64 {
+        match code {
+            NOTHING => f64::NAN,
+            code => self.least + self.step * f64::from(code),
+        }
+    }
 }
 
 #[cfg(test)]

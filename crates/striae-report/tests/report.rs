@@ -8,7 +8,11 @@ use decoded::Page;
 use nalgebra::Matrix3;
 use striae_mesh::{CellBlock, NodeId, Vec3};
 use striae_output::vtk::{Array, Cells, Grid, Series, Snapshot, Values, write};
-use striae_report::{ReportError, render};
+use striae_report::{
+    ReportError,
+    picture::{self, Picture},
+    render,
+};
 
 /// Two cubes on each other, the upper face of which is a side of a pair.
 const HEIGHTS: [f64; 3] = [0.0, 1.0, 2.0];
@@ -192,4 +196,70 @@ fn folders_without_results_and_damaged_files_are_named() {
     std::fs::write(&file, &whole[..whole.len() - 200]).unwrap();
     let error = render(folder.path()).unwrap_err().to_string();
     assert!(error.contains("column-00002.vtu"), "{error}");
+}
+
+#[test]
+fn pictures_show_a_field_at_a_time_from_a_side() {
+    let folder = tempfile::tempdir().unwrap();
+    results(folder.path(), 3);
+    let usual = Picture::default();
+    let drawn = |picture: &Picture| picture::render(folder.path(), picture).unwrap();
+    let first = drawn(&usual);
+    assert_eq!(first, drawn(&usual));
+    for other in [
+        Picture {
+            time: Some(0.25),
+            ..usual.clone()
+        },
+        Picture {
+            field: Some("cauchy_stress".into()),
+            ..usual.clone()
+        },
+        Picture {
+            field: Some("displacement".into()),
+            ..usual.clone()
+        },
+        Picture {
+            direction: [0.0, 1.0, 0.0],
+            ..usual.clone()
+        },
+        Picture {
+            magnification: 5.0,
+            ..usual.clone()
+        },
+        Picture {
+            hidden: vec!["column".into()],
+            ..usual.clone()
+        },
+    ] {
+        assert_ne!(first, drawn(&other), "{other:?}");
+    }
+    let component = |name: &str| Picture {
+        field: Some("cauchy_stress".into()),
+        component: Some(name.into()),
+        ..usual.clone()
+    };
+    assert_ne!(drawn(&component("xx")), drawn(&component("zz")));
+    let wrong = |picture: Picture| picture::render(folder.path(), &picture).unwrap_err();
+    let unknown = wrong(Picture {
+        field: Some("heat".into()),
+        ..usual.clone()
+    })
+    .to_string();
+    assert_eq!(
+        unknown,
+        "there is no field `heat`; there are cauchy_stress, displacement, motion, pressure"
+    );
+    assert!(
+        wrong(component("ww"))
+            .to_string()
+            .contains("largest principal")
+    );
+    assert!(matches!(
+        wrong(Picture {
+            direction: [0.0; 3],
+            ..usual
+        }),
+        ReportError::View
+    ));
 }

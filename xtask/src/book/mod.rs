@@ -3,21 +3,28 @@
 //! | option | what it does |
 //! | --- | --- |
 //! | none | checks all links, builds the book with mdBook, checks the pages |
+//! | `--run` | runs the cases first, what `striae reproduce --quick` runs, and remakes the [gallery] |
+//! | `--all` | the same with the cases in full, which takes hours |
+//! | `--results FOLDER` | remakes the gallery from results of `striae reproduce` that are there |
 //!
 //! mdBook is installed into `target/tools` when it is called for the first time, in the
 //! version that [`MDBOOK`] pins. Formulas become MathML, so that the book needs neither a
 //! network nor scripts for them.
 
+mod exhibits;
+mod gallery;
 pub mod links;
 pub mod mathematics;
 mod site;
 
 use std::{
+    env,
     path::{Path, PathBuf},
     process::Command,
 };
 
-use crate::{borders::Breach, fault::Fault};
+use crate::{borders::Breach, check, fault::Fault};
+use gallery::Extent;
 
 /// The version of mdBook.
 const MDBOOK: &str = "0.5.4";
@@ -28,21 +35,47 @@ const TOOLS: &str = "target/tools";
 /// Where the book is built; `docs/book.toml` says so.
 const BUILT: &str = "target/book";
 
+/// What mdBook takes for the command of `docs/book.toml` that makes formulas.
+const PREPROCESSOR: &str = "MDBOOK_PREPROCESSOR__MATHEMATICS__COMMAND";
+
+/// Where cases are run for the gallery.
+const RESULTS: &str = "target/gallery";
+
 /// Builds the book.
 ///
 /// # Errors
-/// When a link leads nowhere, mdBook cannot be had, or a formula cannot be read.
+/// When a case cannot be run, a link leads nowhere, mdBook cannot be had, or a formula cannot
+/// be read.
 pub fn book(options: &[String]) -> Result<(), Fault> {
-    if let Some(unknown) = options.first() {
-        return Err(Fault::Option(format!(
-            "`cargo xtask book` knows no `{unknown}`"
-        )));
+    let words: Vec<&str> = options.iter().map(String::as_str).collect();
+    match words[..] {
+        [] => {}
+        ["--run"] => exhibited(Extent::Quick)?,
+        ["--all"] => exhibited(Extent::All)?,
+        ["--results", folder] => gallery::make(&check::program()?, Path::new(folder))?,
+        _ => {
+            let usage = "usage: cargo xtask book [--run | --all | --results FOLDER]";
+            return Err(Fault::Option(usage.into()));
+        }
     }
     sound(links::breaches(Path::new("."))?)?;
-    run(Command::new(mdbook()?).args(["build", "docs"]))?;
+    let mut build = Command::new(mdbook()?);
+    // mdBook would call cargo, which may be busy; this program does the same.
+    if let Ok(own) = env::current_exe() {
+        build.env(PREPROCESSOR, format!("{} mathematics", own.display()));
+    }
+    run(build.args(["build", "docs"]))?;
     sound(site::breaches(Path::new(BUILT))?)?;
     println!("open {BUILT}/index.html");
     Ok(())
+}
+
+/// Runs the cases and makes the gallery of them.
+fn exhibited(extent: Extent) -> Result<(), Fault> {
+    let program = check::program()?;
+    let results = Path::new(RESULTS);
+    gallery::reproduce(&program, extent, results)?;
+    gallery::make(&program, results)
 }
 
 fn sound(breaches: Vec<Breach>) -> Result<(), Fault> {

@@ -116,7 +116,7 @@ const LADDER: &[Row] = &[
     },
     Row {
         name: "striae-report",
-        own: &["striae-files", "striae-output"],
+        own: &["striae-figure", "striae-files", "striae-output"],
         outside: &[
             "flate2",
             "rayon",

@@ -5,6 +5,7 @@ pub mod fit;
 pub mod law;
 pub mod material;
 pub mod new;
+pub mod picture;
 pub mod report;
 pub mod reproduce;
 pub mod resume;
