@@ -129,9 +129,7 @@ fn isochoric(law: &raw::BulkLaw) -> Option<(Isochoric, Common<'_>)> {
             let isochoric = Isochoric::NeoHookean { shear };
             (
                 isochoric,
-                &law.compressibility,
-                &law.volumetric,
-                &law.relaxation,
+                (&law.compressibility, &law.volumetric, &law.relaxation),
             )
         }
         raw::BulkLaw::MooneyRivlin(law) => {
@@ -141,9 +139,7 @@ fn isochoric(law: &raw::BulkLaw) -> Option<(Isochoric, Common<'_>)> {
             };
             (
                 isochoric,
-                &law.compressibility,
-                &law.volumetric,
-                &law.relaxation,
+                (&law.compressibility, &law.volumetric, &law.relaxation),
             )
         }
         raw::BulkLaw::Yeoh(law) => {
@@ -154,9 +150,7 @@ fn isochoric(law: &raw::BulkLaw) -> Option<(Isochoric, Common<'_>)> {
             };
             (
                 isochoric,
-                &law.compressibility,
-                &law.volumetric,
-                &law.relaxation,
+                (&law.compressibility, &law.volumetric, &law.relaxation),
             )
         }
         raw::BulkLaw::Ogden(law) => {
@@ -164,9 +158,7 @@ fn isochoric(law: &raw::BulkLaw) -> Option<(Isochoric, Common<'_>)> {
             let isochoric = Isochoric::Ogden(terms.collect::<Option<_>>()?);
             (
                 isochoric,
-                &law.compressibility,
-                &law.volumetric,
-                &law.relaxation,
+                (&law.compressibility, &law.volumetric, &law.relaxation),
             )
         }
         raw::BulkLaw::Gent(law) => {
@@ -176,9 +168,7 @@ fn isochoric(law: &raw::BulkLaw) -> Option<(Isochoric, Common<'_>)> {
             };
             (
                 isochoric,
-                &law.compressibility,
-                &law.volumetric,
-                &law.relaxation,
+                (&law.compressibility, &law.volumetric, &law.relaxation),
             )
         }
         raw::BulkLaw::ArrudaBoyce(law) => {
@@ -188,9 +178,7 @@ fn isochoric(law: &raw::BulkLaw) -> Option<(Isochoric, Common<'_>)> {
             };
             (
                 isochoric,
-                &law.compressibility,
-                &law.volumetric,
-                &law.relaxation,
+                (&law.compressibility, &law.volumetric, &law.relaxation),
             )
         }
     })
