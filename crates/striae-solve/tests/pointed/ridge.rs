@@ -21,8 +21,8 @@ fn pressed(divisions: usize, floor: Floor, mu: f64, ways: &[([f64; 3], usize)]) 
     Run::completed(model)
 }
 
-/// How deep the top line of the floor is inside the block, at most.
-fn depth(run: &Run) -> f64 {
+/// Points of the lower side of the block.
+fn sole(run: &Run) -> Vec<Vec3> {
     let pair = &run.problem.pairs[0].contact;
     let surface = pair.sides[0].surface().unwrap();
     let (state, _) = run.last();
@@ -30,7 +30,7 @@ fn depth(run: &Run) -> f64 {
         .map(|node| state.positions[run.problem.surface_node(0, 0, node).unwrap()])
         .collect();
     // Facets are bilinear over plane rectangles.
-    let below = surface.facets().iter().flat_map(|corners| {
+    let facets = surface.facets().iter().flat_map(|corners| {
         let [a, b, c, d] = corners.map(|node| x[node as usize]);
         (0..=20).flat_map(move |i| {
             (0..=20).map(move |j| {
@@ -39,7 +39,12 @@ fn depth(run: &Run) -> f64 {
             })
         })
     });
-    let near = below.filter(|x| (x.x - TOP).abs() < 0.01);
+    facets.collect()
+}
+
+/// How deep the top line of the floor is inside the block, at most.
+fn depth(run: &Run) -> f64 {
+    let near = sole(run).into_iter().filter(|x| (x.x - TOP).abs() < 0.01);
     near.map(|x| -x.z).fold(0.0, f64::max)
 }
 
@@ -58,6 +63,34 @@ fn what_is_between_the_nodes_is_felt() {
             assert!(depth(&run) < 0.1 * SIZE, "{}", depth(&run));
         }
     }
+}
+
+#[test]
+fn a_ridge_of_long_facets_is_bent() {
+    let run = pressed(4, Floor::Narrow, 0.3, &[([0.0, 0.0, -0.02], 2)]);
+    let points = run.points(run.states.len() - 1);
+    assert!(points.iter().any(|(_, of)| of.pressure > 0.0));
+    assert!(depth(&run) < 0.1 * SIZE, "{}", depth(&run));
+}
+
+#[test]
+fn a_flat_top_is_felt_where_nothing_else_is() {
+    // The facet on it is open in the mean.
+    let run = pressed(4, Floor::Hill, 0.3, &[([0.0, 0.0, -0.008], 2)]);
+    assert!(run.last().1.sides[0].force.z > 0.0);
+    let points = run.points(run.states.len() - 1);
+    assert_eq!(points.len(), 1);
+    assert!(points[0].1.pressure > 0.0 && points[0].1.gap.abs() < 1e-9 * SIZE);
+}
+
+#[test]
+fn a_flat_top_under_pressure_is_no_deeper_than_a_tenth_of_a_facet() {
+    let run = pressed(4, Floor::Hill, 0.3, &[([0.0, 0.0, -0.08], 10)]);
+    let near = sole(&run)
+        .into_iter()
+        .filter(|x| (x.x - TOP).hypot(x.y) < 0.02);
+    let depth = near.map(|x| -x.z).fold(f64::NEG_INFINITY, f64::max);
+    assert!(depth.abs() < 0.1 * SIZE, "{depth}");
 }
 
 #[test]

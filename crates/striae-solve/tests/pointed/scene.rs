@@ -35,6 +35,10 @@ pub enum Floor {
     Ridge,
     /// A rigid pyramid with its top at `(0.375, 0, 0)`.
     Pyramid,
+    /// The same with a slope of 0.1.
+    Hill,
+    /// A rigid ridge along `y` of two long and narrow facets.
+    Narrow,
 }
 
 fn rubber(youngs_modulus: f64) -> Material {
@@ -99,10 +103,12 @@ pub fn standing(upper: Block, sole: &[&str], floor: Floor, friction: Friction) -
             rigid_surfaces.push(RigidSurface::new("floor", shape));
             Side::Rigid(RigidId(0))
         }
-        Floor::Facets | Floor::Ridge | Floor::Pyramid => {
+        Floor::Facets | Floor::Ridge | Floor::Pyramid | Floor::Hill | Floor::Narrow => {
             let shape = match floor {
                 Floor::Ridge => ridge(),
-                Floor::Pyramid => pyramid(),
+                Floor::Pyramid => pyramid(SLOPE),
+                Floor::Hill => pyramid(0.1),
+                Floor::Narrow => narrow(),
                 _ => facets(),
             };
             rigid_surfaces.push(RigidSurface::new("floor", shape));
@@ -182,16 +188,28 @@ fn ridge() -> RigidShape {
     }
 }
 
-fn pyramid() -> RigidShape {
+fn pyramid(slope: f64) -> RigidShape {
     let far = 1.2;
     let base = [[-far, -far], [far, -far], [far, far], [-far, far]];
-    let base = base.map(|[x, y]| Vec3::new(TOP + x, y, -SLOPE * far));
+    let base = base.map(|[x, y]| Vec3::new(TOP + x, y, -slope * far));
     let positions = [base.to_vec(), vec![Vec3::new(TOP, 0.0, 0.0)]].concat();
     let top = NodeId::new(4);
     let side = |at: usize| [NodeId::new(at), NodeId::new((at + 1) % 4), top, top];
     RigidShape::Facets {
         positions,
         facets: (0..4).map(side).collect(),
+    }
+}
+
+fn narrow() -> RigidShape {
+    let at = |i: usize, j: usize| {
+        let x = 0.1 * (i as f64 - 1.0);
+        Vec3::new(TOP + x, [-0.8, 0.9][j], -0.2 * x.abs())
+    };
+    let quad = |i: usize| [i, i + 1, i + 4, i + 3].map(NodeId::new);
+    RigidShape::Facets {
+        positions: (0..6).map(|k| at(k % 3, k / 3)).collect(),
+        facets: vec![quad(0), quad(1)],
     }
 }
 
