@@ -122,7 +122,8 @@ fn a_run_with_a_pushed_body_is_the_same_in_pieces() {
 fn checkpoints_come_when_they_are_due_and_go_when_the_run_is_done() {
     let place = tempfile::tempdir().unwrap();
     let deck = read(DYNAMIC);
-    let recorder = Recorder::create(place.path(), "case", deck.output, Existing::Keep).unwrap();
+    let recorder =
+        Recorder::create(place.path(), "case", deck.output.clone(), Existing::Keep).unwrap();
     let due: Vec<usize> = (1..=8).filter(|&count| recorder.keeps(count)).collect();
     assert_eq!(due, [3, 6]);
     drop(recorder);
