@@ -1,9 +1,6 @@
 //! Checksums of the files of a run, so that a resumed run notices what has been damaged.
 
-use std::{
-    fs,
-    path::{Path, PathBuf},
-};
+use std::{fs, path::Path};
 
 use striae_files::FileError;
 
@@ -32,9 +29,9 @@ pub(crate) fn check(folder: &Path, sums: &Checksums) -> Result<(), OutputError> 
     Ok(())
 }
 
-fn content(path: &PathBuf) -> Result<Vec<u8>, OutputError> {
+fn content(path: &Path) -> Result<Vec<u8>, OutputError> {
     fs::read(path).map_err(|cause| {
-        let path = path.clone();
+        let path = path.to_owned();
         FileError::Read { path, cause }.into()
     })
 }

@@ -3,7 +3,7 @@
 //! ```text
 //! DIR/checkpoint.bin = "striae checkpoint\n", format, CRC-32 of the rest,
 //!                      version of the program, source, what is on disk, point of the run
-//! DIR/end.bin          the same at the end of a completed run
+//! DIR/end.bin          the same at the end of a completed run, without what is on disk
 //! ```
 //!
 //! Numbers are little-endian and have eight bytes. The file is written whole or not
@@ -68,7 +68,7 @@ pub struct Source {
 }
 
 /// What a recorder has written.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Written {
     /// Newton iterations of every increment.
     pub iterations: Vec<usize>,
