@@ -112,7 +112,7 @@ colour = "red""#,
             r#"file = "part.msh", generator = "block", size"#,
         )],
         &[
-            "10:29: `file` and `generator` exclude each other in [[body]] mesh; give either `file` or `generator`",
+            "10:29: `file` and `generator` exclude each other in [[body]] mesh; give either `file` or `positions` and `cells` or `generator`",
         ],
     );
     misread(
@@ -121,7 +121,7 @@ colour = "red""#,
             r#"mesh = { generator = "block", size = [1, 1, 0.5], divisions = [4, 4, 2] }"#,
             "mesh = {}",
         )],
-        &["10:8: [[body]] mesh needs either `file` or `generator`"],
+        &["10:8: [[body]] mesh needs either `file` or `positions` and `cells` or `generator`"],
     );
     misread(
         "side with body and rigid surface",
@@ -404,7 +404,7 @@ fn exclusive() {
             r#"a = { body = "lower", facets = "zmax", texture = { uniform = [1, 0, 0], axial = { direction = [1, 0, 0] } } }"#,
         )],
         &[
-            "20:73: `uniform` and `axial` exclude each other in [[pair]] a texture; give either `uniform` or `circumferential` or `axial` or `radial` or `points` or `nodal`",
+            "20:73: `uniform` and `axial` exclude each other in [[pair]] a texture; give either `uniform` or `circumferential` or `axial` or `radial` or `points` or `nodal` or `directions`",
         ],
     );
     misread(
@@ -415,7 +415,7 @@ fn exclusive() {
 node_sets = [{ name = "edge", common = ["xmin"], union = ["xmax"] }]"#,
         )],
         &[
-            "11:50: `common` and `union` exclude each other in [[body]] node_sets; give either `nearest` or `common` or `union` or `from` and `to`",
+            "11:50: `common` and `union` exclude each other in [[body]] node_sets; give either `nearest` or `common` or `union` or `from` and `to` or `numbers`",
         ],
     );
 }

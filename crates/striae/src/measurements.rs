@@ -47,7 +47,7 @@ pub struct MeasurementFault {
 
 impl MeasurementFaults {
     /// That a file cannot be read.
-    pub fn unreadable(file: &str, cause: &std::io::Error) -> Self {
+    pub fn unreadable(file: &str, cause: &impl fmt::Display) -> Self {
         Self {
             file: file.to_owned(),
             faults: vec![fault(None, format!("it cannot be read: {cause}"))],
