@@ -8,14 +8,14 @@
 //! | hexahedron | 8 | 8 |
 
 use super::{
-    ElementError, ElementFault, ElementResponse, Formulation, Mass,
+    Element, ElementError, ElementFault, ElementResponse, Formulation, Mass,
     mass::consistent,
     reference::Reference,
     response::error_at,
     rule::{Rule, hexahedron_recovery, pyramid_recovery, tetrahedron_recovery, wedge_recovery},
 };
 use nalgebra::Matrix3;
-use std::{fmt::Debug, ops::Range, sync::Arc};
+use std::{fmt::Debug, sync::Arc};
 use striae_law::bulk::{Material, Past};
 use striae_mesh::{CellKind, ElementId, Mesh, Vec3};
 
@@ -100,15 +100,6 @@ pub trait ElementBlock: Debug + Send + Sync {
     ) -> Result<Vec<Matrix3<f64>>, ElementError>;
 }
 
-/// One element.
-#[derive(Clone, Copy, Debug)]
-pub struct Element<'a> {
-    block: &'a dyn ElementBlock,
-    at: usize,
-    /// Its first quadrature point among those of the mesh.
-    first_point: usize,
-}
-
 impl Elements {
     /// The reference elements of a mesh, in the order of its elements.
     ///
@@ -171,113 +162,6 @@ impl Elements {
             at,
             first_point: first_point + at * block.points(),
         }
-    }
-}
-
-impl Element<'_> {
-    /// See [`ElementBlock::respond`].
-    ///
-    /// # Errors
-    ///
-    /// [`ElementError::Inverted`] where the material is turned inside out.
-    pub fn response(
-        &self,
-        x: &[Vec3],
-        material: &Material,
-        past: Past,
-    ) -> Result<ElementResponse, ElementError> {
-        let mut response = ElementResponse::zero(self.block.kind(), material);
-        let block = self.block;
-        block.respond(self.at, x, material, past, &mut response)?;
-        Ok(response)
-    }
-
-    /// Energy stored in the state that the points remember.
-    ///
-    /// # Errors
-    ///
-    /// [`ElementError::Inverted`] where the material is turned inside out.
-    pub fn stored_energy(
-        &self,
-        x: &[Vec3],
-        material: &Material,
-        variables: &[f64],
-    ) -> Result<f64, ElementError> {
-        let elapsed = 0.0;
-        let past = Past { variables, elapsed };
-        Ok(self.response(x, material, past)?.energy)
-    }
-
-    /// Places of the variables of its quadrature points among those of the mesh, where each
-    /// point has so many.
-    pub fn variables(&self, each: usize) -> Range<usize> {
-        let points = self.first_point..self.first_point + self.block.points();
-        points.start * each..points.end * each
-    }
-
-    /// Mean of a variable over the volume.
-    pub fn mean(&self, variables: &[f64], variable: usize) -> f64 {
-        let weights = self.block.weights(self.at);
-        let each = variables.len() / weights.len();
-        let values = variables.iter().skip(variable).step_by(each);
-        let sum: f64 = values
-            .zip(weights)
-            .map(|(value, weight)| value * weight)
-            .sum();
-        sum / self.volume()
-    }
-
-    /// See [`ElementBlock::mass`].
-    pub fn mass(&self, density: f64) -> Mass {
-        self.block.mass(self.at, density)
-    }
-
-    /// See [`ElementBlock::volume`].
-    pub fn volume(&self) -> f64 {
-        self.block.volume(self.at)
-    }
-
-    /// See [`ElementBlock::stiffness_per_modulus`].
-    pub fn stiffness_per_modulus(&self) -> f64 {
-        self.block.stiffness_per_modulus(self.at)
-    }
-
-    /// See [`ElementBlock::rotation`].
-    pub fn rotation(&self, x: &[Vec3]) -> f64 {
-        self.block.rotation(self.at, x)
-    }
-
-    /// See [`ElementBlock::stress`].
-    ///
-    /// # Errors
-    ///
-    /// [`ElementError::Inverted`] where the material is turned inside out.
-    pub fn stress(
-        &self,
-        x: &[Vec3],
-        material: &Material,
-        variables: &[f64],
-    ) -> Result<Vec<Matrix3<f64>>, ElementError> {
-        self.block.stress(self.at, x, material, variables)
-    }
-
-    /// See [`ElementBlock::corner_stress`].
-    ///
-    /// # Errors
-    ///
-    /// [`ElementError::Inverted`] where the material is turned inside out.
-    pub fn corner_stress(
-        &self,
-        x: &[Vec3],
-        material: &Material,
-        variables: &[f64],
-    ) -> Result<Vec<Matrix3<f64>>, ElementError> {
-        self.block.corner_stress(self.at, x, material, variables)
-    }
-
-    /// Kind of the element.
-    pub fn kind(&self) -> CellKind {
-        self.block.kind()
     }
 }
 

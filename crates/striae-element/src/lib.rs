@@ -25,6 +25,7 @@
 
 mod block;
 mod dilatation;
+mod element;
 mod fault;
 mod formulation;
 mod mass;
@@ -36,7 +37,8 @@ mod stress;
 #[cfg(test)]
 mod tests;
 
-pub use block::{Element, ElementBlock, Elements};
+pub use block::{ElementBlock, Elements};
+pub use element::Element;
 pub use fault::{ElementError, ElementFault};
 pub use formulation::Formulation;
 pub use mass::{Mass, redistributed};
