@@ -151,6 +151,7 @@ fn a_run_writes_what_it_says() {
         "bodies.pvd",
         "contact.pvd",
         "deck.toml",
+        "end.bin",
         "fields",
         "history.csv",
         "law-sole.svg",

@@ -41,6 +41,7 @@ mod tip;
 
 pub use choice::{Pierced, pierced, staying};
 pub use force::{PointedTerm, terms};
+pub use ridge::Bend;
 pub use spot::{Spot, faced, facet_normal};
 pub use tip::{RigidPoint, RigidPoints, Tip};
 

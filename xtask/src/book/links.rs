@@ -154,7 +154,7 @@ fn markdown(root: &Path) -> Result<Vec<PathBuf>, Fault> {
             path: folder.clone(),
             cause,
         };
-        let top = folder.ends_with(".");
+        let top = folder == root;
         for entry in fs::read_dir(&folder).map_err(unreadable)? {
             let path = entry.map_err(unreadable)?.path();
             if path.is_dir() && !top {

@@ -17,7 +17,7 @@ use striae_mesh::{FacetId, Vec3};
 
 pub mod points;
 
-use super::{RigidPoint, Tip, faced};
+use super::{Bend, RigidPoint, Tip, faced};
 use crate::{
     configuration::Configuration,
     pair::Enforcement,
@@ -58,16 +58,18 @@ impl Pierced {
     }
 }
 
-/// What pierces the other side; `carried` is the field at the nodes.
+/// What pierces the other side; `carried` is the field at the nodes, and points of a rigid
+/// side count from the bend `least` of their edges on.
 pub fn pierced(
     configuration: &Configuration,
     selection: &Selection,
     carried: &[Vec<[f64; 3]>; 2],
+    least: Bend,
 ) -> Pierced {
     if configuration.pair.enforcement != Enforcement::Weighted {
         return Pierced::default();
     }
-    let points = points::pierced(configuration, selection, carried);
+    let points = points::pierced(configuration, selection, carried, least);
     let mut nodes = pierced_nodes(configuration, selection, carried);
     let felt: Vec<Vec3> = (selection.points.iter().flatten())
         .chain(points.iter().map(|(_, point)| point))

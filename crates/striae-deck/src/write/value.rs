@@ -57,7 +57,7 @@ mod tests {
         for i in -3600..3600 {
             let angle = (0.1 * f64::from(i)).to_radians();
             assert_eq!(degrees(angle).to_radians().to_bits(), angle.to_bits());
-            let share = (1.0 + f64::from(i).abs()) / 3700.0;
+            let share = (1.0 + f64::from(i).abs()) / 1e4 / 0.37;
             let found = read_as(share, share * 0.37, |mu| mu / 0.37);
             assert_eq!(found / 0.37, share);
             let unit = Vec3::new(f64::from(i), 77.7, 0.3 * f64::from(i) - 50.0).normalize();

@@ -4,7 +4,8 @@
 //! thrown far away is stretched on its way, the forces in it grow beyond all others, and the
 //! residual is small against them, or against what round-off leaves of them. No equilibrium of
 //! the model is there: without inertia a node does not go many times the size of the model
-//! further than what drives it.
+//! further than what drives it. Stabilisation, which resists as long as a step lasts, has an
+//! ending of its own.
 
 use striae_mesh::Vec3;
 
@@ -21,7 +22,12 @@ const FARTHEST: f64 = 100.0;
 pub(super) fn flown(setting: &Setting, trial: &Trial) -> Option<CutBack> {
     let context = setting.context;
     let problem = context.problem;
-    if problem.model.steps[context.index].procedure != Procedure::QuasiStatic {
+    let is_static = problem.model.steps[context.index].procedure == Procedure::QuasiStatic;
+    let is_resisted = context
+        .stabilisation
+        .iter()
+        .any(|&viscosity| viscosity > 0.0);
+    if !is_static || is_resisted {
         return None;
     }
     let (before, size) = (&setting.state.positions, size(&problem.reference));

@@ -4,14 +4,14 @@
 use striae_contact::{
     configuration::Configuration,
     evaluation::Evaluation,
-    pointed::{self, Pierced, RigidPoints, choice::points, staying},
+    pointed::{self, Bend, Pierced, RigidPoints, choice::points, staying},
     selection::{Before, Selection},
     unknowns::{Status, Tractions},
 };
 
 use crate::{
     assembly::{Setting, StepContext, Trial},
-    model::Strategy,
+    model::{Side, Strategy},
     state::State,
 };
 
@@ -92,9 +92,19 @@ pub(super) fn pierced(
     pairs
         .map(|(pair, (selection, contact))| {
             let latest = context.configuration(pair, &trial.positions, &trial.rigid);
-            pointed::pierced(&latest, selection, &contact.carried)
+            let least = least_bend(context, pair);
+            pointed::pierced(&latest, selection, &contact.carried, least)
         })
         .collect()
+}
+
+/// The bend from which edges of a pair's rigid side count. A body that contact alone holds
+/// would rock from one vertex of its round face to the next.
+fn least_bend(context: &StepContext, pair: usize) -> Bend {
+    match context.problem.model.pairs[pair].b {
+        Side::Rigid(rigid) if context.fixed_rigid[rigid.0] != [true; 6] => Bend::Sharp,
+        _ => Bend::Blunt,
+    }
 }
 
 /// The fields chosen anew with what a trial state shows, what pierces the other side among

@@ -76,6 +76,7 @@ pub(super) fn pierced(
     configuration: &Configuration,
     selection: &Selection,
     carried: &[Vec<[f64; 3]>; 2],
+    least: Bend,
 ) -> Vec<(u32, RigidPoint)> {
     if selection.points.is_empty() {
         return Vec::new();
@@ -83,6 +84,7 @@ pub(super) fn pierced(
     let mut deep: Vec<Inside> = candidates(configuration, selection.depth)
         .into_par_iter()
         .with_min_len(16)
+        .filter(|(_, bend)| *bend >= least)
         .filter_map(|(point, bend)| in_facet(configuration, point, bend, selection.depth))
         .filter(|inside| inside.hit.gap < -PIERCED * inside.size)
         .collect();
