@@ -41,7 +41,7 @@ pub(super) fn degrees(angle: f64) -> f64 {
 
 /// A vector of which the unit vector is `unit`.
 pub(super) fn direction(unit: &Vec3) -> Vec3 {
-    let mut multiples = (0..1000).map(|i| unit * (1.0 + 1e-3 * f64::from(i)));
+    let mut multiples = (0..100_000).map(|i| unit * (1.0 + 1e-3 * f64::from(i)));
     multiples
         .find(|multiple| multiple.normalize() == *unit)
         .unwrap_or(*unit)
