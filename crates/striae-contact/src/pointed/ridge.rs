@@ -39,7 +39,7 @@ const FACING: f64 = 0.2;
 /// How much an edge, or the sharpest edge of a vertex, is bent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Bend {
-    /// By less than [`BENT`].
+    /// By less than 14 degrees.
     Blunt,
     /// By more, or it bounds the surface.
     Sharp,
