@@ -263,8 +263,7 @@ impl Evaluation {
                     frame: stage.frames[side][node].as_ref()?,
                     textures: &stage.textures[side][node],
                     slipped: stage.tractions.slipped[side][node],
-                    before: stage.tractions.statuses[side][node],
-                    begun: stage.tractions.begun[side][node],
+                    before: stage.tractions.labels[side][node],
                     unknowns: stage.tractions.nodes[side][node],
                     tau: stage.tau[side][node].value,
                 };

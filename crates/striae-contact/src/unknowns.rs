@@ -14,12 +14,10 @@ pub struct Tractions {
     pub tau_n: [Vec<[f64; 2]>; 2],
     /// Whether each node slipped in the last converged increment, by side.
     pub slipped: [Vec<bool>; 2],
-    /// Status of each node in the last iteration, by side; before the first, slip where a
+    /// What the iterations so far made of each node, by side; before the first, slip where a
     /// node slipped in the last increment and else open.
     /// It counts with a corrector, and where friction decays with the slip rate.
-    pub statuses: [Vec<Status>; 2],
-    /// How often each node has begun to slip in the increment, by side.
-    pub begun: [Vec<u32>; 2],
+    pub labels: [Vec<Label>; 2],
 }
 
 impl Tractions {
@@ -29,9 +27,81 @@ impl Tractions {
             nodes: nodes.map(|count| vec![[0.0; 3]; count]),
             slipped: nodes.map(|count| vec![false; count]),
             tau_n: nodes.map(|count| vec![[0.0; 2]; count]),
-            statuses: nodes.map(|count| vec![Status::Open; count]),
-            begun: nodes.map(|count| vec![0; count]),
+            labels: nodes.map(|count| vec![Label::default(); count]),
         }
+    }
+
+    /// Gives the nodes the labels that an iteration has found them to have.
+    pub fn label(&mut self, nodes: &[Vec<NodeResult>; 2]) {
+        let found = || self.labels.iter().flatten().zip(nodes.iter().flatten());
+        let slips = |status| status == Status::Slip;
+        let rests = found().all(|(label, node)| slips(label.status) == slips(node.status));
+        let after = match rests {
+            true => Label::after,
+            false => Label::anew,
+        };
+        let sides = self.labels.iter_mut().zip(nodes);
+        for (label, node) in sides.flat_map(|(labels, nodes)| labels.iter_mut().zip(nodes)) {
+            *label = after(*label, node);
+        }
+    }
+}
+
+/// What the iterations of an increment made of a node.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Label {
+    /// Status in the last iteration.
+    pub status: Status,
+    /// How often it has begun to slip.
+    pub begun: u32,
+    /// `|du|` in the last iteration.
+    pub slip: f64,
+    /// Whether `|du|` fell when it last changed, since a node last began or ceased to slip.
+    pub fell: bool,
+    /// How often `|du|` rose after a fall, since then.
+    pub turns: u32,
+}
+
+impl Label {
+    /// Part of `|du|` by which it changes where it falls or rises at all. A solution that
+    /// Newton's method closes in on changes by less.
+    const CHANGE: f64 = 0.1;
+
+    /// Which rise of `|du|` after a fall is one too many.
+    const TURNS: u32 = 2;
+
+    /// The label after an iteration in which no node began or ceased to slip.
+    fn after(self, node: &NodeResult) -> Self {
+        let slip = node.slip.norm();
+        let rises = self.rises_to(slip);
+        let falls = slip < (1.0 - Self::CHANGE) * self.slip;
+        Self {
+            status: node.status,
+            slip,
+            fell: falls || self.fell && !rises,
+            turns: self.turns + u32::from(self.fell && rises),
+            ..self
+        }
+    }
+
+    /// The label after any other iteration: slip that turns then proves nothing.
+    fn anew(self, node: &NodeResult) -> Self {
+        let begins = node.status == Status::Slip && self.status != Status::Slip;
+        Self {
+            status: node.status,
+            begun: self.begun + u32::from(begins),
+            slip: node.slip.norm(),
+            ..Self::default()
+        }
+    }
+
+    /// Whether with this `|du|` slip has gone back and forth.
+    pub(crate) fn goes_back_and_forth(&self, slip: f64) -> bool {
+        self.fell && self.rises_to(slip) && self.turns + 1 == Self::TURNS
+    }
+
+    fn rises_to(&self, slip: f64) -> bool {
+        slip > (1.0 + Self::CHANGE) * self.slip
     }
 }
 

@@ -15,7 +15,9 @@
 //! go: with `f(d) = F - k d - varpi(d/dt)`, `f'(0)` is positive, and Newton's method goes
 //! backwards from rest. `varpi` is convex, so `f` is concave, and from the right of the
 //! solution Newton's method does not turn back. The kinetic coefficient leads there: a node
-//! that sticks, slips and sticks begins with it at every second time.
+//! that sticks, slips and sticks begins with it at every second time. Where `f` is negative
+//! throughout there is no slip, and Newton's method goes back and forth about its largest
+//! value. A node whose slip goes back and forth sticks, therefore.
 
 use nalgebra::{Matrix2, Vector2};
 
@@ -56,8 +58,8 @@ pub(super) fn tangential(
         configuration,
         mobility: Mobility::new(state),
         size: configuration.size(state.node.side, state.node.node),
-        begun: match state.node.before {
-            Status::Open | Status::Stick if state.node.begun % 2 == 1 => {
+        begun: match state.node.before.status {
+            Status::Open | Status::Stick if state.node.before.begun % 2 == 1 => {
                 state.varpi(configuration, p, Rate::Endless)
             }
             Status::Open | Status::Stick | Status::Slip => varpi,
@@ -122,7 +124,7 @@ impl Friction<'_> {
         let inflated = Q::combination([(corrector.inflation.factor(), &self.varpi)]);
         let radius = |direction: &[Q; 2]| self.reaching(&inflated, direction);
         let slips = |z: [f64; 2], turned: [f64; 2]| {
-            let before = self.state.node.before;
+            let before = self.state.node.before.status;
             corrector.status(before, z, turned, radius(&self.z).re) == Status::Slip
         };
         let turned = &self.state.turned;
@@ -167,14 +169,17 @@ impl Friction<'_> {
     }
 
     /// Whether a node slips, by the length of `y` and the radius of the slip surface in its
-    /// direction. Where friction decays with the slip rate, a node that turns around sticks
-    /// first: from there its friction at rest decides.
+    /// direction. Where friction decays with the slip rate, a node that turns around, or
+    /// whose slip goes back and forth, sticks first: from there its friction at rest decides.
     fn slips(&self, length: f64, radius: f64, y: [f64; 2]) -> bool {
         let [first, second] = &self.state.turned;
-        let turns = self.configuration.pair.friction.decays()
-            && self.state.node.before == Status::Slip
-            && first.re * y[0] + second.re * y[1] < 0.0;
-        length > radius && !turns
+        let before = &self.state.node.before;
+        let around = first.re * y[0] + second.re * y[1] < 0.0;
+        let du = self.state.slip[0].re.hypot(self.state.slip[1].re);
+        let sticks = self.configuration.pair.friction.decays()
+            && before.status == Status::Slip
+            && (around || before.goes_back_and_forth(du));
+        length > radius && !sticks
     }
 
     /// `varpi rho`, the radius of the slip surface in a direction.

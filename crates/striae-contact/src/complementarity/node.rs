@@ -4,7 +4,7 @@ use striae_mesh::Vec3;
 
 use crate::{
     frame::Frame, kinematics::Kinematics, table_1::Corrector, texture::NodeTextures,
-    unknowns::Status,
+    unknowns::Label,
 };
 
 /// Which iteration of an increment is evaluated.
@@ -42,10 +42,8 @@ pub struct ContactNode<'a> {
     pub textures: &'a NodeTextures,
     /// Whether it slipped in the last converged increment.
     pub slipped: bool,
-    /// Status in the iteration before.
-    pub before: Status,
-    /// How often it has begun to slip in the increment.
-    pub begun: u32,
+    /// What the iterations before made of it.
+    pub before: Label,
     /// `p`, `z1`, `z2`.
     pub unknowns: [f64; 3],
     /// Friction traction `tau`.

@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 use striae_contact::{
     field::FacetForces,
     pointed::RigidPoint,
-    unknowns::{NodeResult, Status, Tractions},
+    unknowns::{Label, NodeResult, Status, Tractions},
 };
 use striae_mesh::FacetId;
 use striae_solve::{
@@ -172,7 +172,8 @@ pub(super) use coded;
 coded! {
     NodeResult { gap, pressure, tau, slip, normal, texture, mean, status };
     FacetForces { force, area, pressure, friction };
-    Tractions { nodes, tau_n, slipped, statuses, begun };
+    Tractions { nodes, tau_n, slipped, labels };
+    Label { status, begun, slip, fell, turns };
     Worst { kind, pair, value, time };
     Judgement { worst, forces, pressures, energy, step };
     SolverSummary { method, factorisations, contact_corrections, fall_backs, reason };

@@ -190,10 +190,12 @@ impl Attempt<'_> {
             .zip(pairs)
             .filter(|(_, pair)| pair.friction.decays())
             .all(|((before, now), _)| {
-                let sides = before.statuses.iter().zip(&now.nodes);
+                let sides = before.labels.iter().zip(&now.nodes);
                 sides
                     .flat_map(|(before, now)| before.iter().zip(now))
-                    .all(|(before, now)| (*before == Status::Slip) == (now.status == Status::Slip))
+                    .all(|(before, now)| {
+                        (before.status == Status::Slip) == (now.status == Status::Slip)
+                    })
             })
     }
 

@@ -1,10 +1,6 @@
 //! Corrections applied to a trial state.
 
-use striae_contact::{
-    complementarity::Iteration,
-    evaluation::Evaluation,
-    unknowns::{Status, Tractions},
-};
+use striae_contact::{complementarity::Iteration, evaluation::Evaluation, unknowns::Tractions};
 use striae_mesh::Vec3;
 
 use super::workspace::{SystemStorage, Workspace};
@@ -14,17 +10,10 @@ use crate::{
     outcome::CutBack,
 };
 
-/// Gives the nodes of a trial state the status they have been found to have.
+/// Gives the nodes of a trial state the labels they have been found to have.
 pub(super) fn labelled(trial: &mut Trial, contacts: &[Evaluation]) {
     for (tractions, contact) in trial.tractions.iter_mut().zip(contacts) {
-        let before = tractions.statuses.iter_mut().zip(&mut tractions.begun);
-        for ((statuses, begun), nodes) in before.zip(&contact.nodes) {
-            let labels = statuses.iter_mut().zip(begun).zip(nodes);
-            for ((status, begun), node) in labels {
-                *begun += u32::from(node.status == Status::Slip && *status != Status::Slip);
-                *status = node.status;
-            }
-        }
+        tractions.label(&contact.nodes);
     }
 }
 

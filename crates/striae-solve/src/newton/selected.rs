@@ -6,7 +6,7 @@ use striae_contact::{
     evaluation::Evaluation,
     pointed::{self, Bend, Pierced, RigidPoints, choice::points, staying},
     selection::{Before, Selection},
-    unknowns::{Status, Tractions},
+    unknowns::{Label, Status, Tractions},
 };
 
 use crate::{
@@ -55,14 +55,17 @@ pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected
                 let slipped = |status| semismooth && status == Status::Slip;
                 side.iter().map(|node| slipped(node.status)).collect()
             });
-            tractions.statuses = tractions.slipped.each_ref().map(|side| {
+            tractions.labels = tractions.slipped.each_ref().map(|side| {
                 let status = |slipped: &bool| match slipped {
                     true => Status::Slip,
                     false => Status::Open,
                 };
-                side.iter().map(status).collect()
+                let label = |slipped| Label {
+                    status: status(slipped),
+                    ..Label::default()
+                };
+                side.iter().map(label).collect()
             });
-            tractions.begun = tractions.slipped.each_ref().map(|side| vec![0; side.len()]);
             let mut pointed = of_pair.pointed.clone();
             for stay in &stays {
                 pointed[1][stay.to as usize] = true;

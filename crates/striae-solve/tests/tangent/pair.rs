@@ -8,7 +8,7 @@ use striae_contact::{
     placement::Placement,
     selection::{Before, Selection},
     unknown::Unknown,
-    unknowns::{Status, Tractions},
+    unknowns::{Label, Status, Tractions},
 };
 use striae_mesh::Vec3;
 use striae_solve::assembly::StepContext;
@@ -120,16 +120,15 @@ impl<'a> PairFunction<'a> {
             let first = numbering.traction(side, node as u32) as usize;
             [u[first], u[first + 1], u[first + 2]]
         };
-        let mut statuses = self.counts.map(|count| vec![Status::Open; count]);
+        let mut labels = self.counts.map(|count| vec![Label::default(); count]);
         for (kept, before) in self.selection.kept().iter().zip(&self.before) {
-            statuses[kept.side][kept.node as usize] = *before;
+            labels[kept.side][kept.node as usize].status = *before;
         }
         Tractions {
             nodes: [0, 1].map(|side| (0..self.counts[side]).map(|n| triple(side, n)).collect()),
             tau_n: self.tau_n.clone(),
             slipped: self.counts.map(|count| vec![false; count]),
-            statuses,
-            begun: self.counts.map(|count| vec![0; count]),
+            labels,
         }
     }
 
