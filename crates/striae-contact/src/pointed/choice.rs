@@ -10,6 +10,10 @@
 //! facets are open by more than [`CLOSING`] in the mean and without pressure. A node stays
 //! pointed while it is pressed and the mean gap is larger than [`CLOSING`].
 //!
+//! Where nothing of the pair presses, any node deeper than [`FIRST`] pierces if its facets are
+//! open in the mean: bodies would pass into each other unfelt otherwise. An edge between
+//! facets that are tilted by a few degrees stands back by less than `SHARP`.
+//!
 //! Points of rigid surfaces are chosen in [`points`].
 
 use rayon::prelude::*;
@@ -29,6 +33,9 @@ use crate::{
 
 /// Depth from which a node counts as pierced, over the smaller facet size.
 pub const PIERCED: f64 = 0.02;
+
+/// The same where nothing of the pair presses yet.
+pub const FIRST: f64 = 0.005;
 
 /// Mean gap of its own facets beyond its own from which it is sharp, over their size.
 pub const SHARP: f64 = 0.1;
@@ -94,13 +101,17 @@ fn pierced_nodes(
     selection: &Selection,
     carried: &[Vec<[f64; 3]>; 2],
 ) -> Vec<(usize, u32)> {
+    let presses = presses(configuration, carried);
+    let depth = if presses { PIERCED } else { FIRST };
     let mut deep: Vec<(usize, u32, f64)> = Vec::new();
     for &side in configuration.pair.deformable_sides() {
         let nothing = NO_PRESSURE * configuration.pair.sides[side].stiffness;
         let own_gap = |node: u32| {
             let is_free =
                 !selection.is_pointed(side, node) && carried[side][node as usize][0] <= nothing;
-            let gap = is_free.then(|| inside(configuration, side, node)).flatten();
+            let gap = is_free
+                .then(|| inside(configuration, side, node, depth))
+                .flatten();
             gap.map(|gap| (side, node, gap))
         };
         let found: Vec<(usize, u32, f64)> = (0..selection.nodes(side) as u32)
@@ -119,13 +130,23 @@ fn pierced_nodes(
     let is_sharp = |&(side, node, gap): &(usize, u32, f64)| {
         let size = configuration.side(side).sizes[node as usize];
         means[side][node as usize].is_none_or(|mean| {
-            let sharp = mean > 0.0 && mean - gap > SHARP * size;
+            let sharp = mean > 0.0 && (!presses || mean - gap > SHARP * size);
             let open = on_facets && mean > CLOSING * size;
             sharp || open && !is_pressed_around(configuration, carried, node)
         })
     };
     let sharp = deep.into_iter().filter(is_sharp);
     sharp.map(|(side, node, _)| (side, node)).collect()
+}
+
+/// Whether anything of a pair presses.
+fn presses(configuration: &Configuration, carried: &[Vec<[f64; 3]>; 2]) -> bool {
+    let pair = configuration.pair;
+    let stiffness = |&side: &usize| pair.sides[side].stiffness;
+    let softer = pair.deformable_sides().iter().map(stiffness);
+    let nothing = NO_PRESSURE * softer.fold(f64::INFINITY, f64::min);
+    let mut tractions = carried.iter().flatten();
+    tractions.any(|[pressure, ..]| *pressure > nothing)
 }
 
 /// Whether the field presses on a facet around a node of side `a`.
@@ -147,15 +168,15 @@ fn is_pressed(configuration: &Configuration, carried: &[Vec<[f64; 3]>; 2], facet
     pressures.any(|pressure| pressure > nothing)
 }
 
-/// Gap of a node that lies deeper inside the other side than [`PIERCED`].
-fn inside(configuration: &Configuration, side: usize, node: u32) -> Option<f64> {
+/// Gap of a node that lies deeper inside the other side than `depth` of the facet size.
+fn inside(configuration: &Configuration, side: usize, node: u32, depth: f64) -> Option<f64> {
     let own = configuration.side(side);
     let size = own.sizes[node as usize];
     if let Some((point, normal)) = configuration.plane() {
         let gap = (own.x[node as usize] - point).dot(&normal);
         let faces = own.normals[node as usize].dot(&normal) < 0.0;
         let near = -gap < configuration.reach(side, node);
-        return (faces && near && gap < -PIERCED * size).then_some(gap);
+        return (faces && near && gap < -depth * size).then_some(gap);
     }
     let tip = Tip::Node {
         side,
@@ -171,7 +192,7 @@ fn inside(configuration: &Configuration, side: usize, node: u32) -> Option<f64> 
         let sizes = corners.map(|corner| target.sizes[corner as usize]);
         sizes.into_iter().fold(size, f64::min)
     };
-    (hit.gap < -PIERCED * size).then_some(hit.gap)
+    (hit.gap < -depth * size).then_some(hit.gap)
 }
 
 /// Pointed nodes of a converged configuration that are so in the next increment too.
