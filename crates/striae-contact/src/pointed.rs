@@ -39,7 +39,7 @@ mod ridge;
 mod spot;
 mod tip;
 
-pub use choice::{Pierced, pierced, staying};
+pub use choice::{Pierced, Progress, pierced, staying};
 pub use force::{PointedTerm, terms};
 pub use ridge::Bend;
 pub use spot::{Spot, faced, facet_normal};

@@ -1,13 +1,15 @@
 //! One increment: semismooth Newton's method.
 //!
 //! The first iteration is linearised at the last converged state with the new
-//! loads; its solution takes the prescribed displacements to their new values.
+//! loads, or where the increment before leads to, see [`course`]; its solution takes the
+//! prescribed displacements to their new values.
 //! From then on the residual alone decides: labels of nodes at the kink of the
 //! friction law may flip at round-off and are not required to rest.
 
 mod acceptance;
 mod attempt;
 mod correction;
+mod course;
 mod cycling;
 mod departure;
 mod energy;
@@ -20,6 +22,7 @@ mod selected;
 mod work;
 mod workspace;
 
+pub use course::Course;
 pub use work::{LinearWork, Times};
 pub use workspace::{Memory, Workspace};
 
@@ -147,7 +150,12 @@ pub fn advance(
     observer: &mut dyn IterationObserver,
 ) -> Result<Increment, CutBack> {
     let imposed = context.imposed_after(state, s, time);
+    let course = workspace.course.take();
+    let course = course.filter(|course| course.leads_on(context, state));
     let mut attempt = Attempt::new(context, state, &imposed, s, workspace);
+    if let Some(course) = course {
+        attempt.follow(&course, time);
+    }
     let assembled = attempt.solved(workspace, observer)?;
     let Attempt {
         selections,
@@ -156,6 +164,7 @@ pub fn advance(
         interferences,
         ..
     } = attempt;
+    workspace.course = Some(Course::new(context.index, state, time));
     let work = workspace.take_work();
     let system = workspace.system();
     let (unknowns, peak_bytes) = (system.layout.unknowns(), system.analysis.peak_bytes);

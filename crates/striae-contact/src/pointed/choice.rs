@@ -10,9 +10,10 @@
 //! facets are open by more than [`CLOSING`] in the mean and without pressure. A node stays
 //! pointed while it is pressed and the mean gap is larger than [`CLOSING`].
 //!
-//! Where nothing of the pair presses, any node deeper than [`FIRST`] pierces if its facets are
-//! open in the mean: bodies would pass into each other unfelt otherwise. An edge between
-//! facets that are tilted by a few degrees stands back by less than `SHARP`.
+//! Where a converged state has no pressure in the pair, a node of a sharp edge that is deeper
+//! than [`FIRST`] pierces, too: an edge between facets that are tilted by a few degrees stands
+//! back by less than `SHARP`, and would pass into the other body unfelt. It stays pointed while
+//! the field carries nothing. Nodes of smooth surfaces are left to the mean.
 //!
 //! Points of rigid surfaces are chosen in [`points`].
 
@@ -21,7 +22,7 @@ use striae_mesh::{FacetId, Vec3};
 
 pub mod points;
 
-use super::{Bend, RigidPoint, Tip, faced};
+use super::{Bend, RigidPoint, Tip, faced, ridge::bend_at};
 use crate::{
     configuration::Configuration,
     pair::Enforcement,
@@ -31,10 +32,19 @@ use crate::{
     unknowns::NodeResult,
 };
 
+/// Whether the rows of a configuration are met.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Progress {
+    /// Iterations go on: rows may be about to close.
+    Iterating,
+    /// The rows are met: what they do not feel now they will not feel.
+    Converged,
+}
+
 /// Depth from which a node counts as pierced, over the smaller facet size.
 pub const PIERCED: f64 = 0.02;
 
-/// The same where nothing of the pair presses yet.
+/// The same where nothing of the pair presses.
 pub const FIRST: f64 = 0.005;
 
 /// Mean gap of its own facets beyond its own from which it is sharp, over their size.
@@ -72,12 +82,13 @@ pub fn pierced(
     selection: &Selection,
     carried: &[Vec<[f64; 3]>; 2],
     least: Bend,
+    progress: Progress,
 ) -> Pierced {
     if configuration.pair.enforcement != Enforcement::Weighted {
         return Pierced::default();
     }
     let points = points::pierced(configuration, selection, carried, least);
-    let mut nodes = pierced_nodes(configuration, selection, carried);
+    let mut nodes = pierced_nodes(configuration, selection, carried, progress);
     let felt: Vec<Vec3> = (selection.points.iter().flatten())
         .chain(points.iter().map(|(_, point)| point))
         .map(|point| point.position(configuration))
@@ -100,9 +111,10 @@ fn pierced_nodes(
     configuration: &Configuration,
     selection: &Selection,
     carried: &[Vec<[f64; 3]>; 2],
+    progress: Progress,
 ) -> Vec<(usize, u32)> {
-    let presses = presses(configuration, carried);
-    let depth = if presses { PIERCED } else { FIRST };
+    let unfelt = progress == Progress::Converged && !presses(configuration, carried);
+    let depth = if unfelt { FIRST } else { PIERCED };
     let mut deep: Vec<(usize, u32, f64)> = Vec::new();
     for &side in configuration.pair.deformable_sides() {
         let nothing = NO_PRESSURE * configuration.pair.sides[side].stiffness;
@@ -130,7 +142,8 @@ fn pierced_nodes(
     let is_sharp = |&(side, node, gap): &(usize, u32, f64)| {
         let size = configuration.side(side).sizes[node as usize];
         means[side][node as usize].is_none_or(|mean| {
-            let sharp = mean > 0.0 && (!presses || mean - gap > SHARP * size);
+            let edge = || bend_at(configuration.side(side), node) == Some(Bend::Sharp);
+            let sharp = unfelt && edge() || mean > 0.0 && mean - gap > SHARP * size;
             let open = on_facets && mean > CLOSING * size;
             sharp || open && !is_pressed_around(configuration, carried, node)
         })
@@ -141,12 +154,17 @@ fn pierced_nodes(
 
 /// Whether anything of a pair presses.
 fn presses(configuration: &Configuration, carried: &[Vec<[f64; 3]>; 2]) -> bool {
+    let nothing = nothing(configuration);
+    let mut tractions = carried.iter().flatten();
+    tractions.any(|[pressure, ..]| *pressure > nothing)
+}
+
+/// Pressure that is none on either side.
+fn nothing(configuration: &Configuration) -> f64 {
     let pair = configuration.pair;
     let stiffness = |&side: &usize| pair.sides[side].stiffness;
     let softer = pair.deformable_sides().iter().map(stiffness);
-    let nothing = NO_PRESSURE * softer.fold(f64::INFINITY, f64::min);
-    let mut tractions = carried.iter().flatten();
-    tractions.any(|[pressure, ..]| *pressure > nothing)
+    NO_PRESSURE * softer.fold(f64::INFINITY, f64::min)
 }
 
 /// Whether the field presses on a facet around a node of side `a`.
@@ -211,11 +229,17 @@ pub fn staying(
         depth: 0.0,
     };
     let gaps = mean_gaps(configuration, scope);
+    let nothing = nothing(configuration);
+    let sides = nodes.iter().zip(pointed);
+    let mut kept = sides.flat_map(|(nodes, pointed)| nodes.iter().zip(pointed));
+    let unfelt = kept.all(|(node, pointed)| *pointed || node.pressure <= nothing);
     for &side in configuration.pair.deformable_sides() {
+        let own = configuration.side(side);
         for (node, stays) in staying[side].iter_mut().enumerate() {
-            let size = configuration.side(side).sizes[node];
+            let edge = || bend_at(own, node as u32) == Some(Bend::Sharp);
+            let open = |gap| gap > CLOSING * own.sizes[node];
             *stays &= nodes[side][node].pressure > 0.0
-                && gaps[side][node].is_none_or(|gap| gap > CLOSING * size);
+                && (gaps[side][node].is_none_or(open) || unfelt && edge());
         }
     }
     staying

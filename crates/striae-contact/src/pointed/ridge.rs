@@ -77,6 +77,11 @@ pub fn candidates(configuration: &Configuration, depth: f64) -> Vec<(RigidPoint,
     found.into_iter().flatten().collect()
 }
 
+/// The bend of the sharpest convex edge at a node, `None` where there is none.
+pub fn bend_at(side: &Snapshot, node: u32) -> Option<Bend> {
+    edges(side, node).map(|edge| edge.bend).max()
+}
+
 /// A convex edge.
 struct Edge {
     nodes: [u32; 2],

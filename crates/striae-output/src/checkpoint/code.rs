@@ -11,7 +11,7 @@ use striae_mesh::FacetId;
 use striae_solve::{
     drive::Point,
     layout::Extent,
-    newton::{Experience, FactoredInterior, Memory},
+    newton::{Course, Experience, FactoredInterior, Memory},
     rigid::{Pose, Wrench},
     state::{Energies, NodalForces, PairState, State},
     warning::{Judgement, Kind, Worst},
@@ -187,6 +187,7 @@ coded! {
     Extent { nodes };
     FactoredInterior { values, scales, prescribed, single };
     Experience { too_coarse, taken, interior };
-    Memory { extent, cliques, solver };
+    Memory { extent, cliques, solver, course };
+    Course { step, start, end, positions, rigid, tractions };
     Point { step, increments, fraction, size, search, start, state, memory };
 }

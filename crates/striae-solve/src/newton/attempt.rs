@@ -3,7 +3,7 @@
 use striae_contact::{
     complementarity::Iteration,
     interference::Interference,
-    pointed::Pierced,
+    pointed::{Pierced, Progress},
     segment::ON_EDGE,
     selection::Selection,
     table_1::{Corrector, Inflation},
@@ -14,6 +14,7 @@ use striae_linalg::REDUCTION;
 use super::{
     IterationObserver,
     correction::{Taken, labelled, step},
+    course::Course,
     cycling::{History, WINDOW},
     departure::first_positions,
     failure::{linear_system, missed},
@@ -52,6 +53,8 @@ pub(super) struct Attempt<'a> {
     pub(super) interferences: Vec<Vec<Interference>>,
     /// Which pairs are closed in the latest state.
     closed: Vec<bool>,
+    /// What the first iteration goes by.
+    first: Iteration,
 }
 
 impl<'a> Attempt<'a> {
@@ -86,6 +89,15 @@ impl<'a> Attempt<'a> {
             inflation: Inflation::default(),
             interferences: Vec::new(),
             closed: vec![true; context.pairs.len()],
+            first: Iteration::First,
+        }
+    }
+
+    /// Starts where the increment before leads to at a time, unless bodies leave each other.
+    pub(super) fn follow(&mut self, course: &Course, time: f64) {
+        if self.trial.positions == self.state.positions {
+            course.follow(self.context, self.state, time, &mut self.trial);
+            self.first = Iteration::LATER;
         }
     }
 }
@@ -110,12 +122,12 @@ impl Attempt<'_> {
         workspace: &mut Workspace,
         observer: &mut dyn IterationObserver,
     ) -> Result<Assembled, CutBack> {
-        let mut assembled = workspace.assemble(&self.setting(), &self.trial, Iteration::First)?;
+        let mut assembled = workspace.assemble(&self.setting(), &self.trial, self.first)?;
         for repetition in 0.. {
             assembled = self.converge(assembled, workspace, observer)?;
             flown(&self.setting(), &self.trial).map_or(Ok(()), Err)?;
             let missed = missed(&self.setting(), &self.trial);
-            let pierced = self.pierced(&assembled);
+            let pierced = self.pierced(&assembled, Progress::Converged);
             if repetition == REPETITIONS {
                 missed.map_or(Ok(()), Err)?;
                 break;
@@ -264,7 +276,7 @@ impl Attempt<'_> {
         if number > 1 {
             return None;
         }
-        let pierced = self.pierced(assembled);
+        let pierced = self.pierced(assembled, Progress::Iterating);
         let comes = missed(&self.setting(), &self.trial).is_some();
         (comes || !pierced.iter().all(Pierced::is_empty)).then(|| {
             let setting = self.setting();
@@ -273,9 +285,15 @@ impl Attempt<'_> {
     }
 
     /// What pierces the other side, by pair.
-    fn pierced(&self, assembled: &Assembled) -> Vec<Pierced> {
+    fn pierced(&self, assembled: &Assembled, progress: Progress) -> Vec<Pierced> {
         let contacts = &assembled.contacts;
-        pierced(self.context, &self.selections, &self.trial, contacts)
+        pierced(
+            self.context,
+            &self.selections,
+            &self.trial,
+            contacts,
+            progress,
+        )
     }
 
     /// Goes on with another traction field.

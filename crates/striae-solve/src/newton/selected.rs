@@ -4,7 +4,7 @@
 use striae_contact::{
     configuration::Configuration,
     evaluation::Evaluation,
-    pointed::{self, Bend, Pierced, RigidPoints, choice::points, staying},
+    pointed::{self, Bend, Pierced, Progress, RigidPoints, choice::points, staying},
     selection::{Before, Selection},
     unknowns::{Label, Status, Tractions},
 };
@@ -90,13 +90,14 @@ pub(super) fn pierced(
     selections: &[Selection],
     trial: &Trial,
     contacts: &[Evaluation],
+    progress: Progress,
 ) -> Vec<Pierced> {
     let pairs = selections.iter().zip(contacts).enumerate();
     pairs
         .map(|(pair, (selection, contact))| {
             let latest = context.configuration(pair, &trial.positions, &trial.rigid);
             let least = least_bend(context, pair);
-            pointed::pierced(&latest, selection, &contact.carried, least)
+            pointed::pierced(&latest, selection, &contact.carried, least, progress)
         })
         .collect()
 }

@@ -10,7 +10,7 @@ use striae_linalg::{
 
 use striae_mesh::Vec3;
 
-use super::work::LinearWork;
+use super::{course::Course, work::LinearWork};
 use crate::{
     assembly::{
         Assembled, Background, Contact, ContactAssembled, Fault, Imposed, Setting, StepContext,
@@ -32,6 +32,8 @@ pub struct Workspace {
     pub(super) solver: Box<dyn LinearSolver>,
     system: Option<SystemStorage>,
     work: LinearWork,
+    /// What the last increment started from.
+    pub(super) course: Option<Course>,
 }
 
 pub(super) struct SystemStorage {
@@ -43,8 +45,9 @@ pub(super) struct SystemStorage {
     analysed: bool,
 }
 
-/// What the linear system has grown to, which decides in which order it is
-/// eliminated, and what its solver has learnt: both bear on the last bits of results.
+/// What the linear system has grown to, which decides in which order it is eliminated, what
+/// its solver has learnt, and where the last increment came from: all bear on the last bits
+/// of results.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Memory {
     /// What has traction unknowns.
@@ -53,6 +56,8 @@ pub struct Memory {
     pub cliques: Vec<Vec<usize>>,
     /// What the solver has from earlier matrices, older factors above all.
     pub solver: Experience,
+    /// What the last increment started from.
+    pub course: Option<Course>,
 }
 
 impl Workspace {
@@ -68,6 +73,7 @@ impl Workspace {
             solver,
             system: None,
             work: LinearWork::default(),
+            course: None,
         }
     }
 
@@ -102,6 +108,7 @@ impl Workspace {
             workspace.system().grow(cliques);
         }
         workspace.recall(&memory.solver);
+        workspace.course.clone_from(&memory.course);
         workspace
     }
 
@@ -140,6 +147,7 @@ impl Workspace {
                     .map(|clique| clique.iter().map(|at| at.0).collect())
                     .collect(),
                 solver: self.experience(),
+                course: self.course.clone(),
             }
         })
     }
