@@ -161,3 +161,49 @@ impl NodeResult {
         self.mean + self.normal * self.mean_pressure()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn slipping(slip: f64) -> [Vec<NodeResult>; 2] {
+        let node = NodeResult {
+            status: Status::Slip,
+            slip: Vec3::new(slip, 0.0, 0.0),
+            ..NodeResult::default()
+        };
+        [vec![node], Vec::new()]
+    }
+
+    #[test]
+    fn slip_that_falls_and_rises_twice_goes_back_and_forth() {
+        let mut tractions = Tractions::zero([1, 0]);
+        for slip in [1.0, 0.5, 1.0, 0.7] {
+            tractions.label(&slipping(slip));
+            assert!(!tractions.labels[0][0].goes_back_and_forth(0.72));
+        }
+        assert_eq!(tractions.labels[0][0].begun, 1);
+        assert!(tractions.labels[0][0].goes_back_and_forth(0.9));
+        assert!(!tractions.labels[0][0].goes_back_and_forth(0.6));
+    }
+
+    #[test]
+    fn slip_that_another_node_turns_proves_nothing() {
+        let mut tractions = Tractions::zero([2, 0]);
+        let beside = |status| NodeResult {
+            status,
+            ..NodeResult::default()
+        };
+        for (slip, status) in [
+            (1.0, Status::Stick),
+            (0.5, Status::Slip),
+            (1.0, Status::Stick),
+            (0.7, Status::Slip),
+        ] {
+            let [mut nodes, none] = slipping(slip);
+            nodes.push(beside(status));
+            tractions.label(&[nodes, none]);
+        }
+        assert!(!tractions.labels[0][0].goes_back_and_forth(0.9));
+    }
+}

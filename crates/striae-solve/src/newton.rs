@@ -156,14 +156,22 @@ pub fn advance(
     if let Some(course) = course {
         attempt.follow(&course, time);
     }
-    let assembled = attempt.solved(workspace, observer)?;
+    let assembled = match attempt.solved(workspace, observer) {
+        Err(_) if attempt.follows() => {
+            attempt = attempt.anew(s, workspace);
+            attempt.solved(workspace, observer)?
+        }
+        assembled => assembled?,
+    };
     let Attempt {
         selections,
         trial,
+        mut given_up,
         iterations,
         interferences,
         ..
     } = attempt;
+    given_up.extend(iterations);
     workspace.course = Some(Course::new(context.index, state, time));
     let work = workspace.take_work();
     let system = workspace.system();
@@ -182,6 +190,6 @@ pub fn advance(
             selections,
             assembled,
         ),
-        iterations,
+        iterations: given_up,
     })
 }

@@ -45,7 +45,9 @@ pub(super) struct Attempt<'a> {
     pub(super) selections: Vec<Selection>,
     /// The latest state.
     pub(super) trial: Trial,
-    /// Norms of all iterations.
+    /// Norms of iterations from where the increment before leads to, if they failed.
+    pub(super) given_up: Vec<Norms>,
+    /// Norms of all iterations since.
     pub(super) iterations: Vec<Norms>,
     history: History,
     inflation: Inflation,
@@ -84,6 +86,7 @@ impl<'a> Attempt<'a> {
             imposed,
             selections,
             trial,
+            given_up: Vec::new(),
             iterations: Vec::new(),
             history: History::default(),
             inflation: Inflation::default(),
@@ -91,6 +94,19 @@ impl<'a> Attempt<'a> {
             closed: vec![true; context.pairs.len()],
             first: Iteration::First,
         }
+    }
+
+    /// The increment from the beginning, without what the one before leads to.
+    pub(super) fn anew(self, s: f64, workspace: &mut Workspace) -> Self {
+        Self {
+            given_up: self.iterations,
+            ..Self::new(self.context, self.state, self.imposed, s, workspace)
+        }
+    }
+
+    /// Whether it has started where the increment before leads to.
+    pub(super) fn follows(&self) -> bool {
+        self.first != Iteration::First
     }
 
     /// Starts where the increment before leads to at a time, unless bodies leave each other.

@@ -8,7 +8,8 @@
 //! ```
 //!
 //! The error is of the order `dt^2`, that of an iteration with the tangent at `x_n`. Newton's
-//! method needs an iteration less from there. What is prescribed, and what is tied to a rigid
+//! method needs an iteration less from there; an increment that fails from there starts again
+//! from `x_n`. What is prescribed, and what is tied to a rigid
 //! body, is put where it belongs by the first correction and by the poses.
 
 use striae_mesh::Vec3;

@@ -132,6 +132,8 @@ fn failed_increments_are_halved_and_leave_no_trace() {
     shear.displacements = sheared(&model, 1.0);
     shear.increments = increments(1.0, 1e-3);
     model.steps = vec![shear];
+    // Increments start elsewhere than steps do: down to round-off they end at the same place.
+    model.solver.further_iterations = 1;
     let cut = assert_halved(model, sheared);
     let inverted = |cut: &CutBack| matches!(cut, CutBack::InvertedElement { .. });
     assert!(cut.cuts.iter().all(|(_, cut)| inverted(cut)));
