@@ -39,7 +39,7 @@ pub const END: &str = "end.bin";
 const MAGIC: &[u8] = b"striae checkpoint\n";
 
 /// Number of the format, to be raised when the content changes.
-pub const FORMAT: u64 = 9;
+pub const FORMAT: u64 = 10;
 
 /// A run under way.
 #[derive(Clone, Debug)]
@@ -88,6 +88,8 @@ pub struct Written {
     pub judgement: striae_solve::warning::Judgement,
     /// What slip has done so far.
     pub worn: Worn,
+    /// Time of the last increment.
+    pub elapsed: f64,
     /// Checksums of the files.
     pub sums: Checksums,
 }
@@ -298,7 +300,7 @@ impl Coded for PathBuf {
 coded! {
     Checkpoint { source, written, point };
     Source { case, path, fingerprint, parts, steps };
-    Written { iterations, cut_backs, unknowns, solver, fields, seconds, series, judgement, worn, sums };
+    Written { iterations, cut_backs, unknowns, solver, fields, seconds, series, judgement, worn, elapsed, sums };
     Worn { pairs };
     Snapshot { time, parts };
 }
