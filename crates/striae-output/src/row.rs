@@ -7,7 +7,7 @@ use striae_solve::{
     model::Procedure,
     newton::Increment,
     problem::Problem,
-    report::{PairReport, bodies, pairs, reactions, rigid_bodies},
+    report::{PairReport, bodies, held_reactions, pairs, rigid_bodies},
     resolved::resolved,
 };
 
@@ -54,7 +54,7 @@ pub fn row(
             row.push((format!("pair.{name}.across_{letter}"), of_side.across));
         }
     }
-    for (name, force) in reactions(problem, state) {
+    for (name, force) in held_reactions(problem, state) {
         add_vector(&mut row, &format!("reaction.{name}"), &force);
     }
     for rigid in rigid_bodies(problem, state) {

@@ -219,6 +219,25 @@ fn forces_are_resolved_along_and_across_the_grooves_of_a_plane() {
     assert_eq!(history.column("pair.foot.along_a"), None);
 }
 
+/// The foot of a bar that is held at its top has no reaction, only a residual.
+#[test]
+fn reactions_are_those_of_sets_that_something_holds() {
+    let folder = tempfile::tempdir().unwrap();
+    let held = r#"body = "bar", nodes = "all""#;
+    assert_eq!(DECK.matches(held).count(), 2);
+    let text = DECK.replace("CELLS", "hexahedra");
+    let text = text.replace(held, r#"body = "bar", nodes = "zmax""#);
+    let deck = deck::parse(&text, "deck.toml", Path::new("")).unwrap();
+    let simulation = Simulation::of(deck).unwrap();
+    simulation.recorded(folder.path(), "bar").run().unwrap();
+    let history = Table::read(&folder.path().join("history.csv")).unwrap();
+    for (name, is_there) in [("zmax", true), ("all", true), ("zmin", false)] {
+        let column = history.column(&format!("reaction.bar.{name}.z"));
+        assert_eq!(column.is_some(), is_there, "{name}");
+    }
+    assert!(history.column("reaction.floor.z").is_some());
+}
+
 /// What a cut transmits is what acts beyond it, whatever the elements that it goes through.
 #[test]
 fn cuts_transmit_what_acts_beyond_them() {
