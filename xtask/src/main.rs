@@ -18,6 +18,7 @@ mod book;
 mod borders;
 mod browser;
 mod check;
+mod decks;
 mod endurance;
 mod fault;
 mod python;

@@ -59,6 +59,8 @@ pub struct Case {
     pub expected: &'static str,
     /// What a reader should know: its README.
     pub readme: &'static str,
+    /// What a quick look runs; `None` where it runs everything.
+    pub quick: Option<&'static str>,
     /// Runs the decks, measures quantities and draws figures.
     pub run: fn(&mut Study) -> Result<(), Failure>,
 }
@@ -66,11 +68,18 @@ pub struct Case {
 /// A case from the name of its folder and its function.
 macro_rules! case {
     ($name:literal, $title:literal, $run:path) => {
+        case!($name, $title, $run, None)
+    };
+    ($name:literal, $title:literal, $run:path, quick: $quick:literal) => {
+        case!($name, $title, $run, Some($quick))
+    };
+    ($name:literal, $title:literal, $run:path, $quick:expr) => {
         Case {
             name: $name,
             title: $title,
             expected: embedded!($name, "/expected.toml"),
             readme: embedded!($name, "/README.md"),
+            quick: $quick,
             run: $run,
         }
     };
@@ -81,22 +90,26 @@ pub const CASES: &[Case] = &[
     case!(
         "two-blocks",
         "Two blocks, pressed and slid, beside two other codes",
-        two_blocks::run
+        two_blocks::run,
+        quick: "the meshes of the decks, without the one of elements of a quarter of the size"
     ),
     case!(
         "stiff-punch",
         "An offset punch on a larger base, for all ratios of stiffness and mesh size",
-        stiff_punch::run
+        stiff_punch::run,
+        quick: "three of the ratios of stiffness and two of the divisions"
     ),
     case!(
         "edge-contact",
         "A block whose edges press on a thin plate, ever more finely divided",
-        edge_contact::run
+        edge_contact::run,
+        quick: "three of ten divisions"
     ),
     case!(
         "edge-release",
         "A punch that slides off an edge, and one that is lifted and pressed again",
-        edge_release::run
+        edge_release::run,
+        quick: "three of ten scenes"
     ),
     case!(
         "patch-frictionless",
@@ -121,17 +134,20 @@ pub const CASES: &[Case] = &[
     case!(
         "hertz-mindlin",
         "A block with a spherical face, pressed and sheared, beside Mindlin's closed form",
-        hertz_mindlin::run
+        hertz_mindlin::run,
+        quick: "the two coarsest meshes"
     ),
     case!(
         "hertz-mindlin-cylinders",
         "Two half cylinders, pressed and sheared, beside the closed form",
-        hertz_mindlin_cylinders::run
+        hertz_mindlin_cylinders::run,
+        quick: "the two coarsest of three meshes"
     ),
     case!(
         "hertz-mindlin-two-body",
         "A block with a spherical face, pressed onto and slid over an equally soft one",
-        hertz_mindlin_two_body::run
+        hertz_mindlin_two_body::run,
+        quick: "the coarsest mesh"
     ),
     case!(
         "stick-tolerance",
@@ -151,17 +167,20 @@ pub const CASES: &[Case] = &[
     case!(
         "tyre-pressed",
         "A tyre pressed onto a road and pushed over it",
-        tyre_pressed::run
+        tyre_pressed::run,
+        quick: "a coarser mesh of the tyre"
     ),
     case!(
         "tyre-locked",
         "A tyre with a locked wheel that drifts as it slides",
-        tyre_locked::run
+        tyre_locked::run,
+        quick: "a coarser mesh of the tyre"
     ),
     case!(
         "tyre-rolling",
         "A tyre that rolls and hardly drifts",
-        tyre_rolling::run
+        tyre_rolling::run,
+        quick: "a coarser mesh of the tyre"
     ),
     case!(
         "bar-impact",
@@ -171,7 +190,8 @@ pub const CASES: &[Case] = &[
     case!(
         "million-unknowns",
         "Two stacked blocks with a million unknowns, by the iterative solver",
-        million_unknowns::run
+        million_unknowns::run,
+        quick: "32 elements along an edge in the place of 68, a tenth of the unknowns"
     ),
     case!(
         "slip-surface",

@@ -163,6 +163,7 @@ fn a_run_writes_what_it_says() {
         "block-00000.vtu",
         "block-00001.vtu",
         "block-00002.vtu",
+        "contact-sole-block-00000.vtu",
         "contact-sole-block-00001.vtu",
         "contact-sole-block-00002.vtu",
         "rigid-floor-00000.vtu",

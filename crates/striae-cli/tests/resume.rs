@@ -138,7 +138,7 @@ fn interrupted_runs_give_the_files_of_uninterrupted_ones() {
     }
     let again = striae(place, &["resume", "results/cube"]);
     assert_eq!(again.status.code(), Some(2));
-    assert!(stderr(&again).contains("results/cube has no checkpoint.bin"));
+    assert!(stderr(&again).contains("results/cube holds a completed run"));
 }
 
 #[test]

@@ -155,6 +155,20 @@ pub enum FaultKind {
         /// What is wrong.
         cause: String,
     },
+    /// Two sections have the same name.
+    #[error("there is another section `{name}`")]
+    SectionTwice {
+        /// The name.
+        name: String,
+    },
+    /// A section does not cut its body.
+    #[error("section `{name}` does not cut its body: {cause}")]
+    Section {
+        /// Its name.
+        name: String,
+        /// What is wrong.
+        cause: striae_solve::section::SectionError,
+    },
     /// A deck without bodies or steps.
     #[error("the deck has no [[{key}]]; {need}")]
     Nothing {

@@ -79,7 +79,7 @@ impl Dots {
         let right = (corner[0] + size[0]) as f64;
         if least >= largest {
             let middle = (corner[1] + size[1] / 2) as f64 + 0.5 * DIGIT_HEIGHT * text;
-            return self.write_words(&format!("{least:.4}"), [right + 6.0, middle], text);
+            return self.write_words(&few_digits(least), [right + 6.0, middle], text);
         }
         let ticks = linear(least, largest, 6);
         for (number, label) in &ticks.major {
@@ -132,6 +132,24 @@ impl Dots {
     }
 }
 
+/// A number with at most five digits.
+fn few_digits(number: f64) -> String {
+    let size = number.abs();
+    if size != 0.0 && !(1e-3..1e6).contains(&size) {
+        let words = format!("{number:.4e}");
+        let (digits, power) = words.split_once('e').unwrap_or((&words, "0"));
+        let digits = digits.trim_end_matches('0').trim_end_matches('.');
+        return format!("{digits}e{power}").replace('-', "−");
+    }
+    let before = size.max(1.0).log10().floor() as usize;
+    let words = format!("{number:.0$}", 4_usize.saturating_sub(before));
+    let words = match words.contains('.') {
+        true => words.trim_end_matches('0').trim_end_matches('.'),
+        false => &words,
+    };
+    words.replace('-', "−")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -155,6 +173,13 @@ mod tests {
         picture.write_bar([60, 5], [10, 50], [0.0, 2.0], 9.0);
         assert!(*picture.dot([65, 5]) == color_map(0.99));
         assert!(*picture.dot([65, 54]) == color_map(0.01));
+    }
+
+    #[test]
+    fn a_value_of_any_size_is_written_with_few_digits() {
+        let words = [2.0, 40.0, 0.5, 12345.678, -1.5e-6, 2.5e9, 0.0].map(few_digits);
+        let expected = ["2", "40", "0.5", "12346", "−1.5e−6", "2.5e9", "0"];
+        assert_eq!(words, expected);
     }
 
     #[test]

@@ -178,7 +178,7 @@ impl<'a> Extent<'a> {
             }
             (Frame::Polar { radius: axis }, Coordinates::Polar { centre, radius }) => {
                 let ticks = radius.ticks(polar::SPACING);
-                shapes.extend(polar::grid(centre, &radius, &ticks));
+                shapes.extend(polar::grid(centre, &radius, &ticks, &layers.front));
                 shapes.extend(layers.front);
                 shapes.extend(polar::axes(centre, axis, &radius, &ticks));
             }

@@ -11,7 +11,9 @@ use super::shape::{Anchor, Place, Shape};
 use super::ticks::Ticks;
 
 /// Circles, their numbers and rays of a polar panel.
-pub(super) fn grid(centre: Place, radius: &Mapping, ticks: &Ticks) -> Vec<Shape> {
+///
+/// The numbers stand along the ray on which the lines of `curves` stay farthest from them.
+pub(super) fn grid(centre: Place, radius: &Mapping, ticks: &Ticks, curves: &[Shape]) -> Vec<Shape> {
     let full = radius.to - radius.from;
     let rays = (0..12).map(|i| around(centre, full, f64::from(i) * FRAC_PI_6));
     let mut shapes: Vec<Shape> = rays.map(|end| stroke(vec![centre, end], GRID)).collect();
@@ -20,12 +22,45 @@ pub(super) fn grid(centre: Place, radius: &Mapping, ticks: &Ticks) -> Vec<Shape>
             shapes.push(stroke(circle(centre, at - centre[0]), GRID));
         }
     }
-    shapes.extend(radius_labels(centre, radius, ticks));
+    let angle = free_angle(centre, radius, ticks, curves);
+    shapes.extend(radius_labels(centre, radius, ticks, angle));
     shapes
 }
 
+/// The angle between two rays at which the numbers of the circles are farthest from all
+/// lines; the one next to the top where nothing is near.
+fn free_angle(centre: Place, radius: &Mapping, ticks: &Ticks, curves: &[Shape]) -> f64 {
+    let lines: Vec<Place> = curves
+        .iter()
+        .filter_map(|shape| match shape {
+            Shape::Stroke { places, .. } => Some(places),
+            Shape::Fill { .. } | Shape::Text(_) => None,
+        })
+        .flatten()
+        .copied()
+        .collect();
+    let distance = |angle: f64| {
+        let places = ticks.major.iter().filter_map(|(number, _)| {
+            let at = radius.place(*number).filter(|_| *number > 0.0)?;
+            Some(around(centre, at - centre[0], angle))
+        });
+        let apart = places.flat_map(|[x, y]| {
+            let lines = lines.iter();
+            lines.map(move |place| (place[0] - x).hypot(place[1] - y))
+        });
+        // What is farther than this is far enough.
+        apart.fold(2.0 * TICK_LABEL, f64::min)
+    };
+    let angles = (0..12).map(|turn| (2.5 + f64::from(turn)) * FRAC_PI_6);
+    let farthest = angles.reduce(|best, angle| match distance(angle) > distance(best) {
+        true => angle,
+        false => best,
+    });
+    farthest.unwrap_or(2.5 * FRAC_PI_6)
+}
+
 /// Numbers of the circles, on patches that interrupt them.
-fn radius_labels(centre: Place, radius: &Mapping, ticks: &Ticks) -> Vec<Shape> {
+fn radius_labels(centre: Place, radius: &Mapping, ticks: &Ticks, angle: f64) -> Vec<Shape> {
     let full = radius.to - radius.from;
     let lower = DIGIT_HEIGHT * TICK_LABEL / 2.0;
     let mut shapes = Vec::new();
@@ -33,7 +68,7 @@ fn radius_labels(centre: Place, radius: &Mapping, ticks: &Ticks) -> Vec<Shape> {
         let Some(at) = radius.place(*number) else {
             continue;
         };
-        let place = around(centre, at - centre[0], 2.5 * FRAC_PI_6);
+        let place = around(centre, at - centre[0], angle);
         let half = font::width(words, TICK_LABEL) / 2.0 + 1.0;
         let high = lower + 1.0;
         let corners = [[-half, -high], [half, -high], [half, high], [-half, high]];

@@ -2,12 +2,16 @@
 //!
 //! [`write_atomically`] writes to a neighbour of the target and renames it, so a
 //! reader (or an interrupted run) sees the old content or the new, never half of
-//! either. [`quoted`] is one field of comma-separated text.
+//! either. [`quoted`] is one field of comma-separated text, [`Stems`] are names of files.
+
+mod stems;
 
 use std::ffi::OsString;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+
+pub use stems::Stems;
 
 /// Why a file could not be written or read.
 #[derive(Debug, thiserror::Error)]

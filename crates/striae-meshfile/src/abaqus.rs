@@ -14,7 +14,7 @@ mod keywords;
 mod sets;
 
 use super::MeshFileFault;
-use super::collected::{Collected, FileElement, FileFace};
+use super::collected::{Collected, FileElement, FileFace, position};
 use super::lines::parsed;
 use keywords::{Keyword, Row, keywords};
 use sets::LabelSets;
@@ -137,6 +137,7 @@ impl Reader {
                     x[axis] = number(word).ok_or_else(|| row.fault("a coordinate"))?;
                 }
             }
+            let x = position(row.line, tag, x)?;
             if self.mesh.nodes.insert(tag, x).is_some() {
                 return Err(row.fault("a node number that has not been used"));
             }

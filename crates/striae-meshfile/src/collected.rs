@@ -211,6 +211,15 @@ impl Collected {
     }
 }
 
+/// The position of a node, which is finite.
+pub(super) fn position(line: usize, number: u64, x: Vec3) -> Result<Vec3, MeshFileFault> {
+    if x.iter().all(|coordinate| coordinate.is_finite()) {
+        return Ok(x);
+    }
+    let found = format!("node {number} at ({}, {}, {})", x.x, x.y, x.z);
+    Err(MeshFileFault::line(line, "finite coordinates", found))
+}
+
 fn corner_nodes(numbers: [u64; 4], node_ids: &BTreeMap<u64, NodeId>) -> Option<[NodeId; 4]> {
     let mut nodes = [NodeId(0); 4];
     for (node, number) in nodes.iter_mut().zip(numbers) {

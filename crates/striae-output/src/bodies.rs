@@ -7,11 +7,12 @@ use striae_solve::{problem::Problem, state::State};
 
 use crate::{
     BodyField,
+    strain::nodal_strain,
     vtk::{Array, Cells, Grid, Values},
 };
 
-/// A body with the fields that are asked for. Those of stress and energy are left out
-/// where the state has none.
+/// A body with the fields that are asked for. Those of stress, strain and energy are left
+/// out where the state has none.
 pub(crate) fn body_grid<'a>(
     problem: &'a Problem,
     state: &'a State,
@@ -19,24 +20,41 @@ pub(crate) fn body_grid<'a>(
     fields: &[BodyField],
 ) -> Grid<'a> {
     let range = problem.first_node[body]..problem.first_node[body + 1];
-    let mut grid = Grid {
-        points: &state.positions[range],
-        cells: Cells::Blocks(&problem.model.bodies[body].mesh.blocks),
-        point_arrays: Vec::new(),
-        cell_arrays: memory(problem, state, body),
-        time: state.time,
-    };
-    let of_stress = [
+    let points = &state.positions[range];
+    let mesh = &problem.model.bodies[body].mesh;
+    let needs = |some: &[BodyField]| fields.iter().any(|field| some.contains(field));
+    let of_stress = needs(&[
         BodyField::CauchyStress,
         BodyField::VonMises,
         BodyField::PrincipalStress,
-    ];
-    let is_asked = fields.iter().any(|field| of_stress.contains(field));
-    let stress = is_asked.then(|| stress(problem, state, body)).flatten();
+        BodyField::PrincipalStressDirections,
+    ]);
+    let of_strain = needs(&[
+        BodyField::LogarithmicStrain,
+        BodyField::PrincipalStrain,
+        BodyField::PrincipalStrainDirections,
+    ]);
+    let tensors = Tensors {
+        stress: of_stress.then(|| stress(problem, state, body)).flatten(),
+        strain: of_strain.then(|| nodal_strain(mesh, points)).flatten(),
+    };
+    let mut grid = Grid {
+        points,
+        cells: Cells::Blocks(&mesh.blocks),
+        point_arrays: Vec::new(),
+        cell_arrays: Vec::new(),
+        time: state.time,
+    };
     for field in fields {
-        add(&mut grid, problem, state, body, *field, stress.as_deref());
+        add(&mut grid, problem, state, body, *field, &tensors);
     }
     grid
+}
+
+/// Tensors at the nodes, as far as they are asked for and known.
+struct Tensors {
+    stress: Option<Vec<Matrix3<f64>>>,
+    strain: Option<Vec<Matrix3<f64>>>,
 }
 
 /// Cauchy stress at the nodes of a body.
@@ -75,55 +93,89 @@ fn add(
     state: &State,
     body: usize,
     field: BodyField,
-    stress: Option<&[Matrix3<f64>]>,
+    tensors: &Tensors,
 ) {
     let range = problem.first_node[body]..problem.first_node[body + 1];
-    let mut point = |name: &'static str, values: Values| {
+    let mut point = |name: &str, values: Values| {
         grid.point_arrays.push(Array::new(name, values));
     };
-    match field {
-        BodyField::Displacement => {
+    let (stress, strain) = (tensors.stress.as_deref(), tensors.strain.as_deref());
+    match (field, stress, strain) {
+        (BodyField::Displacement, ..) => {
             let reference = problem.reference[range].iter();
             let displacement = grid.points.iter().zip(reference).map(|(x, at)| x - at);
             let displacement = Values::Vectors(displacement.collect());
             point("displacement", displacement);
         }
-        BodyField::Velocity => {
+        (BodyField::Velocity, ..) => {
             let velocities = &state.velocities[range];
             if velocities.iter().any(|velocity| *velocity != Vec3::zeros()) {
                 point("velocity", Values::Vectors(velocities.to_vec()));
             }
         }
-        BodyField::CauchyStress => {
-            if let Some(stress) = stress {
-                point("cauchy_stress", Values::SymmetricTensors(stress.to_vec()));
+        (BodyField::CauchyStress, Some(stress), _) => {
+            point("cauchy_stress", Values::SymmetricTensors(stress.to_vec()));
+        }
+        (BodyField::VonMises, Some(stress), _) => {
+            let equivalent = stress.iter().map(von_mises).collect();
+            point("von_mises", Values::Scalars(equivalent));
+        }
+        (BodyField::PrincipalStress, Some(stress), _) => {
+            point("principal_stress", principal_values(stress));
+        }
+        (BodyField::PrincipalStressDirections, Some(stress), _) => {
+            for (name, directions) in principal_directions("principal_stress_direction", stress) {
+                point(&name, directions);
             }
         }
-        BodyField::VonMises => {
-            if let Some(stress) = stress {
-                let equivalent = stress.iter().map(von_mises).collect();
-                point("von_mises", Values::Scalars(equivalent));
+        (BodyField::LogarithmicStrain, _, Some(strain)) => {
+            let strain = strain.to_vec();
+            point("logarithmic_strain", Values::SymmetricTensors(strain));
+        }
+        (BodyField::PrincipalStrain, _, Some(strain)) => {
+            point("principal_strain", principal_values(strain));
+        }
+        (BodyField::PrincipalStrainDirections, _, Some(strain)) => {
+            for (name, directions) in principal_directions("principal_strain_direction", strain) {
+                point(&name, directions);
             }
         }
-        BodyField::PrincipalStress => {
-            if let Some(stress) = stress {
-                let principal = stress.iter().map(principal).collect();
-                point("principal_stress", Values::Vectors(principal));
-            }
-        }
-        BodyField::StrainEnergyDensity => {
+        (BodyField::StrainEnergyDensity, ..) => {
             if let Some(density) = energy_density(problem, state, body) {
                 point("strain_energy_density", Values::Scalars(density));
             }
         }
+        (BodyField::HistoryVariables, ..) => grid.cell_arrays = memory(problem, state, body),
+        (_, _, _) => {}
     }
 }
 
-/// Eigenvalues of a symmetric tensor, the largest first.
-fn principal(stress: &Matrix3<f64>) -> Vec3 {
-    let mut values: Vec3 = stress.symmetric_eigenvalues();
-    values.as_mut_slice().sort_by(|a, b| b.total_cmp(a));
-    values
+/// Eigenvalues of symmetric tensors, the largest first.
+fn principal_values(tensors: &[Matrix3<f64>]) -> Values {
+    Values::Vectors(tensors.iter().map(|tensor| principal(tensor).0).collect())
+}
+
+/// Unit vectors along the axes of symmetric tensors, by the name of their array.
+fn principal_directions(name: &str, tensors: &[Matrix3<f64>]) -> [(String, Values); 3] {
+    let axes: Vec<[Vec3; 3]> = tensors.iter().map(|tensor| principal(tensor).1).collect();
+    [0, 1, 2].map(|at| {
+        let directions = axes.iter().map(|axes| axes[at]).collect();
+        (format!("{name}_{}", at + 1), Values::Vectors(directions))
+    })
+}
+
+/// Eigenvalues of a symmetric tensor, the largest first, and unit vectors along its axes,
+/// whose largest component is positive.
+fn principal(tensor: &Matrix3<f64>) -> (Vec3, [Vec3; 3]) {
+    let eigen = tensor.symmetric_eigen();
+    let mut order = [0, 1, 2];
+    order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
+    let values = order.map(|at| eigen.eigenvalues[at]);
+    let axes = order.map(|at| {
+        let axis: Vec3 = eigen.eigenvectors.column(at).into();
+        axis * axis[axis.iamax()].signum()
+    });
+    (values.into(), axes)
 }
 
 /// Stored energy of the elements at every node over their volume at rest.
@@ -152,10 +204,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn principal_values_come_in_order() {
+    fn principal_values_come_in_order_with_their_axes() {
         let turn = nalgebra::Rotation3::from_euler_angles(0.3, -0.8, 1.1);
         let diagonal = Matrix3::from_diagonal(&Vec3::new(-2.0, 5.0, 1.0));
         let stress = turn.matrix() * diagonal * turn.matrix().transpose();
-        assert!((principal(&stress) - Vec3::new(5.0, 1.0, -2.0)).norm() < 1e-14);
+        let (values, axes) = principal(&stress);
+        assert!((values - Vec3::new(5.0, 1.0, -2.0)).norm() < 1e-14);
+        for (value, axis) in values.iter().zip(&axes) {
+            assert!((stress * axis - axis * *value).norm() < 1e-14);
+            assert!(axis.max() >= axis.amax(), "{axis}");
+        }
     }
 }

@@ -24,9 +24,10 @@ pub enum Existing {
 }
 
 /// Files by which results are known.
-const RESULTS: [&str; 8] = [
+const RESULTS: [&str; 9] = [
     "history.csv",
     "probes.csv",
+    "sections.csv",
     "bodies.pvd",
     "contact.pvd",
     "rigid.pvd",

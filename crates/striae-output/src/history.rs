@@ -2,7 +2,8 @@
 //!
 //! The first row fixes the columns. Their names are dotted and free of units,
 //! such as `reaction.bottom.z` or `pair.interface.resultant_a.x`. Numbers are
-//! written with the fewest digits (at most 17) that read back as the same bits.
+//! written with the fewest digits (at most 17) that read back as the same bits, those of
+//! columns that count (see [`COUNTS`]) as integers.
 //! Every row is flushed, so an interrupted run keeps all it accepted.
 //!
 //! [`History`] writes; [`Table`] reads such a file back, and writes any other
@@ -15,6 +16,17 @@ use std::path::{Path, PathBuf};
 
 use crate::OutputError;
 use striae_files::{FileError, quoted, read_text, write_atomically};
+
+/// Last parts of the names of columns that count something.
+pub const COUNTS: [&str; 7] = [
+    "increment",
+    "step",
+    "iterations",
+    "cutbacks",
+    "stick",
+    "slip",
+    "open",
+];
 
 /// A growing file of rows.
 #[derive(Debug)]
@@ -74,7 +86,7 @@ impl History {
             text = header(&self.columns);
         }
         self.check(row)?;
-        text += &line(row.iter().map(|(_, value)| *value));
+        text += &line(row.iter().copied());
         self.write(&text).map_err(|cause| FileError::Write {
             path: self.path.clone(),
             cause,
@@ -140,7 +152,9 @@ impl Table {
     /// Writes the table, whole or not at all.
     pub fn write(&self, path: &Path) -> Result<(), OutputError> {
         refuse_duplicates(path, &self.columns)?;
-        let rows = self.rows.iter().map(|row| line(row.iter().copied()));
+        let names = || self.columns.iter().map(String::as_str);
+        let rows = self.rows.iter();
+        let rows = rows.map(|row| line(names().zip(row.iter().copied())));
         let text: String = std::iter::once(header(&self.columns)).chain(rows).collect();
         write_atomically(path, text.as_bytes())?;
         Ok(())
@@ -169,9 +183,27 @@ fn header(columns: &[String]) -> String {
     quoted.join(",") + "\n"
 }
 
-fn line(numbers: impl Iterator<Item = f64>) -> String {
-    let shortest: Vec<String> = numbers.map(|number| format!("{number:?}")).collect();
+/// A line of numbers with the names of their columns.
+fn line<'a>(numbers: impl Iterator<Item = (&'a str, f64)>) -> String {
+    let shortest: Vec<String> = numbers
+        .map(|(name, number)| match is_count(name) && is_whole(number) {
+            true => format!("{number:.0}"),
+            false => format!("{number:?}"),
+        })
+        .collect();
     shortest.join(",") + "\n"
+}
+
+/// Whether the numbers of a column count something.
+fn is_count(column: &str) -> bool {
+    let last = column.rsplit('.').next();
+    last.is_some_and(|last| COUNTS.contains(&last))
+}
+
+/// Whether all digits of a number are before the point and known.
+fn is_whole(number: f64) -> bool {
+    const LARGEST: f64 = (1_u64 << f64::MANTISSA_DIGITS) as f64;
+    number.fract() == 0.0 && number.abs() <= LARGEST
 }
 
 fn row(line: &str, columns: usize) -> Result<Vec<f64>, String> {

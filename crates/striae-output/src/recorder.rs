@@ -3,19 +3,18 @@
 //! ```text
 //! DIR/history.csv           a row an increment
 //! DIR/probes.csv            the same of places that are watched, see [`crate::Probe`]
+//! DIR/sections.csv          forces through cuts, see [`crate::Section`]
 //! DIR/bodies.pvd            fields of bodies, see [`crate::BodyField`], and named variables
 //!                           of laws with a memory by element
-//! DIR/contact.pvd           gap, pressure, tractions, slip, what it has done since the start,
-//!                           normal, texture `s`, structural vector `a = n x s`, status,
-//!                           kept, pointed; wear depth
+//! DIR/contact.pvd           fields of contact surfaces, see [`crate::ContactField`], and wear
 //! DIR/rigid.pvd             rigid surfaces: displacement, texture `s`, structural vector
 //! DIR/fields/*.vtu          what the collections list
 //! DIR/summary.json          how the run ended
 //! DIR/checkpoint.bin        where a run under way is, see [`crate::checkpoint`]
 //! ```
 //!
-//! Bodies and rigid surfaces are also written as they are at time 0; contact is known
-//! after the first increment.
+//! All are also written as they are at time 0; of contact, gaps, normals and textures are
+//! known then.
 //!
 //! Everything is on disk after each increment.
 
@@ -24,29 +23,29 @@ use std::{
     time::Instant,
 };
 
+use striae_contact::unknowns::NodeResult;
 use striae_solve::{
-    drive::Progress, newton::Increment, outcome::Ending, problem::Problem, state::State,
+    drive::Progress, initial::surfaces, newton::Increment, outcome::Ending, problem::Problem,
+    state::State,
 };
 
 use crate::{
     FieldOutput, Output, OutputError,
-    bodies::body_grid,
     checkpoint::Written,
     checksums::{Checksums, check, sum},
+    collections::{Collections, Contact},
     folder::{Claim, Existing, remove_fields},
     history::History,
-    probes::Probes,
-    rigid::RigidGrid,
     row::row,
     summary::Summary,
-    surfaces::write_surface,
     tally::Tally,
-    vtk::{Series, Snapshot, write},
+    vtk::Snapshot,
+    watched::{FILES, Watched},
     worn::Worn,
 };
 
 /// Tables, which grow.
-const TABLES: [&str; 2] = ["history.csv", "probes.csv"];
+const TABLES: [&str; 3] = ["history.csv", FILES[0], FILES[1]];
 
 /// Time over the interval of fields that is round-off.
 const ROUND_OFF: f64 = 1e-9;
@@ -60,19 +59,15 @@ pub struct Recorder {
     /// Seconds spent before a restart.
     spent: f64,
     history: History,
-    bodies: Series,
-    contact: Series,
-    rigid: Series,
-    /// Rigid surfaces at rest, once they are needed.
-    rigid_grids: Option<Vec<RigidGrid>>,
+    fields: Collections,
     started: Instant,
     tally: Tally,
     written: Option<usize>,
     worn: Worn,
-    /// Places that are watched, once they are found.
-    probes: Option<Probes>,
-    /// Checksums of the files of fields.
-    sums: Checksums,
+    /// Places and cuts that are watched, once they are found.
+    watched: Option<Watched>,
+    /// Time of the last increment.
+    elapsed: f64,
 }
 
 impl Recorder {
@@ -89,10 +84,7 @@ impl Recorder {
         Ok(Self {
             _claim: Claim::new(folder, existing)?,
             history: History::create(folder.join("history.csv"))?,
-            bodies: Series::new(folder.join("bodies.pvd")),
-            contact: Series::new(folder.join("contact.pvd")),
-            rigid: Series::new(folder.join("rigid.pvd")),
-            rigid_grids: None,
+            fields: Collections::resumed(folder, &Default::default(), Checksums::new()),
             folder: folder.to_owned(),
             case: case.to_owned(),
             output,
@@ -101,8 +93,8 @@ impl Recorder {
             tally: Tally::default(),
             written: None,
             worn: Worn::default(),
-            probes: None,
-            sums: Checksums::new(),
+            watched: None,
+            elapsed: 0.0,
         })
     }
 
@@ -124,14 +116,10 @@ impl Recorder {
         if written.fields != Some(rows) {
             remove_fields(&folder.join("fields"), rows)?;
         }
-        let [bodies, contact, rigid] = &written.series;
         Ok(Self {
             _claim: claim,
             history: History::resume(folder.join("history.csv"), rows)?,
-            bodies: Series::resumed(folder.join("bodies.pvd"), bodies.clone()),
-            contact: Series::resumed(folder.join("contact.pvd"), contact.clone()),
-            rigid: Series::resumed(folder.join("rigid.pvd"), rigid.clone()),
-            rigid_grids: None,
+            fields: Collections::resumed(folder, &written.series, fields.cloned().collect()),
             folder: folder.to_owned(),
             case: case.to_owned(),
             output,
@@ -146,8 +134,8 @@ impl Recorder {
             },
             written: written.fields,
             worn: written.worn.clone(),
-            probes: None,
-            sums: fields.cloned().collect(),
+            watched: None,
+            elapsed: written.elapsed,
         })
     }
 
@@ -157,7 +145,7 @@ impl Recorder {
     /// When a file cannot be read back.
     pub fn written(&self) -> Result<Written, OutputError> {
         let tally = &self.tally;
-        let mut sums = self.sums.clone();
+        let mut sums = self.fields.sums().clone();
         for name in TABLES
             .into_iter()
             .filter(|name| self.folder.join(name).exists())
@@ -171,30 +159,12 @@ impl Recorder {
             solver: tally.solver.clone(),
             fields: self.written,
             seconds: self.seconds(),
-            series: [&self.bodies, &self.contact, &self.rigid]
-                .map(|series| series.snapshots().to_vec()),
+            series: self.fields.snapshots().map(<[Snapshot]>::to_vec),
             judgement: tally.judgement.clone(),
             worn: self.worn.clone(),
+            elapsed: self.elapsed,
             sums,
         })
-    }
-
-    /// Notes checksums of the fields that were written last.
-    fn sum_up(&mut self) -> Result<(), OutputError> {
-        for series in [&self.bodies, &self.contact, &self.rigid] {
-            for (_, file) in series
-                .snapshots()
-                .last()
-                .into_iter()
-                .flat_map(|last| &last.parts)
-            {
-                let noted = sum(&self.folder, file)?;
-                if !self.sums.contains(&noted) {
-                    self.sums.push(noted);
-                }
-            }
-        }
-        Ok(())
     }
 
     /// Whether a checkpoint is due after so many increments.
@@ -209,6 +179,7 @@ impl Recorder {
 
     /// Judges a converged increment by what it came from.
     pub fn judge(&mut self, problem: &Problem, before: &State, increment: &Increment) {
+        self.elapsed = increment.state.time - before.time;
         self.tally.judge(problem, before, increment);
     }
 
@@ -217,7 +188,7 @@ impl Recorder {
         self.tally.cut_backs += 1;
     }
 
-    /// Writes bodies and rigid surfaces as a run finds them, unless only its end is wanted.
+    /// Writes fields as a run finds them, unless only its end is wanted.
     ///
     /// # Errors
     /// When a file cannot be written.
@@ -226,9 +197,8 @@ impl Recorder {
             return Ok(());
         }
         self.written = Some(0);
-        self.write_bodies(problem, state, 0)?;
-        self.write_rigid(problem, state, 0)?;
-        self.sum_up()
+        let found = surfaces(problem, state);
+        self.write(problem, state, 0, &found.iter().collect::<Vec<_>>())
     }
 
     /// Writes a converged increment.
@@ -260,36 +230,26 @@ impl Recorder {
 
     /// Whether a multiple of the interval lies between the last fields and now.
     fn has_passed(&self, interval: f64, time: f64) -> bool {
-        let series = [&self.bodies, &self.contact, &self.rigid];
-        let last = series
-            .into_iter()
-            .flat_map(|series| series.snapshots().last());
+        let series = self.fields.snapshots().into_iter();
+        let last = series.filter_map(<[Snapshot]>::last);
         let last = last.map(|snapshot| snapshot.time).fold(0.0, f64::max);
         let multiples = |time: f64| (time / interval * (1.0 + ROUND_OFF)).floor();
         multiples(time) > multiples(last)
     }
 
-    /// Writes the row of all probes.
+    /// Writes the rows of all that is watched.
     fn watch(
         &mut self,
         problem: &Problem,
         progress: Progress,
         state: &State,
     ) -> Result<(), OutputError> {
-        if self.output.probes.is_empty() {
-            return Ok(());
-        }
         let before = self.tally.iterations.len() - 1;
-        let file = match &mut self.probes {
+        let watched = match &mut self.watched {
             Some(known) => known,
-            none => none.insert(Probes::open(
-                self.folder.join("probes.csv"),
-                problem,
-                &self.output.probes,
-                before,
-            )?),
+            none => none.insert(Watched::open(&self.folder, problem, &self.output, before)?),
         };
-        file.append(problem, progress, state)
+        watched.append(problem, progress, state)
     }
 
     /// Writes the last fields, if they are not there, and the summary.
@@ -315,81 +275,27 @@ impl Recorder {
     fn write_fields(&mut self, problem: &Problem, state: &State) -> Result<(), OutputError> {
         let count = self.tally.iterations.len();
         self.written = Some(count);
-        self.write_bodies(problem, state, count)?;
-        self.write_rigid(problem, state, count)?;
-        self.write_contact(problem, state, count)?;
-        self.sum_up()
+        let nodes = state.pairs.iter().map(|pair| &pair.nodes);
+        self.write(problem, state, count, &nodes.collect::<Vec<_>>())
     }
 
-    fn write_bodies(
+    /// Writes all fields, with results at contact nodes by pair and side.
+    fn write(
         &mut self,
         problem: &Problem,
         state: &State,
         count: usize,
+        nodes: &[&[Vec<NodeResult>; 2]],
     ) -> Result<(), OutputError> {
-        let mut parts = Vec::new();
-        let chosen = self.output.bodies.as_ref();
-        for (body, model) in problem.model.bodies.iter().enumerate() {
-            if chosen.is_some_and(|chosen| !chosen.contains(&model.name)) {
-                continue;
-            }
-            let file = PathBuf::from(format!("fields/{}-{count:05}.vtu", model.name));
-            let grid = body_grid(problem, state, body, &self.output.body_fields);
-            write(&self.folder.join(&file), &grid)?;
-            parts.push((model.name.clone(), file));
-        }
-        if parts.is_empty() {
-            return Ok(());
-        }
-        let time = state.time;
-        self.bodies.append(Snapshot { time, parts })
-    }
-
-    fn write_rigid(
-        &mut self,
-        problem: &Problem,
-        state: &State,
-        count: usize,
-    ) -> Result<(), OutputError> {
-        let grids = self
-            .rigid_grids
-            .get_or_insert_with(|| RigidGrid::all(problem));
-        if grids.is_empty() {
-            return Ok(());
-        }
-        let written = grids
-            .iter()
-            .map(|rigid| rigid.write(&self.folder, problem, state, count));
-        let (time, parts) = (state.time, written.collect::<Result<_, _>>()?);
-        self.rigid.append(Snapshot { time, parts })
-    }
-
-    fn write_contact(
-        &mut self,
-        problem: &Problem,
-        state: &State,
-        count: usize,
-    ) -> Result<(), OutputError> {
-        let time = state.time;
-        let mut parts = Vec::new();
-        for pair in 0..problem.pairs.len() {
-            for side in 0..2 {
-                let Some(body) = problem.pairs[pair].bodies[side] else {
-                    continue;
-                };
-                let pair_name = &problem.model.pairs[pair].name;
-                let name = format!("{pair_name}-{}", problem.model.bodies[body].name);
-                let file = PathBuf::from(format!("fields/contact-{name}-{count:05}.vtu"));
-                let nodes = state.pairs[pair].nodes[side].len();
-                let worn = self.worn.of(pair, side, nodes);
-                let wear = (&worn[..], self.output.wear_coefficient);
-                write_surface(&self.folder.join(&file), problem, state, pair, side, wear)?;
-                parts.push((name, file));
-            }
-        }
-        if parts.is_empty() {
-            return Ok(());
-        }
-        self.contact.append(Snapshot { time, parts })
+        let fields = &mut self.fields;
+        fields.write_bodies(problem, state, count, &self.output)?;
+        fields.write_rigid(problem, state, count)?;
+        let contact = Contact {
+            nodes,
+            worn: &self.worn,
+            elapsed: self.elapsed,
+        };
+        fields.write_contact(problem, state, count, &self.output, &contact)?;
+        fields.sum_up()
     }
 }

@@ -18,6 +18,7 @@ use striae_surface::normal::nodal_normals;
 
 use crate::{
     OutputError,
+    parts::{Parts, file},
     vtk::{self, Array, Cells, Grid, Values},
 };
 
@@ -79,11 +80,11 @@ impl RigidGrid {
     pub(crate) fn write(
         &self,
         folder: &Path,
-        problem: &Problem,
+        (problem, parts): (&Problem, &Parts),
         state: &State,
         count: usize,
     ) -> Result<(String, PathBuf), OutputError> {
-        let file = PathBuf::from(format!("fields/rigid-{}-{count:05}.vtu", self.name));
+        let file = file(&parts.rigid[self.rigid], count);
         let points = self.points(problem, state);
         vtk::write(&folder.join(&file), &self.grid(&points, state))?;
         Ok((self.name.clone(), file))

@@ -7,7 +7,8 @@ use striae_solve::{
     model::Procedure,
     newton::Increment,
     problem::Problem,
-    report::{PairReport, bodies, pairs, reactions, rigid_bodies},
+    report::{PairReport, bodies, held_reactions, pairs, rigid_bodies},
+    resolved::resolved,
 };
 
 /// Columns and values of the row of a converged increment, before which `cut_backs`
@@ -44,10 +45,16 @@ pub fn row(
         add_vector(&mut row, &format!("centre.{}", body.name), &body.centre);
         add_vector(&mut row, &format!("velocity.{}", body.name), &body.velocity);
     }
-    for report in pairs(problem, state) {
-        add_pair(&mut row, &report);
+    for (pair, report) in pairs(problem, state).iter().enumerate() {
+        add_pair(&mut row, report);
+        let name = &report.name;
+        let sides = resolved(problem, state, pair).into_iter().zip(["a", "b"]);
+        for (of_side, letter) in sides.filter_map(|(side, letter)| Some((side?, letter))) {
+            row.push((format!("pair.{name}.along_{letter}"), of_side.along));
+            row.push((format!("pair.{name}.across_{letter}"), of_side.across));
+        }
     }
-    for (name, force) in reactions(problem, state) {
+    for (name, force) in held_reactions(problem, state) {
         add_vector(&mut row, &format!("reaction.{name}"), &force);
     }
     for rigid in rigid_bodies(problem, state) {
@@ -69,7 +76,8 @@ fn is_dynamic(problem: &Problem) -> bool {
     steps.any(|step| step.procedure != Procedure::QuasiStatic)
 }
 
-fn add_vector(row: &mut Vec<(String, f64)>, name: &str, vector: &Vec3) {
+/// Adds the three columns of a vector.
+pub(crate) fn add_vector(row: &mut Vec<(String, f64)>, name: &str, vector: &Vec3) {
     for (axis, value) in ["x", "y", "z"].iter().zip(vector.iter()) {
         row.push((format!("{name}.{axis}"), *value));
     }

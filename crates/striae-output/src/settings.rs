@@ -13,11 +13,15 @@ pub struct Output {
     pub bodies: Option<Vec<String>>,
     /// Fields of bodies.
     pub body_fields: Vec<BodyField>,
+    /// Fields of contact surfaces.
+    pub contact_fields: Vec<ContactField>,
     /// Archard's coefficient `k`, wear depth over pressure and slip; `None`: wear is not
     /// written.
     pub wear_coefficient: Option<f64>,
     /// What is written to `probes.csv` after every increment.
     pub probes: Vec<Probe>,
+    /// Cuts whose forces are written to `sections.csv` after every increment.
+    pub sections: Vec<Section>,
     /// Increments between checkpoints; `None`: only when interrupted.
     pub checkpoint_every: Option<NonZeroUsize>,
 }
@@ -29,8 +33,10 @@ impl Default for Output {
             fields: FieldOutput::Every(NonZeroUsize::MIN),
             bodies: None,
             body_fields: BodyField::USUAL.to_vec(),
+            contact_fields: ContactField::USUAL.to_vec(),
             wear_coefficient: None,
             probes: Vec::new(),
+            sections: Vec::new(),
             checkpoint_every: NonZeroUsize::new(10),
         }
     }
@@ -60,17 +66,71 @@ pub enum BodyField {
     VonMises,
     /// Principal values of the Cauchy stress, the largest first.
     PrincipalStress,
+    /// Unit vectors along the principal axes of the Cauchy stress, that of the largest first.
+    PrincipalStressDirections,
+    /// Logarithmic strain.
+    LogarithmicStrain,
+    /// Principal values of the logarithmic strain, the largest first.
+    PrincipalStrain,
+    /// Unit vectors along its principal axes, that of the largest first.
+    PrincipalStrainDirections,
     /// Stored energy per reference volume of the elements at each node.
     StrainEnergyDensity,
+    /// What materials remember, as far as it has a name, by element.
+    HistoryVariables,
 }
 
 impl BodyField {
     /// What is written unless something else is chosen.
-    pub const USUAL: [Self; 4] = [
+    pub const USUAL: [Self; 5] = [
         Self::Displacement,
         Self::Velocity,
         Self::CauchyStress,
         Self::VonMises,
+        Self::HistoryVariables,
+    ];
+}
+
+/// A field of contact surfaces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ContactField {
+    /// Distance to the other side.
+    Gap,
+    /// Pressure and traction.
+    Traction,
+    /// Pressure and traction averaged about each node.
+    MeanTraction,
+    /// Slip in the last increment.
+    Slip,
+    /// Slip in the last increment over its time.
+    SlipRate,
+    /// Length of the way slipped since the start.
+    AccumulatedSlip,
+    /// Friction work per area since the start.
+    FrictionWork,
+    /// Normal.
+    Normal,
+    /// Texture and structural vector.
+    Texture,
+    /// Open, stick or slip.
+    Status,
+    /// Nodes with unknowns, and pointed ones.
+    Roles,
+}
+
+impl ContactField {
+    /// What is written unless something else is chosen: all but the slip rate.
+    pub const USUAL: [Self; 10] = [
+        Self::Gap,
+        Self::Traction,
+        Self::MeanTraction,
+        Self::Slip,
+        Self::AccumulatedSlip,
+        Self::FrictionWork,
+        Self::Normal,
+        Self::Texture,
+        Self::Status,
+        Self::Roles,
     ];
 }
 
@@ -92,4 +152,17 @@ pub enum ProbePlace {
     Point(Vec3),
     /// The mean over the nodes of a set.
     Nodes(String),
+}
+
+/// A plane cut through a body, whose force and moment are watched.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Section {
+    /// Name of its columns.
+    pub name: String,
+    /// Name of the body.
+    pub body: String,
+    /// A point of the plane, in the reference configuration.
+    pub point: Vec3,
+    /// Normal of the plane there, of any length.
+    pub normal: Vec3,
 }

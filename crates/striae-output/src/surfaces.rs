@@ -7,20 +7,32 @@ use striae_mesh::{NodeId, Vec3};
 use striae_solve::{problem::Problem, state::State};
 
 use crate::{
-    OutputError,
+    ContactField, OutputError,
     vtk::{Array, Cells, Grid, Values, write},
     worn::Sums,
 };
 
-/// Writes a side of a pair as it is in a state, with what slip has done to its nodes and
-/// the coefficient of wear, if one is known.
+/// What is written of a side of a pair beside its state.
+pub(crate) struct Wanted<'a> {
+    /// Fields.
+    pub fields: &'a [ContactField],
+    /// Coefficient of wear, if one is known.
+    pub wear: Option<f64>,
+    /// What slip has done to the nodes.
+    pub worn: &'a [Sums],
+    /// Results at the nodes, by side.
+    pub nodes: &'a [Vec<NodeResult>; 2],
+    /// Time of the last increment; 0 before the first one.
+    pub elapsed: f64,
+}
+
+/// Writes a side of a pair as it is in a state.
 pub(crate) fn write_surface(
     path: &Path,
     problem: &Problem,
     state: &State,
-    pair: usize,
-    side: usize,
-    (worn, wear): (&[Sums], Option<f64>),
+    (pair, side): (usize, usize),
+    wanted: &Wanted,
 ) -> Result<(), OutputError> {
     let geometry = &problem.pairs[pair];
     let Some(surface) = geometry.contact.sides[side].surface() else {
@@ -37,56 +49,98 @@ pub(crate) fn write_surface(
         .iter()
         .map(|corners| corners.map(NodeId))
         .collect();
-    let nodes = &state.pairs[pair].nodes[side];
-    let scalars = |f: fn(&NodeResult) -> f64| Values::Scalars(nodes.iter().map(f).collect());
-    let vectors = |f: fn(&NodeResult) -> Vec3| Values::Vectors(nodes.iter().map(f).collect());
-    let sums = |at: usize, factor: f64| {
-        Values::Scalars(worn.iter().map(|sums| factor * sums[at]).collect())
-    };
-    let status = nodes.iter().map(|node| match node.status {
-        ContactStatus::Open => 0,
-        ContactStatus::Stick => 1,
-        ContactStatus::Slip => 2,
-    });
-    // Points of a rigid side lodge with nodes of side `a`.
-    let lodged = &state.pairs[pair].points;
-    let lodges = |node: usize| side == 0 && lodged.get(node).is_some_and(Option::is_some);
-    let own = state.pairs[pair].pointed[side].iter().enumerate();
-    let pointed = own.map(|(node, own)| u8::from(*own) + 2 * u8::from(lodges(node)));
-    let codes = |nodes: &[bool]| Values::Codes(nodes.iter().copied().map(u8::from).collect());
-    let kept = &state.pairs[pair].kept;
     let mut grid = Grid {
         points: &points,
         cells: Cells::Quadrilaterals(&quads),
-        point_arrays: vec![
-            Array::new("gap", scalars(|node| node.gap)),
-            Array::new("pressure", scalars(|node| node.pressure)),
-            Array::new(
-                "traction",
-                vectors(|node| node.tau - node.normal * node.pressure),
-            ),
-            Array::new("friction_traction", vectors(|node| node.tau)),
-            Array::new("mean_pressure", scalars(NodeResult::mean_pressure)),
-            Array::new("mean_traction", vectors(|node| node.mean)),
-            Array::new("slip", vectors(|node| node.slip)),
-            Array::new("accumulated_slip", sums(0, 1.0)),
-            Array::new("friction_work", sums(1, 1.0)),
-            Array::new("normal", vectors(|node| node.normal)),
-            Array::new("texture", vectors(|node| node.texture)),
-            Array::new(
-                "structural_vector",
-                vectors(|node| node.normal.cross(&node.texture)),
-            ),
-            Array::new("status", Values::Codes(status.collect())),
-            Array::new("kept", codes(&kept[side])),
-            Array::new("pointed", Values::Codes(pointed.collect())),
-        ],
+        point_arrays: Vec::new(),
         cell_arrays: Vec::new(),
         time: state.time,
     };
-    if let Some(coefficient) = wear {
-        let depth = Array::new("wear_depth", sums(2, coefficient));
+    for field in wanted.fields {
+        let arrays = arrays(*field, state, (pair, side), wanted);
+        let named = arrays
+            .into_iter()
+            .map(|(name, values)| Array::new(name, values));
+        grid.point_arrays.extend(named);
+    }
+    if let Some(coefficient) = wanted.wear {
+        let depth = Array::new("wear_depth", sums(wanted, 2, coefficient));
         grid.point_arrays.push(depth);
     }
     write(path, &grid)
+}
+
+/// Arrays of a field.
+fn arrays(
+    field: ContactField,
+    state: &State,
+    (pair, side): (usize, usize),
+    wanted: &Wanted,
+) -> Vec<(&'static str, Values)> {
+    let nodes = &wanted.nodes[side];
+    let scalars = |f: fn(&NodeResult) -> f64| Values::Scalars(nodes.iter().map(f).collect());
+    let vectors = |f: fn(&NodeResult) -> Vec3| Values::Vectors(nodes.iter().map(f).collect());
+    match field {
+        ContactField::Gap => vec![("gap", scalars(|node| node.gap))],
+        ContactField::Traction => vec![
+            ("pressure", scalars(|node| node.pressure)),
+            (
+                "traction",
+                vectors(|node| node.tau - node.normal * node.pressure),
+            ),
+            ("friction_traction", vectors(|node| node.tau)),
+        ],
+        ContactField::MeanTraction => vec![
+            ("mean_pressure", scalars(NodeResult::mean_pressure)),
+            ("mean_traction", vectors(|node| node.mean)),
+        ],
+        ContactField::Slip => vec![("slip", vectors(|node| node.slip))],
+        ContactField::SlipRate => {
+            let per_time = match wanted.elapsed > 0.0 {
+                true => 1.0 / wanted.elapsed,
+                false => 0.0,
+            };
+            let rates = nodes.iter().map(|node| node.slip * per_time).collect();
+            vec![("slip_rate", Values::Vectors(rates))]
+        }
+        ContactField::AccumulatedSlip => vec![("accumulated_slip", sums(wanted, 0, 1.0))],
+        ContactField::FrictionWork => vec![("friction_work", sums(wanted, 1, 1.0))],
+        ContactField::Normal => vec![("normal", vectors(|node| node.normal))],
+        ContactField::Texture => vec![
+            ("texture", vectors(|node| node.texture)),
+            (
+                "structural_vector",
+                vectors(|node| node.normal.cross(&node.texture)),
+            ),
+        ],
+        ContactField::Status => {
+            let status = nodes.iter().map(|node| match node.status {
+                ContactStatus::Open => 0,
+                ContactStatus::Stick => 1,
+                ContactStatus::Slip => 2,
+            });
+            vec![("status", Values::Codes(status.collect()))]
+        }
+        ContactField::Roles => roles(state, (pair, side)),
+    }
+}
+
+/// Which nodes are kept and which are pointed. Points of a rigid side lodge with nodes of
+/// side `a`.
+fn roles(state: &State, (pair, side): (usize, usize)) -> Vec<(&'static str, Values)> {
+    let of_pair = &state.pairs[pair];
+    let lodges = |node: usize| side == 0 && of_pair.points.get(node).is_some_and(Option::is_some);
+    let own = of_pair.pointed[side].iter().enumerate();
+    let pointed = own.map(|(node, own)| u8::from(*own) + 2 * u8::from(lodges(node)));
+    let kept = of_pair.kept[side].iter().copied().map(u8::from);
+    vec![
+        ("kept", Values::Codes(kept.collect())),
+        ("pointed", Values::Codes(pointed.collect())),
+    ]
+}
+
+/// A sum at all nodes, times a factor.
+fn sums(wanted: &Wanted, at: usize, factor: f64) -> Values {
+    let worn = wanted.worn.iter();
+    Values::Scalars(worn.map(|sums| factor * sums[at]).collect())
 }

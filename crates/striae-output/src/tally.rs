@@ -4,7 +4,7 @@ use striae_solve::{
     newton::{Increment, LinearWork},
     outcome::Ending,
     problem::Problem,
-    report::{PairReport, pairs, reactions},
+    report::{PairReport, held_reactions, pairs},
     state::State,
     warning::Judgement,
 };
@@ -69,7 +69,7 @@ impl Tally {
             wall_s: seconds,
             peak_rss_mib: peak_rss_mib(),
             pairs: pairs(problem, state).iter().map(pair_summary).collect(),
-            reactions: reactions(problem, state)
+            reactions: held_reactions(problem, state)
                 .into_iter()
                 .map(|(name, force)| (name, force.into()))
                 .collect(),

@@ -7,6 +7,7 @@
 
 mod close;
 mod reach;
+mod surfaces;
 mod translation;
 
 use striae_contact::{
@@ -26,6 +27,7 @@ use crate::{
 
 pub use close::close;
 pub use reach::may_meet;
+pub use surfaces::surfaces;
 pub use translation::nearest_approach;
 
 /// Overlap over the local facet size that is no fault of the mesh.

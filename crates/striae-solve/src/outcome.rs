@@ -150,7 +150,7 @@ pub enum CutBack {
     },
     /// A body has flown off.
     #[error(
-        "body `{body}` is not held: {node} would fly off by {way:.1e}, {times:.0e} times the size of the model; hold it by displacements or contact, or give the step inertia with `dynamics = {{}}`"
+        "body `{body}` flies off: {node} would move by {way:.1e}, {times:.0e} times the size of the model. Nothing holds it, or loads are far beyond its stiffness: hold it by displacements or contact, give the step inertia with `dynamics = {{}}`, or compare loads per area with Young's modulus"
     )]
     Flown {
         /// Name of the body.

@@ -1,10 +1,12 @@
 //! Resultants, reactions and counts of a state.
 
+use std::collections::BTreeSet;
+
 use striae_contact::{
     field::FacetForces,
     unknowns::{NodeResult, Status, counted},
 };
-use striae_mesh::{FacetId, Vec3};
+use striae_mesh::{FacetId, NodeId, Vec3};
 
 use crate::{problem::Problem, rigid::Wrench, state::State};
 
@@ -74,6 +76,32 @@ pub fn reactions(problem: &Problem, state: &State) -> Vec<(String, Vec3)> {
         all.push((rigid.name.clone(), wrench(problem, state, index).force));
     }
     all
+}
+
+/// The [`reactions`] without those of node sets of which no step prescribes a node and no
+/// rigid body holds one: there is nothing but the residual.
+pub fn held_reactions(problem: &Problem, state: &State) -> Vec<(String, Vec3)> {
+    let prescribed = problem
+        .plans
+        .iter()
+        .flat_map(|plan| plan.displacements.keys());
+    let prescribed: BTreeSet<(usize, usize)> =
+        prescribed.map(|&(body, node, _)| (body, node)).collect();
+    let holds = |body: usize, node: NodeId| {
+        let tied = problem.tie_of[problem.node(body, node)];
+        tied.is_some() || prescribed.contains(&(body, node.index()))
+    };
+    let bodies = problem.model.bodies.iter().enumerate();
+    let sets = bodies.flat_map(|(body, model)| {
+        let sets = model.mesh.node_sets.iter();
+        sets.map(move |(_, nodes)| (body, nodes))
+    });
+    let is_held = sets.map(|(body, nodes)| nodes.iter().any(|node| holds(body, *node)));
+    let rigid = problem.model.rigid_surfaces.iter().map(|_| true);
+    let is_held = is_held.chain(rigid);
+    let all = reactions(problem, state).into_iter().zip(is_held);
+    all.filter_map(|(reaction, is_held)| is_held.then_some(reaction))
+        .collect()
 }
 
 /// Middle of mass of a body and its velocity.

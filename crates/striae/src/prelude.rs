@@ -13,6 +13,6 @@ pub use striae_model::{
     Component, Curve, Freedom, Initial, LoadExtent, LoadKind, Model, Validate, body,
     circumferential, model, pair, plane, rigid, step, surface, tied, uniform,
 };
-pub use striae_output::{BodyField, FieldOutput, Output, Probe, ProbePlace};
+pub use striae_output::{BodyField, ContactField, FieldOutput, Output, Probe, ProbePlace, Section};
 pub use striae_solve::outcome::Ending;
 pub use striae_surface::texture::Paint;

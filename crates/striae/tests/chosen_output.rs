@@ -37,7 +37,7 @@ plane = { point = [0, 0, 0], normal = [0, 0, 1] }
 [[pair]]
 name = "foot"
 a = { body = "bar", facets = "zmin" }
-b = { rigid = "floor" }
+b = { rigid = "floor", texture = { uniform = [0.6, 0.8, 0] } }
 friction = { law = "coulomb", mu = 0.5 }
 
 [[step]]
@@ -57,11 +57,19 @@ displacement = [{ body = "bar", nodes = "all", x = 0.1 }]
 [output]
 fields_interval = 0.5
 bodies = ["bar"]
-body_fields = ["displacement", "principal-stress", "strain-energy-density"]
+body_fields = [
+    "displacement", "principal-stress", "strain-energy-density", "logarithmic-strain",
+    "principal-strain", "principal-stress-directions",
+]
+contact_fields = ["gap", "slip-rate", "accumulated-slip", "friction-work"]
 wear_coefficient = 0.001
 probes = [
     { name = "middle", body = "bar", point = [2.4, 3.3, 0.7] },
     { name = "top", body = "bar", nodes = "zmax" },
+]
+sections = [
+    { name = "low", body = "bar", point = [0, 0, 0.9], normal = [0, 0, 2] },
+    { name = "side", body = "bar", point = [2.4, 3.5, 0], normal = [1, 0.1, 0] },
 ]
 "#;
 
@@ -115,8 +123,28 @@ fn fields_bodies_and_intervals_are_those_chosen() {
     let names: Vec<&str> = stored.names().map(|name| name.0).collect();
     assert_eq!(
         names,
-        ["displacement", "principal_stress", "strain_energy_density"]
+        [
+            "displacement",
+            "principal_stress",
+            "strain_energy_density",
+            "logarithmic_strain",
+            "principal_strain",
+            "principal_stress_direction_1",
+            "principal_stress_direction_2",
+            "principal_stress_direction_3",
+        ]
     );
+    let shortened = f64::ln(0.99);
+    let strain = [0.0, 0.0, shortened, 0.0, 0.0, 0.0];
+    assert_all(folder, &bodies[2], "logarithmic_strain", &strain);
+    assert_all(
+        folder,
+        &bodies[2],
+        "principal_strain",
+        &[0.0, 0.0, shortened],
+    );
+    let third = "principal_stress_direction_3";
+    assert_all(folder, &bodies[2], third, &[0.0, 0.0, 1.0]);
     // Half the energy of stress and strain, uniaxial.
     assert_all(
         folder,
@@ -142,6 +170,19 @@ fn slip_work_and_wear_add_up() {
     assert_all(folder, last, "accumulated_slip", &[WAY]);
     assert_all(folder, last, "friction_work", &[MU * PRESSURE * WAY]);
     assert_all(folder, last, "wear_depth", &[0.001 * PRESSURE * WAY]);
+    // The step takes a time of 1.
+    assert_all(folder, last, "slip_rate", &[WAY, 0.0, 0.0]);
+    let path = folder.join(&last.parts[0].1);
+    let stored = Stored::open(&path).unwrap();
+    let names: Vec<&str> = stored.names().map(|name| name.0).collect();
+    let chosen = [
+        "gap",
+        "slip_rate",
+        "accumulated_slip",
+        "friction_work",
+        "wear_depth",
+    ];
+    assert_eq!(names, chosen);
     let history = Table::read(&folder.join("history.csv")).unwrap();
     let end = |name: &str| *history.column(name).unwrap().last().unwrap();
     // On an area of 1 the work is that of the pair.
@@ -151,6 +192,100 @@ fn slip_work_and_wear_add_up() {
         let centre = end(&format!("pair.foot.centre.{axis}"));
         assert!((centre - expected).abs() < 1e-9, "{axis}: {centre}");
     }
+}
+
+/// The floor feels friction along x, in the frame of its grooves `s = (.6, .8, 0)` with
+/// `a = n x s = (-.8, .6, 0)`.
+#[test]
+fn forces_are_resolved_along_and_across_the_grooves_of_a_plane() {
+    let folder = tempfile::tempdir().unwrap();
+    run(folder.path(), "hexahedra");
+    let text = std::fs::read_to_string(folder.path().join("history.csv")).unwrap();
+    assert!(
+        text.lines().nth(1).unwrap().starts_with("1,1,0.25,"),
+        "{text}"
+    );
+    let history = Table::read(&folder.path().join("history.csv")).unwrap();
+    let end = |name: &str| *history.column(name).unwrap().last().unwrap();
+    let friction = MU * PRESSURE;
+    for (name, expected) in [
+        ("resultant_b.x", friction),
+        ("along_b", 0.6 * friction),
+        ("across_b", -0.8 * friction),
+    ] {
+        let found = end(&format!("pair.foot.{name}"));
+        assert!((found - expected).abs() < 1e-6, "{name}: {found}");
+    }
+    assert_eq!(history.column("pair.foot.along_a"), None);
+}
+
+/// The foot of a bar that is held at its top has no reaction, only a residual.
+#[test]
+fn reactions_are_those_of_sets_that_something_holds() {
+    let folder = tempfile::tempdir().unwrap();
+    let held = r#"body = "bar", nodes = "all""#;
+    assert_eq!(DECK.matches(held).count(), 2);
+    let text = DECK.replace("CELLS", "hexahedra");
+    let text = text.replace(held, r#"body = "bar", nodes = "zmax""#);
+    let deck = deck::parse(&text, "deck.toml", Path::new("")).unwrap();
+    let simulation = Simulation::of(deck).unwrap();
+    simulation.recorded(folder.path(), "bar").run().unwrap();
+    let history = Table::read(&folder.path().join("history.csv")).unwrap();
+    for (name, is_there) in [("zmax", true), ("all", true), ("zmin", false)] {
+        let column = history.column(&format!("reaction.bar.{name}.z"));
+        assert_eq!(column.is_some(), is_there, "{name}");
+    }
+    assert!(history.column("reaction.floor.z").is_some());
+}
+
+/// What a cut transmits is what acts beyond it, whatever the elements that it goes through.
+#[test]
+fn cuts_transmit_what_acts_beyond_them() {
+    for cells in ["hexahedra", "wedges", "pyramids", "tetrahedra"] {
+        let folder = tempfile::tempdir().unwrap();
+        run(folder.path(), cells);
+        let sections = Table::read(&folder.path().join("sections.csv")).unwrap();
+        assert_eq!(sections.rows.len(), 12);
+        let end = |name: &str| *sections.column(name).unwrap().last().unwrap();
+        let assert_end = |name: &str, expected: f64| {
+            let found = end(name);
+            assert!((found - expected).abs() < 1e-6, "{cells}, {name}: {found}");
+        };
+        assert_end("low.force.x", 0.0);
+        assert_end("low.force.z", -PRESSURE);
+        assert_end("side.force.x", 0.0);
+        assert_end("side.force.z", 0.0);
+        if cells == "hexahedra" {
+            for (name, expected) in [
+                ("low.normal_force", -PRESSURE),
+                ("low.shear_force", 0.0),
+                ("low.area", 1.0),
+                ("low.centre.x", 2.5 + WAY),
+                ("low.centre.z", 0.99),
+                ("side.normal_force", 0.0),
+                ("side.moment.y", 0.0),
+                ("side.area", 1.98),
+            ] {
+                assert_end(name, expected);
+            }
+        }
+    }
+}
+
+#[test]
+fn contact_is_written_as_it_is_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let lifted = DECK.replace("[2, 3, 0]", "[2, 3, 0.01]");
+    let moved = lifted.replace("[2.4, 3.3, 0.7]", "[2.4, 3.3, 0.71]");
+    let text = moved.replace("CELLS", "hexahedra");
+    let deck = deck::parse(&text, "deck.toml", Path::new("")).unwrap();
+    let simulation = Simulation::of(deck).unwrap();
+    simulation.recorded(folder, "bar").run().unwrap();
+    let contact = snapshots(folder, "contact.pvd");
+    assert_eq!(contact[0].time, 0.0);
+    assert_all(folder, &contact[0], "gap", &[0.01]);
+    assert_all(folder, &contact[0], "accumulated_slip", &[0.0]);
 }
 
 #[test]
@@ -201,13 +336,33 @@ fn what_is_not_there_is_refused_where_it_is_written() {
             "another probe `middle`",
         ),
         (
+            "normal = [0, 0, 2]",
+            "normal = [0, 0, 0]",
+            "section `low` does not cut its body: its normal is zero",
+        ),
+        (
+            "point = [2.4, 3.5, 0]",
+            "point = [9, 3.5, 0]",
+            "section `side` does not cut its body: all elements of the body are behind the plane",
+        ),
+        (
+            r#"name = "side""#,
+            r#"name = "low""#,
+            "another section `low`",
+        ),
+        (
+            r#""slip-rate""#,
+            r#""slip-rates""#,
+            "did you mean `slip-rate`",
+        ),
+        (
             "fields_interval = 0.5",
             "fields_interval = 0.5\nfields_every = 2",
             "exclude each other",
         ),
         (
-            r#""principal-stress""#,
-            r#""principal-stres""#,
+            r#""principal-stress","#,
+            r#""principal-stres","#,
             "did you mean `principal-stress`",
         ),
     ] {

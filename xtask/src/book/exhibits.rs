@@ -41,7 +41,7 @@ pub const EXHIBITS: [Exhibit; 20] = [
         case: "edge-release",
         run: Some("slide-off-4-3-1-frictionless-0"),
         options: &["--field", "pressure", "--time", "1.6"],
-        figure: None,
+        figure: Some("force"),
         caption: "A punch that slides off an edge, is lifted and pressed again, with forces that change smoothly.",
     },
     Exhibit {
@@ -54,9 +54,9 @@ pub const EXHIBITS: [Exhibit; 20] = [
     Exhibit {
         case: "patch-stick",
         run: Some("turned"),
-        options: &["--field", "status"],
-        figure: None,
-        caption: "Stick on an oblique interface up to the load of the closed form; 1 is stick, 2 slip.",
+        options: &["--field", "friction_traction", "--time", "2"],
+        figure: Some("stick-to-slip"),
+        caption: "Stick on an oblique interface up to the load of the closed form. Friction is the same at all nodes, so the picture, of a time before slip, has one colour.",
     },
     Exhibit {
         case: "plate-on-rigid-plane",
@@ -97,7 +97,7 @@ pub const EXHIBITS: [Exhibit; 20] = [
         case: "stick-tolerance",
         run: Some("default"),
         options: &["--field", "pressure"],
-        figure: None,
+        figure: Some("reactions"),
         caption: "The strategy of the paper's Table 1 with three tolerances, beside the default.",
     },
     Exhibit {

@@ -127,7 +127,7 @@ fn values(exhibit: &Exhibit, table: &str) -> Result<String, Fault> {
     let mut text =
         String::from("\n| quantity | computed | known | source |\n| --- | --- | --- | --- |\n");
     for row in rows.iter().take(SHOWN) {
-        let [quantity, unit, computed, least, largest, _, _, source] = &row[..] else {
+        let [quantity, unit, computed, least, largest, _, _, source, _] = &row[..] else {
             return Err(Fault::Book(format!("{case}: {row:?}")));
         };
         let computed = format!("{} {unit}", round(computed));
@@ -140,6 +140,13 @@ fn values(exhibit: &Exhibit, table: &str) -> Result<String, Fault> {
     if rows.len() > SHOWN {
         let more = rows.len() - SHOWN;
         text += &format!("\n{more} more are in [the table]({case}.csv).\n");
+    }
+    let run = rows.first().and_then(|row| row.last());
+    if let Some(what) = run.and_then(|run| run.strip_prefix("quick: ")) {
+        text += &format!(
+            "\nPicture, figure and values are of a quick run: {what}. The ranges hold for it, too; \
+             `striae reproduce {case}` runs all.\n"
+        );
     }
     Ok(text)
 }

@@ -10,14 +10,26 @@
 //! It is driven by its protocol over pipes: messages in JSON, ended by a zero byte.
 
 mod chromium;
-mod decks;
 mod picture;
 mod use_it;
 
 use std::{fs, path::PathBuf, process::Command, time::Instant};
 
-use crate::{check, fault::Fault};
+use crate::{
+    check,
+    decks::{BLOCKS, Grooved, Pad},
+    fault::Fault,
+};
 use chromium::Chromium;
+
+/// A pad on a grooved floor.
+const PAD: Pad = Pad {
+    divisions: [8, 8, 3],
+    grooved: Grooved::Floor,
+    increments: [2, 4],
+    way: 0.4,
+    output: "",
+};
 
 /// Tests reports in a browser.
 ///
@@ -30,7 +42,7 @@ pub fn report_test() -> Result<(), Fault> {
     fs::create_dir_all(&folder).map_err(unusable("target/report"))?;
     let folder = fs::canonicalize(&folder).map_err(unusable("target/report"))?;
     let mut browser = Chromium::start()?;
-    for (name, deck) in decks::DECKS {
+    for (name, deck) in [("pad", PAD.deck()), ("blocks", BLOCKS.to_owned())] {
         let path = folder.join(name).with_extension("toml");
         fs::write(&path, deck).map_err(unusable("a deck"))?;
         let results = folder.join(name);

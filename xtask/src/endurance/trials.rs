@@ -11,11 +11,23 @@ use std::{
 };
 
 use super::{
-    damage::{DAMAGES, DECK},
+    damage::DAMAGES,
     disk::SmallDisk,
     folder::{broken, differences, files},
 };
-use crate::fault::Fault;
+use crate::{
+    decks::{Grooved, Pad},
+    fault::Fault,
+};
+
+/// A run of a second or so, whose grooves are part of its state.
+const PAD: Pad = Pad {
+    divisions: [2, 2, 2],
+    grooved: Grooved::Pad,
+    increments: [10, 30],
+    way: 1.0,
+    output: "fields_every = 5\ncheckpoint_every = 10",
+};
 
 /// A program, a deck, and what the run of the deck writes if it is left alone.
 pub struct Trials {
@@ -39,7 +51,7 @@ impl Trials {
             duration: Duration::ZERO,
             faults: Vec::new(),
         };
-        fs::write(trials.root.join("deck.toml"), DECK).map_err(broken_off)?;
+        fs::write(trials.root.join("deck.toml"), PAD.deck()).map_err(broken_off)?;
         let folder = trials.root.join("whole");
         let started = Instant::now();
         let output = trials

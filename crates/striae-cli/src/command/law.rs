@@ -236,7 +236,7 @@ fn verdict(analyses: &[Analysis]) -> String {
             least.i1 + 0.0
         ),
         None => format!(
-            "  admissible: -tau . d / varpi is at least {:.6} over all slips (at {:.3} degrees from e)",
+            "  admissible: -tau . d / varpi is at least {:.6} over all slips (at {:.3} degrees from e, across the texture)",
             first.least.dissipation(),
             first.least.slip.y.atan2(first.least.slip.x).to_degrees(),
         ),

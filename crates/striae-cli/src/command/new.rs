@@ -32,7 +32,13 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     })?;
     let deck = folder.join("deck.toml");
     fs::write(&deck, TEMPLATE).map_err(|cause| unwritable(&deck, cause))?;
-    writeln!(out, "wrote {0}\nnext: striae check {0}", deck.display())?;
+    let path = deck.display().to_string();
+    let is_plain = |letter: char| letter.is_alphanumeric() || "/\\._-:".contains(letter);
+    let argument = match path.chars().all(is_plain) {
+        true => path.clone(),
+        false => format!("\"{path}\""),
+    };
+    writeln!(out, "wrote {path}\nnext: striae check {argument}")?;
     Ok(())
 }
 

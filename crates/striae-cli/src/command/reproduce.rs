@@ -153,7 +153,11 @@ fn reproduced(
     }
     let comparisons = compared(case, &mut study)?;
     write_text(&folder.join("README.md"), case.readme)?;
-    write_csv(&folder.join("quantities.csv"), &comparisons)?;
+    let said = match (extent, case.quick) {
+        (Extent::Quick, Some(what)) => format!("quick: {what}"),
+        _ => "full".to_owned(),
+    };
+    write_csv(&folder.join("quantities.csv"), &comparisons, &said)?;
     writeln!(out, "\n{}: {}\n", case.name, case.title)?;
     writeln!(out, "{}", report(&comparisons))?;
     if study.enforcement.is_some() {

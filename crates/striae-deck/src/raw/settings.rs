@@ -15,12 +15,16 @@ table! {
         optional fields_interval: Positive,
         /// Names of the bodies whose fields are written. Default: all.
         optional bodies: Vec<At<Text>>,
-        /// Fields of bodies. Default: `displacement`, `velocity`, `cauchy-stress` and `von-mises`.
+        /// Fields of bodies. Default: `displacement`, `velocity`, `cauchy-stress`, `von-mises` and `history-variables`.
         optional body_fields: Vec<At<BodyField>>,
+        /// Fields of contact surfaces. Default: all but `slip-rate`.
+        optional contact_fields: Vec<At<ContactField>>,
         /// Archard's coefficient `k`, wear depth over pressure and slip: writes the field `wear_depth` of contact surfaces. Default: none.
         optional wear_coefficient: Positive,
         /// Places whose displacement and stress are written to `probes.csv` after every increment.
         optional probes: Vec<At<Probe>>,
+        /// Plane cuts of bodies; force and moment through them are written to `sections.csv` after every increment.
+        optional sections: Vec<At<Section>>,
         /// Increments between checkpoints, from which `striae resume` goes on; 0: only when interrupted. Default: 10.
         optional checkpoint_every: Whole<0>,
     }
@@ -39,8 +43,60 @@ words! {
         VonMises = "von-mises",
         /// Principal values of the Cauchy stress, the largest first.
         PrincipalStress = "principal-stress",
+        /// Unit vectors along its principal axes, three arrays.
+        PrincipalStressDirections = "principal-stress-directions",
+        /// Logarithmic strain at the nodes.
+        LogarithmicStrain = "logarithmic-strain",
+        /// Its principal values, the largest first.
+        PrincipalStrain = "principal-strain",
+        /// Unit vectors along its principal axes, three arrays.
+        PrincipalStrainDirections = "principal-strain-directions",
         /// Stored energy per volume at rest of the elements at each node.
         StrainEnergyDensity = "strain-energy-density",
+        /// Named variables of materials with a memory, by element.
+        HistoryVariables = "history-variables",
+    }
+}
+
+words! {
+    /// A field of contact surfaces.
+    ContactField {
+        /// Distance to the other side.
+        Gap = "gap",
+        /// Pressure, traction and its tangential part.
+        Traction = "traction",
+        /// Pressure and traction averaged about each node.
+        MeanTraction = "mean-traction",
+        /// Slip in the last increment.
+        Slip = "slip",
+        /// Slip in the last increment over its time.
+        SlipRate = "slip-rate",
+        /// Length of the way slipped since the start.
+        AccumulatedSlip = "accumulated-slip",
+        /// Friction work per area since the start.
+        FrictionWork = "friction-work",
+        /// Normal.
+        Normal = "normal",
+        /// Texture and structural vector.
+        Texture = "texture",
+        /// Open, stick or slip.
+        Status = "status",
+        /// Nodes with traction unknowns, and pointed ones.
+        Roles = "roles",
+    }
+}
+
+table! {
+    /// A plane cut through a body.
+    Section {
+        /// Name of its columns.
+        required name: Text,
+        /// Name of the body.
+        required body: Text,
+        /// A point of the plane before anything has moved.
+        required point: [Number; 3],
+        /// Normal of the plane then, of any length. The force is that which the part it points to exerts on the other one: along the normal, tension is positive.
+        required normal: [Number; 3],
     }
 }
 

@@ -1,6 +1,6 @@
 //! What a run writes.
 
-use striae_output::{BodyField, FieldOutput, Output, Probe, ProbePlace};
+use striae_output::{BodyField, ContactField, FieldOutput, Output, Probe, ProbePlace, Section};
 
 use super::value::{list, number, text, vector};
 
@@ -21,11 +21,22 @@ pub(super) fn output(output: &Output) -> String {
         let fields = list(output.body_fields.iter().map(|field| text(word(*field))));
         table += &format!("body_fields = {fields}\n");
     }
+    if output.contact_fields != ContactField::USUAL {
+        let words = output
+            .contact_fields
+            .iter()
+            .map(|field| contact_word(*field));
+        table += &format!("contact_fields = {}\n", list(words.map(text)));
+    }
     if let Some(coefficient) = output.wear_coefficient {
         table += &format!("wear_coefficient = {}\n", number(coefficient));
     }
     if !output.probes.is_empty() {
         table += &format!("probes = {}\n", list(output.probes.iter().map(probe)));
+    }
+    if !output.sections.is_empty() {
+        let sections = list(output.sections.iter().map(section));
+        table += &format!("sections = {sections}\n");
     }
     table
 }
@@ -37,8 +48,35 @@ fn word(field: BodyField) -> &'static str {
         BodyField::CauchyStress => "cauchy-stress",
         BodyField::VonMises => "von-mises",
         BodyField::PrincipalStress => "principal-stress",
+        BodyField::PrincipalStressDirections => "principal-stress-directions",
+        BodyField::LogarithmicStrain => "logarithmic-strain",
+        BodyField::PrincipalStrain => "principal-strain",
+        BodyField::PrincipalStrainDirections => "principal-strain-directions",
         BodyField::StrainEnergyDensity => "strain-energy-density",
+        BodyField::HistoryVariables => "history-variables",
     }
+}
+
+fn contact_word(field: ContactField) -> &'static str {
+    match field {
+        ContactField::Gap => "gap",
+        ContactField::Traction => "traction",
+        ContactField::MeanTraction => "mean-traction",
+        ContactField::Slip => "slip",
+        ContactField::SlipRate => "slip-rate",
+        ContactField::AccumulatedSlip => "accumulated-slip",
+        ContactField::FrictionWork => "friction-work",
+        ContactField::Normal => "normal",
+        ContactField::Texture => "texture",
+        ContactField::Status => "status",
+        ContactField::Roles => "roles",
+    }
+}
+
+fn section(section: &Section) -> String {
+    let (name, body) = (text(&section.name), text(&section.body));
+    let (point, normal) = (vector(&section.point), vector(&section.normal));
+    format!("{{ name = {name}, body = {body}, point = {point}, normal = {normal} }}")
 }
 
 fn probe(probe: &Probe) -> String {

@@ -9,7 +9,7 @@ mod node_data;
 mod version2;
 mod version4;
 
-use super::collected::{Collected, FileElement, FileFace};
+use super::collected::{Collected, FileElement, FileFace, position};
 use super::lines::{Line, Lines};
 use super::{MeshFileFault, RigidSurfaceMesh};
 use kind::Kind;
@@ -189,7 +189,8 @@ impl File {
     }
 
     fn add_node(&mut self, line: usize, number: u64, x: &[f64]) -> Result<(), MeshFileFault> {
-        match self.nodes.insert(number, Vec3::new(x[0], x[1], x[2])) {
+        let x = position(line, number, Vec3::new(x[0], x[1], x[2]))?;
+        match self.nodes.insert(number, x) {
             None => Ok(()),
             Some(_) => {
                 let found = format!("node {number} for the second time");

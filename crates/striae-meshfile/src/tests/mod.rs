@@ -46,6 +46,32 @@ fn the_ending_chooses_the_format() {
     assert!(error.to_string().contains("none.inp: cannot be read"));
 }
 
+/// A coordinate that is no number is named by the line and the node number of the file.
+#[test]
+fn coordinates_that_are_not_finite_are_named_as_the_file_names_them() {
+    let mut mesh = Block::default().mesh().unwrap();
+    // A place that no other line of the files has, at the node that they call 37.
+    mesh.positions[3] = Vec3::new(1.0, 1.0, 0.0625);
+    for text in [
+        written::gmsh2(&mesh),
+        written::gmsh4(&mesh),
+        written::abaqus(&mesh),
+    ] {
+        let is_it = |line: &str| line.ends_with("0.0625");
+        let line = 1 + text.lines().position(is_it).expect("the node");
+        for (one, read) in [("NaN", "NaN"), ("inf", "inf"), ("-1e999", "-inf")] {
+            let text = text.replace("0.0625", one);
+            let result = match text.starts_with('$') {
+                true => mesh_file::gmsh::body(&text),
+                false => mesh_file::abaqus::body(&text),
+            };
+            let found = format!("found node 37 at (1, 1, {read})");
+            let expected = format!("line {line}: expected finite coordinates, {found}");
+            assert_eq!(result.unwrap_err().to_string(), expected);
+        }
+    }
+}
+
 proptest! {
     #[test]
     fn damaged_files_never_panic(cut in 0.0..1.0f64, at in 0.0..1.0f64, byte in 32..127u8) {

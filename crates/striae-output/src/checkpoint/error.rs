@@ -17,6 +17,15 @@ pub enum CheckpointError {
         /// Where it was looked for.
         folder: PathBuf,
     },
+    /// The run was completed.
+    #[error(
+        "{0} holds a completed run, which has nothing left to do; it goes on with other steps by `striae resume {0} --with NEW.toml`",
+        folder.display()
+    )]
+    Completed {
+        /// Its folder.
+        folder: PathBuf,
+    },
     /// The file system refused to read it.
     #[error("cannot read {}: {cause}", path.display())]
     Unreadable {

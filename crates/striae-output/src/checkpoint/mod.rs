@@ -88,6 +88,8 @@ pub struct Written {
     pub judgement: striae_solve::warning::Judgement,
     /// What slip has done so far.
     pub worn: Worn,
+    /// Time of the last increment.
+    pub elapsed: f64,
     /// Checksums of the files.
     pub sums: Checksums,
 }
@@ -175,9 +177,13 @@ impl Checkpoint {
         let path = folder.join(FILE);
         match std::fs::read(&path) {
             Ok(bytes) => taken(&path, &bytes),
-            Err(cause) if cause.kind() == ErrorKind::NotFound => Err(CheckpointError::Missing {
-                folder: folder.to_owned(),
-            }),
+            Err(cause) if cause.kind() == ErrorKind::NotFound => {
+                let folder = folder.to_owned();
+                Err(match folder.join(END).exists() {
+                    true => CheckpointError::Completed { folder },
+                    false => CheckpointError::Missing { folder },
+                })
+            }
             Err(cause) => Err(CheckpointError::Unreadable { path, cause }),
         }
     }
@@ -189,7 +195,7 @@ impl Checkpoint {
     pub fn read_last(folder: &Path) -> Result<Self, CheckpointError> {
         let end = folder.join(END);
         match (Self::read(folder), std::fs::read(&end)) {
-            (Err(CheckpointError::Missing { .. }), Ok(bytes)) => taken(&end, &bytes),
+            (Err(CheckpointError::Completed { .. }), Ok(bytes)) => taken(&end, &bytes),
             (read, _) => read,
         }
     }
@@ -298,7 +304,7 @@ impl Coded for PathBuf {
 coded! {
     Checkpoint { source, written, point };
     Source { case, path, fingerprint, parts, steps };
-    Written { iterations, cut_backs, unknowns, solver, fields, seconds, series, judgement, worn, sums };
+    Written { iterations, cut_backs, unknowns, solver, fields, seconds, series, judgement, worn, elapsed, sums };
     Worn { pairs };
     Snapshot { time, parts };
 }

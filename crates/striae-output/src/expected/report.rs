@@ -81,8 +81,8 @@ pub fn report(comparisons: &[Comparison]) -> String {
 }
 
 /// Writes the comparisons, with their sources, as comma-separated text.
-pub fn write_csv(path: &Path, comparisons: &[Comparison]) -> Result<(), OutputError> {
-    let mut text = String::from("quantity,unit,computed,min,max,deviation,verdict,source\n");
+pub fn write_csv(path: &Path, comparisons: &[Comparison], extent: &str) -> Result<(), OutputError> {
+    let mut text = String::from("quantity,unit,computed,min,max,deviation,verdict,source,run\n");
     for comparison in comparisons {
         let (min, max) = comparison.quantity.target.interval();
         let exact = |value: Option<f64>| value.map_or(String::new(), |v| format!("{v:?}"));
@@ -95,6 +95,7 @@ pub fn write_csv(path: &Path, comparisons: &[Comparison]) -> Result<(), OutputEr
             exact(comparison.deviation()),
             comparison.verdict.word().to_owned(),
             quoted(&comparison.quantity.source),
+            quoted(extent),
         ];
         text += &(fields.join(",") + "\n");
     }

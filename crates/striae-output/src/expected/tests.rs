@@ -91,7 +91,7 @@ fn the_csv_quotes_and_keeps_all_digits() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("table.csv");
     let expected = Expected::parse(FILE).unwrap();
-    write_csv(&path, &compare(&expected, |_| Some(0.1 + 0.2))).unwrap();
+    write_csv(&path, &compare(&expected, |_| Some(0.1 + 0.2)), "full").unwrap();
     let text = std::fs::read_to_string(&path).unwrap();
     let last = text.lines().last().unwrap();
     assert!(
@@ -99,7 +99,7 @@ fn the_csv_quotes_and_keeps_all_digits() {
         "{last}"
     );
     assert!(
-        last.ends_with("FAIL,\"figure axis, \"\"about\"\"\""),
+        last.ends_with("FAIL,\"figure axis, \"\"about\"\"\",full"),
         "{last}"
     );
 }

@@ -1,7 +1,10 @@
 //! Runs that end, and what they say of the cause.
 
 use crate::scene::{Places, Run, block, body, coulomb, increments, model, plane, rubber, step};
-use striae_law::friction::Friction;
+use striae_law::{
+    bulk::{LameConstants, Material},
+    friction::Friction,
+};
 use striae_mesh::Vec3;
 use striae_solve::{
     freedom::FreeMover,
@@ -75,6 +78,34 @@ fn a_block_held_by_contact_is_not_free() {
         Ending::Completed,
         "{:?}",
         said.collect::<Vec<_>>()
+    );
+}
+
+/// A bar that is held at its foot and drawn by a thousand times its Young's modulus. Its
+/// linear law goes along with that, to a thousand times its length; the smallest increment still
+/// takes it a quarter of the way.
+#[test]
+fn loads_far_beyond_the_stiffness_are_refused_by_that_name() {
+    let constants = LameConstants::from_youngs_modulus(1.0, 0.3).unwrap();
+    let steel = Material::linear_elastic(constants);
+    let mesh = block([0.0; 3], [1.0, 1.0, 4.0], [1, 1, 4]).mesh().unwrap();
+    let mut model = model(vec![body("bar", mesh, steel)]);
+    let mut step = step();
+    step.increments = increments(1.0, 0.2);
+    step.displacements = vec![model.hold("bar", "zmin", [Some(0.0); 3])];
+    let drawn = LoadKind::DeadTraction(Vec3::new(0.0, 0.0, 1e3));
+    step.loads = vec![model.load("bar", "zmax", drawn, LoadExtent::Whole)];
+    model.steps = vec![step];
+    let run = Run::of(model);
+    let CutBack::Flown { body, times, .. } = reason(&run) else {
+        panic!("{}", run.ending);
+    };
+    assert_eq!(body, "bar");
+    assert!(*times > 100.0, "{times}");
+    let said = run.ending.to_string();
+    assert!(
+        said.contains("loads are far beyond its stiffness"),
+        "{said}"
     );
 }
 

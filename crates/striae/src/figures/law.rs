@@ -5,6 +5,7 @@
 //! direction of slip. Both directions count from `e`, see [`striae_law::friction`].
 
 use striae_figure::{Axis, Content, Figure, Panel, Series, Width};
+use striae_files::Stems;
 use striae_law::friction::{Analysis, Friction, Law, SlipSample};
 use striae_solve::model::Model;
 
@@ -23,22 +24,25 @@ pub struct Named<'a> {
 
 /// The frictions of the pairs, and those that steps change them to.
 pub fn frictions(model: &Model) -> impl Iterator<Item = Named<'_>> {
-    let first = model.pairs.iter().map(|pair| Named {
-        title: format!("pair `{}`", pair.name),
-        file: pair.name.clone(),
-        friction: &pair.friction,
+    let mut stems = Stems::default();
+    let first = model.pairs.iter().map(|pair| {
+        let title = format!("pair `{}`", pair.name);
+        (title, pair.name.clone(), &pair.friction)
     });
     let later = model.steps.iter().flat_map(|step| {
         step.frictions.iter().map(|(pair, friction)| {
             let pair = &model.pairs[pair.0].name;
-            Named {
-                title: format!("pair `{pair}` from step `{}`", step.name),
-                file: format!("{pair}-{}", step.name),
-                friction,
-            }
+            let title = format!("pair `{pair}` from step `{}`", step.name);
+            (title, format!("{pair}-{}", step.name), friction)
         })
     });
-    first.chain(later)
+    first
+        .chain(later)
+        .map(move |(title, name, friction)| Named {
+            title,
+            file: stems.take(&name),
+            friction,
+        })
 }
 
 /// Slip surfaces and friction of a law, for textures at the angles that were analysed.
@@ -134,7 +138,7 @@ fn opposing_panel(curves: &[Curve], mu: f64, unit: &str) -> Panel {
 
 /// Axis of the direction of slip, in degrees from `e`.
 pub fn slip_axis() -> Axis {
-    Axis::linear("direction of slip from e", "°").within(-180.0, 180.0)
+    Axis::linear("direction of slip from e, across the texture", "°").within(-180.0, 180.0)
 }
 
 /// A value of samples over their direction of slip, as a line along [`slip_axis`].

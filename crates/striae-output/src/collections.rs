@@ -1,0 +1,171 @@
+//! Collections of the fields of bodies, contact surfaces and rigid surfaces, and the files
+//! that they list.
+
+use std::path::{Path, PathBuf};
+
+use striae_contact::unknowns::NodeResult;
+use striae_solve::{problem::Problem, state::State};
+
+use crate::{
+    Output, OutputError,
+    bodies::body_grid,
+    checksums::{Checksums, sum},
+    parts::{Parts, file},
+    rigid::RigidGrid,
+    surfaces::{Wanted, write_surface},
+    vtk::{Series, Snapshot, write},
+    worn::Worn,
+};
+
+/// The collections of a run.
+pub(crate) struct Collections {
+    folder: PathBuf,
+    bodies: Series,
+    contact: Series,
+    rigid: Series,
+    /// Rigid surfaces at rest, once they are needed.
+    rigid_grids: Option<Vec<RigidGrid>>,
+    /// Checksums of the files.
+    sums: Checksums,
+}
+
+/// What is written of contact beside the state.
+pub(crate) struct Contact<'a> {
+    /// Results at the nodes, by pair and side.
+    pub nodes: &'a [&'a [Vec<NodeResult>; 2]],
+    /// What slip has done.
+    pub worn: &'a Worn,
+    /// Time of the last increment.
+    pub elapsed: f64,
+}
+
+impl Collections {
+    /// Collections that go on from what has been written: bodies, contact, rigid surfaces.
+    pub(crate) fn resumed(folder: &Path, series: &[Vec<Snapshot>; 3], sums: Checksums) -> Self {
+        let [bodies, contact, rigid] = series.clone();
+        Self {
+            folder: folder.to_owned(),
+            bodies: Series::resumed(folder.join("bodies.pvd"), bodies),
+            contact: Series::resumed(folder.join("contact.pvd"), contact),
+            rigid: Series::resumed(folder.join("rigid.pvd"), rigid),
+            rigid_grids: None,
+            sums,
+        }
+    }
+
+    /// What has been written: bodies, contact, rigid surfaces.
+    pub(crate) fn snapshots(&self) -> [&[Snapshot]; 3] {
+        [&self.bodies, &self.contact, &self.rigid].map(Series::snapshots)
+    }
+
+    /// Checksums of the files.
+    pub(crate) fn sums(&self) -> &Checksums {
+        &self.sums
+    }
+
+    /// Notes checksums of the fields that were written last.
+    pub(crate) fn sum_up(&mut self) -> Result<(), OutputError> {
+        for series in [&self.bodies, &self.contact, &self.rigid] {
+            for (_, file) in series
+                .snapshots()
+                .last()
+                .into_iter()
+                .flat_map(|last| &last.parts)
+            {
+                let noted = sum(&self.folder, file)?;
+                if !self.sums.contains(&noted) {
+                    self.sums.push(noted);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes the bodies that are asked for, after so many increments.
+    pub(crate) fn write_bodies(
+        &mut self,
+        problem: &Problem,
+        state: &State,
+        count: usize,
+        output: &Output,
+    ) -> Result<(), OutputError> {
+        let mut parts = Vec::new();
+        let names = Parts::new(problem).bodies;
+        let chosen = output.bodies.as_ref();
+        for (body, model) in problem.model.bodies.iter().enumerate() {
+            if chosen.is_some_and(|chosen| !chosen.contains(&model.name)) {
+                continue;
+            }
+            let file = file(&names[body], count);
+            let grid = body_grid(problem, state, body, &output.body_fields);
+            write(&self.folder.join(&file), &grid)?;
+            parts.push((model.name.clone(), file));
+        }
+        if parts.is_empty() {
+            return Ok(());
+        }
+        let time = state.time;
+        self.bodies.append(Snapshot { time, parts })
+    }
+
+    /// Writes the rigid surfaces.
+    pub(crate) fn write_rigid(
+        &mut self,
+        problem: &Problem,
+        state: &State,
+        count: usize,
+    ) -> Result<(), OutputError> {
+        let grids = self
+            .rigid_grids
+            .get_or_insert_with(|| RigidGrid::all(problem));
+        if grids.is_empty() {
+            return Ok(());
+        }
+        let named = Parts::new(problem);
+        let written = grids
+            .iter()
+            .map(|rigid| rigid.write(&self.folder, (problem, &named), state, count));
+        let (time, parts) = (state.time, written.collect::<Result<_, _>>()?);
+        self.rigid.append(Snapshot { time, parts })
+    }
+
+    /// Writes the contact surfaces.
+    pub(crate) fn write_contact(
+        &mut self,
+        problem: &Problem,
+        state: &State,
+        count: usize,
+        output: &Output,
+        contact: &Contact,
+    ) -> Result<(), OutputError> {
+        let time = state.time;
+        let mut parts = Vec::new();
+        let names = Parts::new(problem).contact;
+        for pair in 0..problem.pairs.len() {
+            for side in 0..2 {
+                let Some(body) = problem.pairs[pair].bodies[side] else {
+                    continue;
+                };
+                let pair_name = &problem.model.pairs[pair].name;
+                let name = format!("{pair_name}-{}", problem.model.bodies[body].name);
+                let file = file(&names[pair][side], count);
+                let nodes = contact.nodes[pair];
+                let worn = contact.worn.of(pair, side, nodes[side].len());
+                let wanted = Wanted {
+                    fields: &output.contact_fields,
+                    wear: output.wear_coefficient,
+                    worn: &worn,
+                    nodes,
+                    elapsed: contact.elapsed,
+                };
+                let path = self.folder.join(&file);
+                write_surface(&path, problem, state, (pair, side), &wanted)?;
+                parts.push((name, file));
+            }
+        }
+        if parts.is_empty() {
+            return Ok(());
+        }
+        self.contact.append(Snapshot { time, parts })
+    }
+}

@@ -1,0 +1,57 @@
+//! Names of the files of fields, without number and ending.
+//!
+//! ```text
+//! BODY    rigid-NAME    contact-PAIR-BODY
+//! ```
+//!
+//! Names are made fit for files, and no two parts have the same, see [`Stems`].
+
+use std::path::PathBuf;
+
+use striae_files::Stems;
+use striae_solve::problem::Problem;
+
+/// Names of all parts of a problem, in the order of the model.
+pub(crate) struct Parts {
+    /// Of bodies.
+    pub bodies: Vec<String>,
+    /// Of rigid surfaces.
+    pub rigid: Vec<String>,
+    /// Of pairs, by side; empty for rigid sides.
+    pub contact: Vec<[String; 2]>,
+}
+
+impl Parts {
+    /// Those of a problem.
+    pub fn new(problem: &Problem) -> Self {
+        let model = &problem.model;
+        let mut stems = Stems::default();
+        let bodies = model.bodies.iter();
+        let bodies = bodies.map(|body| stems.take(&body.name)).collect();
+        let rigid = model.rigid_surfaces.iter();
+        let rigid = rigid
+            .map(|rigid| stems.take(&format!("rigid-{}", rigid.name)))
+            .collect();
+        let pairs = model.pairs.iter().zip(&problem.pairs);
+        let contact = pairs
+            .map(|(pair, geometry)| {
+                geometry.bodies.map(|body| {
+                    body.map_or_else(String::new, |body| {
+                        let body = &model.bodies[body].name;
+                        stems.take(&format!("contact-{}-{body}", pair.name))
+                    })
+                })
+            })
+            .collect();
+        Self {
+            bodies,
+            rigid,
+            contact,
+        }
+    }
+}
+
+/// The file of a part after so many increments, in the folder of a run.
+pub(crate) fn file(part: &str, count: usize) -> PathBuf {
+    PathBuf::from(format!("fields/{part}-{count:05}.vtu"))
+}
