@@ -15,10 +15,13 @@ mod material;
 mod mesh;
 mod model;
 mod own;
+mod own_friction;
 mod pair;
 mod results;
+mod returned;
 mod rigid;
 mod run;
+mod start;
 mod step;
 mod texture;
 
@@ -38,6 +41,7 @@ mod _striae {
         own::own_material,
         pair::Pair,
         results::Results,
+        returned::returned,
         rigid::Rigid,
         run::{Run, deck_of, resume, run},
         step::Step,

@@ -18,6 +18,7 @@ Curve: TypeAlias = Union[
     Sequence[tuple[float, float]],
     Callable[[float], float],
 ]
+Motion: TypeAlias = Union[float, Callable[[float], float]]
 Members: TypeAlias = Union[npt.ArrayLike, Callable[[Floats], npt.ArrayLike]]
 
 CURVES = ("ramp", "constant", "smooth")
@@ -151,13 +152,30 @@ def kind(value: Any, class_: type[T], path: str) -> T:
     return value
 
 
+def sampled(function: Callable[[float], Any], path: str) -> list[tuple[float, float]]:
+    """Fractions of a step and the values of a function there."""
+    fractions = [at / PIECES for at in range(PIECES + 1)]
+    return [(at, number(function(at), f"{path} at {at}")) for at in fractions]
+
+
+def motion(
+    function: Callable[[float], Any], path: str
+) -> tuple[list[float], list[tuple[float, float]]]:
+    """A function of the fraction of a step: its first value and its largest change from there,
+    and the shares of that change."""
+    points = sampled(function, path)
+    start = points[0][1]
+    change = max((value - start for _, value in points), key=abs)
+    shares = [(at, (value - start) / change if change else 0.0) for at, value in points]
+    return [start, change], shares
+
+
 def curve(value: Any, path: str) -> str | list[tuple[float, float]]:
     """The name of a curve, or its points; those of a function are taken once, here."""
     if isinstance(value, str):
         return word(value, CURVES, path)
     if callable(value):
-        fractions = [at / PIECES for at in range(PIECES + 1)]
-        return [(at, number(value(at), f"{path} at {at}")) for at in fractions]
+        return sampled(value, path)
     found = array(value, path)
     if found.ndim != 2 or found.shape[1] != 2:
         raise refuse(

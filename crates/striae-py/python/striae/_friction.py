@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Union
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _check as check
 from . import _striae as native
@@ -45,7 +46,7 @@ class Friction:
     def __init__(self) -> None:
         """Use one of the laws."""
         raise TypeError(
-            "use Frictionless, Coulomb, Orthotropic, Nap, TwoTextures or Tabulated"
+            "use Frictionless, Coulomb, Orthotropic, Nap, TwoTextures, Tabulated or OwnFriction"
         )
 
     @classmethod
@@ -204,3 +205,106 @@ class Tabulated(Friction):
             raise TypeError("mu: a function of the angle is needed")
         angles = [360.0 * at / check.whole(count, "count", 3) for at in range(count)]
         return cls(angles, [check.number(mu(angle), f"mu at {angle} degrees") for angle in angles])
+
+
+class OwnFriction(Friction):
+    """A friction law that a function of Python states by its kernel.
+
+    At a contact point with the pressure ``p``, friction is ``-tau = mu p (L d + eta)`` in slip
+    along ``K d`` with a unit vector ``d``; without slip it is anywhere inside that slip surface.
+    The matrices ``L`` and ``K``, of shape (2, 2), and the vector ``eta`` are in the frame of
+    :class:`SlipSurface`: of one texture ``a`` (across the grooves, against a nap) and a quarter
+    turn from it, of two textures their bisector and a quarter turn from it. There they depend
+    on the angle between two textures, and of one texture on nothing.
+
+    The function is called when the law is made, not during a run: its answers become a Fourier
+    series over the angle, exact to round-off. The law is held against mechanics: friction
+    dissipates in all directions, is opposite on the two surfaces, inside its slip surface, and
+    derivatives are exact. Otherwise one :class:`ModelError` says what is wrong.
+    """
+
+    def __init__(
+        self,
+        kernel: Callable[[float], Sequence[npt.ArrayLike]],
+        mu: float = 1.0,
+        *,
+        textures: Literal["one", "two"] = "one",
+        name: str = "own",
+    ) -> None:
+        """Makes the law.
+
+        kernel: from the angle from the texture of one surface to that of the other, above -180
+            and below 180 and 0 where there is one texture (degrees), to ``L`` and ``eta``, or
+            ``L``, ``eta`` and ``K``, which is the identity where it is left out (no unit).
+        mu: coefficient of friction, positive (no unit).
+        textures: how many surfaces must have one.
+        name: of the law in messages.
+        """
+        if not callable(kernel):
+            raise TypeError("kernel: a function of the angle between the textures is needed")
+        law = check.name(name, "name")
+        coefficient = check.positive(mu, "mu")
+        two = check.word(textures, ("one", "two"), "textures") == "two"
+        terms = _series(kernel, law) if two else [[_kernel(kernel, 0.0, law), [0.0] * 10]]
+        self._native = native.Friction.own(law, two, terms, coefficient)
+        self._told = f"OwnFriction(name={law!r}, mu={coefficient}, textures={textures!r})"
+
+
+#: Numbers of angles at which the kernel of two textures is asked for, one after the other.
+SAMPLES = (16, 64, 256)
+
+#: Harmonics below this share of the largest one are round-off.
+ROUND_OFF = 1e-13
+
+
+def _series(kernel: Callable[[float], Sequence[npt.ArrayLike]], law: str) -> list[list[list[float]]]:
+    """Cosine and sine terms of the kernel in the frame of the first texture, where it is
+    periodic in the angle between the textures."""
+    for count in SAMPLES:
+        # Not at 180 degrees, where opposed textures have no bisector.
+        angles = 2.0 * np.pi * ((np.arange(count) + 0.5) / count - 0.5)
+        values = np.array([_turned(kernel, angle, law) for angle in angles])
+        order = np.arange(count // 2)
+        weights = np.where(order == 0, 1.0, 2.0)[:, None] / count
+        even = weights * (np.cos(np.outer(order, angles)) @ values)
+        odd = weights * (np.sin(np.outer(order, angles)) @ values)
+        size = np.hypot(even, odd).max(axis=1)
+        present = np.flatnonzero(size > ROUND_OFF * size.max())
+        last = int(present[-1])
+        if last < count // 4:
+            chosen = slice(0, last + 1)
+            return np.stack([even[chosen], odd[chosen]], axis=1).tolist()
+    raise refuse(
+        law,
+        "the kernel is no smooth function of the angle between the textures: its Fourier series"
+        f" has not ended after {SAMPLES[-1] // 4} terms; mind that the bisector turns back where"
+        " textures become opposed, so what points along it must vanish there",
+    )
+
+
+def _turned(
+    kernel: Callable[[float], Sequence[npt.ArrayLike]], angle: float, law: str
+) -> list[float]:
+    """The kernel in the frame of the first texture, half of the angle from the bisector."""
+    found = np.array(_kernel(kernel, float(np.degrees(angle)), law))
+    cosine, sine = np.cos(angle / 2.0), np.sin(angle / 2.0)
+    turn = np.array([[cosine, -sine], [sine, cosine]])
+    matrices = [turn @ found[at : at + 4].reshape(2, 2) @ turn.T for at in (0, 6)]
+    return [*matrices[0].ravel(), *(turn @ found[4:6]), *matrices[1].ravel()]
+
+
+def _kernel(
+    kernel: Callable[[float], Sequence[npt.ArrayLike]], angle: float, law: str
+) -> list[float]:
+    """``L`` by rows, ``eta`` and ``K`` by rows."""
+    answer = kernel(angle)
+    if not isinstance(answer, (tuple, list)) or len(answer) not in (2, 3):
+        raise refuse(law, "`L` and `eta` are needed, or `L`, `eta` and `K`")
+    parts = [*answer, np.eye(2)][:3]
+    numbers: list[float] = []
+    for part, what, shape in zip(parts, ("L", "eta", "K"), ((2, 2), (2,), (2, 2))):
+        found = check.array(part, f"{law}: {what}")
+        if found.shape != shape:
+            raise refuse(f"{law}: {what}", f"it must have shape {shape}, but has {found.shape}")
+        numbers += check.finite(found, f"{law}: {what}").ravel().tolist()
+    return numbers

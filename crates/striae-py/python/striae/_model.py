@@ -15,7 +15,7 @@ from ._friction import Friction, Frictionless
 from ._mesh import Mesh
 from ._pair import Pair, _change
 from ._rigid import Rigid
-from ._run import Callback, Keep, Path, Run, concluded, record, watch
+from ._run import Callback, Keep, Path, Run, closed, concluded, record, watch
 from ._step import Condition, Dynamics, Increments, Step
 
 BACKENDS = ("condensed", "multifrontal", "faer", "iterative")
@@ -68,6 +68,33 @@ class Check(NamedTuple):
     """How the pairs fit."""
     warnings: list[str]
     """What is likely to be meant otherwise."""
+
+
+class Remark(NamedTuple):
+    """One thing to know of a model before it is run."""
+
+    topic: str
+    """What it is about: ``shape``, ``units``, ``locking``, ``bending``, ``hold``, ``fit``,
+    ``facing``, ``never-meets``, ``friction``, ``texture`` or ``cost``."""
+    name: Optional[str]
+    """Name of the body, pair or step it is about, if it is about one."""
+    text: str
+    """In a sentence."""
+
+
+class Advice(NamedTuple):
+    """What :meth:`Model.advice` has to say, as ``striae check`` of a deck."""
+
+    faults: list[Remark]
+    """What makes a run impossible."""
+    warnings: list[Remark]
+    """What makes results doubtful."""
+    notes: list[Remark]
+    """What is good to know."""
+
+    def __str__(self) -> str:
+        kinds = zip(("note", "warning", "fault"), (self.notes, self.warnings, self.faults))
+        return "\n".join(f"{kind}: {one.text}" for kind, remarks in kinds for one in remarks)
 
 
 class Model:
@@ -256,6 +283,16 @@ class Model:
         named = zip(self.pair_names, fits)
         return Check(unknowns, [Fit(name, *fit) for name, fit in named], warnings)
 
+    def advice(self) -> Advice:
+        """Looks at the model as ``striae check`` does: extent and shape of bodies, units,
+        locking, what holds each body, gaps and overlaps, friction over all directions, memory
+        and time. Raises :class:`ModelError` where the model has faults of its own; nothing is
+        computed yet.
+        """
+        found = self._compiled().advice()
+        faults, warnings, notes = [[Remark(*one) for one in remarks] for remarks in found]
+        return Advice(faults, warnings, notes)
+
     def run(
         self,
         on_increment: Optional[Callback] = None,
@@ -287,14 +324,24 @@ class Model:
         """
         check.word(on_stop, ("raise", "return"), "on_stop")
         watching = watch(on_increment, keep, threads, self)
-        recording = record(output, case, fields_every)
+        return concluded(self._ended(watching, record(output, case, fields_every)), self, on_stop)
+
+    def _run(
+        self, threads: int, keep: Keep, output: Optional[Path], fields_every: Optional[int]
+    ) -> Run:
+        """The run as one of many, whatever its ending, with warnings that are not told yet."""
+        watching = watch(None, keep, threads, self)
+        return closed(self._ended(watching, record(output, None, fields_every)), self, "return")
+
+    def _ended(
+        self, watching: native.Watching, recording: native.Recording
+    ) -> tuple[native.Run, Optional[BaseException]]:
         compiled = self._compiled()
         self._running += 1
         try:
-            ended = native.run(compiled, watching, recording)
+            return native.run(compiled, watching, recording)
         finally:
             self._running -= 1
-        return concluded(ended, self, on_stop)
 
     def _compiled(self) -> native.Model:
         steps = [step._native for step in self._steps]

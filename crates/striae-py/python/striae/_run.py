@@ -195,16 +195,21 @@ def watch(
     """What is told and kept of a run, for the native part."""
     if on_increment is not None and not callable(on_increment):
         raise TypeError("on_increment: a function that takes an increment is needed")
-    words = {"all": 1, "steps": 0, "last": NEVER}
-    every = words[check.word(keep, list(words), "keep")] if isinstance(keep, str) else keep
-    if not isinstance(keep, str):
-        check.whole(keep, "keep")
+    every = keeping(keep)
     if threads is not None:
         check.whole(threads, "threads")
     told = on_increment
     if told is None:
         return None, every, threads
     return lambda results: told(Increment(results, model)), every, threads
+
+
+def keeping(keep: Keep) -> int:
+    """Increments between states that are kept; 0: the ends of steps."""
+    words = {"all": 1, "steps": 0, "last": NEVER}
+    if isinstance(keep, str):
+        return words[check.word(keep, list(words), "keep")]
+    return check.whole(keep, "keep")
 
 
 def record(
@@ -221,6 +226,16 @@ def record(
 def concluded(
     ended: tuple[native.Run, Optional[BaseException]], model: Model, on_stop: str
 ) -> Run:
+    """The run with its warnings, or the exception that it ended with."""
+    run = closed(ended, model, on_stop)
+    for text in run.warnings:
+        warnings.warn(text, RunWarning, stacklevel=3)
+    return run
+
+
+def closed(
+    ended: tuple[native.Run, Optional[BaseException]], model: Model, on_stop: str
+) -> Run:
     """The run, or the exception that it ended with."""
     found, exception = ended
     run = Run(found, model)
@@ -231,8 +246,6 @@ def concluded(
         raise exception
     if run.ending == "stopped" and check.word(on_stop, ("raise", "return"), "on_stop") == "raise":
         raise RunStopped(run)
-    for text in run.warnings:
-        warnings.warn(text, RunWarning, stacklevel=3)
     return run
 
 
