@@ -32,7 +32,7 @@ use pyo3::prelude::*;
 mod _striae {
     #[pymodule_export]
     use super::{
-        fit::fit_friction,
+        fit::{fit_friction, read_measurements},
         friction::Friction,
         generate::{annulus, block, capped_block, half_cylinder},
         material::Material,

@@ -245,7 +245,7 @@ TYPE_ERRORS: list[tuple[Callable[[], Any], str]] = [
         lambda: st.Model().step("press", "down"),  # type: ignore[arg-type]
         "step `press`: an object of class Condition is needed, not str",
     ),
-    (lambda: st.Friction(), "use Frictionless, Coulomb, Orthotropic, Nap, TwoTextures or Tabulated"),
+    (lambda: st.Friction(), "use Frictionless, Coulomb, Orthotropic, Nap, TwoTextures, Tabulated or OwnFriction"),
 ]
 
 

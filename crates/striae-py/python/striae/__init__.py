@@ -28,7 +28,7 @@ from ._errors import (
     RunWarning,
     SweepError,
 )
-from ._fit import FrictionFit, fit_friction
+from ._fit import FrictionFit, Measurements, fit_friction, read_measurements
 from ._friction import (
     Coulomb,
     Friction,
@@ -99,6 +99,7 @@ __all__ = [
     "IsochoricNeoHookean",
     "LinearElastic",
     "Material",
+    "Measurements",
     "Mesh",
     "Model",
     "ModelError",
@@ -144,6 +145,7 @@ __all__ = [
     "fit_friction",
     "gravity",
     "half_cylinder",
+    "read_measurements",
     "read_mesh",
     "resume",
     "sweep",

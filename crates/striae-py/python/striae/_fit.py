@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Literal, Optional, Union
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union
 
 import numpy as np
 
@@ -25,6 +26,40 @@ LAWS: dict[type[Friction], str] = {
     TwoTextures: "two-textures",
     Tabulated: "tabulated",
 }
+
+
+class Measurements(NamedTuple):
+    """Measured friction, as :func:`fit_friction` takes it."""
+
+    angles: Floats
+    """Directions of slip, of shape (n,) (degrees)."""
+    forces: Floats
+    """Tangential over normal force: the part against slip, of shape (n,), or where directions
+    of the force were measured components, of shape (n, 2) (no unit)."""
+    theta: Floats
+    """Angles between the textures of two surfaces, of shape (n,) (degrees)."""
+    spread: Floats
+    """Standard deviations in proportion to each other, of shape (n,) (no unit)."""
+
+
+def read_measurements(path: Union[str, os.PathLike[str]]) -> Measurements:
+    """Reads a file of measurements, as ``striae fit`` takes it.
+
+    One reading a line, numbers separated by commas, under a line with the names of columns:
+    ``angle`` (degrees), ``friction`` (no unit) or ``tangential`` and ``normal`` (force), and where
+    they are known ``direction`` and ``theta`` (degrees) and ``spread`` (no unit). What follows a
+    ``#`` is passed over. All faults are one :class:`ModelError` with lines and columns.
+
+    path: the file.
+    """
+    slip, theta, against, across, spread = native.read_measurements(os.fspath(path))
+    forces = against
+    if across is not None:
+        cosine, sine = np.cos(slip), np.sin(slip)
+        forces = np.column_stack(
+            [against * cosine - across * sine, against * sine + across * cosine]
+        )
+    return Measurements(np.degrees(slip), forces, np.degrees(theta), spread)
 
 
 class FrictionFit:

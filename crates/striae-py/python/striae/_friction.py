@@ -273,7 +273,8 @@ def _series(kernel: Callable[[float], Sequence[npt.ArrayLike]], law: str) -> lis
         last = int(present[-1])
         if last < count // 4:
             chosen = slice(0, last + 1)
-            return np.stack([even[chosen], odd[chosen]], axis=1).tolist()
+            terms: list[list[list[float]]] = np.stack([even[chosen], odd[chosen]], axis=1).tolist()
+            return terms
     raise refuse(
         law,
         "the kernel is no smooth function of the angle between the textures: its Fourier series"
