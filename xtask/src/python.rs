@@ -1,8 +1,8 @@
 //! `cargo xtask python`: the Python package, from its wheel to its tests.
 //!
 //! A virtual environment in the target folder takes the tools from PyPI, maturin builds the
-//! wheel, and the wheel is tested as users have it: types, docstrings, wrong uses, runs and
-//! examples. Where several versions of Python are at hand, on the path or by pyenv, the tests
+//! wheel, and the wheel is tested as users have it: types, docstrings, wrong uses, runs, whose
+//! bits are those of the program, examples, and the overhead of a callback. Where several versions of Python are at hand, on the path or by pyenv, the tests
 //! run with the oldest and the newest, by the same wheel.
 
 use std::{
@@ -40,7 +40,11 @@ pub fn check() -> Result<(), Fault> {
     pip(&main, &["maturin>=1.7,<2", "mypy", "basedpyright"])?;
     let out = wheels.display().to_string();
     run(main.join("maturin"), &["build", "--release", "--out", &out])?;
+    let program = ["build", "--quiet", "--release", "-p", "striae-cli"];
+    run("cargo".into(), &program)?;
+    pip(&main, &["pyvista"])?;
     test(&main, &wheels)?;
+    run(main.join("python"), &["crates/striae-py/overhead.py"])?;
     run(main.join("mypy"), &[])?;
     let interpreter = main.join("python").display().to_string();
     let here = ["--project", "pyproject.toml", "--pythonpath", &interpreter];

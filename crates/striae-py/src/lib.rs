@@ -7,6 +7,7 @@
 
 mod array;
 mod fault;
+mod files;
 mod fit;
 mod friction;
 mod generate;
@@ -32,6 +33,7 @@ use pyo3::prelude::*;
 mod _striae {
     #[pymodule_export]
     use super::{
+        files::report,
         fit::{fit_friction, read_measurements},
         friction::Friction,
         generate::{annulus, block, capped_block, half_cylinder},

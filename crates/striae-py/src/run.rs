@@ -29,6 +29,7 @@ use striae::{
 use crate::{
     array::Array2,
     fault::raised,
+    files,
     listen::{Callback, listen},
     model::Model,
     own::Raised,
@@ -126,6 +127,17 @@ impl Run {
             deck: None,
             raised: self.raised.clone(),
         }
+    }
+
+    /// Writes the files of the program, of a run whose increments are all kept.
+    fn write(
+        &self,
+        py: Python<'_>,
+        folder: PathBuf,
+        case: &str,
+        fields_every: usize,
+    ) -> PyResult<()> {
+        py.detach(|| files::write(self, &folder, case, fields_every))
     }
 
     /// Goes on with further steps.

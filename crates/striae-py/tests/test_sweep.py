@@ -43,12 +43,12 @@ def test_processes_give_the_bits_of_this_one(tmp_path: Path) -> None:
             assert np.array_equal(a.body("pad").stress, b.body("pad").stress)
             assert np.array_equal(a.pair(0).traction, b.pair(0).traction)
             assert np.array_equal(a.rigid("floor").force, b.rigid("floor").force)
-        assert here.folder is None and there.folder is not None
-        assert (there.folder / "history.csv").exists()
+        assert here.run.folder is None and there.run.folder is not None
+        assert (there.run.folder / "history.csv").exists()
         top = there.run.model.body("pad")["zmax"]
         further = [run.continue_with(st.Step("on", top.displace(x=0.4))) for run in (here.run, there.run)]
         assert np.array_equal(*[run.history.table for run in further])
-    assert [point.folder for point in two] == [tmp_path / str(n) for n in range(1, 5)]
+    assert [point.run.folder for point in two] == [tmp_path / str(n) for n in range(1, 5)]
 
 
 def stuck(force: float) -> st.Model:

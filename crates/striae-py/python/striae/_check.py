@@ -102,6 +102,8 @@ def counts(value: Any, path: str, count: int = 3) -> list[int]:
 
 def number(value: Any, path: str) -> float:
     """A finite number."""
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        value = value[()]
     if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
         raise refuse(path, f"a number is needed, not {value!r}")
     if not np.isfinite(value):
@@ -150,6 +152,13 @@ def kind(value: Any, class_: type[T], path: str) -> T:
             f"{path}: an object of class {class_.__name__} is needed, not {type(value).__name__}"
         )
     return value
+
+
+def kinds(values: Any, class_: type[T], path: str) -> list[T]:
+    """Objects of a class."""
+    if not isinstance(values, (list, tuple)):
+        raise TypeError(f"{path}: a list is needed, not {type(values).__name__}")
+    return [kind(one, class_, path) for one in values]
 
 
 def sampled(function: Callable[[float], Any], path: str) -> list[tuple[float, float]]:

@@ -79,7 +79,7 @@ class SweepError(RuntimeError):
     def __init__(self, parameters: dict[str, Any], cause: str) -> None:
         """Makes the exception from parameters and a cause in words."""
         told = ", ".join(f"{name} = {value!r}" for name, value in parameters.items())
-        super().__init__(f"with {told}: {cause}")
+        super().__init__(f"with {told or 'no parameters'}: {cause}")
         self.parameters = parameters
         self._cause = cause
 

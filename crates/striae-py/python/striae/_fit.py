@@ -177,7 +177,7 @@ def fit_friction(
     found, constants, deviation, freedom, at_bound = native.fit_friction(
         name, measured, probability
     )
-    friction = Friction._of(found, _told(law, constants, rule))
+    friction = law._of(found, _told(law, constants, rule), _recipe(law, constants, rule))
     kept = (frozen(slip), frozen(textures), frozen(against), across)
     summary = (constants, deviation, freedom)
     return FrictionFit(friction, summary, at_bound, probability, kept)
@@ -208,6 +208,22 @@ def _forces(forces: Any, slip: Floats) -> tuple[Floats, Optional[Floats]]:
     against = vectors[:, 0] * cosine + vectors[:, 1] * sine
     across = vectors[:, 1] * cosine - vectors[:, 0] * sine
     return np.ascontiguousarray(against), np.ascontiguousarray(across)
+
+
+def _recipe(
+    law: type[Friction],
+    constants: list[tuple[str, float, Optional[tuple[float, float]]]],
+    rule: str,
+) -> tuple[Any, tuple[Any, ...], dict[str, Any]]:
+    """How the law is made of its constants."""
+    values = {name.removeprefix("mu_"): value for name, value, _ in constants}
+    if law is Tabulated:
+        # "mu at 30 degrees"
+        return law, ([float(name.split()[2]) for name in values], list(values.values())), {}
+    named: dict[str, Any] = dict(values)
+    if law is Orthotropic:
+        named["slip_rule"] = rule
+    return law, (), named
 
 
 def _told(

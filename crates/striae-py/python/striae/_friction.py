@@ -7,7 +7,7 @@ the row of scales, ``a = n x s`` across; for scales ``a`` points from root to fr
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Union
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -16,6 +16,7 @@ from . import _check as check
 from . import _striae as native
 from ._check import Floats
 from ._errors import refuse
+from ._made import Made, Recipe
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -37,7 +38,7 @@ class SlipSurface(NamedTuple):
     (no unit)."""
 
 
-class Friction:
+class Friction(Made):
     """Friction between two surfaces; see the laws."""
 
     _native: native.Friction
@@ -50,9 +51,14 @@ class Friction:
         )
 
     @classmethod
-    def _of(cls, found: native.Friction, told: str) -> Friction:
-        law = Friction.__new__(Friction)
-        law._native, law._told = found, told
+    def _of(
+        cls,
+        found: native.Friction,
+        told: str,
+        recipe: Optional[Recipe] = None,
+    ) -> Friction:
+        law: Friction = cls.__new__(cls)
+        law._native, law._told, law._recipe = found, told, recipe
         return law
 
     def with_decay(self, kinetic_over_static: float, slip_rate: float) -> Friction:
@@ -65,7 +71,8 @@ class Friction:
         ratio = check.number(kinetic_over_static, "kinetic_over_static")
         rate = check.number(slip_rate, "slip_rate")
         told = f"{self._told}.with_decay({ratio}, {rate})"
-        return Friction._of(self._native.with_decay(ratio, rate), told)
+        recipe: Recipe = (Friction.with_decay, (self, ratio, rate), {})
+        return Friction._of(self._native.with_decay(ratio, rate), told, recipe)
 
     def with_shear_cap(self, shear_cap: float) -> Friction:
         """The law with a bound on friction.
@@ -73,7 +80,9 @@ class Friction:
         shear_cap: largest shear stress that friction carries (force per area).
         """
         cap = check.number(shear_cap, "shear_cap")
-        return Friction._of(self._native.with_shear_cap(cap), f"{self._told}.with_shear_cap({cap})")
+        recipe: Recipe = (Friction.with_shear_cap, (self, cap), {})
+        told = f"{self._told}.with_shear_cap({cap})"
+        return Friction._of(self._native.with_shear_cap(cap), told, recipe)
 
     def slip_surface(self, theta: float = 0.0, count: int = 360) -> SlipSurface:
         """Friction in all directions of slip, per unit of pressure and at rest.

@@ -12,6 +12,7 @@ from . import _check as check
 from . import _striae as native
 from ._check import Floats
 from ._errors import refuse
+from ._made import Made
 
 
 #: Form of the energy of the volume ratio ``J``.
@@ -21,7 +22,7 @@ Volumetric = Literal["quadratic", "logarithmic"]
 Branches = Sequence[tuple[float, float]]
 
 
-class Material:
+class Material(Made):
     """A bulk material, such as :class:`NeoHookean`, :class:`LinearElastic` or :class:`Ogden`."""
 
     _native: native.Material

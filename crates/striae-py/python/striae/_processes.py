@@ -36,6 +36,7 @@ class Job(NamedTuple):
     model: Model
     compiled: native.Model
     folder: Path
+    output: Optional[str]
     process: subprocess.Popen[bytes]
 
 
@@ -86,7 +87,9 @@ class Workers:
             raise SweepError(parameters, str(error)) from error
         while len(self._under_way) >= self._count:
             self._look()
-        self._under_way[number] = Job(parameters, model, compiled, folder, _started(folder))
+        process = _started(folder)
+        output = job["output"]
+        self._under_way[number] = Job(parameters, model, compiled, folder, output, process)
 
     def runs(self) -> list[Run]:
         """The runs in the order in which they began, when all have ended."""
@@ -141,7 +144,7 @@ def _returned(job: Job) -> Run:
         run = native.returned(
             job.compiled, str(job.folder), told["states"], told["ending"], told["reason"]
         )
-        return Run(run, job.model)
+        return Run(run, job.model, None if job.output is None else Path(job.output))
     raised = job.folder / "error.pickle"
     if raised.exists():
         error: Exception = pickle.loads(raised.read_bytes())

@@ -29,8 +29,6 @@ class SweepPoint(NamedTuple):
     """The parameters by name, in their units."""
     run: Run
     """Its run; see :attr:`Run.ending` for whether it was completed."""
-    folder: Optional[Path] = None
-    """Folder of its files, if the sweep was written."""
 
 
 class Sweep(Sequence[SweepPoint]):
@@ -115,6 +113,8 @@ def sweep(
         raise TypeError("model_of: a function that makes a model is needed")
     check.whole(workers, "workers")
     for name, values in parameters.items():
+        if isinstance(values, str) or not hasattr(values, "__len__"):
+            raise TypeError(f"parameter `{name}`: a list of values is needed, not {values!r}")
         if len(values) == 0:
             raise refuse(f"parameter `{name}`", "it has no values")
     if threads is not None:
@@ -136,11 +136,10 @@ def sweep(
     ]
     make = _here if workers == 1 else _beside
     runs = make(model_of, points, jobs, workers)
-    folders = [None if job["output"] is None else Path(str(job["output"])) for job in jobs]
     for point, run in zip(points, runs):
         for text in run.warnings:
             warnings.warn(f"{_told(point)}: {text}", RunWarning, stacklevel=2)
-    return Sweep([SweepPoint(*one) for one in zip(points, runs, folders)])
+    return Sweep([SweepPoint(*one) for one in zip(points, runs)])
 
 
 def _told(point: dict[str, Any]) -> str:

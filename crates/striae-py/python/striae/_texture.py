@@ -10,13 +10,16 @@ from typing import Optional, Union
 
 import numpy.typing as npt
 
+import numpy as np
+
 from . import _check as check
 from . import _striae as native
 from ._check import Vector
 from ._errors import refuse
+from ._made import Made
 
 
-class Texture:
+class Texture(Made):
     """A texture; see :class:`Uniform`, :class:`Circumferential`, :class:`Axial`,
     :class:`Radial`, :class:`Painted` and :class:`Nodal`."""
 
@@ -25,6 +28,19 @@ class Texture:
     def __init__(self) -> None:
         """Use one of the textures."""
         raise TypeError("use Uniform, Circumferential, Axial, Radial, Painted or Nodal")
+
+    def __repr__(self) -> str:
+        if self._recipe is None:
+            return f"<{type(self).__name__}>"
+        _, arguments, named = self._recipe
+        told = [_short(one) for one in arguments]
+        told += [f"{name}={_short(one)}" for name, one in named.items()]
+        return f"{type(self).__name__}({', '.join(told)})"
+
+
+def _short(value: object) -> str:
+    shape = np.shape(value)  # type: ignore[arg-type]
+    return repr(value) if shape in ((), (3,)) else f"<array of shape {shape}>"
 
 
 def texture(value: Union[Texture, Vector, None], path: str = "texture") -> Optional[Texture]:
