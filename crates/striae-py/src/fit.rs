@@ -1,7 +1,5 @@
 //! Constants of friction laws from measured friction.
 
-use std::path::PathBuf;
-
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use striae::{
@@ -82,13 +80,10 @@ pub fn fit_friction(law: &str, measured: Measured<'_>, level: f64) -> PyResult<F
 }
 
 /// Angles of slip and between the textures (radians), friction against and, where it was
-/// measured, across slip, and spreads of a file of measurements.
+/// measured, across slip, and spreads in the text of a file of measurements.
 #[pyfunction]
-pub fn read_measurements(py: Python<'_>, path: PathBuf) -> PyResult<Columns<'_>> {
-    let file = path.display().to_string();
-    let text = std::fs::read_to_string(&path);
-    let text = text.map_err(|error| refused(&*file, format!("it cannot be read: {error}")))?;
-    let readings = measurements::parse(&text, &file).map_err(|faults| {
+pub fn measurements_of<'py>(py: Python<'py>, text: &str, file: &str) -> PyResult<Columns<'py>> {
+    let readings = measurements::parse(text, file).map_err(|faults| {
         let told = faults.faults.into_iter().map(|fault| {
             let at = fault
                 .place

@@ -34,7 +34,7 @@ mod _striae {
     #[pymodule_export]
     use super::{
         files::report,
-        fit::{fit_friction, read_measurements},
+        fit::{fit_friction, measurements_of},
         friction::Friction,
         generate::{annulus, block, capped_block, half_cylinder},
         material::Material,

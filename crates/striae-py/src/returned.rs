@@ -5,7 +5,10 @@
 //!        0/checkpoint.bin, 1/...        states that are kept, exactly
 //! ```
 
-use std::{fs, path::Path, path::PathBuf, sync::Arc};
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 use pyo3::{exceptions::PyRuntimeError, prelude::*};
 use striae::{
@@ -33,14 +36,13 @@ use crate::{
 const SUMMARY: &str = "summary.json";
 const HISTORY: &str = "history.csv";
 
-/// Writes a run to a folder that is there.
+/// Writes a run to a folder that is there, as are those of its states in it.
 pub fn save(run: &Run, folder: &Path) -> PyResult<()> {
     let written = run.finished.summary.write(&folder.join(SUMMARY));
     let written = written.and_then(|()| run.finished.history.write(&folder.join(HISTORY)));
     written.map_err(|error| raised(Error::Output(error), "run"))?;
     for (number, kept) in run.kept.iter().enumerate() {
         let place = folder.join(number.to_string());
-        fs::create_dir(&place)?;
         let written = checkpoint(kept).write(&place);
         written.map_err(|error| raised(Error::Output(error), "run"))?;
     }

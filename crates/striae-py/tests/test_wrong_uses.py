@@ -119,7 +119,7 @@ MODEL_ERRORS: list[tuple[Callable[[], Any], str]] = [
     ),
     (
         lambda: st.read_measurements("none.csv"),
-        "none.csv: it cannot be read: No such file or directory (os error 2)",
+        "none.csv: it cannot be read: [Errno 2] No such file or directory: 'none.csv'",
     ),
     (lambda: st.block(size=(1, 1)), "size: 3 numbers are needed, but it has shape (2,)"),
     (lambda: st.block(divisions=(2, 0, 2)), "divisions: at least 1 is needed, but there is 0"),

@@ -52,7 +52,13 @@ def read_measurements(path: Union[str, os.PathLike[str]]) -> Measurements:
 
     path: the file.
     """
-    slip, theta, against, across, spread = native.read_measurements(os.fspath(path))
+    file = os.fspath(path)
+    try:
+        with open(file, encoding="utf-8") as opened:
+            text = opened.read()
+    except (OSError, UnicodeDecodeError) as error:
+        raise refuse(file, f"it cannot be read: {error}") from None
+    slip, theta, against, across, spread = native.measurements_of(text, file)
     forces = against
     if across is not None:
         cosine, sine = np.cos(slip), np.sin(slip)

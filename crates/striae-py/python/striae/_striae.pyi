@@ -123,8 +123,8 @@ def fit_friction(
     bool,
 ]: ...
 
-def read_measurements(
-    path: _Path,
+def measurements_of(
+    text: str, file: str
 ) -> tuple[_Floats, _Floats, _Floats, Optional[_Floats], _Floats]: ...
 
 class Friction:

@@ -6,11 +6,10 @@ counts. A texture follows its surface as it deforms.
 
 from __future__ import annotations
 
-from typing import Optional, Union
-
-import numpy.typing as npt
+from typing import Any, Optional, Union
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _check as check
 from . import _striae as native
@@ -38,8 +37,8 @@ class Texture(Made):
         return f"{type(self).__name__}({', '.join(told)})"
 
 
-def _short(value: object) -> str:
-    shape = np.shape(value)  # type: ignore[arg-type]
+def _short(value: Any) -> str:
+    shape = np.shape(value)
     return repr(value) if shape in ((), (3,)) else f"<array of shape {shape}>"
 
 

@@ -33,6 +33,8 @@ def main(folder: Path) -> int:
     warnings.simplefilter("ignore")
     try:
         run = ran(folder)
+        for number in range(len(run)):
+            (folder / str(number)).mkdir()
         run._native.save(str(folder))
         ended = {"ending": run.ending, "reason": run.reason, "states": len(run)}
         (folder / ENDED).write_text(json.dumps(ended), encoding="utf-8")
