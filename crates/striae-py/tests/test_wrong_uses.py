@@ -193,6 +193,14 @@ MODEL_ERRORS: list[tuple[Callable[[], Any], str]] = [
         "curve: one of `ramp`, `constant`, `smooth` is needed, not 'bent'",
     ),
     (
+        lambda: pad()["zmax"].displace(x=lambda s: s, curve="smooth"),
+        "curve: components that are functions have no curve besides",
+    ),
+    (
+        lambda: pad()["zmax"].displace(x=lambda s: 1.0 / (s - 1.0) if s < 1.0 else np.nan),
+        "x at 1.0: a finite number is needed, not nan",
+    ),
+    (
         lambda: pad()["zmax"].release("w"),  # type: ignore[arg-type]
         "components: one of `x`, `y`, `z` is needed, not 'w'",
     ),

@@ -48,7 +48,7 @@ class BodySet:
         x, y, z: targets (length), or functions from the fraction of the step, 0 to 1, to the
             displacement (length), which begin where the nodes are and are called at 1001
             fractions when the condition is made; a component that is left out stays as it is.
-        curve: how the targets are approached.
+        curve: how the targets are approached; it has no effect on functions.
         """
         given = [(axis, value) for axis, value in enumerate((x, y, z)) if value is not None]
         if not given:
@@ -61,6 +61,8 @@ class BodySet:
             else:
                 targets[axis] = check.number(value, "xyz"[axis])
         along = check.curve(curve, "curve")
+        if along != "ramp" and all(target is None for target in targets):
+            raise refuse("curve", "components that are functions have no curve besides")
         body, name = self.body.name, self.name
 
         def apply(step: native.Step) -> None:

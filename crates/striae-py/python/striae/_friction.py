@@ -317,4 +317,6 @@ def _kernel(
         if found.shape != shape:
             raise refuse(f"{law}: {what}", f"it must have shape {shape}, but has {found.shape}")
         numbers += check.finite(found, f"{law}: {what}").ravel().tolist()
+    if abs(np.linalg.det(np.reshape(numbers[6:], (2, 2)))) < ROUND_OFF:
+        raise refuse(f"{law}: K", "it must be regular")
     return numbers
