@@ -8,7 +8,6 @@ the caller, so no script needs a guard and no lock or thread of this one is copi
 from __future__ import annotations
 
 import json
-import os
 import pickle
 import shutil
 import subprocess
@@ -24,6 +23,12 @@ from . import _striae as native
 from ._errors import ModelError, SweepError, refuse
 from ._model import Model
 from ._run import Run
+
+#: What a process begins with.
+START = (
+    "import sys; sys.path[:] = sys.argv[2:];"
+    "from striae._worker import main; sys.exit(main(sys.argv[1]))"
+)
 
 #: Seconds between two looks at the processes.
 TICK = 0.02
@@ -123,13 +128,11 @@ def _call(model_of: Callable[..., Model], parameters: dict[str, Any]) -> bytes:
 
 
 def _started(folder: Path) -> subprocess.Popen[bytes]:
-    paths = [path for path in sys.path if path]
-    where = {**os.environ, "PYTHONPATH": os.pathsep.join([*paths, os.getcwd()])}
-    command = [sys.executable, "-m", "striae._worker", str(folder)]
+    """The process; it finds modules where this one does and nowhere else."""
+    command = [sys.executable, "-c", START, str(folder), *sys.path]
     with open(folder / "stderr", "wb") as errors:
         return subprocess.Popen(
             command,
-            env=where,
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
             stderr=errors,

@@ -1,4 +1,4 @@
-"""A process that runs one model of a sweep: ``python -m striae._worker FOLDER``.
+"""What a process does that runs one model of a sweep.
 
 .. code-block:: text
 
@@ -15,7 +15,6 @@ from __future__ import annotations
 import json
 import pickle
 import signal
-import sys
 import traceback
 import warnings
 from pathlib import Path
@@ -27,8 +26,9 @@ DECK, CALL, JOB = "deck.toml", "call.pickle", "job.json"
 ENDED, ERROR = "ended.json", "error.pickle"
 
 
-def main(folder: Path) -> int:
-    """Runs the model of the folder; 0 where it ran, whatever its ending."""
+def main(place: str) -> int:
+    """Runs the model of a folder; 0 where it ran, whatever its ending."""
+    folder = Path(place)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     warnings.simplefilter("ignore")
     try:
@@ -65,7 +65,3 @@ def pickled(error: Exception) -> bytes:
     except Exception:
         told = "".join(traceback.format_exception(type(error), error, error.__traceback__))
         return pickle.dumps(RuntimeError(told))
-
-
-if __name__ == "__main__":
-    sys.exit(main(Path(sys.argv[1])))
