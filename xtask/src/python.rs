@@ -1,30 +1,24 @@
 //! `cargo xtask python`: the Python package, from its wheel to its tests.
 //!
 //! A virtual environment in the target folder takes the tools from PyPI, maturin builds the
-//! wheel, and the wheel is tested as users have it: types, docstrings, wrong uses, runs and
-//! examples. Where several versions of Python are at hand, the tests run with the oldest and
-//! the newest, by the same wheel.
+//! wheel, and the wheel is tested as users have it: types, docstrings, wrong uses, runs, whose
+//! bits are those of the program, examples, and the overhead of a callback. Where several versions of Python are at hand, on the path or by pyenv, the tests
+//! run with the oldest and the newest, by the same wheel.
 
 use std::{
-    env,
+    env, fs,
     path::{Path, PathBuf},
     process::Command,
 };
 
 use crate::fault::Fault;
 
-/// Names of interpreters that the package supports, from the oldest.
-const INTERPRETERS: [&str; 7] = [
-    "python3.10",
-    "python3.11",
-    "python3.12",
-    "python3.13",
-    "python3.14",
-    "python3.15",
-    "python3",
-];
-/// What is asked of an interpreter.
-const FIT: &str = "import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 10))";
+/// The oldest version of Python that the package supports.
+const OLDEST: u32 = 10;
+/// Versions that are looked for on the path: Python 3.10 to 3.19.
+const NEWEST: u32 = 19;
+/// What is asked of an interpreter: its version, if it can make virtual environments.
+const ASKED: &str = "import sys, venv, ensurepip; print(sys.version_info[1])";
 /// What the tests need besides the wheel.
 const NEEDED: [&str; 5] = ["pytest", "numpy", "matplotlib", "pandas", "meshio"];
 
@@ -33,16 +27,24 @@ const NEEDED: [&str; 5] = ["pytest", "numpy", "matplotlib", "pandas", "meshio"];
 /// # Errors
 /// When there is no interpreter, or what fails.
 pub fn check() -> Result<(), Fault> {
-    let fit = interpreters();
-    let (Some(oldest), Some(newest)) = (fit.first(), fit.last()) else {
+    let found = interpreters();
+    let (Some(oldest), Some(newest)) = (found.first(), found.last()) else {
         return Err(Fault::NoPython);
     };
+    match oldest == newest {
+        true => println!("Python 3.{} is the only version here", newest.version),
+        false => println!("Python 3.{} and 3.{}", oldest.version, newest.version),
+    }
     let wheels = target().join("wheels");
     let main = environment(newest)?;
     pip(&main, &["maturin>=1.7,<2", "mypy", "basedpyright"])?;
     let out = wheels.display().to_string();
     run(main.join("maturin"), &["build", "--release", "--out", &out])?;
+    let program = ["build", "--quiet", "--release", "-p", "striae-cli"];
+    run("cargo".into(), &program)?;
+    pip(&main, &["pyvista"])?;
     test(&main, &wheels)?;
+    run(main.join("python"), &["crates/striae-py/overhead.py"])?;
     run(main.join("mypy"), &[])?;
     let interpreter = main.join("python").display().to_string();
     let here = ["--project", "pyproject.toml", "--pythonpath", &interpreter];
@@ -58,18 +60,44 @@ pub fn is_possible() -> bool {
     !interpreters().is_empty()
 }
 
-/// Interpreters that can make virtual environments, from the oldest; `python3` only where
-/// there is no other.
-fn interpreters() -> Vec<&'static str> {
-    let is_fit = |name: &&str| {
-        let output = Command::new(name).args(["-c", FIT]).output();
-        output.is_ok_and(|output| output.status.success())
-    };
-    let mut fit: Vec<&str> = INTERPRETERS.into_iter().filter(is_fit).collect();
-    if fit.len() > 1 {
-        fit.retain(|name| *name != "python3");
-    }
-    fit
+/// An interpreter that can make virtual environments.
+#[derive(PartialEq)]
+struct Interpreter {
+    /// The 10 of Python 3.10.
+    version: u32,
+    /// Its program.
+    program: PathBuf,
+}
+
+/// Interpreters that are supported, from the oldest, one of each version.
+fn interpreters() -> Vec<Interpreter> {
+    let on_path = (OLDEST..=NEWEST).map(|version| format!("python3.{version}").into());
+    let candidates = on_path.chain(["python3".into()]).chain(of_pyenv());
+    let mut found: Vec<Interpreter> = candidates.filter_map(interpreter).collect();
+    found.sort_by_key(|one| one.version);
+    found.dedup_by_key(|one| one.version);
+    found
+}
+
+/// The interpreter of a program, if it is one that is supported.
+fn interpreter(program: PathBuf) -> Option<Interpreter> {
+    let output = Command::new(&program).args(["-c", ASKED]).output().ok()?;
+    let version = str::from_utf8(&output.stdout).ok()?.trim().parse().ok()?;
+    let is_fit = output.status.success() && version >= OLDEST;
+    is_fit.then_some(Interpreter { version, program })
+}
+
+/// Interpreters that pyenv has installed, on the path or not.
+fn of_pyenv() -> Vec<PathBuf> {
+    let root = env::var_os("PYENV_ROOT").map(PathBuf::from);
+    let root = root.or_else(|| Some(PathBuf::from(env::var_os("HOME")?).join(".pyenv")));
+    let versions = root.and_then(|root| fs::read_dir(root.join("versions")).ok());
+    let versions = versions.into_iter().flatten().flatten();
+    let mut programs: Vec<PathBuf> = versions
+        .map(|version| version.path().join("bin").join("python3"))
+        .collect();
+    programs.sort();
+    programs
 }
 
 /// Installs the wheel and runs the tests.
@@ -89,12 +117,14 @@ fn test(programs: &Path, wheels: &Path) -> Result<(), Fault> {
 }
 
 /// Folder of the programs of a virtual environment, which is made if it is not there.
-fn environment(interpreter: &str) -> Result<PathBuf, Fault> {
-    let folder = target().join("python").join(interpreter);
+fn environment(interpreter: &Interpreter) -> Result<PathBuf, Fault> {
+    let name = format!("python3.{}", interpreter.version);
+    let folder = target().join("python").join(name);
     let programs = folder.join("bin");
     if !programs.join("pip").exists() {
         let place = folder.display().to_string();
-        run(interpreter.into(), &["-m", "venv", "--clear", &place])?;
+        let arguments = ["-m", "venv", "--clear", &place];
+        run(interpreter.program.clone(), &arguments)?;
     }
     Ok(programs)
 }

@@ -1,13 +1,20 @@
 //! Constants of friction laws from measured friction.
 
-use numpy::PyReadonlyArray1;
+use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
-use striae::law::{
-    fit::{Reading, Sought, Standing, fit},
-    friction::SlipRule,
+use striae::{
+    law::{
+        fit::{Reading, Sought, Standing, fit},
+        friction::SlipRule,
+    },
+    measurements,
 };
 
-use crate::{fault::refused, friction::Friction};
+use crate::{
+    array::Array1,
+    fault::{model_error, refused},
+    friction::Friction,
+};
 
 /// Angles of slip and between the textures (radians), friction against and, where it was
 /// measured, across slip, and spreads.
@@ -17,6 +24,15 @@ type Measured<'py> = (
     PyReadonlyArray1<'py, f64>,
     Option<PyReadonlyArray1<'py, f64>>,
     PyReadonlyArray1<'py, f64>,
+);
+
+/// The same as arrays that leave.
+type Columns<'py> = (
+    Array1<'py, f64>,
+    Array1<'py, f64>,
+    Array1<'py, f64>,
+    Option<Array1<'py, f64>>,
+    Array1<'py, f64>,
 );
 
 /// Name, value and interval of a constant.
@@ -60,5 +76,30 @@ pub fn fit_friction(law: &str, measured: Measured<'_>, level: f64) -> PyResult<F
         found.deviation,
         found.degrees_of_freedom,
         found.standing == Standing::AtBound,
+    ))
+}
+
+/// Angles of slip and between the textures (radians), friction against and, where it was
+/// measured, across slip, and spreads in the text of a file of measurements.
+#[pyfunction]
+pub fn measurements_of<'py>(py: Python<'py>, text: &str, file: &str) -> PyResult<Columns<'py>> {
+    let readings = measurements::parse(text, file).map_err(|faults| {
+        let told = faults.faults.into_iter().map(|fault| {
+            let at = fault
+                .place
+                .map_or_else(String::new, |(line, column)| format!(":{line}:{column}"));
+            (format!("{file}{at}"), fault.message)
+        });
+        model_error(told.collect())
+    })?;
+    let column =
+        |value: fn(&Reading) -> f64| PyArray1::from_vec(py, readings.iter().map(value).collect());
+    let across: Option<Vec<f64>> = readings.iter().map(|reading| reading.across).collect();
+    Ok((
+        column(|reading| reading.slip),
+        column(|reading| reading.theta),
+        column(|reading| reading.against),
+        across.map(|across| PyArray1::from_vec(py, across)),
+        column(|reading| reading.spread),
     ))
 }

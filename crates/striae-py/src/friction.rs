@@ -4,7 +4,11 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use striae::law::friction::{self, FrictionError, SlipRule};
 
-use crate::{array::Array1, fault::refused};
+use crate::{
+    array::Array1,
+    fault::{model_error, refused},
+    own_friction::{Harmonic, Periodic},
+};
 
 /// Friction between two surfaces.
 #[pyclass(frozen, module = "striae._striae")]
@@ -50,6 +54,20 @@ impl Friction {
     #[staticmethod]
     fn tabulated(radians: Vec<f64>, mu: Vec<f64>) -> PyResult<Self> {
         made("Tabulated", friction::Friction::tabulated(&radians, &mu))
+    }
+
+    /// A law of one's own by the harmonics of its kernel over the angle between the textures.
+    /// It is judged by the battery of friction laws.
+    #[staticmethod]
+    fn own(name: String, two: bool, harmonics: Vec<Harmonic>, mu: f64) -> PyResult<Self> {
+        let law = Periodic::new(name.clone(), two, harmonics);
+        let made = made(&name, friction::Friction::own(law, mu))?;
+        let violations = friction::battery(&made.0);
+        if violations.is_empty() {
+            return Ok(made);
+        }
+        let told = violations.iter().map(|one| (name.clone(), one.to_string()));
+        Err(model_error(told.collect()))
     }
 
     fn with_decay(&self, kinetic_over_static: f64, slip_rate: f64) -> PyResult<Self> {

@@ -7,6 +7,7 @@
 
 mod array;
 mod fault;
+mod files;
 mod fit;
 mod friction;
 mod generate;
@@ -15,10 +16,13 @@ mod material;
 mod mesh;
 mod model;
 mod own;
+mod own_friction;
 mod pair;
 mod results;
+mod returned;
 mod rigid;
 mod run;
+mod start;
 mod step;
 mod texture;
 
@@ -29,7 +33,8 @@ use pyo3::prelude::*;
 mod _striae {
     #[pymodule_export]
     use super::{
-        fit::fit_friction,
+        files::report,
+        fit::{fit_friction, measurements_of},
         friction::Friction,
         generate::{annulus, block, capped_block, half_cylinder},
         material::Material,
@@ -38,6 +43,7 @@ mod _striae {
         own::own_material,
         pair::Pair,
         results::Results,
+        returned::returned,
         rigid::Rigid,
         run::{Run, deck_of, resume, run},
         step::Step,

@@ -17,9 +17,11 @@ pub struct Material(
 #[pymethods]
 impl Material {
     #[staticmethod]
-    fn neo_hookean(youngs_modulus: f64, poissons_ratio: f64) -> PyResult<Self> {
+    fn neo_hookean(youngs_modulus: f64, poissons_ratio: f64, logarithmic: bool) -> PyResult<Self> {
         let constants = engineering("NeoHookean", youngs_modulus, poissons_ratio)?;
-        Ok(Self(bulk::Material::neo_hookean(constants), None))
+        let form = volumetric(logarithmic);
+        let made = bulk::Material::neo_hookean_with(constants, form);
+        Ok(Self(made, None))
     }
 
     #[staticmethod]
@@ -40,10 +42,7 @@ impl Material {
     ) -> PyResult<Self> {
         let isochoric = isochoric(law, &constants)
             .ok_or_else(|| refused(law, "it has another number of constants"))?;
-        let volumetric = match logarithmic {
-            true => bulk::Volumetric::Logarithmic,
-            false => bulk::Volumetric::Quadratic,
-        };
+        let volumetric = volumetric(logarithmic);
         let made = match (bulk_modulus, poissons_ratio) {
             (Some(modulus), None) => bulk::Hyperelastic::new(isochoric, modulus, volumetric),
             (None, Some(ratio)) => {
@@ -56,6 +55,41 @@ impl Material {
         };
         let made = made.map_err(|error| refused(law, error))?;
         Ok(Self(bulk::Material::Hyperelastic(made), None))
+    }
+
+    /// Rubber with branches, each a ratio and a time, that relax beside it.
+    fn relaxing(&self, branches: Vec<(f64, f64)>) -> PyResult<Self> {
+        let bulk::Material::Hyperelastic(slow) = &self.0 else {
+            return Err(refused("relaxation", "it needs a law of rubber"));
+        };
+        let branches = branches.into_iter();
+        let branches: Vec<_> = branches
+            .map(|(ratio, time)| bulk::Branch { ratio, time })
+            .collect();
+        let made = bulk::Viscoelastic::new(slow.clone(), &branches);
+        let made = made.map_err(|error| refused("relaxation", error))?;
+        Ok(Self(bulk::Material::Viscoelastic(made), None))
+    }
+
+    /// Metal: its elastic constants and its yield stress.
+    #[staticmethod]
+    fn elastic_plastic(
+        youngs_modulus: f64,
+        poissons_ratio: f64,
+        hardening: Hardening,
+    ) -> PyResult<Self> {
+        const LAW: &str = "ElasticPlastic";
+        let constants = engineering(LAW, youngs_modulus, poissons_ratio)?;
+        let hardening = match hardening {
+            Hardening::Linear((first, modulus)) => bulk::Hardening::linear(first, modulus),
+            Hardening::Voce((first, modulus, (stress, rate))) => {
+                bulk::Hardening::voce(first, stress, rate, modulus)
+            }
+            Hardening::Table(pairs) => bulk::Hardening::table(&pairs),
+        };
+        let hardening = hardening.map_err(|error| refused(LAW, error))?;
+        let metal = bulk::Plastic::new(constants, hardening);
+        Ok(Self(bulk::Material::Plastic(metal), None))
     }
 
     /// Young's modulus and Poisson's ratio at rest.
@@ -71,6 +105,17 @@ impl Material {
         let response = response.map_err(|error| refused("deformation_gradient", error))?;
         Ok((response.energy, response.first_piola.transpose().into()))
     }
+}
+
+/// Yield stress over the equivalent plastic strain.
+#[derive(FromPyObject)]
+pub enum Hardening {
+    /// First yield stress, hardening modulus, and stress and rate of saturation.
+    Voce((f64, f64, (f64, f64))),
+    /// First yield stress and hardening modulus.
+    Linear((f64, f64)),
+    /// Pairs of plastic strain and yield stress.
+    Table(Vec<[f64; 2]>),
 }
 
 fn isochoric(law: &str, constants: &[f64]) -> Option<bulk::Isochoric> {
@@ -92,6 +137,13 @@ fn isochoric(law: &str, constants: &[f64]) -> Option<bulk::Isochoric> {
         }
         _ => return None,
     })
+}
+
+fn volumetric(logarithmic: bool) -> bulk::Volumetric {
+    match logarithmic {
+        true => bulk::Volumetric::Logarithmic,
+        false => bulk::Volumetric::Quadratic,
+    }
 }
 
 fn engineering(law: &str, youngs_modulus: f64, ratio: f64) -> PyResult<bulk::LameConstants> {

@@ -7,7 +7,9 @@ use std::{
 
 use pyo3::prelude::*;
 use striae::{
-    Error, deck,
+    Error,
+    advice::{Advice, Remark},
+    deck,
     model::{self, extended},
     output::Output,
     solve::{
@@ -27,6 +29,7 @@ use crate::{
     own::Raised,
     pair::Pair,
     rigid::Rigid,
+    start,
     step::Step,
 };
 
@@ -55,6 +58,9 @@ type Body<'py> = (
 
 /// Backend, tolerance and largest number of iterations.
 type Solver = (String, f64, usize);
+
+/// Topic, name of the part and text of remarks.
+type Remarks = Vec<(&'static str, Option<String>, String)>;
 
 /// Smallest gap, largest overlap and nearest distance of a pair.
 type Fit = (Option<f64>, f64, f64);
@@ -93,10 +99,11 @@ impl Model {
         for pair in pairs {
             built = built.pair(pair.0.clone());
         }
-        for step in steps {
+        for step in &steps {
             built = built.step(step.0.clone());
         }
         let model = built.build().map_err(|faults| model_faults(&faults))?;
+        start::checked(&model, &steps)?;
         Ok(Self {
             raised,
             ..Self::of(model)
@@ -126,9 +133,10 @@ impl Model {
 
     /// The model with more steps.
     fn extended(&self, steps: Vec<PyRef<'_, Step>>) -> PyResult<Self> {
-        let steps = steps.iter().map(|step| step.0.clone()).collect();
-        let model = extended((*self.model).clone(), steps);
+        let added = steps.iter().map(|step| step.0.clone()).collect();
+        let model = extended((*self.model).clone(), added);
         let model = model.map_err(|faults| model_faults(&faults))?;
+        start::checked(&model, &steps)?;
         Ok(Self {
             output: self.output.clone(),
             raised: self.raised.clone(),
@@ -177,6 +185,22 @@ impl Model {
     /// Friction of a pair from the start.
     fn friction(&self, pair: usize) -> Friction {
         Friction(self.model.pairs[pair].friction.clone())
+    }
+
+    /// Whether functions of Python are called during a run.
+    #[getter]
+    fn calls_python(&self) -> bool {
+        !self.raised.is_empty()
+    }
+
+    /// Faults, warnings and notes, as of `striae check`.
+    fn advice(&self, py: Python<'_>) -> [Remarks; 3] {
+        let model = self.model.clone();
+        let advice = py.detach(move || Advice::of(&model));
+        [advice.faults, advice.warnings, advice.notes].map(|remarks| {
+            let told = |one: Remark| (one.topic.name(), one.name, one.text);
+            remarks.into_iter().map(told).collect()
+        })
     }
 
     /// Unknowns at the start, how the pairs fit, and warnings.

@@ -107,6 +107,26 @@ impl Results {
         PyArray1::from_vec(py, stress.iter().map(von_mises).collect())
     }
 
+    /// Mean over each element of a body of what its points remember under a name.
+    fn remembered<'py>(
+        &self,
+        py: Python<'py>,
+        body: &str,
+        name: &str,
+    ) -> Option<Bound<'py, PyArray1<f64>>> {
+        let bodies = &self.problem.model.bodies;
+        let index = bodies.iter().position(|known| known.name == body)?;
+        let material = &bodies[index].material;
+        let fields = material.fields();
+        let field = fields.iter().find(|field| field.name == name)?;
+        let each = material.variables();
+        let history = &self.kept.state.histories[index];
+        let means = self.problem.elements[index]
+            .iter()
+            .map(|element| element.mean(&history[element.variables(each)], field.variable));
+        Some(PyArray1::from_vec(py, means.collect()))
+    }
+
     /// Nodes of a side of a pair and what is known there.
     fn side<'py>(&self, py: Python<'py>, pair: usize, b: bool) -> PyResult<Bound<'py, PyDict>> {
         let side = if b { PairSide::B } else { PairSide::A };

@@ -29,10 +29,13 @@ use striae::{
 use crate::{
     array::Array2,
     fault::raised,
+    files,
     listen::{Callback, listen},
     model::Model,
     own::Raised,
     results::{Kept, Results},
+    returned::save,
+    start,
     step::Step,
 };
 
@@ -42,9 +45,20 @@ const STACK: usize = 8 << 20;
 /// A run that has ended.
 #[pyclass(frozen, module = "striae._striae")]
 pub struct Run {
-    finished: Finished,
-    kept: Vec<Arc<Kept>>,
+    /// The run itself.
+    pub finished: Finished,
+    /// States that are kept.
+    pub kept: Vec<Arc<Kept>>,
     raised: Vec<Raised>,
+    told: Told,
+}
+
+/// How a run ended, in words.
+pub struct Told {
+    /// `completed`, `interrupted` or `stopped`.
+    pub ending: String,
+    /// A sentence.
+    pub reason: String,
 }
 
 /// A run, and the exception that stopped it.
@@ -52,19 +66,19 @@ type Ended = (Run, Option<PyErr>);
 
 #[pymethods]
 impl Run {
-    /// `completed`, `interrupted` or `stopped`.
     #[getter]
-    fn ending(&self) -> &'static str {
-        match self.finished.ending {
-            Ending::Completed => "completed",
-            Ending::Interrupted { .. } => "interrupted",
-            Ending::Stopped { .. } => "stopped",
-        }
+    fn ending(&self) -> &str {
+        &self.told.ending
     }
 
     #[getter]
-    fn reason(&self) -> String {
-        self.finished.ending.to_string()
+    fn reason(&self) -> &str {
+        &self.told.reason
+    }
+
+    /// Writes to a folder what [`returned`](mod@crate::returned) reads.
+    fn save(&self, folder: PathBuf) -> PyResult<()> {
+        save(self, &folder)
     }
 
     #[getter]
@@ -115,6 +129,17 @@ impl Run {
         }
     }
 
+    /// Writes the files of the program, of a run whose increments are all kept.
+    fn write(
+        &self,
+        py: Python<'_>,
+        folder: PathBuf,
+        case: &str,
+        fields_every: usize,
+    ) -> PyResult<()> {
+        py.detach(|| files::write(self, &folder, case, fields_every))
+    }
+
     /// Goes on with further steps.
     fn continued(
         &self,
@@ -123,15 +148,28 @@ impl Run {
         watching: Watching,
         recording: Option<Recording>,
     ) -> PyResult<Ended> {
-        let steps = steps.iter().map(|step| step.0.clone()).collect();
-        let simulation = Simulation::after(&self.finished, steps);
+        let added = steps.iter().map(|step| step.0.clone()).collect();
+        let simulation = Simulation::after(&self.finished, added);
         let simulation = simulation.map_err(|error| raised(error, "model"))?;
+        start::checked(&simulation.problem().model, &steps)?;
         watched(
             py,
             recorded(simulation, Output::default(), recording, None),
             watching,
             self.raised.clone(),
         )
+    }
+}
+
+impl Run {
+    /// A run that has ended.
+    pub fn new(finished: Finished, kept: Vec<Arc<Kept>>, raised: Vec<Raised>, told: Told) -> Self {
+        Self {
+            finished,
+            kept,
+            raised,
+            told,
+        }
     }
 }
 
@@ -314,11 +352,16 @@ fn ended_with(finished: Finished, messenger: Messenger, raised: Vec<Raised>) -> 
             state: finished.state.clone(),
         }));
     }
-    Run {
-        finished,
-        kept,
-        raised,
-    }
+    let ending = match finished.ending {
+        Ending::Completed => "completed",
+        Ending::Interrupted { .. } => "interrupted",
+        Ending::Stopped { .. } => "stopped",
+    };
+    let told = Told {
+        ending: ending.to_owned(),
+        reason: finished.ending.to_string(),
+    };
+    Run::new(finished, kept, raised, told)
 }
 
 /// Computes in a pool of so many threads.

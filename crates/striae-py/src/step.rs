@@ -6,7 +6,7 @@ use striae::model::{
     step,
 };
 
-use crate::friction::Friction;
+use crate::{friction::Friction, start::Start};
 
 /// The name of a curve, or its points.
 #[derive(FromPyObject)]
@@ -31,7 +31,12 @@ impl Along {
 
 /// A step.
 #[pyclass(module = "striae._striae")]
-pub struct Step(pub StepBuilder);
+pub struct Step(
+    /// What it states.
+    pub StepBuilder,
+    /// Where functions of displacement begin.
+    pub Vec<Start>,
+);
 
 impl Step {
     fn build(&mut self, add: impl FnOnce(StepBuilder) -> StepBuilder) {
@@ -43,7 +48,7 @@ impl Step {
 impl Step {
     #[new]
     fn new(name: &str, duration: f64) -> Self {
-        Self(step(name).duration(duration))
+        Self(step(name).duration(duration), Vec::new())
     }
 
     fn equal(&mut self, number: usize) {
@@ -73,6 +78,30 @@ impl Step {
         let curve = along.curve()?;
         self.build(|step| step.displace(body, nodes, components).along(curve));
         Ok(())
+    }
+
+    /// Leads a component of a displacement along a function that begins at the start
+    /// of the range and whose points have shares of its change.
+    fn lead(
+        &mut self,
+        body: String,
+        nodes: String,
+        axis: usize,
+        range: [f64; 2],
+        points: Vec<(f64, f64)>,
+    ) {
+        let [start, change] = range;
+        let mut components = [None; 3];
+        components[axis] = Some(start + change);
+        let curve = Curve::Table(points);
+        self.build(|step| step.displace(&*body, &*nodes, components).along(curve));
+        self.1.push(Start {
+            body,
+            nodes,
+            axis,
+            value: start,
+            change,
+        });
     }
 
     /// Sets components free, all that are prescribed where none is named.

@@ -108,6 +108,40 @@ def test_wrong_measurements_are_refused(wrong: dict[str, Any], words: str) -> No
     assert str(error.value) == words
 
 
+MEASURED = ROOT / "docs" / "book" / "how-to" / "measurements"
+
+
+def test_published_measurements_of_a_snake_are_a_nap() -> None:
+    read = st.read_measurements(MEASURED / "snake-skin.csv")
+    fit = st.fit_friction(read.angles, read.forces, st.Nap, theta=read.theta, spread=read.spread)
+    assert fit.constants == pytest.approx({"forward": 0.11, "backward": 0.14, "lateral": 0.20})
+    assert not fit.at_bound and fit.degrees_of_freedom == 1
+
+
+def test_published_measurements_of_a_spider_have_two_coefficients() -> None:
+    """Means by leg and direction as the authors' readings have them; intervals by Student's t."""
+    read = st.read_measurements(MEASURED / "spider-pads.csv")
+    assert len(read.angles) == 282 and set(read.angles) == {0.0, 180.0}
+    for angle, mean in [(0.0, 1.2112056737588653), (180.0, 0.4321985815602837)]:
+        here = read.forces[read.angles == angle]
+        fit = st.fit_friction(np.full(141, angle), here, st.Coulomb)
+        assert fit.constants["mu"] == pytest.approx(here.mean()) == pytest.approx(mean)
+        half = 1.9770537 * here.std(ddof=1) / np.sqrt(141)
+        assert fit.intervals["mu"] == pytest.approx((mean - half, mean + half), rel=1e-6)
+    with pytest.raises(st.ModelError, match="needs slip in three directions"):
+        st.fit_friction(read.angles, read.forces, st.Nap)
+
+
+def test_faults_of_measurements_have_places(tmp_path: Path) -> None:
+    file = tmp_path / "m.csv"
+    file.write_text("angle, friction\n0, 0.1\n90\n")
+    with pytest.raises(st.ModelError, match=r"m.csv:3:1: numbers: 1, but columns: 2"):
+        st.read_measurements(file)
+    file.write_text("angle, friction, direction\n0, 0.5, 30\n90, 0.2, 90\n")
+    forces = st.read_measurements(file).forces
+    assert np.allclose(forces, [[0.5 * np.cos(np.pi / 6), 0.25], [0, 0.2]])
+
+
 def test_a_law_is_a_class() -> None:
     with pytest.raises(TypeError, match="law: one of the classes Coulomb, Orthotropic, Nap"):
         st.fit_friction([0], [0.1], st.Frictionless)

@@ -124,3 +124,120 @@ def test_materials_are_judged_before_a_run() -> None:
         model = st.Model([st.Body("pad", st.block(), st.OwnMaterial(neo_hookean))])
         model.step("rest", model.body("pad")["all"].hold())
         model.to_deck()
+
+
+def herringbone(angle: float) -> tuple[Any, Any]:
+    """Friction along the grooves drags half of itself across."""
+    assert angle == 0.0
+    return [[1.0, 0.5], [0.0, 1.0]], [0.0, 0.0]
+
+
+def two_textures(angle: float) -> tuple[Any, Any]:
+    """The law of two textures in the frame of their bisector: equation (36) of the paper."""
+    c_mag, c_ang, c_cen = 0.3, 0.4, 0.2
+    I0 = math.cos(math.radians(angle))
+    m, B = math.sqrt(2.0 + 2.0 * I0), c_ang * (1.0 + I0)
+    A = 1.0 + c_mag * I0
+    return np.diag([A + B * m * m, A]), [B * m * c_cen, 0.0]
+
+
+def test_a_kernel_is_a_law() -> None:
+    """A law of the library, stated again, has its slip surface and gives its results."""
+    own = st.OwnFriction(two_textures, 0.3, textures="two", name="again")
+    known = st.TwoTextures(0.3, c_mag=0.3, c_ang=0.4, c_cen=0.2)
+    for theta in (0.0, 37.0, -120.0, 175.0):
+        for one, other in zip(own.slip_surface(theta, 90), known.slip_surface(theta, 90)):
+            assert np.allclose(one, other, rtol=0, atol=1e-14)
+    tables = []
+    for law in (own, known):
+        pad = st.Body("pad", st.block(divisions=(2, 2, 2)), st.NeoHookean(1e6, 0.3))
+        floor = st.Plane("floor", texture=(1, 1, 0))
+        model = st.Model([pad], [floor], [st.Pair(pad["zmin"].textured((1, 0, 0)), floor, law)])
+        model.step("press", pad["zmax"].displace(x=0, y=0, z=-0.02), increments=2)
+        model.step("drag", pad["zmax"].displace(y=0.1), increments=2)
+        tables.append(model.run().history.table)
+    assert np.allclose(*tables, rtol=1e-8, atol=1e-6)
+    assert repr(own) == "OwnFriction(name='again', mu=0.3, textures='two')"
+
+
+def test_a_kernel_of_one_texture_turns_friction_aside() -> None:
+    """Sliding along the grooves is pushed to one side by half of the friction against it."""
+    law = st.OwnFriction(herringbone, 0.4, name="herringbone")
+    pad = st.Body("pad", st.block(divisions=(2, 2, 2)), st.NeoHookean(1e6, 0.3))
+    floor = st.Plane("floor", texture=(1, 0, 0))
+    model = st.Model([pad], [floor], [st.Pair(pad["zmin"], floor, law)])
+    model.step("press", pad["zmax"].displace(x=0, y=0, z=-0.02), increments=2)
+    model.step("drag", pad["zmax"].displace(x=0.6, y=0), increments=6)
+    force = model.run()[-1].pair(0).force
+    # On the pad: slip along x, friction -0.4 along it, and 0.2 across, by the sense of a = n x s.
+    assert force[0] / force[2] == pytest.approx(-0.4, abs=2e-3)
+    assert abs(force[1] / force[2]) == pytest.approx(0.2, abs=2e-3)
+    with pytest.raises(st.ModelError, match="of one's own"):
+        model.to_deck()
+
+
+def test_kernels_are_judged() -> None:
+    def turned(angle: float) -> tuple[Any, Any]:
+        return [[1.0, 0.3], [0.0, 1.0]], [0.0, 0.0]
+
+    wrong: list[tuple[Any, str, str]] = [
+        (lambda angle: (-np.eye(2), [0, 0]), "one", "own: friction would create energy"),
+        (lambda angle: (np.eye(2), [2, 0]), "one", "own: law `own` has no slip surface"),
+        (turned, "two", "own: seen from the other surface force or slip differ"),
+        (lambda angle: (np.eye(2), [0.5, 0]), "two", "own: the kernel is no smooth function"),
+        (lambda angle: (np.eye(3), [0, 0]), "one", r"own: L: it must have shape \(2, 2\)"),
+        (lambda angle: (np.eye(2), [0, 0], np.ones((2, 2))), "one", "own: K: it must be regular"),
+        (lambda angle: np.eye(2)[0:1], "one", "own: `L` and `eta` are needed"),
+        (lambda angle: (np.eye(2), [0, np.nan]), "one", "own: eta: row 1 is not finite"),
+    ]
+    for kernel, textures, words in wrong:
+        with pytest.raises(st.ModelError, match=words):
+            st.OwnFriction(kernel, textures=textures)  # type: ignore[arg-type]
+    with pytest.raises(ZeroDivisionError):
+        st.OwnFriction(lambda angle: 1 / angle)  # type: ignore[arg-type, return-value]
+    with pytest.raises(TypeError, match="kernel: a function of the angle"):
+        st.OwnFriction(3)  # type: ignore[arg-type]
+
+
+def test_components_are_led_by_functions(rubber: st.NeoHookean) -> None:
+    """Each along its own, at every increment and over steps; as a deck they have the same bits."""
+    body = st.Body("pad", st.block(divisions=(2, 2, 2)), rubber)
+    top, nodes = body["zmax"], body.mesh.node_sets["zmax"]
+    wave = lambda s: 0.1 * math.sin(2 * math.pi * s)  # noqa: E731
+    model = st.Model([body])
+    model.step("a", body["zmin"].hold(), top.displace(x=wave, y=lambda s: 0.05 * s * s, z=-0.1), increments=8)
+    model.step("b", top.displace(x=wave, y=lambda s: 0.05 - 0.02 * s), increments=4)
+    model.step("c", top.displace(y=lambda s: 0.03), increments=1)
+    run = model.run()
+    for increment in run:
+        s = increment.fraction
+        y = {"a": 0.05 * s * s, "b": 0.05 - 0.02 * s, "c": 0.03}[increment.step]
+        x = 0.0 if increment.step == "c" else wave(s)
+        z = -0.1 * s if increment.step == "a" else -0.1
+        assert np.allclose(increment.body("pad").displacement[nodes], [x, y, z], atol=1e-14)
+    again = st.Model.from_text(model.to_deck()).run()
+    assert np.array_equal(again.history.table, run.history.table)
+    more = run.continue_with(st.Step("d", top.displace(y=lambda s: 0.03 * (1 - s)), increments=1))
+    assert np.allclose(more[-1].body("pad").displacement[nodes, 1], 0, atol=1e-15)
+    with pytest.raises(st.ModelError, match="begins at 1, but node 18 is at 0.03"):
+        run.continue_with(st.Step("d", top.displace(y=lambda s: 1.0)))
+
+
+def test_functions_begin_where_nodes_are(rubber: st.NeoHookean) -> None:
+    body = st.Body("pad", st.block(), rubber)
+    model = st.Model([body])
+    model.step("hold", body["zmin"].hold(), increments=1)
+    model.step("go", body["zmax"].displace(x=lambda s: s))
+    with pytest.raises(st.ModelError) as caught:
+        model.check()
+    assert str(caught.value) == (
+        "steps[1]: a function leads component `x` of pad.zmax, but node 4 is free before, so where"
+        " it begins is not known; state a target and a curve"
+    )
+    model = st.Model([body])
+    model.step("go", body["zmin"].hold(), body["zmax"].displace(x=lambda s: 1 + s))
+    with pytest.raises(st.ModelError) as caught:
+        model.check()
+    assert str(caught.value) == (
+        "steps[0]: the function of component `x` of pad.zmax begins at 1, but node 4 is at 0 then"
+    )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
 from pathlib import Path
 from typing import Any
 
@@ -297,3 +299,59 @@ def test_rubber_that_is_no_solid_is_refused() -> None:
         st.Gent(0.5, 30.0)
     with pytest.raises(st.ModelError, match="`alpha` of term 0 is 0"):
         st.Ogden([(1.0, 0.0)], bulk_modulus=10.0)
+
+
+def test_parts_are_copied_and_pickled(model: st.Model, pad: st.Body, floor: st.Plane) -> None:
+    parts = [
+        pad.material,
+        st.Yeoh(1e5, 0, 0, bulk_modulus=1e7, relaxation=[(0.5, 1.0)]),
+        st.Nap(0.1, 0.2, 0.15).with_decay(0.5, 1.0).with_shear_cap(3.0),
+        st.Tabulated([0, 120, 240], [0.1, 0.2, 0.3]),
+        st.Circumferential((0, 0, 1), turn=3),
+        pad["zmin"].textured((1, 0, 0)),
+        floor,
+        st.Pair(pad["zmin"], floor, st.Coulomb(0.3)),
+        pad.mesh,
+        pad,
+    ]
+    for part in parts:
+        for again in (pickle.loads(pickle.dumps(part)), copy.deepcopy(part)):
+            assert type(again) is type(part) and repr(again) == repr(part)
+    again = pickle.loads(pickle.dumps(pad.mesh))
+    assert np.array_equal(again.points, pad.mesh.points)
+    assert {n: s.tolist() for n, s in again.facet_sets.items()} == {
+        n: s.tolist() for n, s in pad.mesh.facet_sets.items()
+    }
+    fitted = st.fit_friction([0, 90, 180], [0.1, 0.2, 0.1], st.Orthotropic).friction
+    assert isinstance(fitted, st.Orthotropic)
+    for law in (parts[2], fitted):
+        assert isinstance(law, st.Friction)
+        same = pickle.loads(pickle.dumps(law))
+        assert all(np.array_equal(a, b) for a, b in zip(law.slip_surface(), same.slip_surface()))
+    one = model.run().history.table
+    assert np.array_equal(pickle.loads(pickle.dumps(model)).run().history.table, one)
+    copied = copy.deepcopy(model)
+    copied.step("back", pad["zmax"].displace(y=0))
+    assert model.step_names == ["press", "drag"] and len(copied.step_names) == 3
+    assert np.array_equal(model.run().history.table, one)
+
+
+def test_settings_can_be_read_in_notebooks() -> None:
+    for made in (st.Solver("faer"), st.Increments(0.2), st.Dynamics()):
+        assert repr(eval(repr(made), vars(st))) == repr(made)
+
+
+def test_advice_is_that_of_the_program(model: st.Model) -> None:
+    advice = model.advice()
+    assert advice.faults == [] and advice.warnings == []
+    topics = {remark.topic for remark in advice.notes}
+    assert {"shape", "hold", "fit", "friction", "cost"} <= topics
+    assert all(line.startswith("note: ") for line in str(advice).splitlines())
+    named = [remark for remark in advice.notes if remark.name == "pad"]
+    assert any("volume" in remark.text for remark in named)
+    stiff = st.NeoHookean(youngs_modulus=1e6, poissons_ratio=0.4999)
+    body = st.Body("pad", st.block(cells="tetra", divisions=(2, 2, 2)), stiff)
+    floor = st.Plane("floor", point=(0, 0, -100))
+    far = st.Model([body], [floor], [st.Pair(body["zmin"], floor)])
+    far.step("hold", body["zmax"].hold())
+    assert {"never-meets", "locking"} <= {one.topic for one in far.advice().warnings}

@@ -226,9 +226,9 @@ def test_two_blocks_has_the_bits_of_the_program(tmp_path: Path) -> None:
     for name in common:
         assert np.array_equal(run.history[name], built.history[name]), name
 
-    program = ROOT / "target" / "release" / "striae"
-    if not program.exists():
-        pytest.skip("the program has not been built")
+    target = Path(os.environ.get("CARGO_TARGET_DIR", "target"))
+    program = ROOT / target / "release" / "striae"
+    assert program.exists(), "build the program: cargo build --release -p striae-cli"
     out = tmp_path / "program"
     subprocess.run([program, "run", deck, "--out", out, "--quiet"], check=True, capture_output=True)
     assert (out / "history.csv").read_bytes() == (tmp_path / "deck" / "history.csv").read_bytes()
@@ -316,6 +316,33 @@ def test_files_are_those_of_the_program(model: st.Model, tmp_path: Path) -> None
         rows = list(csv.reader(file))
     assert np.array_equal(np.array(rows[1:], dtype=float), run.history.table)
     assert '"case": "mine"' in (tmp_path / "summary.json").read_text()
+
+
+def test_files_and_reports_can_be_had_afterwards(model: st.Model, tmp_path: Path) -> None:
+    """Files are those of a run that was written on the way."""
+    written = model.run(output=tmp_path / "on the way", case="pad")
+    run = model.run()
+    assert run.folder is None and written.folder == tmp_path / "on the way"
+    run.report(tmp_path / "early.html")
+    assert run.folder is None
+    run.write(tmp_path / "later")
+    assert run.folder == tmp_path / "later"
+    names = sorted(str(p.relative_to(run.folder)) for p in run.folder.rglob("*") if p.is_file())
+    expected = sorted(str(p.relative_to(written.folder)) for p in written.folder.rglob("*") if p.is_file())
+    assert [name for name in expected if not name.startswith("law-")] == names
+    for name in names:
+        if name != "summary.json":
+            assert (run.folder / name).read_bytes() == (written.folder / name).read_bytes(), name
+    for one in (run, written):
+        one.report(tmp_path / "report.html")
+        page = (tmp_path / "report.html").read_text()
+        assert page.startswith("<!DOCTYPE html>") and "pad-floor" in page
+    with pytest.raises(st.ModelError, match="run: 1 of 7 increments are kept"):
+        model.run(keep="last").report(tmp_path / "none.html")
+    with pytest.raises(RuntimeError, match="holds the results of an earlier run"):
+        run.write(tmp_path / "on the way")
+    back = st.Step("back", model.body("pad")["zmax"].displace(y=0), increments=2)
+    run.continue_with(back).report(tmp_path / "back.html")
 
 
 def test_warnings_of_a_run_are_warnings(rubber: st.NeoHookean) -> None:

@@ -109,6 +109,18 @@ MODEL_ERRORS: list[tuple[Callable[[], Any], str]] = [
         lambda: st.Mesh(POINTS, {"hexahedron": CELLS}, facet_sets={"top": [[0, 1, 2, 4]]}),
         "facet set `top`: row 0, [0, 1, 2, 4], is no face of the boundary",
     ),
+    (
+        lambda: st.Mesh(np.zeros((0, 3)), {"hexahedron": np.zeros((0, 8), dtype=int)}),
+        "cells: a mesh needs at least one cell",
+    ),
+    (
+        lambda: st.Pair(pad()["zmin"], st.Plane("f"), initial=-1.0),
+        "initial: it must be positive, but is -1.0",
+    ),
+    (
+        lambda: st.read_measurements("none.csv"),
+        "none.csv: it cannot be read: [Errno 2] No such file or directory: 'none.csv'",
+    ),
     (lambda: st.block(size=(1, 1)), "size: 3 numbers are needed, but it has shape (2,)"),
     (lambda: st.block(divisions=(2, 0, 2)), "divisions: at least 1 is needed, but there is 0"),
     (
@@ -181,6 +193,14 @@ MODEL_ERRORS: list[tuple[Callable[[], Any], str]] = [
         "curve: one of `ramp`, `constant`, `smooth` is needed, not 'bent'",
     ),
     (
+        lambda: pad()["zmax"].displace(x=lambda s: s, curve="smooth"),
+        "curve: components that are functions have no curve besides",
+    ),
+    (
+        lambda: pad()["zmax"].displace(x=lambda s: 1.0 / (s - 1.0) if s < 1.0 else np.nan),
+        "x at 1.0: a finite number is needed, not nan",
+    ),
+    (
         lambda: pad()["zmax"].release("w"),  # type: ignore[arg-type]
         "components: one of `x`, `y`, `z` is needed, not 'w'",
     ),
@@ -245,7 +265,19 @@ TYPE_ERRORS: list[tuple[Callable[[], Any], str]] = [
         lambda: st.Model().step("press", "down"),  # type: ignore[arg-type]
         "step `press`: an object of class Condition is needed, not str",
     ),
-    (lambda: st.Friction(), "use Frictionless, Coulomb, Orthotropic, Nap, TwoTextures or Tabulated"),
+    (
+        lambda: st.Model(pad()),  # type: ignore[arg-type]
+        "bodies: a list is needed, not Body",
+    ),
+    (
+        lambda: floored(None).friction(0.5),  # type: ignore[arg-type]
+        "pair: a name or a number is needed, not 0.5",
+    ),
+    (
+        lambda: st.sweep(floored, {"law": 0.3}),  # type: ignore[dict-item]
+        "parameter `law`: a list of values is needed, not 0.3",
+    ),
+    (lambda: st.Friction(), "use Frictionless, Coulomb, Orthotropic, Nap, TwoTextures, Tabulated or OwnFriction"),
 ]
 
 

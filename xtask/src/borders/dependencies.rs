@@ -193,7 +193,7 @@ const LADDER: &[Row] = &[
     },
     Row {
         name: "striae-py",
-        own: &["striae"],
+        own: &["striae", "striae-report"],
         outside: &["nalgebra", "numpy", "pyo3", "rayon"],
     },
     Row {

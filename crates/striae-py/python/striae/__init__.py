@@ -26,20 +26,23 @@ from ._errors import (
     RunInterrupted,
     RunStopped,
     RunWarning,
+    SweepError,
 )
-from ._fit import FrictionFit, fit_friction
+from ._fit import FrictionFit, Measurements, fit_friction, read_measurements
 from ._friction import (
     Coulomb,
     Friction,
     Frictionless,
     Nap,
     Orthotropic,
+    OwnFriction,
     SlipSurface,
     Tabulated,
     TwoTextures,
 )
 from ._material import (
     ArrudaBoyce,
+    ElasticPlastic,
     Gent,
     IsochoricNeoHookean,
     LinearElastic,
@@ -52,7 +55,7 @@ from ._material import (
     Yeoh,
 )
 from ._mesh import Grading, Mesh, annulus, block, capped_block, half_cylinder, read_mesh
-from ._model import Check, Fit, Model, Solver
+from ._model import Advice, Check, Fit, Model, Remark, Solver
 from ._pair import Pair
 from ._results import (
     BodyResults,
@@ -70,6 +73,7 @@ from ._sweep import Sweep, SweepPoint, sweep
 from ._texture import Axial, Circumferential, Nodal, Painted, Radial, Texture, Uniform
 
 __all__ = [
+    "Advice",
     "ArrudaBoyce",
     "Axial",
     "Body",
@@ -80,6 +84,7 @@ __all__ = [
     "Condition",
     "Coulomb",
     "Dynamics",
+    "ElasticPlastic",
     "Energies",
     "Fault",
     "Fit",
@@ -94,6 +99,7 @@ __all__ = [
     "IsochoricNeoHookean",
     "LinearElastic",
     "Material",
+    "Measurements",
     "Mesh",
     "Model",
     "ModelError",
@@ -103,12 +109,14 @@ __all__ = [
     "Nodal",
     "Ogden",
     "Orthotropic",
+    "OwnFriction",
     "OwnMaterial",
     "Painted",
     "Pair",
     "PairResults",
     "Plane",
     "Radial",
+    "Remark",
     "Rigid",
     "RigidBody",
     "RigidResults",
@@ -124,6 +132,7 @@ __all__ = [
     "Status",
     "Step",
     "Sweep",
+    "SweepError",
     "SweepPoint",
     "Tabulated",
     "Texture",
@@ -136,6 +145,7 @@ __all__ = [
     "fit_friction",
     "gravity",
     "half_cylinder",
+    "read_measurements",
     "read_mesh",
     "resume",
     "sweep",

@@ -6,7 +6,7 @@ from typing import Any, Literal, Optional, Union
 
 from . import _check as check
 from . import _striae as native
-from ._check import Curve, Members, Vector
+from ._check import Curve, Members, Motion, Vector
 from ._errors import refuse
 from ._material import Material
 from ._mesh import Mesh, listed
@@ -38,25 +38,40 @@ class BodySet:
     def displace(
         self,
         *,
-        x: Optional[float] = None,
-        y: Optional[float] = None,
-        z: Optional[float] = None,
+        x: Optional[Motion] = None,
+        y: Optional[Motion] = None,
+        z: Optional[Motion] = None,
         curve: Curve = "ramp",
     ) -> Condition:
         """Takes the nodes to a displacement from their positions at rest.
 
-        x, y, z: targets (length); a component that is left out stays as it is.
-        curve: how the targets are approached.
+        x, y, z: targets (length), or functions from the fraction of the step, 0 to 1, to the
+            displacement (length), which begin where the nodes are and are called at 1001
+            fractions when the condition is made; a component that is left out stays as it is.
+        curve: how the targets are approached; it has no effect on functions.
         """
-        given = [("x", x), ("y", y), ("z", z)]
-        targets = [None if value is None else check.number(value, axis) for axis, value in given]
-        if all(target is None for target in targets):
+        given = [(axis, value) for axis, value in enumerate((x, y, z)) if value is not None]
+        if not given:
             raise refuse(str(self), "a displacement needs at least one of x, y and z")
+        targets: list[Optional[float]] = [None, None, None]
+        motions = []
+        for axis, value in given:
+            if callable(value):
+                motions.append((axis, *check.motion(value, "xyz"[axis])))
+            else:
+                targets[axis] = check.number(value, "xyz"[axis])
         along = check.curve(curve, "curve")
+        if along != "ramp" and all(target is None for target in targets):
+            raise refuse("curve", "components that are functions have no curve besides")
         body, name = self.body.name, self.name
-        return Condition(
-            f"displacement of {self}", lambda step: step.displace(body, name, targets, along)
-        )
+
+        def apply(step: native.Step) -> None:
+            if any(target is not None for target in targets):
+                step.displace(body, name, targets, along)
+            for axis, ends, points in motions:
+                step.lead(body, name, axis, ends, points)
+
+        return Condition(f"displacement of {self}", apply)
 
     def hold(self) -> Condition:
         """Holds the nodes at their positions at rest."""

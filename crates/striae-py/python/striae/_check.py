@@ -18,6 +18,7 @@ Curve: TypeAlias = Union[
     Sequence[tuple[float, float]],
     Callable[[float], float],
 ]
+Motion: TypeAlias = Union[float, Callable[[float], float]]
 Members: TypeAlias = Union[npt.ArrayLike, Callable[[Floats], npt.ArrayLike]]
 
 CURVES = ("ramp", "constant", "smooth")
@@ -101,6 +102,8 @@ def counts(value: Any, path: str, count: int = 3) -> list[int]:
 
 def number(value: Any, path: str) -> float:
     """A finite number."""
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        value = value[()]
     if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
         raise refuse(path, f"a number is needed, not {value!r}")
     if not np.isfinite(value):
@@ -151,13 +154,37 @@ def kind(value: Any, class_: type[T], path: str) -> T:
     return value
 
 
+def kinds(values: Any, class_: type[T], path: str) -> list[T]:
+    """Objects of a class."""
+    if not isinstance(values, (list, tuple)):
+        raise TypeError(f"{path}: a list is needed, not {type(values).__name__}")
+    return [kind(one, class_, path) for one in values]
+
+
+def sampled(function: Callable[[float], Any], path: str) -> list[tuple[float, float]]:
+    """Fractions of a step and the values of a function there."""
+    fractions = [at / PIECES for at in range(PIECES + 1)]
+    return [(at, number(function(at), f"{path} at {at}")) for at in fractions]
+
+
+def motion(
+    function: Callable[[float], Any], path: str
+) -> tuple[list[float], list[tuple[float, float]]]:
+    """A function of the fraction of a step: its first value and its largest change from there,
+    and the shares of that change."""
+    points = sampled(function, path)
+    start = points[0][1]
+    change = max((value - start for _, value in points), key=abs)
+    shares = [(at, (value - start) / change if change else 0.0) for at, value in points]
+    return [start, change], shares
+
+
 def curve(value: Any, path: str) -> str | list[tuple[float, float]]:
     """The name of a curve, or its points; those of a function are taken once, here."""
     if isinstance(value, str):
         return word(value, CURVES, path)
     if callable(value):
-        fractions = [at / PIECES for at in range(PIECES + 1)]
-        return [(at, number(value(at), f"{path} at {at}")) for at in fractions]
+        return sampled(value, path)
     found = array(value, path)
     if found.ndim != 2 or found.shape[1] != 2:
         raise refuse(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
     from ._run import Run
@@ -68,6 +68,23 @@ class RunInterrupted(KeyboardInterrupt):
         """Makes the exception from the run that was interrupted."""
         super().__init__(run.reason)
         self.run = run
+
+
+class SweepError(RuntimeError):
+    """A model of a sweep could not be made or run; the cause, ``__cause__``, says why."""
+
+    parameters: dict[str, Any]
+    """The parameters with which it happened, by name, in their units."""
+
+    def __init__(self, parameters: dict[str, Any], cause: str) -> None:
+        """Makes the exception from parameters and a cause in words."""
+        told = ", ".join(f"{name} = {value!r}" for name, value in parameters.items())
+        super().__init__(f"with {told or 'no parameters'}: {cause}")
+        self.parameters = parameters
+        self._cause = cause
+
+    def __reduce__(self) -> tuple[type[SweepError], tuple[dict[str, Any], str]]:
+        return type(self), (self.parameters, self._cause)
 
 
 class RunWarning(UserWarning):

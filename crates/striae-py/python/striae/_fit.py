@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Literal, Optional, Union
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union
 
 import numpy as np
 
@@ -25,6 +26,46 @@ LAWS: dict[type[Friction], str] = {
     TwoTextures: "two-textures",
     Tabulated: "tabulated",
 }
+
+
+class Measurements(NamedTuple):
+    """Measured friction, as :func:`fit_friction` takes it."""
+
+    angles: Floats
+    """Directions of slip, of shape (n,) (degrees)."""
+    forces: Floats
+    """Tangential over normal force: the part against slip, of shape (n,), or where directions
+    of the force were measured components, of shape (n, 2) (no unit)."""
+    theta: Floats
+    """Angles between the textures of two surfaces, of shape (n,) (degrees)."""
+    spread: Floats
+    """Standard deviations in proportion to each other, of shape (n,) (no unit)."""
+
+
+def read_measurements(path: Union[str, os.PathLike[str]]) -> Measurements:
+    """Reads a file of measurements, as ``striae fit`` takes it.
+
+    One reading a line, numbers separated by commas, under a line with the names of columns:
+    ``angle`` (degrees), ``friction`` (no unit) or ``tangential`` and ``normal`` (force), and where
+    they are known ``direction`` and ``theta`` (degrees) and ``spread`` (no unit). What follows a
+    ``#`` is passed over. All faults are one :class:`ModelError` with lines and columns.
+
+    path: the file.
+    """
+    file = os.fspath(path)
+    try:
+        with open(file, encoding="utf-8") as opened:
+            text = opened.read()
+    except (OSError, UnicodeDecodeError) as error:
+        raise refuse(file, f"it cannot be read: {error}") from None
+    slip, theta, against, across, spread = native.measurements_of(text, file)
+    forces = against
+    if across is not None:
+        cosine, sine = np.cos(slip), np.sin(slip)
+        forces = np.column_stack(
+            [against * cosine - across * sine, against * sine + across * cosine]
+        )
+    return Measurements(np.degrees(slip), forces, np.degrees(theta), spread)
 
 
 class FrictionFit:
@@ -142,7 +183,7 @@ def fit_friction(
     found, constants, deviation, freedom, at_bound = native.fit_friction(
         name, measured, probability
     )
-    friction = Friction._of(found, _told(law, constants, rule))
+    friction = law._of(found, _told(law, constants, rule), _recipe(law, constants, rule))
     kept = (frozen(slip), frozen(textures), frozen(against), across)
     summary = (constants, deviation, freedom)
     return FrictionFit(friction, summary, at_bound, probability, kept)
@@ -173,6 +214,22 @@ def _forces(forces: Any, slip: Floats) -> tuple[Floats, Optional[Floats]]:
     against = vectors[:, 0] * cosine + vectors[:, 1] * sine
     across = vectors[:, 1] * cosine - vectors[:, 0] * sine
     return np.ascontiguousarray(against), np.ascontiguousarray(across)
+
+
+def _recipe(
+    law: type[Friction],
+    constants: list[tuple[str, float, Optional[tuple[float, float]]]],
+    rule: str,
+) -> tuple[Any, tuple[Any, ...], dict[str, Any]]:
+    """How the law is made of its constants."""
+    values = {name.removeprefix("mu_"): value for name, value, _ in constants}
+    if law is Tabulated:
+        # "mu at 30 degrees"
+        return law, ([float(name.split()[2]) for name in values], list(values.values())), {}
+    named: dict[str, Any] = dict(values)
+    if law is Orthotropic:
+        named["slip_rule"] = rule
+    return law, (), named
 
 
 def _told(

@@ -7,14 +7,16 @@ the row of scales, ``a = n x s`` across; for scales ``a`` points from root to fr
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Union
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _check as check
 from . import _striae as native
 from ._check import Floats
 from ._errors import refuse
+from ._made import Made, Recipe
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -36,7 +38,7 @@ class SlipSurface(NamedTuple):
     (no unit)."""
 
 
-class Friction:
+class Friction(Made):
     """Friction between two surfaces; see the laws."""
 
     _native: native.Friction
@@ -45,13 +47,18 @@ class Friction:
     def __init__(self) -> None:
         """Use one of the laws."""
         raise TypeError(
-            "use Frictionless, Coulomb, Orthotropic, Nap, TwoTextures or Tabulated"
+            "use Frictionless, Coulomb, Orthotropic, Nap, TwoTextures, Tabulated or OwnFriction"
         )
 
     @classmethod
-    def _of(cls, found: native.Friction, told: str) -> Friction:
-        law = Friction.__new__(Friction)
-        law._native, law._told = found, told
+    def _of(
+        cls,
+        found: native.Friction,
+        told: str,
+        recipe: Optional[Recipe] = None,
+    ) -> Friction:
+        law: Friction = cls.__new__(cls)
+        law._native, law._told, law._recipe = found, told, recipe
         return law
 
     def with_decay(self, kinetic_over_static: float, slip_rate: float) -> Friction:
@@ -64,7 +71,8 @@ class Friction:
         ratio = check.number(kinetic_over_static, "kinetic_over_static")
         rate = check.number(slip_rate, "slip_rate")
         told = f"{self._told}.with_decay({ratio}, {rate})"
-        return Friction._of(self._native.with_decay(ratio, rate), told)
+        recipe: Recipe = (Friction.with_decay, (self, ratio, rate), {})
+        return Friction._of(self._native.with_decay(ratio, rate), told, recipe)
 
     def with_shear_cap(self, shear_cap: float) -> Friction:
         """The law with a bound on friction.
@@ -72,7 +80,9 @@ class Friction:
         shear_cap: largest shear stress that friction carries (force per area).
         """
         cap = check.number(shear_cap, "shear_cap")
-        return Friction._of(self._native.with_shear_cap(cap), f"{self._told}.with_shear_cap({cap})")
+        recipe: Recipe = (Friction.with_shear_cap, (self, cap), {})
+        told = f"{self._told}.with_shear_cap({cap})"
+        return Friction._of(self._native.with_shear_cap(cap), told, recipe)
 
     def slip_surface(self, theta: float = 0.0, count: int = 360) -> SlipSurface:
         """Friction in all directions of slip, per unit of pressure and at rest.
@@ -204,3 +214,109 @@ class Tabulated(Friction):
             raise TypeError("mu: a function of the angle is needed")
         angles = [360.0 * at / check.whole(count, "count", 3) for at in range(count)]
         return cls(angles, [check.number(mu(angle), f"mu at {angle} degrees") for angle in angles])
+
+
+class OwnFriction(Friction):
+    """A friction law that a function of Python states by its kernel.
+
+    At a contact point with the pressure ``p``, friction is ``-tau = mu p (L d + eta)`` in slip
+    along ``K d`` with a unit vector ``d``; without slip it is anywhere inside that slip surface.
+    The matrices ``L`` and ``K``, of shape (2, 2), and the vector ``eta`` are in the frame of
+    :class:`SlipSurface`: of one texture ``a`` (across the grooves, against a nap) and a quarter
+    turn from it, of two textures their bisector and a quarter turn from it. There they depend
+    on the angle between two textures, and of one texture on nothing.
+
+    The function is called when the law is made, not during a run: its answers become a Fourier
+    series over the angle, exact to round-off. The law is held against mechanics: friction
+    dissipates in all directions, is opposite on the two surfaces, inside its slip surface, and
+    derivatives are exact. Otherwise one :class:`ModelError` says what is wrong.
+    """
+
+    def __init__(
+        self,
+        kernel: Callable[[float], Sequence[npt.ArrayLike]],
+        mu: float = 1.0,
+        *,
+        textures: Literal["one", "two"] = "one",
+        name: str = "own",
+    ) -> None:
+        """Makes the law.
+
+        kernel: from the angle from the texture of one surface to that of the other, above -180
+            and below 180 and 0 where there is one texture (degrees), to ``L`` and ``eta``, or
+            ``L``, ``eta`` and ``K``, which is the identity where it is left out (no unit).
+        mu: coefficient of friction, positive (no unit).
+        textures: how many surfaces must have one.
+        name: of the law in messages.
+        """
+        if not callable(kernel):
+            raise TypeError("kernel: a function of the angle between the textures is needed")
+        law = check.name(name, "name")
+        coefficient = check.positive(mu, "mu")
+        two = check.word(textures, ("one", "two"), "textures") == "two"
+        terms = _series(kernel, law) if two else [[_kernel(kernel, 0.0, law), [0.0] * 10]]
+        self._native = native.Friction.own(law, two, terms, coefficient)
+        self._told = f"OwnFriction(name={law!r}, mu={coefficient}, textures={textures!r})"
+
+
+#: Numbers of angles at which the kernel of two textures is asked for, one after the other.
+SAMPLES = (16, 64, 256)
+
+#: Harmonics below this share of the largest one are round-off.
+ROUND_OFF = 1e-13
+
+
+def _series(kernel: Callable[[float], Sequence[npt.ArrayLike]], law: str) -> list[list[list[float]]]:
+    """Cosine and sine terms of the kernel in the frame of the first texture, where it is
+    periodic in the angle between the textures."""
+    for count in SAMPLES:
+        # Not at 180 degrees, where opposed textures have no bisector.
+        angles = 2.0 * np.pi * ((np.arange(count) + 0.5) / count - 0.5)
+        values = np.array([_turned(kernel, angle, law) for angle in angles])
+        order = np.arange(count // 2)
+        weights = np.where(order == 0, 1.0, 2.0)[:, None] / count
+        even = weights * (np.cos(np.outer(order, angles)) @ values)
+        odd = weights * (np.sin(np.outer(order, angles)) @ values)
+        size = np.hypot(even, odd).max(axis=1)
+        present = np.flatnonzero(size > ROUND_OFF * size.max())
+        last = int(present[-1])
+        if last < count // 4:
+            chosen = slice(0, last + 1)
+            terms: list[list[list[float]]] = np.stack([even[chosen], odd[chosen]], axis=1).tolist()
+            return terms
+    raise refuse(
+        law,
+        "the kernel is no smooth function of the angle between the textures: its Fourier series"
+        f" has not ended after {SAMPLES[-1] // 4} terms; mind that the bisector turns back where"
+        " textures become opposed, so what points along it must vanish there",
+    )
+
+
+def _turned(
+    kernel: Callable[[float], Sequence[npt.ArrayLike]], angle: float, law: str
+) -> list[float]:
+    """The kernel in the frame of the first texture, half of the angle from the bisector."""
+    found = np.array(_kernel(kernel, float(np.degrees(angle)), law))
+    cosine, sine = np.cos(angle / 2.0), np.sin(angle / 2.0)
+    turn = np.array([[cosine, -sine], [sine, cosine]])
+    matrices = [turn @ found[at : at + 4].reshape(2, 2) @ turn.T for at in (0, 6)]
+    return [*matrices[0].ravel(), *(turn @ found[4:6]), *matrices[1].ravel()]
+
+
+def _kernel(
+    kernel: Callable[[float], Sequence[npt.ArrayLike]], angle: float, law: str
+) -> list[float]:
+    """``L`` by rows, ``eta`` and ``K`` by rows."""
+    answer = kernel(angle)
+    if not isinstance(answer, (tuple, list)) or len(answer) not in (2, 3):
+        raise refuse(law, "`L` and `eta` are needed, or `L`, `eta` and `K`")
+    parts = [*answer, np.eye(2)][:3]
+    numbers: list[float] = []
+    for part, what, shape in zip(parts, ("L", "eta", "K"), ((2, 2), (2,), (2, 2))):
+        found = check.array(part, f"{law}: {what}")
+        if found.shape != shape:
+            raise refuse(f"{law}: {what}", f"it must have shape {shape}, but has {found.shape}")
+        numbers += check.finite(found, f"{law}: {what}").ravel().tolist()
+    if abs(np.linalg.det(np.reshape(numbers[6:], (2, 2)))) < ROUND_OFF:
+        raise refuse(f"{law}: K", "it must be regular")
+    return numbers

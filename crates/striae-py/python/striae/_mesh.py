@@ -59,6 +59,8 @@ class Mesh:
             raise refuse("cells", f"the kinds are {list(KINDS)}, but there is {list(cells)}")
         positions = check.rows(points, "points")
         corners = [(kind, check.indices(cells[kind], KINDS[kind], "cells")) for kind in cells]
+        if not any(len(rows) for _, rows in corners):
+            raise refuse("cells", "a mesh needs at least one cell")
         made = Mesh._of(native.Mesh(positions, corners))
         self._native = made.with_sets(nodes=node_sets, facets=facet_sets)._native
         self._arrays: dict[str, npt.NDArray[Any]] = {}
@@ -188,10 +190,20 @@ class Mesh:
             raise refuse(path, f"an array of one dimension is needed, not of {numbers.ndim}")
         return numbers
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        facets = {name: np.array(corners) for name, corners in self.facet_sets.items()}
+        nodes = {name: np.array(members) for name, members in self.node_sets.items()}
+        cells = {kind: np.array(corners) for kind, corners in self.cells.items()}
+        return _again, (np.array(self.points), cells, nodes, facets)
+
     def __repr__(self) -> str:
         sets = sorted({*self._native.node_sets(), *self._native.facet_sets()})
         cells = ", ".join(f"{len(rows)} {kind}" for kind, rows in self.cells.items())
         return f"Mesh({len(self.points)} nodes, {cells}, sets {sets})"
+
+
+def _again(points: Floats, cells: Any, nodes: Any, facets: Any) -> Mesh:
+    return Mesh(points, cells, node_sets=nodes, facet_sets=facets)
 
 
 def corners_of_facets(members: Any, path: str) -> Ints:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import copy
 import os
 from collections.abc import Sequence
 from functools import cached_property
-from typing import Literal, NamedTuple, Optional, Union
+from typing import Any, Literal, NamedTuple, Optional, Union
+
+import numpy as np
 
 from . import _check as check
 from . import _striae as native
@@ -15,7 +18,7 @@ from ._friction import Friction, Frictionless
 from ._mesh import Mesh
 from ._pair import Pair, _change
 from ._rigid import Rigid
-from ._run import Callback, Keep, Path, Run, concluded, record, watch
+from ._run import Callback, Keep, Path, Run, closed, concluded, record, watch
 from ._step import Condition, Dynamics, Increments, Step
 
 BACKENDS = ("condensed", "multifrontal", "faer", "iterative")
@@ -45,6 +48,12 @@ class Solver:
         self.largest_iterations = check.whole(largest_iterations, "largest_iterations")
         """Iterations after which an increment is cut."""
 
+    def __repr__(self) -> str:
+        return (
+            f"Solver({self.backend!r}, tolerance={self.tolerance},"
+            f" largest_iterations={self.largest_iterations})"
+        )
+
 
 class Fit(NamedTuple):
     """How the meshes of a pair fit before anything has moved."""
@@ -68,6 +77,33 @@ class Check(NamedTuple):
     """How the pairs fit."""
     warnings: list[str]
     """What is likely to be meant otherwise."""
+
+
+class Remark(NamedTuple):
+    """One thing to know of a model before it is run."""
+
+    topic: str
+    """What it is about: ``shape``, ``units``, ``locking``, ``bending``, ``hold``, ``fit``,
+    ``facing``, ``never-meets``, ``friction``, ``texture`` or ``cost``."""
+    name: Optional[str]
+    """Name of the body, pair or step it is about, if it is about one."""
+    text: str
+    """In a sentence."""
+
+
+class Advice(NamedTuple):
+    """What :meth:`Model.advice` has to say, as ``striae check`` of a deck."""
+
+    faults: list[Remark]
+    """What makes a run impossible."""
+    warnings: list[Remark]
+    """What makes results doubtful."""
+    notes: list[Remark]
+    """What is good to know."""
+
+    def __str__(self) -> str:
+        kinds = zip(("note", "warning", "fault"), (self.notes, self.warnings, self.faults))
+        return "\n".join(f"{kind}: {one.text}" for kind, remarks in kinds for one in remarks)
 
 
 class Model:
@@ -104,10 +140,10 @@ class Model:
         solver: settings of the solver.
         """
         self._begin(title)
-        self._bodies = [check.kind(one, Body, "bodies") for one in bodies]
-        self._rigid = [check.kind(one, Rigid, "rigid") for one in rigid]
-        self._pairs = [check.kind(one, Pair, "pairs") for one in pairs]
-        self._steps = [check.kind(one, Step, "steps") for one in steps]
+        self._bodies = check.kinds(bodies, Body, "bodies")
+        self._rigid = check.kinds(rigid, Rigid, "rigid")
+        self._pairs = check.kinds(pairs, Pair, "pairs")
+        self._steps = check.kinds(steps, Step, "steps")
         self._solver = Solver() if solver is None else check.kind(solver, Solver, "solver")
 
     def _begin(self, title: str) -> None:
@@ -256,6 +292,16 @@ class Model:
         named = zip(self.pair_names, fits)
         return Check(unknowns, [Fit(name, *fit) for name, fit in named], warnings)
 
+    def advice(self) -> Advice:
+        """Looks at the model as ``striae check`` does: extent and shape of bodies, units,
+        locking, what holds each body, gaps and overlaps, friction over all directions, memory
+        and time. Raises :class:`ModelError` where the model has faults of its own; nothing is
+        computed yet.
+        """
+        found = self._compiled().advice()
+        faults, warnings, notes = [[Remark(*one) for one in remarks] for remarks in found]
+        return Advice(faults, warnings, notes)
+
     def run(
         self,
         on_increment: Optional[Callback] = None,
@@ -287,14 +333,26 @@ class Model:
         """
         check.word(on_stop, ("raise", "return"), "on_stop")
         watching = watch(on_increment, keep, threads, self)
-        recording = record(output, case, fields_every)
+        ended = self._ended(watching, record(output, case, fields_every))
+        return concluded(ended, self, on_stop, output)
+
+    def _run(
+        self, threads: int, keep: Keep, output: Optional[Path], fields_every: Optional[int]
+    ) -> Run:
+        """The run as one of many, whatever its ending, with warnings that are not told yet."""
+        watching = watch(None, keep, threads, self)
+        ended = self._ended(watching, record(output, None, fields_every))
+        return closed(ended, self, "return", output)
+
+    def _ended(
+        self, watching: native.Watching, recording: native.Recording
+    ) -> tuple[native.Run, Optional[BaseException]]:
         compiled = self._compiled()
         self._running += 1
         try:
-            ended = native.run(compiled, watching, recording)
+            return native.run(compiled, watching, recording)
         finally:
             self._running -= 1
-        return concluded(ended, self, on_stop)
 
     def _compiled(self) -> native.Model:
         steps = [step._native for step in self._steps]
@@ -320,9 +378,28 @@ class Model:
                 known = ", ".join(f"`{name}`" for name in names) or "none"
                 raise refuse("model", f"no {kind} is named `{which}`; there is {known}")
             return names.index(which)
+        if isinstance(which, bool) or not isinstance(which, (int, np.integer)):
+            raise TypeError(f"{kind}: a name or a number is needed, not {which!r}")
         if not -len(names) <= which < len(names):
             raise refuse("model", f"there is no {kind} {which}; there are {len(names)}, from 0")
         return range(len(names))[which]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Models are pickled as decks."""
+        return Model.from_text, (self.to_deck(),)
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Model:
+        """A model with the same parts, to which other steps can be added."""
+        made = type(self).__new__(type(self))
+        made.__dict__.update(self.__dict__)
+        made._bodies = [copy.copy(body) for body in self._bodies]
+        made._rigid, made._pairs = list(self._rigid), list(self._pairs)
+        made._steps, made._earlier = list(self._steps), list(self._earlier)
+        made._running, made._last_run = 0, None
+        return made
+
+    def __copy__(self) -> Model:
+        return self.__deepcopy__({})
 
     def __repr__(self) -> str:
         return (

@@ -9,11 +9,12 @@ from . import _striae as native
 from ._body import BodySet
 from ._errors import refuse
 from ._friction import Friction
+from ._made import Made
 from ._rigid import Rigid
 from ._step import Condition
 
 
-class Pair:
+class Pair(Made):
     """Two surfaces that may touch; neither is master or slave.
 
     Side ``a`` is the first one, but a rigid surface always becomes side ``b``.
@@ -73,7 +74,7 @@ class Pair:
             elif treatment == "resolve":
                 made = made.resolved()
         else:
-            made = made.closed(check.number(initial, "initial"))
+            made = made.closed(check.positive(initial, "initial"))
         if check.word(enforcement, ("weighted", "collocated"), "enforcement") == "collocated":
             made = made.collocated()
         if search_distance is not None:

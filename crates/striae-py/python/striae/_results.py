@@ -102,6 +102,15 @@ class BodyResults:
         """Equivalent stress of von Mises, of shape (n,) (force per area)."""
         return frozen(self._results.von_mises(self.name))
 
+    @cached_property
+    def equivalent_plastic_strain(self) -> Floats:
+        """Equivalent plastic strain of the elements of a metal, of shape (cells,), in the order
+        of the kinds in :attr:`Mesh.cells` (no unit)."""
+        found = self._results.remembered(self.name, "equivalent_plastic_strain")
+        if found is None:
+            raise AttributeError(f"body {self.name!r} is of no material that yields")
+        return frozen(found)
+
     def __repr__(self) -> str:
         return f"<results of body {self.name!r}>"
 

@@ -17,6 +17,7 @@ from . import _striae as native
 from ._body import BodySet
 from ._check import Curve, Vector
 from ._errors import refuse
+from ._made import Made
 from ._step import Condition
 from ._texture import Texture, texture
 
@@ -24,7 +25,7 @@ Coordinate = Literal["x", "y", "z", "rx", "ry", "rz"]
 COORDINATES = ("x", "y", "z", "rx", "ry", "rz")
 
 
-class Rigid:
+class Rigid(Made):
     """A rigid body; see :class:`Plane`, :class:`RigidSurface` and :class:`RigidBody`."""
 
     name: str
@@ -39,7 +40,7 @@ class Rigid:
 
     @classmethod
     def _known(cls, name: str) -> Rigid:
-        rigid = Rigid.__new__(Rigid)
+        rigid: Rigid = Rigid.__new__(Rigid)
         rigid.name, rigid.texture, rigid._native = name, None, None
         return rigid
 

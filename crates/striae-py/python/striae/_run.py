@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import pathlib
+import tempfile
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, Optional, Union, overload
@@ -88,9 +90,9 @@ class History(Mapping[str, Floats]):
 class Run(Sequence[Increment]):
     """A run that has ended: the sequence of the increments that were kept."""
 
-    def __init__(self, run: native.Run, model: Model) -> None:
+    def __init__(self, run: native.Run, model: Model, folder: Optional[pathlib.Path] = None) -> None:
         """Runs are made by :meth:`Model.run`."""
-        self._native, self._model = run, model
+        self._native, self._model, self._folder = run, model, folder
         self._history = History(*run.history())
         self._increments = [Increment(results, model) for results in run.kept()]
 
@@ -113,6 +115,11 @@ class Run(Sequence[Increment]):
     def warnings(self) -> list[str]:
         """What makes the results doubtful."""
         return self._native.warnings()
+
+    @property
+    def folder(self) -> Optional[pathlib.Path]:
+        """Folder of the files of the run, if it was written."""
+        return self._folder
 
     @property
     def history(self) -> History:
@@ -156,6 +163,38 @@ class Run(Sequence[Increment]):
         """Bodies and contact surfaces at the end, see :meth:`Increment.to_pyvista`."""
         return self[-1].to_pyvista()
 
+    def write(self, folder: Path, *, case: Optional[str] = None, fields_every: int = 1) -> None:
+        """Writes the files of the program (fields for ParaView, history, summary) of a run that
+        was not written on the way; all its increments must be kept.
+
+        folder: where they are written; it must not have other results.
+        case: name of the case in these files; the title of the model by default.
+        fields_every: increments between files of fields; 0: only the last.
+        """
+        rows = len(self._history.table)
+        if len(self) != rows:
+            text = f"{len(self)} of {rows} increments are kept; files need all of them"
+            raise refuse("run", text + ", or `output=` when it is run")
+        name = self._model.title if case is None else check.name(case, "case")
+        every = check.whole(fields_every, "fields_every", 0)
+        self._native.write(os.fspath(folder), name, every)
+        self._folder = pathlib.Path(folder)
+
+    def report(self, path: Path) -> None:
+        """Writes a report that opens in any browser, without a network: deformed bodies with
+        fields and a time slider, histories, increments, warnings.
+
+        path: the HTML file.
+        """
+        if self._folder is not None:
+            native.report(str(self._folder), os.fspath(path))
+            return
+        with tempfile.TemporaryDirectory(prefix="striae-") as place:
+            folder = pathlib.Path(place) / "results"
+            self.write(folder)
+            self._folder = None
+            native.report(str(folder), os.fspath(path))
+
     def continue_with(
         self,
         *steps: Step,
@@ -183,7 +222,7 @@ class Run(Sequence[Increment]):
         watching = watch(on_increment, keep, threads, model)
         recording = record(output, self._model.title, fields_every)
         ended = self._native.continued(native_steps, watching, recording)
-        return concluded(ended, type(model)._of(ended[0].model()), on_stop)
+        return concluded(ended, type(model)._of(ended[0].model()), on_stop, output)
 
     def __repr__(self) -> str:
         return f"<run: {self.reason}; {len(self)} increments are kept>"
@@ -195,16 +234,21 @@ def watch(
     """What is told and kept of a run, for the native part."""
     if on_increment is not None and not callable(on_increment):
         raise TypeError("on_increment: a function that takes an increment is needed")
-    words = {"all": 1, "steps": 0, "last": NEVER}
-    every = words[check.word(keep, list(words), "keep")] if isinstance(keep, str) else keep
-    if not isinstance(keep, str):
-        check.whole(keep, "keep")
+    every = keeping(keep)
     if threads is not None:
         check.whole(threads, "threads")
     told = on_increment
     if told is None:
         return None, every, threads
     return lambda results: told(Increment(results, model)), every, threads
+
+
+def keeping(keep: Keep) -> int:
+    """Increments between states that are kept; 0: the ends of steps."""
+    words = {"all": 1, "steps": 0, "last": NEVER}
+    if isinstance(keep, str):
+        return words[check.word(keep, list(words), "keep")]
+    return check.whole(keep, "keep")
 
 
 def record(
@@ -219,11 +263,27 @@ def record(
 
 
 def concluded(
-    ended: tuple[native.Run, Optional[BaseException]], model: Model, on_stop: str
+    ended: tuple[native.Run, Optional[BaseException]],
+    model: Model,
+    on_stop: str,
+    folder: Optional[Path],
+) -> Run:
+    """The run with its warnings, or the exception that it ended with."""
+    run = closed(ended, model, on_stop, folder)
+    for text in run.warnings:
+        warnings.warn(text, RunWarning, stacklevel=3)
+    return run
+
+
+def closed(
+    ended: tuple[native.Run, Optional[BaseException]],
+    model: Model,
+    on_stop: str,
+    folder: Optional[Path],
 ) -> Run:
     """The run, or the exception that it ended with."""
     found, exception = ended
-    run = Run(found, model)
+    run = Run(found, model, None if folder is None else pathlib.Path(folder).absolute())
     model._last_run = run
     if isinstance(exception, KeyboardInterrupt):
         raise RunInterrupted(run) from None
@@ -231,8 +291,6 @@ def concluded(
         raise exception
     if run.ending == "stopped" and check.word(on_stop, ("raise", "return"), "on_stop") == "raise":
         raise RunStopped(run)
-    for text in run.warnings:
-        warnings.warn(text, RunWarning, stacklevel=3)
     return run
 
 
@@ -258,4 +316,4 @@ def resume(
     if fields_every is not None:
         check.whole(fields_every, "fields_every", 0)
     ended = native.resume(os.fspath(folder), fields_every, watching)
-    return concluded(ended, model, on_stop)
+    return concluded(ended, model, on_stop, folder)

@@ -16,6 +16,7 @@ from . import _check as check
 from . import _striae as native
 from ._check import Curve, Vector
 from ._errors import refuse
+from ._made import Made
 
 
 class Condition:
@@ -66,6 +67,9 @@ class Increments:
         self.largest = self.initial if largest is None else check.positive(largest, "largest")
         """Largest increment (fraction of the step)."""
 
+    def __repr__(self) -> str:
+        return f"Increments({self.initial}, smallest={self.smallest}, largest={self.largest})"
+
 
 class Dynamics:
     """Implicit dynamics by the generalised-alpha method."""
@@ -81,8 +85,11 @@ class Dynamics:
         if self.spectral_radius > 1.0:
             raise refuse("spectral_radius", f"it must be at most 1, but is {spectral_radius}")
 
+    def __repr__(self) -> str:
+        return f"Dynamics({self.spectral_radius})"
 
-class Step:
+
+class Step(Made):
     """A part of the loading history."""
 
     def __init__(

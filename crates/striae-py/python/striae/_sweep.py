@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import itertools
 import os
+import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union, overload
 
 import numpy as np
 
 from . import _check as check
 from ._check import Floats
-from ._errors import refuse
+from ._errors import RunWarning, SweepError, refuse
 from ._model import Model
-from ._run import Keep, Run
+from ._processes import Workers
+from ._run import Keep, Run, keeping
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -85,38 +87,91 @@ def sweep(
     workers: int = 1,
     threads: Optional[int] = None,
     keep: Keep = "last",
+    output: Union[str, os.PathLike[str], None] = None,
+    fields_every: Optional[int] = None,
 ) -> Sweep:
     """Runs a model for all combinations of parameters.
 
-    Runs go on beside each other on threads, as the interpreter is not needed while a run
-    computes; functions of notebooks and lambdas will do. Results do not depend on the number
-    of workers. A run that cannot reach its end is among the results, with its reason.
+    Models are made here, one after the other, so functions of notebooks and lambdas will do;
+    with several workers each run has a process of its own. Results do not depend on the number
+    of workers. A run that cannot reach its end is among the results, with its reason; a model
+    that cannot be made or run at all ends the sweep with a :class:`SweepError` that names its
+    parameters. Ctrl-C ends all processes.
 
-    model_of: a function that makes the model of a combination: ``model_of(mu=0.3)``.
+    model_of: a function that makes the model of a combination: ``model_of(mu=0.3)``. If its
+        models call functions of Python during the run (:class:`OwnMaterial`), processes must
+        be able to import it: it stands in a module.
     parameters: by name the values that each parameter takes.
-    workers: number of runs beside each other.
+    workers: number of runs beside each other; 1: in this process.
     threads: number of threads of each run; those of the machine shared out by default.
     keep: increments whose states are kept, see :meth:`Model.run`.
+    output: folder in which each run has one with its files, ``1``, ``2``, ...; nothing is
+        written by default.
+    fields_every: increments between files of fields; 0: only the last.
     """
     if not callable(model_of):
         raise TypeError("model_of: a function that makes a model is needed")
     check.whole(workers, "workers")
     for name, values in parameters.items():
+        if isinstance(values, str) or not hasattr(values, "__len__"):
+            raise TypeError(f"parameter `{name}`: a list of values is needed, not {values!r}")
         if len(values) == 0:
             raise refuse(f"parameter `{name}`", "it has no values")
+    if threads is not None:
+        check.whole(threads, "threads")
+    if fields_every is not None:
+        check.whole(fields_every, "fields_every", 0)
+    keeping(keep)
+    all_values = itertools.product(*parameters.values())
+    points = [dict(zip(parameters, values)) for values in all_values]
     shared = threads or max(1, (os.cpu_count() or 1) // workers)
-    points = [
-        dict(zip(parameters, values)) for values in itertools.product(*parameters.values())
+    jobs = [
+        {
+            "threads": shared,
+            "keep": keep,
+            "output": None if output is None else str(Path(output).absolute() / str(number)),
+            "fields_every": fields_every,
+        }
+        for number in range(1, len(points) + 1)
     ]
+    make = _here if workers == 1 else _beside
+    runs = make(model_of, points, jobs, workers)
+    for point, run in zip(points, runs):
+        for text in run.warnings:
+            warnings.warn(f"{_told(point)}: {text}", RunWarning, stacklevel=2)
+    return Sweep([SweepPoint(*one) for one in zip(points, runs)])
 
-    def run_of(point: dict[str, Any]) -> SweepPoint:
-        model = check.kind(model_of(**point), Model, "model_of")
-        return SweepPoint(point, model.run(threads=shared, keep=keep, on_stop="return"))
 
-    with ThreadPoolExecutor(workers) as pool:
-        runs = [pool.submit(run_of, point) for point in points]
+def _told(point: dict[str, Any]) -> str:
+    return ", ".join(f"{name} = {value!r}" for name, value in point.items())
+
+
+def _model(model_of: Callable[..., Model], point: dict[str, Any]) -> Model:
+    try:
+        return check.kind(model_of(**point), Model, "model_of")
+    except Exception as error:
+        raise SweepError(point, str(error)) from error
+
+
+def _here(
+    model_of: Callable[..., Model], points: list[dict[str, Any]], jobs: list[Any], _: int
+) -> list[Run]:
+    """The runs one after the other."""
+    runs = []
+    for point, job in zip(points, jobs):
+        model = _model(model_of, point)
         try:
-            return Sweep([run.result() for run in runs])
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
+            runs.append(model._run(**job))
+        except Exception as error:
+            raise SweepError(point, str(error)) from error
+    return runs
+
+
+def _beside(
+    model_of: Callable[..., Model], points: list[dict[str, Any]], jobs: list[Any], workers: int
+) -> list[Run]:
+    """The runs beside each other, in processes."""
+    with Workers(workers) as processes:
+        for point, job in zip(points, jobs):
+            processes.begin(point, _model(model_of, point), model_of, job)
+        return processes.runs()

@@ -6,17 +6,19 @@ counts. A texture follows its surface as it deforms.
 
 from __future__ import annotations
 
-from typing import Optional, Union
+from typing import Any, Optional, Union
 
+import numpy as np
 import numpy.typing as npt
 
 from . import _check as check
 from . import _striae as native
 from ._check import Vector
 from ._errors import refuse
+from ._made import Made
 
 
-class Texture:
+class Texture(Made):
     """A texture; see :class:`Uniform`, :class:`Circumferential`, :class:`Axial`,
     :class:`Radial`, :class:`Painted` and :class:`Nodal`."""
 
@@ -25,6 +27,19 @@ class Texture:
     def __init__(self) -> None:
         """Use one of the textures."""
         raise TypeError("use Uniform, Circumferential, Axial, Radial, Painted or Nodal")
+
+    def __repr__(self) -> str:
+        if self._recipe is None:
+            return f"<{type(self).__name__}>"
+        _, arguments, named = self._recipe
+        told = [_short(one) for one in arguments]
+        told += [f"{name}={_short(one)}" for name, one in named.items()]
+        return f"{type(self).__name__}({', '.join(told)})"
+
+
+def _short(value: Any) -> str:
+    shape = np.shape(value)
+    return repr(value) if shape in ((), (3,)) else f"<array of shape {shape}>"
 
 
 def texture(value: Union[Texture, Vector, None], path: str = "texture") -> Optional[Texture]:

@@ -1,0 +1,45 @@
+"""Friction laws of a snake's belly and of a spider's pads, from published measurements.
+
+The files beside the book say where the numbers come from and how sure they are.
+"""
+
+from pathlib import Path
+
+import numpy as np
+import striae as st
+from matplotlib import pyplot
+
+BOOK = Path(__file__).parents[3] / "docs" / "book" / "how-to" / "measurements"
+
+# A snake: three coefficients and the symmetry of both sides are four readings of a nap.
+read = st.read_measurements(BOOK / "snake-skin.csv")
+snake = st.fit_friction(read.angles, read.forces, st.Nap)
+print("snake", {name: round(value, 4) for name, value in snake.constants.items()})
+
+# A spider: 282 readings in two directions. Each direction has its coefficient and interval.
+angles, friction, _, _ = st.read_measurements(BOOK / "spider-pads.csv")
+found = {}
+for name, angle in [("pulled", 0.0), ("pushed", 180.0)]:
+    here = angles == angle
+    fit = st.fit_friction(angles[here], friction[here], st.Coulomb)
+    found[name] = fit.constants["mu"]
+    low, high = fit.intervals["mu"] or (np.nan, np.nan)
+    print(f"spider {name}: {found[name]:.4f}, 95 % within {low:.4f} .. {high:.4f}")
+
+# Sideways nothing is known from these readings: the mean of both is an assumption.
+sideways = 0.5 * (found["pulled"] + found["pushed"])
+spider = st.Nap(forward=found["pushed"], backward=found["pulled"], lateral=sideways)
+
+figure, (left, right) = pyplot.subplots(1, 2, figsize=(11.0, 4.5), layout="constrained")
+snake.plot(left).set_title("belly of a milk snake on cloth (Hu et al. 2009)", fontsize="small")
+scatter = 3.0 * np.random.default_rng(1).standard_normal(len(angles))
+right.plot(angles + scatter, friction, ".", alpha=0.4, label="measured (directions spread)")
+law = spider.slip_surface()
+order = np.argsort(law.slip_angle % (2.0 * np.pi))
+right.plot(np.degrees(law.slip_angle % (2.0 * np.pi))[order], law.dissipation[order], label="law")
+right.set(ylim=(0.0, None), xlabel="direction of slip (degrees)")
+right.set_title("claw tufts of a spider on glass (Wolff and Gorb 2013)", fontsize="small")
+right.legend(fontsize="small")
+right.grid(alpha=0.3)
+figure.savefig("measured_friction.png", dpi=110)
+assert snake.constants["lateral"] > snake.constants["backward"] > snake.constants["forward"]

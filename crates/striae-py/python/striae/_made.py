@@ -1,0 +1,31 @@
+"""Objects that are known by the arguments they were made from."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Optional, TypeAlias
+
+#: What makes an object, with which arguments.
+Recipe: TypeAlias = tuple[Callable[..., Any], tuple[Any, ...], dict[str, Any]]
+
+
+class Made:
+    """It is copied and pickled by being made again."""
+
+    #: Unknown where it was not made by its class.
+    _recipe: Optional[Recipe]
+
+    def __new__(cls, *arguments: Any, **named: Any) -> Any:
+        made = super().__new__(cls)
+        made._recipe = (cls, arguments, named)
+        return made
+
+    def __reduce__(self) -> tuple[Callable[..., Any], tuple[Any, ...]]:
+        if self._recipe is None:
+            raise TypeError(f"{self!r} cannot be pickled: it was not made by its class")
+        return again, self._recipe
+
+
+def again(maker: Callable[..., Any], arguments: tuple[Any, ...], named: dict[str, Any]) -> Any:
+    """The object of a recipe."""
+    return maker(*arguments, **named)

@@ -1,0 +1,108 @@
+//! Where functions of displacement begin: where the nodes are.
+//!
+//! A condition takes nodes from where they are to its target. A function states displacements
+//! themselves, so it has to begin at the displacement that the steps before have led to.
+
+use std::collections::BTreeMap;
+
+use pyo3::prelude::*;
+use striae::{
+    model::Model,
+    solve::plan::{Prescription, StepPlan, plans},
+};
+
+use crate::{fault::model_error, step::Step};
+
+/// Differences below this share of the displacements and of their change are round-off.
+const ROUND_OFF: f64 = 1e-9;
+
+/// Where a function begins.
+#[derive(Clone)]
+pub struct Start {
+    /// Name of the body.
+    pub body: String,
+    /// Name of the node set.
+    pub nodes: String,
+    /// Component.
+    pub axis: usize,
+    /// Displacement.
+    pub value: f64,
+    /// Largest change from it.
+    pub change: f64,
+}
+
+/// Prescribed displacements by body, node and component; `None` where they are not known.
+type Known = BTreeMap<(usize, usize, usize), Option<f64>>;
+
+/// Whether the functions of the last steps of a model begin where the nodes are.
+pub fn checked(model: &Model, steps: &[PyRef<'_, Step>]) -> PyResult<()> {
+    if steps.iter().all(|step| step.1.is_empty()) {
+        return Ok(());
+    }
+    let first = model.steps.len() - steps.len();
+    let mut known = Known::new();
+    let mut faults = Vec::new();
+    for (number, plan) in plans(model).iter().enumerate() {
+        let stated = number.checked_sub(first).map(|at| &steps[at].1);
+        for start in stated.into_iter().flatten() {
+            let wrong = wrong(model, start, number, &known);
+            faults.extend(wrong.map(|text| (format!("steps[{number}]"), text)));
+        }
+        known = after(plan, &known, number);
+    }
+    match faults.is_empty() {
+        true => Ok(()),
+        false => Err(model_error(faults)),
+    }
+}
+
+/// What is wrong with the start of a function, if there is something.
+fn wrong(model: &Model, start: &Start, step: usize, known: &Known) -> Option<String> {
+    let mut bodies = model.bodies.iter().enumerate();
+    let (body, found) = bodies.find(|(_, body)| body.name == start.body)?;
+    let nodes = found.mesh.node_sets.get(&start.nodes)?;
+    let axis = ["x", "y", "z"][start.axis];
+    let place = format!("component `{axis}` of {}.{}", start.body, start.nodes);
+    for node in nodes {
+        let key = (body, node.index(), start.axis);
+        let at = match known.get(&key) {
+            None if step == 0 => Some(0.0),
+            None => None,
+            Some(value) => *value,
+        };
+        let Some(at) = at else {
+            return Some(format!(
+                "a function leads {place}, but node {} is free before, so where it begins is not \
+                 known; state a target and a curve",
+                node.index()
+            ));
+        };
+        let size = at.abs() + start.value.abs() + start.change.abs();
+        if (at - start.value).abs() > ROUND_OFF * size {
+            return Some(format!(
+                "the function of {place} begins at {}, but node {} is at {at} then",
+                start.value,
+                node.index()
+            ));
+        }
+    }
+    None
+}
+
+/// Displacements after a step.
+fn after(plan: &StepPlan, before: &Known, step: usize) -> Known {
+    let value = |key, how: &Prescription| {
+        let start = match before.get(key) {
+            None if step == 0 => Some(0.0),
+            None => None,
+            Some(value) => *value,
+        };
+        match (how, start) {
+            (how, Some(start)) => Some(how.at(start, 1.0)),
+            (Prescription::Go { target, curve }, None) if curve.at(1.0) == 1.0 => Some(*target),
+            _ => None,
+        }
+    };
+    let all = plan.displacements.iter();
+    all.map(|(key, how)| (*key, value(key, how))).collect()
+}
