@@ -180,6 +180,7 @@ fn bodies_have_the_elements_of_their_deck() {
         ("wedges", CellKind::Wedge),
         ("pyramids", CellKind::Pyramid),
         ("hexahedra", CellKind::Hexahedron),
+        ("composite-tetrahedra", CellKind::CompositeTetrahedron),
     ] {
         let with = format!("divisions = [4, 4, 2], cells = \"{cells}\" }}");
         let mesh = body("divisions = [4, 4, 2] }", &with).mesh;

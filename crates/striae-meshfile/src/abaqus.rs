@@ -1,11 +1,11 @@
 //! Abaqus `.inp` files.
 //!
 //! A file is a sequence of keywords with parameters, each followed by its
-//! lines of numbers or names. Read are nodes, `C3D8` elements of any variant
-//! (`C3D8R`, `C3D8H`, ...), node and element sets (with `GENERATE`, names of other
+//! lines of numbers or names. Read are nodes, elements `C3D4`, `C3D5`, `C3D6`, `C3D8` and
+//! `C3D10` of any variant (`C3D8R`, `C3D10M`, ...), node and element sets (with `GENERATE`, names of other
 //! sets, `NSET` of an `ELSET`) and element-based surfaces; other keywords are
-//! passed over. Abaqus numbers the corners of hexahedra as VTK does; its faces
-//! `S1` to `S6` are the sides 0 to 5 of [`striae_mesh::Face`]. Labels are the same in capital and
+//! passed over. Abaqus numbers nodes and sides as [`striae_mesh::CellKind`] does; `S1` is side
+//! 0, all four faces of it in a ten-node tetrahedron. Labels are the same in capital and
 //! small letters and keep the spelling of their first use. A file may have one
 //! part and one instance of it in its own place; nodes of the assembly itself
 //! (reference points) are passed over.
@@ -151,8 +151,9 @@ impl Reader {
     fn elements(&mut self, keyword: &Keyword<'_>) -> Result<(), MeshFileFault> {
         let kind = keyword.required("TYPE")?.to_uppercase();
         let kind = cell(&kind).ok_or_else(|| {
-            let fault = keyword.fault("TYPE=C3D4, C3D5, C3D6, C3D8 or one of their variants");
-            fault.with_remedy("mesh the part with linear elements")
+            let fault =
+                keyword.fault("TYPE=C3D4, C3D5, C3D6, C3D8, C3D10 or one of their variants");
+            fault.with_remedy("mesh the part with these elements")
         })?;
         let expected = format!("an element number and {} node numbers", kind.corner_count());
         keyword.refuse_input()?;
@@ -242,6 +243,7 @@ fn cell(kind: &str) -> Option<CellKind> {
         "5" => Some(CellKind::Pyramid),
         "6" => Some(CellKind::Wedge),
         "8" => Some(CellKind::Hexahedron),
+        "10" => Some(CellKind::CompositeTetrahedron),
         _ => None,
     }
 }

@@ -144,19 +144,25 @@ impl Collected {
         for (name, members) in &self.facet_sets {
             let mut faces = Vec::with_capacity(members.len());
             for &(line, face) in members {
-                let nodes = match face {
-                    FileFace::Corners(numbers) => corner_nodes(numbers, node_ids),
+                let of_face: Vec<[NodeId; 4]> = match face {
+                    FileFace::Corners(numbers) => {
+                        corner_nodes(numbers, node_ids).into_iter().collect()
+                    }
                     FileFace::Side(number, side) => {
                         let element = *element_ids
                             .get(&number)
                             .ok_or_else(|| missing(line, "element", number))?;
-                        let sides = mesh.kind(element).shape().faces.len();
-                        let face = Face { element, side };
-                        (usize::from(side) < sides).then(|| mesh.face_nodes(face))
+                        let sides = mesh.kind(element).faces_of_side(side);
+                        let faces = sides.map(|side| mesh.face_nodes(Face { element, side }));
+                        faces.collect()
                     }
                 };
-                let on_boundary = nodes.and_then(|nodes| boundary.get(&sorted_face(nodes)));
-                faces.push(*on_boundary.ok_or_else(|| not_on_boundary(line, name, face))?);
+                let found = of_face
+                    .iter()
+                    .map(|nodes| boundary.get(&sorted_face(*nodes)));
+                let found: Option<Vec<&Face>> = found.collect();
+                let found = found.filter(|found| !found.is_empty());
+                faces.extend(found.ok_or_else(|| not_on_boundary(line, name, face))?);
             }
             sets.insert(name, faces);
         }

@@ -33,6 +33,7 @@ const KINDS: [(&str, usize, usize); 19] = [
 impl Kind {
     pub(super) const TRIANGLE: Self = Self(2);
     pub(super) const QUADRANGLE: Self = Self(3);
+    pub(super) const TRIANGLE_6: Self = Self(9);
 
     /// The type of a number from 1 to 19.
     pub(super) fn new(line: usize, number: usize) -> Result<Self, MeshFileFault> {
@@ -53,6 +54,7 @@ impl Kind {
             5 => Some(CellKind::Hexahedron),
             6 => Some(CellKind::Wedge),
             7 => Some(CellKind::Pyramid),
+            11 => Some(CellKind::CompositeTetrahedron),
             _ => None,
         }
     }
@@ -68,8 +70,8 @@ impl Kind {
     /// The fault of this type where it cannot be used.
     pub(super) fn fault(self, line: usize) -> MeshFileFault {
         let expected = match self.dimension() {
-            3 => "linear tetrahedra, pyramids, prisms or hexahedra",
-            _ => "3-node triangles or 4-node quadrangles as faces",
+            3 => "tetrahedra of 4 or 10 nodes, linear pyramids, prisms or hexahedra",
+            _ => "triangles of 3 or 6 nodes or 4-node quadrangles as faces",
         };
         let found = format!("element type {} ({})", self.0, KINDS[self.0 - 1].0);
         MeshFileFault::line(line, expected, found).with_remedy(LOWER_ORDER)

@@ -107,7 +107,7 @@ fn broken_abaqus_files_are_explained() {
         ("1, 2\n*NODE\n", ["line 1", "a keyword such as *NODE"]),
         ("*NODE\n1, 0, x, 0\n", ["line 2", "a coordinate"]),
         ("*NODE\n1, 0\n1, 0\n", ["line 3", "has not been used"]),
-        ("*ELEMENT, TYPE=C3D10\n", ["line 1", "linear elements"]),
+        ("*ELEMENT, TYPE=C3D13\n", ["line 1", "with these elements"]),
         (
             "*ELEMENT, TYPE=C3D8\n1, 2, 3\n",
             ["line 2", "8 node numbers"],

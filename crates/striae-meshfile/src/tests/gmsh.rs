@@ -102,7 +102,7 @@ fn broken_gmsh_files_are_explained() {
         (
             format!("{two}$Elements\n1\n5 14 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14\n$EndElements\n"),
             [
-                "line 6: expected linear tetrahedra",
+                "line 6: expected tetrahedra of 4 or 10 nodes",
                 "element type 14 (14-node pyramid); mesh with",
             ],
         ),
@@ -111,8 +111,8 @@ fn broken_gmsh_files_are_explained() {
             ["line 6", "element type 92"],
         ),
         (
-            format!("{two}$Elements\n1\n5 9 1 4 1 2 3 4 5 6\n$EndElements\n"),
-            ["line 6", "(6-node triangle)"],
+            format!("{two}$Elements\n1\n5 16 1 4 1 2 3 4 5 6 7 8\n$EndElements\n"),
+            ["line 6", "(8-node quadrangle)"],
         ),
         (
             format!("{two}$Elements\n1\n5 5 0 1 2 3\n"),

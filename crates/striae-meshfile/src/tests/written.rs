@@ -29,12 +29,31 @@ fn elements(mesh: &Mesh) -> impl Iterator<Item = (ElementId, String)> {
     })
 }
 
-/// Gmsh's type and the corners of a triangle or quadrangle.
-fn facet(mesh: &Mesh, face: Face) -> (u8, String) {
-    match mesh.face_nodes(face) {
-        [a, b, c, d] if c == d => (2, joined([a, b, c].map(node), " ")),
-        corners => (3, joined(corners.map(node), " ")),
-    }
+/// Elements with their corners in Gmsh's order.
+fn gmsh_elements(mesh: &Mesh) -> impl Iterator<Item = (ElementId, String)> {
+    let corners = mesh.elements().enumerate();
+    corners.map(|(index, corners)| {
+        let mut nodes: Vec<u32> = corners.iter().map(|&id| node(id)).collect();
+        if nodes.len() == 10 {
+            nodes.swap(8, 9);
+        }
+        (ElementId::new(index), joined(nodes, " "))
+    })
+}
+
+/// Gmsh's type and the nodes of the triangles or quadrangles that faces are parts of.
+fn facets(mesh: &Mesh, faces: &[Face]) -> Vec<(u8, String)> {
+    let each = mesh.blocks[0].kind.shape().faces_a_side;
+    let one = |side: &[Face]| match (each, mesh.face_nodes(side[0])) {
+        (4, [a, ab, ca, _]) => {
+            let [_, b, bc, _] = mesh.face_nodes(side[1]);
+            let [_, _, c, _] = mesh.face_nodes(side[2]);
+            (9, joined([a, b, c, ab, bc, ca].map(node), " "))
+        }
+        (_, [a, b, c, d]) if c == d => (2, joined([a, b, c].map(node), " ")),
+        (_, corners) => (3, joined(corners.map(node), " ")),
+    };
+    faces.chunks(each).map(one).collect()
 }
 
 /// Gmsh's type of the elements, all of one kind.
@@ -44,6 +63,7 @@ fn gmsh_kind(mesh: &Mesh) -> u8 {
         CellKind::Hexahedron => 5,
         CellKind::Wedge => 6,
         CellKind::Pyramid => 7,
+        CellKind::CompositeTetrahedron => 11,
     }
 }
 
@@ -54,15 +74,14 @@ pub(super) fn gmsh2(mesh: &Mesh) -> String {
     let mut names = Vec::new();
     for (group, (name, faces)) in mesh.facet_sets.iter().enumerate() {
         names.push(format!("2 {} \"{name}\"", group + 1));
-        for &face in faces {
-            let (kind, corners) = facet(mesh, face);
+        for (kind, corners) in facets(mesh, faces) {
             cells.push(format!("{kind} 2 {} 1 {corners}", group + 1));
         }
     }
     names.push("3 98 \"all\"".into());
     names.push("3 99 \"lower half\"".into());
     let kind = gmsh_kind(mesh);
-    for (id, corners) in elements(mesh) {
+    for (id, corners) in gmsh_elements(mesh) {
         cells.push(format!("{kind} 3 98 1 0 {corners}"));
         let lower = mesh.element_sets.get("lower half");
         if lower.is_some_and(|set| set.contains(&id)) {
@@ -119,16 +138,17 @@ pub(super) fn gmsh4(mesh: &Mesh) -> String {
     let _ = writeln!(text, "{} 0 1 9999", sides.len() + 2);
     let mut number = 1;
     for (group, (_, faces)) in sides.iter().enumerate() {
-        let (kind, _) = facet(mesh, faces[0]);
-        let _ = writeln!(text, "2 {} {kind} {}", group + 21, faces.len());
-        for &face in *faces {
-            let _ = writeln!(text, "{number} {}", facet(mesh, face).1);
+        let facets = facets(mesh, faces);
+        let (kind, count) = (facets[0].0, facets.len());
+        let _ = writeln!(text, "2 {} {kind} {count}", group + 21);
+        for (_, corners) in facets {
+            let _ = writeln!(text, "{number} {corners}");
             number += 1;
         }
     }
     let lower = mesh.element_sets.get("lower half").unwrap_or(&[]).to_vec();
     for (volume, part) in [(1, true), (2, false)] {
-        let rows: Vec<String> = elements(mesh)
+        let rows: Vec<String> = gmsh_elements(mesh)
             .filter(|(id, _)| lower.contains(id) == part)
             .map(|(id, corners)| format!("{} {corners}\n", element(id)))
             .collect();
@@ -166,8 +186,10 @@ pub(super) fn abaqus(mesh: &Mesh) -> String {
     }
     for (name, faces) in mesh.facet_sets.iter() {
         let _ = writeln!(text, "*SURFACE, TYPE=ELEMENT, NAME={name}");
-        for face in faces {
-            let _ = writeln!(text, "{}, S{}", element(face.element), face.side + 1);
+        let each = mesh.blocks[0].kind.shape().faces_a_side;
+        for face in faces.iter().step_by(each) {
+            let side = usize::from(face.side) / each + 1;
+            let _ = writeln!(text, "{}, S{side}", element(face.element));
         }
     }
     text

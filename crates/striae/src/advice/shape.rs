@@ -90,7 +90,7 @@ fn locking(body: &Body, advice: &mut Advice) {
             Topic::Locking,
             name,
             format!(
-                "body `{name}` has Poisson's ratio {nu:.4} and four-node tetrahedra, which lock in every formulation; use hexahedra"
+                "body `{name}` has Poisson's ratio {nu:.4} and four-node tetrahedra, which lock in every formulation; use ten-node tetrahedra or hexahedra"
             ),
         );
     } else if tetrahedra {
@@ -98,7 +98,7 @@ fn locking(body: &Body, advice: &mut Advice) {
             Topic::Locking,
             name,
             format!(
-                "body `{name}` has four-node tetrahedra, which are stiffer than hexahedra of the same size; compare with a finer mesh"
+                "body `{name}` has four-node tetrahedra, which are stiffer than hexahedra of the same size; use ten-node tetrahedra, or compare with a finer mesh"
             ),
         );
     }
