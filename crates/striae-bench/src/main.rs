@@ -12,6 +12,7 @@
 mod agree;
 mod clock;
 mod compare;
+mod element;
 mod growth;
 mod parts;
 mod scene;

@@ -10,6 +10,7 @@
 
 use super::{
     Element, ElementError, ElementFault, ElementResponse, Formulation, Mass, composite,
+    enhanced::Fields,
     mass::Inertia,
     reference::Reference,
     response::error_at,
@@ -194,6 +195,8 @@ struct Cells<const N: usize, const Q: usize> {
     /// What continues values at the points to the corners, by corner.
     recovery: [[f64; Q]; N],
     elements: Vec<Reference<N, Q>>,
+    /// Of each element, where its deformation gradient is enhanced.
+    fields: Vec<Fields<Q>>,
 }
 
 impl<const N: usize, const Q: usize> Cells<N, Q> {
@@ -204,15 +207,23 @@ impl<const N: usize, const Q: usize> Cells<N, Q> {
         corners: &[Vec3],
     ) -> Made {
         let rule = Rule::new(kind);
-        let elements = corners.as_chunks::<N>().0.iter().enumerate();
+        let cells = corners.as_chunks::<N>().0.iter();
+        let elements = cells.clone().enumerate();
         let elements = elements.map(|(at, x)| Reference::new(&rule, x).map_err(|e| (at, e)));
         let elements = elements.collect::<Result<_, _>>()?;
+        let fields = match (formulation, kind) {
+            (Formulation::AssumedStrain, CellKind::Hexahedron) => {
+                cells.map(|x| Fields::new(x)).collect()
+            }
+            _ => Vec::new(),
+        };
         Ok(Arc::new(Self {
             kind,
             formulation,
             inertia: Inertia::Points(rule.values),
             recovery,
             elements,
+            fields,
         }))
     }
 
@@ -237,6 +248,7 @@ impl Cells<{ composite::NODES }, { composite::POINTS }> {
             inertia: Inertia::Parts(parts),
             recovery: composite::recovery(),
             elements,
+            fields: Vec::new(),
         }))
     }
 }
@@ -267,9 +279,14 @@ impl<const N: usize, const Q: usize> ElementBlock for Cells<N, Q> {
         response: &mut ElementResponse,
     ) -> Result<(), ElementError> {
         let element = &self.elements[at];
-        match self.formulation {
-            Formulation::Standard => element.respond(all(x), material, past, response),
-            Formulation::MeanDilatation => {
+        match (self.formulation, self.fields.get(at)) {
+            (Formulation::AssumedStrain, Some(fields)) => {
+                element.respond_enhanced(fields, all(x), material, past, response)
+            }
+            (Formulation::Standard | Formulation::AssumedStrain, _) => {
+                element.respond(all(x), material, past, response)
+            }
+            (Formulation::MeanDilatation, _) => {
                 let share = self.share(material);
                 element.respond_with_mean_dilatation(all(x), material, past, response, share)
             }
@@ -303,6 +320,9 @@ impl<const N: usize, const Q: usize> ElementBlock for Cells<N, Q> {
         if self.formulation == Formulation::MeanDilatation {
             let share = self.share(material);
             return element.stress_with_mean_dilatation(all(x), material, variables, share);
+        }
+        if let Some(fields) = self.fields.get(at) {
+            return element.enhanced_stress(fields, all(x), material, variables);
         }
         let each = variables.len() / Q;
         (0..Q)

@@ -155,7 +155,13 @@ fn slip_work_and_wear_add_up() {
 
 #[test]
 fn probes_are_watched_in_every_increment() {
-    for cells in ["hexahedra", "wedges", "pyramids", "tetrahedra"] {
+    for cells in [
+        "hexahedra",
+        "wedges",
+        "pyramids",
+        "tetrahedra",
+        "composite-tetrahedra",
+    ] {
         let folder = tempfile::tempdir().unwrap();
         run(folder.path(), cells);
         let probes = Table::read(&folder.path().join("probes.csv")).unwrap();

@@ -63,6 +63,7 @@ fn body_line(body: &Body) -> String {
     let formulation = match body.formulation {
         Formulation::Standard => "",
         Formulation::MeanDilatation => " with mean dilatation",
+        Formulation::AssumedStrain => " with assumed strain",
     };
     format!(
         "  body `{}`: {} nodes, {} elements{formulation}; {law}, lambda = {lambda:.6e}, G = {shear:.6e}",

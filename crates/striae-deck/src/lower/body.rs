@@ -192,6 +192,7 @@ fn lower_body(
         formulation: raw.formulation.as_ref().map(|word| match word.value {
             raw::Formulation::Standard => Formulation::Standard,
             raw::Formulation::MeanDilatation => Formulation::MeanDilatation,
+            raw::Formulation::AssumedStrain => Formulation::AssumedStrain,
         }),
         contact_mass: match raw.contact_mass.as_ref().map(|mass| mass.value) {
             None | Some(raw::ContactMass::Consistent) => ContactMass::Consistent,

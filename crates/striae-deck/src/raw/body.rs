@@ -36,6 +36,8 @@ words! {
         Standard = "standard",
         /// With pressure and volume constant in the element; linear tetrahedra lock also with it.
         MeanDilatation = "mean-dilatation",
+        /// With a deformation gradient of hexahedra that is enhanced for bending; other elements as `standard`.
+        AssumedStrain = "assumed-strain",
     }
 }
 

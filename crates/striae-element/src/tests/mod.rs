@@ -18,7 +18,11 @@ fn linear_elastic() -> Material {
     Material::linear_elastic(LameConstants::from_youngs_modulus(1.0, 0.3).unwrap())
 }
 
-const FORMULATIONS: [Formulation; 2] = [Formulation::Standard, Formulation::MeanDilatation];
+const FORMULATIONS: [Formulation; 3] = [
+    Formulation::Standard,
+    Formulation::MeanDilatation,
+    Formulation::AssumedStrain,
+];
 
 /// One element.
 struct Single {
