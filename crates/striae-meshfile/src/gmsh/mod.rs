@@ -2,9 +2,9 @@
 //!
 //! A file is a sequence of sections `$Name .. $EndName`. Both versions lead to
 //! the same list of nodes and cells; a cell knows the physical groups it is in.
-//! Gmsh numbers the corners of all linear cells as [`striae_mesh::CellKind`] does; of the
-//! ten-node tetrahedron the last two nodes change places. A triangle of six nodes is four
-//! faces.
+//! Gmsh numbers the corners of all linear cells as [`striae_mesh::CellKind`] does, nodes on
+//! edges and faces otherwise (`kind.rs`). A triangle of six nodes is four faces, and so is a
+//! quadrangle of eight or nine.
 
 mod kind;
 mod node_data;
@@ -13,14 +13,14 @@ mod version4;
 
 use super::collected::{Collected, FileElement, FileFace};
 use super::lines::{Line, Lines};
-use super::{MeshFileFault, RigidSurfaceMesh};
+use super::{MeshFileFault, Reading, RigidSurfaceMesh, division};
 use kind::Kind;
 pub(super) use node_data::node_data;
 use std::collections::{BTreeMap, HashMap, HashSet};
-use striae_mesh::{CellKind, Mesh, NodeId, Vec3};
+use striae_mesh::{NodeId, Vec3};
 
 /// The mesh of a body.
-pub(super) fn body(text: &str) -> Result<Mesh, MeshFileFault> {
+pub(super) fn body(text: &str) -> Result<Reading, MeshFileFault> {
     collected(text)?.mesh()
 }
 
@@ -35,10 +35,7 @@ pub(super) fn collected(text: &str) -> Result<Collected, MeshFileFault> {
             3 => {
                 let kind = cell.kind.cell();
                 let kind = kind.ok_or_else(|| cell.kind.fault(cell.line))?;
-                let mut corners = cell.nodes.clone();
-                if kind == CellKind::CompositeTetrahedron {
-                    corners.swap(8, 9);
-                }
+                let corners = cell.kind.ordered(&cell.nodes);
                 // A cell of several groups is written several times in version 2.
                 let number = *known.entry(corners.clone()).or_insert(cell.number);
                 if number == cell.number {
@@ -56,11 +53,10 @@ pub(super) fn collected(text: &str) -> Result<Collected, MeshFileFault> {
             }
             2 if cell.groups.is_empty() => {}
             2 => {
-                let facets = cell.facets()?;
+                let faces = cell.faces()?;
                 for name in groups {
                     let set = mesh.facet_sets.entry(name).or_default();
-                    let corners = facets.iter().map(|&corners| FileFace::Corners(corners));
-                    set.extend(corners.map(|corners| (cell.line, corners)));
+                    set.extend(faces.iter().map(|face| (cell.line, *face)));
                 }
             }
             _ => {
@@ -207,14 +203,25 @@ impl File {
 }
 
 impl Cell {
-    /// The corners of a quadrangle, or of triangles with the last one twice.
+    /// The faces that it is, on a body.
+    fn faces(&self) -> Result<Vec<FileFace>, MeshFileFault> {
+        if let (Kind::QUADRANGLE_8, &[a, b, c, d, ab, bc, cd, da]) = (self.kind, &self.nodes[..]) {
+            return Ok(vec![FileFace::Eight([a, b, c, d], [ab, bc, cd, da])]);
+        }
+        let facets = self.facets()?.into_iter();
+        Ok(facets.map(FileFace::Corners).collect())
+    }
+
+    /// The corners of quadrangles, or of triangles with the last one twice.
     fn facets(&self) -> Result<Vec<[u64; 4]>, MeshFileFault> {
         match (self.kind, self.nodes.as_slice()) {
             (Kind::TRIANGLE, &[a, b, c]) => Ok(vec![[a, b, c, c]]),
             (Kind::QUADRANGLE, &[a, b, c, d]) => Ok(vec![[a, b, c, d]]),
             (Kind::TRIANGLE_6, &[a, b, c, ab, bc, ca]) => {
-                let parts = [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]];
-                Ok(parts.map(|[a, b, c]| [a, b, c, c]).into())
+                Ok(division::in_triangles([a, b, c], [ab, bc, ca]))
+            }
+            (Kind::QUADRANGLE_9, &[a, b, c, d, ab, bc, cd, da, middle]) => {
+                Ok(division::quartered([a, b, c, d], [ab, bc, cd, da], middle))
             }
             _ => Err(self.kind.fault(self.line)),
         }

@@ -1,6 +1,6 @@
 //! Mesh files as other programs write them, with numbers unlike our ids.
 
-use std::fmt::Write;
+use std::{collections::BTreeMap, fmt::Write};
 use striae_mesh::{CellKind, ElementId, Face, Mesh, NodeId, Vec3};
 
 /// Number of a node in the file.
@@ -221,4 +221,137 @@ pub(super) fn stl_binary(triangles: &[[Vec3; 3]]) -> Vec<u8> {
         bytes.extend([0; 2]);
     }
     bytes
+}
+
+/// A mesh of cells with nodes on their edges, and on faces and inside.
+pub(super) struct Whole<'a> {
+    linear: &'a Mesh,
+    positions: Vec<Vec3>,
+    /// Nodes of the cells.
+    pub(super) cells: Vec<Vec<usize>>,
+    /// Node by the sorted corners whose mean it is.
+    means: BTreeMap<Vec<usize>, usize>,
+}
+
+impl<'a> Whole<'a> {
+    /// The linear mesh with nodes on edges, and with `full` on these faces and in hexahedra.
+    pub(super) fn new(
+        linear: &'a Mesh,
+        edges: &[[usize; 2]],
+        faces: &[[usize; 4]],
+        full: bool,
+    ) -> Self {
+        let mut whole = Self {
+            linear,
+            positions: linear.positions.clone(),
+            cells: Vec::new(),
+            means: BTreeMap::new(),
+        };
+        for corners in linear.elements() {
+            let corners: Vec<usize> = corners.iter().map(|node| node.index()).collect();
+            let mut nodes = corners.clone();
+            for edge in edges {
+                nodes.push(whole.mean(edge.iter().map(|at| corners[*at]).collect()));
+            }
+            if full {
+                for face in faces {
+                    nodes.push(whole.mean(face.iter().map(|at| corners[*at]).collect()));
+                }
+                if corners.len() == 8 {
+                    nodes.push(whole.mean(corners));
+                }
+            }
+            whole.cells.push(nodes);
+        }
+        whole
+    }
+
+    fn mean(&mut self, mut of: Vec<usize>) -> usize {
+        of.sort_unstable();
+        *self.means.entry(of.clone()).or_insert_with(|| {
+            let sum: Vec3 = of.iter().map(|at| self.positions[*at]).sum();
+            self.positions.push(sum / of.len() as f64);
+            self.positions.len() - 1
+        })
+    }
+
+    fn numbers(nodes: &[usize], separator: &str) -> String {
+        joined(nodes.iter().map(|at| node(NodeId::new(*at))), separator)
+    }
+
+    /// Gmsh's type and nodes of a facet.
+    fn facet(&self, face: Face) -> String {
+        let corners = self.linear.face_nodes(face).map(|node| node.index());
+        let count = if corners[2] == corners[3] { 3 } else { 4 };
+        let mut nodes = corners[..count].to_vec();
+        for at in 0..count {
+            let mut ends = vec![corners[at], corners[(at + 1) % count]];
+            ends.sort_unstable();
+            nodes.push(self.means[&ends]);
+        }
+        let mut all = corners.to_vec();
+        all.sort_unstable();
+        let middle = self.means.get(&all).filter(|_| count == 4);
+        nodes.extend(middle);
+        let kind = match nodes.len() {
+            6 => 9,
+            8 => 16,
+            _ => 10,
+        };
+        format!("{kind} {}", Self::numbers(&nodes, " "))
+    }
+
+    /// Version 2.2 with cells of a type.
+    pub(super) fn gmsh(&self, kind: u8) -> String {
+        let mut rows = Vec::new();
+        let mut names = Vec::new();
+        for (group, (name, faces)) in self.linear.facet_sets.iter().enumerate() {
+            names.push(format!("2 {} \"{name}\"", group + 1));
+            for face in faces {
+                let facet = self.facet(*face);
+                let (kind, nodes) = facet.split_once(' ').unwrap();
+                rows.push(format!("{kind} 1 {} {nodes}", group + 1));
+            }
+        }
+        let cells = self.cells.iter();
+        rows.extend(cells.map(|cell| format!("{kind} 0 {}", Self::numbers(cell, " "))));
+        let mut text = String::from("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
+        let _ = writeln!(
+            text,
+            "$PhysicalNames\n{}\n{}",
+            names.len(),
+            names.join("\n")
+        );
+        let _ = writeln!(text, "$EndPhysicalNames\n$Nodes\n{}", self.positions.len());
+        for (at, x) in self.positions.iter().enumerate() {
+            let _ = writeln!(text, "{} {} {} {}", node(NodeId::new(at)), x.x, x.y, x.z);
+        }
+        let _ = writeln!(text, "$EndNodes\n$Elements\n{}", rows.len());
+        for (number, row) in rows.iter().enumerate() {
+            let _ = writeln!(text, "{} {row}", number + 1);
+        }
+        text + "$EndElements\n"
+    }
+
+    /// Abaqus with cells of a variant.
+    pub(super) fn abaqus(&self, letters: &str) -> String {
+        let mut text = String::from("*NODE\n");
+        for (at, x) in self.positions.iter().enumerate() {
+            let _ = writeln!(text, "{}, {}, {}, {}", node(NodeId::new(at)), x.x, x.y, x.z);
+        }
+        let count = self.cells[0].len();
+        let _ = writeln!(text, "*ELEMENT, TYPE=C3D{count}{letters}");
+        for (at, cell) in self.cells.iter().enumerate() {
+            let number = element(ElementId::new(at));
+            let _ = writeln!(text, "{number}, {}", Self::numbers(&cell[..10], ", ") + ",");
+            let _ = writeln!(text, "{}", Self::numbers(&cell[10..], ", "));
+        }
+        for (name, faces) in self.linear.facet_sets.iter() {
+            let _ = writeln!(text, "*SURFACE, TYPE=ELEMENT, NAME={name}");
+            for face in faces {
+                let _ = writeln!(text, "{}, S{}", element(face.element), face.side + 1);
+            }
+        }
+        text
+    }
 }
