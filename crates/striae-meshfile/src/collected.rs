@@ -118,9 +118,12 @@ impl Collected {
             wholes.insert(element.number, (kind, all));
         }
         for ((kind, nodes), count) in counts {
-            let plural = kind.shape().plural;
+            let (name, are) = match count {
+                1 => (kind.shape().name, "is"),
+                _ => (kind.shape().plural, "are"),
+            };
             self.notes.push(format!(
-                "{count} {plural} of {nodes} nodes are divided into {} linear ones",
+                "{count} {name} of {nodes} nodes {are} divided into {} linear ones",
                 8 * count
             ));
         }
