@@ -207,14 +207,13 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
             &matrix(&(m / 3.0 - h * ninth)),
             &mut whole.pressure_slopes,
         );
-        let product = m * h.transpose();
-        let mut tangent = law.tangent * (scale * scale) - (product + product.transpose()) / 3.0
-            + h * h.transpose() * (whole.pressure * point.ratio + ninth);
-        for (row, column) in (0..81).map(|at| (at / 9, at % 9)) {
+        let (square, normal) = (scale * scale, whole.pressure * point.ratio + ninth);
+        Tangent::from_fn(|row, column| {
             let ((i, j), (k, l)) = ((row / 3, row % 3), (column / 3, column % 3));
-            tangent[(row, column)] -= excess * h[3 * i + l] * h[3 * k + j];
-        }
-        tangent
+            let mixed = m[row] * h[column] + m[column] * h[row];
+            law.tangent[(row, column)] * square - mixed / 3.0 + h[row] * h[column] * normal
+                - excess * h[3 * i + l] * h[3 * k + j]
+        })
     }
 
     /// `sum_g w value`.

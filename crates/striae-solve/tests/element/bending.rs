@@ -178,7 +178,8 @@ fn least_stiffness(height: f64, formulation: Formulation, material: &Material) -
         let (at, component) = (block.mesh.positions[unknown / 3], unknown % 3);
         let held = component == 2 && (at.z == 0.0 || at.z == 1.0);
         let on_axis = component < 2 && at.x == 0.0 && at.y == 0.0 && at.z == 0.0;
-        !held && !on_axis && !(component == 1 && at == Vec3::x())
+        let on_edge = component == 1 && at == Vec3::x();
+        !(held || on_axis || on_edge)
     };
     let free: Vec<usize> = (0..force.len()).filter(free).collect();
     assert!(force.select_rows(&free).norm() < 1e-12);
