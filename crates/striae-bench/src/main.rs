@@ -1,6 +1,6 @@
 //! Benchmarks: `striae-bench [GROUP ...] [--size UNKNOWNS ...] [--json FILE] [--compare | --growth [--backend SOLVER] | --agree] [--figure FOLDER]`.
 //!
-//! Groups are `law`, `surface`, `search`, `assembly`, `factor`, `iteration` and
+//! Groups are `law`, `element`, `surface`, `search`, `assembly`, `factor`, `iteration` and
 //! `cases`; all of them without arguments. `--compare` runs scenes with the condensed solver
 //! and with the multifrontal LU, each in a process of its own, and prints the
 //! ratios of times and memory, and to a sparse Cholesky factorisation of the
@@ -12,6 +12,7 @@
 mod agree;
 mod clock;
 mod compare;
+mod element;
 mod growth;
 mod parts;
 mod scene;

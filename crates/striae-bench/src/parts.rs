@@ -1,6 +1,6 @@
 //! Times of the parts of an iteration.
 
-use crate::{clock::timed, compare, scene, yardstick};
+use crate::{clock::timed, compare, element, scene, yardstick};
 use nalgebra::Matrix3;
 use serde_json::{Value, json};
 use std::{error::Error, hint::black_box};
@@ -26,8 +26,9 @@ use striae_surface::normal::nodal_normals;
 
 type Results = Result<Vec<Value>, Box<dyn Error>>;
 
-const GROUPS: [&str; 7] = [
+const GROUPS: [&str; 8] = [
     "law",
+    "element",
     "surface",
     "search",
     "assembly",
@@ -48,6 +49,7 @@ pub fn all(groups: &[String], sizes: &[usize]) -> Results {
     for group in groups {
         match group {
             "law" => results.extend(law()?),
+            "element" => results.extend(element::all()?),
             "surface" | "search" | "assembly" | "factor" => {
                 for &size in sizes {
                     results.extend(of_scene(group, size)?);

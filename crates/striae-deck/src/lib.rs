@@ -40,6 +40,8 @@ pub struct Deck {
     pub model: Model,
     /// What is to be written.
     pub output: Output,
+    /// What is made of mesh files that they do not say, a line each.
+    pub notes: Vec<String>,
 }
 
 /// Reads a deck from a file; paths in it are relative to its folder.

@@ -185,6 +185,11 @@ fn bodies_have_the_elements_of_their_deck() {
         let mesh = body("divisions = [4, 4, 2] }", &with).mesh;
         assert_eq!(mesh.blocks[0].kind, kind);
     }
+    let cells = "divisions = [4, 4, 2], cells = \"composite-tetrahedra\" }";
+    let text = BASE.replace("divisions = [4, 4, 2] }", cells);
+    let text = text.replace(", extent = \"exposed\"", "");
+    let mesh = &lowered(&text).model.bodies[0].mesh;
+    assert_eq!(mesh.blocks[0].kind, CellKind::CompositeTetrahedron);
 }
 
 #[test]
@@ -548,4 +553,60 @@ a.toml:3:14: `tolerance` in [solver] must be a number greater than 0, but is the
       |              ^^^^^^^
 3 faults";
     assert!(shown.ends_with(expected), "{shown}");
+}
+
+#[test]
+fn elements_of_files_choose_the_formulation_and_are_noted() {
+    let edges = [
+        [0, 1],
+        [1, 2],
+        [2, 3],
+        [3, 0],
+        [4, 5],
+        [5, 6],
+        [6, 7],
+        [7, 4],
+        [0, 4],
+        [1, 5],
+        [2, 6],
+        [3, 7],
+    ];
+    let corners = CellKind::Hexahedron.shape().corners.iter();
+    let mut nodes: Vec<Vec3> = corners.map(|x| Vec3::from(*x)).collect();
+    nodes.extend(edges.map(|[a, b]| (nodes[a] + nodes[b]) / 2.0));
+    let mut file = String::from("*NODE\n");
+    for (at, x) in nodes.iter().enumerate() {
+        file += &format!("{}, {}, {}, {}\n", at + 1, x.x, x.y, x.z);
+    }
+    file += "*ELEMENT, TYPE=C3D20RH\n7, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15,\n";
+    file += "16, 17, 18, 19, 20\n";
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("cube.inp"), file).unwrap();
+    let text = |formulation: &str| {
+        format!(
+            r#"title = "A cube"
+            body = [{{ name = "cube", material = "rubber", mesh = {{ file = "cube.inp" }}{formulation} }}]
+            material = [{{ name = "rubber", law = "neo-hookean", youngs_modulus = 1.0, poissons_ratio = 0.3 }}]
+            step = [{{ name = "hold", displacement = [{{ body = "cube", nodes = "all", x = 0, y = 0, z = 0 }}] }}]"#
+        )
+    };
+    let read = |formulation: &str| {
+        let deck = parse(&text(formulation), "deck.toml", folder.path());
+        deck.unwrap_or_else(|faults| panic!("{faults}"))
+    };
+    let deck = read("");
+    assert_eq!(
+        deck.model.bodies[0].formulation,
+        Formulation::MeanDilatation
+    );
+    assert_eq!(deck.model.bodies[0].mesh.element_count(), 8);
+    assert_eq!(
+        deck.notes,
+        [
+            "body `cube`: elements C3D20RH are read as elements with full integration",
+            "body `cube`: 1 hexahedron of 20 nodes is divided into 8 linear ones",
+        ]
+    );
+    let stated = read(r#", formulation = "standard""#);
+    assert_eq!(stated.model.bodies[0].formulation, Formulation::Standard);
 }

@@ -6,10 +6,12 @@
 //! | pyramid | 5 | 8 |
 //! | wedge | 6 | 6 |
 //! | hexahedron | 8 | 8 |
+//! | composite tetrahedron | 10 | 4 |
 
 use super::{
-    Element, ElementError, ElementFault, ElementResponse, Formulation, Mass,
-    mass::consistent,
+    Element, ElementError, ElementFault, ElementResponse, Formulation, Mass, composite,
+    enhanced::Fields,
+    mass::Inertia,
     reference::Reference,
     response::error_at,
     rule::{Rule, hexahedron_recovery, pyramid_recovery, tetrahedron_recovery, wedge_recovery},
@@ -42,9 +44,7 @@ pub trait ElementBlock: Debug + Send + Sync {
     fn weights(&self, at: usize) -> &[f64];
 
     /// How many quadrature points an element has.
-    fn points(&self) -> usize {
-        self.kind().shape().points.len()
-    }
+    fn points(&self) -> usize;
 
     /// Response of an element, written over an older one of the same kind.
     ///
@@ -118,9 +118,10 @@ impl Elements {
                     element: ElementId::new(first + at),
                     error,
                 })?;
+            let points = block.count() * block.points();
             blocks.push(([first, first_point], block));
             first += cells.len();
-            first_point += cells.len() * cells.kind.shape().points.len();
+            first_point += points;
         }
         Ok(Self { blocks })
     }
@@ -179,6 +180,9 @@ fn block(kind: CellKind, formulation: Formulation, corners: &[Vec3]) -> Made {
         CellKind::Hexahedron => {
             Cells::<8, 8>::made(kind, formulation, hexahedron_recovery(), corners)
         }
+        CellKind::CompositeTetrahedron => {
+            Cells::<{ composite::NODES }, { composite::POINTS }>::composite(formulation, corners)
+        }
     }
 }
 
@@ -187,8 +191,12 @@ fn block(kind: CellKind, formulation: Formulation, corners: &[Vec3]) -> Made {
 struct Cells<const N: usize, const Q: usize> {
     kind: CellKind,
     formulation: Formulation,
-    rule: Rule<N, Q>,
+    inertia: Inertia<N, Q>,
+    /// What continues values at the points to the corners, by corner.
+    recovery: [[f64; Q]; N],
     elements: Vec<Reference<N, Q>>,
+    /// Of each element, where its deformation gradient is enhanced.
+    fields: Vec<Fields<Q>>,
 }
 
 impl<const N: usize, const Q: usize> Cells<N, Q> {
@@ -198,15 +206,49 @@ impl<const N: usize, const Q: usize> Cells<N, Q> {
         recovery: [[f64; Q]; N],
         corners: &[Vec3],
     ) -> Made {
-        let rule = Rule::new(kind, recovery);
-        let elements = corners.as_chunks::<N>().0.iter().enumerate();
+        let rule = Rule::new(kind);
+        let cells = corners.as_chunks::<N>().0.iter();
+        let elements = cells.clone().enumerate();
         let elements = elements.map(|(at, x)| Reference::new(&rule, x).map_err(|e| (at, e)));
         let elements = elements.collect::<Result<_, _>>()?;
+        let fields = match (formulation, kind) {
+            (Formulation::AssumedStrain, CellKind::Hexahedron) => {
+                cells.map(|x| Fields::new(x)).collect()
+            }
+            _ => Vec::new(),
+        };
         Ok(Arc::new(Self {
             kind,
             formulation,
-            rule,
+            inertia: Inertia::Points(rule.values),
+            recovery,
             elements,
+            fields,
+        }))
+    }
+
+    /// How far volume ratios are taken to their mean.
+    fn share(&self, material: &Material) -> f64 {
+        match self.kind {
+            CellKind::CompositeTetrahedron => composite::share(material),
+            _ => 1.0,
+        }
+    }
+}
+
+impl Cells<{ composite::NODES }, { composite::POINTS }> {
+    fn composite(formulation: Formulation, corners: &[Vec3]) -> Made {
+        let elements = corners.as_chunks().0.iter().enumerate();
+        let elements = elements.map(|(at, x)| composite::reference(x).map_err(|e| (at, e)));
+        let elements: Vec<_> = elements.collect::<Result<_, _>>()?;
+        let (elements, parts) = elements.into_iter().unzip();
+        Ok(Arc::new(Self {
+            kind: CellKind::CompositeTetrahedron,
+            formulation,
+            inertia: Inertia::Parts(parts),
+            recovery: composite::recovery(),
+            elements,
+            fields: Vec::new(),
         }))
     }
 }
@@ -224,6 +266,10 @@ impl<const N: usize, const Q: usize> ElementBlock for Cells<N, Q> {
         &self.elements[at].weights
     }
 
+    fn points(&self) -> usize {
+        Q
+    }
+
     fn respond(
         &self,
         at: usize,
@@ -233,16 +279,22 @@ impl<const N: usize, const Q: usize> ElementBlock for Cells<N, Q> {
         response: &mut ElementResponse,
     ) -> Result<(), ElementError> {
         let element = &self.elements[at];
-        match self.formulation {
-            Formulation::Standard => element.respond(all(x), material, past, response),
-            Formulation::MeanDilatation => {
-                element.respond_with_mean_dilatation(all(x), material, past, response)
+        match (self.formulation, self.fields.get(at)) {
+            (Formulation::AssumedStrain, Some(fields)) => {
+                element.respond_enhanced(fields, all(x), material, past, response)
+            }
+            (Formulation::Standard | Formulation::AssumedStrain, _) => {
+                element.respond(all(x), material, past, response)
+            }
+            (Formulation::MeanDilatation, _) => {
+                let share = self.share(material);
+                element.respond_with_mean_dilatation(all(x), material, past, response, share)
             }
         }
     }
 
     fn mass(&self, at: usize, density: f64) -> Mass {
-        consistent(&self.rule, &self.elements[at], density)
+        self.inertia.mass(at, &self.elements[at], density)
     }
 
     fn volume(&self, at: usize) -> f64 {
@@ -266,7 +318,11 @@ impl<const N: usize, const Q: usize> ElementBlock for Cells<N, Q> {
     ) -> Result<Vec<Matrix3<f64>>, ElementError> {
         let element = &self.elements[at];
         if self.formulation == Formulation::MeanDilatation {
-            return element.stress_with_mean_dilatation(all(x), material, variables);
+            let share = self.share(material);
+            return element.stress_with_mean_dilatation(all(x), material, variables, share);
+        }
+        if let Some(fields) = self.fields.get(at) {
+            return element.enhanced_stress(fields, all(x), material, variables);
         }
         let each = variables.len() / Q;
         (0..Q)
@@ -287,7 +343,7 @@ impl<const N: usize, const Q: usize> ElementBlock for Cells<N, Q> {
         variables: &[f64],
     ) -> Result<Vec<Matrix3<f64>>, ElementError> {
         let stress = self.stress(at, x, material, variables)?;
-        let corners = self.rule.recovery.iter();
+        let corners = self.recovery.iter();
         let at_corner = |weights: &[f64; Q]| (0..Q).map(|g| stress[g] * weights[g]).sum();
         Ok(corners.map(at_corner).collect())
     }

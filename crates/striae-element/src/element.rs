@@ -27,7 +27,7 @@ impl Element<'_> {
         material: &Material,
         past: Past,
     ) -> Result<ElementResponse, ElementError> {
-        let mut response = ElementResponse::zero(self.block.kind(), material);
+        let mut response = ElementResponse::zero(self.block, material);
         let block = self.block;
         block.respond(self.at, x, material, past, &mut response)?;
         Ok(response)

@@ -34,6 +34,9 @@ pub enum ElementError {
         /// The limit of the law.
         limit: f64,
     },
+    /// In the current configuration, of an element that is enhanced.
+    #[error("the strain it assumes is not to be found")]
+    Unsettled,
 }
 
 /// An [`ElementError`] and the element it befell.

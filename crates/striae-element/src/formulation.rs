@@ -11,6 +11,9 @@ pub enum Formulation {
     /// With pressure and volume ratio constant in the element. Linear tetrahedra are
     /// the same without it: they lock.
     MeanDilatation,
+    /// Hexahedra with a deformation gradient that is enhanced for bending; cells of other kinds
+    /// as [`Formulation::Standard`]. Takes a few times as long.
+    AssumedStrain,
 }
 
 /// Poisson's ratio above which elements with displacements alone are too stiff.

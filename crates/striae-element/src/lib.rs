@@ -13,7 +13,8 @@
 //! (e.g. Wriggers, *Nonlinear Finite Element Methods*, 2008, ch. 4,
 //! doi:10.1007/978-3-540-71001-1). Interpolation and quadrature are those of the
 //! [`CellKind`](striae_mesh::CellKind). `dilatation.rs` has the same with the volume ratio
-//! constant in the element, see [`Formulation`].
+//! constant in the element, see [`Formulation`], `enhanced.rs` hexahedra
+//! that bend, `composite.rs` a gradient that is projected.
 //!
 //! [`Elements`] keeps what depends on the reference configuration alone; nothing of it
 //! is found again while iterating. An [`ElementBlock`] knows the numbers of corners and
@@ -24,8 +25,10 @@
 //! table of `block.rs`.
 
 mod block;
+mod composite;
 mod dilatation;
 mod element;
+mod enhanced;
 mod fault;
 mod formulation;
 mod mass;

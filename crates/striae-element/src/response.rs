@@ -1,14 +1,14 @@
 //! Stored energy, internal force and consistent stiffness of an element.
 
 use super::{
-    ElementError, Stiffness,
+    ElementBlock, ElementError, Stiffness,
     reference::{Gradients, Reference},
     stiffness::COMPONENTS,
 };
 use nalgebra::Matrix3;
 use pulp::{Arch, Simd, WithSimd};
 use striae_law::bulk::{Material, Past, Present, ResponseError, Tangent};
-use striae_mesh::{CellKind, Vec3};
+use striae_mesh::Vec3;
 
 /// Energy of an element with its first and second derivatives.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,15 +26,15 @@ pub struct ElementResponse {
 }
 
 impl ElementResponse {
-    /// Room for the response of an element of a material.
-    pub fn zero(kind: CellKind, material: &Material) -> Self {
-        let corners = kind.corner_count();
+    /// Room for the response of an element of a block, of a material.
+    pub fn zero(block: &dyn ElementBlock, material: &Material) -> Self {
+        let corners = block.kind().corner_count();
         Self {
             energy: 0.0,
             force: vec![[0.0; 3]; corners],
             stiffness: Stiffness::zero(corners),
             dissipated: 0.0,
-            variables: vec![0.0; material.variables() * kind.shape().points.len()],
+            variables: vec![0.0; material.variables() * block.points()],
         }
     }
 
@@ -128,6 +128,7 @@ impl<const N: usize, const Q: usize> WithSimd for Sum<'_, N, Q> {
             match N {
                 4 | 8 => product::<N, 4>(gradients, right, block),
                 6 => product::<N, 3>(gradients, right, block),
+                10 => product::<N, 5>(gradients, right, block),
                 _ => product::<N, 1>(gradients, right, block),
             }
             if i == k {

@@ -11,12 +11,10 @@ pub(super) struct Rule<const N: usize, const Q: usize> {
     pub(super) gradients: [[Vec3; N]; Q],
     /// Weights of the points in natural coordinates.
     pub(super) weights: [f64; Q],
-    /// What continues values at the points to the corners, by corner.
-    pub(super) recovery: [[f64; Q]; N],
 }
 
 impl<const N: usize, const Q: usize> Rule<N, Q> {
-    pub(super) fn new(kind: CellKind, recovery: [[f64; Q]; N]) -> Self {
+    pub(super) fn new(kind: CellKind) -> Self {
         let shape = kind.shape();
         assert_eq!([shape.corners.len(), shape.points.len()], [N, Q], "{kind}");
         let at = |g: usize| Vec3::from(shape.points[g].0);
@@ -24,7 +22,6 @@ impl<const N: usize, const Q: usize> Rule<N, Q> {
             values: std::array::from_fn(|g| first((shape.interpolation)(&at(g)))),
             gradients: std::array::from_fn(|g| first((shape.gradients)(&at(g)))),
             weights: std::array::from_fn(|g| shape.points[g].1),
-            recovery,
         }
     }
 }
@@ -61,15 +58,20 @@ pub(super) fn wedge_recovery() -> [[f64; 6]; 6] {
         let [x, y, z] = shape.corners[a];
         // Points of the triangle are halfway from its middle to the corners.
         let out = |s: f64| 2.0 * s - 1.0 / 3.0;
-        (shape.interpolation)(&Vec3::new(out(x), out(y), z * 3f64.sqrt()))
-            .first_chunk()
-            .copied()
-            .expect("six of eight values")
+        first((shape.interpolation)(&Vec3::new(
+            out(x),
+            out(y),
+            z * 3f64.sqrt(),
+        )))
     })
 }
 
 /// The trilinear field through the values at the Gauss points, at the corners.
 pub(super) fn hexahedron_recovery() -> [[f64; 8]; 8] {
     let shape = CellKind::Hexahedron.shape();
-    std::array::from_fn(|a| (shape.interpolation)(&(Vec3::from(shape.corners[a]) * 3f64.sqrt())))
+    std::array::from_fn(|a| {
+        first((shape.interpolation)(
+            &(Vec3::from(shape.corners[a]) * 3f64.sqrt()),
+        ))
+    })
 }

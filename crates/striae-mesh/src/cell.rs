@@ -7,20 +7,23 @@
 //! elements that use it pass the patch test.
 //!
 //! Corners and faces are numbered as Abaqus and Gmsh number them (`S1` is side 0);
-//! VTK numbers all but the wedge alike.
+//! VTK numbers all but the wedge alike. A side of a composite tetrahedron is four faces.
 
+mod composite;
 mod hexahedron;
 mod pyramid;
 mod tetrahedron;
 mod wedge;
 
 use crate::{NodeId, Vec3};
-use std::fmt;
+pub use composite::COMPOSITE_PARTS;
+use std::{fmt, ops::Range};
 
 /// Most corners of a cell of any kind.
-pub const MAX_CORNERS: usize = 8;
+pub const MAX_CORNERS: usize = 10;
 
-/// A kind of cell with linear interpolation.
+/// A kind of cell with linear interpolation. What the nodes of a cell are, in all of them, is
+/// its corners.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum CellKind {
     /// Four corners, four triangular faces.
@@ -31,6 +34,9 @@ pub enum CellKind {
     Wedge,
     /// Eight corners, six quadrilateral faces.
     Hexahedron,
+    /// Four corners and the middles of six edges, four triangular faces on each of four sides;
+    /// linear in each of [twelve parts](COMPOSITE_PARTS).
+    CompositeTetrahedron,
 }
 
 /// Geometry of a kind of cell.
@@ -44,6 +50,8 @@ pub struct CellShape {
     pub corners: &'static [[f64; 3]],
     /// Local corners of every face, outward by the right-hand rule.
     pub faces: &'static [&'static [usize]],
+    /// How many faces a side as mesh files count them is made of.
+    pub faces_a_side: usize,
     /// A corner and the ends of three edges that meet there, right-handed.
     pub trihedra: &'static [[usize; 4]],
     /// Triple product of the unit edges at a corner of the regular cell.
@@ -60,11 +68,12 @@ pub struct CellShape {
 
 impl CellKind {
     /// All kinds.
-    pub const ALL: [Self; 4] = [
+    pub const ALL: [Self; 5] = [
         Self::Tetrahedron,
         Self::Pyramid,
         Self::Wedge,
         Self::Hexahedron,
+        Self::CompositeTetrahedron,
     ];
 
     /// Geometry of the kind.
@@ -74,6 +83,7 @@ impl CellKind {
             Self::Pyramid => &pyramid::SHAPE,
             Self::Wedge => &wedge::SHAPE,
             Self::Hexahedron => &hexahedron::SHAPE,
+            Self::CompositeTetrahedron => &composite::SHAPE,
         }
     }
 
@@ -82,20 +92,31 @@ impl CellKind {
         self.shape().corners.len()
     }
 
-    /// Fewest edges from one corner to another.
+    /// Faces that a side as mesh files count them is made of, none for what is no side.
+    pub fn faces_of_side(self, side: u8) -> Range<u8> {
+        let (each, all) = (self.shape().faces_a_side, self.shape().faces.len());
+        let first = (each * usize::from(side)).min(all);
+        first as u8..(first + each).min(all) as u8
+    }
+
+    /// Fewest edges of faces from one corner to another.
     pub fn edges_between(self, from: usize, to: usize) -> usize {
         let faces = self.shape().faces;
-        let adjacent = |face: &&[usize]| {
-            let ends = (0..face.len()).map(|at| [face[at], face[(at + 1) % face.len()]]);
-            ends.into_iter()
-                .any(|[a, b]| [a, b] == [from, to] || [b, a] == [from, to])
-        };
-        match from == to {
-            true => 0,
-            false if faces.iter().any(adjacent) => 1,
-            false if faces.iter().any(|f| f.contains(&from) && f.contains(&to)) => 2,
-            false => 3,
+        let mut reached = [false; MAX_CORNERS];
+        reached[from] = true;
+        let mut count = 0;
+        while !reached[to] {
+            let before = reached;
+            for face in faces {
+                for (at, &end) in face.iter().enumerate() {
+                    let other = face[(at + 1) % face.len()];
+                    reached[end] |= before[other];
+                    reached[other] |= before[end];
+                }
+            }
+            count += 1;
         }
+        count
     }
 }
 
@@ -266,5 +287,16 @@ mod tests {
     fn edges_lead_from_corner_to_corner() {
         let hexahedron = |a, b| CellKind::Hexahedron.edges_between(a, b);
         assert_eq!([0, 1, 2, 6].map(|to| hexahedron(0, to)), [0, 1, 2, 3]);
+        let composite = |a, b| CellKind::CompositeTetrahedron.edges_between(a, b);
+        assert_eq!([0, 4, 1, 5].map(|to| composite(0, to)), [0, 1, 2, 2]);
+        assert_eq!(composite(4, 9), 2);
+    }
+
+    #[test]
+    fn sides_share_out_the_faces() {
+        for kind in CellKind::ALL {
+            let faces = (0..6).flat_map(|side| kind.faces_of_side(side));
+            assert!(faces.eq(0..kind.shape().faces.len() as u8), "{kind}");
+        }
     }
 }

@@ -25,7 +25,7 @@ mod sets;
 mod topology;
 mod transform;
 
-pub use cell::{CellBlock, CellKind, CellShape, MAX_CORNERS};
+pub use cell::{COMPOSITE_PARTS, CellBlock, CellKind, CellShape, MAX_CORNERS};
 pub use error::MeshError;
 pub use id::{ElementId, Face, FacetId, NodeId};
 pub use locate::Located;

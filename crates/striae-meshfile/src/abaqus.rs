@@ -1,11 +1,12 @@
 //! Abaqus `.inp` files.
 //!
 //! A file is a sequence of keywords with parameters, each followed by its
-//! lines of numbers or names. Read are nodes, `C3D8` elements of any variant
-//! (`C3D8R`, `C3D8H`, ...), node and element sets (with `GENERATE`, names of other
+//! lines of numbers or names. Read are nodes, elements `C3D4`, `C3D5`, `C3D6`, `C3D8`,
+//! `C3D10`, `C3D15`, `C3D20` and `C3D27` of any variant, node and element sets (with `GENERATE`, names of other
 //! sets, `NSET` of an `ELSET`) and element-based surfaces; other keywords are
-//! passed over. Abaqus numbers the corners of hexahedra as VTK does; its faces
-//! `S1` to `S6` are the sides 0 to 5 of [`striae_mesh::Face`]. Labels are the same in capital and
+//! passed over. `H` asks for mean dilatation and `I` for an assumed strain; elements `R` are read,
+//! with a note, as those with full integration. Abaqus numbers nodes and sides as [`striae_mesh::CellKind`] does; `S1` is side
+//! 0, all four faces of it in a ten-node tetrahedron. Labels are the same in capital and
 //! small letters and keep the spelling of their first use. A file may have one
 //! part and one instance of it in its own place; nodes of the assembly itself
 //! (reference points) are passed over.
@@ -13,16 +14,16 @@
 mod keywords;
 mod sets;
 
-use super::MeshFileFault;
 use super::collected::{Collected, FileElement, FileFace, position};
 use super::lines::parsed;
+use super::{Asked, MeshFileFault, Reading};
 use keywords::{Keyword, Row, keywords};
 use sets::LabelSets;
 use std::collections::HashSet;
-use striae_mesh::{CellKind, Mesh, Vec3};
+use striae_mesh::{CellKind, Vec3};
 
 /// The mesh of a body.
-pub(super) fn body(text: &str) -> Result<Mesh, MeshFileFault> {
+pub(super) fn body(text: &str) -> Result<Reading, MeshFileFault> {
     collected(text)?.mesh()
 }
 
@@ -150,12 +151,15 @@ impl Reader {
 
     /// Rows `number, corners..`.
     fn elements(&mut self, keyword: &Keyword<'_>) -> Result<(), MeshFileFault> {
-        let kind = keyword.required("TYPE")?.to_uppercase();
-        let kind = cell(&kind).ok_or_else(|| {
-            let fault = keyword.fault("TYPE=C3D4, C3D5, C3D6, C3D8 or one of their variants");
-            fault.with_remedy("mesh the part with linear elements")
+        let name = keyword.required("TYPE")?.to_uppercase();
+        let (kind, nodes) = cell(&name).ok_or_else(|| {
+            let fault = keyword.fault(
+                "TYPE=C3D4, C3D5, C3D6, C3D8, C3D10, C3D15, C3D20, C3D27 or one of their variants",
+            );
+            fault.with_remedy("mesh the part with these elements")
         })?;
-        let expected = format!("an element number and {} node numbers", kind.corner_count());
+        self.ask(&name);
+        let expected = format!("an element number and {nodes} node numbers");
         keyword.refuse_input()?;
         for row in keyword.joined_rows() {
             let numbers: Vec<u64> = row
@@ -164,7 +168,7 @@ impl Reader {
                 .map(|word| parsed(row.line, word, &expected))
                 .collect::<Result<_, _>>()?;
             let (number, corners) = match numbers.as_slice() {
-                [number, corners @ ..] if corners.len() == kind.corner_count() => (number, corners),
+                [number, corners @ ..] if corners.len() == nodes => (number, corners),
                 _ => return Err(row.fault(&expected)),
             };
             if let Some(set) = keyword.parameter("ELSET") {
@@ -174,10 +178,26 @@ impl Reader {
                 kind,
                 line: row.line,
                 number: *number,
-                corners: corners.to_vec(),
+                corners: ordered(corners),
             });
         }
         Ok(())
+    }
+
+    /// Notes what the letters of a kind of element ask for.
+    fn ask(&mut self, name: &str) {
+        let letters = name
+            .trim_start_matches("C3D")
+            .trim_start_matches(|c: char| c.is_numeric());
+        let asked = match letters.contains('H') {
+            true => Some(Asked::MeanDilatation),
+            false => letters.contains('I').then_some(Asked::AssumedStrain),
+        };
+        self.mesh.asked = self.mesh.asked.or(asked);
+        let note = format!("elements {name} are read as elements with full integration");
+        if letters.contains('R') && !self.mesh.notes.contains(&note) {
+            self.mesh.notes.push(note);
+        }
     }
 
     fn node_set(&mut self, keyword: &Keyword<'_>) -> Result<(), MeshFileFault> {
@@ -235,16 +255,30 @@ impl Reader {
     }
 }
 
-/// The kind of `C3D` with the number of nodes and letters, such as `C3D8R` or `C3D6H`.
-fn cell(kind: &str) -> Option<CellKind> {
+/// The kind of `C3D` with the number of nodes and letters, such as `C3D8R` or `C3D6H`, or the
+/// one that such cells are divided into; and the number of nodes.
+fn cell(kind: &str) -> Option<(CellKind, usize)> {
     let nodes = kind.strip_prefix("C3D")?;
-    match nodes.trim_end_matches(|c: char| c.is_ascii_alphabetic()) {
-        "4" => Some(CellKind::Tetrahedron),
-        "5" => Some(CellKind::Pyramid),
-        "6" => Some(CellKind::Wedge),
-        "8" => Some(CellKind::Hexahedron),
-        _ => None,
+    let nodes = nodes.trim_end_matches(|c: char| c.is_ascii_alphabetic());
+    let nodes = nodes.parse().ok()?;
+    let kind = match nodes {
+        4 => CellKind::Tetrahedron,
+        5 => CellKind::Pyramid,
+        6 | 15 => CellKind::Wedge,
+        8 | 20 | 27 => CellKind::Hexahedron,
+        10 => CellKind::CompositeTetrahedron,
+        _ => return None,
+    };
+    Some((kind, nodes))
+}
+
+/// The middle of a hexahedron of 27 nodes comes before those of its faces in Abaqus.
+fn ordered(nodes: &[u64]) -> Vec<u64> {
+    let mut nodes = nodes.to_vec();
+    if nodes.len() == 27 {
+        nodes[20..].rotate_left(1);
     }
+    nodes
 }
 
 fn side(word: &str) -> Option<u8> {

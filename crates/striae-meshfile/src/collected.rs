@@ -1,7 +1,8 @@
 //! What a file says of a mesh, by the file's own numbers, and the mesh made of it.
 
-use super::MeshFileFault;
-use std::collections::{BTreeMap, HashMap};
+use super::division::{self, Middles};
+use super::{Asked, MeshFileFault, Reading};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use striae_mesh::{
     CellBlock, CellKind, ElementId, Face, Mesh, MeshError, NodeId, Sets, Vec3, sorted_face,
 };
@@ -19,13 +20,19 @@ pub(super) struct Collected {
     pub(super) element_sets: BTreeMap<String, Vec<(usize, u64)>>,
     /// Faces with the line that names them.
     pub(super) facet_sets: BTreeMap<String, Vec<(usize, FileFace)>>,
+    /// What is made of something else than the file says.
+    pub(super) notes: Vec<String>,
+    /// The formulation that the elements of the file ask for.
+    pub(super) asked: Option<Asked>,
 }
 
-/// An element of the file.
+/// An element of the file, or a part of one.
+#[derive(Clone)]
 pub(super) struct FileElement {
     pub(super) line: usize,
     pub(super) number: u64,
     pub(super) kind: CellKind,
+    /// Corners; more nodes of an element of higher order, in the order of `division.rs`.
     pub(super) corners: Vec<u64>,
 }
 
@@ -34,103 +41,126 @@ pub(super) struct FileElement {
 pub(super) enum FileFace {
     /// By its corners, in any order.
     Corners([u64; 4]),
+    /// A quadrilateral of a divided cell by its corners and the middles of its edges.
+    Eight([u64; 4], [u64; 4]),
     /// By element number and side, as [`Face::side`].
     Side(u64, u8),
 }
 
+/// The elements of a file when those of higher order are divided.
+struct Divided {
+    /// Linear elements, those of a kind together.
+    elements: Vec<FileElement>,
+    /// All nodes of the elements that are divided, by number.
+    wholes: HashMap<u64, (CellKind, Vec<u64>)>,
+    middles: Middles,
+}
+
 impl Collected {
-    /// The mesh, checked.
-    pub(super) fn mesh(mut self) -> Result<Mesh, MeshFileFault> {
+    /// The mesh, checked, and what there is to say about it.
+    pub(super) fn mesh(mut self) -> Result<Reading, MeshFileFault> {
         if self.elements.is_empty() {
             return Err(MeshFileFault::Empty {
                 expected: "tetrahedra, pyramids, wedges or hexahedra",
                 remedy: "mesh the volume of the body and save it",
             });
         }
-        // Few blocks of many cells: elements of one kind together, in the order of the file.
-        self.elements.sort_by_key(|element| element.kind);
-        let node_ids = self.node_ids()?;
-        let element_ids = self.element_ids()?;
+        let divided = self.divided()?;
+        let node_ids = node_ids(&divided.elements);
+        let element_ids = element_ids(&divided.elements);
         let mut mesh = Mesh::new(
             node_ids.keys().map(|number| self.nodes[number]).collect(),
-            self.blocks(&node_ids),
+            blocks(&divided.elements, &node_ids),
         )?;
-        self.check_shape(&mesh)?;
-        mesh.facet_sets = self.facet_sets(&mesh, &node_ids, &element_ids)?;
+        check_shape(&divided.elements, &mesh)?;
+        mesh.facet_sets = self.facet_sets(&mesh, &node_ids, &element_ids, &divided)?;
         mesh.node_sets = self.node_sets(&mesh, &node_ids)?;
         mesh.element_sets = self.element_sets(&element_ids)?;
         mesh.check()?;
-        Ok(mesh)
+        Ok(Reading {
+            mesh,
+            notes: self.notes,
+            asked: self.asked,
+        })
     }
 
     /// Numbers of the nodes that elements use, in the order of their ids.
-    pub(super) fn node_numbers(&self) -> Result<Vec<u64>, MeshFileFault> {
-        Ok(self.node_ids()?.into_keys().collect())
+    pub(super) fn node_numbers(mut self) -> Result<Vec<u64>, MeshFileFault> {
+        let divided = self.divided()?;
+        Ok(node_ids(&divided.elements).into_keys().collect())
     }
 
-    /// New ids of the nodes that elements use, in ascending order of their numbers.
-    fn node_ids(&self) -> Result<BTreeMap<u64, NodeId>, MeshFileFault> {
-        let mut ids = BTreeMap::new();
+    /// Divides elements of higher order and adds the nodes they lack.
+    fn divided(&mut self) -> Result<Divided, MeshFileFault> {
+        self.check_elements()?;
+        let mut middles = Middles::beside(&self.nodes);
+        let is_divided =
+            |element: &FileElement| division::is_divided(element.kind, element.corners.len());
+        for element in self.elements.iter().filter(|element| is_divided(element)) {
+            middles.note(element.kind, &element.corners);
+        }
+        let (mut elements, mut wholes) = (Vec::new(), HashMap::new());
+        let mut counts: BTreeMap<(CellKind, usize), usize> = BTreeMap::new();
+        for element in std::mem::take(&mut self.elements) {
+            if !is_divided(&element) {
+                elements.push(element);
+                continue;
+            }
+            let kind = element.kind;
+            *counts.entry((kind, element.corners.len())).or_default() += 1;
+            let nodes = element.corners.clone();
+            let all = division::completed(kind, nodes, &mut middles, &mut self.nodes);
+            let all = all.expect("nodes that have been checked");
+            elements.extend(division::parts(kind).into_iter().map(|part| FileElement {
+                corners: part.iter().map(|at| all[*at]).collect(),
+                ..element
+            }));
+            wholes.insert(element.number, (kind, all));
+        }
+        for ((kind, nodes), count) in counts {
+            let (name, are) = match count {
+                1 => (kind.shape().name, "is"),
+                _ => (kind.shape().plural, "are"),
+            };
+            self.notes.push(format!(
+                "{count} {name} of {nodes} nodes {are} divided into {} linear ones",
+                8 * count
+            ));
+        }
+        // Few blocks of many cells: elements of one kind together, in the order of the file.
+        elements.sort_by_key(|element| element.kind);
+        Ok(Divided {
+            elements,
+            wholes,
+            middles,
+        })
+    }
+
+    /// Checks that numbers are new and nodes are there.
+    fn check_elements(&self) -> Result<(), MeshFileFault> {
+        let mut known = HashSet::new();
         for element in &self.elements {
-            for &number in &element.corners {
-                if !self.nodes.contains_key(&number) {
-                    return Err(missing(element.line, "node", number));
-                }
-                ids.insert(number, NodeId(0));
+            let mut corners = element.corners.iter();
+            if let Some(&number) = corners.find(|number| !self.nodes.contains_key(number)) {
+                return Err(missing(element.line, "node", number));
             }
         }
-        for (index, id) in ids.values_mut().enumerate() {
-            *id = NodeId::new(index);
-        }
-        Ok(ids)
-    }
-
-    fn blocks(&self, node_ids: &BTreeMap<u64, NodeId>) -> Vec<CellBlock> {
-        let corners = |element: &FileElement| -> Vec<NodeId> {
-            let numbers = element.corners.iter();
-            numbers.map(|number| node_ids[number]).collect()
-        };
-        let cells = self.elements.iter().map(|e| (e.kind, corners(e)));
-        let cells: Vec<(CellKind, Vec<NodeId>)> = cells.collect();
-        CellBlock::runs(cells.iter().map(|(kind, corners)| (*kind, &corners[..])))
-    }
-
-    fn element_ids(&self) -> Result<HashMap<u64, ElementId>, MeshFileFault> {
-        let mut ids = HashMap::new();
-        for (index, element) in self.elements.iter().enumerate() {
-            if ids.insert(element.number, ElementId::new(index)).is_some() {
+        for element in &self.elements {
+            if !known.insert(element.number) {
                 let found = format!("element {} for the second time", element.number);
-                return Err(MeshFileFault::line(
-                    element.line,
-                    "a new element number",
-                    found,
-                ));
+                let line = element.line;
+                return Err(MeshFileFault::line(line, "a new element number", found));
             }
         }
-        Ok(ids)
-    }
-
-    fn check_shape(&self, mesh: &Mesh) -> Result<(), MeshFileFault> {
-        match mesh.check_shape() {
-            Err(MeshError::Inverted {
-                element,
-                determinant,
-                ..
-            }) => {
-                let FileElement { line, number, .. } = &self.elements[element.index()];
-                let found = format!("element {number} with {determinant:.3e}");
-                let fault = MeshFileFault::line(*line, "a positive Jacobian determinant", found);
-                Err(fault.with_remedy("repair the mesh or reverse the order of the corners"))
-            }
-            other => Ok(other?),
-        }
+        Ok(())
     }
 
     fn facet_sets(
         &self,
         mesh: &Mesh,
         node_ids: &BTreeMap<u64, NodeId>,
-        element_ids: &HashMap<u64, ElementId>,
+        element_ids: &HashMap<u64, Vec<ElementId>>,
+        divided: &Divided,
     ) -> Result<Sets<Face>, MeshFileFault> {
         let mut sets = Sets::default();
         if self.facet_sets.is_empty() {
@@ -144,19 +174,24 @@ impl Collected {
         for (name, members) in &self.facet_sets {
             let mut faces = Vec::with_capacity(members.len());
             for &(line, face) in members {
-                let nodes = match face {
-                    FileFace::Corners(numbers) => corner_nodes(numbers, node_ids),
-                    FileFace::Side(number, side) => {
-                        let element = *element_ids
-                            .get(&number)
-                            .ok_or_else(|| missing(line, "element", number))?;
-                        let sides = mesh.kind(element).shape().faces.len();
-                        let face = Face { element, side };
-                        (usize::from(side) < sides).then(|| mesh.face_nodes(face))
+                let of_face = match face {
+                    FileFace::Side(number, side) if !divided.wholes.contains_key(&number) => {
+                        let elements = element_ids.get(&number);
+                        let elements = elements.ok_or_else(|| missing(line, "element", number))?;
+                        let element = elements[0];
+                        let sides = mesh.kind(element).faces_of_side(side);
+                        let faces = sides.map(|side| mesh.face_nodes(Face { element, side }));
+                        Some(faces.collect())
                     }
+                    other => divided.facets(other, node_ids),
                 };
-                let on_boundary = nodes.and_then(|nodes| boundary.get(&sorted_face(nodes)));
-                faces.push(*on_boundary.ok_or_else(|| not_on_boundary(line, name, face))?);
+                let of_face: Vec<[NodeId; 4]> = of_face.unwrap_or_default();
+                let found = of_face
+                    .iter()
+                    .map(|nodes| boundary.get(&sorted_face(*nodes)));
+                let found: Option<Vec<&Face>> = found.collect();
+                let found = found.filter(|found| !found.is_empty());
+                faces.extend(found.ok_or_else(|| not_on_boundary(line, name, face))?);
             }
             sets.insert(name, faces);
         }
@@ -193,21 +228,87 @@ impl Collected {
 
     fn element_sets(
         &self,
-        element_ids: &HashMap<u64, ElementId>,
+        element_ids: &HashMap<u64, Vec<ElementId>>,
     ) -> Result<Sets<ElementId>, MeshFileFault> {
         let mut sets = Sets::default();
-        sets.insert("all", element_ids.values().copied());
+        sets.insert("all", element_ids.values().flatten().copied());
         for (name, members) in &self.element_sets {
-            let elements: Result<Vec<ElementId>, MeshFileFault> = members
+            let elements: Result<Vec<&Vec<ElementId>>, MeshFileFault> = members
                 .iter()
                 .map(|&(line, number)| {
-                    let id = element_ids.get(&number).copied();
-                    id.ok_or_else(|| missing(line, "element", number))
+                    let ids = element_ids.get(&number);
+                    ids.ok_or_else(|| missing(line, "element", number))
                 })
                 .collect();
-            sets.insert(name, elements?);
+            sets.insert(name, elements?.into_iter().flatten().copied());
         }
         Ok(sets)
+    }
+}
+
+impl Divided {
+    /// Nodes of the facets of a face that is known by its nodes, or of a divided element.
+    fn facets(&self, face: FileFace, node_ids: &BTreeMap<u64, NodeId>) -> Option<Vec<[NodeId; 4]>> {
+        let facets = match face {
+            FileFace::Corners(corners) => vec![corners],
+            FileFace::Eight(corners, on) => {
+                division::quartered(corners, on, self.middles.of(corners)?)
+            }
+            FileFace::Side(number, side) => {
+                let (kind, nodes) = &self.wholes[&number];
+                division::facets(*kind, side.into(), nodes)
+            }
+        };
+        let facets = facets.into_iter();
+        facets
+            .map(|corners| corner_nodes(corners, node_ids))
+            .collect()
+    }
+}
+
+/// New ids of the nodes of elements, in ascending order of their numbers.
+fn node_ids(elements: &[FileElement]) -> BTreeMap<u64, NodeId> {
+    let numbers = elements.iter().flat_map(|element| &element.corners);
+    let mut ids: BTreeMap<u64, NodeId> = numbers.map(|number| (*number, NodeId(0))).collect();
+    for (index, id) in ids.values_mut().enumerate() {
+        *id = NodeId::new(index);
+    }
+    ids
+}
+
+fn blocks(elements: &[FileElement], node_ids: &BTreeMap<u64, NodeId>) -> Vec<CellBlock> {
+    let corners = |element: &FileElement| -> Vec<NodeId> {
+        let numbers = element.corners.iter();
+        numbers.map(|number| node_ids[number]).collect()
+    };
+    let cells = elements.iter().map(|e| (e.kind, corners(e)));
+    let cells: Vec<(CellKind, Vec<NodeId>)> = cells.collect();
+    CellBlock::runs(cells.iter().map(|(kind, corners)| (*kind, &corners[..])))
+}
+
+/// Ids of the elements, or of all parts of those that are divided.
+fn element_ids(elements: &[FileElement]) -> HashMap<u64, Vec<ElementId>> {
+    let mut ids: HashMap<u64, Vec<ElementId>> = HashMap::new();
+    for (index, element) in elements.iter().enumerate() {
+        let of_number = ids.entry(element.number).or_default();
+        of_number.push(ElementId::new(index));
+    }
+    ids
+}
+
+fn check_shape(elements: &[FileElement], mesh: &Mesh) -> Result<(), MeshFileFault> {
+    match mesh.check_shape() {
+        Err(MeshError::Inverted {
+            element,
+            determinant,
+            ..
+        }) => {
+            let FileElement { line, number, .. } = &elements[element.index()];
+            let found = format!("element {number} with {determinant:.3e}");
+            let fault = MeshFileFault::line(*line, "a positive Jacobian determinant", found);
+            Err(fault.with_remedy("repair the mesh or reverse the order of the corners"))
+        }
+        other => Ok(other?),
     }
 }
 
@@ -235,7 +336,9 @@ fn missing(line: usize, what: &str, number: u64) -> MeshFileFault {
 
 fn not_on_boundary(line: usize, set: &str, face: FileFace) -> MeshFileFault {
     let found = match face {
-        FileFace::Corners(corners) => format!("the nodes {corners:?}"),
+        FileFace::Corners(corners) | FileFace::Eight(corners, _) => {
+            format!("the nodes {corners:?}")
+        }
         FileFace::Side(element, side) => format!("side {} of element {element}", side + 1),
     };
     let expected = format!("a face on the boundary of the body in set '{set}'");

@@ -2,10 +2,13 @@
 //!
 //! | ending | format | what is read |
 //! | --- | --- | --- |
-//! | `.msh` | Gmsh, ASCII, versions 2 and 4.1 | linear cells; physical volumes as element sets, surfaces as facet and node sets, curves and points as node sets |
-//! | `.inp` | Abaqus | `C3D4`, `C3D5`, `C3D6` and `C3D8` elements of any variant, `*NSET`, `*ELSET`, `*SURFACE` |
+//! | `.msh` | Gmsh, ASCII, versions 2 and 4.1 | cells; physical volumes as element sets, surfaces as facet and node sets, curves and points as node sets |
+//! | `.inp` | Abaqus | elements `C3D4`, `C3D5`, `C3D6`, `C3D8`, `C3D10`, `C3D15`, `C3D20`, `C3D27` of any variant, `*NSET`, `*ELSET`, `*SURFACE` |
 //! | `.stl` | STL, ASCII and binary | triangles of a rigid surface |
 //! | `.csv` | lines `node,x,y,z` | vectors at nodes; so do `$NodeData` of three components in `.msh` |
+//!
+//! Tetrahedra have four or ten nodes. Hexahedra of 20 or 27 nodes and wedges of 15 or 18 are
+//! divided into linear ones on all their nodes, see [`Reading::notes`].
 //!
 //! Nodes that no element uses are left out, also of sets; sets that become
 //! empty vanish. Each facet set gives its name to the set of its nodes unless the
@@ -17,6 +20,7 @@
 
 mod abaqus;
 mod collected;
+mod division;
 mod error;
 mod gmsh;
 mod lines;
@@ -41,12 +45,40 @@ pub struct RigidSurfaceMesh {
     pub facets: Vec<[NodeId; 4]>,
 }
 
+/// The mesh of a body as it is read from a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reading {
+    /// The mesh.
+    pub mesh: Mesh,
+    /// What is made of something else than the file says, a line each.
+    pub notes: Vec<String>,
+    /// The formulation that the elements of the file ask for.
+    pub asked: Option<Asked>,
+}
+
+/// A formulation of elements that a letter in their name asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Asked {
+    /// With a pressure of their own: `C3D8H`.
+    MeanDilatation,
+    /// With incompatible modes: `C3D8I`.
+    AssumedStrain,
+}
+
 /// Reads the mesh of a body from a `.msh` or `.inp` file.
 ///
 /// # Errors
 /// [`MeshFileError`] names the file and, where there is one, the line. Every
 /// mesh returned has passed [`Mesh::check`] and [`Mesh::check_shape`].
 pub fn read(path: impl AsRef<Path>) -> Result<Mesh, MeshFileError> {
+    read_with_notes(path).map(|reading| reading.mesh)
+}
+
+/// As [`read`], with what there is to say about it.
+///
+/// # Errors
+/// Those of [`read`].
+pub fn read_with_notes(path: impl AsRef<Path>) -> Result<Reading, MeshFileError> {
     let path = path.as_ref();
     match ending(path).as_str() {
         "msh" => text(path).and_then(|text| gmsh::body(&text)),

@@ -53,6 +53,7 @@ pub fn block(
 ) -> PyResult<Mesh> {
     let cells = match cells {
         "tetra" => CellKind::Tetrahedron,
+        "tetra10" => CellKind::CompositeTetrahedron,
         "wedge" => CellKind::Wedge,
         "pyramid" => CellKind::Pyramid,
         _ => CellKind::Hexahedron,

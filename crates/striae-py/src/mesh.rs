@@ -17,11 +17,12 @@ use crate::{
 };
 
 /// Kinds of cells as meshio calls them.
-const KINDS: [(&str, CellKind); 4] = [
+const KINDS: [(&str, CellKind); 5] = [
     ("hexahedron", CellKind::Hexahedron),
     ("wedge", CellKind::Wedge),
     ("pyramid", CellKind::Pyramid),
     ("tetra", CellKind::Tetrahedron),
+    ("tetra10", CellKind::CompositeTetrahedron),
 ];
 
 /// Cells with named sets.

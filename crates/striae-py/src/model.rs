@@ -82,6 +82,7 @@ impl Model {
             let mut body = model::body(name, mesh.0.clone(), material.0.clone());
             body = match formulation.as_deref() {
                 Some("mean-dilatation") => body.formulation(Formulation::MeanDilatation),
+                Some("assumed-strain") => body.formulation(Formulation::AssumedStrain),
                 Some(_) => body.formulation(Formulation::Standard),
                 None => body,
             };

@@ -252,7 +252,7 @@ def test_grids_of_pyvista_have_the_fields(model: st.Model) -> None:
     assert st.Mesh.of(blocks["pad"]).volume == pytest.approx(blocks["pad"].volume)
 
 
-@pytest.mark.parametrize("kind", ["hexahedron", "wedge", "pyramid", "tetra"])
+@pytest.mark.parametrize("kind", ["hexahedron", "wedge", "pyramid", "tetra", "tetra10"])
 def test_meshes_of_all_kinds_of_cells_are_pressed(kind: Any) -> None:
     made = st.block(divisions=(2, 2, 2), cells=kind)
     assert list(made.cells) == [kind]

@@ -70,7 +70,7 @@ MODEL_ERRORS: list[tuple[Callable[[], Any], str]] = [
     ),
     (
         lambda: st.Mesh(POINTS, {"hexahedron20": CELLS}),
-        "cells: the kinds are ['hexahedron', 'wedge', 'pyramid', 'tetra'],"
+        "cells: the kinds are ['hexahedron', 'wedge', 'pyramid', 'tetra', 'tetra10'],"
         " but there is ['hexahedron20']",
     ),
     (

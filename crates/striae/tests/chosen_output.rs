@@ -290,7 +290,13 @@ fn contact_is_written_as_it_is_found() {
 
 #[test]
 fn probes_are_watched_in_every_increment() {
-    for cells in ["hexahedra", "wedges", "pyramids", "tetrahedra"] {
+    for cells in [
+        "hexahedra",
+        "wedges",
+        "pyramids",
+        "tetrahedra",
+        "composite-tetrahedra",
+    ] {
         let folder = tempfile::tempdir().unwrap();
         run(folder.path(), cells);
         let probes = Table::read(&folder.path().join("probes.csv")).unwrap();

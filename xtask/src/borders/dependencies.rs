@@ -201,6 +201,7 @@ const LADDER: &[Row] = &[
         own: &[
             "striae-contact",
             "striae-deck",
+            "striae-element",
             "striae-figure",
             "striae-output",
             "striae-law",

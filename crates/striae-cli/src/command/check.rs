@@ -23,19 +23,20 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let deck = deck::read(&arguments.deck)?;
     let advice = Advice::of(&deck.model);
-    write!(out, "{}", summary(&deck.model, &advice))?;
+    write!(out, "{}", summary(&deck.model, &deck.notes, &advice))?;
     match advice.faults.len() {
         0 => Ok(()),
         count => Err(Failure::Impossible(count)),
     }
 }
 
-fn summary(model: &Model, advice: &Advice) -> String {
+fn summary(model: &Model, notes: &[String], advice: &Advice) -> String {
     let mut lines = vec![model.title.clone()];
     lines.extend(model.bodies.iter().map(body_line));
     lines.extend(model.rigid_surfaces.iter().map(rigid_line));
     lines.extend(model.pairs.iter().map(|pair| pair_line(pair, model)));
     lines.extend((0..model.steps.len()).map(|step| step_line(model, step)));
+    lines.extend(notes.iter().map(|note| format!("note: {note}")));
     for (class, remarks) in [
         ("note", &advice.notes),
         ("warning", &advice.warnings),
@@ -63,6 +64,7 @@ fn body_line(body: &Body) -> String {
     let formulation = match body.formulation {
         Formulation::Standard => "",
         Formulation::MeanDilatation => " with mean dilatation",
+        Formulation::AssumedStrain => " with assumed strain",
     };
     format!(
         "  body `{}`: {} nodes, {} elements{formulation}; {law}, lambda = {lambda:.6e}, G = {shear:.6e}",
@@ -136,7 +138,7 @@ mod tests {
     fn the_summary_counts_what_the_deck_describes() {
         let text = include_str!("template.toml");
         let deck = deck::parse(text, "deck.toml", Path::new("")).unwrap();
-        let said = summary(&deck.model, &Advice::of(&deck.model));
+        let said = summary(&deck.model, &[], &Advice::of(&deck.model));
         assert!(
             said.contains("body `lower`: 75 nodes, 32 elements; neo-Hookean"),
             "{said}"

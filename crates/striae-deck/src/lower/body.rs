@@ -5,6 +5,7 @@ use crate::{faults::FaultList, names::Names, raw, read::At, value::Text};
 use std::path::Path;
 use striae_law::bulk::Material;
 use striae_mesh::{Face, Mesh, NodeId};
+use striae_meshfile::{Asked, Reading};
 use striae_model::DraftBody;
 use striae_solve::model::{Body, BodyId, ContactMass, Formulation};
 
@@ -24,6 +25,8 @@ pub(super) struct Bodies {
 struct RawBody {
     name: String,
     mesh: Option<Mesh>,
+    /// What is made of the file of its mesh.
+    notes: Vec<String>,
     material: Option<Material>,
     density: Option<f64>,
     formulation: Option<Formulation>,
@@ -141,6 +144,16 @@ impl Bodies {
         )
     }
 
+    /// What is made of mesh files that they do not say.
+    pub(super) fn notes(&self) -> Vec<String> {
+        let of_body = |body: &RawBody| {
+            let notes = body.notes.iter();
+            let notes = notes.map(|note| format!("body `{}`: {note}", body.name));
+            notes.collect::<Vec<_>>()
+        };
+        self.bodies.iter().flat_map(of_body).collect()
+    }
+
     /// The bodies of the model, if none is faulty.
     pub(super) fn finished(self) -> Option<Vec<Body>> {
         self.bodies
@@ -176,23 +189,32 @@ fn lower_body(
         Some(name) => materials.find(name, faults),
         None => (None, None),
     };
-    let mut mesh = raw
-        .mesh
-        .as_ref()
-        .and_then(|mesh| mesh::body_mesh(mesh, &name, base, faults));
+    let reading = raw.mesh.as_ref();
+    let reading = reading.and_then(|mesh| mesh::body_mesh(mesh, &name, base, faults));
+    let (mut mesh, notes, asked) = match reading {
+        Some(Reading { mesh, notes, asked }) => (Some(mesh), notes, asked),
+        None => (None, Vec::new(), None),
+    };
     if let Some(mesh) = &mut mesh {
         sets::add_node_sets(mesh, &name, list(&raw.node_sets), faults);
         sets::add_facet_sets(mesh, &name, list(&raw.facet_sets), faults);
     }
+    let stated = raw.formulation.as_ref().map(|word| match word.value {
+        raw::Formulation::Standard => Formulation::Standard,
+        raw::Formulation::MeanDilatation => Formulation::MeanDilatation,
+        raw::Formulation::AssumedStrain => Formulation::AssumedStrain,
+    });
+    let asked = asked.map(|asked| match asked {
+        Asked::MeanDilatation => Formulation::MeanDilatation,
+        Asked::AssumedStrain => Formulation::AssumedStrain,
+    });
     RawBody {
         name,
         mesh,
+        notes,
         material,
         density,
-        formulation: raw.formulation.as_ref().map(|word| match word.value {
-            raw::Formulation::Standard => Formulation::Standard,
-            raw::Formulation::MeanDilatation => Formulation::MeanDilatation,
-        }),
+        formulation: stated.or(asked),
         contact_mass: match raw.contact_mass.as_ref().map(|mass| mass.value) {
             None | Some(raw::ContactMass::Consistent) => ContactMass::Consistent,
             Some(raw::ContactMass::Redistributed) => ContactMass::Redistributed,

@@ -66,6 +66,7 @@ fn block(raw: &raw::Block, faults: &mut FaultList<'_>) -> Option<Block> {
             Some(raw::Cells::Wedges) => CellKind::Wedge,
             Some(raw::Cells::Pyramids) => CellKind::Pyramid,
             Some(raw::Cells::Tetrahedra) => CellKind::Tetrahedron,
+            Some(raw::Cells::CompositeTetrahedra) => CellKind::CompositeTetrahedron,
         },
         gradings: [
             along(|all| &all.x)?,

@@ -10,10 +10,10 @@ use crate::{
 };
 use std::path::{Path, PathBuf};
 use striae_mesh::{CellBlock, CellKind, Mesh, NodeId, Vec3};
-use striae_meshfile::{self as mesh_file};
+use striae_meshfile::{self as mesh_file, Reading};
 use striae_model::FaultKind as ModelFault;
 
-/// The mesh of a body; `None` after its faults have been noted.
+/// The mesh of a body, with what there is to say about its file; `None` after its faults have been noted.
 ///
 /// What generators and files give has been checked to be consistent and to
 /// have no inverted element.
@@ -22,16 +22,24 @@ pub(super) fn body_mesh(
     body: &str,
     base: &Path,
     faults: &mut FaultList<'_>,
-) -> Option<Mesh> {
+) -> Option<Reading> {
     let owner = format!("body `{body}`");
-    match &raw.value {
-        raw::Mesh::File(file) => made(mesh_file::read(path(file, base)?), owner, &raw.span, faults),
+    let mesh = match &raw.value {
+        raw::Mesh::File(file) => {
+            let read = mesh_file::read_with_notes(path(file, base)?);
+            return made(read, owner, &raw.span, faults);
+        }
         raw::Mesh::Inline(mesh) => inline_mesh(mesh, owner, &raw.span, faults),
         raw::Mesh::Generated(generator) => {
             let generator = generator::Generator::new(generator, faults)?;
             made(generator.mesh(), owner, &raw.span, faults)
         }
-    }
+    };
+    mesh.map(|mesh| Reading {
+        mesh,
+        notes: Vec::new(),
+        asked: None,
+    })
 }
 
 /// Positions and facets of a rigid surface; `None` after its faults have been noted.

@@ -68,11 +68,13 @@ pub(super) fn deck(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_
     if !faults.is_empty() {
         return None;
     }
+    let notes = parts.bodies.notes();
     let model = parts.model(raw)?;
     let fitted = fitted(model).map_err(|found| note(found, raw, &spans, faults));
     Some(Deck {
         model: fitted.ok()?,
         output,
+        notes,
     })
 }
 

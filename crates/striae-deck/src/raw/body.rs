@@ -18,7 +18,7 @@ table! {
         required material: Text,
         /// Its mesh, read from a file or generated.
         required mesh: Mesh,
-        /// How its elements take up strain. Default: `mean-dilatation` where Poisson's ratio is above 0.45 or the material yields, else `standard`.
+        /// How its elements take up strain. Default: what elements of Abaqus with an `H` (`mean-dilatation`) or `I` (`assumed-strain`) ask for, `mean-dilatation` where Poisson's ratio is above 0.45 or the material yields, else `standard`.
         optional formulation: Formulation,
         /// Mass of the nodes of its contact surfaces in dynamic steps. Default: `consistent`.
         optional contact_mass: ContactMass,
@@ -36,6 +36,8 @@ words! {
         Standard = "standard",
         /// With pressure and volume constant in the element; linear tetrahedra lock also with it.
         MeanDilatation = "mean-dilatation",
+        /// With a deformation gradient of hexahedra that is enhanced for bending; other elements as `standard`.
+        AssumedStrain = "assumed-strain",
     }
 }
 

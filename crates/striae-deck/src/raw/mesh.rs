@@ -28,7 +28,7 @@ table! {
     InlineMesh {
         /// Positions of the nodes.
         required positions: Vec<At<[Number; 3]>>,
-        /// Corners of the elements, nodes counted from 0 and ordered as Abaqus and Gmsh do: eight of a hexahedron, six of a wedge, five of a pyramid, four of a tetrahedron.
+        /// Corners of the elements, nodes counted from 0 and ordered as Abaqus and Gmsh do: eight of a hexahedron, six of a wedge, five of a pyramid, four of a tetrahedron, ten of one with nodes on its edges.
         required cells: Vec<At<All<Whole<0>>>>,
     }
 }
@@ -82,6 +82,8 @@ words! {
         Pyramids = "pyramids",
         /// With four nodes, six in each hexahedron.
         Tetrahedra = "tetrahedra",
+        /// With ten nodes, six in each hexahedron, each linear in twelve parts.
+        CompositeTetrahedra = "composite-tetrahedra",
     }
 }
 

@@ -74,6 +74,7 @@ impl Writer<'_> {
         let formulation = match formulation {
             Formulation::Standard => "standard",
             Formulation::MeanDilatation => "mean-dilatation",
+            Formulation::AssumedStrain => "assumed-strain",
         };
         let mass = match body.contact_mass {
             ContactMass::Consistent => "consistent",

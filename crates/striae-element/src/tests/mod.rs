@@ -18,7 +18,11 @@ fn linear_elastic() -> Material {
     Material::linear_elastic(LameConstants::from_youngs_modulus(1.0, 0.3).unwrap())
 }
 
-const FORMULATIONS: [Formulation; 2] = [Formulation::Standard, Formulation::MeanDilatation];
+const FORMULATIONS: [Formulation; 3] = [
+    Formulation::Standard,
+    Formulation::MeanDilatation,
+    Formulation::AssumedStrain,
+];
 
 /// One element.
 struct Single {
@@ -41,15 +45,20 @@ impl Single {
         }
     }
 
-    /// Half the natural size, corners disturbed by at most `amplitude`.
+    /// With edges half the natural size, or all of it where they are divided by a node;
+    /// corners disturbed by at most `amplitude`.
     fn distorted(
         kind: CellKind,
         formulation: Formulation,
         random: &mut Random,
         amplitude: f64,
     ) -> Self {
+        let size = match kind {
+            CellKind::CompositeTetrahedron => 1.0,
+            _ => 0.5,
+        };
         let corners = kind.shape().corners.iter();
-        let corners = corners.map(|x| Vec3::from(*x) * 0.5 + random.vector3() * amplitude);
+        let corners = corners.map(|x| Vec3::from(*x) * size + random.vector3() * amplitude);
         Self::new(kind, formulation, corners.collect())
     }
 

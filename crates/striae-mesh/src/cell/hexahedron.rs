@@ -26,6 +26,7 @@ pub(super) static SHAPE: CellShape = CellShape {
         &[2, 3, 7, 6],
         &[3, 0, 4, 7],
     ],
+    faces_a_side: 1,
     trihedra: &[
         [0, 1, 3, 4],
         [1, 2, 0, 5],
@@ -64,19 +65,25 @@ const CORNERS: [[f64; 3]; 8] = [
 ];
 
 fn interpolation(at: &Vec3) -> [f64; MAX_CORNERS] {
-    CORNERS.map(|corner| (0..3).map(|j| 0.5 + 0.5 * corner[j] * at[j]).product())
+    let mut values = [0.0; MAX_CORNERS];
+    for (value, corner) in values.iter_mut().zip(CORNERS) {
+        *value = (0..3).map(|j| 0.5 + 0.5 * corner[j] * at[j]).product();
+    }
+    values
 }
 
 fn gradients(at: &Vec3) -> [Vec3; MAX_CORNERS] {
-    CORNERS.map(|corner| {
+    let mut gradients = [Vec3::zeros(); MAX_CORNERS];
+    for (gradient, corner) in gradients.iter_mut().zip(CORNERS) {
         let factor = |j: usize| 0.5 + 0.5 * corner[j] * at[j];
         let slope = |j: usize| 0.5 * corner[j];
-        Vec3::new(
+        *gradient = Vec3::new(
             slope(0) * factor(1) * factor(2),
             factor(0) * slope(1) * factor(2),
             factor(0) * factor(1) * slope(2),
-        )
-    })
+        );
+    }
+    gradients
 }
 
 #[cfg(test)]

@@ -37,6 +37,7 @@ pub(super) static SHAPE: CellShape = CellShape {
         &[2, 3, 4],
         &[3, 0, 4],
     ],
+    faces_a_side: 1,
     trihedra: &[
         [0, 1, 3, 4],
         [1, 2, 0, 4],

@@ -27,6 +27,7 @@ pub(super) static SHAPE: CellShape = CellShape {
         [0.0, 0.0, 1.0],
     ],
     faces: &[&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[2, 0, 3]],
+    faces_a_side: 1,
     trihedra: &[[0, 1, 2, 3], [1, 2, 0, 3], [2, 0, 1, 3], [3, 0, 2, 1]],
     regular: std::f64::consts::FRAC_1_SQRT_2,
     corner_jacobian: 1.0,

@@ -33,6 +33,7 @@ pub(super) static SHAPE: CellShape = CellShape {
         &[1, 2, 5, 4],
         &[2, 0, 3, 5],
     ],
+    faces_a_side: 1,
     trihedra: &[
         [0, 1, 2, 3],
         [1, 2, 0, 4],

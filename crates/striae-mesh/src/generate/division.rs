@@ -3,7 +3,10 @@
 //! - wedges: two, either side of the plane through the edges `0 4` and `2 6`;
 //! - tetrahedra: six around the diagonal `0 6` (Kuhn): each goes along one edge a
 //!   direction, so that neighbours in a lattice cut the face between them alike;
+//! - ten-node tetrahedra: the same with nodes in the middles of their edges;
 //! - pyramids: six, from the faces to a node in the middle.
+
+use std::collections::HashMap;
 
 use crate::{CellBlock, CellKind, ElementId, Face, NodeId, Vec3, mesh::face_nodes};
 
@@ -20,6 +23,8 @@ const TETRAHEDRA: [[usize; 4]; 6] = [
 /// Hexahedra and what they are divided into.
 pub(super) struct Division {
     hexahedra: CellBlock,
+    /// The cells by those of their nodes that are their corners in the strict sense.
+    plain: CellBlock,
     /// The cells, those of a hexahedron one after the other.
     pub(super) cells: CellBlock,
 }
@@ -27,14 +32,27 @@ pub(super) struct Division {
 impl Division {
     /// Divides hexahedra of a lattice; pyramids add nodes.
     pub(super) fn new(hexahedra: CellBlock, kind: CellKind, positions: &mut Vec<Vec3>) -> Self {
-        let nodes = match kind {
-            CellKind::Hexahedron => hexahedra.nodes.clone(),
+        let corners = match kind {
+            CellKind::CompositeTetrahedron => CellKind::Tetrahedron,
+            other => other,
+        };
+        let nodes = match corners {
             CellKind::Wedge => picked(&hexahedra, WEDGES.as_flattened()),
-            CellKind::Tetrahedron => picked(&hexahedra, TETRAHEDRA.as_flattened()),
             CellKind::Pyramid => pyramids(&hexahedra, positions),
+            CellKind::Tetrahedron => picked(&hexahedra, TETRAHEDRA.as_flattened()),
+            _ => hexahedra.nodes.clone(),
+        };
+        let plain = CellBlock {
+            kind: corners,
+            nodes,
+        };
+        let nodes = match kind {
+            CellKind::CompositeTetrahedron => with_middles(&plain, positions),
+            _ => plain.nodes.clone(),
         };
         Self {
             hexahedra,
+            plain,
             cells: CellBlock { kind, nodes },
         }
     }
@@ -42,17 +60,19 @@ impl Division {
     /// Faces of the cells on faces of the hexahedra.
     pub(super) fn faces(&self, faces: &[Face]) -> Vec<Face> {
         let parts = self.cells.len() / self.hexahedra.len();
-        let sides = self.cells.kind.shape().faces.len() as u8;
+        let sides = self.plain.kind.shape().faces.len() as u8;
         let mut found = Vec::new();
         for face in faces {
             let hexahedron = face.element.index();
             let whole = face_nodes(&self.hexahedra, hexahedron, face.side);
             for at in parts * hexahedron..parts * (hexahedron + 1) {
                 let on_face = |side: &u8| {
-                    let nodes = face_nodes(&self.cells, at, *side);
+                    let nodes = face_nodes(&self.plain, at, *side);
                     nodes.iter().all(|node| whole.contains(node))
                 };
-                found.extend((0..sides).filter(on_face).map(|side| Face {
+                let sides = (0..sides).filter(on_face);
+                let faces = sides.flat_map(|side| self.cells.kind.faces_of_side(side));
+                found.extend(faces.map(|side| Face {
                     element: ElementId::new(at),
                     side,
                 }));
@@ -60,6 +80,25 @@ impl Division {
         }
         found
     }
+}
+
+/// Tetrahedra with nodes added in the middles of their edges.
+fn with_middles(tetrahedra: &CellBlock, positions: &mut Vec<Vec3>) -> Vec<NodeId> {
+    const EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]];
+    let mut middles: HashMap<[NodeId; 2], NodeId> = HashMap::new();
+    let mut nodes = Vec::new();
+    for cell in tetrahedra.cells() {
+        nodes.extend_from_slice(cell);
+        for edge in EDGES {
+            let [a, b] = edge.map(|end| cell[end]);
+            let middle = middles.entry([a.min(b), a.max(b)]).or_insert_with(|| {
+                positions.push((positions[a.index()] + positions[b.index()]) / 2.0);
+                NodeId::new(positions.len() - 1)
+            });
+            nodes.push(*middle);
+        }
+    }
+    nodes
 }
 
 fn picked(hexahedra: &CellBlock, corners: &[usize]) -> Vec<NodeId> {

@@ -237,6 +237,7 @@ fn cells_of_all_kinds_fill_the_same_block() {
         (CellKind::Pyramid, 6, 1),
         (CellKind::Wedge, 2, 1),
         (CellKind::Hexahedron, 1, 1),
+        (CellKind::CompositeTetrahedron, 6, 8),
     ];
     for (cells, parts, facets_a_side) in counts {
         let block = Block {

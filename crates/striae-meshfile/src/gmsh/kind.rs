@@ -33,6 +33,9 @@ const KINDS: [(&str, usize, usize); 19] = [
 impl Kind {
     pub(super) const TRIANGLE: Self = Self(2);
     pub(super) const QUADRANGLE: Self = Self(3);
+    pub(super) const TRIANGLE_6: Self = Self(9);
+    pub(super) const QUADRANGLE_9: Self = Self(10);
+    pub(super) const QUADRANGLE_8: Self = Self(16);
 
     /// The type of a number from 1 to 19.
     pub(super) fn new(line: usize, number: usize) -> Result<Self, MeshFileFault> {
@@ -46,15 +49,33 @@ impl Kind {
         )
     }
 
-    /// The kind of cell that elements of this type are.
+    /// The kind of cell that elements of this type are, or are divided into.
     pub(super) fn cell(self) -> Option<CellKind> {
         match self.0 {
             4 => Some(CellKind::Tetrahedron),
-            5 => Some(CellKind::Hexahedron),
-            6 => Some(CellKind::Wedge),
+            5 | 12 | 17 => Some(CellKind::Hexahedron),
+            6 | 13 | 18 => Some(CellKind::Wedge),
             7 => Some(CellKind::Pyramid),
+            11 => Some(CellKind::CompositeTetrahedron),
             _ => None,
         }
+    }
+
+    /// Nodes of a cell in the order of Abaqus and of `division.rs`.
+    pub(super) fn ordered(self, nodes: &[u64]) -> Vec<u64> {
+        const EDGES_8: [usize; 12] = [8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15];
+        const FACES_8: [usize; 7] = [20, 25, 21, 23, 24, 22, 26];
+        const EDGES_6: [usize; 9] = [6, 9, 7, 12, 14, 13, 8, 10, 11];
+        const FACES_6: [usize; 3] = [15, 17, 16];
+        let order: Vec<usize> = match self.0 {
+            11 => (0..8).chain([9, 8]).collect(),
+            12 => (0..8).chain(EDGES_8).chain(FACES_8).collect(),
+            17 => (0..8).chain(EDGES_8).collect(),
+            13 => (0..6).chain(EDGES_6).chain(FACES_6).collect(),
+            18 => (0..6).chain(EDGES_6).collect(),
+            _ => return nodes.to_vec(),
+        };
+        order.into_iter().map(|at| nodes[at]).collect()
     }
 
     pub(super) fn dimension(self) -> usize {
@@ -68,8 +89,8 @@ impl Kind {
     /// The fault of this type where it cannot be used.
     pub(super) fn fault(self, line: usize) -> MeshFileFault {
         let expected = match self.dimension() {
-            3 => "linear tetrahedra, pyramids, prisms or hexahedra",
-            _ => "3-node triangles or 4-node quadrangles as faces",
+            3 => "tetrahedra, prisms, hexahedra or linear pyramids",
+            _ => "triangles, or quadrangles of 4 or 9 nodes",
         };
         let found = format!("element type {} ({})", self.0, KINDS[self.0 - 1].0);
         MeshFileFault::line(line, expected, found).with_remedy(LOWER_ORDER)

@@ -2,7 +2,9 @@
 //!
 //! A file is a sequence of sections `$Name .. $EndName`. Both versions lead to
 //! the same list of nodes and cells; a cell knows the physical groups it is in.
-//! Gmsh numbers the corners of all linear cells as [`striae_mesh::CellKind`] does.
+//! Gmsh numbers the corners of all linear cells as [`striae_mesh::CellKind`] does, nodes on
+//! edges and faces otherwise (`kind.rs`). A triangle of six nodes is four faces, and so is a
+//! quadrangle of eight or nine.
 
 mod kind;
 mod node_data;
@@ -11,14 +13,14 @@ mod version4;
 
 use super::collected::{Collected, FileElement, FileFace, position};
 use super::lines::{Line, Lines};
-use super::{MeshFileFault, RigidSurfaceMesh};
+use super::{MeshFileFault, Reading, RigidSurfaceMesh, division};
 use kind::Kind;
 pub(super) use node_data::node_data;
 use std::collections::{BTreeMap, HashMap, HashSet};
-use striae_mesh::{Mesh, NodeId, Vec3};
+use striae_mesh::{NodeId, Vec3};
 
 /// The mesh of a body.
-pub(super) fn body(text: &str) -> Result<Mesh, MeshFileFault> {
+pub(super) fn body(text: &str) -> Result<Reading, MeshFileFault> {
     collected(text)?.mesh()
 }
 
@@ -33,7 +35,7 @@ pub(super) fn collected(text: &str) -> Result<Collected, MeshFileFault> {
             3 => {
                 let kind = cell.kind.cell();
                 let kind = kind.ok_or_else(|| cell.kind.fault(cell.line))?;
-                let corners = cell.nodes.clone();
+                let corners = cell.kind.ordered(&cell.nodes);
                 // A cell of several groups is written several times in version 2.
                 let number = *known.entry(corners.clone()).or_insert(cell.number);
                 if number == cell.number {
@@ -51,10 +53,10 @@ pub(super) fn collected(text: &str) -> Result<Collected, MeshFileFault> {
             }
             2 if cell.groups.is_empty() => {}
             2 => {
-                let corners = FileFace::Corners(cell.facet()?);
+                let faces = cell.faces()?;
                 for name in groups {
                     let set = mesh.facet_sets.entry(name).or_default();
-                    set.push((cell.line, corners));
+                    set.extend(faces.iter().map(|face| (cell.line, *face)));
                 }
             }
             _ => {
@@ -85,22 +87,23 @@ pub(super) fn numbered_rigid_surface(
     let mut facets = Vec::new();
     let mut known = HashSet::new();
     for cell in file.cells.iter().filter(|cell| cell.kind.dimension() == 2) {
-        let corners = cell.facet()?;
-        if !known.insert(corners) {
-            continue;
+        for corners in cell.facets()? {
+            if !known.insert(corners) {
+                continue;
+            }
+            let mut facet = [NodeId(0); 4];
+            for (node, number) in facet.iter_mut().zip(corners) {
+                let position = file.nodes.get(&number).ok_or_else(|| {
+                    MeshFileFault::line(cell.line, "an existing node", format!("node {number}"))
+                })?;
+                *node = *ids.entry(number).or_insert_with(|| {
+                    positions.push(*position);
+                    numbers.push(number);
+                    NodeId::new(positions.len() - 1)
+                });
+            }
+            facets.push(facet);
         }
-        let mut facet = [NodeId(0); 4];
-        for (node, number) in facet.iter_mut().zip(corners) {
-            let position = file.nodes.get(&number).ok_or_else(|| {
-                MeshFileFault::line(cell.line, "an existing node", format!("node {number}"))
-            })?;
-            *node = *ids.entry(number).or_insert_with(|| {
-                positions.push(*position);
-                numbers.push(number);
-                NodeId::new(positions.len() - 1)
-            });
-        }
-        facets.push(facet);
     }
     if facets.is_empty() {
         return Err(MeshFileFault::Empty {
@@ -201,11 +204,26 @@ impl File {
 }
 
 impl Cell {
-    /// The corners of a quadrangle, or of a triangle with the last one twice.
-    fn facet(&self) -> Result<[u64; 4], MeshFileFault> {
+    /// The faces that it is, on a body.
+    fn faces(&self) -> Result<Vec<FileFace>, MeshFileFault> {
+        if let (Kind::QUADRANGLE_8, &[a, b, c, d, ab, bc, cd, da]) = (self.kind, &self.nodes[..]) {
+            return Ok(vec![FileFace::Eight([a, b, c, d], [ab, bc, cd, da])]);
+        }
+        let facets = self.facets()?.into_iter();
+        Ok(facets.map(FileFace::Corners).collect())
+    }
+
+    /// The corners of quadrangles, or of triangles with the last one twice.
+    fn facets(&self) -> Result<Vec<[u64; 4]>, MeshFileFault> {
         match (self.kind, self.nodes.as_slice()) {
-            (Kind::TRIANGLE, &[a, b, c]) => Ok([a, b, c, c]),
-            (Kind::QUADRANGLE, &[a, b, c, d]) => Ok([a, b, c, d]),
+            (Kind::TRIANGLE, &[a, b, c]) => Ok(vec![[a, b, c, c]]),
+            (Kind::QUADRANGLE, &[a, b, c, d]) => Ok(vec![[a, b, c, d]]),
+            (Kind::TRIANGLE_6, &[a, b, c, ab, bc, ca]) => {
+                Ok(division::in_triangles([a, b, c], [ab, bc, ca]))
+            }
+            (Kind::QUADRANGLE_9, &[a, b, c, d, ab, bc, cd, da, middle]) => {
+                Ok(division::quartered([a, b, c, d], [ab, bc, cd, da], middle))
+            }
             _ => Err(self.kind.fault(self.line)),
         }
     }

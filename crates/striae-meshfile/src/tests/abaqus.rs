@@ -1,8 +1,12 @@
 //! Abaqus files, whole and broken.
 
-use super::{assert_explained, block, written};
-use crate::abaqus::body;
-use striae_mesh::{NodeId, Vec3};
+use super::{assert_explained, block, divided, written};
+use crate::{Asked, MeshFileFault, abaqus};
+use striae_mesh::{CellKind, Mesh, NodeId, Vec3};
+
+fn body(text: &str) -> Result<Mesh, MeshFileFault> {
+    abaqus::body(text).map(|reading| reading.mesh)
+}
 
 /// Two cubes side by side along x as an Abaqus file without sets.
 const TWO_CUBES: &str = "*HEADING
@@ -107,7 +111,7 @@ fn broken_abaqus_files_are_explained() {
         ("1, 2\n*NODE\n", ["line 1", "a keyword such as *NODE"]),
         ("*NODE\n1, 0, x, 0\n", ["line 2", "a coordinate"]),
         ("*NODE\n1, 0\n1, 0\n", ["line 3", "has not been used"]),
-        ("*ELEMENT, TYPE=C3D10\n", ["line 1", "linear elements"]),
+        ("*ELEMENT, TYPE=C3D13\n", ["line 1", "with these elements"]),
         (
             "*ELEMENT, TYPE=C3D8\n1, 2, 3\n",
             ["line 2", "8 node numbers"],
@@ -171,4 +175,67 @@ fn unused_nodes_are_left_out_also_of_sets() {
     assert_eq!(back.positions, mesh.positions);
     assert_eq!(back.node_sets.get("reference"), None);
     assert_eq!(back.node_sets.get("mixed"), Some([NodeId(1)].as_slice()));
+}
+
+#[test]
+fn cells_of_higher_order_are_divided() {
+    let edges_8 = [
+        [0, 1],
+        [1, 2],
+        [2, 3],
+        [3, 0],
+        [4, 5],
+        [5, 6],
+        [6, 7],
+        [7, 4],
+        [0, 4],
+        [1, 5],
+        [2, 6],
+        [3, 7],
+    ];
+    let edges_6 = [
+        [0, 1],
+        [1, 2],
+        [2, 0],
+        [3, 4],
+        [4, 5],
+        [5, 3],
+        [0, 3],
+        [1, 4],
+        [2, 5],
+    ];
+    for (cells, edges) in [
+        (CellKind::Hexahedron, &edges_8[..]),
+        (CellKind::Wedge, &edges_6[..]),
+    ] {
+        let linear = block(cells);
+        let whole = written::Whole::new(&linear, edges, &[], false);
+        let reading = abaqus::body(&whole.abaqus("RH")).unwrap();
+        assert_eq!(reading.asked, Some(Asked::MeanDilatation));
+        let note = reading
+            .notes
+            .iter()
+            .find(|note| note.contains("full integration"));
+        assert!(
+            note.is_some_and(|note| note.contains("C3D")),
+            "{:?}",
+            reading.notes
+        );
+        divided(&linear, &reading);
+    }
+    let edges: Vec<[usize; 2]> = edges_8.into();
+    let linear = block(CellKind::Hexahedron);
+    let faces: Vec<[usize; 4]> = CellKind::Hexahedron
+        .shape()
+        .faces
+        .iter()
+        .map(|face| (*face).try_into().unwrap())
+        .collect();
+    let mut whole = written::Whole::new(&linear, &edges, &faces, true);
+    // The middle of the cell comes first.
+    whole
+        .cells
+        .iter_mut()
+        .for_each(|cell| cell[20..].rotate_right(1));
+    divided(&linear, &abaqus::body(&whole.abaqus("I")).unwrap());
 }

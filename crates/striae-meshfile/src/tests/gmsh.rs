@@ -1,9 +1,13 @@
 //! Gmsh files, whole and broken.
 
-use super::assert_explained;
-use crate::gmsh::{body, rigid_surface};
-use crate::read_rigid_surface;
-use striae_mesh::{CellKind, NodeId, Vec3};
+use super::{assert_explained, block, divided, written};
+use crate::gmsh::{self, rigid_surface};
+use crate::{MeshFileFault, read_rigid_surface};
+use striae_mesh::{CellKind, Mesh, NodeId, Vec3};
+
+fn body(text: &str) -> Result<Mesh, MeshFileFault> {
+    gmsh::body(text).map(|reading| reading.mesh)
+}
 
 /// A cube of node 1 to 8 with the given elements and names, version 2.
 fn cube(names: &str, elements: &[&str]) -> String {
@@ -102,7 +106,7 @@ fn broken_gmsh_files_are_explained() {
         (
             format!("{two}$Elements\n1\n5 14 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14\n$EndElements\n"),
             [
-                "line 6: expected linear tetrahedra",
+                "line 6: expected tetrahedra, prisms, hexahedra",
                 "element type 14 (14-node pyramid); mesh with",
             ],
         ),
@@ -111,8 +115,8 @@ fn broken_gmsh_files_are_explained() {
             ["line 6", "element type 92"],
         ),
         (
-            format!("{two}$Elements\n1\n5 9 1 4 1 2 3 4 5 6\n$EndElements\n"),
-            ["line 6", "(6-node triangle)"],
+            format!("{two}$Elements\n1\n5 19 0 1 2 3 4 5 6 7 8 9 10 11 12 13\n$EndElements\n"),
+            ["line 6", "(13-node pyramid)"],
         ),
         (
             format!("{two}$Elements\n1\n5 5 0 1 2 3\n"),
@@ -135,7 +139,7 @@ fn broken_gmsh_files_are_explained() {
                 "{four}$Elements\n1 1 1 1\n3 1 17 1\n1 {}\n$EndElements\n",
                 "1 ".repeat(20)
             ),
-            ["element type 17", "Mesh.ElementOrder = 1"],
+            ["node 1, which the file does not define", "line 7"],
         ),
     ] {
         assert_explained(body(&text).map(drop), parts);
@@ -158,4 +162,54 @@ fn rigid_surfaces_come_from_gmsh_with_triangles_and_quadrangles() {
     assert_eq!(surface.positions[4], Vec3::new(2.0, 0.0, 0.0));
     assert_eq!(surface.positions.len(), 5);
     assert!(read_rigid_surface(folder.path().join("ground.obj")).is_err());
+}
+
+#[test]
+fn cells_of_higher_order_are_divided() {
+    // Gmsh's own order of the edges and faces.
+    let edges_8 = [
+        [0, 1],
+        [0, 3],
+        [0, 4],
+        [1, 2],
+        [1, 5],
+        [2, 3],
+        [2, 6],
+        [3, 7],
+        [4, 5],
+        [4, 7],
+        [5, 6],
+        [6, 7],
+    ];
+    let faces_8 = [
+        [0, 3, 2, 1],
+        [0, 1, 5, 4],
+        [0, 4, 7, 3],
+        [1, 2, 6, 5],
+        [2, 3, 7, 6],
+        [4, 5, 6, 7],
+    ];
+    let edges_6 = [
+        [0, 1],
+        [0, 2],
+        [0, 3],
+        [1, 2],
+        [1, 4],
+        [2, 5],
+        [3, 4],
+        [3, 5],
+        [4, 5],
+    ];
+    let faces_6 = [[0, 1, 4, 3], [0, 3, 5, 2], [1, 2, 5, 4]];
+    for (cells, types, edges, faces) in [
+        (CellKind::Hexahedron, [17, 12], &edges_8[..], &faces_8[..]),
+        (CellKind::Wedge, [18, 13], &edges_6[..], &faces_6[..]),
+    ] {
+        let linear = block(cells);
+        for (kind, full) in types.into_iter().zip([false, true]) {
+            let whole = written::Whole::new(&linear, edges, faces, full);
+            let reading = gmsh::body(&whole.gmsh(kind)).unwrap();
+            divided(&linear, &reading);
+        }
+    }
 }

@@ -22,7 +22,7 @@ fn meshes_come_back_from_all_formats() {
             ("inp", mesh_file::abaqus::body(&written::abaqus(&mesh))),
         ] {
             let back = result.unwrap_or_else(|fault| panic!("{cells}, {format}: {fault}"));
-            assert_eq!(back, mesh, "{cells}, {format}");
+            assert_eq!(back.mesh, mesh, "{cells}, {format}");
         }
     }
 }
@@ -129,4 +129,35 @@ fn assert_explained(result: Result<(), MeshFileFault>, parts: [&str; 2]) {
     for part in parts {
         assert!(message.contains(part), "{message} -- lacks: {part}");
     }
+}
+
+/// Checks a mesh of cells of higher order, divided, against the linear one it was made of.
+fn divided(linear: &Mesh, reading: &crate::Reading) {
+    let mesh = &reading.mesh;
+    let count = linear.element_count();
+    assert_eq!(mesh.element_count(), 8 * count);
+    let note = reading.notes.last().unwrap();
+    assert!(
+        note.ends_with(&format!("into {} linear ones", 8 * count)),
+        "{note}"
+    );
+    assert!((mesh.volume() / linear.volume() - 1.0).abs() < 1e-13);
+    assert!(mesh.quality().smallest_scaled_jacobian > 0.1);
+    assert_eq!(
+        mesh.boundary_faces().len(),
+        4 * linear.boundary_faces().len()
+    );
+    for (name, faces) in linear.facet_sets.iter() {
+        let found = mesh.facet_sets.get(name).unwrap();
+        assert_eq!(found.len(), 4 * faces.len(), "{name}");
+        assert!((mesh.area(found) / linear.area(faces) - 1.0).abs() < 1e-13);
+        let sum = |mesh: &Mesh, faces: &[striae_mesh::Face]| {
+            faces
+                .iter()
+                .map(|face| mesh.area_vector(*face))
+                .sum::<Vec3>()
+        };
+        assert!((sum(mesh, found) - sum(linear, faces)).norm() < 1e-13);
+    }
+    assert_eq!(mesh.element_sets.get("all").unwrap().len(), 8 * count);
 }

@@ -136,6 +136,7 @@ fn solid(kind: CellKind) -> u8 {
         CellKind::Hexahedron => 12,
         CellKind::Wedge => 13,
         CellKind::Pyramid => 14,
+        CellKind::CompositeTetrahedron => 24,
     }
 }
 

@@ -84,7 +84,7 @@ fn every_kind_of_array_survives_bit_by_bit() {
 
 #[test]
 fn cells_carry_the_shape_and_the_corners_of_their_kind() {
-    let points = cube();
+    let points = [cube(), cube()].concat();
     let nodes = |count: u32| (0..count).map(NodeId).collect();
     let blocks = CellKind::ALL.map(|kind| CellBlock {
         kind,
@@ -94,12 +94,12 @@ fn cells_carry_the_shape_and_the_corners_of_their_kind() {
         points: &points,
         cells: Cells::Blocks(&blocks),
         point_arrays: vec![],
-        cell_arrays: vec![Array::new("block", Values::Integers(vec![0, 1, 2, 3]))],
+        cell_arrays: vec![Array::new("block", Values::Integers(vec![0, 1, 2, 3, 4]))],
         time: 0.0,
     };
     let file = encode(&grid);
-    assert_eq!(array(&file, "types").integers(), [10, 14, 13, 12]);
-    assert_eq!(array(&file, "offsets").integers(), [4, 9, 15, 23]);
+    assert_eq!(array(&file, "types").integers(), [10, 14, 13, 12, 24]);
+    assert_eq!(array(&file, "offsets").integers(), [4, 9, 15, 23, 33]);
     let corners = array(&file, "connectivity").integers();
     assert_eq!(corners[4..9], [0, 1, 2, 3, 4]);
     // The first triangle of VTK's wedge looks outward.

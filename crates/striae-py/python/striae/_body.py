@@ -152,7 +152,7 @@ class Body:
         *,
         density: Optional[float] = None,
         contact_mass: Literal["consistent", "redistributed"] = "consistent",
-        formulation: Optional[Literal["standard", "mean-dilatation"]] = None,
+        formulation: Optional[Literal["standard", "mean-dilatation", "assumed-strain"]] = None,
     ) -> None:
         """Makes a body.
 
@@ -162,9 +162,10 @@ class Body:
         density: mass per volume at rest, for inertia and gravity.
         contact_mass: mass of the nodes of contact surfaces in dynamic steps: ``consistent``,
             or ``redistributed`` to the nodes behind, against oscillations of contact.
-        formulation: of its elements, ``standard`` or ``mean-dilatation``, which does not lock
-            where volumes can hardly change; by default the latter where Poisson's ratio at
-            rest is above 0.45.
+        formulation: of its elements, ``standard``, ``mean-dilatation``, which does not lock
+            where volumes can hardly change, or ``assumed-strain``, with which hexahedra bend;
+            by default ``mean-dilatation`` where Poisson's ratio at rest is above 0.45, else
+            ``standard``.
         """
         self.name = check.name(name, "name")
         self.mesh = Mesh.of(mesh)
@@ -175,7 +176,7 @@ class Body:
         self._formulation = (
             None
             if formulation is None
-            else check.word(formulation, ("standard", "mean-dilatation"), "formulation")
+            else check.word(formulation, ("standard", "mean-dilatation", "assumed-strain"), "formulation")
         )
 
     @classmethod

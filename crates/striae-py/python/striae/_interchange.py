@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from ._results import Increment
 
 #: Numbers of the kinds among VTK's cells.
-VTK = {"hexahedron": 12, "wedge": 13, "pyramid": 14, "tetra": 10}
+VTK = {"hexahedron": 12, "wedge": 13, "pyramid": 14, "tetra": 10, "tetra10": 24}
 
 
 def from_cells(source: Any) -> Mesh:
@@ -55,7 +55,7 @@ def _quads(source: Any) -> dict[str, Ints]:
     blocks = getattr(source, "cells", None)
     if not isinstance(blocks, list):
         return {}
-    flat = ("quad", "triangle")
+    flat = ("quad", "triangle", "triangle6")
     quads = [
         (at, corners_of_facets(block.data, "mesh"))
         for at, block in enumerate(blocks)

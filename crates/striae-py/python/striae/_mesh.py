@@ -15,7 +15,7 @@ from ._check import Floats, Ints, Members, Vector
 from ._errors import refuse
 
 #: Kinds of cells that meshes are made of, as meshio calls them, and their corners.
-KINDS = {"hexahedron": 8, "wedge": 6, "pyramid": 5, "tetra": 4}
+KINDS = {"hexahedron": 8, "wedge": 6, "pyramid": 5, "tetra": 4, "tetra10": 10}
 
 
 def frozen(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
@@ -45,8 +45,8 @@ class Mesh:
 
         points: positions of the nodes, of shape (n, 3) (length).
         cells: ``{"hexahedron": corners}``, corners of shape (m, 8), counted from 0 and
-            numbered as VTK's and meshio's cells; also ``wedge`` (6 corners), ``pyramid`` (5)
-            and ``tetra`` (4), alone or together.
+            numbered as VTK's and meshio's cells; also ``wedge`` (6 corners), ``pyramid`` (5),
+            ``tetra`` (4) and ``tetra10`` (10, middles of edges included), alone or together.
         node_sets: members of named sets of nodes, see :meth:`with_sets`.
         facet_sets: members of named sets of facets, see :meth:`with_sets`.
         """
@@ -266,7 +266,7 @@ def block(
     top_slopes: Vector = (0.0, 0.0),
     irregularity: float = 0.0,
     seed: int = 0,
-    cells: Literal["hexahedron", "wedge", "pyramid", "tetra"] = "hexahedron",
+    cells: Literal["hexahedron", "wedge", "pyramid", "tetra", "tetra10"] = "hexahedron",
 ) -> Mesh:
     """A block with the sets ``xmin``, ``xmax``, ``ymin``, ``ymax``, ``zmin``, ``zmax`` of nodes
     and facets, named before rotation.

@@ -66,7 +66,7 @@ impl System<'_> {
         let problem = self.context.problem;
         let count = place.block.count();
         let material = &problem.model.bodies[place.body].material;
-        let empty = ElementResponse::zero(place.block.kind(), material);
+        let empty = ElementResponse::zero(place.block, material);
         let chunk = |start: usize| start.min(count)..(start + CHUNK).min(count);
         let buffer = || vec![empty.clone(); CHUNK.min(count)];
         let (mut ready, mut next) = (buffer(), buffer());
@@ -131,6 +131,7 @@ impl System<'_> {
             (false, 5) => self.add_stiffness::<5>(nodes, stiffness),
             (false, 6) => self.add_stiffness::<6>(nodes, stiffness),
             (false, 8) => self.add_stiffness::<8>(nodes, stiffness),
+            (false, 10) => self.add_stiffness::<10>(nodes, stiffness),
             _ => {
                 let (unknowns, tangent) = (self.unknowns(nodes), stiffness.by_rows());
                 let force = response.force.as_flattened();

@@ -12,7 +12,8 @@ pub(crate) type Kind = (CellKind, Formulation);
 pub(crate) fn kinds() -> impl Iterator<Item = Kind> {
     let formulations = [Formulation::Standard, Formulation::MeanDilatation];
     let kinds = CellKind::ALL.into_iter();
-    kinds.flat_map(move |cells| formulations.map(|formulation| (cells, formulation)))
+    let plain = kinds.flat_map(move |cells| formulations.map(|formulation| (cells, formulation)));
+    plain.chain([(CellKind::Hexahedron, Formulation::AssumedStrain)])
 }
 
 /// A block of `n^3` hexahedra, or cells made of them, over the unit cube.

@@ -1,6 +1,7 @@
 //! Checks of elements in small assemblies: patch tests, rates, locking.
 
 mod assembly;
+mod bending;
 mod pad;
 mod patch;
 mod rates;

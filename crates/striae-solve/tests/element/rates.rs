@@ -15,7 +15,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use num_dual::{DualNum, hessian};
 use std::f64::consts::PI;
 use striae_law::bulk::Material;
-use striae_mesh::{CellKind, Vec3};
+use striae_mesh::{COMPOSITE_PARTS, CellKind, Vec3};
 use striae_verify::fitted_rate;
 
 const CONSTANT: [f64; 3] = [0.08, -0.05, 0.03];
@@ -48,6 +48,9 @@ fn body_force(material: &Material, at: &Vec3) -> Vec3 {
 /// Natural coordinates and weights that resolve fields in a cell: 3x3x3 Gauss points
 /// of the cube, for others those of the cube folded upon them.
 fn points(kind: CellKind) -> Vec<(Vec3, f64)> {
+    if kind == CellKind::CompositeTetrahedron {
+        return points_of_parts();
+    }
     let weight = [5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0];
     let points = (0..27).map(|point| {
         let place = [point % 3, point / 3 % 3, point / 9];
@@ -66,9 +69,26 @@ fn points(kind: CellKind) -> Vec<(Vec3, f64)> {
                 let at = Vec3::new(r * v * u, s * u, t);
                 (at, weight * v * u * u / 8.0)
             }
+            CellKind::CompositeTetrahedron => unreachable!("made of parts"),
         }
     });
     points.collect()
+}
+
+/// Those of the linear tetrahedra that a composite one is made of.
+fn points_of_parts() -> Vec<(Vec3, f64)> {
+    let corners = CellKind::CompositeTetrahedron.shape().corners.iter();
+    let mut nodes: Vec<Vec3> = corners.map(|x| Vec3::from(*x)).collect();
+    nodes.push(nodes[4..].iter().sum::<Vec3>() / 6.0);
+    let inside = points(CellKind::Tetrahedron);
+    let of_part = |part: &[usize; 4]| {
+        let [a, b, c, d] = part.map(|node| nodes[node]);
+        let map = Matrix3::from_columns(&[b - a, c - a, d - a]);
+        let placed = inside.iter();
+        let placed = placed.map(move |(at, w)| (a + map * at, w * map.determinant()));
+        placed.collect::<Vec<_>>()
+    };
+    COMPOSITE_PARTS.iter().flat_map(of_part).collect()
 }
 
 /// Visits points of every element with its corners, the shape functions, the position
@@ -129,18 +149,17 @@ fn error(n: usize, kind: Kind, material: &Material) -> f64 {
 fn displacements_converge_with_the_square_of_the_mesh_size() {
     for (kind, material) in kinds().zip([neo_hookean(), linear_elastic()].into_iter().cycle()) {
         // Pyramids have a node more in each hexahedron. What has triangles comes to its rate
-        // late: tetrahedra by 1.49, 1.73 and 1.83 between 3, 4, 6 and 8 divisions.
-        let (divisions, least) = match kind.0 {
-            CellKind::Pyramid => ([2, 3, 4], 1.85),
-            CellKind::Tetrahedron | CellKind::Wedge => ([6, 7, 8], 1.8),
-            _ => ([3, 4, 6], 1.85),
+        // late: tetrahedra by 1.49, 1.73 and 1.83 between 3, 4, 6 and 8 divisions. Composite
+        // ones come to it from above: by 2.24 and 2.15 between 2, 3 and 4.
+        let (divisions, range) = match kind.0 {
+            CellKind::Pyramid => ([2, 3, 4], 1.85..2.2),
+            CellKind::CompositeTetrahedron => ([2, 3, 4], 1.85..2.25),
+            CellKind::Tetrahedron | CellKind::Wedge => ([6, 7, 8], 1.8..2.2),
+            _ => ([3, 4, 6], 1.85..2.2),
         };
         let sizes = divisions.map(|n| 1.0 / n as f64);
         let errors = divisions.map(|n| error(n, kind, &material));
         let rate = fitted_rate(&sizes, &errors);
-        assert!(
-            (least..2.2).contains(&rate),
-            "{kind:?}: rate {rate} of {errors:?}"
-        );
+        assert!(range.contains(&rate), "{kind:?}: rate {rate} of {errors:?}");
     }
 }

@@ -239,6 +239,12 @@ fn cells_of_all_kinds() {
         [CellKind::Wedge, CellKind::Hexahedron],
         [CellKind::Wedge, CellKind::Tetrahedron],
         [CellKind::Pyramid, CellKind::Wedge],
+        [CellKind::CompositeTetrahedron, CellKind::Hexahedron],
+        [CellKind::Hexahedron, CellKind::CompositeTetrahedron],
+        [
+            CellKind::CompositeTetrahedron,
+            CellKind::CompositeTetrahedron,
+        ],
     ];
     for [lower, upper] in kinds {
         for divisions in [[3, 4], [4, 3]] {

@@ -15,8 +15,8 @@ use std::collections::BTreeSet;
 
 use nalgebra::{Matrix3, SymmetricEigen};
 use striae_contact::initial::Fit;
-use striae_mesh::{Face, Mesh, NodeId, Vec3};
-use striae_model::{Body, BodyId, LoadKind, Model, RigidShape, Side, Step};
+use striae_mesh::{CellKind, Face, Mesh, NodeId, Vec3};
+use striae_model::{Body, BodyId, Formulation, LoadKind, Model, RigidShape, Side, Step};
 
 use super::{Advice, Topic, shape::poissons_ratio};
 
@@ -56,7 +56,7 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
             true => advice.warn(
                 Topic::Bending,
                 name,
-                format!("{text}; make them at most half as long as the body is thick"),
+                format!("{text}; make them at most half as long as the body is thick, or use hexahedra with `formulation = \"assumed-strain\"`"),
             ),
             false => advice.note(Topic::Bending, name, text),
         }
@@ -102,7 +102,17 @@ impl Frame {
     /// Spurious stiffness over that of bending, for a thin body.
     fn spurious(&self, body: &Body) -> Option<f64> {
         let [thickness, _, length] = self.lengths;
-        let ratio = self.element(&body.mesh) / thickness;
+        let mut kinds = body.mesh.blocks.iter().map(|block| block.kind);
+        let enhanced = body.formulation == Formulation::AssumedStrain;
+        if enhanced && kinds.clone().all(|kind| kind == CellKind::Hexahedron) {
+            return None;
+        }
+        // Composite tetrahedra shear as linear elements between their nodes do.
+        let part = match kinds.all(|kind| kind == CellKind::CompositeTetrahedron) {
+            true => 0.5,
+            false => 1.0,
+        };
+        let ratio = part * self.element(&body.mesh) / thickness;
         let share = ratio * ratio / (2.0 * (1.0 + poissons_ratio(body)));
         (thickness < THIN * length).then_some(share)
     }

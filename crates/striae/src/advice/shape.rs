@@ -76,7 +76,17 @@ fn locking(body: &Body, advice: &mut Advice) {
     let name = &body.name;
     let nu = poissons_ratio(body);
     let mut kinds = body.mesh.blocks.iter().map(|block| block.kind);
+    let others = kinds.clone().any(|kind| kind != CellKind::Hexahedron);
     let tetrahedra = kinds.any(|kind| kind == CellKind::Tetrahedron);
+    if others && body.formulation == Formulation::AssumedStrain {
+        advice.warn(
+            Topic::Locking,
+            name,
+            format!(
+                "body `{name}` has other elements than hexahedra; with `formulation = \"assumed-strain\"` they are as with the standard formulation"
+            ),
+        );
+    }
     if nu > STIFF_VOLUME && body.formulation == Formulation::Standard {
         advice.warn(
             Topic::Locking,
@@ -90,7 +100,7 @@ fn locking(body: &Body, advice: &mut Advice) {
             Topic::Locking,
             name,
             format!(
-                "body `{name}` has Poisson's ratio {nu:.4} and four-node tetrahedra, which lock in every formulation; use hexahedra"
+                "body `{name}` has Poisson's ratio {nu:.4} and four-node tetrahedra, which lock in every formulation; use ten-node tetrahedra or hexahedra"
             ),
         );
     } else if tetrahedra {
@@ -98,7 +108,7 @@ fn locking(body: &Body, advice: &mut Advice) {
             Topic::Locking,
             name,
             format!(
-                "body `{name}` has four-node tetrahedra, which are stiffer than hexahedra of the same size; compare with a finer mesh"
+                "body `{name}` has four-node tetrahedra, which are stiffer than hexahedra of the same size; use ten-node tetrahedra, or compare with a finer mesh"
             ),
         );
     }

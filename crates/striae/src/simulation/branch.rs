@@ -40,7 +40,7 @@ impl Simulation {
     /// faults of the new one.
     pub fn resume_with(folder: &Path, deck: &Path, out: impl Into<PathBuf>) -> Result<Self, Error> {
         let Checkpoint { source, point, .. } = Checkpoint::read_last(folder)?;
-        let Deck { model, output } = striae_deck::read(deck)?;
+        let Deck { model, output, .. } = striae_deck::read(deck)?;
         source.check_parts(&model)?;
         let steps = model.steps.len();
         let (model, begun) = continued(model, &source, point)?;

@@ -307,6 +307,15 @@ fn thin_bending() {
     let fine = advice(&[[PAD, &strip("[250, 1, 1]")], [PRESSED, bent]]);
     assert_eq!(fine.warnings, []);
     assert!(fine.notes.iter().all(|note| note.topic != Topic::Bending));
+    let assumed = ["[[rigid]]", "formulation = \"assumed-strain\"\n\n[[rigid]]"];
+    let fine = advice(&[[PAD, &strip("[10, 1, 1]")], [PRESSED, bent], assumed]);
+    assert_eq!(fine.warnings, []);
+    let wedges = format!("{}, cells = \"wedges\"", strip("[10, 1, 1]"));
+    let others = [[PAD, &wedges], [PRESSED, bent], assumed];
+    let warnings = advice(&others).warnings;
+    let mut locking = warnings.iter().filter(|of| of.topic == Topic::Locking);
+    let of_others = locking.next().map(|of| &of.text[..]).unwrap_or_default();
+    assert!(of_others.contains("other elements than hexahedra"));
     // On the floor it does not bend.
     let flat = [PAD, "size = [10, 1, 0.1], divisions = [10, 1, 1]"];
     assert_eq!(
