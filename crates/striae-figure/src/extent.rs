@@ -178,8 +178,10 @@ impl<'a> Extent<'a> {
             }
             (Frame::Polar { radius: axis }, Coordinates::Polar { centre, radius }) => {
                 let ticks = radius.ticks(polar::SPACING);
-                shapes.extend(polar::grid(centre, &radius, &ticks, &layers.front));
+                shapes.extend(polar::grid(centre, &radius, &ticks));
+                let numbers = polar::numbers(centre, &radius, &ticks, &layers.front);
                 shapes.extend(layers.front);
+                shapes.extend(numbers);
                 shapes.extend(polar::axes(centre, axis, &radius, &ticks));
             }
             _ => unreachable!("coordinates are made from the frame"),

@@ -10,10 +10,8 @@ use super::frame::{GAP, LABEL, TICK_LABEL, stroke, text};
 use super::shape::{Anchor, Place, Shape};
 use super::ticks::Ticks;
 
-/// Circles, their numbers and rays of a polar panel.
-///
-/// The numbers stand along the ray on which the lines of `curves` stay farthest from them.
-pub(super) fn grid(centre: Place, radius: &Mapping, ticks: &Ticks, curves: &[Shape]) -> Vec<Shape> {
+/// Circles and rays of a polar panel.
+pub(super) fn grid(centre: Place, radius: &Mapping, ticks: &Ticks) -> Vec<Shape> {
     let full = radius.to - radius.from;
     let rays = (0..12).map(|i| around(centre, full, f64::from(i) * FRAC_PI_6));
     let mut shapes: Vec<Shape> = rays.map(|end| stroke(vec![centre, end], GRID)).collect();
@@ -22,13 +20,23 @@ pub(super) fn grid(centre: Place, radius: &Mapping, ticks: &Ticks, curves: &[Sha
             shapes.push(stroke(circle(centre, at - centre[0]), GRID));
         }
     }
-    let angle = free_angle(centre, radius, ticks, curves);
-    shapes.extend(radius_labels(centre, radius, ticks, angle));
     shapes
 }
 
+/// Numbers of the circles, to be drawn over `curves`: along the ray on which these stay farthest
+/// from them, and on patches where none is free.
+pub(super) fn numbers(
+    centre: Place,
+    radius: &Mapping,
+    ticks: &Ticks,
+    curves: &[Shape],
+) -> Vec<Shape> {
+    let angle = free_angle(centre, radius, ticks, curves);
+    radius_labels(centre, radius, ticks, angle)
+}
+
 /// The angle between two rays at which the numbers of the circles are farthest from all
-/// lines; the one next to the top where nothing is near.
+/// lines in the mean; the one next to the top where nothing is near.
 fn free_angle(centre: Place, radius: &Mapping, ticks: &Ticks, curves: &[Shape]) -> f64 {
     let lines: Vec<Place> = curves
         .iter()
@@ -40,16 +48,21 @@ fn free_angle(centre: Place, radius: &Mapping, ticks: &Ticks, curves: &[Shape]) 
         .copied()
         .collect();
     let distance = |angle: f64| {
-        let places = ticks.major.iter().filter_map(|(number, _)| {
+        let labels = ticks.major.iter().filter_map(|(number, words)| {
             let at = radius.place(*number).filter(|_| *number > 0.0)?;
-            Some(around(centre, at - centre[0], angle))
+            let place = around(centre, at - centre[0], angle);
+            Some((place, font::width(words, TICK_LABEL) / 2.0))
         });
-        let apart = places.flat_map(|[x, y]| {
-            let lines = lines.iter();
-            lines.map(move |place| (place[0] - x).hypot(place[1] - y))
+        let high = DIGIT_HEIGHT * TICK_LABEL / 2.0;
+        let apart = labels.map(|(label, half)| {
+            let beyond = |place: &Place| {
+                let [x, y] = [0, 1].map(|axis| (place[axis] - label[axis]).abs());
+                (x - half).max(0.0).hypot((y - high).max(0.0))
+            };
+            // What is farther than this is far enough.
+            lines.iter().map(beyond).fold(TICK_LABEL, f64::min)
         });
-        // What is farther than this is far enough.
-        apart.fold(2.0 * TICK_LABEL, f64::min)
+        apart.sum::<f64>()
     };
     let angles = (0..12).map(|turn| (2.5 + f64::from(turn)) * FRAC_PI_6);
     let farthest = angles.reduce(|best, angle| match distance(angle) > distance(best) {
@@ -59,7 +72,7 @@ fn free_angle(centre: Place, radius: &Mapping, ticks: &Ticks, curves: &[Shape]) 
     farthest.unwrap_or(2.5 * FRAC_PI_6)
 }
 
-/// Numbers of the circles, on patches that interrupt them.
+/// Numbers of the circles, on patches that interrupt what is below.
 fn radius_labels(centre: Place, radius: &Mapping, ticks: &Ticks, angle: f64) -> Vec<Shape> {
     let full = radius.to - radius.from;
     let lower = DIGIT_HEIGHT * TICK_LABEL / 2.0;
