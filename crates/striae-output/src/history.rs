@@ -52,6 +52,14 @@ impl History {
         }
     }
 
+    /// Starts a new history where there are no rows yet, else continues an older one.
+    pub(crate) fn after(path: PathBuf, rows: usize) -> Result<Self, OutputError> {
+        match rows {
+            0 => Self::create(path),
+            rows => Self::resume(path, rows),
+        }
+    }
+
     /// Continues an older history after its first `rows` rows, as after a restart.
     pub fn resume(path: impl Into<PathBuf>, rows: usize) -> Result<Self, OutputError> {
         let path = path.into();

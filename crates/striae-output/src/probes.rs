@@ -42,10 +42,7 @@ impl Probes {
             path: path.clone(),
             cause,
         })?;
-        let file = match rows {
-            0 => History::create(path)?,
-            rows => History::resume(path, rows)?,
-        };
+        let file = History::after(path, rows)?;
         Ok(Self { placed, file })
     }
 

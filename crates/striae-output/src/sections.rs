@@ -47,10 +47,7 @@ impl Sections {
             path: path.clone(),
             cause,
         })?;
-        let file = match rows {
-            0 => History::create(path)?,
-            rows => History::resume(path, rows)?,
-        };
+        let file = History::after(path, rows)?;
         Ok(Self { cuts, file })
     }
 

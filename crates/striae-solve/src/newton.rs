@@ -1,7 +1,7 @@
 //! One increment: semismooth Newton's method.
 //!
 //! The first iteration is linearised at the last converged state with the new
-//! loads, or where the increment before leads to, see [`course`]; its solution takes the
+//! loads, or where the increment before leads to, see [`Course`]; its solution takes the
 //! prescribed displacements to their new values.
 //! From then on the residual alone decides: labels of nodes at the kink of the
 //! friction law may flip at round-off and are not required to rest.

@@ -21,7 +21,8 @@ use crate::{
     state::State,
 };
 
-/// What an increment started from.
+/// What an increment started from: a continued step starts the next one where both lead to,
+/// `x_n + dt/dt_0 (x_n - x_(n-1))`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Course {
     /// Number of the step.
