@@ -2,8 +2,9 @@
 //!
 //! A virtual environment in the target folder takes the tools from PyPI, maturin builds the
 //! wheel, and the wheel is tested as users have it: types, docstrings, wrong uses, runs, whose
-//! bits are those of the program, examples, and the overhead of a callback. Where several versions of Python are at hand, on the path or by pyenv, the tests
-//! run with the oldest and the newest, by the same wheel.
+//! bits are those of the program, and examples. Where several versions of Python are at hand,
+//! on the path or by pyenv, the tests run with the oldest and the newest, by the same wheel.
+//! What a callback costs is told by `crates/striae-py/overhead.py`.
 
 use std::{
     env, fs,
@@ -11,7 +12,7 @@ use std::{
     process::Command,
 };
 
-use crate::fault::Fault;
+use crate::{check, fault::Fault};
 
 /// The oldest version of Python that the package supports.
 const OLDEST: u32 = 10;
@@ -40,11 +41,9 @@ pub fn check() -> Result<(), Fault> {
     pip(&main, &["maturin>=1.7,<2", "mypy", "basedpyright"])?;
     let out = wheels.display().to_string();
     run(main.join("maturin"), &["build", "--release", "--out", &out])?;
-    let program = ["build", "--quiet", "--release", "-p", "striae-cli"];
-    run("cargo".into(), &program)?;
+    check::program()?;
     pip(&main, &["pyvista"])?;
     test(&main, &wheels)?;
-    run(main.join("python"), &["crates/striae-py/overhead.py"])?;
     run(main.join("mypy"), &[])?;
     let interpreter = main.join("python").display().to_string();
     let here = ["--project", "pyproject.toml", "--pythonpath", &interpreter];

@@ -179,27 +179,6 @@ def test_a_model_is_not_changed_while_it_runs(model: st.Model, pad: st.Body) -> 
     assert model.step_names == ["press", "drag", "late"]
 
 
-def test_an_empty_callback_costs_little(rubber: st.NeoHookean) -> None:
-    body = st.Body("pad", st.block(divisions=(5, 5, 5)), rubber)
-    floor = st.Plane("floor")
-    model = st.Model([body], [floor], [st.Pair(body["zmin"], floor, st.Coulomb(0.3))])
-    model.step("press", body["zmax"].displace(x=0, y=0, z=-0.02), increments=20)
-
-    def seconds(run: object) -> float:
-        begun = time.process_time()
-        run()  # type: ignore[operator]
-        return time.process_time() - begun
-
-    pairs = [
-        (seconds(lambda: model.run(threads=1)), seconds(lambda: model.run(lambda i: None, threads=1)))
-        for _ in range(5)
-    ]
-    without, with_callback = np.array(pairs).min(axis=0)
-    print(f"{without:.3f} s without, {with_callback:.3f} s with")
-    # 2 % is what is asked for; clocks of busy machines are not better than that.
-    assert with_callback < 1.1 * without + 0.01
-
-
 def test_two_blocks_has_the_bits_of_the_program(tmp_path: Path) -> None:
     deck = ROOT / "cases" / "two-blocks" / "deck.toml"
     run = st.Model.from_deck(deck).run(output=tmp_path / "deck", fields_every=0, threads=1)
@@ -247,7 +226,7 @@ def test_a_recorded_run_of_a_deck_is_resumed_to_the_same_history(tmp_path: Path)
     )
     assert len(seen) == len(whole) - 7 and seen[-1] == "slide"
     assert np.array_equal(rest.history.table, whole.history.table)
-    with pytest.raises(RuntimeError, match="checkpoint"):
+    with pytest.raises(RuntimeError, match="completed run, which has nothing left to do"):
         st.resume(tmp_path / "whole")
 
 
