@@ -5,12 +5,15 @@ from __future__ import annotations
 import doctest
 import inspect
 import re
+import runpy
 import typing
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 import striae as st
+
+ROOT = Path(__file__).parents[3]
 
 #: Words that say the unit of a number, or what stands for one.
 UNIT = re.compile(
@@ -93,3 +96,9 @@ def test_hints_resolve() -> None:
         module = inspect.getmodule(init)
         assert module is not None
         typing.get_type_hints(init, vars(module))
+
+
+def test_the_page_of_names_is_what_the_docstrings_say() -> None:
+    page = ROOT / "docs" / "book" / "reference" / "python.md"
+    written = runpy.run_path(str(ROOT / "crates" / "striae-py" / "reference.py"))["written"]()
+    assert page.read_text(encoding="utf-8") == written, "run crates/striae-py/reference.py"

@@ -1,0 +1,55 @@
+"""Writes ``docs/book/reference/python.md`` from signatures and docstrings of the package:
+``python crates/striae-py/reference.py``, with the package installed."""
+
+import inspect
+from pathlib import Path
+
+import striae as st
+
+PAGE = Path(__file__).parents[2] / "docs" / "book" / "reference" / "python.md"
+
+HEAD = """# Names of the Python package
+
+Every public name of `striae`, from its docstring. [Use Python](../how-to/python.md) tells how \
+they go together. Quantities are in one consistent system of units; docstrings name them.
+"""
+
+
+def quoted(thing: object) -> str:
+    """Docstring as a block that keeps its lines."""
+    words = inspect.getdoc(thing) or ""
+    return f"```text\n{words}\n```\n" if words else ""
+
+
+def members(of: type) -> list[tuple[str, object]]:
+    """Public members of a class that it defines itself."""
+    own = [(name, member) for name, member in vars(of).items() if not name.startswith("_")]
+    return [(name, member) for name, member in own if says_more(member)]
+
+
+def says_more(member: object) -> bool:
+    """Whether the docstring is one of the package's own."""
+    words = inspect.getdoc(member) or ""
+    plain = isinstance(member, (type, int, float, str, tuple))
+    return bool(words) and not plain and not words.startswith("Alias for field number")
+
+
+def written() -> str:
+    """The whole page."""
+    parts = [HEAD]
+    for name in sorted(st.__all__, key=str.lower):
+        thing = getattr(st, name)
+        if not (inspect.isclass(thing) or callable(thing)):
+            continue
+        parts.append(f"## {name}\n")
+        parts.append(quoted(thing))
+        if inspect.isclass(thing):
+            for member, value in members(thing):
+                parts.append(f"**`{name}.{member}`**\n")
+                parts.append(quoted(value))
+    return "\n".join(part for part in parts if part)
+
+
+if __name__ == "__main__":
+    PAGE.write_text(written(), encoding="utf-8")
+    print(f"wrote {PAGE}")
