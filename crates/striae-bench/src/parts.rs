@@ -4,6 +4,7 @@ use crate::{clock::timed, compare, element, scene, yardstick};
 use nalgebra::Matrix3;
 use serde_json::{Value, json};
 use std::{error::Error, hint::black_box};
+use striae_condensed::{Automatic, Choice, Partition};
 use striae_contact::{
     complementarity::Iteration,
     evaluation::evaluate,
@@ -14,7 +15,6 @@ use striae_law::{
     bulk::{LameConstants, Material},
     friction::Friction,
 };
-use striae_linalg::{Automatic, LinearSolver, MultifrontalLu};
 use striae_solve::{
     assembly::{Contact, Setting, StepContext, Trial, assemble},
     layout::{Extent, Layout},
@@ -22,6 +22,7 @@ use striae_solve::{
     problem::Problem,
     state::State,
 };
+use striae_sparse::{LinearSolver, MultifrontalLu};
 use striae_surface::normal::nodal_normals;
 
 type Results = Result<Vec<Value>, Box<dyn Error>>;
@@ -146,6 +147,7 @@ fn of_scene(group: &str, size: usize) -> Results {
 /// Elements of the bodies without contact.
 fn assembly(model: &striae_solve::model::Model) -> Result<Value, Box<dyn Error>> {
     let mut matrix = scene::stiffness(model)?;
+    let partition = Partition::from(matrix.structure());
     let mut bodies = model.clone();
     bodies.pairs.clear();
     let problem = Problem::new(bodies)?;
@@ -171,16 +173,17 @@ fn assembly(model: &striae_solve::model::Model) -> Result<Value, Box<dyn Error>>
         .sum();
     Ok(timed("assembly", "elements", elements, || {
         let contact = Contact::Known(Vec::new());
-        black_box(assemble(&setting, &trial, contact, &layout, &mut matrix).is_ok());
+        let parts = (&partition, &mut matrix);
+        black_box(assemble(&setting, &trial, contact, &layout, parts).is_ok());
     }))
 }
 
 /// Factorisations of the stiffness alone.
-fn factor(matrix: &striae_linalg::SparseMatrix) -> Results {
+fn factor(matrix: &striae_sparse::SparseMatrix) -> Results {
     let unknowns = matrix.structure().unknowns();
     let mut results = Vec::new();
     let solvers: [(&str, Box<dyn LinearSolver>); 2] = [
-        ("condensed", Box::new(Automatic::new())),
+        ("condensed", Box::new(Automatic::new(Choice::ByCost))),
         ("multifrontal LU", Box::new(MultifrontalLu::new())),
     ];
     for (name, mut solver) in solvers {

@@ -1,8 +1,8 @@
 //! Problems of about a given number of unknowns.
 
 use std::{error::Error, path::Path};
+use striae_condensed::Partition;
 use striae_deck as deck;
-use striae_linalg::{SparseMatrix, Structure, Supervariable};
 use striae_mesh::generate::CappedBlock;
 use striae_solve::{
     assembly::{Contact, Fault, Setting, StepContext, Trial, assemble},
@@ -11,6 +11,7 @@ use striae_solve::{
     problem::Problem,
     state::State,
 };
+use striae_sparse::{SparseMatrix, Structure, Supervariable};
 
 /// The scenes by name.
 pub const NAMES: [&str; 2] = ["stacked", "hertz"];
@@ -143,6 +144,7 @@ pub fn stiffness(model: &Model) -> Result<SparseMatrix, Box<dyn Error>> {
         cliques.extend(model.mesh.elements().map(nodes));
     }
     let structure = Structure::from_cliques(layout.offsets().to_vec(), &cliques)?;
+    let partition = Partition::from(&structure);
     let mut matrix = SparseMatrix::zero(&structure);
     let trial = Trial {
         positions: state.positions.clone(),
@@ -157,7 +159,8 @@ pub fn stiffness(model: &Model) -> Result<SparseMatrix, Box<dyn Error>> {
         imposed: &imposed,
     };
     let contact = Contact::Known(Vec::new());
-    match assemble(&setting, &trial, contact, &layout, &mut matrix) {
+    let parts = (&partition, &mut matrix);
+    match assemble(&setting, &trial, contact, &layout, parts) {
         Ok(_) => Ok(matrix),
         Err(Fault::CutBack(reason)) => Err(reason.to_string().into()),
         Err(Fault::Pattern(_)) => Err("an element is outside the pattern".into()),

@@ -11,7 +11,7 @@ use faer::{
     },
 };
 use std::{error::Error, time::Instant};
-use striae_linalg::{SparseMatrix, nested_dissection};
+use striae_sparse::{SparseMatrix, nested_dissection};
 
 /// Fewest repetitions, whose median counts, and the time that is filled with them, s.
 const FEWEST: usize = 3;

@@ -19,6 +19,7 @@ use inertia::Inertia;
 pub use linearised::{Background, ContactAssembled, assemble_contact};
 pub use start::initial_accelerations;
 use std::time::{Duration, Instant};
+use striae_condensed::Partition;
 use striae_contact::{
     complementarity::Iteration,
     configuration::Configuration,
@@ -28,8 +29,8 @@ use striae_contact::{
     texture::CollapsedTexture,
     unknowns::Tractions,
 };
-use striae_linalg::{SparseMatrix, Supervariable};
 use striae_mesh::{FacetId, Vec3};
+use striae_sparse::{SparseMatrix, Supervariable};
 use terms::Triple;
 use ties::{Moving, Scratch, Tie};
 
@@ -113,10 +114,10 @@ pub fn assemble(
     trial: &Trial,
     contact: Contact,
     layout: &Layout,
-    matrix: &mut SparseMatrix,
+    (partition, matrix): (&Partition, &mut SparseMatrix),
 ) -> Result<Assembled, Fault> {
     // On a thread of the pool, as from others each parallel part would have to wake one.
-    rayon::scope(|_| on_this_thread(setting, trial, contact, layout, matrix))
+    rayon::scope(|_| on_this_thread(setting, trial, contact, layout, (partition, matrix)))
 }
 
 fn on_this_thread(
@@ -124,11 +125,11 @@ fn on_this_thread(
     trial: &Trial,
     contact: Contact,
     layout: &Layout,
-    matrix: &mut SparseMatrix,
+    (partition, matrix): (&Partition, &mut SparseMatrix),
 ) -> Result<Assembled, Fault> {
     matrix.clear();
     let imposed = setting.imposed;
-    let mut system = System::new(setting.context, layout, matrix, trial, imposed);
+    let mut system = System::new(setting.context, layout, (partition, matrix), trial, imposed);
     let configurations = configurations(setting, trial);
     for (pair, configuration) in configurations.iter().enumerate() {
         system.find_triples(pair, configuration);
@@ -180,6 +181,7 @@ fn configurations<'a>(setting: &Setting<'a>, trial: &'a Trial) -> Vec<Configurat
 struct System<'a> {
     context: &'a StepContext<'a>,
     layout: &'a Layout,
+    partition: &'a Partition,
     matrix: &'a mut SparseMatrix,
     residual: Vec<f64>,
     forces: NodalForces,
@@ -202,7 +204,7 @@ impl<'a> System<'a> {
     fn new(
         context: &'a StepContext<'a>,
         layout: &'a Layout,
-        matrix: &'a mut SparseMatrix,
+        (partition, matrix): (&'a Partition, &'a mut SparseMatrix),
         trial: &'a Trial,
         imposed: &Imposed,
     ) -> Self {
@@ -211,6 +213,7 @@ impl<'a> System<'a> {
         let mut system = Self {
             context,
             layout,
+            partition,
             matrix,
             residual: vec![0.0; layout.unknowns()],
             forces: NodalForces::zero(nodes, problem.model.rigid_surfaces.len()),

@@ -7,7 +7,7 @@
 //! rigid body that nodes are tied to or that contact may move are another one, kept for last.
 
 use striae_contact::{selection::Selection, unknown::Unknown};
-use striae_linalg::{Supervariable, Tier};
+use striae_sparse::{Supervariable, Tier};
 
 use crate::problem::Problem;
 

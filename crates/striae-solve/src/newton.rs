@@ -26,10 +26,10 @@ pub use course::Course;
 pub use work::{LinearWork, Times};
 pub use workspace::{Memory, Workspace};
 
+pub use striae_condensed::{Analysis, Experience, FactoredInterior};
 use striae_contact::{
     complementarity::Iteration, evaluation::Evaluation, interference::Interference,
 };
-pub use striae_linalg::{Analysis, Experience, FactoredInterior};
 
 use crate::{
     assembly::{Setting, StepContext, Trial},
@@ -92,16 +92,16 @@ pub fn estimate(problem: &Problem) -> Result<Estimate, CutBack> {
     let context = StepContext::new(problem, 0, &state);
     let mut workspace = Workspace::new(problem.model.solver.backend);
     forces_at_start(&context, &state, &mut workspace)?;
-    let structure = workspace.system().matrix.structure().clone();
+    let partition = workspace.system().partition.clone();
     let analysis = workspace
         .solver
-        .analyse(&structure)
-        .and_then(|analysis| Ok((analysis, workspace.solver.estimates(&structure)?)));
+        .analyse(&partition)
+        .and_then(|analysis| Ok((analysis, workspace.solver.estimates(&partition)?)));
     let (analysis, mut others) =
         analysis.map_err(|error| linear_system(problem, &workspace.system().layout, error))?;
     others.retain(|other| other.method != analysis.method);
     Ok(Estimate {
-        unknowns: structure.unknowns(),
+        unknowns: partition.unknowns(),
         analysis,
         others,
     })
@@ -175,7 +175,7 @@ pub fn advance(
     workspace.course = Some(Course::new(context.index, state, time));
     let work = workspace.take_work();
     let system = workspace.system();
-    let (unknowns, peak_bytes) = (system.layout.unknowns(), system.analysis.peak_bytes);
+    let (unknowns, peak_bytes) = (system.layout.unknowns(), system.analysis.cost.peak_bytes);
     Ok(Increment {
         work,
         unknowns,

@@ -1,6 +1,6 @@
 //! How increments and runs can end.
 
-use striae_linalg::SolveError;
+use striae_sparse::SolveError;
 
 use crate::{freedom::FreeMotion, norms::Norms};
 

@@ -6,6 +6,7 @@
 //! | nothing prints | libraries |
 //! | no `unwrap`, `panic!`, `todo!`, `dbg!` | all product code |
 //! | no unsafe code | everywhere but the METIS binding |
+//! | no word of contact, bodies or friction, not even in a comment | `striae-sparse` |
 //! | at most 400 lines, or module docs with a line `//! Longer than other files, ...` | every file |
 
 use std::path::{Component, Path};
@@ -17,6 +18,8 @@ pub struct Place {
     path: String,
     layer: Layer,
     code: Code,
+    /// Whether its crate knows nothing of what it serves here.
+    is_general: bool,
 }
 
 /// What a crate may do with the world outside.
@@ -50,6 +53,7 @@ impl Place {
                 _ => Layer::Pure,
             },
             code,
+            is_general: package == "striae-sparse",
         }
     }
 
@@ -92,7 +96,16 @@ const FILES: [&str; 4] = ["std::fs", "std::io", "File::open", "File::create"];
 const PRINTS: [&str; 4] = ["println!", "print!", "io::stdout", "io::stderr"];
 const PANICS: [&str; 5] = [".unwrap()", "panic!(", "todo!(", "unimplemented!(", "dbg!("];
 const UNSAFE: [&str; 4] = ["unsafe {", "unsafe fn", "unsafe impl", "allow(unsafe_code)"];
-const BINDING: &str = "crates/striae-linalg/src/metis.rs";
+const BINDING: &str = "crates/striae-sparse/src/metis.rs";
+/// Words that a general crate does not know, in singular and plural.
+const FOREIGN: [&str; 6] = [
+    "contact",
+    "contacts",
+    "body",
+    "bodies",
+    "friction",
+    "frictions",
+];
 const LONG: usize = 400;
 const REASON: &str = "//! Longer than other files, ";
 
@@ -104,6 +117,9 @@ pub fn breaches(place: &Place, text: &str) -> Vec<Breach> {
     }
     let mut found = Vec::new();
     found.extend(too_long(place, text));
+    if place.is_general {
+        found.extend(foreign_words(place, text));
+    }
     for (number, line) in product_lines(text) {
         for wrong in wrongs(place, line) {
             found.push(place.breach(number, wrong));
@@ -131,6 +147,20 @@ fn wrongs(place: &Place, line: &str) -> Vec<&'static str> {
         wrongs.push("nothing below the program prints");
     }
     wrongs
+}
+
+fn foreign_words(place: &Place, text: &str) -> Vec<Breach> {
+    let is_foreign = |word: &str| FOREIGN.contains(&word.to_lowercase().as_str());
+    let lines = text.lines().zip(1..);
+    let found = lines.flat_map(|(line, number)| {
+        let words = line.split(|c: char| !c.is_alphabetic());
+        words
+            .filter(|word| is_foreign(word))
+            .map(move |word| (number, word))
+    });
+    found
+        .map(|(number, word)| place.breach(number, format!("`{word}` in a general crate")))
+        .collect()
 }
 
 fn too_long(place: &Place, text: &str) -> Option<Breach> {
@@ -190,9 +220,19 @@ mod tests {
     #[test]
     fn unsafe_code_stays_in_the_binding() {
         let text = "#![allow(unsafe_code)]\nfn f() {\n    unsafe { g() }\n}\n";
-        assert!(found("striae-linalg", BINDING, text).is_empty());
-        let elsewhere = found("striae-linalg", "crates/striae-linalg/tests/a.rs", text);
+        assert!(found("striae-sparse", BINDING, text).is_empty());
+        let elsewhere = found("striae-sparse", "crates/striae-sparse/tests/a.rs", text);
         assert_eq!(elsewhere.len(), 2);
+    }
+
+    #[test]
+    fn general_crates_know_no_words_of_mechanics() {
+        let text = "//! Factors of bodies.\nfn of_contact() {} // nobody\nstruct Contact;\n";
+        let path = "crates/striae-sparse/src/a.rs";
+        let words = ["1: `bodies`", "2: `contact`", "3: `Contact`"];
+        let expected = words.map(|word| format!("{path}:{word} in a general crate"));
+        assert_eq!(found("striae-sparse", path, text), expected);
+        assert!(found("striae-condensed", path, text).is_empty());
     }
 
     #[test]

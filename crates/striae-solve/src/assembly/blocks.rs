@@ -6,7 +6,7 @@
 
 use rayon::prelude::*;
 use striae_contact::term::LocalTerm;
-use striae_linalg::PlacedBlock;
+use striae_sparse::PlacedBlock;
 
 use super::{System, terms::Answer};
 

@@ -5,8 +5,8 @@ use rayon::prelude::*;
 use std::ops::Range;
 use striae_element::{ElementBlock, ElementError, ElementFault, ElementResponse, Stiffness};
 use striae_law::bulk::Past;
-use striae_linalg::OutsidePattern;
 use striae_mesh::{ElementId, MAX_CORNERS, NodeId, Vec3};
+use striae_sparse::OutsidePattern;
 
 use super::{Fault, System, Trial, ties::Slot};
 use crate::{outcome::CutBack, problem::Problem, state::State};

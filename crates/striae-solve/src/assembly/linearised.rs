@@ -11,9 +11,10 @@
 //! Rows of supervariables that are not kept know no contact. A correction that solves
 //! the first linear system leaves nothing in them, and none that follows changes that.
 
+use striae_condensed::Partition;
 use striae_contact::{complementarity::Iteration, evaluation::Evaluation};
-use striae_linalg::SparseMatrix;
 use striae_mesh::Vec3;
+use striae_sparse::SparseMatrix;
 
 use super::{Fault, Setting, System, Trial, configurations, contacts};
 use crate::{layout::Layout, norms::Norms};
@@ -52,7 +53,7 @@ pub fn assemble_contact(
     (trial, change): (&Trial, &[f64]),
     iteration: Iteration,
     layout: &Layout,
-    matrix: &mut SparseMatrix,
+    (partition, matrix): (&Partition, &mut SparseMatrix),
 ) -> Result<ContactAssembled, Fault> {
     let &Setting {
         context,
@@ -60,8 +61,8 @@ pub fn assemble_contact(
         imposed,
         ..
     } = setting;
-    matrix.set_kept_rows(&background.rows);
-    let mut system = System::new(context, layout, matrix, trial, imposed);
+    partition.set_kept_rows(matrix, &background.rows);
+    let mut system = System::new(context, layout, (partition, matrix), trial, imposed);
     system.linear_background(background, change);
     let configurations = configurations(setting, trial);
     for (pair, configuration) in configurations.iter().enumerate() {
@@ -87,7 +88,7 @@ impl System<'_> {
     /// What there is before contact is added.
     pub(super) fn background(&self) -> Background {
         Background {
-            rows: self.matrix.kept_rows(),
+            rows: self.partition.kept_rows(self.matrix),
             residual: self.residual.clone(),
             applied: self.forces.applied.clone(),
             force_scale: self.force_scale,
@@ -96,13 +97,12 @@ impl System<'_> {
 
     /// Fills in the background at a state `change` away from it.
     fn linear_background(&mut self, background: &Background, change: &[f64]) {
-        let structure = self.matrix.structure().clone();
-        for kept in structure.kept() {
-            let unknowns = structure.unknowns_of(kept);
+        let partition = self.partition;
+        for kept in partition.kept() {
+            let unknowns = partition.unknowns_of(kept);
             self.residual[unknowns.clone()].copy_from_slice(&background.residual[unknowns]);
         }
-        self.matrix
-            .add_product_of_kept_rows(change, &mut self.residual);
+        partition.add_product_of_kept_rows(self.matrix, change, &mut self.residual);
         self.force_scale = background.force_scale;
         self.forces.applied.clone_from(&background.applied);
     }

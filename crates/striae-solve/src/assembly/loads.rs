@@ -5,8 +5,8 @@ use striae_contact::{
     exposed::{SurfaceLoad, covered_load},
     facet_coverage::FacetCoverage,
 };
-use striae_linalg::Supervariable;
 use striae_mesh::{Face, Vec3};
+use striae_sparse::Supervariable;
 use striae_surface::scalar::Real;
 
 use super::{Fault, Imposed, System, Trial, terms::Answer};

@@ -7,8 +7,9 @@
 //! a = c'' + w' x r + w x (w x r).
 //! ```
 
-use striae_linalg::SparseMatrix;
+use striae_condensed::Partition;
 use striae_mesh::{ElementId, Vec3};
+use striae_sparse::SparseMatrix;
 
 use super::{Imposed, StepContext, System, Trial};
 use crate::{
@@ -29,7 +30,7 @@ pub fn initial_accelerations(
     velocities: &[Vec3],
     found: &NodalForces,
     layout: &Layout,
-    matrix: &mut SparseMatrix,
+    (partition, matrix): (&Partition, &mut SparseMatrix),
     solve: impl FnOnce(&SparseMatrix, &[f64]) -> Result<Vec<f64>, CutBack>,
 ) -> Result<(Vec<Vec3>, Vec<Vec3>), CutBack> {
     let mut accelerations = known(context, trial, imposed, velocities);
@@ -38,7 +39,7 @@ pub fn initial_accelerations(
         .map(|node| found.internal[node] - found.applied[node] - found.contact[node])
         .collect();
     matrix.clear();
-    let mut system = System::new(context, layout, matrix, trial, imposed);
+    let mut system = System::new(context, layout, (partition, matrix), trial, imposed);
     system.forces.pushed.clone_from(&found.pushed);
     for (node, (force, inertia)) in forces.iter().zip(&inertia).enumerate() {
         let first = layout.position(node);

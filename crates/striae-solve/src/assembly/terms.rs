@@ -17,8 +17,8 @@
 
 use nalgebra::Matrix3;
 use striae_contact::{configuration::Configuration, term::LocalTerm, unknown::Unknown};
-use striae_linalg::{OutsidePattern, Supervariable};
 use striae_mesh::Vec3;
+use striae_sparse::{OutsidePattern, Supervariable};
 
 use super::{
     System,
@@ -142,11 +142,11 @@ impl System<'_> {
 
     /// Whether the supervariables of a term are among those that are kept.
     pub(super) fn is_known(&self, pair: usize, term: &LocalTerm) -> bool {
-        let structure = self.matrix.structure();
+        let partition = self.partition;
         let mut unknowns = term.rows.iter().chain(term.columns.iter().step_by(3));
         let mut body = self.opposite_body(pair).into_iter();
-        body.all(|body| structure.is_kept(body))
-            && unknowns.all(|unknown| structure.is_kept(self.triple(pair, *unknown).owner))
+        body.all(|body| partition.is_kept(body))
+            && unknowns.all(|unknown| partition.is_kept(self.triple(pair, *unknown).owner))
     }
 
     /// Adds rows of a block, leaving out prescribed ones.

@@ -15,8 +15,8 @@
 //! `pushed`, joins `F` and `M`, fully at the end.
 
 use nalgebra::Matrix3;
-use striae_linalg::{OutsidePattern, Supervariable};
 use striae_mesh::Vec3;
+use striae_sparse::{OutsidePattern, Supervariable};
 
 use super::{Imposed, System, Trial};
 use crate::{

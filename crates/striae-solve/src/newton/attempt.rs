@@ -1,5 +1,6 @@
 //! An increment under way: corrections until the residual is small.
 
+use striae_condensed::REDUCTION;
 use striae_contact::{
     complementarity::Iteration,
     interference::Interference,
@@ -9,7 +10,6 @@ use striae_contact::{
     table_1::{Corrector, Inflation},
     unknowns::Status,
 };
-use striae_linalg::REDUCTION;
 
 use super::{
     IterationObserver,

@@ -1,7 +1,7 @@
 //! Words for what stops an increment: contact met unnoticed, linear systems
 //! without a solution.
 
-use striae_linalg::SolveError;
+use striae_sparse::SolveError;
 
 use crate::{
     assembly::{Setting, Trial},

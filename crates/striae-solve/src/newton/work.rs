@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use striae_linalg::{FallBack, Method};
+use striae_condensed::{FallBack, Method};
 
 /// What the linear systems of an increment took.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

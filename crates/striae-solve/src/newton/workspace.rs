@@ -2,11 +2,9 @@
 
 use std::time::Instant;
 
+use striae_condensed::{Analysis, Automatic, Choice, Experience, Partition};
 use striae_contact::{complementarity::Iteration, selection::Selection};
-use striae_linalg::{
-    Analysis, Automatic, Experience, FaerLu, Interior, LinearSolver, MultifrontalLu, SolveError,
-    SolveReport, SparseMatrix, Structure, Supervariable,
-};
+use striae_sparse::{Age, SolveError, SolveReport, SparseMatrix, Structure, Supervariable};
 
 use striae_mesh::Vec3;
 
@@ -29,7 +27,7 @@ const EXACT: f64 = 1e-12;
 
 /// What survives between increments to save work; it holds no results.
 pub struct Workspace {
-    pub(super) solver: Box<dyn LinearSolver>,
+    pub(super) solver: Automatic,
     system: Option<SystemStorage>,
     work: LinearWork,
     /// What the last increment started from.
@@ -38,6 +36,7 @@ pub struct Workspace {
 
 pub(super) struct SystemStorage {
     pub(super) layout: Layout,
+    pub(super) partition: Partition,
     pub(super) matrix: SparseMatrix,
     pub(super) analysis: Analysis,
     /// Cliques by which the pattern has grown beyond the elements.
@@ -63,14 +62,14 @@ pub struct Memory {
 impl Workspace {
     /// An empty workspace with the given factorisation.
     pub fn new(backend: Backend) -> Self {
-        let solver: Box<dyn LinearSolver> = match backend {
-            Backend::Condensed => Box::new(Automatic::new()),
-            Backend::Iterative => Box::new(Automatic::iterative()),
-            Backend::Multifrontal => Box::new(MultifrontalLu::new()),
-            Backend::Faer => Box::new(FaerLu::new()),
+        let choice = match backend {
+            Backend::Condensed => Choice::ByCost,
+            Backend::Iterative => Choice::Iterative,
+            Backend::Multifrontal => Choice::Multifrontal,
+            Backend::Faer => Choice::Faer,
         };
         Self {
-            solver,
+            solver: Automatic::new(choice),
             system: None,
             work: LinearWork::default(),
             course: None,
@@ -118,7 +117,7 @@ impl Workspace {
         let system = system.as_mut().expect("the workspace was laid out");
         // What cannot be analysed now fails again, and is reported, with the first matrix.
         if !system.analysed
-            && let Ok(analysis) = solver.analyse(system.matrix.structure())
+            && let Ok(analysis) = solver.analyse(&system.partition)
         {
             (system.analysis, system.analysed) = (analysis, true);
         }
@@ -172,14 +171,17 @@ impl Workspace {
             }
         }
         cliques.extend((0..layout.offsets().len() - 1).map(|at| vec![Supervariable(at)]));
-        let structure = Structure::from_cliques(layout.offsets().to_vec(), &cliques)
+        let own = "the layout names its own supervariables";
+        let bulk = Structure::from_cliques(layout.offsets().to_vec(), &cliques)
             .and_then(|structure| structure.with_tiers(layout.tiers()))
-            .and_then(|structure| structure.with_bulk(&layout.bulk()))
-            .and_then(|structure| structure.with_points(layout.points(problem)))
-            .and_then(|structure| structure.grown(&tied))
-            .expect("the layout names its own supervariables");
+            .expect(own);
+        let partition = Partition::new(&bulk, &layout.bulk())
+            .and_then(|partition| partition.with_points(layout.points(problem)))
+            .expect(own);
+        let partition = partition.grown(&tied).expect(own);
         self.system = Some(SystemStorage {
-            matrix: SparseMatrix::zero(&structure),
+            matrix: SparseMatrix::zero(partition.structure()),
+            partition,
             layout,
             analysis: Analysis::default(),
             grown: Vec::new(),
@@ -216,7 +218,8 @@ impl Workspace {
     ) -> Result<Assembled, Fault> {
         let started = Instant::now();
         let system = self.system.as_mut().expect("the workspace was prepared");
-        let assembled = assemble(setting, trial, contact, &system.layout, &mut system.matrix);
+        let parts = (&system.partition, &mut system.matrix);
+        let assembled = assemble(setting, trial, contact, &system.layout, parts);
         self.work.times.assembly += started.elapsed();
         let of_contact = assembled.as_ref().map(|assembled| assembled.contact_time);
         self.work.times.pairs += of_contact.unwrap_or_default();
@@ -239,8 +242,8 @@ impl Workspace {
     ) -> Result<ContactAssembled, Fault> {
         let started = Instant::now();
         let system = self.system.as_mut().expect("the workspace was prepared");
-        let (layout, matrix) = (&system.layout, &mut system.matrix);
-        let assembled = assemble_contact(setting, background, moved, iteration, layout, matrix);
+        let (layout, parts) = (&system.layout, (&system.partition, &mut system.matrix));
+        let assembled = assemble_contact(setting, background, moved, iteration, layout, parts);
         self.work.times.contact += started.elapsed();
         assembled
     }
@@ -295,15 +298,13 @@ impl Workspace {
         let Self { solver, system, .. } = self;
         let system = system.as_mut().expect("the workspace was prepared");
         if !system.analysed {
-            system.analysis = solver
-                .analyse(system.matrix.structure())
-                .map_err(without_mass)?;
+            system.analysis = solver.analyse(&system.partition).map_err(without_mass)?;
             system.analysed = true;
         }
         solver.forget();
         let solve = |matrix: &SparseMatrix, residual: &[f64]| {
             solver.factor(matrix).map_err(without_mass)?;
-            let solved = solved(solver.as_mut(), matrix, residual, EXACT);
+            let solved = solved(solver, matrix, residual, EXACT);
             solver.forget();
             let (solution, _) = solved.map_err(without_mass)?;
             Ok(solution)
@@ -315,7 +316,7 @@ impl Workspace {
             velocities,
             forces,
             &system.layout,
-            &mut system.matrix,
+            (&system.partition, &mut system.matrix),
             solve,
         )
     }
@@ -338,7 +339,7 @@ impl Workspace {
         let times = &mut self.work.times;
         let started = Instant::now();
         if !system.analysed {
-            system.analysis = solver.analyse(system.matrix.structure())?;
+            system.analysis = solver.analyse(&system.partition)?;
             system.analysed = true;
         }
         let analysed = Instant::now();
@@ -347,8 +348,8 @@ impl Workspace {
         let factored = Instant::now();
         times.factorisation += factored - analysed;
         (self.work.method, self.work.fall_back) = (report.method, report.fall_back);
-        let (correction, solution) = solved(solver.as_mut(), &system.matrix, residual, part)?;
-        if solution.interior == Interior::Fresh {
+        let (correction, solution) = solved(solver, &system.matrix, residual, part)?;
+        if solution.age == Age::Fresh {
             self.work.factorisations += 1;
         }
         self.work.krylov_iterations += solution.krylov_iterations;
@@ -359,7 +360,7 @@ impl Workspace {
 
 /// The solution of `matrix correction = -residual` with a factored matrix.
 fn solved(
-    solver: &mut dyn LinearSolver,
+    solver: &mut Automatic,
     matrix: &SparseMatrix,
     residual: &[f64],
     part: f64,
@@ -372,9 +373,9 @@ fn solved(
 
 impl SystemStorage {
     fn grow(&mut self, cliques: Vec<Vec<Supervariable>>) {
-        let grown = self.matrix.structure().grown(&cliques);
-        let structure = grown.expect("cliques name known supervariables");
-        self.matrix = SparseMatrix::zero(&structure);
+        let grown = self.partition.grown(&cliques);
+        self.partition = grown.expect("cliques name known supervariables");
+        self.matrix = SparseMatrix::zero(self.partition.structure());
         self.grown.extend(cliques);
         self.analysed = false;
     }

@@ -1,12 +1,12 @@
 //! The whole system of a step as a function of all unknowns.
 
 use nalgebra::DVector;
+use striae_condensed::Partition;
 use striae_contact::{
     complementarity::Iteration,
     selection::{Before, Selection},
     unknowns::Status,
 };
-use striae_linalg::{SparseMatrix, Structure, Supervariable};
 use striae_solve::{
     assembly::{
         Assembled, Contact, Fault, Imposed, Setting, StepContext, Trial, assemble, assemble_contact,
@@ -14,6 +14,7 @@ use striae_solve::{
     layout::{Extent, Layout},
     state::State,
 };
+use striae_sparse::{SparseMatrix, Structure, Supervariable};
 use striae_verify::{Difference, Random, derivative::directional};
 
 /// The whole system of a step as a function of all unknowns, after the converged state
@@ -23,7 +24,7 @@ pub struct Whole<'a> {
     selections: Vec<Selection>,
     pub imposed: Imposed,
     pub layout: Layout,
-    structure: Structure,
+    partition: Partition,
     before: &'a State,
     state: &'a State,
 }
@@ -33,15 +34,14 @@ impl<'a> Whole<'a> {
         let selections = selections(context, before, state);
         let layout = Layout::new(context.problem, Extent::default().with(&selections));
         let every: Vec<_> = (0..layout.offsets().len() - 1).map(Supervariable).collect();
-        let structure = Structure::from_cliques(layout.offsets().to_vec(), &[&every])
-            .and_then(|structure| structure.grown(&[&every]))
-            .unwrap();
+        let structure = Structure::from_cliques(layout.offsets().to_vec(), &[&every]);
+        let partition = Partition::from(&structure.unwrap());
         Self {
             selections,
             imposed: context.imposed(1.0),
             context,
             layout,
-            structure,
+            partition: partition.grown(&[&every]).unwrap(),
             before,
             state,
         }
@@ -144,7 +144,7 @@ impl<'a> Whole<'a> {
                 (&trial, change.as_slice()),
                 Iteration::LATER,
                 &self.layout,
-                &mut matrix,
+                (&self.partition, &mut matrix),
             );
             DVector::from_vec(found.expect("the pattern is full").residual)
         };
@@ -195,10 +195,11 @@ impl<'a> Whole<'a> {
     }
 
     fn evaluated(&self, u: &DVector<f64>) -> (Assembled, SparseMatrix) {
-        let mut matrix = SparseMatrix::zero(&self.structure);
+        let mut matrix = SparseMatrix::zero(self.partition.structure());
         let contact = Contact::Evaluated(Iteration::LATER);
         let trial = self.trial(u);
-        let assembled = assemble(&self.setting(), &trial, contact, &self.layout, &mut matrix);
+        let parts = (&self.partition, &mut matrix);
+        let assembled = assemble(&self.setting(), &trial, contact, &self.layout, parts);
         match assembled {
             Ok(assembled) => (assembled, matrix),
             Err(Fault::CutBack(reason)) => panic!("{reason}"),

@@ -3,9 +3,9 @@
 //! the iterative one.
 
 use crate::scene::{Places, Run, block, body, coulomb, increments, model, rubber, step};
+use striae_condensed::Method;
 use striae_contact::unknowns::{NodeResult, Status};
 use striae_law::bulk::Material;
-use striae_linalg::Method;
 use striae_mesh::{
     Vec3,
     generate::{Half, HalfCylinder},

@@ -153,8 +153,8 @@ fn counted(model: &Model, estimate: &Estimate, advice: &mut Advice) {
         others,
     } = estimate;
     let megabytes = |analysis: &Analysis| {
-        let megabytes = analysis.peak_bytes as f64 / 1e6;
-        format!("{megabytes:.1} MB and {:.1e} operations", analysis.flops)
+        let megabytes = analysis.cost.peak_bytes as f64 / 1e6;
+        format!("{megabytes:.1} MB and {:.1e} operations", analysis.cost.flops)
     };
     let others = others.iter();
     let others = others.map(|other| format!("; by {}: {}", other.method, megabytes(other)));
@@ -170,8 +170,8 @@ fn counted(model: &Model, estimate: &Estimate, advice: &mut Advice) {
     );
     let cost = Cost {
         unknowns: *unknowns,
-        bytes: analysis.peak_bytes as f64,
-        operations: analysis.flops,
+        bytes: analysis.cost.peak_bytes as f64,
+        operations: analysis.cost.flops,
         increments: increments(model),
     };
     time(&cost, advice);

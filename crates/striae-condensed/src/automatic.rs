@@ -1,0 +1,521 @@
+//! The default solver: condensed where that works and pays, iterative where direct
+//! factors would be too large, multifrontal LU otherwise.
+//!
+//! Factors of the interior of the bodies are kept while they are good enough as
+//! a preconditioner: the contact system is factored anew, and GMRES makes up for
+//! the change of the bulk. They are renewed when that takes, or last took, more
+//! iterations than a factorisation is worth, by a count of operations. Being
+//! preconditioners, they are made in single precision: that takes half the time and
+//! half the memory. Where it is too coarse for a problem, they are made in double
+//! precision from then on.
+//!
+//! What it falls back on is decided by counts and signs alone, so the same
+//! matrices are always solved in the same way: when the interface is so large
+//! that its dense algebra costs more than the LU, when the interior is not
+//! positive definite, when the contact system is singular (the LU then names
+//! the unknown), or when refinement does not reach an accurate answer. The iterative
+//! solver leaves what it cannot solve to the condensed one, if that fits.
+//!
+//! Longer than other files, as all choices are in one place.
+
+use crate::{
+    condensed::Condensed,
+    experience::Experience,
+    iterative::Iterative,
+    partition::Partition,
+    report::{Analysis, Factored, FallBack, Method},
+};
+use striae_sparse::{
+    Age, Cost, FactorReport, FaerLu, LinearSolver, MultifrontalLu, Precision, SolveError,
+    SolveReport, SparseMatrix, Structure, gmres::Ends,
+};
+
+/// Part of a factorisation of the bodies that an iteration of Newton's method takes: in
+/// single precision half the time, and for every other iteration at most.
+const REUSED: f64 = 0.25;
+/// Largest dense matrix, in bytes.
+const LARGEST_DENSE: usize = 6 << 30;
+/// Factorisations by LU after a failure before the condensed solver is tried again.
+const PATIENCE: usize = 8;
+/// Work of a dense system of what contact leaves free, over that of the interior, up to
+/// which it is worth correcting contact alone.
+const CHEAP: f64 = 0.1;
+/// Iterations of GMRES below which older factors are not worth a try.
+const FEWEST: usize = 3;
+/// Most iterations of GMRES with older factors.
+const MOST: usize = 25;
+
+/// Part of the iterations that older factors are worth, inverted, from which on they
+/// are not used for another state.
+const AGED: usize = 2;
+
+/// Unknowns above which no direct solver is considered.
+const MANY: usize = 450_000;
+/// Predicted memory of factors, in bytes, above which the iterative solver is taken.
+const LARGEST: usize = 12 << 30;
+/// Operations of a factorisation above which the iterative solver is taken.
+const COSTLY: f64 = 3.5e12;
+
+/// Reduction of the residual by a solution, unless another one is asked for.
+pub const REDUCTION: f64 = 1e-6;
+
+/// Which solver is tried first.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Choice {
+    /// The one that costs least by a count of operations and memory.
+    #[default]
+    ByCost,
+    /// The iterative one, whatever it costs; a direct one where it fails.
+    Iterative,
+    /// Multifrontal LU, and no other.
+    Multifrontal,
+    /// faer's sparse LU, and no other.
+    Faer,
+}
+
+/// Chooses between the condensed solver, the multifrontal LU and the iterative solver.
+#[derive(Default)]
+pub struct Automatic {
+    choice: Choice,
+    iterative: Option<Iterative>,
+    partition: Option<Partition>,
+    condensed: Option<Condensed>,
+    lu: Option<Box<dyn LinearSolver>>,
+    fall_back: Option<FallBack>,
+    /// Why the iterative solver was chosen by cost.
+    reason: Option<FallBack>,
+    patience: usize,
+    /// Factorisations by direct solvers before the iterative one is tried again.
+    rest: usize,
+    factored: Option<Method>,
+    /// Age of the factors of the interior.
+    interior: Age,
+    /// Iterations of GMRES that older factors are worth, and those they last took.
+    allowance: usize,
+    taken: usize,
+    /// Whether single precision has been found too coarse for this problem.
+    too_coarse: bool,
+}
+
+impl Automatic {
+    /// A solver that has seen no matrix yet.
+    pub fn new(choice: Choice) -> Self {
+        Self {
+            choice,
+            ..Self::default()
+        }
+    }
+
+    /// Factors with the LU, which is analysed when first needed.
+    fn factor_lu(&mut self, matrix: &SparseMatrix) -> Result<Factored, SolveError> {
+        let partition = self.partition.as_ref().ok_or(SolveError::NotAnalysed)?;
+        if self.lu.is_none() {
+            let (solver, analysis) = analysed_lu(Method::Multifrontal, partition)?;
+            if analysis.cost.peak_bytes > LARGEST && self.iterative.is_some() {
+                let bytes = analysis.cost.peak_bytes;
+                return Err(SolveError::TooLarge { bytes });
+            }
+            self.lu = Some(solver);
+        }
+        let solver = self.lu.as_mut().ok_or(SolveError::NotAnalysed)?;
+        let report = solver.factor(matrix)?;
+        let method = match self.choice {
+            Choice::Faer => Method::Faer,
+            _ => Method::Multifrontal,
+        };
+        self.factored = Some(method);
+        Ok(Factored {
+            fall_back: self.fall_back,
+            ..Factored::by(method, report)
+        })
+    }
+
+    /// Factors everything.
+    fn factor_anew(&mut self, matrix: &SparseMatrix) -> Result<Factored, SolveError> {
+        (self.interior, self.taken) = (Age::Fresh, 0);
+        if let Some(iterative) = self.iterative.as_mut().filter(|_| self.rest == 0) {
+            match iterative.factor(matrix) {
+                Ok(report) => {
+                    self.factored = Some(Method::Iterative);
+                    (self.condensed, self.lu) = (None, None);
+                    return Ok(Factored {
+                        fall_back: self.reason,
+                        ..report
+                    });
+                }
+                Err(SolveError::NotPositiveDefinite { .. } | SolveError::Singular { .. }) => {
+                    self.give_up(FallBack::NoPreconditioner);
+                }
+                Err(other) => return Err(other),
+            }
+        } else {
+            self.rest = self.rest.saturating_sub(1);
+        }
+        self.plan_direct()?;
+        if self.condensed.is_none() || self.patience > 0 {
+            self.patience = self.patience.saturating_sub(1);
+            return self.factor_lu(matrix);
+        }
+        match self.factor_condensed(matrix) {
+            Ok(report) => {
+                let reason = self.iterative.as_ref().and(self.fall_back);
+                (self.fall_back, self.factored) = (reason, Some(Method::Condensed));
+                // The LU would only hold memory now.
+                self.lu = None;
+                Ok(Factored {
+                    fall_back: reason,
+                    ..report
+                })
+            }
+            Err(SolveError::NotPositiveDefinite { unknown, .. }) => {
+                self.fall_back(FallBack::IndefiniteInterior { unknown }, matrix)
+            }
+            Err(SolveError::Singular { .. }) => self.fall_back(FallBack::SingularContact, matrix),
+            Err(other) => Err(other),
+        }
+    }
+
+    /// Precision that factors of the bodies are tried in.
+    fn precision(&self) -> Precision {
+        match self.allowance >= FEWEST && !self.too_coarse {
+            true => Precision::Single,
+            false => Precision::Double,
+        }
+    }
+
+    /// Factors with the condensed solver, the bodies in single precision while that does.
+    fn factor_condensed(&mut self, matrix: &SparseMatrix) -> Result<Factored, SolveError> {
+        let single = self.precision() == Precision::Single;
+        let condensed = self.condensed.as_mut().ok_or(SolveError::NotAnalysed)?;
+        if single {
+            match condensed.factor(matrix, Precision::Single) {
+                Err(SolveError::NotPositiveDefinite { .. } | SolveError::Singular { .. }) => {}
+                other => return other,
+            }
+        }
+        let done = condensed.factor(matrix, Precision::Double);
+        self.too_coarse |= single && done.is_ok();
+        done
+    }
+
+    /// Solves with the condensed solver's factors; `None` when those are no good any more.
+    fn solve_condensed(
+        &mut self,
+        matrix: &SparseMatrix,
+        (rhs, x): (&[f64], &mut [f64]),
+        reduction: f64,
+    ) -> Result<Option<SolveReport>, SolveError> {
+        let condensed = self.condensed.as_ref().ok_or(SolveError::NotFactored)?;
+        if (self.interior, condensed.precision()) == (Age::Fresh, Precision::Double) {
+            return condensed.solve(matrix, rhs, x).map(Some);
+        }
+        let ends = Ends {
+            iterations: self.allowance,
+            reduction,
+        };
+        let report = condensed.solve_nearby(matrix, (rhs, x), ends)?;
+        match &report {
+            Some(report) => self.taken = report.krylov_iterations,
+            None => self.too_coarse |= self.interior == Age::Fresh,
+        }
+        Ok(report.map(|report| SolveReport {
+            age: self.interior,
+            ..report
+        }))
+    }
+
+    /// Leaves matrices to a direct solver for a while.
+    fn give_up(&mut self, reason: FallBack) {
+        (self.fall_back, self.rest) = (Some(reason), PATIENCE);
+        if let Some(iterative) = &mut self.iterative {
+            iterative.forget();
+        }
+    }
+
+    /// Plans the condensed solver in the place of the iterative one, if there is memory for it.
+    fn plan_direct(&mut self) -> Result<(), SolveError> {
+        let is_planned = self.condensed.is_some() || self.lu.is_some();
+        if self.iterative.is_none() || is_planned {
+            return Ok(());
+        }
+        let partition = self.partition.as_ref().ok_or(SolveError::NotAnalysed)?;
+        let condensed = Condensed::analyse(partition)?;
+        if condensed.analysis(Precision::Double).cost.peak_bytes <= LARGEST {
+            self.condensed = Some(condensed);
+        }
+        Ok(())
+    }
+
+    fn fall_back(
+        &mut self,
+        reason: FallBack,
+        matrix: &SparseMatrix,
+    ) -> Result<Factored, SolveError> {
+        (self.fall_back, self.patience) = (Some(reason), PATIENCE);
+        self.factor_lu(matrix)
+    }
+}
+
+/// What it is called with.
+impl Automatic {
+    /// Orders the unknowns and predicts the cost; forgets earlier factorisations.
+    ///
+    /// # Errors
+    /// Why the unknowns cannot be ordered.
+    pub fn analyse(&mut self, partition: &Partition) -> Result<Analysis, SolveError> {
+        *self = Self {
+            choice: self.choice,
+            too_coarse: self.too_coarse,
+            ..Self::default()
+        };
+        self.partition = Some(partition.clone());
+        let direct = match self.choice {
+            Choice::Multifrontal => Some(Method::Multifrontal),
+            Choice::Faer => Some(Method::Faer),
+            Choice::ByCost | Choice::Iterative => None,
+        };
+        if let Some(method) = direct {
+            let (solver, analysis) = analysed_lu(method, partition)?;
+            self.lu = Some(solver);
+            return Ok(analysis);
+        }
+        let unknowns = partition.unknowns();
+        if self.choice == Choice::Iterative || unknowns > MANY {
+            self.iterative = Iterative::analyse(partition);
+        }
+        if self.iterative.is_some() {
+            if self.choice == Choice::ByCost {
+                self.reason = Some(FallBack::ManyUnknowns { unknowns });
+            }
+            return Ok(Iterative::analysis(partition));
+        }
+        let condensed = Condensed::analyse(partition)?;
+        // In double precision, in case single is too coarse.
+        let analysis = condensed.analysis(Precision::Double);
+        let order = condensed.interface();
+        let (contact, bodies) = condensed.work();
+        // Where the bodies outweigh the interface, the LU of both costs more.
+        let direct = if contact > bodies {
+            let (solver, other) = analysed_lu(Method::Multifrontal, partition)?;
+            let dense = size_of::<f64>() * order * order;
+            let is_dearer = contact + REUSED * bodies > other.cost.flops;
+            (dense > LARGEST_DENSE || is_dearer).then_some((solver, other))
+        } else {
+            None
+        };
+        let cheaper = direct.as_ref().map_or(analysis, |direct| direct.1).cost;
+        if cheaper.peak_bytes > LARGEST || cheaper.flops > COSTLY {
+            self.iterative = Iterative::analyse(partition);
+            if self.iterative.is_some() {
+                self.reason = Some(FallBack::LargeBodies {
+                    bytes: cheaper.peak_bytes,
+                    flops: cheaper.flops,
+                });
+                return Ok(Iterative::analysis(partition));
+            }
+        }
+        if let Some((solver, other)) = direct {
+            self.lu = Some(solver);
+            self.fall_back = Some(FallBack::LargeInterface { unknowns: order });
+            return Ok(other);
+        }
+        let worth = 0.7 * condensed.solutions_per_factorisation();
+        self.allowance = (worth as usize).min(MOST);
+        let analysis = condensed.analysis(self.precision());
+        self.condensed = Some(condensed);
+        Ok(analysis)
+    }
+
+    /// Predicted costs of all methods it chooses between, in the order they are tried.
+    ///
+    /// # Errors
+    /// Why the unknowns cannot be ordered.
+    pub fn estimates(&self, partition: &Partition) -> Result<Vec<Analysis>, SolveError> {
+        if matches!(self.choice, Choice::Multifrontal | Choice::Faer) {
+            return Ok(Vec::new());
+        }
+        let mut all = vec![
+            Condensed::analyse(partition)?.analysis(self.precision()),
+            analysed_lu(Method::Multifrontal, partition)?.1,
+        ];
+        if Iterative::analyse(partition).is_some() {
+            all.push(Iterative::analysis(partition));
+        }
+        Ok(all)
+    }
+
+    /// Gives what has failed another try: matrices of another state come.
+    pub fn start_afresh(&mut self) {
+        (self.patience, self.rest) = (0, 0);
+        if AGED * self.taken > self.allowance {
+            self.forget();
+        }
+        if let Some(condensed) = &mut self.condensed {
+            condensed.forget_untouched();
+        }
+    }
+
+    /// Forgets all factors, but not the analysis: matrices of another kind come.
+    pub fn forget(&mut self) {
+        self.taken = 0;
+        if let Some(condensed) = &mut self.condensed {
+            condensed.forget();
+        }
+    }
+
+    /// What earlier matrices have left that bears on the last digits of answers to come.
+    pub fn experience(&self) -> Experience {
+        Experience {
+            too_coarse: self.too_coarse,
+            taken: self.taken,
+            interior: self.condensed.as_ref().and_then(Condensed::factored),
+        }
+    }
+
+    /// Takes up the experience of another solver with the same analysis.
+    pub fn recall(&mut self, experience: &Experience) {
+        (self.too_coarse, self.taken) = (experience.too_coarse, experience.taken);
+        if let (Some(condensed), Some(interior)) = (&mut self.condensed, &experience.interior)
+            && condensed.factor_again(interior).is_err()
+        {
+            condensed.forget();
+        }
+    }
+
+    /// Factors a matrix of the analysed structure.
+    ///
+    /// # Errors
+    /// Why no method can.
+    pub fn factor(&mut self, matrix: &SparseMatrix) -> Result<Factored, SolveError> {
+        self.factored = None;
+        let good = self.allowance >= FEWEST && 4 * self.taken <= 3 * self.allowance;
+        if let Some(condensed) = self.condensed.as_mut()
+            && self.patience == 0
+            && good
+            && let Ok(Some(report)) = condensed.refresh(matrix)
+        {
+            (self.interior, self.factored) = (Age::Stale, Some(Method::Condensed));
+            return Ok(report);
+        }
+        self.factor_anew(matrix)
+    }
+
+    /// Solves `matrix x = rhs` with the last factorisation, to [`REDUCTION`] at least.
+    ///
+    /// `matrix` is the factored one or one close to it: the residual is that of
+    /// `matrix`. The old content of `x` is not used.
+    ///
+    /// # Errors
+    /// Why there is no accurate answer.
+    pub fn solve(
+        &mut self,
+        matrix: &SparseMatrix,
+        rhs: &[f64],
+        x: &mut [f64],
+    ) -> Result<SolveReport, SolveError> {
+        self.solve_to(matrix, rhs, x, REDUCTION)
+    }
+
+    /// Solves as [`solve`](Self::solve) does, with a residual reduced by `reduction`
+    /// where it is not reduced to round-off: where the factors of the bodies are
+    /// [stale](Age::Stale) or the solver is iterative.
+    ///
+    /// # Errors
+    /// Why there is no accurate answer.
+    pub fn solve_to(
+        &mut self,
+        matrix: &SparseMatrix,
+        rhs: &[f64],
+        x: &mut [f64],
+        reduction: f64,
+    ) -> Result<SolveReport, SolveError> {
+        if self.factored == Some(Method::Iterative) {
+            let iterative = self.iterative.as_ref().ok_or(SolveError::NotFactored)?;
+            if let Some(report) = iterative.solve(matrix, rhs, x, reduction)? {
+                return Ok(report);
+            }
+            self.give_up(FallBack::NotConverged);
+            self.factor_anew(matrix)?;
+        }
+        while self.factored == Some(Method::Condensed) {
+            match self.solve_condensed(matrix, (rhs, &mut *x), reduction) {
+                Ok(Some(report)) => return Ok(report),
+                Ok(None) => self.factor_anew(matrix)?,
+                Err(SolveError::Inaccurate { backward_error }) => {
+                    self.fall_back(FallBack::Inaccurate { backward_error }, matrix)?
+                }
+                Err(other) => return Err(other),
+            };
+        }
+        match (self.lu.as_mut(), self.factored) {
+            (Some(solver), Some(_)) => solver.solve(matrix, rhs, x),
+            _ => Err(SolveError::NotFactored),
+        }
+    }
+
+    /// Whether [`solve_other_contact`](Self::solve_other_contact) is worth a call now.
+    pub fn has_interior(&self) -> bool {
+        let condensed = self.condensed.as_ref();
+        self.factored == Some(Method::Condensed)
+            && condensed.is_some_and(|condensed| condensed.share_of_contact() <= CHEAP)
+    }
+
+    /// Solves `matrix x = rhs` where `matrix` differs from the last factored one in
+    /// entries between kept supervariables only, on the factors of the interior there
+    /// are and without refinement: for corrections that are checked by other means.
+    ///
+    /// `None` where there are no such factors after all.
+    ///
+    /// # Errors
+    /// Why the contact system cannot be solved.
+    pub fn solve_other_contact(
+        &mut self,
+        matrix: &SparseMatrix,
+        rhs: &[f64],
+    ) -> Result<Option<Vec<f64>>, SolveError> {
+        match (&mut self.condensed, self.factored) {
+            (Some(condensed), Some(Method::Condensed)) => {
+                condensed.solve_other_contact(matrix, rhs)
+            }
+            _ => Ok(None),
+        }
+    }
+}
+
+/// An LU with its analysis.
+fn analysed_lu(
+    method: Method,
+    structure: &Structure,
+) -> Result<(Box<dyn LinearSolver>, Analysis), SolveError> {
+    let mut solver: Box<dyn LinearSolver> = match method {
+        Method::Faer => Box::new(FaerLu::new()),
+        _ => Box::new(MultifrontalLu::new()),
+    };
+    let cost = solver.analyse(structure)?;
+    Ok((solver, Analysis { cost, method }))
+}
+
+/// As a solver of plain matrices, in which everything is bulk.
+impl LinearSolver for Automatic {
+    fn analyse(&mut self, structure: &Structure) -> Result<Cost, SolveError> {
+        let analysis = Self::analyse(self, &Partition::from(structure))?;
+        Ok(analysis.cost)
+    }
+
+    fn factor(&mut self, matrix: &SparseMatrix) -> Result<FactorReport, SolveError> {
+        let factored = Self::factor(self, matrix)?;
+        Ok(FactorReport {
+            factor_entries: factored.factor_entries,
+            ..FactorReport::default()
+        })
+    }
+
+    fn solve(
+        &mut self,
+        matrix: &SparseMatrix,
+        rhs: &[f64],
+        x: &mut [f64],
+    ) -> Result<SolveReport, SolveError> {
+        Self::solve(self, matrix, rhs, x)
+    }
+}

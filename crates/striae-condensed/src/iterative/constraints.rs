@@ -1,0 +1,104 @@
+//! Rows of the multipliers that constrain positions.
+//!
+//! In the scaled system the diagonal of the bulk is about one, so that the row `g`
+//! of a multiplier yields by `sigma = |g|^2` to a unit force. Where the row's own
+//! entries of multipliers are small beside what its positions do to it, it is a
+//! constraint, and `s g^T g` with `s = STIFFENING / sigma` is added to the bulk: on
+//! vectors that satisfy the constraint nothing changes, bodies held by contact alone
+//! become definite, and `g A^-1 g^T` is near `1/s` whatever the mesh.
+
+use super::{NONE, scaled::Scaled};
+use rayon::prelude::*;
+use striae_sparse::{
+    Supervariable,
+    aggregation::blocks::{Blocks, invert},
+};
+
+/// Stiffness that is added in the direction of a constraint, over that of the bulk there.
+const STIFFENING: f64 = 2.0;
+/// Largest entry of a multiplier over the largest of positions in a constraint.
+const SMALL: f64 = 0.1;
+
+/// A row of the multipliers in which positions dominate.
+#[derive(Debug)]
+pub(crate) struct Constraint {
+    /// The multiplier whose row it is.
+    pub(crate) unknown: u32,
+    /// Node and entries.
+    pub(crate) entries: Vec<(u32, [f64; 3])>,
+    /// Stiffness `s` that is added.
+    pub(crate) stiffness: f64,
+}
+
+impl Constraint {
+    /// All constraints among the rows of multipliers.
+    pub(crate) fn all(scaled: &Scaled<'_>, multipliers: &[u32]) -> Vec<Self> {
+        let found = multipliers.par_iter().with_min_len(64);
+        found.filter_map(|&u| Self::of(scaled, u)).collect()
+    }
+
+    fn of(scaled: &Scaled<'_>, unknown: u32) -> Option<Self> {
+        let mut entries: Vec<(u32, [f64; 3])> = Vec::new();
+        let (mut others, mut largest) = (0.0_f64, 0.0_f64);
+        for (v, a) in scaled.row(unknown as usize).filter(|e| e.1 != 0.0) {
+            let (node, component) = scaled.node(v);
+            if node == NONE {
+                others = others.max(a.abs());
+                continue;
+            }
+            largest = largest.max(a.abs());
+            match entries.last_mut() {
+                Some((last, values)) if *last == node => values[component] = a,
+                _ => {
+                    let mut values = [0.0; 3];
+                    values[component] = a;
+                    entries.push((node, values));
+                }
+            }
+        }
+        let sigma: f64 = entries.iter().flat_map(|e| e.1).map(|a| a * a).sum();
+        let dominates = largest > 0.0 && others <= SMALL * largest;
+        dominates.then(|| Self {
+            unknown,
+            entries,
+            stiffness: STIFFENING / sigma,
+        })
+    }
+}
+
+/// Inverses of the diagonal blocks of the stiffened bulk at nodes with multipliers or constraints.
+pub(crate) struct Compliance {
+    /// Place of every node among the blocks.
+    places: Vec<u32>,
+    blocks: Vec<[f64; 9]>,
+}
+
+impl Compliance {
+    /// From the stiffened bulk.
+    pub(crate) fn of(scaled: &Scaled<'_>, bulk: &Blocks<3, 3, f64>) -> Self {
+        let nodes = &scaled.nodes;
+        let mut compliance = Self {
+            places: vec![NONE; nodes.supervariables.len()],
+            blocks: Vec::new(),
+        };
+        for (node, &i) in nodes.supervariables.iter().enumerate() {
+            if nodes.partition.is_kept(Supervariable(i as usize)) {
+                let mut inverse = [0.0; 9];
+                let own = bulk.row(node).find(|&(j, _)| j == node);
+                own.iter()
+                    .for_each(|(_, block)| invert::<3>(block, &mut inverse));
+                compliance.places[node] = compliance.blocks.len() as u32;
+                compliance.blocks.push(inverse);
+            }
+        }
+        compliance
+    }
+
+    /// Component of the displacement of a node under a force.
+    pub(crate) fn along(&self, node: u32, component: usize, force: &[f64; 3]) -> f64 {
+        let block = self.blocks.get(self.places[node as usize] as usize);
+        block.map_or(0.0, |block| {
+            (0..3).map(|c| block[3 * component + c] * force[c]).sum()
+        })
+    }
+}

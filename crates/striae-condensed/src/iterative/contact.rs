@@ -1,0 +1,175 @@
+//! The multipliers' part of the preconditioner, sparse on the contact surfaces.
+//!
+//! The Schur complement `G_m - G_x A^-1 C` is taken with the inverse of the node-wise
+//! diagonal of the stiffened bulk in the place of `A^-1`. As `g A^-1 g^T` lies between
+//! the yielding of the bulk and that of the added stiffness, which are of one size, that
+//! is right up to factors near one, whatever the mesh and the stiffness of the bodies.
+
+use super::{
+    NONE,
+    constraints::{Compliance, Constraint},
+    scaled::Scaled,
+};
+use rayon::prelude::*;
+use striae_sparse::{
+    LinearSolver, MultifrontalLu, SolveError, SparseMatrix, Structure, Supervariable, Tier,
+    sparse_elimination::Row,
+};
+
+/// What is added to the diagonal in the row of a constraint.
+const SLIGHT: f64 = 1e-4;
+
+/// Couplings with the bulk and factors of what approximates the Schur complement.
+#[derive(Debug)]
+pub(crate) struct Contact {
+    /// By multiplier: entries `(3 node + component, value)` of `G_x`.
+    rows: Vec<Row>,
+    /// Rows of `C` with entries: `3 node + component` and `(multiplier, value)`.
+    forces: Vec<(u32, Row)>,
+    solver: MultifrontalLu,
+    entries: usize,
+}
+
+impl Contact {
+    /// Factors the approximate Schur complement.
+    pub(crate) fn factor(
+        scaled: &Scaled<'_>,
+        constraints: &[Constraint],
+        compliance: &Compliance,
+    ) -> Result<Self, SolveError> {
+        let structure = &scaled.nodes.partition;
+        let multipliers = &scaled.nodes.multipliers;
+        let mut place = vec![NONE; structure.unknowns()];
+        for (k, &u) in multipliers.iter().enumerate() {
+            place[u as usize] = k as u32;
+        }
+        let mut forces = Vec::new();
+        for (node, &i) in scaled.nodes.supervariables.iter().enumerate() {
+            if !structure.is_kept(Supervariable(i as usize)) {
+                continue;
+            }
+            for (component, u) in structure.bulk_group(i as usize).enumerate() {
+                let entries = scaled.row(u).filter(|&(v, a)| a != 0.0 && place[v] != NONE);
+                let row: Row = entries.map(|(v, a)| (place[v], a)).collect();
+                if !scaled.prescribed[u] && !row.is_empty() {
+                    forces.push(((3 * node + component) as u32, row));
+                }
+            }
+        }
+        let mut is_constraint = vec![false; multipliers.len()];
+        for constraint in constraints {
+            is_constraint[place[constraint.unknown as usize] as usize] = true;
+        }
+        let force = |at: u32| -> &[(u32, f64)] {
+            let found = forces.binary_search_by_key(&at, |f| f.0);
+            found.map_or(&[], |k| &forces[k].1)
+        };
+        let split: Vec<(Row, Row)> = multipliers
+            .par_iter()
+            .enumerate()
+            .with_min_len(64)
+            .map(|(k, &u)| {
+                let (mut positions, mut own) = (Row::new(), Row::new());
+                for (v, a) in scaled.row(u as usize).filter(|e| e.1 != 0.0) {
+                    match scaled.node(v) {
+                        (NONE, _) => own.push((place[v], a)),
+                        (node, component) => positions.push((3 * node + component as u32, a)),
+                    }
+                }
+                for entries in positions.chunk_by(|a, b| a.0 / 3 == b.0 / 3) {
+                    let node = entries[0].0 / 3;
+                    let mut g = [0.0; 3];
+                    entries.iter().for_each(|&(at, a)| g[at as usize % 3] = a);
+                    for component in 0..3 {
+                        let moved = compliance.along(node, component, &g);
+                        let row = force(3 * node + component as u32).iter();
+                        own.extend(row.map(|&(m, c)| (m, -moved * c)));
+                    }
+                }
+                if is_constraint[k] {
+                    // Tractions may act on nothing but prescribed unknowns.
+                    let diagonal = own.iter().filter(|e| e.0 == k as u32);
+                    let diagonal: f64 = diagonal.map(|e| e.1).sum();
+                    own.push((k as u32, if diagonal > 0.0 { SLIGHT } else { -SLIGHT }));
+                }
+                (positions, own)
+            })
+            .collect();
+        let (rows, own): (Vec<Row>, Vec<Row>) = split.into_iter().unzip();
+        let matrix = assembled(scaled, &own)?;
+        let mut solver = MultifrontalLu::new();
+        solver.analyse(matrix.structure())?;
+        let entries = solver.factor(&matrix)?.factor_entries;
+        let entries = entries + rows.iter().map(Vec::len).sum::<usize>();
+        Ok(Self {
+            rows,
+            entries: entries + forces.iter().map(|f| f.1.len()).sum::<usize>(),
+            forces,
+            solver,
+        })
+    }
+
+    /// `m := S^-1 (m - G_x x)`.
+    pub(crate) fn solve(&self, x: &[f32], m: &mut [f64]) {
+        m.par_iter_mut()
+            .zip(&self.rows)
+            .with_min_len(256)
+            .for_each(|(m, row)| {
+                let known = row.iter().map(|&(at, g)| g * f64::from(x[at as usize]));
+                *m -= known.sum::<f64>();
+            });
+        self.solver.substitute(m);
+    }
+
+    /// `b := b - C m`.
+    pub(crate) fn subtract_forces(&self, m: &[f64], b: &mut [f32]) {
+        for (at, row) in &self.forces {
+            let force: f64 = row.iter().map(|&(k, c)| c * m[k as usize]).sum();
+            b[*at as usize] -= force as f32;
+        }
+    }
+
+    /// Entries that are kept.
+    pub(crate) fn entries(&self) -> usize {
+        self.entries
+    }
+}
+
+/// A matrix of the multipliers, grouped as in the whole system.
+fn assembled(scaled: &Scaled<'_>, rows: &[Row]) -> Result<SparseMatrix, SolveError> {
+    let structure = &scaled.nodes.partition;
+    let (mut offsets, mut tiers, mut owners) = (vec![0], Vec::<Tier>::new(), Vec::new());
+    let mut before = None;
+    for (k, &u) in scaled.nodes.multipliers.iter().enumerate() {
+        let owner = structure.owner(u as usize);
+        if before != Some(owner) {
+            tiers.push(structure.tier(owner));
+            offsets.push(k);
+        }
+        before = Some(owner);
+        owners.push(tiers.len() - 1);
+        offsets[tiers.len()] = k + 1;
+    }
+    let mut pairs: Vec<[Supervariable; 2]> = Vec::new();
+    for (k, row) in rows.iter().enumerate() {
+        let near = row.iter().map(|&(m, _)| owners[m as usize]);
+        let mut near: Vec<usize> = near.filter(|&j| j != owners[k]).collect();
+        near.sort_unstable();
+        near.dedup();
+        pairs.extend(near.iter().map(|&j| [owners[k], j].map(Supervariable)));
+    }
+    pairs.sort_unstable();
+    pairs.dedup();
+    let structure = Structure::from_cliques(offsets, &pairs)
+        .and_then(|structure| structure.with_tiers(tiers))
+        .map_err(|_| SolveError::NotAnalysed)?;
+    let mut matrix = SparseMatrix::zero(&structure);
+    for (k, row) in rows.iter().enumerate() {
+        for &(m, a) in row {
+            matrix
+                .add(&[k], &[m as usize], &[a])
+                .map_err(|_| SolveError::NotAnalysed)?;
+        }
+    }
+    Ok(matrix)
+}

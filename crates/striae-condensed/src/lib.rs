@@ -1,0 +1,46 @@
+//! Linear systems of bodies in contact.
+//!
+//! A [`Partition`] says what of a structure is the *bulk*, coupled by elements, and what
+//! the *interface*, coupled by contact. [`Automatic`] chooses between a condensed solver
+//! (Cholesky for the bodies, dense algebra for contact), an iterative one for bodies too
+//! large for factors, and an LU that takes the system as it is:
+//!
+//! ```
+//! use striae_condensed::{Automatic, Choice, Partition};
+//! use striae_sparse::{SparseMatrix, Structure, Supervariable};
+//!
+//! // Two springs, and a multiplier that ties their ends.
+//! let (a, b) = (Supervariable(0), Supervariable(1));
+//! let bulk = Structure::from_cliques(vec![0, 1, 3], &[[a], [b]])?;
+//! let partition = Partition::new(&bulk, &[1, 1])?.grown(&[[a, b]])?;
+//! let mut matrix = SparseMatrix::zero(partition.structure());
+//! matrix.add(&[0], &[0], &[2.0])?;
+//! matrix.add(&[1], &[1], &[3.0])?;
+//! matrix.add(&[0, 1], &[2], &[1.0, -1.0])?;
+//! matrix.add(&[2], &[0, 1], &[1.0, -1.0])?;
+//!
+//! let mut solver = Automatic::new(Choice::ByCost);
+//! solver.analyse(&partition)?;
+//! solver.factor(&matrix)?;
+//! let mut x = [0.0; 3];
+//! solver.solve(&matrix, &[5.0, 0.0, 0.0], &mut x)?;
+//! assert!((x[0] - 1.0).abs() < 1e-14 && (x[1] - 1.0).abs() < 1e-14);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod automatic;
+mod bulk;
+mod condensed;
+mod experience;
+mod flexibility;
+mod interface;
+mod iterative;
+mod kept;
+mod partition;
+mod report;
+mod scaling;
+
+pub use automatic::{Automatic, Choice, REDUCTION};
+pub use experience::{Experience, FactoredInterior};
+pub use partition::{Partition, PartitionError};
+pub use report::{Analysis, Factored, FallBack, Method};

@@ -1,0 +1,184 @@
+//! What belongs to the bodies in a structure, and what to their interface.
+//!
+//! The *bulk* is what elements couple: of every supervariable the leading unknowns,
+//! and the edges between them. What contact may couple beyond, [`Partition::grown`]
+//! adds to the pattern: its supervariables are the *interface*, and they are *kept*
+//! when the rest of the bulk is condensed, as are those with other unknowns
+//! (multipliers).
+
+use std::{ops::Deref, ops::Range, sync::Arc};
+use striae_sparse::{SparseMatrix, Structure, StructureError, Supervariable};
+use thiserror::Error;
+
+/// A structure with its bulk and its interface; cheap to clone.
+#[derive(Clone, Debug)]
+pub struct Partition {
+    structure: Structure,
+    parts: Arc<Parts>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Parts {
+    /// Leading unknowns of each supervariable that belong to the bulk.
+    bulk: Vec<u32>,
+    /// Whether each edge belongs to the bulk.
+    bulk_edges: Vec<bool>,
+    /// Whether each supervariable belongs to the interface.
+    kept: Vec<bool>,
+    /// Point of each supervariable, if they are known.
+    points: Option<Arc<[[f64; 3]]>>,
+}
+
+/// A list that does not fit its structure.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+pub enum PartitionError {
+    /// The list of bulk unknowns has the wrong length.
+    #[error("{found} numbers of bulk unknowns for {expected} supervariables")]
+    Bulk {
+        /// Length of the list.
+        found: usize,
+        /// Number of supervariables.
+        expected: usize,
+    },
+    /// The list of points has the wrong length.
+    #[error("{found} points for {expected} supervariables")]
+    Points {
+        /// Length of the list.
+        found: usize,
+        /// Number of supervariables.
+        expected: usize,
+    },
+}
+
+impl Deref for Partition {
+    type Target = Structure;
+
+    fn deref(&self) -> &Structure {
+        &self.structure
+    }
+}
+
+impl From<&Structure> for Partition {
+    /// A structure that is all bulk, with nothing kept.
+    fn from(structure: &Structure) -> Self {
+        let all = 0..structure.supervariables();
+        let size = |i: usize| structure.group(i).len() as u32;
+        Self {
+            parts: Arc::new(Parts {
+                bulk: all.clone().map(size).collect(),
+                bulk_edges: vec![true; structure.edges_total()],
+                kept: vec![false; all.len()],
+                points: None,
+            }),
+            structure: structure.clone(),
+        }
+    }
+}
+
+impl Partition {
+    /// The partition of a structure that is coupled by the bulk alone. So many leading
+    /// unknowns of each supervariable belong to it; those with others are kept.
+    ///
+    /// # Errors
+    /// When there is not one number a supervariable.
+    pub fn new(structure: &Structure, bulk: &[usize]) -> Result<Self, PartitionError> {
+        let expected = structure.supervariables();
+        if bulk.len() != expected {
+            return Err(PartitionError::Bulk {
+                found: bulk.len(),
+                expected,
+            });
+        }
+        let mut partition = Self::from(structure);
+        let parts = Arc::make_mut(&mut partition.parts);
+        for (i, &count) in bulk.iter().enumerate() {
+            let size = structure.group(i).len();
+            parts.bulk[i] = count.min(size) as u32;
+            parts.kept[i] = count < size;
+        }
+        Ok(partition)
+    }
+
+    /// The same with a point for every supervariable: where a translation or rotation of
+    /// the bulk as a whole moves it (its three unknowns are components along the axes).
+    /// The iterative solver goes by these.
+    ///
+    /// # Errors
+    /// When there is not one point a supervariable.
+    pub fn with_points(mut self, points: Vec<[f64; 3]>) -> Result<Self, PartitionError> {
+        let expected = self.supervariables();
+        if points.len() != expected {
+            return Err(PartitionError::Points {
+                found: points.len(),
+                expected,
+            });
+        }
+        Arc::make_mut(&mut self.parts).points = Some(points.into());
+        Ok(self)
+    }
+
+    /// The same with more cliques, whose supervariables are kept.
+    ///
+    /// # Errors
+    /// When a clique names a supervariable that does not exist.
+    pub fn grown<C: AsRef<[Supervariable]>>(&self, cliques: &[C]) -> Result<Self, StructureError> {
+        let structure = self.structure.grown(cliques)?;
+        let mut parts = (*self.parts).clone();
+        parts.bulk_edges.clear();
+        for i in 0..structure.supervariables() {
+            parts.bulk_edges.extend(structure.edges(i).map(|edge| {
+                let older = self.edge(i, structure.target(edge));
+                older.is_some_and(|older| self.is_bulk_edge(older))
+            }));
+        }
+        for s in cliques.iter().flat_map(|clique| clique.as_ref()) {
+            parts.kept[s.0] = true;
+        }
+        Ok(Self {
+            structure,
+            parts: Arc::new(parts),
+        })
+    }
+
+    /// The structure.
+    pub fn structure(&self) -> &Structure {
+        &self.structure
+    }
+
+    /// Whether a supervariable belongs to the interface.
+    pub fn is_kept(&self, supervariable: Supervariable) -> bool {
+        self.parts.kept[supervariable.0]
+    }
+
+    /// Supervariables that belong to the interface.
+    pub fn kept(&self) -> impl Iterator<Item = Supervariable> + '_ {
+        let all = (0..self.supervariables()).map(Supervariable);
+        all.filter(|&supervariable| self.is_kept(supervariable))
+    }
+
+    /// Whether a matrix is on this pattern.
+    pub(crate) fn fits(&self, matrix: &SparseMatrix) -> bool {
+        self.structure.same_as(matrix.structure())
+    }
+
+    /// Unknowns of supervariable `i` that belong to the bulk.
+    pub(crate) fn bulk_group(&self, i: usize) -> Range<usize> {
+        let start = self.group(i).start;
+        start..start + self.parts.bulk[i] as usize
+    }
+
+    /// The unknowns of supervariable `i` that are no bulk.
+    pub(crate) fn multiplier_group(&self, i: usize) -> Range<usize> {
+        self.bulk_group(i).end..self.group(i).end
+    }
+
+    /// Whether an edge belongs to the bulk.
+    pub(crate) fn is_bulk_edge(&self, edge: usize) -> bool {
+        self.parts.bulk_edges[edge]
+    }
+
+    /// Points of all supervariables.
+    pub(crate) fn points(&self) -> Option<&[[f64; 3]]> {
+        self.parts.points.as_deref()
+    }
+}

@@ -1,0 +1,111 @@
+//! Smoothed aggregation: a preconditioner for matrices of elasticity.
+//!
+//! Every level interpolates from aggregates of nodes with six unknowns each, which
+//! reproduce the near-kernel (rigid motions) exactly but for the
+//! smoothing (Vanek, Mandel & Brezina, doi:10.1007/BF02238511, with the variants of
+//! Adams, doi:10.1002/nme.568): Galerkin products `P^T A P`, Chebyshev polynomials
+//! of the block diagonal for smoothing before and after, Cholesky on the coarsest
+//! level. One V-cycle is a symmetric positive definite operator. Levels are made in
+//! double precision and used in single precision: all that is asked of them is to
+//! be near the inverse.
+
+mod aggregates;
+pub mod blocks;
+mod coarsest;
+mod level;
+mod packed;
+mod prolongator;
+
+use blocks::Blocks;
+use coarsest::Coarsest;
+use level::Level;
+
+/// Columns of the near-kernel: rigid motions.
+pub const MODES: usize = 6;
+/// Unknowns of the coarsest level at most.
+const COARSEST: usize = 1200;
+/// Levels at most.
+const LEVELS: usize = 12;
+/// A level that has more than this share of the nodes of the finer one is not worth its work.
+const SLOW: f64 = 0.7;
+/// Coupling above which nodes of the finest level may be in one aggregate.
+const STRONG: f64 = 0.06;
+
+/// Levels of a symmetric positive definite matrix of 3 by 3 blocks.
+#[derive(Debug)]
+pub struct Hierarchy {
+    finest: Level<3>,
+    coarser: Vec<Level<MODES>>,
+    coarsest: Coarsest,
+}
+
+impl Hierarchy {
+    /// Levels of a matrix with a near-kernel of 3 rows by six a node; only pairs for
+    /// which `may_join` holds come into one aggregate of the finest level.
+    pub fn new(
+        matrix: Blocks<3, 3, f64>,
+        near_kernel: &[f64],
+        may_join: impl Fn(usize, usize) -> bool + Sync,
+    ) -> Option<Self> {
+        let mut finest = Level::new(&matrix);
+        let (mut coarser, mut theta) = (Vec::new(), STRONG);
+        if matrix.rows() * 3 <= COARSEST {
+            let coarsest = Coarsest::new(&matrix)?;
+            return Some(Self {
+                finest,
+                coarser,
+                coarsest,
+            });
+        }
+        let (mut next, mut kernel) = finest.coarsen(matrix, near_kernel, theta, may_join);
+        while next.rows() * MODES > COARSEST && coarser.len() < LEVELS {
+            theta *= 0.5;
+            let mut level = Level::new(&next);
+            let before = next.rows();
+            let all = |_: usize, _: usize| true;
+            let (product, modes) = level.coarsen(next, &kernel, theta, all);
+            (next, kernel) = (product, modes);
+            coarser.push(level);
+            if next.rows() as f64 > SLOW * before as f64 {
+                break;
+            }
+        }
+        let coarsest = Coarsest::new(&next)?;
+        Some(Self {
+            finest,
+            coarser,
+            coarsest,
+        })
+    }
+
+    /// `x = M^-1 b` by one V-cycle.
+    pub fn apply(&self, b: &[f32], x: &mut [f32]) {
+        if self.finest.is_last() {
+            self.coarsest.solve(b, x);
+        } else {
+            self.finest.cycle(b, x, &|b, x| self.descend(0, b, x));
+        }
+    }
+
+    fn descend(&self, depth: usize, b: &[f32], x: &mut [f32]) {
+        match self.coarser.get(depth) {
+            Some(level) => level.cycle(b, x, &|b, x| self.descend(depth + 1, b, x)),
+            None => self.coarsest.solve(b, x),
+        }
+    }
+
+    /// Entries that are kept, of half the usual size each.
+    pub fn entries(&self) -> usize {
+        let coarser: usize = self.coarser.iter().map(Level::entries).sum();
+        self.finest.entries() + coarser + 2 * self.coarsest.entries()
+    }
+
+    /// Number of levels.
+    #[cfg(test)]
+    pub fn levels(&self) -> usize {
+        2 + self.coarser.len()
+    }
+}
+
+#[cfg(test)]
+mod tests;

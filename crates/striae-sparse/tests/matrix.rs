@@ -1,0 +1,214 @@
+//! Patterns and values.
+
+use proptest::prelude::*;
+use striae_sparse::{
+    OutsidePattern, PlacedBlock, SparseMatrix, Structure, StructureError, Supervariable,
+};
+
+fn s(list: &[usize]) -> Vec<Supervariable> {
+    list.iter().map(|&i| Supervariable(i)).collect()
+}
+
+fn structure() -> Structure {
+    Structure::from_cliques(vec![0, 3, 4, 4, 6], &[s(&[0, 1]), s(&[3, 1, 2])]).unwrap()
+}
+
+#[test]
+fn pattern_is_the_union_of_the_cliques() {
+    let structure = structure();
+    let near = |i| structure.neighbours(Supervariable(i)).collect::<Vec<_>>();
+    assert_eq!(near(0), s(&[0, 1]));
+    assert_eq!(near(1), s(&[0, 1, 2, 3]));
+    assert_eq!(near(3), s(&[1, 2, 3]));
+    assert_eq!((structure.unknowns(), structure.supervariables()), (6, 4));
+    assert_eq!(structure.entries(), 3 * 4 + 6 + 2 * 3);
+    assert_eq!(structure.owner(3), Supervariable(1));
+    assert_eq!(structure.unknowns_of(Supervariable(3)), 4..6);
+}
+
+#[test]
+fn growing_adds_to_the_pattern() {
+    let grown = structure().grown(&[s(&[0, 3])]).unwrap();
+    let direct = Structure::from_cliques(
+        vec![0, 3, 4, 4, 6],
+        &[s(&[0, 1]), s(&[3, 1, 2]), s(&[3, 0])],
+    );
+    let direct = direct.unwrap();
+    for i in (0..4).map(Supervariable) {
+        assert!(grown.neighbours(i).eq(direct.neighbours(i)));
+    }
+    assert_eq!(grown.entries(), direct.entries());
+    assert!(!grown.same_as(&structure()) && grown.same_as(&direct));
+}
+
+#[test]
+fn faulty_structures_are_refused() {
+    let none: [Vec<Supervariable>; 0] = [];
+    let from = |offsets: &[usize]| Structure::from_cliques(offsets.to_vec(), &none).unwrap_err();
+    assert!(matches!(
+        from(&[]),
+        StructureError::Offsets { index: 0, .. }
+    ));
+    assert!(matches!(
+        from(&[1, 2]),
+        StructureError::Offsets {
+            index: 0,
+            offset: 1,
+            ..
+        }
+    ));
+    let decrease = StructureError::Offsets {
+        index: 2,
+        offset: 3,
+        previous: 4,
+    };
+    assert_eq!(from(&[0, 4, 3]), decrease);
+    let unknown = Structure::from_cliques(vec![0, 1], &[s(&[0]), s(&[0, 7])]).unwrap_err();
+    assert!(matches!(
+        unknown,
+        StructureError::UnknownSupervariable { clique: 1, .. }
+    ));
+    assert!(matches!(
+        structure().with_tiers(vec![]),
+        Err(StructureError::Tiers { .. })
+    ));
+}
+
+#[test]
+fn entries_outside_the_pattern_are_refused_and_change_nothing() {
+    let mut matrix = SparseMatrix::zero(&structure());
+    let block = [1.0; 4];
+    let outside = matrix.add(&[0, 3], &[3, 4], &block);
+    assert_eq!(outside, Err(OutsidePattern { row: 0, column: 4 }));
+    let (a, b) = (Supervariable(0), Supervariable(3));
+    assert!(matrix.add_block(a, b, &[0.0; 6]).is_err());
+    let outside = matrix.add_blocks(&[Supervariable(0), Supervariable(3)], |_, _| [[1.0]]);
+    assert_eq!(outside, Err(OutsidePattern { row: 0, column: 4 }));
+    assert_eq!(matrix.infinity_norm(), 0.0);
+    assert_eq!((matrix.get(3, 4), matrix.get(0, 4)), (Some(0.0), None));
+}
+
+proptest! {
+    #[test]
+    fn what_is_added_is_found_again(
+        values in prop::collection::vec(-1.0..1.0_f64, 9),
+        rows in prop::collection::vec(3_usize..6, 3),
+        columns in prop::collection::vec(3_usize..6, 3),
+    ) {
+        let mut expected = [[0.0; 6]; 6];
+        for (r, &row) in rows.iter().enumerate() {
+            for (c, &column) in columns.iter().enumerate() {
+                expected[row][column] += values[3 * r + c];
+            }
+        }
+        let structure = structure();
+        let mut a = SparseMatrix::zero(&structure);
+        a.add(&rows, &columns, &values).unwrap();
+        a.add_to_diagonal(rows[0], values[0]);
+        expected[rows[0]][rows[0]] += values[0];
+        let transposed = a.transpose();
+        for row in 0..6 {
+            for column in 0..6 {
+                let e = expected[row][column];
+                prop_assert!((a.get(row, column).unwrap_or(0.0) - e).abs() < 1e-15);
+                prop_assert_eq!(a.get(row, column), transposed.get(column, row));
+            }
+        }
+    }
+}
+
+proptest! {
+    #[test]
+    fn blocks_are_added_as_a_dense_block_of_their_unknowns(
+        values in prop::collection::vec(-1.0..1.0_f64, 36),
+        members in prop::array::uniform3(0_usize..4),
+    ) {
+        let structure = Structure::from_cliques(
+            vec![0, 3, 5, 9, 11],
+            &[s(&[0, 1, 2]), s(&[1, 2, 3]), s(&[0, 3])],
+        );
+        let mut expected = SparseMatrix::zero(&structure.unwrap());
+        let mut found = expected.clone();
+        let unknowns: Vec<usize> = members
+            .iter()
+            .flat_map(|&member| found.structure().unknowns_of(Supervariable(member)).take(2))
+            .collect();
+        expected.add(&unknowns, &unknowns, &values).unwrap();
+        let value = |row: usize, column: usize| values[6 * row + column];
+        let block = |a: usize, b: usize| {
+            [0, 1].map(|row| [0, 1].map(|column| value(2 * a + row, 2 * b + column)))
+        };
+        found.add_blocks(&members.map(Supervariable), block).unwrap();
+        for row in 0..11 {
+            prop_assert!(expected.row(row).eq(found.row(row)));
+        }
+    }
+}
+
+proptest! {
+    #[test]
+    fn blocks_added_at_once_are_those_added_one_by_one(
+        values in prop::collection::vec(-1.0..1.0_f64, 40 * 12),
+        rows in prop::collection::vec(prop::array::uniform3(0_usize..9), 40),
+        columns in prop::collection::vec(prop::array::uniform4(0_usize..9), 40),
+    ) {
+        let structure = Structure::from_cliques(vec![0, 3, 5, 9], &[s(&[0, 1, 2])]);
+        let mut expected = SparseMatrix::zero(&structure.unwrap());
+        let mut found = expected.clone();
+        let mut blocks = Vec::new();
+        for ((values, rows), columns) in values.chunks(12).zip(&rows).zip(&columns) {
+            // The first row is left out.
+            expected.add(&rows[1..], columns, &values[4..]).unwrap();
+            blocks.push(PlacedBlock {
+                rows: vec![(rows[1], 1), (rows[2], 2)],
+                columns: columns.to_vec(),
+                values,
+            });
+        }
+        found.add_all(&blocks).unwrap();
+        for row in 0..9 {
+            prop_assert!(expected.row(row).eq(found.row(row)));
+        }
+    }
+}
+
+#[test]
+fn blocks_outside_the_pattern_are_named() {
+    let block = |row: usize, column: usize| PlacedBlock {
+        rows: vec![(1, 0), (row, 0)],
+        columns: vec![3, column],
+        values: &[1.0; 2],
+    };
+    let mut matrix = SparseMatrix::zero(&structure());
+    let blocks = [block(3, 0), block(0, 4), block(2, 1), block(4, 1)];
+    assert_eq!(matrix.add_all(&blocks), Err(vec![1, 3]));
+    assert_eq!(matrix.add_all(&[]), Ok(()));
+}
+
+#[test]
+fn products_norms_and_scaling() {
+    let structure = structure();
+    let mut matrix = SparseMatrix::zero(&structure);
+    matrix
+        .add_block(Supervariable(0), Supervariable(1), &[1.0, -2.0, 3.0])
+        .unwrap();
+    matrix
+        .add_block(Supervariable(1), Supervariable(3), &[4.0, 5.0])
+        .unwrap();
+    let mut y = [0.0; 6];
+    matrix.multiply(&[1.0, 1.0, 1.0, 2.0, 10.0, -1.0], &mut y);
+    assert_eq!(y, [2.0, -4.0, 6.0, 35.0, 0.0, 0.0]);
+    assert_eq!(matrix.row_maxima(), [1.0, 2.0, 3.0, 5.0, 0.0, 0.0]);
+    assert_eq!(matrix.column_maxima(), [0.0, 0.0, 0.0, 3.0, 4.0, 5.0]);
+    assert_eq!(matrix.infinity_norm(), 9.0);
+    matrix.scale(
+        &[2.0, 1.0, 1.0, 0.5, 1.0, 1.0],
+        &[1.0, 1.0, 1.0, 10.0, 1.0, 1.0],
+    );
+    assert_eq!(
+        (matrix.get(0, 3), matrix.get(3, 5)),
+        (Some(20.0), Some(2.5))
+    );
+    matrix.clear();
+    assert_eq!(matrix.infinity_norm(), 0.0);
+}
