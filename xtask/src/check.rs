@@ -6,13 +6,12 @@
 //! of types only, serves lints and documentation.
 
 use std::{
-    env, fs,
+    fs,
     path::PathBuf,
-    process::Command,
     time::{Duration, Instant},
 };
 
-use crate::{borders, fault::Fault, python};
+use crate::{borders, cargo::cargo, fault::Fault, python};
 
 /// A check that is one call of cargo.
 struct Stage {
@@ -109,16 +108,6 @@ pub fn bench(arguments: &[String]) -> Result<(), Fault> {
     cargo(&all, &[])
 }
 
-/// Builds the program and says where it is.
-///
-/// # Errors
-/// When it cannot be built.
-pub fn program() -> Result<PathBuf, Fault> {
-    cargo(&["build", "--release", "-p", "striae-cli"], &[])?;
-    let folder = env::var_os("CARGO_TARGET_DIR").map_or("target".into(), PathBuf::from);
-    Ok(folder.join("release").join("striae"))
-}
-
 fn timed(name: &str, check: impl FnOnce() -> Result<(), Fault>) -> Result<(), Fault> {
     println!("== {name}");
     let started = Instant::now();
@@ -129,23 +118,6 @@ fn timed(name: &str, check: impl FnOnce() -> Result<(), Fault>) -> Result<(), Fa
 
 fn run(stage: &Stage) -> Result<(), Fault> {
     cargo(stage.arguments, stage.environment)
-}
-
-fn cargo(arguments: &[&str], environment: &[(&str, &str)]) -> Result<(), Fault> {
-    let command = format!("cargo {}", arguments.join(" "));
-    let status = Command::new("cargo")
-        .args(arguments)
-        .envs(environment.iter().copied())
-        .status()
-        .map_err(|cause| Fault::Start {
-            command: command.clone(),
-            cause,
-        })?;
-    if status.success() {
-        Ok(())
-    } else {
-        Err(Fault::Failed { command, status })
-    }
 }
 
 fn seconds(duration: Duration) -> String {

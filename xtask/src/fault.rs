@@ -2,7 +2,7 @@
 
 use std::{io, path::PathBuf, process::ExitStatus};
 
-use crate::borders::Breach;
+use crate::breach::Breach;
 
 /// Why a task failed.
 #[derive(Debug, thiserror::Error)]

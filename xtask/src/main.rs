@@ -16,7 +16,9 @@
 
 mod book;
 mod borders;
+mod breach;
 mod browser;
+mod cargo;
 mod check;
 mod decks;
 mod endurance;

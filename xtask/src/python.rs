@@ -12,7 +12,7 @@ use std::{
     process::Command,
 };
 
-use crate::{check, fault::Fault};
+use crate::{cargo, fault::Fault};
 
 /// The oldest version of Python that the package supports.
 const OLDEST: u32 = 10;
@@ -41,7 +41,7 @@ pub fn check() -> Result<(), Fault> {
     pip(&main, &["maturin>=1.7,<2", "mypy", "basedpyright"])?;
     let out = wheels.display().to_string();
     run(main.join("maturin"), &["build", "--release", "--out", &out])?;
-    check::program()?;
+    cargo::program()?;
     pip(&main, &["pyvista"])?;
     test(&main, &wheels)?;
     run(main.join("mypy"), &[])?;

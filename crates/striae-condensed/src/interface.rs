@@ -17,11 +17,13 @@
 
 mod assembled;
 mod compliant;
+mod flexibility;
 mod freedom;
 
 use assembled::Assembled;
 pub(crate) use assembled::{Block, Kind, Places};
 pub(crate) use compliant::{Compliant, Purpose, Trial};
+pub(crate) use flexibility::Flexibility;
 pub(crate) use freedom::freedom;
 use rayon::prelude::*;
 use std::ops::Range;

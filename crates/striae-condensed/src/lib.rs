@@ -32,7 +32,6 @@ mod automatic;
 mod bulk;
 mod condensed;
 mod experience;
-mod flexibility;
 mod interface;
 mod iterative;
 mod kept;

@@ -28,7 +28,8 @@ mod mobility;
 mod node;
 mod state;
 
-pub use node::{ContactNode, Iteration, Prescribed};
+pub use crate::unknown::Prescribed;
+pub use node::{ContactNode, Iteration};
 
 use crate::{
     configuration::Configuration,

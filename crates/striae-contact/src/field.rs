@@ -21,6 +21,7 @@ use striae_surface::{
     topology::distinct_corners,
 };
 
+pub use crate::integral::FacetForces;
 use crate::{
     clip::FlatFacet,
     collocated::NodalField,
@@ -43,31 +44,6 @@ pub struct Fields<'a> {
     pub frames: &'a Frames,
     /// Nodal pressures and frictions.
     pub nodal: &'a [Vec<NodalField>; 2],
-}
-
-/// Forces of the contact tractions on the corners of a facet.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct FacetForces {
-    /// Force on each corner.
-    pub force: [Vec3; 4],
-    /// Area that belongs to each corner, `integral N_J da`.
-    pub area: [f64; 4],
-    /// `integral p da`.
-    pub pressure: f64,
-    /// `integral |tau| da`.
-    pub friction: f64,
-}
-
-impl FacetForces {
-    /// Adds the forces on another part of the facet.
-    pub fn add(&mut self, other: &Self) {
-        for corner in 0..4 {
-            self.force[corner] += other.force[corner];
-            self.area[corner] += other.area[corner];
-        }
-        self.pressure += other.pressure;
-        self.friction += other.friction;
-    }
 }
 
 /// Terms of one facet: momentum rows of its corners.

@@ -2,9 +2,12 @@
 
 use striae_law::friction::Friction;
 use striae_mesh::Vec3;
-use striae_surface::{topology::Surface, topology::distinct_corners};
+use striae_surface::{
+    texture::{Field, Texture},
+    topology::{Surface, distinct_corners},
+};
 
-use crate::{texture::SideTexture, unknown::Numbering};
+use crate::unknown::Numbering;
 
 /// Two surfaces that may touch. Side 0 (`a`) is deformable.
 #[derive(Clone, Debug)]
@@ -30,6 +33,15 @@ pub struct Side {
     pub stiffness: f64,
     /// Texture, if the side has one.
     pub texture: Option<SideTexture>,
+}
+
+/// Texture of one side of a pair.
+#[derive(Clone, Debug)]
+pub enum SideTexture {
+    /// On the nodes of a surface of facets, deformable or rigid.
+    Nodal(Texture),
+    /// On a rigid plane, in its reference configuration.
+    Plane(Field),
 }
 
 /// Shape of a side.

@@ -9,7 +9,7 @@ use std::cell::Cell;
 
 use nalgebra::Matrix3;
 
-use crate::term::Jacobian;
+use crate::unknown::Jacobian;
 
 /// Places of triples, by their first unknowns, in a list of at most `u32::MAX` entries.
 #[derive(Debug, Default)]

@@ -20,11 +20,11 @@ pub use partner::Partner;
 pub use traction_field::Selection;
 
 use crate::{
-    complementarity::Prescribed,
     configuration::Configuration,
     pairing::Scope,
     pointed::{RigidPoint, Spot},
     traction_basis::{KeptNode, THETA_1},
+    unknown::Prescribed,
 };
 use gathered::Gathered;
 use partner::partners;

@@ -9,6 +9,8 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::{Derivative, DualSVec64};
 use striae_mesh::Vec3;
 
+pub use crate::unknown::{Gradient, Jacobian};
+
 use crate::places::Places;
 
 /// Some rows of the residual and their derivatives.
@@ -41,13 +43,6 @@ pub enum Field {
 
 /// A row: the equation it belongs to, what it states and its residual.
 pub type Row = (u32, Field, f64);
-
-/// Derivatives of a vector: `(first unknown of a triple, d vector / d triple)`. Unknowns of
-/// contact come in [triples](crate::unknown): positions and tractions.
-pub type Jacobian = Vec<(u32, Matrix3<f64>)>;
-
-/// Derivatives of a scalar: `(first unknown of a triple, d scalar / d triple)`.
-pub type Gradient = Vec<(u32, Vec3)>;
 
 /// Where lanes come from.
 #[derive(Clone, Copy, Debug)]

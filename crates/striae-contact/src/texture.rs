@@ -17,8 +17,9 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::DualSVec64;
 use rayon::prelude::*;
 use striae_law::friction::RequiredTextures;
-use striae_surface::texture::{Axes, Field, Texture};
+use striae_surface::texture::Axes;
 
+pub use crate::pair::SideTexture;
 use crate::{
     configuration::Configuration,
     frame::{Frame, Frames, Tracked},
@@ -28,15 +29,6 @@ use crate::{
     term::{Jacobian, Lanes, Source, parts, variable3},
 };
 use opposite::{faced, of_point, opposite};
-
-/// Texture of one side of a pair.
-#[derive(Clone, Debug)]
-pub enum SideTexture {
-    /// On the nodes of a surface of facets, deformable or rigid.
-    Nodal(Texture),
-    /// On a rigid plane, in its reference configuration.
-    Plane(Field),
-}
 
 /// Textures at a node: its own and the opposing one, seen from its side.
 #[derive(Clone, Debug, Default, PartialEq)]

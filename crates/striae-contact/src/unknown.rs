@@ -10,6 +10,18 @@
 //! [points](crate::pointed::RigidPoint) that pierce side `a`, numbered by the nodes of `a`
 //! that lodge them.
 
+use nalgebra::Matrix3;
+use striae_mesh::Vec3;
+
+/// Which position unknowns are prescribed, by side, three a node.
+pub type Prescribed = [Vec<bool>; 2];
+/// Derivatives of a vector: `(first unknown of a triple, d vector / d triple)`. Unknowns of
+/// contact come in triples: positions and tractions.
+pub type Jacobian = Vec<(u32, Matrix3<f64>)>;
+
+/// Derivatives of a scalar: `(first unknown of a triple, d scalar / d triple)`.
+pub type Gradient = Vec<(u32, Vec3)>;
+
 /// Numbers of the unknowns of one contact pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Numbering {

@@ -1,4 +1,4 @@
-//! Elements of a mesh in blocks of one kind.
+//! Elements of one kind.
 //!
 //! | kind | corners | points |
 //! | --- | --- | --- |
@@ -9,9 +9,9 @@
 //! | composite tetrahedron | 10 | 4 |
 
 use super::{
-    Element, ElementError, ElementFault, ElementResponse, Formulation, Mass, composite,
+    ElementError, ElementResponse, Formulation, Mass, Stiffness, composite,
     enhanced::Fields,
-    mass::Inertia,
+    inertia::Inertia,
     reference::Reference,
     response::error_at,
     rule::{Rule, hexahedron_recovery, pyramid_recovery, tetrahedron_recovery, wedge_recovery},
@@ -19,14 +19,7 @@ use super::{
 use nalgebra::Matrix3;
 use std::{fmt::Debug, sync::Arc};
 use striae_law::bulk::{Material, Past};
-use striae_mesh::{CellKind, ElementId, Mesh, Vec3};
-
-/// The reference elements of a mesh.
-#[derive(Clone, Debug)]
-pub struct Elements {
-    /// With the first element and the first quadrature point of each.
-    blocks: Vec<([usize; 2], Arc<dyn ElementBlock>)>,
-}
+use striae_mesh::{CellKind, Vec3};
 
 /// Elements of one kind, counted from 0 within the block.
 ///
@@ -100,77 +93,25 @@ pub trait ElementBlock: Debug + Send + Sync {
     ) -> Result<Vec<Matrix3<f64>>, ElementError>;
 }
 
-impl Elements {
-    /// The reference elements of a mesh, in the order of its elements.
-    ///
-    /// # Errors
-    ///
-    /// The first element whose reference shape is degenerate.
-    pub fn new(mesh: &Mesh, formulation: Formulation) -> Result<Self, ElementFault> {
-        let (mut first, mut first_point) = (0, 0);
-        let mut blocks = Vec::with_capacity(mesh.blocks.len());
-        for cells in &mesh.blocks {
-            let corners: Vec<Vec3> = (cells.nodes.iter())
-                .map(|node| mesh.positions[node.index()])
-                .collect();
-            let block =
-                block(cells.kind, formulation, &corners).map_err(|(at, error)| ElementFault {
-                    element: ElementId::new(first + at),
-                    error,
-                })?;
-            let points = block.count() * block.points();
-            blocks.push(([first, first_point], block));
-            first += cells.len();
-            first_point += points;
-        }
-        Ok(Self { blocks })
-    }
-
-    /// The blocks, each with the numbers of its first element and its first quadrature point.
-    pub fn blocks(&self) -> impl Iterator<Item = ([usize; 2], &dyn ElementBlock)> {
-        self.blocks.iter().map(|(first, block)| (*first, &**block))
-    }
-
-    /// How many quadrature points there are.
-    pub fn points(&self) -> usize {
-        let counts = self.blocks.iter();
-        let points = counts.map(|(_, block)| block.count() * block.points());
-        points.sum()
-    }
-
-    /// All elements in the order of the mesh.
-    pub fn iter(&self) -> impl Iterator<Item = Element<'_>> {
-        self.blocks().flat_map(|([_, first_point], block)| {
-            (0..block.count()).map(move |at| Element {
-                block,
-                at,
-                first_point: first_point + at * block.points(),
-            })
-        })
-    }
-
-    /// An element of the mesh.
-    pub fn get(&self, element: ElementId) -> Element<'_> {
-        let index = element.index();
-        let place = self
-            .blocks
-            .partition_point(|([first, _], _)| *first <= index)
-            - 1;
-        let ([first, first_point], block) = &self.blocks[place];
-        let at = index - first;
-        Element {
-            block: &**block,
-            at,
-            first_point: first_point + at * block.points(),
+impl ElementResponse {
+    /// Room for the response of an element of a block, of a material.
+    pub fn zero(block: &dyn ElementBlock, material: &Material) -> Self {
+        let corners = block.kind().corner_count();
+        Self {
+            energy: 0.0,
+            force: vec![[0.0; 3]; corners],
+            stiffness: Stiffness::zero(corners),
+            dissipated: 0.0,
+            variables: vec![0.0; material.variables() * block.points()],
         }
     }
 }
 
 /// A block that is made, or the first element that is degenerate.
-type Made = Result<Arc<dyn ElementBlock>, (usize, ElementError)>;
+pub(super) type Made = Result<Arc<dyn ElementBlock>, (usize, ElementError)>;
 
 /// The table of kinds.
-fn block(kind: CellKind, formulation: Formulation, corners: &[Vec3]) -> Made {
+pub(super) fn block(kind: CellKind, formulation: Formulation, corners: &[Vec3]) -> Made {
     match kind {
         CellKind::Tetrahedron => {
             Cells::<4, 4>::made(kind, formulation, tetrahedron_recovery(), corners)

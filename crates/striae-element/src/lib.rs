@@ -28,9 +28,11 @@ mod block;
 mod composite;
 mod dilatation;
 mod element;
+mod elements;
 mod enhanced;
 mod fault;
 mod formulation;
+mod inertia;
 mod mass;
 mod reference;
 mod response;
@@ -40,8 +42,9 @@ mod stress;
 #[cfg(test)]
 mod tests;
 
-pub use block::{ElementBlock, Elements};
+pub use block::ElementBlock;
 pub use element::Element;
+pub use elements::Elements;
 pub use fault::{ElementError, ElementFault};
 pub use formulation::Formulation;
 pub use mass::{Mass, redistributed};

@@ -17,43 +17,11 @@
 //! of Khenous, Laborde & Renard (Eur. J. Mech. A/Solids 27, 2008), who choose the
 //! shares otherwise; moments of inertia change by the order of the elements.
 
-use super::{
-    composite::{self, Parts},
-    reference::Reference,
-};
 use striae_mesh::{CellKind, MAX_CORNERS};
 
 /// The scalar mass matrix `m_ab`; every component of the position has the same one.
 /// Zero beyond the last corner.
 pub type Mass = [[f64; MAX_CORNERS]; MAX_CORNERS];
-
-/// What the mass of elements follows from.
-#[derive(Debug)]
-pub(super) enum Inertia<const N: usize, const Q: usize> {
-    /// `N_a` at the quadrature points, by point.
-    Points([[f64; N]; Q]),
-    /// The parts of composite elements, by element.
-    Parts(Vec<Parts>),
-}
-
-impl<const N: usize, const Q: usize> Inertia<N, Q> {
-    /// The mass matrix of an element; `density` is mass per reference volume.
-    pub(super) fn mass(&self, at: usize, element: &Reference<N, Q>, density: f64) -> Mass {
-        let values = match self {
-            Self::Points(values) => values,
-            Self::Parts(parts) => return composite::mass(&parts[at], density),
-        };
-        let mut mass = Mass::default();
-        for (values, weight) in values.iter().zip(&element.weights) {
-            for a in 0..N {
-                for b in 0..N {
-                    mass[a][b] += density * weight * values[a] * values[b];
-                }
-            }
-        }
-        mass
-    }
-}
 
 /// The mass matrix with the mass of `massless` corners moved to the others, of which
 /// there has to be one.

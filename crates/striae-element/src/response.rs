@@ -1,7 +1,7 @@
 //! Stored energy, internal force and consistent stiffness of an element.
 
 use super::{
-    ElementBlock, ElementError, Stiffness,
+    ElementError, Stiffness,
     reference::{Gradients, Reference},
     stiffness::COMPONENTS,
 };
@@ -26,18 +26,6 @@ pub struct ElementResponse {
 }
 
 impl ElementResponse {
-    /// Room for the response of an element of a block, of a material.
-    pub fn zero(block: &dyn ElementBlock, material: &Material) -> Self {
-        let corners = block.kind().corner_count();
-        Self {
-            energy: 0.0,
-            force: vec![[0.0; 3]; corners],
-            stiffness: Stiffness::zero(corners),
-            dissipated: 0.0,
-            variables: vec![0.0; material.variables() * block.points()],
-        }
-    }
-
     /// Where one of `count` points writes what it has come to.
     pub(super) fn present(&mut self, point: usize, count: usize) -> Present<'_> {
         let each = self.variables.len() / count;

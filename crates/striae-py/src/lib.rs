@@ -7,7 +7,6 @@
 
 mod array;
 mod fault;
-mod files;
 mod fit;
 mod friction;
 mod generate;
@@ -18,8 +17,8 @@ mod model;
 mod own;
 mod own_friction;
 mod pair;
+mod raised;
 mod results;
-mod returned;
 mod rigid;
 mod run;
 mod start;
@@ -33,7 +32,6 @@ use pyo3::prelude::*;
 mod _striae {
     #[pymodule_export]
     use super::{
-        files::report,
         fit::{fit_friction, measurements_of},
         friction::Friction,
         generate::{annulus, block, capped_block, half_cylinder},
@@ -43,8 +41,9 @@ mod _striae {
         own::own_material,
         pair::Pair,
         results::Results,
-        returned::returned,
         rigid::Rigid,
+        run::files::report,
+        run::returned::returned,
         run::{Run, deck_of, resume, run},
         step::Step,
         texture::Texture,

@@ -13,7 +13,7 @@ use pyo3::prelude::*;
 use striae::{Interrupt, Next, solve::problem::Problem};
 
 use crate::{
-    own::Raised,
+    raised::Raised,
     results::{Kept, Results},
 };
 

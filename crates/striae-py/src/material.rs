@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 use striae::law::bulk;
 
-use crate::{fault::refused, own::Raised};
+use crate::{fault::refused, raised::Raised};
 
 /// A bulk material.
 #[pyclass(frozen, module = "striae._striae")]

@@ -4,41 +4,14 @@
 //! function is kept; from then on the law has no answer, so that a run ends there whatever the
 //! order of its threads, and the exception is raised when it has ended.
 
-use std::{
-    fmt,
-    sync::{Arc, Mutex, PoisonError},
-};
+use std::fmt;
 
 use nalgebra::{Matrix3, SMatrix};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
 use striae::law::bulk::{self, BulkLaw, LameConstants, Response, ResponseError};
 
-use crate::{fault::model_error, material::Material};
-
-/// The first exception of a function.
-#[derive(Clone, Default)]
-pub struct Raised(Arc<Mutex<Option<PyErr>>>);
-
-impl Raised {
-    /// Whether there has been an exception.
-    pub fn is_set(&self) -> bool {
-        self.lock().is_some()
-    }
-
-    /// The exception, which is forgotten.
-    pub fn take(&self) -> Option<PyErr> {
-        self.lock().take()
-    }
-
-    fn set(&self, error: PyErr) {
-        self.lock().get_or_insert(error);
-    }
-
-    fn lock(&self) -> std::sync::MutexGuard<'_, Option<PyErr>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
+use crate::{fault::model_error, material::Material, raised::Raised};
 
 /// A function from deformation gradients to energy, stress and tangent.
 struct Function {

@@ -8,6 +8,9 @@
 //! each tick: signals -> Interrupt ->   stops after the increment under way
 //! ```
 
+pub mod files;
+pub mod returned;
+
 use std::{
     num::NonZeroUsize,
     path::PathBuf,
@@ -29,12 +32,10 @@ use striae::{
 use crate::{
     array::Array2,
     fault::raised,
-    files,
     listen::{Callback, listen},
     model::Model,
-    own::Raised,
+    raised::Raised,
     results::{Kept, Results},
-    returned::save,
     start,
     step::Step,
 };
@@ -78,7 +79,7 @@ impl Run {
 
     /// Writes to a folder what [`returned`](mod@crate::returned) reads.
     fn save(&self, folder: PathBuf) -> PyResult<()> {
-        save(self, &folder)
+        returned::save(self, &folder)
     }
 
     #[getter]

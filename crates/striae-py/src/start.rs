@@ -11,25 +11,13 @@ use striae::{
     solve::plan::{Prescription, StepPlan, plans},
 };
 
-use crate::{fault::model_error, step::Step};
+use crate::{
+    fault::model_error,
+    step::{Start, Step},
+};
 
 /// Differences below this share of the displacements and of their change are round-off.
 const ROUND_OFF: f64 = 1e-9;
-
-/// Where a function begins.
-#[derive(Clone)]
-pub struct Start {
-    /// Name of the body.
-    pub body: String,
-    /// Name of the node set.
-    pub nodes: String,
-    /// Component.
-    pub axis: usize,
-    /// Displacement.
-    pub value: f64,
-    /// Largest change from it.
-    pub change: f64,
-}
 
 /// Prescribed displacements by body, node and component; `None` where they are not known.
 type Known = BTreeMap<(usize, usize, usize), Option<f64>>;

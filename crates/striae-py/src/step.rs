@@ -6,7 +6,22 @@ use striae::model::{
     step,
 };
 
-use crate::{friction::Friction, start::Start};
+use crate::friction::Friction;
+
+/// Where a function begins.
+#[derive(Clone)]
+pub struct Start {
+    /// Name of the body.
+    pub body: String,
+    /// Name of the node set.
+    pub nodes: String,
+    /// Component.
+    pub axis: usize,
+    /// Displacement.
+    pub value: f64,
+    /// Largest change from it.
+    pub change: f64,
+}
 
 /// The name of a curve, or its points.
 #[derive(FromPyObject)]

@@ -12,7 +12,8 @@ mod start;
 mod terms;
 mod ties;
 
-pub use context::{Imposed, ImposedRate, StepContext};
+pub use crate::dynamics::ImposedRate;
+pub use context::{Imposed, StepContext};
 pub use elements::OfBodies;
 
 use inertia::Inertia;

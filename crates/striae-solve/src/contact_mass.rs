@@ -1,29 +1,6 @@
-//! Mass matrices of elements, with the mass of contact nodes moved where that is asked for.
+//! Nodes whose mass is moved to others.
 
-use striae_element::{Mass, redistributed};
-use striae_mesh::ElementId;
-
-use crate::{
-    model::{ContactMass, Model, Side},
-    problem::Problem,
-};
-
-impl Problem {
-    /// Mass matrix of an element of a body.
-    pub fn mass(&self, body: usize, element: ElementId) -> Mass {
-        let model = &self.model.bodies[body];
-        let element_of_body = self.elements[body].get(element);
-        let mass = element_of_body.mass(model.density);
-        let corners = model.mesh.corners(element).iter();
-        let massless = corners.map(|&node| self.massless[self.node(body, node)]);
-        if massless.clone().any(|massless| massless) {
-            let massless: Vec<bool> = massless.collect();
-            redistributed(element_of_body.kind(), &mass, &massless)
-        } else {
-            mass
-        }
-    }
-}
+use crate::model::{ContactMass, Model, Side};
 
 /// Nodes of contact surfaces of bodies whose mass is redistributed, but for elements
 /// that have no other nodes.

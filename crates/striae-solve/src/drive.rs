@@ -7,7 +7,7 @@ use striae_contact::{
 
 use crate::{
     assembly::StepContext,
-    dynamics::begin,
+    begin::begin,
     freedom::{Bridged, Friction, free_motion, free_motion_in, slipping, worth_stabilising},
     model::Procedure,
     newton::{Increment, IterationObserver, Memory, Workspace, advance},

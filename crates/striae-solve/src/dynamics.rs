@@ -18,15 +18,14 @@
 //! `(a_m - a_f) dt`; components that are prescribed have the velocity and
 //! acceleration of their curve, unshifted, so their weights are those of forces.
 
-use striae_mesh::{ElementId, Vec3};
+pub use crate::mass::{kinetic_energy, mass_times, momentum};
+
+use striae_mesh::Vec3;
 
 use crate::{
-    assembly::{Imposed, StepContext},
-    model::{Mover, Procedure},
-    newton::{Workspace, forces_at_start},
-    outcome::CutBack,
+    model::Procedure,
     problem::Problem,
-    rigid::{Pose, Wrench, fitted_velocity},
+    rigid::{Pose, Wrench},
     state::State,
 };
 
@@ -57,6 +56,19 @@ impl Scheme {
     }
 }
 
+/// Velocity and acceleration of a prescribed component.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImposedRate {
+    /// Global node.
+    pub node: usize,
+    /// Component.
+    pub axis: usize,
+    /// Velocity.
+    pub velocity: f64,
+    /// Acceleration.
+    pub acceleration: f64,
+}
+
 /// What inertia knows of the increment under way.
 #[derive(Clone, Debug)]
 pub struct Motion {
@@ -75,9 +87,10 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// The motion over the time `elapsed` from `state`; `None` where the step has no inertia.
-    pub fn new(context: &StepContext, state: &State, elapsed: f64) -> Option<Self> {
-        let scheme = scheme(context)?;
+    /// The motion over the time `elapsed` from `state` in a step; `None` where that has no
+    /// inertia.
+    pub fn new(problem: &Problem, step: usize, state: &State, elapsed: f64) -> Option<Self> {
+        let scheme = scheme(problem, step)?;
         let nodes = 0..state.positions.len();
         let predicted = nodes.clone().map(|node| {
             let share = elapsed * elapsed * (0.5 - scheme.beta);
@@ -93,7 +106,7 @@ impl Motion {
             elapsed,
             predicted: predicted.collect(),
             carried: carried.collect(),
-            pushed: pushed(context.problem, state, scheme.alpha_f),
+            pushed: pushed(problem, state, scheme.alpha_f),
             held: forces.reaction.iter().map(|f| f * scheme.alpha_f).collect(),
             velocities: state.velocities.clone(),
             accelerations: state.accelerations.clone(),
@@ -126,9 +139,9 @@ impl Motion {
     }
 
     /// `a_alpha` of all nodes.
-    pub fn weighted_accelerations(&self, positions: &[Vec3], imposed: &Imposed) -> Vec<Vec3> {
+    pub fn weighted_accelerations(&self, positions: &[Vec3], rates: &[ImposedRate]) -> Vec<Vec3> {
         let mean = |weight: f64, a_0: f64, a_1: f64| a_1 * (1.0 - weight) + a_0 * weight;
-        let ends = self.accelerations_at_end(positions, imposed);
+        let ends = self.accelerations_at_end(positions, rates);
         let ends_of = |node: usize, axis: usize| (self.accelerations[node][axis], ends[node][axis]);
         let mut weighted: Vec<Vec3> = (0..positions.len())
             .map(|node| {
@@ -138,7 +151,7 @@ impl Motion {
                 })
             })
             .collect();
-        for rate in &imposed.rates {
+        for rate in rates {
             let (a_0, a_1) = ends_of(rate.node, rate.axis);
             weighted[rate.node][rate.axis] = mean(self.scheme.alpha_f, a_0, a_1);
         }
@@ -146,8 +159,8 @@ impl Motion {
     }
 
     /// Velocities and accelerations at the end, with the nodes at `positions`.
-    pub fn at_end(&self, positions: &[Vec3], imposed: &Imposed) -> (Vec<Vec3>, Vec<Vec3>) {
-        let accelerations = self.accelerations_at_end(positions, imposed);
+    pub fn at_end(&self, positions: &[Vec3], rates: &[ImposedRate]) -> (Vec<Vec3>, Vec<Vec3>) {
+        let accelerations = self.accelerations_at_end(positions, rates);
         let gamma = self.scheme.gamma;
         let mut velocities: Vec<Vec3> = (0..positions.len())
             .map(|node| {
@@ -155,20 +168,20 @@ impl Motion {
                 self.velocities[node] + mean * self.elapsed
             })
             .collect();
-        for rate in &imposed.rates {
+        for rate in rates {
             velocities[rate.node][rate.axis] = rate.velocity;
         }
         (velocities, accelerations)
     }
 
-    fn accelerations_at_end(&self, positions: &[Vec3], imposed: &Imposed) -> Vec<Vec3> {
+    fn accelerations_at_end(&self, positions: &[Vec3], rates: &[ImposedRate]) -> Vec<Vec3> {
         let factor = 1.0 / (self.scheme.beta * self.elapsed * self.elapsed);
         let mut accelerations: Vec<Vec3> = positions
             .iter()
             .zip(&self.predicted)
             .map(|(x, predicted)| (x - predicted) * factor)
             .collect();
-        for rate in &imposed.rates {
+        for rate in rates {
             accelerations[rate.node][rate.axis] = rate.acceleration;
         }
         accelerations
@@ -176,96 +189,10 @@ impl Motion {
 }
 
 /// The method of a step; `None` without inertia.
-pub fn scheme(context: &StepContext) -> Option<Scheme> {
-    match context.problem.model.steps[context.index].procedure {
+pub fn scheme(problem: &Problem, step: usize) -> Option<Scheme> {
+    match problem.model.steps[step].procedure {
         Procedure::QuasiStatic => None,
         Procedure::Dynamic { spectral_radius } => Some(Scheme::new(spectral_radius)),
-    }
-}
-
-/// The state a step starts from: velocities as it states them, and the
-/// accelerations that `M a = f_ext - f_int + f_con` asks for; at rest where the
-/// step has no inertia. Work of what changes velocities at once is external.
-///
-/// # Errors
-/// When the mass is singular, as for a body without density.
-pub fn begin(
-    problem: &Problem,
-    index: usize,
-    state: &State,
-    workspace: &mut Workspace,
-) -> Result<State, CutBack> {
-    let mut begun = state.clone();
-    let context = StepContext::new(problem, index, state);
-    let imposed = context.imposed(0.0);
-    let nodes = state.positions.len();
-    let (mut velocities, mut accelerations) = (vec![Vec3::zeros(); nodes], Vec::new());
-    if scheme(&context).is_some() {
-        velocities.clone_from(&state.velocities);
-        for start in &problem.model.steps[index].velocities {
-            let nodes: Vec<usize> = match start.body {
-                Mover::Deformable(body) => {
-                    (problem.first_node[body.0]..problem.first_node[body.0 + 1]).collect()
-                }
-                Mover::Rigid(rigid) => problem.tied[rigid.0].clone(),
-            };
-            for node in nodes {
-                let arm = state.positions[node] - start.about;
-                velocities[node] = start.velocity + start.spin.cross(&arm);
-            }
-        }
-        follow_bodies(&context, &mut velocities);
-        for rate in &imposed.rates {
-            velocities[rate.node][rate.axis] = rate.velocity;
-        }
-        let mut forces = forces_at_start(&context, state, workspace)?;
-        let holding;
-        (accelerations, holding) =
-            workspace.accelerations(&context, state, &imposed, &velocities, &forces)?;
-        for nodes in &problem.tied {
-            nodes
-                .iter()
-                .for_each(|&node| forces.reaction[node] = holding[node]);
-        }
-        begun.forces.rigid = wrenches(problem, &state.positions, &state.rigid, &forces.reaction);
-        for (whole, pushed) in begun.forces.rigid.iter_mut().zip(&forces.pushed) {
-            whole.force += pushed.force;
-            whole.torque += pushed.torque;
-        }
-        begun.forces.pushed = forces.pushed;
-        begun.forces.reaction = forces.reaction;
-        begun.forces.applied = forces.applied;
-    } else {
-        accelerations.resize(nodes, Vec3::zeros());
-    }
-    let kinetic = kinetic_energy(problem, &velocities);
-    begun.energies.external += kinetic - state.energies.kinetic;
-    begun.energies.kinetic = kinetic;
-    begun.velocities = velocities;
-    begun.accelerations = accelerations;
-    Ok(begun)
-}
-
-/// Gives tied nodes the velocities of their bodies: those that fit the nodes best,
-/// with the prescribed components of the bodies.
-fn follow_bodies(context: &StepContext, velocities: &mut [Vec3]) {
-    let (problem, state) = (context.problem, context.start);
-    for (rigid, rates) in context.rigid_rates(0.0).iter().enumerate() {
-        let pose = &state.rigid[rigid];
-        let point = problem.model.rigid_surfaces[rigid].reference + pose.displacement;
-        let [mut velocity, mut spin] =
-            fitted_velocity(problem, rigid, pose, &state.positions, velocities);
-        for axis in 0..3 {
-            if context.fixed_rigid[rigid][axis] {
-                velocity[axis] = rates[axis][0];
-            }
-            if context.fixed_rigid[rigid][3 + axis] {
-                spin[axis] = rates[3 + axis][0];
-            }
-        }
-        for &node in &problem.tied[rigid] {
-            velocities[node] = velocity + spin.cross(&(state.positions[node] - point));
-        }
     }
 }
 
@@ -307,41 +234,4 @@ fn pushed(problem: &Problem, state: &State, weight: f64) -> Vec<Wrench> {
             torque: (whole.torque - held.torque) * weight,
         })
         .collect()
-}
-
-/// `M v`, node by node.
-pub fn mass_times(problem: &Problem, vectors: &[Vec3]) -> Vec<Vec3> {
-    let mut product = vec![Vec3::zeros(); vectors.len()];
-    for (body, model) in problem.model.bodies.iter().enumerate() {
-        if model.density == 0.0 {
-            continue;
-        }
-        for (at, corners) in model.mesh.elements().enumerate() {
-            let nodes = problem.nodes(body, corners);
-            let mass = problem.mass(body, ElementId::new(at));
-            for a in 0..nodes.len() {
-                for b in 0..nodes.len() {
-                    product[nodes[a]] += vectors[nodes[b]] * mass[a][b];
-                }
-            }
-        }
-    }
-    for &(node, mass) in &problem.mass_points {
-        product[node] += vectors[node] * mass;
-    }
-    product
-}
-
-/// `v . M v / 2`.
-pub fn kinetic_energy(problem: &Problem, velocities: &[Vec3]) -> f64 {
-    let momentum = mass_times(problem, velocities);
-    let products = momentum.iter().zip(velocities);
-    0.5 * products.map(|(p, v)| p.dot(v)).sum::<f64>()
-}
-
-/// Linear momentum and angular momentum about the origin.
-pub fn momentum(problem: &Problem, state: &State) -> (Vec3, Vec3) {
-    let nodal = mass_times(problem, &state.velocities);
-    let turning = nodal.iter().zip(&state.positions);
-    (nodal.iter().sum(), turning.map(|(p, x)| x.cross(p)).sum())
 }

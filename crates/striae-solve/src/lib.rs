@@ -1,6 +1,7 @@
 //! Elements, loads, the problem and its state, Newton's method and step control.
 
 pub mod assembly;
+mod begin;
 mod contact_mass;
 mod curve;
 pub mod drive;
@@ -10,6 +11,7 @@ pub mod initial;
 pub mod interference;
 pub mod layout;
 pub mod load;
+mod mass;
 pub mod model;
 pub mod newton;
 pub mod norms;

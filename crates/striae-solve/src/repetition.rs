@@ -9,8 +9,8 @@ use striae_mesh::Vec3;
 
 use crate::{
     assembly::StepContext,
+    begin::begin,
     drive::{Continue, Observer, Progress},
-    dynamics::begin,
     model::Backend,
     newton::{Increment, IterationObserver, Workspace, advance},
     norms::{Norms, larger},

@@ -1,6 +1,6 @@
 //! Everything that can go wrong, by name.
 
-use crate::structure::Supervariable;
+use crate::supervariable::Supervariable;
 use thiserror::Error;
 
 /// A structure that makes no sense.

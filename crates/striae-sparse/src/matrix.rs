@@ -7,10 +7,7 @@ mod scatter;
 
 pub use scatter::PlacedBlock;
 
-use crate::{
-    error::OutsidePattern,
-    structure::{Structure, Supervariable},
-};
+use crate::{error::OutsidePattern, structure::Structure, supervariable::Supervariable};
 use rayon::prelude::*;
 
 /// Values that a thread sets to zero at a time.

@@ -4,7 +4,8 @@
 use crate::{
     error::SolveError,
     metis::{self, Graph},
-    structure::{Structure, Supervariable, Tier},
+    structure::Structure,
+    supervariable::{Supervariable, Tier},
 };
 
 /// Order of elimination that the solvers would choose without tiers, for comparisons.

@@ -18,7 +18,8 @@ use crate::{
     ordering,
     real::{Precision, Real},
     solver::Cost,
-    structure::{Structure, Supervariable, Tier},
+    structure::Structure,
+    supervariable::{Supervariable, Tier},
     tree::AssemblyTree,
 };
 use faer::Mat;

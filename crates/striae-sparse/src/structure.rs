@@ -5,16 +5,11 @@
 //! supervariables are adjacent when a clique contains both; every one is
 //! adjacent to itself. The pattern is symmetric and made of dense blocks.
 
-use crate::error::StructureError;
+use crate::{
+    error::StructureError,
+    supervariable::{Supervariable, Tier},
+};
 use std::{ops::Range, sync::Arc};
-
-/// Position of a group of unknowns in a [`Structure`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Supervariable(pub usize);
-
-/// Ordering class: everything in a lower tier is eliminated before a higher one.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Tier(pub u32);
 
 /// Unknowns in supervariables and the adjacency between them; cheap to clone.
 #[derive(Clone, Debug)]

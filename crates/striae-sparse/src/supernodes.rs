@@ -5,7 +5,10 @@
 //! a child is merged into its parent while the explicit zeros this stores stay
 //! a small share of the front (Duff & Reid, doi:10.1145/356044.356047).
 
-use crate::structure::{Structure, Supervariable, Tier};
+use crate::{
+    structure::Structure,
+    supervariable::{Supervariable, Tier},
+};
 
 /// No parent.
 pub(crate) const NONE: u32 = u32::MAX;

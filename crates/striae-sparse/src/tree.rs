@@ -7,8 +7,9 @@
 //! ordered for the least working storage (Liu, doi:10.1145/7921.11325).
 
 use crate::{
-    structure::{Structure, Tier},
+    structure::Structure,
     supernodes::{self, NONE, Supernode},
+    supervariable::Tier,
 };
 use std::{cmp::Reverse, ops::Range};
 

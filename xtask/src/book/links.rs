@@ -11,7 +11,7 @@ use std::{
 use pulldown_cmark::{Event, Parser, Tag, TagEnd};
 
 use super::mathematics::options;
-use crate::{borders::Breach, fault::Fault};
+use crate::{breach::Breach, fault::Fault};
 
 /// Folders with Markdown files.
 const FOLDERS: [&str; 4] = ["cases", "crates", "docs", "."];

@@ -23,7 +23,7 @@ use std::{
     process::Command,
 };
 
-use crate::{borders::Breach, check, fault::Fault};
+use crate::{breach::Breach, cargo, fault::Fault};
 use gallery::Extent;
 
 /// The version of mdBook.
@@ -52,7 +52,7 @@ pub fn book(options: &[String]) -> Result<(), Fault> {
         [] => {}
         ["--run"] => exhibited(Extent::Quick)?,
         ["--all"] => exhibited(Extent::All)?,
-        ["--results", folder] => gallery::make(&check::program()?, Path::new(folder))?,
+        ["--results", folder] => gallery::make(&cargo::program()?, Path::new(folder))?,
         _ => {
             let usage = "usage: cargo xtask book [--run | --all | --results FOLDER]";
             return Err(Fault::Option(usage.into()));
@@ -72,7 +72,7 @@ pub fn book(options: &[String]) -> Result<(), Fault> {
 
 /// Runs the cases and makes the gallery of them.
 fn exhibited(extent: Extent) -> Result<(), Fault> {
-    let program = check::program()?;
+    let program = cargo::program()?;
     let results = Path::new(RESULTS);
     gallery::reproduce(&program, extent, results)?;
     gallery::make(&program, results)

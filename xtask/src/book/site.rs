@@ -7,7 +7,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use crate::{borders::Breach, fault::Fault};
+use crate::{breach::Breach, fault::Fault};
 
 /// Pages that mdBook makes for itself, relative to the root of a server.
 const OWN: [&str; 2] = ["404.html", "toc.html"];

@@ -4,10 +4,9 @@
 //! in its row. Tests may use more. [`VERIFICATION`] serves tests and the published
 //! cases, nothing else.
 
-use super::{
-    Breach,
-    metadata::{Kind, Package},
-};
+use crate::breach::Breach;
+
+use super::metadata::{Kind, Package};
 
 /// What a crate may depend on.
 struct Row {

@@ -4,36 +4,23 @@
 //! with the table of what each crate may depend on; [`source`] reads the text of
 //! every source file for what a dependency cannot tell: files touched outside
 //! the crates of input and output, output below the program, unsafe code, files
-//! that are too long.
+//! that are too long; [`circles`] follows the imports between the files of a crate.
 
+mod circles;
 mod dependencies;
+mod imports;
 mod metadata;
 mod source;
 mod text;
 
 use std::{
     collections::HashSet,
-    fmt, fs,
+    fs,
     path::{Path, PathBuf},
 };
 
 use crate::fault::Fault;
 use source::{Code, Place};
-
-/// A rule that is broken, and where.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Breach {
-    /// A crate, or a file with the number of a line.
-    pub place: String,
-    /// What is wrong.
-    pub wrong: String,
-}
-
-impl fmt::Display for Breach {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.place, self.wrong)
-    }
-}
 
 /// Checks the dependencies and the sources of all crates.
 ///
@@ -49,8 +36,9 @@ pub fn check() -> Result<(), Fault> {
             .iter()
             .flat_map(|(path, text)| text::test_files(path, text))
             .collect();
+        let within = |path| Path::strip_prefix(path, &workspace.root).unwrap_or(path);
         for (path, text) in &files {
-            let within = path.strip_prefix(&workspace.root).unwrap_or(path);
+            let within = within(path);
             let code = if tests.contains(path) {
                 Code::Test
             } else {
@@ -61,6 +49,13 @@ pub fn check() -> Result<(), Fault> {
                 text,
             ));
         }
+        let product: Vec<(PathBuf, &str)> = files
+            .iter()
+            .filter(|(path, _)| !tests.contains(path))
+            .map(|(path, text)| (within(path).to_owned(), text.as_str()))
+            .collect();
+        let source = package.folder.join("src");
+        breaches.extend(circles::breaches(&package.name, within(&source), &product));
         count += files.len();
     }
     if breaches.is_empty() {

@@ -11,7 +11,8 @@
 
 use std::path::{Component, Path};
 
-use super::{Breach, text::product_lines};
+use super::text::product_lines;
+use crate::breach::Breach;
 
 /// Where a source file stands.
 pub struct Place {

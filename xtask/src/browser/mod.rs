@@ -16,7 +16,7 @@ mod use_it;
 use std::{fs, path::PathBuf, process::Command, time::Instant};
 
 use crate::{
-    check,
+    cargo,
     decks::{BLOCKS, Grooved, Pad},
     fault::Fault,
 };
@@ -37,7 +37,7 @@ const PAD: Pad = Pad {
 /// When the program or the browser cannot be had, or a report does not do what it should.
 pub fn report_test() -> Result<(), Fault> {
     let started = Instant::now();
-    let program = fs::canonicalize(check::program()?).map_err(unusable("the program"))?;
+    let program = fs::canonicalize(cargo::program()?).map_err(unusable("the program"))?;
     let folder = PathBuf::from("target/report");
     fs::create_dir_all(&folder).map_err(unusable("target/report"))?;
     let folder = fs::canonicalize(&folder).map_err(unusable("target/report"))?;

@@ -23,7 +23,7 @@ mod trials;
 
 use std::{fs, path::PathBuf, time::Instant};
 
-use crate::{check, fault::Fault};
+use crate::{cargo, fault::Fault};
 use trials::Trials;
 
 /// What is tried, and how often.
@@ -40,7 +40,7 @@ struct Options {
 pub fn endurance(arguments: &[String]) -> Result<(), Fault> {
     let options = Options::of(arguments)?;
     let started = Instant::now();
-    let program = options.binary.map_or_else(check::program, Ok)?;
+    let program = options.binary.map_or_else(cargo::program, Ok)?;
     let refused = |cause| Fault::Endurance(format!("target/endurance: {cause}"));
     let root = PathBuf::from("target/endurance");
     if root.exists() {

@@ -38,7 +38,7 @@ use std::{
     thread,
 };
 
-use crate::{check, fault::Fault};
+use crate::{cargo, fault::Fault};
 use kinds::{Choice, Dialect};
 use options::Options;
 use output::Summary;
@@ -55,7 +55,7 @@ pub fn scenes(arguments: &[String]) -> Result<(), Fault> {
     let options = Options::read(arguments)?;
     let binary = match &options.binary {
         Some(binary) => binary.clone(),
-        None => check::program()?,
+        None => cargo::program()?,
     };
     let initial = run::knows(&binary, "as-meshed").map_err(|cause| Fault::Start {
         command: format!("{} schema", binary.display()),

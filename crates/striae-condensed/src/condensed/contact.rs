@@ -5,8 +5,7 @@ use super::{
     untouched::{self, Touched, Untouched},
 };
 use crate::{
-    flexibility::Flexibility,
-    interface::{self, Block, Compliant, Interface, Kind, Places, Purpose, Trial},
+    interface::{self, Block, Compliant, Flexibility, Interface, Kind, Places, Purpose, Trial},
     partition::Partition,
     report::{Factored, Method},
 };

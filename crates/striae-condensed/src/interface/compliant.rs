@@ -14,8 +14,10 @@
 
 mod complement;
 
-use super::{Block, Dense, Kind, Places};
-use crate::flexibility::{Flexibility, Inverse};
+use super::{
+    Block, Dense, Kind, Places,
+    flexibility::{Flexibility, Inverse},
+};
 use complement::complement;
 use rayon::prelude::*;
 use striae_sparse::{

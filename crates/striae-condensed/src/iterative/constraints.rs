@@ -66,6 +66,39 @@ impl Constraint {
     }
 }
 
+impl Scaled<'_> {
+    /// Symmetric part of the bulk with the stiffness of the constraints.
+    pub(super) fn stiffened(&self, constraints: &[Constraint]) -> Blocks<3, 3, f64> {
+        let count = self.nodes.supervariables.len();
+        let mut incident = vec![Vec::new(); count];
+        for (k, constraint) in constraints.iter().enumerate() {
+            for (place, entry) in constraint.entries.iter().enumerate() {
+                incident[entry.0 as usize].push((k, place));
+            }
+        }
+        Blocks::from_rows(count, count, |node, sum| {
+            self.bulk_row(node, |other, block| {
+                let target = sum.block(other).iter_mut();
+                target.zip(block).for_each(|(t, b)| *t += b);
+            });
+            for &(k, place) in &incident[node] {
+                let Constraint {
+                    entries, stiffness, ..
+                } = &constraints[k];
+                let own = entries[place].1;
+                for (other, values) in entries {
+                    let target = sum.block(*other as usize);
+                    for r in 0..3 {
+                        for c in 0..3 {
+                            target[3 * r + c] += stiffness * own[r] * values[c];
+                        }
+                    }
+                }
+            }
+        })
+    }
+}
+
 /// Inverses of the diagonal blocks of the stiffened bulk at nodes with multipliers or constraints.
 pub(crate) struct Compliance {
     /// Place of every node among the blocks.

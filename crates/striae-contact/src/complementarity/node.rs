@@ -49,6 +49,3 @@ pub struct ContactNode<'a> {
     /// Friction traction `tau`.
     pub tau: Vec3,
 }
-
-/// Which position unknowns are prescribed, by side, three a node.
-pub type Prescribed = [Vec<bool>; 2];

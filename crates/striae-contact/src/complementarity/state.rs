@@ -5,7 +5,7 @@ use num_dual::DualSVec64;
 use striae_mesh::Vec3;
 use striae_surface::scalar::constant3;
 
-use super::node::{ContactNode, Prescribed};
+use super::{Prescribed, node::ContactNode};
 use crate::{
     configuration::Configuration,
     kinematics::{Kinematics, Presence},

@@ -10,13 +10,13 @@ use super::{
     sides::{surface_nodes, whole_facets},
 };
 use crate::{
-    complementarity::Prescribed,
     configuration::Configuration,
     coverage::Place,
     interface::{ClampedProjection, Interface, Opponent, Overlap},
     pairing::{PairedFacets, Scope, paired_facets},
     segment::Derivatives,
     traction_basis::TractionBasis,
+    unknown::Prescribed,
 };
 
 /// Common area below which a patch is dropped, over the square of the facet size.

@@ -10,7 +10,7 @@
 
 use super::ellipse::Ellipse;
 use super::kernel::Kernel;
-use super::slip_surface::SlipRule;
+use super::slip_sample::SlipRule;
 use num_dual::DualNum;
 
 /// `L = K = I`, `eta = 0`.

@@ -23,7 +23,7 @@
 
 use nalgebra::Vector2;
 
-use super::slip_surface::{Extremes, SlipRule, SlipSample, sampled};
+use super::slip_sample::{Extremes, SlipRule, SlipSample, sampled};
 
 /// An elliptic slip surface over `varpi`.
 #[derive(Clone, Copy, Debug, PartialEq)]

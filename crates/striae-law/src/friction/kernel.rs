@@ -18,7 +18,7 @@
 use nalgebra::{Matrix3, Vector3};
 use num_dual::DualNum;
 
-use super::tabulated::Radial;
+use super::tabulated::{Radial, Tabulated};
 
 /// Textures of the two surfaces at a contact point, as unit tangent vectors
 /// `a = n x s`, seen from the surface that carries the point.
@@ -76,6 +76,17 @@ pub struct Kernel<'a, D> {
     pub k_inverse: Matrix3<D>,
     /// `rho`, where it is not 1.
     radial: Option<Radial<'a, D>>,
+}
+
+impl Tabulated {
+    /// The law for the unit texture of the textured surface and the direction a
+    /// quarter turn from it.
+    pub fn kernel<D: DualNum<Primitive = f64> + Copy>(
+        &self,
+        axes: [Vector3<D>; 2],
+    ) -> Kernel<'_, D> {
+        Kernel::radial(Radial::new(self, axes))
+    }
 }
 
 impl<'a, D: DualNum<Primitive = f64> + Copy> Kernel<'a, D> {

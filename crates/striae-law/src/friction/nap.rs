@@ -30,7 +30,7 @@ use num_dual::DualNum;
 use super::ellipse::Ellipse;
 use super::error::{FrictionError, positive};
 use super::kernel::Kernel;
-use super::slip_surface::SlipRule;
+use super::slip_sample::SlipRule;
 
 /// Coefficients of the law over the largest one.
 #[derive(Clone, Copy, Debug, PartialEq)]

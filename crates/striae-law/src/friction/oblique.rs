@@ -11,7 +11,7 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::slip_surface::{Extremes, SlipSample, sampled};
+use super::slip_sample::{Extremes, SlipSample, sampled};
 
 /// Points among which extremes are sought.
 const SAMPLES: usize = 720;

@@ -21,7 +21,7 @@ use nalgebra::Vector2;
 
 use super::TwoTextures;
 use super::ellipse::Ellipse;
-use super::slip_surface::{SlipSample, sampled};
+use super::slip_sample::{SlipSample, sampled};
 
 /// The published slip function at one contact point.
 #[derive(Clone, Copy, Debug, PartialEq)]

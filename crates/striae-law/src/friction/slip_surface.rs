@@ -5,16 +5,12 @@
 
 use nalgebra::Vector2;
 
-use super::{ellipse::Ellipse, oblique::Oblique, star::Star};
-
-/// Which slip direction belongs to a traction on the slip surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SlipRule {
-    /// Each component of friction opposes that component of slip: `K = I`.
-    Opposing,
-    /// Slip is normal to the slip surface: `K = L^-1`.
-    Associated,
-}
+use super::{
+    ellipse::Ellipse,
+    oblique::Oblique,
+    slip_sample::{Extremes, SlipSample, sampled},
+    star::Star,
+};
 
 /// A slip surface over `varpi`.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,35 +21,6 @@ pub enum SlipSurface {
     Star(Star),
     /// Of affine laws from outside.
     Oblique(Oblique),
-}
-
-/// One point of a slip surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SlipSample {
-    /// Angle `phi` of `z` from `e`.
-    pub angle: f64,
-    /// Slip direction `d`, a unit vector in `(e, e_perp)`.
-    pub slip: Vector2<f64>,
-    /// `w = -tau/varpi` in `(e, e_perp)`.
-    pub traction: Vector2<f64>,
-    /// Angle from `d` to `w`, positive from `e` towards `e_perp`.
-    pub deviation: f64,
-}
-
-/// Extremes of a slip surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Extremes {
-    /// Largest `|w|`.
-    pub traction: f64,
-    /// Largest angle between `d` and `w`.
-    pub deviation: f64,
-}
-
-impl SlipSample {
-    /// Dissipation `w . d` over `varpi |du|`.
-    pub fn dissipation(&self) -> f64 {
-        self.slip.dot(&self.traction)
-    }
 }
 
 impl SlipSurface {
@@ -107,10 +74,4 @@ impl SlipSurface {
             Self::Oblique(oblique) => oblique.least_dissipation(),
         }
     }
-}
-
-/// `count` points, at equal steps of the angle from 0.
-pub(super) fn sampled(count: usize, at: impl Fn(f64) -> SlipSample) -> Vec<SlipSample> {
-    let step = std::f64::consts::TAU / count as f64;
-    (0..count).map(|i| at(i as f64 * step)).collect()
 }

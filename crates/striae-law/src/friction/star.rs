@@ -9,7 +9,7 @@
 use nalgebra::Vector2;
 
 use super::periodic::Periodic;
-use super::slip_surface::{Extremes, SlipSample};
+use super::slip_sample::{Extremes, SlipSample};
 
 /// The polar curve `rho(phi)`.
 #[derive(Clone, Debug, PartialEq)]

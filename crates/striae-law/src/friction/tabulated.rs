@@ -44,7 +44,6 @@ use nalgebra::Vector3;
 use num_dual::DualNum;
 
 use super::error::{FrictionError, finite};
-use super::kernel::Kernel;
 use super::periodic::Periodic;
 use super::star::Star;
 
@@ -86,22 +85,18 @@ impl Tabulated {
         self.rho.points()
     }
 
-    /// The law for the unit texture of the textured surface and the direction a
-    /// quarter turn from it.
-    pub fn kernel<D: DualNum<Primitive = f64> + Copy>(
-        &self,
-        axes: [Vector3<D>; 2],
-    ) -> Kernel<'_, D> {
-        Kernel::radial(Radial { law: self, axes })
-    }
-
     /// The slip surface in the same axes.
     pub fn slip_surface(&self) -> Star {
         Star::new(self.rho.clone())
     }
 }
 
-impl<D: DualNum<Primitive = f64> + Copy> Radial<'_, D> {
+impl<'a, D: DualNum<Primitive = f64> + Copy> Radial<'a, D> {
+    /// That of a table, with the axes from which and towards which `phi` turns.
+    pub(super) fn new(law: &'a Tabulated, axes: [Vector3<D>; 2]) -> Self {
+        Self { law, axes }
+    }
+
     /// `rho(phi)` in the direction of `z`; without derivatives at `z = 0`.
     ///
     /// The angle is that of the value of `z`, to which its variation adds

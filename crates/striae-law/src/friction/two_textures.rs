@@ -55,7 +55,7 @@ use num_dual::DualNum;
 use super::ellipse::Ellipse;
 use super::error::{FrictionError, finite};
 use super::kernel::Kernel;
-use super::slip_surface::SlipRule;
+use super::slip_sample::SlipRule;
 
 /// Constants of the law.
 #[derive(Clone, Copy, Debug, PartialEq)]

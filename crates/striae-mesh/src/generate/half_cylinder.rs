@@ -5,9 +5,11 @@
 //! the contact point and grow away from it, see [`refined_lengths`](super::refined_lengths); nodes of
 //! the arc lie on the circle. The section is extruded along `y`.
 
+mod half_disc;
+
 use super::grid::{check_element_count, named_mesh};
-use super::half_disc::HalfDisc;
 use crate::{CellBlock, ElementId, Face, Mesh, MeshError, NodeId, Vec3};
+use half_disc::HalfDisc;
 
 /// A slice of a half cylinder along `y`, with sides `flat`, `arc`, `ymin`, `ymax`.
 #[derive(Clone, Debug, PartialEq)]

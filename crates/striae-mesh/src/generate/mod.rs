@@ -34,7 +34,6 @@ mod division;
 mod grading;
 mod grid;
 mod half_cylinder;
-mod half_disc;
 
 pub use annulus::{Annulus, Refinement};
 pub use block::{Block, Pivot, Rotation};

@@ -7,7 +7,7 @@ use striae_contact::{
 use striae_mesh::Vec3;
 
 use crate::{
-    dynamics::Motion,
+    dynamics::{ImposedRate, Motion},
     initial::Offsets,
     model::LoadKind,
     plan::StepPlan,
@@ -65,19 +65,6 @@ pub struct Imposed {
     pub motion: Option<Motion>,
     /// What stabilises every pair in the increment.
     pub dashpots: Vec<Vec<Dashpot>>,
-}
-
-/// Velocity and acceleration of a prescribed component.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ImposedRate {
-    /// Global node.
-    pub node: usize,
-    /// Component.
-    pub axis: usize,
-    /// Velocity.
-    pub velocity: f64,
-    /// Acceleration.
-    pub acceleration: f64,
 }
 
 impl Imposed {
@@ -164,7 +151,7 @@ impl<'a> StepContext<'a> {
         let elapsed = time - state.time;
         Imposed {
             elapsed,
-            motion: Motion::new(self, state, elapsed),
+            motion: Motion::new(self.problem, self.index, state, elapsed),
             dashpots: dashpots(self, state, s, elapsed),
             before: state.rigid.clone(),
             ..self.imposed(s)

@@ -32,7 +32,7 @@ impl Inertia {
             share_of_end: 1.0 - motion.map_or(0.0, |motion| motion.scheme().alpha_f),
             gravity: imposed.gravity,
             accelerations: motion
-                .map(|motion| motion.weighted_accelerations(&trial.positions, imposed)),
+                .map(|motion| motion.weighted_accelerations(&trial.positions, &imposed.rates)),
             stiffness: motion.map_or(0.0, |motion| motion.stiffness()),
         }
     }

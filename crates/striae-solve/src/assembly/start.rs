@@ -13,8 +13,7 @@ use striae_sparse::SparseMatrix;
 
 use super::{Imposed, StepContext, System, Trial};
 use crate::{
-    dynamics::mass_times, layout::Layout, outcome::CutBack, rigid::fitted_velocity,
-    state::NodalForces,
+    layout::Layout, mass::mass_times, outcome::CutBack, rigid::fitted_velocity, state::NodalForces,
 };
 
 /// Accelerations of all nodes, and the forces that hold tied nodes, under the

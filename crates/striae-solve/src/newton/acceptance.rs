@@ -19,7 +19,7 @@ pub(super) fn accepted(
     assembled: Assembled,
 ) -> State {
     let (velocities, accelerations) = match &imposed.motion {
-        Some(motion) => motion.at_end(&trial.positions, &imposed),
+        Some(motion) => motion.at_end(&trial.positions, &imposed.rates),
         None => (state.velocities.clone(), state.accelerations.clone()),
     };
     let ends = Ends {

@@ -44,7 +44,8 @@ use striae_mesh::{FacetId, Vec3};
 
 use crate::{
     assembly::{Assembled, Imposed, StepContext, Trial},
-    dynamics::{Scheme, kinetic_energy, mass_times, wrenches},
+    dynamics::{Scheme, wrenches},
+    mass::{kinetic_energy, mass_times},
     problem::Problem,
     rigid::Pose,
     stabilisation::Dashpot,

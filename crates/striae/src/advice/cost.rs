@@ -154,7 +154,10 @@ fn counted(model: &Model, estimate: &Estimate, advice: &mut Advice) {
     } = estimate;
     let megabytes = |analysis: &Analysis| {
         let megabytes = analysis.cost.peak_bytes as f64 / 1e6;
-        format!("{megabytes:.1} MB and {:.1e} operations", analysis.cost.flops)
+        format!(
+            "{megabytes:.1} MB and {:.1e} operations",
+            analysis.cost.flops
+        )
     };
     let others = others.iter();
     let others = others.map(|other| format!("; by {}: {}", other.method, megabytes(other)));

@@ -4,7 +4,7 @@
 //! lie in runs, as unknowns are numbered along the mesh: `F C` is a product of a few blocks of
 //! columns of `F`. `G F C` combines rows of that, with vector instructions.
 
-use crate::{flexibility::Inverse, interface::Kind};
+use crate::interface::{Kind, flexibility::Inverse};
 use faer::{
     Accum, Par,
     linalg::matmul::matmul,

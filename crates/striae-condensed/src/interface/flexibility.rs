@@ -12,7 +12,7 @@
 //! costs iterations, not accuracy. Products are cut into pieces that depend on the
 //! sizes alone, so that threads do not change a bit.
 
-use crate::interface::{Block, Kind};
+use super::{Block, Kind};
 use faer::{
     Accum, Par,
     linalg::{matmul::matmul, triangular_solve::solve_lower_triangular_in_place},

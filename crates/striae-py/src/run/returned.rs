@@ -25,12 +25,8 @@ use striae::{
     },
 };
 
-use crate::{
-    fault::raised,
-    model::Model,
-    results::Kept,
-    run::{Run, Told},
-};
+use super::{Run, Told};
+use crate::{fault::raised, model::Model, results::Kept};
 
 /// Names of the files beside the states.
 const SUMMARY: &str = "summary.json";

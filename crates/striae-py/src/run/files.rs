@@ -16,7 +16,8 @@ use striae::{
     },
 };
 
-use crate::{fault::raised, run::Run};
+use super::Run;
+use crate::fault::raised;
 
 /// Writes the files of a run whose increments are all kept, with fields after so many
 /// increments each (0: the last only).
