@@ -24,8 +24,8 @@ use striae_mesh::{CellKind, ElementId, Mesh, Vec3};
 /// The reference elements of a mesh.
 #[derive(Clone, Debug)]
 pub struct Elements {
-    /// With the first element and the first quadrature point of each.
-    blocks: Vec<([usize; 2], Arc<dyn ElementBlock>)>,
+    /// With the first element of each.
+    blocks: Vec<(usize, Arc<dyn ElementBlock>)>,
 }
 
 /// Elements of one kind, counted from 0 within the block.
@@ -107,27 +107,39 @@ impl Elements {
     ///
     /// The first element whose reference shape is degenerate.
     pub fn new(mesh: &Mesh, formulation: Formulation) -> Result<Self, ElementFault> {
-        let (mut first, mut first_point) = (0, 0);
+        Self::of_sections(mesh, |_| formulation)
+    }
+
+    /// As [`Elements::new`], where elements of a mesh differ in their formulation.
+    ///
+    /// # Errors
+    ///
+    /// The first element whose reference shape is degenerate.
+    pub fn of_sections(
+        mesh: &Mesh,
+        formulation: impl Fn(ElementId) -> Formulation,
+    ) -> Result<Self, ElementFault> {
+        let mut first = 0;
         let mut blocks = Vec::with_capacity(mesh.blocks.len());
         for cells in &mesh.blocks {
             let corners: Vec<Vec3> = (cells.nodes.iter())
                 .map(|node| mesh.positions[node.index()])
                 .collect();
+            let elements = (first..first + cells.len()).map(ElementId::new);
+            let formulations = elements.map(&formulation).collect();
             let block =
-                block(cells.kind, formulation, &corners).map_err(|(at, error)| ElementFault {
+                block(cells.kind, formulations, &corners).map_err(|(at, error)| ElementFault {
                     element: ElementId::new(first + at),
                     error,
                 })?;
-            let points = block.count() * block.points();
-            blocks.push(([first, first_point], block));
+            blocks.push((first, block));
             first += cells.len();
-            first_point += points;
         }
         Ok(Self { blocks })
     }
 
-    /// The blocks, each with the numbers of its first element and its first quadrature point.
-    pub fn blocks(&self) -> impl Iterator<Item = ([usize; 2], &dyn ElementBlock)> {
+    /// The blocks, each with the number of its first element.
+    pub fn blocks(&self) -> impl Iterator<Item = (usize, &dyn ElementBlock)> {
         self.blocks.iter().map(|(first, block)| (*first, &**block))
     }
 
@@ -140,28 +152,18 @@ impl Elements {
 
     /// All elements in the order of the mesh.
     pub fn iter(&self) -> impl Iterator<Item = Element<'_>> {
-        self.blocks().flat_map(|([_, first_point], block)| {
-            (0..block.count()).map(move |at| Element {
-                block,
-                at,
-                first_point: first_point + at * block.points(),
-            })
-        })
+        self.blocks()
+            .flat_map(|(_, block)| (0..block.count()).map(move |at| Element { block, at }))
     }
 
     /// An element of the mesh.
     pub fn get(&self, element: ElementId) -> Element<'_> {
         let index = element.index();
-        let place = self
-            .blocks
-            .partition_point(|([first, _], _)| *first <= index)
-            - 1;
-        let ([first, first_point], block) = &self.blocks[place];
-        let at = index - first;
+        let place = self.blocks.partition_point(|(first, _)| *first <= index) - 1;
+        let (first, block) = &self.blocks[place];
         Element {
             block: &**block,
-            at,
-            first_point: first_point + at * block.points(),
+            at: index - first,
         }
     }
 }
@@ -170,18 +172,18 @@ impl Elements {
 type Made = Result<Arc<dyn ElementBlock>, (usize, ElementError)>;
 
 /// The table of kinds.
-fn block(kind: CellKind, formulation: Formulation, corners: &[Vec3]) -> Made {
+fn block(kind: CellKind, formulations: Vec<Formulation>, corners: &[Vec3]) -> Made {
     match kind {
         CellKind::Tetrahedron => {
-            Cells::<4, 4>::made(kind, formulation, tetrahedron_recovery(), corners)
+            Cells::<4, 4>::made(kind, formulations, tetrahedron_recovery(), corners)
         }
-        CellKind::Pyramid => Cells::<5, 8>::made(kind, formulation, pyramid_recovery(), corners),
-        CellKind::Wedge => Cells::<6, 6>::made(kind, formulation, wedge_recovery(), corners),
+        CellKind::Pyramid => Cells::<5, 8>::made(kind, formulations, pyramid_recovery(), corners),
+        CellKind::Wedge => Cells::<6, 6>::made(kind, formulations, wedge_recovery(), corners),
         CellKind::Hexahedron => {
-            Cells::<8, 8>::made(kind, formulation, hexahedron_recovery(), corners)
+            Cells::<8, 8>::made(kind, formulations, hexahedron_recovery(), corners)
         }
         CellKind::CompositeTetrahedron => {
-            Cells::<{ composite::NODES }, { composite::POINTS }>::composite(formulation, corners)
+            Cells::<{ composite::NODES }, { composite::POINTS }>::composite(formulations, corners)
         }
     }
 }
@@ -190,19 +192,20 @@ fn block(kind: CellKind, formulation: Formulation, corners: &[Vec3]) -> Made {
 #[derive(Debug)]
 struct Cells<const N: usize, const Q: usize> {
     kind: CellKind,
-    formulation: Formulation,
+    /// Of each element.
+    formulations: Vec<Formulation>,
     inertia: Inertia<N, Q>,
     /// What continues values at the points to the corners, by corner.
     recovery: [[f64; Q]; N],
     elements: Vec<Reference<N, Q>>,
-    /// Of each element, where its deformation gradient is enhanced.
+    /// Of each element, where the deformation gradient of any of them is enhanced.
     fields: Vec<Fields<Q>>,
 }
 
 impl<const N: usize, const Q: usize> Cells<N, Q> {
     fn made(
         kind: CellKind,
-        formulation: Formulation,
+        formulations: Vec<Formulation>,
         recovery: [[f64; Q]; N],
         corners: &[Vec3],
     ) -> Made {
@@ -211,15 +214,14 @@ impl<const N: usize, const Q: usize> Cells<N, Q> {
         let elements = cells.clone().enumerate();
         let elements = elements.map(|(at, x)| Reference::new(&rule, x).map_err(|e| (at, e)));
         let elements = elements.collect::<Result<_, _>>()?;
-        let fields = match (formulation, kind) {
-            (Formulation::AssumedStrain, CellKind::Hexahedron) => {
-                cells.map(|x| Fields::new(x)).collect()
-            }
+        let enhanced = formulations.contains(&Formulation::AssumedStrain);
+        let fields = match (enhanced, kind) {
+            (true, CellKind::Hexahedron) => cells.map(|x| Fields::new(x)).collect(),
             _ => Vec::new(),
         };
         Ok(Arc::new(Self {
             kind,
-            formulation,
+            formulations,
             inertia: Inertia::Points(rule.values),
             recovery,
             elements,
@@ -237,14 +239,14 @@ impl<const N: usize, const Q: usize> Cells<N, Q> {
 }
 
 impl Cells<{ composite::NODES }, { composite::POINTS }> {
-    fn composite(formulation: Formulation, corners: &[Vec3]) -> Made {
+    fn composite(formulations: Vec<Formulation>, corners: &[Vec3]) -> Made {
         let elements = corners.as_chunks().0.iter().enumerate();
         let elements = elements.map(|(at, x)| composite::reference(x).map_err(|e| (at, e)));
         let elements: Vec<_> = elements.collect::<Result<_, _>>()?;
         let (elements, parts) = elements.into_iter().unzip();
         Ok(Arc::new(Self {
             kind: CellKind::CompositeTetrahedron,
-            formulation,
+            formulations,
             inertia: Inertia::Parts(parts),
             recovery: composite::recovery(),
             elements,
@@ -279,7 +281,7 @@ impl<const N: usize, const Q: usize> ElementBlock for Cells<N, Q> {
         response: &mut ElementResponse,
     ) -> Result<(), ElementError> {
         let element = &self.elements[at];
-        match (self.formulation, self.fields.get(at)) {
+        match (self.formulations[at], self.fields.get(at)) {
             (Formulation::AssumedStrain, Some(fields)) => {
                 element.respond_enhanced(fields, all(x), material, past, response)
             }
@@ -317,12 +319,15 @@ impl<const N: usize, const Q: usize> ElementBlock for Cells<N, Q> {
         variables: &[f64],
     ) -> Result<Vec<Matrix3<f64>>, ElementError> {
         let element = &self.elements[at];
-        if self.formulation == Formulation::MeanDilatation {
-            let share = self.share(material);
-            return element.stress_with_mean_dilatation(all(x), material, variables, share);
-        }
-        if let Some(fields) = self.fields.get(at) {
-            return element.enhanced_stress(fields, all(x), material, variables);
+        match (self.formulations[at], self.fields.get(at)) {
+            (Formulation::MeanDilatation, _) => {
+                let share = self.share(material);
+                return element.stress_with_mean_dilatation(all(x), material, variables, share);
+            }
+            (Formulation::AssumedStrain, Some(fields)) => {
+                return element.enhanced_stress(fields, all(x), material, variables);
+            }
+            (Formulation::Standard | Formulation::AssumedStrain, _) => {}
         }
         let each = variables.len() / Q;
         (0..Q)

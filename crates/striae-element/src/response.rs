@@ -38,6 +38,12 @@ impl ElementResponse {
         }
     }
 
+    /// Makes room for the variables of another material.
+    pub fn make_room(&mut self, block: &dyn ElementBlock, material: &Material) {
+        let count = material.variables() * block.points();
+        self.variables.resize(count, 0.0);
+    }
+
     /// Where one of `count` points writes what it has come to.
     pub(super) fn present(&mut self, point: usize, count: usize) -> Present<'_> {
         let each = self.variables.len() / count;

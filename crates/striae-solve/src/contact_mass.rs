@@ -13,7 +13,7 @@ impl Problem {
     pub fn mass(&self, body: usize, element: ElementId) -> Mass {
         let model = &self.model.bodies[body];
         let element_of_body = self.elements[body].get(element);
-        let mass = element_of_body.mass(model.density);
+        let mass = element_of_body.mass(self.density(body, element));
         let corners = model.mesh.corners(element).iter();
         let massless = corners.map(|&node| self.massless[self.node(body, node)]);
         if massless.clone().any(|massless| massless) {

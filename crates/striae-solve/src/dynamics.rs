@@ -313,7 +313,7 @@ fn pushed(problem: &Problem, state: &State, weight: f64) -> Vec<Wrench> {
 pub fn mass_times(problem: &Problem, vectors: &[Vec3]) -> Vec<Vec3> {
     let mut product = vec![Vec3::zeros(); vectors.len()];
     for (body, model) in problem.model.bodies.iter().enumerate() {
-        if model.density == 0.0 {
+        if !model.has_mass() {
             continue;
         }
         for (at, corners) in model.mesh.elements().enumerate() {

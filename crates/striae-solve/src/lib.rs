@@ -1,6 +1,7 @@
 //! Elements, loads, the problem and its state, Newton's method and step control.
 
 pub mod assembly;
+pub mod composition;
 mod contact_mass;
 mod curve;
 pub mod drive;

@@ -15,6 +15,7 @@ mod nodal;
 mod output;
 mod place;
 mod rigid;
+mod sections;
 mod sets;
 mod step;
 mod surfaces;

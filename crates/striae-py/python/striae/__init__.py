@@ -68,6 +68,7 @@ from ._results import (
 )
 from ._rigid import Plane, Rigid, RigidBody, RigidSurface
 from ._run import History, Run, resume
+from ._section import Section
 from ._step import Condition, Dynamics, Increments, Step, gravity
 from ._sweep import Sweep, SweepPoint, sweep
 from ._texture import Axial, Circumferential, Nodal, Painted, Radial, Texture, Uniform
@@ -126,6 +127,7 @@ __all__ = [
     "RunInterrupted",
     "RunStopped",
     "RunWarning",
+    "Section",
     "SideResults",
     "SlipSurface",
     "Solver",

@@ -19,6 +19,7 @@ mod pushed;
 mod rigid;
 mod rigid_facets;
 mod round_off;
+mod sections;
 mod sliding;
 mod stabilised;
 mod table_1;
