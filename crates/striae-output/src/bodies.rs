@@ -7,6 +7,7 @@ use striae_solve::{problem::Problem, state::State};
 
 use crate::{
     BodyField,
+    fibres::fibres,
     strain::nodal_strain,
     vtk::{Array, Cells, Grid, Values},
 };
@@ -144,6 +145,7 @@ fn add(
         (BodyField::HistoryVariables, ..) => {
             grid.cell_arrays.extend(memory(problem, state, body));
         }
+        (BodyField::Fibres, ..) => grid.cell_arrays.extend(fibres(problem, state, body)),
         (BodyField::Section, ..) => grid.cell_arrays.extend(sections(problem, body)),
         (_, _, _) => {}
     }

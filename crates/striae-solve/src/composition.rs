@@ -2,13 +2,14 @@
 //!
 //! Sections are counted from 1 in their order; 0 is the body itself, where no section is.
 //! What the quadrature points of a body remember stands in one list, by element and point;
-//! an element has as many variables a point as its material asks for.
+//! an element has as many variables a point as its material asks for. Fibres have their
+//! directions there.
 
 use std::ops::Range;
 
 use striae_element::{Element, Elements};
 use striae_law::bulk::{LameConstants, Material};
-use striae_mesh::{ElementId, Face};
+use striae_mesh::{ElementId, Face, Vec3};
 
 use crate::{
     model::{Body, BodySection, Formulation},
@@ -170,6 +171,25 @@ impl Problem {
     pub fn material(&self, body: usize, element: ElementId) -> &Material {
         let section = self.compositions[body].section(element);
         self.model.bodies[body].material_of(section)
+    }
+
+    /// Variables of all points of a body that has not been deformed.
+    pub fn rest(&self, body: usize) -> Vec<f64> {
+        let mut variables = vec![0.0; self.compositions[body].variable_count()];
+        let mesh = &self.model.bodies[body].mesh;
+        for (at, element) in self.elements[body].iter().enumerate() {
+            let id = ElementId::new(at);
+            let material = self.material(body, id);
+            let places = self.compositions[body].variables(id);
+            if places.is_empty() || material.fibres().is_empty() {
+                continue;
+            }
+            let corners = mesh.element_positions(id);
+            let middle = corners.iter().sum::<Vec3>() / corners.len() as f64;
+            let rest = material.rest(&middle).repeat(element.points());
+            variables[places].copy_from_slice(&rest);
+        }
+        variables
     }
 
     /// Mass per reference volume of an element of a body.

@@ -155,7 +155,9 @@ impl State {
             velocities: vec![Vec3::zeros(); problem.reference.len()],
             accelerations: vec![Vec3::zeros(); problem.reference.len()],
             rigid: vec![Pose::at_rest(); problem.model.rigid_surfaces.len()],
-            histories: variables(problem).map(|count| vec![0.0; count]).collect(),
+            histories: (0..problem.elements.len())
+                .map(|body| problem.rest(body))
+                .collect(),
             pairs: problem
                 .pairs
                 .iter()

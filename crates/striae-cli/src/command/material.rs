@@ -103,7 +103,14 @@ fn show(
         constants.poissons_ratio(),
         lambda + 2.0 / 3.0 * shear,
     )?;
-    let tests = Test::all(material, arguments.from, arguments.to);
+    if !material.fibres().is_empty() {
+        writeln!(
+            out,
+            "  without its {} families of fibres, whose directions are those of the body:",
+            material.fibres().len()
+        )?;
+    }
+    let tests = Test::all(material.without_fibres(), arguments.from, arguments.to);
     writeln!(
         out,
         "  test         stretch from        to  nominal stress from            to  stable from        to"

@@ -5,6 +5,7 @@ mod body;
 mod condition;
 mod contact;
 mod curve;
+mod fibres;
 mod friction;
 mod generator;
 mod inertia;

@@ -86,6 +86,7 @@ fn body_field(raw: raw::BodyField) -> BodyField {
         raw::BodyField::StrainEnergyDensity => BodyField::StrainEnergyDensity,
         raw::BodyField::HistoryVariables => BodyField::HistoryVariables,
         raw::BodyField::Section => BodyField::Section,
+        raw::BodyField::Fibres => BodyField::Fibres,
     }
 }
 

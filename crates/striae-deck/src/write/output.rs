@@ -55,6 +55,7 @@ fn word(field: BodyField) -> &'static str {
         BodyField::StrainEnergyDensity => "strain-energy-density",
         BodyField::HistoryVariables => "history-variables",
         BodyField::Section => "section",
+        BodyField::Fibres => "fibres",
     }
 }
 

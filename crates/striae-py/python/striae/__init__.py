@@ -28,6 +28,7 @@ from ._errors import (
     RunWarning,
     SweepError,
 )
+from ._fibres import ExponentialFibres, Fibres, Fibrous, LinearFibres
 from ._fit import FrictionFit, Measurements, fit_friction, read_measurements
 from ._friction import (
     Coulomb,
@@ -87,7 +88,10 @@ __all__ = [
     "Dynamics",
     "ElasticPlastic",
     "Energies",
+    "ExponentialFibres",
     "Fault",
+    "Fibres",
+    "Fibrous",
     "Fit",
     "Friction",
     "FrictionFit",
@@ -99,6 +103,7 @@ __all__ = [
     "Increments",
     "IsochoricNeoHookean",
     "LinearElastic",
+    "LinearFibres",
     "Material",
     "Measurements",
     "Mesh",

@@ -106,6 +106,9 @@ class Material:
         logarithmic: bool,
     ) -> Material: ...
     def relaxing(self, branches: list[tuple[float, float]]) -> Material: ...
+    def with_fibres(
+        self, families: list[tuple[Union[tuple[float, float, float], float], Texture]]
+    ) -> Material: ...
     @staticmethod
     def elastic_plastic(
         youngs_modulus: float, poissons_ratio: float, hardening: Hardening

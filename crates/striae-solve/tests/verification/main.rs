@@ -8,6 +8,7 @@ mod driver;
 mod dynamics;
 mod endings;
 mod energies;
+mod fibres;
 mod friction_history;
 mod hard_systems;
 mod invariance;
