@@ -7,7 +7,7 @@
 
 use std::ops::Range;
 
-use striae_element::{Element, Elements};
+use striae_element::{Element, ElementFault, Elements};
 use striae_law::bulk::{LameConstants, Material};
 use striae_mesh::{ElementId, Face, Vec3};
 
@@ -105,6 +105,14 @@ impl Body {
             }
         }
         sections
+    }
+
+    /// The reference elements, each of its section's formulation.
+    pub(crate) fn elements(&self) -> Result<Elements, ElementFault> {
+        let sections = self.section_of_elements();
+        let section = |element: usize| sections.get(element).map_or(0, |at| *at as usize);
+        let formulation = |element: ElementId| self.formulation_of(section(element.index()));
+        Elements::of_sections(&self.mesh, formulation)
     }
 
     /// Material of a section, counted from 1; 0 is the body's own.

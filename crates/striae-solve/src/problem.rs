@@ -8,7 +8,7 @@ use striae_contact::{
     texture::SideTexture,
 };
 use striae_element::{ElementFault, Elements};
-use striae_mesh::{ElementId, Face, FacetId, NodeId, Vec3};
+use striae_mesh::{Face, FacetId, NodeId, Vec3};
 use striae_surface::{
     normal::nodal_normals,
     texture::{Conditioning, Paint, Texture, TextureError},
@@ -143,14 +143,9 @@ impl Problem {
         for body in &model.bodies {
             reference.extend_from_slice(&body.mesh.positions);
             first_node.push(reference.len());
-            let sections = body.section_of_elements();
-            let section = |element: usize| sections.get(element).map_or(0, |at| *at as usize);
-            let formulation = |element: ElementId| body.formulation_of(section(element.index()));
-            let of_body = Elements::of_sections(&body.mesh, formulation).map_err(|fault| {
-                ProblemError::Element {
-                    body: body.name.clone(),
-                    fault,
-                }
+            let of_body = body.elements().map_err(|fault| ProblemError::Element {
+                body: body.name.clone(),
+                fault,
             })?;
             compositions.push(Composition::new(body, &of_body));
             elements.push(of_body);
