@@ -3,7 +3,7 @@
 use nalgebra::Matrix3;
 use striae_contact::unknowns::NodeResult;
 use striae_figure::{Axis, Color, Content, Series};
-use striae_mesh::Vec3;
+use striae_mesh::{ElementId, Vec3};
 use striae_solve::state::State;
 use striae_surface::facet::Shape;
 
@@ -47,12 +47,11 @@ pub fn stress_error(run: &Run, expected: &Matrix3<f64>) -> f64 {
     let mut largest = 0.0_f64;
     for (body, model) in problem.model.bodies.iter().enumerate() {
         let elements = model.mesh.elements().zip(problem.elements[body].iter());
-        for (corners, element) in elements {
+        for (at, (corners, element)) in elements.enumerate() {
             let nodes = problem.nodes(body, corners).into_iter();
             let current: Vec<Vec3> = nodes.map(|node| state.positions[node]).collect();
-            let variables = element.variables(model.material.variables());
-            let variables = &state.histories[body][variables];
-            let Ok(stresses) = element.stress(&current, &model.material, variables) else {
+            let (material, variables) = problem.made_of(state, body, ElementId::new(at));
+            let Ok(stresses) = element.stress(&current, material, variables) else {
                 return f64::NAN;
             };
             for stress in stresses {

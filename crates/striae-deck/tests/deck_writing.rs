@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use striae_deck::{Deck, parse, read, write};
-use striae_mesh::Sets;
 use striae_solve::model::{Initial, Model};
 
 /// All decks of the published cases.
@@ -26,13 +25,10 @@ fn published() -> Vec<PathBuf> {
     decks
 }
 
-/// The model in every bit but for what no deck states: sets of elements, and that gaps of
-/// its meshes have been closed.
+/// The model in every bit but for what no deck states: that gaps of its meshes have been
+/// closed.
 fn told(model: &Model) -> String {
     let mut model = model.clone();
-    for body in &mut model.bodies {
-        body.mesh.element_sets = Sets::default();
-    }
     for pair in &mut model.pairs {
         if let Initial::Close(_) = pair.initial {
             pair.initial = Initial::AsMeshed;

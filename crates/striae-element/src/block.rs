@@ -105,24 +105,30 @@ impl ElementResponse {
             variables: vec![0.0; material.variables() * block.points()],
         }
     }
+
+    /// Makes room for the variables of another material.
+    pub fn make_room(&mut self, block: &dyn ElementBlock, material: &Material) {
+        let count = material.variables() * block.points();
+        self.variables.resize(count, 0.0);
+    }
 }
 
 /// A block that is made, or the first element that is degenerate.
 pub(super) type Made = Result<Arc<dyn ElementBlock>, (usize, ElementError)>;
 
 /// The table of kinds.
-pub(super) fn block(kind: CellKind, formulation: Formulation, corners: &[Vec3]) -> Made {
+pub(super) fn block(kind: CellKind, formulations: Vec<Formulation>, corners: &[Vec3]) -> Made {
     match kind {
         CellKind::Tetrahedron => {
-            Cells::<4, 4>::made(kind, formulation, tetrahedron_recovery(), corners)
+            Cells::<4, 4>::made(kind, formulations, tetrahedron_recovery(), corners)
         }
-        CellKind::Pyramid => Cells::<5, 8>::made(kind, formulation, pyramid_recovery(), corners),
-        CellKind::Wedge => Cells::<6, 6>::made(kind, formulation, wedge_recovery(), corners),
+        CellKind::Pyramid => Cells::<5, 8>::made(kind, formulations, pyramid_recovery(), corners),
+        CellKind::Wedge => Cells::<6, 6>::made(kind, formulations, wedge_recovery(), corners),
         CellKind::Hexahedron => {
-            Cells::<8, 8>::made(kind, formulation, hexahedron_recovery(), corners)
+            Cells::<8, 8>::made(kind, formulations, hexahedron_recovery(), corners)
         }
         CellKind::CompositeTetrahedron => {
-            Cells::<{ composite::NODES }, { composite::POINTS }>::composite(formulation, corners)
+            Cells::<{ composite::NODES }, { composite::POINTS }>::composite(formulations, corners)
         }
     }
 }
@@ -131,19 +137,20 @@ pub(super) fn block(kind: CellKind, formulation: Formulation, corners: &[Vec3]) 
 #[derive(Debug)]
 struct Cells<const N: usize, const Q: usize> {
     kind: CellKind,
-    formulation: Formulation,
+    /// Of each element.
+    formulations: Vec<Formulation>,
     inertia: Inertia<N, Q>,
     /// What continues values at the points to the corners, by corner.
     recovery: [[f64; Q]; N],
     elements: Vec<Reference<N, Q>>,
-    /// Of each element, where its deformation gradient is enhanced.
+    /// Of each element, where the deformation gradient of any of them is enhanced.
     fields: Vec<Fields<Q>>,
 }
 
 impl<const N: usize, const Q: usize> Cells<N, Q> {
     fn made(
         kind: CellKind,
-        formulation: Formulation,
+        formulations: Vec<Formulation>,
         recovery: [[f64; Q]; N],
         corners: &[Vec3],
     ) -> Made {
@@ -152,15 +159,14 @@ impl<const N: usize, const Q: usize> Cells<N, Q> {
         let elements = cells.clone().enumerate();
         let elements = elements.map(|(at, x)| Reference::new(&rule, x).map_err(|e| (at, e)));
         let elements = elements.collect::<Result<_, _>>()?;
-        let fields = match (formulation, kind) {
-            (Formulation::AssumedStrain, CellKind::Hexahedron) => {
-                cells.map(|x| Fields::new(x)).collect()
-            }
+        let enhanced = formulations.contains(&Formulation::AssumedStrain);
+        let fields = match (enhanced, kind) {
+            (true, CellKind::Hexahedron) => cells.map(|x| Fields::new(x)).collect(),
             _ => Vec::new(),
         };
         Ok(Arc::new(Self {
             kind,
-            formulation,
+            formulations,
             inertia: Inertia::Points(rule.values),
             recovery,
             elements,
@@ -178,14 +184,14 @@ impl<const N: usize, const Q: usize> Cells<N, Q> {
 }
 
 impl Cells<{ composite::NODES }, { composite::POINTS }> {
-    fn composite(formulation: Formulation, corners: &[Vec3]) -> Made {
+    fn composite(formulations: Vec<Formulation>, corners: &[Vec3]) -> Made {
         let elements = corners.as_chunks().0.iter().enumerate();
         let elements = elements.map(|(at, x)| composite::reference(x).map_err(|e| (at, e)));
         let elements: Vec<_> = elements.collect::<Result<_, _>>()?;
         let (elements, parts) = elements.into_iter().unzip();
         Ok(Arc::new(Self {
             kind: CellKind::CompositeTetrahedron,
-            formulation,
+            formulations,
             inertia: Inertia::Parts(parts),
             recovery: composite::recovery(),
             elements,
@@ -220,7 +226,7 @@ impl<const N: usize, const Q: usize> ElementBlock for Cells<N, Q> {
         response: &mut ElementResponse,
     ) -> Result<(), ElementError> {
         let element = &self.elements[at];
-        match (self.formulation, self.fields.get(at)) {
+        match (self.formulations[at], self.fields.get(at)) {
             (Formulation::AssumedStrain, Some(fields)) => {
                 element.respond_enhanced(fields, all(x), material, past, response)
             }
@@ -258,12 +264,15 @@ impl<const N: usize, const Q: usize> ElementBlock for Cells<N, Q> {
         variables: &[f64],
     ) -> Result<Vec<Matrix3<f64>>, ElementError> {
         let element = &self.elements[at];
-        if self.formulation == Formulation::MeanDilatation {
-            let share = self.share(material);
-            return element.stress_with_mean_dilatation(all(x), material, variables, share);
-        }
-        if let Some(fields) = self.fields.get(at) {
-            return element.enhanced_stress(fields, all(x), material, variables);
+        match (self.formulations[at], self.fields.get(at)) {
+            (Formulation::MeanDilatation, _) => {
+                let share = self.share(material);
+                return element.stress_with_mean_dilatation(all(x), material, variables, share);
+            }
+            (Formulation::AssumedStrain, Some(fields)) => {
+                return element.enhanced_stress(fields, all(x), material, variables);
+            }
+            (Formulation::Standard | Formulation::AssumedStrain, _) => {}
         }
         let each = variables.len() / Q;
         (0..Q)

@@ -2,7 +2,6 @@
 
 use super::{ElementBlock, ElementError, ElementResponse, Mass};
 use nalgebra::Matrix3;
-use std::ops::Range;
 use striae_law::bulk::{Material, Past};
 use striae_mesh::{CellKind, Vec3};
 
@@ -11,8 +10,6 @@ use striae_mesh::{CellKind, Vec3};
 pub struct Element<'a> {
     pub(super) block: &'a dyn ElementBlock,
     pub(super) at: usize,
-    /// Its first quadrature point among those of the mesh.
-    pub(super) first_point: usize,
 }
 
 impl Element<'_> {
@@ -49,11 +46,9 @@ impl Element<'_> {
         Ok(self.response(x, material, past)?.energy)
     }
 
-    /// Places of the variables of its quadrature points among those of the mesh, where each
-    /// point has so many.
-    pub fn variables(&self, each: usize) -> Range<usize> {
-        let points = self.first_point..self.first_point + self.block.points();
-        points.start * each..points.end * each
+    /// How many quadrature points it has.
+    pub fn points(&self) -> usize {
+        self.block.points()
     }
 
     /// Mean of a variable over the volume.

@@ -10,8 +10,8 @@ use striae_mesh::{ElementId, Mesh, Vec3};
 /// The reference elements of a mesh.
 #[derive(Clone, Debug)]
 pub struct Elements {
-    /// With the first element and the first quadrature point of each.
-    blocks: Vec<([usize; 2], Arc<dyn ElementBlock>)>,
+    /// With the first element of each.
+    blocks: Vec<(usize, Arc<dyn ElementBlock>)>,
 }
 
 impl Elements {
@@ -21,27 +21,39 @@ impl Elements {
     ///
     /// The first element whose reference shape is degenerate.
     pub fn new(mesh: &Mesh, formulation: Formulation) -> Result<Self, ElementFault> {
-        let (mut first, mut first_point) = (0, 0);
+        Self::of_sections(mesh, |_| formulation)
+    }
+
+    /// As [`Elements::new`], where elements of a mesh differ in their formulation.
+    ///
+    /// # Errors
+    ///
+    /// The first element whose reference shape is degenerate.
+    pub fn of_sections(
+        mesh: &Mesh,
+        formulation: impl Fn(ElementId) -> Formulation,
+    ) -> Result<Self, ElementFault> {
+        let mut first = 0;
         let mut blocks = Vec::with_capacity(mesh.blocks.len());
         for cells in &mesh.blocks {
             let corners: Vec<Vec3> = (cells.nodes.iter())
                 .map(|node| mesh.positions[node.index()])
                 .collect();
+            let elements = (first..first + cells.len()).map(ElementId::new);
+            let formulations = elements.map(&formulation).collect();
             let block =
-                block(cells.kind, formulation, &corners).map_err(|(at, error)| ElementFault {
+                block(cells.kind, formulations, &corners).map_err(|(at, error)| ElementFault {
                     element: ElementId::new(first + at),
                     error,
                 })?;
-            let points = block.count() * block.points();
-            blocks.push(([first, first_point], block));
+            blocks.push((first, block));
             first += cells.len();
-            first_point += points;
         }
         Ok(Self { blocks })
     }
 
-    /// The blocks, each with the numbers of its first element and its first quadrature point.
-    pub fn blocks(&self) -> impl Iterator<Item = ([usize; 2], &dyn ElementBlock)> {
+    /// The blocks, each with the number of its first element.
+    pub fn blocks(&self) -> impl Iterator<Item = (usize, &dyn ElementBlock)> {
         self.blocks.iter().map(|(first, block)| (*first, &**block))
     }
 
@@ -54,28 +66,18 @@ impl Elements {
 
     /// All elements in the order of the mesh.
     pub fn iter(&self) -> impl Iterator<Item = Element<'_>> {
-        self.blocks().flat_map(|([_, first_point], block)| {
-            (0..block.count()).map(move |at| Element {
-                block,
-                at,
-                first_point: first_point + at * block.points(),
-            })
-        })
+        self.blocks()
+            .flat_map(|(_, block)| (0..block.count()).map(move |at| Element { block, at }))
     }
 
     /// An element of the mesh.
     pub fn get(&self, element: ElementId) -> Element<'_> {
         let index = element.index();
-        let place = self
-            .blocks
-            .partition_point(|([first, _], _)| *first <= index)
-            - 1;
-        let ([first, first_point], block) = &self.blocks[place];
-        let at = index - first;
+        let place = self.blocks.partition_point(|(first, _)| *first <= index) - 1;
+        let (first, block) = &self.blocks[place];
         Element {
             block: &**block,
-            at,
-            first_point: first_point + at * block.points(),
+            at: index - first,
         }
     }
 }

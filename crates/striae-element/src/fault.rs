@@ -34,6 +34,19 @@ pub enum ElementError {
         /// The limit of the law.
         limit: f64,
     },
+    /// In the current configuration, fibres beyond all measure.
+    #[error(
+        "its fibres are stretched beyond their law: their strain is {strain:.6e} at Gauss point \
+         {point}, the law ends at {limit:.6e}"
+    )]
+    OverstretchedFibres {
+        /// Local number of the quadrature point.
+        point: usize,
+        /// Their strain.
+        strain: f64,
+        /// The limit of the law.
+        limit: f64,
+    },
     /// In the current configuration, of an element that is enhanced.
     #[error("the strain it assumes is not to be found")]
     Unsettled,

@@ -191,5 +191,10 @@ pub(super) fn error_at(g: usize) -> impl Fn(ResponseError) -> ElementError {
             strain,
             limit,
         },
+        ResponseError::OverstretchedFibres { strain, limit } => ElementError::OverstretchedFibres {
+            point: g,
+            strain,
+            limit,
+        },
     }
 }

@@ -17,30 +17,27 @@ use striae_law::bulk::Material;
 use striae_mesh::{ElementId, Mesh, Vec3};
 
 /// Cauchy stress at every node of a mesh, whose reference elements are
-/// `reference`, whose current node positions are `positions` and whose quadrature points
-/// have come to `variables`; zero at nodes without an element.
+/// `reference`, whose current node positions are `positions`; zero at nodes without an
+/// element. `made_of` says what material an element is of, and what variables its
+/// quadrature points have come to.
 ///
 /// # Errors
 ///
 /// The first element that is turned inside out.
-pub fn nodal_cauchy_stress(
+pub fn nodal_cauchy_stress<'a>(
     mesh: &Mesh,
     reference: &Elements,
     positions: &[Vec3],
-    material: &Material,
-    variables: &[f64],
+    made_of: impl Fn(ElementId) -> (&'a Material, &'a [f64]),
 ) -> Result<Vec<Matrix3<f64>>, ElementFault> {
-    let each = material.variables();
     let mut stress = vec![Matrix3::zeros(); positions.len()];
     let mut volume = vec![0.0; positions.len()];
     for (index, (corners, element)) in mesh.elements().zip(reference.iter()).enumerate() {
         let current: Vec<Vec3> = corners.iter().map(|node| positions[node.index()]).collect();
-        let variables = &variables[element.variables(each)];
+        let id = ElementId::new(index);
+        let (material, variables) = made_of(id);
         let at_corners = element.corner_stress(&current, material, variables);
-        let at_corners = at_corners.map_err(|error| ElementFault {
-            element: ElementId::new(index),
-            error,
-        })?;
+        let at_corners = at_corners.map_err(|error| ElementFault { element: id, error })?;
         for (node, sigma) in corners.iter().zip(at_corners) {
             stress[node.index()] += sigma * element.volume();
             volume[node.index()] += element.volume();

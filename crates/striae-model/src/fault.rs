@@ -4,7 +4,7 @@
 
 use std::fmt;
 
-use striae_mesh::NodeId;
+use striae_mesh::{ElementId, NodeId};
 
 use crate::path::Path;
 
@@ -109,7 +109,7 @@ pub enum FaultKind {
     UnknownSet {
         /// The body.
         body: String,
-        /// Node or facet.
+        /// Node, facet or element.
         kind: &'static str,
         /// The set.
         name: String,
@@ -123,10 +123,36 @@ pub enum FaultKind {
     EmptySet {
         /// The body.
         body: String,
-        /// Node or facet.
+        /// Node, facet or element.
         kind: &'static str,
         /// The set.
         name: String,
+    },
+    /// An element in two sections of a body.
+    #[error(
+        "{element} of body `{body}` is in two sections, `{first}` and `{second}`; an element has one material"
+    )]
+    TwoSections {
+        /// The body.
+        body: String,
+        /// The first such element.
+        element: ElementId,
+        /// Set of the earlier section.
+        first: String,
+        /// Set of the later section.
+        second: String,
+    },
+    /// Elements without a material.
+    #[error(
+        "body `{body}` has no `material` of its own, and {count} of its elements are in no section, the first is {element}; give the body a material, or all elements a section"
+    )]
+    NoMaterial {
+        /// The body.
+        body: String,
+        /// How many elements.
+        count: usize,
+        /// The first of them.
+        element: ElementId,
     },
     /// A mesh cannot be generated or read.
     #[error("the mesh of {owner} cannot be made: {cause}")]
@@ -256,11 +282,13 @@ pub enum FaultKind {
     },
     /// A body without density where there is inertia or gravity.
     #[error(
-        "body `{body}` has inertia or weight in step `{step}`, but its material has no `density`; give it one"
+        "body `{body}` has inertia or weight in step `{step}`, but {material} has no `density`; give it one"
     )]
     NoDensity {
         /// The body.
         body: String,
+        /// Its material, or that of a section.
+        material: String,
         /// The first step that needs it.
         step: String,
     },

@@ -2,11 +2,12 @@
 
 use nalgebra::Matrix3;
 use striae_element::{nodal_cauchy_stress, von_mises};
-use striae_mesh::Vec3;
+use striae_mesh::{ElementId, Vec3};
 use striae_solve::{problem::Problem, state::State};
 
 use crate::{
     BodyField,
+    fibres::fibres,
     strain::nodal_strain,
     vtk::{Array, Cells, Grid, Values},
 };
@@ -65,24 +66,20 @@ pub(crate) fn stress(problem: &Problem, state: &State, body: usize) -> Option<Ve
         &model.mesh,
         &problem.elements[body],
         &state.positions[range],
-        &model.material,
-        &state.histories[body],
+        |element| problem.made_of(state, body, element),
     )
     .ok()
 }
 
-/// Means over the elements of what the points of a body remember, as far as it has a name.
+/// Means over the elements of what the points of a body remember, as far as it has a name;
+/// zero in elements whose material does not remember it.
 fn memory(problem: &Problem, state: &State, body: usize) -> Vec<Array> {
-    let material = &problem.model.bodies[body].material;
-    let (elements, each) = (&problem.elements[body], material.variables());
-    let fields = material.fields().into_iter();
-    fields
-        .map(|field| {
-            let means = elements.iter().map(|element| {
-                let variables = &state.histories[body][element.variables(each)];
-                element.mean(variables, field.variable)
-            });
-            Array::new(field.name, Values::Scalars(means.collect()))
+    let names = problem.model.bodies[body].remembered();
+    let names = names.into_iter();
+    names
+        .map(|name| {
+            let means = problem.remembered(state, body, &name);
+            Array::new(name, Values::Scalars(means))
         })
         .collect()
 }
@@ -145,9 +142,23 @@ fn add(
                 point("strain_energy_density", Values::Scalars(density));
             }
         }
-        (BodyField::HistoryVariables, ..) => grid.cell_arrays = memory(problem, state, body),
+        (BodyField::HistoryVariables, ..) => {
+            grid.cell_arrays.extend(memory(problem, state, body));
+        }
+        (BodyField::Fibres, ..) => grid.cell_arrays.extend(fibres(problem, state, body)),
+        (BodyField::Section, ..) => grid.cell_arrays.extend(sections(problem, body)),
         (_, _, _) => {}
     }
+}
+
+/// Section of every element, where the body has some.
+fn sections(problem: &Problem, body: usize) -> Option<Array> {
+    let model = &problem.model.bodies[body];
+    let elements = (0..model.mesh.element_count()).map(ElementId::new);
+    let section = |element| problem.compositions[body].section(element) as i32;
+    let numbers = elements.map(section).collect();
+    let has_some = !model.sections.is_empty();
+    has_some.then(|| Array::new("section", Values::Integers(numbers)))
 }
 
 /// Eigenvalues of symmetric tensors, the largest first.
@@ -182,11 +193,12 @@ fn principal(tensor: &Matrix3<f64>) -> (Vec3, [Vec3; 3]) {
 fn energy_density(problem: &Problem, state: &State, body: usize) -> Option<Vec<f64>> {
     let model = &problem.model.bodies[body];
     let mut sums = vec![[0.0; 2]; model.mesh.positions.len()];
-    for (corners, element) in model.mesh.elements().zip(problem.elements[body].iter()) {
+    let elements = model.mesh.elements().zip(problem.elements[body].iter());
+    for (at, (corners, element)) in elements.enumerate() {
         let nodes = problem.nodes(body, corners).into_iter();
         let x: Vec<Vec3> = nodes.map(|node| state.positions[node]).collect();
-        let variables = &state.histories[body][element.variables(model.material.variables())];
-        let energy = element.stored_energy(&x, &model.material, variables).ok()?;
+        let (material, variables) = problem.made_of(state, body, ElementId::new(at));
+        let energy = element.stored_energy(&x, material, variables).ok()?;
         for corner in corners {
             sums[corner.index()][0] += energy;
             sums[corner.index()][1] += element.volume();

@@ -9,6 +9,7 @@ mod checksums;
 mod collections;
 mod error;
 pub mod expected;
+mod fibres;
 mod folder;
 pub mod history;
 mod memory;

@@ -78,16 +78,24 @@ pub enum BodyField {
     StrainEnergyDensity,
     /// What materials remember, as far as it has a name, by element.
     HistoryVariables,
+    /// Number of the section of each element, 0 where it is of the body's own material; of
+    /// bodies with sections.
+    Section,
+    /// Unit vectors along the families of fibres of each element, one array a family; of
+    /// bodies with fibres.
+    Fibres,
 }
 
 impl BodyField {
     /// What is written unless something else is chosen.
-    pub const USUAL: [Self; 5] = [
+    pub const USUAL: [Self; 7] = [
         Self::Displacement,
         Self::Velocity,
         Self::CauchyStress,
         Self::VonMises,
         Self::HistoryVariables,
+        Self::Section,
+        Self::Fibres,
     ];
 }
 

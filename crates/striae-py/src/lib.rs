@@ -6,6 +6,7 @@
 //! that Python owns.
 
 mod array;
+mod cells;
 mod fault;
 mod fit;
 mod friction;

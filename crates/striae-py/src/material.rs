@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 use striae::law::bulk;
 
-use crate::{fault::refused, raised::Raised};
+use crate::{fault::refused, raised::Raised, texture::Texture};
 
 /// A bulk material.
 #[pyclass(frozen, module = "striae._striae")]
@@ -71,6 +71,31 @@ impl Material {
         Ok(Self(bulk::Material::Viscoelastic(made), None))
     }
 
+    /// A solid with families of fibres: `k1`, `k2` and dispersion of exponential ones or the
+    /// modulus of linear ones, and their direction.
+    fn with_fibres(&self, families: Vec<(Stiffness, PyRef<'_, Texture>)>) -> PyResult<Self> {
+        const WHAT: &str = "fibres";
+        let family = |(stiffness, direction): &(Stiffness, PyRef<'_, Texture>)| {
+            let stiffness = match *stiffness {
+                Stiffness::Exponential((k1, k2, dispersion)) => {
+                    bulk::FibreStiffness::Exponential { k1, k2, dispersion }
+                }
+                Stiffness::Linear(modulus) => bulk::FibreStiffness::Linear { modulus },
+            };
+            let direction = direction.fibres();
+            let direction = direction
+                .ok_or_else(|| refused(WHAT, "only lines along or around an axis can be turned"))?;
+            Ok(bulk::Fibres {
+                stiffness,
+                direction,
+            })
+        };
+        let families: PyResult<Vec<bulk::Fibres>> = families.iter().map(family).collect();
+        let made = bulk::Fibrous::new(self.0.clone(), &families?);
+        let made = made.map_err(|error| refused(WHAT, error))?;
+        Ok(Self(bulk::Material::Fibrous(made), None))
+    }
+
     /// Metal: its elastic constants and its yield stress.
     #[staticmethod]
     fn elastic_plastic(
@@ -105,6 +130,15 @@ impl Material {
         let response = response.map_err(|error| refused("deformation_gradient", error))?;
         Ok((response.energy, response.first_piola.transpose().into()))
     }
+}
+
+/// How fibres take up stretch.
+#[derive(FromPyObject)]
+pub enum Stiffness {
+    /// `k1`, `k2` and dispersion.
+    Exponential((f64, f64, f64)),
+    /// Modulus.
+    Linear(f64),
 }
 
 /// Yield stress over the equivalent plastic strain.

@@ -13,11 +13,12 @@ use crate::{
     array::{
         Array1, Array2, corners, node_array, node_rows, node_table, nodes, rows, table, vectors,
     },
+    cells,
     fault::refused,
 };
 
 /// Kinds of cells as meshio calls them.
-const KINDS: [(&str, CellKind); 5] = [
+pub const KINDS: [(&str, CellKind); 5] = [
     ("hexahedron", CellKind::Hexahedron),
     ("wedge", CellKind::Wedge),
     ("pyramid", CellKind::Pyramid),
@@ -138,6 +139,22 @@ impl Mesh {
         mesh.facet_sets
             .insert(name, self.0.faces_of_nodes(&members));
         checked(mesh)
+    }
+
+    fn element_sets(&self) -> Vec<String> {
+        self.0.element_sets.names().map(str::to_owned).collect()
+    }
+
+    fn element_set<'py>(&self, py: Python<'py>, name: &str) -> Option<Array1<'py, i64>> {
+        cells::members(py, &self.0, name)
+    }
+
+    fn with_element_set(&self, name: &str, members: PyReadonlyArray1<'_, i64>) -> PyResult<Self> {
+        checked(cells::with_set(&self.0, name, &members)?)
+    }
+
+    fn middles<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py, f64>> {
+        rows(py, cells::middles(&self.0))
     }
 
     fn volume(&self) -> f64 {

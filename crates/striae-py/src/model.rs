@@ -10,7 +10,7 @@ use striae::{
     Error,
     advice::{Advice, Remark},
     deck,
-    model::{self, extended},
+    model::{self, SectionBuilder, extended},
     output::Output,
     solve::{
         initial::fits,
@@ -22,7 +22,7 @@ use striae::{
 };
 
 use crate::{
-    fault::{model_error, model_faults, raised},
+    fault::{model_error, model_faults, raised, refused},
     friction::Friction,
     material::Material,
     mesh::Mesh,
@@ -46,15 +46,20 @@ pub struct Model {
     pub raised: Vec<Raised>,
 }
 
-/// Name, mesh, material, density, whether the mass of contact nodes is moved, and formulation.
+/// Name, mesh, material, density, whether the mass of contact nodes is moved, formulation,
+/// and sections.
 type Body<'py> = (
     String,
     PyRef<'py, Mesh>,
-    PyRef<'py, Material>,
+    Option<PyRef<'py, Material>>,
     Option<f64>,
     bool,
     Option<String>,
+    Vec<Section<'py>>,
 );
+
+/// Element set, material, density and formulation.
+type Section<'py> = (String, PyRef<'py, Material>, Option<f64>, Option<String>);
 
 /// Backend, tolerance and largest number of iterations.
 type Solver = (String, f64, usize);
@@ -76,16 +81,26 @@ impl Model {
         steps: Vec<PyRef<'_, Step>>,
         solver: Solver,
     ) -> PyResult<Self> {
-        let raised = bodies.iter().filter_map(|body| body.2.1.clone()).collect();
+        let sections = bodies.iter().flat_map(|body| &body.6);
+        let materials = bodies.iter().filter_map(|body| body.2.as_ref());
+        let materials = materials.chain(sections.map(|section| &section.1));
+        let raised = materials.filter_map(|material| material.1.clone());
+        let raised = raised.collect();
         let mut built = model::model(title).solver(settings(solver));
-        for (name, mesh, material, density, redistributed, formulation) in bodies {
-            let mut body = model::body(name, mesh.0.clone(), material.0.clone());
-            body = match formulation.as_deref() {
-                Some("mean-dilatation") => body.formulation(Formulation::MeanDilatation),
-                Some("assumed-strain") => body.formulation(Formulation::AssumedStrain),
-                Some(_) => body.formulation(Formulation::Standard),
-                None => body,
+        for (name, mesh, material, density, redistributed, formulation, parts) in bodies {
+            let mut parts = parts.into_iter().map(section);
+            let mut body = match (material, parts.len()) {
+                (Some(material), _) => model::body(name, mesh.0.clone(), material.0.clone()),
+                (None, 0) => return Err(refused("material", "a body needs one, or sections")),
+                (None, _) => {
+                    let first = parts.next().expect("there is one");
+                    model::composite(name, mesh.0.clone(), first)
+                }
             };
+            body = parts.fold(body, model::BodyBuilder::section);
+            if let Some(formulation) = formulation.as_deref().map(formulated) {
+                body = body.formulation(formulation);
+            }
             if let Some(density) = density {
                 body = body.density(density);
             }
@@ -232,6 +247,25 @@ impl Model {
             deck: None,
             raised: Vec::new(),
         }
+    }
+}
+
+fn section((set, material, density, formulation): Section<'_>) -> SectionBuilder {
+    let mut section = model::section(set, material.0.clone());
+    if let Some(density) = density {
+        section = section.density(density);
+    }
+    match formulation.as_deref().map(formulated) {
+        Some(formulation) => section.formulation(formulation),
+        None => section,
+    }
+}
+
+fn formulated(word: &str) -> Formulation {
+    match word {
+        "mean-dilatation" => Formulation::MeanDilatation,
+        "assumed-strain" => Formulation::AssumedStrain,
+        _ => Formulation::Standard,
     }
 }
 

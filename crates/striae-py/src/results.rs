@@ -12,7 +12,10 @@ use striae::{
     solve::{drive::Progress, problem::Problem, state::State},
 };
 
-use crate::array::{node_array, node_rows, rows};
+use crate::{
+    array::{node_array, node_rows, rows},
+    cells::by_kind,
+};
 
 /// A converged state that is kept.
 #[derive(Debug)]
@@ -116,15 +119,10 @@ impl Results {
     ) -> Option<Bound<'py, PyArray1<f64>>> {
         let bodies = &self.problem.model.bodies;
         let index = bodies.iter().position(|known| known.name == body)?;
-        let material = &bodies[index].material;
-        let fields = material.fields();
-        let field = fields.iter().find(|field| field.name == name)?;
-        let each = material.variables();
-        let history = &self.kept.state.histories[index];
-        let means = self.problem.elements[index]
-            .iter()
-            .map(|element| element.mean(&history[element.variables(each)], field.variable));
-        Some(PyArray1::from_vec(py, means.collect()))
+        let has_it = bodies[index].remembered().iter().any(|known| known == name);
+        let means = has_it.then(|| self.problem.remembered(&self.kept.state, index, name))?;
+        let order = by_kind(&bodies[index].mesh).into_iter();
+        Some(PyArray1::from_vec(py, order.map(|at| means[at]).collect()))
     }
 
     /// Nodes of a side of a pair and what is known there.

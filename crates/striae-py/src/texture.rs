@@ -2,7 +2,11 @@
 
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
-use striae::{model, surface::texture::Paint};
+use striae::{
+    law::bulk::{Direction, LinesAbout},
+    model,
+    surface::texture::{Axis, Lines, Paint},
+};
 
 use crate::array::vectors;
 
@@ -48,5 +52,27 @@ impl Texture {
     #[staticmethod]
     fn nodal(directions: PyReadonlyArray2<'_, f64>) -> PyResult<Self> {
         Ok(Self(model::nodal(vectors(&directions)?)))
+    }
+}
+
+impl Texture {
+    /// The directions as those of fibres, if fibres can have them.
+    pub fn fibres(&self) -> Option<Direction> {
+        let Paint::Field(field) = &self.0 else {
+            return None;
+        };
+        let turn = field.turn;
+        let about = |axis: &Axis, lines| Direction::About {
+            point: axis.point,
+            axis: axis.direction,
+            lines,
+        };
+        Some(match &field.lines {
+            Lines::Circumferential(axis) => about(axis, LinesAbout::Circumferential { turn }),
+            Lines::Axial(axis) => about(axis, LinesAbout::Axial { turn }),
+            Lines::Uniform(_) | Lines::Radial(_) if turn != 0.0 => return None,
+            Lines::Uniform(direction) => Direction::Uniform(*direction),
+            Lines::Radial(axis) => about(axis, LinesAbout::Radial),
+        })
     }
 }

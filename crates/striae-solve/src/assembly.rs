@@ -356,10 +356,7 @@ impl System<'_> {
     fn prescribe(&mut self, trial: &Trial, imposed: &Imposed) {
         let shear = |node: usize| {
             let (body, _) = self.context.problem.body_node(node);
-            self.context.problem.model.bodies[body]
-                .material
-                .lame_constants()
-                .shear
+            self.context.problem.compositions[body].stiffest_shear()
         };
         let rows: Vec<(usize, f64, f64)> = imposed
             .positions

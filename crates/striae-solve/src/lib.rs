@@ -2,6 +2,7 @@
 
 pub mod assembly;
 mod begin;
+pub mod composition;
 mod contact_mass;
 mod curve;
 pub mod drive;

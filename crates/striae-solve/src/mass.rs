@@ -11,7 +11,7 @@ impl Problem {
     pub fn mass(&self, body: usize, element: ElementId) -> Mass {
         let model = &self.model.bodies[body];
         let element_of_body = self.elements[body].get(element);
-        let mass = element_of_body.mass(model.density);
+        let mass = element_of_body.mass(self.density(body, element));
         let corners = model.mesh.corners(element).iter();
         let massless = corners.map(|&node| self.massless[self.node(body, node)]);
         if massless.clone().any(|massless| massless) {
@@ -27,7 +27,7 @@ impl Problem {
 pub fn mass_times(problem: &Problem, vectors: &[Vec3]) -> Vec<Vec3> {
     let mut product = vec![Vec3::zeros(); vectors.len()];
     for (body, model) in problem.model.bodies.iter().enumerate() {
-        if model.density == 0.0 {
+        if !model.has_mass() {
             continue;
         }
         for (at, corners) in model.mesh.elements().enumerate() {

@@ -7,7 +7,7 @@
 use nalgebra::Matrix3;
 pub use striae_contact::pair::Enforcement;
 use striae_law::{bulk::Material, friction::Friction};
-use striae_mesh::{Face, Mesh, NodeId, Vec3};
+use striae_mesh::{ElementId, Face, Mesh, NodeId, Vec3};
 use striae_surface::texture::Paint;
 
 /// A whole problem.
@@ -36,7 +36,7 @@ pub struct Body {
     pub name: String,
     /// Mesh with its named sets.
     pub mesh: Mesh,
-    /// Bulk material.
+    /// Bulk material, where no section is.
     pub material: Material,
     /// How its elements take up strain.
     pub formulation: Formulation,
@@ -44,6 +44,23 @@ pub struct Body {
     pub density: f64,
     /// Mass of the nodes of its contact surfaces.
     pub contact_mass: ContactMass,
+    /// Parts of it that are of other materials.
+    pub sections: Vec<BodySection>,
+}
+
+/// Elements of a body that are of a material of their own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodySection {
+    /// Name of the element set.
+    pub set: String,
+    /// The elements; those of no other section of the body.
+    pub elements: Vec<ElementId>,
+    /// Bulk material.
+    pub material: Material,
+    /// How they take up strain.
+    pub formulation: Formulation,
+    /// Mass per reference volume.
+    pub density: f64,
 }
 
 /// Mass of the nodes of contact surfaces.

@@ -16,6 +16,7 @@ use striae_surface::{
 };
 
 use crate::{
+    composition::Composition,
     contact_mass, interference,
     model::{Model, Pair, RigidShape, Side},
     plan::{StepPlan, plans},
@@ -32,6 +33,8 @@ pub struct Problem {
     pub reference: Vec<Vec3>,
     /// Reference elements of every body.
     pub elements: Vec<Elements>,
+    /// What the elements of every body are made of.
+    pub compositions: Vec<Composition>,
     /// Contact pairs.
     pub pairs: Vec<PairGeometry>,
     /// What holds in each step.
@@ -136,15 +139,15 @@ impl Problem {
         let mut first_node = vec![0];
         let mut reference = Vec::new();
         let mut elements = Vec::new();
+        let mut compositions = Vec::new();
         for body in &model.bodies {
             reference.extend_from_slice(&body.mesh.positions);
             first_node.push(reference.len());
-            let of_body = Elements::new(&body.mesh, body.formulation).map_err(|fault| {
-                ProblemError::Element {
-                    body: body.name.clone(),
-                    fault,
-                }
+            let of_body = body.elements().map_err(|fault| ProblemError::Element {
+                body: body.name.clone(),
+                fault,
             })?;
+            compositions.push(Composition::new(body, &of_body));
             elements.push(of_body);
         }
         let (tied, mass_points) = crate::rigid::ties(&model, &first_node, &mut reference);
@@ -166,6 +169,7 @@ impl Problem {
             first_node,
             reference,
             elements,
+            compositions,
             model,
         })
     }
@@ -384,11 +388,9 @@ fn deformable(model: &Model, body: usize, faces: &[Face]) -> ContactSide {
         .iter()
         .map(|&f| body_model.mesh.face_nodes(f))
         .collect();
-    let constants = body_model.material.lame_constants();
-    let (lambda, shear) = (constants.lambda, constants.shear);
     ContactSide {
         geometry: Geometry::Deformable(Surface::new(&facets)),
-        stiffness: shear * (3.0 * lambda + 2.0 * shear) / (lambda + shear),
+        stiffness: body_model.modulus_at(faces),
         texture: None,
     }
 }

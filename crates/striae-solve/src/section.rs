@@ -203,10 +203,10 @@ fn internal_forces(problem: &Problem, state: &State, body: usize, element: Eleme
         .map(|node| state.positions[node])
         .collect();
     let solid = problem.elements[body].get(element);
-    let variables = &state.histories[body][solid.variables(model.material.variables())];
+    let (material, variables) = problem.made_of(state, body, element);
     let elapsed = 0.0;
     let past = Past { variables, elapsed };
-    match solid.response(&x, &model.material, past) {
+    match solid.response(&x, material, past) {
         Ok(response) => response.force.into_iter().map(Vec3::from).collect(),
         Err(_) => vec![Vec3::zeros(); corners.len()],
     }

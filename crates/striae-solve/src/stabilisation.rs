@@ -31,7 +31,7 @@
 
 use striae_contact::interference::{Facing, facing};
 use striae_contact::term::{Field, LocalTerm};
-use striae_mesh::Vec3;
+use striae_mesh::{ElementId, Vec3};
 
 use crate::{
     assembly::StepContext,
@@ -165,10 +165,12 @@ fn loads(context: &StepContext, s: f64) -> f64 {
         }
     }
     let gravity = imposed.gravity.norm();
-    let bodies = problem.model.bodies.iter().zip(&problem.elements);
-    for (body, elements) in bodies {
-        let volume: f64 = elements.iter().map(|element| element.volume()).sum();
-        sum += gravity * body.density * volume;
+    for (body, elements) in problem.elements.iter().enumerate() {
+        let masses = elements
+            .iter()
+            .enumerate()
+            .map(|(at, element)| problem.density(body, ElementId::new(at)) * element.volume());
+        sum += gravity * masses.sum::<f64>();
     }
     let points: f64 = problem.mass_points.iter().map(|(_, mass)| mass).sum();
     sum + gravity * points

@@ -9,6 +9,7 @@ use striae_contact::{
 use striae_mesh::{FacetId, Vec3};
 
 use crate::{
+    composition::Composition,
     problem::Problem,
     rigid::{Pose, Wrench},
 };
@@ -26,8 +27,8 @@ pub struct State {
     pub accelerations: Vec<Vec3>,
     /// Pose of every rigid body.
     pub rigid: Vec<Pose>,
-    /// What the quadrature points of every body have been through: the variables of its
-    /// material by block, element and point. Empty for materials without a memory.
+    /// What the quadrature points of every body have been through: the variables of their
+    /// materials by block, element and point. Empty for materials without a memory.
     pub histories: Vec<Vec<f64>>,
     /// State of every pair.
     pub pairs: Vec<PairState>,
@@ -136,8 +137,8 @@ impl NodalForces {
 
 /// How many variables the quadrature points of every body remember together.
 fn variables(problem: &Problem) -> impl Iterator<Item = usize> {
-    let bodies = problem.model.bodies.iter().zip(&problem.elements);
-    bodies.map(|(body, elements)| body.material.variables() * elements.points())
+    let bodies = problem.compositions.iter();
+    bodies.map(Composition::variable_count)
 }
 
 impl State {
@@ -154,7 +155,9 @@ impl State {
             velocities: vec![Vec3::zeros(); problem.reference.len()],
             accelerations: vec![Vec3::zeros(); problem.reference.len()],
             rigid: vec![Pose::at_rest(); problem.model.rigid_surfaces.len()],
-            histories: variables(problem).map(|count| vec![0.0; count]).collect(),
+            histories: (0..problem.elements.len())
+                .map(|body| problem.rest(body))
+                .collect(),
             pairs: problem
                 .pairs
                 .iter()

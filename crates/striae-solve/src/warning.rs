@@ -26,7 +26,7 @@ use striae_contact::{
     pointed::choice::PIERCED,
 };
 use striae_law::bulk::Material;
-use striae_mesh::Vec3;
+use striae_mesh::{ElementId, Vec3};
 
 use crate::{
     initial::{fits, may_meet, other_name},
@@ -336,10 +336,13 @@ impl Judgement {
 /// judged at a thousandth, which is a hundred units in the last place of `G V`.
 fn round_off(problem: &Problem) -> f64 {
     const STRAIN_SQUARED: f64 = 2e-11;
-    let bodies = problem.model.bodies.iter().zip(&problem.elements);
+    let bodies = problem.elements.iter().enumerate();
     let energies = bodies.map(|(body, elements)| {
-        let volume: f64 = elements.iter().map(|element| element.volume()).sum();
-        body.material.lame_constants().shear * volume
+        let energies = elements.iter().enumerate().map(|(at, element)| {
+            let material = problem.material(body, ElementId::new(at));
+            material.lame_constants().shear * element.volume()
+        });
+        energies.sum::<f64>()
     });
     STRAIN_SQUARED * energies.sum::<f64>()
 }
@@ -349,8 +352,12 @@ fn rotation(problem: &Problem, state: &State) -> f64 {
     let bodies = problem.model.bodies.iter().zip(&problem.elements);
     let angles = bodies.enumerate().filter(|(_, (body, _))| is_linear(body));
     let angles = angles.map(|(at, (body, elements))| -> f64 {
-        let turned = elements.iter().zip(body.mesh.elements());
-        let angles = turned.map(|(element, corners)| {
+        let turned = elements.iter().zip(body.mesh.elements()).enumerate();
+        let linear = turned.filter(|(element, _)| {
+            let material = problem.material(at, ElementId::new(*element));
+            matches!(material, Material::LinearElastic { .. })
+        });
+        let angles = linear.map(|(_, (element, corners))| {
             let nodes = problem.nodes(at, corners).into_iter();
             let x: Vec<Vec3> = nodes.map(|node| state.positions[node]).collect();
             element.rotation(&x)
@@ -361,7 +368,9 @@ fn rotation(problem: &Problem, state: &State) -> f64 {
 }
 
 fn is_linear(body: &Body) -> bool {
-    matches!(body.material, Material::LinearElastic { .. })
+    let used = body.used_sections();
+    let mut materials = used.iter().map(|section| body.material_of(*section));
+    materials.any(|material| matches!(material, Material::LinearElastic { .. }))
 }
 
 fn linear_text(model: &Model) -> String {

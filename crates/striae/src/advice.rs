@@ -16,6 +16,7 @@ mod cost;
 mod fit;
 mod friction;
 mod hold;
+mod parts;
 mod shape;
 mod textures;
 mod units;

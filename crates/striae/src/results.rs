@@ -63,9 +63,8 @@ impl<'a> Results<'a> {
         let model = &self.problem.model.bodies[index];
         let elements = &self.problem.elements[index];
         let positions = self.positions(body)?;
-        let variables = &self.state.histories[index];
-        let stress =
-            nodal_cauchy_stress(&model.mesh, elements, positions, &model.material, variables);
+        let made_of = |element| self.problem.made_of(self.state, index, element);
+        let stress = nodal_cauchy_stress(&model.mesh, elements, positions, made_of);
         Some(stress.expect("converged elements are not inverted"))
     }
 

@@ -82,6 +82,7 @@ fn block(name: &str, z: f64) -> striae::model::Body {
         formulation: striae::model::Formulation::Standard,
         density: 0.0,
         contact_mass: ContactMass::Consistent,
+        sections: Vec::new(),
     }
 }
 

@@ -5,10 +5,10 @@ use crate::failure::Failure;
 use std::{collections::BTreeSet, io::Write, path::PathBuf};
 use striae::advice::Advice;
 use striae_deck as deck;
-use striae_law::bulk::LameConstants;
+use striae_law::bulk::{LameConstants, Material};
 use striae_mesh::NodeId;
 use striae_solve::{
-    model::{Body, Formulation, Model, Pair, RigidShape, RigidSurface, Side},
+    model::{Body, BodySection, Formulation, Model, Pair, RigidShape, RigidSurface, Side},
     stabilisation::first_increment,
 };
 
@@ -32,7 +32,10 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
 
 fn summary(model: &Model, notes: &[String], advice: &Advice) -> String {
     let mut lines = vec![model.title.clone()];
-    lines.extend(model.bodies.iter().map(body_line));
+    for body in &model.bodies {
+        lines.push(body_line(body));
+        lines.extend(body.sections.iter().map(section_line));
+    }
     lines.extend(model.rigid_surfaces.iter().map(rigid_line));
     lines.extend(model.pairs.iter().map(|pair| pair_line(pair, model)));
     lines.extend((0..model.steps.len()).map(|step| step_line(model, step)));
@@ -59,19 +62,41 @@ fn summary(model: &Model, notes: &[String], advice: &Advice) -> String {
 }
 
 fn body_line(body: &Body) -> String {
-    let law = body.material.name();
-    let LameConstants { lambda, shear } = body.material.lame_constants();
-    let formulation = match body.formulation {
+    let sections = body.sections.iter();
+    let in_sections: usize = sections.map(|section| section.elements.len()).sum();
+    let (nodes, elements) = (body.mesh.positions.len(), body.mesh.element_count());
+    let own = match (in_sections, elements - in_sections) {
+        (0, _) => made_of(body.formulation, &body.material),
+        (_, 0) => " in sections".to_owned(),
+        (_, rest) => format!(
+            ", {rest} in no section{}",
+            made_of(body.formulation, &body.material)
+        ),
+    };
+    format!(
+        "  body `{}`: {nodes} nodes, {elements} elements{own}",
+        body.name
+    )
+}
+
+fn section_line(section: &BodySection) -> String {
+    format!(
+        "    section `{}`: {} elements{}",
+        section.set,
+        section.elements.len(),
+        made_of(section.formulation, &section.material)
+    )
+}
+
+fn made_of(formulation: Formulation, material: &Material) -> String {
+    let law = material.name();
+    let LameConstants { lambda, shear } = material.lame_constants();
+    let formulation = match formulation {
         Formulation::Standard => "",
         Formulation::MeanDilatation => " with mean dilatation",
         Formulation::AssumedStrain => " with assumed strain",
     };
-    format!(
-        "  body `{}`: {} nodes, {} elements{formulation}; {law}, lambda = {lambda:.6e}, G = {shear:.6e}",
-        body.name,
-        body.mesh.positions.len(),
-        body.mesh.element_count(),
-    )
+    format!("{formulation}; {law}, lambda = {lambda:.6e}, G = {shear:.6e}")
 }
 
 fn rigid_line(rigid: &RigidSurface) -> String {

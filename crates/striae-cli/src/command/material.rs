@@ -11,7 +11,7 @@ use striae::{
     figures::material::{Test, figure},
 };
 use striae_deck as deck;
-use striae_law::bulk::LameConstants;
+use striae_law::bulk::{LameConstants, Material};
 use striae_solve::model::Body;
 
 use super::law::make_folder;
@@ -43,34 +43,74 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
         return Ok(());
     }
     make_folder(&folder)?;
-    for (at, body) in model.bodies.iter().enumerate() {
-        let same = |other: &&Body| other.material == body.material;
-        match model.bodies[..at].iter().find(same) {
-            Some(other) => writeln!(out, "body `{}`: as body `{}`", body.name, other.name)?,
-            None => show(body, arguments, &folder, out)?,
+    let shown: Vec<Shown> = model.bodies.iter().flat_map(Shown::of).collect();
+    for (at, one) in shown.iter().enumerate() {
+        let same = |other: &&Shown| other.material == one.material;
+        match shown[..at].iter().find(same) {
+            Some(other) => writeln!(out, "{}: as {}", one.name, other.name)?,
+            None => show(one, arguments, &folder, out)?,
         }
     }
     Ok(())
 }
 
+/// A material and where it is.
+struct Shown<'m> {
+    /// The body or section.
+    name: String,
+    /// Name of the file of its figure.
+    file: String,
+    material: &'m Material,
+}
+
+impl<'m> Shown<'m> {
+    /// The materials of a body that elements are of.
+    fn of(body: &'m Body) -> Vec<Self> {
+        let shown = |section: usize| {
+            let (name, file) = match section.checked_sub(1) {
+                None => (format!("body `{}`", body.name), body.name.clone()),
+                Some(at) => {
+                    let set = &body.sections[at].set;
+                    let name = format!("section `{set}` of body `{}`", body.name);
+                    (name, format!("{}-{section}", body.name))
+                }
+            };
+            Self {
+                name,
+                file: format!("material-{file}"),
+                material: body.material_of(section),
+            }
+        };
+        body.used_sections().into_iter().map(shown).collect()
+    }
+}
+
 fn show(
-    body: &Body,
+    shown: &Shown,
     arguments: &Arguments,
     folder: &Path,
     out: &mut dyn Write,
 ) -> Result<(), Failure> {
-    let constants = body.material.lame_constants();
+    let material = shown.material;
+    let constants = material.lame_constants();
     let LameConstants { lambda, shear } = constants;
     writeln!(
         out,
-        "body `{}`: {}; at rest E = {:.6e}, nu = {:.6}, G = {shear:.6e}, K = {:.6e}",
-        body.name,
-        body.material.name(),
+        "{}: {}; at rest E = {:.6e}, nu = {:.6}, G = {shear:.6e}, K = {:.6e}",
+        shown.name,
+        material.name(),
         constants.youngs_modulus(),
         constants.poissons_ratio(),
         lambda + 2.0 / 3.0 * shear,
     )?;
-    let tests = Test::all(&body.material, arguments.from, arguments.to);
+    if !material.fibres().is_empty() {
+        writeln!(
+            out,
+            "  without its {} families of fibres, whose directions are those of the body:",
+            material.fibres().len()
+        )?;
+    }
+    let tests = Test::all(material.without_fibres(), arguments.from, arguments.to);
     writeln!(
         out,
         "  test         stretch from        to  nominal stress from            to  stable from        to"
@@ -89,9 +129,8 @@ fn show(
             last.nominal,
         )?;
     }
-    let file = format!("material-{}", body.name);
-    figure(body.material.name(), &tests).write(folder, &file)?;
-    let file = folder.join(file);
+    figure(material.name(), &tests).write(folder, &shown.file)?;
+    let file = folder.join(&shown.file);
     writeln!(out, "wrote {}.svg, .png and .csv", file.display())?;
     Ok(())
 }

@@ -1,13 +1,13 @@
 //! Materials and bodies.
 
-use super::{list, material, mesh, sets};
+use super::{list, material, mesh, sections, sets};
 use crate::{faults::FaultList, names::Names, raw, read::At, value::Text};
 use std::path::Path;
 use striae_law::bulk::Material;
 use striae_mesh::{Face, Mesh, NodeId};
 use striae_meshfile::{Asked, Reading};
 use striae_model::DraftBody;
-use striae_solve::model::{Body, BodyId, ContactMass, Formulation};
+use striae_solve::model::{Body, BodyId, BodySection, ContactMass, Formulation};
 
 /// All materials of the deck.
 pub(super) struct Materials {
@@ -30,6 +30,7 @@ struct RawBody {
     material: Option<Material>,
     density: Option<f64>,
     formulation: Option<Formulation>,
+    sections: Vec<BodySection>,
     contact_mass: ContactMass,
 }
 
@@ -56,7 +57,11 @@ impl Materials {
     }
 
     /// The material of that name, if it is sound, and its density, if it has one.
-    fn find(&self, name: &At<Text>, faults: &mut FaultList<'_>) -> (Option<Material>, Option<f64>) {
+    pub(super) fn find(
+        &self,
+        name: &At<Text>,
+        faults: &mut FaultList<'_>,
+    ) -> (Option<Material>, Option<f64>) {
         match self.names.find(name, faults) {
             Some(at) => (self.materials[at].clone(), self.densities[at]),
             None => (None, None),
@@ -107,7 +112,8 @@ impl Bodies {
         let bodies = self.bodies.iter().map(|body| DraftBody {
             name: &body.name,
             mesh: body.mesh.as_ref(),
-            density: body.density.unwrap_or(0.0),
+            sections: &body.sections,
+            density: body.own_density(),
         });
         bodies.collect()
     }
@@ -159,7 +165,9 @@ impl Bodies {
         self.bodies
             .into_iter()
             .map(|body| {
-                let material = body.material?;
+                // Without one of its own, no element is of it.
+                let first = || body.sections.first().map(|of| of.material.clone());
+                let material = body.material.clone().or_else(first)?;
                 let suited = Formulation::suited_to(&material);
                 Some(Body {
                     name: body.name,
@@ -168,10 +176,31 @@ impl Bodies {
                     material,
                     density: body.density.unwrap_or(0.0),
                     contact_mass: body.contact_mass,
+                    sections: body.sections,
                 })
             })
             .collect()
     }
+}
+
+impl RawBody {
+    /// Density of its own material; zero if there is none, `None` without that material.
+    fn own_density(&self) -> Option<f64> {
+        let sections = self.sections.iter();
+        let covered: usize = sections.map(|of| of.elements.len()).sum();
+        let whole = self.mesh.as_ref().map(Mesh::element_count);
+        let density = self.density.unwrap_or(0.0);
+        (whole != Some(covered)).then_some(density)
+    }
+}
+
+/// How elements take up strain, where that is stated.
+pub(super) fn formulation(stated: &Option<At<raw::Formulation>>) -> Option<Formulation> {
+    stated.as_ref().map(|word| match word.value {
+        raw::Formulation::Standard => Formulation::Standard,
+        raw::Formulation::MeanDilatation => Formulation::MeanDilatation,
+        raw::Formulation::AssumedStrain => Formulation::AssumedStrain,
+    })
 }
 
 fn lower_body(
@@ -198,23 +227,29 @@ fn lower_body(
     if let Some(mesh) = &mut mesh {
         sets::add_node_sets(mesh, &name, list(&raw.node_sets), faults);
         sets::add_facet_sets(mesh, &name, list(&raw.facet_sets), faults);
+        sets::add_element_sets(mesh, &name, list(&raw.element_sets), faults);
     }
-    let stated = raw.formulation.as_ref().map(|word| match word.value {
-        raw::Formulation::Standard => Formulation::Standard,
-        raw::Formulation::MeanDilatation => Formulation::MeanDilatation,
-        raw::Formulation::AssumedStrain => Formulation::AssumedStrain,
-    });
     let asked = asked.map(|asked| match asked {
         Asked::MeanDilatation => Formulation::MeanDilatation,
         Asked::AssumedStrain => Formulation::AssumedStrain,
     });
+    let sections = mesh.as_ref().map_or_else(Vec::new, |mesh| {
+        let sections = sections::Sections {
+            materials,
+            asked,
+            mesh,
+            body: &name,
+        };
+        sections.lowered(raw, faults)
+    });
     RawBody {
+        sections,
         name,
         mesh,
         notes,
         material,
         density,
-        formulation: stated.or(asked),
+        formulation: formulation(&raw.formulation).or(asked),
         contact_mass: match raw.contact_mass.as_ref().map(|mass| mass.value) {
             None | Some(raw::ContactMass::Consistent) => ContactMass::Consistent,
             Some(raw::ContactMass::Redistributed) => ContactMass::Redistributed,

@@ -1,5 +1,6 @@
 //! Bulk materials.
 
+use super::fibres::with_fibres;
 use crate::{
     faults::{FaultList, Span},
     raw,
@@ -17,6 +18,15 @@ pub(super) fn material(
     span: &Span,
     faults: &mut FaultList<'_>,
 ) -> Option<Material> {
+    let ground = ground(raw, span, faults)?;
+    match &raw.fibres {
+        Some(fibres) => with_fibres(ground, fibres, faults),
+        None => Some(ground),
+    }
+}
+
+/// A material without its fibres.
+fn ground(raw: &raw::Material, span: &Span, faults: &mut FaultList<'_>) -> Option<Material> {
     let law = raw.law.as_ref()?;
     match law {
         raw::BulkLaw::NeoHookean(law) => {
@@ -48,7 +58,7 @@ pub(super) fn material(
 }
 
 /// What was made, or `None` after the reason why not has been noted.
-fn admissible<T, E: ToString>(
+pub(super) fn admissible<T, E: ToString>(
     made: Result<T, E>,
     span: &Span,
     faults: &mut FaultList<'_>,

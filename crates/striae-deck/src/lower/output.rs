@@ -85,6 +85,8 @@ fn body_field(raw: raw::BodyField) -> BodyField {
         raw::BodyField::PrincipalStrainDirections => BodyField::PrincipalStrainDirections,
         raw::BodyField::StrainEnergyDensity => BodyField::StrainEnergyDensity,
         raw::BodyField::HistoryVariables => BodyField::HistoryVariables,
+        raw::BodyField::Section => BodyField::Section,
+        raw::BodyField::Fibres => BodyField::Fibres,
     }
 }
 

@@ -35,9 +35,9 @@ pub(super) fn span(path: &Path, raw: &raw::Simulation, steps: &[StepSpans]) -> S
             let rigid = list(&raw.rigid).get(*index);
             rigid.map(|rigid| rigid.span.clone())
         }
-        [Field("bodies"), Index(index), ..] => {
+        [Field("bodies"), Index(index), rest @ ..] => {
             let body = list(&raw.body).get(*index);
-            body.map(|body| body.span.clone())
+            body.map(|body| of_body(body, rest))
         }
         _ => None,
     };
@@ -57,6 +57,15 @@ pub(super) fn released_set(
     let mut releases = releases.filter(|release| release.span == span);
     let set = releases.next()?.value.nodes.as_ref()?;
     Some(set.value.0.clone())
+}
+
+fn of_body(body: &At<raw::Body>, rest: &[Segment]) -> Span {
+    use Segment::{Field, Index};
+    let found = match rest {
+        [Field("sections"), Index(index), ..] => list(&body.value.sections).get(*index),
+        _ => None,
+    };
+    found.map_or(&body.span, |section| &section.span).clone()
 }
 
 fn of_step(step: &StepSpans, rest: &[Segment]) -> Span {

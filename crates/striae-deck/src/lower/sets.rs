@@ -1,11 +1,11 @@
-//! Sets of nodes and facets that a deck makes besides those of the mesh.
+//! Sets of nodes, facets and elements that a deck makes besides those of the mesh.
 
 use crate::{
     fault::FaultKind,
     faults::FaultList,
     raw,
     read::At,
-    value::{Number, Text, vector},
+    value::{All, Number, Text, Whole, vector},
 };
 use std::collections::BTreeSet;
 use striae_mesh::{ElementId, Face, Mesh, NodeId, Sets, Vec3};
@@ -92,6 +92,42 @@ pub(super) fn add_facet_sets(
     }
 }
 
+/// Adds the element sets of a body to its mesh, in their order.
+pub(super) fn add_element_sets(
+    mesh: &mut Mesh,
+    body: &str,
+    raw: &[At<raw::ElementSet>],
+    faults: &mut FaultList<'_>,
+) {
+    for At { value: raw, .. } in raw {
+        let (Some(name), Some(members)) = (&raw.name, &raw.members) else {
+            continue;
+        };
+        let members = match members {
+            raw::ElementMembers::Union(raw) => {
+                union("element", &mesh.element_sets, body, raw, faults)
+            }
+            raw::ElementMembers::Box(raw) => region(&raw.from, &raw.to).map(|inside| {
+                let is_inside = |node: &NodeId| inside(&mesh.positions[node.index()]);
+                let elements = mesh.elements().enumerate();
+                let elements = elements.filter(|(_, corners)| corners.iter().all(is_inside));
+                elements.map(|(index, _)| ElementId::new(index)).collect()
+            }),
+            raw::ElementMembers::Listed(raw) => listed_elements(mesh, body, raw, faults),
+        };
+        if let Some(members) = members {
+            insert(
+                "element",
+                &mut mesh.element_sets,
+                body,
+                name,
+                members,
+                faults,
+            );
+        }
+    }
+}
+
 /// The members of the set of that name, or `None` after a fault.
 pub(super) fn members<T: Ord + Copy>(
     kind: &'static str,
@@ -170,15 +206,38 @@ fn listed_nodes(
     raw: &raw::ListedNodes,
     faults: &mut FaultList<'_>,
 ) -> Option<Vec<NodeId>> {
-    let numbers = raw.numbers.as_ref()?;
-    let nodes = numbers.value.0.iter().map(|number| number.0);
-    let (count, largest) = (mesh.positions.len(), nodes.clone().max().unwrap_or(0));
+    let nodes = listed("node", mesh.positions.len(), body, &raw.numbers, faults)?;
+    Some(nodes.map(NodeId::new).collect())
+}
+
+/// Elements by number.
+fn listed_elements(
+    mesh: &Mesh,
+    body: &str,
+    raw: &raw::ListedElements,
+    faults: &mut FaultList<'_>,
+) -> Option<Vec<ElementId>> {
+    let elements = listed("element", mesh.element_count(), body, &raw.numbers, faults)?;
+    Some(elements.map(ElementId::new).collect())
+}
+
+/// Numbers of what there are so many of.
+fn listed<'r>(
+    kind: &'static str,
+    count: usize,
+    body: &str,
+    numbers: &'r Option<At<All<Whole<0>>>>,
+    faults: &mut FaultList<'_>,
+) -> Option<impl Iterator<Item = usize> + use<'r>> {
+    let numbers = numbers.as_ref()?;
+    let members = numbers.value.0.iter().map(|number| number.0);
+    let largest = members.clone().max().unwrap_or(0);
     if largest >= count {
-        let cause = format!("there is no node {largest}: it has nodes: {count}, from 0");
+        let cause = format!("there is no {kind} {largest}: it has {kind}s: {count}, from 0");
         faults.push(&numbers.span, unknown_member(body, cause));
         return None;
     }
-    Some(nodes.map(NodeId::new).collect())
+    Some(members)
 }
 
 /// Sides of elements by number.

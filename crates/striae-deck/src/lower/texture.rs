@@ -92,7 +92,8 @@ fn points(raw: &raw::PointTexture, faults: &mut FaultList<'_>) -> Option<Paint> 
     (directions.len() == points.len()).then_some(Paint::Points { directions, width })
 }
 
-fn axis(raw: &At<raw::Axis>, faults: &mut FaultList<'_>) -> Option<Axis> {
+/// An axis in space.
+pub(super) fn axis(raw: &At<raw::Axis>, faults: &mut FaultList<'_>) -> Option<Axis> {
     Some(Axis {
         point: raw
             .value
@@ -107,6 +108,7 @@ fn axis(raw: &At<raw::Axis>, faults: &mut FaultList<'_>) -> Option<Axis> {
     })
 }
 
-fn degrees(raw: &Option<At<Number>>) -> f64 {
+/// An angle, 0 where none is stated.
+pub(super) fn degrees(raw: &Option<At<Number>>) -> f64 {
     raw.as_ref().map_or(0.0, |angle| angle.value.0)
 }

@@ -2,7 +2,7 @@
 
 use super::{
     super::declare::{either, table, words},
-    FacetSet, Mesh, NodeSet,
+    ElementSet, FacetSet, Mesh, NodeSet,
 };
 use crate::{
     read::At,
@@ -14,11 +14,13 @@ table! {
     Body {
         /// Unique name.
         required name: Text,
-        /// Name of its material.
-        required material: Text,
+        /// Name of its material, where no section is. Default: none; then every element must be in a section.
+        optional material: Text,
         /// Its mesh, read from a file or generated.
         required mesh: Mesh,
-        /// How its elements take up strain. Default: what elements of Abaqus with an `H` (`mean-dilatation`) or `I` (`assumed-strain`) ask for, `mean-dilatation` where Poisson's ratio is above 0.45 or the material yields, else `standard`.
+        /// Parts of other materials.
+        optional sections: Vec<At<BodySection>>,
+        /// How its elements, but for those of sections, take up strain. Default: what elements of Abaqus with an `H` (`mean-dilatation`) or `I` (`assumed-strain`) ask for, `mean-dilatation` where Poisson's ratio is above 0.45 or the material yields, else `standard`.
         optional formulation: Formulation,
         /// Mass of the nodes of its contact surfaces in dynamic steps. Default: `consistent`.
         optional contact_mass: ContactMass,
@@ -26,6 +28,20 @@ table! {
         optional node_sets: Vec<At<NodeSet>>,
         /// More sets of facets.
         optional facet_sets: Vec<At<FacetSet>>,
+        /// More sets of elements.
+        optional element_sets: Vec<At<ElementSet>>,
+    }
+}
+
+table! {
+    /// Elements of a body that are of a material of their own.
+    BodySection {
+        /// Name of the element set; no element is in two sections.
+        required elements: Text,
+        /// Name of their material.
+        required material: Text,
+        /// How they take up strain. Default: what elements of Abaqus with an `H` or `I` ask for, else what suits their material, as for bodies.
+        optional formulation: Formulation,
     }
 }
 

@@ -1,6 +1,7 @@
 //! `[[material]]`.
 
 use super::super::declare::{choice, either, table, words};
+use super::Fibres;
 use crate::{
     read::At,
     value::{NonNegative, Number, PoissonsRatio, Positive, Text},
@@ -13,6 +14,8 @@ table! {
         required name: Text,
         /// Mass per volume at rest. Needed where there is inertia or gravity.
         optional density: Positive,
+        /// Families of fibres in a neo-Hookean solid or in rubber that does not relax. Default: none.
+        optional fibres: Vec<At<Fibres>>,
         /// Law and elastic constants.
         include law: BulkLaw,
     }

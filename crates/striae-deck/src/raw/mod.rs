@@ -6,6 +6,7 @@
 
 mod body;
 mod contact;
+mod fibres;
 mod material;
 mod mesh;
 mod sets;
@@ -15,7 +16,7 @@ mod texture;
 
 use super::{declare::table, read::At};
 pub(crate) use {
-    body::*, contact::*, material::*, mesh::*, sets::*, settings::*, step::*, texture::*,
+    body::*, contact::*, fibres::*, material::*, mesh::*, sets::*, settings::*, step::*, texture::*,
 };
 
 use super::value::Text;

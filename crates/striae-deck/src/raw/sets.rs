@@ -1,4 +1,4 @@
-//! `node_sets` and `facet_sets` of a body.
+//! `node_sets`, `facet_sets` and `element_sets` of a body.
 
 use crate::{
     declare::{either, table},
@@ -105,5 +105,42 @@ table! {
     ListedFacets {
         /// Element and side of each facet, counted from 0; sides in the order of Abaqus.
         required sides: Vec<At<[Whole<0>; 2]>>,
+    }
+}
+
+table! {
+    /// A set of elements besides those of the mesh.
+    ElementSet {
+        /// Name that no other element set of the body has.
+        required name: Text,
+        /// Its members.
+        include members: ElementMembers,
+    }
+}
+
+either! {
+    /// Members of an element set.
+    ElementMembers {
+        Union(SetUnion),
+        Box(ElementsInBox),
+        Listed(ListedElements),
+    }
+}
+
+table! {
+    /// The elements that lie in a box along the axes with all their corners.
+    ElementsInBox {
+        /// Corner of smallest coordinates.
+        required from: [Number; 3],
+        /// Corner of largest coordinates.
+        required to: [Number; 3],
+    }
+}
+
+table! {
+    /// Elements by number.
+    ListedElements {
+        /// Numbers of the elements, counted from 0 in the order of the mesh.
+        required numbers: All<Whole<0>>,
     }
 }

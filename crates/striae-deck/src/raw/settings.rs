@@ -55,6 +55,10 @@ words! {
         StrainEnergyDensity = "strain-energy-density",
         /// Named variables of materials with a memory, by element.
         HistoryVariables = "history-variables",
+        /// Unit vectors along the families of fibres of each element. Of bodies with fibres.
+        Fibres = "fibres",
+        /// Number of the section of each element, in the order of `sections` from 1; 0 where it is of the body's own material. Of bodies with sections.
+        Section = "section",
     }
 }
 

@@ -2,12 +2,13 @@
 
 use striae_law::{
     bulk::{
-        Branch, Hardening, HardeningForm, Hyperelastic, Isochoric, Material, OgdenTerm, Volumetric,
+        Branch, Direction, FibreStiffness, Fibres, Hardening, HardeningForm, Hyperelastic,
+        Isochoric, LinesAbout, Material, OgdenTerm, Volumetric,
     },
     friction::{Friction, Law, SlipRule},
 };
 
-use super::value::{degrees, list, number, read_as};
+use super::value::{degrees, list, number, read_as, vector};
 
 /// The keys of a friction table in braces; `None` for a law of one's own.
 pub(super) fn friction(friction: &Friction) -> Option<String> {
@@ -64,8 +65,8 @@ pub(super) fn friction_keys(friction: &Friction) -> Option<String> {
 }
 
 /// Lines of a material but for its name; `None` for a law of one's own.
-pub(super) fn material(material: &Material) -> Option<String> {
-    match material {
+pub(super) fn material(of: &Material) -> Option<String> {
+    match of {
         Material::NeoHookean {
             lambda,
             shear,
@@ -92,8 +93,38 @@ pub(super) fn material(material: &Material) -> Option<String> {
             let constants = [("lambda", of.lambda), ("shear_modulus", of.shear)];
             Some(stated("elastic-plastic", &constants) + &hardening(law.hardening()))
         }
+        Material::Fibrous(law) => {
+            let families = list(law.families().iter().map(fibres));
+            Some(material(law.ground())? + &format!("fibres = {families}\n"))
+        }
         Material::Own(_) => None,
     }
+}
+
+fn fibres(family: &Fibres) -> String {
+    let stiffness = match family.stiffness {
+        FibreStiffness::Exponential { k1, k2, dispersion } => {
+            let [k1, k2, dispersion] = [k1, k2, dispersion].map(number);
+            format!("k1 = {k1}, k2 = {k2}, dispersion = {dispersion}")
+        }
+        FibreStiffness::Linear { modulus } => format!("modulus = {}", number(modulus)),
+    };
+    let direction = match &family.direction {
+        Direction::Uniform(direction) => format!("uniform = {}", vector(direction)),
+        Direction::About { point, axis, lines } => {
+            let (point, direction) = (vector(point), vector(axis));
+            let axis = format!("{{ point = {point}, direction = {direction} }}");
+            let turned = |turn: f64| format!(", turn = {}", number(degrees(turn)));
+            match *lines {
+                LinesAbout::Axial { turn } => format!("axial = {axis}{}", turned(turn)),
+                LinesAbout::Circumferential { turn } => {
+                    format!("circumferential = {axis}{}", turned(turn))
+                }
+                LinesAbout::Radial => format!("radial = {axis}"),
+            }
+        }
+    };
+    format!("{{ {stiffness}, direction = {{ {direction} }} }}")
 }
 
 /// The name of a law and constants of it.

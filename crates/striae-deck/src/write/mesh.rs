@@ -1,6 +1,7 @@
 //! Bodies: meshes with their sets, and materials.
 
-use striae_mesh::{Face, Mesh, NodeId, Sets};
+use striae_law::bulk::Material;
+use striae_mesh::{ElementId, Face, Mesh, NodeId, Sets};
 use striae_solve::model::{BodyId, ContactMass, Formulation, Model};
 
 use super::value::{list, number, text, vector};
@@ -12,6 +13,7 @@ pub(super) struct Meshes<'m> {
     /// One for each body.
     nodes: Vec<Sets<NodeId>>,
     facets: Vec<Sets<Face>>,
+    elements: Vec<Sets<ElementId>>,
 }
 
 impl<'m> Meshes<'m> {
@@ -21,6 +23,7 @@ impl<'m> Meshes<'m> {
             model,
             nodes: vec![Sets::default(); count],
             facets: vec![Sets::default(); count],
+            elements: vec![Sets::default(); count],
         }
     }
 
@@ -34,6 +37,12 @@ impl<'m> Meshes<'m> {
     pub(super) fn facets(&mut self, body: BodyId, preferred: &str, members: &[Face]) -> String {
         let known = &self.model.bodies[body.0].mesh.facet_sets;
         name(known, &mut self.facets[body.0], preferred, members)
+    }
+
+    /// Name of the set of these elements, if it may be `preferred`.
+    fn elements(&mut self, body: BodyId, preferred: &str, members: &[ElementId]) -> String {
+        let known = &self.model.bodies[body.0].mesh.element_sets;
+        name(known, &mut self.elements[body.0], preferred, members)
     }
 }
 
@@ -62,32 +71,25 @@ fn name<T: Ord + Copy>(
 }
 
 impl Writer<'_> {
-    /// A body and its material.
+    /// A body and its materials.
     pub(super) fn body(&mut self, at: usize) -> String {
         let body = &self.model.bodies[at];
-        let Some(material) = law::material(&body.material) else {
-            let part = format!("body `{}`", body.name);
-            self.refuse(part, "its material is a law of one's own");
+        let name = text(&body.name);
+        let Some(own) = self.material(at, &body.name, &body.material, body.density) else {
             return String::new();
         };
-        let (name, formulation) = (text(&body.name), body.formulation);
-        let formulation = match formulation {
-            Formulation::Standard => "standard",
-            Formulation::MeanDilatation => "mean-dilatation",
-            Formulation::AssumedStrain => "assumed-strain",
+        let Some((others, sections)) = self.sections(at) else {
+            return String::new();
         };
+        let formulation = formulation(body.formulation);
         let mass = match body.contact_mass {
             ContactMass::Consistent => "consistent",
             ContactMass::Redistributed => "redistributed",
         };
-        let density = match body.density {
-            0.0 => String::new(),
-            density => format!("density = {}\n", number(density)),
-        };
         format!(
-            "\n[[material]]\nname = {name}\n{density}{material}\n[[body]]\nname = {name}\n\
+            "{own}{others}\n[[body]]\nname = {name}\n\
              material = {name}\nformulation = \"{formulation}\"\ncontact_mass = \"{mass}\"\n\
-             mesh = {}\nnode_sets = {}\nfacet_sets = {}\n",
+             {sections}mesh = {}\nnode_sets = {}\nfacet_sets = {}\nelement_sets = {}\n",
             mesh(&body.mesh),
             sets(
                 "numbers",
@@ -99,7 +101,67 @@ impl Writer<'_> {
                 &[&body.mesh.facet_sets, &self.meshes.facets[at]],
                 |face| { format!("[{}, {}]", face.element.0, face.side) }
             ),
+            sets(
+                "numbers",
+                &[&body.mesh.element_sets, &self.meshes.elements[at]],
+                |element| { element.0.to_string() }
+            ),
         )
+    }
+
+    /// A material of a body.
+    fn material(
+        &mut self,
+        body: usize,
+        name: &str,
+        material: &Material,
+        density: f64,
+    ) -> Option<String> {
+        let Some(lines) = law::material(material) else {
+            let part = format!("body `{}`", self.model.bodies[body].name);
+            self.refuse(part, "its material is a law of one's own");
+            return None;
+        };
+        let density = match density {
+            0.0 => String::new(),
+            density => format!("density = {}\n", number(density)),
+        };
+        let name = text(name);
+        Some(format!("\n[[material]]\nname = {name}\n{density}{lines}"))
+    }
+
+    /// Materials of the sections of a body, and the sections.
+    fn sections(&mut self, at: usize) -> Option<(String, String)> {
+        let body = &self.model.bodies[at];
+        let (mut materials, mut sections) = (String::new(), Vec::new());
+        let taken = |name: &String| self.model.bodies.iter().any(|body| body.name == *name);
+        let names = (1..).map(|number: usize| format!("{}-{number}", body.name));
+        let names: Vec<String> = (names.filter(|name| !taken(name)))
+            .take(body.sections.len())
+            .collect();
+        for (section, name) in body.sections.iter().zip(names) {
+            materials += &self.material(at, &name, &section.material, section.density)?;
+            let elements = &section.elements;
+            let set = self.meshes.elements(BodyId(at), &section.set, elements);
+            let (set, name) = (text(&set), text(&name));
+            let formulation = formulation(section.formulation);
+            sections.push(format!(
+                "{{ elements = {set}, material = {name}, formulation = \"{formulation}\" }}"
+            ));
+        }
+        let sections = match sections.len() {
+            0 => String::new(),
+            _ => format!("sections = {}\n", lines(sections.into_iter())),
+        };
+        Some((materials, sections))
+    }
+}
+
+fn formulation(formulation: Formulation) -> &'static str {
+    match formulation {
+        Formulation::Standard => "standard",
+        Formulation::MeanDilatation => "mean-dilatation",
+        Formulation::AssumedStrain => "assumed-strain",
     }
 }
 

@@ -54,6 +54,8 @@ fn word(field: BodyField) -> &'static str {
         BodyField::PrincipalStrainDirections => "principal-strain-directions",
         BodyField::StrainEnergyDensity => "strain-energy-density",
         BodyField::HistoryVariables => "history-variables",
+        BodyField::Section => "section",
+        BodyField::Fibres => "fibres",
     }
 }
 

@@ -9,7 +9,7 @@
 
 use std::fmt;
 
-use nalgebra::{DMatrix, DVector, Matrix3};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use striae_verify::derivative::directional;
 use striae_verify::{Difference, Random};
 
@@ -145,7 +145,7 @@ impl<'a> Point<'a> {
     fn led(material: &'a Material, random: &mut Random) -> Result<Self, Violation> {
         let mut point = Self {
             material,
-            variables: vec![0.0; material.variables()],
+            variables: material.rest(&Vector3::zeros()),
         };
         if !point.variables.is_empty() {
             for _ in 0..INCREMENTS {
@@ -209,7 +209,7 @@ impl<'a> Point<'a> {
                 |(response, _)| components(&response.first_piola),
             )
         };
-        if self.variables.is_empty() {
+        if self.material.is_elastic() {
             let slope = components(&response.first_piola).dot(&direction);
             let slope = DVector::from_element(1, slope);
             directional(Difference::Central, energy, &slope, &x, &direction)

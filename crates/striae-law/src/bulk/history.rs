@@ -4,7 +4,8 @@
 //! (P, A, new) = response(F, old, dt)
 //! ```
 //!
-//! A point has a fixed number of variables, all zero in a mesh that has not been deformed.
+//! A point has a fixed number of variables, all zero in a mesh that has not been deformed; those
+//! of fibres are directions, which stay.
 //! `A = dP/dF` is taken at fixed old variables, so that Newton's method converges
 //! quadratically. A law that forgets has no variables, and nothing of this concerns it.
 

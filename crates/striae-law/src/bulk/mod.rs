@@ -18,6 +18,8 @@
 
 mod analysis;
 mod battery;
+mod direction;
+mod fibrous;
 mod hardening;
 mod history;
 mod hyperelastic;
@@ -36,6 +38,8 @@ mod volumetric;
 
 pub use analysis::{Mode, TestState};
 pub use battery::{Violation, battery};
+pub use direction::{Direction, LinesAbout};
+pub use fibrous::{FibreStiffness, Fibres, Fibrous, InadmissibleFibres};
 pub use hardening::{Hardening, HardeningForm, InadmissibleHardening};
 pub use history::{Field, Past, Present};
 pub use hyperelastic::{Hyperelastic, InadmissibleHyperelastic, Isochoric};
@@ -46,7 +50,7 @@ pub use plastic::Plastic;
 pub use viscoelastic::{Branch, InadmissibleBranch, Viscoelastic};
 pub use volumetric::Volumetric;
 
-use nalgebra::{Matrix3, SMatrix};
+use nalgebra::{Matrix3, SMatrix, Vector3};
 
 /// First elasticity tensor `dP/dF`; row and column `3 i + J` for `F_iJ`.
 pub type Tangent = SMatrix<f64, 9, 9>;
@@ -76,6 +80,8 @@ pub enum Material {
     Viscoelastic(Viscoelastic),
     /// Metal that yields.
     Plastic(Plastic),
+    /// Families of fibres in one of the elastic solids.
+    Fibrous(Fibrous),
     /// A law from outside the crate.
     Own(Own),
 }
@@ -104,6 +110,14 @@ pub enum ResponseError {
     #[error("the invariant I1 - 3 is {strain:.6e}, the law ends at {limit:.6e}")]
     Overstretched {
         /// `I1 - 3` of the isochoric deformation.
+        strain: f64,
+        /// The limit of the law.
+        limit: f64,
+    },
+    /// Fibres are stretched beyond all measure.
+    #[error("the strain of fibres is {strain:.6e}, the law ends at {limit:.6e}")]
+    OverstretchedFibres {
+        /// Their strain `E`.
         strain: f64,
         /// The limit of the law.
         limit: f64,
@@ -145,6 +159,7 @@ impl Material {
             Self::Hyperelastic(law) => law.isochoric().name(),
             Self::Viscoelastic(_) => "viscoelastic",
             Self::Plastic(_) => "elastic-plastic",
+            Self::Fibrous(_) => "fibre-reinforced",
             Self::Own(own) => own.law().name(),
         }
     }
@@ -154,9 +169,40 @@ impl Material {
         match self {
             Self::Viscoelastic(law) => law.variables(),
             Self::Plastic(law) => law.variables(),
+            Self::Fibrous(law) => law.variables(),
             Self::Own(own) => own.law().variables(),
             _ => 0,
         }
+    }
+
+    /// The variables of a point at rest at a place of the body: directions of fibres, else
+    /// zeros.
+    pub fn rest(&self, place: &Vector3<f64>) -> Vec<f64> {
+        match self {
+            Self::Fibrous(law) => law.rest(place),
+            _ => vec![0.0; self.variables()],
+        }
+    }
+
+    /// The families of fibres.
+    pub fn fibres(&self) -> &[Fibres] {
+        match self {
+            Self::Fibrous(law) => law.families(),
+            _ => &[],
+        }
+    }
+
+    /// The material without its fibres.
+    pub fn without_fibres(&self) -> &Self {
+        match self {
+            Self::Fibrous(law) => law.ground(),
+            _ => self,
+        }
+    }
+
+    /// Whether all stress comes from an energy.
+    fn is_elastic(&self) -> bool {
+        self.variables() == 0 || matches!(self, Self::Fibrous(_))
     }
 
     /// Variables that are written with the results.
@@ -183,13 +229,14 @@ impl Material {
         match self {
             Self::Viscoelastic(law) => law.respond(deformation_gradient, past, present),
             Self::Plastic(law) => law.respond(deformation_gradient, past, present),
+            Self::Fibrous(law) => law.respond(deformation_gradient, past, present),
             Self::Own(own) => own.law().respond(deformation_gradient, past, present),
             _ => self.response(deformation_gradient),
         }
     }
 
     /// Energy, stress and tangent at the deformation gradient `F`; of a law with a memory
-    /// what a point at rest answers at once.
+    /// what a point at rest answers at once, and with fibres a point at the origin.
     ///
     /// # Errors
     ///
@@ -207,8 +254,8 @@ impl Material {
                 Ok(linear_elastic::response(*lambda, *shear, f))
             }
             Self::Hyperelastic(law) => law.response(f),
-            Self::Viscoelastic(_) | Self::Plastic(_) => {
-                let rest = vec![0.0; self.variables()];
+            Self::Viscoelastic(_) | Self::Plastic(_) | Self::Fibrous(_) => {
+                let rest = self.rest(&Vector3::zeros());
                 let mut present = rest.clone();
                 let past = Past {
                     variables: &rest,
@@ -280,6 +327,7 @@ impl Material {
             Self::Hyperelastic(law) => law.lame_constants(),
             Self::Viscoelastic(law) => law.lame_constants(),
             Self::Plastic(law) => law.lame_constants(),
+            Self::Fibrous(law) => law.lame_constants(),
             Self::Own(own) => own.law().lame_constants(),
         }
     }

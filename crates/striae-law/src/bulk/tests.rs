@@ -10,6 +10,7 @@ const LAMBDA: f64 = 1.7;
 const SHEAR: f64 = 0.6;
 
 mod analysis;
+mod fibrous;
 mod memory;
 mod rubber;
 

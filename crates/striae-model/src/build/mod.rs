@@ -13,7 +13,10 @@ mod step;
 pub use extend::extended;
 pub use paint::{axial, circumferential, nodal, painted, radial, turned, uniform};
 pub use pair::{PairBuilder, SideBuilder, pair, rigid, surface};
-pub use parts::{BodyBuilder, RigidBuilder, body, plane, rigid_solid, rigid_surface, tied};
+pub use parts::{
+    BodyBuilder, RigidBuilder, SectionBuilder, body, composite, plane, rigid_solid, rigid_surface,
+    section, tied,
+};
 pub use step::{Component, Components, StepBuilder, equal_increments, step};
 
 use striae_solve::model::{Backend, Body, Model, Pair, RigidSurface, Solver, Strategy};
@@ -32,6 +35,8 @@ use step::{Prescribed, Resolved};
 pub struct ModelBuilder {
     title: String,
     bodies: Vec<Body>,
+    /// Of sections of bodies.
+    faults: Vec<Fault>,
     rigid: Vec<RigidBuilder>,
     pairs: Vec<PairBuilder>,
     steps: Vec<StepBuilder>,
@@ -43,6 +48,7 @@ pub fn model(title: impl Into<String>) -> ModelBuilder {
     ModelBuilder {
         title: title.into(),
         bodies: Vec::new(),
+        faults: Vec::new(),
         rigid: Vec::new(),
         pairs: Vec::new(),
         steps: Vec::new(),
@@ -64,7 +70,9 @@ pub fn solver() -> Solver {
 impl ModelBuilder {
     /// Adds a deformable body.
     pub fn body(mut self, body: BodyBuilder) -> Self {
-        self.bodies.push(body.body());
+        let (body, faults) = body.resolved(self.bodies.len());
+        self.bodies.push(body);
+        self.faults.extend(faults);
         self
     }
 
@@ -97,7 +105,7 @@ impl ModelBuilder {
     /// # Errors
     /// All faults: unknown names, everything [`Validate`] finds, meshes that overlap.
     pub fn build(self) -> Result<Model, Faults> {
-        let mut faults = Vec::new();
+        let mut faults = self.faults.clone();
         let rigid = self.rigid.iter().map(RigidBuilder::name).collect();
         let pairs = self.pairs.iter().map(PairBuilder::name).collect();
         let names = Names::new(&self.bodies, rigid, pairs);

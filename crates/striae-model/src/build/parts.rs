@@ -1,73 +1,175 @@
 //! Deformable and rigid bodies.
 
 use striae_law::bulk::Material;
-use striae_mesh::{Mesh, NodeId, Vec3};
+use striae_mesh::{ElementId, Mesh, NodeId, Vec3};
 use striae_solve::{
-    model::{Body, ContactMass, Formulation, RigidInertia, RigidShape, RigidSurface},
+    model::{Body, BodySection, ContactMass, Formulation, RigidInertia, RigidShape, RigidSurface},
     solid::{self, SolidError},
 };
 
 use super::lookup::Names;
-use crate::{fault::Fault, path::Path};
+use crate::{
+    fault::{Fault, FaultKind},
+    path::Path,
+};
 
 /// A deformable body; see [`body`].
 #[derive(Clone, Debug)]
-pub struct BodyBuilder(Body);
+pub struct BodyBuilder {
+    body: Body,
+    own_material: Own,
+    sections: Vec<SectionBuilder>,
+}
+
+/// Whether a body has a material besides those of its sections.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Own {
+    Given,
+    None,
+}
 
 /// A deformable body with the sets of its mesh, without density; elements of the
 /// formulation that [suits](Formulation::suited_to) the material.
 pub fn body(name: impl Into<String>, mesh: Mesh, material: Material) -> BodyBuilder {
-    BodyBuilder(Body {
+    let body = Body {
         name: name.into(),
         mesh,
         formulation: Formulation::suited_to(&material),
         material,
         density: 0.0,
         contact_mass: ContactMass::Consistent,
-    })
+        sections: Vec::new(),
+    };
+    BodyBuilder {
+        body,
+        own_material: Own::Given,
+        sections: Vec::new(),
+    }
 }
 
-impl BodyBuilder {
+/// A deformable body all of whose elements are in sections, of which this is the first.
+pub fn composite(name: impl Into<String>, mesh: Mesh, first: SectionBuilder) -> BodyBuilder {
+    let mut builder = body(name, mesh, first.section.material.clone());
+    builder.own_material = Own::None;
+    builder.section(first)
+}
+
+/// A part of a body that is of a material of its own; see [`section`].
+#[derive(Clone, Debug)]
+pub struct SectionBuilder {
+    section: BodySection,
+}
+
+/// The elements of a set of the mesh of a body, of a material of their own, without
+/// density; of the formulation that [suits](Formulation::suited_to) it.
+pub fn section(elements: impl Into<String>, material: Material) -> SectionBuilder {
+    let section = BodySection {
+        set: elements.into(),
+        elements: Vec::new(),
+        formulation: Formulation::suited_to(&material),
+        material,
+        density: 0.0,
+    };
+    SectionBuilder { section }
+}
+
+impl SectionBuilder {
     /// Mass per reference volume, for inertia and gravity.
     pub fn density(mut self, density: f64) -> Self {
-        self.0.density = density;
+        self.section.density = density;
         self
     }
 
     /// How its elements take up strain.
     pub fn formulation(mut self, formulation: Formulation) -> Self {
-        self.0.formulation = formulation;
+        self.section.formulation = formulation;
+        self
+    }
+}
+
+impl BodyBuilder {
+    /// Mass per reference volume, for inertia and gravity.
+    pub fn density(mut self, density: f64) -> Self {
+        self.body.density = density;
+        self
+    }
+
+    /// How its elements take up strain.
+    pub fn formulation(mut self, formulation: Formulation) -> Self {
+        self.body.formulation = formulation;
         self
     }
 
     /// What becomes of the mass of contact nodes.
     pub fn contact_mass(mut self, contact_mass: ContactMass) -> Self {
-        self.0.contact_mass = contact_mass;
+        self.body.contact_mass = contact_mass;
+        self
+    }
+
+    /// Adds a section: elements of a material of their own.
+    pub fn section(mut self, section: SectionBuilder) -> Self {
+        self.sections.push(section);
+        self
+    }
+
+    /// A set of the elements all of whose corners meet a condition at rest.
+    pub fn elements_where(mut self, set: impl Into<String>, holds: impl Fn(&Vec3) -> bool) -> Self {
+        let mesh = &mut self.body.mesh;
+        let inside = |corners: &[NodeId]| {
+            let mut corners = corners.iter();
+            corners.all(|node| holds(&mesh.positions[node.index()]))
+        };
+        let elements = mesh.elements().enumerate();
+        let elements = elements.filter(|(_, corners)| inside(corners));
+        let elements: Vec<_> = elements.map(|(at, _)| ElementId::new(at)).collect();
+        mesh.element_sets.insert(set, elements);
         self
     }
 
     /// A set of the nodes whose reference positions meet a condition.
     pub fn nodes_where(mut self, set: impl Into<String>, holds: impl Fn(&Vec3) -> bool) -> Self {
         let nodes = self.nodes_that(holds);
-        self.0.mesh.node_sets.insert(set, nodes);
+        self.body.mesh.node_sets.insert(set, nodes);
         self
     }
 
     /// A set of the boundary faces all of whose corners meet a condition at rest.
     pub fn facets_where(mut self, set: impl Into<String>, holds: impl Fn(&Vec3) -> bool) -> Self {
-        let faces = self.0.mesh.faces_of_nodes(&self.nodes_that(holds));
-        self.0.mesh.facet_sets.insert(set, faces);
+        let faces = self.body.mesh.faces_of_nodes(&self.nodes_that(holds));
+        self.body.mesh.facet_sets.insert(set, faces);
         self
     }
 
     fn nodes_that(&self, holds: impl Fn(&Vec3) -> bool) -> Vec<NodeId> {
-        let positions = self.0.mesh.positions.iter().enumerate();
+        let positions = self.body.mesh.positions.iter().enumerate();
         let chosen = positions.filter(|(_, position)| holds(position));
         chosen.map(|(node, _)| NodeId::new(node)).collect()
     }
 
-    pub(super) fn body(self) -> Body {
-        self.0
+    /// The body with its sections, and what is wrong with these.
+    pub(super) fn resolved(self, index: usize) -> (Body, Vec<Fault>) {
+        let (mut body, mut faults) = (self.body, Vec::new());
+        let path = || Path::part("bodies", index);
+        for (at, mut builder) in self.sections.into_iter().enumerate() {
+            let sets = &body.mesh.element_sets;
+            match FaultKind::members("element", sets, &body.name, &builder.section.set) {
+                Ok(elements) => {
+                    builder.section.elements = elements.to_vec();
+                    body.sections.push(builder.section);
+                }
+                Err(kind) => faults.push(Fault {
+                    path: path().field("sections").index(at),
+                    kind: *kind,
+                }),
+            }
+        }
+        if self.own_material == Own::None && faults.is_empty() {
+            let count = body.mesh.element_count();
+            let kind = FaultKind::no_material(&body.name, count, &body.sections);
+            let path = path().field("material");
+            faults.extend(kind.map(|kind| Fault { path, kind }));
+        }
+        (body, faults)
     }
 }
 

@@ -11,6 +11,7 @@ mod numbers;
 mod pairs;
 mod references;
 mod rigid;
+mod sections;
 mod steps;
 mod triangles;
 
@@ -19,7 +20,7 @@ pub use numbers::misshapen;
 use std::collections::{BTreeMap, BTreeSet};
 
 use striae_mesh::Mesh;
-use striae_solve::model::{Body, Model, Pair, RigidSurface, Step};
+use striae_solve::model::{Body, BodySection, Model, Pair, RigidSurface, Step};
 
 use crate::{
     fault::{Fault, FaultKind, Faults},
@@ -51,8 +52,10 @@ pub struct DraftBody<'a> {
     pub name: &'a str,
     /// Its mesh.
     pub mesh: Option<&'a Mesh>,
-    /// Its density, zero if there is none.
-    pub density: f64,
+    /// Its sections, as far as they are known.
+    pub sections: &'a [BodySection],
+    /// Density of its own material; zero if there is none, `None` where no element is of it.
+    pub density: Option<f64>,
 }
 
 /// A pair and whether its friction is known; without it only its sides are judged.
@@ -155,7 +158,8 @@ impl<'a> Draft<'a> {
         let bodies = bodies.iter().map(|body| DraftBody {
             name: &body.name,
             mesh: Some(&body.mesh),
-            density: body.density,
+            sections: &body.sections,
+            density: body.used_sections().contains(&0).then_some(body.density),
         });
         bodies.collect()
     }
@@ -168,6 +172,7 @@ impl<'a> Draft<'a> {
         let impossible = pairs::check(self, &mut faults);
         let partial = steps::check(self, &impossible, &mut faults);
         triangles::check(self, &mut faults);
+        sections::check(self, &mut faults);
         if self.known == Known::Whole {
             if impossible.is_empty() && partial.is_empty() {
                 hold::check(self, &mut faults);

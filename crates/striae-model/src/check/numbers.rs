@@ -1,6 +1,6 @@
 //! Numbers in their ranges, directions of some length, curves that rise.
 
-use striae_law::bulk::LameConstants;
+use striae_law::bulk::{LameConstants, Material};
 use striae_mesh::Vec3;
 use striae_solve::model::{
     ClosedGaps, Curve, Initial, Model, Pair, Procedure, RigidInertia, RigidShape, Step,
@@ -62,20 +62,14 @@ impl List {
 fn bodies(model: &Model, faults: &mut List) {
     for (index, body) in model.bodies.iter().enumerate() {
         let path = Path::part("bodies", index);
-        let (name, LameConstants { lambda, shear }) = (&body.name, body.material.lame_constants());
-        let what = format!("the shear modulus of body `{name}`");
-        faults.range(path.clone().field("material"), &what, shear, POSITIVE);
-        if 3.0 * lambda + 2.0 * shear <= 0.0 {
-            let kind = FaultKind::BulkModulus { lambda, shear };
-            faults.push(path.clone().field("material"), kind);
+        let name = &body.name;
+        let own = format!("of body `{name}`");
+        of_material(&own, &body.material, body.density, &path, faults);
+        for (at, section) in body.sections.iter().enumerate() {
+            let path = path.clone().field("sections").index(at);
+            let whose = format!("of section `{}` of body `{name}`", section.set);
+            of_material(&whose, &section.material, section.density, &path, faults);
         }
-        let what = format!("the density of body `{name}`");
-        faults.range(
-            path.clone().field("density"),
-            &what,
-            body.density,
-            NOT_NEGATIVE,
-        );
         let sound = body.mesh.check().and_then(|()| body.mesh.check_shape());
         if let Err(error) = sound {
             let kind = FaultKind::Mesh {
@@ -85,6 +79,20 @@ fn bodies(model: &Model, faults: &mut List) {
             faults.push(path.field("mesh"), kind);
         }
     }
+}
+
+/// A material with its density.
+fn of_material(whose: &str, material: &Material, density: f64, path: &Path, faults: &mut List) {
+    let LameConstants { lambda, shear } = material.lame_constants();
+    let what = format!("the shear modulus {whose}");
+    faults.range(path.clone().field("material"), &what, shear, POSITIVE);
+    if 3.0 * lambda + 2.0 * shear <= 0.0 {
+        let kind = FaultKind::BulkModulus { lambda, shear };
+        faults.push(path.clone().field("material"), kind);
+    }
+    let what = format!("the density {whose}");
+    let path = path.clone().field("density");
+    faults.range(path, &what, density, NOT_NEGATIVE);
 }
 
 fn rigid_surfaces(model: &Model, faults: &mut List) {

@@ -15,6 +15,14 @@ pub(super) fn faults(model: &Model) -> Vec<Fault> {
         model,
         faults: List::default(),
     };
+    for (index, body) in model.bodies.iter().enumerate() {
+        let (count, path) = (body.mesh.element_count(), Path::part("bodies", index));
+        for (at, section) in body.sections.iter().enumerate() {
+            let elements = section.elements.iter().map(|element| element.index());
+            let path = path.clone().field("sections").index(at);
+            check.within("element", elements, count, &path);
+        }
+    }
     for index in 0..model.rigid_surfaces.len() {
         check.rigid_surface(index);
     }

@@ -28,6 +28,7 @@ from ._errors import (
     RunWarning,
     SweepError,
 )
+from ._fibres import ExponentialFibres, Fibres, Fibrous, LinearFibres
 from ._fit import FrictionFit, Measurements, fit_friction, read_measurements
 from ._friction import (
     Coulomb,
@@ -68,6 +69,7 @@ from ._results import (
 )
 from ._rigid import Plane, Rigid, RigidBody, RigidSurface
 from ._run import History, Run, resume
+from ._section import Section
 from ._step import Condition, Dynamics, Increments, Step, gravity
 from ._sweep import Sweep, SweepPoint, sweep
 from ._texture import Axial, Circumferential, Nodal, Painted, Radial, Texture, Uniform
@@ -86,7 +88,10 @@ __all__ = [
     "Dynamics",
     "ElasticPlastic",
     "Energies",
+    "ExponentialFibres",
     "Fault",
+    "Fibres",
+    "Fibrous",
     "Fit",
     "Friction",
     "FrictionFit",
@@ -98,6 +103,7 @@ __all__ = [
     "Increments",
     "IsochoricNeoHookean",
     "LinearElastic",
+    "LinearFibres",
     "Material",
     "Measurements",
     "Mesh",
@@ -126,6 +132,7 @@ __all__ = [
     "RunInterrupted",
     "RunStopped",
     "RunWarning",
+    "Section",
     "SideResults",
     "SlipSurface",
     "Solver",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, Literal, Optional, Union
 
 from . import _check as check
@@ -10,6 +11,7 @@ from ._check import Curve, Members, Motion, Vector
 from ._errors import refuse
 from ._material import Material
 from ._mesh import Mesh, listed
+from ._section import FORMULATIONS, Formulation, Section
 from ._step import Condition
 from ._texture import Texture, texture
 
@@ -140,7 +142,9 @@ class Body:
     mesh: Mesh
     """Mesh of the body at rest."""
     material: Optional[Material]
-    """Bulk material; none is known here of a body from a deck."""
+    """Bulk material where no section is; none is known here of a body from a deck."""
+    sections: tuple[Section, ...]
+    """Parts of other materials; none is known here of a body from a deck."""
     density: Optional[float]
     """Mass per volume at rest."""
 
@@ -148,35 +152,40 @@ class Body:
         self,
         name: str,
         mesh: Any,
-        material: Material,
+        material: Optional[Material] = None,
         *,
+        sections: Sequence[Section] = (),
         density: Optional[float] = None,
         contact_mass: Literal["consistent", "redistributed"] = "consistent",
-        formulation: Optional[Literal["standard", "mean-dilatation", "assumed-strain"]] = None,
+        formulation: Optional[Formulation] = None,
     ) -> None:
         """Makes a body.
 
         name: unique name.
         mesh: a :class:`Mesh`, a path, or a mesh of meshio or pyvista; see :meth:`Mesh.of`.
-        material: bulk material.
+        material: bulk material; it may be left out where every element is in a section.
+        sections: parts of other materials.
         density: mass per volume at rest, for inertia and gravity.
         contact_mass: mass of the nodes of contact surfaces in dynamic steps: ``consistent``,
             or ``redistributed`` to the nodes behind, against oscillations of contact.
-        formulation: of its elements, ``standard``, ``mean-dilatation``, which does not lock
+        formulation: of its elements but for those of sections, ``standard``, ``mean-dilatation``, which does not lock
             where volumes can hardly change, or ``assumed-strain``, with which hexahedra bend;
             by default ``mean-dilatation`` where Poisson's ratio at rest is above 0.45, else
             ``standard``.
         """
         self.name = check.name(name, "name")
         self.mesh = Mesh.of(mesh)
-        self.material = check.kind(material, Material, "material")
+        self.sections = tuple(check.kind(one, Section, "sections") for one in sections)
+        self.material = None
+        if material is not None or not self.sections:
+            self.material = check.kind(material, Material, "material")
         self.density = None if density is None else check.positive(density, "density")
         known = ("consistent", "redistributed")
         self._redistributed = check.word(contact_mass, known, "contact_mass") == "redistributed"
         self._formulation = (
             None
             if formulation is None
-            else check.word(formulation, ("standard", "mean-dilatation", "assumed-strain"), "formulation")
+            else check.word(formulation, FORMULATIONS, "formulation")
         )
 
     @classmethod
@@ -184,7 +193,7 @@ class Body:
         body = cls.__new__(cls)
         body.name, body.mesh = name, mesh
         body.material, body.density, body._redistributed = None, None, False
-        body._formulation = None
+        body._formulation, body.sections = None, ()
         return body
 
     def __getitem__(self, name: str) -> BodySet:
@@ -210,6 +219,19 @@ class Body:
         self.mesh = with_nodes.with_sets(facets={name: chosen})
         return BodySet(self, name)
 
+    def add_elements(self, name: str, members: Members) -> None:
+        """Adds a set of elements, for a section.
+
+        name: of the set; one of the same name is replaced.
+        members: numbers of the elements in the order of :attr:`Mesh.cells`, a boolean mask over
+            all elements, or a function that takes their middles (length), of shape (m, 3), and
+            returns a mask.
+        """
+        with_elements = self.mesh.with_sets(elements={name: members})
+        if not len(with_elements.element_sets[name]):
+            raise refuse(f"body `{self.name}`", f"no element is in set `{name}`")
+        self.mesh = with_elements
+
     def velocity(
         self,
         value: Vector = (0.0, 0.0, 0.0),
@@ -230,10 +252,19 @@ class Body:
 
     def _part(
         self,
-    ) -> tuple[str, native.Mesh, native.Material, Optional[float], bool, Optional[str]]:
-        material = check.kind(self.material, Material, "material")
+    ) -> tuple[
+        str,
+        native.Mesh,
+        Optional[native.Material],
+        Optional[float],
+        bool,
+        Optional[str],
+        list[tuple[str, native.Material, Optional[float], Optional[str]]],
+    ]:
+        material = None if self.material is None else self.material._native
         mesh, mass = self.mesh._native, self._redistributed
-        return self.name, mesh, material._native, self.density, mass, self._formulation
+        sections = [section._part() for section in self.sections]
+        return self.name, mesh, material, self.density, mass, self._formulation, sections
 
     def __repr__(self) -> str:
         return f"Body({self.name!r}, {self.mesh!r}, {self.material!r})"

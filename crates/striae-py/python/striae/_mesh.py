@@ -1,4 +1,4 @@
-"""Meshes of bodies: cells with named sets of nodes and facets."""
+"""Meshes of bodies: cells with named sets of nodes, facets and elements."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def frozen(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
 
 
 class Mesh:
-    """Hexahedra, wedges, pyramids and tetrahedra with named sets of nodes and facets.
+    """Hexahedra, wedges, pyramids and tetrahedra with named sets of nodes, facets and elements.
 
     A mesh does not change: :meth:`with_sets` makes a new one. Arrays that it gives are
     made once and cannot be written to. Positions are lengths in the units of the user.
@@ -40,6 +40,7 @@ class Mesh:
         *,
         node_sets: Optional[Mapping[str, Members]] = None,
         facet_sets: Optional[Mapping[str, Members]] = None,
+        element_sets: Optional[Mapping[str, Members]] = None,
     ) -> None:
         """Makes a mesh from arrays.
 
@@ -49,6 +50,7 @@ class Mesh:
             ``tetra`` (4) and ``tetra10`` (10, middles of edges included), alone or together.
         node_sets: members of named sets of nodes, see :meth:`with_sets`.
         facet_sets: members of named sets of facets, see :meth:`with_sets`.
+        element_sets: members of named sets of elements, see :meth:`with_sets`.
         """
         if not isinstance(cells, Mapping):
             raise TypeError(
@@ -62,7 +64,9 @@ class Mesh:
         if not any(len(rows) for _, rows in corners):
             raise refuse("cells", "a mesh needs at least one cell")
         made = Mesh._of(native.Mesh(positions, corners))
-        self._native = made.with_sets(nodes=node_sets, facets=facet_sets)._native
+        self._native = made.with_sets(
+            nodes=node_sets, facets=facet_sets, elements=element_sets
+        )._native
         self._arrays: dict[str, npt.NDArray[Any]] = {}
 
     @classmethod
@@ -134,6 +138,23 @@ class Mesh:
         }
 
     @property
+    def element_sets(self) -> dict[str, Ints]:
+        """Numbers of the elements of every named set of elements, counted from 0 in the order of
+        :attr:`cells`."""
+        names = self._native.element_sets()
+        return {
+            name: self._array("e " + name, lambda: self._native.element_set(name))
+            for name in names
+        }
+
+    @property
+    def middles(self) -> Floats:
+        """Middles of the elements at rest, means of their corners, of shape (m, 3), in the order
+        of :attr:`cells` (length)."""
+        found: Floats = self._array("middles", self._native.middles)
+        return found
+
+    @property
     def volume(self) -> float:
         """Volume of the mesh (length cubed)."""
         return self._native.volume()
@@ -154,6 +175,7 @@ class Mesh:
         *,
         nodes: Optional[Mapping[str, Members]] = None,
         facets: Optional[Mapping[str, Members]] = None,
+        elements: Optional[Mapping[str, Members]] = None,
     ) -> Mesh:
         """The mesh with more sets; one of the same name is replaced.
 
@@ -161,40 +183,30 @@ class Mesh:
             that takes the positions, of shape (n, 3), and returns a mask.
         facets: by name the corners of the facets, of shape (m, 4), or (m, 3) for triangles,
             and in any order, or nodes in one of the ways above: then all facets of the boundary with all corners there.
+        elements: by name the numbers of the elements in the order of :attr:`cells`, a boolean
+            mask over all elements, or a function that takes :attr:`middles` and returns a mask.
         """
         found = self._native
         for name, members in (nodes or {}).items():
             path = f"node set `{check.name(name, 'node_sets')}`"
-            found = found.with_node_set(name, self._nodes(members, path))
+            found = found.with_node_set(name, chosen(members, self.points, path))
         for name, members in (facets or {}).items():
             path = f"facet set `{check.name(name, 'facet_sets')}`"
             if not callable(members) and np.ndim(np.asarray(members)) == 2:
                 found = found.with_facet_set(name, corners_of_facets(members, path))
             else:
-                found = found.with_facets_of(name, self._nodes(members, path))
+                found = found.with_facets_of(name, chosen(members, self.points, path))
+        for name, members in (elements or {}).items():
+            path = f"element set `{check.name(name, 'element_sets')}`"
+            found = found.with_element_set(name, chosen(members, self.middles, path))
         return Mesh._of(found)
-
-    def _nodes(self, members: Members, path: str) -> Ints:
-        chosen = np.asarray(members(self.points) if callable(members) else members)
-        count = len(self.points)
-        if chosen.dtype == np.bool_:
-            if chosen.shape != (count,):
-                raise refuse(
-                    path, f"a mask of shape ({count},) is needed, but it has shape {chosen.shape}"
-                )
-            return np.flatnonzero(chosen).astype(np.int64)
-        if callable(members):
-            raise refuse(path, f"the function must return a mask, but its dtype is {chosen.dtype}")
-        numbers = check.integers(chosen, path)
-        if numbers.ndim != 1:
-            raise refuse(path, f"an array of one dimension is needed, not of {numbers.ndim}")
-        return numbers
 
     def __reduce__(self) -> tuple[Any, ...]:
         facets = {name: np.array(corners) for name, corners in self.facet_sets.items()}
         nodes = {name: np.array(members) for name, members in self.node_sets.items()}
+        elements = {name: np.array(members) for name, members in self.element_sets.items()}
         cells = {kind: np.array(corners) for kind, corners in self.cells.items()}
-        return _again, (np.array(self.points), cells, nodes, facets)
+        return _again, (np.array(self.points), cells, nodes, facets, elements)
 
     def __repr__(self) -> str:
         sets = sorted({*self._native.node_sets(), *self._native.facet_sets()})
@@ -202,8 +214,26 @@ class Mesh:
         return f"Mesh({len(self.points)} nodes, {cells}, sets {sets})"
 
 
-def _again(points: Floats, cells: Any, nodes: Any, facets: Any) -> Mesh:
-    return Mesh(points, cells, node_sets=nodes, facet_sets=facets)
+def _again(points: Floats, cells: Any, nodes: Any, facets: Any, elements: Any) -> Mesh:
+    return Mesh(points, cells, node_sets=nodes, facet_sets=facets, element_sets=elements)
+
+
+def chosen(members: Members, places: Floats, path: str) -> Ints:
+    """Numbers of what lies at some of the places."""
+    found = np.asarray(members(places) if callable(members) else members)
+    count = len(places)
+    if found.dtype == np.bool_:
+        if found.shape != (count,):
+            raise refuse(
+                path, f"a mask of shape ({count},) is needed, but it has shape {found.shape}"
+            )
+        return np.flatnonzero(found).astype(np.int64)
+    if callable(members):
+        raise refuse(path, f"the function must return a mask, but its dtype is {found.dtype}")
+    numbers = check.integers(found, path)
+    if numbers.ndim != 1:
+        raise refuse(path, f"an array of one dimension is needed, not of {numbers.ndim}")
+    return numbers
 
 
 def corners_of_facets(members: Any, path: str) -> Ints:

@@ -104,8 +104,8 @@ class BodyResults:
 
     @cached_property
     def equivalent_plastic_strain(self) -> Floats:
-        """Equivalent plastic strain of the elements of a metal, of shape (cells,), in the order
-        of the kinds in :attr:`Mesh.cells` (no unit)."""
+        """Equivalent plastic strain of the elements, of shape (cells,), in the order of
+        :attr:`Mesh.cells`; zero in elements that do not yield (no unit)."""
         found = self._results.remembered(self.name, "equivalent_plastic_strain")
         if found is None:
             raise AttributeError(f"body {self.name!r} is of no material that yields")

@@ -44,7 +44,6 @@ impl System<'_> {
         let mut sums = Sums::default();
         for (body, elements) in problem.elements.iter().enumerate() {
             let variables = state.histories[body].as_slice();
-            let past = Past { variables, elapsed };
             let room = Vec::with_capacity(variables.len());
             sums.of_bodies.histories.push(room);
             for (first, block) in elements.blocks() {
@@ -52,7 +51,8 @@ impl System<'_> {
                     body,
                     first,
                     block,
-                    past,
+                    variables,
+                    elapsed,
                 };
                 self.block(&place, trial, &mut sums)?;
             }
@@ -95,7 +95,7 @@ impl System<'_> {
         let problem = self.context.problem;
         let model = &problem.model.bodies[place.body];
         for ((at, response), result) in (start..).zip(responses).zip(results) {
-            let element = ElementId::new(place.first[0] + at);
+            let element = ElementId::new(place.first + at);
             result.map_err(|error| {
                 Fault::CutBack(CutBack::InvertedElement {
                     body: model.name.clone(),
@@ -108,7 +108,8 @@ impl System<'_> {
             let corners = model.mesh.corners(element);
             let mut nodes = [0; MAX_CORNERS];
             let nodes = globals(problem, place.body, corners, &mut nodes);
-            let mass = (model.density > 0.0).then(|| problem.mass(place.body, element));
+            let density = problem.density(place.body, element);
+            let mass = (density > 0.0).then(|| problem.mass(place.body, element));
             self.weigh(nodes, mass.as_ref(), response);
             let forces = response.force.as_flattened().iter();
             sums.square_of_forces += forces.map(|f| f * f).sum::<f64>();
@@ -203,22 +204,13 @@ impl System<'_> {
 /// A block of elements and where it belongs.
 struct Place<'a> {
     body: usize,
-    /// First element and first quadrature point in the mesh.
-    first: [usize; 2],
+    /// First element in the mesh.
+    first: usize,
     block: &'a dyn ElementBlock,
-    /// What the quadrature points of the body have been through.
-    past: Past<'a>,
-}
-
-impl Place<'_> {
-    /// What an element of the block has been through.
-    fn past(&self, at: usize, each: usize) -> Past<'_> {
-        let first = (self.first[1] + at * self.block.points()) * each;
-        Past {
-            variables: &self.past.variables[first..first + self.block.points() * each],
-            elapsed: self.past.elapsed,
-        }
-    }
+    /// Variables of the body at the last converged state.
+    variables: &'a [f64],
+    /// Time since then.
+    elapsed: f64,
 }
 
 /// Responses of some elements of a block, written over older ones.
@@ -231,24 +223,29 @@ fn respond(
 ) -> Vec<Result<(), ElementError>> {
     let &Place {
         body,
-        first: [first, _],
+        first,
         block,
-        ..
+        variables,
+        elapsed,
     } = place;
     let model = &problem.model.bodies[body];
-    let (count, each) = (range.len(), model.material.variables());
-    responses[..count]
+    let composition = &problem.compositions[body];
+    responses[..range.len()]
         .par_iter_mut()
         .zip(range)
         .with_min_len(8)
         .map(|(response, at)| {
-            let corners = model.mesh.corners(ElementId::new(first + at));
+            let element = ElementId::new(first + at);
+            let material = problem.material(body, element);
+            let variables = &variables[composition.variables(element)];
+            let past = Past { variables, elapsed };
+            let corners = model.mesh.corners(element);
             let mut x = [Vec3::zeros(); MAX_CORNERS];
             for (x, node) in x.iter_mut().zip(corners) {
                 *x = trial.positions[problem.node(body, *node)];
             }
-            let past = place.past(at, each);
-            block.respond(at, &x[..corners.len()], &model.material, past, response)
+            response.make_room(block, material);
+            block.respond(at, &x[..corners.len()], material, past, response)
         })
         .collect()
 }

@@ -20,6 +20,7 @@ use striae_sparse::{OutsidePattern, Supervariable};
 
 use super::{Imposed, System, Trial};
 use crate::{
+    composition::Composition,
     problem::Problem,
     rigid::{Wrench, turn_tangent},
 };
@@ -352,8 +353,8 @@ impl System<'_> {
 }
 
 fn stiffest(problem: &Problem) -> f64 {
-    let bodies = problem.model.bodies.iter();
+    let bodies = problem.compositions.iter();
     bodies
-        .map(|body| body.material.lame_constants().shear)
+        .map(Composition::stiffest_shear)
         .fold(f64::MIN_POSITIVE, f64::max)
 }

@@ -74,7 +74,7 @@ fn prescribed_boundaries_give_the_homogeneous_state() {
         assert!(largest_difference(&x, &exact) < 1e-13);
         let sigma = material.cauchy_stress(&f).unwrap();
         let stress =
-            nodal_cauchy_stress(&block.mesh, &block.reference, &x, &material, &[]).unwrap();
+            nodal_cauchy_stress(&block.mesh, &block.reference, &x, |_| (&material, &[])).unwrap();
         assert!(
             stress
                 .iter()
@@ -129,14 +129,11 @@ fn a_linear_field_of_stress_is_recovered_exactly_at_the_nodes() {
         .map(|x| x + Vec3::x() * (x.x * x.y / 10.0))
         .collect();
     let LameConstants { lambda, shear } = linear_elastic().lame_constants();
-    let stress = nodal_cauchy_stress(
-        &block.mesh,
-        &block.reference,
-        &current,
-        &linear_elastic(),
-        &[],
-    )
-    .unwrap();
+    let material = linear_elastic();
+    let stress = nodal_cauchy_stress(&block.mesh, &block.reference, &current, |_| {
+        (&material, &[])
+    });
+    let stress = stress.unwrap();
     for (x, sigma) in positions.iter().zip(stress) {
         let (normal, across) = (lambda * x.y / 10.0, shear * x.x / 10.0);
         let mut exact = Matrix3::identity() * normal;

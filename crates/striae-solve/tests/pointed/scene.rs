@@ -54,6 +54,7 @@ fn body(name: &str, mesh: Mesh, modulus: f64) -> Body {
         formulation: Formulation::Standard,
         density: 0.0,
         contact_mass: ContactMass::Consistent,
+        sections: Vec::new(),
     }
 }
 

@@ -197,6 +197,7 @@ fn body(name: &str, modulus: f64, origin: [f64; 3], size: [f64; 3], divisions: u
         formulation: Formulation::Standard,
         density: 0.0,
         contact_mass: ContactMass::Consistent,
+        sections: Vec::new(),
     }
 }
 

@@ -190,6 +190,7 @@ pub fn body(name: &str, mesh: Mesh, material: Material) -> Body {
         material,
         density: 0.0,
         contact_mass: ContactMass::Consistent,
+        sections: Vec::new(),
     }
 }
 

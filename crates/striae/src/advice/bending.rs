@@ -18,7 +18,7 @@ use striae_contact::initial::Fit;
 use striae_mesh::{CellKind, Face, Mesh, NodeId, Vec3};
 use striae_model::{Body, BodyId, Formulation, LoadKind, Model, RigidShape, Side, Step};
 
-use super::{Advice, Topic, shape::poissons_ratio};
+use super::{Advice, Topic, parts::Part};
 
 /// Thickness over length of a thin body.
 const THIN: f64 = 0.2;
@@ -103,17 +103,20 @@ impl Frame {
     fn spurious(&self, body: &Body) -> Option<f64> {
         let [thickness, _, length] = self.lengths;
         let mut kinds = body.mesh.blocks.iter().map(|block| block.kind);
-        let enhanced = body.formulation == Formulation::AssumedStrain;
-        if enhanced && kinds.clone().all(|kind| kind == CellKind::Hexahedron) {
-            return None;
-        }
+        let bends = |part: &Part| {
+            let enhanced = part.formulation == Formulation::AssumedStrain;
+            enhanced && part.kinds.iter().all(|kind| *kind == CellKind::Hexahedron)
+        };
+        let parts = Part::all(body).into_iter().filter(|part| !bends(part));
+        let ratios = parts.map(|part| part.poissons_ratio());
+        let nu = ratios.min_by(f64::total_cmp)?;
         // Composite tetrahedra shear as linear elements between their nodes do.
         let part = match kinds.all(|kind| kind == CellKind::CompositeTetrahedron) {
             true => 0.5,
             false => 1.0,
         };
         let ratio = part * self.element(&body.mesh) / thickness;
-        let share = ratio * ratio / (2.0 * (1.0 + poissons_ratio(body)));
+        let share = ratio * ratio / (2.0 * (1.0 + nu));
         (thickness < THIN * length).then_some(share)
     }
 

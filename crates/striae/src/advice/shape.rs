@@ -3,7 +3,7 @@
 use striae_mesh::{CellKind, Mesh, Vec3, quality::SMALL_SCALED_JACOBIAN};
 use striae_model::{Body, Formulation, Model};
 
-use super::{Advice, Topic};
+use super::{Advice, Topic, parts::Part};
 
 /// Scaled Jacobian below which elements are worth a look.
 const POOR: f64 = 0.3;
@@ -14,7 +14,9 @@ const STIFF_VOLUME: f64 = 0.45;
 pub(super) fn look(model: &Model, advice: &mut Advice) {
     for body in &model.bodies {
         shape(body, advice);
-        locking(body, advice);
+        for part in Part::all(body) {
+            locking(body, &part, advice);
+        }
     }
 }
 
@@ -23,17 +25,6 @@ pub(super) fn extent(mesh: &Mesh) -> [Vec3; 2] {
     let start = [f64::INFINITY, f64::NEG_INFINITY].map(Vec3::repeat);
     let positions = mesh.positions.iter();
     positions.fold(start, |[low, high], x| [low.inf(x), high.sup(x)])
-}
-
-/// Poisson's ratio at rest.
-pub(super) fn poissons_ratio(body: &Body) -> f64 {
-    let constants = body.material.lame_constants();
-    0.5 * constants.lambda / (constants.lambda + constants.shear)
-}
-
-/// Young's modulus at rest.
-pub(super) fn youngs_modulus(body: &Body) -> f64 {
-    2.0 * body.material.lame_constants().shear * (1.0 + poissons_ratio(body))
 }
 
 fn shape(body: &Body, advice: &mut Advice) {
@@ -72,27 +63,26 @@ fn shape(body: &Body, advice: &mut Advice) {
     }
 }
 
-fn locking(body: &Body, advice: &mut Advice) {
+fn locking(body: &Body, part: &Part, advice: &mut Advice) {
+    let (about, nu) = (&part.name, part.poissons_ratio());
+    let others = part.kinds.iter().any(|kind| *kind != CellKind::Hexahedron);
+    let tetrahedra = part.kinds.contains(&CellKind::Tetrahedron);
     let name = &body.name;
-    let nu = poissons_ratio(body);
-    let mut kinds = body.mesh.blocks.iter().map(|block| block.kind);
-    let others = kinds.clone().any(|kind| kind != CellKind::Hexahedron);
-    let tetrahedra = kinds.any(|kind| kind == CellKind::Tetrahedron);
-    if others && body.formulation == Formulation::AssumedStrain {
+    if others && part.formulation == Formulation::AssumedStrain {
         advice.warn(
             Topic::Locking,
             name,
             format!(
-                "body `{name}` has other elements than hexahedra; with `formulation = \"assumed-strain\"` they are as with the standard formulation"
+                "{about} has other elements than hexahedra; with `formulation = \"assumed-strain\"` they are as with the standard formulation"
             ),
         );
     }
-    if nu > STIFF_VOLUME && body.formulation == Formulation::Standard {
+    if nu > STIFF_VOLUME && part.formulation == Formulation::Standard {
         advice.warn(
             Topic::Locking,
             name,
             format!(
-                "body `{name}` has Poisson's ratio {nu:.4} and the standard formulation: its elements lock, being far too stiff; use `formulation = \"mean-dilatation\"`"
+                "{about} has Poisson's ratio {nu:.4} and the standard formulation: its elements lock, being far too stiff; use `formulation = \"mean-dilatation\"`"
             ),
         );
     } else if nu > STIFF_VOLUME && tetrahedra {
@@ -100,7 +90,7 @@ fn locking(body: &Body, advice: &mut Advice) {
             Topic::Locking,
             name,
             format!(
-                "body `{name}` has Poisson's ratio {nu:.4} and four-node tetrahedra, which lock in every formulation; use ten-node tetrahedra or hexahedra"
+                "{about} has Poisson's ratio {nu:.4} and four-node tetrahedra, which lock in every formulation; use ten-node tetrahedra or hexahedra"
             ),
         );
     } else if tetrahedra {
@@ -108,7 +98,7 @@ fn locking(body: &Body, advice: &mut Advice) {
             Topic::Locking,
             name,
             format!(
-                "body `{name}` has four-node tetrahedra, which are stiffer than hexahedra of the same size; use ten-node tetrahedra, or compare with a finer mesh"
+                "{about} has four-node tetrahedra, which are stiffer than hexahedra of the same size; use ten-node tetrahedra, or compare with a finer mesh"
             ),
         );
     }

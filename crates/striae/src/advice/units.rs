@@ -9,7 +9,8 @@ use striae_model::{Body, BodyId, LoadKind, Model, RigidId, Side};
 
 use super::{
     Advice, Topic,
-    shape::{extent, youngs_modulus},
+    parts::{Part, moduli},
+    shape::extent,
 };
 
 /// Strain by loads that is too small to be meant.
@@ -26,15 +27,18 @@ const FASTEST: f64 = 1e8;
 /// Warns of bodies whose numbers do not go together.
 pub(super) fn look(model: &Model, advice: &mut Advice) {
     for (index, body) in model.bodies.iter().enumerate() {
-        let modulus = youngs_modulus(body);
-        loads(model, BodyId(index), modulus, advice);
-        forces(model, BodyId(index), modulus, advice);
-        lengths(body, modulus, advice);
-        waves(body, modulus, advice);
+        let moduli = moduli(body);
+        loads(model, BodyId(index), moduli, advice);
+        forces(model, BodyId(index), moduli[0], advice);
+        lengths(body, moduli[1], advice);
+        for part in Part::all(body) {
+            waves(body, &part, advice);
+        }
     }
 }
 
-fn loads(model: &Model, body: BodyId, modulus: f64, advice: &mut Advice) {
+/// Loads beside the smallest and the largest Young's modulus of a body.
+fn loads(model: &Model, body: BodyId, [soft, stiff]: [f64; 2], advice: &mut Advice) {
     let loads = model.steps.iter().flat_map(|step| &step.loads);
     let largest = loads
         .filter(|load| load.body == body)
@@ -44,19 +48,23 @@ fn loads(model: &Model, body: BodyId, modulus: f64, advice: &mut Advice) {
         })
         .fold(0.0, f64::max);
     let name = &model.bodies[body.0].name;
-    let strain = largest / modulus;
-    let about = format!(
-        "body `{name}`: its largest load, {largest:.3e}, over its Young's modulus, {modulus:.3e}, is a strain of {strain:.1e}"
-    );
-    if largest > 0.0 && strain < NO_STRAIN {
+    let about = |modulus: f64| {
+        let strain = largest / modulus;
+        format!(
+            "body `{name}`: its largest load, {largest:.3e}, over its Young's modulus, {modulus:.3e}, is a strain of {strain:.1e}"
+        )
+    };
+    if largest > 0.0 && largest / soft < NO_STRAIN {
         advice.warn(
             Topic::Units,
             name,
             format!(
-                "{about}, hardly any; are both in one system of units, such as N, mm and MPa, or N, m and Pa?"
+                "{}, hardly any; are both in one system of units, such as N, mm and MPa, or N, m and Pa?",
+                about(soft)
             ),
         );
-    } else if strain > 1.0 {
+    } else if largest / stiff > 1.0 {
+        let about = about(stiff);
         advice.warn(
             Topic::Units,
             name,
@@ -109,15 +117,16 @@ fn lengths(body: &Body, modulus: f64, advice: &mut Advice) {
     }
 }
 
-fn waves(body: &Body, modulus: f64, advice: &mut Advice) {
-    let (name, density) = (&body.name, body.density);
+fn waves(body: &Body, part: &Part, advice: &mut Advice) {
+    let (about, name) = (&part.name, &body.name);
+    let (modulus, density) = (part.youngs_modulus(), part.density);
     let speed = (modulus / density).sqrt();
     if density > 0.0 && speed > FASTEST {
         advice.warn(
             Topic::Units,
             name,
             format!(
-                "body `{name}`: with Young's modulus {modulus:.3e} and density {density:.3e} waves would run at {speed:.1e}, faster than in any solid; with N, mm and s densities are in t/mm^3 and moduli in MPa"
+                "{about}: with Young's modulus {modulus:.3e} and density {density:.3e} waves would run at {speed:.1e}, faster than in any solid; with N, mm and s densities are in t/mm^3 and moduli in MPa"
             ),
         );
     }

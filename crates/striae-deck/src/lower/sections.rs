@@ -1,0 +1,56 @@
+//! Sections of bodies: elements of other materials.
+
+use super::{
+    body::{Materials, formulation},
+    list, sets,
+};
+use crate::{faults::FaultList, raw};
+use striae_mesh::Mesh;
+use striae_model::FaultKind as ModelFault;
+use striae_solve::model::{BodySection, Formulation};
+
+/// What the sections of a body refer to.
+pub(super) struct Sections<'a> {
+    pub(super) materials: &'a Materials,
+    /// What the elements of its mesh file ask for.
+    pub(super) asked: Option<Formulation>,
+    pub(super) mesh: &'a Mesh,
+    pub(super) body: &'a str,
+}
+
+impl Sections<'_> {
+    /// The sections that are sound; notes elements that have no material.
+    pub(super) fn lowered(&self, raw: &raw::Body, faults: &mut FaultList<'_>) -> Vec<BodySection> {
+        let all = list(&raw.sections);
+        let sound: Vec<BodySection> = all
+            .iter()
+            .filter_map(|section| self.section(&section.value, faults))
+            .collect();
+        if raw.material.is_none() && sound.len() == all.len() {
+            let count = self.mesh.element_count();
+            if let Some(kind) = ModelFault::no_material(self.body, count, &sound) {
+                let span = raw.name.as_ref().map_or(0..0, |name| name.span.clone());
+                faults.push(&span, kind);
+            }
+        }
+        sound
+    }
+
+    fn section(&self, raw: &raw::BodySection, faults: &mut FaultList<'_>) -> Option<BodySection> {
+        let found = raw.material.as_ref();
+        let found = found.map(|name| self.materials.find(name, faults));
+        let set = raw.elements.as_ref()?;
+        let elements = sets::members("element", &self.mesh.element_sets, self.body, set, faults)?;
+        let (material, density) = found?;
+        let material = material?;
+        let suited = Formulation::suited_to(&material);
+        let stated = formulation(&raw.formulation).or(self.asked);
+        Some(BodySection {
+            set: set.value.0.clone(),
+            elements,
+            formulation: stated.unwrap_or(suited),
+            material,
+            density: density.unwrap_or(0.0),
+        })
+    }
+}

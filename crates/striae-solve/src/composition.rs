@@ -1,0 +1,243 @@
+//! What the elements of a body are made of: the body's own material, or that of a section.
+//!
+//! Sections are counted from 1 in their order; 0 is the body itself, where no section is.
+//! What the quadrature points of a body remember stands in one list, by element and point;
+//! an element has as many variables a point as its material asks for. Fibres have their
+//! directions there.
+
+use std::ops::Range;
+
+use striae_element::{Element, ElementFault, Elements};
+use striae_law::bulk::{LameConstants, Material};
+use striae_mesh::{ElementId, Face, Vec3};
+
+use crate::{
+    model::{Body, BodySection, Formulation},
+    problem::Problem,
+    state::State,
+};
+
+/// Sections and places of the variables of the elements of a body.
+#[derive(Clone, Debug)]
+pub struct Composition {
+    /// Section of every element; empty where the body has none.
+    sections: Vec<u32>,
+    /// First variable of every element, and the number of all; empty where there are none.
+    first_variables: Vec<usize>,
+    /// Shear modulus at rest of the stiffest material.
+    stiffest_shear: f64,
+}
+
+impl Composition {
+    /// That of a body with its reference elements.
+    pub(crate) fn new(body: &Body, elements: &Elements) -> Self {
+        let sections = body.section_of_elements();
+        let counts = elements.iter().enumerate().map(|(at, element)| {
+            let section = sections.get(at).map_or(0, |section| *section as usize);
+            body.material_of(section).variables() * element.points()
+        });
+        let mut first_variables = vec![0];
+        let mut sum = 0;
+        first_variables.extend(counts.map(|count| {
+            sum += count;
+            sum
+        }));
+        if sum == 0 {
+            first_variables.clear();
+        }
+        let used = body.used_sections().into_iter();
+        let shear = used.map(|section| body.material_of(section).lame_constants().shear);
+        Self {
+            sections,
+            first_variables,
+            stiffest_shear: shear.fold(0.0, f64::max),
+        }
+    }
+
+    /// Shear modulus at rest of the stiffest material.
+    pub fn stiffest_shear(&self) -> f64 {
+        self.stiffest_shear
+    }
+
+    /// How many variables all points remember together.
+    pub fn variable_count(&self) -> usize {
+        self.first_variables.last().copied().unwrap_or(0)
+    }
+
+    /// Section of an element, 0 where it is of the body's own material.
+    pub fn section(&self, element: ElementId) -> usize {
+        let section = self.sections.get(element.index());
+        section.map_or(0, |section| *section as usize)
+    }
+
+    /// Places of the variables of an element among those of the body.
+    pub fn variables(&self, element: ElementId) -> Range<usize> {
+        match self.first_variables.get(element.index()..) {
+            Some([first, end, ..]) => *first..*end,
+            _ => 0..0,
+        }
+    }
+}
+
+impl Body {
+    /// Names of what points of a body remember that is written with the results.
+    pub fn remembered(&self) -> Vec<String> {
+        let mut names = Vec::new();
+        for section in self.used_sections() {
+            for field in self.material_of(section).fields() {
+                if !names.contains(&field.name) {
+                    names.push(field.name);
+                }
+            }
+        }
+        names
+    }
+
+    /// Section of every element; empty where the body has none.
+    pub fn section_of_elements(&self) -> Vec<u32> {
+        if self.sections.is_empty() {
+            return Vec::new();
+        }
+        let mut sections = vec![0; self.mesh.element_count()];
+        for (number, section) in (1..).zip(&self.sections) {
+            for element in &section.elements {
+                sections[element.index()] = number;
+            }
+        }
+        sections
+    }
+
+    /// The reference elements, each of its section's formulation.
+    pub(crate) fn elements(&self) -> Result<Elements, ElementFault> {
+        let sections = self.section_of_elements();
+        let section = |element: usize| sections.get(element).map_or(0, |at| *at as usize);
+        let formulation = |element: ElementId| self.formulation_of(section(element.index()));
+        Elements::of_sections(&self.mesh, formulation)
+    }
+
+    /// Material of a section, counted from 1; 0 is the body's own.
+    pub fn material_of(&self, section: usize) -> &Material {
+        self.part(section).map_or(&self.material, |of| &of.material)
+    }
+
+    /// Formulation of a section, counted from 1; 0 is the body's own.
+    pub fn formulation_of(&self, section: usize) -> Formulation {
+        self.part(section)
+            .map_or(self.formulation, |of| of.formulation)
+    }
+
+    /// Density of a section, counted from 1; 0 is the body's own.
+    pub fn density_of(&self, section: usize) -> f64 {
+        self.part(section).map_or(self.density, |of| of.density)
+    }
+
+    /// Numbers of the sections that have elements, the body's own material being 0.
+    pub fn used_sections(&self) -> Vec<usize> {
+        let own = self.section_of_elements();
+        let uses_own = own.is_empty() || own.contains(&0);
+        let first = usize::from(!uses_own);
+        (first..=self.sections.len()).collect()
+    }
+
+    /// Young's modulus at rest behind faces; where they differ in it, that of the mean
+    /// compliance, `sum A / sum A/E`.
+    pub fn modulus_at(&self, faces: &[Face]) -> f64 {
+        let sections = self.section_of_elements();
+        let (mut areas, mut compliances) = (0.0, 0.0);
+        let mut range = [f64::INFINITY, 0.0_f64];
+        for face in faces {
+            let section = sections.get(face.element.index());
+            let material = self.material_of(section.map_or(0, |at| *at as usize));
+            let LameConstants { lambda, shear } = material.lame_constants();
+            let modulus = shear * (3.0 * lambda + 2.0 * shear) / (lambda + shear);
+            let area = self.mesh.area_vector(*face).norm();
+            range = [range[0].min(modulus), range[1].max(modulus)];
+            areas += area;
+            compliances += area / modulus;
+        }
+        if range[0] == range[1] {
+            range[0]
+        } else {
+            areas / compliances
+        }
+    }
+
+    /// Whether it has mass.
+    pub fn has_mass(&self) -> bool {
+        let used = self.used_sections();
+        used.iter().any(|section| self.density_of(*section) > 0.0)
+    }
+
+    fn part(&self, section: usize) -> Option<&BodySection> {
+        let index = section.checked_sub(1)?;
+        self.sections.get(index)
+    }
+}
+
+impl Problem {
+    /// Material of an element of a body.
+    pub fn material(&self, body: usize, element: ElementId) -> &Material {
+        let section = self.compositions[body].section(element);
+        self.model.bodies[body].material_of(section)
+    }
+
+    /// Variables of all points of a body that has not been deformed.
+    pub fn rest(&self, body: usize) -> Vec<f64> {
+        let mut variables = vec![0.0; self.compositions[body].variable_count()];
+        let mesh = &self.model.bodies[body].mesh;
+        for (at, element) in self.elements[body].iter().enumerate() {
+            let id = ElementId::new(at);
+            let material = self.material(body, id);
+            let places = self.compositions[body].variables(id);
+            if places.is_empty() || material.fibres().is_empty() {
+                continue;
+            }
+            let corners = mesh.element_positions(id);
+            let middle = corners.iter().sum::<Vec3>() / corners.len() as f64;
+            let rest = material.rest(&middle).repeat(element.points());
+            variables[places].copy_from_slice(&rest);
+        }
+        variables
+    }
+
+    /// Mass per reference volume of an element of a body.
+    pub fn density(&self, body: usize, element: ElementId) -> f64 {
+        let section = self.compositions[body].section(element);
+        self.model.bodies[body].density_of(section)
+    }
+
+    /// Mean over each element of a body of what its points remember under a name; zero in
+    /// elements whose material does not remember it.
+    pub fn remembered(&self, state: &State, body: usize, name: &str) -> Vec<f64> {
+        let model = &self.model.bodies[body];
+        let variable = |section: usize| {
+            let fields = model.material_of(section).fields();
+            let found = fields.iter().find(|field| field.name == name);
+            found.map(|field| field.variable)
+        };
+        let variables: Vec<Option<usize>> = (0..=model.sections.len()).map(variable).collect();
+        let composition = &self.compositions[body];
+        let elements = self.elements[body].iter().enumerate();
+        let mean = |(at, element): (usize, Element)| {
+            let id = ElementId::new(at);
+            let own = &state.histories[body][composition.variables(id)];
+            let variable = variables[composition.section(id)];
+            variable.map_or(0.0, |variable| element.mean(own, variable))
+        };
+        elements.map(mean).collect()
+    }
+
+    /// Material of an element of a body, and the variables that its points have come to.
+    pub fn made_of<'a>(
+        &'a self,
+        state: &'a State,
+        body: usize,
+        element: ElementId,
+    ) -> (&'a Material, &'a [f64]) {
+        let variables = self.compositions[body].variables(element);
+        (
+            self.material(body, element),
+            &state.histories[body][variables],
+        )
+    }
+}
