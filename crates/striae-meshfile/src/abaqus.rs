@@ -16,7 +16,7 @@ mod sets;
 
 use super::collected::{Collected, FileElement, FileFace, position};
 use super::lines::parsed;
-use super::{Asked, MeshFileFault, Reading};
+use super::{Asked, MeshFileFault, Place, Reading};
 use keywords::{Keyword, Row, keywords};
 use sets::LabelSets;
 use std::collections::HashSet;
@@ -42,7 +42,7 @@ struct Reader {
     node_sets: LabelSets,
     element_sets: LabelSets,
     surfaces: LabelSets,
-    faces: Vec<Vec<(usize, FileFace)>>,
+    faces: Vec<Vec<(Place, FileFace)>>,
     parts: usize,
     instances: usize,
     scope: Scope,
@@ -138,7 +138,7 @@ impl Reader {
                     x[axis] = number(word).ok_or_else(|| row.fault("a coordinate"))?;
                 }
             }
-            let x = position(row.line, tag, x)?;
+            let x = position(Place::Line(row.line), tag, x)?;
             if self.mesh.nodes.insert(tag, x).is_some() {
                 return Err(row.fault("a node number that has not been used"));
             }
@@ -176,7 +176,7 @@ impl Reader {
             }
             self.mesh.elements.push(FileElement {
                 kind,
-                line: row.line,
+                place: Place::Line(row.line),
                 number: *number,
                 corners: ordered(corners),
             });
@@ -232,7 +232,7 @@ impl Reader {
             faces.extend(
                 elements
                     .into_iter()
-                    .map(|element| (row.line, FileFace::Side(element, side))),
+                    .map(|element| (Place::Line(row.line), FileFace::Side(element, side))),
             );
         }
         let index = self.faces.len() as u64;

@@ -1,7 +1,7 @@
 //! What a file says of a mesh, by the file's own numbers, and the mesh made of it.
 
 use super::division::{self, Middles};
-use super::{Asked, MeshFileFault, Reading};
+use super::{Asked, MeshFileFault, Place, Reading};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use striae_mesh::{
     CellBlock, CellKind, ElementId, Face, Mesh, MeshError, NodeId, Sets, Vec3, sorted_face,
@@ -14,12 +14,12 @@ pub(super) struct Collected {
     pub(super) nodes: BTreeMap<u64, Vec3>,
     /// Elements in the order of the file.
     pub(super) elements: Vec<FileElement>,
-    /// Node numbers with the line that names them.
-    pub(super) node_sets: BTreeMap<String, Vec<(usize, u64)>>,
-    /// Element numbers with the line that names them.
-    pub(super) element_sets: BTreeMap<String, Vec<(usize, u64)>>,
-    /// Faces with the line that names them.
-    pub(super) facet_sets: BTreeMap<String, Vec<(usize, FileFace)>>,
+    /// Node numbers with the place that names them.
+    pub(super) node_sets: BTreeMap<String, Vec<(Place, u64)>>,
+    /// Element numbers with the place that names them.
+    pub(super) element_sets: BTreeMap<String, Vec<(Place, u64)>>,
+    /// Faces with the place that names them.
+    pub(super) facet_sets: BTreeMap<String, Vec<(Place, FileFace)>>,
     /// What is made of something else than the file says.
     pub(super) notes: Vec<String>,
     /// The formulation that the elements of the file ask for.
@@ -29,7 +29,7 @@ pub(super) struct Collected {
 /// An element of the file, or a part of one.
 #[derive(Clone)]
 pub(super) struct FileElement {
-    pub(super) line: usize,
+    pub(super) place: Place,
     pub(super) number: u64,
     pub(super) kind: CellKind,
     /// Corners; more nodes of an element of higher order, in the order of `division.rs`.
@@ -142,14 +142,14 @@ impl Collected {
         for element in &self.elements {
             let mut corners = element.corners.iter();
             if let Some(&number) = corners.find(|number| !self.nodes.contains_key(number)) {
-                return Err(missing(element.line, "node", number));
+                return Err(missing(element.place, "node", number));
             }
         }
         for element in &self.elements {
             if !known.insert(element.number) {
                 let found = format!("element {} for the second time", element.number);
-                let line = element.line;
-                return Err(MeshFileFault::line(line, "a new element number", found));
+                let place = element.place;
+                return Err(MeshFileFault::at(place, "a new element number", found));
             }
         }
         Ok(())
@@ -173,11 +173,11 @@ impl Collected {
             .collect();
         for (name, members) in &self.facet_sets {
             let mut faces = Vec::with_capacity(members.len());
-            for &(line, face) in members {
+            for &(place, face) in members {
                 let of_face = match face {
                     FileFace::Side(number, side) if !divided.wholes.contains_key(&number) => {
                         let elements = element_ids.get(&number);
-                        let elements = elements.ok_or_else(|| missing(line, "element", number))?;
+                        let elements = elements.ok_or_else(|| missing(place, "element", number))?;
                         let element = elements[0];
                         let sides = mesh.kind(element).faces_of_side(side);
                         let faces = sides.map(|side| mesh.face_nodes(Face { element, side }));
@@ -191,7 +191,7 @@ impl Collected {
                     .map(|nodes| boundary.get(&sorted_face(*nodes)));
                 let found: Option<Vec<&Face>> = found.collect();
                 let found = found.filter(|found| !found.is_empty());
-                faces.extend(found.ok_or_else(|| not_on_boundary(line, name, face))?);
+                faces.extend(found.ok_or_else(|| not_on_boundary(place, name, face))?);
             }
             sets.insert(name, faces);
         }
@@ -209,11 +209,11 @@ impl Collected {
             sets.insert(name, mesh.nodes_of_faces(faces));
         }
         for (name, members) in &self.node_sets {
-            if let Some((line, number)) = members
+            if let Some((place, number)) = members
                 .iter()
                 .find(|(_, number)| !self.nodes.contains_key(number))
             {
-                return Err(missing(*line, "node", *number));
+                return Err(missing(*place, "node", *number));
             }
             let used: Vec<NodeId> = members
                 .iter()
@@ -235,9 +235,9 @@ impl Collected {
         for (name, members) in &self.element_sets {
             let elements: Result<Vec<&Vec<ElementId>>, MeshFileFault> = members
                 .iter()
-                .map(|&(line, number)| {
+                .map(|&(place, number)| {
                     let ids = element_ids.get(&number);
-                    ids.ok_or_else(|| missing(line, "element", number))
+                    ids.ok_or_else(|| missing(place, "element", number))
                 })
                 .collect();
             sets.insert(name, elements?.into_iter().flatten().copied());
@@ -303,9 +303,9 @@ fn check_shape(elements: &[FileElement], mesh: &Mesh) -> Result<(), MeshFileFaul
             determinant,
             ..
         }) => {
-            let FileElement { line, number, .. } = &elements[element.index()];
+            let FileElement { place, number, .. } = &elements[element.index()];
             let found = format!("element {number} with {determinant:.3e}");
-            let fault = MeshFileFault::line(*line, "a positive Jacobian determinant", found);
+            let fault = MeshFileFault::at(*place, "a positive Jacobian determinant", found);
             Err(fault.with_remedy("repair the mesh or reverse the order of the corners"))
         }
         other => Ok(other?),
@@ -313,12 +313,12 @@ fn check_shape(elements: &[FileElement], mesh: &Mesh) -> Result<(), MeshFileFaul
 }
 
 /// The position of a node, which is finite.
-pub(super) fn position(line: usize, number: u64, x: Vec3) -> Result<Vec3, MeshFileFault> {
+pub(super) fn position(place: Place, number: u64, x: Vec3) -> Result<Vec3, MeshFileFault> {
     if x.iter().all(|coordinate| coordinate.is_finite()) {
         return Ok(x);
     }
     let found = format!("node {number} at ({}, {}, {})", x.x, x.y, x.z);
-    Err(MeshFileFault::line(line, "finite coordinates", found))
+    Err(MeshFileFault::at(place, "finite coordinates", found))
 }
 
 fn corner_nodes(numbers: [u64; 4], node_ids: &BTreeMap<u64, NodeId>) -> Option<[NodeId; 4]> {
@@ -329,12 +329,12 @@ fn corner_nodes(numbers: [u64; 4], node_ids: &BTreeMap<u64, NodeId>) -> Option<[
     Some(nodes)
 }
 
-fn missing(line: usize, what: &str, number: u64) -> MeshFileFault {
+fn missing(place: Place, what: &str, number: u64) -> MeshFileFault {
     let found = format!("{what} {number}, which the file does not define");
-    MeshFileFault::line(line, format!("an existing {what}"), found)
+    MeshFileFault::at(place, format!("an existing {what}"), found)
 }
 
-fn not_on_boundary(line: usize, set: &str, face: FileFace) -> MeshFileFault {
+fn not_on_boundary(place: Place, set: &str, face: FileFace) -> MeshFileFault {
     let found = match face {
         FileFace::Corners(corners) | FileFace::Eight(corners, _) => {
             format!("the nodes {corners:?}")
@@ -342,6 +342,6 @@ fn not_on_boundary(line: usize, set: &str, face: FileFace) -> MeshFileFault {
         FileFace::Side(element, side) => format!("side {} of element {element}", side + 1),
     };
     let expected = format!("a face on the boundary of the body in set '{set}'");
-    MeshFileFault::line(line, expected, found)
+    MeshFileFault::at(place, expected, found)
         .with_remedy("sets of faces hold outer faces of the body only")
 }

@@ -2,7 +2,7 @@
 //!
 //! | ending | format | what is read |
 //! | --- | --- | --- |
-//! | `.msh` | Gmsh, ASCII, versions 2 and 4.1 | cells; physical volumes as element sets, surfaces as facet and node sets, curves and points as node sets |
+//! | `.msh` | Gmsh, ASCII and binary, versions 2 and 4.1 | cells; physical volumes as element sets, surfaces as facet and node sets, curves and points as node sets |
 //! | `.inp` | Abaqus | elements `C3D4`, `C3D5`, `C3D6`, `C3D8`, `C3D10`, `C3D15`, `C3D20`, `C3D27` of any variant, `*NSET`, `*ELSET`, `*SURFACE` |
 //! | `.stl` | STL, ASCII and binary | triangles of a rigid surface |
 //! | `.csv` | lines `node,x,y,z` | vectors at nodes; so do `$NodeData` of three components in `.msh` |
@@ -29,7 +29,7 @@ mod stl;
 #[cfg(test)]
 mod tests;
 
-pub use error::{MeshFileError, MeshFileFault};
+pub use error::{MeshFileError, MeshFileFault, Place, Section};
 pub use node_vectors::NodeVectors;
 
 use std::path::Path;
@@ -81,7 +81,7 @@ pub fn read(path: impl AsRef<Path>) -> Result<Mesh, MeshFileError> {
 pub fn read_with_notes(path: impl AsRef<Path>) -> Result<Reading, MeshFileError> {
     let path = path.as_ref();
     match ending(path).as_str() {
-        "msh" => text(path).and_then(|text| gmsh::body(&text)),
+        "msh" => bytes(path).and_then(|bytes| gmsh::body(&bytes)),
         "inp" => text(path).and_then(|text| abaqus::body(&text)),
         _ => Err(MeshFileFault::UnknownEnding { expected: BODY }),
     }
@@ -100,7 +100,7 @@ pub fn read_with_notes(path: impl AsRef<Path>) -> Result<Reading, MeshFileError>
 pub fn read_rigid_surface(path: impl AsRef<Path>) -> Result<RigidSurfaceMesh, MeshFileError> {
     let path = path.as_ref();
     match ending(path).as_str() {
-        "msh" => text(path).and_then(|text| gmsh::rigid_surface(&text)),
+        "msh" => bytes(path).and_then(|bytes| gmsh::rigid_surface(&bytes)),
         "stl" => bytes(path).and_then(|bytes| stl::rigid_surface(&bytes)),
         _ => Err(MeshFileFault::UnknownEnding {
             expected: ".msh (Gmsh) or .stl",
@@ -123,7 +123,7 @@ pub fn read_node_vectors(
 ) -> Result<NodeVectors, MeshFileError> {
     let path = path.as_ref();
     match ending(path).as_str() {
-        "msh" => text(path).and_then(|text| gmsh::node_data(&text, name)),
+        "msh" => bytes(path).and_then(|bytes| gmsh::node_data(&bytes, name)),
         "csv" => text(path).and_then(|text| node_vectors::list(&text)),
         _ => Err(MeshFileFault::UnknownEnding {
             expected: ".msh (Gmsh) or .csv",
@@ -139,7 +139,7 @@ pub fn read_node_vectors(
 pub fn node_numbers(path: impl AsRef<Path>) -> Result<Vec<u64>, MeshFileError> {
     let path = path.as_ref();
     let collected = match ending(path).as_str() {
-        "msh" => text(path).and_then(|text| gmsh::collected(&text)),
+        "msh" => bytes(path).and_then(|bytes| gmsh::collected(&bytes)),
         "inp" => text(path).and_then(|text| abaqus::collected(&text)),
         _ => Err(MeshFileFault::UnknownEnding { expected: BODY }),
     };
@@ -156,8 +156,8 @@ pub fn node_numbers(path: impl AsRef<Path>) -> Result<Vec<u64>, MeshFileError> {
 pub fn rigid_node_numbers(path: impl AsRef<Path>) -> Result<Vec<u64>, MeshFileError> {
     let path = path.as_ref();
     match ending(path).as_str() {
-        "msh" => text(path)
-            .and_then(|text| gmsh::numbered_rigid_surface(&text))
+        "msh" => bytes(path)
+            .and_then(|bytes| gmsh::numbered_rigid_surface(&bytes))
             .map(|(_, numbers)| numbers)
             .map_err(|fault| fault.of(path)),
         _ => read_rigid_surface(path).map(|surface| (0..surface.positions.len() as u64).collect()),
