@@ -11,7 +11,8 @@
 //! divided into linear ones on all their nodes, see [`Reading::notes`].
 //!
 //! Nodes that no element uses are left out, also of sets; sets that become
-//! empty vanish. Each facet set gives its name to the set of its nodes unless the
+//! empty vanish. Elements of lower dimension make sets of facets and nodes where they lie on the
+//! body. Each facet set gives its name to the set of its nodes unless the
 //! file has a node set of that name; node set and element set `all` hold
 //! everything. Physical groups of Gmsh without a name are called by their number.
 //!
@@ -24,7 +25,9 @@ mod division;
 mod error;
 mod gmsh;
 mod lines;
+mod lower;
 mod node_vectors;
+mod sets;
 mod stl;
 #[cfg(test)]
 mod tests;

@@ -35,7 +35,6 @@ impl Kind {
     pub(super) const QUADRANGLE: Self = Self(3);
     pub(super) const TRIANGLE_6: Self = Self(9);
     pub(super) const QUADRANGLE_9: Self = Self(10);
-    pub(super) const QUADRANGLE_8: Self = Self(16);
 
     /// The type of a number from 1 to 19.
     pub(super) fn new(place: Place, number: usize) -> Result<Self, MeshFileFault> {

@@ -12,7 +12,7 @@ mod node_data;
 mod version2;
 mod version4;
 
-use super::collected::{Collected, FileElement, FileFace, position};
+use super::collected::{Collected, FileElement, position};
 use super::lines::quoted;
 use super::{MeshFileFault, Place, Reading, RigidSurfaceMesh, division};
 use input::{Input, readable};
@@ -53,19 +53,9 @@ pub(super) fn collected(bytes: &[u8]) -> Result<Collected, MeshFileFault> {
                     set.push((cell.place, number));
                 }
             }
-            2 if cell.groups.is_empty() => {}
-            2 => {
-                let faces = cell.faces()?;
-                for name in groups {
-                    let set = mesh.facet_sets.entry(name).or_default();
-                    set.extend(faces.iter().map(|face| (cell.place, *face)));
-                }
-            }
-            _ => {
-                for name in groups {
-                    let set = mesh.node_sets.entry(name).or_default();
-                    set.extend(cell.nodes.iter().map(|&node| (cell.place, node)));
-                }
+            dimension => {
+                let groups: Vec<String> = groups.collect();
+                mesh.add_lower(dimension, cell.place, &cell.nodes, groups);
             }
         }
     }
@@ -208,15 +198,6 @@ impl File {
 }
 
 impl Cell {
-    /// The faces that it is, on a body.
-    fn faces(&self) -> Result<Vec<FileFace>, MeshFileFault> {
-        if let (Kind::QUADRANGLE_8, &[a, b, c, d, ab, bc, cd, da]) = (self.kind, &self.nodes[..]) {
-            return Ok(vec![FileFace::Eight([a, b, c, d], [ab, bc, cd, da])]);
-        }
-        let facets = self.facets()?.into_iter();
-        Ok(facets.map(FileFace::Corners).collect())
-    }
-
     /// The corners of quadrangles, or of triangles with the last one twice.
     fn facets(&self) -> Result<Vec<[u64; 4]>, MeshFileFault> {
         match (self.kind, self.nodes.as_slice()) {
