@@ -4,6 +4,7 @@
 //! | --- | --- | --- |
 //! | `.msh` | Gmsh, ASCII and binary, versions 2 and 4.1 | cells; physical volumes as element sets, surfaces as facet and node sets, curves and points as node sets |
 //! | `.inp` | Abaqus | elements `C3D4`, `C3D5`, `C3D6`, `C3D8`, `C3D10`, `C3D15`, `C3D20`, `C3D27` of any variant, `*NSET`, `*ELSET`, `*SURFACE` |
+//! | `.vtu`, `.vtk` | unstructured grids of VTK, as XML and legacy | cells; arrays of integers as sets `<array>-<value>` |
 //! | `.stl` | STL, ASCII and binary | triangles of a rigid surface |
 //! | `.csv` | lines `node,x,y,z` | vectors at nodes; so do `$NodeData` of three components in `.msh` |
 //!
@@ -17,7 +18,7 @@
 //! everything. Physical groups of Gmsh without a name are called by their number.
 //!
 //! Formats: Gmsh reference manual, "Gmsh file formats"; Abaqus keywords
-//! reference guide.
+//! reference guide; "VTK file formats" in VTK's documentation.
 
 mod abaqus;
 mod collected;
@@ -31,6 +32,7 @@ mod sets;
 mod stl;
 #[cfg(test)]
 mod tests;
+mod vtk;
 
 pub use error::{MeshFileError, MeshFileFault, Place, Section};
 pub use node_vectors::NodeVectors;
@@ -68,7 +70,7 @@ pub enum Asked {
     AssumedStrain,
 }
 
-/// Reads the mesh of a body from a `.msh` or `.inp` file.
+/// Reads the mesh of a body from a `.msh`, `.inp`, `.vtu` or `.vtk` file.
 ///
 /// # Errors
 /// [`MeshFileError`] names the file and, where there is one, the line. Every
@@ -86,6 +88,8 @@ pub fn read_with_notes(path: impl AsRef<Path>) -> Result<Reading, MeshFileError>
     match ending(path).as_str() {
         "msh" => bytes(path).and_then(|bytes| gmsh::body(&bytes)),
         "inp" => text(path).and_then(|text| abaqus::body(&text)),
+        "vtu" => bytes(path).and_then(|bytes| vtk::xml_body(&bytes)),
+        "vtk" => bytes(path).and_then(|bytes| vtk::legacy_body(&bytes)),
         _ => Err(MeshFileFault::UnknownEnding { expected: BODY }),
     }
     .map_err(|fault| fault.of(path))
@@ -144,6 +148,8 @@ pub fn node_numbers(path: impl AsRef<Path>) -> Result<Vec<u64>, MeshFileError> {
     let collected = match ending(path).as_str() {
         "msh" => bytes(path).and_then(|bytes| gmsh::collected(&bytes)),
         "inp" => text(path).and_then(|text| abaqus::collected(&text)),
+        "vtu" => bytes(path).and_then(|bytes| vtk::xml_collected(&bytes)),
+        "vtk" => bytes(path).and_then(|bytes| vtk::legacy_collected(&bytes)),
         _ => Err(MeshFileFault::UnknownEnding { expected: BODY }),
     };
     collected
@@ -168,7 +174,7 @@ pub fn rigid_node_numbers(path: impl AsRef<Path>) -> Result<Vec<u64>, MeshFileEr
 }
 
 /// Endings of meshes of bodies.
-const BODY: &str = ".msh (Gmsh) or .inp (Abaqus)";
+const BODY: &str = ".msh (Gmsh), .inp (Abaqus), .vtu or .vtk (VTK)";
 
 fn ending(path: &Path) -> String {
     path.extension()

@@ -5,6 +5,7 @@ mod gmsh;
 mod gmsh_binary;
 mod node_vectors;
 mod stl;
+mod vtk;
 mod written;
 
 use super::{MeshFileFault, read};
@@ -45,7 +46,7 @@ fn the_ending_chooses_the_format() {
     std::fs::write(&path, written::abaqus(&mesh)).unwrap();
     assert_eq!(read(&path).unwrap(), mesh);
 
-    let path = folder.path().join("block.vtk");
+    let path = folder.path().join("block.obj");
     let error = read(&path).unwrap_err();
     assert!(matches!(error.fault, MeshFileFault::UnknownEnding { .. }));
     let error = read(folder.path().join("none.inp")).unwrap_err();
