@@ -226,7 +226,7 @@ fn meshes() {
             r#"{ file = "part.docx" }"#,
         )],
         &[
-            "10:8: the mesh of body `lower` cannot be made: part.docx: unknown kind of file; expected .msh (Gmsh) or .inp (Abaqus)",
+            "10:8: the mesh of body `lower` cannot be made: part.docx: unknown kind of file; expected .msh (Gmsh), .inp (Abaqus), .vtu or .vtk (VTK)",
         ],
     );
     misstated(

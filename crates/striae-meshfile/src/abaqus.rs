@@ -4,7 +4,7 @@
 //! lines of numbers or names. Read are nodes, elements `C3D4`, `C3D5`, `C3D6`, `C3D8`,
 //! `C3D10`, `C3D15`, `C3D20` and `C3D27` of any variant, node and element sets (with `GENERATE`, names of other
 //! sets, `NSET` of an `ELSET`) and element-based surfaces; other keywords are
-//! passed over. `H` asks for mean dilatation and `I` for an assumed strain; elements `R` are read,
+//! passed over. Elements of lower dimension make sets of facets and nodes (`abaqus/lower.rs`). `H` asks for mean dilatation and `I` for an assumed strain; elements `R` are read,
 //! with a note, as those with full integration. Abaqus numbers nodes and sides as [`striae_mesh::CellKind`] does; `S1` is side
 //! 0, all four faces of it in a ten-node tetrahedron. Labels are the same in capital and
 //! small letters and keep the spelling of their first use. A file may have one
@@ -12,12 +12,14 @@
 //! (reference points) are passed over.
 
 mod keywords;
+mod lower;
 mod sets;
 
 use super::collected::{Collected, FileElement, FileFace, position};
 use super::lines::parsed;
-use super::{Asked, MeshFileFault, Reading};
+use super::{Asked, MeshFileFault, Place, Reading};
 use keywords::{Keyword, Row, keywords};
+use lower::Lower;
 use sets::LabelSets;
 use std::collections::HashSet;
 use striae_mesh::{CellKind, Vec3};
@@ -33,7 +35,7 @@ pub(super) fn collected(text: &str) -> Result<Collected, MeshFileFault> {
     for keyword in keywords(text)? {
         reader.read(&keyword)?;
     }
-    Ok(reader.finish())
+    reader.finish()
 }
 
 #[derive(Default)]
@@ -41,8 +43,9 @@ struct Reader {
     mesh: Collected,
     node_sets: LabelSets,
     element_sets: LabelSets,
+    lower: Lower,
     surfaces: LabelSets,
-    faces: Vec<Vec<(usize, FileFace)>>,
+    faces: Vec<Vec<(Place, FileFace)>>,
     parts: usize,
     instances: usize,
     scope: Scope,
@@ -138,7 +141,7 @@ impl Reader {
                     x[axis] = number(word).ok_or_else(|| row.fault("a coordinate"))?;
                 }
             }
-            let x = position(row.line, tag, x)?;
+            let x = position(Place::Line(row.line), tag, x)?;
             if self.mesh.nodes.insert(tag, x).is_some() {
                 return Err(row.fault("a node number that has not been used"));
             }
@@ -152,12 +155,15 @@ impl Reader {
     /// Rows `number, corners..`.
     fn elements(&mut self, keyword: &Keyword<'_>) -> Result<(), MeshFileFault> {
         let name = keyword.required("TYPE")?.to_uppercase();
-        let (kind, nodes) = cell(&name).ok_or_else(|| {
+        let Some((kind, nodes)) = cell(&name) else {
+            if !lower::is_solid(&name) {
+                return self.lower.read(&name, keyword, &mut self.element_sets);
+            }
             let fault = keyword.fault(
                 "TYPE=C3D4, C3D5, C3D6, C3D8, C3D10, C3D15, C3D20, C3D27 or one of their variants",
             );
-            fault.with_remedy("mesh the part with these elements")
-        })?;
+            return Err(fault.with_remedy("mesh the part with these elements"));
+        };
         self.ask(&name);
         let expected = format!("an element number and {nodes} node numbers");
         keyword.refuse_input()?;
@@ -176,7 +182,7 @@ impl Reader {
             }
             self.mesh.elements.push(FileElement {
                 kind,
-                line: row.line,
+                place: Place::Line(row.line),
                 number: *number,
                 corners: ordered(corners),
             });
@@ -215,10 +221,13 @@ impl Reader {
                 }
             }
         }
+        for node in self.lower.nodes(&chosen) {
+            self.node_sets.push(name, keyword.line, node);
+        }
         Ok(())
     }
 
-    /// Rows `element or element set, S1..S6`.
+    /// Rows `element or element set, S1..S6`, or `SPOS`, `SNEG` of shells on the body.
     fn surface(&mut self, keyword: &Keyword<'_>) -> Result<(), MeshFileFault> {
         let kind = keyword.parameter("TYPE").unwrap_or("ELEMENT");
         if !kind.eq_ignore_ascii_case("ELEMENT") {
@@ -226,14 +235,18 @@ impl Reader {
         }
         let mut faces = Vec::new();
         for row in &keyword.rows {
-            let side = row.words.get(1).and_then(|word| side(word));
-            let side = side.ok_or_else(|| row.fault("a face S1 to S6 of an element or set"))?;
+            let word = row.words.get(1).copied().unwrap_or_default();
             let elements = self.element_sets.members(row, row.words[0])?;
-            faces.extend(
-                elements
-                    .into_iter()
-                    .map(|element| (row.line, FileFace::Side(element, side))),
-            );
+            let place = Place::Line(row.line);
+            if ["SPOS", "SNEG"].contains(&word.to_uppercase().as_str()) {
+                let of_shells = elements.iter().flat_map(|shell| self.lower.faces(*shell));
+                faces.extend(of_shells.map(|face| (place, face)));
+                continue;
+            }
+            let side =
+                side(word).ok_or_else(|| row.fault("a face S1 to S6 of an element or set"))?;
+            let sides = elements.into_iter();
+            faces.extend(sides.map(|element| (place, FileFace::Side(element, side))));
         }
         let index = self.faces.len() as u64;
         self.surfaces
@@ -242,7 +255,7 @@ impl Reader {
         Ok(())
     }
 
-    fn finish(mut self) -> Collected {
+    fn finish(mut self) -> Result<Collected, MeshFileFault> {
         for (name, indices) in self.surfaces.into_sets() {
             let faces = indices
                 .into_iter()
@@ -251,7 +264,8 @@ impl Reader {
         }
         self.mesh.node_sets = self.node_sets.into_sets();
         self.mesh.element_sets = self.element_sets.into_sets();
-        self.mesh
+        self.lower.sort_out(&mut self.mesh)?;
+        Ok(self.mesh)
     }
 }
 

@@ -1,11 +1,11 @@
 //! What a file says of a mesh, by the file's own numbers, and the mesh made of it.
 
 use super::division::{self, Middles};
-use super::{Asked, MeshFileFault, Reading};
+use super::lower::Loose;
+use super::sets::Ids;
+use super::{Asked, MeshFileFault, Place, Reading};
 use std::collections::{BTreeMap, HashMap, HashSet};
-use striae_mesh::{
-    CellBlock, CellKind, ElementId, Face, Mesh, MeshError, NodeId, Sets, Vec3, sorted_face,
-};
+use striae_mesh::{CellBlock, CellKind, ElementId, Mesh, MeshError, NodeId, Vec3};
 
 /// Nodes, elements and sets by the numbers of the file.
 #[derive(Default)]
@@ -14,12 +14,14 @@ pub(super) struct Collected {
     pub(super) nodes: BTreeMap<u64, Vec3>,
     /// Elements in the order of the file.
     pub(super) elements: Vec<FileElement>,
-    /// Node numbers with the line that names them.
-    pub(super) node_sets: BTreeMap<String, Vec<(usize, u64)>>,
-    /// Element numbers with the line that names them.
-    pub(super) element_sets: BTreeMap<String, Vec<(usize, u64)>>,
-    /// Faces with the line that names them.
-    pub(super) facet_sets: BTreeMap<String, Vec<(usize, FileFace)>>,
+    /// Node numbers with the place that names them.
+    pub(super) node_sets: BTreeMap<String, Vec<(Place, u64)>>,
+    /// Element numbers with the place that names them.
+    pub(super) element_sets: BTreeMap<String, Vec<(Place, u64)>>,
+    /// Faces with the place that names them.
+    pub(super) facet_sets: BTreeMap<String, Vec<(Place, FileFace)>>,
+    /// Elements of lower dimension in no set.
+    pub(super) loose: Loose,
     /// What is made of something else than the file says.
     pub(super) notes: Vec<String>,
     /// The formulation that the elements of the file ask for.
@@ -29,7 +31,7 @@ pub(super) struct Collected {
 /// An element of the file, or a part of one.
 #[derive(Clone)]
 pub(super) struct FileElement {
-    pub(super) line: usize,
+    pub(super) place: Place,
     pub(super) number: u64,
     pub(super) kind: CellKind,
     /// Corners; more nodes of an element of higher order, in the order of `division.rs`.
@@ -43,17 +45,17 @@ pub(super) enum FileFace {
     Corners([u64; 4]),
     /// A quadrilateral of a divided cell by its corners and the middles of its edges.
     Eight([u64; 4], [u64; 4]),
-    /// By element number and side, as [`Face::side`].
+    /// By element number and side, as [`striae_mesh::Face::side`].
     Side(u64, u8),
 }
 
 /// The elements of a file when those of higher order are divided.
-struct Divided {
+pub(super) struct Divided {
     /// Linear elements, those of a kind together.
     elements: Vec<FileElement>,
     /// All nodes of the elements that are divided, by number.
-    wholes: HashMap<u64, (CellKind, Vec<u64>)>,
-    middles: Middles,
+    pub(super) wholes: HashMap<u64, (CellKind, Vec<u64>)>,
+    pub(super) middles: Middles,
 }
 
 impl Collected {
@@ -66,17 +68,19 @@ impl Collected {
             });
         }
         let divided = self.divided()?;
-        let node_ids = node_ids(&divided.elements);
-        let element_ids = element_ids(&divided.elements);
+        let ids = Ids {
+            nodes: node_ids(&divided.elements),
+            elements: element_ids(&divided.elements),
+        };
+        let numbers = ids.nodes.keys();
         let mut mesh = Mesh::new(
-            node_ids.keys().map(|number| self.nodes[number]).collect(),
-            blocks(&divided.elements, &node_ids),
+            numbers.map(|number| self.nodes[number]).collect(),
+            blocks(&divided.elements, &ids.nodes),
         )?;
         check_shape(&divided.elements, &mesh)?;
-        mesh.facet_sets = self.facet_sets(&mesh, &node_ids, &element_ids, &divided)?;
-        mesh.node_sets = self.node_sets(&mesh, &node_ids)?;
-        mesh.element_sets = self.element_sets(&element_ids)?;
+        self.add_sets(&mut mesh, &ids, &divided)?;
         mesh.check()?;
+        self.notes.extend(self.loose.note());
         Ok(Reading {
             mesh,
             notes: self.notes,
@@ -142,127 +146,17 @@ impl Collected {
         for element in &self.elements {
             let mut corners = element.corners.iter();
             if let Some(&number) = corners.find(|number| !self.nodes.contains_key(number)) {
-                return Err(missing(element.line, "node", number));
+                return Err(missing(element.place, "node", number));
             }
         }
         for element in &self.elements {
             if !known.insert(element.number) {
                 let found = format!("element {} for the second time", element.number);
-                let line = element.line;
-                return Err(MeshFileFault::line(line, "a new element number", found));
+                let place = element.place;
+                return Err(MeshFileFault::at(place, "a new element number", found));
             }
         }
         Ok(())
-    }
-
-    fn facet_sets(
-        &self,
-        mesh: &Mesh,
-        node_ids: &BTreeMap<u64, NodeId>,
-        element_ids: &HashMap<u64, Vec<ElementId>>,
-        divided: &Divided,
-    ) -> Result<Sets<Face>, MeshFileFault> {
-        let mut sets = Sets::default();
-        if self.facet_sets.is_empty() {
-            return Ok(sets);
-        }
-        let boundary: HashMap<[NodeId; 4], Face> = mesh
-            .boundary_faces()
-            .into_iter()
-            .map(|face| (sorted_face(mesh.face_nodes(face)), face))
-            .collect();
-        for (name, members) in &self.facet_sets {
-            let mut faces = Vec::with_capacity(members.len());
-            for &(line, face) in members {
-                let of_face = match face {
-                    FileFace::Side(number, side) if !divided.wholes.contains_key(&number) => {
-                        let elements = element_ids.get(&number);
-                        let elements = elements.ok_or_else(|| missing(line, "element", number))?;
-                        let element = elements[0];
-                        let sides = mesh.kind(element).faces_of_side(side);
-                        let faces = sides.map(|side| mesh.face_nodes(Face { element, side }));
-                        Some(faces.collect())
-                    }
-                    other => divided.facets(other, node_ids),
-                };
-                let of_face: Vec<[NodeId; 4]> = of_face.unwrap_or_default();
-                let found = of_face
-                    .iter()
-                    .map(|nodes| boundary.get(&sorted_face(*nodes)));
-                let found: Option<Vec<&Face>> = found.collect();
-                let found = found.filter(|found| !found.is_empty());
-                faces.extend(found.ok_or_else(|| not_on_boundary(line, name, face))?);
-            }
-            sets.insert(name, faces);
-        }
-        Ok(sets)
-    }
-
-    fn node_sets(
-        &self,
-        mesh: &Mesh,
-        node_ids: &BTreeMap<u64, NodeId>,
-    ) -> Result<Sets<NodeId>, MeshFileFault> {
-        let mut sets = Sets::default();
-        sets.insert("all", node_ids.values().copied());
-        for (name, faces) in mesh.facet_sets.iter() {
-            sets.insert(name, mesh.nodes_of_faces(faces));
-        }
-        for (name, members) in &self.node_sets {
-            if let Some((line, number)) = members
-                .iter()
-                .find(|(_, number)| !self.nodes.contains_key(number))
-            {
-                return Err(missing(*line, "node", *number));
-            }
-            let used: Vec<NodeId> = members
-                .iter()
-                .filter_map(|(_, number)| node_ids.get(number).copied())
-                .collect();
-            if !used.is_empty() {
-                sets.insert(name, used);
-            }
-        }
-        Ok(sets)
-    }
-
-    fn element_sets(
-        &self,
-        element_ids: &HashMap<u64, Vec<ElementId>>,
-    ) -> Result<Sets<ElementId>, MeshFileFault> {
-        let mut sets = Sets::default();
-        sets.insert("all", element_ids.values().flatten().copied());
-        for (name, members) in &self.element_sets {
-            let elements: Result<Vec<&Vec<ElementId>>, MeshFileFault> = members
-                .iter()
-                .map(|&(line, number)| {
-                    let ids = element_ids.get(&number);
-                    ids.ok_or_else(|| missing(line, "element", number))
-                })
-                .collect();
-            sets.insert(name, elements?.into_iter().flatten().copied());
-        }
-        Ok(sets)
-    }
-}
-
-impl Divided {
-    /// Nodes of the facets of a face that is known by its nodes, or of a divided element.
-    fn facets(&self, face: FileFace, node_ids: &BTreeMap<u64, NodeId>) -> Option<Vec<[NodeId; 4]>> {
-        let facets = match face {
-            FileFace::Corners(corners) => vec![corners],
-            FileFace::Eight(corners, on) => {
-                division::quartered(corners, on, self.middles.of(corners)?)
-            }
-            FileFace::Side(number, side) => {
-                let (kind, nodes) = &self.wholes[&number];
-                division::facets(*kind, side.into(), nodes)
-            }
-        };
-        let facets = facets.into_iter();
-        facets
-            .map(|corners| corner_nodes(corners, node_ids))
-            .collect()
     }
 }
 
@@ -303,9 +197,9 @@ fn check_shape(elements: &[FileElement], mesh: &Mesh) -> Result<(), MeshFileFaul
             determinant,
             ..
         }) => {
-            let FileElement { line, number, .. } = &elements[element.index()];
+            let FileElement { place, number, .. } = &elements[element.index()];
             let found = format!("element {number} with {determinant:.3e}");
-            let fault = MeshFileFault::line(*line, "a positive Jacobian determinant", found);
+            let fault = MeshFileFault::at(*place, "a positive Jacobian determinant", found);
             Err(fault.with_remedy("repair the mesh or reverse the order of the corners"))
         }
         other => Ok(other?),
@@ -313,15 +207,19 @@ fn check_shape(elements: &[FileElement], mesh: &Mesh) -> Result<(), MeshFileFaul
 }
 
 /// The position of a node, which is finite.
-pub(super) fn position(line: usize, number: u64, x: Vec3) -> Result<Vec3, MeshFileFault> {
+pub(super) fn position(place: Place, number: u64, x: Vec3) -> Result<Vec3, MeshFileFault> {
     if x.iter().all(|coordinate| coordinate.is_finite()) {
         return Ok(x);
     }
     let found = format!("node {number} at ({}, {}, {})", x.x, x.y, x.z);
-    Err(MeshFileFault::line(line, "finite coordinates", found))
+    Err(MeshFileFault::at(place, "finite coordinates", found))
 }
 
-fn corner_nodes(numbers: [u64; 4], node_ids: &BTreeMap<u64, NodeId>) -> Option<[NodeId; 4]> {
+/// New ids of the corners of a facet, `None` where one is not in the mesh.
+pub(super) fn corner_nodes(
+    numbers: [u64; 4],
+    node_ids: &BTreeMap<u64, NodeId>,
+) -> Option<[NodeId; 4]> {
     let mut nodes = [NodeId(0); 4];
     for (node, number) in nodes.iter_mut().zip(numbers) {
         *node = *node_ids.get(&number)?;
@@ -329,19 +227,8 @@ fn corner_nodes(numbers: [u64; 4], node_ids: &BTreeMap<u64, NodeId>) -> Option<[
     Some(nodes)
 }
 
-fn missing(line: usize, what: &str, number: u64) -> MeshFileFault {
+/// The fault that a number stands for nothing.
+pub(super) fn missing(place: Place, what: &str, number: u64) -> MeshFileFault {
     let found = format!("{what} {number}, which the file does not define");
-    MeshFileFault::line(line, format!("an existing {what}"), found)
-}
-
-fn not_on_boundary(line: usize, set: &str, face: FileFace) -> MeshFileFault {
-    let found = match face {
-        FileFace::Corners(corners) | FileFace::Eight(corners, _) => {
-            format!("the nodes {corners:?}")
-        }
-        FileFace::Side(element, side) => format!("side {} of element {element}", side + 1),
-    };
-    let expected = format!("a face on the boundary of the body in set '{set}'");
-    MeshFileFault::line(line, expected, found)
-        .with_remedy("sets of faces hold outer faces of the body only")
+    MeshFileFault::at(place, format!("an existing {what}"), found)
 }

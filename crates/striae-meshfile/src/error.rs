@@ -14,6 +14,93 @@ pub struct MeshFileError {
     pub fault: MeshFileFault,
 }
 
+/// Where something stands in a mesh file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// A line of text, from 1.
+    Line(usize),
+    /// A byte of a binary file, from 0.
+    Byte(usize),
+    /// A record of a section of a binary file.
+    Record {
+        /// The section.
+        section: Section,
+        /// The record, from 1; 0 is the beginning of the section.
+        record: u32,
+    },
+    /// A cell of a VTK file, from 0.
+    Cell(usize),
+    /// A point of a VTK file, from 0.
+    Point(usize),
+}
+
+/// A section of a Gmsh file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Section {
+    /// `$MeshFormat`.
+    MeshFormat,
+    /// `$PhysicalNames`.
+    PhysicalNames,
+    /// `$Entities`.
+    Entities,
+    /// `$Nodes`.
+    Nodes,
+    /// `$Elements`.
+    Elements,
+    /// `$NodeData`.
+    NodeData,
+    /// One that is not read.
+    Other,
+}
+
+impl Section {
+    /// The section that a line begins.
+    pub(super) fn new(line: &str) -> Self {
+        let known = [
+            Self::MeshFormat,
+            Self::PhysicalNames,
+            Self::Entities,
+            Self::Nodes,
+            Self::Elements,
+            Self::NodeData,
+        ];
+        let known = known.into_iter().find(|section| section.line() == line);
+        known.unwrap_or(Self::Other)
+    }
+
+    /// The line that begins it.
+    fn line(self) -> &'static str {
+        match self {
+            Self::MeshFormat => "$MeshFormat",
+            Self::PhysicalNames => "$PhysicalNames",
+            Self::Entities => "$Entities",
+            Self::Nodes => "$Nodes",
+            Self::Elements => "$Elements",
+            Self::NodeData => "$NodeData",
+            Self::Other => "a section that is not read",
+        }
+    }
+}
+
+impl std::fmt::Display for Section {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.line())
+    }
+}
+
+impl std::fmt::Display for Place {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Line(line) => write!(f, "line {line}"),
+            Self::Byte(byte) => write!(f, "byte {byte}"),
+            Self::Record { section, record: 0 } => write!(f, "{section}"),
+            Self::Record { section, record } => write!(f, "{section}, record {record}"),
+            Self::Cell(cell) => write!(f, "cell {cell}"),
+            Self::Point(point) => write!(f, "point {point}"),
+        }
+    }
+}
+
 /// What is wrong with a mesh file.
 #[derive(Debug, thiserror::Error)]
 pub enum MeshFileFault {
@@ -26,11 +113,11 @@ pub enum MeshFileFault {
         /// The endings that are known.
         expected: &'static str,
     },
-    /// A line that is wrong or cannot be used.
-    #[error("line {line}: expected {expected}, found {found}{}", Remedy(remedy))]
-    Line {
-        /// Number of the line, from 1.
-        line: usize,
+    /// A place that is wrong or cannot be used.
+    #[error("{place}: expected {expected}, found {found}{}", Remedy(remedy))]
+    At {
+        /// Where it is in the file.
+        place: Place,
         /// What should be there.
         expected: String,
         /// What is there.
@@ -76,17 +163,22 @@ pub enum MeshFileFault {
 impl MeshFileFault {
     /// A wrong line.
     pub(super) fn line(line: usize, expected: impl Into<String>, found: impl Into<String>) -> Self {
-        Self::Line {
-            line,
+        Self::at(Place::Line(line), expected, found)
+    }
+
+    /// A wrong place.
+    pub(super) fn at(place: Place, expected: impl Into<String>, found: impl Into<String>) -> Self {
+        Self::At {
+            place,
             expected: expected.into(),
             found: found.into(),
             remedy: None,
         }
     }
 
-    /// The same fault with advice, if it is that of a line.
+    /// The same fault with advice, if it is that of a place.
     pub(super) fn with_remedy(mut self, advice: &'static str) -> Self {
-        if let Self::Line { remedy, .. } = &mut self {
+        if let Self::At { remedy, .. } = &mut self {
             *remedy = Some(advice);
         }
         self

@@ -2,8 +2,9 @@
 //!
 //! | ending | format | what is read |
 //! | --- | --- | --- |
-//! | `.msh` | Gmsh, ASCII, versions 2 and 4.1 | cells; physical volumes as element sets, surfaces as facet and node sets, curves and points as node sets |
+//! | `.msh` | Gmsh, ASCII and binary, versions 2 and 4.1 | cells; physical volumes as element sets, surfaces as facet and node sets, curves and points as node sets |
 //! | `.inp` | Abaqus | elements `C3D4`, `C3D5`, `C3D6`, `C3D8`, `C3D10`, `C3D15`, `C3D20`, `C3D27` of any variant, `*NSET`, `*ELSET`, `*SURFACE` |
+//! | `.vtu`, `.vtk` | unstructured grids of VTK, as XML and legacy | cells; arrays of integers as sets `<array>-<value>` |
 //! | `.stl` | STL, ASCII and binary | triangles of a rigid surface |
 //! | `.csv` | lines `node,x,y,z` | vectors at nodes; so do `$NodeData` of three components in `.msh` |
 //!
@@ -11,12 +12,13 @@
 //! divided into linear ones on all their nodes, see [`Reading::notes`].
 //!
 //! Nodes that no element uses are left out, also of sets; sets that become
-//! empty vanish. Each facet set gives its name to the set of its nodes unless the
+//! empty vanish. Elements of lower dimension make sets of facets and nodes where they lie on the
+//! body. Each facet set gives its name to the set of its nodes unless the
 //! file has a node set of that name; node set and element set `all` hold
 //! everything. Physical groups of Gmsh without a name are called by their number.
 //!
 //! Formats: Gmsh reference manual, "Gmsh file formats"; Abaqus keywords
-//! reference guide.
+//! reference guide; "VTK file formats" in VTK's documentation.
 
 mod abaqus;
 mod collected;
@@ -24,12 +26,15 @@ mod division;
 mod error;
 mod gmsh;
 mod lines;
+mod lower;
 mod node_vectors;
+mod sets;
 mod stl;
 #[cfg(test)]
 mod tests;
+mod vtk;
 
-pub use error::{MeshFileError, MeshFileFault};
+pub use error::{MeshFileError, MeshFileFault, Place, Section};
 pub use node_vectors::NodeVectors;
 
 use std::path::Path;
@@ -65,7 +70,7 @@ pub enum Asked {
     AssumedStrain,
 }
 
-/// Reads the mesh of a body from a `.msh` or `.inp` file.
+/// Reads the mesh of a body from a `.msh`, `.inp`, `.vtu` or `.vtk` file.
 ///
 /// # Errors
 /// [`MeshFileError`] names the file and, where there is one, the line. Every
@@ -81,8 +86,10 @@ pub fn read(path: impl AsRef<Path>) -> Result<Mesh, MeshFileError> {
 pub fn read_with_notes(path: impl AsRef<Path>) -> Result<Reading, MeshFileError> {
     let path = path.as_ref();
     match ending(path).as_str() {
-        "msh" => text(path).and_then(|text| gmsh::body(&text)),
+        "msh" => bytes(path).and_then(|bytes| gmsh::body(&bytes)),
         "inp" => text(path).and_then(|text| abaqus::body(&text)),
+        "vtu" => bytes(path).and_then(|bytes| vtk::xml_body(&bytes)),
+        "vtk" => bytes(path).and_then(|bytes| vtk::legacy_body(&bytes)),
         _ => Err(MeshFileFault::UnknownEnding { expected: BODY }),
     }
     .map_err(|fault| fault.of(path))
@@ -100,7 +107,7 @@ pub fn read_with_notes(path: impl AsRef<Path>) -> Result<Reading, MeshFileError>
 pub fn read_rigid_surface(path: impl AsRef<Path>) -> Result<RigidSurfaceMesh, MeshFileError> {
     let path = path.as_ref();
     match ending(path).as_str() {
-        "msh" => text(path).and_then(|text| gmsh::rigid_surface(&text)),
+        "msh" => bytes(path).and_then(|bytes| gmsh::rigid_surface(&bytes)),
         "stl" => bytes(path).and_then(|bytes| stl::rigid_surface(&bytes)),
         _ => Err(MeshFileFault::UnknownEnding {
             expected: ".msh (Gmsh) or .stl",
@@ -123,7 +130,7 @@ pub fn read_node_vectors(
 ) -> Result<NodeVectors, MeshFileError> {
     let path = path.as_ref();
     match ending(path).as_str() {
-        "msh" => text(path).and_then(|text| gmsh::node_data(&text, name)),
+        "msh" => bytes(path).and_then(|bytes| gmsh::node_data(&bytes, name)),
         "csv" => text(path).and_then(|text| node_vectors::list(&text)),
         _ => Err(MeshFileFault::UnknownEnding {
             expected: ".msh (Gmsh) or .csv",
@@ -139,8 +146,10 @@ pub fn read_node_vectors(
 pub fn node_numbers(path: impl AsRef<Path>) -> Result<Vec<u64>, MeshFileError> {
     let path = path.as_ref();
     let collected = match ending(path).as_str() {
-        "msh" => text(path).and_then(|text| gmsh::collected(&text)),
+        "msh" => bytes(path).and_then(|bytes| gmsh::collected(&bytes)),
         "inp" => text(path).and_then(|text| abaqus::collected(&text)),
+        "vtu" => bytes(path).and_then(|bytes| vtk::xml_collected(&bytes)),
+        "vtk" => bytes(path).and_then(|bytes| vtk::legacy_collected(&bytes)),
         _ => Err(MeshFileFault::UnknownEnding { expected: BODY }),
     };
     collected
@@ -156,8 +165,8 @@ pub fn node_numbers(path: impl AsRef<Path>) -> Result<Vec<u64>, MeshFileError> {
 pub fn rigid_node_numbers(path: impl AsRef<Path>) -> Result<Vec<u64>, MeshFileError> {
     let path = path.as_ref();
     match ending(path).as_str() {
-        "msh" => text(path)
-            .and_then(|text| gmsh::numbered_rigid_surface(&text))
+        "msh" => bytes(path)
+            .and_then(|bytes| gmsh::numbered_rigid_surface(&bytes))
             .map(|(_, numbers)| numbers)
             .map_err(|fault| fault.of(path)),
         _ => read_rigid_surface(path).map(|surface| (0..surface.positions.len() as u64).collect()),
@@ -165,7 +174,7 @@ pub fn rigid_node_numbers(path: impl AsRef<Path>) -> Result<Vec<u64>, MeshFileEr
 }
 
 /// Endings of meshes of bodies.
-const BODY: &str = ".msh (Gmsh) or .inp (Abaqus)";
+const BODY: &str = ".msh (Gmsh), .inp (Abaqus), .vtu or .vtk (VTK)";
 
 fn ending(path: &Path) -> String {
     path.extension()

@@ -45,29 +45,10 @@ impl<'a> Lines<'a> {
         None
     }
 
-    /// Number of the last line read, from 1.
-    pub(super) fn last(&self) -> usize {
-        self.last
-    }
-
     /// The next line, a fault at the end of the file.
     pub(super) fn expect(&mut self, expected: &str) -> Result<Line<'a>, MeshFileFault> {
         let line = self.next();
         line.ok_or_else(|| MeshFileFault::line(self.last, expected, "the end of the file"))
-    }
-
-    /// The words of the next line.
-    pub(super) fn words(&mut self, expected: &str) -> Result<Words<'a>, MeshFileFault> {
-        Ok(self.expect(expected)?.words())
-    }
-
-    /// Reads a line that has to be `text`.
-    pub(super) fn exactly(&mut self, text: &str) -> Result<(), MeshFileFault> {
-        let line = self.expect(text)?;
-        if line.text == text {
-            return Ok(());
-        }
-        Err(line.fault(text))
     }
 }
 
@@ -86,11 +67,6 @@ impl<'a> Line<'a> {
 }
 
 impl<'a> Words<'a> {
-    /// The number of the line.
-    pub(super) fn line(&self) -> usize {
-        self.line.number
-    }
-
     /// The next word as a value.
     pub(super) fn next<T: FromStr>(&mut self, expected: &str) -> Result<T, MeshFileFault> {
         let number = self.line.number;
@@ -122,7 +98,7 @@ pub(super) fn parsed<T: FromStr>(
 }
 
 /// The text between quotation marks, cut after some forty characters.
-fn quoted(text: &str) -> String {
+pub(super) fn quoted(text: &str) -> String {
     const LONGEST: usize = 40;
     match text.char_indices().nth(LONGEST) {
         Some((end, _)) => format!("`{}...`", &text[..end]),

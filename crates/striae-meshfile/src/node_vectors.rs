@@ -1,7 +1,7 @@
 //! Vectors at nodes, by the numbers of the nodes.
 
-use super::MeshFileFault;
 use super::lines::{Lines, parsed};
+use super::{MeshFileFault, Place};
 use std::collections::BTreeMap;
 use striae_mesh::Vec3;
 
@@ -28,7 +28,7 @@ impl NodeVectors {
     /// Adds the vector of a node that has none yet.
     pub(super) fn add(
         &mut self,
-        line: usize,
+        place: Place,
         number: u64,
         vector: Vec3,
     ) -> Result<(), MeshFileFault> {
@@ -36,7 +36,7 @@ impl NodeVectors {
             None => Ok(()),
             Some(_) => {
                 let found = format!("node {number} for the second time");
-                Err(MeshFileFault::line(line, "a new node number", found))
+                Err(MeshFileFault::at(place, "a new node number", found))
             }
         }
     }
@@ -59,7 +59,7 @@ pub(super) fn list(text: &str) -> Result<NodeVectors, MeshFileFault> {
         let number = parsed(line.number, node, "a node number")?;
         let component = |word| parsed::<f64>(line.number, word, "a component");
         let vector = Vec3::new(component(x)?, component(y)?, component(z)?);
-        vectors.add(line.number, number, vector)?;
+        vectors.add(Place::Line(line.number), number, vector)?;
     }
     Ok(vectors)
 }

@@ -132,8 +132,9 @@ MODEL_ERRORS: list[tuple[Callable[[], Any], str]] = [
         "grading: the keys are ['x', 'y', 'z'], but there is ['w']",
     ),
     (
-        lambda: st.read_mesh("a.vtk"),
-        "mesh: a.vtk: unknown kind of file; expected .msh (Gmsh) or .inp (Abaqus)",
+        lambda: st.read_mesh("a.obj"),
+        "mesh: a.obj: unknown kind of file; expected .msh (Gmsh), .inp (Abaqus), .vtu or .vtk "
+        "(VTK)",
     ),
     (
         lambda: st.NeoHookean(-1.0, 0.3),

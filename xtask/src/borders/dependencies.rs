@@ -97,7 +97,7 @@ const LADDER: &[Row] = &[
     Row {
         name: "striae-meshfile",
         own: &["striae-mesh"],
-        outside: &["thiserror"],
+        outside: &["base64", "flate2", "roxmltree", "thiserror"],
     },
     Row {
         name: "striae-output",

@@ -1,7 +1,7 @@
 //! Sets of numbers under labels that do not depend on capital letters.
 
-use super::super::MeshFileFault;
 use super::super::lines::parsed;
+use super::super::{MeshFileFault, Place};
 use super::keywords::{Keyword, Row};
 use std::collections::BTreeMap;
 
@@ -57,9 +57,13 @@ impl LabelSets {
         Ok(members.iter().map(|member| member.1).collect())
     }
 
-    pub(super) fn into_sets(self) -> BTreeMap<String, Vec<(usize, u64)>> {
-        let sets = self.0.into_values();
-        sets.map(|set| (set.label, set.members)).collect()
+    pub(super) fn into_sets(self) -> BTreeMap<String, Vec<(Place, u64)>> {
+        let placed = |set: Set| {
+            let members = set.members.into_iter();
+            let members = members.map(|(line, member)| (Place::Line(line), member));
+            (set.label, members.collect())
+        };
+        self.0.into_values().map(placed).collect()
     }
 
     fn set(&mut self, label: &str) -> &mut Set {

@@ -1,6 +1,6 @@
 //! Gmsh's element types.
 
-use super::super::MeshFileFault;
+use super::super::{MeshFileFault, Place};
 use striae_mesh::CellKind;
 
 /// An element type by its number.
@@ -35,16 +35,15 @@ impl Kind {
     pub(super) const QUADRANGLE: Self = Self(3);
     pub(super) const TRIANGLE_6: Self = Self(9);
     pub(super) const QUADRANGLE_9: Self = Self(10);
-    pub(super) const QUADRANGLE_8: Self = Self(16);
 
     /// The type of a number from 1 to 19.
-    pub(super) fn new(line: usize, number: usize) -> Result<Self, MeshFileFault> {
+    pub(super) fn new(place: Place, number: usize) -> Result<Self, MeshFileFault> {
         if (1..=KINDS.len()).contains(&number) {
             return Ok(Self(number));
         }
         let found = format!("element type {number}");
         Err(
-            MeshFileFault::line(line, "an element type from 1 to 19", found)
+            MeshFileFault::at(place, "an element type from 1 to 19", found)
                 .with_remedy(LOWER_ORDER),
         )
     }
@@ -87,13 +86,13 @@ impl Kind {
     }
 
     /// The fault of this type where it cannot be used.
-    pub(super) fn fault(self, line: usize) -> MeshFileFault {
+    pub(super) fn fault(self, place: Place) -> MeshFileFault {
         let expected = match self.dimension() {
             3 => "tetrahedra, prisms, hexahedra or linear pyramids",
             _ => "triangles, or quadrangles of 4 or 9 nodes",
         };
         let found = format!("element type {} ({})", self.0, KINDS[self.0 - 1].0);
-        MeshFileFault::line(line, expected, found).with_remedy(LOWER_ORDER)
+        MeshFileFault::at(place, expected, found).with_remedy(LOWER_ORDER)
     }
 }
 

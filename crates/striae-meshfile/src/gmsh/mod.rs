@@ -1,4 +1,4 @@
-//! Gmsh `.msh` files, ASCII, versions 2 and 4.1.
+//! Gmsh `.msh` files, ASCII and binary, versions 2 and 4.1.
 //!
 //! A file is a sequence of sections `$Name .. $EndName`. Both versions lead to
 //! the same list of nodes and cells; a cell knows the physical groups it is in.
@@ -6,27 +6,29 @@
 //! edges and faces otherwise (`kind.rs`). A triangle of six nodes is four faces, and so is a
 //! quadrangle of eight or nine.
 
+mod input;
 mod kind;
 mod node_data;
 mod version2;
 mod version4;
 
-use super::collected::{Collected, FileElement, FileFace, position};
-use super::lines::{Line, Lines};
-use super::{MeshFileFault, Reading, RigidSurfaceMesh, division};
+use super::collected::{Collected, FileElement, position};
+use super::lines::quoted;
+use super::{MeshFileFault, Place, Reading, RigidSurfaceMesh, division};
+use input::{Input, readable};
 use kind::Kind;
 pub(super) use node_data::node_data;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use striae_mesh::{NodeId, Vec3};
 
 /// The mesh of a body.
-pub(super) fn body(text: &str) -> Result<Reading, MeshFileFault> {
-    collected(text)?.mesh()
+pub(super) fn body(bytes: &[u8]) -> Result<Reading, MeshFileFault> {
+    collected(bytes)?.mesh()
 }
 
 /// What the file says of the mesh of a body.
-pub(super) fn collected(text: &str) -> Result<Collected, MeshFileFault> {
-    let file = File::read(text)?;
+pub(super) fn collected(bytes: &[u8]) -> Result<Collected, MeshFileFault> {
+    let file = File::read(bytes)?;
     let mut mesh = Collected::default();
     let mut known = HashMap::new();
     for cell in &file.cells {
@@ -34,36 +36,26 @@ pub(super) fn collected(text: &str) -> Result<Collected, MeshFileFault> {
         match cell.kind.dimension() {
             3 => {
                 let kind = cell.kind.cell();
-                let kind = kind.ok_or_else(|| cell.kind.fault(cell.line))?;
+                let kind = kind.ok_or_else(|| cell.kind.fault(cell.place))?;
                 let corners = cell.kind.ordered(&cell.nodes);
                 // A cell of several groups is written several times in version 2.
                 let number = *known.entry(corners.clone()).or_insert(cell.number);
                 if number == cell.number {
                     mesh.elements.push(FileElement {
                         kind,
-                        line: cell.line,
+                        place: cell.place,
                         number,
                         corners,
                     });
                 }
                 for name in groups {
                     let set = mesh.element_sets.entry(name).or_default();
-                    set.push((cell.line, number));
+                    set.push((cell.place, number));
                 }
             }
-            2 if cell.groups.is_empty() => {}
-            2 => {
-                let faces = cell.faces()?;
-                for name in groups {
-                    let set = mesh.facet_sets.entry(name).or_default();
-                    set.extend(faces.iter().map(|face| (cell.line, *face)));
-                }
-            }
-            _ => {
-                for name in groups {
-                    let set = mesh.node_sets.entry(name).or_default();
-                    set.extend(cell.nodes.iter().map(|&node| (cell.line, node)));
-                }
+            dimension => {
+                let groups: Vec<String> = groups.collect();
+                mesh.add_lower(dimension, cell.place, &cell.nodes, groups);
             }
         }
     }
@@ -72,15 +64,15 @@ pub(super) fn collected(text: &str) -> Result<Collected, MeshFileFault> {
 }
 
 /// The triangles and quadrangles of a rigid surface.
-pub(super) fn rigid_surface(text: &str) -> Result<RigidSurfaceMesh, MeshFileFault> {
-    Ok(numbered_rigid_surface(text)?.0)
+pub(super) fn rigid_surface(bytes: &[u8]) -> Result<RigidSurfaceMesh, MeshFileFault> {
+    Ok(numbered_rigid_surface(bytes)?.0)
 }
 
 /// The same, and the number of every node in the file.
 pub(super) fn numbered_rigid_surface(
-    text: &str,
+    bytes: &[u8],
 ) -> Result<(RigidSurfaceMesh, Vec<u64>), MeshFileFault> {
-    let file = File::read(text)?;
+    let file = File::read(bytes)?;
     let mut ids: BTreeMap<u64, NodeId> = BTreeMap::new();
     let mut numbers = Vec::new();
     let mut positions = Vec::new();
@@ -94,7 +86,7 @@ pub(super) fn numbered_rigid_surface(
             let mut facet = [NodeId(0); 4];
             for (node, number) in facet.iter_mut().zip(corners) {
                 let position = file.nodes.get(&number).ok_or_else(|| {
-                    MeshFileFault::line(cell.line, "an existing node", format!("node {number}"))
+                    MeshFileFault::at(cell.place, "an existing node", format!("node {number}"))
                 })?;
                 *node = *ids.entry(number).or_insert_with(|| {
                     positions.push(*position);
@@ -125,7 +117,7 @@ struct File {
 
 /// One element of any kind.
 struct Cell {
-    line: usize,
+    place: Place,
     number: u64,
     kind: Kind,
     /// Numbers of its physical groups.
@@ -140,48 +132,50 @@ enum Version {
 }
 
 impl File {
-    fn read(text: &str) -> Result<Self, MeshFileFault> {
-        let mut lines = Lines::new(text);
+    fn read(bytes: &[u8]) -> Result<Self, MeshFileFault> {
+        let bytes = readable(bytes);
+        let mut input = Input::new(&bytes);
         let mut file = Self::default();
         let mut version = None;
-        while let Some(line) = lines.next() {
-            let Some(section) = line.text.strip_prefix('$') else {
-                return Err(line.fault("a section such as $MeshFormat"));
-            };
+        while let Some(section) = input.section()? {
             match (section, &mut version) {
-                ("MeshFormat", None) => version = Some(read_format(&mut lines)?),
-                ("PhysicalNames", _) => file.read_names(&mut lines)?,
-                ("Entities", Some(Version::Four(entities))) => entities.read(&mut lines)?,
-                ("Nodes", Some(Version::Two)) => version2::nodes(&mut lines, &mut file)?,
-                ("Elements", Some(Version::Two)) => version2::elements(&mut lines, &mut file)?,
-                ("Nodes", Some(Version::Four(_))) => version4::nodes(&mut lines, &mut file)?,
+                ("MeshFormat", None) => version = Some(read_format(&mut input)?),
+                ("PhysicalNames", _) => file.read_names(&mut input)?,
+                ("Entities", Some(Version::Four(entities))) => entities.read(&mut input)?,
+                ("Nodes", Some(Version::Two)) => version2::nodes(&mut input, &mut file)?,
+                ("Elements", Some(Version::Two)) => version2::elements(&mut input, &mut file)?,
+                ("Nodes", Some(Version::Four(_))) => version4::nodes(&mut input, &mut file)?,
                 ("Elements", Some(Version::Four(entities))) => {
-                    version4::elements(&mut lines, entities, &mut file)?;
+                    version4::elements(&mut input, entities, &mut file)?;
                 }
                 ("Nodes" | "Elements" | "Entities", None) => {
-                    return Err(line.fault("$MeshFormat before all other sections"));
+                    let found = format!("`${section}`");
+                    return Err(input.fault("$MeshFormat before all other sections", found));
                 }
                 _ => {
-                    skip(&mut lines, section)?;
+                    input.skip(section)?;
                     continue;
                 }
             }
-            lines.exactly(&format!("$End{section}"))?;
+            input.end(section)?;
         }
         Ok(file)
     }
 
     /// `count`, then lines `dimension number "name"`.
-    fn read_names(&mut self, lines: &mut Lines<'_>) -> Result<(), MeshFileFault> {
-        let count: usize = lines
-            .words("the number of names")?
-            .next("the number of names")?;
+    fn read_names(&mut self, input: &mut Input<'_>) -> Result<(), MeshFileFault> {
+        input.text_row("the number of names")?;
+        let count: usize = input.word("the number of names")?;
         for _ in 0..count {
-            let line = lines.expect("a physical name")?;
-            let mut words = line.words();
-            let dimension = words.next("a dimension")?;
-            let number = words.next("the number of a physical group")?;
-            self.names.insert((dimension, number), quoted_name(line)?);
+            let line = input.line("a physical name")?;
+            let fault = |expected| input.fault(expected, quoted(line));
+            let mut words = line.split_whitespace().map(str::parse);
+            let dimension = words.next().and_then(Result::ok);
+            let number = words.next().and_then(Result::ok);
+            let dimension = dimension.ok_or_else(|| fault("a dimension"))?;
+            let number = number.ok_or_else(|| fault("the number of a physical group"))?;
+            self.names
+                .insert((dimension, number as u64), quoted_name(line, fault)?);
         }
         Ok(())
     }
@@ -191,28 +185,19 @@ impl File {
         name.cloned().unwrap_or_else(|| group.to_string())
     }
 
-    fn add_node(&mut self, line: usize, number: u64, x: &[f64]) -> Result<(), MeshFileFault> {
-        let x = position(line, number, Vec3::new(x[0], x[1], x[2]))?;
+    fn add_node(&mut self, place: Place, number: u64, x: &[f64]) -> Result<(), MeshFileFault> {
+        let x = position(place, number, Vec3::new(x[0], x[1], x[2]))?;
         match self.nodes.insert(number, x) {
             None => Ok(()),
             Some(_) => {
                 let found = format!("node {number} for the second time");
-                Err(MeshFileFault::line(line, "a new node number", found))
+                Err(MeshFileFault::at(place, "a new node number", found))
             }
         }
     }
 }
 
 impl Cell {
-    /// The faces that it is, on a body.
-    fn faces(&self) -> Result<Vec<FileFace>, MeshFileFault> {
-        if let (Kind::QUADRANGLE_8, &[a, b, c, d, ab, bc, cd, da]) = (self.kind, &self.nodes[..]) {
-            return Ok(vec![FileFace::Eight([a, b, c, d], [ab, bc, cd, da])]);
-        }
-        let facets = self.facets()?.into_iter();
-        Ok(facets.map(FileFace::Corners).collect())
-    }
-
     /// The corners of quadrangles, or of triangles with the last one twice.
     fn facets(&self) -> Result<Vec<[u64; 4]>, MeshFileFault> {
         match (self.kind, self.nodes.as_slice()) {
@@ -224,43 +209,47 @@ impl Cell {
             (Kind::QUADRANGLE_9, &[a, b, c, d, ab, bc, cd, da, middle]) => {
                 Ok(division::quartered([a, b, c, d], [ab, bc, cd, da], middle))
             }
-            _ => Err(self.kind.fault(self.line)),
+            _ => Err(self.kind.fault(self.place)),
         }
     }
 }
 
-/// `version file-type data-size`.
-fn read_format(lines: &mut Lines<'_>) -> Result<Version, MeshFileFault> {
-    let line = lines.expect("version, file type and data size")?;
-    let mut words = line.words();
-    let version: String = words.next("a version")?;
-    let file_type: String = words.next("file type 0 (ASCII)")?;
-    if file_type != "0" {
-        return Err(line
-            .fault("file type 0 (ASCII)")
-            .with_remedy("save the mesh with Mesh.Binary = 0"));
+/// `version file-type data-size`, and in binary files a number that shows the order of bytes.
+fn read_format(input: &mut Input<'_>) -> Result<Version, MeshFileFault> {
+    let line = input.line("version, file type and data size")?;
+    let mut words = line.split_whitespace();
+    let mut word = |expected: &str| {
+        let word = words.next();
+        word.ok_or_else(|| input.fault(expected, "the end of the line"))
+    };
+    let version = word("a version")?;
+    let file_type = word("file type 0 (ASCII) or 1 (binary)")?;
+    let version = match version {
+        "4.1" => Version::Four(version4::Entities::default()),
+        "2" | "2.0" | "2.1" | "2.2" => Version::Two,
+        _ => {
+            let fault = input.fault("version 2.2 or 4.1", quoted(line));
+            return Err(fault.with_remedy("save the mesh with Mesh.MshFileVersion = 4.1"));
+        }
+    };
+    match (file_type, words.next()) {
+        ("0", _) => {}
+        ("1", Some("4")) => input.begin_binary(4)?,
+        ("1", Some("8")) => input.begin_binary(8)?,
+        ("1", _) => return Err(input.fault("data size 4 or 8", quoted(line))),
+        _ => return Err(input.fault("file type 0 (ASCII) or 1 (binary)", quoted(line))),
     }
-    match version.as_str() {
-        "4.1" => Ok(Version::Four(version4::Entities::default())),
-        "2" | "2.0" | "2.1" | "2.2" => Ok(Version::Two),
-        _ => Err(line
-            .fault("version 2.2 or 4.1")
-            .with_remedy("save the mesh with Mesh.MshFileVersion = 4.1")),
-    }
+    Ok(version)
 }
 
-fn quoted_name(line: Line<'_>) -> Result<String, MeshFileFault> {
-    let name = line
-        .text
-        .split_once('"')
-        .and_then(|(_, rest)| rest.strip_suffix('"'));
+/// The text in quotation marks at the end of a line.
+fn quoted_name(
+    line: &str,
+    fault: impl Fn(&'static str) -> MeshFileFault,
+) -> Result<String, MeshFileFault> {
+    let name = line.split_once('"');
+    let name = name.and_then(|(_, rest)| rest.strip_suffix('"'));
     Ok(name
-        .ok_or_else(|| line.fault("a name in quotation marks"))?
+        .ok_or_else(|| fault("a name in quotation marks"))?
         .to_owned())
-}
-
-fn skip(lines: &mut Lines<'_>, section: &str) -> Result<(), MeshFileFault> {
-    let end = format!("$End{section}");
-    while lines.expect(&end)?.text != end {}
-    Ok(())
 }

@@ -1,4 +1,5 @@
-//! Vectors at nodes, from the sections `$NodeData` of both versions.
+//! Vectors at nodes, from the sections `$NodeData` of both versions; in a binary file the lines of nodes are an
+//! integer and reals.
 //!
 //! ```text
 //! $NodeData
@@ -15,14 +16,15 @@
 //! $EndNodeData
 //! ```
 
-use super::super::lines::Lines;
-use super::super::{MeshFileFault, NodeVectors};
-use super::{quoted_name, read_format, skip};
+use super::super::lines::quoted;
+use super::super::{MeshFileFault, NodeVectors, Place};
+use super::input::{Input, readable};
+use super::{quoted_name, read_format};
 use striae_mesh::Vec3;
 
 /// The vectors called `name`; without a name, the only node data of the file.
-pub(crate) fn node_data(text: &str, name: Option<&str>) -> Result<NodeVectors, MeshFileFault> {
-    let mut all = sections(text)?;
+pub(crate) fn node_data(bytes: &[u8], name: Option<&str>) -> Result<NodeVectors, MeshFileFault> {
+    let mut all = sections(bytes)?;
     let named = |section: &Section| name.is_none_or(|name| name == section.name);
     match all.iter().filter(|section| named(section)).count() {
         1 => all
@@ -38,66 +40,68 @@ pub(crate) fn node_data(text: &str, name: Option<&str>) -> Result<NodeVectors, M
 /// One section `$NodeData`.
 struct Section {
     name: String,
-    /// Line of the number of components.
-    line: usize,
+    /// Where the number of components stands.
+    place: Place,
     components: usize,
-    /// Line, number of the node and values.
-    rows: Vec<(usize, u64, Vec<f64>)>,
+    /// Place, number of the node and values.
+    rows: Vec<(Place, u64, Vec<f64>)>,
 }
 
-fn sections(text: &str) -> Result<Vec<Section>, MeshFileFault> {
-    let mut lines = Lines::new(text);
+fn sections(bytes: &[u8]) -> Result<Vec<Section>, MeshFileFault> {
+    let bytes = readable(bytes);
+    let mut input = Input::new(&bytes);
     let mut sections = Vec::new();
-    while let Some(line) = lines.next() {
-        let Some(name) = line.text.strip_prefix('$') else {
-            return Err(line.fault("a section such as $MeshFormat"));
-        };
+    while let Some(name) = input.section()? {
         match name {
             "MeshFormat" => {
-                read_format(&mut lines)?;
-                lines.exactly("$EndMeshFormat")?;
+                read_format(&mut input)?;
+                input.end(name)?;
             }
             "NodeData" => {
-                sections.push(Section::read(&mut lines)?);
-                lines.exactly("$EndNodeData")?;
+                sections.push(Section::read(&mut input)?);
+                input.end(name)?;
             }
-            _ => skip(&mut lines, name)?,
+            _ => input.skip(name)?,
         }
     }
     Ok(sections)
 }
 
 impl Section {
-    fn read(lines: &mut Lines<'_>) -> Result<Self, MeshFileFault> {
+    fn read(input: &mut Input<'_>) -> Result<Self, MeshFileFault> {
         let mut texts = Vec::new();
-        for _ in 0..whole(lines, "the number of texts")? {
-            texts.push(quoted_name(lines.expect("a text")?)?);
+        for _ in 0..whole(input, "the number of texts")? {
+            let line = input.line("a text")?;
+            texts.push(quoted_name(line, |expected| {
+                input.fault(expected, quoted(line))
+            })?);
         }
-        for _ in 0..whole(lines, "the number of reals")? {
-            lines.words("a real")?.next::<f64>("a real")?;
+        for _ in 0..whole(input, "the number of reals")? {
+            input.text_row("a real")?;
+            input.word::<f64>("a real")?;
         }
-        let integers = whole(lines, "the number of integers")?;
+        let integers = whole(input, "the number of integers")?;
         if integers < 3 {
             let found = format!("{integers} integers");
-            let expected = "time step, components and number of nodes";
-            return Err(MeshFileFault::line(lines.last(), expected, found));
+            return Err(input.fault("time step, components and number of nodes", found));
         }
-        whole(lines, "the time step")?;
-        let components = whole(lines, "the number of components")?;
-        let line = lines.last();
-        let count = whole(lines, "the number of nodes")?;
+        whole(input, "the time step")?;
+        let components = whole(input, "the number of components")?;
+        let place = input.place();
+        let count = whole(input, "the number of nodes")?;
         for _ in 3..integers {
-            whole(lines, "an integer")?;
+            whole(input, "an integer")?;
         }
         let mut rows = Vec::new();
         for _ in 0..count {
-            let mut words = lines.words("a node number and its values")?;
-            let number = words.next("a node number")?;
-            rows.push((words.line(), number, words.several(components, "a value")?));
+            input.record("a node number and its values")?;
+            let number = input.integer("a node number")?;
+            let values = input.several(components, |input| input.real("a value"))?;
+            rows.push((input.place(), number, values));
         }
         Ok(Self {
             name: texts.into_iter().next().unwrap_or_default(),
-            line,
+            place,
             components,
             rows,
         })
@@ -106,21 +110,22 @@ impl Section {
     fn vectors(self) -> Result<NodeVectors, MeshFileFault> {
         if self.components != 3 {
             let expected = format!("3 components of `{}`", self.name);
-            return Err(MeshFileFault::line(
-                self.line,
+            return Err(MeshFileFault::at(
+                self.place,
                 expected,
                 self.components.to_string(),
             ));
         }
         let mut vectors = NodeVectors::default();
-        for (line, number, values) in &self.rows {
-            vectors.add(*line, *number, Vec3::from_row_slice(values))?;
+        for (place, number, values) in &self.rows {
+            vectors.add(*place, *number, Vec3::from_row_slice(values))?;
         }
         Ok(vectors)
     }
 }
 
 /// A line with a whole number.
-fn whole(lines: &mut Lines<'_>, what: &str) -> Result<usize, MeshFileFault> {
-    lines.words(what)?.next(what)
+fn whole(input: &mut Input<'_>, what: &str) -> Result<usize, MeshFileFault> {
+    input.text_row(what)?;
+    input.word(what)
 }

@@ -2,7 +2,8 @@
 //!
 //! Elements belong to geometric entities, and these to physical groups.
 
-use super::super::{MeshFileFault, lines::Lines};
+use super::super::MeshFileFault;
+use super::input::Input;
 use super::{Cell, File, kind::Kind};
 use std::collections::HashMap;
 
@@ -11,22 +12,27 @@ use std::collections::HashMap;
 pub(super) struct Entities(HashMap<(usize, i64), Vec<u64>>);
 
 impl Entities {
-    /// Numbers of points, curves, surfaces and volumes, then a line each:
-    /// `number box.. group-count groups..`, the box of a point being its position.
-    pub(super) fn read(&mut self, lines: &mut Lines<'_>) -> Result<(), MeshFileFault> {
-        let counts: Vec<usize> = lines
-            .words("the numbers of entities")?
-            .several(4, "a number of entities")?;
+    /// Numbers of points, curves, surfaces and volumes, then a record each:
+    /// `number box.. group-count groups.. boundary-count boundary..`, the box of a point
+    /// being its position, and no point having a boundary.
+    pub(super) fn read(&mut self, input: &mut Input<'_>) -> Result<(), MeshFileFault> {
+        input.row("the numbers of entities")?;
+        let counts: Vec<usize> = input.several(4, |input| input.size("a number of entities"))?;
         for (dimension, count) in counts.into_iter().enumerate() {
             let box_size = if dimension == 0 { 3 } else { 6 };
             for _ in 0..count {
-                let mut words = lines.words("an entity")?;
-                let number = words.next("the number of an entity")?;
-                let _: Vec<f64> = words.several(box_size, "a coordinate")?;
-                let group_count = words.next("the number of physical groups")?;
-                let groups: Vec<i64> = words.several(group_count, "a physical group")?;
+                input.record("an entity")?;
+                let number = input.integer("the number of an entity")?;
+                input.several(box_size, |input| input.real("a coordinate"))?;
+                let groups = input.size("the number of physical groups")?;
+                let groups: Vec<i64> =
+                    input.several(groups, |input| input.integer("a physical group"))?;
                 let groups = groups.into_iter().map(i64::unsigned_abs).collect();
                 self.0.insert((dimension, number), groups);
+                if input.is_binary() && dimension > 0 {
+                    let boundary = input.size("the number of bounding entities")?;
+                    input.several(boundary, |input| input.integer::<i64>("an entity"))?;
+                }
             }
         }
         Ok(())
@@ -40,45 +46,54 @@ impl Entities {
     }
 }
 
-/// `block-count node-count min max`, then blocks: a line `dimension entity
-/// parametric count`, the node numbers, the coordinates.
-pub(super) fn nodes(lines: &mut Lines<'_>, file: &mut File) -> Result<(), MeshFileFault> {
-    for _ in 0..block_count(lines)? {
-        let header: Vec<i64> = lines.words(BLOCK)?.several(4, BLOCK)?;
+/// `block-count node-count min max`, then blocks: a head `dimension entity
+/// parametric count`, the node numbers, the coordinates, with those on a curve or surface
+/// where these are given.
+pub(super) fn nodes(input: &mut Input<'_>, file: &mut File) -> Result<(), MeshFileFault> {
+    for _ in 0..block_count(input)? {
+        input.row(BLOCK)?;
+        let dimension: usize = input.integer(BLOCK)?;
+        input.integer::<i64>(BLOCK)?;
+        let parametric: usize = input.integer(BLOCK)?;
+        let count: usize = input.size(BLOCK)?;
         let mut numbers = Vec::new();
-        for _ in 0..header[3] {
-            numbers.push(lines.words("a node number")?.next::<u64>("a node number")?);
+        for _ in 0..count {
+            input.row("a node number")?;
+            numbers.push(input.size::<u64>("a node number")?);
         }
         for number in numbers {
-            let mut words = lines.words("three coordinates")?;
-            let line = words.line();
-            file.add_node(line, number, &words.several(3, "a coordinate")?)?;
+            input.record("three coordinates")?;
+            let x = input.several(3, |input| input.real("a coordinate"))?;
+            file.add_node(input.place(), number, &x)?;
+            if input.is_binary() && parametric != 0 {
+                input.several(dimension, |input| input.real("a coordinate"))?;
+            }
         }
     }
     Ok(())
 }
 
-/// `block-count element-count min max`, then blocks: a line `dimension entity
-/// type count` and lines `number nodes..`.
+/// `block-count element-count min max`, then blocks: a head `dimension entity
+/// type count` and records `number nodes..`.
 pub(super) fn elements(
-    lines: &mut Lines<'_>,
+    input: &mut Input<'_>,
     entities: &Entities,
     file: &mut File,
 ) -> Result<(), MeshFileFault> {
-    for _ in 0..block_count(lines)? {
-        let mut header = lines.words(BLOCK)?;
-        let dimension = header.next(BLOCK)?;
-        let groups = entities.groups(dimension, header.next(BLOCK)?);
-        let kind = Kind::new(header.line(), header.next(BLOCK)?)?;
-        let count: usize = header.next(BLOCK)?;
+    for _ in 0..block_count(input)? {
+        input.row(BLOCK)?;
+        let dimension = input.integer(BLOCK)?;
+        let groups = entities.groups(dimension, input.integer(BLOCK)?);
+        let kind = Kind::new(input.place(), input.integer(BLOCK)?)?;
+        let count: usize = input.size(BLOCK)?;
         for _ in 0..count {
-            let mut words = lines.words("an element")?;
+            input.record("an element")?;
             file.cells.push(Cell {
-                line: words.line(),
-                number: words.next("an element number")?,
+                place: input.place(),
+                number: input.size("an element number")?,
                 kind,
                 groups: groups.clone(),
-                nodes: words.several(kind.node_count(), "a node number")?,
+                nodes: input.several(kind.node_count(), |input| input.size("a node number"))?,
             });
         }
     }
@@ -87,8 +102,12 @@ pub(super) fn elements(
 
 const BLOCK: &str = "the head of a block: dimension, entity, kind, count";
 
-fn block_count(lines: &mut Lines<'_>) -> Result<usize, MeshFileFault> {
-    lines
-        .words("the number of blocks")?
-        .next("the number of blocks")
+/// The first of the four numbers at the beginning of nodes and elements.
+fn block_count(input: &mut Input<'_>) -> Result<usize, MeshFileFault> {
+    input.row("the number of blocks")?;
+    let count = input.size("the number of blocks")?;
+    if input.is_binary() {
+        input.several(3, |input| input.size::<u64>("a number of the section"))?;
+    }
+    Ok(count)
 }

@@ -106,6 +106,54 @@ fn abaqus_faces_have_their_normals() {
 }
 
 #[test]
+fn shells_and_bars_make_sets_of_facets_and_nodes() {
+    let text = TWO_CUBES.to_owned()
+        + "*Element, type=S4R, elset=Skin
+21, 1, 4, 14, 11
+22, 2, 5, 15, 12
+*Element, type=T3D2, elset=Wire
+23, 1, 2
+*Element, type=MASS, elset=Wire
+24, 13
+*Element, type=B31
+25, 2, 3
+*Elset, elset=Mixed
+7, 21, 23
+*Nset, nset=skinned, elset=Skin
+*Surface, name=Outside
+Skin, SPOS
+*Surface, name=Mid
+7, S4
+";
+    let reading = abaqus::body(&text).unwrap();
+    let mesh = &reading.mesh;
+    let left = |set: &str| {
+        let faces = mesh.facet_sets.get(set).unwrap();
+        assert_eq!(faces.len(), 1, "{set}");
+        assert_eq!(mesh.area_vector(faces[0]), -Vec3::x(), "{set}");
+    };
+    ["Skin", "Mixed", "Outside"].into_iter().for_each(left);
+    assert_eq!(mesh.facet_sets.get("Mid"), None);
+    let nodes = |set: &str| mesh.node_sets.get(set).unwrap().len();
+    assert_eq!(["Skin", "Wire", "Mid", "skinned"].map(nodes), [8, 2, 4, 8]);
+    let names: Vec<&str> = mesh.element_sets.names().collect();
+    assert_eq!(names, ["Both", "Mixed", "all"]);
+    assert_eq!(mesh.element_sets.get("Mixed").unwrap().len(), 1);
+    let left_out = "facets are not on the boundary of the body and are left out";
+    assert_eq!(
+        reading.notes,
+        [
+            "elements C3D8R are read as elements with full integration".to_owned(),
+            "1 element of type MASS is ignored".to_owned(),
+            format!("facet set `Mid`: 1 of 1 {left_out}"),
+            format!("facet set `Outside`: 1 of 2 {left_out}"),
+            format!("facet set `Skin`: 1 of 2 {left_out}"),
+            "in no set and left out: 1 line".to_owned(),
+        ]
+    );
+}
+
+#[test]
 fn broken_abaqus_files_are_explained() {
     for (text, parts) in [
         ("1, 2\n*NODE\n", ["line 1", "a keyword such as *NODE"]),
@@ -138,18 +186,31 @@ fn broken_abaqus_files_are_explained() {
         ),
         ("*SURFACE, NAME=a\n1, S7\n", ["line 2", "S1 to S6"]),
         (
+            "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n*SURFACE, NAME=a\n1, S5\n",
+            [
+                "line 9",
+                "a side of the element, found side 5 of element 1, a tetrahedron",
+            ],
+        ),
+        (
+            "*ELEMENT, TYPE=COH3D8\n",
+            ["line 1", "mesh the part with these elements"],
+        ),
+        (
+            "*ELEMENT, TYPE=S4\n1, 2, x\n",
+            ["line 2", "an element number and node numbers, found `x`"],
+        ),
+        (
+            "*ELEMENT, TYPE=S3\n1, 2, 3, 4\n1, 2, 3, 4\n",
+            ["line 3", "element 1 for the second time"],
+        ),
+        (
             "*NODE\n1, 0, 0, 0\n",
             ["expected tetrahedra", "mesh the volume"],
         ),
     ] {
         assert_explained(body(text).map(drop), parts);
     }
-    let inner = format!("{TWO_CUBES}*SURFACE, NAME=mid\n7, S4\n");
-    let parts = [
-        "line 25: expected a face on the boundary of the body in set 'mid'",
-        "side 4 of element 7",
-    ];
-    assert_explained(body(&inner).map(drop), parts);
     let inverted = TWO_CUBES.replace(
         "8, 2, 3, 6, 5, 12, 13, 16, 15",
         "8, 12, 13, 16, 15, 2, 3, 6, 5",

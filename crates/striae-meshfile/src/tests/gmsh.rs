@@ -6,7 +6,7 @@ use crate::{MeshFileFault, read_rigid_surface};
 use striae_mesh::{CellKind, Mesh, NodeId, Vec3};
 
 fn body(text: &str) -> Result<Mesh, MeshFileFault> {
-    gmsh::body(text).map(|reading| reading.mesh)
+    gmsh::body(text.as_bytes()).map(|reading| reading.mesh)
 }
 
 /// A cube of node 1 to 8 with the given elements and names, version 2.
@@ -47,10 +47,42 @@ fn quadrangles_of_no_group_and_in_any_order_are_fine() {
     assert_eq!(mesh.area_vector(top[0]), Vec3::z());
     assert_eq!(mesh.facet_sets.names().count(), 1);
     let stray = ["2 3 2 9 1 1 2 7 8", "3 5 0 1 2 3 4 5 6 7 8"];
-    let result = body(&cube("", &stray)).map(drop);
-    assert_explained(
-        result,
-        ["line 17", "a face on the boundary of the body in set '9'"],
+    let reading = gmsh::body(cube("", &stray).as_bytes()).unwrap();
+    assert_eq!(
+        reading.notes,
+        ["facet set `9`: 1 of 1 facets are not on the boundary of the body and are left out",]
+    );
+    assert_eq!(reading.mesh.facet_sets.get("9"), None);
+    assert_eq!(reading.mesh.node_sets.get("9").unwrap().len(), 4);
+}
+
+/// Two cubes as two volumes with the surface between them, outer faces, a line and a point.
+#[test]
+fn surfaces_between_volumes_and_lines_are_no_fault() {
+    let text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n3 1 \"core\"\n\
+        3 2 \"shell\"\n2 3 \"between\"\n1 4 \"axis\"\n$EndPhysicalNames\n$Nodes\n14\n\
+        1 0 0 0\n2 1 0 0\n3 2 0 0\n4 0 1 0\n5 1 1 0\n6 2 1 0\n\
+        7 0 0 1\n8 1 0 1\n9 2 0 1\n10 0 1 1\n11 1 1 1\n12 2 1 1\n13 5 5 5\n14 6 5 5\n\
+        $EndNodes\n$Elements\n9\n\
+        1 5 2 1 1 1 2 5 4 7 8 11 10\n2 5 2 2 2 2 3 6 5 8 9 12 11\n\
+        3 3 2 3 3 2 5 11 8\n4 3 2 3 3 1 4 10 7\n5 1 2 4 4 13 14\n\
+        6 3 0 3 6 12 9\n7 1 0 1 2\n8 1 0 2 3\n9 15 0 1\n$EndElements\n";
+    let reading = gmsh::body(text.as_bytes()).unwrap();
+    let mesh = &reading.mesh;
+    let names: Vec<&str> = mesh.element_sets.names().collect();
+    assert_eq!(names, ["all", "core", "shell"]);
+    let between = mesh.facet_sets.get("between").unwrap();
+    assert_eq!(between.len(), 1);
+    assert_eq!(mesh.area_vector(between[0]), -Vec3::x());
+    assert_eq!(mesh.node_sets.get("between").unwrap().len(), 8);
+    assert_eq!(
+        reading.notes,
+        [
+            "facet set `between`: 1 of 2 facets are not on the boundary of the body and are \
+             left out",
+            "node set `axis` has no node of the body and is left out",
+            "in no set and left out: 1 surface element, 2 lines and 1 point",
+        ]
     );
 }
 
@@ -84,8 +116,8 @@ fn broken_gmsh_files_are_explained() {
         ("hello\n".to_owned(), ["line 1", "$MeshFormat"]),
         ("$Nodes\n".to_owned(), ["line 1", "$MeshFormat before all"]),
         (
-            "$MeshFormat\n4.1 1 8\n".to_owned(),
-            ["line 2", "Mesh.Binary = 0"],
+            "$MeshFormat\n4.1 2 8\n".to_owned(),
+            ["line 2", "file type 0 (ASCII) or 1 (binary)"],
         ),
         (
             "$MeshFormat\n4 0 8\n".to_owned(),
@@ -144,7 +176,7 @@ fn broken_gmsh_files_are_explained() {
     ] {
         assert_explained(body(&text).map(drop), parts);
     }
-    let nothing = rigid_surface(two).map(drop);
+    let nothing = rigid_surface(two.as_bytes()).map(drop);
     assert_explained(nothing, ["triangles or quadrangles", "mesh the surfaces"]);
 }
 
@@ -208,7 +240,7 @@ fn cells_of_higher_order_are_divided() {
         let linear = block(cells);
         for (kind, full) in types.into_iter().zip([false, true]) {
             let whole = written::Whole::new(&linear, edges, faces, full);
-            let reading = gmsh::body(&whole.gmsh(kind)).unwrap();
+            let reading = gmsh::body(whole.gmsh(kind).as_bytes()).unwrap();
             divided(&linear, &reading);
         }
     }

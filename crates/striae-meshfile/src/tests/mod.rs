@@ -2,8 +2,10 @@
 
 mod abaqus;
 mod gmsh;
+mod gmsh_binary;
 mod node_vectors;
 mod stl;
+mod vtk;
 mod written;
 
 use super::{MeshFileFault, read};
@@ -17,8 +19,14 @@ fn meshes_come_back_from_all_formats() {
     for cells in CellKind::ALL {
         let mesh = block(cells);
         for (format, result) in [
-            ("msh 2", mesh_file::gmsh::body(&written::gmsh2(&mesh))),
-            ("msh 4", mesh_file::gmsh::body(&written::gmsh4(&mesh))),
+            (
+                "msh 2",
+                mesh_file::gmsh::body(written::gmsh2(&mesh).as_bytes()),
+            ),
+            (
+                "msh 4",
+                mesh_file::gmsh::body(written::gmsh4(&mesh).as_bytes()),
+            ),
             ("inp", mesh_file::abaqus::body(&written::abaqus(&mesh))),
         ] {
             let back = result.unwrap_or_else(|fault| panic!("{cells}, {format}: {fault}"));
@@ -38,7 +46,7 @@ fn the_ending_chooses_the_format() {
     std::fs::write(&path, written::abaqus(&mesh)).unwrap();
     assert_eq!(read(&path).unwrap(), mesh);
 
-    let path = folder.path().join("block.vtk");
+    let path = folder.path().join("block.obj");
     let error = read(&path).unwrap_err();
     assert!(matches!(error.fault, MeshFileFault::UnknownEnding { .. }));
     let error = read(folder.path().join("none.inp")).unwrap_err();
@@ -62,7 +70,7 @@ fn coordinates_that_are_not_finite_are_named_as_the_file_names_them() {
         for (one, read) in [("NaN", "NaN"), ("inf", "inf"), ("-1e999", "-inf")] {
             let text = text.replace("0.0625", one);
             let result = match text.starts_with('$') {
-                true => mesh_file::gmsh::body(&text),
+                true => mesh_file::gmsh::body(text.as_bytes()),
                 false => mesh_file::abaqus::body(&text),
             };
             let found = format!("found node 37 at (1, 1, {read})");
@@ -91,8 +99,8 @@ proptest! {
 /// Every reader on the same text.
 fn any(text: &str) -> [bool; 4] {
     [
-        mesh_file::gmsh::body(text).is_ok(),
-        mesh_file::gmsh::rigid_surface(text).is_ok(),
+        mesh_file::gmsh::body(text.as_bytes()).is_ok(),
+        mesh_file::gmsh::rigid_surface(text.as_bytes()).is_ok(),
         mesh_file::abaqus::body(text).is_ok(),
         mesh_file::stl::rigid_surface(text.as_bytes()).is_ok(),
     ]

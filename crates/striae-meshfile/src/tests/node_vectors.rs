@@ -32,12 +32,12 @@ fn node_data_are_found_by_name_among_others() {
             + "$Other\n1\n$EndOther\n"
             + &section("heat", 1, &["7 300"])
             + &section("fibres", 3, &["7 0.5 -1 2e-1", "3 0 0 1"]);
-        let vectors = gmsh::node_data(&text, Some("fibres")).unwrap();
+        let vectors = gmsh::node_data(text.as_bytes(), Some("fibres")).unwrap();
         assert_eq!(at(&vectors, 7), Vec3::new(0.5, -1.0, 0.2));
         assert_eq!(at(&vectors, 3), Vec3::z());
         let none = vectors.of_nodes([3, 4]).map(drop);
         assert_explained(none, ["gives no vector", "node 4 of the mesh"]);
-        let result = |name| gmsh::node_data(&text, name).map(drop);
+        let result = |name| gmsh::node_data(text.as_bytes(), name).map(drop);
         assert_explained(result(Some("hair")), ["`hair` once", "`heat`, `fibres`"]);
         assert_explained(result(None), ["the name of one", "`heat`, `fibres`"]);
         assert_explained(
@@ -51,9 +51,9 @@ fn node_data_are_found_by_name_among_others() {
 fn the_only_node_data_need_no_name() {
     for head in HEADS {
         let text = head.to_owned() + &section("", 3, &["1 1 0 0"]);
-        let vectors = gmsh::node_data(&text, None).unwrap();
+        let vectors = gmsh::node_data(text.as_bytes(), None).unwrap();
         assert_eq!(at(&vectors, 1), Vec3::x());
-        let none = gmsh::node_data(head, None).map(drop);
+        let none = gmsh::node_data(head.as_bytes(), None).map(drop);
         assert_explained(none, ["expected node data", "there is none"]);
     }
 }
@@ -87,7 +87,7 @@ fn broken_node_data_are_explained() {
             ["expected $EndNodeData", "the end of the file"],
         ),
     ] {
-        let result = gmsh::node_data(&(HEADS[1].to_owned() + &section), None).map(drop);
+        let result = gmsh::node_data((HEADS[1].to_owned() + &section).as_bytes(), None).map(drop);
         assert_explained(result, parts);
     }
 }
@@ -122,7 +122,10 @@ fn numbers_of_nodes_are_those_of_the_file() {
         .map(|id| 10 * id + 7)
         .collect();
     for text in [written::gmsh2(&mesh), written::gmsh4(&mesh)] {
-        let numbers = gmsh::collected(&text).unwrap().node_numbers().unwrap();
+        let numbers = gmsh::collected(text.as_bytes())
+            .unwrap()
+            .node_numbers()
+            .unwrap();
         assert_eq!(numbers, expected);
     }
     let text = written::abaqus(&mesh);

@@ -80,7 +80,8 @@ class Mesh:
     def of(cls, source: Any) -> Mesh:
         """The mesh of an object that has one.
 
-        source: a mesh; a path to a Gmsh (``.msh``) or Abaqus (``.inp``) file; an object of
+        source: a mesh; a path to a Gmsh (``.msh``), Abaqus (``.inp``) or VTK (``.vtu``,
+            ``.vtk``) file; an object of
             meshio (``points``, ``cells_dict``), whose cell sets and named physical groups
             of quadrilaterals become facet and node sets, and its point sets node sets; or
             an unstructured grid of pyvista, whose boolean point data become sets.
@@ -451,7 +452,7 @@ def annulus(
 
 
 def read_mesh(path: Union[str, os.PathLike[str]]) -> Mesh:
-    """Reads the hexahedra of a Gmsh (``.msh``) or Abaqus (``.inp``) file with its sets.
+    """Reads the mesh of a Gmsh, Abaqus or VTK file with its sets.
 
     path: the file.
     """
