@@ -1,8 +1,8 @@
 //! What a file says of a mesh, by the file's own numbers, and the mesh made of it.
 
 use super::division::{self, Middles};
-use super::lower::Loose;
-use super::sets::Ids;
+use super::ids::Ids;
+use super::loose::Loose;
 use super::{Asked, MeshFileFault, Place, Reading};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use striae_mesh::{CellBlock, CellKind, ElementId, Mesh, MeshError, NodeId, Vec3};

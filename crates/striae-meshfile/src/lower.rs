@@ -6,10 +6,6 @@
 use super::collected::{Collected, FileFace};
 use super::{Place, division};
 
-/// How many elements of lower dimension are in no set, by their dimension.
-#[derive(Default)]
-pub(super) struct Loose([usize; 3]);
-
 /// The faces that a surface element is on a body, none for a number of nodes that no such
 /// element has.
 pub(super) fn faces(nodes: &[u64]) -> Vec<FileFace> {
@@ -53,30 +49,6 @@ impl Collected {
                 set.extend(nodes.iter().map(|&node| (place, node)));
             }
         }
-        self.loose.0[dimension] += usize::from(is_loose);
-    }
-}
-
-impl Loose {
-    /// What there is to say.
-    pub(super) fn note(&self) -> Option<String> {
-        let [points, lines, surfaces] = self.0;
-        let words = [
-            (surfaces, "surface element"),
-            (lines, "line"),
-            (points, "point"),
-        ];
-        let words = words.into_iter().filter(|(count, _)| *count > 0);
-        let words = words.map(|(count, one)| match count {
-            1 => format!("1 {one}"),
-            _ => format!("{count} {one}s"),
-        });
-        let words: Vec<String> = words.collect();
-        let (last, others) = words.split_last()?;
-        let all = match others.len() {
-            0 => last.clone(),
-            _ => format!("{} and {last}", others.join(", ")),
-        };
-        Some(format!("in no set and left out: {all}"))
+        self.loose.count(dimension, usize::from(is_loose));
     }
 }

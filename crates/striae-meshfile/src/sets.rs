@@ -4,16 +4,10 @@
 //! two volumes, are left out with a note; their nodes are in the set of nodes all the same.
 
 use super::collected::{Collected, Divided, FileFace, corner_nodes, missing};
+use super::ids::Ids;
 use super::{MeshFileFault, Place, division};
-use std::collections::{BTreeMap, HashMap};
-use striae_mesh::{ElementId, Face, Mesh, NodeId, sorted_face};
-
-/// New ids of the nodes and elements of a file by their numbers.
-pub(super) struct Ids {
-    pub(super) nodes: BTreeMap<u64, NodeId>,
-    /// An element, or all parts of one that is divided.
-    pub(super) elements: HashMap<u64, Vec<ElementId>>,
-}
+use std::collections::HashMap;
+use striae_mesh::{Face, Mesh, NodeId, sorted_face};
 
 impl Collected {
     /// Gives a mesh the sets of the file.

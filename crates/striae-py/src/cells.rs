@@ -2,9 +2,18 @@
 
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
-use striae::mesh::{self, ElementId};
+use striae::mesh::{self, CellKind, ElementId};
 
-use crate::{array::Array1, fault::refused, mesh::KINDS};
+use crate::{array::Array1, fault::refused};
+
+/// Kinds of cells as meshio calls them.
+pub const KINDS: [(&str, CellKind); 5] = [
+    ("hexahedron", CellKind::Hexahedron),
+    ("wedge", CellKind::Wedge),
+    ("pyramid", CellKind::Pyramid),
+    ("tetra", CellKind::Tetrahedron),
+    ("tetra10", CellKind::CompositeTetrahedron),
+];
 
 /// The elements of a mesh in this order.
 pub fn by_kind(mesh: &mesh::Mesh) -> Vec<usize> {

@@ -5,7 +5,7 @@ use std::{collections::BTreeMap, path::PathBuf};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use striae::{
-    mesh::{self, CellBlock, CellKind, Face, MeshError, NodeId},
+    mesh::{self, CellBlock, Face, MeshError, NodeId},
     mesh_file,
 };
 
@@ -16,15 +16,6 @@ use crate::{
     cells,
     fault::refused,
 };
-
-/// Kinds of cells as meshio calls them.
-pub const KINDS: [(&str, CellKind); 5] = [
-    ("hexahedron", CellKind::Hexahedron),
-    ("wedge", CellKind::Wedge),
-    ("pyramid", CellKind::Pyramid),
-    ("tetra", CellKind::Tetrahedron),
-    ("tetra10", CellKind::CompositeTetrahedron),
-];
 
 /// Cells with named sets.
 #[pyclass(frozen, module = "striae._striae")]
@@ -56,7 +47,7 @@ impl Mesh {
     /// The corners of the cells of each kind that there is.
     fn cells<'py>(&self, py: Python<'py>) -> PyResult<Vec<(&'static str, Array2<'py, i64>)>> {
         let mut all = Vec::new();
-        for (name, kind) in KINDS {
+        for (name, kind) in cells::KINDS {
             let blocks = self.0.blocks.iter().filter(|block| block.kind == kind);
             let nodes: Vec<NodeId> = blocks.flat_map(|block| block.nodes.clone()).collect();
             if !nodes.is_empty() {
@@ -169,7 +160,7 @@ impl Mesh {
 }
 
 fn block(name: &str, corners: &PyReadonlyArray2<'_, i64>) -> PyResult<CellBlock> {
-    let known = KINDS.iter().find(|(known, _)| *known == name);
+    let known = cells::KINDS.iter().find(|(known, _)| *known == name);
     let (_, kind) = known.ok_or_else(|| refused("cells", format!("no kind is `{name}`")))?;
     Ok(CellBlock {
         kind: *kind,

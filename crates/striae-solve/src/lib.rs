@@ -3,6 +3,7 @@
 pub mod assembly;
 mod begin;
 pub mod composition;
+mod constitution;
 mod contact_mass;
 mod curve;
 pub mod drive;

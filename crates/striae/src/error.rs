@@ -58,7 +58,7 @@ pub enum Error {
     Mesh(#[from] MeshError),
     /// A mesh cannot be read.
     #[error(transparent)]
-    MeshFile(#[from] MeshFileError),
+    MeshFile(Box<MeshFileError>),
     /// Constants of a friction law are refused.
     #[error(transparent)]
     Friction(#[from] FrictionError),
@@ -68,4 +68,10 @@ pub enum Error {
     /// Constants of rubber are refused.
     #[error(transparent)]
     Rubber(#[from] InadmissibleHyperelastic),
+}
+
+impl From<MeshFileError> for Error {
+    fn from(error: MeshFileError) -> Self {
+        Self::MeshFile(Box::new(error))
+    }
 }

@@ -1,6 +1,6 @@
-//! Materials and bodies.
+//! Bodies.
 
-use super::{list, material, mesh, sections, sets};
+use super::{formulation::formulation, list, materials::Materials, mesh, sections, sets};
 use crate::{faults::FaultList, names::Names, raw, read::At, value::Text};
 use std::path::Path;
 use striae_law::bulk::Material;
@@ -8,13 +8,6 @@ use striae_mesh::{Face, Mesh, NodeId};
 use striae_meshfile::{Asked, Reading};
 use striae_model::DraftBody;
 use striae_solve::model::{Body, BodyId, BodySection, ContactMass, Formulation};
-
-/// All materials of the deck.
-pub(super) struct Materials {
-    names: Names,
-    materials: Vec<Option<Material>>,
-    densities: Vec<Option<f64>>,
-}
 
 /// All bodies of the deck, of which some may be faulty.
 pub(super) struct Bodies {
@@ -32,41 +25,6 @@ struct RawBody {
     formulation: Option<Formulation>,
     sections: Vec<BodySection>,
     contact_mass: ContactMass,
-}
-
-impl Materials {
-    pub(super) fn new(raw: &[At<raw::Material>], faults: &mut FaultList<'_>) -> Self {
-        let names = Names::new(
-            "material",
-            raw.iter().map(|material| material.value.name.as_ref()),
-            faults,
-        );
-        let materials = raw
-            .iter()
-            .map(|raw| material::material(&raw.value, &raw.span, faults))
-            .collect();
-        let density = |material: &At<raw::Material>| {
-            let density = material.value.density.as_ref();
-            density.map(|density| density.value.0)
-        };
-        Self {
-            names,
-            materials,
-            densities: raw.iter().map(density).collect(),
-        }
-    }
-
-    /// The material of that name, if it is sound, and its density, if it has one.
-    pub(super) fn find(
-        &self,
-        name: &At<Text>,
-        faults: &mut FaultList<'_>,
-    ) -> (Option<Material>, Option<f64>) {
-        match self.names.find(name, faults) {
-            Some(at) => (self.materials[at].clone(), self.densities[at]),
-            None => (None, None),
-        }
-    }
 }
 
 impl Bodies {
@@ -192,15 +150,6 @@ impl RawBody {
         let density = self.density.unwrap_or(0.0);
         (whole != Some(covered)).then_some(density)
     }
-}
-
-/// How elements take up strain, where that is stated.
-pub(super) fn formulation(stated: &Option<At<raw::Formulation>>) -> Option<Formulation> {
-    stated.as_ref().map(|word| match word.value {
-        raw::Formulation::Standard => Formulation::Standard,
-        raw::Formulation::MeanDilatation => Formulation::MeanDilatation,
-        raw::Formulation::AssumedStrain => Formulation::AssumedStrain,
-    })
 }
 
 fn lower_body(

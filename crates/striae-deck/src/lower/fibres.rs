@@ -1,9 +1,9 @@
 //! Fibres of materials.
 
 use super::{
+    admissible::admissible,
+    axis::{axis, degrees},
     generator::nonzero,
-    material::admissible,
-    texture::{axis, degrees},
 };
 use crate::{faults::FaultList, raw, read::At, value::Number};
 use striae_law::bulk::{Direction, FibreStiffness, Fibres, Fibrous, LinesAbout, Material};

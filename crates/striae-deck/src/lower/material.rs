@@ -1,6 +1,6 @@
 //! Bulk materials.
 
-use super::fibres::with_fibres;
+use super::{admissible::admissible, fibres::with_fibres};
 use crate::{
     faults::{FaultList, Span},
     raw,
@@ -55,19 +55,6 @@ fn ground(raw: &raw::Material, span: &Span, faults: &mut FaultList<'_>) -> Optio
             admissible(made, &relaxation.span, faults).map(Material::Viscoelastic)
         }
     }
-}
-
-/// What was made, or `None` after the reason why not has been noted.
-pub(super) fn admissible<T, E: ToString>(
-    made: Result<T, E>,
-    span: &Span,
-    faults: &mut FaultList<'_>,
-) -> Option<T> {
-    made.map_err(|error| {
-        let cause = error.to_string();
-        faults.push(span, ModelFault::Material { cause });
-    })
-    .ok()
 }
 
 fn branch(raw: &At<raw::Branch>) -> Option<Branch> {

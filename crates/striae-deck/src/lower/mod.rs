@@ -1,16 +1,20 @@
 //! From the tables of a deck to the model: names become ids, sets their
 //! members, defaults their values; what contradicts itself is refused.
 
+mod admissible;
+mod axis;
 mod body;
 mod condition;
 mod contact;
 mod curve;
 mod fibres;
+mod formulation;
 mod friction;
 mod generator;
 mod inertia;
 mod listed;
 mod material;
+mod materials;
 mod mesh;
 mod nodal;
 mod output;
@@ -89,7 +93,7 @@ struct Parts {
 }
 
 fn parts(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_>) -> Parts {
-    let materials = body::Materials::new(list(&raw.material), faults);
+    let materials = materials::Materials::new(list(&raw.material), faults);
     let bodies = Bodies::new(list(&raw.body), &materials, base, faults);
     let names = list(&raw.rigid).iter().map(|at| at.value.name.as_ref());
     let rigid_names = Names::new("rigid surface", names, faults);

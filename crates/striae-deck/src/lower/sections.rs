@@ -1,9 +1,6 @@
 //! Sections of bodies: elements of other materials.
 
-use super::{
-    body::{Materials, formulation},
-    list, sets,
-};
+use super::{formulation::formulation, list, materials::Materials, sets};
 use crate::{faults::FaultList, raw};
 use striae_mesh::Mesh;
 use striae_model::FaultKind as ModelFault;

@@ -1,16 +1,16 @@
 //! Textures of the sides of a pair, and whether friction finds those it needs.
 
-use super::{generator::nonzero, nodal, surfaces::Surfaces};
-use crate::{
-    faults::FaultList,
-    raw,
-    read::At,
-    value::{Number, vector},
+use super::{
+    axis::{axis, degrees},
+    generator::nonzero,
+    nodal,
+    surfaces::Surfaces,
 };
+use crate::{faults::FaultList, raw, read::At, value::vector};
 use striae_mesh::Vec3;
 use striae_model::FaultKind as ModelFault;
 use striae_solve::model::{RigidShape, RigidSurface, Side};
-use striae_surface::texture::{Axis, Field, Lines, Paint};
+use striae_surface::texture::{Field, Lines, Paint};
 
 /// The paint of a side, `None` after its faults or those of the side have been noted.
 pub(super) fn paint(
@@ -90,25 +90,4 @@ fn points(raw: &raw::PointTexture, faults: &mut FaultList<'_>) -> Option<Paint> 
     }
     let width = raw.width.as_ref().map(|width| width.value.0);
     (directions.len() == points.len()).then_some(Paint::Points { directions, width })
-}
-
-/// An axis in space.
-pub(super) fn axis(raw: &At<raw::Axis>, faults: &mut FaultList<'_>) -> Option<Axis> {
-    Some(Axis {
-        point: raw
-            .value
-            .point
-            .as_ref()
-            .map_or(Vec3::zeros(), |point| vector(&point.value)),
-        direction: nonzero(
-            raw.value.direction.as_ref()?,
-            "the direction of an axis",
-            faults,
-        )?,
-    })
-}
-
-/// An angle, 0 where none is stated.
-pub(super) fn degrees(raw: &Option<At<Number>>) -> f64 {
-    raw.as_ref().map_or(0.0, |angle| angle.value.0)
 }

@@ -1,0 +1,17 @@
+//! Laws that refuse their constants.
+
+use crate::faults::{FaultList, Span};
+use striae_model::FaultKind as ModelFault;
+
+/// What was made, or `None` after the reason why not has been noted.
+pub(super) fn admissible<T, E: ToString>(
+    made: Result<T, E>,
+    span: &Span,
+    faults: &mut FaultList<'_>,
+) -> Option<T> {
+    made.map_err(|error| {
+        let cause = error.to_string();
+        faults.push(span, ModelFault::Material { cause });
+    })
+    .ok()
+}

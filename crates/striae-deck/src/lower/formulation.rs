@@ -1,0 +1,13 @@
+//! Formulations of elements.
+
+use crate::{raw, read::At};
+use striae_solve::model::Formulation;
+
+/// How elements take up strain, where that is stated.
+pub(super) fn formulation(stated: &Option<At<raw::Formulation>>) -> Option<Formulation> {
+    stated.as_ref().map(|word| match word.value {
+        raw::Formulation::Standard => Formulation::Standard,
+        raw::Formulation::MeanDilatation => Formulation::MeanDilatation,
+        raw::Formulation::AssumedStrain => Formulation::AssumedStrain,
+    })
+}

@@ -1,0 +1,11 @@
+//! Ids by the numbers of a file.
+
+use std::collections::{BTreeMap, HashMap};
+use striae_mesh::{ElementId, NodeId};
+
+/// New ids of the nodes and elements of a file by their numbers.
+pub(super) struct Ids {
+    pub(super) nodes: BTreeMap<u64, NodeId>,
+    /// An element, or all parts of one that is divided.
+    pub(super) elements: HashMap<u64, Vec<ElementId>>,
+}
