@@ -3,7 +3,7 @@
 //! Iterative refinement, measured by the componentwise backward error
 //! `max_i |r|_i / (|A| |x| + |b|)_i` with the safeguard for rows where the
 //! denominator vanishes of Arioli, Demmel & Duff (doi:10.1137/0610013), which
-//! compares unknowns in the units of the equilibrated system. When it stalls above [`ACCEPTED`], GMRES preconditioned by the factors takes over.
+//! compares unknowns in the units of the equilibrated system. When it stalls above 1e-12, GMRES preconditioned by the factors takes over.
 
 use crate::{
     equilibration::Equilibration,
