@@ -48,7 +48,7 @@ pub struct Evaluation {
     /// Which facets are paired, and which corners and edges bound their polygons, as a number.
     /// Integrals of contact jump a little where it changes.
     pub topology: u64,
-    /// Work that friction dissipates, `-sum_k w_k tau_k . du_k`.
+    /// Work that friction dissipates at the nodes that slip, `-sum_k w_k tau_k . du_k`.
     pub dissipated: f64,
 }
 
@@ -280,8 +280,11 @@ impl Evaluation {
                 continue;
             };
             let (side, node) = kept[k].place();
-            let slip = &stage.kinematics[k].slip.value;
-            self.dissipated -= stage.selection.weight(k) * result.tau.dot(slip);
+            // What a sticking node is away from where it sticks is residual, not slip.
+            if result.status == Status::Slip {
+                let slip = &stage.kinematics[k].slip.value;
+                self.dissipated -= stage.selection.weight(k) * result.tau.dot(slip);
+            }
             let texture = self.nodes[side][node].texture;
             self.nodes[side][node] = NodeResult { texture, ..result };
             self.terms.push(term);

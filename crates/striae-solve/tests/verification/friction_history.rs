@@ -100,7 +100,7 @@ fn stick_starts_from_the_place_where_friction_comes_back() {
             let expected = Vec3::new(-STIFFNESS * way, 0.0, NORMAL_FORCE);
             let error = (force - expected).norm() / NORMAL_FORCE;
             assert!(error < 1e-9, "way {index}: {force} instead of {expected}");
-            assert!(report.dissipated.abs() < 1e-12 * NORMAL_FORCE);
+            assert_eq!(report.dissipated, 0.0);
             let counts = if ways[index].1 == OFF {
                 (0, 16)
             } else {
