@@ -8,6 +8,7 @@ use striae_condensed::{Automatic, Choice, Partition};
 use striae_contact::{
     complementarity::Iteration,
     evaluation::evaluate,
+    segment::Derivatives,
     selection::{Before, Selection},
     unknowns::Tractions,
 };
@@ -135,7 +136,15 @@ fn of_scene(group: &str, size: usize) -> Results {
             let at = &configuration;
             let terms = timed("search", "segments and local terms", nodes, || {
                 let first = Iteration::First;
-                let evaluation = evaluate(at, at, &selection, tractions, prescribed, first);
+                let evaluation = evaluate(
+                    at,
+                    at,
+                    &selection,
+                    tractions,
+                    prescribed,
+                    first,
+                    Derivatives::First,
+                );
                 black_box(evaluation.is_ok());
             });
             vec![roles, terms]
@@ -174,7 +183,17 @@ fn assembly(model: &striae_solve::model::Model) -> Result<Value, Box<dyn Error>>
     Ok(timed("assembly", "elements", elements, || {
         let contact = Contact::Known(Vec::new());
         let parts = (&partition, &mut matrix);
-        black_box(assemble(&setting, &trial, contact, &layout, parts).is_ok());
+        black_box(
+            assemble(
+                &setting,
+                &trial,
+                contact,
+                Derivatives::First,
+                &layout,
+                parts,
+            )
+            .is_ok(),
+        );
     }))
 }
 

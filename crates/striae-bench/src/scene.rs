@@ -2,6 +2,7 @@
 
 use std::{error::Error, path::Path};
 use striae_condensed::Partition;
+use striae_contact::segment::Derivatives;
 use striae_deck as deck;
 use striae_mesh::generate::CappedBlock;
 use striae_solve::{
@@ -160,7 +161,14 @@ pub fn stiffness(model: &Model) -> Result<SparseMatrix, Box<dyn Error>> {
     };
     let contact = Contact::Known(Vec::new());
     let parts = (&partition, &mut matrix);
-    match assemble(&setting, &trial, contact, &layout, parts) {
+    match assemble(
+        &setting,
+        &trial,
+        contact,
+        Derivatives::First,
+        &layout,
+        parts,
+    ) {
         Ok(_) => Ok(matrix),
         Err(Fault::CutBack(reason)) => Err(reason.to_string().into()),
         Err(Fault::Pattern(_)) => Err("an element is outside the pattern".into()),

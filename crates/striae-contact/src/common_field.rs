@@ -122,8 +122,11 @@ impl CommonField<'_> {
             let sign = side_sign(side);
             let turned = Transported::new(&tau.value, &(frame.n.value * sign), &n);
             traction.value += turned.value * sign;
-            traction.by_n += turned.by_n * sign;
             traction.friction = tau.value.norm();
+            if patch.paired.segment.slopes.is_none() {
+                return traction;
+            }
+            traction.by_n += turned.by_n * sign;
             let most = tau.jacobian.len() + frame.n.jacobian.len();
             traction.jacobian.reserve(most);
             let mut sum = ChainedSum::onto(&mut traction.jacobian);
@@ -156,6 +159,9 @@ impl CommonField<'_> {
             })
             .collect();
         let mut block = Columns::new();
+        let Some(slopes) = &segment.slopes else {
+            return block.term(&rows, &corners);
+        };
         for first in owners.iter().flatten() {
             block.of(*first);
         }
@@ -174,15 +180,13 @@ impl CommonField<'_> {
                 block.add_multiples(*first, &alphas, inner);
             }
         }
-        if let Some(slopes) = &segment.slopes {
-            let components = [0, 1, 2].map(|axis| AtCorners(q.map(|q| q[axis])));
-            for &c in &corners {
-                let by_mass = components.each_ref().map(|q| q.of_mass(slopes, c));
-                for (e, first) in owners.iter().enumerate() {
-                    let Some(first) = first else { continue };
-                    let direct = Matrix3::from_fn(|row, axis| SIGNS[c] * by_mass[row][e][axis]);
-                    block.add(*first, c, &(direct + by_n[c] * slopes.normal[e]));
-                }
+        let components = [0, 1, 2].map(|axis| AtCorners(q.map(|q| q[axis])));
+        for &c in &corners {
+            let by_mass = components.each_ref().map(|q| q.of_mass(slopes, c));
+            for (e, first) in owners.iter().enumerate() {
+                let Some(first) = first else { continue };
+                let direct = Matrix3::from_fn(|row, axis| SIGNS[c] * by_mass[row][e][axis]);
+                block.add(*first, c, &(direct + by_n[c] * slopes.normal[e]));
             }
         }
         block.term(&rows, &corners)

@@ -75,6 +75,9 @@ impl From<CollapsedFacets> for Collapse {
 
 /// Evaluates a pair; `start` is the last converged configuration.
 ///
+/// Without derivatives the tangents of its terms are not those of the rows, if they are there
+/// at all. The rows are the same to the last bit.
+///
 /// # Errors
 /// When a texture has no direction left, or facets have collapsed.
 pub fn evaluate(
@@ -84,6 +87,7 @@ pub fn evaluate(
     tractions: &Tractions,
     prescribed: &Prescribed,
     iteration: Iteration,
+    derivatives: Derivatives,
 ) -> Result<Evaluation, Collapse> {
     let slip = if configuration.pair.friction.cap(1.0, 0.0) == 0.0 {
         Slip::Left
@@ -92,7 +96,7 @@ pub fn evaluate(
     };
     let frames = frames(configuration, selection);
     let patches = match configuration.pair.enforcement {
-        Enforcement::Weighted => patches(configuration, start, selection, slip),
+        Enforcement::Weighted => patches(configuration, start, selection, (slip, derivatives)),
         Enforcement::Collocated => Vec::new(),
     };
     let mut kinematics = match configuration.pair.enforcement {
@@ -148,7 +152,7 @@ fn patches(
     configuration: &Configuration,
     start: &Configuration,
     selection: &Selection,
-    slip: Slip,
+    (slip, derivatives): (Slip, Derivatives),
 ) -> Vec<Patch> {
     let own = configuration.side(0);
     let carries = |facet: FacetId| {
@@ -156,7 +160,7 @@ fn patches(
         corners.iter().any(|&node| selection.carries(0, node))
     };
     let scope = selection.scope();
-    paired_facets(configuration, scope, Derivatives::First, carries)
+    paired_facets(configuration, scope, derivatives, carries)
         .into_par_iter()
         .with_min_len(4)
         .map(|paired| {

@@ -20,7 +20,7 @@ use crate::{
     configuration::Configuration,
     frame::{Frame, Frames, Tracked},
     kinematics::{Kinematics, Presence, Report, TrackedScalar},
-    pairing::PairedFacets,
+    pairing::{PairedFacets, SIGNS},
     places::{ChainedSum, Places},
     pointed,
     segment_rows::{ROWS, SegmentRows, Slip},
@@ -139,7 +139,12 @@ impl<'a> Sum<'a> {
     fn add(&mut self, patch: &Patch, shares: &[f64; 8], slip: Slip) {
         let mut value = [0.0; ROWS];
         let mut slopes = [[0.0; 3 * ROWS]; 8];
-        let width = if slip == Slip::Wanted { 3 * ROWS } else { 3 };
+        let by = patch.paired.segment.slopes.as_deref();
+        let width = match (by, slip) {
+            (None, _) => 0,
+            (Some(_), Slip::Left) => 3,
+            (Some(_), Slip::Wanted) => 3 * ROWS,
+        };
         for (c, &share) in shares
             .iter()
             .enumerate()
@@ -148,7 +153,8 @@ impl<'a> Sum<'a> {
             for (sum, part) in value.iter_mut().zip(&patch.rows.value[c]) {
                 *sum += share * part;
             }
-            for (sum, part) in slopes.iter_mut().zip(&patch.rows.slopes[c]) {
+            let of_corner = patch.rows.slopes.get(c).into_iter().flatten();
+            for (sum, part) in slopes.iter_mut().zip(of_corner) {
                 for at in 0..width {
                     sum[at] += share * part[at];
                 }
@@ -160,7 +166,7 @@ impl<'a> Sum<'a> {
             let Some((side, node)) = patch.paired.node(self.configuration, e) else {
                 continue;
             };
-            if let (Some(turned), Some(by)) = (&turned, &patch.paired.segment.slopes) {
+            if let (Some(turned), Some(by)) = (&turned, by) {
                 let of_slip = Matrix3::from_fn(|row, axis| block[3 * (row + 1) + axis]);
                 let whole = turned.by_vector * of_slip + turned.by_from * by.normal[e];
                 for row in 0..3 {
@@ -171,7 +177,12 @@ impl<'a> Sum<'a> {
             }
             let first = self.configuration.pair.numbering().position(side, node);
             let mass = &patch.paired.segment.mass[e];
-            let alpha = mass.iter().zip(shares).map(|(m, share)| m * share).sum();
+            let alpha: f64 = mass.iter().zip(shares).map(|(m, share)| m * share).sum();
+            if by.is_none() {
+                // What the node itself and the one opposite do, which tells whether any is free.
+                let direct = patch.paired.segment.normal * (SIGNS[e] * alpha);
+                block[..3].copy_from_slice(direct.as_slice());
+            }
             self.add_block(first, block, alpha);
         }
     }

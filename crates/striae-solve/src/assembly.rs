@@ -26,6 +26,7 @@ use striae_contact::{
     configuration::Configuration,
     converged_friction::CollapsedFacets,
     evaluation::{Collapse, Evaluation, evaluate},
+    segment::Derivatives,
     selection::Selection,
     texture::CollapsedTexture,
     unknowns::Tractions,
@@ -91,6 +92,8 @@ pub struct Assembled {
     pub bodies: OfBodies,
     /// Contact of every pair.
     pub contacts: Vec<Evaluation>,
+    /// Whether the matrix is of this state.
+    pub derivatives: Derivatives,
     /// All but contact.
     pub background: Background,
     /// Time that contact took on the clock, most of it beside the bodies; for profiles only.
@@ -106,7 +109,8 @@ pub enum Fault {
     Pattern(Vec<Vec<Supervariable>>),
 }
 
-/// Evaluates the problem at a trial state and fills the matrix.
+/// Evaluates the problem at a trial state and fills the matrix; without derivatives the matrix
+/// stays as it is.
 ///
 /// # Errors
 /// See [`Fault`].
@@ -114,30 +118,44 @@ pub fn assemble(
     setting: &Setting,
     trial: &Trial,
     contact: Contact,
+    derivatives: Derivatives,
     layout: &Layout,
     (partition, matrix): (&Partition, &mut SparseMatrix),
 ) -> Result<Assembled, Fault> {
     // On a thread of the pool, as from others each parallel part would have to wake one.
-    rayon::scope(|_| on_this_thread(setting, trial, contact, layout, (partition, matrix)))
+    rayon::scope(|_| {
+        on_this_thread(
+            setting,
+            trial,
+            contact,
+            derivatives,
+            layout,
+            (partition, matrix),
+        )
+    })
 }
 
 fn on_this_thread(
     setting: &Setting,
     trial: &Trial,
     contact: Contact,
+    derivatives: Derivatives,
     layout: &Layout,
     (partition, matrix): (&Partition, &mut SparseMatrix),
 ) -> Result<Assembled, Fault> {
-    matrix.clear();
     let imposed = setting.imposed;
     let mut system = System::new(setting.context, layout, (partition, matrix), trial, imposed);
+    match derivatives {
+        Derivatives::First => system.matrix.clear(),
+        Derivatives::None => system.derivatives = derivatives,
+    }
     let configurations = configurations(setting, trial);
     for (pair, configuration) in configurations.iter().enumerate() {
         system.find_triples(pair, configuration);
     }
     // Bodies are added while contact is evaluated.
     let (evaluated, bodies) = rayon::join(
-        || timed(|| contact.evaluated(&configurations, setting, trial)),
+        || timed(|| contact.evaluated(&configurations, setting, trial, derivatives)),
         || system.bodies(&configurations, setting, trial),
     );
     let (contacts, evaluation_time) = evaluated;
@@ -162,6 +180,7 @@ fn on_this_thread(
         forces,
         bodies,
         contacts,
+        derivatives,
         background,
         contact_time: evaluation_time + adding_time,
     })
@@ -184,6 +203,8 @@ struct System<'a> {
     layout: &'a Layout,
     partition: &'a Partition,
     matrix: &'a mut SparseMatrix,
+    /// Whether the matrix is filled in.
+    derivatives: Derivatives,
     residual: Vec<f64>,
     forces: NodalForces,
     force_scale: f64,
@@ -216,6 +237,7 @@ impl<'a> System<'a> {
             layout,
             partition,
             matrix,
+            derivatives: Derivatives::First,
             residual: vec![0.0; layout.unknowns()],
             forces: NodalForces::zero(nodes, problem.model.rigid_surfaces.len()),
             force_scale: 0.0,
@@ -247,10 +269,13 @@ impl Contact {
         configurations: &[Configuration],
         setting: &Setting,
         trial: &Trial,
+        derivatives: Derivatives,
     ) -> Result<Vec<Evaluation>, Fault> {
         match self {
             Self::Known(contacts) => Ok(contacts),
-            Self::Evaluated(iteration) => contacts(configurations, setting, trial, iteration),
+            Self::Evaluated(iteration) => {
+                contacts(configurations, setting, trial, iteration, derivatives)
+            }
         }
     }
 }
@@ -261,6 +286,7 @@ fn contacts(
     setting: &Setting,
     trial: &Trial,
     iteration: Iteration,
+    derivatives: Derivatives,
 ) -> Result<Vec<Evaluation>, Fault> {
     let (context, state) = (setting.context, setting.state);
     let mut contacts = Vec::with_capacity(configurations.len());
@@ -272,6 +298,7 @@ fn contacts(
             &trial.tractions[pair],
             &context.fixed_on_pair[pair],
             iteration,
+            derivatives,
         )
         .map_err(|error| Fault::CutBack(not_evaluated(context.problem, pair, error)))?;
         contacts.push(evaluation);
@@ -373,6 +400,8 @@ impl System<'_> {
 
     fn hold(&mut self, unknown: usize, residual: f64, scale: f64) {
         self.residual[unknown] = residual;
-        self.matrix.add_to_diagonal(unknown, scale);
+        if self.derivatives == Derivatives::First {
+            self.matrix.add_to_diagonal(unknown, scale);
+        }
     }
 }

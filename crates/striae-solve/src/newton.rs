@@ -8,6 +8,7 @@
 
 mod acceptance;
 mod attempt;
+mod chord;
 mod correction;
 mod course;
 mod cycling;
@@ -18,6 +19,7 @@ mod flight;
 mod passage;
 mod release;
 mod rest;
+mod rule;
 mod selected;
 mod work;
 mod workspace;
@@ -29,6 +31,7 @@ pub use workspace::{Memory, Workspace};
 pub use striae_condensed::{Analysis, Experience, FactoredInterior};
 use striae_contact::{
     complementarity::Iteration, evaluation::Evaluation, interference::Interference,
+    segment::Derivatives,
 };
 
 use crate::{
@@ -133,7 +136,7 @@ pub fn forces_at_start(
         selections: &selections,
         imposed: &imposed,
     };
-    let assembled = workspace.assemble(&setting, &trial, Iteration::First)?;
+    let assembled = workspace.assemble(&setting, &trial, Iteration::First, Derivatives::First)?;
     Ok(assembled.forces)
 }
 
@@ -153,8 +156,8 @@ pub fn advance(
     let course = workspace.course.take();
     let course = course.filter(|course| course.leads_on(context, state));
     let mut attempt = Attempt::new(context, state, &imposed, s, workspace);
-    if let Some(course) = course {
-        attempt.follow(&course, time);
+    if let Some(course) = &course {
+        attempt.follow(course, time);
     }
     let assembled = match attempt.solved(workspace, observer) {
         Err(_) if attempt.follows() => {
@@ -172,7 +175,7 @@ pub fn advance(
         ..
     } = attempt;
     given_up.extend(iterations);
-    workspace.course = Some(Course::new(context.index, state, time));
+    workspace.course = Some(Course::new(context.index, state, time, course));
     let work = workspace.take_work();
     let system = workspace.system();
     let (unknowns, peak_bytes) = (system.layout.unknowns(), system.analysis.cost.peak_bytes);

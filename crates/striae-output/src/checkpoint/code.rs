@@ -82,6 +82,16 @@ impl<T: Coded> Coded for Vec<T> {
     }
 }
 
+impl<T: Coded> Coded for Box<T> {
+    fn put(&self, bytes: &mut Vec<u8>) {
+        T::put(self, bytes);
+    }
+
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        T::take(bytes).map(Box::new)
+    }
+}
+
 impl<T: Coded, const N: usize> Coded for [T; N] {
     fn put(&self, bytes: &mut Vec<u8>) {
         self.iter().for_each(|element| element.put(bytes));
@@ -188,6 +198,6 @@ coded! {
     FactoredInterior { values, scales, prescribed, single };
     Experience { too_coarse, taken, interior };
     Memory { extent, cliques, solver, course };
-    Course { step, start, end, positions, rigid, tractions };
+    Course { step, start, end, positions, rigid, tractions, before };
     Point { step, increments, fraction, size, search, start, state, memory };
 }

@@ -5,7 +5,7 @@
 //! All other terms are added one by one.
 
 use rayon::prelude::*;
-use striae_contact::term::LocalTerm;
+use striae_contact::{segment::Derivatives, term::LocalTerm};
 use striae_sparse::PlacedBlock;
 
 use super::{System, terms::Answer};
@@ -27,6 +27,9 @@ impl System<'_> {
                 let unknown = self.unknown(pair, *row);
                 self.residual[unknown] += residual;
             }
+        }
+        if self.derivatives == Derivatives::None {
+            return;
         }
         let (known, unknown): (Vec<&LocalTerm>, Vec<_>) =
             terms.iter().partition(|term| self.is_known(pair, term));

@@ -3,6 +3,7 @@
 
 use rayon::prelude::*;
 use std::ops::Range;
+use striae_contact::segment::Derivatives;
 use striae_element::{ElementBlock, ElementError, ElementFault, ElementResponse, Stiffness};
 use striae_law::bulk::Past;
 use striae_mesh::{ElementId, MAX_CORNERS, NodeId, Vec3};
@@ -125,6 +126,10 @@ impl System<'_> {
         nodes: &[usize],
         response: &ElementResponse,
     ) -> Result<(), OutsidePattern> {
+        if self.derivatives == Derivatives::None {
+            self.add_force(nodes, response);
+            return Ok(());
+        }
         let stiffness = &response.stiffness;
         let tied = nodes.iter().any(|&node| self.tie(node).is_some());
         match (tied, nodes.len()) {
@@ -139,12 +144,17 @@ impl System<'_> {
                 return self.add_dense(nodes, &unknowns, force, &tangent);
             }
         }?;
+        self.add_force(nodes, response);
+        Ok(())
+    }
+
+    /// Adds the force of an element.
+    fn add_force(&mut self, nodes: &[usize], response: &ElementResponse) {
         for (&node, force) in nodes.iter().zip(&response.force) {
             let first = self.layout.position(node);
             let residual = self.residual[first..first + 3].iter_mut();
             residual.zip(force).for_each(|(sum, f)| *sum += f);
         }
-        Ok(())
     }
 
     /// Adds the stiffness of an element with `N` corners, none of them tied.
@@ -188,6 +198,9 @@ impl System<'_> {
         }
         let is_fixed = |node: &usize| self.context.fixed[3 * node..3 * node + 3].contains(&true);
         let is_plain = |node: &usize| self.tie(*node).is_none() && !is_fixed(node);
+        if self.derivatives == Derivatives::None {
+            return Ok(());
+        }
         if nodes.iter().all(is_plain) {
             return self.matrix.add(unknowns, unknowns, tangent);
         }

@@ -12,7 +12,7 @@
 //! the first linear system leaves nothing in them, and none that follows changes that.
 
 use striae_condensed::Partition;
-use striae_contact::{complementarity::Iteration, evaluation::Evaluation};
+use striae_contact::{complementarity::Iteration, evaluation::Evaluation, segment::Derivatives};
 use striae_mesh::Vec3;
 use striae_sparse::SparseMatrix;
 
@@ -68,7 +68,13 @@ pub fn assemble_contact(
     for (pair, configuration) in configurations.iter().enumerate() {
         system.find_triples(pair, configuration);
     }
-    let contacts = contacts(&configurations, setting, trial, iteration)?;
+    let contacts = contacts(
+        &configurations,
+        setting,
+        trial,
+        iteration,
+        Derivatives::First,
+    )?;
     system.add_contacts(&contacts);
     system.stabilise(trial, imposed);
     if !system.outside.is_empty() {

@@ -16,7 +16,9 @@
 //! does not turn.
 
 use nalgebra::Matrix3;
-use striae_contact::{configuration::Configuration, term::LocalTerm, unknown::Unknown};
+use striae_contact::{
+    configuration::Configuration, segment::Derivatives, term::LocalTerm, unknown::Unknown,
+};
 use striae_mesh::Vec3;
 use striae_sparse::{OutsidePattern, Supervariable};
 
@@ -103,10 +105,13 @@ impl System<'_> {
             self.residual[row.unknown] += residual;
             self.push_back(row, *residual);
         }
-        if !self.is_known(pair, term)
-            || self.add_rows(&rows, &columns, &term.tangent).is_err()
-            || self.turn(&rows, &columns, &term.residual, answer).is_err()
-        {
+        let wanted = self.derivatives == Derivatives::First;
+        let is_placed = |system: &mut Self| {
+            system.is_known(pair, term)
+                && system.add_rows(&rows, &columns, &term.tangent).is_ok()
+                && system.turn(&rows, &columns, &term.residual, answer).is_ok()
+        };
+        if wanted && !is_placed(self) {
             self.outside.push(self.clique_of(pair, term));
         }
         self.scratch.slots = [rows, columns];

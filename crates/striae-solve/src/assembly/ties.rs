@@ -15,6 +15,7 @@
 //! `pushed`, joins `F` and `M`, fully at the end.
 
 use nalgebra::Matrix3;
+use striae_contact::segment::Derivatives;
 use striae_mesh::Vec3;
 use striae_sparse::{OutsidePattern, Supervariable};
 
@@ -154,6 +155,9 @@ impl System<'_> {
         columns: &[Slot],
         block: &[f64],
     ) -> Result<(), OutsidePattern> {
+        if self.derivatives == Derivatives::None {
+            return Ok(());
+        }
         let tied = |slot: &Slot| {
             let position = slot.position;
             slot.against.is_some() || position.is_some_and(|(node, _)| self.tie(node).is_some())
@@ -240,7 +244,9 @@ impl System<'_> {
     /// of their arms.
     pub(super) fn condense(&mut self, imposed: &Imposed) {
         for (rigid, turning) in self.condense_forces(imposed) {
-            self.add_turning(rigid, &turning);
+            if self.derivatives == Derivatives::First {
+                self.add_turning(rigid, &turning);
+            }
         }
     }
 

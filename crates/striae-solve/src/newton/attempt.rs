@@ -1,18 +1,18 @@
 //! An increment under way: corrections until the residual is small.
 
-use striae_condensed::REDUCTION;
 use striae_contact::{
     complementarity::Iteration,
     interference::Interference,
     pointed::{Pierced, Progress},
-    segment::ON_EDGE,
+    segment::{Derivatives, ON_EDGE},
     selection::Selection,
-    table_1::{Corrector, Inflation},
+    table_1::Inflation,
     unknowns::Status,
 };
 
 use super::{
     IterationObserver,
+    chord::{Chord, share_to_go, wanted},
     correction::{Taken, labelled, step},
     course::Course,
     cycling::{History, WINDOW},
@@ -22,12 +22,12 @@ use super::{
     passage::passage,
     release::{closed, released},
     rest::contact_at_rest,
+    rule::{is_final, later, part},
     selected::{Selected, pierced, reselected, selected},
     workspace::Workspace,
 };
 use crate::{
     assembly::{Assembled, Imposed, Setting, StepContext, Trial},
-    model::Strategy,
     norms::Norms,
     outcome::CutBack,
     state::State,
@@ -57,6 +57,8 @@ pub(super) struct Attempt<'a> {
     closed: Vec<bool>,
     /// What the first iteration goes by.
     first: Iteration,
+    /// The tangent there is.
+    chord: Chord,
 }
 
 impl<'a> Attempt<'a> {
@@ -93,6 +95,7 @@ impl<'a> Attempt<'a> {
             interferences: Vec::new(),
             closed: vec![true; context.pairs.len()],
             first: Iteration::First,
+            chord: Chord::default(),
         }
     }
 
@@ -138,7 +141,7 @@ impl Attempt<'_> {
         workspace: &mut Workspace,
         observer: &mut dyn IterationObserver,
     ) -> Result<Assembled, CutBack> {
-        let mut assembled = workspace.assemble(&self.setting(), &self.trial, self.first)?;
+        let mut assembled = self.assembled(workspace, self.first)?;
         for repetition in 0.. {
             assembled = self.converge(assembled, workspace, observer)?;
             flown(&self.setting(), &self.trial).map_or(Ok(()), Err)?;
@@ -182,6 +185,9 @@ impl Attempt<'_> {
             let before = self.iterations.last().map(Norms::largest);
             let number = self.iterations.len() + 1;
             let iteration = later(solver.strategy, self.inflation, number);
+            if !self.has_tangent(&assembled) {
+                assembled = self.assembled(workspace, iteration)?;
+            }
             let taken;
             (assembled, taken) = self.iterate(&assembled, before, iteration, workspace)?;
             if let Some(selected) = self.refreshed(number, &assembled) {
@@ -192,8 +198,10 @@ impl Attempt<'_> {
             self.history.push(&assembled.contacts);
             observer.iteration(number, &norms, &assembled.contacts);
             // A part of a correction leaves prescribed displacements on their way.
-            let settled =
-                taken == Taken::Whole && is_final(iteration) && self.labels_rest(&assembled);
+            let settled = taken == Taken::Whole
+                && is_final(iteration)
+                && self.is_sure(&assembled)
+                && self.labels_rest(&assembled);
             if norms.largest() <= solver.tolerance && settled {
                 if further == 0 {
                     return Ok(assembled);
@@ -261,15 +269,23 @@ impl Attempt<'_> {
     ) -> Result<(Assembled, Taken), CutBack> {
         let context = self.context;
         let tolerance = context.problem.model.solver.tolerance;
-        let correction = workspace
-            .correction(&assembled.residual, part(before, tolerance))
+        let (residual, part) = (&assembled.residual, part(before, tolerance));
+        let correction = match assembled.derivatives {
+            Derivatives::First => {
+                self.chord = Chord::at(assembled);
+                workspace.correction(residual, part)
+            }
+            Derivatives::None => workspace.chord_correction(residual, part),
+        };
+        let correction = correction
             .map_err(|error| linear_system(context.problem, &workspace.system().layout, error))?;
+        let derivatives = self.wanted(assembled, iteration);
         let at_rest = match iteration {
-            Iteration::Later { .. } => {
+            Iteration::Later { .. } if derivatives == Derivatives::First => {
                 let at = (&self.trial, assembled);
                 contact_at_rest(workspace, &self.setting(), at, &correction, before)
             }
-            Iteration::First | Iteration::Corrected(_) => None,
+            Iteration::First | Iteration::Later { .. } | Iteration::Corrected(_) => None,
         };
         if let Some((trial, assembled)) = at_rest {
             self.trial = trial;
@@ -280,11 +296,48 @@ impl Attempt<'_> {
             workspace,
             &self.setting(),
             &self.trial,
-            iteration,
+            (iteration, derivatives),
             &correction,
         )?;
         self.trial = trial;
         Ok((assembled, taken))
+    }
+
+    /// The latest state with derivatives.
+    fn assembled(
+        &self,
+        workspace: &mut Workspace,
+        iteration: Iteration,
+    ) -> Result<Assembled, CutBack> {
+        let setting = self.setting();
+        workspace.assemble(&setting, &self.trial, iteration, Derivatives::First)
+    }
+
+    /// Whether the matrix serves a correction from the latest state.
+    fn has_tangent(&self, assembled: &Assembled) -> bool {
+        let tolerance = self.context.problem.model.solver.tolerance;
+        assembled.derivatives == Derivatives::First || self.chord.serves(assembled, tolerance)
+    }
+
+    /// Whether rows are those of an evaluation with derivatives, by which alone nodes change
+    /// their status.
+    fn is_sure(&self, assembled: &Assembled) -> bool {
+        assembled.derivatives == Derivatives::First || self.chord.holds(assembled)
+    }
+
+    /// What is wanted of the state that a correction from the latest one leads to.
+    fn wanted(&self, assembled: &Assembled, iteration: Iteration) -> Derivatives {
+        let solver = &self.context.problem.model.solver;
+        let is_plain = matches!(iteration, Iteration::Later { .. });
+        if !is_plain || solver.further_iterations > 0 {
+            return Derivatives::First;
+        }
+        let norm = assembled.norms.largest();
+        wanted(match (self.iterations.is_empty(), self.follows()) {
+            (true, true) => norm.max(share_to_go(&self.trial, self.state, self.imposed)),
+            (true, false) => f64::INFINITY,
+            (false, _) => norm,
+        })
     }
 
     /// The traction field with what the first iteration shows to come into contact.
@@ -323,7 +376,7 @@ impl Attempt<'_> {
         workspace.extend(self.context.problem, &self.selections);
         let strategy = self.context.problem.model.solver.strategy;
         let iteration = later(strategy, self.inflation, self.iterations.len() + 1);
-        workspace.assemble(&self.setting(), &self.trial, iteration)
+        self.assembled(workspace, iteration)
     }
 
     /// Whether to go on.
@@ -343,46 +396,4 @@ impl Attempt<'_> {
         }
         Ok(())
     }
-}
-
-/// What an iteration after the first one goes by.
-fn later(strategy: Strategy, inflation: Inflation, number: usize) -> Iteration {
-    match strategy {
-        Strategy::Semismooth => Iteration::Later {
-            slip_weight: slip_weight(number),
-        },
-        Strategy::Table1 { stick_tolerance } => Iteration::Corrected(Corrector {
-            stick_tolerance,
-            inflation,
-        }),
-    }
-}
-
-/// `r_t` over its default. Cycles of first contact do not end with smaller increments, but
-/// with another `r_t`, first a smaller and then a larger one.
-fn slip_weight(number: usize) -> f64 {
-    match number {
-        0..=13 => 1.0,
-        14..=26 => 0.03,
-        _ => 10.0,
-    }
-}
-
-/// Whether the friction of an iteration is the true one.
-fn is_final(iteration: Iteration) -> bool {
-    match iteration {
-        Iteration::First | Iteration::Later { .. } => true,
-        Iteration::Corrected(corrector) => corrector.inflation.is_over(),
-    }
-}
-
-/// Largest part of the residual that a correction leaves.
-const LARGEST_PART: f64 = 1e-3;
-
-/// Part of the residual that a correction may leave, after which the norm is about as
-/// small as bodies that are not linear let it be.
-fn part(norm: Option<f64>, tolerance: f64) -> f64 {
-    norm.map_or(REDUCTION, |norm| {
-        (0.01 * norm).max(0.1 * tolerance / norm).min(LARGEST_PART)
-    })
 }

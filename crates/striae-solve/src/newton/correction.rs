@@ -1,6 +1,8 @@
 //! Corrections applied to a trial state.
 
-use striae_contact::{complementarity::Iteration, evaluation::Evaluation, unknowns::Tractions};
+use striae_contact::{
+    complementarity::Iteration, evaluation::Evaluation, segment::Derivatives, unknowns::Tractions,
+};
 use striae_mesh::Vec3;
 
 use super::workspace::{SystemStorage, Workspace};
@@ -32,13 +34,13 @@ pub(super) fn step(
     workspace: &mut Workspace,
     setting: &Setting,
     trial: &Trial,
-    iteration: Iteration,
+    (iteration, derivatives): (Iteration, Derivatives),
     correction: &[f64],
 ) -> Result<(Trial, Assembled, Taken), CutBack> {
     let (mut factor, mut taken) = (1.0, Taken::Whole);
     loop {
         let next = corrected(setting, workspace.system(), trial, correction, factor);
-        match workspace.assemble(setting, &next, iteration) {
+        match workspace.assemble(setting, &next, iteration, derivatives) {
             Ok(assembled) => return Ok((next, assembled, taken)),
             Err(CutBack::InvertedElement { .. }) if factor > SMALLEST_PART => {
                 (factor, taken) = (0.5 * factor, Taken::Part);

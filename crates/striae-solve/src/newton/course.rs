@@ -1,16 +1,19 @@
-//! Where an increment starts from: what the one before it leads to.
+//! Where an increment starts from: what those before it lead to.
 //!
-//! In a step that goes on as it did, an increment of the size `dt` changes positions and
-//! tractions about as the one before it, of the size `dt_0`, did:
+//! In a step that goes on as it did, positions and tractions change smoothly. An increment of
+//! the size `dt` starts where the last state and the one or two before it in the same step
+//! lead to, `dt_0` being the size of the last increment and `t` its own end:
 //!
 //! ```text
-//! x = x_n + dt/dt_0 (x_n - x_(n-1))
+//! x = x_n + dt/dt_0 (x_n - x_(n-1))                                 two states
+//! x = x_n + c_1 (x_(n-1) - x_n) + c_2 (x_(n-2) - x_n)               three
+//! c_1 = (t - t_n)(t - t_(n-2)) / ((t_(n-1) - t_n)(t_(n-1) - t_(n-2))),   c_2 with n-1, n-2 swapped
 //! ```
 //!
-//! The error is of the order `dt^2`, that of an iteration with the tangent at `x_n`. Newton's
-//! method needs an iteration less from there; an increment that fails from there starts again
-//! from `x_n`. What is prescribed, and what is tied to a rigid
-//! body, is put where it belongs by the first correction and by the poses.
+//! The error is of the order `dt^2` with two states, that of an iteration with the tangent at
+//! `x_n`, and `dt^3` with three. Newton's method needs an iteration or two less from there; an
+//! increment that fails from there starts again from `x_n`. What is prescribed, and what is
+//! tied to a rigid body, is put where it belongs by the first correction and by the poses.
 
 use striae_mesh::Vec3;
 
@@ -21,8 +24,7 @@ use crate::{
     state::State,
 };
 
-/// What an increment started from: a continued step starts the next one where both lead to,
-/// `x_n + dt/dt_0 (x_n - x_(n-1))`.
+/// What an increment started from: a continued step starts the next one where both lead to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Course {
     /// Number of the step.
@@ -37,11 +39,13 @@ pub struct Course {
     pub rigid: Vec<Pose>,
     /// Tractions of nodes at its start, by pair and side.
     pub tractions: Vec<[Vec<[f64; 3]>; 2]>,
+    /// The course of the increment before, if it belongs to the same step.
+    pub before: Option<Box<Course>>,
 }
 
 impl Course {
     /// The course of an increment from `state` to a time.
-    pub(super) fn new(step: usize, state: &State, end: f64) -> Self {
+    pub(super) fn new(step: usize, state: &State, end: f64, before: Option<Self>) -> Self {
         let tractions = state.pairs.iter().map(|pair| pair.tractions.nodes.clone());
         Self {
             step,
@@ -50,6 +54,12 @@ impl Course {
             positions: state.positions.clone(),
             rigid: state.rigid.clone(),
             tractions: tractions.collect(),
+            before: before.map(|before| {
+                Box::new(Self {
+                    before: None,
+                    ..before
+                })
+            }),
         }
     }
 
@@ -67,14 +77,16 @@ impl Course {
         time: f64,
         trial: &mut Trial,
     ) {
-        let ratio = (time - self.end) / (self.end - self.start);
-        let on = |now: f64, before: f64| now + ratio * (now - before);
+        let before = self.before.as_deref();
+        let weights = Weights::new(self, time);
         for (rigid, pose) in trial.rigid.iter_mut().enumerate() {
-            let (now, before) = (state.rigid[rigid], self.rigid[rigid].coordinates());
+            let now = state.rigid[rigid];
             // Driven bodies are where they are driven to.
             if *pose == now {
-                let present = now.coordinates();
-                *pose = now.moved_to(&std::array::from_fn(|at| on(present[at], before[at])));
+                let older = before.map(|before| before.rigid[rigid].coordinates());
+                let (now_at, last) = (now.coordinates(), self.rigid[rigid].coordinates());
+                let led = |at: usize| weights.on(now_at[at], last[at], older.map(|x| x[at]));
+                *pose = now.moved_to(&std::array::from_fn(led));
             }
         }
         let problem = context.problem;
@@ -86,23 +98,60 @@ impl Course {
                     placement.point(&problem.reference[node])
                 }
                 None => {
-                    let now = state.positions[node];
-                    now + (now - self.positions[node]) * ratio
+                    let (now, last) = (state.positions[node], self.positions[node]);
+                    let older = before.map(|before| before.positions[node]);
+                    Vec3::from_fn(|at, _| weights.on(now[at], last[at], older.map(|x| x[at])))
                 }
             };
         }
         for (pair, tractions) in trial.tractions.iter_mut().enumerate() {
             for side in 0..2 {
-                let now = &state.pairs[pair].tractions.nodes[side];
-                let known = now.iter().zip(&self.tractions[pair][side]);
-                for (unknowns, (now, before)) in tractions.nodes[side].iter_mut().zip(known) {
+                let unknowns = tractions.nodes[side].iter_mut().enumerate();
+                for (node, unknowns) in unknowns {
+                    let now = state.pairs[pair].tractions.nodes[side][node];
+                    let last = self.tractions[pair][side][node];
                     // Roles that change leave another field.
-                    let pressed = now[0] > 0.0 && before[0] > 0.0;
-                    if unknowns == now && pressed {
-                        *unknowns = std::array::from_fn(|at| on(now[at], before[at]));
+                    if *unknowns == now && now[0] > 0.0 && last[0] > 0.0 {
+                        let older = before.map(|before| before.tractions[pair][side][node]);
+                        let older = older.filter(|older| older[0] > 0.0);
+                        *unknowns = std::array::from_fn(|at| {
+                            weights.on(now[at], last[at], older.map(|older| older[at]))
+                        });
                     }
                 }
             }
+        }
+    }
+}
+
+/// How the last states are weighed.
+struct Weights {
+    /// `dt/dt_0`.
+    ratio: f64,
+    /// `c_1` and `c_2`.
+    quadratic: [f64; 2],
+}
+
+impl Weights {
+    fn new(course: &Course, time: f64) -> Self {
+        let (now, last) = (course.end, course.start);
+        let weight =
+            |own: f64, other: f64| (time - now) * (time - other) / ((own - now) * (own - other));
+        let quadratic = course.before.as_ref().map_or([0.0; 2], |before| {
+            [weight(last, before.start), weight(before.start, last)]
+        });
+        Self {
+            ratio: (time - now) / (now - last),
+            quadratic,
+        }
+    }
+
+    /// Where a quantity is led to by its last two or three values.
+    fn on(&self, now: f64, last: f64, older: Option<f64>) -> f64 {
+        let [c_1, c_2] = self.quadratic;
+        match older {
+            Some(older) => now + c_1 * (last - now) + c_2 * (older - now),
+            None => now + self.ratio * (now - last),
         }
     }
 }

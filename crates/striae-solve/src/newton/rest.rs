@@ -5,7 +5,7 @@
 //! the bodies left linear, at the price of a small dense system, until it rests. What
 //! is found takes the place of the correction if the true residual is better for it.
 
-use striae_contact::complementarity::Iteration;
+use striae_contact::{complementarity::Iteration, segment::Derivatives};
 
 use super::{
     correction::{corrected, labelled},
@@ -48,7 +48,9 @@ pub(super) fn contact_at_rest(
         let found = found.ok()?;
         if pass == MOST || found.norms.largest() <= enough {
             let contact = Contact::Known(found.contacts);
-            let assembled = workspace.assemble_once(setting, &next, contact).ok()?;
+            let assembled = workspace
+                .assemble_once(setting, &next, contact, Derivatives::First)
+                .ok()?;
             let is_better = assembled.norms.largest() <= before.unwrap_or(1.0);
             return is_better.then_some((next, assembled));
         }

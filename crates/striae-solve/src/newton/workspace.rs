@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use striae_condensed::{Analysis, Automatic, Choice, Experience, Partition};
-use striae_contact::{complementarity::Iteration, selection::Selection};
+use striae_contact::{complementarity::Iteration, segment::Derivatives, selection::Selection};
 use striae_sparse::{Age, SolveError, SolveReport, SparseMatrix, Structure, Supervariable};
 
 use striae_mesh::Vec3;
@@ -199,9 +199,11 @@ impl Workspace {
         setting: &Setting,
         trial: &Trial,
         iteration: Iteration,
+        derivatives: Derivatives,
     ) -> Result<Assembled, CutBack> {
         loop {
-            match self.assemble_once(setting, trial, Contact::Evaluated(iteration)) {
+            let contact = Contact::Evaluated(iteration);
+            match self.assemble_once(setting, trial, contact, derivatives) {
                 Ok(assembled) => return Ok(assembled),
                 Err(Fault::CutBack(reason)) => return Err(reason),
                 Err(Fault::Pattern(cliques)) => self.system().grow(cliques),
@@ -215,11 +217,12 @@ impl Workspace {
         setting: &Setting,
         trial: &Trial,
         contact: Contact,
+        derivatives: Derivatives,
     ) -> Result<Assembled, Fault> {
         let started = Instant::now();
         let system = self.system.as_mut().expect("the workspace was prepared");
         let parts = (&system.partition, &mut system.matrix);
-        let assembled = assemble(setting, trial, contact, &system.layout, parts);
+        let assembled = assemble(setting, trial, contact, derivatives, &system.layout, parts);
         self.work.times.assembly += started.elapsed();
         let of_contact = assembled.as_ref().map(|assembled| assembled.contact_time);
         self.work.times.pairs += of_contact.unwrap_or_default();
@@ -345,16 +348,30 @@ impl Workspace {
         let analysed = Instant::now();
         times.analysis += analysed - started;
         let report = rayon::scope(|_| solver.factor(&system.matrix))?;
-        let factored = Instant::now();
-        times.factorisation += factored - analysed;
+        times.factorisation += analysed.elapsed();
         (self.work.method, self.work.fall_back) = (report.method, report.fall_back);
-        let (correction, solution) = solved(solver, &system.matrix, residual, part)?;
-        if solution.age == Age::Fresh {
-            self.work.factorisations += 1;
-        }
-        self.work.krylov_iterations += solution.krylov_iterations;
-        self.work.times.solution += factored.elapsed();
+        let (correction, age) = self.solution(residual, part)?;
+        self.work.factorisations += usize::from(age == Age::Fresh);
         Ok(correction)
+    }
+
+    /// Solves for a correction with the matrix and the factors of the last one.
+    pub(super) fn chord_correction(
+        &mut self,
+        residual: &[f64],
+        part: f64,
+    ) -> Result<Vec<f64>, SolveError> {
+        self.solution(residual, part)
+            .map(|(correction, _)| correction)
+    }
+
+    fn solution(&mut self, residual: &[f64], part: f64) -> Result<(Vec<f64>, Age), SolveError> {
+        let started = Instant::now();
+        let system = self.system.as_ref().expect("the workspace was prepared");
+        let (correction, report) = solved(&mut self.solver, &system.matrix, residual, part)?;
+        self.work.krylov_iterations += report.krylov_iterations;
+        self.work.times.solution += started.elapsed();
+        Ok((correction, report.age))
     }
 }
 

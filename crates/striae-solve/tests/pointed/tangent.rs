@@ -7,6 +7,7 @@ use striae_contact::{
     configuration::Configuration,
     evaluation::{Evaluation, evaluate},
     pointed::{RigidPoint, RigidPoints},
+    segment::Derivatives,
     selection::{Before, Kept, Selection},
     unknowns::{Status, Tractions},
 };
@@ -96,6 +97,7 @@ impl<'a> Contact<'a> {
             &self.tractions(u),
             &self.nodes().map(|count| vec![false; 3 * count]),
             Iteration::LATER,
+            Derivatives::First,
         )
         .unwrap()
     }

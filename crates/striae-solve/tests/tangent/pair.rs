@@ -6,6 +6,7 @@ use striae_contact::{
     configuration::Configuration,
     evaluation::{Evaluation, evaluate},
     placement::Placement,
+    segment::Derivatives,
     selection::{Before, Selection},
     unknown::Unknown,
     unknowns::{Label, Status, Tractions},
@@ -140,6 +141,7 @@ impl<'a> PairFunction<'a> {
             &self.tractions(u),
             &self.prescribed,
             self.iteration,
+            Derivatives::First,
         )
         .unwrap()
     }

@@ -4,6 +4,7 @@ use nalgebra::DVector;
 use striae_condensed::Partition;
 use striae_contact::{
     complementarity::Iteration,
+    segment::Derivatives,
     selection::{Before, Selection},
     unknowns::Status,
 };
@@ -199,7 +200,14 @@ impl<'a> Whole<'a> {
         let contact = Contact::Evaluated(Iteration::LATER);
         let trial = self.trial(u);
         let parts = (&self.partition, &mut matrix);
-        let assembled = assemble(&self.setting(), &trial, contact, &self.layout, parts);
+        let assembled = assemble(
+            &self.setting(),
+            &trial,
+            contact,
+            Derivatives::First,
+            &self.layout,
+            parts,
+        );
         match assembled {
             Ok(assembled) => (assembled, matrix),
             Err(Fault::CutBack(reason)) => panic!("{reason}"),
