@@ -18,6 +18,9 @@ use std::{
     process::ExitCode,
 };
 
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 /// Finite-element contact with anisotropic friction.
 #[derive(Parser)]
 #[command(version)]
