@@ -7,6 +7,7 @@ mod inertia;
 mod linearised;
 mod loads;
 mod measure;
+mod places;
 mod stabilisation;
 mod start;
 mod terms;
@@ -18,8 +19,12 @@ pub use elements::OfBodies;
 
 use inertia::Inertia;
 pub use linearised::{Background, ContactAssembled, assemble_contact};
+pub use places::ElementPlaces;
 pub use start::initial_accelerations;
-use std::time::{Duration, Instant};
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
 use striae_condensed::Partition;
 use striae_contact::{
     complementarity::Iteration,
@@ -115,10 +120,10 @@ pub fn assemble(
     trial: &Trial,
     contact: Contact,
     layout: &Layout,
-    (partition, matrix): (&Partition, &mut SparseMatrix),
+    (partition, places, matrix): (&Partition, &ElementPlaces, &mut SparseMatrix),
 ) -> Result<Assembled, Fault> {
     // On a thread of the pool, as from others each parallel part would have to wake one.
-    rayon::scope(|_| on_this_thread(setting, trial, contact, layout, (partition, matrix)))
+    rayon::scope(|_| on_this_thread(setting, trial, contact, layout, (partition, places, matrix)))
 }
 
 fn on_this_thread(
@@ -126,7 +131,7 @@ fn on_this_thread(
     trial: &Trial,
     contact: Contact,
     layout: &Layout,
-    (partition, matrix): (&Partition, &mut SparseMatrix),
+    (partition, places, matrix): (&Partition, &ElementPlaces, &mut SparseMatrix),
 ) -> Result<Assembled, Fault> {
     matrix.clear();
     let imposed = setting.imposed;
@@ -138,7 +143,7 @@ fn on_this_thread(
     // Bodies are added while contact is evaluated.
     let (evaluated, bodies) = rayon::join(
         || timed(|| contact.evaluated(&configurations, setting, trial)),
-        || system.bodies(&configurations, setting, trial),
+        || system.bodies(&configurations, setting, trial, places),
     );
     let (contacts, evaluation_time) = evaluated;
     let (contacts, bodies) = (contacts?, bodies?);
@@ -187,7 +192,7 @@ struct System<'a> {
     residual: Vec<f64>,
     forces: NodalForces,
     force_scale: f64,
-    inertia: Inertia,
+    inertia: Arc<Inertia>,
     /// Ties of all nodes; empty where nothing is tied.
     ties: Vec<Option<Tie>>,
     positions: &'a [Vec3],
@@ -219,7 +224,7 @@ impl<'a> System<'a> {
             residual: vec![0.0; layout.unknowns()],
             forces: NodalForces::zero(nodes, problem.model.rigid_surfaces.len()),
             force_scale: 0.0,
-            inertia: Inertia::new(trial, imposed),
+            inertia: Arc::new(Inertia::new(trial, imposed)),
             ties: Vec::new(),
             positions: &trial.positions,
             moving: Vec::new(),
@@ -299,10 +304,11 @@ impl System<'_> {
         configurations: &[Configuration],
         setting: &Setting,
         trial: &Trial,
+        places: &ElementPlaces,
     ) -> Result<OfBodies, Fault> {
         let imposed = setting.imposed;
         self.loads(configurations, trial, imposed)?;
-        let bodies = self.elements(trial, setting.state, imposed.flowing())?;
+        let bodies = self.elements(places, trial, setting.state, imposed.flowing())?;
         self.point_masses();
         self.carried(imposed);
         Ok(bodies)
