@@ -17,7 +17,7 @@ use striae_law::{
     friction::Friction,
 };
 use striae_solve::{
-    assembly::{Contact, Setting, StepContext, Trial, assemble},
+    assembly::{Contact, ElementPlaces, Setting, StepContext, Trial, assemble},
     layout::{Extent, Layout},
     model::Backend,
     problem::Problem,
@@ -163,6 +163,7 @@ fn assembly(model: &striae_solve::model::Model) -> Result<Value, Box<dyn Error>>
     let state = State::undeformed(&problem);
     let context = StepContext::new(&problem, 0, &state);
     let layout = Layout::new(&problem, Extent::default());
+    let places = ElementPlaces::new(&problem, &layout, matrix.structure());
     let imposed = context.imposed(0.0);
     let trial = Trial {
         positions: state.positions.clone(),
@@ -182,7 +183,7 @@ fn assembly(model: &striae_solve::model::Model) -> Result<Value, Box<dyn Error>>
         .sum();
     Ok(timed("assembly", "elements", elements, || {
         let contact = Contact::Known(Vec::new());
-        let parts = (&partition, &mut matrix);
+        let parts = (&partition, &places, &mut matrix);
         black_box(
             assemble(
                 &setting,

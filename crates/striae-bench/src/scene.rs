@@ -6,7 +6,7 @@ use striae_contact::segment::Derivatives;
 use striae_deck as deck;
 use striae_mesh::generate::CappedBlock;
 use striae_solve::{
-    assembly::{Contact, Fault, Setting, StepContext, Trial, assemble},
+    assembly::{Contact, ElementPlaces, Fault, Setting, StepContext, Trial, assemble},
     layout::{Extent, Layout},
     model::{Backend, Model},
     problem::Problem,
@@ -146,6 +146,7 @@ pub fn stiffness(model: &Model) -> Result<SparseMatrix, Box<dyn Error>> {
     }
     let structure = Structure::from_cliques(layout.offsets().to_vec(), &cliques)?;
     let partition = Partition::from(&structure);
+    let places = ElementPlaces::new(&problem, &layout, &structure);
     let mut matrix = SparseMatrix::zero(&structure);
     let trial = Trial {
         positions: state.positions.clone(),
@@ -160,7 +161,7 @@ pub fn stiffness(model: &Model) -> Result<SparseMatrix, Box<dyn Error>> {
         imposed: &imposed,
     };
     let contact = Contact::Known(Vec::new());
-    let parts = (&partition, &mut matrix);
+    let parts = (&partition, &places, &mut matrix);
     match assemble(
         &setting,
         &trial,

@@ -58,6 +58,9 @@ pub(crate) fn by_diagonal(
         .map(|v| if unknown(v) { 0.0 } else { scaling.columns[v] })
         .collect();
     scale_rows(&mut scaling, matrix, &multipliers, &columns);
+    if !multipliers.iter().any(|&m| unknown(m)) {
+        return Ok(scaling);
+    }
     let with_unknown = |i: usize| partition.multiplier_group(i).any(unknown);
     let others = |i: usize| partition.multiplier_group(i);
     let late = largest_in_columns((partition, matrix), &scaling.rows, with_unknown, others);

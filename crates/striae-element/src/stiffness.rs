@@ -37,6 +37,19 @@ impl Stiffness {
         ]
     }
 
+    /// Derivatives of the three components of the force on corner `a` by the positions of all
+    /// `N` corners.
+    pub fn rows<const N: usize>(&self, a: usize) -> [[[f64; 3]; N]; 3] {
+        let (lines, _) = self.entries.as_chunks::<N>();
+        let block = |block: usize| &lines[block * N..][..N];
+        let [xx, xy, xz, yy, yz, zz] = [0, 1, 2, 3, 4, 5].map(block);
+        [
+            std::array::from_fn(|b| [xx[a][b], xy[a][b], xz[a][b]]),
+            std::array::from_fn(|b| [xy[b][a], yy[a][b], yz[a][b]]),
+            std::array::from_fn(|b| [xz[b][a], yz[b][a], zz[a][b]]),
+        ]
+    }
+
     /// All entries, row by row; unknown `3 a + i` is component `i` of corner `a`.
     pub fn by_rows(&self) -> Vec<f64> {
         let unknowns = 3 * self.corners;

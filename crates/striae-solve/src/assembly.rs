@@ -7,6 +7,7 @@ mod inertia;
 mod linearised;
 mod loads;
 mod measure;
+mod places;
 mod stabilisation;
 mod start;
 mod terms;
@@ -18,8 +19,12 @@ pub use elements::OfBodies;
 
 use inertia::Inertia;
 pub use linearised::{Background, ContactAssembled, assemble_contact};
+pub use places::ElementPlaces;
 pub use start::initial_accelerations;
-use std::time::{Duration, Instant};
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
 use striae_condensed::Partition;
 use striae_contact::{
     complementarity::Iteration,
@@ -120,7 +125,7 @@ pub fn assemble(
     contact: Contact,
     derivatives: Derivatives,
     layout: &Layout,
-    (partition, matrix): (&Partition, &mut SparseMatrix),
+    (partition, places, matrix): (&Partition, &ElementPlaces, &mut SparseMatrix),
 ) -> Result<Assembled, Fault> {
     // On a thread of the pool, as from others each parallel part would have to wake one.
     rayon::scope(|_| {
@@ -130,7 +135,7 @@ pub fn assemble(
             contact,
             derivatives,
             layout,
-            (partition, matrix),
+            (partition, places, matrix),
         )
     })
 }
@@ -141,7 +146,7 @@ fn on_this_thread(
     contact: Contact,
     derivatives: Derivatives,
     layout: &Layout,
-    (partition, matrix): (&Partition, &mut SparseMatrix),
+    (partition, places, matrix): (&Partition, &ElementPlaces, &mut SparseMatrix),
 ) -> Result<Assembled, Fault> {
     let imposed = setting.imposed;
     let mut system = System::new(setting.context, layout, (partition, matrix), trial, imposed);
@@ -156,7 +161,7 @@ fn on_this_thread(
     // Bodies are added while contact is evaluated.
     let (evaluated, bodies) = rayon::join(
         || timed(|| contact.evaluated(&configurations, setting, trial, derivatives)),
-        || system.bodies(&configurations, setting, trial),
+        || system.bodies(&configurations, setting, trial, places),
     );
     let (contacts, evaluation_time) = evaluated;
     let (contacts, bodies) = (contacts?, bodies?);
@@ -208,7 +213,7 @@ struct System<'a> {
     residual: Vec<f64>,
     forces: NodalForces,
     force_scale: f64,
-    inertia: Inertia,
+    inertia: Arc<Inertia>,
     /// Ties of all nodes; empty where nothing is tied.
     ties: Vec<Option<Tie>>,
     positions: &'a [Vec3],
@@ -241,7 +246,7 @@ impl<'a> System<'a> {
             residual: vec![0.0; layout.unknowns()],
             forces: NodalForces::zero(nodes, problem.model.rigid_surfaces.len()),
             force_scale: 0.0,
-            inertia: Inertia::new(trial, imposed),
+            inertia: Arc::new(Inertia::new(trial, imposed)),
             ties: Vec::new(),
             positions: &trial.positions,
             moving: Vec::new(),
@@ -326,10 +331,11 @@ impl System<'_> {
         configurations: &[Configuration],
         setting: &Setting,
         trial: &Trial,
+        places: &ElementPlaces,
     ) -> Result<OfBodies, Fault> {
         let imposed = setting.imposed;
         self.loads(configurations, trial, imposed)?;
-        let bodies = self.elements(trial, setting.state, imposed.flowing())?;
+        let bodies = self.elements(places, trial, setting.state, imposed.flowing())?;
         self.point_masses();
         self.carried(imposed);
         Ok(bodies)

@@ -13,7 +13,7 @@ pub mod initial;
 pub mod interference;
 pub mod layout;
 pub mod load;
-mod mass;
+pub mod mass;
 pub mod model;
 pub mod newton;
 pub mod norms;

@@ -18,6 +18,7 @@ use striae_surface::{
 use crate::{
     composition::Composition,
     contact_mass, interference,
+    mass::{BodyMass, masses},
     model::{Model, Pair, RigidShape, Side},
     plan::{StepPlan, plans},
 };
@@ -47,6 +48,8 @@ pub struct Problem {
     pub mass_points: Vec<(usize, f64)>,
     /// Global nodes whose mass is moved to others.
     pub massless: Vec<bool>,
+    /// Mass of every body.
+    pub masses: Vec<BodyMass>,
     /// Contact facets that each face of each body is.
     pub contact_facets: HashMap<(usize, Face), Vec<ContactFacet>>,
 }
@@ -158,9 +161,12 @@ impl Problem {
         let pairs = model.pairs.iter().map(|pair| pair_geometry(&model, pair));
         let mut pairs: Vec<PairGeometry> = pairs.collect::<Result<_, _>>()?;
         interference::add_fibres(&model, &mut pairs);
+        let massless = contact_mass::massless(&model, &first_node, reference.len());
+        let of_nodes = (first_node.as_slice(), massless.as_slice());
         Ok(Self {
             contact_facets: contact_facets(&pairs),
-            massless: contact_mass::massless(&model, &first_node, reference.len()),
+            masses: masses(&model, &elements, &compositions, of_nodes),
+            massless,
             pairs,
             plans: plans(&model),
             tied,

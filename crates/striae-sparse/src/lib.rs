@@ -55,7 +55,7 @@ pub use equilibration::{Equilibration, check_finite, root};
 pub use error::{OutsidePattern, SolveError, StructureError};
 pub use faer::Mat;
 pub use faer_lu::FaerLu;
-pub use matrix::{PlacedBlock, SparseMatrix};
+pub use matrix::{CliquePlaces, Member, MemberRows, PlacedBlock, SparseMatrix};
 pub use multifrontal::MultifrontalLu;
 pub use ordering::nested_dissection;
 pub use products::Residual;

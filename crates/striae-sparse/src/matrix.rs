@@ -3,8 +3,10 @@
 //! The rows of one supervariable have the same columns, so a row is addressed
 //! by its supervariable and needs no column indices of its own.
 
+mod cliques;
 mod scatter;
 
+pub use cliques::{CliquePlaces, Member, MemberRows};
 pub use scatter::PlacedBlock;
 
 use crate::{error::OutsidePattern, structure::Structure, supervariable::Supervariable};
@@ -104,47 +106,6 @@ impl SparseMatrix {
             let range = self.structure.row(row.0, local);
             for (value, d) in self.values[range][first..].iter_mut().zip(dense) {
                 *value += d;
-            }
-        }
-        Ok(())
-    }
-
-    /// Adds a dense block for every two of some supervariables, `block(a, b)` in the rows of
-    /// the first `W` unknowns of `members[a]` and the columns of those of `members[b]`.
-    ///
-    /// Nothing is added when one of the blocks is outside the pattern.
-    /// Repeated members add up.
-    ///
-    /// # Panics
-    /// When a member has fewer than `W` unknowns.
-    pub fn add_blocks<const N: usize, const W: usize>(
-        &mut self,
-        members: &[Supervariable; N],
-        block: impl Fn(usize, usize) -> [[f64; W]; W],
-    ) -> Result<(), OutsidePattern> {
-        let structure = &self.structure;
-        let is_large = |member: &Supervariable| structure.group(member.0).len() >= W;
-        assert!(members.iter().all(is_large), "size of a dense block");
-        let mut ascending: [(usize, usize); N] =
-            std::array::from_fn(|slot| (members[slot].0, slot));
-        ascending.sort_unstable();
-        let mut edges = [[0; N]; N];
-        for (member, edges) in members.iter().zip(&mut edges) {
-            let found = edges_to(structure, member.0, &ascending, edges);
-            found.map_err(|slot| OutsidePattern {
-                row: structure.group(member.0).start,
-                column: structure.group(members[slot].0).start,
-            })?;
-        }
-        for (a, (member, edges)) in members.iter().zip(&edges).enumerate() {
-            let first = structure.row(member.0, 0);
-            let rows = &mut self.values[first.start..][..W * first.len()];
-            for (b, &edge) in edges.iter().enumerate() {
-                let column = structure.column(edge);
-                for (row, dense) in rows.chunks_exact_mut(first.len()).zip(block(a, b)) {
-                    let values = row[column..column + W].iter_mut().zip(dense);
-                    values.for_each(|(value, d)| *value += d);
-                }
             }
         }
         Ok(())

@@ -2,7 +2,8 @@
 
 use proptest::prelude::*;
 use striae_sparse::{
-    OutsidePattern, PlacedBlock, SparseMatrix, Structure, StructureError, Supervariable,
+    CliquePlaces, Member, MemberRows, OutsidePattern, PlacedBlock, SparseMatrix, Structure,
+    StructureError, Supervariable,
 };
 
 fn s(list: &[usize]) -> Vec<Supervariable> {
@@ -82,8 +83,6 @@ fn entries_outside_the_pattern_are_refused_and_change_nothing() {
     assert_eq!(outside, Err(OutsidePattern { row: 0, column: 4 }));
     let (a, b) = (Supervariable(0), Supervariable(3));
     assert!(matrix.add_block(a, b, &[0.0; 6]).is_err());
-    let outside = matrix.add_blocks(&[Supervariable(0), Supervariable(3)], |_, _| [[1.0]]);
-    assert_eq!(outside, Err(OutsidePattern { row: 0, column: 4 }));
     assert_eq!(matrix.infinity_norm(), 0.0);
     assert_eq!((matrix.get(3, 4), matrix.get(0, 4)), (Some(0.0), None));
 }
@@ -117,32 +116,70 @@ proptest! {
     }
 }
 
+/// A block of a clique, different for every two members.
+fn block(clique: usize, a: usize, b: usize) -> [[f64; 2]; 2] {
+    let at = |row: usize, column: usize| (8 * row + 4 * column + 16 * a + b) as f64;
+    [0, 1].map(|row| [0, 1].map(|column| (at(row, column) * 0.37 + clique as f64).sin()))
+}
+
 proptest! {
     #[test]
-    fn blocks_are_added_as_a_dense_block_of_their_unknowns(
-        values in prop::collection::vec(-1.0..1.0_f64, 36),
-        members in prop::array::uniform3(0_usize..4),
+    fn batches_of_cliques_are_added_as_their_blocks_one_by_one(
+        members in prop::collection::vec(prop::array::uniform3(0_u32..40), 300),
+        batch in 1_usize..150,
     ) {
-        let structure = Structure::from_cliques(
-            vec![0, 3, 5, 9, 11],
-            &[s(&[0, 1, 2]), s(&[1, 2, 3]), s(&[0, 3])],
-        );
-        let mut expected = SparseMatrix::zero(&structure.unwrap());
+        let sizes = (0..40).map(|i| 2 + i % 3);
+        let mut offsets = vec![0];
+        offsets.extend(sizes.scan(0, |sum, size| {
+            *sum += size;
+            Some(*sum)
+        }));
+        let cliques = members.iter().map(|clique| clique.map(|i| Supervariable(i as usize)));
+        let cliques: Vec<[Supervariable; 3]> = cliques.collect();
+        let structure = Structure::from_cliques(offsets, &cliques).unwrap();
+        let mut expected = SparseMatrix::zero(&structure);
         let mut found = expected.clone();
-        let unknowns: Vec<usize> = members
-            .iter()
-            .flat_map(|&member| found.structure().unknowns_of(Supervariable(member)).take(2))
-            .collect();
-        expected.add(&unknowns, &unknowns, &values).unwrap();
-        let value = |row: usize, column: usize| values[6 * row + column];
-        let block = |a: usize, b: usize| {
-            [0, 1].map(|row| [0, 1].map(|column| value(2 * a + row, 2 * b + column)))
-        };
-        found.add_blocks(&members.map(Supervariable), block).unwrap();
-        for row in 0..11 {
-            prop_assert!(expected.row(row).eq(found.row(row)));
+        for (at, clique) in cliques.iter().enumerate() {
+            for (a, row) in clique.iter().enumerate() {
+                for (b, column) in clique.iter().enumerate() {
+                    let first = |i: &Supervariable| structure.unknowns_of(*i).start;
+                    let (row, column) = (first(row), first(column));
+                    let values = block(at, a, b).concat();
+                    expected.add(&[row, row + 1], &[column, column + 1], &values).unwrap();
+                }
+            }
         }
+        let places = CliquePlaces::new(&structure, 3, batch, members.concat());
+        prop_assert_eq!(places.batches().map(|batch| batch.len()).sum::<usize>(), 300);
+        let mut seen = vec![Vec::new(); 40];
+        let add = |member: Member, mut rows: MemberRows, seen: &mut Vec<usize>| {
+            seen.push(member.clique);
+            for slot in 0..3 {
+                let block = block(member.clique, member.slot, slot);
+                for row in 0..2 {
+                    let entries = rows.entries::<2>(row, slot).iter_mut();
+                    entries.zip(block[row]).for_each(|(entry, value)| *entry += value);
+                }
+            }
+        };
+        for batch in 0..places.batches().len() {
+            found.add_batch(&places, batch, &mut seen, add);
+        }
+        prop_assert_eq!(found.values(), expected.values());
+        prop_assert!(seen.iter().all(|cliques| cliques.is_sorted()));
     }
+}
+
+#[test]
+fn cliques_outside_the_pattern_have_no_place() {
+    let mut places = CliquePlaces::new(&structure(), 2, 2, vec![0, 1, 0, 3, 3, 1]);
+    assert_eq!(
+        [0, 1, 2].map(|at| places.has_place(at)),
+        [true, false, true]
+    );
+    places.find(&structure().grown(&[s(&[0, 3])]).unwrap());
+    assert!((0..3).all(|at| places.has_place(at)));
+    assert!(places.batches().eq([0..2, 2..3]));
 }
 
 proptest! {

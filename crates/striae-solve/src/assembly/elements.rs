@@ -1,19 +1,30 @@
-//! Elements in the system: responses on all threads, while those before are added in
-//! the order of the mesh, so that sums do not depend on the number of threads.
+//! Elements in the system, batch by batch: responses of one on all threads, while those of
+//! the one before are added by the owners of the rows, in the order of the mesh, so that sums
+//! do not depend on the number of threads. A batch with tied nodes is added by one thread.
 
 use rayon::prelude::*;
-use std::ops::Range;
+use std::{ops::Range, sync::Arc};
 use striae_contact::segment::Derivatives;
 use striae_element::{ElementBlock, ElementError, ElementFault, ElementResponse, Stiffness};
 use striae_law::bulk::Past;
 use striae_mesh::{ElementId, MAX_CORNERS, NodeId, Vec3};
-use striae_sparse::OutsidePattern;
+use striae_sparse::{CliquePlaces, Member, MemberRows, OutsidePattern};
 
-use super::{Fault, System, Trial, ties::Slot};
+use super::{
+    ElementPlaces, Fault, StepContext, System, Trial,
+    inertia::{Inertia, Share},
+    ties::Slot,
+};
 use crate::{outcome::CutBack, problem::Problem, state::State};
 
-/// Elements whose responses are kept at a time: few enough for the cache.
-const CHUNK: usize = 128;
+/// What elements add up to at a supervariable.
+#[derive(Clone, Copy, Default)]
+struct AtNode {
+    residual: Vec3,
+    internal: Vec3,
+    weight: Vec3,
+    inertia: Vec3,
+}
 
 /// Sums over all elements.
 #[derive(Default)]
@@ -37,45 +48,59 @@ impl System<'_> {
     /// Internal forces and stiffness.
     pub(super) fn elements(
         &mut self,
+        places: &ElementPlaces,
         trial: &Trial,
         state: &State,
         elapsed: f64,
     ) -> Result<OfBodies, Fault> {
         let problem = self.context.problem;
         let mut sums = Sums::default();
+        let mut at_nodes = self.at_nodes();
         for (body, elements) in problem.elements.iter().enumerate() {
             let variables = state.histories[body].as_slice();
             let room = Vec::with_capacity(variables.len());
             sums.of_bodies.histories.push(room);
-            for (first, block) in elements.blocks() {
+            for (number, (first, block)) in elements.blocks().enumerate() {
                 let place = Place {
                     body,
                     first,
                     block,
+                    places: places.of_block(body, number),
                     variables,
                     elapsed,
                 };
-                self.block(&place, trial, &mut sums)?;
+                self.block(&place, trial, &mut at_nodes, &mut sums)?;
             }
         }
+        self.take_from_nodes(&at_nodes);
         self.force_scale = sums.square_of_forces.sqrt();
         Ok(sums.of_bodies)
     }
 
     /// The elements of a block.
-    fn block(&mut self, place: &Place, trial: &Trial, sums: &mut Sums) -> Result<(), Fault> {
-        let problem = self.context.problem;
-        let count = place.block.count();
-        let material = &problem.model.bodies[place.body].material;
-        let empty = ElementResponse::zero(place.block, material);
-        let chunk = |start: usize| start.min(count)..(start + CHUNK).min(count);
-        let buffer = || vec![empty.clone(); CHUNK.min(count)];
+    fn block(
+        &mut self,
+        place: &Place,
+        trial: &Trial,
+        at_nodes: &mut [AtNode],
+        sums: &mut Sums,
+    ) -> Result<(), Fault> {
+        let (context, inertia) = (self.context, Arc::clone(&self.inertia));
+        let material = &context.problem.model.bodies[place.body].material;
+        let empty = Share::new(ElementResponse::zero(place.block, material));
+        let batches: Vec<Range<usize>> = place.places.batches().collect();
+        let largest = batches.first().map_or(0, Range::len);
+        let buffer = || vec![empty.clone(); largest];
         let (mut ready, mut next) = (buffer(), buffer());
-        let mut results = respond(problem, place, trial, chunk(0), &mut ready);
-        for start in (0..count).step_by(CHUNK) {
+        let batch = |at: usize| batches.get(at).cloned().unwrap_or(0..0);
+        let respond = |at: usize, shares: &mut [Share]| {
+            shares_of(context, &inertia, place, trial, batch(at), shares)
+        };
+        let mut results = respond(0, &mut ready);
+        for at in 0..batches.len() {
             let (added, following) = rayon::join(
-                || self.add_elements(place, start, &mut ready, &results, sums),
-                || respond(problem, place, trial, chunk(start + CHUNK), &mut next),
+                || self.add_elements(place, at, &ready, &results, at_nodes, sums),
+                || respond(at + 1, &mut next),
             );
             added?;
             results = following;
@@ -84,99 +109,124 @@ impl System<'_> {
         Ok(())
     }
 
-    /// Adds the elements of a block from `start` on.
+    /// Adds a batch of the elements of a block.
     fn add_elements(
         &mut self,
         place: &Place,
-        start: usize,
-        responses: &mut [ElementResponse],
+        batch: usize,
+        shares: &[Share],
         results: &[Result<(), ElementError>],
+        at_nodes: &mut [AtNode],
         sums: &mut Sums,
     ) -> Result<(), Fault> {
         let problem = self.context.problem;
-        let model = &problem.model.bodies[place.body];
-        for ((at, response), result) in (start..).zip(responses).zip(results) {
-            let element = ElementId::new(place.first + at);
+        let places = place.places;
+        let range = places.batches().nth(batch).unwrap_or(0..0);
+        for ((at, share), result) in range.clone().zip(shares).zip(results) {
             result.map_err(|error| {
                 Fault::CutBack(CutBack::InvertedElement {
-                    body: model.name.clone(),
-                    element: ElementFault { element, error },
+                    body: problem.model.bodies[place.body].name.clone(),
+                    element: ElementFault {
+                        element: ElementId::new(place.first + at),
+                        error,
+                    },
                 })
             })?;
+            let response = &share.response;
             sums.of_bodies.strain += response.energy;
             sums.of_bodies.dissipated += response.dissipated;
             sums.of_bodies.histories[place.body].extend_from_slice(&response.variables);
-            let corners = model.mesh.corners(element);
-            let mut nodes = [0; MAX_CORNERS];
-            let nodes = globals(problem, place.body, corners, &mut nodes);
-            let density = problem.density(place.body, element);
-            let mass = (density > 0.0).then(|| problem.mass(place.body, element));
-            self.weigh(nodes, mass.as_ref(), response);
-            let forces = response.force.as_flattened().iter();
-            sums.square_of_forces += forces.map(|f| f * f).sum::<f64>();
-            self.add_response(nodes, response)
-                .map_err(|_| Fault::Pattern(vec![self.clique(nodes)]))?;
+            sums.square_of_forces += share.square_of_forces;
         }
-        Ok(())
-    }
-
-    /// Adds force and stiffness of an element, leaving out prescribed rows.
-    fn add_response(
-        &mut self,
-        nodes: &[usize],
-        response: &ElementResponse,
-    ) -> Result<(), OutsidePattern> {
-        if self.derivatives == Derivatives::None {
-            self.add_force(nodes, response);
+        if range.clone().all(|at| self.is_plain_element(place, at)) {
+            let (first, fixed, acts) = (range.start, &self.context.fixed, self.inertia.acts());
+            let derivatives = self.derivatives;
+            let add = |member: Member, rows: MemberRows, at_node: &mut AtNode| {
+                let share = &shares[member.clique - first];
+                at_node.add(share, member.slot, acts);
+                if derivatives == Derivatives::First {
+                    let node = member.supervariable.0;
+                    add_rows(rows, share, member.slot, &fixed[3 * node..3 * node + 3]);
+                }
+            };
+            self.matrix.add_batch(places, batch, at_nodes, add);
             return Ok(());
         }
-        let stiffness = &response.stiffness;
-        let tied = nodes.iter().any(|&node| self.tie(node).is_some());
-        match (tied, nodes.len()) {
-            (false, 4) => self.add_stiffness::<4>(nodes, stiffness),
-            (false, 5) => self.add_stiffness::<5>(nodes, stiffness),
-            (false, 6) => self.add_stiffness::<6>(nodes, stiffness),
-            (false, 8) => self.add_stiffness::<8>(nodes, stiffness),
-            (false, 10) => self.add_stiffness::<10>(nodes, stiffness),
-            _ => {
-                let (unknowns, tangent) = (self.unknowns(nodes), stiffness.by_rows());
-                let force = response.force.as_flattened();
-                return self.add_dense(nodes, &unknowns, force, &tangent);
-            }
-        }?;
-        self.add_force(nodes, response);
+        for (at, share) in range.zip(shares) {
+            self.add_element(place, at, share, at_nodes)?;
+        }
         Ok(())
     }
 
-    /// Adds the force of an element.
-    fn add_force(&mut self, nodes: &[usize], response: &ElementResponse) {
-        for (&node, force) in nodes.iter().zip(&response.force) {
-            let first = self.layout.position(node);
-            let residual = self.residual[first..first + 3].iter_mut();
-            residual.zip(force).for_each(|(sum, f)| *sum += f);
-        }
+    /// Whether an element of a block has a place and no tied nodes.
+    fn is_plain_element(&self, place: &Place, at: usize) -> bool {
+        let problem = self.context.problem;
+        let element = ElementId::new(place.first + at);
+        let corners = problem.model.bodies[place.body].mesh.corners(element);
+        let is_tied = |node: &NodeId| self.tie(problem.node(place.body, *node)).is_some();
+        place.places.has_place(at) && (self.ties.is_empty() || !corners.iter().any(is_tied))
     }
 
-    /// Adds the stiffness of an element with `N` corners, none of them tied.
-    fn add_stiffness<const N: usize>(
+    /// Adds an element, which may have tied nodes.
+    fn add_element(
         &mut self,
-        nodes: &[usize],
-        stiffness: &Stiffness,
-    ) -> Result<(), OutsidePattern> {
-        let fixed: [_; N] = std::array::from_fn(|a| {
-            let first = 3 * nodes[a];
-            &self.context.fixed[first..first + 3]
-        });
-        let members: [_; N] = std::array::from_fn(|a| self.layout.supervariable(nodes[a]));
-        self.matrix.add_blocks(&members, |a, b| {
-            let mut block = stiffness.between(a, b);
-            for (row, is_fixed) in block.iter_mut().zip(fixed[a]) {
-                if *is_fixed {
-                    *row = [0.0; 3];
-                }
-            }
-            block
-        })
+        place: &Place,
+        at: usize,
+        share: &Share,
+        at_nodes: &mut [AtNode],
+    ) -> Result<(), Fault> {
+        let problem = self.context.problem;
+        let element = ElementId::new(place.first + at);
+        let corners = problem.model.bodies[place.body].mesh.corners(element);
+        let mut nodes = [0; MAX_CORNERS];
+        let nodes = globals(problem, place.body, corners, &mut nodes);
+        for (slot, &node) in nodes.iter().enumerate() {
+            at_nodes[node].add(share, slot, self.inertia.acts());
+        }
+        if self.derivatives == Derivatives::None {
+            return Ok(());
+        }
+        if !self.is_plain_element(place, at) {
+            let (unknowns, tangent) = (self.unknowns(nodes), share.response.stiffness.by_rows());
+            return self
+                .add_square(nodes, &unknowns, &tangent)
+                .map_err(|_| Fault::Pattern(vec![self.clique(nodes)]));
+        }
+        for (slot, &node) in nodes.iter().enumerate() {
+            let rows = self.matrix.rows_of_member(place.places, (at, slot));
+            add_rows(
+                rows,
+                share,
+                slot,
+                &self.context.fixed[3 * node..3 * node + 3],
+            );
+        }
+        Ok(())
+    }
+
+    /// Sums at the supervariables as they are now.
+    fn at_nodes(&self) -> Vec<AtNode> {
+        let mut at_nodes = vec![AtNode::default(); self.matrix.structure().supervariables()];
+        for node in 0..self.context.problem.reference.len() {
+            let first = self.layout.position(node);
+            at_nodes[node] = AtNode {
+                residual: Vec3::from_column_slice(&self.residual[first..first + 3]),
+                internal: self.forces.internal[node],
+                weight: self.forces.applied[node],
+                inertia: self.forces.inertia[node],
+            };
+        }
+        at_nodes
+    }
+
+    fn take_from_nodes(&mut self, at_nodes: &[AtNode]) {
+        for node in 0..self.context.problem.reference.len() {
+            let (first, sums) = (self.layout.position(node), &at_nodes[node]);
+            self.residual[first..first + 3].copy_from_slice(sums.residual.as_slice());
+            self.forces.internal[node] = sums.internal;
+            self.forces.applied[node] = sums.weight;
+            self.forces.inertia[node] = sums.inertia;
+        }
     }
 
     /// The position unknowns of nodes.
@@ -196,6 +246,16 @@ impl System<'_> {
         for (unknown, force) in unknowns.iter().zip(force) {
             self.residual[*unknown] += force;
         }
+        self.add_square(nodes, unknowns, tangent)
+    }
+
+    /// The same without a force.
+    fn add_square(
+        &mut self,
+        nodes: &[usize],
+        unknowns: &[usize],
+        tangent: &[f64],
+    ) -> Result<(), OutsidePattern> {
         let is_fixed = |node: &usize| self.context.fixed[3 * node..3 * node + 3].contains(&true);
         let is_plain = |node: &usize| self.tie(*node).is_none() && !is_fixed(node);
         if self.derivatives == Derivatives::None {
@@ -220,47 +280,96 @@ struct Place<'a> {
     /// First element in the mesh.
     first: usize,
     block: &'a dyn ElementBlock,
+    places: &'a CliquePlaces,
     /// Variables of the body at the last converged state.
     variables: &'a [f64],
     /// Time since then.
     elapsed: f64,
 }
 
-/// Responses of some elements of a block, written over older ones.
-fn respond(
-    problem: &Problem,
+/// What some elements of a block add, written over older ones.
+fn shares_of(
+    context: &StepContext,
+    inertia: &Inertia,
     place: &Place,
     trial: &Trial,
     range: Range<usize>,
-    responses: &mut [ElementResponse],
+    shares: &mut [Share],
 ) -> Vec<Result<(), ElementError>> {
-    let &Place {
-        body,
-        first,
-        block,
-        variables,
-        elapsed,
-    } = place;
+    let &Place { body, block, .. } = place;
+    let problem = context.problem;
     let model = &problem.model.bodies[body];
     let composition = &problem.compositions[body];
-    responses[..range.len()]
+    shares[..range.len()]
         .par_iter_mut()
         .zip(range)
         .with_min_len(8)
-        .map(|(response, at)| {
-            let element = ElementId::new(first + at);
+        .map(|(share, at)| {
+            let element = ElementId::new(place.first + at);
             let material = problem.material(body, element);
-            let variables = &variables[composition.variables(element)];
-            let past = Past { variables, elapsed };
-            let corners = model.mesh.corners(element);
+            let past = Past {
+                variables: &place.variables[composition.variables(element)],
+                elapsed: place.elapsed,
+            };
+            let mut nodes = [0; MAX_CORNERS];
+            let nodes = globals(problem, body, model.mesh.corners(element), &mut nodes);
             let mut x = [Vec3::zeros(); MAX_CORNERS];
-            for (x, node) in x.iter_mut().zip(corners) {
-                *x = trial.positions[problem.node(body, *node)];
+            for (x, node) in x.iter_mut().zip(nodes) {
+                *x = trial.positions[*node];
             }
+            let response = &mut share.response;
             response.make_room(block, material);
-            block.respond(at, &x[..corners.len()], material, past, response)
+            block.respond(at, &x[..nodes.len()], material, past, response)?;
+            let mass = problem.masses[body].of_element(element);
+            inertia.weigh(nodes, mass, &context.fixed, share);
+            Ok(())
         })
         .collect()
+}
+
+impl AtNode {
+    /// Adds what an element adds at a corner; weight and inertia if they act.
+    fn add(&mut self, share: &Share, corner: usize, acts: bool) {
+        self.residual += Vec3::from(share.response.force[corner]);
+        self.internal += share.internal[corner];
+        if acts {
+            self.weight += share.weight[corner];
+            self.inertia += share.inertia[corner];
+        }
+    }
+}
+
+/// Adds the stiffness of an element to the rows of a corner, but for those that are fixed.
+fn add_rows(rows: MemberRows, share: &Share, corner: usize, fixed: &[bool]) {
+    let stiffness = &share.response.stiffness;
+    match share.response.force.len() {
+        4 => add_rows_of::<4>(rows, stiffness, corner, fixed),
+        5 => add_rows_of::<5>(rows, stiffness, corner, fixed),
+        6 => add_rows_of::<6>(rows, stiffness, corner, fixed),
+        8 => add_rows_of::<8>(rows, stiffness, corner, fixed),
+        corners => {
+            assert_eq!(corners, MAX_CORNERS, "elements have so many corners");
+            add_rows_of::<MAX_CORNERS>(rows, stiffness, corner, fixed);
+        }
+    }
+}
+
+fn add_rows_of<const N: usize>(
+    mut rows: MemberRows,
+    stiffness: &Stiffness,
+    corner: usize,
+    fixed: &[bool],
+) {
+    let derivatives = stiffness.rows::<N>(corner);
+    for (row, blocks) in derivatives.iter().enumerate() {
+        if fixed[row] {
+            continue;
+        }
+        for (slot, block) in blocks.iter().enumerate() {
+            let entries: &mut [f64; 3] = rows.entries(row, slot);
+            entries.iter_mut().zip(block).for_each(|(k, d)| *k += d);
+        }
+    }
 }
 
 /// Global numbers of corners, in the room given.

@@ -9,8 +9,8 @@
 //! and every node the part `a_f (f_int - f_ext)_0` of the last converged state.
 //! Without inertia `a_f = 0` and `a_alpha = 0`.
 
-use striae_element::{ElementResponse, Mass};
-use striae_mesh::Vec3;
+use striae_element::ElementResponse;
+use striae_mesh::{MAX_CORNERS, Vec3};
 
 use super::{Imposed, System, Trial};
 
@@ -38,58 +38,104 @@ impl Inertia {
     }
 }
 
-impl System<'_> {
-    /// Weighs the response of an element and adds its mass and weight.
-    pub(super) fn weigh(
-        &mut self,
-        nodes: &[usize],
-        mass: Option<&Mass>,
-        response: &mut ElementResponse,
-    ) {
-        let share = self.inertia.share_of_end;
-        for (force, &node) in response.force.iter().zip(nodes) {
-            self.forces.internal[node] += Vec3::from(*force);
+/// What an element adds to the system.
+#[derive(Clone)]
+pub(super) struct Share {
+    /// Response, weighed, with inertia and weight.
+    pub(super) response: ElementResponse,
+    /// Internal force on each corner, as it is.
+    pub(super) internal: [Vec3; MAX_CORNERS],
+    /// Weight of each corner.
+    pub(super) weight: [Vec3; MAX_CORNERS],
+    /// Inertia of each corner.
+    pub(super) inertia: [Vec3; MAX_CORNERS],
+    /// Sum of the squares of the forces of the response.
+    pub(super) square_of_forces: f64,
+}
+
+impl Share {
+    /// A share with room for a response like the one given.
+    pub(super) fn new(response: ElementResponse) -> Self {
+        let zeros = [Vec3::zeros(); MAX_CORNERS];
+        Self {
+            response,
+            internal: zeros,
+            weight: zeros,
+            inertia: zeros,
+            square_of_forces: 0.0,
+        }
+    }
+}
+
+impl Inertia {
+    /// Weighs the response of an element at some nodes, whose components are `fixed` or
+    /// not, and adds its mass and weight; `mass` is empty where it has none.
+    pub(super) fn weigh(&self, nodes: &[usize], mass: &[f64], fixed: &[bool], own: &mut Share) {
+        let share = self.share_of_end;
+        for (internal, force) in own.internal.iter_mut().zip(&own.response.force) {
+            *internal = Vec3::from(*force);
         }
         if share != 1.0 {
-            let forces = response.force.as_flattened_mut().iter_mut();
+            let forces = own.response.force.as_flattened_mut().iter_mut();
             forces.for_each(|f| *f *= share);
-            response.stiffness.scale(share);
+            own.response.stiffness.scale(share);
         }
-        let Some(mass) = mass else { return };
-        for a in 0..nodes.len() {
-            let total: f64 = mass[a].iter().sum();
-            let weight = self.inertia.gravity * total;
-            self.forces.applied[nodes[a]] += weight;
-            let mut force = -weight * share;
-            if let Some(accelerations) = &self.inertia.accelerations {
-                let shares = nodes.iter().zip(&mass[a]);
-                let inertia: Vec3 = shares.map(|(&node, m)| accelerations[node] * *m).sum();
-                self.forces.inertia[nodes[a]] += inertia;
-                force += inertia;
+        if !mass.is_empty() {
+            self.add_forces(nodes, mass, own);
+            if self.stiffness > 0.0 {
+                self.add_mass(nodes, mass, fixed, &mut own.response);
+            }
+        } else if self.acts() {
+            own.weight.fill(Vec3::zeros());
+            own.inertia.fill(Vec3::zeros());
+        }
+        let forces = own.response.force.as_flattened().iter();
+        own.square_of_forces = forces.map(|f| f * f).sum();
+    }
+
+    /// Whether there is gravity or inertia.
+    pub(super) fn acts(&self) -> bool {
+        self.accelerations.is_some() || self.gravity != Vec3::zeros()
+    }
+
+    fn add_forces(&self, nodes: &[usize], mass: &[f64], own: &mut Share) {
+        for (a, mass) in mass.chunks_exact(nodes.len()).enumerate() {
+            let weight = self.gravity * mass.iter().sum::<f64>();
+            own.weight[a] = weight;
+            let mut force = -weight * self.share_of_end;
+            if let Some(accelerations) = &self.accelerations {
+                let shares = nodes.iter().zip(mass);
+                own.inertia[a] = shares.map(|(&node, m)| accelerations[node] * *m).sum();
+                force += own.inertia[a];
             }
             for axis in 0..3 {
-                response.force[a][axis] += force[axis];
+                own.response.force[a][axis] += force[axis];
             }
-        }
-        if self.inertia.stiffness > 0.0 {
-            self.add_mass(nodes, mass, response);
         }
     }
 
-    fn add_mass(&self, nodes: &[usize], mass: &Mass, response: &mut ElementResponse) {
+    fn add_mass(
+        &self,
+        nodes: &[usize],
+        mass: &[f64],
+        fixed: &[bool],
+        response: &mut ElementResponse,
+    ) {
         for b in 0..nodes.len() {
             for axis in 0..3 {
-                if self.context.fixed[3 * nodes[b] + axis] {
+                if fixed[3 * nodes[b] + axis] {
                     continue;
                 }
                 for a in 0..nodes.len() {
-                    let value = mass[a][b] * self.inertia.stiffness;
+                    let value = mass[a * nodes.len() + b] * self.stiffness;
                     response.stiffness.add_along(axis, a, b, value);
                 }
             }
         }
     }
+}
 
+impl System<'_> {
     /// Inertia and weight of the point masses of rigid bodies.
     pub(super) fn point_masses(&mut self) {
         let share = self.inertia.share_of_end;

@@ -97,7 +97,10 @@ impl System<'_> {
         let problem = self.context.problem;
         for (body, model) in problem.model.bodies.iter().enumerate() {
             for (at, corners) in model.mesh.elements().enumerate() {
-                let mass = problem.mass(body, ElementId::new(at));
+                let mass = problem.masses[body].of_element(ElementId::new(at));
+                if mass.is_empty() {
+                    continue;
+                }
                 let nodes = problem.nodes(body, corners);
                 let unknowns = self.unknowns(&nodes);
                 let count = unknowns.len();
@@ -106,7 +109,7 @@ impl System<'_> {
                     let (row, column) = (at / count, at % count);
                     let (b, axis) = (column / 3, column % 3);
                     if row % 3 == axis && !self.context.fixed[3 * nodes[b] + axis] {
-                        *entry = mass[row / 3][b];
+                        *entry = mass[row / 3 * nodes.len() + b];
                     }
                 }
                 self.add_dense(&nodes, &unknowns, &vec![0.0; count], &block)

@@ -270,11 +270,9 @@ impl Attempt<'_> {
         let context = self.context;
         let tolerance = context.problem.model.solver.tolerance;
         let (residual, part) = (&assembled.residual, part(before, tolerance));
+        self.chord.corrects(assembled);
         let correction = match assembled.derivatives {
-            Derivatives::First => {
-                self.chord = Chord::at(assembled);
-                workspace.correction(residual, part)
-            }
+            Derivatives::First => workspace.correction(residual, part),
             Derivatives::None => workspace.chord_correction(residual, part),
         };
         let correction = correction

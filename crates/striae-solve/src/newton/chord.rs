@@ -1,10 +1,11 @@
 //! Corrections with the tangent of an earlier state, near the end of an increment.
 //!
-//! Newton's method squares the residual: from `r_0` it comes to about `r = r_0^2`. A further
-//! correction with the tangent and the factors at `r_0` leaves about `r_0 r`. Where `r_0` is
-//! small that is below the tolerance, and neither a tangent nor factors are needed for it. So
-//! states that a small residual leads to are evaluated without derivatives; where that does not
-//! bring the increment to its end, derivatives are evaluated after all.
+//! Newton's method squares the residual: from `r_0` it comes to `r_1 = C r_0^2`. A further
+//! correction with the tangent and the factors at `r_0` leaves `C r_0 r_1`, so each one shrinks
+//! the residual by `r_1 / r_0`. Where a few of them reach the tolerance, neither a tangent nor
+//! factors are needed for them. So states that a small residual leads to are evaluated without
+//! derivatives; where that does not bring the increment to its end, derivatives are evaluated
+//! after all.
 
 use striae_contact::{segment::Derivatives, unknowns::Status};
 
@@ -14,9 +15,9 @@ use crate::{
 };
 
 /// Residual from which on a state is evaluated without derivatives first.
-const LATE: f64 = 1e-4;
-/// How much more than `r_0 r` a correction with an earlier tangent is taken to leave.
-const MARGIN: f64 = 10.0;
+const LATE: f64 = 3e-3;
+/// How many corrections with an earlier tangent are as cheap as one with a new one.
+const CORRECTIONS: i32 = 2;
 
 /// What is wanted of the state that a correction from the residual `norm` leads to.
 pub(super) fn wanted(norm: f64) -> Derivatives {
@@ -26,25 +27,27 @@ pub(super) fn wanted(norm: f64) -> Derivatives {
     }
 }
 
-/// What the tangent is of that the matrix holds.
+/// What the tangent is of that the matrix holds, and what the last correction started from.
 #[derive(Debug, Default)]
 pub(super) struct Chord {
-    norm: f64,
     statuses: Vec<Status>,
+    norm: f64,
 }
 
 impl Chord {
-    /// The tangent at a state that is evaluated with derivatives.
-    pub(super) fn at(assembled: &Assembled) -> Self {
-        Self {
-            norm: assembled.norms.largest(),
-            statuses: statuses(assembled).collect(),
+    /// A correction from a state, with its own tangent if it has one.
+    pub(super) fn corrects(&mut self, assembled: &Assembled) {
+        self.norm = assembled.norms.largest();
+        if assembled.derivatives == Derivatives::First {
+            self.statuses = statuses(assembled).collect();
         }
     }
 
-    /// Whether a correction from a later state comes to the tolerance with it.
+    /// Whether a few more corrections with the tangent bring a state to the tolerance.
     pub(super) fn serves(&self, assembled: &Assembled, tolerance: f64) -> bool {
-        MARGIN * self.norm * assembled.norms.largest() <= tolerance && self.holds(assembled)
+        let norm = assembled.norms.largest();
+        let rate = norm / self.norm;
+        norm * rate.powi(CORRECTIONS) <= tolerance && self.holds(assembled)
     }
 
     /// Whether nodes have the statuses that they had then; rows of others are different ones.

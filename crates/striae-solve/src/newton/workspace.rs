@@ -11,8 +11,8 @@ use striae_mesh::Vec3;
 use super::{course::Course, work::LinearWork};
 use crate::{
     assembly::{
-        Assembled, Background, Contact, ContactAssembled, Fault, Imposed, Setting, StepContext,
-        Trial, assemble, assemble_contact, initial_accelerations,
+        Assembled, Background, Contact, ContactAssembled, ElementPlaces, Fault, Imposed, Setting,
+        StepContext, Trial, assemble, assemble_contact, initial_accelerations,
     },
     layout::{Extent, Layout},
     model::Backend,
@@ -37,6 +37,7 @@ pub struct Workspace {
 pub(super) struct SystemStorage {
     pub(super) layout: Layout,
     pub(super) partition: Partition,
+    places: ElementPlaces,
     pub(super) matrix: SparseMatrix,
     pub(super) analysis: Analysis,
     /// Cliques by which the pattern has grown beyond the elements.
@@ -180,6 +181,7 @@ impl Workspace {
             .expect(own);
         let partition = partition.grown(&tied).expect(own);
         self.system = Some(SystemStorage {
+            places: ElementPlaces::new(problem, &layout, partition.structure()),
             matrix: SparseMatrix::zero(partition.structure()),
             partition,
             layout,
@@ -221,7 +223,7 @@ impl Workspace {
     ) -> Result<Assembled, Fault> {
         let started = Instant::now();
         let system = self.system.as_mut().expect("the workspace was prepared");
-        let parts = (&system.partition, &mut system.matrix);
+        let parts = (&system.partition, &system.places, &mut system.matrix);
         let assembled = assemble(setting, trial, contact, derivatives, &system.layout, parts);
         self.work.times.assembly += started.elapsed();
         let of_contact = assembled.as_ref().map(|assembled| assembled.contact_time);
@@ -392,6 +394,7 @@ impl SystemStorage {
     fn grow(&mut self, cliques: Vec<Vec<Supervariable>>) {
         let grown = self.partition.grown(&cliques);
         self.partition = grown.expect("cliques name known supervariables");
+        self.places.find(self.partition.structure());
         self.matrix = SparseMatrix::zero(self.partition.structure());
         self.grown.extend(cliques);
         self.analysed = false;

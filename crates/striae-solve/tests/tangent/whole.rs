@@ -10,7 +10,8 @@ use striae_contact::{
 };
 use striae_solve::{
     assembly::{
-        Assembled, Contact, Fault, Imposed, Setting, StepContext, Trial, assemble, assemble_contact,
+        Assembled, Contact, ElementPlaces, Fault, Imposed, Setting, StepContext, Trial, assemble,
+        assemble_contact,
     },
     layout::{Extent, Layout},
     state::State,
@@ -199,7 +200,9 @@ impl<'a> Whole<'a> {
         let mut matrix = SparseMatrix::zero(self.partition.structure());
         let contact = Contact::Evaluated(Iteration::LATER);
         let trial = self.trial(u);
-        let parts = (&self.partition, &mut matrix);
+        let structure = self.partition.structure();
+        let places = ElementPlaces::new(self.context.problem, &self.layout, structure);
+        let parts = (&self.partition, &places, &mut matrix);
         let assembled = assemble(
             &self.setting(),
             &trial,
