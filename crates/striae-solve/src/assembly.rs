@@ -165,7 +165,10 @@ fn on_this_thread(
     );
     let (contacts, evaluation_time) = evaluated;
     let (contacts, bodies) = (contacts?, bodies?);
-    let background = system.background();
+    let background = match derivatives {
+        Derivatives::First => system.background(),
+        Derivatives::None => Background::default(),
+    };
     let ((), adding_time) = timed(|| system.add_contacts(&contacts));
     system.stabilise(trial, imposed);
     if !system.outside.is_empty() {

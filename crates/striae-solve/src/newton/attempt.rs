@@ -269,7 +269,7 @@ impl Attempt<'_> {
     ) -> Result<(Assembled, Taken), CutBack> {
         let context = self.context;
         let tolerance = context.problem.model.solver.tolerance;
-        let (residual, part) = (&assembled.residual, part(before, tolerance));
+        let (residual, part) = (&assembled.residual, part(self.norm(assembled), tolerance));
         self.chord.corrects(assembled);
         let correction = match assembled.derivatives {
             Derivatives::First => workspace.correction(residual, part),
@@ -330,12 +330,18 @@ impl Attempt<'_> {
         if !is_plain || solver.further_iterations > 0 {
             return Derivatives::First;
         }
+        wanted(self.norm(assembled).unwrap_or(f64::INFINITY))
+    }
+
+    /// Norm of the latest state, with what prescribed positions have still to go; `None` where
+    /// the increment does not start from where the one before leads.
+    fn norm(&self, assembled: &Assembled) -> Option<f64> {
         let norm = assembled.norms.largest();
-        wanted(match (self.iterations.is_empty(), self.follows()) {
-            (true, true) => norm.max(share_to_go(&self.trial, self.state, self.imposed)),
-            (true, false) => f64::INFINITY,
-            (false, _) => norm,
-        })
+        match (self.iterations.is_empty(), self.follows()) {
+            (true, true) => Some(norm.max(share_to_go(&self.trial, self.state, self.imposed))),
+            (true, false) => None,
+            (false, _) => Some(norm),
+        }
     }
 
     /// The traction field with what the first iteration shows to come into contact.
