@@ -7,15 +7,15 @@ use std::collections::{BTreeSet, HashMap, VecDeque};
 use crate::{ElementId, Face, Mesh, NodeId, Region, Vec3};
 
 impl Mesh {
-    /// Adds the sets `all` of nodes, of facets and of elements where there is none of that name.
-    pub fn name_all(&mut self) {
-        if self.node_sets.get("all").is_none() {
-            let nodes = 0..self.positions.len();
-            self.node_sets.insert("all", nodes.map(NodeId::new));
-        }
+    /// Adds the set `all` of the facets of the boundary where there is none of that name.
+    pub fn name_all_facets(&mut self) {
         if self.facet_sets.get("all").is_none() {
             self.facet_sets.insert("all", self.boundary_faces());
         }
+    }
+
+    /// Adds the set `all` of elements where there is none of that name.
+    pub fn name_all_elements(&mut self) {
         if self.element_sets.get("all").is_none() {
             let elements = 0..self.element_count();
             self.element_sets
@@ -74,6 +74,14 @@ impl Mesh {
         let single = faces.into_values().filter(|(_, count)| *count == 1);
         let border: BTreeSet<Face> = single.map(|(face, _)| face).collect();
         border.into_iter().collect()
+    }
+
+    /// Faces of some elements on the boundary of the body.
+    pub fn boundary_of(&self, elements: &[ElementId]) -> Vec<Face> {
+        let elements: BTreeSet<ElementId> = elements.iter().copied().collect();
+        let mut faces = self.boundary_faces();
+        faces.retain(|face| elements.contains(&face.element));
+        faces
     }
 
     /// Those of some faces whose outward normals are within an angle (radians) of a direction.

@@ -1,6 +1,6 @@
 //! Bodies.
 
-use super::{formulation::formulation, list, materials::Materials, mesh, sections, sets};
+use super::{formulation::formulation, materials::Materials, mesh, sections, sets};
 use crate::{faults::FaultList, names::Names, raw, read::At, value::Text};
 use std::path::Path;
 use striae_law::bulk::Material;
@@ -170,13 +170,13 @@ fn lower_body(
     let reading = raw.mesh.as_ref();
     let reading = reading.and_then(|mesh| mesh::body_mesh(mesh, &name, base, faults));
     let (mut mesh, notes, asked) = match reading {
-        Some(Reading { mesh, notes, asked }) => (Some(mesh), notes, asked),
+        Some(Reading {
+            mesh, notes, asked, ..
+        }) => (Some(mesh), notes, asked),
         None => (None, Vec::new(), None),
     };
     if let Some(mesh) = &mut mesh {
-        sets::add_node_sets(mesh, &name, list(&raw.node_sets), faults);
-        sets::add_facet_sets(mesh, &name, list(&raw.facet_sets), faults);
-        sets::add_element_sets(mesh, &name, list(&raw.element_sets), faults);
+        sets::add_sets(mesh, &name, raw, faults);
     }
     let asked = asked.map(|asked| match asked {
         Asked::MeanDilatation => Formulation::MeanDilatation,
