@@ -30,6 +30,7 @@ mod lines;
 mod loose;
 mod lower;
 mod node_vectors;
+mod numbers;
 mod sets;
 mod stl;
 #[cfg(test)]
@@ -38,6 +39,7 @@ mod vtk;
 
 pub use error::{MeshFileError, MeshFileFault, Place, Section};
 pub use node_vectors::NodeVectors;
+pub use numbers::Numbers;
 
 use std::path::Path;
 use striae_mesh::{Mesh, NodeId, Vec3};
@@ -61,6 +63,25 @@ pub struct Reading {
     pub notes: Vec<String>,
     /// The formulation that the elements of the file ask for.
     pub asked: Option<Asked>,
+    /// What the file calls nodes and elements.
+    pub numbers: Numbers,
+}
+
+impl From<Mesh> for Reading {
+    /// A mesh of no file, whose nodes and elements are numbered from 0.
+    fn from(mesh: Mesh) -> Self {
+        let numbers = Numbers {
+            nodes: (0..mesh.positions.len() as u64).collect(),
+            elements: (0..mesh.element_count() as u64).collect(),
+            instances: Vec::new(),
+        };
+        Self {
+            mesh,
+            notes: Vec::new(),
+            asked: None,
+            numbers,
+        }
+    }
 }
 
 /// A formulation of elements that a letter in their name asks for.
@@ -89,7 +110,7 @@ pub fn read_with_notes(path: impl AsRef<Path>) -> Result<Reading, MeshFileError>
     let path = path.as_ref();
     match ending(path).as_str() {
         "msh" => bytes(path).and_then(|bytes| gmsh::body(&bytes)),
-        "inp" => text(path).and_then(|text| abaqus::body(&text)),
+        "inp" => return abaqus::read(path),
         "vtu" => bytes(path).and_then(|bytes| vtk::xml_body(&bytes)),
         "vtk" => bytes(path).and_then(|bytes| vtk::legacy_body(&bytes)),
         _ => Err(MeshFileFault::UnknownEnding { expected: BODY }),
@@ -149,7 +170,10 @@ pub fn node_numbers(path: impl AsRef<Path>) -> Result<Vec<u64>, MeshFileError> {
     let path = path.as_ref();
     let collected = match ending(path).as_str() {
         "msh" => bytes(path).and_then(|bytes| gmsh::collected(&bytes)),
-        "inp" => text(path).and_then(|text| abaqus::collected(&text)),
+        "inp" => {
+            let collected = abaqus::read_collected(path)?;
+            return collected.node_numbers().map_err(|fault| fault.of(path));
+        }
         "vtu" => bytes(path).and_then(|bytes| vtk::xml_collected(&bytes)),
         "vtk" => bytes(path).and_then(|bytes| vtk::legacy_collected(&bytes)),
         _ => Err(MeshFileFault::UnknownEnding { expected: BODY }),

@@ -35,11 +35,7 @@ pub(super) fn body_mesh(
             made(generator.mesh(), owner, &raw.span, faults)
         }
     };
-    mesh.map(|mesh| Reading {
-        mesh,
-        notes: Vec::new(),
-        asked: None,
-    })
+    mesh.map(Reading::from)
 }
 
 /// Positions and facets of a rigid surface; `None` after its faults have been noted.

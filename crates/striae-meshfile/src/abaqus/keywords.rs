@@ -133,6 +133,15 @@ impl<'a> Row<'a> {
         }
     }
 
+    /// A row of a single word.
+    pub(super) fn of_word(line: usize, word: &'a str) -> Self {
+        Self {
+            line,
+            words: vec![word],
+            continued: Continued::Here,
+        }
+    }
+
     pub(super) fn fault(&self, expected: &str) -> MeshFileFault {
         let text = self.words.join(", ");
         Line {
