@@ -145,6 +145,14 @@ pub enum FaultKind {
         /// How many nodes there are.
         nodes: usize,
     },
+    /// Materials of a mesh file that cannot be used.
+    #[error("the materials of the mesh of body `{body}` cannot be used: {cause}")]
+    FileMaterials {
+        /// The body.
+        body: String,
+        /// What is wrong.
+        cause: String,
+    },
     /// A density of what is no solid.
     #[error("rigid body `{rigid}` has no inertia by its density: {cause}")]
     RigidSolid {

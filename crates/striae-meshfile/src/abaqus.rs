@@ -6,7 +6,8 @@
 //! `C3D10`, `C3D15`, `C3D20` and `C3D27` of any variant, node and element sets (with `GENERATE`,
 //! names of other sets, `NSET` of an `ELSET`) and element-based surfaces (`abaqus/part.rs`);
 //! other keywords are passed over. Elements of lower dimension make sets of facets and nodes
-//! (`abaqus/lower.rs`). `H` asks for mean dilatation and `I` for an assumed strain; elements `R`
+//! (`abaqus/lower.rs`), and `*MATERIAL` and `*SOLID SECTION` are handed on as they stand
+//! (`abaqus/material.rs`). `H` asks for mean dilatation and `I` for an assumed strain; elements `R`
 //! are read, with a note, as those with full integration. Abaqus numbers nodes and sides as
 //! [`striae_mesh::CellKind`] does; `S1` is side 0, all four faces of it in a ten-node
 //! tetrahedron. Labels are the same in capital and small letters and keep the spelling of their
@@ -21,6 +22,7 @@ mod include;
 mod instance;
 mod keywords;
 mod lower;
+mod material;
 mod names;
 mod part;
 mod sets;
@@ -39,22 +41,30 @@ use std::path::Path;
 /// The mesh of a body from a file.
 pub(super) fn read(path: &Path) -> Result<Reading, MeshFileError> {
     let text = Text::read(path)?;
-    body(&text.lines).map_err(|fault| text.placed(fault))
+    let explain = |fault| text.placed(fault).to_string();
+    let collected = collected(&text.lines, explain).and_then(Collected::mesh);
+    collected.map_err(|fault| text.placed(fault))
 }
 
 /// What a file says of the mesh of a body.
 pub(super) fn read_collected(path: &Path) -> Result<Collected, MeshFileError> {
     let text = Text::read(path)?;
-    collected(&text.lines).map_err(|fault| text.placed(fault))
+    let explain = |fault| text.placed(fault).to_string();
+    collected(&text.lines, explain).map_err(|fault| text.placed(fault))
 }
 
 /// The mesh of a body.
+#[cfg(test)]
 pub(super) fn body(text: &str) -> Result<Reading, MeshFileFault> {
-    collected(text)?.mesh()
+    collected(text, |fault| fault.to_string())?.mesh()
 }
 
-/// What the text says of the mesh of a body.
-pub(super) fn collected(text: &str) -> Result<Collected, MeshFileFault> {
+/// What the text says of the mesh of a body; `explain` puts into words why a material cannot be
+/// used.
+pub(super) fn collected(
+    text: &str,
+    explain: impl Fn(MeshFileFault) -> String,
+) -> Result<Collected, MeshFileFault> {
     let keywords = keywords(text)?;
     let instances = keywords.iter();
     let instances = instances.filter(|keyword| keyword.name == "INSTANCE");
@@ -65,7 +75,9 @@ pub(super) fn collected(text: &str) -> Result<Collected, MeshFileFault> {
     for keyword in &keywords {
         reader.read(keyword)?;
     }
-    reader.finish()
+    let mut collected = reader.finish()?;
+    collected.materials = material::materials(&keywords, explain)?;
+    Ok(collected)
 }
 
 #[derive(Default)]
@@ -125,6 +137,7 @@ impl<'a> Reader<'a> {
             "NODE" => self.part().read_nodes(keyword),
             "ELEMENT" => self.part().read_elements(keyword),
             "NSET" | "ELSET" | "SURFACE" => self.read_set(keyword),
+            "SOLID SECTION" => self.part().read_section(keyword),
             "NGEN" | "NFILL" | "NCOPY" | "NMAP" | "ELGEN" | "ELCOPY" | "SYSTEM" => {
                 let fault = keyword.fault("nodes and elements written out one by one");
                 Err(fault.with_remedy("write the mesh out flat with its preprocessor"))

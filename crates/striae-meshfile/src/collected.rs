@@ -3,7 +3,7 @@
 use super::division::{self, Middles};
 use super::ids::Ids;
 use super::loose::Loose;
-use super::{Asked, MeshFileFault, Numbers, Place, Reading, numbers};
+use super::{Asked, MaterialCard, MeshFileFault, Numbers, Place, Reading, SectionCard, numbers};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use striae_mesh::{CellBlock, CellKind, ElementId, Mesh, MeshError, NodeId, Vec3};
 
@@ -28,6 +28,10 @@ pub(super) struct Collected {
     pub(super) asked: Option<Asked>,
     /// The instances whose numbers are raised, see `abaqus/names.rs`.
     pub(super) instances: Vec<String>,
+    /// Materials that the file states.
+    pub(super) materials: Vec<MaterialCard>,
+    /// Materials of element sets.
+    pub(super) sections: Vec<SectionCard>,
 }
 
 /// An element of the file, or a part of one.
@@ -96,6 +100,8 @@ impl Collected {
         self.add_sets(&mut mesh, &ids, &divided)?;
         mesh.check()?;
         self.notes.extend(self.loose.note());
+        let mut sections = self.sections;
+        sections.retain(|section| mesh.element_sets.get(&section.set).is_some());
         let elements = divided.elements.iter().map(|element| element.number);
         Ok(Reading {
             mesh,
@@ -106,6 +112,8 @@ impl Collected {
                 elements: elements.collect(),
                 instances: self.instances,
             },
+            materials: self.materials,
+            sections,
         })
     }
 

@@ -3,7 +3,7 @@
 //! | ending | format | what is read |
 //! | --- | --- | --- |
 //! | `.msh` | Gmsh, ASCII and binary, versions 2 and 4.1 | cells; physical volumes as element sets, surfaces as facet and node sets, curves and points as node sets |
-//! | `.inp` | Abaqus | elements `C3D4`, `C3D5`, `C3D6`, `C3D8`, `C3D10`, `C3D15`, `C3D20`, `C3D27` of any variant, `*NSET`, `*ELSET`, `*SURFACE` |
+//! | `.inp` | Abaqus | elements `C3D4`, `C3D5`, `C3D6`, `C3D8`, `C3D10`, `C3D15`, `C3D20`, `C3D27` of any variant, `*NSET`, `*ELSET`, `*SURFACE`; materials |
 //! | `.vtu`, `.vtk` | unstructured grids of VTK, as XML and legacy | cells; arrays of integers as sets `<array>-<value>` |
 //! | `.stl` | STL, ASCII and binary | triangles of a rigid surface |
 //! | `.csv` | lines `node,x,y,z` | vectors at nodes; so do `$NodeData` of three components in `.msh` |
@@ -21,6 +21,7 @@
 //! reference guide; "VTK file formats" in VTK's documentation.
 
 mod abaqus;
+mod cards;
 mod collected;
 mod division;
 mod error;
@@ -37,6 +38,7 @@ mod stl;
 mod tests;
 mod vtk;
 
+pub use cards::{Card, Elasticity, MaterialCard, Moduli, SectionCard};
 pub use error::{MeshFileError, MeshFileFault, Place, Section};
 pub use node_vectors::NodeVectors;
 pub use numbers::Numbers;
@@ -65,6 +67,10 @@ pub struct Reading {
     pub asked: Option<Asked>,
     /// What the file calls nodes and elements.
     pub numbers: Numbers,
+    /// Materials that the file states.
+    pub materials: Vec<MaterialCard>,
+    /// Materials that the file gives to element sets of the mesh.
+    pub sections: Vec<SectionCard>,
 }
 
 impl From<Mesh> for Reading {
@@ -80,6 +86,8 @@ impl From<Mesh> for Reading {
             notes: Vec::new(),
             asked: None,
             numbers,
+            materials: Vec::new(),
+            sections: Vec::new(),
         }
     }
 }

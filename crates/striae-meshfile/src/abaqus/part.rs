@@ -4,7 +4,7 @@
 use super::super::collected::{Collected, FileElement, FileFace, position};
 use super::super::lines::parsed;
 use super::super::numbers::NUMBER_BITS;
-use super::super::{Asked, MeshFileFault, Place};
+use super::super::{Asked, MeshFileFault, Place, SectionCard};
 use super::instance::Placement;
 use super::keywords::{Keyword, Row};
 use super::lower::{self, Lower};
@@ -23,6 +23,8 @@ pub(super) struct Part {
     element_sets: LabelSets,
     lower: Lower,
     surfaces: Surfaces,
+    /// Element sets with their material.
+    sections: Vec<(String, String)>,
     notes: Vec<String>,
     asked: Option<Asked>,
 }
@@ -39,6 +41,7 @@ impl Default for Part {
             element_sets: LabelSets::new(Member::Element),
             lower: Lower::default(),
             surfaces: Surfaces::new(),
+            sections: Vec::new(),
             notes: Vec::new(),
             asked: None,
         }
@@ -202,6 +205,20 @@ impl Part {
         Ok(())
     }
 
+    /// The material of an element set; layers have several.
+    pub(super) fn read_section(&mut self, keyword: &Keyword<'_>) -> Result<(), MeshFileFault> {
+        let set = keyword.required("ELSET")?;
+        if keyword.parameter("COMPOSITE").is_some() {
+            self.note(format!(
+                "the layers of *SOLID SECTION of `{set}` are ignored"
+            ));
+            return Ok(());
+        }
+        let material = keyword.required("MATERIAL")?;
+        self.sections.push((set.to_owned(), material.to_owned()));
+        Ok(())
+    }
+
     fn surface(&mut self, label: &str) -> &mut Vec<(Place, FileFace)> {
         let surface = self.surfaces.entry(label.to_uppercase());
         let (_, faces) = surface.or_insert_with(|| (label.to_owned(), Vec::new()));
@@ -229,6 +246,9 @@ impl Part {
             let label = format!("{}{label}", at.prefix);
             self.surface(&label).extend(faces);
         }
+        let sections = part.sections.iter();
+        let placed = sections.map(|(set, of)| (format!("{}{set}", at.prefix), of.clone()));
+        self.sections.extend(placed);
         self.asked = self.asked.or(part.asked);
         part.notes.iter().for_each(|note| self.note(note.clone()));
     }
@@ -264,6 +284,11 @@ impl Part {
 
     /// The mesh, with the names of instances that numbers need.
     pub(super) fn collected(self, instances: Vec<String>) -> Result<Collected, MeshFileFault> {
+        let sections = self.sections.iter().map(|(set, material)| SectionCard {
+            set: self.element_sets.spelled(set),
+            material: material.clone(),
+        });
+        let sections = sections.collect();
         let mut mesh = Collected {
             nodes: self.nodes,
             elements: self.elements,
@@ -273,6 +298,7 @@ impl Part {
             notes: self.notes,
             asked: self.asked,
             instances,
+            sections,
             ..Collected::default()
         };
         self.lower.sort_out(&mut mesh)?;

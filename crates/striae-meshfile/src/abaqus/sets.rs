@@ -46,6 +46,12 @@ impl LabelSets {
         self.set(label).members.push((line, member));
     }
 
+    /// A label as it was first spelled.
+    pub(super) fn spelled(&self, label: &str) -> String {
+        let known = self.sets.get(&label.to_uppercase());
+        known.map_or(label, |set| &set.label).to_owned()
+    }
+
     /// Knows a label, if without members.
     pub(super) fn name(&mut self, label: &str) {
         self.set(label);

@@ -3,6 +3,7 @@
 mod abaqus;
 mod abaqus_assembly;
 mod abaqus_include;
+mod abaqus_material;
 mod gmsh;
 mod gmsh_binary;
 mod node_vectors;
