@@ -96,14 +96,40 @@ pub enum FaultKind {
         name: String,
     },
     /// A set of the deck takes the name of another.
-    #[error("body `{body}` already has a {kind} set `{name}`")]
+    #[error("body `{body}` already has {} set `{name}`", article(.kind))]
     DuplicateSet {
         /// The body.
         body: String,
-        /// Node or facet.
+        /// Node, facet or element.
         kind: &'static str,
         /// The set.
         name: String,
+    },
+    /// A set that nothing of the body is in.
+    #[error("{kind} set `{name}` of body `{body}` is empty: {cause}")]
+    NothingChosen {
+        /// The body.
+        body: String,
+        /// Node, facet or element.
+        kind: &'static str,
+        /// The set.
+        name: String,
+        /// Why, or where the body is.
+        cause: String,
+    },
+    /// A set that needs itself.
+    #[error(
+        "{kind} set `{name}` of body `{body}` is made from itself{}; start from a set of the mesh, a region or numbers", by_way_of(.over)
+    )]
+    CircularSet {
+        /// The body.
+        body: String,
+        /// Node, facet or element.
+        kind: &'static str,
+        /// The set.
+        name: String,
+        /// The sets between, each needed by the one before.
+        over: Vec<String>,
     },
     /// A facet of a surface written in the deck names a node that is not there.
     #[error(
@@ -118,6 +144,14 @@ pub enum FaultKind {
         node: usize,
         /// How many nodes there are.
         nodes: usize,
+    },
+    /// Materials of a mesh file that cannot be used.
+    #[error("the materials of the mesh of body `{body}` cannot be used: {cause}")]
+    FileMaterials {
+        /// The body.
+        body: String,
+        /// What is wrong.
+        cause: String,
     },
     /// A density of what is no solid.
     #[error("rigid body `{rigid}` has no inertia by its density: {cause}")]
@@ -191,4 +225,16 @@ fn did_you_mean(nearest: &Option<String>) -> String {
 fn quoted(words: &[String]) -> String {
     let words: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
     words.join(", ")
+}
+
+fn article(kind: &str) -> String {
+    let article = if kind.starts_with('e') { "an" } else { "a" };
+    format!("{article} {kind}")
+}
+
+fn by_way_of(sets: &[String]) -> String {
+    match sets {
+        [] => String::new(),
+        sets => format!(" over {}", sets.join(", ")),
+    }
 }

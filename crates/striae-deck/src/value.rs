@@ -81,6 +81,8 @@ number! {
     Fraction [Bound::Above(0.0), Bound::AtMost(1.0)]
     /// A part of less than half.
     BelowHalf [Bound::AtLeast(0.0), Bound::Below(0.5)]
+    /// An angle in degrees up to that of a half turn.
+    HalfTurn [Bound::AtLeast(0.0), Bound::AtMost(180.0)]
     /// A ratio by which something grows.
     Growth [Bound::AtLeast(1.0)]
     /// A ratio of lateral contraction of a compressible material.

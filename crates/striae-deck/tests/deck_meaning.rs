@@ -325,7 +325,7 @@ material = "ruber""#,
         "unknown facet set",
         &[(r#"facets = "zmin""#, r#"facets = "zmn""#)],
         &[
-            "21:32: body `upper` has no facet set `zmn`; it has `xmax`, `xmin`, `ymax`, `ymin`, `zmax`, `zmin`; did you mean `zmin`?",
+            "21:32: body `upper` has no facet set `zmn`; it has `all`, `xmax`, `xmin`, `ymax`, `ymin`, `zmax`, `zmin`; did you mean `zmin`?",
         ],
     );
     misstated(
@@ -669,8 +669,74 @@ node_sets = [{ name = "edge", common = ["xmin", "xmax"] }]"#,
             r#"divisions = [4, 4, 2] }
 facet_sets = [{ name = "strip", of = "zmax", from = [0, 0, 0], to = [1, 1, 0.4] }]"#,
         )],
-        &["11:24: facet set `strip` of body `lower` is empty"],
+        &[
+            "11:24: facet set `strip` of body `lower` is empty: the body reaches from (0, 0, 0) to (1, 1, 0.5)",
+        ],
     );
+}
+
+#[test]
+fn sets_that_nothing_is_in() {
+    for (sets, message) in [
+        (
+            r#"node_sets = [{ name = "s", sphere = { centre = [9, 0, 0], radius = 1 } }]"#,
+            "11:23: node set `s` of body `lower` is empty: the body reaches from (0, 0, 0) to (1, 1, 0.5)",
+        ),
+        (
+            r#"node_sets = [{ name = "s", from = [0, 0.5, 0], to = [1, 0.25, 1] }]"#,
+            "11:53: coordinate 2 of `to` must be at least 0.5, that of `from`, but is 0.25",
+        ),
+        (
+            r#"node_sets = [{ name = "s", half_space = { point = [9, 0, 0], normal = [0, 0, 0] } }]"#,
+            "11:71: the normal of a half space must not be the zero vector",
+        ),
+        (
+            r#"node_sets = [{ name = "s", elements = "core" }]"#,
+            "11:39: body `lower` has no element set `core`; it has `all`",
+        ),
+        (
+            r#"node_sets = [{ name = "a", facets = "b" }]
+facet_sets = [{ name = "b", nodes = "a" }, { name = "c", union = ["b"] }]"#,
+            "12:24: facet set `b` of body `lower` is made from itself over node set `a`; start from a set of the mesh, a region or numbers",
+        ),
+        (
+            r#"element_sets = [{ name = "a", union = ["all", "a"] }]"#,
+            "11:26: element set `a` of body `lower` is made from itself; start from a set of the mesh, a region or numbers",
+        ),
+        (
+            r#"node_sets = [{ name = "b", facets = "s" }]
+facet_sets = [{ name = "s", direction = [1, 1, 0], angle = 20 }]"#,
+            "12:24: facet set `s` of body `lower` is empty: the least angle of a facet is 45.0000 degrees",
+        ),
+        (
+            r#"facet_sets = [{ name = "s", direction = [0, 0, 0], angle = 20 }]"#,
+            "11:41: the direction of facets must not be the zero vector",
+        ),
+        (
+            r#"facet_sets = [{ name = "s", of = "up", around = [0, 0, 0], feature_angle = 20 }]"#,
+            "11:34: body `lower` has no facet set `up`; it has `all`, `xmax`, `xmin`, `ymax`, `ymin`, `zmax`, `zmin`",
+        ),
+        (
+            r#"node_sets = [{ name = "pin", nearest = [0, 0, 0] }]
+facet_sets = [{ name = "s", nodes = "pin" }]"#,
+            "12:24: facet set `s` of body `lower` is empty: no facet has all its corners in node set `pin`",
+        ),
+        (
+            r#"element_sets = [{ name = "s", nodes = "zmin" }]"#,
+            "11:26: element set `s` of body `lower` is empty: no element has all its corners in node set `zmin`",
+        ),
+        (
+            r#"element_sets = [{ name = "s", numbers = [32] }]"#,
+            "11:41: the mesh of body `lower` cannot be made: there is no element 32: it has elements: 32, from 0",
+        ),
+        (
+            r#"element_sets = [{ name = "s", numbers = [3] }, { name = "s", numbers = [4] }]"#,
+            "11:57: body `lower` already has an element set `s`",
+        ),
+    ] {
+        let sets = format!("divisions = [4, 4, 2] }}\n{sets}");
+        misstated("set", &[("divisions = [4, 4, 2] }", &sets)], &[message]);
+    }
 }
 
 #[test]

@@ -11,7 +11,7 @@ use striae_law::{
     bulk::{LameConstants, Material},
     friction::Friction,
 };
-use striae_mesh::{CellKind, NodeId, Vec3, generate::Block};
+use striae_mesh::{CellKind, NodeId, Region, Vec3, generate::Block};
 use striae_output::FieldOutput;
 use striae_solve::model::{
     Backend, BodyId, Curve, Enforcement, Formulation, Freedom, Increments, LoadExtent, LoadKind,
@@ -47,7 +47,9 @@ fn bodies_have_their_meshes_and_materials() {
         .zip([("lower", lower), ("upper", upper)])
     {
         assert_eq!(body.name, name);
-        assert_eq!(body.mesh, block.mesh().unwrap());
+        let mut mesh = block.mesh().unwrap();
+        mesh.name_all_facets();
+        assert_eq!(body.mesh, mesh);
         assert_eq!(body.material, Material::neo_hookean(constants));
     }
     let RigidShape::Plane { point, normal } = &model.rigid_surfaces[0].shape else {
@@ -225,6 +227,98 @@ fn decks_add_sets_to_meshes() {
     assert_eq!(nodes("slab").len(), 25);
     // Eight faces of `xmin` and, of the eight of `ymin`, those below x = 0.5.
     assert_eq!(mesh.facet_sets.get("half").unwrap().len(), 8 + 4);
+}
+
+#[test]
+fn decks_make_sets_from_regions_shapes_and_each_other() {
+    let from = "divisions = [4, 4, 2] }";
+    let sets = format!(
+        "{from}\n\
+         node_sets = [\n\
+           {{ name = \"of-far\", facets = \"far\" }},\n\
+           {{ name = \"ball\", sphere = {{ centre = [0, 0, 0], radius = 0.25 }} }},\n\
+           {{ name = \"bar\", cylinder = {{ point = [0, 0, 9], axis = [0, 0, 2], radius = 0.25 }} }},\n\
+           {{ name = \"near\", half_space = {{ point = [0.25, 0, 0], normal = [1, 0, 0] }} }},\n\
+           {{ name = \"of-low\", elements = \"low\" }},\n\
+           {{ name = \"around-low\", border = \"low\" }},\n\
+         ]\n\
+         element_sets = [\n\
+           {{ name = \"row\", nodes = \"near\" }},\n\
+           {{ name = \"low\", from = [0, 0, 0], to = [1, 1, 0.25] }},\n\
+           {{ name = \"behind\", facets = \"up\" }},\n\
+           {{ name = \"both\", union = [\"row\", \"low\"] }},\n\
+           {{ name = \"corner\", common = [\"row\", \"low\"] }},\n\
+           {{ name = \"two\", numbers = [0, 5] }},\n\
+         ]\n\
+         facet_sets = [\n\
+           {{ name = \"far\", of = \"up\", half_space = {{ point = [0.5, 0, 0], normal = [-1, 0, 0] }} }},\n\
+           {{ name = \"up\", direction = [0, 0, 5], angle = 10 }},\n\
+           {{ name = \"front\", around = [0.4, -1, 0.2], feature_angle = 30 }},\n\
+           {{ name = \"edge\", nodes = \"bar\" }},\n\
+           {{ name = \"skirt\", border = \"low\" }},\n\
+           {{ name = \"boxed\", from = [0, 0, 0], to = [1, 1, 0] }},\n\
+           {{ name = \"under\", common = [\"skirt\", \"boxed\"] }},\n\
+         ]"
+    );
+    let mesh = &lowered(&BASE.replace(from, &sets)).model.bodies[0].mesh;
+    let facets = |set: &str| mesh.facet_sets.get(set).unwrap();
+    assert_eq!(facets("all"), mesh.boundary_faces());
+    assert_eq!(facets("up"), facets("zmax"));
+    assert_eq!(facets("front"), facets("ymin"));
+    assert_eq!(facets("boxed"), facets("zmin"));
+    assert_eq!(facets("under"), facets("zmin"));
+    let count = |set| facets(set).len();
+    assert_eq!(["far", "edge", "skirt"].map(count), [8, 4, 16 + 16]);
+    let nodes = |set| mesh.node_sets.get(set).unwrap().len();
+    assert_eq!(
+        ["of-far", "ball", "bar", "near", "of-low", "around-low"].map(nodes),
+        [15, 4, 9, 30, 50, 50]
+    );
+    let elements = |set| mesh.element_sets.get(set).unwrap().len();
+    assert_eq!(
+        ["all", "row", "low", "behind", "both", "corner", "two"].map(elements),
+        [32, 8, 16, 16, 20, 4, 2]
+    );
+    let expected = [nodes("near"), count("up"), count("front"), elements("low")];
+    assert_eq!(built(), expected);
+}
+
+/// Sizes of sets of these names that a builder makes.
+fn built() -> [usize; 4] {
+    let block = Block {
+        size: Vec3::new(1.0, 1.0, 0.5),
+        divisions: [4, 4, 2],
+        ..Block::default()
+    };
+    let near = Region::HalfSpace {
+        point: Vec3::new(0.25, 0.0, 0.0),
+        normal: Vec3::x(),
+    };
+    let low = Region::Box {
+        from: Vec3::zeros(),
+        to: Vec3::new(1.0, 1.0, 0.25),
+    };
+    let constants = LameConstants::from_youngs_modulus(1e6, 0.3).unwrap();
+    let material = Material::neo_hookean(constants);
+    let body = striae_model::body("block", block.mesh().unwrap(), material)
+        .nodes_in("near", &near)
+        .elements_in("low", &low)
+        .facets_in("low", &low)
+        .facets_along("up", [0.0, 0.0, 5.0], 0.2)
+        .facets_around("front", [0.4, -1.0, 0.2], 0.5);
+    let model = striae_model::model("sets").body(body);
+    let held = striae_model::step("held").hold("block", "zmin");
+    let model = model.step(held).build().unwrap();
+    let mesh = &model.bodies[0].mesh;
+    let facets = |set: &str| mesh.facet_sets.get(set).unwrap().len();
+    assert_eq!(facets("low"), 16 + 16);
+    assert_eq!(facets("all"), mesh.boundary_faces().len());
+    [
+        mesh.node_sets.get("near").unwrap().len(),
+        facets("up"),
+        facets("front"),
+        mesh.element_sets.get("low").unwrap().len(),
+    ]
 }
 
 #[test]

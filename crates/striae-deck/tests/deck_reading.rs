@@ -158,7 +158,7 @@ colour = "red""#,
         &[
             "6:18: `poissons_ratio` in [[material]] must be a number greater than -1 and less than 0.5, but is 3",
             "10:51: unknown key `divsions` in [[body]] mesh; did you mean `divisions`?",
-            "21:32: body `upper` has no facet set `botom`; it has `xmax`, `xmin`, `ymax`, `ymin`, `zmax`, `zmin`",
+            "21:32: body `upper` has no facet set `botom`; it has `all`, `xmax`, `xmin`, `ymax`, `ymin`, `zmax`, `zmin`",
             "40:22: no pair is named `face`; there is `interface`",
         ],
     );
@@ -415,7 +415,24 @@ fn exclusive() {
 node_sets = [{ name = "edge", common = ["xmin"], union = ["xmax"] }]"#,
         )],
         &[
-            "11:50: `common` and `union` exclude each other in [[body]] node_sets; give either `nearest` or `common` or `union` or `from` and `to` or `numbers`",
+            "11:50: `common` and `union` exclude each other in [[body]] node_sets; give either `nearest` or `common` or `union` or `from` and `to` or `sphere` or `cylinder` or `half_space` or `facets` or `elements` or `border` or `numbers`",
         ],
     );
+}
+
+#[test]
+fn sets_of_wrong_numbers() {
+    for (sets, message) in [
+        (
+            r#"node_sets = [{ name = "s", sphere = { centre = [9, 0, 0], radius = -1 } }]"#,
+            "11:68: `radius` in [[body]] node_sets sphere must be a number greater than 0, but is -1",
+        ),
+        (
+            r#"facet_sets = [{ name = "s", around = [0, 0, 0], feature_angle = 200 }]"#,
+            "11:65: `feature_angle` in [[body]] facet_sets must be a number of at least 0 and of at most 180, but is 200",
+        ),
+    ] {
+        let sets = format!("divisions = [4, 4, 2] }}\n{sets}");
+        misread("set", &[("divisions = [4, 4, 2] }", &sets)], &[message]);
+    }
 }

@@ -11,6 +11,7 @@
 //! | topology | boundary faces, nodes of faces, faces of nodes |
 //! | [`quality`] | Jacobians, volumes, areas, sizes |
 //! | [`generate`] | blocks, capped blocks, half cylinders, rings |
+//! | [`Region`] and selection | sets from regions, directions, floods, other sets |
 //! | [`Renumbering`] | permuted numbering and rigid motion, for invariance tests |
 
 mod cell;
@@ -21,6 +22,8 @@ mod locate;
 mod mesh;
 pub mod quality;
 mod random;
+mod region;
+mod select;
 mod sets;
 mod topology;
 mod transform;
@@ -31,6 +34,7 @@ pub use id::{ElementId, Face, FacetId, NodeId};
 pub use locate::Located;
 pub use mesh::Mesh;
 pub use quality::Quality;
+pub use region::Region;
 pub use sets::Sets;
 pub use topology::sorted_face;
 pub use transform::Renumbering;

@@ -3,7 +3,7 @@
 use super::division::{self, Middles};
 use super::ids::Ids;
 use super::loose::Loose;
-use super::{Asked, MeshFileFault, Place, Reading};
+use super::{Asked, MaterialCard, MeshFileFault, Numbers, Place, Reading, SectionCard, numbers};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use striae_mesh::{CellBlock, CellKind, ElementId, Mesh, MeshError, NodeId, Vec3};
 
@@ -26,6 +26,12 @@ pub(super) struct Collected {
     pub(super) notes: Vec<String>,
     /// The formulation that the elements of the file ask for.
     pub(super) asked: Option<Asked>,
+    /// The instances whose numbers are raised, see `abaqus/names.rs`.
+    pub(super) instances: Vec<String>,
+    /// Materials that the file states.
+    pub(super) materials: Vec<MaterialCard>,
+    /// Materials of element sets.
+    pub(super) sections: Vec<SectionCard>,
 }
 
 /// An element of the file, or a part of one.
@@ -58,6 +64,18 @@ pub(super) struct Divided {
     pub(super) middles: Middles,
 }
 
+impl FileFace {
+    /// The face where numbers are raised.
+    pub(super) fn raised(self, by: u64) -> Self {
+        let all = |nodes: [u64; 4]| nodes.map(|node| node + by);
+        match self {
+            Self::Corners(corners) => Self::Corners(all(corners)),
+            Self::Eight(corners, on) => Self::Eight(all(corners), all(on)),
+            Self::Side(element, side) => Self::Side(element + by, side),
+        }
+    }
+}
+
 impl Collected {
     /// The mesh, checked, and what there is to say about it.
     pub(super) fn mesh(mut self) -> Result<Reading, MeshFileFault> {
@@ -71,21 +89,37 @@ impl Collected {
         let ids = Ids {
             nodes: node_ids(&divided.elements),
             elements: element_ids(&divided.elements),
+            instances: self.instances.clone(),
         };
         let numbers = ids.nodes.keys();
         let mut mesh = Mesh::new(
             numbers.map(|number| self.nodes[number]).collect(),
             blocks(&divided.elements, &ids.nodes),
         )?;
-        check_shape(&divided.elements, &mesh)?;
+        self.check_shape(&divided.elements, &mesh)?;
         self.add_sets(&mut mesh, &ids, &divided)?;
         mesh.check()?;
         self.notes.extend(self.loose.note());
+        let mut sections = self.sections;
+        sections.retain(|section| mesh.element_sets.get(&section.set).is_some());
+        let elements = divided.elements.iter().map(|element| element.number);
         Ok(Reading {
             mesh,
             notes: self.notes,
             asked: self.asked,
+            numbers: Numbers {
+                nodes: ids.nodes.into_keys().collect(),
+                elements: elements.collect(),
+                instances: self.instances,
+            },
+            materials: self.materials,
+            sections,
         })
+    }
+
+    /// A number as the file writes it, with the name of its instance if need be.
+    pub(super) fn named(&self, number: u64) -> String {
+        numbers::named(&self.instances, number)
     }
 
     /// Numbers of the nodes that elements use, in the order of their ids.
@@ -146,17 +180,33 @@ impl Collected {
         for element in &self.elements {
             let mut corners = element.corners.iter();
             if let Some(&number) = corners.find(|number| !self.nodes.contains_key(number)) {
-                return Err(missing(element.place, "node", number));
+                return Err(missing(element.place, "node", &self.named(number)));
             }
         }
         for element in &self.elements {
             if !known.insert(element.number) {
-                let found = format!("element {} for the second time", element.number);
+                let found = format!("element {} for the second time", self.named(element.number));
                 let place = element.place;
                 return Err(MeshFileFault::at(place, "a new element number", found));
             }
         }
         Ok(())
+    }
+
+    fn check_shape(&self, elements: &[FileElement], mesh: &Mesh) -> Result<(), MeshFileFault> {
+        match mesh.check_shape() {
+            Err(MeshError::Inverted {
+                element,
+                determinant,
+                ..
+            }) => {
+                let FileElement { place, number, .. } = &elements[element.index()];
+                let found = format!("element {} with {determinant:.3e}", self.named(*number));
+                let fault = MeshFileFault::at(*place, "a positive Jacobian determinant", found);
+                Err(fault.with_remedy("repair the mesh or reverse the order of the corners"))
+            }
+            other => Ok(other?),
+        }
     }
 }
 
@@ -190,22 +240,6 @@ fn element_ids(elements: &[FileElement]) -> HashMap<u64, Vec<ElementId>> {
     ids
 }
 
-fn check_shape(elements: &[FileElement], mesh: &Mesh) -> Result<(), MeshFileFault> {
-    match mesh.check_shape() {
-        Err(MeshError::Inverted {
-            element,
-            determinant,
-            ..
-        }) => {
-            let FileElement { place, number, .. } = &elements[element.index()];
-            let found = format!("element {number} with {determinant:.3e}");
-            let fault = MeshFileFault::at(*place, "a positive Jacobian determinant", found);
-            Err(fault.with_remedy("repair the mesh or reverse the order of the corners"))
-        }
-        other => Ok(other?),
-    }
-}
-
 /// The position of a node, which is finite.
 pub(super) fn position(place: Place, number: u64, x: Vec3) -> Result<Vec3, MeshFileFault> {
     if x.iter().all(|coordinate| coordinate.is_finite()) {
@@ -228,7 +262,7 @@ pub(super) fn corner_nodes(
 }
 
 /// The fault that a number stands for nothing.
-pub(super) fn missing(place: Place, what: &str, number: u64) -> MeshFileFault {
+pub(super) fn missing(place: Place, what: &str, number: &str) -> MeshFileFault {
     let found = format!("{what} {number}, which the file does not define");
     MeshFileFault::at(place, format!("an existing {what}"), found)
 }

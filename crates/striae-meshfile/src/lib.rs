@@ -3,7 +3,7 @@
 //! | ending | format | what is read |
 //! | --- | --- | --- |
 //! | `.msh` | Gmsh, ASCII and binary, versions 2 and 4.1 | cells; physical volumes as element sets, surfaces as facet and node sets, curves and points as node sets |
-//! | `.inp` | Abaqus | elements `C3D4`, `C3D5`, `C3D6`, `C3D8`, `C3D10`, `C3D15`, `C3D20`, `C3D27` of any variant, `*NSET`, `*ELSET`, `*SURFACE` |
+//! | `.inp` | Abaqus | elements `C3D4`, `C3D5`, `C3D6`, `C3D8`, `C3D10`, `C3D15`, `C3D20`, `C3D27` of any variant, `*NSET`, `*ELSET`, `*SURFACE`; materials |
 //! | `.vtu`, `.vtk` | unstructured grids of VTK, as XML and legacy | cells; arrays of integers as sets `<array>-<value>` |
 //! | `.stl` | STL, ASCII and binary | triangles of a rigid surface |
 //! | `.csv` | lines `node,x,y,z` | vectors at nodes; so do `$NodeData` of three components in `.msh` |
@@ -21,6 +21,7 @@
 //! reference guide; "VTK file formats" in VTK's documentation.
 
 mod abaqus;
+mod cards;
 mod collected;
 mod division;
 mod error;
@@ -30,14 +31,17 @@ mod lines;
 mod loose;
 mod lower;
 mod node_vectors;
+mod numbers;
 mod sets;
 mod stl;
 #[cfg(test)]
 mod tests;
 mod vtk;
 
+pub use cards::{Card, Elasticity, MaterialCard, Moduli, SectionCard};
 pub use error::{MeshFileError, MeshFileFault, Place, Section};
 pub use node_vectors::NodeVectors;
+pub use numbers::Numbers;
 
 use std::path::Path;
 use striae_mesh::{Mesh, NodeId, Vec3};
@@ -61,6 +65,31 @@ pub struct Reading {
     pub notes: Vec<String>,
     /// The formulation that the elements of the file ask for.
     pub asked: Option<Asked>,
+    /// What the file calls nodes and elements.
+    pub numbers: Numbers,
+    /// Materials that the file states.
+    pub materials: Vec<MaterialCard>,
+    /// Materials that the file gives to element sets of the mesh.
+    pub sections: Vec<SectionCard>,
+}
+
+impl From<Mesh> for Reading {
+    /// A mesh of no file, whose nodes and elements are numbered from 0.
+    fn from(mesh: Mesh) -> Self {
+        let numbers = Numbers {
+            nodes: (0..mesh.positions.len() as u64).collect(),
+            elements: (0..mesh.element_count() as u64).collect(),
+            instances: Vec::new(),
+        };
+        Self {
+            mesh,
+            notes: Vec::new(),
+            asked: None,
+            numbers,
+            materials: Vec::new(),
+            sections: Vec::new(),
+        }
+    }
 }
 
 /// A formulation of elements that a letter in their name asks for.
@@ -89,7 +118,7 @@ pub fn read_with_notes(path: impl AsRef<Path>) -> Result<Reading, MeshFileError>
     let path = path.as_ref();
     match ending(path).as_str() {
         "msh" => bytes(path).and_then(|bytes| gmsh::body(&bytes)),
-        "inp" => text(path).and_then(|text| abaqus::body(&text)),
+        "inp" => return abaqus::read(path),
         "vtu" => bytes(path).and_then(|bytes| vtk::xml_body(&bytes)),
         "vtk" => bytes(path).and_then(|bytes| vtk::legacy_body(&bytes)),
         _ => Err(MeshFileFault::UnknownEnding { expected: BODY }),
@@ -149,7 +178,10 @@ pub fn node_numbers(path: impl AsRef<Path>) -> Result<Vec<u64>, MeshFileError> {
     let path = path.as_ref();
     let collected = match ending(path).as_str() {
         "msh" => bytes(path).and_then(|bytes| gmsh::collected(&bytes)),
-        "inp" => text(path).and_then(|text| abaqus::collected(&text)),
+        "inp" => {
+            let collected = abaqus::read_collected(path)?;
+            return collected.node_numbers().map_err(|fault| fault.of(path));
+        }
         "vtu" => bytes(path).and_then(|bytes| vtk::xml_collected(&bytes)),
         "vtk" => bytes(path).and_then(|bytes| vtk::legacy_collected(&bytes)),
         _ => Err(MeshFileFault::UnknownEnding { expected: BODY }),

@@ -77,7 +77,7 @@ impl Collected {
         };
         let mut corners = corners.into_iter();
         match corners.find(|number| !self.nodes.contains_key(number)) {
-            Some(number) => Err(missing(place, "node", number)),
+            Some(number) => Err(missing(place, "node", &self.named(number))),
             None => Ok(()),
         }
     }
@@ -87,7 +87,7 @@ impl Collected {
             let mut all = members.iter();
             if let Some((place, number)) = all.find(|(_, number)| !self.nodes.contains_key(number))
             {
-                return Err(missing(*place, "node", *number));
+                return Err(missing(*place, "node", &self.named(*number)));
             }
             let used = members.iter();
             let used = used.filter_map(|(_, number)| ids.nodes.get(number).copied());
@@ -106,11 +106,13 @@ impl Collected {
         for (name, members) in &self.element_sets {
             let of_file = |&(place, number)| {
                 let ids = ids.elements.get(&number);
-                ids.ok_or_else(|| missing(place, "element", number))
+                ids.ok_or_else(|| missing(place, "element", &self.named(number)))
             };
             let elements: Result<Vec<_>, MeshFileFault> = members.iter().map(of_file).collect();
-            mesh.element_sets
-                .insert(name, elements?.into_iter().flatten().copied());
+            let elements: Vec<_> = elements?.into_iter().flatten().copied().collect();
+            if !elements.is_empty() {
+                mesh.element_sets.insert(name, elements);
+            }
         }
         Ok(())
     }
@@ -151,11 +153,15 @@ fn sides(
     side: u8,
 ) -> Result<Vec<[NodeId; 4]>, MeshFileFault> {
     let elements = ids.elements.get(&number);
-    let element = elements.ok_or_else(|| missing(place, "element", number))?[0];
+    let element = elements.ok_or_else(|| missing(place, "element", &ids.named(number)))?[0];
     let kind = mesh.kind(element);
     let sides = kind.faces_of_side(side);
     if sides.is_empty() {
-        let found = format!("side {} of element {number}, a {kind}", side + 1);
+        let found = format!(
+            "side {} of element {}, a {kind}",
+            side + 1,
+            ids.named(number)
+        );
         return Err(MeshFileFault::at(place, "a side of the element", found));
     }
     let nodes = sides.map(|side| mesh.face_nodes(Face { element, side }));

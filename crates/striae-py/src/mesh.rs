@@ -5,7 +5,7 @@ use std::{collections::BTreeMap, path::PathBuf};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use striae::{
-    mesh::{self, CellBlock, Face, MeshError, NodeId},
+    mesh::{self, CellBlock, Face, NodeId},
     mesh_file,
 };
 
@@ -132,6 +132,39 @@ impl Mesh {
         checked(mesh)
     }
 
+    /// Corners of the boundary faces whose normals are within an angle of a direction.
+    fn facets_along<'py>(
+        &self,
+        py: Python<'py>,
+        direction: [f64; 3],
+        radians: f64,
+    ) -> PyResult<Array2<'py, i64>> {
+        let all = self.0.boundary_faces();
+        self.quads(py, &self.0.faces_along(&all, &direction.into(), radians))
+    }
+
+    /// Corners of the boundary faces around a place, up to edges that turn by an angle.
+    fn facets_around<'py>(
+        &self,
+        py: Python<'py>,
+        place: [f64; 3],
+        radians: f64,
+    ) -> PyResult<Array2<'py, i64>> {
+        let all = self.0.boundary_faces();
+        self.quads(py, &self.0.faces_around(&all, &place.into(), radians))
+    }
+
+    /// Corners of the boundary faces of elements of a set.
+    fn facets_of<'py>(
+        &self,
+        py: Python<'py>,
+        elements: &str,
+    ) -> PyResult<Option<Array2<'py, i64>>> {
+        let members = self.0.element_sets.get(elements);
+        let faces = members.map(|elements| self.0.boundary_of(elements));
+        faces.map(|faces| self.quads(py, &faces)).transpose()
+    }
+
     fn element_sets(&self) -> Vec<String> {
         self.0.element_sets.names().map(str::to_owned).collect()
     }
@@ -168,9 +201,12 @@ fn block(name: &str, corners: &PyReadonlyArray2<'_, i64>) -> PyResult<CellBlock>
     })
 }
 
-/// The mesh, or `striae.ModelError`.
-pub fn made(mesh: Result<mesh::Mesh, MeshError>) -> PyResult<Mesh> {
-    mesh.map(Mesh).map_err(|error| refused("mesh", error))
+/// The mesh with its sets `all`, or `striae.ModelError`.
+pub fn made(mesh: Result<mesh::Mesh, impl std::fmt::Display>) -> PyResult<Mesh> {
+    let mut mesh = mesh.map_err(|error| refused("mesh", error))?;
+    mesh.name_all_facets();
+    mesh.name_all_elements();
+    Ok(Mesh(mesh))
 }
 
 fn checked(mesh: mesh::Mesh) -> PyResult<Mesh> {
@@ -181,8 +217,7 @@ fn checked(mesh: mesh::Mesh) -> PyResult<Mesh> {
 /// Reads the mesh of a body.
 #[pyfunction]
 pub fn read_mesh(path: PathBuf) -> PyResult<Mesh> {
-    let mesh = mesh_file::read(path);
-    mesh.map(Mesh).map_err(|error| refused("mesh", error))
+    made(mesh_file::read(path))
 }
 
 /// Reads the facets of a rigid surface.

@@ -38,6 +38,21 @@ def test_sets_are_made_on_the_fly(rubber: st.NeoHookean) -> None:
     assert np.array_equal(body.mesh.surface_nodes("spot"), body.mesh.node_sets["spot"])
 
 
+def test_facets_by_direction_place_and_elements() -> None:
+    mesh = st.block(divisions=(4, 3, 2))
+    top = mesh.facet_sets["zmax"]
+    assert np.array_equal(mesh.facets_along((0, 0, 2), 10), top)
+    assert np.array_equal(mesh.facets_around((0.4, 0.4, 3.0), 30), top)
+    assert np.array_equal(mesh.facets_along((1, 0, 0), 180), mesh.facet_sets["all"])
+    made = mesh.with_sets(
+        facets={"lid": mesh.facets_along((0, 0, 1), 1)},
+        elements={"upper": lambda x: x[:, 2] > 0.5},
+    )
+    assert np.array_equal(made.facet_sets["lid"], top)
+    assert len(made.facets_of("upper")) == 12 + 2 * 4 + 2 * 3
+    assert len(made.element_sets["all"]) == 24
+
+
 def test_boundary_facets_look_outward() -> None:
     mesh = st.block(divisions=(2, 2, 2))
     corners = mesh.points[mesh.boundary]

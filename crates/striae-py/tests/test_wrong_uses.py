@@ -180,6 +180,18 @@ MODEL_ERRORS: list[tuple[Callable[[], Any], str]] = [
         "rigid body `r`: a facet refers to node 9, but there are 8 points",
     ),
     (lambda: st.RigidBody("r", []), "rigid body `r`: at least one set of nodes is needed"),
+    (
+        lambda: st.block().facets_along((0, 0, 0), 10),
+        "direction: it must not be the zero vector",
+    ),
+    (
+        lambda: st.block().facets_around((0, 0, 0), 200),
+        "feature_angle: it must be from 0 to 180 degrees, but is 200",
+    ),
+    (
+        lambda: st.block().facets_of("core"),
+        "elements: the mesh has no element set `core`; it has `all`",
+    ),
     (lambda: pad()["top"], f"body `pad`: there is no set `top`; it has {SETS}"),
     (
         lambda: pad().add_set("none", lambda x: x[:, 0] > 5),

@@ -8,7 +8,7 @@ pub use striae_law::{
     bulk::{Hyperelastic, Isochoric, LameConstants, Material, OgdenTerm, Volumetric},
     friction::{Friction, SlipRule},
 };
-pub use striae_mesh::{Mesh, NodeId, Vec3, generate::Block};
+pub use striae_mesh::{Mesh, NodeId, Region, Vec3, generate::Block};
 pub use striae_model::{
     Component, Curve, Freedom, Initial, LoadExtent, LoadKind, Model, Validate, body,
     circumferential, composite, model, pair, plane, rigid, section, step, surface, tied, uniform,

@@ -1,6 +1,6 @@
 //! Bodies.
 
-use super::{formulation::formulation, list, materials::Materials, mesh, sections, sets};
+use super::{cards::Cards, formulation::formulation, materials::Materials, mesh, sections, sets};
 use crate::{faults::FaultList, names::Names, raw, read::At, value::Text};
 use std::path::Path;
 use striae_law::bulk::Material;
@@ -169,14 +169,15 @@ fn lower_body(
     };
     let reading = raw.mesh.as_ref();
     let reading = reading.and_then(|mesh| mesh::body_mesh(mesh, &name, base, faults));
-    let (mut mesh, notes, asked) = match reading {
-        Some(Reading { mesh, notes, asked }) => (Some(mesh), notes, asked),
-        None => (None, Vec::new(), None),
+    let (mut mesh, notes, asked, cards) = match reading {
+        Some(reading) => {
+            let cards = cards(&reading, raw);
+            (Some(reading.mesh), reading.notes, reading.asked, cards)
+        }
+        None => (None, Vec::new(), None, None),
     };
     if let Some(mesh) = &mut mesh {
-        sets::add_node_sets(mesh, &name, list(&raw.node_sets), faults);
-        sets::add_facet_sets(mesh, &name, list(&raw.facet_sets), faults);
-        sets::add_element_sets(mesh, &name, list(&raw.element_sets), faults);
+        sets::add_sets(mesh, &name, raw, faults);
     }
     let asked = asked.map(|asked| match asked {
         Asked::MeanDilatation => Formulation::MeanDilatation,
@@ -188,6 +189,7 @@ fn lower_body(
             asked,
             mesh,
             body: &name,
+            cards,
         };
         sections.lowered(raw, faults)
     });
@@ -204,4 +206,17 @@ fn lower_body(
             Some(raw::ContactMass::Redistributed) => ContactMass::Redistributed,
         },
     }
+}
+
+/// What the mesh file says of materials, if the deck wants it.
+fn cards(reading: &Reading, raw: &raw::Body) -> Option<Cards> {
+    let mesh = raw.mesh.as_ref().map(|mesh| &mesh.value);
+    let Some(raw::Mesh::File(file)) = mesh else {
+        return None;
+    };
+    let wanted = file.materials.as_ref()?.value.0;
+    wanted.then(|| Cards {
+        materials: reading.materials.clone(),
+        sections: reading.sections.clone(),
+    })
 }

@@ -6,7 +6,7 @@ use crate::{
     faults::{FaultList, Span},
     raw,
     read::At,
-    value::vector,
+    value::{Text, vector},
 };
 use std::path::{Path, PathBuf};
 use striae_mesh::{CellBlock, CellKind, Mesh, NodeId, Vec3};
@@ -26,7 +26,7 @@ pub(super) fn body_mesh(
     let owner = format!("body `{body}`");
     let mesh = match &raw.value {
         raw::Mesh::File(file) => {
-            let read = mesh_file::read_with_notes(path(file, base)?);
+            let read = mesh_file::read_with_notes(path(&file.file, base)?);
             return made(read, owner, &raw.span, faults);
         }
         raw::Mesh::Inline(mesh) => inline_mesh(mesh, owner, &raw.span, faults),
@@ -35,11 +35,7 @@ pub(super) fn body_mesh(
             made(generator.mesh(), owner, &raw.span, faults)
         }
     };
-    mesh.map(|mesh| Reading {
-        mesh,
-        notes: Vec::new(),
-        asked: None,
-    })
+    mesh.map(Reading::from)
 }
 
 /// Positions and facets of a rigid surface; `None` after its faults have been noted.
@@ -52,7 +48,7 @@ pub(super) fn surface(
     match &raw.value {
         raw::SurfaceMesh::File(file) => {
             let owner = format!("rigid surface `{name}`");
-            let read = mesh_file::read_rigid_surface(path(file, base)?);
+            let read = mesh_file::read_rigid_surface(path(&file.file, base)?);
             made(read, owner, &raw.span, faults).map(|surface| (surface.positions, surface.facets))
         }
         raw::SurfaceMesh::Inline(surface) => inline_surface(surface, name, faults),
@@ -78,8 +74,8 @@ fn made<T>(
         .ok()
 }
 
-fn path(raw: &raw::MeshFile, base: &Path) -> Option<PathBuf> {
-    Some(base.join(&raw.file.as_ref()?.value.0))
+fn path(raw: &Option<At<Text>>, base: &Path) -> Option<PathBuf> {
+    Some(base.join(&raw.as_ref()?.value.0))
 }
 
 /// A mesh written in the deck.

@@ -4,6 +4,7 @@
 mod admissible;
 mod axis;
 mod body;
+mod cards;
 mod condition;
 mod contact;
 mod curve;

@@ -71,19 +71,19 @@ fn mesh_file_of(side: &Side, surfaces: &Surfaces<'_>) -> Option<PathBuf> {
         Side::Deformable { body, .. } => {
             let body = &list(&written.body)[body.0].value;
             match &body.mesh.as_ref()?.value {
-                raw::Mesh::File(file) => file,
+                raw::Mesh::File(file) => &file.file,
                 raw::Mesh::Generated(_) | raw::Mesh::Inline(_) => return None,
             }
         }
         Side::Rigid(rigid) => match list(&written.rigid)[rigid.0].value.shape.as_ref()? {
             raw::RigidShape::Mesh(surface) => match &surface.mesh.as_ref()?.value {
-                raw::SurfaceMesh::File(file) => file,
+                raw::SurfaceMesh::File(file) => &file.file,
                 raw::SurfaceMesh::Inline(_) => return None,
             },
             raw::RigidShape::Plane(_) | raw::RigidShape::Tied(_) => return None,
         },
     };
-    Some(surfaces.base.join(&file.file.as_ref()?.value.0))
+    Some(surfaces.base.join(&file.as_ref()?.value.0))
 }
 
 /// Numbers of the nodes in the file of their mesh, by id.

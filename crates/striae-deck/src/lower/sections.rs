@@ -1,6 +1,6 @@
 //! Sections of bodies: elements of other materials.
 
-use super::{formulation::formulation, list, materials::Materials, sets};
+use super::{cards::Cards, formulation::formulation, list, materials::Materials, sets};
 use crate::{faults::FaultList, raw};
 use striae_mesh::Mesh;
 use striae_model::FaultKind as ModelFault;
@@ -13,17 +13,23 @@ pub(super) struct Sections<'a> {
     pub(super) asked: Option<Formulation>,
     pub(super) mesh: &'a Mesh,
     pub(super) body: &'a str,
+    /// What the mesh file says of materials, if the deck wants it.
+    pub(super) cards: Option<Cards>,
 }
 
 impl Sections<'_> {
     /// The sections that are sound; notes elements that have no material.
     pub(super) fn lowered(&self, raw: &raw::Body, faults: &mut FaultList<'_>) -> Vec<BodySection> {
         let all = list(&raw.sections);
-        let sound: Vec<BodySection> = all
-            .iter()
-            .filter_map(|section| self.section(&section.value, faults))
-            .collect();
-        if raw.material.is_none() && sound.len() == all.len() {
+        let sound = all.iter();
+        let sound = sound.filter_map(|section| self.section(&section.value, faults));
+        let mut sound: Vec<BodySection> = sound.collect();
+        let are_sound = sound.len() == all.len();
+        let Some(of_file) = self.of_file(raw, faults) else {
+            return sound;
+        };
+        sound.extend(of_file);
+        if raw.material.is_none() && are_sound {
             let count = self.mesh.element_count();
             if let Some(kind) = ModelFault::no_material(self.body, count, &sound) {
                 let span = raw.name.as_ref().map_or(0..0, |name| name.span.clone());
@@ -31,6 +37,17 @@ impl Sections<'_> {
             }
         }
         sound
+    }
+
+    /// The sections that the mesh file states; `None` after a fault.
+    fn of_file(&self, raw: &raw::Body, faults: &mut FaultList<'_>) -> Option<Vec<BodySection>> {
+        let Some(cards) = &self.cards else {
+            return Some(Vec::new());
+        };
+        let stated = formulation(&raw.formulation).or(self.asked);
+        let found = cards.sections(self.mesh, self.body, stated);
+        let span = raw.mesh.as_ref().map_or(0..0, |mesh| mesh.span.clone());
+        found.map_err(|fault| faults.push(&span, fault)).ok()
     }
 
     fn section(&self, raw: &raw::BodySection, faults: &mut FaultList<'_>) -> Option<BodySection> {

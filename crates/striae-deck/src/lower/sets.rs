@@ -1,130 +1,154 @@
 //! Sets of nodes, facets and elements that a deck makes besides those of the mesh.
+//!
+//! A definition may name sets of the mesh and of the deck in any order: those come first whose
+//! sets are there. What cannot be made like that is refused in `order`.
 
-use crate::{
-    fault::FaultKind,
-    faults::FaultList,
-    raw,
-    read::At,
-    value::{All, Number, Text, Whole, vector},
-};
-use std::collections::BTreeSet;
-use striae_mesh::{ElementId, Face, Mesh, NodeId, Sets, Vec3};
+mod facets;
+mod found;
+mod members;
+mod order;
+mod region;
+
+use crate::{fault::FaultKind, faults::FaultList, raw, read::At, value::Text};
+use found::Found;
+use members::Sources;
+use striae_mesh::{Mesh, Sets};
 use striae_model::FaultKind as ModelFault;
 
-/// By how much of its size a box is widened, so that nodes on its sides are inside.
-const MARGIN: f64 = 1e-9;
+use super::list;
 
-/// Adds the node sets of a body to its mesh, in their order.
-pub(super) fn add_node_sets(
-    mesh: &mut Mesh,
-    body: &str,
-    raw: &[At<raw::NodeSet>],
-    faults: &mut FaultList<'_>,
-) {
-    for At { value: raw, .. } in raw {
-        let (Some(name), Some(members)) = (&raw.name, &raw.members) else {
-            continue;
-        };
-        let members = match members {
-            raw::NodeMembers::Nearest(raw) => raw
-                .nearest
-                .as_ref()
-                .map(|place| vec![nearest_node(mesh, place)]),
-            raw::NodeMembers::Common(raw) => raw.common.as_ref().and_then(|names| {
-                let sets = named("node", &mesh.node_sets, body, &names.value, faults)?;
-                let (first, rest) = sets.split_first()?;
-                Some(
-                    first
-                        .iter()
-                        .filter(|node| rest.iter().all(|set| set.contains(node)))
-                        .copied()
-                        .collect(),
-                )
-            }),
-            raw::NodeMembers::Union(raw) => union("node", &mesh.node_sets, body, raw, faults),
-            raw::NodeMembers::Box(raw) => region(&raw.from, &raw.to).map(|inside| {
-                let nodes = mesh.positions.iter().enumerate().filter(|(_, x)| inside(x));
-                nodes.map(|(index, _)| NodeId::new(index)).collect()
-            }),
-            raw::NodeMembers::Listed(raw) => listed_nodes(mesh, body, raw, faults),
-        };
-        if let Some(members) = members {
-            insert("node", &mut mesh.node_sets, body, name, members, faults);
+/// A set that the deck makes.
+#[derive(Clone, Copy)]
+enum Definition<'r> {
+    Nodes(&'r raw::NodeSet),
+    Facets(&'r raw::FacetSet),
+    Elements(&'r raw::ElementSet),
+}
+
+/// What the members of a set are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Kind {
+    Node,
+    Facet,
+    Element,
+}
+
+impl Kind {
+    fn word(self) -> &'static str {
+        match self {
+            Self::Node => "node",
+            Self::Facet => "facet",
+            Self::Element => "element",
         }
     }
 }
 
-/// Adds the facet sets of a body to its mesh, in their order.
-pub(super) fn add_facet_sets(
-    mesh: &mut Mesh,
-    body: &str,
-    raw: &[At<raw::FacetSet>],
-    faults: &mut FaultList<'_>,
-) {
-    for At { value: raw, .. } in raw {
-        let (Some(name), Some(members)) = (&raw.name, &raw.members) else {
-            continue;
-        };
-        let members: Option<Vec<Face>> = match members {
-            raw::FacetMembers::Union(raw) => union("facet", &mesh.facet_sets, body, raw, faults),
-            raw::FacetMembers::Box(raw) => raw.of.as_ref().and_then(|of| {
-                let faces = named(
-                    "facet",
-                    &mesh.facet_sets,
-                    body,
-                    std::slice::from_ref(of),
-                    faults,
-                )?
-                .concat();
-                let inside = region(&raw.from, &raw.to)?;
-                Some(
-                    faces
-                        .into_iter()
-                        .filter(|face| mesh.face_positions(*face).iter().all(&inside))
-                        .collect(),
-                )
-            }),
-            raw::FacetMembers::Listed(raw) => listed_facets(mesh, body, raw, faults),
-        };
-        if let Some(members) = members {
-            insert("facet", &mut mesh.facet_sets, body, name, members, faults);
-        }
-    }
-}
+/// A set by what its members are and its name.
+type Named<'r> = (Kind, &'r str);
 
-/// Adds the element sets of a body to its mesh, in their order.
-pub(super) fn add_element_sets(
-    mesh: &mut Mesh,
-    body: &str,
-    raw: &[At<raw::ElementSet>],
-    faults: &mut FaultList<'_>,
-) {
-    for At { value: raw, .. } in raw {
-        let (Some(name), Some(members)) = (&raw.name, &raw.members) else {
-            continue;
+/// Adds the sets of a body to its mesh, and those called `all` that it has not.
+pub(super) fn add_sets(mesh: &mut Mesh, body: &str, raw: &raw::Body, faults: &mut FaultList<'_>) {
+    let elements = list(&raw.element_sets).iter();
+    let elements = elements.map(|set| Definition::Elements(&set.value));
+    let nodes = list(&raw.node_sets).iter();
+    let nodes = nodes.map(|set| Definition::Nodes(&set.value));
+    let facets = list(&raw.facet_sets).iter();
+    let facets = facets.map(|set| Definition::Facets(&set.value));
+    let all: Vec<Definition<'_>> = elements.chain(nodes).chain(facets).collect();
+    name_all(mesh, &all);
+    let (mut left, mut faulty) = (all, Vec::new());
+    loop {
+        let is_ready = |definition: &Definition<'_>| {
+            let mut needs = definition.needs().into_iter();
+            needs.all(|need| has(mesh, need))
         };
-        let members = match members {
-            raw::ElementMembers::Union(raw) => {
-                union("element", &mesh.element_sets, body, raw, faults)
+        let (ready, waiting): (Vec<_>, Vec<_>) = left.into_iter().partition(is_ready);
+        left = waiting;
+        if ready.is_empty() {
+            break;
+        }
+        for definition in ready {
+            if !definition.add(mesh, body, faults) {
+                faulty.extend(definition.name());
             }
-            raw::ElementMembers::Box(raw) => region(&raw.from, &raw.to).map(|inside| {
-                let is_inside = |node: &NodeId| inside(&mesh.positions[node.index()]);
-                let elements = mesh.elements().enumerate();
-                let elements = elements.filter(|(_, corners)| corners.iter().all(is_inside));
-                elements.map(|(index, _)| ElementId::new(index)).collect()
-            }),
-            raw::ElementMembers::Listed(raw) => listed_elements(mesh, body, raw, faults),
-        };
-        if let Some(members) = members {
-            insert(
-                "element",
-                &mut mesh.element_sets,
-                body,
-                name,
-                members,
-                faults,
-            );
         }
+    }
+    order::refuse(left, faulty, mesh, body, faults);
+}
+
+/// Names all facets and all elements, where the deck does not give these names.
+fn name_all(mesh: &mut Mesh, definitions: &[Definition<'_>]) {
+    let is_free = |kind: Kind| {
+        let mut names = definitions.iter().map(|definition| definition.name());
+        names.all(|name| name != Some((kind, "all")))
+    };
+    if is_free(Kind::Facet) {
+        mesh.name_all_facets();
+    }
+    if is_free(Kind::Element) {
+        mesh.name_all_elements();
+    }
+}
+
+fn has(mesh: &Mesh, (kind, set): Named<'_>) -> bool {
+    match kind {
+        Kind::Node => mesh.node_sets.get(set).is_some(),
+        Kind::Facet => mesh.facet_sets.get(set).is_some(),
+        Kind::Element => mesh.element_sets.get(set).is_some(),
+    }
+}
+
+impl<'r> Definition<'r> {
+    fn name(self) -> Option<Named<'r>> {
+        let (kind, name) = self.stated();
+        name.map(|name| (kind, &name.value.0[..]))
+    }
+
+    /// Kind, and name as it is written.
+    fn stated(self) -> (Kind, Option<&'r At<Text>>) {
+        match self {
+            Self::Nodes(set) => (Kind::Node, set.name.as_ref()),
+            Self::Facets(set) => (Kind::Facet, set.name.as_ref()),
+            Self::Elements(set) => (Kind::Element, set.name.as_ref()),
+        }
+    }
+
+    /// Sets that have to be there before.
+    fn needs(self) -> Vec<Named<'r>> {
+        let sources = match self {
+            Self::Nodes(set) => set.members.as_ref().map(members::nodes_needed),
+            Self::Facets(set) => set.members.as_ref().map(facets::needed),
+            Self::Elements(set) => set.members.as_ref().map(members::elements_needed),
+        };
+        let Some(Sources(sources)) = sources else {
+            return Vec::new();
+        };
+        let names = sources.into_iter();
+        names
+            .map(|(kind, name)| (kind, &name.value.0[..]))
+            .collect()
+    }
+
+    /// Adds the set; whether it is there now.
+    fn add(self, mesh: &mut Mesh, body: &str, faults: &mut FaultList<'_>) -> bool {
+        let added = match self {
+            Self::Nodes(raw::NodeSet { name, members, .. }) => {
+                let found = members.as_ref();
+                let found = found.and_then(|raw| members::nodes(mesh, body, raw, faults));
+                insert("node", &mut mesh.node_sets, body, name, found, faults)
+            }
+            Self::Facets(raw::FacetSet { name, members, .. }) => {
+                let found = members.as_ref();
+                let found = found.and_then(|raw| facets::facets(mesh, body, raw, faults));
+                insert("facet", &mut mesh.facet_sets, body, name, found, faults)
+            }
+            Self::Elements(raw::ElementSet { name, members, .. }) => {
+                let found = members.as_ref();
+                let found = found.and_then(|raw| members::elements(mesh, body, raw, faults));
+                insert("element", &mut mesh.element_sets, body, name, found, faults)
+            }
+        };
+        added.is_some()
     }
 }
 
@@ -143,153 +167,40 @@ pub(super) fn members<T: Ord + Copy>(
         .ok()
 }
 
+/// Adds a set that has members and a name of its own; `None` after a fault.
 fn insert<T: Ord + Copy>(
     kind: &'static str,
     sets: &mut Sets<T>,
     body: &str,
-    name: &At<Text>,
-    members: Vec<T>,
+    name: &Option<At<Text>>,
+    found: Option<Found<T>>,
     faults: &mut FaultList<'_>,
-) {
-    let (body, set) = (body.to_owned(), name.value.0.clone());
-    if sets.get(&set).is_some() {
-        faults.push(
-            &name.span,
-            FaultKind::DuplicateSet {
-                body,
-                kind,
-                name: set,
-            },
-        );
-    } else if members.is_empty() {
-        faults.push(
-            &name.span,
-            ModelFault::EmptySet {
-                body,
-                kind,
-                name: set,
-            },
-        );
-    } else {
-        sets.insert(set, members);
-    }
-}
-
-fn named<T: Ord + Copy>(
-    kind: &'static str,
-    sets: &Sets<T>,
-    body: &str,
-    names: &[At<Text>],
-    faults: &mut FaultList<'_>,
-) -> Option<Vec<Vec<T>>> {
-    let found: Vec<Vec<T>> = names
-        .iter()
-        .filter_map(|name| members(kind, sets, body, name, faults))
-        .collect();
-    (found.len() == names.len()).then_some(found)
-}
-
-fn union<T: Ord + Copy>(
-    kind: &'static str,
-    sets: &Sets<T>,
-    body: &str,
-    raw: &raw::SetUnion,
-    faults: &mut FaultList<'_>,
-) -> Option<Vec<T>> {
-    Some(named(kind, sets, body, &raw.union.as_ref()?.value, faults)?.concat())
-}
-
-/// Nodes by number.
-fn listed_nodes(
-    mesh: &Mesh,
-    body: &str,
-    raw: &raw::ListedNodes,
-    faults: &mut FaultList<'_>,
-) -> Option<Vec<NodeId>> {
-    let nodes = listed("node", mesh.positions.len(), body, &raw.numbers, faults)?;
-    Some(nodes.map(NodeId::new).collect())
-}
-
-/// Elements by number.
-fn listed_elements(
-    mesh: &Mesh,
-    body: &str,
-    raw: &raw::ListedElements,
-    faults: &mut FaultList<'_>,
-) -> Option<Vec<ElementId>> {
-    let elements = listed("element", mesh.element_count(), body, &raw.numbers, faults)?;
-    Some(elements.map(ElementId::new).collect())
-}
-
-/// Numbers of what there are so many of.
-fn listed<'r>(
-    kind: &'static str,
-    count: usize,
-    body: &str,
-    numbers: &'r Option<At<All<Whole<0>>>>,
-    faults: &mut FaultList<'_>,
-) -> Option<impl Iterator<Item = usize> + use<'r>> {
-    let numbers = numbers.as_ref()?;
-    let members = numbers.value.0.iter().map(|number| number.0);
-    let largest = members.clone().max().unwrap_or(0);
-    if largest >= count {
-        let cause = format!("there is no {kind} {largest}: it has {kind}s: {count}, from 0");
-        faults.push(&numbers.span, unknown_member(body, cause));
-        return None;
-    }
-    Some(members)
-}
-
-/// Sides of elements by number.
-fn listed_facets(
-    mesh: &Mesh,
-    body: &str,
-    raw: &raw::ListedFacets,
-    faults: &mut FaultList<'_>,
-) -> Option<Vec<Face>> {
-    let boundary: BTreeSet<Face> = mesh.boundary_faces().into_iter().collect();
-    let mut faces = Vec::new();
-    for At { value, span } in &raw.sides.as_ref()?.value {
-        let [element, side] = value.map(|number| number.0);
-        let face = u8::try_from(side).ok().map(|side| Face {
-            element: ElementId::new(element),
-            side,
-        });
-        match face.filter(|face| boundary.contains(face)) {
-            Some(face) => faces.push(face),
-            None => {
-                let cause = format!("side {side} of element {element} is not on its boundary");
-                faults.push(span, unknown_member(body, cause));
-                return None;
-            }
+) -> Option<()> {
+    let (At { value, span }, Found { mut members, hint }) = (name.as_ref()?, found?);
+    let (body, set) = (body.to_owned(), value.0.clone());
+    members.sort_unstable();
+    members.dedup();
+    match sets.get(&set) {
+        Some(_) => {
+            let name = set;
+            faults.push(span, FaultKind::DuplicateSet { body, kind, name });
+            return None;
         }
+        None if members.is_empty() => {
+            let name = set;
+            let fault = match hint {
+                None => ModelFault::EmptySet { body, kind, name }.into(),
+                Some(cause) => FaultKind::NothingChosen {
+                    body,
+                    kind,
+                    name,
+                    cause,
+                },
+            };
+            faults.push(span, fault);
+            return None;
+        }
+        None => sets.insert(set, members),
     }
-    Some(faces)
-}
-
-fn unknown_member(body: &str, cause: String) -> ModelFault {
-    ModelFault::Mesh {
-        owner: format!("body `{body}`"),
-        cause,
-    }
-}
-
-/// The node nearest to a place, the first of several.
-fn nearest_node(mesh: &Mesh, place: &At<[Number; 3]>) -> NodeId {
-    let place = vector(&place.value);
-    let distance = |index: &usize| (mesh.positions[*index] - place).norm_squared();
-    let nearest = (0..mesh.positions.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
-    NodeId::new(nearest.unwrap_or(0))
-}
-
-/// Whether a point is in the box.
-fn region(
-    from: &Option<At<[Number; 3]>>,
-    to: &Option<At<[Number; 3]>>,
-) -> Option<impl Fn(&Vec3) -> bool + use<>> {
-    let (from, to) = (vector(&from.as_ref()?.value), vector(&to.as_ref()?.value));
-    let margin = MARGIN * (to - from).norm();
-    Some(move |x: &Vec3| {
-        (0..3).all(|axis| (from[axis] - margin..=to[axis] + margin).contains(&x[axis]))
-    })
+    Some(())
 }

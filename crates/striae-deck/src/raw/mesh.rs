@@ -3,15 +3,25 @@
 use crate::{
     declare::{choice, either, table, words},
     read::At,
-    value::{All, BelowHalf, Count, Growth, NonNegative, Number, Positive, Text, Whole},
+    value::{All, BelowHalf, Count, Growth, NonNegative, Number, Positive, Text, Truth, Whole},
 };
 
 either! {
     /// A mesh of a body.
     Mesh {
-        File(MeshFile),
+        File(BodyFile),
         Inline(InlineMesh),
         Generated(Generator),
+    }
+}
+
+table! {
+    /// A mesh of a body read from a file.
+    BodyFile {
+        /// Path relative to the deck.
+        required file: Text,
+        /// Whether elements are of the materials that the file gives them, by `*SOLID SECTION` of Abaqus. Default: `false`.
+        optional materials: Truth,
     }
 }
 

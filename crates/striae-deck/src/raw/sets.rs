@@ -3,7 +3,7 @@
 use crate::{
     declare::{either, table},
     read::At,
-    value::{All, Number, Text, Whole},
+    value::{All, HalfTurn, Number, Positive, Text, Whole},
 };
 
 table! {
@@ -20,10 +20,41 @@ either! {
     /// Members of a node set.
     NodeMembers {
         Nearest(NearestNode),
-        Common(CommonNodes),
+        Common(CommonMembers),
         Union(SetUnion),
-        Box(NodesInBox),
-        Listed(ListedNodes),
+        Box(InBox),
+        Sphere(InSphere),
+        Cylinder(InCylinder),
+        HalfSpace(InHalfSpace),
+        Facets(OfFacets),
+        Elements(OfElements),
+        Border(OfBorder),
+        Listed(ListedNumbers),
+    }
+}
+
+table! {
+    /// A set of elements besides those of the mesh.
+    ElementSet {
+        /// Name that no other element set of the body has.
+        required name: Text,
+        /// Its members.
+        include members: ElementMembers,
+    }
+}
+
+either! {
+    /// Members of an element set, in a region with all their corners.
+    ElementMembers {
+        Common(CommonMembers),
+        Union(SetUnion),
+        Box(InBox),
+        Sphere(InSphere),
+        Cylinder(InCylinder),
+        HalfSpace(InHalfSpace),
+        Nodes(OfNodes),
+        Facets(OfFacets),
+        Listed(ListedNumbers),
     }
 }
 
@@ -36,9 +67,9 @@ table! {
 }
 
 table! {
-    /// The nodes that several sets have in common.
-    CommonNodes {
-        /// Names of the sets, of the mesh or made before this one.
+    /// What several sets have in common.
+    CommonMembers {
+        /// Names of the sets, of the mesh or of the deck.
         required common: Vec<At<Text>>,
     }
 }
@@ -46,14 +77,14 @@ table! {
 table! {
     /// The members of several sets together.
     SetUnion {
-        /// Names of the sets, of the mesh or made before this one.
+        /// Names of the sets, of the mesh or of the deck.
         required union: Vec<At<Text>>,
     }
 }
 
 table! {
-    /// The nodes in a box along the axes.
-    NodesInBox {
+    /// What is in a box along the axes.
+    InBox {
         /// Corner of smallest coordinates.
         required from: [Number; 3],
         /// Corner of largest coordinates.
@@ -62,9 +93,97 @@ table! {
 }
 
 table! {
-    /// Nodes by number.
-    ListedNodes {
-        /// Numbers of the nodes, counted from 0 in the order of the mesh.
+    /// What is in a ball.
+    InSphere {
+        /// The ball.
+        required sphere: Sphere,
+    }
+}
+
+table! {
+    /// A ball.
+    Sphere {
+        /// Its middle.
+        required centre: [Number; 3],
+        /// Its radius.
+        required radius: Positive,
+    }
+}
+
+table! {
+    /// What is in a cylinder.
+    InCylinder {
+        /// The cylinder, without ends.
+        required cylinder: Cylinder,
+    }
+}
+
+table! {
+    /// A round cylinder without ends.
+    Cylinder {
+        /// A point of its axis.
+        required point: [Number; 3],
+        /// Its axis, of any length.
+        required axis: [Number; 3],
+        /// Its radius.
+        required radius: Positive,
+    }
+}
+
+table! {
+    /// What is on one side of a plane.
+    InHalfSpace {
+        /// That side.
+        required half_space: HalfSpace,
+    }
+}
+
+table! {
+    /// All on one side of a plane.
+    HalfSpace {
+        /// A point of the plane.
+        required point: [Number; 3],
+        /// Normal of any length, out of the half space.
+        required normal: [Number; 3],
+    }
+}
+
+table! {
+    /// Nodes or elements of facets.
+    OfFacets {
+        /// Name of the facet set.
+        required facets: Text,
+    }
+}
+
+table! {
+    /// Nodes of elements.
+    OfElements {
+        /// Name of the element set.
+        required elements: Text,
+    }
+}
+
+table! {
+    /// Facets or elements with all their corners in a set of nodes.
+    OfNodes {
+        /// Name of the node set.
+        required nodes: Text,
+    }
+}
+
+table! {
+    /// What is between elements of a set and all else: nodes, or facets on the boundary of the body.
+    OfBorder {
+        /// Name of the element set.
+        required border: Text,
+    }
+}
+
+table! {
+    /// Nodes or elements by number.
+    ListedNumbers {
+        /// Numbers, counted from 0 in the order of the mesh.
         required numbers: All<Whole<0>>,
     }
 }
@@ -83,7 +202,15 @@ either! {
     /// Members of a facet set.
     FacetMembers {
         Union(SetUnion),
+        Common(CommonMembers),
         Box(FacetsInBox),
+        Sphere(FacetsInSphere),
+        Cylinder(FacetsInCylinder),
+        HalfSpace(FacetsInHalfSpace),
+        Direction(FacetsAlong),
+        Around(FacetsAround),
+        Nodes(OfNodes),
+        Border(OfBorder),
         Listed(ListedFacets),
     }
 }
@@ -91,12 +218,66 @@ either! {
 table! {
     /// The facets of a set that lie in a box along the axes with all their corners.
     FacetsInBox {
-        /// Name of the set.
-        required of: Text,
+        /// Name of the set. Default: `all`.
+        optional of: Text,
         /// Corner of smallest coordinates.
         required from: [Number; 3],
         /// Corner of largest coordinates.
         required to: [Number; 3],
+    }
+}
+
+table! {
+    /// The facets of a set that lie in a ball with all their corners.
+    FacetsInSphere {
+        /// Name of the set. Default: `all`.
+        optional of: Text,
+        /// The ball.
+        required sphere: Sphere,
+    }
+}
+
+table! {
+    /// The facets of a set that lie in a cylinder with all their corners.
+    FacetsInCylinder {
+        /// Name of the set. Default: `all`.
+        optional of: Text,
+        /// The cylinder, without ends.
+        required cylinder: Cylinder,
+    }
+}
+
+table! {
+    /// The facets of a set that lie on one side of a plane with all their corners.
+    FacetsInHalfSpace {
+        /// Name of the set. Default: `all`.
+        optional of: Text,
+        /// That side.
+        required half_space: HalfSpace,
+    }
+}
+
+table! {
+    /// The facets of a set that look along a direction.
+    FacetsAlong {
+        /// Name of the set. Default: `all`.
+        optional of: Text,
+        /// The direction, of any length.
+        required direction: [Number; 3],
+        /// Largest angle in degrees between it and the outward normal.
+        required angle: HalfTurn,
+    }
+}
+
+table! {
+    /// The facets of a set that are reached from the one nearest to a place over edges at which the surface turns little.
+    FacetsAround {
+        /// Name of the set. Default: `all`.
+        optional of: Text,
+        /// The place.
+        required around: [Number; 3],
+        /// Largest angle in degrees between the normals on the two sides of an edge that is passed.
+        required feature_angle: HalfTurn,
     }
 }
 
@@ -105,42 +286,5 @@ table! {
     ListedFacets {
         /// Element and side of each facet, counted from 0; sides in the order of Abaqus.
         required sides: Vec<At<[Whole<0>; 2]>>,
-    }
-}
-
-table! {
-    /// A set of elements besides those of the mesh.
-    ElementSet {
-        /// Name that no other element set of the body has.
-        required name: Text,
-        /// Its members.
-        include members: ElementMembers,
-    }
-}
-
-either! {
-    /// Members of an element set.
-    ElementMembers {
-        Union(SetUnion),
-        Box(ElementsInBox),
-        Listed(ListedElements),
-    }
-}
-
-table! {
-    /// The elements that lie in a box along the axes with all their corners.
-    ElementsInBox {
-        /// Corner of smallest coordinates.
-        required from: [Number; 3],
-        /// Corner of largest coordinates.
-        required to: [Number; 3],
-    }
-}
-
-table! {
-    /// Elements by number.
-    ListedElements {
-        /// Numbers of the elements, counted from 0 in the order of the mesh.
-        required numbers: All<Whole<0>>,
     }
 }

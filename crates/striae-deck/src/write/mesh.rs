@@ -91,22 +91,38 @@ impl Writer<'_> {
              material = {name}\nformulation = \"{formulation}\"\ncontact_mass = \"{mass}\"\n\
              {sections}mesh = {}\nnode_sets = {}\nfacet_sets = {}\nelement_sets = {}\n",
             mesh(&body.mesh),
-            sets(
-                "numbers",
-                &[&body.mesh.node_sets, &self.meshes.nodes[at]],
-                |node| { node.0.to_string() }
-            ),
-            sets(
-                "sides",
-                &[&body.mesh.facet_sets, &self.meshes.facets[at]],
-                |face| { format!("[{}, {}]", face.element.0, face.side) }
-            ),
-            sets(
-                "numbers",
-                &[&body.mesh.element_sets, &self.meshes.elements[at]],
-                |element| { element.0.to_string() }
-            ),
+            self.node_sets(at),
+            self.facet_sets(at),
+            self.element_sets(at),
         )
+    }
+
+    fn node_sets(&self, body: usize) -> String {
+        let known = &self.model.bodies[body].mesh.node_sets;
+        sets(
+            "numbers",
+            &[known, &self.meshes.nodes[body]],
+            None,
+            |node| node.0.to_string(),
+        )
+    }
+
+    fn facet_sets(&self, body: usize) -> String {
+        let mesh = &self.model.bodies[body].mesh;
+        let known = [&mesh.facet_sets, &self.meshes.facets[body]];
+        let all = mesh.boundary_faces();
+        sets("sides", &known, Some(&all), |face| {
+            format!("[{}, {}]", face.element.0, face.side)
+        })
+    }
+
+    fn element_sets(&self, body: usize) -> String {
+        let mesh = &self.model.bodies[body].mesh;
+        let known = [&mesh.element_sets, &self.meshes.elements[body]];
+        let all: Vec<ElementId> = (0..mesh.element_count()).map(ElementId::new).collect();
+        sets("numbers", &known, Some(&all), |element| {
+            element.0.to_string()
+        })
     }
 
     /// A material of a body.
@@ -187,10 +203,19 @@ pub(super) fn lines(items: impl Iterator<Item = String>) -> String {
     format!("[\n{}]", items.collect::<String>())
 }
 
-fn sets<T: Ord + Copy>(key: &str, sets: &[&Sets<T>], member: impl Fn(&T) -> String) -> String {
-    let all = sets.iter().flat_map(|sets| sets.iter());
-    let all = all.filter(|(_, members)| !members.is_empty());
-    lines(all.map(|(name, members)| {
+/// Sets with their members, but for a set `all` of what decks call so by themselves.
+fn sets<T: Ord + Copy>(
+    key: &str,
+    sets: &[&Sets<T>],
+    all: Option<&[T]>,
+    member: impl Fn(&T) -> String,
+) -> String {
+    let stated = sets.iter().flat_map(|sets| sets.iter());
+    let stated = stated.filter(|(name, members)| {
+        let follows = *name == "all" && all == Some(*members);
+        !members.is_empty() && !follows
+    });
+    lines(stated.map(|(name, members)| {
         let members = list(members.iter().map(&member));
         format!("{{ name = {}, {key} = {members} }}", text(name))
     }))

@@ -91,6 +91,15 @@ impl<'a> Keyword<'a> {
         value.ok_or_else(|| self.fault(&format!("the parameter {name}")))
     }
 
+    /// A fault if there is any parameter but these.
+    pub(super) fn allow(&self, known: &[&str]) -> Result<(), MeshFileFault> {
+        let mut keys = self.parameters.iter().map(|(key, _)| key.as_str());
+        match keys.find(|key| !known.contains(key)) {
+            None => Ok(()),
+            Some(key) => Err(self.fault(&format!("no parameter {key}"))),
+        }
+    }
+
     /// A fault if the rows are in another file.
     pub(super) fn refuse_input(&self) -> Result<(), MeshFileFault> {
         match self.parameter("INPUT") {
@@ -130,6 +139,15 @@ impl<'a> Row<'a> {
             line: line.number,
             words: text.split(',').map(str::trim).collect(),
             continued,
+        }
+    }
+
+    /// A row of a single word.
+    pub(super) fn of_word(line: usize, word: &'a str) -> Self {
+        Self {
+            line,
+            words: vec![word],
+            continued: Continued::Here,
         }
     }
 

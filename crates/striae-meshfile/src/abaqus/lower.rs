@@ -12,7 +12,7 @@ use super::sets::LabelSets;
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 /// Elements by number.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Lower {
     elements: BTreeMap<u64, Element>,
     /// Number of elements by their type.
@@ -20,6 +20,7 @@ pub(super) struct Lower {
     ignored_numbers: BTreeSet<u64>,
 }
 
+#[derive(Clone)]
 struct Element {
     line: usize,
     dimension: usize,
@@ -99,11 +100,30 @@ impl Lower {
             .collect()
     }
 
+    /// Adds the elements of a part whose numbers are raised.
+    pub(super) fn place(&mut self, part: &Self, raise: u64) {
+        for (number, element) in &part.elements {
+            let nodes = element.nodes.iter().map(|node| node + raise);
+            let placed = Element {
+                nodes: nodes.collect(),
+                ..*element
+            };
+            self.elements.insert(number + raise, placed);
+        }
+        for (kind, count) in &part.ignored {
+            *self.ignored.entry(kind.clone()).or_default() += count;
+        }
+        let ignored = part.ignored_numbers.iter();
+        self.ignored_numbers
+            .extend(ignored.map(|number| number + raise));
+    }
+
     /// Moves the elements out of the element sets of a mesh to where they belong.
     pub(super) fn sort_out(self, mesh: &mut Collected) -> Result<(), MeshFileFault> {
         let mut solids = mesh.elements.iter();
         if let Some(solid) = solids.find(|solid| self.elements.contains_key(&solid.number)) {
-            let found = format!("element {} for the second time", solid.number);
+            let number = mesh.named(solid.number);
+            let found = format!("element {number} for the second time");
             return Err(MeshFileFault::at(
                 solid.place,
                 "a new element number",

@@ -43,7 +43,7 @@ fn abaqus_sets_are_resolved() {
 *End Instance
 *Node
 1, 9., 9., 9.
-*Nset, nset=low, generate
+*Nset, nset=low, generate, instance=pair-1
 1, 6
 *Nset, nset=Few, instance=pair-1
 pair-1.1, 4
@@ -182,7 +182,7 @@ fn broken_abaqus_files_are_explained() {
         ),
         (
             "*INSTANCE, NAME=a\n1., 0., 0.\n",
-            ["line 2", "move the part"],
+            ["line 1", "the parameter PART"],
         ),
         ("*SURFACE, NAME=a\n1, S7\n", ["line 2", "S1 to S6"]),
         (

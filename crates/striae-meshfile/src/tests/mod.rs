@@ -1,6 +1,9 @@
 //! Meshes written by the tests come back; broken files are explained.
 
 mod abaqus;
+mod abaqus_assembly;
+mod abaqus_include;
+mod abaqus_material;
 mod gmsh;
 mod gmsh_binary;
 mod node_vectors;

@@ -129,7 +129,10 @@ fn numbers_of_nodes_are_those_of_the_file() {
         assert_eq!(numbers, expected);
     }
     let text = written::abaqus(&mesh);
-    let numbers = abaqus::collected(&text).unwrap().node_numbers().unwrap();
+    let numbers = abaqus::collected(&text, |fault| fault.to_string())
+        .unwrap()
+        .node_numbers()
+        .unwrap();
     assert_eq!(numbers, expected);
 }
 

@@ -1,7 +1,7 @@
 //! Deformable and rigid bodies.
 
 use striae_law::bulk::Material;
-use striae_mesh::{ElementId, Mesh, NodeId, Vec3};
+use striae_mesh::{ElementId, Mesh, NodeId, Region, Vec3};
 use striae_solve::{
     model::{Body, BodySection, ContactMass, Formulation, RigidInertia, RigidShape, RigidSurface},
     solid::{self, SolidError},
@@ -28,9 +28,12 @@ enum Own {
     None,
 }
 
-/// A deformable body with the sets of its mesh, without density; elements of the
-/// formulation that [suits](Formulation::suited_to) the material.
-pub fn body(name: impl Into<String>, mesh: Mesh, material: Material) -> BodyBuilder {
+/// A deformable body with the sets of its mesh, and with sets `all` of facets and of elements,
+/// without density; elements of the formulation that [suits](Formulation::suited_to) the
+/// material.
+pub fn body(name: impl Into<String>, mut mesh: Mesh, material: Material) -> BodyBuilder {
+    mesh.name_all_facets();
+    mesh.name_all_elements();
     let body = Body {
         name: name.into(),
         mesh,
@@ -137,6 +140,57 @@ impl BodyBuilder {
     pub fn facets_where(mut self, set: impl Into<String>, holds: impl Fn(&Vec3) -> bool) -> Self {
         let faces = self.body.mesh.faces_of_nodes(&self.nodes_that(holds));
         self.body.mesh.facet_sets.insert(set, faces);
+        self
+    }
+
+    /// A set of the nodes in a region at rest.
+    pub fn nodes_in(mut self, set: impl Into<String>, region: &Region) -> Self {
+        let nodes = self.body.mesh.nodes_in(region);
+        self.body.mesh.node_sets.insert(set, nodes);
+        self
+    }
+
+    /// A set of the elements that lie in a region at rest with all their corners.
+    pub fn elements_in(mut self, set: impl Into<String>, region: &Region) -> Self {
+        let mesh = &mut self.body.mesh;
+        let elements = mesh.elements_of(&mesh.nodes_in(region));
+        mesh.element_sets.insert(set, elements);
+        self
+    }
+
+    /// A set of the boundary faces that lie in a region at rest with all their corners.
+    pub fn facets_in(mut self, set: impl Into<String>, region: &Region) -> Self {
+        let mesh = &mut self.body.mesh;
+        let faces = mesh.faces_of_nodes(&mesh.nodes_in(region));
+        mesh.facet_sets.insert(set, faces);
+        self
+    }
+
+    /// A set of the boundary faces whose outward normals are within an angle (radians) of a
+    /// direction of any length.
+    pub fn facets_along(
+        mut self,
+        set: impl Into<String>,
+        direction: impl Into<Vec3>,
+        angle: f64,
+    ) -> Self {
+        let mesh = &mut self.body.mesh;
+        let faces = mesh.faces_along(&mesh.boundary_faces(), &direction.into(), angle);
+        mesh.facet_sets.insert(set, faces);
+        self
+    }
+
+    /// A set of the boundary faces that are reached from the one nearest to a place over edges
+    /// at which the normal turns by no more than an angle (radians).
+    pub fn facets_around(
+        mut self,
+        set: impl Into<String>,
+        place: impl Into<Vec3>,
+        angle: f64,
+    ) -> Self {
+        let mesh = &mut self.body.mesh;
+        let faces = mesh.faces_around(&mesh.boundary_faces(), &place.into(), angle);
+        mesh.facet_sets.insert(set, faces);
         self
     }
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Mapping, Sequence
 from typing import Any, Literal, Optional, Union
@@ -27,6 +28,7 @@ def frozen(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
 class Mesh:
     """Hexahedra, wedges, pyramids and tetrahedra with named sets of nodes, facets and elements.
 
+    The sets ``all`` of facets and of elements are always there.
     A mesh does not change: :meth:`with_sets` makes a new one. Arrays that it gives are
     made once and cannot be written to. Positions are lengths in the units of the user.
     """
@@ -171,6 +173,40 @@ class Mesh:
             raise refuse("facets", f"the mesh has no facet set `{facets}`{listed(self.facet_sets)}")
         return found
 
+    def facets_along(self, direction: Vector, angle: float) -> Ints:
+        """Corners of the facets that look along a direction, of shape (m, 4), for
+        :meth:`with_sets`.
+
+        direction: of any length but zero.
+        angle: largest angle between it and the outward normal (degrees).
+        """
+        towards = check.vector(direction, "direction")
+        if not any(towards):
+            raise refuse("direction", "it must not be the zero vector")
+        return self._native.facets_along(towards, math.radians(half_turn(angle, "angle")))
+
+    def facets_around(self, place: Vector, feature_angle: float) -> Ints:
+        """Corners of the facets that are reached from the one nearest to a place without passing
+        a sharp edge, of shape (m, 4), for :meth:`with_sets`.
+
+        place: position (length).
+        feature_angle: largest angle between the normals on the two sides of an edge that is
+            passed (degrees).
+        """
+        turn = math.radians(half_turn(feature_angle, "feature_angle"))
+        return self._native.facets_around(check.vector(place, "place"), turn)
+
+    def facets_of(self, elements: str) -> Ints:
+        """Corners of the outer facets of elements, of shape (m, 4), for :meth:`with_sets`.
+
+        elements: name of the element set.
+        """
+        found = self._native.facets_of(elements)
+        if found is None:
+            text = f"the mesh has no element set `{elements}`{listed(self.element_sets)}"
+            raise refuse("elements", text)
+        return found
+
     def with_sets(
         self,
         *,
@@ -243,6 +279,14 @@ def corners_of_facets(members: Any, path: str) -> Ints:
     if corners.ndim == 2 and corners.shape[1] == 3:
         return np.ascontiguousarray(np.column_stack([corners, corners[:, 2]]))
     return check.indices(corners, 4, path)
+
+
+def half_turn(angle: float, name: str) -> float:
+    """An angle from 0 to 180 degrees."""
+    found = check.number(angle, name)
+    if not 0.0 <= found <= 180.0:
+        raise refuse(name, f"it must be from 0 to 180 degrees, but is {found:g}")
+    return found
 
 
 def listed(names: Mapping[str, Any]) -> str:

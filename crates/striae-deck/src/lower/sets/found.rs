@@ -1,0 +1,15 @@
+//! Members of a set, and what to say where there are none.
+
+/// What a definition chooses.
+pub(super) struct Found<T> {
+    pub(super) members: Vec<T>,
+    /// Why there may be none.
+    pub(super) hint: Option<String>,
+}
+
+impl<T> From<Vec<T>> for Found<T> {
+    fn from(members: Vec<T>) -> Self {
+        let hint = None;
+        Self { members, hint }
+    }
+}

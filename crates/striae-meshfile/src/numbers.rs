@@ -1,0 +1,37 @@
+//! Numbers that a file gives to the nodes and elements of a mesh.
+
+use striae_mesh::{ElementId, NodeId};
+
+/// How many bits the numbers of a part of an Abaqus file have where there are several instances;
+/// above them stands the place of the instance.
+pub(super) const NUMBER_BITS: u32 = 40;
+
+/// The file's own numbers of what is read.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Numbers {
+    pub(super) nodes: Vec<u64>,
+    /// Parts of a divided element have its number.
+    pub(super) elements: Vec<u64>,
+    /// Instances of an Abaqus file that has several.
+    pub(super) instances: Vec<String>,
+}
+
+impl Numbers {
+    /// What the file calls a node: a number, `instance.number` if it has several instances.
+    pub fn node(&self, node: NodeId) -> String {
+        named(&self.instances, self.nodes[node.index()])
+    }
+
+    /// What the file calls an element, or the one that it is a part of.
+    pub fn element(&self, element: ElementId) -> String {
+        named(&self.instances, self.elements[element.index()])
+    }
+}
+
+/// A number, with the name of its instance if there are several.
+pub(super) fn named(instances: &[String], number: u64) -> String {
+    match instances.get((number >> NUMBER_BITS) as usize) {
+        Some(instance) => format!("{instance}.{}", number & ((1 << NUMBER_BITS) - 1)),
+        None => number.to_string(),
+    }
+}
