@@ -106,10 +106,12 @@ fn of_scene(group: &str, size: usize) -> Results {
     let context = StepContext::new(&problem, 0, &state);
     let configuration = context.configuration(0, &state.positions, &state.rigid);
     let kept = &state.pairs[0].kept;
+    let required = &state.pairs[0].required;
     let pointed = &state.pairs[0].pointed;
     let points = &state.pairs[0].points;
     let before = Before {
         kept,
+        required,
         pointed,
         points,
     };

@@ -6,13 +6,15 @@
 
 use striae_mesh::Vec3;
 
-/// Whether a node carried traction unknowns in the last increment.
+/// Whether a node carried traction unknowns in the last increment, and what is known of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LastIncrement {
     /// It was kept: it competes with twice its pivot.
     Kept,
     /// It was not.
     NotKept,
+    /// It is kept whatever its pivot: what it would follow did not feel what is there.
+    Required,
     /// It is pointed and no candidate, see [`crate::pointed`].
     Pointed,
 }

@@ -67,6 +67,7 @@ impl Selection {
             partners,
             homes: Vec::new(),
             offsets: [Vec::new(), Vec::new()],
+            required: before.required.clone(),
             points,
         };
         for &side in start.pair.deformable_sides() {

@@ -45,6 +45,8 @@ pub struct PairState {
     pub tractions: Tractions,
     /// Which nodes were kept in the increment that led here.
     pub kept: Kept,
+    /// Which of them were so whatever their pivots.
+    pub required: Kept,
     /// Which nodes were pointed in it.
     pub pointed: Kept,
     /// Points of a rigid side that were so, by the node of side `a` that they lodge with.
@@ -176,6 +178,7 @@ impl PairState {
         Self {
             tractions: Tractions::zero(counts),
             kept: counts.map(|count| vec![false; count]),
+            required: counts.map(|count| vec![false; count]),
             pointed: counts.map(|count| vec![false; count]),
             points: vec![None; lodged],
             carried: counts.map(|count| vec![[0.0; 3]; count]),

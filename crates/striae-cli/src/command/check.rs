@@ -195,6 +195,7 @@ mod tests {
         let of_pair = &state.pairs[0];
         let before = Before {
             kept: &of_pair.kept,
+            required: &of_pair.required,
             pointed: &of_pair.pointed,
             points: &of_pair.points,
         };

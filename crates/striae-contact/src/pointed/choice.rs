@@ -15,6 +15,10 @@
 //! back by less than `SHARP`, and would pass into the other body unfelt. It stays pointed while
 //! the field carries nothing. Nodes of smooth surfaces are left to the mean.
 //!
+//! A node between two deformable bodies that follows others without pressure, deeper than the
+//! same limits and with its facets in the mean, is *unfelt*: the field takes it up, see
+//! [`crate::roles`].
+//!
 //! Points of rigid surfaces are chosen in [`points`].
 
 use rayon::prelude::*;
@@ -56,14 +60,23 @@ pub const CLOSING: f64 = 0.02;
 /// Least distance of rigid points from each other and from pointed nodes, over the facet size.
 pub const APART: f64 = 0.4;
 
+/// Area over the square of its size from which a node can be in with its facets.
+pub const COVERED: f64 = 0.1;
+
 /// Pressure that is none, over the modulus.
 const NO_PRESSURE: f64 = 1e-10;
+
+/// Nodes, as side and number.
+type Places = Vec<(usize, u32)>;
 
 /// What pierces the other side without being pointed yet.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pierced {
     /// Nodes, as side and number.
     pub nodes: Vec<(usize, u32)>,
+    /// Nodes that the field is to have unknowns at, as side and number: their facets are in
+    /// the other side in the mean, and no kept node feels it.
+    pub unfelt: Vec<(usize, u32)>,
     /// Points of a rigid side with the nodes that they lodge with.
     pub points: Vec<(u32, RigidPoint)>,
 }
@@ -71,7 +84,7 @@ pub struct Pierced {
 impl Pierced {
     /// Whether there is nothing.
     pub fn is_empty(&self) -> bool {
-        self.nodes.is_empty() && self.points.is_empty()
+        self.nodes.is_empty() && self.unfelt.is_empty() && self.points.is_empty()
     }
 }
 
@@ -88,7 +101,7 @@ pub fn pierced(
         return Pierced::default();
     }
     let points = points::pierced(configuration, selection, carried, least);
-    let mut nodes = pierced_nodes(configuration, selection, carried, progress);
+    let [mut nodes, unfelt] = sharp_and_unfelt(configuration, selection, carried, progress);
     let felt: Vec<Vec3> = (selection.points.iter().flatten())
         .chain(points.iter().map(|(_, point)| point))
         .map(|point| point.position(configuration))
@@ -98,7 +111,11 @@ pub fn pierced(
         let node = node as usize;
         are_apart(&felt, &own.x[node], own.sizes[node])
     });
-    Pierced { nodes, points }
+    Pierced {
+        nodes,
+        unfelt,
+        points,
+    }
 }
 
 /// Whether tips keep their distance from a place on facets of some size.
@@ -106,16 +123,63 @@ fn are_apart(tips: &[Vec3], x: &Vec3, size: f64) -> bool {
     tips.iter().all(|tip| (tip - x).norm() > APART * size)
 }
 
-/// Nodes without pressure that pierce the other side.
-fn pierced_nodes(
+/// Nodes without pressure that are inside the other side: those that pierce it, and those
+/// that are in with their facets.
+fn sharp_and_unfelt(
     configuration: &Configuration,
     selection: &Selection,
     carried: &[Vec<[f64; 3]>; 2],
     progress: Progress,
-) -> Vec<(usize, u32)> {
+) -> [Places; 2] {
     let unfelt = progress == Progress::Converged && !presses(configuration, carried);
     let depth = if unfelt { FIRST } else { PIERCED };
-    let mut deep: Vec<(usize, u32, f64)> = Vec::new();
+    let deep = deep_nodes(configuration, selection, carried, depth);
+    if deep.is_empty() {
+        return [Places::new(), Places::new()];
+    }
+    let means = mean_gaps(configuration, selection.scope());
+    // There is room for points of a rigid side of facets only.
+    let on_facets = !selection.points.is_empty();
+    let is_sharp = |&(side, node, gap): &(usize, u32, f64)| {
+        let size = configuration.side(side).sizes[node as usize];
+        means[side][node as usize].is_none_or(|mean| {
+            let edge = || bend_at(configuration.side(side), node) == Some(Bend::Sharp);
+            let sharp = unfelt && edge() || mean > 0.0 && mean - gap > SHARP * size;
+            let open = on_facets && mean > CLOSING * size;
+            sharp || open && !is_pressed_around(configuration, carried, node)
+        })
+    };
+    let (sharp, mut smooth): (Vec<_>, Vec<_>) = deep.into_iter().partition(is_sharp);
+    smooth.retain(|&(side, node, _)| {
+        let is_in = means[side][node as usize].is_some_and(|mean| mean < 0.0);
+        is_in && progress == Progress::Converged && follows(configuration, selection, side, node)
+    });
+    [sharp, smooth].map(|nodes| {
+        let places = nodes.into_iter().map(|(side, node, _)| (side, node));
+        places.collect()
+    })
+}
+
+/// Whether a node between two deformable bodies follows others and has enough weight for an
+/// unknown of its own.
+fn follows(configuration: &Configuration, selection: &Selection, side: usize, node: u32) -> bool {
+    let size = configuration.side(side).sizes[node as usize];
+    let weight = |at: usize| selection.basis.node_weights[side][at];
+    !configuration.pair.is_rigid()
+        && !selection.is_kept(side, node)
+        && selection.carries(side, node)
+        && weight(node as usize) > COVERED * size * size
+}
+
+/// Nodes without pressure that are not pointed and lie deeper inside the other side than
+/// `depth` of the facet size, with their gaps.
+fn deep_nodes(
+    configuration: &Configuration,
+    selection: &Selection,
+    carried: &[Vec<[f64; 3]>; 2],
+    depth: f64,
+) -> Vec<(usize, u32, f64)> {
+    let mut deep = Vec::new();
     for &side in configuration.pair.deformable_sides() {
         let nothing = NO_PRESSURE * configuration.pair.sides[side].stiffness;
         let own_gap = |node: u32| {
@@ -133,23 +197,7 @@ fn pierced_nodes(
             .collect();
         deep.extend(found);
     }
-    if deep.is_empty() {
-        return Vec::new();
-    }
-    let means = mean_gaps(configuration, selection.scope());
-    // There is room for points of a rigid side of facets only.
-    let on_facets = !selection.points.is_empty();
-    let is_sharp = |&(side, node, gap): &(usize, u32, f64)| {
-        let size = configuration.side(side).sizes[node as usize];
-        means[side][node as usize].is_none_or(|mean| {
-            let edge = || bend_at(configuration.side(side), node) == Some(Bend::Sharp);
-            let sharp = unfelt && edge() || mean > 0.0 && mean - gap > SHARP * size;
-            let open = on_facets && mean > CLOSING * size;
-            sharp || open && !is_pressed_around(configuration, carried, node)
-        })
-    };
-    let sharp = deep.into_iter().filter(is_sharp);
-    sharp.map(|(side, node, _)| (side, node)).collect()
+    deep
 }
 
 /// Whether anything of a pair presses.

@@ -10,6 +10,8 @@ pub type Kept = [Vec<bool>; 2];
 pub struct Before<'a> {
     /// Nodes that were kept in the last increment.
     pub kept: &'a Kept,
+    /// Nodes that are kept in this one whatever their pivots.
+    pub required: &'a Kept,
     /// Nodes that are [pointed](crate::pointed) in this one.
     pub pointed: &'a Kept,
     /// The same of points of a rigid side; may be empty.

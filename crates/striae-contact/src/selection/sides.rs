@@ -36,6 +36,8 @@ pub(super) fn surface_nodes(
                 compliance: share / (modulus * size),
                 last: if before.pointed[side].get(node) == Some(&true) {
                     LastIncrement::Pointed
+                } else if before.required[side].get(node) == Some(&true) {
+                    LastIncrement::Required
                 } else if before.kept[side].get(node) == Some(&true) {
                     LastIncrement::Kept
                 } else {

@@ -34,6 +34,8 @@ pub struct Selection {
     /// Overlap of the meshes at the nodes that is not pressed out yet, by side; empty where
     /// there is none.
     pub offsets: [Vec<f64>; 2],
+    /// Nodes that are kept whatever their pivots, by side.
+    pub required: Kept,
     /// Points of a rigid side that are pointed.
     pub points: RigidPoints,
 }

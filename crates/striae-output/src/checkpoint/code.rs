@@ -187,7 +187,7 @@ coded! {
     Worst { kind, pair, value, time };
     Judgement { worst, forces, pressures, energy, step };
     SolverSummary { method, factorisations, contact_corrections, fall_backs, reason };
-    PairState { tractions, kept, pointed, points, carried, nodes, facets, dissipated };
+    PairState { tractions, kept, required, pointed, points, carried, nodes, facets, dissipated };
     RigidPoint { ends, share, left };
     Wrench { force, torque };
     Pose { displacement, turned, rotation };

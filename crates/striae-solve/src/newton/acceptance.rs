@@ -48,6 +48,7 @@ pub(super) fn accepted(
             dissipated: before.dissipated + evaluation.dissipated,
             kept: selection.kept_nodes(),
             pointed: selection.pointed_nodes(),
+            required: selection.required,
             points: selection.points,
             tractions,
             carried: evaluation.carried,

@@ -5,8 +5,8 @@ use striae_contact::{
     configuration::Configuration,
     evaluation::Evaluation,
     pointed::{self, Bend, Pierced, Progress, RigidPoints, choice::points, staying},
-    selection::{Before, Selection},
-    unknowns::{Label, Status, Tractions},
+    selection::{Before, Kept, Selection},
+    unknowns::{Label, NodeResult, Status, Tractions},
 };
 
 use crate::{
@@ -40,6 +40,7 @@ pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected
             }
             let before = Before {
                 kept: &of_pair.kept,
+                required: &pressed(&of_pair.required, &of_pair.nodes),
                 pointed: &staying(&start, &of_pair.pointed, &of_pair.nodes),
                 points: &points,
             };
@@ -82,6 +83,16 @@ pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected
         selections,
         tractions,
     }
+}
+
+/// Those of some nodes that are pressed.
+fn pressed(nodes: &Kept, results: &[Vec<NodeResult>; 2]) -> Kept {
+    [0, 1].map(|side| {
+        let nodes = nodes[side].iter().zip(&results[side]);
+        nodes
+            .map(|(is_one, result)| *is_one && result.pressure > 0.0)
+            .collect()
+    })
 }
 
 /// What pierces the other side in a trial state, by pair.
@@ -129,12 +140,17 @@ pub(super) fn reselected(
             for &(side, node) in &pierced[pair].nodes {
                 pointed[side][node as usize] = true;
             }
+            let mut required = setting.selections[pair].required.clone();
+            for &(side, node) in &pierced[pair].unfelt {
+                required[side][node as usize] = true;
+            }
             let mut points = setting.selections[pair].points.clone();
             for &(node, point) in &pierced[pair].points {
                 points[node as usize] = Some(point);
             }
             let before = |pointed| Before {
                 kept: &kept,
+                required: &required,
                 pointed,
                 points: &points,
             };

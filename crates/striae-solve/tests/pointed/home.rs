@@ -81,6 +81,7 @@ impl<'a> Scene<'a> {
         pointed[0][self.node as usize] = true;
         let before = Before {
             kept: &none,
+            required: &none,
             pointed: &pointed,
             points: &Vec::new(),
         };

@@ -45,6 +45,7 @@ impl<'a> Contact<'a> {
         let points = points(&start);
         let before = Before {
             kept: &none,
+            required: &none,
             pointed: &pointed,
             points: &points,
         };

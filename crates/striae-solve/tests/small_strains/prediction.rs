@@ -16,6 +16,7 @@ fn a_prediction_without_motion_changes_nothing() {
         let of_pair = &state.pairs[0];
         let before = Before {
             kept: &of_pair.kept,
+            required: &of_pair.required,
             pointed: &of_pair.pointed,
             points: &of_pair.points,
         };

@@ -74,6 +74,7 @@ impl<'a> PairFunction<'a> {
             let free = counts.map(|count| vec![false; 3 * count]);
             let before = Before {
                 kept: &kept,
+                required: &kept,
                 pointed: &kept,
                 points: &Vec::new(),
             };

@@ -227,6 +227,7 @@ fn selections(context: &StepContext, before: &State, state: &State) -> Vec<Selec
             let of_pair = &before.pairs[pair];
             let had = Before {
                 kept: &of_pair.kept,
+                required: &state.pairs[pair].required,
                 pointed: &state.pairs[pair].pointed,
                 points: &state.pairs[pair].points,
             };

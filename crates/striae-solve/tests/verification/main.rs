@@ -3,6 +3,7 @@
 #[allow(dead_code, reason = "shared with the tests of textured friction")]
 mod scene;
 
+mod covered;
 mod decay;
 mod driver;
 mod dynamics;
