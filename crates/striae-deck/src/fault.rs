@@ -213,7 +213,13 @@ pub enum FaultKind {
     },
     /// What the deck describes is not possible.
     #[error(transparent)]
-    Model(#[from] striae_model::FaultKind),
+    Model(Box<striae_model::FaultKind>),
+}
+
+impl From<striae_model::FaultKind> for FaultKind {
+    fn from(kind: striae_model::FaultKind) -> Self {
+        Self::Model(Box::new(kind))
+    }
 }
 
 fn did_you_mean(nearest: &Option<String>) -> String {

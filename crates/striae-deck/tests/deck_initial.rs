@@ -49,7 +49,10 @@ fn fault(deck: Result<Deck, Faults>) -> InitialFault {
     let faults = deck.unwrap_err();
     assert_eq!(faults.iter().len(), 1, "{faults}");
     match &faults.iter().next().unwrap().kind {
-        FaultKind::Model(striae_model::FaultKind::Initial { fault }) => fault.clone(),
+        FaultKind::Model(kind) => match &**kind {
+            striae_model::FaultKind::Initial { fault } => fault.clone(),
+            other => panic!("{other}"),
+        },
         other => panic!("{other}"),
     }
 }

@@ -89,10 +89,9 @@ fn material(card: &Card) -> Result<Material, String> {
         youngs_modulus,
         poissons_ratio,
     } = card.elasticity
+        && card.relaxation.is_empty()
     {
-        if card.relaxation.is_empty() {
-            return solid(card, youngs_modulus, poissons_ratio);
-        }
+        return solid(card, youngs_modulus, poissons_ratio);
     }
     let (isochoric, bulk) = rubber(&card.elasticity, slow);
     let rubber = Hyperelastic::new(isochoric, bulk, Volumetric::Quadratic);
