@@ -121,6 +121,8 @@ pub struct Summary {
     pub reason: String,
     /// Increments that were cut.
     pub cutbacks: usize,
+    /// Largest depth over the local facet size that it warns of; zero if it does not.
+    pub depth: f64,
 }
 
 impl Summary {
@@ -137,13 +139,36 @@ impl Summary {
             status: word("status"),
             reason: word("reason"),
             cutbacks: value["cutbacks"].as_u64().unwrap_or(0) as usize,
+            depth: penetration(&value),
         })
     }
+}
+
+/// The largest depth that is warned of.
+fn penetration(summary: &serde_json::Value) -> f64 {
+    let warnings = summary["warnings"].as_array().into_iter().flatten();
+    warnings
+        .filter(|warning| warning["kind"] == "penetration")
+        .filter_map(|warning| warning["value"].as_f64())
+        .fold(0.0, f64::max)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_largest_depth_that_is_warned_of_is_read() {
+        let of = |text: &str| penetration(&serde_json::from_str(text).unwrap());
+        let warnings = r#"{"warnings": [
+            {"kind": "penetration", "value": 0.12},
+            {"kind": "moment", "value": 0.4},
+            {"kind": "penetration", "value": 0.17}
+        ]}"#;
+        assert_eq!(of(warnings), 0.17);
+        assert_eq!(of(r#"{"warnings": []}"#), 0.0);
+        assert_eq!(of("{}"), 0.0);
+    }
 
     #[test]
     fn histories_are_read_by_name() {

@@ -17,7 +17,7 @@ use crate::scenes::{
 use super::{Findings, fields::sizes};
 
 /// Largest depth over the size of a facet.
-const DEPTH: f64 = 0.1;
+pub const DEPTH: f64 = 0.1;
 
 /// Checks all pairs.
 pub fn check(

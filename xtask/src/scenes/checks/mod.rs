@@ -19,7 +19,7 @@
 //!
 //! A measure is a value over its bound: at most 1 is well.
 
-mod depth;
+pub mod depth;
 mod fields;
 mod round_off;
 mod table;
