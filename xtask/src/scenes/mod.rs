@@ -148,7 +148,7 @@ fn one(keep: &Path, binary: &Path, seed: u64, dialect: Dialect) -> Result<Judged
     told(&scene, &verdict);
     match verdict.class {
         Class::Complete | Class::Warned => fs::remove_dir_all(&folder).map_err(failed(&folder))?,
-        Class::Wrong => {}
+        Class::Wrong | Class::Deep => {}
         _ => {
             let fields = out.join("fields");
             if fields.exists() {

@@ -12,8 +12,11 @@ use super::{
 pub enum Class {
     /// Ran to its end, and all checks hold.
     Complete,
-    /// The same, with warnings of the program; a depth that it tells counts as one, see [`is_told`].
+    /// The same, with warnings of the program.
     Warned,
+    /// Ran to its end with a depth beyond its bound, which the program itself tells, see
+    /// [`is_told`]; all other checks hold.
+    Deep,
     /// Stopped for a reason that physics has, or refused what cannot be.
     Named,
     /// Stopped otherwise.
@@ -30,9 +33,10 @@ pub enum Class {
 
 impl Class {
     /// All classes.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Complete,
         Self::Warned,
+        Self::Deep,
         Self::Named,
         Self::Stopped,
         Self::Refused,
@@ -46,6 +50,7 @@ impl Class {
         match self {
             Self::Complete => "complete",
             Self::Warned => "warned",
+            Self::Deep => "deep",
             Self::Named => "named",
             Self::Stopped => "stopped",
             Self::Refused => "refused",
@@ -181,7 +186,7 @@ fn completed(findings: &Findings, summary: &Summary, log: &str) -> Class {
         return Class::Warned;
     }
     if is_told(findings, summary) && summary.status == "completed" {
-        return Class::Warned;
+        return Class::Deep;
     }
     if findings.iterations.is_empty() || failed == ["contact"] {
         Class::Silent
@@ -226,7 +231,7 @@ mod tests {
         assert_eq!(class(0.09, 0.0, None), Class::Complete);
         assert_eq!(class(0.15, 0.0, None), Class::Wrong);
         assert_eq!(class(0.15, 0.11, None), Class::Wrong);
-        assert_eq!(class(0.15, 0.14, None), Class::Warned);
+        assert_eq!(class(0.15, 0.14, None), Class::Deep);
         assert_eq!(class(0.3, 0.3, None), Class::Wrong);
         assert_eq!(class(0.15, 0.15, Some("energy")), Class::Wrong);
     }
