@@ -1,7 +1,7 @@
 //! Ways in which the program fails, and their exit codes.
 
 use std::{io, path::PathBuf, process::ExitCode};
-use striae::measurements::MeasurementFaults;
+use striae::{measurements::MeasurementFaults, mesh_file::MeshFileError};
 use striae_deck::Faults;
 use striae_figure::FigureError;
 use striae_law::fit::FitError;
@@ -78,6 +78,9 @@ pub enum Failure {
     /// A file of measurements is faulty.
     #[error("{0}")]
     Measurements(#[from] MeasurementFaults),
+    /// A mesh file is faulty.
+    #[error("{0}")]
+    Mesh(#[from] MeshFileError),
     /// Measurements give no law.
     #[error("{0}")]
     Fit(#[from] FitError),
@@ -143,6 +146,7 @@ impl Failure {
             | Self::Checkpoint(_)
             | Self::Problem(_)
             | Self::Measurements(_)
+            | Self::Mesh(_)
             | Self::Fit(_)
             | Self::Report(
                 ReportError::Nothing(_)

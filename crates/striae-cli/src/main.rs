@@ -41,6 +41,7 @@ enum Command {
     Law(command::law::Arguments),
     Fit(command::fit::Arguments),
     Material(command::material::Arguments),
+    Mesh(command::mesh::Arguments),
     Schema(command::schema::Arguments),
     Texture(command::texture::Arguments),
 }
@@ -58,6 +59,7 @@ fn main() -> ExitCode {
         Command::Law(arguments) => command::law::run(&arguments, out),
         Command::Fit(arguments) => command::fit::run(&arguments, out),
         Command::Material(arguments) => command::material::run(&arguments, out),
+        Command::Mesh(arguments) => command::mesh::run(&arguments, out),
         Command::Schema(arguments) => command::schema::run(&arguments, out),
         Command::Texture(arguments) => command::texture::run(&arguments, out),
     };

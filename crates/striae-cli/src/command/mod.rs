@@ -4,6 +4,7 @@ pub mod check;
 pub mod fit;
 pub mod law;
 pub mod material;
+pub mod mesh;
 pub mod new;
 pub mod picture;
 pub mod report;

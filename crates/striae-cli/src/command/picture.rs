@@ -56,13 +56,15 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     Ok(())
 }
 
-fn direction(text: &str) -> Result<[f64; 3], String> {
+/// Three numbers parted by commas.
+pub fn direction(text: &str) -> Result<[f64; 3], String> {
     let numbers: Result<Vec<f64>, _> = text.split(',').map(|word| word.trim().parse()).collect();
     let numbers = numbers.ok().and_then(|numbers| numbers.try_into().ok());
     numbers.ok_or_else(|| "three numbers are needed, as 0.6,1,-0.65".to_owned())
 }
 
-fn width(text: &str) -> Result<usize, String> {
+/// A number of dots that a picture may be wide.
+pub fn width(text: &str) -> Result<usize, String> {
     let width = text
         .parse()
         .ok()

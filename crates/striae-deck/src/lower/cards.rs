@@ -17,7 +17,6 @@
 //! deformations over `1 - g`, but for the bulk modulus. Sources: Abaqus materials guide,
 //! "Hyperelastic behavior of rubberlike materials", "Time domain viscoelasticity".
 
-use crate::fault::FaultKind;
 use striae_law::bulk::{
     Branch, Hardening, Hyperelastic, Isochoric, LameConstants, Material, OgdenTerm, Plastic,
     Viscoelastic, Volumetric,
@@ -33,25 +32,21 @@ pub(super) struct Cards {
 }
 
 impl Cards {
-    /// The sections of a body; `stated` is the formulation that the deck or the elements of the
+    /// The sections of a body, or why there are none; `stated` is the formulation that the deck or the elements of the
     /// file ask for.
     pub(super) fn sections(
         &self,
         mesh: &Mesh,
-        body: &str,
         stated: Option<Formulation>,
-    ) -> Result<Vec<BodySection>, FaultKind> {
-        let fault = |cause: String| FaultKind::FileMaterials {
-            body: body.to_owned(),
-            cause,
-        };
+    ) -> Result<Vec<BodySection>, String> {
         if self.sections.is_empty() {
             let cause = "it gives no element set a material, as *SOLID SECTION of Abaqus does";
-            return Err(fault(cause.to_owned()));
+            return Err(cause.to_owned());
         }
         let sections = self.sections.iter();
-        let sections = sections.map(|section| self.section(section, mesh, stated).map_err(fault));
-        sections.collect()
+        sections
+            .map(|section| self.section(section, mesh, stated))
+            .collect()
     }
 
     fn section(

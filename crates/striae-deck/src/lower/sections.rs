@@ -1,7 +1,7 @@
 //! Sections of bodies: elements of other materials.
 
 use super::{cards::Cards, formulation::formulation, list, materials::Materials, sets};
-use crate::{faults::FaultList, raw};
+use crate::{fault::FaultKind, faults::FaultList, raw};
 use striae_mesh::Mesh;
 use striae_model::FaultKind as ModelFault;
 use striae_solve::model::{BodySection, Formulation};
@@ -45,9 +45,13 @@ impl Sections<'_> {
             return Some(Vec::new());
         };
         let stated = formulation(&raw.formulation).or(self.asked);
-        let found = cards.sections(self.mesh, self.body, stated);
-        let span = raw.mesh.as_ref().map_or(0..0, |mesh| mesh.span.clone());
-        found.map_err(|fault| faults.push(&span, fault)).ok()
+        let found = cards.sections(self.mesh, stated);
+        let fault = |cause: String| {
+            let span = raw.mesh.as_ref().map_or(0..0, |mesh| mesh.span.clone());
+            let body = self.body.to_owned();
+            faults.push(&span, FaultKind::FileMaterials { body, cause });
+        };
+        found.map_err(fault).ok()
     }
 
     fn section(&self, raw: &raw::BodySection, faults: &mut FaultList<'_>) -> Option<BodySection> {

@@ -18,7 +18,7 @@ use crate::{
 const PREFERRED: [&str; 3] = ["pressure", "cauchy_stress", "displacement"];
 
 /// Color of what has no field.
-const GREY: Color = [0.80, 0.81, 0.84];
+pub const GREY: Color = [0.80, 0.81, 0.84];
 
 /// Values whose spread over their size is below this are equal.
 const EQUAL: f64 = 1e-6;
@@ -174,7 +174,7 @@ impl Layer<'_> {
 }
 
 /// How dark edges are: less where they are close to each other.
-fn darkness(ends: &[[[f64; 3]; 2]]) -> f64 {
+pub fn darkness(ends: &[[[f64; 3]; 2]]) -> f64 {
     let lengths = ends.iter().map(|[a, b]| (a[0] - b[0]).hypot(a[1] - b[1]));
     let mean = lengths.sum::<f64>() / ends.len().max(1) as f64;
     (0.5 * (mean - 4.0) / 20.0).clamp(0.0, 0.5)

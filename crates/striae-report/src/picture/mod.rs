@@ -1,4 +1,4 @@
-//! Pictures of results, without a browser.
+//! Pictures of results and of meshes, without a browser.
 //!
 //! ```text
 //! results folder -> parts at one time -> layers -> canvas with depths -> PNG
@@ -8,10 +8,12 @@
 //! A field of contact is drawn on the smaller side of each pair, and bodies and rigid
 //! surfaces are seen through. Any other field is drawn on the bodies. The projection is
 //! orthographic. Numbers under the colour bar are the extremes of what is drawn, the inside
-//! of bodies included, as in the [report](crate).
+//! of bodies included, as in the [report](crate). [`Surfaces`] draws what has no results:
+//! facets in the colours of their names.
 
 mod canvas;
 mod layer;
+mod surfaces;
 mod view;
 
 use std::path::Path;
@@ -19,6 +21,8 @@ use std::path::Path;
 use striae_figure::Dots;
 
 use crate::{ReportError, invariants, part::parts, results::Results};
+pub use surfaces::Surfaces;
+
 use canvas::Canvas;
 use layer::Layers;
 use view::View;

@@ -1,0 +1,105 @@
+//! `striae mesh FILE`: what a mesh file holds, before a deck is written for it.
+
+mod grid;
+mod surface;
+mod words;
+
+use std::{
+    io::Write,
+    path::{Path, PathBuf},
+};
+
+use striae::mesh_file::{self, Reading};
+use striae_report::picture::WIDTH;
+
+use super::picture::{direction, width};
+use crate::failure::Failure;
+
+/// Show a mesh file: kinds of elements, sets, quality, and what was left out in reading.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The file: .msh of Gmsh, .inp of Abaqus, .vtu or .vtk of VTK, or .stl.
+    file: PathBuf,
+    /// Draw the sets of facets, or else those of elements, as a PNG.
+    #[arg(long, value_name = "FILE.png", value_parser = png)]
+    picture: Option<PathBuf>,
+    /// Direction of sight of the picture, from the eye to the mesh.
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = direction)]
+    view: Option<[f64; 3]>,
+    /// Width of the picture in dots.
+    #[arg(long, default_value_t = WIDTH, value_parser = width)]
+    width: usize,
+    /// Write the mesh with its sets, numbers and quality for ParaView.
+    #[arg(long, value_name = "FILE.vtu", value_parser = vtu)]
+    out: Option<PathBuf>,
+}
+
+/// Reads the file, prints what it holds, and writes what is asked for.
+pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    match has_ending(&arguments.file, "stl") {
+        true => surface(arguments, out),
+        false => body(arguments, out),
+    }
+}
+
+fn body(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    let mut reading = mesh_file::read_with_notes(&arguments.file)?;
+    reading.mesh.name_all_facets();
+    write!(out, "{}", words::of_body(&arguments.file, &reading))?;
+    let Reading { mesh, numbers, .. } = &reading;
+    if let Some(file) = &arguments.picture {
+        draw(surface::of_body(mesh), arguments, file, out)?;
+    }
+    if let Some(file) = &arguments.out {
+        grid::write(mesh, numbers, file)?;
+        writeln!(out, "wrote {}", file.display())?;
+    }
+    Ok(())
+}
+
+fn surface(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    let read = mesh_file::read_rigid_surface(&arguments.file)?;
+    write!(out, "{}", words::of_surface(&arguments.file, &read))?;
+    if let Some(file) = &arguments.picture {
+        draw(surface::of_rigid(&read), arguments, file, out)?;
+    }
+    if let Some(file) = &arguments.out {
+        grid::write_surface(&read, file)?;
+        writeln!(out, "wrote {}", file.display())?;
+    }
+    Ok(())
+}
+
+fn draw(
+    mut surfaces: striae_report::picture::Surfaces,
+    arguments: &Arguments,
+    file: &Path,
+    out: &mut dyn Write,
+) -> Result<(), Failure> {
+    surfaces.direction = arguments.view.unwrap_or(surfaces.direction);
+    surfaces.width = arguments.width;
+    surfaces.render()?.write_png(file)?;
+    writeln!(out, "wrote {}", file.display())?;
+    Ok(())
+}
+
+fn has_ending(path: &Path, ending: &str) -> bool {
+    let found = path.extension().and_then(|ending| ending.to_str());
+    found.is_some_and(|found| found.eq_ignore_ascii_case(ending))
+}
+
+fn png(text: &str) -> Result<PathBuf, String> {
+    named(text, "png")
+}
+
+fn vtu(text: &str) -> Result<PathBuf, String> {
+    named(text, "vtu")
+}
+
+fn named(text: &str, ending: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match has_ending(&path, ending) {
+        true => Ok(path),
+        false => Err(format!("the name of the file must end in .{ending}")),
+    }
+}

@@ -1,0 +1,151 @@
+//! What a mesh file holds, in words and numbers.
+
+use std::{collections::BTreeMap, fmt::Write, path::Path};
+
+use striae::mesh_file::{MaterialCard, Reading, RigidSurfaceMesh};
+use striae_mesh::{CellKind, Mesh, Quality, Vec3, quality::SMALL_SCALED_JACOBIAN};
+
+/// Lines about the mesh of a body.
+pub fn of_body(file: &Path, reading: &Reading) -> String {
+    let mesh = &reading.mesh;
+    let quality = mesh.quality();
+    let (low, high) = mesh.bounds();
+    let mut lines = vec![
+        file.display().to_string(),
+        extent(&low, &high),
+        format!("  {} nodes", mesh.positions.len()),
+    ];
+    lines.extend(kinds(mesh));
+    lines.push(format!("  volume {:.6e}", quality.volume));
+    lines.push(format!(
+        "  edges from {:.6e} to {:.6e}",
+        quality.shortest_edge, quality.longest_edge
+    ));
+    lines.push(shape(reading, &quality));
+    lines.extend(element_sets(mesh));
+    lines.extend(facet_sets(mesh));
+    lines.extend(node_sets(mesh));
+    lines.extend(reading.materials.iter().map(|card| material(card, reading)));
+    lines.extend(reading.notes.iter().map(|note| format!("note: {note}")));
+    lines.join("\n") + "\n"
+}
+
+/// Lines about a rigid surface.
+pub fn of_surface(file: &Path, surface: &RigidSurfaceMesh) -> String {
+    let positions = &surface.positions;
+    let start = positions.first().copied().unwrap_or_default();
+    let corners = positions.iter();
+    let (low, high) = corners.fold((start, start), |(low, high), x| (low.inf(x), high.sup(x)));
+    let area = |facet: &[striae_mesh::NodeId; 4]| {
+        let [a, b, c, d] = facet.map(|node| positions[node.index()]);
+        0.5 * (c - a).cross(&(d - b)).norm()
+    };
+    let area: f64 = surface.facets.iter().map(area).sum();
+    [
+        file.display().to_string(),
+        extent(&low, &high),
+        format!("  {} nodes", positions.len()),
+        format!("  {} facets of a rigid surface", surface.facets.len()),
+        format!("  area {area:.6e}"),
+    ]
+    .join("\n")
+        + "\n"
+}
+
+fn extent(low: &Vec3, high: &Vec3) -> String {
+    let corner = |x: &Vec3| format!("({}, {}, {})", digits(x.x), digits(x.y), digits(x.z));
+    format!("  from {} to {}", corner(low), corner(high))
+}
+
+/// A coordinate by nine digits without zeros at its end.
+fn digits(value: f64) -> f64 {
+    format!("{value:.8e}").parse().unwrap_or(value)
+}
+
+/// A line for each kind of elements.
+fn kinds(mesh: &Mesh) -> Vec<String> {
+    let mut counts: BTreeMap<CellKind, usize> = BTreeMap::new();
+    for block in &mesh.blocks {
+        *counts.entry(block.kind).or_default() += block.len();
+    }
+    let words = |(kind, count): (CellKind, usize)| {
+        let shape = kind.shape();
+        let name = if count == 1 { shape.name } else { shape.plural };
+        format!("  {count} {name}")
+    };
+    counts.into_iter().map(words).collect()
+}
+
+fn shape(reading: &Reading, quality: &Quality) -> String {
+    let poorest = quality.poorest.iter();
+    let poorest = poorest.map(|(element, scaled)| {
+        let number = reading.numbers.element(*element);
+        format!("{number} ({scaled:.4})")
+    });
+    let mut line = format!(
+        "  smallest scaled Jacobians, 1 at best, of elements {}",
+        poorest.collect::<Vec<_>>().join(", ")
+    );
+    if !quality.slivers.is_empty() {
+        let count = quality.slivers.len();
+        let _ = write!(line, "; {count} below {SMALL_SCALED_JACOBIAN}");
+    }
+    line
+}
+
+fn element_sets(mesh: &Mesh) -> Vec<String> {
+    let rows = mesh.element_sets.iter().map(|(name, members)| {
+        let volumes = members.iter().map(|element| mesh.element_volume(*element));
+        (name, members.len(), Some(volumes.sum()))
+    });
+    table(["element sets", "elements", "volume"], rows.collect())
+}
+
+fn facet_sets(mesh: &Mesh) -> Vec<String> {
+    let rows = mesh.facet_sets.iter();
+    let rows = rows.map(|(name, members)| (name, members.len(), Some(mesh.area(members))));
+    table(["facet sets", "facets", "area"], rows.collect())
+}
+
+fn node_sets(mesh: &Mesh) -> Vec<String> {
+    let rows = mesh.node_sets.iter();
+    let rows = rows.map(|(name, members)| (name, members.len(), None));
+    table(["node sets", "nodes", ""], rows.collect())
+}
+
+/// A material that the file states, and the element sets that are of it.
+fn material(material: &MaterialCard, reading: &Reading) -> String {
+    let sections = reading.sections.iter();
+    let of_it = sections.filter(|section| section.material.eq_ignore_ascii_case(&material.name));
+    let sets: Vec<String> = of_it.map(|section| format!("`{}`", section.set)).collect();
+    let sets = match sets.len() {
+        0 => String::new(),
+        _ => format!("; of {}", sets.join(", ")),
+    };
+    match &material.card {
+        Ok(card) => format!("  material `{}`: {card}{sets}", material.name),
+        Err(cause) => format!(
+            "  material `{}` cannot be used: {cause}{sets}",
+            material.name
+        ),
+    }
+}
+
+/// A table of sets by name, count and size; nothing where there are none.
+fn table(head: [&str; 3], rows: Vec<(&str, usize, Option<f64>)>) -> Vec<String> {
+    if rows.is_empty() {
+        return Vec::new();
+    }
+    let names = rows.iter().map(|(name, ..)| name.chars().count());
+    let width = names.max().unwrap_or(0).max(head[0].len());
+    let line = |name: &str, count: &str, size: &str| {
+        let line = format!("  {name:<width$}  {count:>10}  {size:>14}");
+        line.trim_end().to_owned()
+    };
+    let mut lines = vec![line(head[0], head[1], head[2])];
+    lines.extend(rows.into_iter().map(|(name, count, size)| {
+        let size = size.map_or_else(String::new, |size| format!("{size:.6e}"));
+        line(name, &count.to_string(), &size)
+    }));
+    lines
+}
