@@ -111,7 +111,8 @@ impl<'a> Whole<'a> {
     }
 
     pub fn assert_order_at(&self, u: DVector<f64>) {
-        let (_, matrix) = self.assembled(&u);
+        let (residual, matrix) = self.assembled(&u);
+        self.assert_rows_alone(&u, &residual, &matrix);
         for seed in 0..2 {
             let direction = Random::new(seed).unit(u.len());
             let mut claimed = DVector::zeros(u.len());
@@ -127,6 +128,14 @@ impl<'a> Whole<'a> {
                 panic!("{wrong}");
             }
         }
+    }
+
+    /// Without derivatives rows are the same to the last bit, and the matrix stays as it is.
+    fn assert_rows_alone(&self, u: &DVector<f64>, residual: &DVector<f64>, matrix: &SparseMatrix) {
+        let mut kept = matrix.clone();
+        let alone = self.filled(u, Derivatives::None, &mut kept);
+        assert_eq!(alone.residual, residual.as_slice());
+        assert_eq!(kept.values(), matrix.values());
     }
 
     /// The same with all but contact linearised at `u`.
@@ -198,21 +207,24 @@ impl<'a> Whole<'a> {
 
     fn evaluated(&self, u: &DVector<f64>) -> (Assembled, SparseMatrix) {
         let mut matrix = SparseMatrix::zero(self.partition.structure());
+        let assembled = self.filled(u, Derivatives::First, &mut matrix);
+        (assembled, matrix)
+    }
+
+    fn filled(
+        &self,
+        u: &DVector<f64>,
+        derivatives: Derivatives,
+        matrix: &mut SparseMatrix,
+    ) -> Assembled {
         let contact = Contact::Evaluated(Iteration::LATER);
         let trial = self.trial(u);
         let structure = self.partition.structure();
         let places = ElementPlaces::new(self.context.problem, &self.layout, structure);
-        let parts = (&self.partition, &places, &mut matrix);
-        let assembled = assemble(
-            &self.setting(),
-            &trial,
-            contact,
-            Derivatives::First,
-            &self.layout,
-            parts,
-        );
-        match assembled {
-            Ok(assembled) => (assembled, matrix),
+        let parts = (&self.partition, &places, matrix);
+        let (setting, layout) = (self.setting(), &self.layout);
+        match assemble(&setting, &trial, contact, derivatives, layout, parts) {
+            Ok(assembled) => assembled,
             Err(Fault::CutBack(reason)) => panic!("{reason}"),
             Err(Fault::Pattern(_)) => panic!("the pattern is full"),
         }
