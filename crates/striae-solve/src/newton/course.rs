@@ -12,6 +12,7 @@
 //! from `x_n`. What is prescribed, and what is tied to a rigid
 //! body, is put where it belongs by the first correction and by the poses.
 
+use serde::{Deserialize, Serialize};
 use striae_mesh::Vec3;
 
 use crate::{
@@ -23,7 +24,7 @@ use crate::{
 
 /// What an increment started from: a continued step starts the next one where both lead to,
 /// `x_n + dt/dt_0 (x_n - x_(n-1))`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Course {
     /// Number of the step.
     pub step: usize,
