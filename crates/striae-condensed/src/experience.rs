@@ -1,7 +1,8 @@
 //! What earlier matrices have left in a solver.
 
+use serde::{Deserialize, Serialize};
 /// What bears on the last digits of answers to come.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Experience {
     /// Whether single precision has been found too coarse.
     pub too_coarse: bool,
@@ -12,7 +13,7 @@ pub struct Experience {
 }
 
 /// The interior of all bodies that was factored.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FactoredInterior {
     /// Values of the scaled matrix, body by body.
     pub values: Vec<Vec<f64>>,

@@ -240,13 +240,14 @@ impl Columns {
     fn term(&self, rows: &[Row], corners: &[usize]) -> LocalTerm {
         let mut order: Vec<usize> = (0..self.triples.len()).collect();
         order.sort_unstable_by_key(|&at| self.triples[at]);
-        let mut tangent = Vec::with_capacity(9 * corners.len() * order.len());
-        for &corner in corners {
-            for row in 0..3 {
-                for &at in &order {
-                    let block = &self.blocks[at];
-                    tangent.extend([0, 1, 2].map(|axis| block[3 * axis + row][corner]));
-                }
+        let width = 3 * order.len();
+        let mut tangent = vec![0.0; 3 * corners.len() * width];
+        for (line, entries) in tangent.chunks_exact_mut(width.max(1)).enumerate() {
+            let (corner, row) = (corners[line / 3], line % 3);
+            let (triples, _) = entries.as_chunks_mut::<3>();
+            for (triple, &at) in triples.iter_mut().zip(&order) {
+                let block = &self.blocks[at];
+                *triple = [0, 1, 2].map(|axis| block[3 * axis + row][corner]);
             }
         }
         let mut columns = Vec::with_capacity(3 * order.len());

@@ -1,10 +1,11 @@
 //! Sums over the quadrature points of a facet.
 
+use serde::{Deserialize, Serialize};
 use striae_mesh::Vec3;
 use striae_surface::facet::Weights;
 
 /// Forces of the contact tractions on the corners of a facet.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FacetForces {
     /// Force on each corner.
     pub force: [Vec3; 4],

@@ -1,5 +1,6 @@
 //! A contact pair: what does not change during a run.
 
+use serde::Serialize;
 use striae_law::friction::Friction;
 use striae_mesh::Vec3;
 use striae_surface::{
@@ -61,7 +62,7 @@ pub enum Geometry {
 }
 
 /// How contact is enforced.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub enum Enforcement {
     /// One traction field for both sides and rows weighted with it.
     #[default]

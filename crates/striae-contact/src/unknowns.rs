@@ -1,11 +1,12 @@
 //! Values of the traction unknowns of a pair.
 
+use serde::{Deserialize, Serialize};
 use striae_mesh::Vec3;
 
 use crate::pointed::RigidPoints;
 
 /// Traction unknowns of a pair; the same shape whatever the roles.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tractions {
     /// Pressure `p` and the components of `z` along the nodal tangents, by side. Only those
     /// of kept nodes are unknowns.
@@ -48,7 +49,7 @@ impl Tractions {
 }
 
 /// What the iterations of an increment made of a node.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Label {
     /// Status in the last iteration.
     pub status: Status,
@@ -106,7 +107,7 @@ impl Label {
 }
 
 /// Contact status of a node.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Status {
     /// Not in contact.
     #[default]
@@ -118,7 +119,7 @@ pub enum Status {
 }
 
 /// What is known of a contact node in one configuration.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct NodeResult {
     /// Gap to the other side, as the contact rows see it.
     pub gap: f64,

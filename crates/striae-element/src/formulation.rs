@@ -1,9 +1,10 @@
 //! How elements take up strain.
 
+use serde::Serialize;
 use striae_law::bulk::Material;
 
 /// How the elements of a body take up strain.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Formulation {
     /// By displacements alone, all of the deformation gradient at every point. Locks
     /// where volumes can hardly change.

@@ -17,6 +17,7 @@ mod wedge;
 
 use crate::{NodeId, Vec3};
 pub use composite::COMPOSITE_PARTS;
+use serde::Serialize;
 use std::{fmt, ops::Range};
 
 /// Most corners of a cell of any kind.
@@ -24,7 +25,7 @@ pub const MAX_CORNERS: usize = 10;
 
 /// A kind of cell with linear interpolation. What the nodes of a cell are, in all of them, is
 /// its corners.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 pub enum CellKind {
     /// Four corners, four triangular faces.
     Tetrahedron,
@@ -127,7 +128,7 @@ impl fmt::Display for CellKind {
 }
 
 /// Cells of one kind, consecutive in the numbering of a mesh.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CellBlock {
     /// Kind of all cells.
     pub kind: CellKind,

@@ -1,11 +1,14 @@
 //! Typed identifiers, so that a node cannot be mistaken for an element.
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 macro_rules! id {
     ($name:ident, $doc:literal, $word:literal) => {
         #[doc = $doc]
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[derive(
+            Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
+        )]
         pub struct $name(pub u32);
 
         impl $name {
@@ -37,7 +40,7 @@ id!(FacetId, "A facet of one surface.", "facet");
 /// Local face numbers and the corners of each face, ordered so that the normal
 /// by the right-hand rule points out of the element, are in
 /// [`CellShape::faces`](crate::CellShape::faces).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 pub struct Face {
     /// The element that owns the face.
     pub element: ElementId,

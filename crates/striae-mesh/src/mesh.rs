@@ -1,11 +1,12 @@
 //! The mesh of one body and the checks it has to pass.
 
 use crate::{CellBlock, CellKind, ElementId, Face, MeshError, NodeId, Sets, Vec3};
+use serde::Serialize;
 
 /// Cells over nodes in the reference configuration.
 ///
 /// The cells of the blocks, counted through in their order, are the elements.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Mesh {
     /// Reference position `X` of every node.
     pub positions: Vec<Vec3>,

@@ -1,9 +1,10 @@
 //! Named sets of nodes, faces or elements.
 
+use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// Named sets, each sorted and without repeats.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Sets<T>(BTreeMap<String, Vec<T>>);
 
 impl<T> Default for Sets<T> {

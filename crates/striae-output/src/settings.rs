@@ -1,11 +1,12 @@
 //! What a run writes, and how often.
 
+use serde::Serialize;
 use std::num::NonZeroUsize;
 
 use striae_mesh::Vec3;
 
 /// What a run writes.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Output {
     /// When fields are written.
     pub fields: FieldOutput,
@@ -43,7 +44,7 @@ impl Default for Output {
 }
 
 /// When fields are written.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum FieldOutput {
     /// After every so many increments, and after the last.
     Every(NonZeroUsize),
@@ -54,7 +55,7 @@ pub enum FieldOutput {
 }
 
 /// A field of a body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum BodyField {
     /// Displacement.
     Displacement,
@@ -100,7 +101,7 @@ impl BodyField {
 }
 
 /// A field of contact surfaces.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum ContactField {
     /// Distance to the other side.
     Gap,
@@ -143,7 +144,7 @@ impl ContactField {
 }
 
 /// A place of a body that is watched.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Probe {
     /// Name of its columns.
     pub name: String,
@@ -154,7 +155,7 @@ pub struct Probe {
 }
 
 /// Where a probe is.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum ProbePlace {
     /// A material point, by its place in the reference configuration.
     Point(Vec3),
@@ -163,7 +164,7 @@ pub enum ProbePlace {
 }
 
 /// A plane cut through a body, whose force and moment are watched.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Section {
     /// Name of its columns.
     pub name: String,

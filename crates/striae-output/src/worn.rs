@@ -10,6 +10,7 @@
 //!
 //! with pressure and traction at the end of the increment. Open nodes do not slip.
 
+use serde::{Deserialize, Serialize};
 use striae_contact::unknowns::Status;
 use striae_solve::state::State;
 
@@ -17,7 +18,7 @@ use striae_solve::state::State;
 pub type Sums = [f64; 3];
 
 /// Sums at the surface nodes of all pairs, by side.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Worn {
     /// By pair, side and node.
     pub pairs: Vec<[Vec<Sums>; 2]>,

@@ -1,5 +1,6 @@
 //! Steps and increments.
 
+use serde::{Deserialize, Serialize};
 use striae_contact::{
     interference::facing,
     unknowns::{NodeResult, Status},
@@ -59,7 +60,7 @@ const GROWTH: f64 = 1.5;
 const CUT: f64 = 0.5;
 
 /// A place in a run from which it can go on as if it had not stopped.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Point {
     /// Number of the step.
     pub step: usize,

@@ -6,13 +6,14 @@
 //! factorisation meets gap rows and their multipliers together. The six coordinates of a
 //! rigid body that nodes are tied to or that contact may move are another one, kept for last.
 
+use serde::{Deserialize, Serialize};
 use striae_contact::{selection::Selection, unknown::Unknown};
 use striae_sparse::{Supervariable, Tier};
 
 use crate::problem::Problem;
 
 /// Which surface nodes have traction unknowns.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Extent {
     /// By pair and side.
     pub nodes: Vec<[Vec<bool>; 2]>,

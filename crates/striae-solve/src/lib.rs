@@ -2,6 +2,7 @@
 
 pub mod assembly;
 mod begin;
+pub mod body_mass;
 pub mod composition;
 mod constitution;
 mod contact_mass;
@@ -13,7 +14,7 @@ pub mod initial;
 pub mod interference;
 pub mod layout;
 pub mod load;
-pub mod mass;
+mod mass;
 pub mod model;
 pub mod newton;
 pub mod norms;

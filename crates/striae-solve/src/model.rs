@@ -5,13 +5,14 @@
 //! Longer than other files, as it is the one list of all that a model can say.
 
 use nalgebra::Matrix3;
+use serde::Serialize;
 pub use striae_contact::pair::Enforcement;
 use striae_law::{bulk::Material, friction::Friction};
 use striae_mesh::{ElementId, Face, Mesh, NodeId, Vec3};
 use striae_surface::texture::Paint;
 
 /// A whole problem.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Model {
     /// One line that says what the problem is.
     pub title: String,
@@ -30,7 +31,7 @@ pub struct Model {
 pub use striae_element::Formulation;
 
 /// A deformable body.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Body {
     /// Unique name.
     pub name: String,
@@ -49,7 +50,7 @@ pub struct Body {
 }
 
 /// Elements of a body that are of a material of their own.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BodySection {
     /// Name of the element set.
     pub set: String,
@@ -64,7 +65,7 @@ pub struct BodySection {
 }
 
 /// Mass of the nodes of contact surfaces.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum ContactMass {
     /// What the consistent mass matrix gives them.
     Consistent,
@@ -73,19 +74,19 @@ pub enum ContactMass {
 }
 
 /// Position of a body in [`Model::bodies`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 pub struct BodyId(pub usize);
 
 /// Position of a rigid surface in [`Model::rigid_surfaces`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 pub struct RigidId(pub usize);
 
 /// Position of a pair in [`Model::pairs`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 pub struct PairId(pub usize);
 
 /// A rigid body: a surface that deformable bodies may touch, or what nodes are tied to.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct RigidSurface {
     /// Unique name.
     pub name: String,
@@ -100,7 +101,7 @@ pub struct RigidSurface {
 }
 
 /// Mass and principal moments of inertia at rest.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RigidInertia {
     /// Mass.
     pub mass: f64,
@@ -139,7 +140,7 @@ impl RigidSurface {
 }
 
 /// Shape of a rigid surface.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub enum RigidShape {
     /// An unbounded plane.
     Plane {
@@ -160,7 +161,7 @@ pub enum RigidShape {
 }
 
 /// One side of a contact pair.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub enum Side {
     /// Faces of a deformable body.
     Deformable {
@@ -174,7 +175,7 @@ pub enum Side {
 }
 
 /// Two surfaces that may touch; side `a` is always deformable.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Pair {
     /// Unique name.
     pub name: String,
@@ -199,7 +200,7 @@ pub struct Pair {
 
 /// What is made of the gaps and overlaps that the meshes of a pair have before anything
 /// has moved, see [`crate::initial`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub enum Initial {
     /// Gaps are real, overlaps a fault.
     #[default]
@@ -211,7 +212,7 @@ pub enum Initial {
 }
 
 /// Gaps that are closed.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum ClosedGaps {
     /// Up to this share of the local facet size.
     Share(f64),
@@ -230,7 +231,7 @@ impl Default for ClosedGaps {
 /// A condition holds from the step that states it until a later step states
 /// the same set and component again or releases it. A stated condition takes
 /// its quantity from the present value to the target along the curve.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Step {
     /// Name for messages and output.
     pub name: String,
@@ -257,7 +258,7 @@ pub struct Step {
 }
 
 /// Whether a step has inertia.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum Procedure {
     /// A sequence of equilibria.
     QuasiStatic,
@@ -269,7 +270,7 @@ pub enum Procedure {
 }
 
 /// Velocity of a body, `v + w x (x - x0)`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Velocity {
     /// The body.
     pub body: Mover,
@@ -282,7 +283,7 @@ pub struct Velocity {
 }
 
 /// A body of either kind.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Mover {
     /// A deformable body.
     Deformable(BodyId),
@@ -291,7 +292,7 @@ pub enum Mover {
 }
 
 /// Acceleration of gravity that a step goes to.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Gravity {
     /// Target.
     pub acceleration: Vec3,
@@ -300,7 +301,7 @@ pub struct Gravity {
 }
 
 /// How a step is divided into increments, as fractions of its duration.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Increments {
     /// First increment.
     pub initial: f64,
@@ -311,7 +312,7 @@ pub struct Increments {
 }
 
 /// Prescribed displacement of nodes.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Displacement {
     /// Name of the node set, for reports.
     pub set: String,
@@ -326,7 +327,7 @@ pub struct Displacement {
 }
 
 /// End of prescribed displacements.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Release {
     /// The body.
     pub body: BodyId,
@@ -337,7 +338,7 @@ pub struct Release {
 }
 
 /// A load on faces of a body.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Load {
     /// Name of the facet set; the same name and kind in a later step replaces the load.
     pub set: String,
@@ -354,7 +355,7 @@ pub struct Load {
 }
 
 /// Kinds of loads with their targets.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum LoadKind {
     /// Force per reference area of fixed direction.
     DeadTraction(Vec3),
@@ -365,7 +366,7 @@ pub enum LoadKind {
 }
 
 /// Part of the faces that carries a load.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum LoadExtent {
     /// All of it.
     Whole,
@@ -374,7 +375,7 @@ pub enum LoadExtent {
 }
 
 /// What a rigid body does in a step.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct RigidMotion {
     /// The body.
     pub surface: RigidId,
@@ -389,7 +390,7 @@ pub struct RigidMotion {
 }
 
 /// What a coordinate of a rigid body does.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum Freedom {
     /// It stays free or where it is.
     AsBefore,
@@ -403,7 +404,7 @@ pub enum Freedom {
 ///
 /// A quantity that goes from `v0` to the target `v1` has the value
 /// `v0 + c(s) (v1 - v0)` at the fraction `s` of the step.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Curve {
     /// `c(s) = s`.
     Ramp,
@@ -416,7 +417,7 @@ pub enum Curve {
 }
 
 /// Settings of Newton's method and the linear solver.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Solver {
     /// Factorisation.
     pub backend: Backend,
@@ -431,7 +432,7 @@ pub struct Solver {
 }
 
 /// How stick and slip are found.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum Strategy {
     /// As part of the linearisation.
     Semismooth,
@@ -443,7 +444,7 @@ pub enum Strategy {
 }
 
 /// Factorisation of the linear systems.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Backend {
     /// Cholesky factorisation of the bodies with dense contact; multifrontal LU
     /// where that does not work or pay, the iterative solver for large bodies.

@@ -1,7 +1,6 @@
 //! A validated model, ready to be solved: everything that is the same in all increments.
 
 use std::collections::HashMap;
-
 use striae_contact::{
     interference::Fibre,
     pair::{ContactPair, Geometry, Side as ContactSide},
@@ -16,9 +15,9 @@ use striae_surface::{
 };
 
 use crate::{
+    body_mass::{BodyMass, masses},
     composition::Composition,
     contact_mass, interference,
-    mass::{BodyMass, masses},
     model::{Model, Pair, RigidShape, Side},
     plan::{StepPlan, plans},
 };
@@ -162,10 +161,9 @@ impl Problem {
         let mut pairs: Vec<PairGeometry> = pairs.collect::<Result<_, _>>()?;
         interference::add_fibres(&model, &mut pairs);
         let massless = contact_mass::massless(&model, &first_node, reference.len());
-        let of_nodes = (first_node.as_slice(), massless.as_slice());
         Ok(Self {
             contact_facets: contact_facets(&pairs),
-            masses: masses(&model, &elements, &compositions, of_nodes),
+            masses: masses(&model, &elements, &compositions, (&first_node, &massless)),
             massless,
             pairs,
             plans: plans(&model),

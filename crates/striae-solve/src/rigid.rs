@@ -15,6 +15,7 @@
 //! each axis at `sqrt(3) s_i` with `m s_1^2 = (J_2 + J_3 - J_1)/2`.
 
 use nalgebra::{Matrix3, Rotation3};
+use serde::{Deserialize, Serialize};
 use striae_contact::placement::Placement;
 use striae_mesh::Vec3;
 
@@ -24,7 +25,7 @@ use crate::{
 };
 
 /// Where a rigid body is.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pose {
     /// Displacement of the reference point.
     pub displacement: Vec3,
@@ -35,7 +36,7 @@ pub struct Pose {
 }
 
 /// Force and torque about the reference point on a rigid body.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Wrench {
     /// Force.
     pub force: Vec3,

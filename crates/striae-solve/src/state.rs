@@ -1,5 +1,6 @@
 //! The state of a simulation at the end of an increment.
 
+use serde::{Deserialize, Serialize};
 use striae_contact::{
     field::FacetForces,
     pointed::RigidPoints,
@@ -15,7 +16,7 @@ use crate::{
 };
 
 /// A converged state. It is never changed: an increment makes a new one.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct State {
     /// (Pseudo) time.
     pub time: f64,
@@ -39,7 +40,7 @@ pub struct State {
 }
 
 /// State of a contact pair.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct PairState {
     /// Traction unknowns.
     pub tractions: Tractions,
@@ -62,7 +63,7 @@ pub struct PairState {
 }
 
 /// Forces on all global nodes.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NodalForces {
     /// Internal forces.
     pub internal: Vec<Vec3>,
@@ -87,7 +88,7 @@ pub struct NodalForces {
 }
 
 /// Energies since the start of the simulation.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Energies {
     /// Kinetic energy.
     pub kinetic: f64,

@@ -20,6 +20,7 @@
 //!
 //! Longer than other files, as it is the one list of all that is judged.
 
+use serde::{Deserialize, Serialize};
 use striae_contact::{
     initial::Fit,
     interference::{Interference, Kind as Interfering, SHARE},
@@ -57,7 +58,7 @@ pub struct Warning {
 }
 
 /// Kinds of warnings.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Kind {
     /// Resultants of the two sides differ.
     Mismatch,
@@ -135,7 +136,7 @@ impl Kind {
 }
 
 /// What has been judged of a run so far.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Judgement {
     /// The worst of every kind and pair.
     pub worst: Vec<Worst>,
@@ -150,7 +151,7 @@ pub struct Judgement {
 }
 
 /// The worst of a kind.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Worst {
     /// The kind.
     pub kind: Kind,

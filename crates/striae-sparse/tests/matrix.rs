@@ -185,25 +185,27 @@ fn cliques_outside_the_pattern_have_no_place() {
 proptest! {
     #[test]
     fn blocks_added_at_once_are_those_added_one_by_one(
-        values in prop::collection::vec(-1.0..1.0_f64, 40 * 12),
-        rows in prop::collection::vec(prop::array::uniform3(0_usize..9), 40),
-        columns in prop::collection::vec(prop::array::uniform4(0_usize..9), 40),
+        values in prop::collection::vec(-1.0..1.0_f64, 40 * 36),
+        rows in prop::collection::vec(prop::array::uniform3(0_usize..10), 40),
+        triples in prop::collection::vec(prop::array::uniform4(0_usize..4), 40),
     ) {
-        let structure = Structure::from_cliques(vec![0, 3, 5, 9], &[s(&[0, 1, 2])]);
+        let structure = Structure::from_cliques(vec![0, 3, 6, 10], &[s(&[0, 1, 2])]);
         let mut expected = SparseMatrix::zero(&structure.unwrap());
         let mut found = expected.clone();
         let mut blocks = Vec::new();
-        for ((values, rows), columns) in values.chunks(12).zip(&rows).zip(&columns) {
+        for ((values, rows), triples) in values.chunks(36).zip(&rows).zip(&triples) {
+            let triples = triples.map(|at| [0, 3, 6, 7][at]);
+            let columns: Vec<usize> = triples.iter().flat_map(|at| *at..at + 3).collect();
             // The first row is left out.
-            expected.add(&rows[1..], columns, &values[4..]).unwrap();
+            expected.add(&rows[1..], &columns, &values[12..]).unwrap();
             blocks.push(PlacedBlock {
                 rows: vec![(rows[1], 1), (rows[2], 2)],
-                columns: columns.to_vec(),
+                triples: triples.to_vec(),
                 values,
             });
         }
         found.add_all(&blocks).unwrap();
-        for row in 0..9 {
+        for row in 0..10 {
             prop_assert!(expected.row(row).eq(found.row(row)));
         }
     }
@@ -213,11 +215,13 @@ proptest! {
 fn blocks_outside_the_pattern_are_named() {
     let block = |row: usize, column: usize| PlacedBlock {
         rows: vec![(1, 0), (row, 0)],
-        columns: vec![3, column],
-        values: &[1.0; 2],
+        triples: vec![3, column],
+        values: &[1.0; 6],
     };
-    let mut matrix = SparseMatrix::zero(&structure());
-    let blocks = [block(3, 0), block(0, 4), block(2, 1), block(4, 1)];
+    let cliques = [s(&[0, 1]), s(&[1, 2])];
+    let structure = Structure::from_cliques(vec![0, 3, 6, 9], &cliques).unwrap();
+    let mut matrix = SparseMatrix::zero(&structure);
+    let blocks = [block(3, 0), block(0, 6), block(2, 0), block(7, 0)];
     assert_eq!(matrix.add_all(&blocks), Err(vec![1, 3]));
     assert_eq!(matrix.add_all(&[]), Ok(()));
 }

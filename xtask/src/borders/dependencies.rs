@@ -22,27 +22,27 @@ const LADDER: &[Row] = &[
     Row {
         name: "striae-mesh",
         own: &[],
-        outside: &["nalgebra", "thiserror"],
+        outside: &["nalgebra", "serde", "thiserror"],
     },
     Row {
         name: "striae-law",
         own: &["striae-verify"],
-        outside: &["nalgebra", "num-dual", "thiserror"],
+        outside: &["nalgebra", "num-dual", "serde", "thiserror"],
     },
     Row {
         name: "striae-element",
         own: &["striae-law", "striae-mesh"],
-        outside: &["nalgebra", "pulp", "thiserror"],
+        outside: &["nalgebra", "pulp", "serde", "thiserror"],
     },
     Row {
         name: "striae-surface",
         own: &["striae-mesh"],
-        outside: &["nalgebra", "num-dual", "thiserror"],
+        outside: &["nalgebra", "num-dual", "serde", "thiserror"],
     },
     Row {
         name: "striae-contact",
         own: &["striae-law", "striae-mesh", "striae-surface"],
-        outside: &["nalgebra", "num-dual", "rayon", "thiserror"],
+        outside: &["nalgebra", "num-dual", "rayon", "serde", "thiserror"],
     },
     Row {
         name: "striae-sparse",
@@ -52,7 +52,7 @@ const LADDER: &[Row] = &[
     Row {
         name: "striae-condensed",
         own: &["striae-sparse"],
-        outside: &["faer", "pulp", "rayon", "thiserror"],
+        outside: &["faer", "pulp", "rayon", "serde", "thiserror"],
     },
     Row {
         name: "striae-solve",
@@ -65,7 +65,7 @@ const LADDER: &[Row] = &[
             "striae-sparse",
             "striae-surface",
         ],
-        outside: &["nalgebra", "num-dual", "rayon", "thiserror"],
+        outside: &["nalgebra", "num-dual", "rayon", "serde", "thiserror"],
     },
     Row {
         name: "striae-model",
@@ -113,6 +113,7 @@ const LADDER: &[Row] = &[
             "crc32fast",
             "flate2",
             "nalgebra",
+            "postcard",
             "serde",
             "serde_json",
             "thiserror",

@@ -3,12 +3,13 @@
 //! A point of a rigid surface is a vertex or a point on an edge. It is told by the ends of
 //! that edge and the share of the way between them, so it goes along with the surface.
 
+use serde::{Deserialize, Serialize};
 use striae_mesh::{FacetId, Vec3};
 
 use crate::{configuration::Configuration, pairing::farthest, term::Source};
 
 /// A point of a rigid surface of facets, `x = (1 - s) x_0 + s x_1`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RigidPoint {
     /// Surface-local ends of the edge that it lies on; both the same at a vertex.
     pub ends: [u32; 2],

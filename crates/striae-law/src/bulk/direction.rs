@@ -13,9 +13,10 @@
 //! there is no `e`, any direction across it is taken.
 
 use nalgebra::Vector3;
+use serde::Serialize;
 
 /// Where a family of fibres points at rest.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum Direction {
     /// One direction everywhere, of any length.
     Uniform(Vector3<f64>),
@@ -31,7 +32,7 @@ pub enum Direction {
 }
 
 /// Directions about an axis; angles in radians.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum LinesAbout {
     /// Along it, turned about the radius.
     Axial {

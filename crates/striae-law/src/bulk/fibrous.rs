@@ -36,9 +36,10 @@
 use super::invariants::inverse;
 use super::{Direction, LameConstants, Material, Past, Present, Response, ResponseError, Tangent};
 use nalgebra::{Matrix3, Vector3};
+use serde::Serialize;
 
 /// How a family of fibres takes up stretch.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum FibreStiffness {
     /// Stiffer the more they are stretched, slack in compression.
     Exponential {
@@ -57,7 +58,7 @@ pub enum FibreStiffness {
 }
 
 /// A family of fibres.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Fibres {
     /// How they take up stretch.
     pub stiffness: FibreStiffness,
@@ -66,7 +67,7 @@ pub struct Fibres {
 }
 
 /// A solid with families of fibres.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Fibrous {
     ground: Box<Material>,
     families: Box<[Fibres]>,

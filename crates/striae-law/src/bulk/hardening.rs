@@ -11,12 +11,14 @@
 //!
 //! Source: Voce, J. Inst. Met. 74 (1948) 537-562.
 
+use serde::Serialize;
+
 /// Yield stress over the equivalent plastic strain.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Hardening(HardeningForm);
 
 /// How the yield stress is stated.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum HardeningForm {
     /// `Y = Y0 + (Ys - Y0) (1 - exp(-d p)) + H p`.
     Smooth {

@@ -28,9 +28,10 @@ use super::ogden;
 use super::{LameConstants, OgdenTerm, Response, ResponseError, Volumetric};
 use nalgebra::{Matrix3, Vector3};
 use num_dual::{DualNum, hessian};
+use serde::Serialize;
 
 /// Isochoric part of the stored energy. Moduli are stresses.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Isochoric {
     /// `G/2 (I1 - 3)`.
     NeoHookean {
@@ -72,7 +73,7 @@ pub enum Isochoric {
 }
 
 /// A nearly incompressible elastic solid.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Hyperelastic {
     isochoric: Isochoric,
     bulk: f64,

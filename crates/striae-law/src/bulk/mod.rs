@@ -47,6 +47,7 @@ pub use moduli::{InadmissibleModuli, LameConstants};
 pub use ogden::OgdenTerm;
 pub use own::{BulkLaw, Own};
 pub use plastic::Plastic;
+use serde::Serialize;
 pub use viscoelastic::{Branch, InadmissibleBranch, Viscoelastic};
 pub use volumetric::Volumetric;
 
@@ -56,7 +57,7 @@ use nalgebra::{Matrix3, SMatrix, Vector3};
 pub type Tangent = SMatrix<f64, 9, 9>;
 
 /// A bulk material.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Material {
     /// Compressible neo-Hookean solid.
     NeoHookean {

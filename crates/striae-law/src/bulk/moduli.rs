@@ -7,8 +7,10 @@
 //!
 //! The elasticity tensor is positive definite iff `E > 0` and `-1 < nu < 1/2`.
 
+use serde::Serialize;
+
 /// The pair of Lame constants.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct LameConstants {
     /// First Lame constant `lambda`.
     pub lambda: f64,

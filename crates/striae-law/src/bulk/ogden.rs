@@ -28,9 +28,10 @@
 use super::invariants::inverse;
 use super::{Response, ResponseError, Tangent, Volumetric};
 use nalgebra::{Matrix3, SVector, SymmetricEigen};
+use serde::Serialize;
 
 /// A term of Ogden's law.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct OgdenTerm {
     /// `mu`, a stress.
     pub mu: f64,

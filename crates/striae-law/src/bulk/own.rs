@@ -1,5 +1,6 @@
 //! Bulk laws from outside the crate.
 
+use serde::{Serialize, Serializer};
 use std::fmt;
 use std::sync::Arc;
 
@@ -67,6 +68,13 @@ impl Own {
     /// The law.
     pub fn law(&self) -> &dyn BulkLaw {
         &*self.0
+    }
+}
+
+/// Written as what it says of itself.
+impl Serialize for Own {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(&format_args!("{:?}", self.0))
     }
 }
 

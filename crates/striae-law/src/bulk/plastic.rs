@@ -27,9 +27,10 @@
 use super::spectrum::{FLOW, Spectrum};
 use super::{Field, Hardening, LameConstants, Past, Present, Response, ResponseError, Tangent};
 use nalgebra::{Matrix3, Vector3};
+use serde::Serialize;
 
 /// An elastic solid that yields.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Plastic {
     constants: LameConstants,
     hardening: Hardening,

@@ -32,9 +32,10 @@
 use super::spectrum::{FLOW, Spectrum};
 use super::{Hyperelastic, LameConstants, Past, Present, Response, ResponseError};
 use nalgebra::{Matrix3, Vector3};
+use serde::Serialize;
 
 /// A spring and a dashpot in series.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Branch {
     /// Modulus over that of the law of slow deformations.
     pub ratio: f64,
@@ -43,7 +44,7 @@ pub struct Branch {
 }
 
 /// Rubber with branches that relax.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Viscoelastic {
     slow: Hyperelastic,
     branches: Box<[Branch]>,

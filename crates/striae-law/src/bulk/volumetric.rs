@@ -10,9 +10,10 @@
 //! stress `U'` falls again beyond `J = e`.
 
 use num_dual::DualNum;
+use serde::Serialize;
 
 /// Form of the volumetric energy.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub enum Volumetric {
     /// `k/2 (J - 1)^2`.
     #[default]

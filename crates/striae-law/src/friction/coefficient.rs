@@ -10,18 +10,19 @@
 //! friction phenomena", Comput. Methods Appl. Mech. Engrg. 52, 527-634.
 
 use num_dual::DualNum;
+use serde::Serialize;
 
 use super::error::{FrictionError, not_negative, positive};
 
 /// Coefficient of friction `mu(v)`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Coefficient {
     at_rest: f64,
     decay: Option<Decay>,
 }
 
 /// How the coefficient falls from its static to its kinetic value.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 struct Decay {
     kinetic_over_static: f64,
     rate: f64,

@@ -44,6 +44,7 @@ pub use oblique::Oblique;
 pub use orthotropic::Orthotropic;
 pub use own::{FrictionLaw, Lane, Own};
 pub use published::Published;
+use serde::Serialize;
 pub use slip_sample::{Extremes, SlipRule, SlipSample};
 pub use slip_surface::SlipSurface;
 pub use star::Star;
@@ -55,7 +56,7 @@ use nalgebra::Vector3;
 use num_dual::DualNum;
 
 /// Friction between two surfaces.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Friction {
     law: Law,
     coefficient: Coefficient,
@@ -63,7 +64,7 @@ pub struct Friction {
 }
 
 /// Shape of the slip surface, and slip rule.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Law {
     /// No friction.
     Frictionless,

@@ -26,6 +26,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 use num_dual::DualNum;
+use serde::Serialize;
 
 use super::ellipse::Ellipse;
 use super::error::{FrictionError, positive};
@@ -33,7 +34,7 @@ use super::kernel::Kernel;
 use super::slip_sample::SlipRule;
 
 /// Coefficients of the law over the largest one.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Nap {
     forward: f64,
     backward: f64,

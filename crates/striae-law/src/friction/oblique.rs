@@ -10,6 +10,7 @@
 //! steps of half a degree.
 
 use nalgebra::{Matrix2, Vector2};
+use serde::Serialize;
 
 use super::slip_sample::{Extremes, SlipSample, sampled};
 
@@ -17,7 +18,7 @@ use super::slip_sample::{Extremes, SlipSample, sampled};
 const SAMPLES: usize = 720;
 
 /// `L`, `eta` and `K` in the frame `(e, e_perp)`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Oblique {
     l: Matrix2<f64>,
     eta: Vector2<f64>,

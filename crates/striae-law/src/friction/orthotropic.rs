@@ -22,6 +22,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 use num_dual::DualNum;
+use serde::Serialize;
 
 use super::ellipse::Ellipse;
 use super::error::{FrictionError, positive};
@@ -29,7 +30,7 @@ use super::kernel::Kernel;
 use super::slip_sample::SlipRule;
 
 /// Coefficients of the law over the larger one, and slip rule.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Orthotropic {
     along: f64,
     across: f64,

@@ -1,5 +1,6 @@
 //! Friction laws from outside the crate.
 
+use serde::{Serialize, Serializer};
 use std::fmt;
 use std::sync::Arc;
 
@@ -66,6 +67,13 @@ pub trait FrictionLaw: fmt::Debug + Send + Sync {
 /// A shared law of one's own; equal to itself only.
 #[derive(Clone, Debug)]
 pub struct Own(Arc<dyn FrictionLaw>);
+
+/// Written as what it says of itself.
+impl Serialize for Own {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(&format_args!("{:?}", self.0))
+    }
+}
 
 impl PartialEq for Own {
     fn eq(&self, other: &Self) -> bool {

@@ -21,19 +21,20 @@
 //! Butland (1984), "A method for constructing local monotone piecewise cubic
 //! interpolants", SIAM J. Sci. Stat. Comput. 5, 300-304, doi:10.1137/0905021.
 
+use serde::Serialize;
 use std::f64::consts::TAU;
 
 use num_dual::DualNum;
 
 /// A monotone periodic interpolant.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct Periodic {
     /// One for each point, by angle; the last one ends where the first begins.
     pieces: Vec<Piece>,
 }
 
 /// A cubic that begins at a given point.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 struct Piece {
     start: f64,
     /// Of the powers of the angle from `start`.

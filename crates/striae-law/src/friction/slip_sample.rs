@@ -4,9 +4,10 @@
 //! that the law states.
 
 use nalgebra::Vector2;
+use serde::Serialize;
 
 /// Which slip direction belongs to a traction on the slip surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum SlipRule {
     /// Each component of friction opposes that component of slip: `K = I`.
     Opposing,

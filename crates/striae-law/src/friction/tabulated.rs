@@ -42,13 +42,14 @@
 
 use nalgebra::Vector3;
 use num_dual::DualNum;
+use serde::Serialize;
 
 use super::error::{FrictionError, finite};
 use super::periodic::Periodic;
 use super::star::Star;
 
 /// Coefficients over the largest one, as a function of the angle.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Tabulated {
     rho: Periodic,
 }

@@ -51,6 +51,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 use num_dual::DualNum;
+use serde::Serialize;
 
 use super::ellipse::Ellipse;
 use super::error::{FrictionError, finite};
@@ -58,7 +59,7 @@ use super::kernel::Kernel;
 use super::slip_sample::SlipRule;
 
 /// Constants of the law.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct TwoTextures {
     c_mag: f64,
     c_ang: f64,

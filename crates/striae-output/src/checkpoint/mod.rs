@@ -6,15 +6,16 @@
 //! DIR/end.bin          the same at the end of a completed run, without what is on disk
 //! ```
 //!
-//! Numbers are little-endian and have eight bytes. The file is written whole or not
-//! at all. The deck is known by a fingerprint of what it means, generated and read
+//! Format and checksum are little-endian numbers of eight bytes, the rest is in the format of
+//! [postcard](https://postcard.jamesmunns.com/wire-format). The file is written whole or not
+//! at all. The deck is known by a fingerprint of what it means in bytes, generated and read
 //! meshes included, so that a run never goes on with another one than it began with.
 
-mod code;
 mod error;
 
+use postcard::ser_flavors::Flavor;
+use serde::{Deserialize, Serialize, Serializer};
 use std::{
-    fmt::{self, Write},
     io::ErrorKind,
     path::{Path, PathBuf},
 };
@@ -26,7 +27,6 @@ use striae_solve::{
 };
 
 use crate::{Checksums, Output, OutputError, vtk::Snapshot, worn::Worn};
-use code::{Coded, coded};
 pub use error::CheckpointError;
 
 /// Name of the file in the folder of a run.
@@ -42,7 +42,7 @@ const MAGIC: &[u8] = b"striae checkpoint\n";
 pub const FORMAT: u64 = 11;
 
 /// A run under way.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Checkpoint {
     /// Which deck is run.
     pub source: Source,
@@ -53,11 +53,12 @@ pub struct Checkpoint {
 }
 
 /// The deck of a run.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Source {
     /// Name of the case.
     pub case: String,
     /// Path of the deck.
+    #[serde(serialize_with = "as_text")]
     pub path: PathBuf,
     /// What the deck means, see [`fingerprint`].
     pub fingerprint: u64,
@@ -68,7 +69,7 @@ pub struct Source {
 }
 
 /// What a recorder has written.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Written {
     /// Newton iterations of every increment.
     pub iterations: Vec<usize>,
@@ -97,9 +98,7 @@ pub struct Written {
 /// A number that differs, but for rare coincidences, where models or what is
 /// written of them differ: in the deck itself or in a file that it reads.
 pub fn fingerprint(model: &Model, output: &Output) -> u64 {
-    let mut hash = Hash(crc32fast::Hasher::new());
-    write!(hash, "{model:?} {output:?}").expect("a hash takes any text");
-    u64::from(hash.0.finalize())
+    of(&(model, output))
 }
 
 /// Fingerprints of the bodies, rigid surfaces and pairs of a model, by what they are called.
@@ -125,18 +124,29 @@ pub fn step_fingerprint(step: &Step) -> u64 {
     of(step)
 }
 
-fn of(part: &impl fmt::Debug) -> u64 {
-    let mut hash = Hash(crc32fast::Hasher::new());
-    write!(hash, "{part:?}").expect("a hash takes any text");
-    u64::from(hash.0.finalize())
+fn of(part: &impl Serialize) -> u64 {
+    let hash = Hash(crc32fast::Hasher::new());
+    let hash = postcard::serialize_with_flavor(part, hash);
+    u64::from(hash.expect("parts of a model are plain values"))
 }
 
+/// Takes bytes that are written for their checksum.
 struct Hash(crc32fast::Hasher);
 
-impl Write for Hash {
-    fn write_str(&mut self, text: &str) -> fmt::Result {
-        self.0.update(text.as_bytes());
+impl Flavor for Hash {
+    type Output = u32;
+
+    fn try_push(&mut self, byte: u8) -> postcard::Result<()> {
+        self.try_extend(&[byte])
+    }
+
+    fn try_extend(&mut self, bytes: &[u8]) -> postcard::Result<()> {
+        self.0.update(bytes);
         Ok(())
+    }
+
+    fn finalize(self) -> postcard::Result<u32> {
+        Ok(self.0.finalize())
     }
 }
 
@@ -158,13 +168,11 @@ impl Checkpoint {
     }
 
     fn write_as(&self, path: &Path) -> Result<(), OutputError> {
-        let mut content = Vec::new();
-        env!("CARGO_PKG_VERSION").to_owned().put(&mut content);
-        self.put(&mut content);
-        let mut bytes = MAGIC.to_vec();
-        FORMAT.put(&mut bytes);
-        u64::from(crc32fast::hash(&content)).put(&mut bytes);
-        bytes.append(&mut content);
+        let content = (env!("CARGO_PKG_VERSION"), self);
+        let content = postcard::to_allocvec(&content).expect("checkpoints are plain values");
+        let sum = u64::from(crc32fast::hash(&content));
+        let head = [MAGIC, &FORMAT.to_le_bytes(), &sum.to_le_bytes()];
+        let bytes = [&head.concat(), content.as_slice()].concat();
         write_atomically(path, &bytes)?;
         Ok(())
     }
@@ -265,46 +273,42 @@ impl Source {
 
 fn taken(path: &Path, bytes: &[u8]) -> Result<Checkpoint, CheckpointError> {
     let path = || path.to_owned();
-    let mut rest = bytes
+    let rest = bytes
         .strip_prefix(MAGIC)
         .ok_or_else(|| CheckpointError::Foreign { path: path() })?;
     let damaged = || CheckpointError::Damaged { path: path() };
-    let found = u64::take(&mut rest).ok_or_else(damaged)?;
+    let (found, rest) = number(rest).ok_or_else(damaged)?;
     if found != FORMAT {
         return Err(CheckpointError::Format {
             path: path(),
             found,
         });
     }
-    let sum = u64::take(&mut rest).ok_or_else(damaged)?;
-    if sum != u64::from(crc32fast::hash(rest)) {
+    let (sum, content) = number(rest).ok_or_else(damaged)?;
+    if sum != u64::from(crc32fast::hash(content)) {
         return Err(damaged());
     }
-    let found = String::take(&mut rest).ok_or_else(damaged)?;
+    let found = postcard::take_from_bytes::<String>(content);
+    let (found, content) = found.map_err(|_| damaged())?;
     if found != env!("CARGO_PKG_VERSION") {
         return Err(CheckpointError::Version {
             path: path(),
             found,
         });
     }
-    let checkpoint = Checkpoint::take(&mut rest).filter(|_| rest.is_empty());
-    checkpoint.ok_or_else(damaged)
-}
-
-impl Coded for PathBuf {
-    fn put(&self, bytes: &mut Vec<u8>) {
-        self.to_string_lossy().into_owned().put(bytes);
-    }
-
-    fn take(bytes: &mut &[u8]) -> Option<Self> {
-        String::take(bytes).map(Self::from)
+    match postcard::take_from_bytes(content) {
+        Ok((checkpoint, [])) => Ok(checkpoint),
+        _ => Err(damaged()),
     }
 }
 
-coded! {
-    Checkpoint { source, written, point };
-    Source { case, path, fingerprint, parts, steps };
-    Written { iterations, cut_backs, unknowns, solver, fields, seconds, series, judgement, worn, elapsed, sums };
-    Worn { pairs };
-    Snapshot { time, parts };
+/// The number at the front, and what follows it.
+fn number(bytes: &[u8]) -> Option<(u64, &[u8])> {
+    let (number, rest) = bytes.split_first_chunk()?;
+    Some((u64::from_le_bytes(*number), rest))
+}
+
+/// A path as text, also where it is no UTF-8.
+fn as_text<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(&path.to_string_lossy())
 }

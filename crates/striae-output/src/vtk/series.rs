@@ -4,6 +4,7 @@
 //! temporary file and a rename, so an interrupted run leaves a valid series of
 //! everything it accepted.
 
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 use super::xml::escaped;
@@ -18,7 +19,7 @@ pub struct Series {
 }
 
 /// The files of one time.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
     /// Time of the state.
     pub time: f64,

@@ -57,12 +57,12 @@ impl System<'_> {
             node.is_none_or(|node| !self.context.fixed[3 * node + axis])
         };
         let rows = term.rows.iter().enumerate().filter(is_free);
-        let columns = term.columns.iter();
+        let columns = term.columns.iter().step_by(3);
         PlacedBlock {
             rows: rows
                 .map(|(at, row)| (self.unknown(pair, *row), at))
                 .collect(),
-            columns: columns.map(|column| self.unknown(pair, *column)).collect(),
+            triples: columns.map(|column| self.unknown(pair, *column)).collect(),
             values: &term.tangent,
         }
     }

@@ -15,6 +15,7 @@
 //! increment that fails from there starts again from `x_n`. What is prescribed, and what is
 //! tied to a rigid body, is put where it belongs by the first correction and by the poses.
 
+use serde::{Deserialize, Serialize};
 use striae_mesh::Vec3;
 
 use crate::{
@@ -25,7 +26,7 @@ use crate::{
 };
 
 /// What an increment started from: a continued step starts the next one where both lead to.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Course {
     /// Number of the step.
     pub step: usize,

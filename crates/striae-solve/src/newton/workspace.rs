@@ -1,5 +1,6 @@
 //! The linear system of an increment, kept for the next ones.
 
+use serde::{Deserialize, Serialize};
 use std::time::Instant;
 
 use striae_condensed::{Analysis, Automatic, Choice, Experience, Partition};
@@ -48,7 +49,7 @@ pub(super) struct SystemStorage {
 /// What the linear system has grown to, which decides in which order it is eliminated, what
 /// its solver has learnt, and where the last increment came from: all bear on the last bits
 /// of results.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Memory {
     /// What has traction unknowns.
     pub extent: Extent,

@@ -3,7 +3,7 @@
 //! Rows are sorted by the supervariables that own them. All that belongs to one owner is
 //! added by one thread, in the order of the blocks, so that threads do not change a bit.
 
-use super::{Run, SparseMatrix, add_runs, edges_to, runs};
+use super::{SparseMatrix, edges_to};
 use crate::structure::Structure;
 use rayon::prelude::*;
 
@@ -15,17 +15,18 @@ const OWNERS: usize = 4;
 pub struct PlacedBlock<'a> {
     /// Unknowns of the rows that are added, each with its row in the block.
     pub rows: Vec<(usize, usize)>,
-    /// Unknowns of all columns.
-    pub columns: Vec<usize>,
+    /// First unknowns of the columns, which come in triples of one supervariable each.
+    pub triples: Vec<usize>,
     /// Values, row by row.
     pub values: &'a [f64],
 }
 
-/// Columns of a block, in runs of one supervariable each.
+/// Triples of columns of a block.
 struct Columns {
-    runs: Vec<Run>,
-    /// Supervariables in rising order, and the run of each.
+    /// Supervariables in rising order, and the triple of each.
     ascending: Vec<(usize, usize)>,
+    /// First columns of the triples within their supervariables.
+    within: Vec<usize>,
 }
 
 /// Rows of a block that belong to one supervariable.
@@ -49,7 +50,7 @@ impl SparseMatrix {
         let structure = self.structure.clone();
         let columns = blocks.par_iter().with_min_len(OWNERS);
         let columns: Vec<Columns> = columns
-            .map(|block| Columns::new(&structure, &block.columns))
+            .map(|block| Columns::new(&structure, &block.triples))
             .collect();
         let parts = parts(&structure, blocks);
         let mut owners = Vec::new();
@@ -65,9 +66,10 @@ impl SparseMatrix {
             .into_par_iter()
             .with_min_len(OWNERS)
             .map(|(parts, values)| {
+                let mut places = Vec::new();
                 let failed = parts.iter().filter(|part| {
                     let (block, columns) = (&blocks[part.block], &columns[part.block]);
-                    !part.add(&structure, (block, columns), values)
+                    !part.add(&structure, (block, columns), values, &mut places)
                 });
                 failed.map(|part| part.block).collect::<Vec<usize>>()
             });
@@ -82,12 +84,16 @@ impl SparseMatrix {
 }
 
 impl Columns {
-    fn new(structure: &Structure, unknowns: &[usize]) -> Self {
-        let runs = runs(structure, unknowns);
-        let owners = runs.iter().enumerate().map(|(at, run)| (run.owner, at));
-        let mut ascending: Vec<(usize, usize)> = owners.collect();
+    fn new(structure: &Structure, triples: &[usize]) -> Self {
+        let owner = |first: &usize| structure.owner(*first).0;
+        let owners = triples.iter().map(owner).enumerate();
+        let mut ascending: Vec<(usize, usize)> = owners.map(|(at, owner)| (owner, at)).collect();
         ascending.sort_unstable();
-        Self { runs, ascending }
+        let start = |first: &usize| structure.group(owner(first)).start;
+        Self {
+            ascending,
+            within: triples.iter().map(|first| first - start(first)).collect(),
+        }
     }
 }
 
@@ -120,20 +126,24 @@ impl Part {
         structure: &Structure,
         (block, columns): (&PlacedBlock, &Columns),
         values: &mut [f64],
+        places: &mut Vec<usize>,
     ) -> bool {
-        let mut places = vec![0; columns.runs.len()];
-        if edges_to(structure, self.owner, &columns.ascending, &mut places).is_err() {
+        places.resize(columns.within.len(), 0);
+        if edges_to(structure, self.owner, &columns.ascending, places).is_err() {
             return false;
         }
-        for (run, place) in columns.runs.iter().zip(&mut places) {
-            *place = structure.column(*place) + block.columns[run.begin] - run.first;
+        for (place, within) in places.iter_mut().zip(&columns.within) {
+            *place = structure.column(*place) + within;
         }
         let first = structure.group(self.owner).start;
-        let (length, width) = (structure.row_length(self.owner), block.columns.len());
+        let (length, width) = (structure.row_length(self.owner), 3 * places.len());
         for &(unknown, row) in &block.rows[self.begin..self.end] {
             let target = &mut values[(unknown - first) * length..][..length];
-            let dense = &block.values[row * width..][..width];
-            add_runs(target, dense, &block.columns, &columns.runs, &places);
+            let (triples, _) = block.values[row * width..][..width].as_chunks::<3>();
+            for (place, by) in places.iter().zip(triples) {
+                let entries = target[*place..*place + 3].iter_mut();
+                entries.zip(by).for_each(|(entry, value)| *entry += value);
+            }
         }
         true
     }

@@ -6,6 +6,7 @@
 //! tangential part counts.
 
 use nalgebra::Vector3;
+use serde::Serialize;
 use striae_mesh::Vec3;
 
 use super::axes::tangential;
@@ -15,7 +16,7 @@ use crate::graph::EdgeGraph;
 use crate::scalar::{Real, constant, constant3, cross, dot, normalised, scaled};
 
 /// Where the directions of a texture come from.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Paint {
     /// A field in space.
     Field(Field),
@@ -42,7 +43,7 @@ pub enum Paint {
 }
 
 /// A field of directions in space, made tangential to whatever surface it meets.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Field {
     /// Its lines.
     pub lines: Lines,
@@ -52,7 +53,7 @@ pub struct Field {
 }
 
 /// Lines of a field.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum Lines {
     /// The same direction everywhere.
     Uniform(Vec3),
@@ -65,7 +66,7 @@ pub enum Lines {
 }
 
 /// An axis in space.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Axis {
     /// A point of it.
     pub point: Vec3,
