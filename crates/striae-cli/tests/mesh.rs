@@ -143,7 +143,7 @@ fn rigid_surfaces_are_shown() {
             "road.STL",
             "from (0, 0, 0) to (2, 1, 0)",
             "3 nodes",
-            "1 facets of a rigid surface",
+            "facets of a rigid surface: 1",
             "area 1.000000e0",
             "wrote road.png",
             "wrote road.vtu",

@@ -105,7 +105,7 @@ impl fmt::Display for Card {
         write!(f, "{}", self.elasticity)?;
         if !self.hardening.is_empty() {
             let count = self.hardening.len();
-            write!(f, "; yields from {:e}, {count} rows", self.hardening[0][0])?;
+            write!(f, "; yields from {:e}, rows: {count}", self.hardening[0][0])?;
         }
         if !self.relaxation.is_empty() {
             let which = match self.moduli {
@@ -113,7 +113,7 @@ impl fmt::Display for Card {
                 Moduli::Instantaneous => "instantaneous moduli",
             };
             let count = self.relaxation.len();
-            write!(f, "; {which}, {count} branches relax")?;
+            write!(f, "; {which}, branches that relax: {count}")?;
         }
         match self.density {
             Some(density) => write!(f, "; density {density:e}"),
@@ -142,7 +142,7 @@ impl fmt::Display for Elasticity {
                 "Yeoh, C10 = {c10:e}, C20 = {c20:e}, C30 = {c30:e}, D1 = {d1:e}"
             ),
             Self::Ogden { terms, d1 } => {
-                write!(f, "Ogden, {} terms, D1 = {d1:e}", terms.len())
+                write!(f, "Ogden with N = {}, D1 = {d1:e}", terms.len())
             }
         }
     }

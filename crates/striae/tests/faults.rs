@@ -353,7 +353,7 @@ fn unknown_names_are_listed_with_everything_else() {
     assert_eq!(
         lines,
         [
-            "pairs[0].a: body `block` has no facet set `zmn`; it has `xmax`, `xmin`, `ymax`, `ymin`, `zmax`, `zmin`; did you mean `zmin`?",
+            "pairs[0].a: body `block` has no facet set `zmn`; it has `all`, `xmax`, `xmin`, `ymax`, `ymin`, `zmax`, `zmin`; did you mean `zmin`?",
             "pairs[0].b: no rigid surface is named `flor`; there is `floor`; did you mean `floor`?",
             "steps[0].displacements[0]: no body is named `blok`; there is `block`; did you mean `block`?",
             "steps[0].displacements[2]: step `press` prescribes component `x` of node 4 of body `block` twice: 1 by `zmax`, 2 by `all`",

@@ -45,7 +45,7 @@ pub fn of_surface(file: &Path, surface: &RigidSurfaceMesh) -> String {
         file.display().to_string(),
         extent(&low, &high),
         format!("  {} nodes", positions.len()),
-        format!("  {} facets of a rigid surface", surface.facets.len()),
+        format!("  facets of a rigid surface: {}", surface.facets.len()),
         format!("  area {area:.6e}"),
     ]
     .join("\n")
