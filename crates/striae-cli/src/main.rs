@@ -9,6 +9,7 @@ mod command;
 mod failure;
 mod forecast;
 mod interrupt;
+mod memory;
 mod progress;
 mod reporting;
 
@@ -17,9 +18,6 @@ use std::{
     io::{self, Write},
     process::ExitCode,
 };
-
-#[global_allocator]
-static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
 /// Finite-element contact with anisotropic friction.
 #[derive(Parser)]
@@ -47,6 +45,7 @@ enum Command {
 }
 
 fn main() -> ExitCode {
+    memory::keep_freed();
     let out = &mut io::stdout();
     let result = match Arguments::parse().command {
         Command::New(arguments) => command::new::run(&arguments, out),
