@@ -9,7 +9,6 @@ mod command;
 mod failure;
 mod forecast;
 mod interrupt;
-mod memory;
 mod progress;
 mod reporting;
 
@@ -18,6 +17,11 @@ use std::{
     io::{self, Write},
     process::ExitCode,
 };
+
+// Every iteration allocates and frees on all threads, which costs a tenth less with mimalloc
+// than with the allocator of glibc.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
 /// Finite-element contact with anisotropic friction.
 #[derive(Parser)]
@@ -45,7 +49,6 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    memory::keep_freed();
     let out = &mut io::stdout();
     let result = match Arguments::parse().command {
         Command::New(arguments) => command::new::run(&arguments, out),

@@ -1,6 +1,7 @@
 //! Residual and tangent of the whole problem at a trial state.
 
 mod blocks;
+mod contacts;
 mod context;
 mod elements;
 mod inertia;
@@ -27,16 +28,10 @@ use std::{
 };
 use striae_condensed::Partition;
 use striae_contact::{
-    complementarity::Iteration,
-    configuration::Configuration,
-    converged_friction::CollapsedFacets,
-    evaluation::{Collapse, Evaluation, evaluate},
-    segment::Derivatives,
-    selection::Selection,
-    texture::CollapsedTexture,
-    unknowns::Tractions,
+    complementarity::Iteration, configuration::Configuration, evaluation::Evaluation,
+    segment::Derivatives, selection::Selection, unknowns::Tractions,
 };
-use striae_mesh::{FacetId, Vec3};
+use striae_mesh::Vec3;
 use striae_sparse::{SparseMatrix, Supervariable};
 use terms::Triple;
 use ties::{Moving, Scratch, Tie};
@@ -45,7 +40,6 @@ use crate::{
     layout::Layout,
     norms::Norms,
     outcome::CutBack,
-    problem::Problem,
     rigid::Pose,
     state::{NodalForces, State},
 };
@@ -270,63 +264,6 @@ fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
     (result, started.elapsed())
 }
 
-impl Contact {
-    /// Contact of every pair.
-    fn evaluated(
-        self,
-        configurations: &[Configuration],
-        setting: &Setting,
-        trial: &Trial,
-        derivatives: Derivatives,
-    ) -> Result<Vec<Evaluation>, Fault> {
-        match self {
-            Self::Known(contacts) => Ok(contacts),
-            Self::Evaluated(iteration) => {
-                contacts(configurations, setting, trial, iteration, derivatives)
-            }
-        }
-    }
-}
-
-/// Contact of every pair.
-fn contacts(
-    configurations: &[Configuration],
-    setting: &Setting,
-    trial: &Trial,
-    iteration: Iteration,
-    derivatives: Derivatives,
-) -> Result<Vec<Evaluation>, Fault> {
-    let (context, state) = (setting.context, setting.state);
-    let mut contacts = Vec::with_capacity(configurations.len());
-    for (pair, configuration) in configurations.iter().enumerate() {
-        let evaluation = evaluate(
-            configuration,
-            &context.configuration(pair, &state.positions, &state.rigid),
-            &setting.selections[pair],
-            &trial.tractions[pair],
-            &context.fixed_on_pair[pair],
-            iteration,
-            derivatives,
-        )
-        .map_err(|error| Fault::CutBack(not_evaluated(context.problem, pair, error)))?;
-        contacts.push(evaluation);
-    }
-    Ok(contacts)
-}
-
-fn not_evaluated(problem: &Problem, pair: usize, collapse: Collapse) -> CutBack {
-    let (Collapse::Texture(CollapsedTexture { side, node })
-    | Collapse::Facets(CollapsedFacets { side, node })) = collapse;
-    let global = problem.carrier(pair, side, node).unwrap_or(0);
-    let (body, node) = problem.body_node(global);
-    let pair = problem.model.pairs[pair].name.clone();
-    let body = problem.model.bodies[body].name.clone();
-    match collapse {
-        Collapse::Texture(_) => CutBack::CollapsedTexture { pair, body, node },
-        Collapse::Facets(_) => CutBack::CollapsedFacets { pair, body, node },
-    }
-}
-
 impl System<'_> {
     /// Everything but contact.
     fn bodies(
@@ -342,29 +279,6 @@ impl System<'_> {
         self.point_masses();
         self.carried(imposed);
         Ok(bodies)
-    }
-
-    /// Adds contact to the system; what is outside the pattern is noted.
-    fn add_contacts(&mut self, contacts: &[Evaluation]) {
-        for (pair, evaluation) in contacts.iter().enumerate() {
-            self.add_terms(pair, &evaluation.terms);
-            for side in 0..2 {
-                for (facet, forces) in &evaluation.facets[side] {
-                    self.contact_forces(pair, side, *facet, &forces.force);
-                }
-            }
-        }
-    }
-
-    fn contact_forces(&mut self, pair: usize, side: usize, facet: FacetId, forces: &[Vec3; 4]) {
-        let problem = self.context.problem;
-        if let Some(surface) = problem.pairs[pair].contact.sides[side].surface() {
-            for (corner, force) in surface.facets()[facet.index()].iter().zip(forces) {
-                if let Some(node) = problem.surface_node(pair, side, *corner) {
-                    self.forces.contact[node] += force;
-                }
-            }
-        }
     }
 
     fn clique(&self, nodes: &[usize]) -> Vec<Supervariable> {

@@ -195,7 +195,14 @@ const LADDER: &[Row] = &[
             "striae-solve",
             "striae-surface",
         ],
-        outside: &["clap", "ctrlc", "indicatif", "rayon", "thiserror"],
+        outside: &[
+            "clap",
+            "ctrlc",
+            "indicatif",
+            "mimalloc",
+            "rayon",
+            "thiserror",
+        ],
     },
     Row {
         name: "striae-py",

@@ -16,7 +16,7 @@ use striae_contact::{complementarity::Iteration, evaluation::Evaluation, segment
 use striae_mesh::Vec3;
 use striae_sparse::SparseMatrix;
 
-use super::{Fault, Setting, System, Trial, configurations, contacts};
+use super::{Fault, Setting, System, Trial, configurations, contacts::contacts};
 use crate::{layout::Layout, norms::Norms};
 
 /// All but contact at a trial state.

@@ -1,13 +1,14 @@
 //! An increment under way: corrections until the residual is small.
 
+mod ending;
+
 use striae_contact::{
     complementarity::Iteration,
     interference::Interference,
     pointed::{Pierced, Progress},
-    segment::{Derivatives, ON_EDGE},
+    segment::Derivatives,
     selection::Selection,
     table_1::Inflation,
-    unknowns::Status,
 };
 
 use super::{
@@ -15,7 +16,7 @@ use super::{
     chord::{Chord, share_to_go, wanted},
     correction::{Taken, labelled, step},
     course::Course,
-    cycling::{History, WINDOW},
+    cycling::History,
     departure::first_positions,
     failure::{linear_system, missed},
     flight::flown,
@@ -217,48 +218,6 @@ impl Attempt<'_> {
         }
     }
 
-    /// Whether the labels of all nodes are those of the iteration before, where friction
-    /// decays with the slip rate: a node that begins to slip may have the row of another rate.
-    fn labels_rest(&self, assembled: &Assembled) -> bool {
-        let pairs = &self.context.problem.model.pairs;
-        let contacts = self.trial.tractions.iter().zip(&assembled.contacts);
-        contacts
-            .zip(pairs)
-            .filter(|(_, pair)| pair.friction.decays())
-            .all(|((before, now), _)| {
-                let sides = before.labels.iter().zip(&now.nodes);
-                sides
-                    .flat_map(|(before, now)| before.iter().zip(now))
-                    .all(|(before, now)| {
-                        (before.status == Status::Slip) == (now.status == Status::Slip)
-                    })
-            })
-    }
-
-    /// Whether the last iterations go back and forth over a jump of the integrals of contact.
-    ///
-    /// A corner closer to an opposing edge than [`ON_EDGE`] of the facet counts as on it. What
-    /// contact integrates jumps where a corner crosses that limit, by that part of the facet
-    /// times its length at most. Newton's method can go back and forth over the jump: the
-    /// residual does not fall, no status changes, and the vertices of a polygon are in turn
-    /// that corner and two crossings. No solution is nearer than the jump then.
-    fn jumps(&self) -> bool {
-        const LARGEST: f64 = 0.1 * ON_EDGE;
-        let Some(from) = self.iterations.len().checked_sub(WINDOW) else {
-            return false;
-        };
-        let last = self.iterations[from..].iter().map(Norms::largest);
-        let least = last.clone().fold(f64::INFINITY, f64::min);
-        let most = last.fold(0.0, f64::max);
-        most <= LARGEST
-            && least > 0.5 * most
-            && self.history.goes_back_and_forth()
-            && self
-                .history
-                .cycling(self.context.problem, &self.selections)
-                .is_empty()
-    }
-
     /// One correction.
     fn iterate(
         &mut self,
@@ -381,23 +340,5 @@ impl Attempt<'_> {
         let strategy = self.context.problem.model.solver.strategy;
         let iteration = later(strategy, self.inflation, self.iterations.len() + 1);
         self.assembled(workspace, iteration)
-    }
-
-    /// Whether to go on.
-    fn judge(&self, number: usize, norms: &Norms) -> Result<(), CutBack> {
-        if !norms.largest().is_finite() || norms.force > 1e8 {
-            return Err(CutBack::Diverged {
-                iteration: number,
-                norms: *norms,
-            });
-        }
-        if number >= self.context.problem.model.solver.largest_iterations {
-            return Err(CutBack::NoConvergence {
-                iterations: number,
-                norms: *norms,
-                cycling: self.history.cycling(self.context.problem, &self.selections),
-            });
-        }
-        Ok(())
     }
 }

@@ -1,0 +1,68 @@
+//! Whether iterations have come to their end.
+
+use striae_contact::{segment::ON_EDGE, unknowns::Status};
+
+use super::Attempt;
+use crate::{assembly::Assembled, newton::cycling::WINDOW, norms::Norms, outcome::CutBack};
+
+impl Attempt<'_> {
+    /// Whether the labels of all nodes are those of the iteration before, where friction
+    /// decays with the slip rate: a node that begins to slip may have the row of another rate.
+    pub(super) fn labels_rest(&self, assembled: &Assembled) -> bool {
+        let pairs = &self.context.problem.model.pairs;
+        let contacts = self.trial.tractions.iter().zip(&assembled.contacts);
+        contacts
+            .zip(pairs)
+            .filter(|(_, pair)| pair.friction.decays())
+            .all(|((before, now), _)| {
+                let sides = before.labels.iter().zip(&now.nodes);
+                sides
+                    .flat_map(|(before, now)| before.iter().zip(now))
+                    .all(|(before, now)| {
+                        (before.status == Status::Slip) == (now.status == Status::Slip)
+                    })
+            })
+    }
+
+    /// Whether the last iterations go back and forth over a jump of the integrals of contact.
+    ///
+    /// A corner closer to an opposing edge than [`ON_EDGE`] of the facet counts as on it. What
+    /// contact integrates jumps where a corner crosses that limit, by that part of the facet
+    /// times its length at most. Newton's method can go back and forth over the jump: the
+    /// residual does not fall, no status changes, and the vertices of a polygon are in turn
+    /// that corner and two crossings. No solution is nearer than the jump then.
+    pub(super) fn jumps(&self) -> bool {
+        const LARGEST: f64 = 0.1 * ON_EDGE;
+        let Some(from) = self.iterations.len().checked_sub(WINDOW) else {
+            return false;
+        };
+        let last = self.iterations[from..].iter().map(Norms::largest);
+        let least = last.clone().fold(f64::INFINITY, f64::min);
+        let most = last.fold(0.0, f64::max);
+        most <= LARGEST
+            && least > 0.5 * most
+            && self.history.goes_back_and_forth()
+            && self
+                .history
+                .cycling(self.context.problem, &self.selections)
+                .is_empty()
+    }
+
+    /// Whether to go on.
+    pub(super) fn judge(&self, number: usize, norms: &Norms) -> Result<(), CutBack> {
+        if !norms.largest().is_finite() || norms.force > 1e8 {
+            return Err(CutBack::Diverged {
+                iteration: number,
+                norms: *norms,
+            });
+        }
+        if number >= self.context.problem.model.solver.largest_iterations {
+            return Err(CutBack::NoConvergence {
+                iterations: number,
+                norms: *norms,
+                cycling: self.history.cycling(self.context.problem, &self.selections),
+            });
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,81 @@
+//! What a workspace remembers between runs: it is part of a checkpoint.
+
+use serde::{Deserialize, Serialize};
+use striae_condensed::Experience;
+use striae_sparse::Supervariable;
+
+use super::Workspace;
+use crate::{layout::Extent, newton::course::Course, problem::Problem};
+
+/// What the linear system has grown to, which decides in which order it is eliminated, what
+/// its solver has learnt, and where the last increment came from: all bear on the last bits
+/// of results.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Memory {
+    /// What has traction unknowns.
+    pub extent: Extent,
+    /// Cliques of supervariables beyond the elements.
+    pub cliques: Vec<Vec<usize>>,
+    /// What the solver has from earlier matrices, older factors above all.
+    pub solver: Experience,
+    /// What the last increment started from.
+    pub course: Option<Course>,
+}
+
+impl Workspace {
+    /// A workspace that has grown to what another had.
+    pub fn recalled(problem: &Problem, memory: &Memory) -> Self {
+        let mut workspace = Self::new(problem.model.solver.backend);
+        workspace.lay_out(problem, memory.extent.clone());
+        if !memory.cliques.is_empty() {
+            let cliques = memory.cliques.iter();
+            let cliques: Vec<Vec<Supervariable>> = cliques
+                .map(|clique| clique.iter().map(|&at| Supervariable(at)).collect())
+                .collect();
+            workspace.system().grow(cliques);
+        }
+        workspace.recall(&memory.solver);
+        workspace.course.clone_from(&memory.course);
+        workspace
+    }
+
+    /// Takes up what a solver has learnt from systems of the same pattern.
+    fn recall(&mut self, experience: &Experience) {
+        let Self { solver, system, .. } = self;
+        let system = system.as_mut().expect("the workspace was laid out");
+        // What cannot be analysed now fails again, and is reported, with the first matrix.
+        if !system.analysed
+            && let Ok(analysis) = solver.analyse(&system.partition)
+        {
+            (system.analysis, system.analysed) = (analysis, true);
+        }
+        solver.recall(experience);
+    }
+
+    /// What the solver has learnt; factors of another pattern are of no use.
+    fn experience(&self) -> Experience {
+        let experience = self.solver.experience();
+        match &self.system {
+            Some(system) if system.analysed => experience,
+            _ => Experience {
+                too_coarse: experience.too_coarse,
+                ..Experience::default()
+            },
+        }
+    }
+
+    /// What it has grown to and its solver has learnt.
+    pub fn memory(&self) -> Memory {
+        self.system.as_ref().map_or_else(Memory::default, |system| {
+            let cliques = system.grown.iter();
+            Memory {
+                extent: system.layout.extent().clone(),
+                cliques: cliques
+                    .map(|clique| clique.iter().map(|at| at.0).collect())
+                    .collect(),
+                solver: self.experience(),
+                course: self.course.clone(),
+            }
+        })
+    }
+}
