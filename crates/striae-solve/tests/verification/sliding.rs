@@ -7,6 +7,7 @@ use striae_contact::unknowns::Status;
 use striae_mesh::Vec3;
 use striae_solve::{
     model::Model,
+    norms::Norms,
     report::{PairReport, pairs},
 };
 use striae_verify::fitted_rate;
@@ -187,7 +188,10 @@ fn nodes_that_are_newly_kept_while_sliding_go_on_slipping() {
 
 #[test]
 fn convergence_ends_quadratically() {
-    let run = Run::completed(two_blocks([0, 1], 0.02, [0.1, 0.03]));
+    let mut model = two_blocks([0, 1], 0.02, [0.1, 0.03]);
+    // No late corrections then: every iteration has its own tangent.
+    model.solver.further_iterations = 1;
+    let run = Run::completed(model);
     let mut told = 0;
     for norms in &run.iterations[1..] {
         let forces: Vec<f64> = norms.iter().map(|n| n.largest()).collect();
@@ -203,4 +207,31 @@ fn convergence_ends_quadratically() {
         assert!(norms.len() <= 12, "{} iterations", norms.len());
     }
     assert!(told > 0, "{:?}", run.iterations);
+}
+
+/// They share a tangent, so each shrinks the residual by the same part.
+#[test]
+fn late_corrections_converge_as_fast_as_they_are_taken_to() {
+    let tangents = |further| {
+        let mut model = two_blocks([0, 1], 0.02, [0.1, 0.03]);
+        model.solver.further_iterations = further;
+        Run::completed(model)
+    };
+    let (late, newton) = (tangents(0), tangents(1));
+    let mut told = 0;
+    for norms in &late.iterations[1..] {
+        let norms: Vec<f64> = norms.iter().map(Norms::largest).collect();
+        let [.., a, b, c] = norms.as_slice() else {
+            continue;
+        };
+        if *a < 3e-3 && *b > 1e-8 {
+            assert!(*c <= 10.0 * b * b / a, "{norms:?}");
+            told += 1;
+        }
+    }
+    assert!(told > 0, "{:?}", late.iterations);
+    let [late, newton] = [&late, &newton].map(|run| &run.states.last().unwrap().positions);
+    for (x, y) in late.iter().zip(newton) {
+        assert!((x - y).norm() < 1e-9, "{x} instead of {y}");
+    }
 }
