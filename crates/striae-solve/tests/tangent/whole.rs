@@ -111,8 +111,8 @@ impl<'a> Whole<'a> {
     }
 
     pub fn assert_order_at(&self, u: DVector<f64>) {
-        let (residual, matrix) = self.assembled(&u);
-        self.assert_rows_alone(&u, &residual, &matrix);
+        let (assembled, matrix) = self.evaluated(&u);
+        self.assert_rows_alone(&u, &assembled, &matrix);
         for seed in 0..2 {
             let direction = Random::new(seed).unit(u.len());
             let mut claimed = DVector::zeros(u.len());
@@ -130,11 +130,20 @@ impl<'a> Whole<'a> {
         }
     }
 
-    /// Without derivatives rows are the same to the last bit, and the matrix stays as it is.
-    fn assert_rows_alone(&self, u: &DVector<f64>, residual: &DVector<f64>, matrix: &SparseMatrix) {
+    /// Without derivatives rows and results are the same to the last bit, and the matrix stays
+    /// as it is.
+    fn assert_rows_alone(&self, u: &DVector<f64>, whole: &Assembled, matrix: &SparseMatrix) {
         let mut kept = matrix.clone();
         let alone = self.filled(u, Derivatives::None, &mut kept);
-        assert_eq!(alone.residual, residual.as_slice());
+        assert_eq!(alone.residual, whole.residual);
+        assert_eq!(alone.norms, whole.norms);
+        assert_eq!(alone.forces, whole.forces);
+        for (alone, whole) in alone.contacts.iter().zip(&whole.contacts) {
+            assert_eq!(alone.nodes, whole.nodes);
+            assert_eq!(alone.facets, whole.facets);
+            assert_eq!(alone.carried, whole.carried);
+            assert_eq!(alone.dissipated, whole.dissipated);
+        }
         assert_eq!(kept.values(), matrix.values());
     }
 
