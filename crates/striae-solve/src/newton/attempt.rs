@@ -191,6 +191,10 @@ impl Attempt<'_> {
             }
             let taken;
             (assembled, taken) = self.iterate(&assembled, before, iteration, workspace)?;
+            // Statuses are known with derivatives only, without which a state is not the last.
+            if assembled.norms.largest() <= solver.tolerance && !self.is_sure(&assembled) {
+                assembled = self.assembled(workspace, iteration)?;
+            }
             if let Some(selected) = self.refreshed(number, &assembled) {
                 assembled = self.taken_up(selected, workspace)?;
             }
