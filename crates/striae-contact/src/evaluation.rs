@@ -22,7 +22,7 @@ use crate::{
     segment::Derivatives,
     segment_rows::{Given, Slip, segment_rows},
     selection::Selection,
-    slip_rate::slip_velocities,
+    slip_rate::{SlipRates, slip_rates},
     term::LocalTerm,
     texture::{CollapsedTexture, Textures, own, textures},
     traction::{NodalTractions, Surroundings, nodal_tractions},
@@ -106,11 +106,11 @@ pub fn evaluate(
         Enforcement::Collocated => collocated::kinematics(configuration, selection, &frames),
     };
     let textures = textures(configuration, selection, &frames, &kinematics)?;
-    let velocities = slip_velocities(configuration, selection, &kinematics);
+    let rates = slip_rates(configuration, selection, &kinematics);
     let surroundings = Surroundings {
         frames: &frames,
         textures: &textures,
-        velocities: &velocities,
+        rates: &rates,
     };
     let tau = nodal_tractions(configuration, selection, &surroundings, tractions);
     if configuration.pair.enforcement == Enforcement::Weighted {
@@ -134,6 +134,7 @@ pub fn evaluate(
         frames: &frames,
         textures: &textures,
         kinematics: &kinematics,
+        rates: &rates,
         tau: &tau,
     };
     let mut evaluation = stage.nodal(&patches);
@@ -187,6 +188,7 @@ struct Stage<'a> {
     frames: &'a Frames,
     textures: &'a Textures,
     kinematics: &'a [Kinematics],
+    rates: &'a SlipRates,
     tau: &'a NodalTractions,
 }
 
@@ -266,6 +268,7 @@ impl Evaluation {
                     kinematics: &stage.kinematics[k],
                     frame: stage.frames[side][node].as_ref()?,
                     textures: &stage.textures[side][node],
+                    rate: &stage.rates[side][node],
                     slipped: stage.tractions.slipped[side][node],
                     before: stage.tractions.labels[side][node],
                     unknowns: stage.tractions.nodes[side][node],

@@ -1,36 +1,46 @@
-//! Slip velocities of the kept nodes, with their derivatives.
+//! Slip rates of the kept nodes, with their derivatives.
 //!
-//! `v = du/dt` over the time `dt` since the last converged configuration. Only friction that
-//! decays with the slip rate `|v|` asks for it.
+//! `|v| = |du|/dt` over the time `dt` since the last converged configuration, with the slip
+//! that is seen, without what the ramp adds. Only friction that decays with the slip rate asks
+//! for it: the friction of a node and the row that it obeys ask at the same rate.
 
 use crate::{
-    configuration::Configuration, frame::Tracked, kinematics::Kinematics, selection::Selection,
+    configuration::Configuration,
+    kinematics::{Kinematics, TrackedScalar},
+    selection::Selection,
 };
 
-/// Slip velocities by side; zero without derivatives where nothing asks for them.
-pub type SlipVelocities = [Vec<Tracked>; 2];
+/// Slip rates by side; zero without derivatives where nothing asks for them.
+pub type SlipRates = [Vec<TrackedScalar>; 2];
 
-/// Slip velocities of all kept nodes.
-pub fn slip_velocities(
+/// Slip rates of all kept nodes, from kinematics without ramps.
+pub fn slip_rates(
     configuration: &Configuration,
     selection: &Selection,
     kinematics: &[Kinematics],
-) -> SlipVelocities {
-    let mut velocities = [0, 1].map(|side| vec![Tracked::default(); selection.nodes(side)]);
+) -> SlipRates {
+    let mut rates = [0, 1].map(|side| vec![TrackedScalar::default(); selection.nodes(side)]);
     if configuration.pair.friction.decays() && configuration.elapsed.is_finite() {
-        let per_time = 1.0 / configuration.elapsed;
         for (kept, kinematics) in selection.kept().iter().zip(kinematics) {
             let (side, node) = kept.place();
-            let slip = &kinematics.slip;
-            velocities[side][node] = Tracked {
-                value: slip.value * per_time,
-                jacobian: slip
-                    .jacobian
-                    .iter()
-                    .map(|(first, block)| (*first, block * per_time))
-                    .collect(),
-            };
+            rates[side][node] = slip_rate(kinematics, configuration.elapsed);
         }
     }
-    velocities
+    rates
+}
+
+/// The slip rate of a node, without derivatives where it does not slip.
+fn slip_rate(kinematics: &Kinematics, elapsed: f64) -> TrackedScalar {
+    let slip = &kinematics.slip;
+    let Some(direction) = slip.value.try_normalize(0.0) else {
+        return TrackedScalar::default();
+    };
+    let by_slip = direction / elapsed;
+    let blocks = slip.jacobian.iter();
+    TrackedScalar {
+        value: slip.value.norm() / elapsed,
+        gradient: blocks
+            .map(|(first, block)| (*first, block.tr_mul(&by_slip)))
+            .collect(),
+    }
 }

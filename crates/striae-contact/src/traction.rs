@@ -13,8 +13,9 @@ use striae_surface::scalar::constant3;
 use crate::{
     configuration::Configuration,
     frame::{Frame, Frames, Tracked},
+    kinematics::TrackedScalar,
     selection::Selection,
-    slip_rate::SlipVelocities,
+    slip_rate::SlipRates,
     term::{Lanes, Source, add_block, gradient, parts, variable, variable3},
     texture::{NodeTextures, Textures},
     unknowns::Tractions,
@@ -31,8 +32,8 @@ pub struct Surroundings<'a> {
     pub frames: &'a Frames,
     /// Textures of both sides.
     pub textures: &'a Textures,
-    /// Slip velocities.
-    pub velocities: &'a SlipVelocities,
+    /// Slip rates.
+    pub rates: &'a SlipRates,
 }
 
 /// Friction tractions of all kept nodes.
@@ -53,7 +54,7 @@ pub fn nodal_tractions(
                         configuration,
                         frame,
                         &surroundings.textures[side][node],
-                        &surroundings.velocities[side][node],
+                        &surroundings.rates[side][node],
                         configuration.pair.numbering().traction(side, node as u32),
                         tractions.nodes[side][node],
                     )
@@ -68,22 +69,22 @@ fn nodal_traction(
     configuration: &Configuration,
     frame: &Frame,
     textures: &NodeTextures,
-    velocity: &Tracked,
+    rate: &TrackedScalar,
     first: u32,
     unknowns: [f64; 3],
 ) -> Tracked {
     let [t1, t2] = &frame.t;
     let [pressure, z1, z2] = unknowns;
     let vector = in_frame(frame, [z1, z2]);
-    let (friction, rate) = (&configuration.pair.friction, velocity.value.norm());
-    let cap = Cap::new(friction, pressure, rate);
+    let friction = &configuration.pair.friction;
+    let cap = Cap::new(friction, pressure, rate.value);
     let response = if *textures == NodeTextures::default() {
         Response::new::<4>(friction, frame, textures, cap, &vector)
     } else {
         Response::new::<13>(friction, frame, textures, cap, &vector)
     };
     let by_vector = response.by_vector;
-    let mut gradient = [[0.0; 3]; 21];
+    let mut gradient = [[0.0; 3]; 19];
     let by_unknowns = [
         response.by_pressure,
         by_vector * t1.value,
@@ -93,20 +94,14 @@ fn nodal_traction(
     add_block(&mut gradient, 3, &(by_vector * z1));
     add_block(&mut gradient, 6, &(by_vector * z2));
     gradient[9..18].copy_from_slice(&response.by_surroundings);
-    if let Some(direction) = velocity.value.try_normalize(0.0) {
-        add_block(
-            &mut gradient,
-            18,
-            &(response.by_rate * direction.transpose()),
-        );
-    }
+    gradient[18] = response.by_rate.into();
     let mut lanes = Lanes::default();
     lanes.push(Source::Unknowns { first, count: 3 });
     lanes.push(Source::Vector(&t1.jacobian));
     lanes.push(Source::Vector(&t2.jacobian));
     lanes.push(Source::Vector(&frame.n.jacobian));
     push_textures(&mut lanes, textures);
-    lanes.push(Source::Vector(&velocity.jacobian));
+    lanes.push(Source::Scalar(&rate.gradient));
     Tracked {
         value: response.tau,
         jacobian: lanes.jacobian(&gradient),

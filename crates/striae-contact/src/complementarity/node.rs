@@ -3,7 +3,10 @@
 use striae_mesh::Vec3;
 
 use crate::{
-    frame::Frame, kinematics::Kinematics, table_1::Corrector, texture::NodeTextures,
+    frame::Frame,
+    kinematics::{Kinematics, TrackedScalar},
+    table_1::Corrector,
+    texture::NodeTextures,
     unknowns::Label,
 };
 
@@ -40,6 +43,8 @@ pub struct ContactNode<'a> {
     pub frame: &'a Frame,
     /// Textures of both sides at the node.
     pub textures: &'a NodeTextures,
+    /// Slip rate, where friction asks for it.
+    pub rate: &'a TrackedScalar,
     /// Whether it slipped in the last converged increment.
     pub slipped: bool,
     /// What the iterations before made of it.

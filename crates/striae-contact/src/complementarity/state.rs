@@ -17,7 +17,7 @@ use crate::{
 };
 
 /// Number of lanes.
-pub(super) const N: usize = 22;
+pub(super) const N: usize = 23;
 /// A scalar over the lanes.
 pub(super) type Q = Quantity<N>;
 /// Lane of the gap.
@@ -32,6 +32,8 @@ pub(super) const TANGENTS: usize = 7;
 pub(super) const TRACTION: usize = 13;
 /// Lanes of the textures.
 const TEXTURES: usize = 16;
+/// Lane of the slip rate.
+const RATE: usize = 22;
 
 /// Derivative of the gap below which nothing can change it.
 const FIXED: f64 = 1e-9;
@@ -86,6 +88,7 @@ impl<'a> NodeState<'a> {
             count: 3,
         });
         push_textures(&mut lanes, node.textures);
+        lanes.push(Source::Scalar(&node.rate.gradient));
         // Lanes of the law: normal and textures.
         let normal: Vector3<DualSVec64<9>> = variable3(&node.frame.n.value, 0);
         let textures = on_lanes(node.textures, 3);
@@ -188,12 +191,9 @@ impl<'a> NodeState<'a> {
         })
     }
 
-    /// `varpi` at the pressure `p` and a slip rate, without derivatives by the slip where
-    /// it vanishes.
+    /// `varpi` at the pressure `p` and a slip rate.
     pub(super) fn varpi(&self, configuration: &Configuration, p: f64, rate: Rate) -> Q {
-        let [first, second] = &self.slip;
-        let length = first.re.hypot(second.re);
-        let present = length / configuration.elapsed;
+        let present = self.node.rate.value;
         let rate = match rate {
             Rate::Present => present,
             Rate::Along(y) => {
@@ -203,18 +203,12 @@ impl<'a> NodeState<'a> {
             Rate::Endless => f64::INFINITY,
         };
         let cap = Cap::new(&configuration.pair.friction, p, rate);
-        let by_slip = if length > 0.0 && rate == present {
-            cap.by_rate / (configuration.elapsed * length)
-        } else {
-            0.0
-        };
-        let mut varpi =
-            Q::combination([(by_slip * first.re, first), (by_slip * second.re, second)]);
+        let mut varpi = Q::constant(cap.value);
         varpi.slope[TRACTION] = cap.by_pressure;
-        Q {
-            re: cap.value,
-            ..varpi
+        if rate == present {
+            varpi.slope[RATE] = cap.by_rate;
         }
+        varpi
     }
 
     /// `rho`, how far `z` reaches over `varpi` in a direction with components along the
