@@ -17,7 +17,7 @@ use striae_law::{
     friction::Friction,
 };
 use striae_solve::{
-    assembly::{Contact, ElementPlaces, Setting, StepContext, Trial, assemble},
+    assembly::{Contact, ElementPlaces, Setting, StepContext, Trial, Wanted, assemble},
     layout::{Extent, Layout},
     model::Backend,
     problem::Problem,
@@ -145,7 +145,7 @@ fn of_scene(group: &str, size: usize) -> Results {
                     tractions,
                     prescribed,
                     first,
-                    Derivatives::First,
+                    Wanted::Tangent,
                 );
                 black_box(evaluation.is_ok());
             });
@@ -186,17 +186,7 @@ fn assembly(model: &striae_solve::model::Model) -> Result<Value, Box<dyn Error>>
     Ok(timed("assembly", "elements", elements, || {
         let contact = Contact::Known(Vec::new());
         let parts = (&partition, &places, &mut matrix);
-        black_box(
-            assemble(
-                &setting,
-                &trial,
-                contact,
-                Derivatives::First,
-                &layout,
-                parts,
-            )
-            .is_ok(),
-        );
+        black_box(assemble(&setting, &trial, contact, Wanted::Tangent, &layout, parts).is_ok());
     }))
 }
 

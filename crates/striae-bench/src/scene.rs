@@ -2,11 +2,10 @@
 
 use std::{error::Error, path::Path};
 use striae_condensed::Partition;
-use striae_contact::segment::Derivatives;
 use striae_deck as deck;
 use striae_mesh::generate::CappedBlock;
 use striae_solve::{
-    assembly::{Contact, ElementPlaces, Fault, Setting, StepContext, Trial, assemble},
+    assembly::{Contact, ElementPlaces, Fault, Setting, StepContext, Trial, Wanted, assemble},
     layout::{Extent, Layout},
     model::{Backend, Model},
     problem::Problem,
@@ -162,14 +161,7 @@ pub fn stiffness(model: &Model) -> Result<SparseMatrix, Box<dyn Error>> {
     };
     let contact = Contact::Known(Vec::new());
     let parts = (&partition, &places, &mut matrix);
-    match assemble(
-        &setting,
-        &trial,
-        contact,
-        Derivatives::First,
-        &layout,
-        parts,
-    ) {
+    match assemble(&setting, &trial, contact, Wanted::Tangent, &layout, parts) {
         Ok(_) => Ok(matrix),
         Err(Fault::CutBack(reason)) => Err(reason.to_string().into()),
         Err(Fault::Pattern(_)) => Err("an element is outside the pattern".into()),

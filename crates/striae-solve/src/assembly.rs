@@ -77,6 +77,27 @@ pub enum Contact {
     Known(Vec<Evaluation>),
 }
 
+/// What an assembly is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wanted {
+    /// The residual and results.
+    Residual,
+    /// The matrix, too.
+    Tangent,
+    /// The matrix, and all but contact by itself.
+    Background,
+}
+
+impl Wanted {
+    /// The derivatives that it takes.
+    pub fn derivatives(self) -> Derivatives {
+        match self {
+            Self::Residual => Derivatives::None,
+            Self::Tangent | Self::Background => Derivatives::First,
+        }
+    }
+}
+
 /// Residual and results at a trial state.
 #[derive(Clone, Debug)]
 pub struct Assembled {
@@ -93,8 +114,8 @@ pub struct Assembled {
     pub contacts: Vec<Evaluation>,
     /// Whether the matrix is of this state.
     pub derivatives: Derivatives,
-    /// All but contact.
-    pub background: Background,
+    /// All but contact, if it was asked for.
+    pub background: Option<Background>,
     /// Time that contact took on the clock, most of it beside the bodies; for profiles only.
     pub contact_time: Duration,
 }
@@ -117,7 +138,7 @@ pub fn assemble(
     setting: &Setting,
     trial: &Trial,
     contact: Contact,
-    derivatives: Derivatives,
+    wanted: Wanted,
     layout: &Layout,
     (partition, places, matrix): (&Partition, &ElementPlaces, &mut SparseMatrix),
 ) -> Result<Assembled, Fault> {
@@ -127,7 +148,7 @@ pub fn assemble(
             setting,
             trial,
             contact,
-            derivatives,
+            wanted,
             layout,
             (partition, places, matrix),
         )
@@ -138,11 +159,11 @@ fn on_this_thread(
     setting: &Setting,
     trial: &Trial,
     contact: Contact,
-    derivatives: Derivatives,
+    wanted: Wanted,
     layout: &Layout,
     (partition, places, matrix): (&Partition, &ElementPlaces, &mut SparseMatrix),
 ) -> Result<Assembled, Fault> {
-    let imposed = setting.imposed;
+    let (imposed, derivatives) = (setting.imposed, wanted.derivatives());
     let mut system = System::new(setting.context, layout, (partition, matrix), trial, imposed);
     match derivatives {
         Derivatives::First => system.matrix.clear(),
@@ -159,10 +180,7 @@ fn on_this_thread(
     );
     let (contacts, evaluation_time) = evaluated;
     let (contacts, bodies) = (contacts?, bodies?);
-    let background = match derivatives {
-        Derivatives::First => system.background(),
-        Derivatives::None => Background::default(),
-    };
+    let background = (wanted == Wanted::Background).then(|| system.background());
     let ((), adding_time) = timed(|| system.add_contacts(&contacts));
     system.stabilise(trial, imposed);
     if !system.outside.is_empty() {
