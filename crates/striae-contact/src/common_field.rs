@@ -240,14 +240,13 @@ impl Columns {
     fn term(&self, rows: &[Row], corners: &[usize]) -> LocalTerm {
         let mut order: Vec<usize> = (0..self.triples.len()).collect();
         order.sort_unstable_by_key(|&at| self.triples[at]);
-        let width = 3 * order.len();
-        let mut tangent = vec![0.0; 3 * corners.len() * width];
-        for (line, entries) in tangent.chunks_exact_mut(width.max(1)).enumerate() {
+        let lines = 3 * corners.len();
+        let mut tangent = Vec::with_capacity(3 * order.len() * lines);
+        for line in 0..lines {
             let (corner, row) = (corners[line / 3], line % 3);
-            let (triples, _) = entries.as_chunks_mut::<3>();
-            for (triple, &at) in triples.iter_mut().zip(&order) {
+            for &at in &order {
                 let block = &self.blocks[at];
-                *triple = [0, 1, 2].map(|axis| block[3 * axis + row][corner]);
+                tangent.extend_from_slice(&[0, 1, 2].map(|axis| block[3 * axis + row][corner]));
             }
         }
         let mut columns = Vec::with_capacity(3 * order.len());

@@ -184,18 +184,23 @@ pub fn staying(
         depth: 0.0,
     };
     let gaps = facet_gaps(configuration, scope);
+    let pressure = |node: u32| nodes[1][node as usize].pressure;
     let numbered = points.iter().enumerate();
-    let pressed: Vec<(u32, RigidPoint, Hit)> = numbered
+    let mut pressed: Vec<(u32, RigidPoint, Hit)> = numbered
         .filter_map(|(node, point)| {
-            let tip = Tip::Rigid((*point)?);
-            let hit = Spot::new(configuration, tip)?.hit?;
-            let size = configuration.size(1, node as u32);
-            let is_open = |gap| gap > CLOSING * size;
-            let stays = nodes[1][node].pressure > 0.0
-                && (tip.left() > 0.0 || gaps[hit.facet.index()].is_none_or(is_open));
-            stays.then_some((node as u32, (*point)?, hit))
+            let hit = Spot::new(configuration, Tip::Rigid((*point)?))?.hit?;
+            Some((node as u32, (*point)?, hit))
         })
+        .filter(|(node, ..)| pressure(*node) > 0.0)
         .collect();
+    // What several carry that leave at once is more than others can take in an increment.
+    let closed = pressed.iter().filter(|(node, point, hit)| {
+        let is_closed = |gap| gap <= CLOSING * configuration.size(1, *node);
+        point.left == 0.0 && gaps[hit.facet.index()].is_some_and(is_closed)
+    });
+    let leaving = closed.map(|(node, ..)| *node);
+    let leaving = leaving.min_by(|&a, &b| pressure(a).total_cmp(&pressure(b)));
+    pressed.retain(|(node, ..)| Some(*node) != leaving);
     let mut lodged: RigidPoints = vec![None; points.len()];
     let is_at = |hit: &Hit, node: u32| configuration.side(0).corners(hit.facet).contains(&node);
     let (at_home, away): (Vec<_>, Vec<_>) = pressed
