@@ -61,13 +61,7 @@ fn block(raw: &raw::Block, faults: &mut FaultList<'_>) -> Option<Block> {
         origin: point(&raw.origin),
         size: Vec3::new(x.0, y.0, z.0),
         divisions: counts(&raw.divisions)?,
-        cells: match raw.cells.as_ref().map(|cells| cells.value) {
-            None | Some(raw::Cells::Hexahedra) => CellKind::Hexahedron,
-            Some(raw::Cells::Wedges) => CellKind::Wedge,
-            Some(raw::Cells::Pyramids) => CellKind::Pyramid,
-            Some(raw::Cells::Tetrahedra) => CellKind::Tetrahedron,
-            Some(raw::Cells::CompositeTetrahedra) => CellKind::CompositeTetrahedron,
-        },
+        cells: cells(&raw.cells),
         gradings: [
             along(|all| &all.x)?,
             along(|all| &all.y)?,
@@ -104,6 +98,7 @@ fn capped_block(raw: &raw::CappedBlock) -> Option<CappedBlock> {
             None | Some(raw::Part::Whole) => Part::Whole,
             Some(raw::Part::Half) => Part::Half,
         },
+        cells: cells(&raw.cells),
     })
 }
 
@@ -210,6 +205,16 @@ fn point(raw: &Option<At<[Number; 3]>>) -> Vec3 {
 fn counts(raw: &Option<At<[Count; 3]>>) -> Option<[usize; 3]> {
     let [x, y, z] = &raw.as_ref()?.value;
     Some([x.0, y.0, z.0])
+}
+
+fn cells(raw: &Option<At<raw::Cells>>) -> CellKind {
+    match raw.as_ref().map(|cells| cells.value) {
+        None | Some(raw::Cells::Hexahedra) => CellKind::Hexahedron,
+        Some(raw::Cells::Wedges) => CellKind::Wedge,
+        Some(raw::Cells::Pyramids) => CellKind::Pyramid,
+        Some(raw::Cells::Tetrahedra) => CellKind::Tetrahedron,
+        Some(raw::Cells::CompositeTetrahedra) => CellKind::CompositeTetrahedron,
+    }
 }
 
 fn slopes(raw: &Option<At<[Number; 2]>>) -> [f64; 2] {

@@ -175,6 +175,8 @@ table! {
         optional growth: Growth,
         /// How much of it is meshed. Default: `whole`.
         optional part: Part,
+        /// What the hexahedra are divided into. Default: `hexahedra`, which are left whole.
+        optional cells: Cells,
     }
 }
 
