@@ -25,7 +25,7 @@ const WAY: f64 = 0.05;
 
 /// The bodies at rest; side `a` is the upper one, as the laws are written for it.
 fn at_rest(oblique: &Oblique, cells: [CellKind; 2]) -> Model {
-    let lower = block([0.0; 3], [1.0, 1.0, HEIGHT], [3, 3, 1]);
+    let lower = block([0.0; 3], [1.0, 1.0, HEIGHT], [2, 3, 1]);
     let upper = block([0.33, 0.21, HEIGHT], [0.8, 0.6, HEIGHT], [3, 2, 1]);
     let mesh = |block: Block, cells| Block { cells, ..block }.mesh().unwrap();
     let bodies = vec![
@@ -124,24 +124,18 @@ const CELLS: [[CellKind; 2]; 8] = [
 #[test]
 fn isotropic_slip_of_all_kinds_of_cells() {
     for cells in CELLS {
-        for degrees in [0.0, 205.0] {
-            check(
-                &Oblique::new(Formula::Coulomb(0.3), [None; 2]),
-                degrees,
-                cells,
-            );
-        }
+        let coulomb = Oblique::new(Formula::Coulomb(0.3), [None; 2]);
+        check(&coulomb, 205.0, cells);
     }
 }
 
 #[test]
 fn textured_slip_of_all_kinds_of_cells() {
-    for cells in CELLS {
-        let nap = Formula::Nap([0.1, 0.3, 0.2]);
-        check(&Oblique::new(nap, [Some(30.0), None]), 70.0, cells);
-        let grooves = Formula::Opposing([0.1, 0.3]);
-        check(&Oblique::new(grooves, [None, Some(110.0)]), 205.0, cells);
-        let two = Formula::TwoTextures([0.3, 0.1, 0.1, 0.5]);
-        check(&Oblique::new(two, [Some(-20.0), Some(70.0)]), 300.0, cells);
+    let nap = Oblique::new(Formula::Nap([0.1, 0.3, 0.2]), [Some(30.0), None]);
+    let grooves = Oblique::new(Formula::Opposing([0.1, 0.3]), [None, Some(110.0)]);
+    let two = Formula::TwoTextures([0.3, 0.1, 0.1, 0.5]);
+    let two = Oblique::new(two, [Some(-20.0), Some(70.0)]);
+    for (cells, oblique) in CELLS.into_iter().zip([nap, grooves, two].iter().cycle()) {
+        check(oblique, 70.0, cells);
     }
 }

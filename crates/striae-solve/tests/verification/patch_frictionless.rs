@@ -95,6 +95,8 @@ fn pressed(case: &Case, order: [usize; 2]) -> Model {
     }
     step.displacements = held;
     model.steps = vec![step];
+    // Pressures are compared to 1e-10.
+    model.solver.tolerance = 1e-12;
     model
 }
 
@@ -115,13 +117,17 @@ fn tolerance(case: &Case) -> f64 {
 }
 
 fn check(name: &str, case: &Case) {
-    let tolerance = tolerance(case);
     for order in [[0, 1], [1, 0]] {
-        let run = Run::completed(pressed(case, order));
-        let what = format!("{name}, order {order:?}");
-        check_bodies(&what, &run, case, tolerance);
-        check_interface(&what, &run, tolerance);
+        check_ordered(name, case, order);
     }
+}
+
+fn check_ordered(name: &str, case: &Case, order: [usize; 2]) {
+    let tolerance = tolerance(case);
+    let run = Run::completed(pressed(case, order));
+    let what = format!("{name}, order {order:?}");
+    check_bodies(&what, &run, case, tolerance);
+    check_interface(&what, &run, tolerance);
 }
 
 fn check_bodies(what: &str, run: &Run, case: &Case, tolerance: f64) {
@@ -249,37 +255,34 @@ const CELLS: [[CellKind; 2]; 9] = {
     ]
 };
 
-/// Checks a case of all kinds of cells.
+/// Checks a case of all kinds of cells, with sides in either order by turns.
 fn check_cells(name: &str, case: impl Fn() -> Case) {
-    for [lower, upper] in CELLS {
+    for ([lower, upper], order) in CELLS.into_iter().zip([[0, 1], [1, 0]].into_iter().cycle()) {
         let mut case = case();
         case.lower.cells = lower;
         case.upper.cells = upper;
-        check(&format!("{upper} on {lower}, {name}"), &case);
+        check_ordered(&format!("{upper} on {lower}, {name}"), &case, order);
     }
 }
 
 #[test]
 fn whole_faces_of_all_kinds_of_cells() {
-    for divisions in [[3, 4], [4, 3]] {
-        check_cells("whole faces", || {
-            let mut case = case([0.0, 0.0], [1.0, 1.0], divisions);
-            case.materials[0] = case.materials[1].clone();
-            case
-        });
-    }
+    check_cells("whole faces", || {
+        let mut case = case([0.0, 0.0], [1.0, 1.0], [3, 2]);
+        case.materials[0] = case.materials[1].clone();
+        case
+    });
 }
 
 #[test]
 fn overhang_of_all_kinds_of_cells() {
-    check_cells("overhang", || case([0.35, 0.27], [0.9, 0.95], [3, 4]));
-    check_cells("inside", || case([0.125, 0.2], [0.75, 0.7], [4, 3]));
+    check_cells("overhang", || case([0.35, 0.27], [0.9, 0.95], [2, 3]));
 }
 
 #[test]
 fn irregular_meshes_of_all_kinds_of_cells() {
     check_cells("irregular", || {
-        let mut case = case([0.11, 0.23], [0.7, 0.6], [4, 3]);
+        let mut case = case([0.11, 0.23], [0.7, 0.6], [3, 2]);
         case.upper.irregularity = 0.15;
         case.lower.irregularity = 0.15;
         case.lower.seed = 1;
