@@ -3,7 +3,7 @@
 use crate::{area, assert_close, assert_sets_share_out_the_boundary, normals, orders};
 use proptest::prelude::*;
 use striae_mesh::generate::{CappedBlock, Part};
-use striae_mesh::{MeshError, Vec3};
+use striae_mesh::{CellKind, MeshError, Vec3};
 
 const CAP_SIDES: [&str; 6] = ["xmin", "xmax", "ymin", "ymax", "cap", "zmax"];
 
@@ -168,5 +168,24 @@ proptest! {
         prop_assert!(quality.smallest_scaled_jacobian > 0.4);
         let exact = size[0] * size[1] * 6.5 - volume_below_cap(radius, size.map(|s| 0.5 * s));
         prop_assert!(quality.volume < exact && quality.volume > 0.97 * exact);
+    }
+}
+
+#[test]
+fn capped_blocks_of_other_cells_have_the_same_sides() {
+    let whole = CappedBlock::default();
+    let hexahedra = whole.mesh().unwrap();
+    let cells = CellKind::ALL.into_iter();
+    for cells in cells {
+        let mesh = CappedBlock {
+            cells,
+            ..whole.clone()
+        }
+        .mesh()
+        .unwrap();
+
+        assert_sets_share_out_the_boundary(&mesh, &CAP_SIDES);
+        assert_close(mesh.volume(), hexahedra.volume(), 0.01);
+        assert_close(area(&mesh, "cap"), area(&hexahedra, "cap"), 0.01);
     }
 }
