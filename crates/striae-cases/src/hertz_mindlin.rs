@@ -28,6 +28,9 @@ const DECKS: [(&str, &str); 1] = decks!("hertz-mindlin": "deck");
 const SIZES: [f64; 4] = [0.8, 0.4, 0.2, 0.1];
 /// Element sizes of the ideal contact, those that resolve the zone.
 const IDEAL_SIZES: [f64; 3] = [0.4, 0.2, 0.1];
+/// Sizes of hexahedra that are divided into ten-node tetrahedra of the ideal contact; nodes
+/// are half as far apart.
+const TETRAHEDRAL_SIZES: [f64; 3] = [0.8, 0.56, 0.4];
 /// Meshes of about 3 000 and 13 000 unknowns that show what forces cost: name of the
 /// quantity, element size and half width of the fine part.
 const ECONOMICAL: [(&str, f64, f64); 2] = [("3k", 0.5, 1.4), ("13k", 0.25, 1.6)];
@@ -36,7 +39,7 @@ const PARTED: f64 = 0.2;
 /// Radius within which the pressure is smooth, over that of the contact zone.
 const INNER: f64 = 0.7;
 /// What a quick look does not give.
-const FULL_ONLY: [&str; 19] = [
+const FULL_ONLY: [&str; 21] = [
     "force.error.0.4",
     "force.error.3k",
     "force.error.13k",
@@ -56,6 +59,8 @@ const FULL_ONLY: [&str; 19] = [
     "ideal.pressure.rate",
     "ideal.field.error",
     "ideal.field.rate",
+    "tetrahedra.pressure.error",
+    "tetrahedra.pressure.rate",
 ];
 const MU: f64 = 0.1;
 const RADIUS: f64 = 12.0;
@@ -78,6 +83,11 @@ displacement = [{ body = "block", nodes = "zmax", x = 0.015 }]"#,
 const WIDE: [&str; 2] = [
     "size = [10, 10], height = 6.5",
     "size = [20, 20], height = 13",
+];
+/// Cells of ten nodes in the place of hexahedra.
+const TETRAHEDRA: [&str; 2] = [
+    "radius = 1200,",
+    r#"radius = 1200, cells = "composite-tetrahedra","#,
 ];
 const LAMBDA: f64 = 0.657;
 const SHEAR_MODULUS: f64 = 0.164;
@@ -117,6 +127,8 @@ pub fn run(study: &mut Study) -> Result<(), Failure> {
     } else {
         economical(study, &family[family.len() - 1])?;
         errors.push(("pressure, ideal".to_owned(), ideal(study)?));
+        let tetrahedra = tetrahedra(study)?;
+        errors.push(("means, ideal, tetrahedra".to_owned(), tetrahedra));
     }
     study.draw(&traces(&family), "traces")?;
     study.draw(&convergence("m", &errors), "convergence")?;
@@ -184,6 +196,21 @@ fn ideal(study: &mut Study) -> Result<Vec<[f64; 2]>, Failure> {
         study.measured(format!("ideal.{name}.rate"), rate(errors));
     }
     Ok(errors)
+}
+
+/// Errors of the means around nodes of ten-node tetrahedra over half the element size, where
+/// the closed form holds.
+fn tetrahedra(study: &mut Study) -> Result<Vec<[f64; 2]>, Failure> {
+    let mut passages = SHALLOW.to_vec();
+    passages.extend([WIDE, TETRAHEDRA]);
+    let mut means = Vec::new();
+    for size in TETRAHEDRAL_SIZES {
+        let run = ran(study, &format!("tetrahedra-h-{size}"), size, &passages)?;
+        means.push([0.5 * size, error_of_means(&run, SHALLOW_RADIUS)]);
+    }
+    study.measured("tetrahedra.pressure.error", means[means.len() - 1][1]);
+    study.measured("tetrahedra.pressure.rate", rate(&means));
+    Ok(means)
 }
 
 /// Runs the deck with an element size and passages replaced.

@@ -20,8 +20,10 @@ macro_rules! decks {
 
 mod bar_impact;
 mod battery;
+mod bonded_pad;
 mod comparison;
 mod contact_face;
+mod cooks_membrane;
 mod edge_contact;
 mod edge_release;
 mod failure;
@@ -40,6 +42,7 @@ mod snake_scale;
 mod stick_tolerance;
 mod stiff_punch;
 pub mod study;
+mod treloar;
 mod two_blocks;
 mod tyre;
 mod tyre_locked;
@@ -186,6 +189,23 @@ pub const CASES: &[Case] = &[
         "bar-impact",
         "An elastic bar flies against a rigid wall",
         bar_impact::run
+    ),
+    case!(
+        "cooks-membrane",
+        "A skewed cantilever, compressible and nearly incompressible, beside published values",
+        cooks_membrane::run,
+        quick: "two meshes of each kind of cells"
+    ),
+    case!(
+        "bonded-pad",
+        "Rubber squeezed between bonded plates, against its shape factor",
+        bonded_pad::run,
+        quick: "two meshes, and three of four shape factors"
+    ),
+    case!(
+        "treloar",
+        "The rubber of 1944 in three tests, by four laws with published constants",
+        treloar::run
     ),
     case!(
         "million-unknowns",

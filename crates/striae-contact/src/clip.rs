@@ -14,7 +14,7 @@ use striae_surface::{
 
 use crate::quadrature::collapsed_triangle;
 
-/// A quadrature point on a quadrilateral facet.
+/// A quadrature point on a facet.
 #[derive(Clone, Copy, Debug)]
 pub struct QuadraturePoint<D> {
     /// Facet coordinates.
@@ -25,19 +25,21 @@ pub struct QuadraturePoint<D> {
     pub weight: D,
 }
 
-/// A quadrilateral facet in the plane of its mean normal.
+/// A facet in the plane of its mean normal.
 #[derive(Clone, Debug)]
 pub struct FlatFacet<D> {
     origin: Vector3<D>,
     axes: [Vector3<D>; 2],
+    shape: Shape,
     /// Its corners.
     pub corners: [Vector2<D>; 4],
 }
 
 impl<D: Real> FlatFacet<D> {
-    /// The facet with these corners.
-    pub fn new(facet: &[Vector3<D>; 4]) -> Self {
-        let centre = Shape::Quadrilateral.weights(D::from(0.0), D::from(0.0));
+    /// The facet of this shape with these corners.
+    pub fn new(shape: Shape, facet: &[Vector3<D>; 4]) -> Self {
+        let [xi, eta] = shape.centre().map(D::from);
+        let centre = shape.weights(xi, eta);
         let origin = combination(&centre.value, facet);
         let m = normalised(&area_vector(&centre, facet));
         let edge = facet[1] - facet[0];
@@ -47,6 +49,7 @@ impl<D: Real> FlatFacet<D> {
             corners: facet.each_ref().map(|x| flat(x, &origin, &axes)),
             origin,
             axes,
+            shape,
         }
     }
 
@@ -55,7 +58,11 @@ impl<D: Real> FlatFacet<D> {
     pub fn covered(&self, cover: &[Vector3<D>]) -> Vec<[Vector2<D>; 3]> {
         let window = cover.iter().rev();
         let window: Vec<_> = window.map(|x| flat(x, &self.origin, &self.axes)).collect();
-        triangles(clipped(&self.corners, &window))
+        let count = match self.shape {
+            Shape::Triangle => 3,
+            Shape::Quadrilateral => 4,
+        };
+        triangles(clipped(&self.corners[..count], &window))
     }
 }
 
@@ -67,10 +74,11 @@ fn flat<D: Real>(x: &Vector3<D>, origin: &Vector3<D>, axes: &[Vector3<D>; 2]) ->
 /// Quadrature points on the covered part. Where many quantities are integrated with
 /// derivatives by many lanes, [`moving`](crate::moving) is the faster way.
 pub fn covered_points<D: Real>(
+    shape: Shape,
     facet: &[Vector3<D>; 4],
     cover: &[Vector3<D>],
 ) -> Vec<QuadraturePoint<D>> {
-    let flat = FlatFacet::new(facet);
+    let flat = FlatFacet::new(shape, facet);
     let corners = &flat.corners;
     let mut points = Vec::new();
     for [first, second, third] in &flat.covered(cover) {
@@ -78,10 +86,10 @@ pub fn covered_points<D: Real>(
         let area = perpendicular(&u, &v) * 0.5;
         for ([r, s], share) in collapsed_triangle() {
             let target = first + u * D::from(r) + v * D::from(s);
-            let Some([xi, eta]) = inverse_bilinear(corners, &target) else {
+            let Some([xi, eta]) = coordinates(shape, corners, &target) else {
                 continue;
             };
-            let weights = Shape::Quadrilateral.weights(xi, eta);
+            let weights = shape.weights(xi, eta);
             let [by_xi, by_eta] = [&weights.d_xi, &weights.d_eta].map(|slopes| {
                 let terms = slopes
                     .iter()
@@ -176,10 +184,14 @@ fn clipped<D: Real>(subject: &[Vector2<D>], window: &[Vector2<D>]) -> Vec<Vector
     polygon
 }
 
-/// Coordinates of a point of a plane quadrilateral.
-fn inverse_bilinear<D: Real>(corners: &[Vector2<D>; 4], target: &Vector2<D>) -> Option<[D; 2]> {
-    let ([xi, eta], inverse) = located(&corners.each_ref().map(real), &real(target))?;
-    let weights = Shape::Quadrilateral.weights(xi, eta).value;
+/// Coordinates of a point of a plane facet.
+fn coordinates<D: Real>(
+    shape: Shape,
+    corners: &[Vector2<D>; 4],
+    target: &Vector2<D>,
+) -> Option<[D; 2]> {
+    let ([xi, eta], inverse) = located(shape, &corners.each_ref().map(real), &real(target))?;
+    let weights = shape.weights(xi, eta).value;
     let mut residual = -*target;
     for corner in 0..4 {
         residual += corners[corner] * D::from(weights[corner]);
@@ -190,19 +202,20 @@ fn inverse_bilinear<D: Real>(corners: &[Vector2<D>; 4], target: &Vector2<D>) -> 
     }))
 }
 
-/// Coordinates of a point of a plane quadrilateral and their derivatives by its place.
+/// Coordinates of a point of a plane facet and their derivatives by its place.
 pub(crate) fn located(
+    shape: Shape,
     corners: &[Vector2<f64>; 4],
     goal: &Vector2<f64>,
 ) -> Option<([f64; 2], Matrix2<f64>)> {
     let at = |xi: f64, eta: f64| {
-        let w = Shape::Quadrilateral.weights(xi, eta);
+        let w = shape.weights(xi, eta);
         let sum =
             |weights: &[f64; 4]| -> Vector2<f64> { (0..4).map(|c| corners[c] * weights[c]).sum() };
         let jacobian = Matrix2::from_columns(&[sum(&w.d_xi), sum(&w.d_eta)]);
         (sum(&w.value) - goal, jacobian)
     };
-    let (mut xi, mut eta) = (0.0, 0.0);
+    let [mut xi, mut eta] = shape.centre();
     for _ in 0..20 {
         let (residual, jacobian) = at(xi, eta);
         let step = jacobian.try_inverse()? * residual;
@@ -224,7 +237,7 @@ mod tests {
     type V = Vector3<f64>;
 
     fn area(facet: &[V; 4], cover: &[V]) -> f64 {
-        covered_points(facet, cover)
+        covered_points(Shape::Quadrilateral, facet, cover)
             .iter()
             .map(|point| {
                 let weights = Shape::Quadrilateral.weights(point.xi, point.eta);
@@ -305,7 +318,7 @@ mod tests {
                     at(to, -2.0),
                     at(from, -2.0),
                 ];
-                let points = covered_points(&facet, &corners).into_iter();
+                let points = covered_points(Shape::Quadrilateral, &facet, &corners).into_iter();
                 points.fold(Dual64::new(0.0, 0.0), |sum, point| {
                     sum + point.weight * ((point.eta * point.eta + 1.0) * point.xi * 0.3).exp()
                 })
@@ -325,12 +338,34 @@ mod tests {
     }
 
     #[test]
+    fn triangles_share_out_a_quadrilateral() {
+        let [a, b, c, d] = [[0.0, 0.0], [1.0, 0.1], [1.3, 1.2], [-0.1, 0.9]]
+            .map(|[x, y]| V::new(x, y, 0.2 * x - 0.1 * y));
+        let at = |x: f64, y: f64| V::new(x, y, 0.0);
+        let cover = [at(0.2, 1.5), at(1.4, 0.6), at(0.4, -0.3), at(-0.2, 0.3)];
+        // Area, and moments of it by the interpolated place.
+        let sums = |shape: Shape, facet: [V; 4]| {
+            let points = covered_points(shape, &facet, &cover).into_iter();
+            let parts = points.map(|point| {
+                let weights = shape.weights(point.xi, point.eta);
+                let share = point.weight * area_vector(&weights, &facet).norm();
+                (combination(&weights.value, &facet) * share).push(share)
+            });
+            parts.sum::<nalgebra::Vector4<f64>>()
+        };
+        let whole = sums(Shape::Quadrilateral, [a, b, c, d]);
+        let halves = [[a, b, c, c], [a, c, d, d]].map(|half| sums(Shape::Triangle, half));
+        assert!((halves[0] + halves[1] - whole).norm() < 1e-14, "{whole}");
+        assert!(halves.iter().all(|half| half.w > 0.1));
+    }
+
+    #[test]
     fn coordinates_lie_on_the_facet_and_first_moments_are_exact() {
         let facet = irregular();
         let at = |x: f64, y: f64| V::new(x, y, 0.0);
         let cover = [at(0.2, 0.8), at(0.7, 0.8), at(0.7, 0.3)];
         let mut moment = V::zeros();
-        for point in covered_points(&facet, &cover) {
+        for point in covered_points(Shape::Quadrilateral, &facet, &cover) {
             let weights = Shape::Quadrilateral.weights(point.xi, point.eta);
             let x = combination(&weights.value, &facet);
             moment += x * point.weight * area_vector(&weights, &facet).norm();

@@ -17,7 +17,8 @@ use crate::{
 
 /// A load on the surface, as force per current area.
 pub trait SurfaceLoad {
-    /// The load at a point of the facet with these current corners.
+    /// The load at a point of the facet with these current corners. A triangle repeats its
+    /// last one, and is asked with its own coordinates.
     fn per_area<D: Real>(&self, x: &[Vector3<D>; 4], xi: D, eta: D) -> Vector3<D>;
 }
 
@@ -37,6 +38,7 @@ pub fn covered_load<L: SurfaceLoad>(
     let first = own
         .corners(facet)
         .map(|corner| numbering.position(side, corner));
+    let shape = Shape::of(&own.corners(facet));
     let x: [Vector3<DualSVec64<N>>; 4] = variables3(&own.corner_positions(facet), 0);
     let mut terms = Vec::with_capacity(covers.len());
     for &cover in covers {
@@ -58,8 +60,8 @@ pub fn covered_load<L: SurfaceLoad>(
         let corners = variables3(&other.corner_positions(cover), 12);
         let window = &corners[..distinct_corners(&opposite).len()];
         let mut force = [(); 4].map(|()| Vector3::repeat(DualSVec64::<N>::from_re(0.0)));
-        for point in covered_points(&x, window) {
-            let weights = Shape::Quadrilateral.weights(point.xi, point.eta);
+        for point in covered_points(shape, &x, window) {
+            let weights = shape.weights(point.xi, point.eta);
             let area = norm(&area_vector(&weights, &x)) * point.weight;
             let density = scaled(&load.per_area(&x, point.xi, point.eta), area);
             for corner in 0..4 {

@@ -30,7 +30,9 @@ impl Configuration<'_> {
             .into_iter()
             .fold(0.0, f64::max);
         let positions = own.corner_positions(facet);
-        let centre = Shape::Quadrilateral.weights(0.0, 0.0);
+        let shape = Shape::of(&corners);
+        let [xi, eta] = shape.centre();
+        let centre = shape.weights(xi, eta);
         let middle = combination(&centre.value, &positions);
         let m = area_vector(&centre, &positions).normalize();
         let bounds = own.bounds(facet).inflated(reach);

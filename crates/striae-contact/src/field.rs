@@ -174,7 +174,7 @@ impl<'a> Kernel<'a> {
     /// Terms of its covered parts: one with all forces, and for every cover one with
     /// their derivatives by its corners.
     fn cut(&self, covers: &[Cover], sum: &mut FacetForces) -> Vec<LocalTerm> {
-        let in_plane = FlatFacet::new(&self.x);
+        let in_plane = FlatFacet::new(Shape::Quadrilateral, &self.x);
         let mut covers = covers
             .iter()
             .filter(|cover| !in_plane.covered(&cover.x).is_empty())
@@ -182,7 +182,8 @@ impl<'a> Kernel<'a> {
         if covers.peek().is_none() {
             return Vec::new();
         }
-        let flat: FlatFacet<DualSVec64<24>> = FlatFacet::new(&variables3(&self.x, 0));
+        let flat: FlatFacet<DualSVec64<24>> =
+            FlatFacet::new(Shape::Quadrilateral, &variables3(&self.x, 0));
         let mut integral = Integral::zero();
         let mut terms = Vec::new();
         for cover in covers {

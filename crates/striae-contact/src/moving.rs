@@ -56,7 +56,7 @@ pub fn moving_points<const N: usize>(
         .filter_map(move |([r, s], share)| {
             let barycentric = [1.0 - r - s, r, s];
             let target = (0..3).map(|k| vertices[k] * barycentric[k]).sum();
-            let ([xi, eta], inverse) = located(&facet, &target)?;
+            let ([xi, eta], inverse) = located(Shape::Quadrilateral, &facet, &target)?;
             let weights = Shape::Quadrilateral.weights(xi, eta);
             let (d_xi, d_eta) = (sum(&weights.d_xi), sum(&weights.d_eta));
             Some(MovingPoint {
@@ -201,11 +201,11 @@ mod tests {
         let facet = variables3::<24>(&facet.map(Vec3::from), 0);
         let cover = variables3::<24>(&cover.map(Vec3::from), 12);
         let mut exact = [D::from_re(0.0); 2];
-        for point in covered_points(&facet, &cover) {
+        for point in covered_points(Shape::Quadrilateral, &facet, &cover) {
             let values = integrands(point.xi, point.eta);
             (0..2).for_each(|row| exact[row] += values[row] * point.weight);
         }
-        let flat_facet = FlatFacet::new(&facet);
+        let flat_facet = FlatFacet::new(Shape::Quadrilateral, &facet);
         let triangles = flat_facet.covered(&cover);
         assert!(triangles.len() > 1);
         let mut sums = [0.0; 2];

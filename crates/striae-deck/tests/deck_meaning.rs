@@ -743,17 +743,9 @@ facet_sets = [{ name = "s", nodes = "pin" }]"#,
 fn triangles_where_four_corners_are_needed() {
     let tetrahedra = "divisions = [4, 4, 2], cells = \"tetrahedra\" }";
     misstated(
-        "load on parts of triangles",
-        &[("divisions = [4, 4, 2] }", tetrahedra)],
-        &[
-            "35:13: a load on the exposed part of `xmin` needs facets with four corners, and body `lower` has triangles there; mesh it with hexahedra, wedges or pyramids that show quadrilaterals",
-        ],
-    );
-    misstated(
         "collocated contact of triangles",
         &[
             ("divisions = [4, 4, 2] }", tetrahedra),
-            (r#"value = 3, extent = "exposed""#, "value = 3"),
             (
                 r#"law = "coulomb", mu = 0.3 }"#,
                 "law = \"coulomb\", mu = 0.3 }\nenforcement = \"collocated\"",

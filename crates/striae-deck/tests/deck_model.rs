@@ -524,13 +524,16 @@ fn every_generator_makes_its_mesh() {
     for mesh in [
         r#"generator = "block", size = [1, 2, 3], divisions = [2, 3, 4], grading = { x = { one_sided = 3 }, y = { symmetric = 2 }, z = { lengths = [1, 2, 2, 1] } }, rotation = { axis = [0, 0, 2], degrees = 30, about = [0, 0, 0] }, mesh_rotation = 10, bottom_slopes = [0.1, 0], top_slopes = [0, 0.1], irregularity = 0.1, seed = 4"#,
         r#"generator = "capped-block", size = [10, 10], height = 6.5, radius = 12, element_size = 1.6, apex = [0, 0, 1], fine_half_width = 2, fine_depth = 1, growth = 1.5, part = "half""#,
+        r#"generator = "capped-block", size = [10, 10], height = 6.5, radius = 12, element_size = 3, cells = "composite-tetrahedra""#,
         r#"generator = "half-cylinder", radius = 8, thickness = 1, element_size = 1, half = "upper", layers = 2"#,
         r#"generator = "annulus", inner_radius = 0.2, outer_radius = 0.5, width = 0.4, divisions = [2, 24, 2], refinement = { half_angle = 20, ratio = 3 }"#,
+        r#"generator = "cylinder", base = [0, 0, 1], axis = [0, 1, 0], radius = 2, height = 3, divisions = [2, 2, 3], axial_grading = { one_sided = 2 }, part = "quarter""#,
+        r#"generator = "torus", centre = [0, 0, 1], axis = [1, 0, 0], ring_radius = 4, section_radius = 1, divisions = [1, 1, 8]"#,
     ] {
         let deck = format!(
             "title = \"t\"\n[[material]]\nname = \"m\"\nlaw = \"linear-elastic\"\nlambda = 1\nshear_modulus = 1\n\
              [[body]]\nname = \"b\"\nmaterial = \"m\"\nmesh = {{ {mesh} }}\n\
-             [[step]]\nname = \"s\"\ndisplacement = [{{ body = \"b\", nodes = \"ymin\", x = 0, y = 0, z = 0 }}]\n"
+             [[step]]\nname = \"s\"\ndisplacement = [{{ body = \"b\", nodes = \"all\", x = 0, y = 0, z = 0 }}]\n"
         );
         assert!(lowered(&deck).model.bodies[0].mesh.element_count() >= 24);
     }

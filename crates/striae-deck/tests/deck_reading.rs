@@ -365,7 +365,7 @@ fn words() {
             r#"generator = "blck", size"#,
         )],
         &[
-            "10:22: `generator` in [[body]] mesh cannot be `blck`; expected one of `block`, `capped-block`, `half-cylinder`, `annulus`; did you mean `block`?",
+            "10:22: `generator` in [[body]] mesh cannot be `blck`; expected one of `block`, `capped-block`, `half-cylinder`, `annulus`, `cylinder`, `torus`; did you mean `block`?",
         ],
     );
     misread(

@@ -4,7 +4,8 @@ use pyo3::prelude::*;
 use striae::mesh::{
     CellKind, Vec3,
     generate::{
-        Annulus, Block, CappedBlock, Grading, Half, HalfCylinder, Part, Pivot, Refinement, Rotation,
+        Annulus, Block, CappedBlock, Cylinder, Grading, Half, HalfCylinder, Part, Pivot,
+        Refinement, Rotation, Sector, Torus,
     },
 };
 
@@ -35,6 +36,16 @@ fn rotation(turn: Turn) -> Option<Rotation> {
     })
 }
 
+fn kind(cells: &str) -> CellKind {
+    match cells {
+        "tetra" => CellKind::Tetrahedron,
+        "tetra10" => CellKind::CompositeTetrahedron,
+        "wedge" => CellKind::Wedge,
+        "pyramid" => CellKind::Pyramid,
+        _ => CellKind::Hexahedron,
+    }
+}
+
 /// A block.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "keyword arguments of Python")]
@@ -51,13 +62,6 @@ pub fn block(
     seed: u64,
     cells: &str,
 ) -> PyResult<Mesh> {
-    let cells = match cells {
-        "tetra" => CellKind::Tetrahedron,
-        "tetra10" => CellKind::CompositeTetrahedron,
-        "wedge" => CellKind::Wedge,
-        "pyramid" => CellKind::Pyramid,
-        _ => CellKind::Hexahedron,
-    };
     let block = Block {
         origin: origin.into(),
         size: size.into(),
@@ -69,7 +73,7 @@ pub fn block(
         top_slopes,
         irregularity,
         seed,
-        cells,
+        cells: kind(cells),
     };
     made(block.mesh())
 }
@@ -87,6 +91,7 @@ pub fn capped_block(
     fine_depth: f64,
     growth: f64,
     half: bool,
+    cells: &str,
 ) -> PyResult<Mesh> {
     let block = CappedBlock {
         apex: apex.into(),
@@ -98,6 +103,7 @@ pub fn capped_block(
         fine_depth,
         growth,
         part: if half { Part::Half } else { Part::Whole },
+        cells: kind(cells),
     };
     made(block.mesh())
 }
@@ -156,4 +162,51 @@ pub fn annulus(
         refinement: refinement.map(|(half_angle, ratio)| Refinement { half_angle, ratio }),
     };
     made(annulus.mesh())
+}
+
+/// A solid cylinder.
+#[pyfunction]
+pub fn cylinder(
+    base: [f64; 3],
+    axis: [f64; 3],
+    radius: f64,
+    height: f64,
+    divisions: [usize; 3],
+    gradings: [Intervals; 1],
+    quarter: bool,
+) -> PyResult<Mesh> {
+    let [axial_grading] = gradings.map(grading);
+    let cylinder = Cylinder {
+        base: base.into(),
+        axis: axis.into(),
+        radius,
+        height,
+        divisions,
+        axial_grading,
+        sector: if quarter {
+            Sector::Quarter
+        } else {
+            Sector::Whole
+        },
+    };
+    made(cylinder.mesh())
+}
+
+/// A ring of round section.
+#[pyfunction]
+pub fn torus(
+    centre: [f64; 3],
+    axis: [f64; 3],
+    ring_radius: f64,
+    section_radius: f64,
+    divisions: [usize; 3],
+) -> PyResult<Mesh> {
+    let torus = Torus {
+        centre: centre.into(),
+        axis: axis.into(),
+        ring_radius,
+        section_radius,
+        divisions,
+    };
+    made(torus.mesh())
 }

@@ -35,7 +35,7 @@ mod _striae {
     use super::{
         fit::{fit_friction, measurements_of},
         friction::Friction,
-        generate::{annulus, block, capped_block, half_cylinder},
+        generate::{annulus, block, capped_block, cylinder, half_cylinder, torus},
         material::Material,
         mesh::{Mesh, read_mesh, read_rigid_surface},
         model::Model,

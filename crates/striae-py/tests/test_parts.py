@@ -21,6 +21,12 @@ def test_generators_have_their_volume_and_sets() -> None:
     assert turned.points[:, 1].max() == pytest.approx(2)
     assert set(st.half_cylinder().facet_sets) >= {"ymin", "ymax"}
     assert "zmax" in st.capped_block().facet_sets
+    assert "tetra10" in st.capped_block(element_size=2, cells="tetra10").cells
+    rod = st.cylinder(radius=2, height=3, divisions=(8, 4, 2))
+    assert rod.volume == pytest.approx(12 * np.pi, rel=5e-3)
+    assert "xmin" in st.cylinder(quarter=True, grading={"axial": st.Grading.one_sided(2)}).facet_sets
+    seal = st.torus(ring_radius=5, section_radius=1, divisions=(4, 4, 64))
+    assert seal.volume == pytest.approx(10 * np.pi**2, rel=1e-2)
     ring = st.annulus(inner_radius=1, outer_radius=2, width=1, divisions=(4, 64, 2))
     assert ring.volume == pytest.approx(3 * np.pi, rel=5e-3)
 

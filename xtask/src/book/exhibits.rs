@@ -15,7 +15,7 @@ pub struct Exhibit {
 }
 
 /// All cases.
-pub const EXHIBITS: [Exhibit; 20] = [
+pub const EXHIBITS: [Exhibit; 23] = [
     Exhibit {
         case: "two-blocks",
         run: Some("deck"),
@@ -141,6 +141,27 @@ pub const EXHIBITS: [Exhibit; 20] = [
         options: &["--field", "cauchy_stress", "--time", "1"],
         figure: Some("impact"),
         caption: "An elastic bar that flies against a rigid wall, beside the exact solution of waves.",
+    },
+    Exhibit {
+        case: "cooks-membrane",
+        run: Some("rubber-hexahedra-16"),
+        options: &["--field", "cauchy_stress", "--view", "0,1,0"],
+        figure: Some("convergence"),
+        caption: "A skewed cantilever that bends and shears, compressible and nearly incompressible, on finer and finer meshes.",
+    },
+    Exhibit {
+        case: "bonded-pad",
+        run: Some("composite-tetrahedra-1-4-4"),
+        options: &["--field", "cauchy_stress", "--view", "-0.8,-1,-0.6"],
+        figure: Some("stiffness"),
+        caption: "An eighth of a rubber pad between bonded plates; it is the stiffer the flatter it is.",
+    },
+    Exhibit {
+        case: "treloar",
+        run: None,
+        options: &[],
+        figure: Some("tests"),
+        caption: "The rubber that Treloar measured in 1944, by four laws with published constants.",
     },
     Exhibit {
         case: "million-unknowns",

@@ -9,7 +9,8 @@ use crate::{
 use striae_mesh::{
     CellKind, Mesh, MeshError, Vec3,
     generate::{
-        Annulus, Block, CappedBlock, Grading, Half, HalfCylinder, Part, Pivot, Refinement, Rotation,
+        Annulus, Block, CappedBlock, Cylinder, Grading, Half, HalfCylinder, Part, Pivot,
+        Refinement, Rotation, Sector, Torus,
     },
 };
 use striae_model::FaultKind as ModelFault;
@@ -20,6 +21,8 @@ pub(super) enum Generator {
     CappedBlock(CappedBlock),
     HalfCylinder(HalfCylinder),
     Annulus(Annulus),
+    Cylinder(Cylinder),
+    Torus(Torus),
 }
 
 impl Generator {
@@ -30,6 +33,8 @@ impl Generator {
             raw::Generator::CappedBlock(raw) => capped_block(raw).map(Self::CappedBlock),
             raw::Generator::HalfCylinder(raw) => half_cylinder(raw).map(Self::HalfCylinder),
             raw::Generator::Annulus(raw) => annulus(raw, faults).map(Self::Annulus),
+            raw::Generator::Cylinder(raw) => cylinder(raw, faults).map(Self::Cylinder),
+            raw::Generator::Torus(raw) => torus(raw, faults).map(Self::Torus),
         }
     }
 
@@ -40,6 +45,8 @@ impl Generator {
             Self::CappedBlock(block) => block.mesh(),
             Self::HalfCylinder(slice) => slice.mesh(),
             Self::Annulus(ring) => ring.mesh(),
+            Self::Cylinder(cylinder) => cylinder.mesh(),
+            Self::Torus(ring) => ring.mesh(),
         }
     }
 }
@@ -61,13 +68,7 @@ fn block(raw: &raw::Block, faults: &mut FaultList<'_>) -> Option<Block> {
         origin: point(&raw.origin),
         size: Vec3::new(x.0, y.0, z.0),
         divisions: counts(&raw.divisions)?,
-        cells: match raw.cells.as_ref().map(|cells| cells.value) {
-            None | Some(raw::Cells::Hexahedra) => CellKind::Hexahedron,
-            Some(raw::Cells::Wedges) => CellKind::Wedge,
-            Some(raw::Cells::Pyramids) => CellKind::Pyramid,
-            Some(raw::Cells::Tetrahedra) => CellKind::Tetrahedron,
-            Some(raw::Cells::CompositeTetrahedra) => CellKind::CompositeTetrahedron,
-        },
+        cells: cells(&raw.cells),
         gradings: [
             along(|all| &all.x)?,
             along(|all| &all.y)?,
@@ -104,6 +105,7 @@ fn capped_block(raw: &raw::CappedBlock) -> Option<CappedBlock> {
             None | Some(raw::Part::Whole) => Part::Whole,
             Some(raw::Part::Half) => Part::Half,
         },
+        cells: cells(&raw.cells),
     })
 }
 
@@ -138,10 +140,7 @@ fn annulus(raw: &raw::Annulus, faults: &mut FaultList<'_>) -> Option<Annulus> {
     };
     Some(Annulus {
         centre: point(&raw.centre),
-        axis: match &raw.axis {
-            Some(axis) => nonzero(axis, "the axis of a ring", faults)?,
-            None => Vec3::y(),
-        },
+        axis: axis(&raw.axis, Vec3::y(), "the axis of a ring", faults)?,
         inner_radius: raw.inner_radius.as_ref()?.value.0,
         outer_radius: raw.outer_radius.as_ref()?.value.0,
         width: raw.width.as_ref()?.value.0,
@@ -150,6 +149,53 @@ fn annulus(raw: &raw::Annulus, faults: &mut FaultList<'_>) -> Option<Annulus> {
         axial_grading: lower_grading(&raw.axial_grading)?,
         refinement,
     })
+}
+
+fn cylinder(raw: &raw::SolidCylinder, faults: &mut FaultList<'_>) -> Option<Cylinder> {
+    Some(Cylinder {
+        base: point(&raw.base),
+        axis: axis(&raw.axis, Vec3::z(), "the axis of a cylinder", faults)?,
+        radius: raw.radius.as_ref()?.value.0,
+        height: raw.height.as_ref()?.value.0,
+        divisions: counts(&raw.divisions)?,
+        axial_grading: lower_grading(&raw.axial_grading)?,
+        sector: match raw.part.as_ref().map(|part| part.value) {
+            None | Some(raw::Sector::Whole) => Sector::Whole,
+            Some(raw::Sector::Quarter) => Sector::Quarter,
+        },
+    })
+}
+
+fn torus(raw: &raw::Torus, faults: &mut FaultList<'_>) -> Option<Torus> {
+    Some(Torus {
+        centre: point(&raw.centre),
+        axis: axis(&raw.axis, Vec3::z(), "the axis of a ring", faults)?,
+        ring_radius: raw.ring_radius.as_ref()?.value.0,
+        section_radius: raw.section_radius.as_ref()?.value.0,
+        divisions: counts(&raw.divisions)?,
+    })
+}
+
+fn cells(raw: &Option<At<raw::Cells>>) -> CellKind {
+    match raw.as_ref().map(|cells| cells.value) {
+        None | Some(raw::Cells::Hexahedra) => CellKind::Hexahedron,
+        Some(raw::Cells::Wedges) => CellKind::Wedge,
+        Some(raw::Cells::Pyramids) => CellKind::Pyramid,
+        Some(raw::Cells::Tetrahedra) => CellKind::Tetrahedron,
+        Some(raw::Cells::CompositeTetrahedra) => CellKind::CompositeTetrahedron,
+    }
+}
+
+fn axis(
+    raw: &Option<At<[Number; 3]>>,
+    default: Vec3,
+    place: &str,
+    faults: &mut FaultList<'_>,
+) -> Option<Vec3> {
+    match raw {
+        Some(axis) => nonzero(axis, place, faults),
+        None => Some(default),
+    }
 }
 
 fn lower_grading(raw: &Option<At<raw::Grading>>) -> Option<Grading> {

@@ -50,6 +50,8 @@ choice! {
         "capped-block" => CappedBlock(CappedBlock),
         "half-cylinder" => HalfCylinder(HalfCylinder),
         "annulus" => Annulus(Annulus),
+        "cylinder" => Cylinder(SolidCylinder),
+        "torus" => Torus(Torus),
     }
 }
 
@@ -175,6 +177,8 @@ table! {
         optional growth: Growth,
         /// How much of it is meshed. Default: `whole`.
         optional part: Part,
+        /// What its hexahedra are divided into. Default: `hexahedra`, which are left whole.
+        optional cells: Cells,
     }
 }
 
@@ -253,5 +257,51 @@ table! {
         required half_angle: NonNegative,
         /// Size at the highest point over the size at the lowest.
         required ratio: Growth,
+    }
+}
+
+table! {
+    /// A solid cylinder. Sets of nodes and facets: the round `side`, `zmin`, `zmax`, of a quarter also its planes of symmetry `xmin` and `ymin`; named before it is turned.
+    SolidCylinder {
+        /// Middle of the side `zmin`. Default: `[0, 0, 0]`.
+        optional base: [Number; 3],
+        /// Axis from there, of any length. Default: `[0, 0, 1]`.
+        optional axis: [Number; 3],
+        /// Radius.
+        required radius: Positive,
+        /// Extent along the axis.
+        required height: Positive,
+        /// Elements along half an edge of the square core, from the core to the side, and along the axis. A quarter turn has twice the first number.
+        required divisions: [Count; 3],
+        /// Interval lengths along the axis. Default: equal.
+        optional axial_grading: Grading,
+        /// How much of it is meshed. Default: `whole`.
+        optional part: Sector,
+    }
+}
+
+words! {
+    /// How much of a cylinder is meshed.
+    Sector {
+        /// All of it.
+        Whole = "whole",
+        /// The quarter on the positive sides of the first two axes.
+        Quarter = "quarter",
+    }
+}
+
+table! {
+    /// A ring of round section. Set of nodes and facets: `surface`.
+    Torus {
+        /// Middle of the ring. Default: `[0, 0, 0]`.
+        optional centre: [Number; 3],
+        /// Axis of any length. Default: `[0, 0, 1]`.
+        optional axis: [Number; 3],
+        /// Radius of the circle on which the middles of the sections lie.
+        required ring_radius: Positive,
+        /// Radius of the section.
+        required section_radius: Positive,
+        /// Elements along half an edge of the square core of the section, from the core to the surface, and around the axis. The section has eight times the first number around.
+        required divisions: [Count; 3],
     }
 }

@@ -1,11 +1,10 @@
 //! Elements of materials with a memory.
 
 use super::*;
-use nalgebra::{DMatrix, DVector, Matrix3};
+use nalgebra::Matrix3;
 use striae_law::bulk::{
     Branch, Hardening, Hyperelastic, Isochoric, Plastic, Viscoelastic, Volumetric,
 };
-use striae_verify::assert_derivative;
 
 fn materials() -> [Material; 2] {
     let slow = Isochoric::MooneyRivlin {
@@ -20,44 +19,6 @@ fn materials() -> [Material; 2] {
         Material::Viscoelastic(Viscoelastic::new(slow, &branches).unwrap()),
         Material::Plastic(Plastic::new(constants, hardening)),
     ]
-}
-
-#[test]
-fn the_stiffness_is_the_derivative_of_the_force_at_a_fixed_past() {
-    for material in materials() {
-        for kind in CellKind::ALL {
-            for formulation in FORMULATIONS {
-                let mut random = Random::new(31);
-                let single = Single::distorted(kind, formulation, &mut random, 0.12);
-                let rest = vec![0.0; material.variables() * single.elements.points()];
-                let past = |variables| Past {
-                    variables,
-                    elapsed: 0.4,
-                };
-                let x = single.disturbed(&mut random, 0.1);
-                let element = single.element();
-                let before = element.response(&x, &material, past(&rest)).unwrap();
-                assert!(before.dissipated > 0.0);
-                let x = single.disturbed(&mut random, 0.1);
-                let at = |x: &DVector<f64>| {
-                    let x = x.as_slice().chunks_exact(3).map(Vec3::from_column_slice);
-                    let x: Vec<Vec3> = x.collect();
-                    let past = past(&before.variables);
-                    element.response(&x, &material, past).unwrap()
-                };
-                let x = x.iter().flat_map(|x| x.iter().copied());
-                let x = DVector::from_iterator(3 * single.reference.len(), x);
-                assert_derivative(
-                    |x| DVector::from_row_slice(at(x).force.as_flattened()),
-                    |x| DMatrix::from_row_slice(x.len(), x.len(), &at(x).stiffness.by_rows()),
-                    &x,
-                );
-                let stiffness =
-                    DMatrix::from_row_slice(x.len(), x.len(), &at(&x).stiffness.by_rows());
-                assert_eq!(stiffness, stiffness.transpose());
-            }
-        }
-    }
 }
 
 #[test]

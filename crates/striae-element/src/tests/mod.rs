@@ -3,6 +3,7 @@
 mod mass;
 mod memory;
 mod single;
+mod tangents;
 
 use super::{Element, ElementResponse, Elements, Formulation};
 

@@ -101,6 +101,10 @@ pub enum InadmissibleFibres {
     Direction(usize),
 }
 
+/// Strain up to which exponential fibres are slack: the round-off of one at rest. Fibres at
+/// rest would else be slack or not by chance, each point of an element on its own, and the
+/// first iteration of an increment from there would go astray where volumes can hardly change.
+const SLACK: f64 = 1e-13;
 /// `k2 E^2` up to which the exponential function is evaluated.
 const LARGEST_EXPONENT: f64 = 200.0;
 
@@ -222,7 +226,7 @@ impl FibreStiffness {
                 let quarter = 0.25 * modulus;
                 Ok([0.5 * quarter * strain * strain, quarter * strain, quarter])
             }
-            Self::Exponential { .. } if strain <= 0.0 => Ok([0.0; 3]),
+            Self::Exponential { .. } if strain <= SLACK => Ok([0.0; 3]),
             Self::Exponential { k1, k2, .. } => {
                 let exponent = k2 * strain * strain;
                 if exponent > LARGEST_EXPONENT {

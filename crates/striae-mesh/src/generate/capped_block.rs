@@ -6,10 +6,14 @@
 //! its column lies at `z = z_cap + s (height - z_cap)`: nodes of the cap are on
 //! the sphere. Elements have the wanted size at the apex and grow away from
 //! it, see [`refined_lengths`].
+//!
+//! Cells of other kinds are made by dividing the hexahedra at `(x, y, s)`, so that nodes in
+//! the middles of edges lie on the sphere as well.
 
+use super::division::Division;
 use super::grading::{mirrored, refined_lengths, unit_partial_sums};
 use super::grid::{Closure, Grid, Side, named_mesh};
-use crate::{Mesh, MeshError, Vec3};
+use crate::{CellKind, Mesh, MeshError, Vec3};
 
 /// A block on a spherical cap, with sides `xmin xmax ymin ymax cap zmax`.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +37,8 @@ pub struct CappedBlock {
     pub growth: f64,
     /// How much of the block is meshed; default all of it.
     pub part: Part,
+    /// What the hexahedra are divided into; default hexahedra. Wedges stand along `z`.
+    pub cells: CellKind,
 }
 
 /// How much of a block is meshed.
@@ -56,6 +62,7 @@ impl Default for CappedBlock {
             fine_depth: 0.0,
             growth: 1.3,
             part: Part::Whole,
+            cells: CellKind::Hexahedron,
         }
     }
 }
@@ -80,11 +87,9 @@ impl CappedBlock {
             Closure::Open,
         )?;
         let [x, y, s] = [&x_lengths, &y_lengths, &z_lengths].map(|l| unit_partial_sums(l));
-        let positions = grid.positions(|[i, j, k]| {
+        let mut positions = grid.positions(|[i, j, k]| {
             let x = self.size[0] * (x[i] - 0.5);
-            let y = y_start + y_extent * y[j];
-            let cap = sagitta(self.radius, x * x + y * y);
-            self.apex + Vec3::new(x, y, cap + s[k] * (self.height - cap))
+            Vec3::new(x, y_start + y_extent * y[j], s[k])
         });
         let sides = [
             ("xmin", grid.faces(Side::FirstI)),
@@ -94,7 +99,13 @@ impl CappedBlock {
             ("cap", grid.faces(Side::FirstK)),
             ("zmax", grid.faces(Side::LastK)),
         ];
-        named_mesh(positions, grid.elements(), sides)
+        let division = Division::new(grid.elements(), self.cells, &mut positions);
+        let sides = sides.map(|(name, faces)| (name, division.faces(&faces)));
+        let positions = positions.into_iter().map(|x| {
+            let cap = sagitta(self.radius, x.x * x.x + x.y * x.y);
+            self.apex + Vec3::new(x.x, x.y, cap + x.z * (self.height - cap))
+        });
+        named_mesh(positions.collect(), division.cells, sides)
     }
 
     /// Interval lengths of the plan along `x` and `y`, for a commensurate

@@ -3,9 +3,11 @@
 //! | generator | body |
 //! | --- | --- |
 //! | [`Block`] | box, graded, turned, with oblique faces, turned or irregular mesh inside, of cells of any kind |
-//! | [`CappedBlock`] | block with a spherical lower face, fine at its lowest point |
+//! | [`CappedBlock`] | block with a spherical lower face, fine at its lowest point, of cells of any kind |
 //! | [`HalfCylinder`] | slice of a half cylinder, fine at the end of its middle radius |
 //! | [`Annulus`] | ring of rectangular section, a tyre |
+//! | [`Cylinder`] | solid cylinder, or a quarter of it |
+//! | [`Torus`] | ring of round section, an O-ring |
 //!
 //! Faces of the outline are named both as facet sets and as node sets; node
 //! set and element set `all` hold everything. Every mesh has passed
@@ -30,13 +32,20 @@
 mod annulus;
 mod block;
 mod capped_block;
+mod cylinder;
+mod disc;
 mod division;
 mod grading;
 mod grid;
 mod half_cylinder;
+mod sweep;
+mod torus;
 
 pub use annulus::{Annulus, Refinement};
 pub use block::{Block, Pivot, Rotation};
 pub use capped_block::{CappedBlock, Part};
+pub use cylinder::Cylinder;
+pub use disc::Sector;
 pub use grading::{Grading, refined_lengths};
 pub use half_cylinder::{Half, HalfCylinder};
+pub use torus::Torus;

@@ -3,7 +3,7 @@
 use crate::{area, assert_close, assert_sets_share_out_the_boundary, normals, orders};
 use proptest::prelude::*;
 use striae_mesh::generate::{CappedBlock, Part};
-use striae_mesh::{MeshError, Vec3};
+use striae_mesh::{CellKind, MeshError, Vec3};
 
 const CAP_SIDES: [&str; 6] = ["xmin", "xmax", "ymin", "ymax", "cap", "zmax"];
 
@@ -31,6 +31,25 @@ fn cap_lies_on_the_sphere_and_starts_at_the_apex() {
         assert_close(mesh.positions[node.index()].z, 8.5, 1e-14);
     }
     assert!(mesh.quality().smallest_scaled_jacobian > 0.6);
+}
+
+#[test]
+fn nodes_of_the_cap_lie_on_the_sphere_whatever_the_cells() {
+    for cells in CellKind::ALL {
+        let block = CappedBlock {
+            cells,
+            ..CappedBlock::default()
+        };
+        let mesh = block.mesh().unwrap();
+        let centre = Vec3::z() * block.radius;
+        for node in mesh.node_sets.get("cap").unwrap() {
+            let r = (mesh.positions[node.index()] - centre).norm();
+            assert_close(r, block.radius, 1e-14);
+        }
+        for node in mesh.node_sets.get("zmax").unwrap() {
+            assert_close(mesh.positions[node.index()].z, block.height, 1e-14);
+        }
+    }
 }
 
 #[test]
@@ -168,5 +187,24 @@ proptest! {
         prop_assert!(quality.smallest_scaled_jacobian > 0.4);
         let exact = size[0] * size[1] * 6.5 - volume_below_cap(radius, size.map(|s| 0.5 * s));
         prop_assert!(quality.volume < exact && quality.volume > 0.97 * exact);
+    }
+}
+
+#[test]
+fn capped_blocks_of_other_cells_have_the_same_sides() {
+    let whole = CappedBlock::default();
+    let hexahedra = whole.mesh().unwrap();
+    let cells = CellKind::ALL.into_iter();
+    for cells in cells {
+        let mesh = CappedBlock {
+            cells,
+            ..whole.clone()
+        }
+        .mesh()
+        .unwrap();
+
+        assert_sets_share_out_the_boundary(&mesh, &CAP_SIDES);
+        assert_close(mesh.volume(), hexahedra.volume(), 0.01);
+        assert_close(area(&mesh, "cap"), area(&hexahedra, "cap"), 0.01);
     }
 }

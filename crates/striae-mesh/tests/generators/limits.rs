@@ -1,7 +1,7 @@
 //! Parameters that no mesh can be made of.
 
 use striae_mesh::MeshError;
-use striae_mesh::generate::{Annulus, Block, CappedBlock, HalfCylinder};
+use striae_mesh::generate::{Annulus, Block, CappedBlock, Cylinder, HalfCylinder, Torus};
 
 #[test]
 fn meshes_beyond_all_bounds_are_refused_at_once() {
@@ -20,6 +20,18 @@ fn meshes_beyond_all_bounds_are_refused_at_once() {
         ..HalfCylinder::default()
     };
     assert!(matches!(slice.mesh(), Err(MeshError::TooLarge { .. })));
+    for divisions in [[usize::MAX; 3], [1, 1 << 40, 3], [1, 1, 1 << 40]] {
+        let cylinder = Cylinder {
+            divisions,
+            ..Cylinder::default()
+        };
+        assert!(matches!(cylinder.mesh(), Err(MeshError::TooLarge { .. })));
+        let ring = Torus {
+            divisions,
+            ..Torus::default()
+        };
+        assert!(matches!(ring.mesh(), Err(MeshError::TooLarge { .. })));
+    }
     for element_size in [1e-12, f64::NAN] {
         let cap = CappedBlock {
             element_size,
@@ -32,4 +44,20 @@ fn meshes_beyond_all_bounds_are_refused_at_once() {
         ..CappedBlock::default()
     };
     assert!(endless.mesh().is_err());
+}
+
+#[test]
+fn round_bodies_without_elements_or_a_hole_are_refused() {
+    for divisions in [[0, 1, 1], [1, 0, 1], [1, 1, 0]] {
+        let cylinder = Cylinder {
+            divisions,
+            ..Cylinder::default()
+        };
+        assert!(matches!(cylinder.mesh(), Err(MeshError::Parameter { .. })));
+    }
+    let full = Torus {
+        ring_radius: 1.0,
+        ..Torus::default()
+    };
+    assert!(matches!(full.mesh(), Err(MeshError::Parameter { .. })));
 }

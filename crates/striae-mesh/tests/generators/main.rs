@@ -5,6 +5,7 @@ mod block;
 mod capped_block;
 mod half_cylinder;
 mod limits;
+mod round;
 
 use striae_mesh::{Face, Mesh, Vec3};
 

@@ -1,15 +1,14 @@
 //! What facets with three corners cannot have.
 //!
-//! Collocated contact and loads on the exposed part of facets are integrated over parts
-//! of quadrilaterals only.
+//! Collocated contact is integrated over parts of quadrilaterals only.
 
 use striae_mesh::{Face, Mesh};
-use striae_solve::model::{BodyId, Enforcement, LoadExtent, Pair, Side};
+use striae_solve::model::{BodyId, Enforcement, Pair, Side};
 
 use super::{Draft, List};
 use crate::{fault::FaultKind, path::Path};
 
-/// Notes pairs and loads that need facets with four corners and have others.
+/// Notes pairs that need facets with four corners and have others.
 pub(super) fn check(draft: &Draft<'_>, faults: &mut List) {
     let mut note = |body: BodyId, faces: &[Face], what: String, path: Path| {
         let body = &draft.bodies[body.0];
@@ -27,15 +26,6 @@ pub(super) fn check(draft: &Draft<'_>, faults: &mut List) {
             if let Side::Deformable { body, faces } = side {
                 let what = format!("collocated contact in pair `{}`", pair.name);
                 note(*body, faces, what, Path::part("pairs", index).field(field));
-            }
-        }
-    }
-    for (index, of) in draft.steps.iter().enumerate() {
-        for (at, load) in of.step.loads.iter().enumerate() {
-            if load.extent == LoadExtent::Exposed {
-                let what = format!("a load on the exposed part of `{}`", load.set);
-                let path = Path::part("steps", index).field("loads").index(at);
-                note(load.body, &load.faces, what, path);
             }
         }
     }

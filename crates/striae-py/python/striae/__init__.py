@@ -55,7 +55,17 @@ from ._material import (
     Rubber,
     Yeoh,
 )
-from ._mesh import Grading, Mesh, annulus, block, capped_block, half_cylinder, read_mesh
+from ._mesh import (
+    Grading,
+    Mesh,
+    annulus,
+    block,
+    capped_block,
+    cylinder,
+    half_cylinder,
+    read_mesh,
+    torus,
+)
 from ._model import Advice, Check, Fit, Model, Remark, Solver
 from ._pair import Pair
 from ._results import (
@@ -149,6 +159,7 @@ __all__ = [
     "annulus",
     "block",
     "capped_block",
+    "cylinder",
     "fit_friction",
     "gravity",
     "half_cylinder",
@@ -156,4 +167,5 @@ __all__ = [
     "read_mesh",
     "resume",
     "sweep",
+    "torus",
 ]

@@ -18,6 +18,9 @@ from ._errors import refuse
 #: Kinds of cells that meshes are made of, as meshio calls them, and their corners.
 KINDS = {"hexahedron": 8, "wedge": 6, "pyramid": 5, "tetra": 4, "tetra10": 10}
 
+#: What the hexahedra of generators are cut into.
+CellKind = Literal["hexahedron", "wedge", "pyramid", "tetra", "tetra10"]
+
 
 def frozen(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
     """The array, not to be written to."""
@@ -341,7 +344,7 @@ def block(
     top_slopes: Vector = (0.0, 0.0),
     irregularity: float = 0.0,
     seed: int = 0,
-    cells: Literal["hexahedron", "wedge", "pyramid", "tetra", "tetra10"] = "hexahedron",
+    cells: CellKind = "hexahedron",
 ) -> Mesh:
     """A block with the sets ``xmin``, ``xmax``, ``ymin``, ``ymax``, ``zmin``, ``zmax`` of nodes
     and facets, named before rotation.
@@ -391,6 +394,7 @@ def capped_block(
     fine_depth: float = 0.0,
     growth: float = 1.3,
     half: bool = False,
+    cells: CellKind = "hexahedron",
 ) -> Mesh:
     """A block whose lower side is a spherical cap, with the sets ``xmin``, ``xmax``, ``ymin``,
     ``ymax``, ``cap``, ``zmax``.
@@ -404,6 +408,7 @@ def capped_block(
     fine_depth: depth to which they have this height (length).
     growth: largest ratio of neighbouring sizes outside (no unit).
     half: whether only y >= 0 from the apex is meshed; ``ymin`` is then the plane of symmetry.
+    cells: kind of the cells into which its hexahedra are cut.
     """
     lengths = [height, radius, element_size, fine_half_width, fine_depth, growth]
     names = ["height", "radius", "element_size", "fine_half_width", "fine_depth", "growth"]
@@ -411,8 +416,9 @@ def capped_block(
     deep, round_, fine, wide, depth, more = [
         check.number(value, name) for value, name in zip(lengths, names)
     ]
+    kind = check.word(cells, tuple(KINDS), "cells")
     return Mesh._of(
-        native.capped_block(place, plan, deep, round_, fine, wide, depth, more, half)
+        native.capped_block(place, plan, deep, round_, fine, wide, depth, more, half, kind)
     )
 
 
@@ -491,6 +497,70 @@ def annulus(
             check.counts(divisions, "divisions"),
             _intervals(grading, "radial axial"),
             fine,
+        )
+    )
+
+
+def cylinder(
+    *,
+    base: Vector = (0.0, 0.0, 0.0),
+    axis: Vector = (0.0, 0.0, 1.0),
+    radius: float = 1.0,
+    height: float = 1.0,
+    divisions: Union[Sequence[int], Ints] = (2, 2, 4),
+    grading: Optional[Mapping[str, Grading]] = None,
+    quarter: bool = False,
+) -> Mesh:
+    """A solid cylinder with the sets ``side``, ``zmin``, ``zmax``, named before it is turned.
+
+    base: middle of the side ``zmin`` (length).
+    axis: from there, of any length.
+    radius: radius (length).
+    height: extent along the axis (length).
+    divisions: elements along half an edge of the square core, from the core to the side, and
+        along the axis; a quarter turn has twice the first number.
+    grading: intervals along ``axial``; equal where nothing is said.
+    quarter: whether only x >= 0 and y >= 0 is meshed; ``xmin`` and ``ymin`` are then its
+        planes of symmetry.
+    """
+    return Mesh._of(
+        native.cylinder(
+            check.vector(base, "base"),
+            check.vector(axis, "axis"),
+            check.number(radius, "radius"),
+            check.number(height, "height"),
+            check.counts(divisions, "divisions"),
+            _intervals(grading, "axial"),
+            quarter,
+        )
+    )
+
+
+def torus(
+    *,
+    centre: Vector = (0.0, 0.0, 0.0),
+    axis: Vector = (0.0, 0.0, 1.0),
+    ring_radius: float = 4.0,
+    section_radius: float = 1.0,
+    divisions: Union[Sequence[int], Ints] = (2, 2, 24),
+) -> Mesh:
+    """A ring of round section, such as an O-ring, with the set ``surface``.
+
+    centre: middle of the ring (length).
+    axis: of the ring, of any length.
+    ring_radius: of the circle on which the middles of the sections lie (length).
+    section_radius: of the section (length).
+    divisions: elements along half an edge of the square core of the section, from the core
+        to the surface, and around the axis; the section has eight times the first number
+        around.
+    """
+    return Mesh._of(
+        native.torus(
+            check.vector(centre, "centre"),
+            check.vector(axis, "axis"),
+            check.number(ring_radius, "ring_radius"),
+            check.number(section_radius, "section_radius"),
+            check.counts(divisions, "divisions"),
         )
     )
 

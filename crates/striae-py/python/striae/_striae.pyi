@@ -62,6 +62,7 @@ def capped_block(
     fine_depth: float,
     growth: float,
     half: bool,
+    cells: str,
 ) -> Mesh: ...
 def half_cylinder(
     apex: list[float],
@@ -83,6 +84,22 @@ def annulus(
     divisions: list[int],
     gradings: list[_Intervals],
     refinement: Optional[tuple[float, float]],
+) -> Mesh: ...
+def cylinder(
+    base: list[float],
+    axis: list[float],
+    radius: float,
+    height: float,
+    divisions: list[int],
+    gradings: list[_Intervals],
+    quarter: bool,
+) -> Mesh: ...
+def torus(
+    centre: list[float],
+    axis: list[float],
+    ring_radius: float,
+    section_radius: float,
+    divisions: list[int],
 ) -> Mesh: ...
 
 def own_material(

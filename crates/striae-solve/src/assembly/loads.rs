@@ -7,7 +7,7 @@ use striae_contact::{
 };
 use striae_mesh::{Face, Vec3};
 use striae_sparse::Supervariable;
-use striae_surface::scalar::Real;
+use striae_surface::{facet::Shape, scalar::Real};
 
 use super::{Fault, Imposed, System, Trial, terms::Answer};
 use crate::{
@@ -141,6 +141,11 @@ impl SurfaceLoad for LoadOnFace<'_> {
         xi: D,
         eta: D,
     ) -> nalgebra::Vector3<D> {
+        // Triangles have the same normals everywhere.
+        let [xi, eta] = match Shape::of(self.reference) {
+            Shape::Triangle => Shape::Quadrilateral.centre().map(D::from),
+            Shape::Quadrilateral => [xi, eta],
+        };
         load::traction(self.kind, self.reference, x, xi, eta)
     }
 }

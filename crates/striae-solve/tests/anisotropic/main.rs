@@ -11,5 +11,6 @@ mod table;
 mod convergence;
 mod guided;
 mod patch;
+mod patch_pair;
 mod sliding;
 mod sticking;

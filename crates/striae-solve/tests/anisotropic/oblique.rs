@@ -18,7 +18,9 @@ use striae_law::{
     friction::{Friction, SlipRule},
 };
 use striae_mesh::{Vec3, generate::Block};
-use striae_solve::model::{Curve, Displacement, LoadExtent, LoadKind, Model, RigidShape, Step};
+use striae_solve::model::{
+    Curve, Displacement, Load, LoadExtent, LoadKind, Model, RigidShape, Step,
+};
 use striae_surface::texture::{Field, Lines, Paint};
 
 use crate::scene::{Places, block, body, increments, model, step};
@@ -124,6 +126,13 @@ pub struct Sliding {
     pub tau: Vector2<f64>,
 }
 
+pub fn material() -> Material {
+    Material::neo_hookean(LameConstants {
+        lambda: LAMBDA,
+        shear: G,
+    })
+}
+
 pub fn along(degrees: f64) -> Vector2<f64> {
     Rotation2::new(degrees.to_radians()) * Vector2::x()
 }
@@ -164,6 +173,13 @@ impl Oblique {
             self.angles[1].map(|angle| across(along(angle))),
         ];
         let tau = self.law.traction(pressure, direction, textures);
+        self.bearing(direction, tau)
+    }
+
+    /// The state with this traction on the base.
+    pub fn bearing(&self, direction: Vector2<f64>, tau: Vector2<f64>) -> Sliding {
+        let b = self.height;
+        let j = self.base.determinant() * b;
         let shear = tau * (-j / (G * b));
         let mut gradient = Matrix3::zeros();
         gradient.fixed_view_mut::<2, 2>(0, 0).copy_from(&self.base);
@@ -176,7 +192,7 @@ impl Oblique {
             direction,
             gradient,
             stress,
-            pressure,
+            pressure: -stress[(2, 2)],
             tau,
         }
     }
@@ -188,12 +204,7 @@ impl Oblique {
 
     /// The same on any flat floor.
     pub fn model_on(&self, block: &Block, floor: RigidShape) -> Model {
-        let constants = LameConstants {
-            lambda: LAMBDA,
-            shear: G,
-        };
-        let material = Material::neo_hookean(constants);
-        let mut model = model(vec![body("block", block.mesh().unwrap(), material)]);
+        let mut model = model(vec![body("block", block.mesh().unwrap(), material())]);
         model.touch_rigid(("block", "zmin"), floor, self.law.friction());
         model.pairs[0].textures = self.angles.map(|angle| angle.map(uniform));
         model
@@ -218,6 +229,12 @@ impl Sliding {
             }
         });
         step.displacements = top.collect();
+        step.loads = self.on_sides(model, "block");
+        step
+    }
+
+    /// What the sides of a block bear.
+    pub fn on_sides(&self, model: &Model, body: &str) -> Vec<Load> {
         let first_piola = self.gradient.determinant()
             * self.stress
             * self.gradient.try_inverse().unwrap().transpose();
@@ -229,10 +246,9 @@ impl Sliding {
         ];
         let load = |(face, normal): (&str, Vec3)| {
             let traction = LoadKind::DeadTraction(first_piola * normal);
-            model.load("block", face, traction, LoadExtent::Whole)
+            model.load(body, face, traction, LoadExtent::Whole)
         };
-        step.loads = faces.into_iter().map(load).collect();
-        step
+        faces.into_iter().map(load).collect()
     }
 }
 

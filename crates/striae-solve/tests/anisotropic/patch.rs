@@ -8,14 +8,17 @@ use crate::{
 };
 use nalgebra::Vector2;
 use striae_contact::unknowns::Status;
-use striae_mesh::Vec3;
+use striae_mesh::{CellKind, Vec3, generate::Block};
 
 const LENGTHS: [f64; 7] = [0.3, 1.0, 4.0, 8.0, 8.0, 8.0, 8.0];
 
 /// Slides an irregular block until it is homogeneous.
-fn slid(oblique: &Oblique, degrees: f64) -> (Run, Sliding, Vector2<f64>) {
+fn slid(oblique: &Oblique, degrees: f64, cells: CellKind) -> (Run, Sliding, Vector2<f64>) {
     let sliding = oblique.sliding(degrees);
-    let mut model = oblique.model(&irregular_block());
+    let mut model = oblique.model(&Block {
+        cells,
+        ..irregular_block()
+    });
     let mut place = Vector2::zeros();
     model.steps.push(sliding.step(&model, place, 2));
     for length in LENGTHS {
@@ -26,8 +29,13 @@ fn slid(oblique: &Oblique, degrees: f64) -> (Run, Sliding, Vector2<f64>) {
 }
 
 fn check(oblique: &Oblique, degrees: f64) {
-    let (run, sliding, place) = slid(oblique, degrees);
-    let what = format!("{:?} {:?} along {degrees}", oblique.law, oblique.angles);
+    check_cells(oblique, degrees, CellKind::Hexahedron);
+}
+
+fn check_cells(oblique: &Oblique, degrees: f64, cells: CellKind) {
+    let (run, sliding, place) = slid(oblique, degrees, cells);
+    let (law, angles) = (&oblique.law, &oblique.angles);
+    let what = format!("{law:?} {angles:?} along {degrees}, {cells}");
     let expected: Vec<Vec3> = run
         .problem
         .reference
@@ -112,5 +120,16 @@ fn tabulated() {
                 degrees,
             );
         }
+    }
+}
+
+#[test]
+fn all_kinds_of_cells() {
+    for cells in CellKind::ALL {
+        let grooves = Formula::Opposing([0.1, 0.3]);
+        check_cells(&Oblique::new(grooves, [Some(30.0), None]), 70.0, cells);
+        let nap = Formula::Nap([0.1, 0.3, 0.2]);
+        let nap = Oblique::new(nap, [None, Some(110.0)]).distorted();
+        check_cells(&nap, 205.0, cells);
     }
 }

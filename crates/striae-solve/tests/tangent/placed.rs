@@ -3,7 +3,7 @@
 use nalgebra::Rotation3;
 use striae_contact::placement::Placement;
 use striae_law::friction::Friction;
-use striae_mesh::{NodeId, Vec3};
+use striae_mesh::{CellKind, NodeId, Vec3};
 use striae_solve::{
     model::{Model, RigidShape},
     problem::Problem,
@@ -23,12 +23,23 @@ pub fn bumpy(x: &Vec3, height: f64) -> Vec3 {
 
 /// Two blocks that overlap in part.
 pub fn two_blocks(moduli: [f64; 2], divisions: [usize; 2], friction: Friction) -> Model {
+    two_blocks_of([CellKind::Hexahedron; 2], moduli, divisions, friction)
+}
+
+/// The same of other cells.
+pub fn two_blocks_of(
+    cells: [CellKind; 2],
+    moduli: [f64; 2],
+    divisions: [usize; 2],
+    friction: Friction,
+) -> Model {
     let [below, above] = divisions;
     let mut lower = block([0.0; 3], [1.0, 1.0, 0.5], [below, below, 1]);
     let mut upper = block([0.23, 0.17, 0.5], [1.1, 0.7, 0.5], [above, above, 1]);
     lower.irregularity = 0.15;
     upper.irregularity = 0.15;
     upper.mesh_rotation = 10.0;
+    [lower.cells, upper.cells] = cells;
     let bodies = vec![
         body("lower", lower.mesh().unwrap(), rubber(moduli[0], 0.3)),
         body("upper", upper.mesh().unwrap(), rubber(moduli[1], 0.3)),

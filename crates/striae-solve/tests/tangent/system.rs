@@ -3,7 +3,7 @@
 
 use striae_contact::unknowns::Status;
 use striae_law::friction::Friction;
-use striae_mesh::Vec3;
+use striae_mesh::{CellKind, Vec3};
 use striae_solve::{
     assembly::StepContext,
     model::{Curve, Freedom, LoadExtent, LoadKind, Model, RigidId, RigidMotion},
@@ -13,14 +13,26 @@ use striae_solve::{
 };
 
 use crate::{
-    placed::{bumps, dome, on_rigid, two_blocks},
+    placed::{bumps, dome, on_rigid, two_blocks, two_blocks_of},
     scene::{Places, Run, coulomb, increments, plane, step},
     whole::Whole,
 };
 
 #[test]
 fn of_the_whole_system_under_all_loads() {
-    let mut model = two_blocks([2.0, 1.0], [3, 3], Friction::frictionless());
+    let hexahedra = two_blocks([2.0, 1.0], [3, 3], Friction::frictionless());
+    assert_order(under_all_loads(hexahedra));
+}
+
+#[test]
+fn of_parts_of_triangles_under_all_loads() {
+    let cells = [CellKind::CompositeTetrahedron, CellKind::Wedge];
+    let model = two_blocks_of(cells, [2.0, 1.0], [1, 2], Friction::frictionless());
+    assert_order(under_all_loads(model));
+}
+
+/// Two blocks that are held and loaded in all ways.
+fn under_all_loads(mut model: Model) -> Model {
     let mut step = step();
     step.displacements = vec![
         model.hold("lower", "zmin", [Some(0.0); 3]),
@@ -51,7 +63,7 @@ fn of_the_whole_system_under_all_loads() {
         model.load("lower", "xmin", LoadKind::Pressure(0.02), LoadExtent::Whole),
     ];
     model.steps = vec![step];
-    assert_order(model);
+    model
 }
 
 #[test]

@@ -25,3 +25,4 @@ mod sections;
 mod sliding;
 mod stabilised;
 mod table_1;
+mod thick_sphere;

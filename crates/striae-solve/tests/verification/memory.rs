@@ -5,8 +5,9 @@ use striae_law::bulk::{
     Branch, Hardening, Hyperelastic, Isochoric, LameConstants, Material, Plastic, Viscoelastic,
     Volumetric,
 };
+use striae_mesh::Vec3;
 use striae_solve::{
-    model::{Formulation, Model},
+    model::{Curve, Formulation, LoadExtent, LoadKind, Model},
     state::Energies,
 };
 use striae_verify::fitted_rate;
@@ -150,6 +151,47 @@ fn stretched_rubber_relaxes_to_its_slow_law() {
     });
     let rate = fitted_rate(&counts.map(|count| 1.0 / count as f64), &errors);
     assert!(rate > 0.9, "{rate}: {errors:?}");
+}
+
+#[test]
+fn loaded_rubber_creeps_by_its_compliance() {
+    // Under a stress s that comes at once and stays, the strain is s D(t) with
+    // D = J/3 + 1/(9 K) and J = (1 - g/(1 + g) exp(-t/((1 + g) t_r)))/G.
+    let (stress, lengths) = (1e-5, [1e-9, 0.5, 1.5]);
+    let compliance = |time: f64| {
+        let slow = BRANCH.ratio / (1.0 + BRANCH.ratio);
+        let left = (-time / ((1.0 + BRANCH.ratio) * BRANCH.time)).exp();
+        (1.0 - slow * left) / (3.0 * SHEAR) + 1.0 / (9.0 * 5.0)
+    };
+    let counts = [5, 10, 20];
+    let errors = counts.map(|count| {
+        let steps = lengths.map(|duration| (1.0, duration));
+        let mut model = stretched(viscoelastic(), Formulation::Standard, &steps, count);
+        let top = LoadKind::DeadTraction(Vec3::z() * stress);
+        let mut load = model.load("cube", "zmax", top, LoadExtent::Whole);
+        for step in &mut model.steps {
+            step.displacements.pop();
+            step.loads = vec![load.clone()];
+            // Held at its end from the first step on.
+            load.curve = Curve::Constant;
+        }
+        let run = Run::completed(model);
+        let node = run
+            .problem
+            .reference
+            .iter()
+            .position(|x| x.z == 1.0)
+            .unwrap();
+        let ends = [(1, 0.0), (2, 0.5), (3, 2.0)];
+        let errors = ends.map(|(end, time)| {
+            let strain = run.states[end * count].positions[node].z - 1.0;
+            (strain / (stress * compliance(time)) - 1.0).abs()
+        });
+        assert!(errors[0] < 1e-4, "{errors:?}");
+        errors[1].max(errors[2])
+    });
+    let rate = fitted_rate(&counts.map(|count| 1.0 / count as f64), &errors);
+    assert!(rate > 0.9 && errors[2] < 0.01, "{rate}: {errors:?}");
 }
 
 #[test]

@@ -8,7 +8,7 @@ use crate::scene::{Places, Run, block, body, coulomb, largest_distance, model, r
 use nalgebra::Matrix3;
 use striae_contact::unknowns::Status;
 use striae_law::bulk::Material;
-use striae_mesh::{NodeId, Vec3};
+use striae_mesh::{CellKind, NodeId, Vec3};
 use striae_solve::model::{BodyId, Curve, Displacement, LoadExtent, LoadKind, Model, Step};
 
 const SLOPES: [f64; 2] = [0.2, -0.1];
@@ -35,10 +35,30 @@ fn obliquity(f: &Matrix3<f64>) -> f64 {
     (t + n * p).norm() / p
 }
 
-fn shearing(shears: &[f64], divisions: [usize; 2], mu: f64) -> Model {
-    let [lower, upper] = divisions.map(|n| [n, n, 1]);
-    let mut lower = block([0.0; 3], [1.0, 1.0, 0.6], lower);
-    let mut upper = block([0.0, 0.0, 0.6], [1.0, 1.0, 0.6], upper);
+/// Divisions and kinds of the cells of the lower and the upper body.
+type Meshes = [(usize, CellKind); 2];
+
+/// Meshes of hexahedra, and of other kinds on either side.
+fn meshes() -> Vec<Meshes> {
+    use CellKind::{CompositeTetrahedron, Hexahedron, Pyramid, Tetrahedron, Wedge};
+    let hexahedra = [[2, 3], [3, 2], [3, 4]].map(|of| of.map(|n| (n, Hexahedron)));
+    let others = [
+        [(2, Tetrahedron), (3, Hexahedron)],
+        [(3, Hexahedron), (2, Tetrahedron)],
+        [(3, Tetrahedron), (2, Wedge)],
+        [(2, Wedge), (3, Pyramid)],
+        [(2, CompositeTetrahedron), (3, Hexahedron)],
+        [(3, Wedge), (2, CompositeTetrahedron)],
+        [(2, CompositeTetrahedron), (3, CompositeTetrahedron)],
+    ];
+    hexahedra.into_iter().chain(others).collect()
+}
+
+fn shearing(shears: &[f64], meshes: Meshes, mu: f64) -> Model {
+    let [(lower, lower_cells), (upper, upper_cells)] = meshes;
+    let mut lower = block([0.0; 3], [1.0, 1.0, 0.6], [lower, lower, 1]);
+    let mut upper = block([0.0, 0.0, 0.6], [1.0, 1.0, 0.6], [upper, upper, 1]);
+    (lower.cells, upper.cells) = (lower_cells, upper_cells);
     lower.top_slopes = SLOPES;
     upper.bottom_slopes = SLOPES;
     let bodies = vec![
@@ -101,9 +121,9 @@ fn statuses(run: &Run, state: usize) -> Vec<Status> {
 
 #[test]
 fn sticking_blocks_deform_like_one() {
-    for divisions in [[2, 3], [3, 2], [3, 4]] {
+    for meshes in meshes() {
         let shears = [0.0, 0.1, 0.2];
-        let run = Run::completed(shearing(&shears, divisions, 1.2));
+        let run = Run::completed(shearing(&shears, meshes, 1.2));
         for (state, shear) in shears.iter().enumerate() {
             let f = gradient(*shear);
             let reference = &run.problem.reference;
@@ -111,7 +131,7 @@ fn sticking_blocks_deform_like_one() {
             let error = largest_distance(&run.states[state + 1].positions, &expected);
             assert!(
                 error < 1e-10,
-                "{divisions:?}, shear {shear}: off by {error:.1e}"
+                "{meshes:?}, shear {shear}: off by {error:.1e}"
             );
             assert!(
                 statuses(&run, state + 1)
@@ -124,14 +144,14 @@ fn sticking_blocks_deform_like_one() {
 
 #[test]
 fn all_nodes_leave_stick_at_the_same_load() {
-    for divisions in [[2, 3], [3, 2], [2, 2]] {
+    for meshes in meshes() {
         let mu = obliquity(&gradient(0.2));
-        let run = Run::completed(shearing(&[0.0, 0.1999, 0.2001], divisions, mu));
+        let run = Run::completed(shearing(&[0.0, 0.1999, 0.2001], meshes, mu));
         assert!(statuses(&run, 2).iter().all(|s| *s == Status::Stick));
         let after = statuses(&run, 3);
         assert!(
             after.iter().all(|s| *s == Status::Slip),
-            "{divisions:?}: {after:?}"
+            "{meshes:?}: {after:?}"
         );
     }
 }

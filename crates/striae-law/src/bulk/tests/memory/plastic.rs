@@ -98,22 +98,31 @@ fn plastic_flow_keeps_the_volume() {
 }
 
 #[test]
-fn torsion_of_a_thin_tube_yields_at_the_stress_of_von_mises() {
-    // Elastic strains of 1e-4 turn along with the material; all but that is simple shear.
-    let yield_stress = 1e-4 * E;
-    let mut point = Point::at_rest(metal(Hardening::linear(yield_stress, 0.0).unwrap()));
-    let mut stress = 0.0;
-    for at in 1..=400 {
-        let f = shear(f64::from(at) / 400.0);
-        stress = (point.to(&f, 1.0).first_piola * f.transpose())[(0, 1)];
+fn torsion_of_a_thin_tube_and_its_reversal_yield_at_the_stress_of_von_mises() {
+    // Elastic strains of 1e-4 turn along with the material; all but that is simple shear, and
+    // the plastic strain is the way that the shear has gone over the root of 3.
+    let (yield_stress, root) = (1e-4 * E, 3f64.sqrt());
+    for modulus in [0.0, yield_stress] {
+        let hardening = Hardening::linear(yield_stress, modulus).unwrap();
+        let mut point = Point::at_rest(metal(hardening.clone()));
+        let mut twisted = |from: i32, to: i32| {
+            let mut stress = 0.0;
+            for at in 1..=400 {
+                let f = shear(f64::from(from * (400 - at) + to * at) / 400.0);
+                stress = (point.to(&f, 1.0).first_piola * f.transpose())[(0, 1)];
+            }
+            (stress, plastic_strain(&point))
+        };
+        for (from, to, way) in [(0, 1, 1.0), (1, -1, 3.0), (-1, 0, 4.0)] {
+            let (stress, plastic) = twisted(from, to);
+            let expected = hardening.stress(way / root) / root * f64::from(to - from).signum();
+            assert!(
+                (stress / expected - 1.0).abs() < 2e-3,
+                "{stress} {expected}"
+            );
+            assert!((plastic * root / way - 1.0).abs() < 2e-3, "{plastic}");
+        }
     }
-    let expected = yield_stress / 3f64.sqrt();
-    assert!(
-        (stress / expected - 1.0).abs() < 1e-3,
-        "{stress} {expected}"
-    );
-    let plastic = plastic_strain(&point) * 3f64.sqrt();
-    assert!((plastic - 1.0).abs() < 1e-3, "{plastic}");
 }
 
 #[test]
