@@ -20,6 +20,7 @@ macro_rules! decks {
 
 mod bar_impact;
 mod battery;
+mod billet_upset;
 mod comparison;
 mod contact_face;
 mod edge_contact;
@@ -39,6 +40,7 @@ mod slip_surface;
 mod snake_scale;
 mod stick_tolerance;
 mod stiff_punch;
+mod strip_draw;
 pub mod study;
 mod two_blocks;
 mod tyre;
@@ -181,6 +183,18 @@ pub const CASES: &[Case] = &[
         "A tyre that rolls and hardly drifts",
         tyre_rolling::run,
         quick: "a coarser mesh of the tyre"
+    ),
+    case!(
+        "billet-upset",
+        "A metal billet upset between plates, beside the closed form and the friction hill",
+        billet_upset::run,
+        quick: "two of three coefficients of friction on a coarser mesh"
+    ),
+    case!(
+        "strip-draw",
+        "A strip of rolled sheet drawn between dies, at angles to its rolling direction",
+        strip_draw::run,
+        quick: "three of seven directions on a coarser mesh"
     ),
     case!(
         "bar-impact",

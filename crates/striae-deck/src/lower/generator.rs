@@ -151,7 +151,7 @@ fn annulus(raw: &raw::Annulus, faults: &mut FaultList<'_>) -> Option<Annulus> {
     })
 }
 
-fn cylinder(raw: &raw::Cylinder, faults: &mut FaultList<'_>) -> Option<Cylinder> {
+fn cylinder(raw: &raw::SolidCylinder, faults: &mut FaultList<'_>) -> Option<Cylinder> {
     Some(Cylinder {
         base: point(&raw.base),
         axis: axis(&raw.axis, Vec3::z(), "the axis of a cylinder", faults)?,

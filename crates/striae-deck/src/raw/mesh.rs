@@ -50,7 +50,7 @@ choice! {
         "capped-block" => CappedBlock(CappedBlock),
         "half-cylinder" => HalfCylinder(HalfCylinder),
         "annulus" => Annulus(Annulus),
-        "cylinder" => Cylinder(Cylinder),
+        "cylinder" => Cylinder(SolidCylinder),
         "torus" => Torus(Torus),
     }
 }
@@ -262,7 +262,7 @@ table! {
 
 table! {
     /// A solid cylinder. Sets of nodes and facets: the round `side`, `zmin`, `zmax`, of a quarter also its planes of symmetry `xmin` and `ymin`; named before it is turned.
-    Cylinder {
+    SolidCylinder {
         /// Middle of the side `zmin`. Default: `[0, 0, 0]`.
         optional base: [Number; 3],
         /// Axis from there, of any length. Default: `[0, 0, 1]`.
