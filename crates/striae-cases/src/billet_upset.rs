@@ -338,7 +338,9 @@ fn friction_hill(hill: &[Disc]) -> Panel {
     );
     for (mu, color) in [(0.05, Color::Blue), (0.1, Color::Vermillion)] {
         let ratios = (0..=50).map(|step| 0.05 * f64::from(step));
-        let known = ratios.map(|ratio| [ratio, slab(2.0 * mu * ratio)]).collect();
+        let known = ratios
+            .map(|ratio| [ratio, slab(2.0 * mu * ratio)])
+            .collect();
         let found = hill.iter().filter(|disc| disc.mu == mu);
         let found = found
             .map(|disc| [disc.slenderness, disc.pressure])

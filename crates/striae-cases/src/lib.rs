@@ -26,11 +26,13 @@ mod contact_face;
 mod edge_contact;
 mod edge_release;
 mod failure;
+mod finger_pad;
 mod hertz_mindlin;
 mod hertz_mindlin_cylinders;
 mod hertz_mindlin_two_body;
 mod measure;
 mod million_unknowns;
+mod o_ring;
 mod pad_on_incline;
 mod patch_frictionless;
 mod patch_slip;
@@ -44,6 +46,7 @@ mod strip_draw;
 pub mod study;
 mod two_blocks;
 mod tyre;
+mod tyre_belt;
 mod tyre_locked;
 mod tyre_pressed;
 mod tyre_rolling;
@@ -195,6 +198,24 @@ pub const CASES: &[Case] = &[
         "A strip of rolled sheet drawn between dies, at angles to its rolling direction",
         strip_draw::run,
         quick: "three of seven directions on a coarser mesh"
+    ),
+    case!(
+        "o-ring",
+        "An O-ring squeezed between plates and dragged across grooves",
+        o_ring::run,
+        quick: "one of three directions of the grooves on coarser meshes"
+    ),
+    case!(
+        "tyre-belt",
+        "A tyre with a belt of crossed cords, pressed and dragged, beside one without",
+        tyre_belt::run,
+        quick: "a coarser mesh of the tyre"
+    ),
+    case!(
+        "finger-pad",
+        "A finger pad with fibres in its skin, stroked across a nap",
+        finger_pad::run,
+        quick: "larger elements, without the run without fibres"
     ),
     case!(
         "bar-impact",

@@ -46,7 +46,10 @@ pub fn surface_nodes_in<'a>(run: &'a Run, state: &'a State, side: usize) -> Vec<
 ///
 /// `opposite` is the texture of a plane on side `b`, if it has one.
 pub fn law_error(run: &Run, pair: usize, opposite: Option<Vec3>) -> f64 {
-    let friction = &run.finished.problem.model.pairs[pair].friction;
+    let plan = run.finished.problem.plans.last();
+    let Some(friction) = plan.map(|plan| &plan.frictions[pair]) else {
+        return f64::NAN;
+    };
     let state = &run.finished.state.pairs[pair];
     let nodes = state.nodes[0].iter().zip(&state.kept[0]);
     let errors = nodes.filter_map(|(node, kept)| {

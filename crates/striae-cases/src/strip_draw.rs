@@ -172,7 +172,7 @@ fn forces(drawn: &[Drawn]) -> Figure {
         ),
         Panel::new(
             Axis::linear("rolling direction", "°").within(0.0, 90.0),
-            Axis::linear("sideways / 2N", "").within(-0.002, 0.035),
+            Axis::linear("sideways / 2N", "").within(0.0, 0.06),
         ),
     ];
     for (rule, name, color, marker) in [
