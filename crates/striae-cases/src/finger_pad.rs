@@ -17,7 +17,7 @@ use crate::failure::Failure;
 
 const DECKS: [(&str, &str); 1] = decks!("finger-pad": "deck");
 /// Size of the elements in the deck and for a quick look.
-const SIZES: [&str; 2] = ["element_size = 1.25", "element_size = 2"];
+const SIZES: [&str; 2] = ["element_size = 1,", "element_size = 1.25,"];
 /// What the run without fibres leaves out.
 const FIBRES: &str = r#"fibres = [
     { k1 = 0.1, k2 = 10, dispersion = 0.1, direction = { circumferential = { point = [0, 0, 9], direction = [0, 1, 0] } } },
@@ -27,39 +27,37 @@ const FIBRES: &str = r#"fibres = [
 /// Way of the strokes from the middle, mm.
 const STROKE: f64 = 5.0;
 /// Coefficients with and against the nap.
-const MU: [f64; 2] = [0.3, 0.7];
+const MU: [f64; 2] = [0.3, 0.6];
 /// Direction of the nap's texture, along its rows of hairs; the hairs point along `-x`.
 const ROWS: Vec3 = Vec3::new(0.0, 1.0, 0.0);
 
 /// Runs the case.
 pub fn run(study: &mut Study) -> Result<(), Failure> {
     let nap = ran(study, "nap", &[], None)?;
-    let coulomb = ran(study, "coulomb", &[], Some(MU[1]))?;
     let strokes = [nap.friction(2), nap.friction(3)];
-    study.measured("forth", strokes[0][0]);
-    study.measured("back", strokes[1][0]);
-    study.measured("sideways", strokes[0][1].abs().max(strokes[1][1].abs()));
-    let [forth, back] = [2, 3].map(|step| coulomb.friction(step)[0]);
-    study.measured("coulomb.asymmetry", (forth + back).abs());
-    study.measured("force", nap.run.at_end_of(1, "pair.touch.resultant_a.z"));
-    study.measured("work", nap.work());
+    study.measured("forth", strokes[0]);
+    study.measured("back", strokes[1]);
     study.measured(
-        "law",
-        law_error(&nap.run, 0, Some(ROWS)).max(law_error(&coulomb.run, 0, None)),
+        "force",
+        2.0 * nap.run.at_end_of(1, "pair.touch.resultant_a.z"),
     );
-    study.measured("balance", nap.balance().max(coulomb.balance()));
-    study.measured("energy.imbalance", nap.imbalance().max(coulomb.imbalance()));
+    study.measured("work", nap.work());
+    let mut all = vec![nap];
     if study.extent == Extent::Full {
-        let soft = ran(study, "no-fibres", &[[FIBRES, ""]], None)?;
-        let over = |step| {
-            nap.run.at_end_of(step, "pair.touch.resultant_a.z")
-                / soft.run.at_end_of(step, "pair.touch.resultant_a.z")
-        };
-        study.measured("fibres", over(1));
+        all.push(ran(study, "coulomb", &[], Some(MU[1]))?);
+        all.push(ran(study, "no-fibres", &[[FIBRES, ""]], None)?);
+        let [forth, back] = [2, 3].map(|step| all[1].friction(step));
+        study.measured("coulomb.asymmetry", (forth + back).abs());
+        let force = |at: usize| all[at].run.at_end_of(1, "pair.touch.resultant_a.z");
+        study.measured("fibres", force(0) / force(2));
     } else {
-        study.left_out.push("fibres");
+        study.left_out.extend(["coulomb.asymmetry", "fibres"]);
     }
-    draw(study, &nap, &coulomb)
+    let worst = |of: fn(&Stroked) -> f64| all.iter().map(of).fold(0.0, f64::max);
+    study.measured("law", worst(Stroked::law_error));
+    study.measured("balance", worst(Stroked::balance));
+    study.measured("energy.imbalance", worst(Stroked::imbalance));
+    draw(study, &all)
 }
 
 /// A finger that was stroked.
@@ -90,13 +88,13 @@ fn ran(
 }
 
 impl Stroked {
-    /// Friction along the stroke and sideways over the force at the end of a step.
-    fn friction(&self, step: usize) -> [f64; 2] {
+    /// Friction along the stroke over the force at the end of a step.
+    fn friction(&self, step: usize) -> f64 {
         let of = |axis| {
             let name = format!("pair.touch.resultant_a.{axis}");
             self.run.at_end_of(step, &name)
         };
-        ["x", "y"].map(|axis| of(axis) / of("z"))
+        of("x") / of("z")
     }
 
     /// Way of the finger along the stroke, friction and force, by increment.
@@ -116,12 +114,12 @@ impl Stroked {
         .collect()
     }
 
-    /// What friction dissipates over the last half of the way back, over coefficient, force
+    /// What friction dissipates over the last quarter of the strokes, over coefficient, force
     /// and way.
     fn work(&self) -> f64 {
         let rows = self.loop_of_forces();
         let dissipated = self.run.column("energy.friction");
-        let late = rows.len() / 2;
+        let late = rows.len() / 4;
         let first = rows.len() - late;
         let spent = dissipated[dissipated.len() - 1] - dissipated[dissipated.len() - 1 - late];
         let pairs = rows[first - 1..].windows(2);
@@ -134,7 +132,7 @@ impl Stroked {
     fn balance(&self) -> f64 {
         let sum = ["x", "y", "z"].map(|axis| {
             self.run
-                .at_end_of(3, &format!("reaction.finger.zmax.{axis}"))
+                .at_end_of(3, &format!("reaction.finger.all.{axis}"))
                 + self
                     .run
                     .at_end_of(3, &format!("pair.touch.resultant_a.{axis}"))
@@ -142,12 +140,19 @@ impl Stroked {
         Vec3::from(sum).norm() / self.run.at_end_of(3, "pair.touch.resultant_a.z")
     }
 
+    /// Largest difference of friction at a node from the law for its slip.
+    fn law_error(&self) -> f64 {
+        let textured = self.run.finished.problem.model.pairs[0].textures[1].is_some();
+        law_error(&self.run, 0, textured.then_some(ROWS))
+    }
+
     fn imbalance(&self) -> f64 {
         self.run.largest("energy.imbalance") / self.run.largest("energy.external")
     }
 }
 
-fn draw(study: &mut Study, nap: &Stroked, coulomb: &Stroked) -> Result<(), Failure> {
+fn draw(study: &mut Study, all: &[Stroked]) -> Result<(), Failure> {
+    let nap = &all[0];
     let line = |stroked: &Stroked| {
         let rows = stroked.loop_of_forces().into_iter();
         rows.map(|[way, friction, force]| [way, -friction / force])
@@ -158,17 +163,22 @@ fn draw(study: &mut Study, nap: &Stroked, coulomb: &Stroked) -> Result<(), Failu
         Axis::linear("way of the finger", "mm").within(-STROKE, STROKE),
         Axis::linear("friction / force", "").within(-0.8, 0.8),
     )
-    .with(Series::new("nap", Content::line(line(nap))).colored(Color::Blue))
-    .with(Series::new("Coulomb", Content::line(line(coulomb))).colored(Color::Grey))
     .with(Series::new("law", limits(MU[1])).colored(Color::Black))
     .with(Series::new("", limits(-MU[0])).colored(Color::Black));
+    let named = [("nap", Color::Blue), ("Coulomb", Color::Grey)];
+    let loops = all
+        .iter()
+        .zip(named)
+        .fold(loops, |panel, (one, (name, color))| {
+            panel.with(Series::new(name, Content::line(line(one))).colored(color))
+        });
     let steps = &nap.run.finished.steps;
-    let panels = vec![
-        loops,
+    study.draw(&Figure::new(Width::Column, vec![loops]), "strokes")?;
+    let patches = vec![
         patch(&nap.run, &steps[1], STROKE).titled("against the nap"),
         patch(&nap.run, &steps[2], -STROKE).titled("with it"),
     ];
-    study.draw(&Figure::new(Width::Page, panels), "strokes")
+    study.draw(&Figure::new(Width::Page, patches), "patch")
 }
 
 /// Mean pressure on the facets that touch, seen from above, about the finger.
@@ -190,8 +200,9 @@ fn patch(run: &Run, state: &State, way: f64) -> Panel {
     }
     let largest = values.iter().copied().fold(0.0, f64::max);
     let bar = Axis::linear("pressure", "kPa").within(0.0, largest);
-    let axis = |label: &str| Axis::linear(label, "mm").within(-5.0, 5.0);
-    Panel::plane(axis("x"), axis("y")).with(Series::new(
+    let [x, y] =
+        [("x", -5.0), ("y", 0.0)].map(|(label, low)| Axis::linear(label, "mm").within(low, 5.0));
+    Panel::plane(x, y).with(Series::new(
         "",
         Content::Facets {
             polygons,

@@ -215,7 +215,7 @@ pub const CASES: &[Case] = &[
         "finger-pad",
         "A finger pad with fibres in its skin, stroked across a nap",
         finger_pad::run,
-        quick: "larger elements, without the run without fibres"
+        quick: "larger elements, without the runs with Coulomb's law and without fibres"
     ),
     case!(
         "bar-impact",

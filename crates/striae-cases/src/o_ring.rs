@@ -106,9 +106,9 @@ fn squeezed_slice(study: &mut Study, divisions: usize) -> Result<Curve, Failure>
         .collect())
 }
 
-/// Largest difference of the squeeze from Hertz's between 0.04 and 0.12, over the latter.
+/// Largest difference of the squeeze from Hertz's up to 0.05, over the latter.
 fn hertz_error(curve: &Curve) -> f64 {
-    let within = curve.iter().filter(|[c, _]| (0.04..0.12).contains(c));
+    let within = curve.iter().filter(|[c, _]| (0.015..0.055).contains(c));
     let errors = within.map(|[c, f]| (c / hertz_squeeze(*f) - 1.0).abs());
     errors.fold(0.0, f64::max)
 }
