@@ -170,7 +170,7 @@ pub const EXHIBITS: [Exhibit; 25] = [
             "--field",
             "cauchy_stress",
             "--view",
-            "0.5,-1,0.3",
+            "0.3,1,-0.2",
             "--hide",
             "fabric",
         ],
