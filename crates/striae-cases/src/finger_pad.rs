@@ -106,7 +106,7 @@ impl Stroked {
         let rows = (0..steps.len()).filter(|row| steps[*row] > 1.0);
         rows.map(|row| {
             let way = match steps[row] {
-                step if step == 2.0 => STROKE * (times[row] - 1.0),
+                2.0 => STROKE * (times[row] - 1.0),
                 _ => STROKE * (1.0 - 2.0 * (times[row] - 2.0)),
             };
             [way, friction[row], force[row]]

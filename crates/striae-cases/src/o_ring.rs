@@ -222,7 +222,7 @@ fn draw(study: &mut Study, slice: &Curve, rings: &[Ring]) -> Result<(), Failure>
         let steps = one.run.column("step");
         let times = one.run.column("time");
         let way = |row: usize| match steps[row] {
-            step if step == 2.0 => 0.9 * (times[row] - 1.0),
+            2.0 => 0.9 * (times[row] - 1.0),
             _ => 0.9 + 4.1 * (times[row] - 2.0),
         };
         let rows = || (0..steps.len()).filter(|row| steps[*row] > 1.0);

@@ -83,9 +83,12 @@ fn ran(study: &mut Study, rule: SlipRule, angle: u32) -> Result<Run, Failure> {
         Extent::Quick => study.variant(file, text, &[DIVISIONS])?,
     };
     let (sin, cos) = f64::from(angle).to_radians().sin_cos();
+    let [along, across] = MU;
+    let friction = Friction::orthotropic(along, across, rule).expect("constants of the case");
+    for (_, of_pair) in &mut deck.model.steps[1].frictions {
+        *of_pair = friction.clone();
+    }
     for pair in &mut deck.model.pairs {
-        let [along, across] = MU;
-        pair.friction = Friction::orthotropic(along, across, rule).expect("constants of the case");
         pair.textures[0] = Some(Paint::Field(Field {
             lines: Lines::Uniform(Vec3::new(cos, sin, 0.0)),
             turn: 0.0,
