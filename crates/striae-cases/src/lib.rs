@@ -20,6 +20,7 @@ macro_rules! decks {
 
 mod bar_impact;
 mod battery;
+mod billet_upset;
 mod bonded_pad;
 mod comparison;
 mod contact_face;
@@ -27,11 +28,13 @@ mod cooks_membrane;
 mod edge_contact;
 mod edge_release;
 mod failure;
+mod finger_pad;
 mod hertz_mindlin;
 mod hertz_mindlin_cylinders;
 mod hertz_mindlin_two_body;
 mod measure;
 mod million_unknowns;
+mod o_ring;
 mod pad_on_incline;
 mod patch_frictionless;
 mod patch_slip;
@@ -41,10 +44,12 @@ mod slip_surface;
 mod snake_scale;
 mod stick_tolerance;
 mod stiff_punch;
+mod strip_draw;
 pub mod study;
 mod treloar;
 mod two_blocks;
 mod tyre;
+mod tyre_belt;
 mod tyre_locked;
 mod tyre_pressed;
 mod tyre_rolling;
@@ -184,6 +189,36 @@ pub const CASES: &[Case] = &[
         "A tyre that rolls and hardly drifts",
         tyre_rolling::run,
         quick: "a coarser mesh of the tyre"
+    ),
+    case!(
+        "billet-upset",
+        "A metal billet upset between plates, beside the closed form and the friction hill",
+        billet_upset::run,
+        quick: "two of three coefficients of friction on a coarser mesh"
+    ),
+    case!(
+        "strip-draw",
+        "A strip of rolled sheet drawn between dies, at angles to its rolling direction",
+        strip_draw::run,
+        quick: "three of seven directions on a coarser mesh"
+    ),
+    case!(
+        "o-ring",
+        "An O-ring squeezed between plates and dragged across grooves",
+        o_ring::run,
+        quick: "one of three directions of the grooves on coarser meshes"
+    ),
+    case!(
+        "tyre-belt",
+        "A tyre with a belt of crossed cords, pressed and dragged, beside one without",
+        tyre_belt::run,
+        quick: "a coarser mesh of the tyre"
+    ),
+    case!(
+        "finger-pad",
+        "A finger pad with fibres in its skin, stroked across a nap",
+        finger_pad::run,
+        quick: "larger elements, without the runs with Coulomb's law and without fibres"
     ),
     case!(
         "bar-impact",

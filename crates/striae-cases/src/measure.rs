@@ -1,8 +1,9 @@
 //! Fields of a finished run, as numbers and as parts of figures.
 
 use nalgebra::Matrix3;
-use striae_contact::unknowns::NodeResult;
+use striae_contact::unknowns::{NodeResult, Status};
 use striae_figure::{Axis, Color, Content, Series};
+use striae_law::friction::Textures;
 use striae_mesh::{ElementId, Vec3};
 use striae_solve::state::State;
 use striae_surface::facet::Shape;
@@ -38,6 +39,37 @@ pub fn surface_nodes_in<'a>(run: &'a Run, state: &'a State, side: usize) -> Vec<
             })
         })
         .collect()
+}
+
+/// Largest difference of friction from the law, for slip and textures as they are, at the
+/// kept nodes of side `a` of a pair that slip, over the largest that it may be at any node.
+///
+/// `opposite` is the texture of a plane on side `b`, if it has one.
+pub fn law_error(run: &Run, pair: usize, opposite: Option<Vec3>) -> f64 {
+    let plan = run.finished.problem.plans.last();
+    let Some(friction) = plan.map(|plan| &plan.frictions[pair]) else {
+        return f64::NAN;
+    };
+    let state = &run.finished.state.pairs[pair];
+    let nodes = state.nodes[0].iter().zip(&state.kept[0]);
+    let errors = nodes.filter_map(|(node, kept)| {
+        let tangential = node.slip - node.normal * node.normal.dot(&node.slip);
+        let way = tangential.try_normalize(0.0)?;
+        if !*kept || node.status != Status::Slip || node.pressure <= 0.0 {
+            return None;
+        }
+        let own = node.normal.cross(&node.texture).try_normalize(0.0);
+        // Seen from this side, the structural vector of the other one is turned round.
+        let opposite = opposite.map(|s| node.normal.cross(&s).normalize());
+        let kernel = friction.kernel(&node.normal, &Textures { own, opposite });
+        let way = (kernel.k_inverse * way).normalize();
+        let cap = friction.cap(node.pressure, 0.0);
+        let tau = kernel.traction(cap, &(way * (cap * kernel.reach(&way))));
+        Some([(node.tau - tau).norm(), cap])
+    });
+    let worst = |worst: [f64; 2], error: [f64; 2]| [0, 1].map(|at| worst[at].max(error[at]));
+    let [error, cap] = errors.fold([0.0; 2], worst);
+    error / cap
 }
 
 /// Largest difference of the Cauchy stress from `expected` at the Gauss points

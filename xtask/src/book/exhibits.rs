@@ -15,7 +15,7 @@ pub struct Exhibit {
 }
 
 /// All cases.
-pub const EXHIBITS: [Exhibit; 23] = [
+pub const EXHIBITS: [Exhibit; 28] = [
     Exhibit {
         case: "two-blocks",
         run: Some("deck"),
@@ -134,6 +134,48 @@ pub const EXHIBITS: [Exhibit; 23] = [
         options: &["--field", "cauchy_stress", "--view", "0.8,1,-0.45"],
         figure: Some("rolling"),
         caption: "A tyre that rolls and hardly drifts.",
+    },
+    Exhibit {
+        case: "billet-upset",
+        run: Some("upset-0.1"),
+        options: &["--field", "cauchy_stress", "--hide", "plate"],
+        figure: Some("upset"),
+        caption: "A quarter of a billet of aluminium, upset between rough plates; the plate is not shown. Profiles and forces with and without friction, and the friction hill of thin discs.",
+    },
+    Exhibit {
+        case: "strip-draw",
+        run: Some("opposing-45"),
+        options: &["--field", "pressure", "--hide", "upper"],
+        figure: Some("forces"),
+        caption: "A strip of rolled sheet, drawn between two dies at angles to its rolling direction; the upper die is not shown.",
+    },
+    Exhibit {
+        case: "o-ring",
+        run: Some("ring-45"),
+        options: &["--field", "cauchy_stress", "--hide", "lid"],
+        figure: Some("squeeze-and-drag"),
+        caption: "An O-ring, squeezed between two plates and dragged across grooves; the upper plate is not shown.",
+    },
+    Exhibit {
+        case: "tyre-belt",
+        run: Some("belted"),
+        options: &["--field", "cauchy_stress", "--view", "0.8,1,-0.45"],
+        figure: Some("forces"),
+        caption: "A tyre with a belt of crossed cords, dragged over a grooved road, beside the same tyre without cords.",
+    },
+    Exhibit {
+        case: "finger-pad",
+        run: Some("nap"),
+        options: &[
+            "--field",
+            "cauchy_stress",
+            "--view",
+            "0.3,1,-0.2",
+            "--hide",
+            "fabric",
+        ],
+        figure: Some("strokes"),
+        caption: "Half of a finger pad with fibres in its skin, stroked across a nap; the fabric is not shown.",
     },
     Exhibit {
         case: "bar-impact",
