@@ -48,6 +48,10 @@ fn body_reach(model: &Model, body: BodyId) -> Option<f64> {
     {
         return None;
     }
+    let is_side = |side: &Side| matches!(side, Side::Deformable { body: of, .. } if *of == body);
+    if model.ties.iter().any(|tie| is_side(&tie.a) || is_side(&tie.b)) {
+        return None;
+    }
     let mut farthest: Option<f64> = None;
     for step in &model.steps {
         let loaded = step.loads.iter().any(|load| load.body == body);
