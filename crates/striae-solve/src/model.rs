@@ -216,6 +216,14 @@ pub struct Tie {
     pub moved: f64,
 }
 
+impl Tie {
+    /// Whether a body is a side of it.
+    pub fn joins(&self, body: BodyId) -> bool {
+        let is = |side: &Side| matches!(side, Side::Deformable { body: of, .. } if *of == body);
+        is(&self.a) || is(&self.b)
+    }
+}
+
 /// What is made of the gaps and overlaps that the meshes of a pair have before anything
 /// has moved, see [`crate::initial`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]

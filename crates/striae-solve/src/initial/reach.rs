@@ -48,8 +48,7 @@ fn body_reach(model: &Model, body: BodyId) -> Option<f64> {
     {
         return None;
     }
-    let is_side = |side: &Side| matches!(side, Side::Deformable { body: of, .. } if *of == body);
-    if model.ties.iter().any(|tie| is_side(&tie.a) || is_side(&tie.b)) {
+    if model.ties.iter().any(|tie| tie.joins(body)) {
         return None;
     }
     let mut farthest: Option<f64> = None;
