@@ -77,8 +77,10 @@ pub struct Joint {
 pub struct Ties {
     /// What each of them is.
     pub joints: Vec<Joint>,
-    /// Nodes that follow, none before those that it follows.
+    /// Nodes that follow, ascending.
     followers: Vec<Follower>,
+    /// Their positions by component, none before those that it follows.
+    orders: [Vec<usize>; 3],
     /// Of global nodes; empty without ties.
     of_node: Vec<Option<u32>>,
 }
@@ -104,7 +106,7 @@ impl Ties {
             return Err(faults);
         }
         let rows = rows::rows(model, first_node, &mut sides)?;
-        let followers = order::resolved(model, rows)?;
+        let (followers, orders) = order::resolved(model, rows)?;
         let nodes = first_node[model.bodies.len()];
         let mut of_node = vec![None; nodes];
         for (at, follower) in followers.iter().enumerate() {
@@ -113,6 +115,7 @@ impl Ties {
         Ok(Self {
             joints: sides.into_iter().map(Sides::joint).collect(),
             followers,
+            orders,
             of_node,
         })
     }
@@ -130,7 +133,7 @@ impl Ties {
         self.followers.is_empty()
     }
 
-    /// Nodes that follow, none before those that it follows.
+    /// Nodes that follow, ascending.
     pub fn followers(&self) -> &[Follower] {
         &self.followers
     }
@@ -187,24 +190,19 @@ impl Ties {
 
     /// Passes forces on nodes that follow to those that they follow, and leaves none; returns
     /// with every follower the force that its row takes from it.
-    pub fn pass_on<'a>(
-        &'a self,
-        forces: &mut [Vec3],
-    ) -> impl Iterator<Item = (&'a Follower, Vec3)> + use<'a> {
-        let mut passed = Vec::with_capacity(self.followers.len());
-        for follower in self.followers.iter().rev() {
-            let mut own = Vec3::zeros();
-            for (axis, row) in follower.row.iter().enumerate() {
-                if let Some(row) = row {
-                    own[axis] = std::mem::take(&mut forces[follower.node][axis]);
-                    for (node, weight) in row {
-                        forces[*node][axis] += weight * own[axis];
-                    }
+    pub fn pass_on(&self, forces: &mut [Vec3]) -> impl Iterator<Item = (&Follower, Vec3)> {
+        let mut taken = vec![Vec3::zeros(); self.followers.len()];
+        for (axis, order) in self.orders.iter().enumerate() {
+            for &at in order.iter().rev() {
+                let follower = &self.followers[at];
+                let force = std::mem::take(&mut forces[follower.node][axis]);
+                for (node, weight) in follower.row[axis].iter().flatten() {
+                    forces[*node][axis] += weight * force;
                 }
+                taken[at][axis] = force;
             }
-            passed.push((follower, own));
         }
-        passed.into_iter()
+        self.followers.iter().zip(taken)
     }
 
     /// Adds the forces of ties on nodes to those that `own` takes from a follower.

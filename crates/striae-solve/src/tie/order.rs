@@ -5,84 +5,81 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::{Follower, TieFault};
 use crate::model::Model;
 
-/// The followers, none before those that it follows, with their weights.
+/// Followers with their weights, by node, and by component an order of them in which none
+/// comes before those that it follows.
 pub(super) fn resolved(
     model: &Model,
-    mut rows: Vec<Follower>,
-) -> Result<Vec<Follower>, Vec<TieFault>> {
-    rows.sort_by_key(|follower| follower.node);
-    let of_node: BTreeMap<usize, usize> = rows
+    mut followers: Vec<Follower>,
+) -> Result<(Vec<Follower>, [Vec<usize>; 3]), Vec<TieFault>> {
+    followers.sort_by_key(|follower| follower.node);
+    let of_node: BTreeMap<usize, usize> = followers
         .iter()
         .enumerate()
         .map(|(at, follower)| (follower.node, at))
         .collect();
-    let order = ordered(model, &rows, &of_node).map_err(|fault| vec![fault])?;
-    let mut found: Vec<Follower> = Vec::with_capacity(rows.len());
-    let mut places = BTreeMap::new();
-    for at in order {
-        let mut follower = rows[at].clone();
-        for axis in 0..3 {
-            let row = follower.row[axis].as_ref();
-            follower.weights[axis] = row.map(|row| resolved_row(row, axis, &found, &places));
+    let mut orders = [const { Vec::new() }; 3];
+    for (axis, order) in orders.iter_mut().enumerate() {
+        *order = ordered(model, &followers, &of_node, axis).map_err(|fault| vec![fault])?;
+        for &at in &*order {
+            let row = followers[at].row[axis].as_deref().unwrap_or_default();
+            let weights = resolved_row(row, |node| {
+                let at = of_node.get(&node)?;
+                followers[*at].weights[axis].as_deref()
+            });
+            followers[at].weights[axis] = Some(weights);
         }
-        places.insert(follower.node, found.len());
-        found.push(follower);
     }
-    Ok(found)
+    Ok((followers, orders))
 }
 
-/// A row in terms of nodes that do not follow in that component.
-fn resolved_row(
+/// A row in terms of nodes that do not follow, with what those follow that do.
+fn resolved_row<'a>(
     row: &[(usize, f64)],
-    axis: usize,
-    found: &[Follower],
-    places: &BTreeMap<usize, usize>,
+    followed: impl Fn(usize) -> Option<&'a [(usize, f64)]>,
 ) -> Vec<(usize, f64)> {
     let mut sums: BTreeMap<usize, f64> = BTreeMap::new();
     for &(node, weight) in row {
-        let followed = places.get(&node).map(|&at| &found[at].weights[axis]);
-        match followed {
-            Some(Some(followed)) => {
-                for &(other, share) in followed {
-                    *sums.entry(other).or_insert(0.0) += weight * share;
-                }
-            }
-            Some(None) | None => *sums.entry(node).or_insert(0.0) += weight,
+        let itself = [(node, 1.0)];
+        for &(other, share) in followed(node).unwrap_or(&itself) {
+            *sums.entry(other).or_insert(0.0) += weight * share;
         }
     }
     sums.into_iter().collect()
 }
 
-/// Positions of the followers in such an order.
+/// Positions of those that follow in a component, in such an order.
 fn ordered(
     model: &Model,
-    rows: &[Follower],
+    followers: &[Follower],
     of_node: &BTreeMap<usize, usize>,
+    axis: usize,
 ) -> Result<Vec<usize>, TieFault> {
-    let followed: Vec<BTreeSet<usize>> = rows
-        .iter()
-        .map(|follower| {
-            let nodes = follower.row.iter().flatten().flatten();
-            nodes
-                .filter_map(|(node, _)| of_node.get(node).copied())
-                .collect()
-        })
+    let follows = |at: &usize| followers[*at].row[axis].is_some();
+    let waits_for = |at: usize| {
+        let row = followers[at].row[axis].iter().flatten();
+        let known = row.filter_map(|(node, _)| of_node.get(node).copied());
+        known.filter(follows).collect::<Vec<usize>>()
+    };
+    let mut left: Vec<(usize, Vec<usize>)> = (0..followers.len())
+        .filter(follows)
+        .map(|at| (at, waits_for(at)))
         .collect();
-    let (mut order, mut done) = (Vec::with_capacity(rows.len()), vec![false; rows.len()]);
-    let mut left: Vec<usize> = (0..rows.len()).collect();
+    let (mut order, mut done) = (Vec::new(), vec![false; followers.len()]);
     while !left.is_empty() {
-        let (ready, waiting): (Vec<usize>, Vec<usize>) = left
+        let (ready, waiting): (Vec<_>, Vec<_>) = left
             .into_iter()
-            .partition(|&at| followed[at].iter().all(|&other| done[other]));
+            .partition(|(_, others)| others.iter().all(|&other| done[other]));
         if ready.is_empty() {
-            let ties: BTreeSet<usize> = waiting.iter().map(|&at| rows[at].tie).collect();
+            let ties: BTreeSet<usize> = waiting.iter().map(|(at, _)| followers[*at].tie).collect();
             let ties = ties.iter().map(|&tie| model.ties[tie].name.clone());
             return Err(TieFault::Circle {
                 ties: ties.collect(),
             });
         }
-        ready.iter().for_each(|&at| done[at] = true);
-        order.extend(ready);
+        for (at, _) in ready {
+            done[at] = true;
+            order.push(at);
+        }
         left = waiting;
     }
     Ok(order)
