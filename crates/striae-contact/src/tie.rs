@@ -202,9 +202,7 @@ fn facet_rows(
         }
         let opposite = distinct_corners(&paired.corners[1 - side]);
         for (m, node) in opposite.iter().enumerate() {
-            let sum = common
-                .entry(*node)
-                .or_insert_with(|| DVector::zeros(count));
+            let sum = common.entry(*node).or_insert_with(|| DVector::zeros(count));
             for l in 0..count {
                 sum[l] += mass[first + l][first_opposite + m];
             }

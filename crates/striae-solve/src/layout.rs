@@ -144,8 +144,7 @@ impl Layout {
     /// Supervariables of the positions of a global node: those of the nodes that it follows.
     pub fn owners(&self, problem: &Problem, node: usize) -> Vec<Supervariable> {
         let behind = problem.ties.behind(&[node]).into_iter();
-        let mut owners: Vec<Supervariable> =
-            behind.map(|node| self.owner(problem, node)).collect();
+        let mut owners: Vec<Supervariable> = behind.map(|node| self.owner(problem, node)).collect();
         owners.sort_unstable();
         owners.dedup();
         owners

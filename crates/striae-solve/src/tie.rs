@@ -22,12 +22,14 @@
 
 mod fault;
 mod order;
+mod report;
 mod rows;
 mod shadow;
 mod side;
 mod start;
 
 pub use fault::TieFault;
+pub use report::{TieReport, TieSide, reports};
 pub(crate) use shadow::shadowed;
 pub use start::placed;
 
@@ -171,9 +173,7 @@ impl Ties {
 
     /// Whether a body has a side in a tie.
     pub fn joins(&self, body: usize) -> bool {
-        self.joints
-            .iter()
-            .any(|joint| joint.bodies.contains(&body))
+        self.joints.iter().any(|joint| joint.bodies.contains(&body))
     }
 
     /// Gives the nodes that follow what those have that they follow: positions, velocities.
@@ -228,7 +228,11 @@ impl Ties {
             }
             let mut add = |node: usize, axis: usize, force: f64| {
                 let on_own = joint.nodes[joint.follows].binary_search(&node).is_ok();
-                let side = if on_own { joint.follows } else { 1 - joint.follows };
+                let side = if on_own {
+                    joint.follows
+                } else {
+                    1 - joint.follows
+                };
                 let sum: &mut Vec3 = forces[side].entry(node).or_insert_with(Vec3::zeros);
                 sum[axis] += force;
             };

@@ -254,7 +254,8 @@ impl Source {
         };
         let mut differs = differs(&self.parts, &found).or_else(|| differs(&found, &self.parts));
         if found != self.parts {
-            differs = differs.or_else(|| Some("the order of bodies, surfaces, pairs or ties".into()));
+            differs =
+                differs.or_else(|| Some("the order of bodies, surfaces, pairs or ties".into()));
         }
         differs.map_or(Ok(()), |part| Err(CheckpointError::Differs { part }))
     }

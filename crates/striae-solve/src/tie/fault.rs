@@ -6,7 +6,9 @@ use striae_mesh::{ElementId, Vec3};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TieFault {
     /// A side is no surface of a body.
-    #[error("tie `{tie}`: both sides must be facets of bodies; nodes are tied to a rigid body by its `ties`")]
+    #[error(
+        "tie `{tie}`: both sides must be facets of bodies; nodes are tied to a rigid body by its `ties`"
+    )]
     Rigid {
         /// The tie.
         tie: String,

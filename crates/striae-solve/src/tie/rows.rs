@@ -53,8 +53,14 @@ impl Sides {
         let name = || of_tie.name.clone();
         let [(a, faces_a), (b, faces_b)] = match [&of_tie.a, &of_tie.b] {
             [
-                Side::Deformable { body: a, faces: on_a },
-                Side::Deformable { body: b, faces: on_b },
+                Side::Deformable {
+                    body: a,
+                    faces: on_a,
+                },
+                Side::Deformable {
+                    body: b,
+                    faces: on_b,
+                },
             ] => [(a.0, on_a), (b.0, on_b)],
             _ => return Err(TieFault::Rigid { tie: name() }),
         };
@@ -211,7 +217,11 @@ pub(super) fn rows(
             weights: Weights::default(),
         }));
     }
-    if faults.is_empty() { Ok(all) } else { Err(faults) }
+    if faults.is_empty() {
+        Ok(all)
+    } else {
+        Err(faults)
+    }
 }
 
 /// The tie that each node follows: the one in which it weighs most; of ties in which it
@@ -284,10 +294,10 @@ impl Sum {
             *self.opposite.entry(other).or_insert(0.0) -= weight;
         }
         let weights = self.opposite.into_iter().map(|(node, w)| (node, w / own));
-        let mut weights: Vec<(usize, f64)> =
-            weights.filter(|(_, w)| w.abs() > ROUND_OFF).collect();
+        let mut weights: Vec<(usize, f64)> = weights.filter(|(_, w)| w.abs() > ROUND_OFF).collect();
         let excess = weights.iter().map(|(_, w)| w).sum::<f64>() - 1.0;
-        let by_size = |a: &&mut (usize, f64), b: &&mut (usize, f64)| a.1.abs().total_cmp(&b.1.abs());
+        let by_size =
+            |a: &&mut (usize, f64), b: &&mut (usize, f64)| a.1.abs().total_cmp(&b.1.abs());
         if let Some((_, largest)) = weights.iter_mut().max_by(by_size) {
             *largest -= excess;
         }
