@@ -18,7 +18,8 @@
 //! A node follows no row where it is prescribed in any step, tied to a rigid body, next to
 //! nothing of the facets around it is covered, or it follows another tie. The functions of the
 //! facets around it then go to their other nodes in equal parts, so that they still add up to
-//! one. What a node follows may follow another tie in turn; circles are a [`TieFault`].
+//! one. What a node follows may follow another tie in turn; rows that follow each other in
+//! a circle are solved together, and are a [`TieFault`] where they say the same.
 
 mod fault;
 mod order;
@@ -37,6 +38,7 @@ use std::collections::BTreeMap;
 use striae_mesh::{NodeId, Vec3};
 
 use crate::model::Model;
+use order::Group;
 use rows::Sides;
 
 /// Weights of nodes, by component: `None` where the node does not follow.
@@ -81,8 +83,8 @@ pub struct Ties {
     pub joints: Vec<Joint>,
     /// Nodes that follow, ascending.
     followers: Vec<Follower>,
-    /// Their positions by component, none before those that it follows.
-    orders: [Vec<usize>; 3],
+    /// Their groups by component, none before those that it follows.
+    orders: [Vec<Group>; 3],
     /// Of global nodes; empty without ties.
     of_node: Vec<Option<u32>>,
 }
@@ -193,13 +195,20 @@ impl Ties {
     pub fn pass_on(&self, forces: &mut [Vec3]) -> impl Iterator<Item = (&Follower, Vec3)> {
         let mut taken = vec![Vec3::zeros(); self.followers.len()];
         for (axis, order) in self.orders.iter().enumerate() {
-            for &at in order.iter().rev() {
-                let follower = &self.followers[at];
-                let force = std::mem::take(&mut forces[follower.node][axis]);
-                for (node, weight) in follower.row[axis].iter().flatten() {
-                    forces[*node][axis] += weight * force;
+            for group in order.iter().rev() {
+                let nodes = group.members.iter().map(|&at| self.followers[at].node);
+                let on_members = nodes.map(|node| std::mem::take(&mut forces[node][axis]));
+                let rows = group.taken(on_members.collect());
+                for (&at, force) in group.members.iter().zip(rows) {
+                    taken[at][axis] = force;
+                    for (node, weight) in self.followers[at].row[axis].iter().flatten() {
+                        forces[*node][axis] += weight * force;
+                    }
                 }
-                taken[at][axis] = force;
+                // What rows of a group pass among its members is in what they take.
+                for &at in &group.members {
+                    forces[self.followers[at].node][axis] = 0.0;
+                }
             }
         }
         self.followers.iter().zip(taken)

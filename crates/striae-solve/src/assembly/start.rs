@@ -133,7 +133,8 @@ impl System<'_> {
             for axis in 0..3 {
                 let free = !self.context.fixed[3 * node + axis] && !problem.massless[node];
                 // Tied positions are held when they are condensed.
-                held[first + axis] = !free && self.tie(node).is_none();
+                let follows = problem.ties.followed(node, axis).is_some();
+                held[first + axis] = (!free || follows) && self.tie(node).is_none();
                 if self.tie(node).is_some() {
                     self.residual[first + axis] = 0.0;
                 }

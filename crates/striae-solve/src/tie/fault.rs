@@ -68,7 +68,7 @@ pub enum TieFault {
     },
     /// Ties that follow each other in a circle.
     #[error(
-        "ties {} follow each other in a circle where they meet; make one of the surfaces finer than both it meets, or leave the facets at the common edge out of one tie",
+        "ties {} follow each other in a circle where they meet, and their rows say the same; make one of the surfaces finer than both it meets, or leave the facets at the common edge out of one tie",
         quoted(ties)
     )]
     Circle {

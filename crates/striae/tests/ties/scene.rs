@@ -41,7 +41,11 @@ pub fn tied([lower, upper]: &[Block; 2]) -> ModelBuilder {
     model("Two tied blocks")
         .body(body("lower", lower.mesh().unwrap(), rubber()).density(1000.0))
         .body(body("upper", upper.mesh().unwrap(), rubber()).density(1000.0))
-        .tie(tie("glue", surface("lower", "zmax"), surface("upper", "zmin")))
+        .tie(tie(
+            "glue",
+            surface("lower", "zmax"),
+            surface("upper", "zmin"),
+        ))
 }
 
 /// A step that pulls the cube along `z` between rollers on three sides.
@@ -57,7 +61,10 @@ pub fn pull(stretch: f64) -> StepBuilder {
 }
 
 pub fn run(model: ModelBuilder) -> Finished {
-    let run = Simulation::new(model.build().unwrap()).unwrap().run().unwrap();
+    let run = Simulation::new(model.build().unwrap())
+        .unwrap()
+        .run()
+        .unwrap();
     assert_eq!(run.ending, Ending::Completed);
     run
 }

@@ -2,7 +2,7 @@
 
 use striae::prelude::*;
 
-use super::scene::{distance, glue, halves, run, rubber, tie};
+use super::scene::{distance, glue, halves, rubber, run, tie};
 
 /// A twisted and bent stack, told in one of several orders.
 fn stack(swapped: bool, reversed: bool, divisions: [usize; 3]) -> super::scene::Finished {
@@ -12,13 +12,24 @@ fn stack(swapped: bool, reversed: bool, divisions: [usize; 3]) -> super::scene::
     let [lower, upper] = [("lower", lower), ("upper", upper)]
         .map(|(name, block)| body(name, block.mesh().unwrap(), rubber()));
     let (a, b) = (surface("lower", "zmax"), surface("upper", "zmin"));
-    let glue = if swapped { tie("glue", b, a) } else { tie("glue", a, b) };
-    let bodies = if reversed { [upper, lower] } else { [lower, upper] };
-    let bend = step("bend")
-        .increments(2)
-        .hold("lower", "zmin")
-        .displace("upper", "zmax", [0.2, 0.1, 0.05]);
-    let model = bodies.into_iter().fold(model("stack"), |model, body| model.body(body));
+    let glue = if swapped {
+        tie("glue", b, a)
+    } else {
+        tie("glue", a, b)
+    };
+    let bodies = if reversed {
+        [upper, lower]
+    } else {
+        [lower, upper]
+    };
+    let bend = step("bend").increments(2).hold("lower", "zmin").displace(
+        "upper",
+        "zmax",
+        [0.2, 0.1, 0.05],
+    );
+    let model = bodies
+        .into_iter()
+        .fold(model("stack"), |model, body| model.body(body));
     run(model.tie(glue).step(bend))
 }
 
@@ -42,7 +53,9 @@ fn neither_the_order_of_sides_nor_that_of_bodies_matters() {
 fn the_number_of_threads_changes_no_bit() {
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-        pool.build().unwrap().install(|| stack(false, false, [5, 6, 2]))
+        pool.build()
+            .unwrap()
+            .install(|| stack(false, false, [5, 6, 2]))
     };
     let (one, three) = (on(1), on(3));
     assert_eq!(one.state.positions, three.state.positions);
