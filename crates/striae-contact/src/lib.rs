@@ -53,6 +53,7 @@ pub mod slip_rate;
 pub mod table_1;
 pub mod term;
 pub mod texture;
+pub mod tie;
 pub mod traction;
 pub mod traction_basis;
 pub mod transfer;

@@ -189,6 +189,30 @@ pub enum FaultKind {
         /// The earlier pair.
         other: String,
     },
+    /// A tie that does not hold.
+    #[error("{fault}")]
+    Tie {
+        /// Why.
+        fault: striae_solve::tie::TieFault,
+    },
+    /// A pair joins what is tied.
+    #[error(
+        "tie `{tie}` glues facets that pair `{pair}` lets slide and open; leave one of them out, or give the pair other facets"
+    )]
+    TiedPair {
+        /// The tie.
+        tie: String,
+        /// The pair.
+        pair: String,
+    },
+    /// Two ties join the same facets.
+    #[error("tie `{tie}` joins facets that tie `{other}` joins already; leave one of them out")]
+    SameTie {
+        /// The tie.
+        tie: String,
+        /// The earlier tie.
+        other: String,
+    },
     /// A pair is stabilised, but all steps have inertia.
     #[error(
         "pair `{pair}` is stabilised, but every step is dynamic: there inertia carries bodies across gaps. Leave `stabilise` out"

@@ -1,8 +1,10 @@
-//! Gaps and overlaps of the meshes: closed where a pair asks for it, otherwise judged.
+//! Gaps and overlaps of the meshes: closed where a pair asks for it, otherwise judged; nodes
+//! of ties put where they belong.
 
 use striae_solve::{
     initial::{InitialFault, close, fault, fits},
     model::{Model, PairId},
+    tie::placed,
 };
 
 use crate::{
@@ -10,11 +12,11 @@ use crate::{
     path::Path,
 };
 
-/// The model with its gaps closed, as its pairs ask for. The model must have no other
-/// faults.
+/// The model with its gaps closed, as its pairs ask for, and with nodes that follow in ties
+/// where they belong. The model must have no other faults.
 ///
 /// # Errors
-/// What is wrong with the meshes of each pair.
+/// What is wrong with the meshes of each pair and each tie.
 pub fn fitted(model: Model) -> Result<Model, Vec<Fault>> {
     let names: Vec<String> = model.pairs.iter().map(|pair| pair.name.clone()).collect();
     let located = |fault: InitialFault| {
@@ -32,9 +34,18 @@ pub fn fitted(model: Model) -> Result<Model, Vec<Fault>> {
         fault(&model, PairId(pair), fit)
     });
     let faults: Vec<Fault> = found.map(located).collect();
-    if faults.is_empty() {
-        Ok(model)
-    } else {
-        Err(faults)
+    if !faults.is_empty() {
+        return Err(faults);
     }
+    let ties: Vec<String> = model.ties.iter().map(|tie| tie.name.clone()).collect();
+    placed(model).map_err(|faults| {
+        let faults = faults.into_iter().map(|fault| {
+            let tie = ties.iter().position(|name| name == fault.tie());
+            Fault {
+                path: tie.map_or(Path::of("ties"), |tie| Path::part("ties", tie)),
+                kind: FaultKind::Tie { fault },
+            }
+        });
+        faults.collect()
+    })
 }

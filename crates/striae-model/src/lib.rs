@@ -19,9 +19,9 @@ mod path;
 
 pub use build::{
     BodyBuilder, Component, Components, ModelBuilder, PairBuilder, RigidBuilder, SectionBuilder,
-    SideBuilder, StepBuilder, axial, body, circumferential, composite, equal_increments, extended,
-    model, nodal, painted, pair, plane, radial, rigid, rigid_solid, rigid_surface, section, solver,
-    step, surface, tied, turned, uniform,
+    SideBuilder, StepBuilder, TieBuilder, axial, body, circumferential, composite,
+    equal_increments, extended, model, nodal, painted, pair, plane, radial, rigid, rigid_solid,
+    rigid_surface, section, solver, step, surface, tie, tied, turned, uniform,
 };
 pub use check::{Draft, DraftBody, DraftPair, DraftStep, Known, Named, Validate, misshapen};
 pub use fault::{Fault, FaultKind, Faults};

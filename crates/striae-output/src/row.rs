@@ -9,6 +9,7 @@ use striae_solve::{
     problem::Problem,
     report::{PairReport, bodies, held_reactions, pairs, rigid_bodies},
     resolved::resolved,
+    tie::reports,
 };
 
 /// Columns and values of the row of a converged increment, before which `cut_backs`
@@ -53,6 +54,14 @@ pub fn row(
             row.push((format!("pair.{name}.along_{letter}"), of_side.along));
             row.push((format!("pair.{name}.across_{letter}"), of_side.across));
         }
+    }
+    for tie in reports(problem, state) {
+        let name = format!("tie.{}", tie.name);
+        for (side, letter) in tie.sides.iter().zip(["a", "b"]) {
+            add_vector(&mut row, &format!("{name}.force_{letter}"), &side.force);
+        }
+        row.push((format!("{name}.mismatch"), tie.mismatch));
+        row.push((format!("{name}.moment_mismatch"), tie.moment_mismatch));
     }
     for (name, force) in held_reactions(problem, state) {
         add_vector(&mut row, &format!("reaction.{name}"), &force);

@@ -44,6 +44,9 @@ pub struct Summary {
     pub peak_rss_mib: Option<f64>,
     /// Contact pairs.
     pub pairs: Vec<PairSummary>,
+    /// Ties.
+    #[serde(default)]
+    pub ties: Vec<TieSummary>,
     /// Reaction of every node set with prescribed displacements.
     pub reactions: BTreeMap<String, [f64; 3]>,
     /// What makes the results doubtful.
@@ -127,6 +130,25 @@ pub struct PairSummary {
     pub max_pressure: f64,
     /// Energy dissipated by friction so far.
     pub dissipated: f64,
+}
+
+/// The last state of one tie.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TieSummary {
+    /// Name of the tie.
+    pub name: String,
+    /// Force on surface `a`.
+    pub force_a: [f64; 3],
+    /// Force on surface `b`.
+    pub force_b: [f64; 3],
+    /// Length of the sum of both forces over the sum of the lengths of nodal forces.
+    pub mismatch: f64,
+    /// Length of the sum of both moments over the same times the root of the area.
+    pub moment_mismatch: f64,
+    /// Reference area that is tied.
+    pub area: f64,
+    /// How far nodes were moved, before anything else, to where they belong.
+    pub moved: f64,
 }
 
 impl Summary {
@@ -233,6 +255,15 @@ mod tests {
                 max_pressure: 4e5,
                 dissipated: 12.5,
             }],
+            ties: vec![TieSummary {
+                name: "glue".into(),
+                force_a: [0.0, 0.0, 2.0],
+                force_b: [0.0, 0.0, -2.0],
+                mismatch: 1e-16,
+                moment_mismatch: 1e-15,
+                area: 1.0,
+                moved: 0.0,
+            }],
             reactions: [("BOTTOM".to_owned(), [0.1, 0.2, 0.3])].into(),
             warnings: vec![WarningSummary {
                 kind: "tension".into(),
@@ -265,6 +296,10 @@ mod tests {
                 "name": "interface", "resultant_a": [0.1, 0.0, 15_712.0],
                 "resultant_b": [-0.1, 0.0, -15_712.0], "mismatch": 1e-13, "stick": 3,
                 "slip": 2, "open": 1, "max_pressure": 4e5, "dissipated": 12.5
+            }],
+            "ties": [{
+                "name": "glue", "force_a": [0.0, 0.0, 2.0], "force_b": [0.0, 0.0, -2.0],
+                "mismatch": 1e-16, "moment_mismatch": 1e-15, "area": 1.0, "moved": 0.0
             }],
             "reactions": { "BOTTOM": [0.1, 0.2, 0.3] },
             "warnings": [{

@@ -6,11 +6,13 @@ use striae_solve::{
     problem::Problem,
     report::{PairReport, held_reactions, pairs},
     state::State,
+    tie::reports,
     warning::Judgement,
 };
 
 use crate::summary::{
-    PairSummary, SolverSummary, Status, Summary, WarningSummary, newton_counts, peak_rss_mib,
+    PairSummary, SolverSummary, Status, Summary, TieSummary, WarningSummary, newton_counts,
+    peak_rss_mib,
 };
 
 /// Counts increments and judges them.
@@ -69,6 +71,7 @@ impl Tally {
             wall_s: seconds,
             peak_rss_mib: peak_rss_mib(),
             pairs: pairs(problem, state).iter().map(pair_summary).collect(),
+            ties: tie_summaries(problem, state),
             reactions: held_reactions(problem, state)
                 .into_iter()
                 .map(|(name, force)| (name, force.into()))
@@ -91,6 +94,20 @@ impl Tally {
             self.solver.reason = Some(reason.to_string());
         }
     }
+}
+
+fn tie_summaries(problem: &Problem, state: &State) -> Vec<TieSummary> {
+    let ties = reports(problem, state).into_iter().zip(&problem.model.ties);
+    ties.map(|(report, model)| TieSummary {
+        name: report.name,
+        force_a: report.sides[0].force.into(),
+        force_b: report.sides[1].force.into(),
+        mismatch: report.mismatch,
+        moment_mismatch: report.moment_mismatch,
+        area: report.area,
+        moved: model.moved,
+    })
+    .collect()
 }
 
 fn pair_summary(report: &PairReport) -> PairSummary {

@@ -186,6 +186,7 @@ fn on_this_thread(
     if !system.outside.is_empty() {
         return Err(Fault::Pattern(system.outside));
     }
+    system.pass_on();
     system.condense(imposed);
     let norms = system.norms(trial, &contacts);
     system.idle(setting.selections);
@@ -261,7 +262,7 @@ impl<'a> System<'a> {
             residual: vec![0.0; layout.unknowns()],
             forces: NodalForces::zero(nodes, problem.model.rigid_surfaces.len()),
             force_scale: 0.0,
-            inertia: Arc::new(Inertia::new(trial, imposed)),
+            inertia: Arc::new(Inertia::new(&problem.ties, trial, imposed)),
             ties: Vec::new(),
             positions: &trial.positions,
             moving: Vec::new(),
@@ -296,11 +297,14 @@ impl System<'_> {
         let bodies = self.elements(places, trial, setting.state, imposed.flowing())?;
         self.point_masses();
         self.carried(imposed);
+        self.pass_on();
+        self.hold_followers();
         Ok(bodies)
     }
 
     fn clique(&self, nodes: &[usize]) -> Vec<Supervariable> {
-        let mut owners: Vec<Supervariable> = nodes.iter().map(|&node| self.owner(node)).collect();
+        let owners = nodes.iter().flat_map(|&node| self.owners(node));
+        let mut owners: Vec<Supervariable> = owners.collect();
         owners.sort_unstable();
         owners.dedup();
         owners

@@ -49,6 +49,7 @@ pub fn begin(
         for rate in &imposed.rates {
             velocities[rate.node][rate.axis] = rate.velocity;
         }
+        problem.ties.follow(&mut velocities);
         let mut forces = forces_at_start(&context, state, workspace)?;
         let holding;
         (accelerations, holding) =

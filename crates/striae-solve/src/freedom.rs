@@ -236,14 +236,18 @@ impl Rows {
         let problem = context.problem;
         let (bodies, rigid) = (problem.model.bodies.len(), problem.tied.len());
         let mut root: Vec<usize> = (0..bodies + rigid).collect();
-        for (index, surface) in problem.model.rigid_surfaces.iter().enumerate() {
-            for (body, _) in &surface.ties {
-                let (one, other) = (root[body.0], root[bodies + index]);
-                let (low, high) = (one.min(other), one.max(other));
-                root.iter_mut()
-                    .filter(|r| **r == high)
-                    .for_each(|r| *r = low);
-            }
+        let to_rigid = problem.model.rigid_surfaces.iter().enumerate();
+        let to_rigid = to_rigid.flat_map(|(index, surface)| {
+            let tied = surface.ties.iter();
+            tied.map(move |(body, _)| [body.0, bodies + index])
+        });
+        let to_bodies = problem.ties.joints.iter().map(|joint| joint.bodies);
+        for [one, other] in to_rigid.chain(to_bodies) {
+            let (one, other) = (root[one], root[other]);
+            let (low, high) = (one.min(other), one.max(other));
+            root.iter_mut()
+                .filter(|r| **r == high)
+                .for_each(|r| *r = low);
         }
         let mut components: Vec<Component> = Vec::new();
         let mut of = vec![None; bodies + rigid];

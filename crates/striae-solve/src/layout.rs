@@ -141,6 +141,15 @@ impl Layout {
         Supervariable(rigid.unwrap_or(node))
     }
 
+    /// Supervariables of the positions of a global node: those of the nodes that it follows.
+    pub fn owners(&self, problem: &Problem, node: usize) -> Vec<Supervariable> {
+        let behind = problem.ties.behind(&[node]).into_iter();
+        let mut owners: Vec<Supervariable> = behind.map(|node| self.owner(problem, node)).collect();
+        owners.sort_unstable();
+        owners.dedup();
+        owners
+    }
+
     /// Supervariable of a rigid body whose coordinates are unknowns.
     pub fn body(&self, rigid: usize) -> Option<Supervariable> {
         self.rigids[rigid].map(Supervariable)

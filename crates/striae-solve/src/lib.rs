@@ -30,4 +30,5 @@ pub mod section;
 pub mod solid;
 pub mod stabilisation;
 pub mod state;
+pub mod tie;
 pub mod warning;

@@ -22,6 +22,8 @@ pub struct Model {
     pub rigid_surfaces: Vec<RigidSurface>,
     /// Contact pairs.
     pub pairs: Vec<Pair>,
+    /// Surfaces that are glued.
+    pub ties: Vec<Tie>,
     /// Steps in the order in which they are run.
     pub steps: Vec<Step>,
     /// Newton's method and the linear solver.
@@ -196,6 +198,30 @@ pub struct Pair {
     /// Whether viscous forces carry bodies that nothing else holds across the gap, see
     /// [`crate::stabilisation`].
     pub stabilised: bool,
+}
+
+/// Two surfaces of bodies that are glued from the start, see [`crate::tie`].
+#[derive(Clone, Debug, Serialize)]
+pub struct Tie {
+    /// Unique name.
+    pub name: String,
+    /// First side.
+    pub a: Side,
+    /// Second side.
+    pub b: Side,
+    /// Distance up to which facets are tied; `None`: a tenth of their size, and facets that
+    /// face each other from further away are a fault.
+    pub within: Option<f64>,
+    /// How far the furthest node has been moved to where it belongs.
+    pub moved: f64,
+}
+
+impl Tie {
+    /// Whether a body is a side of it.
+    pub fn joins(&self, body: BodyId) -> bool {
+        let is = |side: &Side| matches!(side, Side::Deformable { body: of, .. } if *of == body);
+        is(&self.a) || is(&self.b)
+    }
 }
 
 /// What is made of the gaps and overlaps that the meshes of a pair have before anything

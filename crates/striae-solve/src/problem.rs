@@ -20,6 +20,7 @@ use crate::{
     contact_mass, interference,
     model::{Model, Pair, RigidShape, Side},
     plan::{StepPlan, plans},
+    tie::{TieFault, Ties, first_nodes, shadowed},
 };
 
 /// A model with what follows from it.
@@ -49,6 +50,10 @@ pub struct Problem {
     pub massless: Vec<bool>,
     /// Mass of every body.
     pub masses: Vec<BodyMass>,
+    /// Nodes that follow others in ties.
+    pub ties: Ties,
+    /// Nodes of pairs, by pair and side, that follow nodes which touch the same opponent.
+    pub shadowed: Vec<[Vec<bool>; 2]>,
     /// Contact facets that each face of each body is.
     pub contact_facets: HashMap<(usize, Face), Vec<ContactFacet>>,
 }
@@ -94,6 +99,9 @@ pub enum ProblemError {
         /// What is wrong.
         fault: ElementFault,
     },
+    /// A tie is none.
+    #[error("{0}")]
+    Tie(TieFault),
     /// A side cannot be textured.
     #[error("pair `{pair}`, texture of {surface}{}: {error}", at_node(*node))]
     Texture {
@@ -138,13 +146,14 @@ impl Problem {
     /// # Errors
     /// When the mesh has degenerate elements or a pair no deformable first side.
     pub fn new(model: Model) -> Result<Self, ProblemError> {
-        let mut first_node = vec![0];
+        let ties = Ties::new(&model).map_err(|mut faults| ProblemError::Tie(faults.remove(0)))?;
+        let model = ties.moved(model).map_err(ProblemError::Tie)?;
+        let first_node = first_nodes(&model);
         let mut reference = Vec::new();
         let mut elements = Vec::new();
         let mut compositions = Vec::new();
         for body in &model.bodies {
             reference.extend_from_slice(&body.mesh.positions);
-            first_node.push(reference.len());
             let of_body = body.elements().map_err(|fault| ProblemError::Element {
                 body: body.name.clone(),
                 fault,
@@ -165,11 +174,13 @@ impl Problem {
             contact_facets: contact_facets(&pairs),
             masses: masses(&model, &elements, &compositions, (&first_node, &massless)),
             massless,
-            pairs,
             plans: plans(&model),
             tied,
+            shadowed: shadowed(&pairs, &first_node, &ties),
+            ties,
             tie_of,
             mass_points,
+            pairs,
             first_node,
             reference,
             elements,

@@ -76,6 +76,8 @@ pub struct NodalForces {
     pub applied: Vec<Vec3>,
     /// Contact forces.
     pub contact: Vec<Vec3>,
+    /// Forces of ties between bodies, see [`crate::tie`].
+    pub ties: Vec<Vec3>,
     /// Forces of stabilisation, see [`crate::stabilisation`].
     pub stabilisation: Vec<Vec3>,
     /// Those on every rigid body.
@@ -130,6 +132,7 @@ impl NodalForces {
             reaction: vec![Vec3::zeros(); nodes],
             applied: vec![Vec3::zeros(); nodes],
             contact: vec![Vec3::zeros(); nodes],
+            ties: vec![Vec3::zeros(); nodes],
             stabilisation: vec![Vec3::zeros(); nodes],
             stabilised: vec![Wrench::default(); rigid],
             rigid: vec![Wrench::default(); rigid],

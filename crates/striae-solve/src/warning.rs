@@ -15,6 +15,8 @@
 //! | `imbalance` | energy found nowhere over the largest energy | 1e-3 |
 //! | `stabilisation` | work lost to [stabilisation](crate::stabilisation) in a step over its external work or change of strain energy, whichever is larger | 0.01 |
 //! | `rotation` | largest angle, in radians, by which elements of linear elastic bodies turn | 0.1 |
+//! | `tie-mismatch` | sum of the forces on the sides of a tie over the sum of nodal forces | 1e-6 |
+//! | `tie-moment` | sum of the moments over the same and the root of the tied area | 1e-2 |
 //! | `never-touched` | the smallest distance at the start; after a completed run | - |
 //! | `never-meets` | the same, before the run | - |
 //!
@@ -38,6 +40,7 @@ use crate::{
     problem::Problem,
     report::{PairReport, pairs},
     state::{Energies, State},
+    tie::reports,
 };
 
 /// Something that makes results doubtful, with the number it is judged by.
@@ -45,7 +48,7 @@ use crate::{
 pub struct Warning {
     /// What it is about.
     pub kind: Kind,
-    /// Name of the contact pair, if it is about one.
+    /// Name of the contact pair or tie, if it is about one.
     pub pair: Option<String>,
     /// Worst value.
     pub value: f64,
@@ -80,6 +83,10 @@ pub enum Kind {
     Stabilisation,
     /// A body for small rotations turns by a large one.
     Rotation,
+    /// Forces on the two sides of a tie differ.
+    TieMismatch,
+    /// Moments on the two sides of a tie differ.
+    TieMoment,
     /// A pair has never touched.
     NeverTouched,
     /// A pair can never meet.
@@ -88,7 +95,7 @@ pub enum Kind {
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 14] = [
         Self::Mismatch,
         Self::Moment,
         Self::Tension,
@@ -99,6 +106,8 @@ impl Kind {
         Self::Imbalance,
         Self::Stabilisation,
         Self::Rotation,
+        Self::TieMismatch,
+        Self::TieMoment,
         Self::NeverTouched,
         Self::NeverMeets,
     ];
@@ -116,6 +125,8 @@ impl Kind {
             Self::Imbalance => "imbalance",
             Self::Stabilisation => "stabilisation",
             Self::Rotation => "rotation",
+            Self::TieMismatch => "tie-mismatch",
+            Self::TieMoment => "tie-moment",
             Self::NeverTouched => "never-touched",
             Self::NeverMeets => "never-meets",
         }
@@ -124,8 +135,8 @@ impl Kind {
     /// Value above which there is a warning.
     pub fn limit(self) -> f64 {
         match self {
-            Self::Mismatch | Self::Tension | Self::Creation => 1e-6,
-            Self::Moment | Self::Stabilisation => 1e-2,
+            Self::Mismatch | Self::TieMismatch | Self::Tension | Self::Creation => 1e-6,
+            Self::Moment | Self::TieMoment | Self::Stabilisation => 1e-2,
             Self::Penetration => SHARE,
             Self::Unfelt => PIERCED,
             Self::Rotation => 0.1,
@@ -155,7 +166,7 @@ pub struct Judgement {
 pub struct Worst {
     /// The kind.
     pub kind: Kind,
-    /// The pair, if it is about one.
+    /// The pair, or the tie, if it is about one.
     pub pair: Option<usize>,
     /// The value, but for energies over the largest one.
     pub value: f64,
@@ -201,6 +212,15 @@ impl Judgement {
             self.pair(pair, report, [before, after]);
             self.passage(pair, &interferences[pair], after.time);
             self.penetration(problem, pair, after, report.max_pressure);
+        }
+        for (tie, report) in reports(problem, after).iter().enumerate() {
+            self.note(Kind::TieMismatch, Some(tie), report.mismatch, after.time);
+            self.note(
+                Kind::TieMoment,
+                Some(tie),
+                report.moment_mismatch,
+                after.time,
+            );
         }
     }
 
@@ -419,7 +439,11 @@ fn warning(model: &Model, worst: &Worst) -> Warning {
         value,
         time,
     } = worst;
-    let name = pair.map_or("", |pair| &model.pairs[pair].name);
+    let name = match (kind, pair) {
+        (Kind::TieMismatch | Kind::TieMoment, Some(tie)) => &model.ties[tie].name,
+        (_, Some(pair)) => &model.pairs[pair].name,
+        (_, None) => "",
+    };
     let percent = 100.0 * value;
     let text = match kind {
         Kind::Mismatch => format!(
@@ -454,6 +478,12 @@ fn warning(model: &Model, worst: &Worst) -> Warning {
             linear_text(model),
             value.to_degrees(),
             1.0 - value.cos()
+        ),
+        Kind::TieMismatch => format!(
+            "tie `{name}`: the forces on its sides differ by {value:.1e} of what it transmits at time {time:.4}"
+        ),
+        Kind::TieMoment => format!(
+            "tie `{name}`: the moments on its sides differ by {value:.1e} of what it transmits times its size at time {time:.4}; prescribe all or none of the components of its edge nodes"
         ),
         Kind::NeverTouched => format!("pair `{name}` has never touched"),
         Kind::NeverMeets => format!("pair `{name}` can never meet"),

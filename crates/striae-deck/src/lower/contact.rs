@@ -1,10 +1,10 @@
-//! Contact pairs and friction.
+//! Contact pairs and friction, ties.
 
 use super::{friction::friction, surfaces::Surfaces, texture};
 use crate::{faults::FaultList, raw, read::At};
 use striae_law::friction::Friction;
 use striae_model::Known;
-use striae_solve::model::{ClosedGaps, Enforcement, Initial, Pair, RigidId, Side};
+use striae_solve::model::{ClosedGaps, Enforcement, Initial, Pair, RigidId, Side, Tie};
 use striae_surface::texture::Paint;
 
 /// A pair as far as it is known.
@@ -102,6 +102,29 @@ fn lower_initial(raw: &raw::Initial) -> Initial {
     }
 }
 
+/// The ties; `None` without their sides.
+pub(super) fn ties(
+    raw: &[At<raw::BodyTie>],
+    surfaces: &Surfaces<'_>,
+    faults: &mut FaultList<'_>,
+) -> Vec<Option<Tie>> {
+    let mut lower = |tie: &At<raw::BodyTie>| {
+        let tie = &tie.value;
+        let [a, b] = [&tie.a, &tie.b].map(|side| {
+            let side = side.as_ref()?;
+            faces(&side.value, surfaces, faults)
+        });
+        Some(Tie {
+            name: tie.name.as_ref()?.value.0.clone(),
+            a: a?,
+            b: b?,
+            within: tie.within.as_ref().map(|distance| distance.value.0),
+            moved: 0.0,
+        })
+    };
+    raw.iter().map(&mut lower).collect()
+}
+
 /// A side with its texture.
 fn lower_side(
     raw: &raw::Side,
@@ -122,11 +145,7 @@ fn lower_surface(
     faults: &mut FaultList<'_>,
 ) -> Option<Side> {
     match raw.surface.as_ref()? {
-        raw::SideSurface::Deformable(side) => {
-            let body = surfaces.bodies.find(side.body.as_ref(), faults)?;
-            let faces = surfaces.bodies.faces(body, side.facets.as_ref(), faults)?;
-            Some(Side::Deformable { body, faces })
-        }
+        raw::SideSurface::Deformable(side) => faces(side, surfaces, faults),
         raw::SideSurface::Rigid(side) => {
             let name = side.rigid.as_ref()?;
             let rigid = surfaces.rigid_names.find(name, faults)?;
@@ -136,4 +155,15 @@ fn lower_surface(
             Some(Side::Rigid(RigidId(rigid)))
         }
     }
+}
+
+/// Facets of a body.
+fn faces(
+    raw: &raw::DeformableSide,
+    surfaces: &Surfaces<'_>,
+    faults: &mut FaultList<'_>,
+) -> Option<Side> {
+    let body = surfaces.bodies.find(raw.body.as_ref(), faults)?;
+    let faces = surfaces.bodies.faces(body, raw.facets.as_ref(), faults)?;
+    Some(Side::Deformable { body, faces })
 }

@@ -46,7 +46,7 @@ use step::LoweredStep;
 use striae_model::{
     Draft, DraftPair, DraftStep, Fault, FaultKind as ModelFault, Known, Named, fitted,
 };
-use striae_solve::model::{Backend, Model, RigidSurface, Solver, Strategy};
+use striae_solve::model::{Backend, Model, RigidSurface, Solver, Strategy, Tie};
 
 /// What the parts of a deck refer to by name.
 struct Scope<'r> {
@@ -90,6 +90,7 @@ struct Parts {
     bodies: Bodies,
     rigid: Vec<Option<RigidSurface>>,
     pairs: Vec<LoweredPair>,
+    ties: Vec<Option<Tie>>,
     steps: Vec<LoweredStep>,
 }
 
@@ -109,6 +110,9 @@ fn parts(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_>) -> Part
         base,
     };
     let pairs = contact::pairs(list(&raw.pair), &surfaces, faults);
+    let names = list(&raw.tie).iter().map(|at| at.value.name.as_ref());
+    Names::new("tie", names, faults);
+    let ties = contact::ties(list(&raw.tie), &surfaces, faults);
     let curves = curve::Curves::new(list(&raw.curve), faults);
     let scope = Scope {
         bodies: &bodies,
@@ -121,6 +125,7 @@ fn parts(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_>) -> Part
         bodies,
         rigid,
         pairs,
+        ties,
         steps,
     }
 }
@@ -139,6 +144,11 @@ impl Parts {
             pair: lowered.pair.as_ref(),
             known: lowered.known,
         });
+        let ties = list(&raw.tie).iter().zip(&self.ties);
+        let ties = ties.map(|(raw, part)| Named {
+            name: name(&raw.value.name),
+            part: part.as_ref(),
+        });
         let steps = self.steps.iter().map(|lowered| DraftStep {
             step: &lowered.step,
             known: lowered.known,
@@ -148,6 +158,7 @@ impl Parts {
             bodies: self.bodies.drafts(),
             rigid_surfaces: rigid.collect(),
             pairs: pairs.collect(),
+            ties: ties.collect(),
             steps: steps.collect(),
             known,
         }
@@ -164,6 +175,7 @@ impl Parts {
                 .into_iter()
                 .map(|lowered| lowered.pair)
                 .collect::<Option<_>>()?,
+            ties: whole(self.ties)?,
             steps: self.steps.into_iter().map(|lowered| lowered.step).collect(),
             solver: solver(raw.solver.as_ref().map(|solver| &solver.value)),
         })

@@ -31,6 +31,10 @@ pub(super) fn span(path: &Path, raw: &raw::Simulation, steps: &[StepSpans]) -> S
             let step = steps.get(*index);
             step.map(|step| of_step(step, rest))
         }
+        [Field("ties"), Index(index), rest @ ..] => {
+            let tie = list(&raw.tie).get(*index);
+            tie.map(|tie| of_tie(tie, rest))
+        }
         [Field("rigid_surfaces"), Index(index), ..] => {
             let rigid = list(&raw.rigid).get(*index);
             rigid.map(|rigid| rigid.span.clone())
@@ -79,6 +83,14 @@ fn of_step(step: &StepSpans, rest: &[Segment]) -> Span {
         _ => None,
     };
     found.unwrap_or(&step.whole).clone()
+}
+
+fn of_tie(tie: &At<raw::BodyTie>, rest: &[Segment]) -> Span {
+    let within = tie.value.within.as_ref();
+    let within = within.filter(|_| matches!(rest, [Segment::Field("within"), ..]));
+    let name = tie.value.name.as_ref().map(|at| &at.span);
+    let found = within.map(|at| &at.span).or(name);
+    found.unwrap_or(&tie.span).clone()
 }
 
 fn of_pair(pair: &At<raw::Pair>, rest: &[Segment]) -> Span {

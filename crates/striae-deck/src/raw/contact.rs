@@ -1,4 +1,4 @@
-//! `[[pair]]` and its friction.
+//! `[[pair]]` and its friction, `[[tie]]`.
 
 use super::Texture;
 use crate::{
@@ -30,6 +30,20 @@ table! {
         optional initial: Initial,
         /// Whether viscous forces between the sides carry bodies that nothing else holds across a gap, in steps without inertia. They fall to zero in the course of each step. Default: false.
         optional stabilise: Truth,
+    }
+}
+
+table! {
+    /// Two surfaces of bodies that are glued from the start; their meshes need not match.
+    BodyTie {
+        /// Unique name.
+        required name: Text,
+        /// First side.
+        required a: DeformableSide,
+        /// Second side. Which of them is which does not matter.
+        required b: DeformableSide,
+        /// Distance up to which facets that face each other are tied; others are free. Default: a tenth of the facet size, and facets from there up to half of it apart are a fault.
+        optional within: Positive,
     }
 }
 

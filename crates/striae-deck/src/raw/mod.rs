@@ -34,6 +34,8 @@ table! {
         optional rigid: Vec<At<Rigid>>,
         /// Pairs of surfaces that may touch.
         optional pair: Vec<At<Pair>>,
+        /// Surfaces of bodies that are glued.
+        optional tie: Vec<At<BodyTie>>,
         /// Curves along which conditions change.
         optional curve: Vec<At<NamedCurve>>,
         /// Parts of the loading history, in the order in which they are run.

@@ -1,4 +1,4 @@
-//! Pairs: sides, textures, friction.
+//! Pairs: sides, textures, friction; ties.
 
 use striae_solve::model::{Enforcement, Initial, Pair, Side};
 use striae_surface::texture::{Axis, Lines, Paint};
@@ -37,8 +37,21 @@ impl Writer<'_> {
         )
     }
 
-    fn side(&mut self, pair: &Pair, side: usize) -> String {
-        let surface = match [&pair.a, &pair.b][side] {
+    /// A tie; its nodes are where they belong in the meshes that are written.
+    pub(super) fn tie(&mut self, at: usize) -> String {
+        let tie = &self.model.ties[at];
+        let [a, b] = [&tie.a, &tie.b].map(|side| self.surface(side));
+        let within = tie.within.map_or_else(String::new, |distance| {
+            format!("within = {}\n", number(distance))
+        });
+        format!(
+            "\n[[tie]]\nname = {}\na = {{ {a} }}\nb = {{ {b} }}\n{within}",
+            text(&tie.name)
+        )
+    }
+
+    fn surface(&mut self, side: &Side) -> String {
+        match side {
             Side::Deformable { body, faces } => {
                 let set = self.meshes.facets(*body, "", faces);
                 let body = &self.model.bodies[body.0].name;
@@ -48,7 +61,11 @@ impl Writer<'_> {
                 let rigid = &self.model.rigid_surfaces[rigid.0].name;
                 format!("rigid = {}", text(rigid))
             }
-        };
+        }
+    }
+
+    fn side(&mut self, pair: &Pair, side: usize) -> String {
+        let surface = self.surface([&pair.a, &pair.b][side]);
         let texture = match &pair.textures[side] {
             None => String::new(),
             Some(paint) => match texture(paint) {

@@ -9,6 +9,7 @@ mod paint;
 mod pair;
 mod parts;
 mod step;
+mod tie;
 
 pub use extend::extended;
 pub use paint::{axial, circumferential, nodal, painted, radial, turned, uniform};
@@ -18,8 +19,9 @@ pub use parts::{
     section, tied,
 };
 pub use step::{Component, Components, StepBuilder, equal_increments, step};
+pub use tie::{TieBuilder, tie};
 
-use striae_solve::model::{Backend, Body, Model, Pair, RigidSurface, Solver, Strategy};
+use striae_solve::model::{Backend, Body, Model, Pair, RigidSurface, Solver, Strategy, Tie};
 
 use crate::{
     check::{Draft, DraftPair, DraftStep, Known, Named, Validate},
@@ -39,6 +41,7 @@ pub struct ModelBuilder {
     faults: Vec<Fault>,
     rigid: Vec<RigidBuilder>,
     pairs: Vec<PairBuilder>,
+    ties: Vec<TieBuilder>,
     steps: Vec<StepBuilder>,
     solver: Solver,
 }
@@ -51,6 +54,7 @@ pub fn model(title: impl Into<String>) -> ModelBuilder {
         faults: Vec::new(),
         rigid: Vec::new(),
         pairs: Vec::new(),
+        ties: Vec::new(),
         steps: Vec::new(),
         solver: solver(),
     }
@@ -88,6 +92,12 @@ impl ModelBuilder {
         self
     }
 
+    /// Adds a tie.
+    pub fn tie(mut self, tie: TieBuilder) -> Self {
+        self.ties.push(tie);
+        self
+    }
+
     /// Adds a step after those before.
     pub fn step(mut self, step: StepBuilder) -> Self {
         self.steps.push(step);
@@ -115,12 +125,15 @@ impl ModelBuilder {
         let pairs: Vec<Option<Pair>> = (self.pairs.iter().enumerate())
             .map(|(index, pair)| pair.resolved(index, &names, &mut faults))
             .collect();
+        let ties: Vec<Option<Tie>> = (self.ties.iter().enumerate())
+            .map(|(index, tie)| tie.resolved(index, &names, &mut faults))
+            .collect();
         let mut prescribed = Prescribed::default();
         let steps: Vec<Resolved> = (self.steps.iter().enumerate())
             .map(|(index, step)| step.resolved(index, &names, &mut prescribed, &mut faults))
             .collect();
         if !faults.is_empty() {
-            let draft = self.draft(&rigid, &pairs, &steps);
+            let draft = self.draft(&rigid, &pairs, &ties, &steps);
             let found = draft.faults().into_iter();
             faults.extend(found.map(|fault| placed(fault, 0, &steps)));
             return Err(Faults(faults));
@@ -130,6 +143,7 @@ impl ModelBuilder {
             bodies: self.bodies,
             rigid_surfaces: rigid.into_iter().flatten().collect(),
             pairs: pairs.into_iter().flatten().collect(),
+            ties: ties.into_iter().flatten().collect(),
             steps: steps.into_iter().map(|resolved| resolved.step).collect(),
             solver: self.solver,
         };
@@ -141,6 +155,7 @@ impl ModelBuilder {
         &'a self,
         rigid: &'a [Option<RigidSurface>],
         pairs: &'a [Option<Pair>],
+        ties: &'a [Option<Tie>],
         steps: &'a [Resolved],
     ) -> Draft<'a> {
         let rigid = self.rigid.iter().zip(rigid).map(|(of, part)| Named {
@@ -152,6 +167,10 @@ impl ModelBuilder {
             pair: pair.as_ref(),
             known: Known::Whole,
         });
+        let ties = self.ties.iter().zip(ties).map(|(of, tie)| Named {
+            name: of.name(),
+            part: tie.as_ref(),
+        });
         let steps = steps.iter().map(|resolved| DraftStep {
             step: &resolved.step,
             known: resolved.known,
@@ -161,6 +180,7 @@ impl ModelBuilder {
             bodies: Draft::bodies(&self.bodies),
             rigid_surfaces: rigid.collect(),
             pairs: pairs.collect(),
+            ties: ties.collect(),
             steps: steps.collect(),
             known: Known::Whole,
         }

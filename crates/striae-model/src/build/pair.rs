@@ -46,7 +46,12 @@ impl SideBuilder {
         self
     }
 
-    fn resolved(&self, path: &Path, names: &Names<'_>, faults: &mut Vec<Fault>) -> Option<Side> {
+    pub(super) fn resolved(
+        &self,
+        path: &Path,
+        names: &Names<'_>,
+        faults: &mut Vec<Fault>,
+    ) -> Option<Side> {
         match &self.owner {
             Owner::Body { body, facets } => {
                 let (body, faces) = names.faces(body, facets, path, faults)?;

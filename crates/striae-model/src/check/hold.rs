@@ -43,8 +43,11 @@ pub(super) fn check(draft: &Draft<'_>, faults: &mut List) {
 
 fn is_tied(draft: &Draft<'_>, body: BodyId) -> bool {
     let rigid = draft.rigid_surfaces.iter().filter_map(|rigid| rigid.part);
-    let mut ties = rigid.flat_map(|rigid| &rigid.ties);
-    ties.any(|(tied, _)| *tied == body)
+    let mut to_rigid = rigid.flat_map(|rigid| &rigid.ties);
+    let mut ties = draft.ties.iter().filter_map(|tie| tie.part);
+    // A tie that is not known might be what holds it.
+    let unknown = draft.ties.iter().any(|tie| tie.part.is_none());
+    unknown || to_rigid.any(|(tied, _)| *tied == body) || ties.any(|tie| tie.joins(body))
 }
 
 fn touches(draft: &Draft<'_>, body: BodyId) -> bool {

@@ -13,6 +13,7 @@ mod references;
 mod rigid;
 mod sections;
 mod steps;
+mod ties;
 mod triangles;
 
 pub use numbers::misshapen;
@@ -20,7 +21,7 @@ pub use numbers::misshapen;
 use std::collections::{BTreeMap, BTreeSet};
 
 use striae_mesh::Mesh;
-use striae_solve::model::{Body, BodySection, Model, Pair, RigidSurface, Step};
+use striae_solve::model::{Body, BodySection, Model, Pair, RigidSurface, Step, Tie};
 
 use crate::{
     fault::{Fault, FaultKind, Faults},
@@ -89,6 +90,8 @@ pub struct Draft<'a> {
     pub rigid_surfaces: Vec<Named<'a, RigidSurface>>,
     /// Contact pairs.
     pub pairs: Vec<DraftPair<'a>>,
+    /// Ties.
+    pub ties: Vec<Named<'a, Tie>>,
     /// Steps.
     pub steps: Vec<DraftStep<'a>>,
     /// Whether anything else is missing.
@@ -139,6 +142,10 @@ impl<'a> Draft<'a> {
             pair: Some(pair),
             known: Known::Whole,
         });
+        let ties = model.ties.iter().map(|tie| Named {
+            name: &tie.name,
+            part: Some(tie),
+        });
         let steps = model.steps.iter().map(|step| DraftStep {
             step,
             known: Known::Whole,
@@ -148,6 +155,7 @@ impl<'a> Draft<'a> {
             bodies: Self::bodies(&model.bodies),
             rigid_surfaces: rigid.collect(),
             pairs: pairs.collect(),
+            ties: ties.collect(),
             steps: steps.collect(),
             known: Known::Whole,
         }
@@ -170,6 +178,7 @@ impl<'a> Draft<'a> {
         self.nothing(&mut faults);
         self.names(&mut faults);
         let impossible = pairs::check(self, &mut faults);
+        ties::check(self, &mut faults);
         let partial = steps::check(self, &impossible, &mut faults);
         triangles::check(self, &mut faults);
         sections::check(self, &mut faults);
@@ -207,6 +216,8 @@ impl<'a> Draft<'a> {
             self.pairs.iter().map(|pair| pair.name),
             faults,
         );
+        let ties = self.ties.iter().map(|tie| tie.name);
+        distinct("tie", "ties", ties, faults);
         let steps = self.steps.iter().map(|step| step.step.name.as_str());
         distinct("step", "steps", steps, faults);
     }

@@ -31,6 +31,11 @@ pub(super) fn faults(model: &Model) -> Vec<Fault> {
         check.side(&pair.a, path.clone().field("a"));
         check.side(&pair.b, path.field("b"));
     }
+    for (index, tie) in model.ties.iter().enumerate() {
+        let path = Path::part("ties", index);
+        check.side(&tie.a, path.clone().field("a"));
+        check.side(&tie.b, path.field("b"));
+    }
     for index in 0..model.steps.len() {
         check.step(index);
     }

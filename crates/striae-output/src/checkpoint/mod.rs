@@ -39,7 +39,7 @@ pub const END: &str = "end.bin";
 const MAGIC: &[u8] = b"striae checkpoint\n";
 
 /// Number of the format, to be raised when the content changes.
-pub const FORMAT: u64 = 11;
+pub const FORMAT: u64 = 12;
 
 /// A run under way.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -101,7 +101,7 @@ pub fn fingerprint(model: &Model, output: &Output) -> u64 {
     of(&(model, output))
 }
 
-/// Fingerprints of the bodies, rigid surfaces and pairs of a model, by what they are called.
+/// Fingerprints of the bodies, rigid surfaces, pairs and ties of a model, by what they are called.
 pub fn part_fingerprints(model: &Model) -> Vec<(String, u64)> {
     let bodies = model.bodies.iter();
     let bodies = bodies.map(|body| (format!("body `{}`", body.name), of(body)));
@@ -109,7 +109,9 @@ pub fn part_fingerprints(model: &Model) -> Vec<(String, u64)> {
     let rigid = rigid.map(|rigid| (format!("rigid surface `{}`", rigid.name), of(rigid)));
     let pairs = model.pairs.iter();
     let pairs = pairs.map(|pair| (format!("pair `{}`", pair.name), of(pair)));
-    bodies.chain(rigid).chain(pairs).collect()
+    let ties = model.ties.iter();
+    let ties = ties.map(|tie| (format!("tie `{}`", tie.name), of(tie)));
+    bodies.chain(rigid).chain(pairs).chain(ties).collect()
 }
 
 /// Fingerprints of the steps of a model, by what they are called.
@@ -240,7 +242,7 @@ impl Source {
 }
 
 impl Source {
-    /// Whether a model has the bodies, rigid surfaces and pairs of the run.
+    /// Whether a model has the bodies, rigid surfaces, pairs and ties of the run.
     ///
     /// # Errors
     /// The first of them that it has not, or has besides.
@@ -252,7 +254,8 @@ impl Source {
         };
         let mut differs = differs(&self.parts, &found).or_else(|| differs(&found, &self.parts));
         if found != self.parts {
-            differs = differs.or_else(|| Some("the order of bodies, surfaces or pairs".into()));
+            differs =
+                differs.or_else(|| Some("the order of bodies, surfaces, pairs or ties".into()));
         }
         differs.map_or(Ok(()), |part| Err(CheckpointError::Differs { part }))
     }

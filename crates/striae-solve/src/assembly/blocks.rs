@@ -46,7 +46,8 @@ impl System<'_> {
     fn is_plain(&self, pair: usize) -> bool {
         let rigid = self.context.problem.pairs[pair].rigid;
         let moves = rigid.is_some_and(|rigid| self.moving[rigid].is_some());
-        self.ties.is_empty() && !moves && self.opposite_body(pair).is_none()
+        let follows = || self.triples[pair].iter().flatten().any(|t| t.follows);
+        self.ties.is_empty() && !moves && self.opposite_body(pair).is_none() && !follows()
     }
 
     /// Where a term belongs, leaving out prescribed rows.

@@ -34,7 +34,8 @@ pub struct StepContext<'a> {
     pub fixed: Vec<bool>,
     /// Whether each coordinate of each rigid body is prescribed.
     pub fixed_rigid: Vec<[bool; 6]>,
-    /// `fixed` by pair, side and surface node.
+    /// `fixed` by pair, side and surface node, with nodes that follow only such nodes, or nodes
+    /// that touch the same opponent.
     pub fixed_on_pair: Vec<Prescribed>,
     /// Overlaps of the meshes of every pair that are pressed out in the step.
     pub offsets: Vec<Offsets>,
@@ -87,13 +88,22 @@ impl<'a> StepContext<'a> {
         for (body, node, axis) in plan.displacements.keys() {
             fixed[3 * (problem.first_node[*body] + node) + axis] = true;
         }
+        let holds = |node: usize, axis: usize| match problem.ties.followed(node, axis) {
+            Some(followed) => followed.iter().all(|(node, _)| fixed[3 * node + axis]),
+            None => fixed[3 * node + axis],
+        };
         let on_pair = |pair: usize| {
             [0, 1].map(|side| {
                 let surface = problem.pairs[pair].contact.sides[side].surface();
                 let count = surface.map_or(0, |surface| surface.nodes().len() as u32);
+                let shadowed = problem.shadowed.get(pair).map(|sides| &sides[side]);
                 (0..count)
-                    .filter_map(|node| problem.surface_node(pair, side, node))
-                    .flat_map(|node| fixed[3 * node..3 * node + 3].to_vec())
+                    .flat_map(|node| {
+                        let global = problem.surface_node(pair, side, node)?;
+                        let own = shadowed.is_some_and(|nodes| nodes[node as usize]);
+                        Some([0, 1, 2].map(|axis| own || holds(global, axis)))
+                    })
+                    .flatten()
                     .collect()
             })
         };

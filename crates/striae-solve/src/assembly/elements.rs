@@ -163,8 +163,9 @@ impl System<'_> {
         let problem = self.context.problem;
         let element = ElementId::new(place.first + at);
         let corners = problem.model.bodies[place.body].mesh.corners(element);
-        let is_tied = |node: &NodeId| self.tie(problem.node(place.body, *node)).is_some();
-        place.places.has_place(at) && (self.ties.is_empty() || !corners.iter().any(is_tied))
+        let is_bound = |node: &NodeId| self.is_bound(problem.node(place.body, *node));
+        let any = !self.ties.is_empty() || problem.ties.joins(place.body);
+        place.places.has_place(at) && !(any && corners.iter().any(is_bound))
     }
 
     /// Adds an element, which may have tied nodes.
@@ -257,7 +258,7 @@ impl System<'_> {
         tangent: &[f64],
     ) -> Result<(), OutsidePattern> {
         let is_fixed = |node: &usize| self.context.fixed[3 * node..3 * node + 3].contains(&true);
-        let is_plain = |node: &usize| self.tie(*node).is_none() && !is_fixed(node);
+        let is_plain = |node: &usize| !self.is_bound(*node) && !is_fixed(node);
         if self.derivatives == Derivatives::None {
             return Ok(());
         }

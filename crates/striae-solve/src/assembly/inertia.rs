@@ -13,6 +13,7 @@ use striae_element::ElementResponse;
 use striae_mesh::{MAX_CORNERS, Vec3};
 
 use super::{Imposed, System, Trial};
+use crate::tie::Ties;
 
 /// What elements need of the increment.
 pub(super) struct Inertia {
@@ -26,13 +27,16 @@ pub(super) struct Inertia {
 }
 
 impl Inertia {
-    pub(super) fn new(trial: &Trial, imposed: &Imposed) -> Self {
+    pub(super) fn new(ties: &Ties, trial: &Trial, imposed: &Imposed) -> Self {
         let motion = imposed.motion.as_ref();
         Self {
             share_of_end: 1.0 - motion.map_or(0.0, |motion| motion.scheme().alpha_f),
             gravity: imposed.gravity,
-            accelerations: motion
-                .map(|motion| motion.weighted_accelerations(&trial.positions, &imposed.rates)),
+            accelerations: motion.map(|motion| {
+                let mut all = motion.weighted_accelerations(&trial.positions, &imposed.rates);
+                ties.follow(&mut all);
+                all
+            }),
             stiffness: motion.map_or(0.0, |motion| motion.stiffness()),
         }
     }

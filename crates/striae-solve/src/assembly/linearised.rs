@@ -80,6 +80,7 @@ pub fn assemble_contact(
     if !system.outside.is_empty() {
         return Err(Fault::Pattern(system.outside));
     }
+    system.pass_on();
     let norms = system.norms(trial, &contacts);
     system.idle(selections);
     system.prescribe(trial, imposed);

@@ -47,6 +47,7 @@ pub fn initial_accelerations(
         }
     }
     system.masses();
+    system.pass_on();
     system.condense_forces(imposed);
     system.hold_the_rest();
     let correction = solve(system.matrix, &system.residual)?;
@@ -59,6 +60,7 @@ pub fn initial_accelerations(
             }
         };
     }
+    context.problem.ties.follow(&mut accelerations);
     let inertia = mass_times(context.problem, &accelerations);
     let holding = forces.iter().zip(&inertia).map(|(f, m)| f + m);
     Ok((accelerations, holding.collect()))
@@ -88,6 +90,7 @@ fn known(
             accelerations[node] = linear + angular.cross(&arm) + spin.cross(&spin.cross(&arm));
         }
     }
+    problem.ties.follow(&mut accelerations);
     accelerations
 }
 
@@ -130,7 +133,8 @@ impl System<'_> {
             for axis in 0..3 {
                 let free = !self.context.fixed[3 * node + axis] && !problem.massless[node];
                 // Tied positions are held when they are condensed.
-                held[first + axis] = !free && self.tie(node).is_none();
+                let follows = problem.ties.followed(node, axis).is_some();
+                held[first + axis] = (!free || follows) && self.tie(node).is_none();
                 if self.tie(node).is_some() {
                     self.residual[first + axis] = 0.0;
                 }

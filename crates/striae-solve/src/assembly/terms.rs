@@ -46,6 +46,8 @@ pub(super) struct Triple {
     owner: Supervariable,
     /// The node whose position it is.
     pub(super) position: Option<usize>,
+    /// Whether that node follows others.
+    pub(super) follows: bool,
     /// The rigid body that moves on the other side.
     against: Option<usize>,
 }
@@ -68,6 +70,7 @@ impl System<'_> {
                 first,
                 owner,
                 position,
+                follows: position.is_some_and(|node| problem.ties.follower(node).is_some()),
                 against: position.and(moving),
             })
         };
@@ -120,7 +123,8 @@ impl System<'_> {
     /// Supervariables that a term couples.
     pub(super) fn clique_of(&self, pair: usize, term: &LocalTerm) -> Vec<Supervariable> {
         let unknowns = term.rows.iter().chain(&term.columns);
-        let mut clique: Vec<_> = unknowns.map(|u| self.triple(pair, *u).owner).collect();
+        let owners = unknowns.flat_map(|u| self.owners_of(self.triple(pair, *u)));
+        let mut clique: Vec<Supervariable> = owners.collect();
         clique.extend(self.opposite_body(pair));
         clique.sort_unstable();
         clique.dedup();
@@ -151,7 +155,21 @@ impl System<'_> {
         let mut unknowns = term.rows.iter().chain(term.columns.iter().step_by(3));
         let mut body = self.opposite_body(pair).into_iter();
         body.all(|body| partition.is_kept(body))
-            && unknowns.all(|unknown| partition.is_kept(self.triple(pair, *unknown).owner))
+            && unknowns.all(|unknown| match self.triple(pair, *unknown) {
+                triple if triple.follows => {
+                    let mut owners = self.owners_of(triple).into_iter();
+                    owners.all(|owner| partition.is_kept(owner))
+                }
+                triple => partition.is_kept(triple.owner),
+            })
+    }
+
+    /// Supervariables that a triple belongs to.
+    fn owners_of(&self, triple: &Triple) -> Vec<Supervariable> {
+        match triple.position.filter(|_| triple.follows) {
+            Some(node) => self.owners(node),
+            None => vec![triple.owner],
+        }
     }
 
     /// Adds rows of a block, leaving out prescribed ones.

@@ -1,4 +1,7 @@
-//! Nodes tied to rigid bodies, eliminated.
+//! Nodes that follow others in ties and nodes tied to rigid bodies, eliminated.
+//!
+//! Rows of a node that follows become rows of the nodes that it follows, and columns alike,
+//! by its constant weights, see [`crate::tie`]. These may be tied to a rigid body in turn.
 //!
 //! Position unknowns of a tied node are no unknowns of the system: rows that
 //! belong to them become rows of the body, `sum f` and `sum r x f`, and columns
@@ -24,6 +27,7 @@ use crate::{
     composition::Composition,
     problem::Problem,
     rigid::{Wrench, turn_tangent},
+    tie::Ties,
 };
 
 /// An unknown or an equation before ties are eliminated.
@@ -136,6 +140,11 @@ impl System<'_> {
         self.ties.get(node).and_then(Option::as_ref)
     }
 
+    /// Whether the position of a node is no unknown of its own.
+    pub(super) fn is_bound(&self, node: usize) -> bool {
+        self.tie(node).is_some() || self.context.problem.ties.follower(node).is_some()
+    }
+
     /// How the point of the body on the other side of a position follows that body.
     pub(super) fn against(&self, slot: &Slot) -> Option<Tie> {
         let (node, _) = slot.position?;
@@ -143,9 +152,9 @@ impl System<'_> {
         Some(body.tie(&self.positions[node]))
     }
 
-    /// Supervariable that a position of a node belongs to.
-    pub(super) fn owner(&self, node: usize) -> Supervariable {
-        self.layout.owner(self.context.problem, node)
+    /// Supervariables that a position of a node belongs to.
+    pub(super) fn owners(&self, node: usize) -> Vec<Supervariable> {
+        self.layout.owners(self.context.problem, node)
     }
 
     /// Adds a block to the matrix, with ties eliminated.
@@ -160,7 +169,7 @@ impl System<'_> {
         }
         let tied = |slot: &Slot| {
             let position = slot.position;
-            slot.against.is_some() || position.is_some_and(|(node, _)| self.tie(node).is_some())
+            slot.against.is_some() || position.is_some_and(|(node, _)| self.is_bound(node))
         };
         if !rows.iter().chain(columns).any(tied) {
             let unknowns = &mut self.scratch.unknowns;
@@ -207,15 +216,34 @@ impl System<'_> {
         let Some((node, axis)) = slot.position else {
             return vec![(slot.unknown, 1.0)];
         };
-        let mut entries = match self.tie(node) {
-            Some(tie) => self.followed_tie(tie, axis, kind, 1.0),
-            None if kind == Kind::Row && self.context.fixed[3 * node + axis] => Vec::new(),
-            None => vec![(slot.unknown, 1.0)],
-        };
+        let mut entries = Vec::with_capacity(1);
+        match self.context.problem.ties.followed(node, axis) {
+            Some(followed) => {
+                for &(node, weight) in followed {
+                    self.of_position((node, axis), kind, weight, &mut entries);
+                }
+            }
+            None => self.of_position((node, axis), kind, 1.0, &mut entries),
+        }
         if let Some(against) = self.against(slot) {
             entries.extend(self.followed_tie(&against, axis, kind, -1.0));
         }
         entries
+    }
+
+    /// What a position that follows no other node stands for, times a weight.
+    fn of_position(
+        &self,
+        (node, axis): (usize, usize),
+        kind: Kind,
+        weight: f64,
+        entries: &mut Vec<(usize, f64)>,
+    ) {
+        match self.tie(node) {
+            Some(tie) => entries.extend(self.followed_tie(tie, axis, kind, weight)),
+            None if kind == Kind::Row && self.context.fixed[3 * node + axis] => {}
+            None => entries.push((self.layout.position(node) + axis, weight)),
+        }
     }
 
     /// The coordinates of a body that a component of a position follows, with
@@ -238,6 +266,36 @@ impl System<'_> {
             entries.retain(|(unknown, _)| !fixed[unknown - tie.first]);
         }
         entries
+    }
+
+    /// Turns the residuals of nodes that follow into those of the nodes that they follow, and
+    /// notes what ties exert.
+    pub(super) fn pass_on(&mut self) {
+        let problem = self.context.problem;
+        if problem.ties.is_empty() {
+            return;
+        }
+        let place = |node: usize| self.layout.position(node);
+        let mut forces: Vec<Vec3> = (0..problem.reference.len())
+            .map(|node| Vec3::from_column_slice(&self.residual[place(node)..place(node) + 3]))
+            .collect();
+        for (follower, own) in problem.ties.pass_on(&mut forces) {
+            Ties::react(follower, &own, &mut self.forces.ties);
+        }
+        for (node, force) in forces.iter().enumerate() {
+            let first = place(node);
+            self.residual[first..first + 3].copy_from_slice(force.as_slice());
+        }
+    }
+
+    /// Holds the positions of nodes that follow, which are no unknowns.
+    pub(super) fn hold_followers(&mut self) {
+        for follower in self.context.problem.ties.followers() {
+            let first = self.layout.position(follower.node);
+            for axis in (0..3).filter(|&axis| follower.row[axis].is_some()) {
+                self.hold(first + axis, 0.0, 1.0);
+            }
+        }
     }
 
     /// Turns the residuals of tied nodes into those of their bodies, with the tangent

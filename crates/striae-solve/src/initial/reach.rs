@@ -48,6 +48,9 @@ fn body_reach(model: &Model, body: BodyId) -> Option<f64> {
     {
         return None;
     }
+    if model.ties.iter().any(|tie| tie.joins(body)) {
+        return None;
+    }
     let mut farthest: Option<f64> = None;
     for step in &model.steps {
         let loaded = step.loads.iter().any(|load| load.body == body);

@@ -86,7 +86,8 @@ fn body_way(model: &Model, pair: PairId, body: BodyId) -> Option<Ranges> {
     let mut others = model.pairs.iter().enumerate();
     let touched = others.any(|(at, other)| at != pair.0 && (is(&other.a) || is(&other.b)));
     let mut ties = model.rigid_surfaces.iter().flat_map(|rigid| &rigid.ties);
-    if touched || ties.any(|(tied, _)| *tied == body) {
+    let joined = model.ties.iter().any(|tie| tie.joins(body));
+    if touched || joined || ties.any(|(tied, _)| *tied == body) {
         return None;
     }
     let mut ranges = [(0.0, 0.0); 3];

@@ -19,7 +19,13 @@ pub(super) fn accepted(
     assembled: Assembled,
 ) -> State {
     let (velocities, accelerations) = match &imposed.motion {
-        Some(motion) => motion.at_end(&trial.positions, &imposed.rates),
+        Some(motion) => {
+            let (mut velocities, mut accelerations) =
+                motion.at_end(&trial.positions, &imposed.rates);
+            context.problem.ties.follow(&mut velocities);
+            context.problem.ties.follow(&mut accelerations);
+            (velocities, accelerations)
+        }
         None => (state.velocities.clone(), state.accelerations.clone()),
     };
     let ends = Ends {

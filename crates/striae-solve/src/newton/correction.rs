@@ -78,6 +78,7 @@ pub(super) fn corrected(
         let first = layout.position(node);
         *position += Vec3::from_column_slice(&correction[first..first + 3]) * factor;
     }
+    problem.ties.follow(&mut next.positions);
     for (pair, tractions) in next.tractions.iter_mut().enumerate() {
         add_tractions(layout, pair, tractions, correction, factor);
     }

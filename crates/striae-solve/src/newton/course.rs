@@ -105,6 +105,7 @@ impl Course {
                 }
             };
         }
+        problem.ties.follow(&mut trial.positions);
         for (pair, tractions) in trial.tractions.iter_mut().enumerate() {
             for side in 0..2 {
                 let unknowns = tractions.nodes[side].iter_mut().enumerate();

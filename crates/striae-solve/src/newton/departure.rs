@@ -73,7 +73,7 @@ fn mean_moves(context: &StepContext, state: &State, imposed: &Imposed) -> Vec<Ve
     }
     let mean = |body: usize| {
         let mut nodes = problem.first_node[body]..problem.first_node[body + 1];
-        if nodes.any(|node| problem.tie_of[node].is_some()) {
+        if problem.ties.joins(body) || nodes.any(|node| problem.tie_of[node].is_some()) {
             return Vec3::zeros();
         }
         Vec3::from_fn(|axis, _| sums[body][axis] / counts[body][axis].max(1.0))

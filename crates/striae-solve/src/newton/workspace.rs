@@ -92,7 +92,7 @@ impl Workspace {
         let mut tied: Vec<Vec<Supervariable>> = Vec::new();
         for (body, model) in problem.model.bodies.iter().enumerate() {
             for corners in model.mesh.elements() {
-                let nodes = problem.nodes(body, corners);
+                let nodes = problem.ties.behind(&problem.nodes(body, corners));
                 let owners = nodes.iter().map(|&node| layout.owner(problem, node));
                 let mut owners: Vec<Supervariable> = owners.collect();
                 owners.sort_unstable();

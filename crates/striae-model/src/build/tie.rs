@@ -1,0 +1,55 @@
+//! Ties.
+
+use striae_solve::model::Tie;
+
+use super::{SideBuilder, lookup::Names};
+use crate::{fault::Fault, path::Path};
+
+/// A tie; see [`tie`].
+#[derive(Clone, Debug)]
+pub struct TieBuilder {
+    name: String,
+    sides: [SideBuilder; 2],
+    within: Option<f64>,
+}
+
+/// Two surfaces of bodies that are glued from the start; their meshes need not match.
+pub fn tie(name: impl Into<String>, a: SideBuilder, b: SideBuilder) -> TieBuilder {
+    TieBuilder {
+        name: name.into(),
+        sides: [a, b],
+        within: None,
+    }
+}
+
+impl TieBuilder {
+    /// Ties facets up to this distance and leaves others free; else up to a tenth of their size.
+    pub fn within(mut self, distance: f64) -> Self {
+        self.within = Some(distance);
+        self
+    }
+
+    pub(super) fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The tie.
+    pub(super) fn resolved(
+        &self,
+        index: usize,
+        names: &Names<'_>,
+        faults: &mut Vec<Fault>,
+    ) -> Option<Tie> {
+        let [a, b] = &self.sides;
+        let path = |side: &'static str| Path::part("ties", index).field(side);
+        let a = a.resolved(&path("a"), names, faults);
+        let b = b.resolved(&path("b"), names, faults);
+        Some(Tie {
+            name: self.name.clone(),
+            a: a?,
+            b: b?,
+            within: self.within,
+            moved: 0.0,
+        })
+    }
+}

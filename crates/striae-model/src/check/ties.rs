@@ -1,0 +1,87 @@
+//! Sides of ties, and pairs of what is tied.
+
+use std::collections::BTreeSet;
+
+use striae_mesh::Face;
+use striae_solve::{
+    model::{BodyId, Side, Tie},
+    tie::TieFault,
+};
+
+use super::{Draft, List};
+use crate::{fault::FaultKind, path::Path};
+
+/// Notes faults of all ties that do not need their place.
+pub(super) fn check(draft: &Draft<'_>, faults: &mut List) {
+    for (index, named) in draft.ties.iter().enumerate() {
+        let Some(tie) = named.part else { continue };
+        let path = Path::part("ties", index);
+        if let Some(distance) = tie.within.filter(|distance| !is_positive(*distance)) {
+            let kind = FaultKind::Range {
+                what: format!("`within` of tie `{}`", tie.name),
+                expected: "larger than zero",
+                found: distance,
+            };
+            faults.push(path.clone().field("within"), kind);
+        }
+        let (Some(a), Some(b)) = (faces(&tie.a), faces(&tie.b)) else {
+            let fault = TieFault::Rigid {
+                tie: tie.name.clone(),
+            };
+            faults.push(path, FaultKind::Tie { fault });
+            continue;
+        };
+        if a.0 == b.0 {
+            let fault = TieFault::SameBody {
+                tie: tie.name.clone(),
+                body: draft.bodies[a.0.0].name.to_owned(),
+            };
+            faults.push(path, FaultKind::Tie { fault });
+            continue;
+        }
+        if let Some(pair) = pair_of(draft, [a, b]) {
+            let (tie, pair) = (tie.name.clone(), pair.to_owned());
+            faults.push(path.clone(), FaultKind::TiedPair { tie, pair });
+        }
+        let earlier = draft.ties[..index].iter().filter_map(|named| named.part);
+        if let Some(other) = earlier.clone().find(|other| joins(other, [a, b])) {
+            let (tie, other) = (tie.name.clone(), other.name.clone());
+            faults.push(path, FaultKind::SameTie { tie, other });
+        }
+    }
+}
+
+type Surface<'a> = (BodyId, &'a [Face]);
+
+fn is_positive(number: f64) -> bool {
+    number > 0.0 && number.is_finite()
+}
+
+fn faces(side: &Side) -> Option<Surface<'_>> {
+    match side {
+        Side::Deformable { body, faces } => Some((*body, faces)),
+        Side::Rigid(_) => None,
+    }
+}
+
+/// A pair that has facets of both surfaces on its two sides.
+fn pair_of<'d>(draft: &Draft<'d>, tied: [Surface<'_>; 2]) -> Option<&'d str> {
+    let pairs = draft.pairs.iter().filter_map(|named| named.pair);
+    let mut both = pairs.filter_map(|pair| Some((pair, [faces(&pair.a)?, faces(&pair.b)?])));
+    let found = both.find(|(_, sides)| share(*sides, tied));
+    found.map(|(pair, _)| pair.name.as_str())
+}
+
+fn joins(tie: &Tie, other: [Surface<'_>; 2]) -> bool {
+    let sides = faces(&tie.a).zip(faces(&tie.b));
+    sides.is_some_and(|(a, b)| share([a, b], other))
+}
+
+/// Whether two joints have facets in common on both sides.
+fn share([a, b]: [Surface<'_>; 2], [c, d]: [Surface<'_>; 2]) -> bool {
+    let common = |one: Surface<'_>, other: Surface<'_>| {
+        let of_one: BTreeSet<&Face> = one.1.iter().collect();
+        one.0 == other.0 && other.1.iter().any(|face| of_one.contains(face))
+    };
+    (common(a, c) && common(b, d)) || (common(a, d) && common(b, c))
+}

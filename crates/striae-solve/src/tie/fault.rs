@@ -1,0 +1,112 @@
+//! Ties that are none, in words.
+
+use striae_mesh::{ElementId, Vec3};
+
+/// Why a tie cannot hold.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum TieFault {
+    /// A side is no surface of a body.
+    #[error(
+        "tie `{tie}`: both sides must be facets of bodies; nodes are tied to a rigid body by its `ties`"
+    )]
+    Rigid {
+        /// The tie.
+        tie: String,
+    },
+    /// Both sides are of one body.
+    #[error(
+        "tie `{tie}` joins body `{body}` to itself; merge the nodes of the mesh, or mesh its two parts as two bodies"
+    )]
+    SameBody {
+        /// The tie.
+        tie: String,
+        /// The body.
+        body: String,
+    },
+    /// The sides have nothing in common.
+    #[error(
+        "tie `{tie}`: the surfaces of `{a}` and `{b}` do not meet; the nearest of their nodes are {distance:.3e} apart. Name facets that face each other, move the bodies together, or set `within` to a larger distance"
+    )]
+    Nothing {
+        /// The tie.
+        tie: String,
+        /// Body of side `a`.
+        a: String,
+        /// Body of side `b`.
+        b: String,
+        /// Distance of the nearest nodes.
+        distance: f64,
+    },
+    /// Facets that face each other from too far away.
+    #[error(
+        "tie `{tie}`: at ({:.6}, {:.6}, {:.6}) `{a}` and `{b}` are {gap:.3e} apart, {:.0} % of the facet size. Mend the meshes, leave these facets out, or set `within` to the largest distance that is tied",
+        at.x, at.y, at.z, 100.0 * share
+    )]
+    Apart {
+        /// The tie.
+        tie: String,
+        /// Body of side `a`.
+        a: String,
+        /// Body of side `b`.
+        b: String,
+        /// Distance.
+        gap: f64,
+        /// The same over the facet size.
+        share: f64,
+        /// Where.
+        at: Vec3,
+    },
+    /// No node is left that could follow.
+    #[error(
+        "tie `{tie}` holds nothing: {reason}. Refine one of the surfaces, or leave facets that meet others out"
+    )]
+    Loose {
+        /// The tie.
+        tie: String,
+        /// Why.
+        reason: &'static str,
+    },
+    /// Ties that follow each other in a circle.
+    #[error(
+        "ties {} follow each other in a circle where they meet, and their rows say the same; make one of the surfaces finer than both it meets, or leave the facets at the common edge out of one tie",
+        quoted(ties)
+    )]
+    Circle {
+        /// The ties.
+        ties: Vec<String>,
+    },
+    /// Moving nodes would turn an element inside out.
+    #[error(
+        "tie `{tie}`: moving the nodes of `{body}` by up to {moved:.3e} onto the other surface would turn {element} inside out; refine the surfaces where they are curved, or mend the mesh"
+    )]
+    Inverted {
+        /// The tie.
+        tie: String,
+        /// The body.
+        body: String,
+        /// How far nodes are moved.
+        moved: f64,
+        /// The first such element.
+        element: ElementId,
+    },
+}
+
+impl TieFault {
+    /// Name of the tie, or of the first one.
+    pub fn tie(&self) -> &str {
+        match self {
+            Self::Rigid { tie }
+            | Self::SameBody { tie, .. }
+            | Self::Nothing { tie, .. }
+            | Self::Apart { tie, .. }
+            | Self::Loose { tie, .. }
+            | Self::Inverted { tie, .. } => tie,
+            Self::Circle { ties } => ties.first().map_or("", String::as_str),
+        }
+    }
+}
+
+fn quoted(names: &[String]) -> String {
+    let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    names.join(", ")
+}

@@ -1,0 +1,339 @@
+//! From the surfaces of all ties to the rows of the nodes that follow.
+
+use std::collections::BTreeMap;
+
+use striae_contact::{
+    configuration::Configuration,
+    pair::{ContactPair, Enforcement, Geometry, Side as ContactSide},
+    placement::Placement,
+    tie::{FacetRows, Joined, join},
+};
+use striae_law::friction::Friction;
+use striae_mesh::{Face, Vec3};
+use striae_surface::topology::Surface;
+
+use super::{Follower, Joint, TieFault, Weights, side::finer};
+use crate::model::{Model, Side};
+
+/// Covered part of the best covered facet at a node below which it does not follow.
+const LEAST_COVER: f64 = 0.3;
+/// Weights that are round-off.
+const ROUND_OFF: f64 = 1e-12;
+/// Relative difference of weights of rows that is none.
+const SAME: f64 = 1e-6;
+
+/// The two surfaces of a tie.
+pub(super) struct Sides {
+    bodies: [usize; 2],
+    follows: usize,
+    /// Global nodes of both surfaces.
+    nodes: [Vec<usize>; 2],
+    joined: Joined,
+    /// Rows of the facets that follow, in surface-local nodes.
+    facets: [Vec<FacetRows>; 2],
+}
+
+/// What each component of each node may do.
+struct Bound {
+    /// By component, three a node.
+    prescribed: Vec<bool>,
+}
+
+/// `d_j x_j + sum own - sum opposite` of a component of a node.
+#[derive(Clone, Default)]
+struct Sum {
+    own: BTreeMap<usize, f64>,
+    opposite: BTreeMap<usize, f64>,
+}
+
+impl Sides {
+    /// The surfaces of a tie and what they have in common.
+    pub(super) fn new(model: &Model, first_node: &[usize], tie: usize) -> Result<Self, TieFault> {
+        let of_tie = &model.ties[tie];
+        let name = || of_tie.name.clone();
+        let [(a, faces_a), (b, faces_b)] = match [&of_tie.a, &of_tie.b] {
+            [
+                Side::Deformable {
+                    body: a,
+                    faces: on_a,
+                },
+                Side::Deformable {
+                    body: b,
+                    faces: on_b,
+                },
+            ] => [(a.0, on_a), (b.0, on_b)],
+            _ => return Err(TieFault::Rigid { tie: name() }),
+        };
+        let names = || [a, b].map(|body| model.bodies[body].name.clone());
+        if a == b {
+            let [body, _] = names();
+            return Err(TieFault::SameBody { tie: name(), body });
+        }
+        let pair = contact_pair(model, [(a, faces_a), (b, faces_b)], of_tie.within);
+        let positions = [(0, a), (1, b)].map(|(side, body)| {
+            let nodes = pair.sides[side].surface().map_or(&[][..], Surface::nodes);
+            let mesh = &model.bodies[body].mesh;
+            let places = nodes.iter().map(|node| mesh.positions[node.index()]);
+            places.collect::<Vec<Vec3>>()
+        });
+        let configuration = Configuration::new(&pair, positions, Placement::at_rest());
+        let joined = join(&configuration, of_tie.within);
+        if let Some(apart) = joined.apart {
+            let [a, b] = names();
+            return Err(TieFault::Apart {
+                tie: name(),
+                a,
+                b,
+                gap: apart.gap,
+                share: apart.share,
+                at: apart.place,
+            });
+        }
+        if joined.is_empty() {
+            let [a, b] = names();
+            return Err(TieFault::Nothing {
+                tie: name(),
+                a,
+                b,
+                distance: distance(&configuration),
+            });
+        }
+        Ok(Self {
+            bodies: [a, b],
+            follows: finer(&joined, [a, b].map(|body| &model.bodies[body].mesh)),
+            nodes: [(0, a), (1, b)].map(|(side, body)| {
+                let nodes = configuration.side(side).surface.nodes().iter();
+                nodes.map(|node| first_node[body] + node.index()).collect()
+            }),
+            facets: [0, 1].map(|side| joined.rows(&configuration, side)),
+            joined,
+        })
+    }
+
+    /// What is known of the tie.
+    pub(super) fn joint(self) -> Joint {
+        let cover = [0, 1].map(|side| {
+            let facets = self.joined.cover[side].iter().zip(&self.joined.areas[side]);
+            let tied: f64 = facets.map(|(cover, area)| cover.min(1.0) * area).sum();
+            tied / self.joined.areas[side].iter().sum::<f64>()
+        });
+        Joint {
+            follows: self.follows,
+            bodies: self.bodies,
+            area: self.joined.area(),
+            cover,
+            gap: self.joined.gap,
+            facet_size: self.joined.facet_size(self.follows),
+            nodes: self.nodes,
+        }
+    }
+
+    /// Global node of a node of the side that follows.
+    fn own(&self, side: usize, node: u32) -> usize {
+        self.nodes[side][node as usize]
+    }
+
+    /// Nodes of a side that may follow, with what their functions weigh.
+    fn candidates(&self, side: usize, bound: &Bound) -> BTreeMap<usize, f64> {
+        let (mut weights, mut cover) = (BTreeMap::new(), BTreeMap::new());
+        for facet in &self.facets[side] {
+            for (at, &corner) in facet.corners.iter().enumerate() {
+                let node = self.own(side, corner);
+                *weights.entry(node).or_insert(0.0) += facet.weights[at];
+                let most: &mut f64 = cover.entry(node).or_insert(0.0);
+                *most = most.max(facet.cover[at]);
+            }
+        }
+        weights.retain(|node, _| cover[node] >= LEAST_COVER && !bound.wholly(*node));
+        weights
+    }
+}
+
+impl Bound {
+    fn new(model: &Model, first_node: &[usize]) -> Self {
+        let mut prescribed = vec![false; 3 * first_node[model.bodies.len()]];
+        for condition in model.steps.iter().flat_map(|step| &step.displacements) {
+            for node in &condition.nodes {
+                let first = 3 * (first_node[condition.body.0] + node.index());
+                for axis in (0..3).filter(|&axis| condition.components[axis].is_some()) {
+                    prescribed[first + axis] = true;
+                }
+            }
+        }
+        for (body, nodes) in model.rigid_surfaces.iter().flat_map(|rigid| &rigid.ties) {
+            for node in nodes {
+                let first = 3 * (first_node[body.0] + node.index());
+                prescribed[first..first + 3].fill(true);
+            }
+        }
+        Self { prescribed }
+    }
+
+    fn component(&self, node: usize, axis: usize) -> bool {
+        self.prescribed[3 * node + axis]
+    }
+
+    fn wholly(&self, node: usize) -> bool {
+        (0..3).all(|axis| self.component(node, axis))
+    }
+}
+
+/// The rows of all nodes that follow; their `weights` are still to be found.
+pub(super) fn rows(
+    model: &Model,
+    first_node: &[usize],
+    sides: &mut [Sides],
+) -> Result<Vec<Follower>, Vec<TieFault>> {
+    let bound = Bound::new(model, first_node);
+    for of_tie in &mut *sides {
+        if of_tie.candidates(of_tie.follows, &bound).is_empty() {
+            of_tie.follows = 1 - of_tie.follows;
+        }
+    }
+    let owner = owners(sides, &bound);
+    let (mut all, mut faults) = (Vec::new(), Vec::new());
+    for (tie, of_tie) in sides.iter().enumerate() {
+        let follows = |node: usize| owner.get(&node) == Some(&tie);
+        let mut found: BTreeMap<usize, Weights> = BTreeMap::new();
+        for axis in 0..3 {
+            let keeps = |node: usize| follows(node) && !bound.component(node, axis);
+            for (node, sum) in sums(of_tie, keeps) {
+                found.entry(node).or_default()[axis] = Some(sum.weights(node));
+            }
+        }
+        if found.is_empty() {
+            faults.push(TieFault::Loose {
+                tie: model.ties[tie].name.clone(),
+                reason: match of_tie.candidates(of_tie.follows, &bound).is_empty() {
+                    true => "all its nodes are prescribed, held by rigid bodies or hardly covered",
+                    false => "all its nodes that could follow are those of other ties",
+                },
+            });
+        }
+        all.extend(found.into_iter().map(|(node, row)| Follower {
+            tie,
+            node,
+            row,
+            weights: Weights::default(),
+        }));
+    }
+    if faults.is_empty() {
+        Ok(all)
+    } else {
+        Err(faults)
+    }
+}
+
+/// The tie that each node follows: the one in which it weighs most; of ties in which it
+/// weighs the same, the first by the place of what is tied.
+fn owners(sides: &[Sides], bound: &Bound) -> BTreeMap<usize, usize> {
+    let mut owners: BTreeMap<usize, (usize, f64)> = BTreeMap::new();
+    for (tie, of_tie) in sides.iter().enumerate() {
+        for (node, weight) in of_tie.candidates(of_tie.follows, bound) {
+            let known = owners.entry(node).or_insert((tie, weight));
+            let other = &sides[known.0];
+            let scale = weight.max(known.1);
+            let wins = if (weight - known.1).abs() > SAME * scale {
+                weight > known.1
+            } else {
+                comes_first(&of_tie.joined.centre, &other.joined.centre)
+            };
+            if wins {
+                *known = (tie, weight);
+            }
+        }
+    }
+    owners
+        .into_iter()
+        .map(|(node, (tie, _))| (node, tie))
+        .collect()
+}
+
+fn comes_first(a: &Vec3, b: &Vec3) -> bool {
+    let scale = SAME * (a - b).norm();
+    let axis = (0..3).find(|&axis| (a[axis] - b[axis]).abs() > scale);
+    axis.is_some_and(|axis| a[axis] < b[axis])
+}
+
+/// Rows of one component of the nodes that keep theirs; the functions of the others go to
+/// the nodes of their facets that do, in equal parts.
+fn sums(sides: &Sides, keeps: impl Fn(usize) -> bool) -> BTreeMap<usize, Sum> {
+    let side = sides.follows;
+    let mut sums: BTreeMap<usize, Sum> = BTreeMap::new();
+    for facet in &sides.facets[side] {
+        let nodes: Vec<usize> = facet
+            .corners
+            .iter()
+            .map(|&corner| sides.own(side, corner))
+            .collect();
+        let kept: Vec<usize> = nodes.iter().copied().filter(|&node| keeps(node)).collect();
+        for (at, &node) in nodes.iter().enumerate() {
+            let own_row = [node];
+            let (takers, part) = match keeps(node) {
+                true => (&own_row[..], 1.0),
+                false => (kept.as_slice(), 1.0 / kept.len().max(1) as f64),
+            };
+            for taker in takers {
+                let sum = sums.entry(*taker).or_default();
+                *sum.own.entry(node).or_insert(0.0) += part * facet.weights[at];
+                for (opposite, row) in &facet.opposite {
+                    let opposite = sides.own(1 - side, *opposite);
+                    *sum.opposite.entry(opposite).or_insert(0.0) += part * row[at];
+                }
+            }
+        }
+    }
+    sums
+}
+
+impl Sum {
+    /// What the node follows, without round-off; the weights add up to one.
+    fn weights(mut self, node: usize) -> Vec<(usize, f64)> {
+        let own = self.own.remove(&node).unwrap_or(1.0);
+        for (other, weight) in self.own {
+            *self.opposite.entry(other).or_insert(0.0) -= weight;
+        }
+        let weights = self.opposite.into_iter().map(|(node, w)| (node, w / own));
+        let mut weights: Vec<(usize, f64)> = weights.filter(|(_, w)| w.abs() > ROUND_OFF).collect();
+        let excess = weights.iter().map(|(_, w)| w).sum::<f64>() - 1.0;
+        let by_size =
+            |a: &&mut (usize, f64), b: &&mut (usize, f64)| a.1.abs().total_cmp(&b.1.abs());
+        if let Some((_, largest)) = weights.iter_mut().max_by(by_size) {
+            *largest -= excess;
+        }
+        weights
+    }
+}
+
+fn contact_pair(
+    model: &Model,
+    sides: [(usize, &Vec<Face>); 2],
+    within: Option<f64>,
+) -> ContactPair {
+    let sides = sides.map(|(body, faces)| {
+        let mesh = &model.bodies[body].mesh;
+        let facets: Vec<_> = faces.iter().map(|face| mesh.face_nodes(*face)).collect();
+        ContactSide {
+            geometry: Geometry::Deformable(Surface::new(&facets)),
+            stiffness: 1.0,
+            texture: None,
+        }
+    });
+    ContactPair {
+        name: String::new(),
+        sides,
+        friction: Friction::frictionless(),
+        enforcement: Enforcement::Weighted,
+        search_distance: within,
+    }
+}
+
+/// Distance of the nearest nodes of both sides.
+fn distance(configuration: &Configuration) -> f64 {
+    let nodes = [0, 1].map(|side| &configuration.side(side).x);
+    let distances = nodes[0].iter().map(|x| {
+        let others = nodes[1].iter().map(|y| (x - y).norm());
+        others.fold(f64::INFINITY, f64::min)
+    });
+    distances.fold(f64::INFINITY, f64::min)
+}

@@ -1,0 +1,63 @@
+//! Nodes of contact surfaces that follow others on the same floor.
+//!
+//! Where two tied bodies rest on a third, a node that follows has its gap from the nodes that
+//! it follows. If these touch the same opponent, a row of its own would say again what
+//! theirs say, and its pressure would not be determined; so it is no candidate for one and
+//! carries what its neighbours have.
+
+use super::Ties;
+use crate::problem::PairGeometry;
+
+/// Weight over the largest one of a node that is not asked.
+const SMALL: f64 = 0.05;
+
+/// What a side faces: a rigid surface or a body.
+type Opponent = (Option<usize>, Option<usize>);
+
+/// Such nodes, by pair and side; no lists without ties.
+pub(crate) fn shadowed(
+    pairs: &[PairGeometry],
+    first_node: &[usize],
+    ties: &Ties,
+) -> Vec<[Vec<bool>; 2]> {
+    if ties.is_empty() {
+        return Vec::new();
+    }
+    let of_side = |pair: &PairGeometry, side: usize| -> Vec<usize> {
+        let (Some(body), Some(surface)) = (pair.bodies[side], pair.contact.sides[side].surface())
+        else {
+            return Vec::new();
+        };
+        let nodes = surface.nodes().iter();
+        nodes.map(|node| first_node[body] + node.index()).collect()
+    };
+    let opponent = |pair: &PairGeometry, side: usize| -> Opponent {
+        (pair.bodies[1 - side], pair.rigid.filter(|_| side == 0))
+    };
+    let mut faces: Vec<Vec<Opponent>> = vec![Vec::new(); first_node[first_node.len() - 1]];
+    for pair in pairs {
+        for side in 0..2 {
+            for node in of_side(pair, side) {
+                faces[node].push(opponent(pair, side));
+            }
+        }
+    }
+    let is_shadowed = |node: usize, opponent: &Opponent| {
+        let Some(follower) = ties.follower(node) else {
+            return false;
+        };
+        let followed = || follower.weights.iter().flatten().flatten();
+        let largest = followed().map(|(_, w)| w.abs()).fold(0.0, f64::max);
+        followed()
+            .filter(|(_, weight)| weight.abs() > SMALL * largest)
+            .all(|(other, _)| faces[*other].contains(opponent))
+    };
+    let of_pair = |pair: &PairGeometry| {
+        [0, 1].map(|side| {
+            let opponent = opponent(pair, side);
+            let nodes = of_side(pair, side).into_iter();
+            nodes.map(|node| is_shadowed(node, &opponent)).collect()
+        })
+    };
+    pairs.iter().map(of_pair).collect()
+}

@@ -1,0 +1,11 @@
+//! Ties of surfaces whose meshes do not match.
+
+mod dynamics;
+mod faults;
+mod floor;
+mod meeting;
+mod motion;
+mod order;
+mod patch;
+mod scene;
+mod swap;
