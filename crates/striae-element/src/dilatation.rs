@@ -31,13 +31,15 @@ use super::{
     stiffness::COMPONENTS,
 };
 use nalgebra::{Matrix3, SVector};
-use striae_law::bulk::{Material, Past, Response, Tangent};
+use pulp::{Arch, Simd, WithSimd};
+use striae_law::bulk::{Material, Past, Tangent};
 use striae_mesh::Vec3;
 
 /// A matrix by components `3 i + J`.
 type Vector9 = SVector<f64, 9>;
 
 /// Deformation at a quadrature point.
+#[derive(Clone, Copy, Default)]
 struct Point {
     /// `F`.
     gradient: Matrix3<f64>,
@@ -45,6 +47,17 @@ struct Point {
     inverse_transposed: Matrix3<f64>,
     /// `J`.
     ratio: f64,
+}
+
+/// The law at `Fbar` at a quadrature point, but for the tangent.
+#[derive(Clone, Copy, Default)]
+struct Law {
+    /// `alpha`.
+    scale: f64,
+    /// `Pbar`.
+    first_piola: Matrix3<f64>,
+    /// `pi`.
+    third: f64,
 }
 
 /// Pressure and volume of an element, and how they change.
@@ -74,9 +87,17 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
         share: f64,
     ) -> Result<(), ElementError> {
         let (points, volume) = self.points(current)?;
-        let (laws, scales) = self.laws(&points, volume, material, past, element, share)?;
-        let pressure = self.mean(|g| laws[g].1) / volume;
-        element.energy = (0..Q).map(|g| self.weights[g] * laws[g].0.energy).sum();
+        let mut tangents = [Tangent::zeros(); Q];
+        let laws = self.laws(
+            &points,
+            volume,
+            material,
+            past,
+            element,
+            &mut tangents,
+            share,
+        )?;
+        let pressure = self.mean(|g| laws[g].third) / volume;
         let mut whole = Whole {
             pressure,
             volume_slopes: [[0.0; 3]; N],
@@ -84,17 +105,21 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
             curvature: -pressure * volume,
         };
         let mut force = [[0.0; 3]; N];
-        let mut tangents = [Tangent::zeros(); Q];
         for g in 0..Q {
-            let (point, (law, third)) = (&points[g], &laws[g]);
-            let (h, excess) = (&point.inverse_transposed, pressure * point.ratio - third);
-            self.add_force(g, &(law.first_piola * scales[g] + h * excess), &mut force);
-            tangents[g] =
-                self.local_tangent(g, point, law, scales[g], *third, share, volume, &mut whole);
+            let (point, law) = (&points[g], &laws[g]);
+            let (h, excess) = (
+                &point.inverse_transposed,
+                pressure * point.ratio - law.third,
+            );
+            self.add_force(g, &(law.first_piola * law.scale + h * excess), &mut force);
+            self.complete(g, point, law, share, volume, &mut tangents[g], &mut whole);
         }
         element.force.copy_from_slice(&force);
         self.sum(&tangents, &mut element.stiffness);
-        add_products(&whole, &mut element.stiffness);
+        Arch::new().dispatch(Products {
+            whole: &whole,
+            stiffness: &mut element.stiffness,
+        });
         Ok(())
     }
 
@@ -134,9 +159,9 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
     }
 
     /// Deformation at all points, and the current volume `theta V`.
-    fn points(&self, current: &[Vec3; N]) -> Result<(Vec<Point>, f64), ElementError> {
-        let mut points = Vec::with_capacity(Q);
-        for g in 0..Q {
+    fn points(&self, current: &[Vec3; N]) -> Result<([Point; Q], f64), ElementError> {
+        let mut points = [Point::default(); Q];
+        for (g, point) in points.iter_mut().enumerate() {
             let gradient = self.deformation_gradient(g, current);
             let ratio = gradient.determinant();
             let inverse = gradient.try_inverse().filter(|_| ratio > 0.0);
@@ -144,62 +169,68 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
                 point: g,
                 determinant: ratio,
             })?;
-            points.push(Point {
+            *point = Point {
                 gradient,
                 inverse_transposed: inverse.transpose(),
                 ratio,
-            });
+            };
         }
         let volume = self.mean(|g| points[g].ratio);
         Ok((points, volume))
     }
 
-    /// The law at `Fbar` with `pi`, and `alpha`, at all points; writes down what they come to.
-    #[allow(clippy::type_complexity, clippy::too_many_arguments)]
+    /// The law at `Fbar` at all points, its tangents apart; writes down energies and what the
+    /// points come to.
+    #[allow(clippy::too_many_arguments)]
     fn laws(
         &self,
-        points: &[Point],
+        points: &[Point; Q],
         volume: f64,
         material: &Material,
         past: Past,
         element: &mut ElementResponse,
+        tangents: &mut [Tangent; Q],
         share: f64,
-    ) -> Result<(Vec<(Response, f64)>, [f64; Q]), ElementError> {
+    ) -> Result<[Law; Q], ElementError> {
         let theta = volume / self.volume();
-        let scales: [f64; Q] = std::array::from_fn(|g| scale(theta, &points[g], share));
-        let mut laws = Vec::with_capacity(Q);
-        element.dissipated = 0.0;
+        let mut laws = [Law::default(); Q];
+        (element.energy, element.dissipated) = (0.0, 0.0);
         for (g, point) in points.iter().enumerate() {
-            let scaled = point.gradient * scales[g];
+            let scale = scale(theta, point, share);
+            let scaled = point.gradient * scale;
             let mut present = element.present(g, Q);
             let law = material.respond(&scaled, past.of_point(g, Q), &mut present);
             let dissipated = present.dissipated;
             let law = law.map_err(error_at(g))?;
+            element.energy += self.weights[g] * law.energy;
             element.dissipated += self.weights[g] * dissipated;
-            laws.push((law, law.first_piola.dot(&scaled) * share / 3.0));
+            tangents[g] = law.tangent;
+            laws[g] = Law {
+                scale,
+                first_piola: law.first_piola,
+                third: law.first_piola.dot(&scaled) * share / 3.0,
+            };
         }
-        Ok((laws, scales))
+        Ok(laws)
     }
 
-    /// The tangent at a point for the mean volume held; adds what the point gives to the rest.
+    /// Makes of the tangent of the law that for the mean volume held; adds what the point gives
+    /// to the rest.
     #[allow(clippy::too_many_arguments)]
-    fn local_tangent(
+    fn complete(
         &self,
         g: usize,
         point: &Point,
-        law: &Response,
-        scale: f64,
-        third: f64,
+        law: &Law,
         share: f64,
         volume: f64,
+        tangent: &mut Tangent,
         whole: &mut Whole<N>,
-    ) -> Tangent {
+    ) {
         let (f, h) = (vector(&point.gradient), vector(&point.inverse_transposed));
-        let m = (vector(&law.first_piola) + law.tangent * f * scale) * (scale * share);
+        let m = (vector(&law.first_piola) + *tangent * f * law.scale) * (law.scale * share);
         let ninth = m.dot(&f) * share / 9.0;
-        let excess = whole.pressure * point.ratio - third;
-        let weight = self.weights[g];
-        whole.curvature += weight * ninth;
+        whole.curvature += self.weights[g] * ninth;
         let volume_slope = point.inverse_transposed * (point.ratio / volume);
         self.add_force(g, &volume_slope, &mut whole.volume_slopes);
         self.add_force(
@@ -207,13 +238,14 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
             &matrix(&(m / 3.0 - h * ninth)),
             &mut whole.pressure_slopes,
         );
-        let (square, normal) = (scale * scale, whole.pressure * point.ratio + ninth);
-        Tangent::from_fn(|row, column| {
-            let ((i, j), (k, l)) = ((row / 3, row % 3), (column / 3, column % 3));
-            let mixed = m[row] * h[column] + m[column] * h[row];
-            law.tangent[(row, column)] * square - mixed / 3.0 + h[row] * h[column] * normal
-                - excess * h[3 * i + l] * h[3 * k + j]
-        })
+        let normal = whole.pressure * point.ratio;
+        Arch::new().dispatch(Completion {
+            tangent: &mut tangent.data.0,
+            square: law.scale * law.scale,
+            h: h.data.0[0],
+            w: (h * (0.5 * (normal + ninth)) - m / 3.0).data.0[0],
+            excess: normal - law.third,
+        });
     }
 
     /// `sum_g w value`.
@@ -232,15 +264,61 @@ fn scale(theta: f64, point: &Point, share: f64) -> f64 {
     }
 }
 
-/// Adds `c x b + b x c + s b x b`.
-fn add_products<const N: usize>(whole: &Whole<N>, stiffness: &mut Stiffness) {
-    let (b, c) = (&whole.volume_slopes, &whole.pressure_slopes);
-    for ((i, k), block) in COMPONENTS.into_iter().zip(stiffness.blocks_mut::<N>()) {
-        for row in 0..N {
-            for column in 0..N {
-                let mixed = c[row][i] * b[column][k] + b[row][i] * c[column][k];
-                let square = whole.curvature * (b[row][i] * b[column][k]);
-                block[row][column] += mixed + square;
+/// The tangent for the mean volume held,
+/// `alpha^2 Abar + H x W + W x H - (p J - pi) H_iL H_kJ` with `W = (p J + m/9)/2 H - M/3`.
+struct Completion<'a> {
+    /// By columns.
+    tangent: &'a mut [[f64; 9]; 9],
+    square: f64,
+    h: [f64; 9],
+    w: [f64; 9],
+    excess: f64,
+}
+
+impl WithSimd for Completion<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let (h, w) = (&self.h, &self.w);
+        for (column, entries) in self.tangent.iter_mut().enumerate() {
+            let (k, l) = (column / 3, column % 3);
+            let crossed: [f64; 9] =
+                std::array::from_fn(|row| h[3 * (row / 3) + l] * h[3 * k + row % 3]);
+            for row in 0..9 {
+                let mixed = h[row] * w[column] + w[row] * h[column];
+                entries[row] = entries[row] * self.square + mixed - self.excess * crossed[row];
+            }
+        }
+    }
+}
+
+/// Adds `c x b + b x c + s b x b` to the stiffness, as `d x b + b x d` with `d = c + s/2 b`.
+struct Products<'a, const N: usize> {
+    whole: &'a Whole<N>,
+    stiffness: &'a mut Stiffness,
+}
+
+impl<const N: usize> WithSimd for Products<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let whole = self.whole;
+        let mut b = [[0.0; N]; 3];
+        let mut d = [[0.0; N]; 3];
+        for a in 0..N {
+            for i in 0..3 {
+                b[i][a] = whole.volume_slopes[a][i];
+                d[i][a] = whole.pressure_slopes[a][i] + 0.5 * whole.curvature * b[i][a];
+            }
+        }
+        for ((i, k), block) in COMPONENTS.into_iter().zip(self.stiffness.blocks_mut::<N>()) {
+            for (row, entries) in block.iter_mut().enumerate() {
+                let (of_d, of_b) = (d[i][row], b[i][row]);
+                for column in 0..N {
+                    entries[column] += of_d * b[k][column] + of_b * d[k][column];
+                }
             }
         }
     }

@@ -14,6 +14,7 @@ use std::collections::HashMap;
 use striae_law::bulk::{Hardening, LameConstants, Material, Plastic};
 use striae_mesh::{CellBlock, CellKind, ElementId, Face, Mesh, NodeId, Vec3};
 use striae_solve::model::{BodyId, Curve, Displacement, Load, LoadExtent, LoadKind, Model};
+use striae_verify::fitted_rate;
 
 const INNER: f64 = 1.0;
 const OUTER: f64 = 2.0;
@@ -108,15 +109,15 @@ fn pressed(n: usize, c: f64) -> Model {
 fn it_widens_by_the_closed_form_while_the_metal_flows() {
     let c = 1.5;
     let widened = (1.0 - POISSONS_RATIO) * YIELD * c * c * c / (YOUNGS_MODULUS * OUTER * OUTER);
-    let errors = [2, 4].map(|n| {
+    let divisions = [2, 4, 6];
+    let errors = divisions.map(|n| {
         let run = Run::completed(pressed(n, c));
         let nodes = run.problem.reference.iter().zip(&run.last().positions);
         let outside = nodes.filter(|(x, _)| (x.norm() - OUTER).abs() < 1e-9);
         let errors = outside.map(|(x, now)| ((now - x).norm() / widened - 1.0).abs());
         errors.fold(0.0, f64::max)
     });
-    assert!(
-        errors[1] < 0.02 && errors[0] > 2.5 * errors[1],
-        "{errors:?}"
-    );
+    // Facets of a sphere are chords, and metal flows in whole elements.
+    let rate = fitted_rate(&divisions.map(|n| 1.0 / n as f64), &errors);
+    assert!(rate > 1.3 && errors[2] < 0.025, "{rate}: {errors:?}");
 }
