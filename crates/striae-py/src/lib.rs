@@ -25,6 +25,7 @@ mod run;
 mod start;
 mod step;
 mod texture;
+mod tie;
 
 use pyo3::prelude::*;
 
@@ -48,5 +49,6 @@ mod _striae {
         run::{Run, deck_of, resume, run},
         step::Step,
         texture::Texture,
+        tie::Tie,
     };
 }

@@ -31,6 +31,7 @@ use crate::{
     rigid::Rigid,
     start,
     step::Step,
+    tie::Tie,
 };
 
 /// A model that has been found valid, and where it comes from.
@@ -73,11 +74,13 @@ type Fit = (Option<f64>, f64, f64);
 #[pymethods]
 impl Model {
     #[staticmethod]
+    #[allow(clippy::too_many_arguments)]
     fn build(
         title: &str,
         bodies: Vec<Body<'_>>,
         rigid: Vec<PyRef<'_, Rigid>>,
         pairs: Vec<PyRef<'_, Pair>>,
+        ties: Vec<PyRef<'_, Tie>>,
         steps: Vec<PyRef<'_, Step>>,
         solver: Solver,
     ) -> PyResult<Self> {
@@ -114,6 +117,9 @@ impl Model {
         }
         for pair in pairs {
             built = built.pair(pair.0.clone());
+        }
+        for tie in ties {
+            built = built.tie(tie.0.clone());
         }
         for step in &steps {
             built = built.step(step.0.clone());
@@ -186,6 +192,11 @@ impl Model {
     fn pairs(&self) -> Vec<String> {
         let pairs = self.model.pairs.iter();
         pairs.map(|pair| pair.name.clone()).collect()
+    }
+
+    fn ties(&self) -> Vec<String> {
+        let ties = self.model.ties.iter();
+        ties.map(|tie| tie.name.clone()).collect()
     }
 
     fn steps(&self) -> Vec<String> {

@@ -88,6 +88,7 @@ impl Results {
             "position" => results.positions(body).map(<[Vec3]>::to_vec),
             "velocity" => results.velocities(body).map(<[Vec3]>::to_vec),
             "contact_force" => results.contact_forces(body).map(<[Vec3]>::to_vec),
+            "tie_force" => results.tie_forces(body).map(<[Vec3]>::to_vec),
             "reaction" => results.nodal_reactions(body).map(<[Vec3]>::to_vec),
             _ => None,
         };
@@ -199,6 +200,24 @@ impl Results {
         all.set_item("open", report.open)?;
         all.set_item("largest_pressure", report.max_pressure)?;
         all.set_item("dissipated", report.dissipated)?;
+        Ok(all)
+    }
+
+    /// Resultants of a tie.
+    fn tie<'py>(&self, py: Python<'py>, tie: usize) -> PyResult<Bound<'py, PyDict>> {
+        let all = PyDict::new(py);
+        let name = &self.problem.model.ties[tie].name;
+        let Some(report) = self.results().tie(name) else {
+            return Ok(all);
+        };
+        for (side, letter) in report.sides.iter().zip(["a", "b"]) {
+            let vector = |of: Vec3| PyArray1::from_vec(py, of.iter().copied().collect());
+            all.set_item(format!("force_{letter}"), vector(side.force))?;
+            all.set_item(format!("moment_{letter}"), vector(side.moment))?;
+        }
+        all.set_item("area", report.area)?;
+        all.set_item("mismatch", report.mismatch)?;
+        all.set_item("moment_mismatch", report.moment_mismatch)?;
         Ok(all)
     }
 

@@ -147,6 +147,8 @@ impl Problem {
     /// When the mesh has degenerate elements or a pair no deformable first side.
     pub fn new(model: Model) -> Result<Self, ProblemError> {
         let ties = Ties::new(&model).map_err(|mut faults| ProblemError::Tie(faults.remove(0)))?;
+        // The model stays as it was given, up to round-off, by which checkpoints know it.
+        let given = (!ties.is_empty()).then(|| model.clone());
         let model = ties.moved(model).map_err(ProblemError::Tie)?;
         let first_node = first_nodes(&model);
         let mut reference = Vec::new();
@@ -185,7 +187,7 @@ impl Problem {
             reference,
             elements,
             compositions,
-            model,
+            model: given.unwrap_or(model),
         })
     }
 

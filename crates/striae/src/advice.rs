@@ -19,6 +19,7 @@ mod hold;
 mod parts;
 mod shape;
 mod textures;
+mod ties;
 mod units;
 
 pub use cost::Cost;
@@ -111,6 +112,7 @@ impl Advice {
         bending::look(model, &fits, &mut advice);
         hold::look(model, &fits, &mut advice);
         fit::look(model, &fits, &mut advice);
+        ties::look(model, &mut advice);
         friction::look(model, &mut advice);
         textures::look(model, &mut advice);
         if advice.faults.is_empty() {

@@ -1,4 +1,4 @@
-//! Results of a state: nodal fields as slices, forces of pairs, reactions.
+//! Results of a state: nodal fields as slices, forces of pairs and ties, reactions.
 
 use nalgebra::Matrix3;
 use striae_contact::unknowns::NodeResult;
@@ -8,6 +8,7 @@ use striae_solve::{
     problem::Problem,
     report::{self, PairReport, RigidReport},
     state::State,
+    tie::{TieReport, reports},
 };
 
 /// A side of a pair.
@@ -78,6 +79,11 @@ impl<'a> Results<'a> {
         self.of_body(body, &self.state.forces.contact)
     }
 
+    /// Forces of ties on the nodes of a body.
+    pub fn tie_forces(&self, body: &str) -> Option<&'a [Vec3]> {
+        self.of_body(body, &self.state.forces.ties)
+    }
+
     /// Forces that hold the prescribed nodes of a body, zero at the others.
     pub fn nodal_reactions(&self, body: &str) -> Option<&'a [Vec3]> {
         self.of_body(body, &self.state.forces.reaction)
@@ -103,6 +109,12 @@ impl<'a> Results<'a> {
     pub fn pair(&self, pair: &str) -> Option<PairReport> {
         let at = self.pair_index(pair)?;
         report::pairs(self.problem, self.state).into_iter().nth(at)
+    }
+
+    /// Forces and moments of a tie.
+    pub fn tie(&self, name: &str) -> Option<TieReport> {
+        let all = reports(self.problem, self.state);
+        all.into_iter().find(|tie| tie.name == name)
     }
 
     /// Displacement, angles and torque of a rigid body.

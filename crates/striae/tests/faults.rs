@@ -142,6 +142,7 @@ fn eleven_faults() -> Model {
     ];
     let steps = vec![press(&bodies), hold(&bodies)];
     Model {
+        ties: Vec::new(),
         title: "Eleven faults".into(),
         rigid_surfaces: vec![
             plane("floor", Vec3::zeros(), Vec3::z()),

@@ -76,6 +76,7 @@ from ._results import (
     RigidResults,
     SideResults,
     Status,
+    TieResults,
 )
 from ._rigid import Plane, Rigid, RigidBody, RigidSurface
 from ._run import History, Run, resume
@@ -83,6 +84,7 @@ from ._section import Section
 from ._step import Condition, Dynamics, Increments, Step, gravity
 from ._sweep import Sweep, SweepPoint, sweep
 from ._texture import Axial, Circumferential, Nodal, Painted, Radial, Texture, Uniform
+from ._tie import Tie
 
 __all__ = [
     "Advice",
@@ -153,6 +155,8 @@ __all__ = [
     "SweepPoint",
     "Tabulated",
     "Texture",
+    "Tie",
+    "TieResults",
     "TwoTextures",
     "Uniform",
     "Yeoh",

@@ -20,6 +20,7 @@ from ._pair import Pair, _change
 from ._rigid import Rigid
 from ._run import Callback, Keep, Path, Run, closed, concluded, record, watch
 from ._step import Condition, Dynamics, Increments, Step
+from ._tie import Tie
 
 BACKENDS = ("condensed", "multifrontal", "faer", "iterative")
 
@@ -115,6 +116,7 @@ class Model:
     _bodies: list[Body]
     _rigid: list[Rigid]
     _pairs: list[Pair]
+    _ties: list[Tie]
     _steps: list[Step]
     _solver: Solver
     _running: int
@@ -126,6 +128,7 @@ class Model:
         rigid: Sequence[Rigid] = (),
         pairs: Sequence[Pair] = (),
         *,
+        ties: Sequence[Tie] = (),
         steps: Sequence[Step] = (),
         title: str = "model",
         solver: Optional[Solver] = None,
@@ -135,6 +138,7 @@ class Model:
         bodies: deformable bodies.
         rigid: rigid bodies.
         pairs: contact pairs.
+        ties: surfaces of bodies that are glued.
         steps: the loading history; :meth:`step` adds to it.
         title: a line that says what it is.
         solver: settings of the solver.
@@ -143,13 +147,14 @@ class Model:
         self._bodies = check.kinds(bodies, Body, "bodies")
         self._rigid = check.kinds(rigid, Rigid, "rigid")
         self._pairs = check.kinds(pairs, Pair, "pairs")
+        self._ties = check.kinds(ties, Tie, "ties")
         self._steps = check.kinds(steps, Step, "steps")
         self._solver = Solver() if solver is None else check.kind(solver, Solver, "solver")
 
     def _begin(self, title: str) -> None:
         self._title = title
         self._base, self._earlier = None, []
-        self._bodies, self._rigid, self._pairs, self._steps = [], [], [], []
+        self._bodies, self._rigid, self._pairs, self._ties, self._steps = [], [], [], [], []
         self._solver = Solver()
         self._running = 0
         self._last_run = None
@@ -248,6 +253,11 @@ class Model:
     def pair_names(self) -> list[str]:
         """Names of the pairs."""
         return [pair.name for pair in self._pairs] if self._base is None else self._base.pairs()
+
+    @property
+    def tie_names(self) -> list[str]:
+        """Names of the ties."""
+        return [tie.name for tie in self._ties] if self._base is None else self._base.ties()
 
     @property
     def step_names(self) -> list[str]:
@@ -364,6 +374,7 @@ class Model:
             [body._part() for body in self._bodies],
             [one._native for one in self._rigid if one._native is not None],
             [pair._native for pair in self._pairs],
+            [tie._native for tie in self._ties],
             steps,
             (solver.backend, solver.tolerance, solver.largest_iterations),
         )
@@ -394,6 +405,7 @@ class Model:
         made.__dict__.update(self.__dict__)
         made._bodies = [copy.copy(body) for body in self._bodies]
         made._rigid, made._pairs = list(self._rigid), list(self._pairs)
+        made._ties = list(self._ties)
         made._steps, made._earlier = list(self._steps), list(self._earlier)
         made._running, made._last_run = 0, None
         return made
@@ -404,5 +416,5 @@ class Model:
     def __repr__(self) -> str:
         return (
             f"Model({self._title!r}, bodies {self.body_names}, rigid {self.rigid_names},"
-            f" pairs {self.pair_names}, steps {self.step_names})"
+            f" pairs {self.pair_names}, ties {self.tie_names}, steps {self.step_names})"
         )

@@ -88,6 +88,11 @@ class BodyResults:
         return frozen(self._results.body(self.name, "contact_force"))
 
     @cached_property
+    def tie_force(self) -> Floats:
+        """Forces of ties, of shape (n, 3) (force)."""
+        return frozen(self._results.body(self.name, "tie_force"))
+
+    @cached_property
     def reaction(self) -> Floats:
         """Forces that hold prescribed nodes, of shape (n, 3), zero at the others (force)."""
         return frozen(self._results.body(self.name, "reaction"))
@@ -336,6 +341,27 @@ class RigidResults(NamedTuple):
     """Torque that drives or holds it, of shape (3,) (force times length)."""
 
 
+class TieResults(NamedTuple):
+    """Results of a tie."""
+
+    name: str
+    """Name of the tie."""
+    force: Floats
+    """Force on side ``a``, of shape (3,) (force)."""
+    force_b: Floats
+    """Force on side ``b``, of shape (3,) (force)."""
+    moment: Floats
+    """Moment on side ``a`` about the origin, of shape (3,) (force times length)."""
+    moment_b: Floats
+    """Moment on side ``b`` about the origin, of shape (3,) (force times length)."""
+    area: float
+    """Area at rest that is tied (length squared)."""
+    mismatch: float
+    """Length of the sum of both forces over the sum of the lengths of nodal forces (no unit)."""
+    moment_mismatch: float
+    """Length of the sum of both moments over the same times the root of the area (no unit)."""
+
+
 class Increment:
     """The converged state at the end of an increment."""
 
@@ -390,6 +416,14 @@ class Increment:
             self._pairs[index] = PairResults(self._results, index, name)
         return self._pairs[index]
 
+    def tie(self, which: Union[int, str]) -> TieResults:
+        """Results of a tie; which: its name, or its number from 0."""
+        index = self._model._position("tie", self._model.tie_names, which)
+        found = self._results.tie(index)
+        forces, moments = [[frozen(found[f"{of}_{side}"]) for side in "ab"] for of in ("force", "moment")]
+        numbers = [found[one] for one in ("area", "mismatch", "moment_mismatch")]
+        return TieResults(self._model.tie_names[index], *forces, *moments, *numbers)
+
     def rigid(self, name: str) -> RigidResults:
         """Results of a rigid body; name: of the body."""
         self._model._position("rigid body", self._model.rigid_names, name)
@@ -405,6 +439,11 @@ class Increment:
     def pairs(self) -> list[PairResults]:
         """Results of all pairs."""
         return [self.pair(index) for index in range(len(self._model.pair_names))]
+
+    @property
+    def ties(self) -> list[TieResults]:
+        """Results of all ties."""
+        return [self.tie(index) for index in range(len(self._model.tie_names))]
 
     def reaction(self, body: str, nodes: str) -> Floats:
         """Force that holds a set of nodes, of shape (3,) (force).

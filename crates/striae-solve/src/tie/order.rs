@@ -41,10 +41,16 @@ impl Group {
 
 /// Followers with their weights, by node, and by component their groups, none before those
 /// that it follows.
+type Resolved = (Vec<Follower>, [Vec<Group>; 3]);
+
+/// What the members of a group come to follow, after the inverse.
+type Solved = (Option<DMatrix<f64>>, Vec<Vec<(usize, f64)>>);
+
+/// Finds what followers come to follow.
 pub(super) fn resolved(
     model: &Model,
     mut followers: Vec<Follower>,
-) -> Result<(Vec<Follower>, [Vec<Group>; 3]), Vec<TieFault>> {
+) -> Result<Resolved, Vec<TieFault>> {
     followers.sort_by_key(|follower| follower.node);
     let of_node: BTreeMap<usize, usize> = followers
         .iter()
@@ -96,13 +102,12 @@ fn followed(
 
 /// What the members of a group come to follow, with the inverse; `None` where their rows
 /// contradict or repeat each other.
-#[allow(clippy::type_complexity)]
 fn solved(
     followers: &[Follower],
     of_node: &BTreeMap<usize, usize>,
     members: &[usize],
     axis: usize,
-) -> Option<(Option<DMatrix<f64>>, Vec<Vec<(usize, f64)>>)> {
+) -> Option<Solved> {
     let count = members.len();
     let mut within = DMatrix::<f64>::identity(count, count);
     let mut outside: Vec<BTreeMap<usize, f64>> = vec![BTreeMap::new(); count];
@@ -126,7 +131,8 @@ fn solved(
         return Some((None, weights.collect()));
     }
     let inverse = within.try_inverse()?;
-    if inverse.iter().any(|entry| !(entry.abs() < LARGEST)) {
+    // Entries that are no numbers are not below the bound.
+    if !inverse.iter().all(|entry| entry.abs() < LARGEST) {
         return None;
     }
     let weights = (0..count).map(|row| {

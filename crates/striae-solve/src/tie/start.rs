@@ -6,9 +6,9 @@ use super::{TieFault, Ties, body_node, first_nodes};
 use crate::model::Model;
 
 /// Most times that rows are found anew.
-const MOST: usize = 20;
-/// Way over the size of facets that is none.
-const ROUND_OFF: f64 = 1e-12;
+const MOST: usize = 10;
+/// Way over what positions are made of that is round-off: nodes stay.
+const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
 
 /// The model with the nodes that follow moved to where they belong, which says how far.
 ///
@@ -32,11 +32,7 @@ pub fn placed(mut model: Model) -> Result<Model, Vec<TieFault>> {
             let way = (after[follower.node] - meshed[follower.node]).norm();
             tie.moved = tie.moved.max(way);
         }
-        let moves = |follower: &super::Follower| {
-            let way = (after[follower.node] - before[follower.node]).norm();
-            way > ROUND_OFF * ties.joints[follower.tie].facet_size
-        };
-        if !ties.followers.iter().any(moves) {
+        if before == after {
             break;
         }
     }
@@ -62,7 +58,11 @@ pub(super) fn moved(ties: &Ties, mut model: Model) -> Result<Model, TieFault> {
     ties.follow(&mut after);
     for follower in &ties.followers {
         let (body, node) = body_node(&first_node, follower.node);
-        model.bodies[body].mesh.positions[node.index()] = after[follower.node];
+        let (from, to) = (before[follower.node], after[follower.node]);
+        let size = from.norm() + ties.joints[follower.tie].facet_size;
+        if (to - from).norm() > ROUND_OFF * size {
+            model.bodies[body].mesh.positions[node.index()] = to;
+        }
     }
     for (tie, joint) in ties.joints.iter().enumerate() {
         let body = &model.bodies[joint.bodies[joint.follows]];

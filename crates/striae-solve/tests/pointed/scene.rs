@@ -117,6 +117,7 @@ pub fn standing(upper: Block, sole: &[&str], floor: Floor, friction: Friction) -
         }
     };
     Model {
+        ties: Vec::new(),
         title: String::new(),
         bodies,
         rigid_surfaces,

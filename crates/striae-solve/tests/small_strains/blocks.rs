@@ -167,6 +167,7 @@ pub fn model(case: &Case, depth: f64) -> Model {
         ])
     });
     Model {
+        ties: Vec::new(),
         title: case.name.clone(),
         steps: steps.collect(),
         bodies,

@@ -197,6 +197,7 @@ pub fn body(name: &str, mesh: Mesh, material: Material) -> Body {
 /// A model without contact and steps.
 pub fn model(bodies: Vec<Body>) -> Model {
     Model {
+        ties: Vec::new(),
         title: String::new(),
         bodies,
         rigid_surfaces: Vec::new(),

@@ -32,6 +32,14 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
             advice.note(Topic::Hold, &body.name, text);
             continue;
         }
+        if let Some(tie) = model.ties.iter().find(|tie| tie.joins(id)) {
+            let text = format!(
+                "body `{}` is glued to another one by tie `{}`",
+                body.name, tie.name
+            );
+            advice.note(Topic::Hold, &body.name, text);
+            continue;
+        }
         let mut motions = prescribed(&body.mesh, step, id);
         match motions.left() {
             0 => {
