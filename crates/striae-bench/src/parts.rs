@@ -145,7 +145,7 @@ fn of_scene(group: &str, size: usize) -> Results {
                     tractions,
                     prescribed,
                     first,
-                    Wanted::Tangent,
+                    Derivatives::First,
                 );
                 black_box(evaluation.is_ok());
             });
