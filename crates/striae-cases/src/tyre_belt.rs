@@ -20,7 +20,7 @@ use crate::failure::Failure;
 const DECKS: [(&str, &str); 1] = decks!("tyre-belt": "deck");
 /// Elements in the deck and for a quick look.
 const DIVISIONS: [&str; 2] = [
-    "divisions = [7, 60, 4], radial_grading = { lengths = [6, 5, 4, 4, 2, 2, 3] }",
+    "divisions = [6, 50, 4], radial_grading = { lengths = [7, 6, 6, 2, 2, 3] }",
     "divisions = [5, 40, 3], radial_grading = { lengths = [10, 9, 2, 2, 3] }",
 ];
 /// Angle of the grooves to the travel.
