@@ -239,7 +239,7 @@ pub const CASES: &[Case] = &[
     ),
     case!(
         "treloar",
-        "The rubber of 1944 in three tests, by four laws with published constants",
+        "The rubber of 1944 in three tests, by four laws",
         treloar::run
     ),
     case!(

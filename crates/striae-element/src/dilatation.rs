@@ -27,16 +27,15 @@
 //! element (tetrahedra) all is as without it.
 
 use super::{
-    ElementError, ElementResponse, Stiffness, reference::Reference, response::error_at,
+    ElementError, ElementResponse, Stiffness,
+    reference::{Gradients, Reference},
+    response::error_at,
     stiffness::COMPONENTS,
 };
-use nalgebra::{Matrix3, SVector};
+use nalgebra::Matrix3;
 use pulp::{Arch, Simd, WithSimd};
 use striae_law::bulk::{Material, Past, Tangent};
 use striae_mesh::Vec3;
-
-/// A matrix by components `3 i + J`.
-type Vector9 = SVector<f64, 9>;
 
 /// Deformation at a quadrature point.
 #[derive(Clone, Copy, Default)]
@@ -60,16 +59,24 @@ struct Law {
     third: f64,
 }
 
-/// Pressure and volume of an element, and how they change.
-struct Whole<const N: usize> {
-    /// `p`.
-    pressure: f64,
+/// What the points of an element come to, by component and corner.
+struct Sums<const N: usize> {
+    /// `f_a`.
+    force: [[f64; N]; 3],
     /// `b_a`.
-    volume_slopes: [[f64; 3]; N],
-    /// `c_a`.
-    pressure_slopes: [[f64; 3]; N],
-    /// `sum_g w m/9 - p theta V`.
-    curvature: f64,
+    volume_slopes: [[f64; N]; 3],
+    /// `c_a + s/2 b_a` with `s = sum_g w m/9 - p theta V`.
+    pressure_slopes: [[f64; N]; 3],
+}
+
+impl<const N: usize> Default for Sums<N> {
+    fn default() -> Self {
+        Self {
+            force: [[0.0; N]; 3],
+            volume_slopes: [[0.0; N]; 3],
+            pressure_slopes: [[0.0; N]; 3],
+        }
+    }
 }
 
 impl<const N: usize, const Q: usize> Reference<N, Q> {
@@ -98,26 +105,23 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
             share,
         )?;
         let pressure = self.mean(|g| laws[g].third) / volume;
-        let mut whole = Whole {
+        let mut sums = Sums::default();
+        Arch::new().dispatch(Completion {
+            element: self,
+            points: &points,
+            laws: &laws,
             pressure,
-            volume_slopes: [[0.0; 3]; N],
-            pressure_slopes: [[0.0; 3]; N],
-            curvature: -pressure * volume,
-        };
-        let mut force = [[0.0; 3]; N];
-        for g in 0..Q {
-            let (point, law) = (&points[g], &laws[g]);
-            let (h, excess) = (
-                &point.inverse_transposed,
-                pressure * point.ratio - law.third,
-            );
-            self.add_force(g, &(law.first_piola * law.scale + h * excess), &mut force);
-            self.complete(g, point, law, share, volume, &mut tangents[g], &mut whole);
+            volume,
+            share,
+            tangents: &mut tangents,
+            sums: &mut sums,
+        });
+        for (a, force) in element.force.iter_mut().enumerate() {
+            *force = [0, 1, 2].map(|i| sums.force[i][a]);
         }
-        element.force.copy_from_slice(&force);
         self.sum(&tangents, &mut element.stiffness);
         Arch::new().dispatch(Products {
-            whole: &whole,
+            sums: &sums,
             stiffness: &mut element.stiffness,
         });
         Ok(())
@@ -214,40 +218,6 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
         Ok(laws)
     }
 
-    /// Makes of the tangent of the law that for the mean volume held; adds what the point gives
-    /// to the rest.
-    #[allow(clippy::too_many_arguments)]
-    fn complete(
-        &self,
-        g: usize,
-        point: &Point,
-        law: &Law,
-        share: f64,
-        volume: f64,
-        tangent: &mut Tangent,
-        whole: &mut Whole<N>,
-    ) {
-        let (f, h) = (vector(&point.gradient), vector(&point.inverse_transposed));
-        let m = (vector(&law.first_piola) + *tangent * f * law.scale) * (law.scale * share);
-        let ninth = m.dot(&f) * share / 9.0;
-        whole.curvature += self.weights[g] * ninth;
-        let volume_slope = point.inverse_transposed * (point.ratio / volume);
-        self.add_force(g, &volume_slope, &mut whole.volume_slopes);
-        self.add_force(
-            g,
-            &matrix(&(m / 3.0 - h * ninth)),
-            &mut whole.pressure_slopes,
-        );
-        let normal = whole.pressure * point.ratio;
-        Arch::new().dispatch(Completion {
-            tangent: &mut tangent.data.0,
-            square: law.scale * law.scale,
-            h: h.data.0[0],
-            w: (h * (0.5 * (normal + ninth)) - m / 3.0).data.0[0],
-            excess: normal - law.third,
-        });
-    }
-
     /// `sum_g w value`.
     fn mean(&self, value: impl Fn(usize) -> f64) -> f64 {
         (0..Q).map(|g| self.weights[g] * value(g)).sum()
@@ -264,38 +234,102 @@ fn scale(theta: f64, point: &Point, share: f64) -> f64 {
     }
 }
 
-/// The tangent for the mean volume held,
-/// `alpha^2 Abar + H x W + W x H - (p J - pi) H_iL H_kJ` with `W = (p J + m/9)/2 H - M/3`.
-struct Completion<'a> {
-    /// By columns.
-    tangent: &'a mut [[f64; 9]; 9],
-    square: f64,
-    h: [f64; 9],
-    w: [f64; 9],
-    excess: f64,
+/// Makes of the tangents of the law those for the mean volume held,
+/// `alpha^2 Abar + H x W + W x H - (p J - pi) H_iL H_kJ` with `W = (p J + m/9)/2 H - M/3`,
+/// and sums what the points come to, by as many lanes as the processor has.
+struct Completion<'a, const N: usize, const Q: usize> {
+    element: &'a Reference<N, Q>,
+    points: &'a [Point; Q],
+    laws: &'a [Law; Q],
+    pressure: f64,
+    volume: f64,
+    share: f64,
+    tangents: &'a mut [Tangent; Q],
+    sums: &'a mut Sums<N>,
 }
 
-impl WithSimd for Completion<'_> {
+impl<const N: usize, const Q: usize> WithSimd for Completion<'_, N, Q> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let (h, w) = (&self.h, &self.w);
-        for (column, entries) in self.tangent.iter_mut().enumerate() {
-            let (k, l) = (column / 3, column % 3);
-            let crossed: [f64; 9] =
-                std::array::from_fn(|row| h[3 * (row / 3) + l] * h[3 * k + row % 3]);
-            for row in 0..9 {
-                let mixed = h[row] * w[column] + w[row] * h[column];
-                entries[row] = entries[row] * self.square + mixed - self.excess * crossed[row];
+        let mut curvature = -self.pressure * self.volume;
+        for g in 0..Q {
+            let (point, law) = (&self.points[g], &self.laws[g]);
+            let tangent = &mut self.tangents[g].data.0;
+            let weight = self.element.weights[g];
+            let (f, h) = (
+                components(&point.gradient),
+                components(&point.inverse_transposed),
+            );
+            let stress = components(&law.first_piola);
+            let m = turned(tangent, &f).map(|of_f| of_f * law.scale);
+            let m: [f64; 9] =
+                std::array::from_fn(|at| (stress[at] + m[at]) * (law.scale * self.share));
+            let ninth = (0..9).map(|at| m[at] * f[at]).sum::<f64>() * self.share / 9.0;
+            let normal = self.pressure * point.ratio;
+            let excess = normal - law.third;
+            curvature += weight * ninth;
+            let gradients = &self.element.gradients[g];
+            let ratio = point.ratio / self.volume;
+            let first_piola =
+                std::array::from_fn(|at| (stress[at] * law.scale + h[at] * excess) * weight);
+            let volume_slope = std::array::from_fn(|at| h[at] * ratio * weight);
+            let pressure_slope = std::array::from_fn(|at| (m[at] / 3.0 - h[at] * ninth) * weight);
+            add(&mut self.sums.force, &first_piola, gradients);
+            add(&mut self.sums.volume_slopes, &volume_slope, gradients);
+            add(&mut self.sums.pressure_slopes, &pressure_slope, gradients);
+            let half = 0.5 * (normal + ninth);
+            let w = std::array::from_fn(|at| h[at] * half - m[at] / 3.0);
+            complete(tangent, law.scale * law.scale, &h, &w, excess);
+        }
+        let (slopes, volume) = (&mut self.sums.pressure_slopes, &self.sums.volume_slopes);
+        for i in 0..3 {
+            for a in 0..N {
+                slopes[i][a] += 0.5 * curvature * volume[i][a];
             }
+        }
+    }
+}
+
+/// `A : F`, the tangent by columns.
+#[inline(always)]
+fn turned(tangent: &[[f64; 9]; 9], f: &[f64; 9]) -> [f64; 9] {
+    let mut sums = [0.0; 9];
+    for (column, by) in tangent.iter().zip(f) {
+        for row in 0..9 {
+            sums[row] += column[row] * by;
+        }
+    }
+    sums
+}
+
+/// Adds `w P_iJ G_a,J`.
+#[inline(always)]
+fn add<const N: usize>(to: &mut [[f64; N]; 3], of: &[f64; 9], [x, y, z]: &Gradients<N>) {
+    for (i, to) in to.iter_mut().enumerate() {
+        for a in 0..N {
+            to[a] += of[3 * i] * x[a] + of[3 * i + 1] * y[a] + of[3 * i + 2] * z[a];
+        }
+    }
+}
+
+/// The tangent for the mean volume held, by columns.
+#[inline(always)]
+fn complete(tangent: &mut [[f64; 9]; 9], square: f64, h: &[f64; 9], w: &[f64; 9], excess: f64) {
+    for (column, entries) in tangent.iter_mut().enumerate() {
+        let (k, l) = (column / 3, column % 3);
+        for row in 0..9 {
+            let mixed = h[row] * w[column] + w[row] * h[column];
+            let crossed = h[3 * (row / 3) + l] * h[3 * k + row % 3];
+            entries[row] = entries[row] * square + mixed - excess * crossed;
         }
     }
 }
 
 /// Adds `c x b + b x c + s b x b` to the stiffness, as `d x b + b x d` with `d = c + s/2 b`.
 struct Products<'a, const N: usize> {
-    whole: &'a Whole<N>,
+    sums: &'a Sums<N>,
     stiffness: &'a mut Stiffness,
 }
 
@@ -304,15 +338,7 @@ impl<const N: usize> WithSimd for Products<'_, N> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let whole = self.whole;
-        let mut b = [[0.0; N]; 3];
-        let mut d = [[0.0; N]; 3];
-        for a in 0..N {
-            for i in 0..3 {
-                b[i][a] = whole.volume_slopes[a][i];
-                d[i][a] = whole.pressure_slopes[a][i] + 0.5 * whole.curvature * b[i][a];
-            }
-        }
+        let (b, d) = (&self.sums.volume_slopes, &self.sums.pressure_slopes);
         for ((i, k), block) in COMPONENTS.into_iter().zip(self.stiffness.blocks_mut::<N>()) {
             for (row, entries) in block.iter_mut().enumerate() {
                 let (of_d, of_b) = (d[i][row], b[i][row]);
@@ -324,10 +350,8 @@ impl<const N: usize> WithSimd for Products<'_, N> {
     }
 }
 
-fn vector(matrix: &Matrix3<f64>) -> Vector9 {
-    Vector9::from_fn(|at, _| matrix[(at / 3, at % 3)])
-}
-
-fn matrix(vector: &Vector9) -> Matrix3<f64> {
-    Matrix3::from_fn(|i, j| vector[3 * i + j])
+/// Components `3 i + J`.
+#[inline(always)]
+fn components(matrix: &Matrix3<f64>) -> [f64; 9] {
+    std::array::from_fn(|at| matrix[(at / 3, at % 3)])
 }

@@ -203,7 +203,7 @@ pub const EXHIBITS: [Exhibit; 28] = [
         run: None,
         options: &[],
         figure: Some("tests"),
-        caption: "The rubber that Treloar measured in 1944, by four laws with published constants.",
+        caption: "The rubber that Treloar measured in 1944, by four laws.",
     },
     Exhibit {
         case: "million-unknowns",
