@@ -30,13 +30,12 @@
 //! ```
 //!
 //! the right hand sides by Chung & Hulbert's formulas, see [`crate::dynamics`]; for
-//! prescribed components, which follow their curves, the left ones; nodes that follow others in
-//! ties have from these what they need, and ties do no work. The last lines
-//! are how far the chords `dr` of the arms `r` are from arcs. Neither looks at the assembled
-//! inertia forces or at the residual. So external work equals kinetic, strain, inelastic,
-//! friction, contact and numerical energy up to the residual that Newton's method leaves only if
-//! mass, inertia, contact and tie forces are those of the equations that were solved. No
-//! node can dissipate less than nothing, as the law of friction holds there at the end.
+//! prescribed components, the left ones; what follows in ties has its own from these. The last
+//! lines are how far the chords `dr` of the arms `r` are from arcs. Neither looks at the
+//! assembled inertia forces or at the residual. So external work equals all other energy up to
+//! the residual that Newton's method leaves only if mass, inertia, contact and tie forces are
+//! those of the equations that were solved. No node can dissipate less than nothing, as the law
+//! of friction holds there at the end.
 
 use std::ops::{Add, Mul};
 
@@ -312,9 +311,7 @@ impl Ends<'_> {
             }
         }
         let problem = self.context.problem;
-        for vectors in [&mut weighted, &mut excess, &mut shift] {
-            problem.ties.follow(vectors);
-        }
+        [&mut weighted, &mut excess, &mut shift].map(|vectors| problem.ties.follow(vectors));
         product(&way, &mass_times(problem, &excess))
             + product(&shift, &mass_times(problem, &weighted))
     }
