@@ -45,7 +45,7 @@ use striae_mesh::{FacetId, Vec3};
 use crate::{
     assembly::{Assembled, Imposed, StepContext, Trial},
     dynamics::{Scheme, wrenches},
-    mass::{kinetic_energy, mass_times},
+    mass::{kinetic_energy, mass_times, product},
     problem::Problem,
     rigid::Pose,
     stabilisation::Dashpot,
@@ -311,7 +311,9 @@ impl Ends<'_> {
             }
         }
         let problem = self.context.problem;
-        [&mut weighted, &mut excess, &mut shift].map(|vectors| problem.ties.follow(vectors));
+        for vectors in [&mut weighted, &mut excess, &mut shift] {
+            problem.ties.follow(vectors);
+        }
         product(&way, &mass_times(problem, &excess))
             + product(&shift, &mass_times(problem, &weighted))
     }
@@ -341,10 +343,6 @@ impl Ends<'_> {
 
 fn mean<T: Mul<f64, Output = T> + Add<Output = T>>(weight: f64, start: T, end: T) -> T {
     start * weight + end * (1.0 - weight)
-}
-
-fn product(a: &[Vec3], b: &[Vec3]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
 }
 
 /// A way that a point of a rigid body goes.
