@@ -7,9 +7,8 @@ use striae_solve::{
     model::Procedure,
     newton::Increment,
     problem::Problem,
-    report::{PairReport, bodies, held_reactions, pairs, rigid_bodies},
+    report::{PairReport, TieReport, bodies, held_reactions, pairs, rigid_bodies, ties},
     resolved::resolved,
-    tie::reports,
 };
 
 /// Columns and values of the row of a converged increment, before which `cut_backs`
@@ -55,13 +54,8 @@ pub fn row(
             row.push((format!("pair.{name}.across_{letter}"), of_side.across));
         }
     }
-    for tie in reports(problem, state) {
-        let name = format!("tie.{}", tie.name);
-        for (side, letter) in tie.sides.iter().zip(["a", "b"]) {
-            add_vector(&mut row, &format!("{name}.force_{letter}"), &side.force);
-        }
-        row.push((format!("{name}.mismatch"), tie.mismatch));
-        row.push((format!("{name}.moment_mismatch"), tie.moment_mismatch));
+    for tie in ties(problem, state) {
+        add_tie(&mut row, &tie);
     }
     for (name, force) in held_reactions(problem, state) {
         add_vector(&mut row, &format!("reaction.{name}"), &force);
@@ -108,4 +102,13 @@ fn add_pair(row: &mut Vec<(String, f64)>, report: &PairReport) {
     row.push((format!("{name}.dissipated"), report.dissipated));
     row.push((format!("{name}.area"), report.sides[0].pressed));
     add_vector(row, &format!("{name}.centre"), &report.sides[0].centre);
+}
+
+fn add_tie(row: &mut Vec<(String, f64)>, report: &TieReport) {
+    let name = format!("tie.{}", report.name);
+    for (side, letter) in report.sides.iter().zip(["a", "b"]) {
+        add_vector(row, &format!("{name}.force_{letter}"), &side.force);
+    }
+    row.push((format!("{name}.mismatch"), report.mismatch));
+    row.push((format!("{name}.moment_mismatch"), report.moment_mismatch));
 }

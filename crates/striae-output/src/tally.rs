@@ -4,9 +4,8 @@ use striae_solve::{
     newton::{Increment, LinearWork},
     outcome::Ending,
     problem::Problem,
-    report::{PairReport, held_reactions, pairs},
+    report::{PairReport, held_reactions, pairs, ties},
     state::State,
-    tie::reports,
     warning::Judgement,
 };
 
@@ -97,17 +96,19 @@ impl Tally {
 }
 
 fn tie_summaries(problem: &Problem, state: &State) -> Vec<TieSummary> {
-    let ties = reports(problem, state).into_iter().zip(&problem.model.ties);
-    ties.map(|(report, model)| TieSummary {
-        name: report.name,
-        force_a: report.sides[0].force.into(),
-        force_b: report.sides[1].force.into(),
-        mismatch: report.mismatch,
-        moment_mismatch: report.moment_mismatch,
-        area: report.area,
-        moved: model.moved,
-    })
-    .collect()
+    let found = ties(problem, state).into_iter();
+    let found = found.zip(&problem.model.ties);
+    found
+        .map(|(report, model)| TieSummary {
+            name: report.name,
+            force_a: report.sides[0].force.into(),
+            force_b: report.sides[1].force.into(),
+            mismatch: report.mismatch,
+            moment_mismatch: report.moment_mismatch,
+            area: report.area,
+            moved: model.moved,
+        })
+        .collect()
 }
 
 fn pair_summary(report: &PairReport) -> PairSummary {

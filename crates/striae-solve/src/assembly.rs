@@ -4,6 +4,7 @@ mod blocks;
 mod contacts;
 mod context;
 mod elements;
+mod followers;
 mod inertia;
 mod linearised;
 mod loads;

@@ -30,8 +30,12 @@ pub fn mass_times(problem: &Problem, vectors: &[Vec3]) -> Vec<Vec3> {
 /// `v . M v / 2`.
 pub fn kinetic_energy(problem: &Problem, velocities: &[Vec3]) -> f64 {
     let momentum = mass_times(problem, velocities);
-    let products = momentum.iter().zip(velocities);
-    0.5 * products.map(|(p, v)| p.dot(v)).sum::<f64>()
+    0.5 * product(&momentum, velocities)
+}
+
+/// `a . b` over all nodes.
+pub(crate) fn product(a: &[Vec3], b: &[Vec3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
 }
 
 /// Linear momentum and angular momentum about the origin.

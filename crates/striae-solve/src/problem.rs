@@ -1,5 +1,10 @@
 //! A validated model, ready to be solved: everything that is the same in all increments.
 
+mod contact_facet;
+mod shadow;
+
+pub use contact_facet::ContactFacet;
+
 use std::collections::HashMap;
 use striae_contact::{
     interference::Fibre,
@@ -7,7 +12,7 @@ use striae_contact::{
     texture::SideTexture,
 };
 use striae_element::{ElementFault, Elements};
-use striae_mesh::{Face, FacetId, NodeId, Vec3};
+use striae_mesh::{Face, NodeId, Vec3};
 use striae_surface::{
     normal::nodal_normals,
     texture::{Conditioning, Paint, Texture, TextureError},
@@ -20,8 +25,10 @@ use crate::{
     contact_mass, interference,
     model::{Model, Pair, RigidShape, Side},
     plan::{StepPlan, plans},
-    tie::{TieFault, Ties, first_nodes, shadowed},
+    tie::{TieFault, Ties, first_nodes},
 };
+use contact_facet::contact_facets;
+use shadow::shadowed;
 
 /// A model with what follows from it.
 #[derive(Clone, Debug)]
@@ -56,17 +63,6 @@ pub struct Problem {
     pub shadowed: Vec<[Vec<bool>; 2]>,
     /// Contact facets that each face of each body is.
     pub contact_facets: HashMap<(usize, Face), Vec<ContactFacet>>,
-}
-
-/// A facet of a side of a pair.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ContactFacet {
-    /// The pair.
-    pub pair: usize,
-    /// Its side.
-    pub side: usize,
-    /// The facet.
-    pub facet: FacetId,
 }
 
 /// A contact pair with its place in the problem.
@@ -228,25 +224,6 @@ impl Problem {
         let own = self.surface_node(pair, side, node);
         own.or_else(|| self.surface_node(pair, 0, node))
     }
-}
-
-fn contact_facets(pairs: &[PairGeometry]) -> HashMap<(usize, Face), Vec<ContactFacet>> {
-    let mut facets: HashMap<_, Vec<_>> = HashMap::new();
-    for (pair, geometry) in pairs.iter().enumerate() {
-        for side in 0..2 {
-            let Some(body) = geometry.bodies[side] else {
-                continue;
-            };
-            for (at, face) in geometry.faces[side].iter().enumerate() {
-                facets.entry((body, *face)).or_default().push(ContactFacet {
-                    pair,
-                    side,
-                    facet: FacetId::new(at),
-                });
-            }
-        }
-    }
-    facets
 }
 
 /// A pair in the reference configuration, without fibres.

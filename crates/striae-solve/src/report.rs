@@ -1,5 +1,9 @@
 //! Resultants, reactions and counts of a state.
 
+mod ties;
+
+pub use ties::{TieReport, TieSide, ties};
+
 use std::collections::BTreeSet;
 
 use striae_contact::{

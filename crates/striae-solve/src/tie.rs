@@ -23,15 +23,11 @@
 
 mod fault;
 mod order;
-mod report;
 mod rows;
-mod shadow;
 mod side;
 mod start;
 
 pub use fault::TieFault;
-pub use report::{TieReport, TieSide, reports};
-pub(crate) use shadow::shadowed;
 pub use start::placed;
 
 use std::collections::BTreeMap;

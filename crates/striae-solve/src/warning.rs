@@ -38,9 +38,8 @@ use crate::{
     newton::Increment,
     outcome::Ending,
     problem::Problem,
-    report::{PairReport, pairs},
+    report::{PairReport, pairs, ties},
     state::{Energies, State},
-    tie::reports,
 };
 
 /// Something that makes results doubtful, with the number it is judged by.
@@ -213,7 +212,7 @@ impl Judgement {
             self.passage(pair, &interferences[pair], after.time);
             self.penetration(problem, pair, after, report.max_pressure);
         }
-        for (tie, report) in reports(problem, after).iter().enumerate() {
+        for (tie, report) in ties(problem, after).iter().enumerate() {
             self.note(Kind::TieMismatch, Some(tie), report.mismatch, after.time);
             self.note(
                 Kind::TieMoment,
@@ -479,12 +478,7 @@ fn warning(model: &Model, worst: &Worst) -> Warning {
             value.to_degrees(),
             1.0 - value.cos()
         ),
-        Kind::TieMismatch => format!(
-            "tie `{name}`: the forces on its sides differ by {value:.1e} of what it transmits at time {time:.4}"
-        ),
-        Kind::TieMoment => format!(
-            "tie `{name}`: the moments on its sides differ by {value:.1e} of what it transmits times its size at time {time:.4}; prescribe all or none of the components of its edge nodes"
-        ),
+        Kind::TieMismatch | Kind::TieMoment => tie_text(worst, name),
         Kind::NeverTouched => format!("pair `{name}` has never touched"),
         Kind::NeverMeets => format!("pair `{name}` can never meet"),
     };
@@ -495,6 +489,18 @@ fn warning(model: &Model, worst: &Worst) -> Warning {
         limit: kind.limit(),
         time,
         text,
+    }
+}
+
+fn tie_text(worst: &Worst, name: &str) -> String {
+    let &Worst { value, time, .. } = worst;
+    match worst.kind {
+        Kind::TieMoment => format!(
+            "tie `{name}`: the moments on its sides differ by {value:.1e} of what it transmits times its size at time {time:.4}; prescribe all or none of the components of its edge nodes"
+        ),
+        _ => format!(
+            "tie `{name}`: the forces on its sides differ by {value:.1e} of what it transmits at time {time:.4}"
+        ),
     }
 }
 

@@ -6,9 +6,8 @@ use striae_element::nodal_cauchy_stress;
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::{
     problem::Problem,
-    report::{self, PairReport, RigidReport},
+    report::{self, PairReport, RigidReport, TieReport},
     state::State,
-    tie::{TieReport, reports},
 };
 
 /// A side of a pair.
@@ -113,7 +112,7 @@ impl<'a> Results<'a> {
 
     /// Forces and moments of a tie.
     pub fn tie(&self, name: &str) -> Option<TieReport> {
-        let all = reports(self.problem, self.state);
+        let all = report::ties(self.problem, self.state);
         all.into_iter().find(|tie| tie.name == name)
     }
 

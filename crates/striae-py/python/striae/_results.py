@@ -420,9 +420,9 @@ class Increment:
         """Results of a tie; which: its name, or its number from 0."""
         index = self._model._position("tie", self._model.tie_names, which)
         found = self._results.tie(index)
-        forces, moments = [[frozen(found[f"{of}_{side}"]) for side in "ab"] for of in ("force", "moment")]
-        numbers = [found[one] for one in ("area", "mismatch", "moment_mismatch")]
-        return TieResults(self._model.tie_names[index], *forces, *moments, *numbers)
+        vectors = [frozen(found[one]) for one in ("force_a", "force_b", "moment_a", "moment_b")]
+        numbers = [float(found[one]) for one in ("area", "mismatch", "moment_mismatch")]
+        return TieResults(self._model.tie_names[index], *vectors, *numbers)
 
     def rigid(self, name: str) -> RigidResults:
         """Results of a rigid body; name: of the body."""

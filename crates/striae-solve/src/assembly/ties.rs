@@ -27,7 +27,6 @@ use crate::{
     composition::Composition,
     problem::Problem,
     rigid::{Wrench, turn_tangent},
-    tie::Ties,
 };
 
 /// An unknown or an equation before ties are eliminated.
@@ -266,36 +265,6 @@ impl System<'_> {
             entries.retain(|(unknown, _)| !fixed[unknown - tie.first]);
         }
         entries
-    }
-
-    /// Turns the residuals of nodes that follow into those of the nodes that they follow, and
-    /// notes what ties exert.
-    pub(super) fn pass_on(&mut self) {
-        let problem = self.context.problem;
-        if problem.ties.is_empty() {
-            return;
-        }
-        let place = |node: usize| self.layout.position(node);
-        let mut forces: Vec<Vec3> = (0..problem.reference.len())
-            .map(|node| Vec3::from_column_slice(&self.residual[place(node)..place(node) + 3]))
-            .collect();
-        for (follower, own) in problem.ties.pass_on(&mut forces) {
-            Ties::react(follower, &own, &mut self.forces.ties);
-        }
-        for (node, force) in forces.iter().enumerate() {
-            let first = place(node);
-            self.residual[first..first + 3].copy_from_slice(force.as_slice());
-        }
-    }
-
-    /// Holds the positions of nodes that follow, which are no unknowns.
-    pub(super) fn hold_followers(&mut self) {
-        for follower in self.context.problem.ties.followers() {
-            let first = self.layout.position(follower.node);
-            for axis in (0..3).filter(|&axis| follower.row[axis].is_some()) {
-                self.hold(first + axis, 0.0, 1.0);
-            }
-        }
     }
 
     /// Turns the residuals of tied nodes into those of their bodies, with the tangent

@@ -30,13 +30,12 @@
 //! ```
 //!
 //! the right hand sides by Chung & Hulbert's formulas, see [`crate::dynamics`]; for
-//! prescribed components, which follow their curves, the left ones; nodes that follow others in
-//! ties have from these what they need, and ties do no work. The last lines
-//! are how far the chords `dr` of the arms `r` are from arcs. Neither looks at the assembled
-//! inertia forces or at the residual. So external work equals kinetic, strain, inelastic,
-//! friction, contact and numerical energy up to the residual that Newton's method leaves only if
-//! mass, inertia, contact and tie forces are those of the equations that were solved. No
-//! node can dissipate less than nothing, as the law of friction holds there at the end.
+//! prescribed components, the left ones; what follows in ties has its own from these. The last
+//! lines are how far the chords `dr` of the arms `r` are from arcs. Neither looks at the
+//! assembled inertia forces or at the residual. So external work equals all other energy up to
+//! the residual that Newton's method leaves only if mass, inertia, contact and tie forces are
+//! those of the equations that were solved. No node can dissipate less than nothing, as the law
+//! of friction holds there at the end.
 
 use std::ops::{Add, Mul};
 
@@ -46,7 +45,7 @@ use striae_mesh::{FacetId, Vec3};
 use crate::{
     assembly::{Assembled, Imposed, StepContext, Trial},
     dynamics::{Scheme, wrenches},
-    mass::{kinetic_energy, mass_times},
+    mass::{kinetic_energy, mass_times, product},
     problem::Problem,
     rigid::Pose,
     stabilisation::Dashpot,
@@ -344,10 +343,6 @@ impl Ends<'_> {
 
 fn mean<T: Mul<f64, Output = T> + Add<Output = T>>(weight: f64, start: T, end: T) -> T {
     start * weight + end * (1.0 - weight)
-}
-
-fn product(a: &[Vec3], b: &[Vec3]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
 }
 
 /// A way that a point of a rigid body goes.

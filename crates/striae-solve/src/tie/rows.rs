@@ -64,9 +64,8 @@ impl Sides {
             ] => [(a.0, on_a), (b.0, on_b)],
             _ => return Err(TieFault::Rigid { tie: name() }),
         };
-        let names = || [a, b].map(|body| model.bodies[body].name.clone());
         if a == b {
-            let [body, _] = names();
+            let body = model.bodies[a].name.clone();
             return Err(TieFault::SameBody { tie: name(), body });
         }
         let pair = contact_pair(model, [(a, faces_a), (b, faces_b)], of_tie.within);
@@ -78,26 +77,7 @@ impl Sides {
         });
         let configuration = Configuration::new(&pair, positions, Placement::at_rest());
         let joined = join(&configuration, of_tie.within);
-        if let Some(apart) = joined.apart {
-            let [a, b] = names();
-            return Err(TieFault::Apart {
-                tie: name(),
-                a,
-                b,
-                gap: apart.gap,
-                share: apart.share,
-                at: apart.place,
-            });
-        }
-        if joined.is_empty() {
-            let [a, b] = names();
-            return Err(TieFault::Nothing {
-                tie: name(),
-                a,
-                b,
-                distance: distance(&configuration),
-            });
-        }
+        unmet(model, &of_tie.name, [a, b], &configuration, &joined)?;
         Ok(Self {
             bodies: [a, b],
             follows: finer(&joined, [a, b].map(|body| &model.bodies[body].mesh)),
@@ -326,6 +306,40 @@ fn contact_pair(
         enforcement: Enforcement::Weighted,
         search_distance: within,
     }
+}
+
+/// Why surfaces do not meet, if they do not.
+fn unmet(
+    model: &Model,
+    tie: &str,
+    bodies: [usize; 2],
+    configuration: &Configuration,
+    joined: &Joined,
+) -> Result<(), TieFault> {
+    let (tie, [a, b]) = (
+        tie.to_owned(),
+        bodies.map(|body| model.bodies[body].name.clone()),
+    );
+    if let Some(apart) = joined.apart {
+        return Err(TieFault::Apart {
+            tie,
+            a,
+            b,
+            gap: apart.gap,
+            share: apart.share,
+            at: apart.place,
+        });
+    }
+    if joined.is_empty() {
+        let distance = distance(configuration);
+        return Err(TieFault::Nothing {
+            tie,
+            a,
+            b,
+            distance,
+        });
+    }
+    Ok(())
 }
 
 /// Distance of the nearest nodes of both sides.

@@ -1,6 +1,6 @@
 //! Ties that meet: three bodies around an edge, layers, parts of one surface.
 
-use striae::{mesh::generate::Block, prelude::*, solve::tie::reports};
+use striae::{mesh::generate::Block, prelude::*, solve::report::ties};
 
 use super::scene::{Finished, rubber, run, tie, unevenness};
 
@@ -15,7 +15,7 @@ fn block(origin: [f64; 3], size: [f64; 3], divisions: [usize; 3]) -> Mesh {
 }
 
 fn balanced(run: &Finished) {
-    for report in reports(&run.problem, &run.state) {
+    for report in ties(&run.problem, &run.state) {
         assert!(report.mismatch < 1e-10, "{report:?}");
         assert!(report.moment_mismatch < 1e-10, "{report:?}");
     }
@@ -105,7 +105,7 @@ fn thin_layers_hand_forces_on() {
     let run = run(stack.step(shear));
     balanced(&run);
     let force = run.results().reaction("fourth.zmax").unwrap();
-    for report in reports(&run.problem, &run.state) {
+    for report in ties(&run.problem, &run.state) {
         let above = report.sides[1].force + force;
         assert!(above.norm() < 1e-8 * force.norm(), "{report:?}");
     }

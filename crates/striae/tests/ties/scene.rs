@@ -5,7 +5,7 @@ use striae::{
     model::{ModelBuilder, StepBuilder},
     nalgebra::Matrix3,
     prelude::*,
-    solve::tie::{TieReport, reports},
+    solve::report::{TieReport, ties},
 };
 pub use striae::{model::tie, prelude::Finished};
 
@@ -83,7 +83,7 @@ pub fn unevenness(run: &Finished) -> f64 {
 
 /// What the only tie amounts to at the end.
 pub fn glue(run: &Finished) -> TieReport {
-    reports(&run.problem, &run.state).remove(0)
+    ties(&run.problem, &run.state).remove(0)
 }
 
 /// Largest distance of the nodes of two runs of the same bodies, whatever their order.

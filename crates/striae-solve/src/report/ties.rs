@@ -31,7 +31,7 @@ pub struct TieSide {
 }
 
 /// Reports of all ties.
-pub fn reports(problem: &Problem, state: &State) -> Vec<TieReport> {
+pub fn ties(problem: &Problem, state: &State) -> Vec<TieReport> {
     let ties = problem.ties.joints.iter().zip(&problem.model.ties);
     ties.enumerate()
         .map(|(tie, (joint, model))| {

@@ -5,8 +5,8 @@
 //! theirs say, and its pressure would not be determined; so it is no candidate for one and
 //! carries what its neighbours have.
 
-use super::Ties;
-use crate::problem::PairGeometry;
+use super::PairGeometry;
+use crate::tie::Ties;
 
 /// Weight over the largest one of a node that is not asked.
 const SMALL: f64 = 0.05;
@@ -15,7 +15,7 @@ const SMALL: f64 = 0.05;
 type Opponent = (Option<usize>, Option<usize>);
 
 /// Such nodes, by pair and side; no lists without ties.
-pub(crate) fn shadowed(
+pub(super) fn shadowed(
     pairs: &[PairGeometry],
     first_node: &[usize],
     ties: &Ties,

@@ -1,0 +1,38 @@
+//! Faces of bodies that are facets of pairs.
+
+use std::collections::HashMap;
+
+use striae_mesh::{Face, FacetId};
+
+use super::PairGeometry;
+
+/// A facet of a side of a pair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ContactFacet {
+    /// The pair.
+    pub pair: usize,
+    /// Its side.
+    pub side: usize,
+    /// The facet.
+    pub facet: FacetId,
+}
+
+/// Contact facets that each face of each body is.
+pub(super) fn contact_facets(pairs: &[PairGeometry]) -> HashMap<(usize, Face), Vec<ContactFacet>> {
+    let mut facets: HashMap<_, Vec<_>> = HashMap::new();
+    for (pair, geometry) in pairs.iter().enumerate() {
+        for side in 0..2 {
+            let Some(body) = geometry.bodies[side] else {
+                continue;
+            };
+            for (at, face) in geometry.faces[side].iter().enumerate() {
+                facets.entry((body, *face)).or_default().push(ContactFacet {
+                    pair,
+                    side,
+                    facet: FacetId::new(at),
+                });
+            }
+        }
+    }
+    facets
+}
