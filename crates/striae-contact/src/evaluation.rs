@@ -61,18 +61,6 @@ pub enum Collapse {
     Facets(CollapsedFacets),
 }
 
-impl From<CollapsedTexture> for Collapse {
-    fn from(collapsed: CollapsedTexture) -> Self {
-        Self::Texture(collapsed)
-    }
-}
-
-impl From<CollapsedFacets> for Collapse {
-    fn from(collapsed: CollapsedFacets) -> Self {
-        Self::Facets(collapsed)
-    }
-}
-
 /// Evaluates a pair; `start` is the last converged configuration.
 ///
 /// Without derivatives the tangents of its terms are not those of the rows, if they are there
@@ -105,7 +93,8 @@ pub fn evaluate(
         }
         Enforcement::Collocated => collocated::kinematics(configuration, selection, &frames),
     };
-    let textures = textures(configuration, selection, &frames, &kinematics)?;
+    let textures = textures(configuration, selection, &frames, &kinematics);
+    let textures = textures.map_err(Collapse::Texture)?;
     let rates = slip_rates(configuration, selection, &kinematics);
     let surroundings = Surroundings {
         frames: &frames,
@@ -124,7 +113,8 @@ pub fn evaluate(
                 tractions,
                 tau: &tau,
             };
-            ramp.add_to_slips(&mut kinematics)?;
+            let added = ramp.add_to_slips(&mut kinematics);
+            added.map_err(Collapse::Facets)?;
         }
     }
     let stage = Stage {
