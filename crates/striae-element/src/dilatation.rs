@@ -167,16 +167,17 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
         let mut points = [Point::default(); Q];
         for (g, point) in points.iter_mut().enumerate() {
             let gradient = self.deformation_gradient(g, current);
-            let ratio = gradient.determinant();
-            let inverse = gradient.try_inverse().filter(|_| ratio > 0.0);
-            let inverse = inverse.ok_or(ElementError::Inverted {
-                point: g,
-                determinant: ratio,
-            })?;
+            let [a, b, c] = [0, 1, 2].map(|j| gradient.column(j).into_owned());
+            let (first, determinant) = (b.cross(&c), a.dot(&b.cross(&c)));
+            if determinant.is_nan() || determinant <= 0.0 {
+                let point = g;
+                return Err(ElementError::Inverted { point, determinant });
+            }
+            let cofactors = Matrix3::from_columns(&[first, c.cross(&a), a.cross(&b)]);
             *point = Point {
                 gradient,
-                inverse_transposed: inverse.transpose(),
-                ratio,
+                inverse_transposed: cofactors / determinant,
+                ratio: determinant,
             };
         }
         let volume = self.mean(|g| points[g].ratio);
@@ -314,15 +315,19 @@ fn add<const N: usize>(to: &mut [[f64; N]; 3], of: &[f64; 9], [x, y, z]: &Gradie
     }
 }
 
-/// The tangent for the mean volume held, by columns.
+/// The tangent for the mean volume held, by columns; of its blocks only those with `i <= k`,
+/// as the stiffness needs no others.
 #[inline(always)]
 fn complete(tangent: &mut [[f64; 9]; 9], square: f64, h: &[f64; 9], w: &[f64; 9], excess: f64) {
-    for (column, entries) in tangent.iter_mut().enumerate() {
-        let (k, l) = (column / 3, column % 3);
-        for row in 0..9 {
-            let mixed = h[row] * w[column] + w[row] * h[column];
-            let crossed = h[3 * (row / 3) + l] * h[3 * k + row % 3];
-            entries[row] = entries[row] * square + mixed - excess * crossed;
+    for (i, k) in COMPONENTS {
+        let along: [f64; 3] = std::array::from_fn(|j| excess * h[3 * k + j]);
+        for l in 0..3 {
+            let (of_h, of_w, across) = (h[3 * k + l], w[3 * k + l], h[3 * i + l]);
+            for j in 0..3 {
+                let (row, entry) = (3 * i + j, &mut tangent[3 * k + l][3 * i + j]);
+                let mixed = h[row] * of_w + w[row] * of_h;
+                *entry = *entry * square + mixed - along[j] * across;
+            }
         }
     }
 }
