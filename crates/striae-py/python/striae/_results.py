@@ -420,9 +420,16 @@ class Increment:
         """Results of a tie; which: its name, or its number from 0."""
         index = self._model._position("tie", self._model.tie_names, which)
         found = self._results.tie(index)
-        vectors = [frozen(found[one]) for one in ("force_a", "force_b", "moment_a", "moment_b")]
-        numbers = [float(found[one]) for one in ("area", "mismatch", "moment_mismatch")]
-        return TieResults(self._model.tie_names[index], *vectors, *numbers)
+        return TieResults(
+            name=self._model.tie_names[index],
+            force=frozen(found["force_a"]),
+            force_b=frozen(found["force_b"]),
+            moment=frozen(found["moment_a"]),
+            moment_b=frozen(found["moment_b"]),
+            area=found["area"],
+            mismatch=found["mismatch"],
+            moment_mismatch=found["moment_mismatch"],
+        )
 
     def rigid(self, name: str) -> RigidResults:
         """Results of a rigid body; name: of the body."""
