@@ -17,7 +17,7 @@ use striae_law::{
     friction::Friction,
 };
 use striae_solve::{
-    assembly::{Contact, ElementPlaces, Setting, StepContext, Trial, Wanted, assemble},
+    assembly::{Contact, ElementPlaces, Setting, StepContext, Trial, assemble},
     layout::{Extent, Layout},
     model::Backend,
     problem::Problem,
@@ -186,7 +186,17 @@ fn assembly(model: &striae_solve::model::Model) -> Result<Value, Box<dyn Error>>
     Ok(timed("assembly", "elements", elements, || {
         let contact = Contact::Known(Vec::new());
         let parts = (&partition, &places, &mut matrix);
-        black_box(assemble(&setting, &trial, contact, Wanted::Tangent, &layout, parts).is_ok());
+        black_box(
+            assemble(
+                &setting,
+                &trial,
+                contact,
+                Derivatives::First,
+                &layout,
+                parts,
+            )
+            .is_ok(),
+        );
     }))
 }
 

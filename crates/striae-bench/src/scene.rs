@@ -2,10 +2,11 @@
 
 use std::{error::Error, path::Path};
 use striae_condensed::Partition;
+use striae_contact::segment::Derivatives;
 use striae_deck as deck;
 use striae_mesh::generate::CappedBlock;
 use striae_solve::{
-    assembly::{Contact, ElementPlaces, Fault, Setting, StepContext, Trial, Wanted, assemble},
+    assembly::{Contact, ElementPlaces, Fault, Setting, StepContext, Trial, assemble},
     layout::{Extent, Layout},
     model::{Backend, Model},
     problem::Problem,
@@ -161,7 +162,14 @@ pub fn stiffness(model: &Model) -> Result<SparseMatrix, Box<dyn Error>> {
     };
     let contact = Contact::Known(Vec::new());
     let parts = (&partition, &places, &mut matrix);
-    match assemble(&setting, &trial, contact, Wanted::Tangent, &layout, parts) {
+    match assemble(
+        &setting,
+        &trial,
+        contact,
+        Derivatives::First,
+        &layout,
+        parts,
+    ) {
         Ok(_) => Ok(matrix),
         Err(Fault::CutBack(reason)) => Err(reason.to_string().into()),
         Err(Fault::Pattern(_)) => Err("an element is outside the pattern".into()),

@@ -78,27 +78,6 @@ pub enum Contact {
     Known(Vec<Evaluation>),
 }
 
-/// What an assembly is asked for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Wanted {
-    /// The residual and results.
-    Residual,
-    /// The matrix, too.
-    Tangent,
-    /// The matrix, and all but contact by itself.
-    Background,
-}
-
-impl Wanted {
-    /// The derivatives that it takes.
-    pub fn derivatives(self) -> Derivatives {
-        match self {
-            Self::Residual => Derivatives::None,
-            Self::Tangent | Self::Background => Derivatives::First,
-        }
-    }
-}
-
 /// Residual and results at a trial state.
 #[derive(Clone, Debug)]
 pub struct Assembled {
@@ -115,8 +94,8 @@ pub struct Assembled {
     pub contacts: Vec<Evaluation>,
     /// Whether the matrix is of this state.
     pub derivatives: Derivatives,
-    /// All but contact, if it was asked for.
-    pub background: Option<Background>,
+    /// All but contact.
+    pub background: Background,
     /// Time that contact took on the clock, most of it beside the bodies; for profiles only.
     pub contact_time: Duration,
 }
@@ -139,7 +118,7 @@ pub fn assemble(
     setting: &Setting,
     trial: &Trial,
     contact: Contact,
-    wanted: Wanted,
+    derivatives: Derivatives,
     layout: &Layout,
     (partition, places, matrix): (&Partition, &ElementPlaces, &mut SparseMatrix),
 ) -> Result<Assembled, Fault> {
@@ -149,7 +128,7 @@ pub fn assemble(
             setting,
             trial,
             contact,
-            wanted,
+            derivatives,
             layout,
             (partition, places, matrix),
         )
@@ -160,11 +139,11 @@ fn on_this_thread(
     setting: &Setting,
     trial: &Trial,
     contact: Contact,
-    wanted: Wanted,
+    derivatives: Derivatives,
     layout: &Layout,
     (partition, places, matrix): (&Partition, &ElementPlaces, &mut SparseMatrix),
 ) -> Result<Assembled, Fault> {
-    let (imposed, derivatives) = (setting.imposed, wanted.derivatives());
+    let imposed = setting.imposed;
     let mut system = System::new(setting.context, layout, (partition, matrix), trial, imposed);
     match derivatives {
         Derivatives::First => system.matrix.clear(),
@@ -181,7 +160,10 @@ fn on_this_thread(
     );
     let (contacts, evaluation_time) = evaluated;
     let (contacts, bodies) = (contacts?, bodies?);
-    let background = (wanted == Wanted::Background).then(|| system.background());
+    let background = match derivatives {
+        Derivatives::First => system.background(),
+        Derivatives::None => Background::default(),
+    };
     let ((), adding_time) = timed(|| system.add_contacts(&contacts));
     system.stabilise(trial, imposed);
     if !system.outside.is_empty() {

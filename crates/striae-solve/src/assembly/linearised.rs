@@ -20,7 +20,7 @@ use super::{Fault, Setting, System, Trial, configurations, contacts::contacts};
 use crate::{layout::Layout, norms::Norms};
 
 /// All but contact at a trial state.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Background {
     /// Tangent in the rows of kept supervariables.
     rows: Vec<f64>,

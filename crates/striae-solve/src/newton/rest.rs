@@ -37,7 +37,7 @@ pub(super) fn contact_at_rest(
     }
     let tolerance = setting.context.problem.model.solver.tolerance;
     let enough = before.map_or(AT_REST, |norm| (LEFT * norm * norm).max(0.1 * tolerance));
-    let background = assembled.background.as_ref()?;
+    let background = &assembled.background;
     let mut whole = correction.to_vec();
     let mut from = trial.clone();
     labelled(&mut from, &assembled.contacts);

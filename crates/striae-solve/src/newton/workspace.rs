@@ -16,7 +16,7 @@ use super::{course::Course, work::LinearWork};
 use crate::{
     assembly::{
         Assembled, Background, Contact, ContactAssembled, ElementPlaces, Fault, Imposed, Setting,
-        StepContext, Trial, Wanted, assemble, assemble_contact, initial_accelerations,
+        StepContext, Trial, assemble, assemble_contact, initial_accelerations,
     },
     layout::{Extent, Layout},
     model::Backend,
@@ -155,24 +155,13 @@ impl Workspace {
         derivatives: Derivatives,
     ) -> Result<Assembled, Fault> {
         let started = Instant::now();
-        let wanted = self.wanted(derivatives);
         let system = self.system.as_mut().expect("the workspace was prepared");
         let parts = (&system.partition, &system.places, &mut system.matrix);
-        let assembled = assemble(setting, trial, contact, wanted, &system.layout, parts);
+        let assembled = assemble(setting, trial, contact, derivatives, &system.layout, parts);
         self.work.times.assembly += started.elapsed();
         let of_contact = assembled.as_ref().map(|assembled| assembled.contact_time);
         self.work.times.pairs += of_contact.unwrap_or_default();
         assembled
-    }
-
-    /// What to ask an assembly for: the background, if contact may be corrected on it.
-    fn wanted(&self, derivatives: Derivatives) -> Wanted {
-        let analysed = self.system.as_ref().is_some_and(|system| system.analysed);
-        match derivatives {
-            Derivatives::None => Wanted::Residual,
-            Derivatives::First if analysed && !self.corrects_contact() => Wanted::Tangent,
-            Derivatives::First => Wanted::Background,
-        }
     }
 
     /// Whether contact can be corrected on linearised bodies.

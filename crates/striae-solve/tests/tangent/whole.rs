@@ -4,13 +4,14 @@ use nalgebra::DVector;
 use striae_condensed::Partition;
 use striae_contact::{
     complementarity::Iteration,
+    segment::Derivatives,
     selection::{Before, Selection},
     unknowns::Status,
 };
 use striae_solve::{
     assembly::{
-        Assembled, Contact, ElementPlaces, Fault, Imposed, Setting, StepContext, Trial, Wanted,
-        assemble, assemble_contact,
+        Assembled, Contact, ElementPlaces, Fault, Imposed, Setting, StepContext, Trial, assemble,
+        assemble_contact,
     },
     layout::{Extent, Layout},
     state::State,
@@ -133,7 +134,7 @@ impl<'a> Whole<'a> {
     /// as it is.
     fn assert_rows_alone(&self, u: &DVector<f64>, whole: &Assembled, matrix: &SparseMatrix) {
         let mut kept = matrix.clone();
-        let alone = self.filled(u, Wanted::Residual, &mut kept);
+        let alone = self.filled(u, Derivatives::None, &mut kept);
         assert_eq!(alone.residual, whole.residual);
         assert_eq!(alone.norms, whole.norms);
         assert_eq!(alone.forces, whole.forces);
@@ -159,7 +160,7 @@ impl<'a> Whole<'a> {
             let mut matrix = matrix.clone();
             let found = assemble_contact(
                 &setting,
-                assembled.background.as_ref().expect("it was asked for"),
+                &assembled.background,
                 (&trial, change.as_slice()),
                 Iteration::LATER,
                 &self.layout,
@@ -215,18 +216,23 @@ impl<'a> Whole<'a> {
 
     fn evaluated(&self, u: &DVector<f64>) -> (Assembled, SparseMatrix) {
         let mut matrix = SparseMatrix::zero(self.partition.structure());
-        let assembled = self.filled(u, Wanted::Background, &mut matrix);
+        let assembled = self.filled(u, Derivatives::First, &mut matrix);
         (assembled, matrix)
     }
 
-    fn filled(&self, u: &DVector<f64>, wanted: Wanted, matrix: &mut SparseMatrix) -> Assembled {
+    fn filled(
+        &self,
+        u: &DVector<f64>,
+        derivatives: Derivatives,
+        matrix: &mut SparseMatrix,
+    ) -> Assembled {
         let contact = Contact::Evaluated(Iteration::LATER);
         let trial = self.trial(u);
         let structure = self.partition.structure();
         let places = ElementPlaces::new(self.context.problem, &self.layout, structure);
         let parts = (&self.partition, &places, matrix);
         let (setting, layout) = (self.setting(), &self.layout);
-        match assemble(&setting, &trial, contact, wanted, layout, parts) {
+        match assemble(&setting, &trial, contact, derivatives, layout, parts) {
             Ok(assembled) => assembled,
             Err(Fault::CutBack(reason)) => panic!("{reason}"),
             Err(Fault::Pattern(_)) => panic!("the pattern is full"),
