@@ -17,7 +17,7 @@ use striae_law::{
     friction::Friction,
 };
 use striae_solve::{
-    assembly::{Contact, ElementPlaces, Setting, StepContext, Trial, assemble},
+    assembly::{Background, Contact, ElementPlaces, Setting, StepContext, Trial, assemble},
     layout::{Extent, Layout},
     model::Backend,
     problem::Problem,
@@ -194,6 +194,7 @@ fn assembly(model: &striae_solve::model::Model) -> Result<Value, Box<dyn Error>>
                 Derivatives::First,
                 &layout,
                 parts,
+                Background::default(),
             )
             .is_ok(),
         );

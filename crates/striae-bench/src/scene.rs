@@ -6,7 +6,7 @@ use striae_contact::segment::Derivatives;
 use striae_deck as deck;
 use striae_mesh::generate::CappedBlock;
 use striae_solve::{
-    assembly::{Contact, ElementPlaces, Fault, Setting, StepContext, Trial, assemble},
+    assembly::{Background, Contact, ElementPlaces, Fault, Setting, StepContext, Trial, assemble},
     layout::{Extent, Layout},
     model::{Backend, Model},
     problem::Problem,
@@ -169,6 +169,7 @@ pub fn stiffness(model: &Model) -> Result<SparseMatrix, Box<dyn Error>> {
         Derivatives::First,
         &layout,
         parts,
+        Background::default(),
     ) {
         Ok(_) => Ok(matrix),
         Err(Fault::CutBack(reason)) => Err(reason.to_string().into()),

@@ -15,6 +15,7 @@ mod untouched;
 
 use crate::{
     bulk::Body,
+    entries::Kept,
     experience::FactoredInterior,
     interface::Purpose,
     partition::Partition,
@@ -40,9 +41,7 @@ const NONE: u32 = u32::MAX;
 pub(crate) struct Condensed {
     partition: Partition,
     bodies: Vec<Body>,
-    /// Unknowns that are kept, rising, and the place of every unknown among them.
-    kept: Vec<u32>,
-    place: Vec<u32>,
+    kept: Kept,
     /// Place of the kept unknowns of every body.
     blocks: Vec<Vec<u32>>,
     numeric: Option<Numeric>,
@@ -60,18 +59,11 @@ impl Condensed {
     /// Plans the elimination of what is not kept.
     pub(crate) fn analyse(partition: &Partition) -> Result<Self, SolveError> {
         let bodies = Body::all(partition)?;
-        let kept: Vec<u32> = partition
-            .kept()
-            .flat_map(|i| partition.unknowns_of(i).map(|u| u as u32))
-            .collect();
-        let mut place = vec![NONE; partition.unknowns()];
-        for (k, &unknown) in kept.iter().enumerate() {
-            place[unknown as usize] = k as u32;
-        }
+        let kept = Kept::of(partition);
         let blocks = bodies.iter().map(|body| {
             let local = body.schur.kept_unknowns().iter();
             local
-                .map(|&u| place[body.unknowns[u] as usize])
+                .map(|&u| kept.place(body.unknowns[u] as usize))
                 .collect::<Vec<u32>>()
         });
         Ok(Self {
@@ -79,7 +71,6 @@ impl Condensed {
             partition: partition.clone(),
             bodies,
             kept,
-            place,
             numeric: None,
         })
     }
@@ -129,14 +120,15 @@ impl Condensed {
         if !self.partition.fits(matrix) {
             return Err(SolveError::NotAnalysed);
         }
-        let scaling = scaling::by_diagonal(&self.partition, matrix, None)?;
+        let rows = self.kept.rows(&self.partition, matrix)?;
+        let scaling = scaling::by_diagonal(&self.partition, matrix, (&self.kept, &rows))?;
         let prescribed = prescribed(&self.partition, matrix);
         let (partition, bodies) = (&self.partition, self.bodies.par_iter_mut());
         bodies.try_for_each(|body| {
             body.factor((partition, matrix), &scaling, &prescribed, precision)
         })?;
         let nothing = ContactSystem::default();
-        self.factor_contact(matrix, scaling, (prescribed, precision), nothing)
+        self.factor_contact(rows, scaling, (prescribed, precision), nothing)
     }
 
     /// Eliminates what contact does not touch anew with the next matrix.
@@ -197,9 +189,11 @@ impl Condensed {
         if !self.partition.fits(matrix) || prescribed(&self.partition, matrix) != older.prescribed {
             return Ok(None);
         }
-        let scaling = scaling::by_diagonal(&self.partition, matrix, Some(&older.scaling))?;
+        let rows = self.kept.rows(&self.partition, matrix)?;
+        let bulk = older.scaling.columns;
+        let scaling = scaling::with_multipliers(&self.partition, bulk, (&self.kept, &rows));
         let interior = (older.prescribed, older.precision);
-        self.factor_contact(matrix, scaling, interior, older.contact)
+        self.factor_contact(rows, scaling, interior, older.contact)
             .map(Some)
     }
 

@@ -28,6 +28,7 @@ mod scaled;
 use crate::{
     bulk,
     condensed::prescribed,
+    entries::Kept,
     partition::Partition,
     report::{Analysis, Factored, Method},
     scaling,
@@ -135,7 +136,10 @@ impl Iterative {
         if !self.nodes.partition.fits(matrix) {
             return Err(SolveError::NotAnalysed);
         }
-        let scaling = scaling::by_diagonal(&self.nodes.partition, matrix, None)?;
+        let partition = &self.nodes.partition;
+        let kept = Kept::of(partition);
+        let rows = kept.rows(partition, matrix)?;
+        let scaling = scaling::by_diagonal(partition, matrix, (&kept, &rows))?;
         let prescribed = prescribed(&self.nodes.partition, matrix);
         let scaled = Scaled {
             nodes: &self.nodes,

@@ -9,10 +9,11 @@ use striae_sparse::{SparseMatrix, Supervariable};
 const OWNERS: usize = 16;
 
 impl Partition {
-    /// Values in the rows of the kept supervariables.
-    pub fn kept_rows(&self, matrix: &SparseMatrix) -> Vec<f64> {
+    /// Values in the rows of the kept supervariables, in the `room` of older ones.
+    pub fn kept_rows(&self, matrix: &SparseMatrix, room: Vec<f64>) -> Vec<f64> {
         let count = self.kept_ranges().map(|range| range.len()).sum();
-        let mut values = vec![0.0; count];
+        let mut values = room;
+        values.resize(count, 0.0);
         let mut copies = Vec::new();
         let mut rest = values.as_mut_slice();
         for range in self.kept_ranges() {

@@ -31,6 +31,7 @@
 mod automatic;
 mod bulk;
 mod condensed;
+mod entries;
 mod experience;
 mod interface;
 mod iterative;

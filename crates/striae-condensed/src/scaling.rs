@@ -1,140 +1,122 @@
 //! Scaling by the diagonal of the bulk.
 
-use crate::partition::Partition;
+use crate::{entries::Kept, partition::Partition};
 use rayon::prelude::*;
-use std::ops::Range;
-use striae_sparse::{Equilibration, SolveError, SparseMatrix, Supervariable, check_finite, root};
+use striae_sparse::{
+    Equilibration, SolveError, SparseMatrix, check_finite, root, sparse_elimination::Row,
+};
 
-/// Factors from the diagonal of the bulk, for the condensed solver.
+/// Rows that a thread looks at at a time.
+const ROWS: usize = 512;
+
+/// Factors from the diagonal of the bulk, for the condensed solver; `rows` are the entries
+/// between kept unknowns.
 ///
 /// Bulk unknowns and their rows get `1/sqrt|a_ii|`. The multipliers of a
 /// supervariable are scaled alike, to the largest entry that bulk rows have in
 /// their columns: one that acts on prescribed unknowns leaves no more than
 /// round-off there. Their rows are scaled to the largest entry. Multipliers
 /// that only other multipliers know come last.
-///
-/// With an `older` one the bulk unknowns keep its factors.
 pub(crate) fn by_diagonal(
     partition: &Partition,
     matrix: &SparseMatrix,
-    older: Option<&Equilibration>,
+    (kept, rows): (&Kept, &[Row]),
 ) -> Result<Equilibration, SolveError> {
     check_finite(matrix)?;
-    let n = partition.unknowns();
-    let mut scaling = Equilibration {
-        rows: vec![1.0; n],
-        columns: vec![1.0; n],
-    };
-    let mut multipliers = Vec::new();
+    let mut bulk = vec![1.0; partition.unknowns()];
     for i in 0..partition.supervariables() {
-        multipliers.extend(partition.multiplier_group(i));
         for u in partition.bulk_group(i) {
-            let scale = match older {
-                Some(older) => older.columns[u],
-                None => root(matrix.get(u, u).unwrap_or(0.0).abs()),
-            };
-            (scaling.rows[u], scaling.columns[u]) = (scale, scale);
+            bulk[u] = root(matrix.get(u, u).unwrap_or(0.0).abs());
         }
     }
-    let mut is_multiplier = vec![false; n];
-    multipliers.iter().for_each(|&m| is_multiplier[m] = true);
-    let kept_bulk = |i: usize| match partition.is_kept(Supervariable(i)) {
-        true => partition.bulk_group(i),
-        false => 0..0,
+    Ok(with_multipliers(partition, bulk, (kept, rows)))
+}
+
+/// The same for the factors of bulk unknowns that there are.
+pub(crate) fn with_multipliers(
+    partition: &Partition,
+    bulk: Vec<f64>,
+    (kept, rows): (&Kept, &[Row]),
+) -> Equilibration {
+    let mut scaling = Equilibration {
+        columns: bulk.clone(),
+        rows: bulk,
     };
-    let mut largest = largest_in_columns((partition, matrix), &scaling.rows, |_| true, kept_bulk);
-    for i in 0..partition.supervariables() {
-        if !partition.bulk_group(i).is_empty() {
-            let own = &mut largest[partition.multiplier_group(i)];
+    let multipliers = || (0..kept.unknowns.len()).filter(|&k| kept.is_multiplier[k]);
+    let mut largest = largest_in_columns((kept, rows), &scaling.rows, |k| !kept.is_multiplier[k]);
+    for i in partition.kept().map(|i| i.0) {
+        let group = partition.multiplier_group(i);
+        if !partition.bulk_group(i).is_empty() && !group.is_empty() {
+            let first = kept.place(group.start) as usize;
+            let own = &mut largest[first..first + group.len()];
             let common = own.iter().copied().fold(0.0, f64::max);
             own.fill(common);
         }
     }
-    multipliers
-        .iter()
-        .for_each(|&m| scaling.columns[m] = inverse(largest[m]));
-    let unknown = |v: usize| is_multiplier[v] && largest[v] == 0.0;
-    let columns: Vec<f64> = (0..n)
-        .map(|v| if unknown(v) { 0.0 } else { scaling.columns[v] })
-        .collect();
-    scale_rows(&mut scaling, matrix, &multipliers, &columns);
-    if !multipliers.iter().any(|&m| unknown(m)) {
-        return Ok(scaling);
+    // Columns of multipliers that bulk rows do not know count as nothing at first.
+    let known = |k: usize| largest[k] != 0.0;
+    for k in multipliers() {
+        let factor = if known(k) { inverse(largest[k]) } else { 0.0 };
+        scaling.columns[kept.unknowns[k] as usize] = factor;
     }
-    let with_unknown = |i: usize| partition.multiplier_group(i).any(unknown);
-    let others = |i: usize| partition.multiplier_group(i);
-    let late = largest_in_columns((partition, matrix), &scaling.rows, with_unknown, others);
-    for &m in multipliers.iter().filter(|&&m| unknown(m)) {
-        scaling.columns[m] = inverse(late[m]);
+    scale_rows(&mut scaling, (kept, rows));
+    if multipliers().all(known) {
+        return scaling;
     }
-    let columns = scaling.columns.clone();
-    scale_rows(&mut scaling, matrix, &multipliers, &columns);
-    Ok(scaling)
+    let late = largest_in_columns((kept, rows), &scaling.rows, |k| kept.is_multiplier[k]);
+    for k in multipliers().filter(|&k| !known(k)) {
+        scaling.columns[kept.unknowns[k] as usize] = inverse(late[k]);
+    }
+    scale_rows(&mut scaling, (kept, rows));
+    scaling
 }
 
-/// Scales some rows to the largest of their entries times `columns`.
-fn scale_rows(scaling: &mut Equilibration, matrix: &SparseMatrix, rows: &[usize], columns: &[f64]) {
-    let sizes = rows.par_iter().with_min_len(16);
-    let sizes: Vec<f64> = sizes
-        .map(|&row| inverse(largest_in_row(matrix, row, columns)))
+/// Scales the rows of multipliers to the largest of their entries times the factors of columns.
+fn scale_rows(scaling: &mut Equilibration, (kept, rows): (&Kept, &[Row])) {
+    let columns = &scaling.columns;
+    let size = |row: &Row| {
+        let sizes = row
+            .iter()
+            .map(|&(k, a)| a.abs() * columns[kept.unknowns[k as usize] as usize]);
+        inverse(sizes.fold(0.0, f64::max))
+    };
+    let all = rows.par_iter().zip(&kept.is_multiplier).with_min_len(64);
+    let sizes: Vec<Option<f64>> = all
+        .map(|(row, &is_multiplier)| is_multiplier.then(|| size(row)))
         .collect();
-    for (&row, size) in rows.iter().zip(sizes) {
-        scaling.rows[row] = size;
-    }
-}
-
-/// Largest magnitude of the entries of a row times factors of the columns.
-fn largest_in_row(matrix: &SparseMatrix, row: usize, columns: &[f64]) -> f64 {
-    let structure = matrix.structure();
-    let i = structure.owner(row).0;
-    let mut values = &matrix.values()[structure.row(i, row - structure.group(i).start)];
-    let mut largest = 0.0_f64;
-    for group in structure.column_groups(i) {
-        let (own, others) = values.split_at(group.len());
-        values = others;
-        for (a, factor) in own.iter().zip(&columns[group]) {
-            largest = largest.max(a.abs() * factor);
+    for (&unknown, size) in kept.unknowns.iter().zip(sizes) {
+        if let Some(size) = size {
+            scaling.rows[unknown as usize] = size;
         }
     }
-    largest
 }
 
-/// Largest magnitude of the entries in each column of the multipliers of some supervariables,
-/// in some rows of each neighbour, times factors of the rows; zero in all other columns.
+/// Largest magnitude of the entries in the column of each multiplier in the rows that are
+/// wanted, times factors of the rows; zero in all other columns.
 fn largest_in_columns(
-    (structure, matrix): (&Partition, &SparseMatrix),
+    (kept, rows): (&Kept, &[Row]),
     factors: &[f64],
     wanted: impl Fn(usize) -> bool + Sync,
-    rows: impl Fn(usize) -> Range<usize> + Sync,
 ) -> Vec<f64> {
-    let of_one = |&t: &usize| {
-        let own = structure.multiplier_group(t);
-        let mut largest = vec![0.0_f64; own.len()];
-        for i in structure.edges(t).map(|edge| structure.target(edge)) {
-            let rows = rows(i);
-            // The pattern is symmetric, so the mirrored edge exists.
-            let Some(edge) = structure.edge(i, t).filter(|_| !rows.is_empty()) else {
-                continue;
-            };
-            let offset = structure.column(edge) + own.start - structure.group(t).start;
-            for row in rows {
-                let place = structure.row(i, row - structure.group(i).start);
-                let entries = &matrix.values()[place][offset..];
-                for (largest, a) in largest.iter_mut().zip(entries) {
-                    *largest = largest.max(a.abs() * factors[row]);
+    let chunks = rows.par_chunks(ROWS).enumerate();
+    let found = chunks.map(|(chunk, rows)| {
+        let mut largest = vec![0.0_f64; kept.unknowns.len()];
+        for (k, row) in (chunk * ROWS..).zip(rows).filter(|(k, _)| wanted(*k)) {
+            let factor = factors[kept.unknowns[k] as usize];
+            for &(column, a) in row {
+                let column = column as usize;
+                if kept.is_multiplier[column] {
+                    largest[column] = largest[column].max(a.abs() * factor);
                 }
             }
         }
         largest
+    });
+    let larger = |mut all: Vec<f64>, some: Vec<f64>| {
+        all.iter_mut().zip(some).for_each(|(a, b)| *a = a.max(b));
+        all
     };
-    let has_any = |t: &usize| !structure.multiplier_group(*t).is_empty() && wanted(*t);
-    let owners: Vec<usize> = (0..structure.supervariables()).filter(has_any).collect();
-    let found: Vec<Vec<f64>> = owners.par_iter().with_min_len(8).map(of_one).collect();
-    let mut largest = vec![0.0; structure.unknowns()];
-    for (&t, found) in owners.iter().zip(found) {
-        largest[structure.multiplier_group(t)].copy_from_slice(&found);
-    }
-    largest
+    found.reduce(|| vec![0.0; kept.unknowns.len()], larger)
 }
 
 /// Power of two nearest to `1/maximum` in the exponent; one for zero.

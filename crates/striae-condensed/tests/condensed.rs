@@ -442,7 +442,7 @@ fn other_contact_is_solved_on_the_same_interior() {
     ] {
         let other = blocks.matrix([1.0, 2.0], contact);
         let partition = &blocks.partition;
-        partition.set_kept_rows(&mut matrix, &partition.kept_rows(&other));
+        partition.set_kept_rows(&mut matrix, &partition.kept_rows(&other, Vec::new()));
         let x = solver.solve_other_contact(&matrix, &rhs).unwrap().unwrap();
         let (expected, _) = solution(
             &mut Automatic::new(Choice::Multifrontal),

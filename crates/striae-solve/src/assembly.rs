@@ -110,7 +110,7 @@ pub enum Fault {
 }
 
 /// Evaluates the problem at a trial state and fills the matrix; without derivatives the matrix
-/// stays as it is.
+/// stays as it is. The background takes the `room` of one that is of no use any more.
 ///
 /// # Errors
 /// See [`Fault`].
@@ -121,6 +121,7 @@ pub fn assemble(
     derivatives: Derivatives,
     layout: &Layout,
     (partition, places, matrix): (&Partition, &ElementPlaces, &mut SparseMatrix),
+    room: Background,
 ) -> Result<Assembled, Fault> {
     // On a thread of the pool, as from others each parallel part would have to wake one.
     rayon::scope(|_| {
@@ -131,6 +132,7 @@ pub fn assemble(
             derivatives,
             layout,
             (partition, places, matrix),
+            room,
         )
     })
 }
@@ -142,6 +144,7 @@ fn on_this_thread(
     derivatives: Derivatives,
     layout: &Layout,
     (partition, places, matrix): (&Partition, &ElementPlaces, &mut SparseMatrix),
+    room: Background,
 ) -> Result<Assembled, Fault> {
     let imposed = setting.imposed;
     let mut system = System::new(setting.context, layout, (partition, matrix), trial, imposed);
@@ -161,7 +164,7 @@ fn on_this_thread(
     let (contacts, evaluation_time) = evaluated;
     let (contacts, bodies) = (contacts?, bodies?);
     let background = match derivatives {
-        Derivatives::First => system.background(),
+        Derivatives::First => system.background(room),
         Derivatives::None => Background::default(),
     };
     let ((), adding_time) = timed(|| system.add_contacts(&contacts));

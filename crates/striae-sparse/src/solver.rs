@@ -50,7 +50,8 @@ pub struct FactorReport {
 /// How accurate a solution is and what it took.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SolveReport {
-    /// Componentwise backward error.
+    /// Componentwise backward error; with older factors the size of the residual of the
+    /// equilibrated system over that of its right-hand side.
     pub backward_error: f64,
     /// Steps of iterative refinement.
     pub refinements: usize,

@@ -6,14 +6,13 @@ use super::{
 };
 use crate::{
     interface::{self, Block, Compliant, Flexibility, Interface, Kind, Places, Purpose, Trial},
-    partition::Partition,
     report::{Factored, Method},
 };
 use rayon::prelude::*;
-use striae_sparse::{
-    Equilibration, Precision, SolveError, SparseMatrix, Supervariable, sparse_elimination::Row,
-};
+use striae_sparse::{Equilibration, Precision, SolveError, sparse_elimination::Row};
 
+/// Rows that a thread scales at a time.
+const ROWS: usize = 64;
 /// Smallest pivots of a regular contact system, on an interior of either precision.
 const SINGULAR: f64 = 1e-12;
 const SINGULAR_SINGLE: f64 = 1e-5;
@@ -41,7 +40,7 @@ pub(super) struct ContactSystem {
 #[derive(Debug)]
 enum Solver {
     /// With the flexibilities of the bodies.
-    Compliant(Compliant),
+    Compliant(Box<Compliant>),
     /// By elimination, where a body has no flexibility.
     Eliminated(Box<Interface>),
 }
@@ -81,17 +80,18 @@ impl ContactSystem {
 }
 
 impl Condensed {
-    /// Factors the contact system, with what there was in an older one.
+    /// Factors the contact system, with what there was in an older one; `rows` are the entries
+    /// between kept unknowns.
     pub(super) fn factor_contact(
         &mut self,
-        matrix: &SparseMatrix,
+        mut rows: Vec<Row>,
         scaling: Equilibration,
         (prescribed, precision): (Vec<bool>, Precision),
         older: ContactSystem,
     ) -> Result<Factored, SolveError> {
-        let known = known(&self.partition, matrix, &prescribed);
+        let known = self.known(&rows, &prescribed);
         let mut kinds = self.kinds(&known);
-        let mut rows = self.rows(matrix, &scaling, &known);
+        self.scale(&mut rows, &scaling, &known);
         let (smallest, unsupported) = match precision {
             Precision::Single => (SINGULAR_SINGLE, UNSUPPORTED_SINGLE),
             Precision::Double => (SINGULAR, UNSUPPORTED),
@@ -112,7 +112,7 @@ impl Condensed {
         let solver = match &flexibility {
             Some(flexibility) => {
                 Compliant::factor(&places, rows, (&blocks, flexibility), (smallest, trial))
-                    .map(Solver::Compliant)
+                    .map(|compliant| Solver::Compliant(Box::new(compliant)))
             }
             None => Err(rows),
         };
@@ -194,14 +194,14 @@ impl Condensed {
 
     /// Kinds of the kept unknowns.
     fn kinds(&self, known: &[bool]) -> Vec<Kind> {
-        let mut kinds = vec![Kind::Multiplier; self.kept.len()];
+        let mut kinds = vec![Kind::Multiplier; self.kept.unknowns.len()];
         for (block, places) in self.blocks.iter().enumerate() {
             for (row, &k) in places.iter().enumerate() {
                 let (block, row) = (block as u32, row as u32);
                 kinds[k as usize] = Kind::Bulk { block, row };
             }
         }
-        for (kind, &unknown) in kinds.iter_mut().zip(&self.kept) {
+        for (kind, &unknown) in kinds.iter_mut().zip(&self.kept.unknowns) {
             if known[unknown as usize] {
                 *kind = Kind::Apart;
             }
@@ -209,43 +209,30 @@ impl Condensed {
         kinds
     }
 
-    /// Scaled entries between the kept unknowns, but for known ones.
-    fn rows(&self, matrix: &SparseMatrix, scaling: &Equilibration, known: &[bool]) -> Vec<Row> {
-        let structure = &self.partition;
-        let row = |&u: &u32| {
-            let u = u as usize;
-            if known[u] {
-                return Row::new();
-            }
-            let owner = structure.owner(u).0;
-            let values = &matrix.values()[structure.row(owner, u - structure.group(owner).start)];
-            let factor = scaling.rows[u];
-            let mut row = Row::with_capacity(values.len());
-            for edge in structure.edges(owner) {
-                let target = structure.target(edge);
-                if !structure.is_kept(Supervariable(target)) {
-                    continue;
-                }
-                let values = &values[structure.column(edge)..];
-                for (v, &a) in structure.group(target).zip(values) {
-                    if a != 0.0 && !known[v] {
-                        row.push((self.place[v], a * factor * scaling.columns[v]));
-                    }
-                }
-            }
-            row
-        };
-        self.kept.par_iter().map(row).collect()
-    }
-}
-
-/// Prescribed unknowns, and kept multipliers whose rows have no entry but the diagonal.
-fn known(partition: &Partition, matrix: &SparseMatrix, prescribed: &[bool]) -> Vec<bool> {
-    let mut known = prescribed.to_vec();
-    for i in partition.kept().map(|Supervariable(i)| i) {
-        for u in partition.multiplier_group(i) {
-            known[u] = matrix.row(u).all(|(v, a)| (u == v) == (a != 0.0));
+    /// Prescribed unknowns, and kept multipliers whose rows have no entry but the diagonal.
+    fn known(&self, rows: &[Row], prescribed: &[bool]) -> Vec<bool> {
+        let mut known = prescribed.to_vec();
+        let rows = (0..).zip(rows).zip(&self.kept.is_multiplier);
+        for ((k, row), _) in rows.filter(|(_, is_multiplier)| **is_multiplier) {
+            known[self.kept.unknowns[k as usize] as usize] = matches!(row[..], [(c, _)] if c == k);
         }
+        known
     }
-    known
+
+    /// Scales entries between kept unknowns and leaves out those with known ones.
+    fn scale(&self, rows: &mut [Row], scaling: &Equilibration, known: &[bool]) {
+        let unknowns = &self.kept.unknowns;
+        let rows = rows.par_iter_mut().zip(unknowns).with_min_len(ROWS);
+        rows.for_each(|(row, &unknown)| {
+            if known[unknown as usize] {
+                row.clear();
+            }
+            let factor = scaling.rows[unknown as usize];
+            row.retain_mut(|(k, a)| {
+                let column = unknowns[*k as usize] as usize;
+                *a = *a * factor * scaling.columns[column];
+                !known[column]
+            });
+        });
+    }
 }

@@ -17,6 +17,7 @@ impl Factors for Substitution<'_> {
     fn solve_in_place(&self, x: &mut [f64]) {
         self.eliminate_known(x);
         let Condensed { bodies, kept, .. } = self.condensed;
+        let kept = &kept.unknowns;
         let mut condensed: Vec<Vec<f64>> = bodies
             .par_iter()
             .map(|body| {

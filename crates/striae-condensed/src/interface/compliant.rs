@@ -13,12 +13,14 @@
 //! matrix is the true one. They are small: of the order of the pressure over the stiffness.
 
 mod complement;
+mod couplings;
 
 use super::{
     Block, Dense, Kind, Places,
     flexibility::{Flexibility, Inverse},
 };
 use complement::complement;
+use couplings::Couplings;
 use rayon::prelude::*;
 use striae_sparse::{
     Real, Values,
@@ -60,7 +62,7 @@ pub(crate) enum Trial {
 pub(crate) struct Compliant {
     kinds: Vec<Kind>,
     /// Scaled entries between kept unknowns.
-    rows: Vec<Row>,
+    rows: Couplings,
     /// Multipliers, as kept unknowns.
     multipliers: Vec<u32>,
     factors: Dense,
@@ -78,13 +80,14 @@ impl Compliant {
         let kinds = places.kinds.clone();
         let numbered = (0..kinds.len() as u32).filter(|&k| kinds[k as usize] == Kind::Multiplier);
         let multipliers: Vec<u32> = numbered.collect();
+        let rows = Couplings::new(&kinds, rows);
         let lu = match flexibility {
             Flexibility::Single(inverses) => complement(&kinds, &rows, &multipliers, inverses),
             Flexibility::Double(inverses) => complement(&kinds, &rows, &multipliers, inverses),
         };
         let (of_rows, of_columns) = (multipliers.clone(), multipliers.clone());
         let Ok(factors) = Dense::factored(of_rows, of_columns, lu, smallest) else {
-            return Err(rows);
+            return Err(rows.into_rows());
         };
         let own = Self {
             kinds,
@@ -95,7 +98,7 @@ impl Compliant {
         if trial == Trial::Waived || own.is_good(blocks, flexibility) {
             Ok(own)
         } else {
-            Err(own.rows)
+            Err(own.rows.into_rows())
         }
     }
 
@@ -152,7 +155,7 @@ impl Compliant {
 
     /// `y := (A + S) z`.
     fn multiply(&self, blocks: &[Block<'_>], z: &[f64], y: &mut [f64]) {
-        self.rows_times(z, y, |_| true);
+        self.rows_times(z, y, |_, k| self.rows.all(k));
         let products = blocks.par_iter().map(|block| match block.values {
             Values::Single(values) => product(block.places, values, z),
             Values::Double(values) => product(block.places, values, z),
@@ -169,15 +172,17 @@ impl Compliant {
             .for_each(|(_, y)| *y = 0.0);
     }
 
-    /// `y := A z` in some rows.
-    fn rows_times(&self, z: &[f64], y: &mut [f64], of: impl Fn(Kind) -> bool + Sync) {
-        let rows = self.rows.par_chunks(ROWS).zip(self.kinds.par_chunks(ROWS));
-        let chunks = rows.zip(y.par_chunks_mut(ROWS));
-        chunks.for_each(|((rows, kinds), y)| {
-            for ((row, kind), y) in rows.iter().zip(kinds).zip(y) {
-                if of(*kind) {
-                    *y = row_times(row, z);
-                }
+    /// `y := A z`, with the entries of each row that are wanted.
+    fn rows_times<'a>(
+        &'a self,
+        z: &[f64],
+        y: &mut [f64],
+        wanted: impl Fn(Kind, usize) -> &'a [(u32, f64)] + Sync,
+    ) {
+        let chunks = y.par_chunks_mut(ROWS).enumerate();
+        chunks.for_each(|(chunk, y)| {
+            for (k, y) in (chunk * ROWS..).zip(y) {
+                *y = row_times(wanted(self.kinds[k], k), z);
             }
         });
     }
@@ -187,15 +192,20 @@ impl Compliant {
         let mut z = vec![0.0; y.len()];
         add_flexible(inverses, y, &mut z, 1.0);
         let mut image = vec![0.0; y.len()];
-        self.rows_times(&z, &mut image, |kind| kind == Kind::Multiplier);
+        self.rows_times(&z, &mut image, |kind, k| match kind {
+            Kind::Multiplier => self.rows.with_bulk(k),
+            _ => &[],
+        });
         let rest: Vec<f64> = y.iter().zip(&image).map(|(y, g)| y - g).collect();
         let found = self.factors.solve(&rest);
         let mut multipliers = vec![0.0; y.len()];
         for (&k, value) in self.multipliers.iter().zip(found) {
             (multipliers[k as usize], z[k as usize]) = (value, value);
         }
-        let is_bulk = |kind: Kind| matches!(kind, Kind::Bulk { .. });
-        self.rows_times(&multipliers, &mut image, is_bulk);
+        self.rows_times(&multipliers, &mut image, |kind, k| match kind {
+            Kind::Bulk { .. } => self.rows.with_multipliers(k),
+            _ => &[],
+        });
         add_flexible(inverses, &image, &mut z, -1.0);
         y.copy_from_slice(&z);
     }

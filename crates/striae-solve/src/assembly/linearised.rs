@@ -92,10 +92,10 @@ pub fn assemble_contact(
 }
 
 impl System<'_> {
-    /// What there is before contact is added.
-    pub(super) fn background(&self) -> Background {
+    /// What there is before contact is added, in the room of an older one.
+    pub(super) fn background(&self, older: Background) -> Background {
         Background {
-            rows: self.partition.kept_rows(self.matrix),
+            rows: self.partition.kept_rows(self.matrix, older.rows),
             residual: self.residual.clone(),
             applied: self.forces.applied.clone(),
             force_scale: self.force_scale,

@@ -189,8 +189,8 @@ impl Attempt<'_> {
             if !self.has_tangent(&assembled) {
                 assembled = self.assembled(workspace, iteration)?;
             }
-            let taken;
-            (assembled, taken) = self.iterate(&assembled, before, iteration, workspace)?;
+            let (next, taken) = self.iterate(&assembled, before, iteration, workspace)?;
+            workspace.reuse(std::mem::replace(&mut assembled, next));
             // Statuses are known with derivatives only, without which a state is not the last.
             if assembled.norms.largest() <= solver.tolerance && !self.is_sure(&assembled) {
                 assembled = self.assembled(workspace, iteration)?;

@@ -36,6 +36,8 @@ pub struct Workspace {
     work: LinearWork,
     /// What the last increment started from.
     pub(super) course: Option<Course>,
+    /// A background that is of no use any more but for its room.
+    spare: Background,
 }
 
 pub(super) struct SystemStorage {
@@ -63,6 +65,7 @@ impl Workspace {
             system: None,
             work: LinearWork::default(),
             course: None,
+            spare: Background::default(),
         }
     }
 
@@ -157,11 +160,17 @@ impl Workspace {
         let started = Instant::now();
         let system = self.system.as_mut().expect("the workspace was prepared");
         let parts = (&system.partition, &system.places, &mut system.matrix);
-        let assembled = assemble(setting, trial, contact, derivatives, &system.layout, parts);
+        let (layout, room) = (&system.layout, std::mem::take(&mut self.spare));
+        let assembled = assemble(setting, trial, contact, derivatives, layout, parts, room);
         self.work.times.assembly += started.elapsed();
         let of_contact = assembled.as_ref().map(|assembled| assembled.contact_time);
         self.work.times.pairs += of_contact.unwrap_or_default();
         assembled
+    }
+
+    /// Takes back the room of a state that has been left.
+    pub(super) fn reuse(&mut self, left: Assembled) {
+        self.spare = left.background;
     }
 
     /// Whether contact can be corrected on linearised bodies.

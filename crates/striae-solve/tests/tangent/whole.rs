@@ -10,8 +10,8 @@ use striae_contact::{
 };
 use striae_solve::{
     assembly::{
-        Assembled, Contact, ElementPlaces, Fault, Imposed, Setting, StepContext, Trial, assemble,
-        assemble_contact,
+        Assembled, Background, Contact, ElementPlaces, Fault, Imposed, Setting, StepContext, Trial,
+        assemble, assemble_contact,
     },
     layout::{Extent, Layout},
     state::State,
@@ -232,7 +232,8 @@ impl<'a> Whole<'a> {
         let places = ElementPlaces::new(self.context.problem, &self.layout, structure);
         let parts = (&self.partition, &places, matrix);
         let (setting, layout) = (self.setting(), &self.layout);
-        match assemble(&setting, &trial, contact, derivatives, layout, parts) {
+        let room = Background::default();
+        match assemble(&setting, &trial, contact, derivatives, layout, parts, room) {
             Ok(assembled) => assembled,
             Err(Fault::CutBack(reason)) => panic!("{reason}"),
             Err(Fault::Pattern(_)) => panic!("the pattern is full"),

@@ -4,6 +4,7 @@
 //! lie in runs, as unknowns are numbered along the mesh: `F C` is a product of a few blocks of
 //! columns of `F`. `G F C` combines rows of that, with vector instructions.
 
+use super::couplings::Couplings;
 use crate::interface::{Kind, flexibility::Inverse};
 use faer::{
     Accum, Par,
@@ -25,7 +26,7 @@ const NONE: u32 = u32::MAX;
 /// `G_m - G F C`, column by column.
 pub(super) fn complement<T: Real>(
     kinds: &[Kind],
-    rows: &[Row],
+    rows: &Couplings,
     multipliers: &[u32],
     inverses: &[Inverse<T>],
 ) -> Vec<f64> {
@@ -42,16 +43,14 @@ pub(super) fn complement<T: Real>(
         for &k in &inverse.places {
             at[k as usize] = order;
             order += 1;
-            for &(c, a) in &rows[k as usize] {
-                if number[c as usize] != NONE {
-                    columns[number[c as usize] as usize].push((k, a));
-                }
+            for &(c, a) in rows.with_multipliers(k as usize) {
+                columns[number[c as usize] as usize].push((k, a));
             }
         }
     }
     let constraints: Vec<Constraint<T>> = multipliers
         .par_iter()
-        .map(|&k| Constraint::new(&rows[k as usize], &at, &number))
+        .map(|&k| Constraint::new((rows, k as usize), &at, &number))
         .collect();
     let mut complement = vec![0.0; count * count];
     let panels = complement.par_chunks_mut((count * WIDTH).max(1));
@@ -103,9 +102,10 @@ struct Constraint<T> {
 }
 
 impl<T: Real> Constraint<T> {
-    fn new(row: &Row, at: &[u32], number: &[u32]) -> Self {
-        let bulk = row.iter().filter(|e| at[e.0 as usize] != NONE);
-        let others = row.iter().filter(|e| number[e.0 as usize] != NONE);
+    fn new((rows, row): (&Couplings, usize), at: &[u32], number: &[u32]) -> Self {
+        let bulk = rows.with_bulk(row).iter();
+        let bulk = bulk.filter(|e| at[e.0 as usize] != NONE);
+        let others = rows.with_multipliers(row).iter();
         Self {
             bulk: bulk.map(|&(k, a)| (at[k as usize], T::of(-a))).collect(),
             multipliers: others.map(|&(k, a)| (number[k as usize], a)).collect(),
