@@ -175,7 +175,9 @@ pub fn advance(
         ..
     } = attempt;
     given_up.extend(iterations);
-    workspace.course = Some(Course::new(context.index, state, time, course));
+    // With inertia, accelerations jump where contact changes.
+    let before = course.filter(|_| imposed.motion.is_none());
+    workspace.course = Some(Course::new(context.index, state, time, before));
     let work = workspace.take_work();
     let system = workspace.system();
     let (unknowns, peak_bytes) = (system.layout.unknowns(), system.analysis.cost.peak_bytes);

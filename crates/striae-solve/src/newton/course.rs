@@ -2,7 +2,7 @@
 //!
 //! In a step that goes on as it did, positions and tractions change smoothly. An increment of
 //! the size `dt` starts where the last state and the one or two before it in the same step
-//! lead to, `dt_0` being the size of the last increment and `t` its own end:
+//! lead to (one in dynamics), `dt_0` being the size of the last increment and `t` its own end:
 //!
 //! ```text
 //! x = x_n + dt/dt_0 (x_n - x_(n-1))                                 two states
@@ -11,9 +11,11 @@
 //! ```
 //!
 //! The error is of the order `dt^2` with two states, that of an iteration with the tangent at
-//! `x_n`, and `dt^3` with three. Newton's method needs an iteration or two less from there; an
-//! increment that fails from there starts again from `x_n`. What is prescribed, and what is
-//! tied to a rigid body, is put where it belongs by the first correction and by the poses.
+//! `x_n`, and `dt^3` with three where the course is as smooth as that. With inertia it is not:
+//! accelerations jump where contact changes, and a parabola would carry the jump on. Newton's
+//! method needs an iteration or two less from there; an increment that fails from there starts
+//! again from `x_n`. What is prescribed, and what is tied to a rigid body, is put where it
+//! belongs by the first correction and by the poses.
 
 use serde::{Deserialize, Serialize};
 use striae_mesh::Vec3;
@@ -40,7 +42,7 @@ pub struct Course {
     pub rigid: Vec<Pose>,
     /// Tractions of nodes at its start, by pair and side.
     pub tractions: Vec<[Vec<[f64; 3]>; 2]>,
-    /// The course of the increment before, if it belongs to the same step.
+    /// The course of the increment before, if it belongs to the same step, which has no inertia.
     pub before: Option<Box<Course>>,
 }
 
