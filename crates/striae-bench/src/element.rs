@@ -2,16 +2,19 @@
 
 use crate::clock::timed;
 use serde_json::Value;
-use std::{error::Error, hint::black_box};
-use striae_element::{ElementResponse, Elements, Formulation};
+use std::{error::Error, hint::black_box, time::Instant};
+use striae_element::{ElementBlock, ElementResponse, Elements, Formulation};
 use striae_law::bulk::{LameConstants, Material, Past};
-use striae_mesh::{CellKind, Vec3, generate::Block};
+use striae_mesh::{CellKind, Mesh, Vec3, generate::Block};
+
+/// Turns that are taken with the standard hexahedron.
+const TURNS: usize = 400;
 
 /// Elements, with hexahedra of the standard formulation as the measure of all others.
 pub fn all() -> Result<Vec<Value>, Box<dyn Error>> {
-    let mut results = Vec::new();
+    let hexahedra = Stretched::new(CellKind::Hexahedron, Formulation::Standard)?;
+    let mut results = vec![hexahedra.timed("standard")];
     for (kind, formulation, name) in [
-        (CellKind::Hexahedron, Formulation::Standard, "standard"),
         (CellKind::Hexahedron, Formulation::MeanDilatation, "mean"),
         (CellKind::Hexahedron, Formulation::AssumedStrain, "assumed"),
         (CellKind::Tetrahedron, Formulation::Standard, "standard"),
@@ -26,39 +29,88 @@ pub fn all() -> Result<Vec<Value>, Box<dyn Error>> {
             "mean",
         ),
     ] {
-        results.push(responses(kind, formulation, &format!("{kind}, {name}"))?);
+        let others = Stretched::new(kind, formulation)?;
+        let mut result = others.timed(name);
+        let ratio = ratio(&others, &hexahedra);
+        println!("{:42} {ratio:.2} times the standard hexahedron", "");
+        result["over_standard_hexahedron"] = ratio.into();
+        results.push(result);
     }
     Ok(results)
 }
 
-/// Responses of all elements of a block to a stretch.
-fn responses(
-    cells: CellKind,
-    formulation: Formulation,
-    name: &str,
-) -> Result<Value, Box<dyn Error>> {
-    let block = Block {
-        divisions: [10; 3],
-        irregularity: 0.1,
-        cells,
-        ..Block::default()
-    };
-    let mesh = block.mesh()?;
-    let elements = Elements::new(&mesh, formulation)?;
-    let rubber = Material::neo_hookean(LameConstants::from_youngs_modulus(1.0, 0.49)?);
-    let stretched = |x: &Vec3| Vec3::new(1.1 * x.x, x.y + 0.1 * x.x * x.z, 0.95 * x.z);
-    let current: Vec<Vec3> = mesh.positions.iter().map(stretched).collect();
-    let (_, block) = elements.blocks().next().ok_or("no elements")?;
-    let mut response = ElementResponse::zero(block, &rubber);
-    Ok(timed("element", name, block.count(), || {
-        for (at, corners) in mesh.elements().enumerate() {
+/// Elements of a block that is stretched.
+struct Stretched {
+    kind: CellKind,
+    mesh: Mesh,
+    elements: Elements,
+    current: Vec<Vec3>,
+    rubber: Material,
+}
+
+impl Stretched {
+    fn new(kind: CellKind, formulation: Formulation) -> Result<Self, Box<dyn Error>> {
+        let block = Block {
+            divisions: [10; 3],
+            irregularity: 0.1,
+            cells: kind,
+            ..Block::default()
+        };
+        let mesh = block.mesh()?;
+        let stretched = |x: &Vec3| Vec3::new(1.1 * x.x, x.y + 0.1 * x.x * x.z, 0.95 * x.z);
+        Ok(Self {
+            kind,
+            elements: Elements::new(&mesh, formulation)?,
+            current: mesh.positions.iter().map(stretched).collect(),
+            rubber: Material::neo_hookean(LameConstants::from_youngs_modulus(1.0, 0.49)?),
+            mesh,
+        })
+    }
+
+    /// The block of elements, all of one kind.
+    fn block(&self) -> &dyn ElementBlock {
+        let (_, block) = self.elements.blocks().next().expect("elements");
+        block
+    }
+
+    /// Responses of all elements.
+    fn respond(&self, response: &mut ElementResponse) {
+        let block = self.block();
+        for (at, corners) in self.mesh.elements().enumerate() {
             let mut x = [Vec3::zeros(); striae_mesh::MAX_CORNERS];
             for (x, node) in x.iter_mut().zip(corners) {
-                *x = current[node.index()];
+                *x = self.current[node.index()];
             }
             let x = &x[..corners.len()];
-            let result = block.respond(at, x, &rubber, Past::default(), &mut response);
+            let result = block.respond(at, x, &self.rubber, Past::default(), response);
             black_box((result.is_ok(), response.energy));
         }
-    }))
+    }
+
+    fn timed(&self, name: &str) -> Value {
+        let mut response = ElementResponse::zero(self.block(), &self.rubber);
+        let name = format!("{}, {name}", self.kind);
+        timed("element", &name, self.block().count(), || {
+            self.respond(&mut response);
+        })
+    }
+}
+
+/// Time of an element over that of another one: the median of many turns, in which the two
+/// follow each other within milliseconds.
+fn ratio(ours: &Stretched, others: &Stretched) -> f64 {
+    let both = [ours, others];
+    let mut responses = both.map(|of| ElementResponse::zero(of.block(), &of.rubber));
+    let mut ratios: Vec<f64> = (0..TURNS)
+        .map(|_| {
+            let [ours, others] = [0, 1].map(|which| {
+                let begin = Instant::now();
+                both[which].respond(&mut responses[which]);
+                begin.elapsed().as_secs_f64() / both[which].block().count() as f64
+            });
+            ours / others
+        })
+        .collect();
+    ratios.sort_by(f64::total_cmp);
+    ratios[TURNS / 2]
 }

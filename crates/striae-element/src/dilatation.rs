@@ -27,17 +27,16 @@
 //! element (tetrahedra) all is as without it.
 
 use super::{
-    ElementError, ElementResponse, Stiffness,
-    reference::{Gradients, Reference},
-    response::error_at,
-    stiffness::COMPONENTS,
+    ElementError, ElementResponse,
+    reference::Reference,
+    response::{error_at, product, stiffness},
 };
 use nalgebra::Matrix3;
 use pulp::{Arch, Simd, WithSimd};
 use striae_law::bulk::{Material, Past, Tangent};
 use striae_mesh::Vec3;
 
-/// Deformation at a quadrature point.
+/// Deformation at a quadrature point, and the law at `Fbar` but for its tangent.
 #[derive(Clone, Copy, Default)]
 struct Point {
     /// `F`.
@@ -46,37 +45,12 @@ struct Point {
     inverse_transposed: Matrix3<f64>,
     /// `J`.
     ratio: f64,
-}
-
-/// The law at `Fbar` at a quadrature point, but for the tangent.
-#[derive(Clone, Copy, Default)]
-struct Law {
     /// `alpha`.
     scale: f64,
     /// `Pbar`.
     first_piola: Matrix3<f64>,
     /// `pi`.
     third: f64,
-}
-
-/// What the points of an element come to, by component and corner.
-struct Sums<const N: usize> {
-    /// `f_a`.
-    force: [[f64; N]; 3],
-    /// `b_a`.
-    volume_slopes: [[f64; N]; 3],
-    /// `c_a + s/2 b_a` with `s = sum_g w m/9 - p theta V`.
-    pressure_slopes: [[f64; N]; 3],
-}
-
-impl<const N: usize> Default for Sums<N> {
-    fn default() -> Self {
-        Self {
-            force: [[0.0; N]; 3],
-            volume_slopes: [[0.0; N]; 3],
-            pressure_slopes: [[0.0; N]; 3],
-        }
-    }
 }
 
 impl<const N: usize, const Q: usize> Reference<N, Q> {
@@ -93,36 +67,29 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
         element: &mut ElementResponse,
         share: f64,
     ) -> Result<(), ElementError> {
-        let (points, volume) = self.points(current)?;
+        let (mut points, volume) = self.points(current, share)?;
         let mut tangents = [Tangent::zeros(); Q];
-        let laws = self.laws(
-            &points,
-            volume,
-            material,
-            past,
-            element,
-            &mut tangents,
-            share,
-        )?;
-        let pressure = self.mean(|g| laws[g].third) / volume;
-        let mut sums = Sums::default();
+        (element.energy, element.dissipated) = (0.0, 0.0);
+        for (g, point) in points.iter_mut().enumerate() {
+            let scaled = point.gradient * point.scale;
+            let mut present = element.present(g, Q);
+            let law = material.respond(&scaled, past.of_point(g, Q), &mut present);
+            let dissipated = present.dissipated;
+            let law = law.map_err(error_at(g))?;
+            element.energy += self.weights[g] * law.energy;
+            element.dissipated += self.weights[g] * dissipated;
+            tangents[g] = law.tangent;
+            point.first_piola = law.first_piola;
+            point.third = law.first_piola.dot(&scaled) * share / 3.0;
+        }
         Arch::new().dispatch(Completion {
-            element: self,
+            reference: self,
             points: &points,
-            laws: &laws,
-            pressure,
+            pressure: self.mean(|g| points[g].third) / volume,
             volume,
             share,
             tangents: &mut tangents,
-            sums: &mut sums,
-        });
-        for (a, force) in element.force.iter_mut().enumerate() {
-            *force = [0, 1, 2].map(|i| sums.force[i][a]);
-        }
-        self.sum(&tangents, &mut element.stiffness);
-        Arch::new().dispatch(Products {
-            sums: &sums,
-            stiffness: &mut element.stiffness,
+            element,
         });
         Ok(())
     }
@@ -141,13 +108,13 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
         variables: &[f64],
         share: f64,
     ) -> Result<Vec<Matrix3<f64>>, ElementError> {
-        let (points, volume) = self.points(current)?;
+        let (points, volume) = self.points(current, share)?;
         let theta = volume / self.volume();
         let each = variables.len() / Q;
         let mut stress = Vec::with_capacity(Q);
         let ratio = |point: &Point| theta * (point.ratio / theta).powf(1.0 - share);
         for (g, point) in points.iter().enumerate() {
-            let scaled = point.gradient * scale(theta, point, share);
+            let scaled = point.gradient * point.scale;
             let variables = &variables[g * each..(g + 1) * each];
             let found = material.cauchy_stress_after(&scaled, variables);
             stress.push(found.map_err(error_at(g))?);
@@ -163,7 +130,7 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
     }
 
     /// Deformation at all points, and the current volume `theta V`.
-    fn points(&self, current: &[Vec3; N]) -> Result<([Point; Q], f64), ElementError> {
+    fn points(&self, current: &[Vec3; N], share: f64) -> Result<([Point; Q], f64), ElementError> {
         let mut points = [Point::default(); Q];
         for (g, point) in points.iter_mut().enumerate() {
             let gradient = self.deformation_gradient(g, current);
@@ -174,49 +141,21 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
                 return Err(ElementError::Inverted { point, determinant });
             }
             let cofactors = Matrix3::from_columns(&[first, c.cross(&a), a.cross(&b)]);
-            *point = Point {
-                gradient,
-                inverse_transposed: cofactors / determinant,
-                ratio: determinant,
-            };
+            point.gradient = gradient;
+            point.inverse_transposed = cofactors * determinant.recip();
+            point.ratio = determinant;
         }
         let volume = self.mean(|g| points[g].ratio);
-        Ok((points, volume))
-    }
-
-    /// The law at `Fbar` at all points, its tangents apart; writes down energies and what the
-    /// points come to.
-    #[allow(clippy::too_many_arguments)]
-    fn laws(
-        &self,
-        points: &[Point; Q],
-        volume: f64,
-        material: &Material,
-        past: Past,
-        element: &mut ElementResponse,
-        tangents: &mut [Tangent; Q],
-        share: f64,
-    ) -> Result<[Law; Q], ElementError> {
         let theta = volume / self.volume();
-        let mut laws = [Law::default(); Q];
-        (element.energy, element.dissipated) = (0.0, 0.0);
-        for (g, point) in points.iter().enumerate() {
-            let scale = scale(theta, point, share);
-            let scaled = point.gradient * scale;
-            let mut present = element.present(g, Q);
-            let law = material.respond(&scaled, past.of_point(g, Q), &mut present);
-            let dissipated = present.dissipated;
-            let law = law.map_err(error_at(g))?;
-            element.energy += self.weights[g] * law.energy;
-            element.dissipated += self.weights[g] * dissipated;
-            tangents[g] = law.tangent;
-            laws[g] = Law {
-                scale,
-                first_piola: law.first_piola,
-                third: law.first_piola.dot(&scaled) * share / 3.0,
+        let whole: [f64; Q] = cube_roots(std::array::from_fn(|g| theta / points[g].ratio));
+        for (point, whole) in points.iter_mut().zip(whole) {
+            point.scale = if share == 1.0 {
+                whole
+            } else {
+                whole.powf(share)
             };
         }
-        Ok(laws)
+        Ok((points, volume))
     }
 
     /// `sum_g w value`.
@@ -225,28 +164,32 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
     }
 }
 
-/// `alpha` for the part `beta` of the way to the mean.
-fn scale(theta: f64, point: &Point, share: f64) -> f64 {
-    let whole = (theta / point.ratio).cbrt();
-    if share == 1.0 {
-        whole
-    } else {
-        whole.powf(share)
+/// Cube roots of positive numbers, side by side: Halley's method, whose error is the cube
+/// of the one before, from a third of the exponent, which is right to 5 %.
+fn cube_roots<const Q: usize>(numbers: [f64; Q]) -> [f64; Q] {
+    /// Two thirds of the bits of 1.
+    const BIAS: u64 = 0x2a9f_7893_782d_a1ce;
+    let mut roots = numbers.map(|x| f64::from_bits(x.to_bits() / 3 + BIAS));
+    for _ in 0..3 {
+        for (root, x) in roots.iter_mut().zip(numbers) {
+            let cube = *root * *root * *root;
+            *root *= (cube + 2.0 * x) / (2.0 * cube + x);
+        }
     }
+    roots
 }
 
 /// Makes of the tangents of the law those for the mean volume held,
 /// `alpha^2 Abar + H x W + W x H - (p J - pi) H_iL H_kJ` with `W = (p J + m/9)/2 H - M/3`,
-/// and sums what the points come to, by as many lanes as the processor has.
+/// and writes force and stiffness, by as many lanes as the processor has.
 struct Completion<'a, const N: usize, const Q: usize> {
-    element: &'a Reference<N, Q>,
+    reference: &'a Reference<N, Q>,
     points: &'a [Point; Q],
-    laws: &'a [Law; Q],
     pressure: f64,
     volume: f64,
     share: f64,
     tangents: &'a mut [Tangent; Q],
-    sums: &'a mut Sums<N>,
+    element: &'a mut ElementResponse,
 }
 
 impl<const N: usize, const Q: usize> WithSimd for Completion<'_, N, Q> {
@@ -254,42 +197,52 @@ impl<const N: usize, const Q: usize> WithSimd for Completion<'_, N, Q> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
+        // What the gradients of a point are multiplied by, by J: components i of the force, of
+        // b_a and of c_a.
+        let mut factors = [[[0.0; 9]; 3]; Q];
         let mut curvature = -self.pressure * self.volume;
-        for g in 0..Q {
-            let (point, law) = (&self.points[g], &self.laws[g]);
+        for (g, point) in self.points.iter().enumerate() {
             let tangent = &mut self.tangents[g].data.0;
-            let weight = self.element.weights[g];
-            let (f, h) = (
-                components(&point.gradient),
-                components(&point.inverse_transposed),
-            );
-            let stress = components(&law.first_piola);
-            let m = turned(tangent, &f).map(|of_f| of_f * law.scale);
+            let weight = self.reference.weights[g];
+            let f = components(&point.gradient);
+            let h = components(&point.inverse_transposed);
+            let stress = components(&point.first_piola);
+            let m = turned(tangent, &f).map(|of_f| of_f * point.scale);
             let m: [f64; 9] =
-                std::array::from_fn(|at| (stress[at] + m[at]) * (law.scale * self.share));
+                std::array::from_fn(|at| (stress[at] + m[at]) * (point.scale * self.share));
             let ninth = (0..9).map(|at| m[at] * f[at]).sum::<f64>() * self.share / 9.0;
             let normal = self.pressure * point.ratio;
-            let excess = normal - law.third;
+            let excess = normal - point.third;
             curvature += weight * ninth;
-            let gradients = &self.element.gradients[g];
             let ratio = point.ratio / self.volume;
-            let first_piola =
-                std::array::from_fn(|at| (stress[at] * law.scale + h[at] * excess) * weight);
-            let volume_slope = std::array::from_fn(|at| h[at] * ratio * weight);
-            let pressure_slope = std::array::from_fn(|at| (m[at] / 3.0 - h[at] * ninth) * weight);
-            add(&mut self.sums.force, &first_piola, gradients);
-            add(&mut self.sums.volume_slopes, &volume_slope, gradients);
-            add(&mut self.sums.pressure_slopes, &pressure_slope, gradients);
+            for at in 0..9 {
+                let (i, j) = (at / 3, at % 3);
+                factors[g][j][i] = (stress[at] * point.scale + h[at] * excess) * weight;
+                factors[g][j][3 + i] = h[at] * ratio * weight;
+                factors[g][j][6 + i] = (m[at] / 3.0 - h[at] * ninth) * weight;
+            }
             let half = 0.5 * (normal + ninth);
             let w = std::array::from_fn(|at| h[at] * half - m[at] / 3.0);
-            complete(tangent, law.scale * law.scale, &h, &w, excess);
+            complete(tangent, point.scale * point.scale, &h, &w, excess);
         }
-        let (slopes, volume) = (&mut self.sums.pressure_slopes, &self.sums.volume_slopes);
-        for i in 0..3 {
-            for a in 0..N {
-                slopes[i][a] += 0.5 * curvature * volume[i][a];
-            }
+        let gradients = self.reference.gradients.as_flattened();
+        let mut sums = [[0.0; N]; 9];
+        product::<9, N, 3, 1>([(factors.as_flattened(), gradients)], &mut sums);
+        let [f_x, f_y, f_z, b @ .., c_x, c_y, c_z] = sums;
+        for (a, force) in self.element.force.iter_mut().enumerate() {
+            *force = [f_x[a], f_y[a], f_z[a]];
         }
+        // c x b + b x c + s b x b is d x b + b x d.
+        let mut d = [c_x, c_y, c_z];
+        for (d, b) in d.as_flattened_mut().iter_mut().zip(b.as_flattened()) {
+            *d += 0.5 * curvature * b;
+        }
+        stiffness(
+            self.reference,
+            self.tangents,
+            |i, k| ([d[i], b[i]], [b[k], d[k]]),
+            &mut self.element.stiffness,
+        );
     }
 }
 
@@ -305,52 +258,32 @@ fn turned(tangent: &[[f64; 9]; 9], f: &[f64; 9]) -> [f64; 9] {
     sums
 }
 
-/// Adds `w P_iJ G_a,J`.
-#[inline(always)]
-fn add<const N: usize>(to: &mut [[f64; N]; 3], of: &[f64; 9], [x, y, z]: &Gradients<N>) {
-    for (i, to) in to.iter_mut().enumerate() {
-        for a in 0..N {
-            to[a] += of[3 * i] * x[a] + of[3 * i + 1] * y[a] + of[3 * i + 2] * z[a];
-        }
-    }
-}
-
-/// The tangent for the mean volume held, by columns; of its blocks only those with `i <= k`,
-/// as the stiffness needs no others.
+/// The tangent for the mean volume held, by columns; of its blocks those with `i <= k` and
+/// what shares their lanes, as the stiffness needs no others.
 #[inline(always)]
 fn complete(tangent: &mut [[f64; 9]; 9], square: f64, h: &[f64; 9], w: &[f64; 9], excess: f64) {
-    for (i, k) in COMPONENTS {
-        let along: [f64; 3] = std::array::from_fn(|j| excess * h[3 * k + j]);
-        for l in 0..3 {
-            let (of_h, of_w, across) = (h[3 * k + l], w[3 * k + l], h[3 * i + l]);
-            for j in 0..3 {
-                let (row, entry) = (3 * i + j, &mut tangent[3 * k + l][3 * i + j]);
-                let mixed = h[row] * of_w + w[row] * of_h;
-                *entry = *entry * square + mixed - along[j] * across;
-            }
-        }
-    }
+    column_block::<4>(tangent, 0, square, h, w, excess);
+    column_block::<8>(tangent, 1, square, h, w, excess);
+    column_block::<9>(tangent, 2, square, h, w, excess);
 }
 
-/// Adds `c x b + b x c + s b x b` to the stiffness, as `d x b + b x d` with `d = c + s/2 b`.
-struct Products<'a, const N: usize> {
-    sums: &'a Sums<N>,
-    stiffness: &'a mut Stiffness,
-}
-
-impl<const N: usize> WithSimd for Products<'_, N> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        let (b, d) = (&self.sums.volume_slopes, &self.sums.pressure_slopes);
-        for ((i, k), block) in COMPONENTS.into_iter().zip(self.stiffness.blocks_mut::<N>()) {
-            for (row, entries) in block.iter_mut().enumerate() {
-                let (of_d, of_b) = (d[i][row], b[i][row]);
-                for column in 0..N {
-                    entries[column] += of_d * b[k][column] + of_b * d[k][column];
-                }
-            }
+/// Completes the first rows of the columns `3 k + L`.
+#[inline(always)]
+fn column_block<const ROWS: usize>(
+    tangent: &mut [[f64; 9]; 9],
+    k: usize,
+    square: f64,
+    h: &[f64; 9],
+    w: &[f64; 9],
+    excess: f64,
+) {
+    let along: [f64; ROWS] = std::array::from_fn(|row| excess * h[3 * k + row % 3]);
+    for l in 0..3 {
+        let (of_h, of_w, column) = (h[3 * k + l], w[3 * k + l], &mut tangent[3 * k + l]);
+        let across: [f64; ROWS] = std::array::from_fn(|row| h[3 * (row / 3) + l]);
+        for row in 0..ROWS {
+            let mixed = h[row] * of_w + w[row] * of_h;
+            column[row] = column[row] * square + mixed - along[row] * across[row];
         }
     }
 }
@@ -359,4 +292,19 @@ impl<const N: usize> WithSimd for Products<'_, N> {
 #[inline(always)]
 fn components(matrix: &Matrix3<f64>) -> [f64; 9] {
     std::array::from_fn(|at| matrix[(at / 3, at % 3)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::cube_roots;
+
+    #[test]
+    fn cube_roots_are_right_to_round_off_at_all_sizes() {
+        let numbers = (-500..500).map(|at| (0.37 * f64::from(at)).exp());
+        for x in numbers.chain([1.0, 8.0, 1e-300, 1e300]) {
+            let [root] = cube_roots([x]);
+            let error = (root / x.cbrt() - 1.0).abs();
+            assert!(error < 4.0 * f64::EPSILON, "{x}: {error}");
+        }
+    }
 }

@@ -108,20 +108,33 @@ impl<const N: usize, const Q: usize> WithSimd for Sum<'_, N, Q> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let gradients = self.element.gradients.as_flattened();
-        for ((i, k), block) in COMPONENTS.into_iter().zip(self.stiffness.blocks_mut::<N>()) {
-            let right = right(self.element, self.tangents, i, k);
-            let right = right.as_flattened();
-            // Some rows at a time in registers: as many as divide the corners.
-            match N {
-                4 | 8 => product::<N, 4>(gradients, right, block),
-                6 => product::<N, 3>(gradients, right, block),
-                10 => product::<N, 5>(gradients, right, block),
-                _ => product::<N, 1>(gradients, right, block),
-            }
-            if i == k {
-                mirror(block);
-            }
+        stiffness(self.element, self.tangents, |_, _| ([], []), self.stiffness);
+    }
+}
+
+/// The stiffness from the tangents, and of `E` products of vectors of corners, of which the two
+/// factors of each are given for components `i` and `k`.
+#[inline(always)]
+pub(super) fn stiffness<const N: usize, const Q: usize, const E: usize>(
+    element: &Reference<N, Q>,
+    tangents: &[Tangent; Q],
+    products: impl Fn(usize, usize) -> ([[f64; N]; E], [[f64; N]; E]),
+    stiffness: &mut Stiffness,
+) {
+    let gradients = element.gradients.as_flattened();
+    for ((i, k), block) in COMPONENTS.into_iter().zip(stiffness.blocks_mut::<N>()) {
+        let right = right(element, tangents, i, k);
+        let (first, second) = products(i, k);
+        let parts = [(gradients, right.as_flattened()), (&first, &second)];
+        // Some rows at a time in registers: as many as divide the corners.
+        match N {
+            4 | 8 => product::<N, N, 4, 2>(parts, block),
+            6 => product::<N, N, 3, 2>(parts, block),
+            10 => product::<N, N, 5, 2>(parts, block),
+            _ => product::<N, N, 1, 2>(parts, block),
+        }
+        if i == k {
+            mirror(block);
         }
     }
 }
@@ -148,20 +161,24 @@ fn right<const N: usize, const Q: usize>(
     right
 }
 
-/// `K_ab = sum_gJ G_a,J R_gJ,b`, a product of a tall and a wide matrix, `ROWS` rows at a
-/// time.
+/// Factors `L` and `R` of a product, by what is summed over.
+type Factors<'a, const M: usize, const N: usize> = (&'a [[f64; M]], &'a [[f64; N]]);
+
+/// `K_ab = sum_c L_ca R_cb` over all `c` of some parts, a product of tall and wide matrices,
+/// `ROWS` rows at a time.
 #[inline(always)]
-fn product<const N: usize, const ROWS: usize>(
-    left: &[[f64; N]],
-    right: &[[f64; N]],
-    block: &mut [[f64; N]; N],
+pub(super) fn product<const M: usize, const N: usize, const ROWS: usize, const PARTS: usize>(
+    parts: [Factors<M, N>; PARTS],
+    block: &mut [[f64; N]; M],
 ) {
-    for (first, rows) in (0..N).step_by(ROWS).zip(block.chunks_exact_mut(ROWS)) {
+    for (first, rows) in (0..M).step_by(ROWS).zip(block.chunks_exact_mut(ROWS)) {
         let mut sums = [[0.0; N]; ROWS];
-        for (left, right) in left.iter().zip(right) {
-            for a in 0..ROWS {
-                for b in 0..N {
-                    sums[a][b] += left[first + a] * right[b];
+        for (left, right) in parts {
+            for (left, right) in left.iter().zip(right) {
+                for a in 0..ROWS {
+                    for b in 0..N {
+                        sums[a][b] += left[first + a] * right[b];
+                    }
                 }
             }
         }

@@ -1,10 +1,10 @@
-//! Collections of the fields of bodies, contact surfaces and rigid surfaces, and the files
-//! that they list.
+//! Collections of the fields of bodies, contact surfaces, rigid surfaces and ties, and the
+//! files that they list.
 
 use std::path::{Path, PathBuf};
 
 use striae_contact::unknowns::NodeResult;
-use striae_solve::{problem::Problem, state::State};
+use striae_solve::{problem::Problem, report::tie_tractions, state::State};
 
 use crate::{
     Output, OutputError,
@@ -13,6 +13,7 @@ use crate::{
     parts::{Parts, file},
     rigid::RigidGrid,
     surfaces::{Wanted, write_surface},
+    tied::write_tied,
     vtk::{Series, Snapshot, write},
     worn::Worn,
 };
@@ -23,6 +24,7 @@ pub(crate) struct Collections {
     bodies: Series,
     contact: Series,
     rigid: Series,
+    ties: Series,
     /// Rigid surfaces at rest, once they are needed.
     rigid_grids: Option<Vec<RigidGrid>>,
     /// Checksums of the files.
@@ -40,22 +42,24 @@ pub(crate) struct Contact<'a> {
 }
 
 impl Collections {
-    /// Collections that go on from what has been written: bodies, contact, rigid surfaces.
-    pub(crate) fn resumed(folder: &Path, series: &[Vec<Snapshot>; 3], sums: Checksums) -> Self {
-        let [bodies, contact, rigid] = series.clone();
+    /// Collections that go on from what has been written: bodies, contact, rigid surfaces,
+    /// ties.
+    pub(crate) fn resumed(folder: &Path, series: &[Vec<Snapshot>; 4], sums: Checksums) -> Self {
+        let [bodies, contact, rigid, ties] = series.clone();
         Self {
             folder: folder.to_owned(),
             bodies: Series::resumed(folder.join("bodies.pvd"), bodies),
             contact: Series::resumed(folder.join("contact.pvd"), contact),
             rigid: Series::resumed(folder.join("rigid.pvd"), rigid),
+            ties: Series::resumed(folder.join("ties.pvd"), ties),
             rigid_grids: None,
             sums,
         }
     }
 
-    /// What has been written: bodies, contact, rigid surfaces.
-    pub(crate) fn snapshots(&self) -> [&[Snapshot]; 3] {
-        [&self.bodies, &self.contact, &self.rigid].map(Series::snapshots)
+    /// What has been written: bodies, contact, rigid surfaces, ties.
+    pub(crate) fn snapshots(&self) -> [&[Snapshot]; 4] {
+        [&self.bodies, &self.contact, &self.rigid, &self.ties].map(Series::snapshots)
     }
 
     /// Checksums of the files.
@@ -65,17 +69,13 @@ impl Collections {
 
     /// Notes checksums of the fields that were written last.
     pub(crate) fn sum_up(&mut self) -> Result<(), OutputError> {
-        for series in [&self.bodies, &self.contact, &self.rigid] {
-            for (_, file) in series
-                .snapshots()
-                .last()
-                .into_iter()
-                .flat_map(|last| &last.parts)
-            {
-                let noted = sum(&self.folder, file)?;
-                if !self.sums.contains(&noted) {
-                    self.sums.push(noted);
-                }
+        let last = self.snapshots().map(<[Snapshot]>::last);
+        let last = last.into_iter().flatten();
+        let files = last.flat_map(|last| last.parts.iter().map(|(_, file)| file.clone()));
+        for file in files.collect::<Vec<_>>() {
+            let noted = sum(&self.folder, &file)?;
+            if !self.sums.contains(&noted) {
+                self.sums.push(noted);
             }
         }
         Ok(())
@@ -167,5 +167,31 @@ impl Collections {
             return Ok(());
         }
         self.contact.append(Snapshot { time, parts })
+    }
+
+    /// Writes both sides of all ties.
+    pub(crate) fn write_ties(
+        &mut self,
+        problem: &Problem,
+        state: &State,
+        count: usize,
+    ) -> Result<(), OutputError> {
+        let time = state.time;
+        let mut parts = Vec::new();
+        let names = Parts::new(problem).ties;
+        for (tie, joint) in problem.ties.joints.iter().enumerate() {
+            let tractions = tie_tractions(problem, state, tie);
+            for (side, tractions) in tractions.iter().enumerate() {
+                let body = &problem.model.bodies[joint.bodies[side]].name;
+                let file = file(&names[tie][side], count);
+                let path = self.folder.join(&file);
+                write_tied(&path, problem, state, (tie, side), tractions)?;
+                parts.push((format!("{}-{body}", problem.model.ties[tie].name), file));
+            }
+        }
+        if parts.is_empty() {
+            return Ok(());
+        }
+        self.ties.append(Snapshot { time, parts })
     }
 }

@@ -24,13 +24,14 @@ pub enum Existing {
 }
 
 /// Files by which results are known.
-const RESULTS: [&str; 9] = [
+const RESULTS: [&str; 10] = [
     "history.csv",
     "probes.csv",
     "sections.csv",
     "bodies.pvd",
     "contact.pvd",
     "rigid.pvd",
+    "ties.pvd",
     "summary.json",
     checkpoint::FILE,
     checkpoint::END,

@@ -24,6 +24,7 @@ mod strain;
 pub mod summary;
 mod surfaces;
 mod tally;
+mod tied;
 pub mod vtk;
 mod watched;
 pub mod worn;

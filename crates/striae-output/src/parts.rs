@@ -1,7 +1,7 @@
 //! Names of the files of fields, without number and ending.
 //!
 //! ```text
-//! BODY    rigid-NAME    contact-PAIR-BODY
+//! BODY    rigid-NAME    contact-PAIR-BODY    tie-NAME-BODY
 //! ```
 //!
 //! Names are made fit for files, and no two parts have the same, see [`Stems`].
@@ -19,6 +19,8 @@ pub(crate) struct Parts {
     pub rigid: Vec<String>,
     /// Of pairs, by side; empty for rigid sides.
     pub contact: Vec<[String; 2]>,
+    /// Of ties, by side.
+    pub ties: Vec<[String; 2]>,
 }
 
 impl Parts {
@@ -43,10 +45,20 @@ impl Parts {
                 })
             })
             .collect();
+        let ties = model.ties.iter().zip(&problem.ties.joints);
+        let ties = ties
+            .map(|(tie, joint)| {
+                joint.bodies.map(|body| {
+                    let body = &model.bodies[body].name;
+                    stems.take(&format!("tie-{}-{body}", tie.name))
+                })
+            })
+            .collect();
         Self {
             bodies,
             rigid,
             contact,
+            ties,
         }
     }
 }

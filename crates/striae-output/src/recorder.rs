@@ -8,6 +8,7 @@
 //!                           of laws with a memory by element
 //! DIR/contact.pvd           fields of contact surfaces, see [`crate::ContactField`], and wear
 //! DIR/rigid.pvd             rigid surfaces: displacement, texture `s`, structural vector
+//! DIR/ties.pvd              tied surfaces: tractions
 //! DIR/fields/*.vtu          what the collections list
 //! DIR/summary.json          how the run ended
 //! DIR/checkpoint.bin        where a run under way is, see [`crate::checkpoint`]
@@ -296,6 +297,7 @@ impl Recorder {
             elapsed: self.elapsed,
         };
         fields.write_contact(problem, state, count, &self.output, &contact)?;
+        fields.write_ties(problem, state, count)?;
         fields.sum_up()
     }
 }

@@ -2,7 +2,7 @@
 
 mod ties;
 
-pub use ties::{TieReport, TieSide, ties};
+pub use ties::{TieReport, TieSide, TieTraction, tie_surface, tie_tractions, ties};
 
 use std::collections::BTreeSet;
 

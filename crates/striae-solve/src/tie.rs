@@ -23,11 +23,13 @@
 
 mod fault;
 mod order;
+mod patch;
 mod rows;
 mod side;
 mod start;
 
 pub use fault::TieFault;
+pub use patch::NodalAreas;
 pub use start::placed;
 
 use std::collections::BTreeMap;
@@ -35,6 +37,7 @@ use striae_mesh::{NodeId, Vec3};
 
 use crate::model::Model;
 use order::Group;
+use patch::Patch;
 use rows::Sides;
 
 /// Weights of nodes, by component: `None` where the node does not follow.
@@ -70,6 +73,8 @@ pub struct Joint {
     pub facet_size: f64,
     /// Nodes of the tied surfaces, by side.
     nodes: [Vec<usize>; 2],
+    /// What is tied, by facet of the side that follows.
+    patches: Vec<Patch>,
 }
 
 /// All ties of a model.

@@ -7,7 +7,7 @@
 //! form with a closed inverse.
 
 use super::Grading;
-use super::grid::{Closure, Grid, Side, named_mesh};
+use super::grid::{Closure, Grid, Side, all_positive, goes_around, named_mesh};
 use crate::{Face, Mesh, MeshError, Vec3};
 use nalgebra::Rotation3;
 use std::f64::consts::PI;
@@ -106,16 +106,8 @@ impl Annulus {
             ("width", self.width),
             ("length of the axis", self.axis.norm()),
         ];
-        for (name, value) in positive {
-            MeshError::require(value > 0.0, name, value, "it must be positive")?;
-        }
-        let around = self.divisions[1];
-        MeshError::require(
-            around >= 3,
-            "number of elements around",
-            around as f64,
-            "at least 3 are needed",
-        )?;
+        all_positive(&positive)?;
+        goes_around(self.divisions[1])?;
         let Some(Refinement { half_angle, ratio }) = self.refinement else {
             return Ok(());
         };

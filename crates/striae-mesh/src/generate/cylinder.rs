@@ -4,7 +4,7 @@
 
 use super::Grading;
 use super::disc::{Disc, Sector};
-use super::grid::named_mesh;
+use super::grid::{all_positive, named_mesh};
 use super::sweep::Sweep;
 use crate::{Mesh, MeshError, Vec3};
 use nalgebra::Rotation3;
@@ -58,9 +58,7 @@ impl Cylinder {
             ("height", self.height),
             ("length of the axis", self.axis.norm()),
         ];
-        for (name, value) in positive {
-            MeshError::require(value > 0.0, name, value, "it must be positive")?;
-        }
+        all_positive(&positive)?;
         let [core, band, layers] = self.divisions;
         let disc = Disc {
             radius: self.radius,

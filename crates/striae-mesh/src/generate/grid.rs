@@ -107,6 +107,23 @@ impl Grid {
     }
 }
 
+/// Checks that measures are positive.
+pub(super) fn all_positive(measures: &[(&'static str, f64)]) -> Result<(), MeshError> {
+    measures.iter().try_for_each(|&(name, value)| {
+        MeshError::require(value > 0.0, name, value, "it must be positive")
+    })
+}
+
+/// Checks that so many elements go around an axis.
+pub(super) fn goes_around(count: usize) -> Result<(), MeshError> {
+    MeshError::require(
+        count >= 3,
+        "number of elements around",
+        count as f64,
+        "at least 3 are needed",
+    )
+}
+
 /// Checks that a product of divisions is not beyond all that can be solved for.
 pub(super) fn check_element_count(
     divisions: impl IntoIterator<Item = usize>,

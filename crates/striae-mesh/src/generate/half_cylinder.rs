@@ -7,7 +7,7 @@
 
 mod half_disc;
 
-use super::grid::{check_element_count, named_mesh};
+use super::grid::{all_positive, check_element_count, named_mesh};
 use crate::{CellBlock, ElementId, Face, Mesh, MeshError, NodeId, Vec3};
 use half_disc::HalfDisc;
 
@@ -67,25 +67,13 @@ impl HalfCylinder {
     /// # Errors
     /// [`MeshError::Parameter`] for parameters out of range.
     pub fn mesh(&self) -> Result<Mesh, MeshError> {
-        MeshError::require(
-            self.radius > 0.0,
-            "radius",
-            self.radius,
-            "it must be positive",
-        )?;
-        let thickness = self.thickness;
-        MeshError::require(
-            thickness > 0.0,
-            "thickness",
-            thickness,
-            "it must be positive",
-        )?;
+        all_positive(&[("radius", self.radius), ("thickness", self.thickness)])?;
         MeshError::require(self.layers > 0, "layers", 0.0, "at least 1 is needed")?;
         let disc = HalfDisc::new(self)?;
         check_element_count([disc.cell_count(), self.layers])?;
         let positions = (0..=self.layers)
             .flat_map(|layer| {
-                let y = thickness * layer as f64 / self.layers as f64;
+                let y = self.thickness * layer as f64 / self.layers as f64;
                 disc.positions().map(move |[x, z]| self.place(x, y, z))
             })
             .collect();

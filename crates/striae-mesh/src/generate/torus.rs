@@ -4,7 +4,7 @@
 //! the axis of the ring and its second one along it, swept around.
 
 use super::disc::{Disc, Sector};
-use super::grid::named_mesh;
+use super::grid::{all_positive, goes_around, named_mesh};
 use super::sweep::Sweep;
 use crate::{Mesh, MeshError, Vec3};
 use nalgebra::Rotation3;
@@ -52,15 +52,8 @@ impl Torus {
             ("radius of the hole", self.ring_radius - self.section_radius),
             ("length of the axis", self.axis.norm()),
         ];
-        for (name, value) in positive {
-            MeshError::require(value > 0.0, name, value, "it must be positive")?;
-        }
-        MeshError::require(
-            around >= 3,
-            "number of elements around",
-            around as f64,
-            "at least 3 are needed",
-        )?;
+        all_positive(&positive)?;
+        goes_around(around)?;
         let disc = Disc {
             radius: self.section_radius,
             core,

@@ -62,6 +62,18 @@ impl SideBuilder {
     }
 }
 
+/// The sides `a` and `b` of a pair or a tie at a path; faults of both are told.
+pub(super) fn sides(
+    [a, b]: &[SideBuilder; 2],
+    path: &Path,
+    names: &Names<'_>,
+    faults: &mut Vec<Fault>,
+) -> Option<[Side; 2]> {
+    let a = a.resolved(&path.clone().field("a"), names, faults);
+    let b = b.resolved(&path.clone().field("b"), names, faults);
+    Some([a?, b?])
+}
+
 /// A contact pair; see [`pair`].
 #[derive(Clone, Debug)]
 pub struct PairBuilder {
@@ -129,19 +141,17 @@ impl PairBuilder {
         names: &Names<'_>,
         faults: &mut Vec<Fault>,
     ) -> Option<Pair> {
-        let [a, b] = &self.sides;
-        let path = |side: &'static str| Path::part("pairs", index).field(side);
-        let on_a = a.resolved(&path("a"), names, faults);
-        let on_b = b.resolved(&path("b"), names, faults);
-        let (mut a, mut b) = ((on_a?, a.texture.clone()), (on_b?, b.texture.clone()));
-        if matches!(a.0, Side::Rigid(_)) {
+        let [mut a, mut b] = sides(&self.sides, &Path::part("pairs", index), names, faults)?;
+        let mut textures = self.sides.each_ref().map(|side| side.texture.clone());
+        if matches!(a, Side::Rigid(_)) {
             std::mem::swap(&mut a, &mut b);
+            textures.reverse();
         }
         Some(Pair {
             name: self.name.clone(),
-            a: a.0,
-            b: b.0,
-            textures: [a.1, b.1],
+            a,
+            b,
+            textures,
             friction: self.friction.clone(),
             enforcement: self.enforcement,
             search_distance: self.search_distance,

@@ -2,7 +2,7 @@
 
 use striae_solve::model::Tie;
 
-use super::{SideBuilder, lookup::Names};
+use super::{SideBuilder, lookup::Names, pair::sides};
 use crate::{fault::Fault, path::Path};
 
 /// A tie; see [`tie`].
@@ -40,14 +40,11 @@ impl TieBuilder {
         names: &Names<'_>,
         faults: &mut Vec<Fault>,
     ) -> Option<Tie> {
-        let [a, b] = &self.sides;
-        let path = |side: &'static str| Path::part("ties", index).field(side);
-        let a = a.resolved(&path("a"), names, faults);
-        let b = b.resolved(&path("b"), names, faults);
+        let [a, b] = sides(&self.sides, &Path::part("ties", index), names, faults)?;
         Some(Tie {
             name: self.name.clone(),
-            a: a?,
-            b: b?,
+            a,
+            b,
             within: self.within,
             moved: 0.0,
         })

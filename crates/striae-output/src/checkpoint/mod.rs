@@ -39,7 +39,7 @@ pub const END: &str = "end.bin";
 const MAGIC: &[u8] = b"striae checkpoint\n";
 
 /// Number of the format, to be raised when the content changes.
-pub const FORMAT: u64 = 12;
+pub const FORMAT: u64 = 13;
 
 /// A run under way.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -83,8 +83,8 @@ pub struct Written {
     pub fields: Option<usize>,
     /// Seconds spent.
     pub seconds: f64,
-    /// Files of the bodies, of the contact surfaces and of the rigid ones.
-    pub series: [Vec<Snapshot>; 3],
+    /// Files of the bodies, of the contact surfaces, of the rigid ones and of the ties.
+    pub series: [Vec<Snapshot>; 4],
     /// What has been judged so far.
     pub judgement: striae_solve::warning::Judgement,
     /// What slip has done so far.

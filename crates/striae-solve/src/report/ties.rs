@@ -1,8 +1,9 @@
 //! What ties amount to in a state.
 
 use striae_mesh::Vec3;
+use striae_surface::{normal::nodal_normals, topology::Surface};
 
-use crate::{problem::Problem, state::State};
+use crate::{model::Side, problem::Problem, state::State};
 
 /// What a tie amounts to.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,4 +58,70 @@ pub fn ties(problem: &Problem, state: &State) -> Vec<TieReport> {
             }
         })
         .collect()
+}
+
+/// What a tie exerts on a node of one of its sides.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TieTraction {
+    /// Unit normal of the side, outward.
+    pub normal: Vec3,
+    /// Force of the tie on the node over the area that belongs to it now, `int N da` over what
+    /// is tied; 0 without area.
+    pub traction: Vec3,
+}
+
+impl TieTraction {
+    /// Part along the normal; tension is positive.
+    pub fn along_normal(&self) -> f64 {
+        self.traction.dot(&self.normal)
+    }
+
+    /// Part along the surface.
+    pub fn shear(&self) -> Vec3 {
+        self.traction - self.normal * self.along_normal()
+    }
+}
+
+/// The surface of a side of a tie, in nodes of the mesh of its body.
+///
+/// # Panics
+/// For a side of a rigid surface, which a problem does not have.
+pub fn tie_surface(problem: &Problem, tie: usize, side: usize) -> Surface {
+    let of_tie = &problem.model.ties[tie];
+    let Side::Deformable { body, faces } = [&of_tie.a, &of_tie.b][side] else {
+        unreachable!("ties of rigid surfaces are faults");
+    };
+    let mesh = &problem.model.bodies[body.0].mesh;
+    let facets: Vec<_> = faces.iter().map(|face| mesh.face_nodes(*face)).collect();
+    Surface::new(&facets)
+}
+
+/// Tractions of a tie at the nodes of its surfaces, by side, in the order of
+/// [`tie_surface`].
+pub fn tie_tractions(problem: &Problem, state: &State, tie: usize) -> [Vec<TieTraction>; 2] {
+    let forces = problem.ties.forces(tie, &state.forces.ties);
+    let areas = problem
+        .ties
+        .areas(tie, &problem.reference, &state.positions);
+    [0, 1].map(|side| {
+        let surface = tie_surface(problem, tie, side);
+        let first = problem.first_node[problem.ties.joints[tie].bodies[side]];
+        let global = |local: usize| first + surface.nodes()[local].index();
+        let count = surface.nodes().len();
+        let x: Vec<Vec3> = (0..count).map(|at| state.positions[global(at)]).collect();
+        let normals = nodal_normals(&surface, &x).into_iter();
+        let tractions = normals.enumerate().map(|(at, normal)| {
+            let force = forces[side].get(&global(at)).copied().unwrap_or_default();
+            let area = areas[side].get(&global(at)).copied().unwrap_or_default();
+            let over = |axis: usize| match area[axis] > 0.0 {
+                true => force[axis] / area[axis],
+                false => 0.0,
+            };
+            TieTraction {
+                normal,
+                traction: Vec3::from_fn(|axis, _| over(axis)),
+            }
+        });
+        tractions.collect()
+    })
 }

@@ -12,7 +12,7 @@ use striae_law::friction::Friction;
 use striae_mesh::{Face, Vec3};
 use striae_surface::topology::Surface;
 
-use super::{Follower, Joint, TieFault, Weights, side::finer};
+use super::{Follower, Joint, TieFault, Weights, patch::Patch, side::finer};
 use crate::model::{Model, Side};
 
 /// Covered part of the best covered facet at a node below which it does not follow.
@@ -31,6 +31,8 @@ pub(super) struct Sides {
     joined: Joined,
     /// Rows of the facets that follow, in surface-local nodes.
     facets: [Vec<FacetRows>; 2],
+    /// What of them is tied.
+    patches: Vec<Patch>,
 }
 
 /// What each component of each node may do.
@@ -87,6 +89,7 @@ impl Sides {
             }),
             facets: [0, 1].map(|side| joined.rows(&configuration, side)),
             joined,
+            patches: Vec::new(),
         })
     }
 
@@ -105,7 +108,17 @@ impl Sides {
             gap: self.joined.gap,
             facet_size: self.joined.facet_size(self.follows),
             nodes: self.nodes,
+            patches: self.patches,
         }
+    }
+
+    /// What is tied, where nodes keep rows of components.
+    fn patches(&self, keeps: impl Fn(usize, usize) -> bool) -> Vec<Patch> {
+        let global = [self.follows, 1 - self.follows].map(|side| &self.nodes[side][..]);
+        let facets = self.facets[self.follows].iter();
+        facets
+            .map(|facet| Patch::new(facet, global, &keeps))
+            .collect()
     }
 
     /// Global node of a node of the side that follows.
@@ -172,12 +185,12 @@ pub(super) fn rows(
     }
     let owner = owners(sides, &bound);
     let (mut all, mut faults) = (Vec::new(), Vec::new());
-    for (tie, of_tie) in sides.iter().enumerate() {
+    for (tie, of_tie) in sides.iter_mut().enumerate() {
         let follows = |node: usize| owner.get(&node) == Some(&tie);
+        let keeps = |node: usize, axis: usize| follows(node) && !bound.component(node, axis);
         let mut found: BTreeMap<usize, Weights> = BTreeMap::new();
         for axis in 0..3 {
-            let keeps = |node: usize| follows(node) && !bound.component(node, axis);
-            for (node, sum) in sums(of_tie, keeps) {
+            for (node, sum) in sums(of_tie, |node| keeps(node, axis)) {
                 found.entry(node).or_default()[axis] = Some(sum.weights(node));
             }
         }
@@ -190,6 +203,7 @@ pub(super) fn rows(
                 },
             });
         }
+        of_tie.patches = of_tie.patches(keeps);
         all.extend(found.into_iter().map(|(node, row)| Follower {
             tie,
             node,

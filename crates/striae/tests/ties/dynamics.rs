@@ -91,8 +91,15 @@ fn a_run_that_is_taken_up_gives_the_same_bits() {
     ));
     let rest = Simulation::resume(&parts).unwrap().run().unwrap();
     assert_eq!(rest.ending, Ending::Completed);
-    let [one, other] = [whole, parts].map(|run| std::fs::read(run.join("history.csv")).unwrap());
-    assert_eq!(one, other);
+    for file in [
+        "history.csv",
+        "ties.pvd",
+        "fields/tie-seat-inner-00007.vtu",
+        "fields/tie-seat-outer-00003.vtu",
+    ] {
+        let [one, other] = [&whole, &parts].map(|run| std::fs::read(run.join(file)).unwrap());
+        assert!(one == other, "{file}");
+    }
 }
 
 const DECK: &str = r#"

@@ -9,3 +9,4 @@ mod order;
 mod patch;
 mod scene;
 mod swap;
+mod tractions;
