@@ -2,7 +2,7 @@
 //!
 //! Longer than other files, as all tests are of the same blocks.
 
-use striae_condensed::{Automatic, Choice, FallBack, Method, Partition};
+use striae_condensed::{Automatic, Choice, FallBack, Growth, Method, Partition};
 use striae_sparse::{Age, SolveError, SparseMatrix, Structure, Supervariable};
 
 /// What the lower block's face does on the upper one's.
@@ -48,7 +48,7 @@ impl Blocks {
             height,
             partition: Partition::new(&bulk, &vec![3; nodes]).unwrap(),
         };
-        let ties: Vec<Vec<Supervariable>> = blocks.ties().collect();
+        let ties: Growth = blocks.ties().collect();
         blocks.partition = blocks.partition.grown(&ties).unwrap();
         blocks
     }

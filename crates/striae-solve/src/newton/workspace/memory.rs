@@ -1,8 +1,7 @@
 //! What a workspace remembers between runs: it is part of a checkpoint.
 
 use serde::{Deserialize, Serialize};
-use striae_condensed::Experience;
-use striae_sparse::Supervariable;
+use striae_condensed::{Experience, Growth};
 
 use super::Workspace;
 use crate::{layout::Extent, newton::course::Course, problem::Problem};
@@ -14,8 +13,8 @@ use crate::{layout::Extent, newton::course::Course, problem::Problem};
 pub struct Memory {
     /// What has traction unknowns.
     pub extent: Extent,
-    /// Cliques of supervariables beyond the elements.
-    pub cliques: Vec<Vec<usize>>,
+    /// By what the pattern has grown beyond the elements.
+    pub growth: Growth,
     /// What the solver has from earlier matrices, older factors above all.
     pub solver: Experience,
     /// What the last increment started from.
@@ -27,12 +26,8 @@ impl Workspace {
     pub fn recalled(problem: &Problem, memory: &Memory) -> Self {
         let mut workspace = Self::new(problem.model.solver.backend);
         workspace.lay_out(problem, memory.extent.clone());
-        if !memory.cliques.is_empty() {
-            let cliques = memory.cliques.iter();
-            let cliques: Vec<Vec<Supervariable>> = cliques
-                .map(|clique| clique.iter().map(|&at| Supervariable(at)).collect())
-                .collect();
-            workspace.system().grow(cliques);
+        if !memory.growth.is_empty() {
+            workspace.system().grow(memory.growth.clone());
         }
         workspace.recall(&memory.solver);
         workspace.course.clone_from(&memory.course);
@@ -66,16 +61,12 @@ impl Workspace {
 
     /// What it has grown to and its solver has learnt.
     pub fn memory(&self) -> Memory {
-        self.system.as_ref().map_or_else(Memory::default, |system| {
-            let cliques = system.grown.iter();
-            Memory {
-                extent: system.layout.extent().clone(),
-                cliques: cliques
-                    .map(|clique| clique.iter().map(|at| at.0).collect())
-                    .collect(),
-                solver: self.experience(),
-                course: self.course.clone(),
-            }
+        let system = self.system.as_ref();
+        system.map_or_else(Memory::default, |system| Memory {
+            extent: system.layout.extent().clone(),
+            growth: system.growth.clone(),
+            solver: self.experience(),
+            course: self.course.clone(),
         })
     }
 }
