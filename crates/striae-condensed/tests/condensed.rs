@@ -410,7 +410,7 @@ fn a_solver_goes_on_from_the_experience_of_another_to_the_last_bit() {
     );
     let mut second = Automatic::new(Choice::ByCost);
     second.analyse(&blocks.partition).unwrap();
-    second.recall(&first.experience());
+    second.recall(first.experience(), first.factored_interior().as_ref());
     let matrix = blocks.matrix([1.02, 1.97], Contact::Slip);
     let answers = [&mut first, &mut second].map(|solver| {
         solver.start_afresh();
@@ -422,6 +422,7 @@ fn a_solver_goes_on_from_the_experience_of_another_to_the_last_bit() {
     });
     assert_eq!(answers[0], answers[1]);
     assert_eq!(first.experience(), second.experience());
+    assert_eq!(first.factored_interior(), second.factored_interior());
 }
 
 #[test]
