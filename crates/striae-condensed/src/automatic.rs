@@ -20,7 +20,7 @@
 
 use crate::{
     condensed::Condensed,
-    experience::Experience,
+    experience::{Experience, FactoredInterior},
     iterative::Iterative,
     partition::Partition,
     report::{Analysis, Factored, FallBack, Method},
@@ -35,8 +35,6 @@ use striae_sparse::{
 const REUSED: f64 = 0.25;
 /// Largest dense matrix, in bytes.
 const LARGEST_DENSE: usize = 6 << 30;
-/// Factorisations by LU after a failure before the condensed solver is tried again.
-const PATIENCE: usize = 8;
 /// Work of a dense system of what contact leaves free, over that of the interior, up to
 /// which it is worth correcting contact alone.
 const CHEAP: f64 = 0.1;
@@ -81,20 +79,25 @@ pub struct Automatic {
     partition: Option<Partition>,
     condensed: Option<Condensed>,
     lu: Option<Box<dyn LinearSolver>>,
-    fall_back: Option<FallBack>,
     /// Why the iterative solver was chosen by cost.
     reason: Option<FallBack>,
-    patience: usize,
-    /// Factorisations by direct solvers before the iterative one is tried again.
-    rest: usize,
-    factored: Option<Method>,
-    /// Age of the factors of the interior.
-    interior: Age,
-    /// Iterations of GMRES that older factors are worth, and those they last took.
+    /// Iterations of GMRES that older factors are worth.
     allowance: usize,
-    taken: usize,
-    /// Whether single precision has been found too coarse for this problem.
-    too_coarse: bool,
+    /// What earlier matrices have taught.
+    experience: Experience,
+    /// What made the last factors.
+    factored: Option<Made>,
+}
+
+/// What made factors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Made {
+    /// The iterative solver.
+    Iterative,
+    /// The condensed one, with an interior of this age.
+    Condensed(Age),
+    /// An LU.
+    Lu,
 }
 
 impl Automatic {
@@ -123,20 +126,21 @@ impl Automatic {
             Choice::Faer => Method::Faer,
             _ => Method::Multifrontal,
         };
-        self.factored = Some(method);
+        self.factored = Some(Made::Lu);
         Ok(Factored {
-            fall_back: self.fall_back,
+            fall_back: self.experience.fall_back,
             ..Factored::by(method, report)
         })
     }
 
     /// Factors everything.
     fn factor_anew(&mut self, matrix: &SparseMatrix) -> Result<Factored, SolveError> {
-        (self.interior, self.taken) = (Age::Fresh, 0);
-        if let Some(iterative) = self.iterative.as_mut().filter(|_| self.rest == 0) {
+        self.experience.taken = 0;
+        let iterative = self.iterative.as_mut();
+        if let Some(iterative) = iterative.filter(|_| self.experience.rest == 0) {
             match iterative.factor(matrix) {
                 Ok(report) => {
-                    self.factored = Some(Method::Iterative);
+                    self.factored = Some(Made::Iterative);
                     (self.condensed, self.lu) = (None, None);
                     return Ok(Factored {
                         fall_back: self.reason,
@@ -149,17 +153,18 @@ impl Automatic {
                 Err(other) => return Err(other),
             }
         } else {
-            self.rest = self.rest.saturating_sub(1);
+            self.experience.rest = self.experience.rest.saturating_sub(1);
         }
         self.plan_direct()?;
-        if self.condensed.is_none() || self.patience > 0 {
-            self.patience = self.patience.saturating_sub(1);
+        if self.condensed.is_none() || self.experience.patience > 0 {
+            self.experience.patience = self.experience.patience.saturating_sub(1);
             return self.factor_lu(matrix);
         }
         match self.factor_condensed(matrix) {
             Ok(report) => {
-                let reason = self.iterative.as_ref().and(self.fall_back);
-                (self.fall_back, self.factored) = (reason, Some(Method::Condensed));
+                let reason = self.iterative.as_ref().and(self.experience.fall_back);
+                self.experience.fall_back = reason;
+                self.factored = Some(Made::Condensed(Age::Fresh));
                 // The LU would only hold memory now.
                 self.lu = None;
                 Ok(Factored {
@@ -177,7 +182,7 @@ impl Automatic {
 
     /// Precision that factors of the bodies are tried in.
     fn precision(&self) -> Precision {
-        match self.allowance >= FEWEST && !self.too_coarse {
+        match self.allowance >= FEWEST && !self.experience.too_coarse {
             true => Precision::Single,
             false => Precision::Double,
         }
@@ -194,19 +199,21 @@ impl Automatic {
             }
         }
         let done = condensed.factor(matrix, Precision::Double);
-        self.too_coarse |= single && done.is_ok();
+        self.experience.too_coarse |= single && done.is_ok();
         done
     }
 
-    /// Solves with the condensed solver's factors; `None` when those are no good any more.
+    /// Solves with the condensed solver's factors of an interior of some age; `None` when those
+    /// are no good any more.
     fn solve_condensed(
         &mut self,
+        age: Age,
         matrix: &SparseMatrix,
         (rhs, x): (&[f64], &mut [f64]),
         reduction: f64,
     ) -> Result<Option<SolveReport>, SolveError> {
         let condensed = self.condensed.as_ref().ok_or(SolveError::NotFactored)?;
-        if (self.interior, condensed.precision()) == (Age::Fresh, Precision::Double) {
+        if (age, condensed.precision()) == (Age::Fresh, Precision::Double) {
             return condensed.solve(matrix, rhs, x).map(Some);
         }
         let ends = Ends {
@@ -215,18 +222,15 @@ impl Automatic {
         };
         let report = condensed.solve_nearby(matrix, (rhs, x), ends)?;
         match &report {
-            Some(report) => self.taken = report.krylov_iterations,
-            None => self.too_coarse |= self.interior == Age::Fresh,
+            Some(report) => self.experience.taken = report.krylov_iterations,
+            None => self.experience.too_coarse |= age == Age::Fresh,
         }
-        Ok(report.map(|report| SolveReport {
-            age: self.interior,
-            ..report
-        }))
+        Ok(report.map(|report| SolveReport { age, ..report }))
     }
 
     /// Leaves matrices to a direct solver for a while.
     fn give_up(&mut self, reason: FallBack) {
-        (self.fall_back, self.rest) = (Some(reason), PATIENCE);
+        self.experience.iterative_failed(reason);
         if let Some(iterative) = &mut self.iterative {
             iterative.forget();
         }
@@ -251,7 +255,7 @@ impl Automatic {
         reason: FallBack,
         matrix: &SparseMatrix,
     ) -> Result<Factored, SolveError> {
-        (self.fall_back, self.patience) = (Some(reason), PATIENCE);
+        self.experience.condensed_failed(reason);
         self.factor_lu(matrix)
     }
 }
@@ -265,7 +269,7 @@ impl Automatic {
     pub fn analyse(&mut self, partition: &Partition) -> Result<Analysis, SolveError> {
         *self = Self {
             choice: self.choice,
-            too_coarse: self.too_coarse,
+            experience: self.experience.of_other_pattern(),
             ..Self::default()
         };
         self.partition = Some(partition.clone());
@@ -316,7 +320,7 @@ impl Automatic {
         }
         if let Some((solver, other)) = direct {
             self.lu = Some(solver);
-            self.fall_back = Some(FallBack::LargeInterface { unknowns: order });
+            self.experience.fall_back = Some(FallBack::LargeInterface { unknowns: order });
             return Ok(other);
         }
         let worth = 0.7 * condensed.solutions_per_factorisation();
@@ -346,8 +350,8 @@ impl Automatic {
 
     /// Gives what has failed another try: matrices of another state come.
     pub fn start_afresh(&mut self) {
-        (self.patience, self.rest) = (0, 0);
-        if AGED * self.taken > self.allowance {
+        self.experience.forgive();
+        if AGED * self.experience.taken > self.allowance {
             self.forget();
         }
         if let Some(condensed) = &mut self.condensed {
@@ -357,25 +361,27 @@ impl Automatic {
 
     /// Forgets all factors, but not the analysis: matrices of another kind come.
     pub fn forget(&mut self) {
-        self.taken = 0;
+        self.experience.taken = 0;
         if let Some(condensed) = &mut self.condensed {
             condensed.forget();
         }
     }
 
-    /// What earlier matrices have left that bears on the last digits of answers to come.
-    pub fn experience(&self) -> Experience {
-        Experience {
-            too_coarse: self.too_coarse,
-            taken: self.taken,
-            interior: self.condensed.as_ref().and_then(Condensed::factored),
-        }
+    /// What earlier matrices have taught.
+    pub fn experience(&self) -> &Experience {
+        &self.experience
     }
 
-    /// Takes up the experience of another solver with the same analysis.
-    pub fn recall(&mut self, experience: &Experience) {
-        (self.too_coarse, self.taken) = (experience.too_coarse, experience.taken);
-        if let (Some(condensed), Some(interior)) = (&mut self.condensed, &experience.interior)
+    /// What the factors there are were made of.
+    pub fn factored_interior(&self) -> Option<FactoredInterior> {
+        self.condensed.as_ref().and_then(Condensed::factored)
+    }
+
+    /// Takes up the experience and the factors of another solver with the same analysis.
+    pub fn recall(&mut self, experience: &Experience, interior: Option<&FactoredInterior>) {
+        (self.experience.too_coarse, self.experience.taken) =
+            (experience.too_coarse, experience.taken);
+        if let (Some(condensed), Some(interior)) = (&mut self.condensed, interior)
             && condensed.factor_again(interior).is_err()
         {
             condensed.forget();
@@ -388,13 +394,13 @@ impl Automatic {
     /// Why no method can.
     pub fn factor(&mut self, matrix: &SparseMatrix) -> Result<Factored, SolveError> {
         self.factored = None;
-        let good = self.allowance >= FEWEST && 4 * self.taken <= 3 * self.allowance;
+        let good = self.allowance >= FEWEST && 4 * self.experience.taken <= 3 * self.allowance;
         if let Some(condensed) = self.condensed.as_mut()
-            && self.patience == 0
+            && self.experience.patience == 0
             && good
             && let Ok(Some(report)) = condensed.refresh(matrix)
         {
-            (self.interior, self.factored) = (Age::Stale, Some(Method::Condensed));
+            self.factored = Some(Made::Condensed(Age::Stale));
             return Ok(report);
         }
         self.factor_anew(matrix)
@@ -429,7 +435,7 @@ impl Automatic {
         x: &mut [f64],
         reduction: f64,
     ) -> Result<SolveReport, SolveError> {
-        if self.factored == Some(Method::Iterative) {
+        if self.factored == Some(Made::Iterative) {
             let iterative = self.iterative.as_ref().ok_or(SolveError::NotFactored)?;
             if let Some(report) = iterative.solve(matrix, rhs, x, reduction)? {
                 return Ok(report);
@@ -437,8 +443,8 @@ impl Automatic {
             self.give_up(FallBack::NotConverged);
             self.factor_anew(matrix)?;
         }
-        while self.factored == Some(Method::Condensed) {
-            match self.solve_condensed(matrix, (rhs, &mut *x), reduction) {
+        while let Some(Made::Condensed(age)) = self.factored {
+            match self.solve_condensed(age, matrix, (rhs, &mut *x), reduction) {
                 Ok(Some(report)) => return Ok(report),
                 Ok(None) => self.factor_anew(matrix)?,
                 Err(SolveError::Inaccurate { backward_error }) => {
@@ -456,7 +462,7 @@ impl Automatic {
     /// Whether [`solve_other_contact`](Self::solve_other_contact) is worth a call now.
     pub fn has_interior(&self) -> bool {
         let condensed = self.condensed.as_ref();
-        self.factored == Some(Method::Condensed)
+        matches!(self.factored, Some(Made::Condensed(_)))
             && condensed.is_some_and(|condensed| condensed.share_of_contact() <= CHEAP)
     }
 
@@ -474,7 +480,7 @@ impl Automatic {
         rhs: &[f64],
     ) -> Result<Option<Vec<f64>>, SolveError> {
         match (&mut self.condensed, self.factored) {
-            (Some(condensed), Some(Method::Condensed)) => {
+            (Some(condensed), Some(Made::Condensed(_))) => {
                 condensed.solve_other_contact(matrix, rhs)
             }
             _ => Ok(None),

@@ -1,15 +1,53 @@
-//! What earlier matrices have left in a solver.
+//! What earlier matrices have taught.
 
+use crate::report::FallBack;
 use serde::{Deserialize, Serialize};
-/// What bears on the last digits of answers to come.
+
+/// Factorisations by other solvers after a failure before one is tried again.
+const PATIENCE: usize = 8;
+
+/// What earlier matrices have taught the choice of a solver. What is written with it bears on
+/// the last digits of answers to come.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Experience {
     /// Whether single precision has been found too coarse.
     pub too_coarse: bool,
     /// Iterations of GMRES that the factors took last.
     pub taken: usize,
-    /// What the factors there are were made of.
-    pub interior: Option<FactoredInterior>,
+    /// Why the last failure, or the analysis, led to another solver.
+    #[serde(skip)]
+    pub(crate) fall_back: Option<FallBack>,
+    /// Factorisations by LU before the condensed solver is tried again.
+    #[serde(skip)]
+    pub(crate) patience: usize,
+    /// Factorisations by direct solvers before the iterative one is tried again.
+    #[serde(skip)]
+    pub(crate) rest: usize,
+}
+
+impl Experience {
+    /// What of it holds for matrices of another pattern.
+    pub fn of_other_pattern(&self) -> Self {
+        Self {
+            too_coarse: self.too_coarse,
+            ..Self::default()
+        }
+    }
+
+    /// The condensed solver has failed: others have their turns.
+    pub(crate) fn condensed_failed(&mut self, reason: FallBack) {
+        (self.fall_back, self.patience) = (Some(reason), PATIENCE);
+    }
+
+    /// The iterative solver has failed: others have their turns.
+    pub(crate) fn iterative_failed(&mut self, reason: FallBack) {
+        (self.fall_back, self.rest) = (Some(reason), PATIENCE);
+    }
+
+    /// What has failed has another try.
+    pub(crate) fn forgive(&mut self) {
+        (self.patience, self.rest) = (0, 0);
+    }
 }
 
 /// The interior of all bodies that was factored.

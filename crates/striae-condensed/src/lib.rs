@@ -6,13 +6,13 @@
 //! large for factors, and an LU that takes the system as it is:
 //!
 //! ```
-//! use striae_condensed::{Automatic, Choice, Partition};
+//! use striae_condensed::{Automatic, Choice, Growth, Partition};
 //! use striae_sparse::{SparseMatrix, Structure, Supervariable};
 //!
 //! // Two springs, and a multiplier that ties their ends.
 //! let (a, b) = (Supervariable(0), Supervariable(1));
 //! let bulk = Structure::from_cliques(vec![0, 1, 3], &[[a], [b]])?;
-//! let partition = Partition::new(&bulk, &[1, 1])?.grown(&[[a, b]])?;
+//! let partition = Partition::new(&bulk, &[1, 1])?.grown(&Growth::from_iter([vec![a, b]]))?;
 //! let mut matrix = SparseMatrix::zero(partition.structure());
 //! matrix.add(&[0], &[0], &[2.0])?;
 //! matrix.add(&[1], &[1], &[3.0])?;
@@ -33,6 +33,7 @@ mod bulk;
 mod condensed;
 mod entries;
 mod experience;
+mod growth;
 mod interface;
 mod iterative;
 mod kept;
@@ -42,5 +43,6 @@ mod scaling;
 
 pub use automatic::{Automatic, Choice, REDUCTION};
 pub use experience::{Experience, FactoredInterior};
+pub use growth::Growth;
 pub use partition::{Partition, PartitionError};
 pub use report::{Analysis, Factored, FallBack, Method};

@@ -6,6 +6,7 @@
 //! when the rest of the bulk is condensed, as are those with other unknowns
 //! (multipliers).
 
+use crate::growth::Growth;
 use std::{ops::Deref, ops::Range, sync::Arc};
 use striae_sparse::{SparseMatrix, Structure, StructureError, Supervariable};
 use thiserror::Error;
@@ -117,12 +118,12 @@ impl Partition {
         Ok(self)
     }
 
-    /// The same with more cliques, whose supervariables are kept.
+    /// The same grown by more cliques, whose supervariables are kept.
     ///
     /// # Errors
     /// When a clique names a supervariable that does not exist.
-    pub fn grown<C: AsRef<[Supervariable]>>(&self, cliques: &[C]) -> Result<Self, StructureError> {
-        let structure = self.structure.grown(cliques)?;
+    pub fn grown(&self, growth: &Growth) -> Result<Self, StructureError> {
+        let structure = self.structure.grown(growth.cliques())?;
         let mut parts = (*self.parts).clone();
         parts.bulk_edges.clear();
         for i in 0..structure.supervariables() {
@@ -131,7 +132,7 @@ impl Partition {
                 older.is_some_and(|older| self.is_bulk_edge(older))
             }));
         }
-        for s in cliques.iter().flat_map(|clique| clique.as_ref()) {
+        for s in growth.cliques().iter().flatten() {
             parts.kept[s.0] = true;
         }
         Ok(Self {

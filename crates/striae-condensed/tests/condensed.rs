@@ -2,7 +2,7 @@
 //!
 //! Longer than other files, as all tests are of the same blocks.
 
-use striae_condensed::{Automatic, Choice, FallBack, Method, Partition};
+use striae_condensed::{Automatic, Choice, FallBack, Growth, Method, Partition};
 use striae_sparse::{Age, SolveError, SparseMatrix, Structure, Supervariable};
 
 /// What the lower block's face does on the upper one's.
@@ -48,7 +48,7 @@ impl Blocks {
             height,
             partition: Partition::new(&bulk, &vec![3; nodes]).unwrap(),
         };
-        let ties: Vec<Vec<Supervariable>> = blocks.ties().collect();
+        let ties: Growth = blocks.ties().collect();
         blocks.partition = blocks.partition.grown(&ties).unwrap();
         blocks
     }
@@ -410,7 +410,7 @@ fn a_solver_goes_on_from_the_experience_of_another_to_the_last_bit() {
     );
     let mut second = Automatic::new(Choice::ByCost);
     second.analyse(&blocks.partition).unwrap();
-    second.recall(&first.experience());
+    second.recall(first.experience(), first.factored_interior().as_ref());
     let matrix = blocks.matrix([1.02, 1.97], Contact::Slip);
     let answers = [&mut first, &mut second].map(|solver| {
         solver.start_afresh();
@@ -422,6 +422,7 @@ fn a_solver_goes_on_from_the_experience_of_another_to_the_last_bit() {
     });
     assert_eq!(answers[0], answers[1]);
     assert_eq!(first.experience(), second.experience());
+    assert_eq!(first.factored_interior(), second.factored_interior());
 }
 
 #[test]

@@ -53,7 +53,9 @@ impl Blocks {
         let partition = Partition::new(&bulk, &vec![3; nodes])
             .and_then(|partition| partition.with_points(points.collect()))
             .unwrap();
-        let partition = partition.grown(&ties(side, height)).unwrap();
+        let partition = partition
+            .grown(&ties(side, height).into_iter().collect())
+            .unwrap();
         Self {
             side,
             height,

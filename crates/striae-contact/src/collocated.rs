@@ -25,18 +25,20 @@ use striae_surface::facet::Shape;
 use crate::{
     configuration::Configuration,
     coverage::{Found, Place},
-    edge::{add_slope, on_edge},
-    frame::{Frame, Frames, Tracked},
-    kinematics::{Kinematics, Presence, TrackedScalar},
+    edge::on_edge,
+    frame::{Frame, Frames},
+    kinematics::{Kinematics, Presence},
     opposing::Opposing,
-    pointed::Tip,
+    pairing::side_sign,
+    partner::Partner,
     projection::differentiated_rigid,
-    selection::{Partner, Selection},
+    selection::Selection,
     term::{Gradient, Jacobian, Lanes, Source, add_block, gradient},
+    tip::Tip,
+    tracked::{Tracked, TrackedScalar, add_chained, add_slope},
     traction::NodalTractions,
     transported::Transported,
     unknowns::Tractions,
-    weighted::{add_chained, side_sign},
 };
 
 /// Gaps and slips of all kept nodes.

@@ -18,7 +18,8 @@ use crate::{
     configuration::Configuration,
     field::FacetForces,
     frame::Frames,
-    pairing::SIGNS,
+    pairing::{SIGNS, side_sign},
+    patch::Patch,
     places::{ChainedSum, Places},
     segment_rows::AtCorners,
     selection::Selection,
@@ -26,7 +27,6 @@ use crate::{
     traction::NodalTractions,
     transported::Transported,
     unknowns::Tractions,
-    weighted::{Patch, side_sign},
 };
 
 /// What the common field depends on.

@@ -17,9 +17,9 @@ use striae_mesh::Vec3;
 
 use crate::{
     configuration::Configuration,
-    frame::{Frame, Tracked, frame_of},
+    frame::{Frame, frame_of},
+    tracked::{Tracked, add_chained},
     transported::Transported,
-    weighted::add_chained,
 };
 
 /// `tau^n'` of a node with the present `frame`, from its components along the tangents in

@@ -15,10 +15,10 @@ use striae_surface::scalar::Real;
 
 use crate::{
     configuration::Configuration,
-    frame::own_normal,
-    kinematics::TrackedScalar,
+    nodal_normal::own_normal,
     projection::{Hit, share_of_edge},
     term::Gradient,
+    tracked::{TrackedScalar, add_slope},
 };
 
 /// Nearest place on the edge of the opposing surface.
@@ -92,14 +92,6 @@ pub fn on_edge(
             value: t,
             gradient: spread(by_r, by_d, by_n),
         },
-    }
-}
-
-/// Adds to a gradient by a triple.
-pub fn add_slope(gradient: &mut Gradient, first: u32, slope: Vec3) {
-    match gradient.iter_mut().find(|entry| entry.0 == first) {
-        Some((_, sum)) => *sum += slope,
-        None => gradient.push((first, slope)),
     }
 }
 

@@ -16,8 +16,10 @@ use crate::{
     frame::{Frame, Frames, frames},
     kinematics::{Kinematics, Report},
     pair::Enforcement,
+    pairing::side_sign,
     pairing::{paired_facets, topology},
-    pointed::{self, PointedTerm, RigidPoints, Tip},
+    patch::Patch,
+    pointed::{self, PointedTerm},
     ramp::{self, Ramp},
     segment::Derivatives,
     segment_rows::{Given, Slip, segment_rows},
@@ -25,10 +27,11 @@ use crate::{
     slip_rate::{SlipRates, slip_rates},
     term::LocalTerm,
     texture::{CollapsedTexture, Textures, own, textures},
+    tip::{RigidPoints, Tip},
     traction::{NodalTractions, Surroundings, nodal_tractions},
     transported::Transported,
     unknowns::{NodeResult, Status, Tractions},
-    weighted::{self, Patch, side_sign},
+    weighted,
 };
 
 /// Everything a pair contributes, and what it looks like.

@@ -10,29 +10,22 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::DualSVec64;
 use rayon::prelude::*;
 use striae_mesh::Vec3;
-use striae_surface::normal::normal_jacobian;
 
 use crate::{
     configuration::{Configuration, Snapshot},
     coverage::{Found, Place},
     edge::on_edge,
-    pointed::{Spot, Tip},
+    nodal_normal::own_normal,
     projection::{Hit, differentiated_rigid},
     selection::Selection,
+    spot::Spot,
     term::{Jacobian, Lanes, Source, add_block, parts, variable3},
+    tip::Tip,
+    tracked::Tracked,
 };
 
 /// Sine of the angle to the normal below which an edge gives no tangent.
 const ALONG: f64 = 0.2;
-
-/// A vector with its derivatives by the unknowns.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Tracked {
-    /// The vector.
-    pub value: Vec3,
-    /// Its derivatives.
-    pub jacobian: Jacobian,
-}
 
 /// Normal and tangents of a node.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -103,20 +96,6 @@ fn pointed_normal(
         },
     };
     spot.map_or_else(alone, |spot| spot.n)
-}
-
-/// The normal of a node's own surface.
-pub fn own_normal(configuration: &Configuration, side: usize, node: u32) -> Tracked {
-    let own = configuration.side(side);
-    let numbering = configuration.pair.numbering();
-    let mut jacobian = normal_jacobian(own.surface, &own.x, node);
-    for entry in &mut jacobian {
-        entry.0 = numbering.position(side, entry.0);
-    }
-    Tracked {
-        value: own.normals[node as usize],
-        jacobian,
-    }
 }
 
 /// The opposite of the rigid normal at the projection; `None` far away from the surface.

@@ -2,16 +2,7 @@
 
 use striae_mesh::Vec3;
 
-use crate::{frame::Tracked, term::Gradient};
-
-/// A scalar with its derivatives by the unknowns.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct TrackedScalar {
-    /// The scalar.
-    pub value: f64,
-    /// Its derivatives.
-    pub gradient: Gradient,
-}
+use crate::tracked::{Tracked, TrackedScalar};
 
 /// What contact and friction at a kept node depend on.
 #[derive(Clone, Debug, Default, PartialEq)]

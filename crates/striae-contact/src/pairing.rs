@@ -105,6 +105,11 @@ pub fn topology<'a>(paired: impl Iterator<Item = &'a PairedFacets>) -> u64 {
 /// Sign of the corners in the gap: `b` minus `a`.
 pub const SIGNS: [f64; 8] = [-1.0, -1.0, -1.0, -1.0, 1.0, 1.0, 1.0, 1.0];
 
+/// 1 on side `a`, -1 on side `b`: how normal and friction of a node are seen from side `a`.
+pub fn side_sign(side: usize) -> f64 {
+    if side == 0 { 1.0 } else { -1.0 }
+}
+
 /// All paired facets whose facet of side `a` is `wanted`, in the order of their facets.
 pub fn paired_facets(
     configuration: &Configuration,

@@ -27,23 +27,21 @@
 use crate::{
     collocated,
     configuration::Configuration,
-    frame::{Frame, Tracked},
-    kinematics::{Kinematics, Presence, TrackedScalar},
+    frame::Frame,
+    kinematics::{Kinematics, Presence},
     selection::Selection,
+    spot::Spot,
     term::Gradient,
+    tracked::{Tracked, TrackedScalar},
 };
 
 pub mod choice;
 mod force;
 mod ridge;
-mod spot;
-mod tip;
 
 pub use choice::{Pierced, Progress, pierced, staying};
 pub use force::{PointedTerm, terms};
 pub use ridge::Bend;
-pub use spot::{Spot, faced, facet_normal};
-pub use tip::{RigidPoint, RigidPoints, Tip};
 
 /// Gap and slip of a pointed node in the place `k` among the kept nodes.
 pub fn kinematics(

@@ -14,11 +14,11 @@
 use nalgebra::{Matrix3, Vector3};
 use striae_mesh::{FacetId, Vec3};
 use striae_surface::{
-    facet::{Shape, area_vector},
+    facet::{Shape, area_vector, facet_normal},
     scalar::{Real, combination, constant3, normalised},
 };
 
-use crate::{configuration::Snapshot, pointed::facet_normal, search::Bounds};
+use crate::{configuration::Snapshot, search::Bounds};
 
 /// A point of a facet and the gap to it.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -16,14 +16,15 @@ use striae_mesh::Vec3;
 use crate::{
     configuration::Configuration,
     converged_friction::{CollapsedFacets, converged_friction},
-    frame::{Frame, Frames, Tracked},
+    frame::{Frame, Frames},
     kinematics::Kinematics,
+    pairing::side_sign,
     places::ChainedSum,
     selection::Selection,
+    tracked::Tracked,
     traction::NodalTractions,
     transported::Transported,
     unknowns::Tractions,
-    weighted::side_sign,
 };
 
 /// Adds what the ramp does to the gaps, which depend on positions only before.

@@ -9,25 +9,24 @@
 mod approach;
 mod before;
 mod gathered;
-mod partner;
 mod sides;
 mod traction_field;
 
 pub use approach::approach;
 pub(crate) use approach::compliances;
 pub use before::{Before, Kept};
-pub use partner::Partner;
 pub use traction_field::Selection;
 
 use crate::{
     configuration::Configuration,
     pairing::Scope,
-    pointed::{RigidPoint, Spot},
+    partner::partners,
+    spot::Spot,
+    tip::RigidPoint,
     traction_basis::{KeptNode, THETA_1},
     unknown::Prescribed,
 };
 use gathered::Gathered;
-use partner::partners;
 
 impl Selection {
     /// Chooses the kept nodes from the configuration that an increment starts from and, if

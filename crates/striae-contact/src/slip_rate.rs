@@ -5,9 +5,8 @@
 //! for it: the friction of a node and the row that it obeys ask at the same rate.
 
 use crate::{
-    configuration::Configuration,
-    kinematics::{Kinematics, TrackedScalar},
-    selection::Selection,
+    configuration::Configuration, kinematics::Kinematics, selection::Selection,
+    tracked::TrackedScalar,
 };
 
 /// Slip rates by side; zero without derivatives where nothing asks for them.

@@ -22,11 +22,12 @@ use striae_surface::texture::Axes;
 pub use crate::pair::SideTexture;
 use crate::{
     configuration::Configuration,
-    frame::{Frame, Frames, Tracked},
+    frame::{Frame, Frames},
     kinematics::Kinematics,
-    pointed::Tip,
     selection::Selection,
     term::{Jacobian, Lanes, Source, parts, variable3},
+    tip::Tip,
+    tracked::Tracked,
 };
 use opposite::{faced, of_point, opposite};
 

@@ -12,12 +12,12 @@ use striae_surface::scalar::constant3;
 
 use crate::{
     configuration::Configuration,
-    frame::{Frame, Frames, Tracked},
-    kinematics::TrackedScalar,
+    frame::{Frame, Frames},
     selection::Selection,
     slip_rate::SlipRates,
     term::{Lanes, Source, add_block, gradient, parts, variable, variable3},
     texture::{NodeTextures, Textures},
+    tracked::{Tracked, TrackedScalar},
     unknowns::Tractions,
 };
 

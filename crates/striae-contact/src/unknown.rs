@@ -7,7 +7,7 @@
 //!
 //! Sides are numbered 0 (`a`) and 1 (`b`); the other side of `s` is `1 - s`.
 //! A rigid side `b` has no positions. If it has facets, its tractions are those of the
-//! [points](crate::pointed::RigidPoint) that pierce side `a`, numbered by the nodes of `a`
+//! [points](crate::tip::RigidPoint) that pierce side `a`, numbered by the nodes of `a`
 //! that lodge them.
 
 use nalgebra::Matrix3;

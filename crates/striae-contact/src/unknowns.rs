@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use striae_mesh::Vec3;
 
-use crate::pointed::RigidPoints;
+use crate::tip::RigidPoints;
 
 /// Traction unknowns of a pair; the same shape whatever the roles.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -18,59 +18,18 @@ use striae_mesh::Vec3;
 
 use crate::{
     configuration::Configuration,
-    frame::{Frame, Frames, Tracked},
-    kinematics::{Kinematics, Presence, Report, TrackedScalar},
-    pairing::{PairedFacets, SIGNS},
+    frame::{Frame, Frames},
+    kinematics::{Kinematics, Presence, Report},
+    pairing::{SIGNS, side_sign},
+    patch::Patch,
     places::{ChainedSum, Places},
     pointed,
-    segment_rows::{ROWS, SegmentRows, Slip},
+    segment_rows::{ROWS, Slip},
     selection::Selection,
     term::{Gradient, Jacobian},
+    tracked::{Tracked, TrackedScalar},
     transported::Transported,
 };
-
-/// A segment with its rows and the kept nodes whose basis functions live on it.
-pub struct Patch {
-    /// Facets and integrals.
-    pub paired: PairedFacets,
-    /// Gap and slip.
-    pub rows: SegmentRows,
-    /// Kept nodes, and the values of their basis functions at the corners: `phi_k = sum_c
-    /// share_kc N_c`.
-    pub kept: Vec<(u32, [f64; 8])>,
-}
-
-impl Patch {
-    /// The kept nodes at the corners of paired facets.
-    pub fn kept_of(
-        configuration: &Configuration,
-        selection: &Selection,
-        paired: &PairedFacets,
-    ) -> Vec<(u32, [f64; 8])> {
-        let share = if configuration.pair.is_rigid() {
-            1.0
-        } else {
-            0.5
-        };
-        let mut kept: Vec<(u32, [f64; 8])> = Vec::with_capacity(16);
-        for corner in 0..8 {
-            let Some((side, node)) = paired.node(configuration, corner) else {
-                continue;
-            };
-            for &(k, weight) in selection.row(side, node) {
-                let at = match kept.binary_search_by_key(&k, |entry| entry.0) {
-                    Ok(at) => at,
-                    Err(at) => {
-                        kept.insert(at, (k, [0.0; 8]));
-                        at
-                    }
-                };
-                kept[at].1[corner] = share * weight;
-            }
-        }
-        kept
-    }
-}
 
 /// Gaps and slips of all kept nodes without what depends on tractions.
 pub fn kinematics(
@@ -253,21 +212,6 @@ impl<'a> Sum<'a> {
             stiffness,
         }
     }
-}
-
-/// Adds `by v`, `v` an intermediate vector, to a Jacobian; the order of its entries is free.
-pub fn add_chained(jacobian: &mut Jacobian, by: &Matrix3<f64>, inner: &Jacobian) {
-    for (first, block) in inner {
-        match jacobian.iter_mut().find(|entry| entry.0 == *first) {
-            Some((_, sum)) => *sum += by * block,
-            None => jacobian.push((*first, by * block)),
-        }
-    }
-}
-
-/// 1 on side `a`, -1 on side `b`: how normal and friction of a node are seen from side `a`.
-pub fn side_sign(side: usize) -> f64 {
-    if side == 0 { 1.0 } else { -1.0 }
 }
 
 /// What is reported of every node of both sides.

@@ -27,7 +27,7 @@ use std::{
     sync::Arc,
     time::{Duration, Instant},
 };
-use striae_condensed::Partition;
+use striae_condensed::{Growth, Partition};
 use striae_contact::{
     complementarity::Iteration, configuration::Configuration, evaluation::Evaluation,
     segment::Derivatives, selection::Selection, unknowns::Tractions,
@@ -105,8 +105,8 @@ pub struct Assembled {
 pub enum Fault {
     /// The trial state cannot be evaluated.
     CutBack(CutBack),
-    /// Terms outside the pattern, as cliques to grow it by.
-    Pattern(Vec<Vec<Supervariable>>),
+    /// Terms have no place in the pattern, which is to grow.
+    Pattern(Growth),
 }
 
 /// Evaluates the problem at a trial state and fills the matrix; without derivatives the matrix
@@ -169,8 +169,8 @@ fn on_this_thread(
     };
     let ((), adding_time) = timed(|| system.add_contacts(&contacts));
     system.stabilise(trial, imposed);
-    if !system.outside.is_empty() {
-        return Err(Fault::Pattern(system.outside));
+    if !system.growth.is_empty() {
+        return Err(Fault::Pattern(system.growth));
     }
     system.pass_on();
     system.condense(imposed);
@@ -225,7 +225,8 @@ struct System<'a> {
     longest_push: Vec<f64>,
     /// Unknowns of every pair.
     triples: Vec<Vec<Option<Triple>>>,
-    outside: Vec<Vec<Supervariable>>,
+    /// Cliques of terms that the pattern has no place for.
+    growth: Growth,
     scratch: Scratch,
 }
 
@@ -254,7 +255,7 @@ impl<'a> System<'a> {
             moving: Vec::new(),
             longest_push: vec![0.0; problem.model.rigid_surfaces.len()],
             triples: Vec::new(),
-            outside: Vec::new(),
+            growth: Growth::default(),
             scratch: Scratch::default(),
         };
         system.find_ties(trial, imposed);

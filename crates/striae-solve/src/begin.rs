@@ -86,7 +86,7 @@ fn follow_bodies(context: &StepContext, velocities: &mut [Vec3]) {
         let pose = &state.rigid[rigid];
         let point = problem.model.rigid_surfaces[rigid].reference + pose.displacement;
         let [mut velocity, mut spin] =
-            fitted_velocity(problem, rigid, pose, &state.positions, velocities);
+            fitted_velocity(&point, &problem.tied[rigid], &state.positions, velocities);
         for axis in 0..3 {
             if context.fixed_rigid[rigid][axis] {
                 velocity[axis] = rates[axis][0];

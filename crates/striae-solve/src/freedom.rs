@@ -19,39 +19,10 @@ use striae_mesh::Vec3;
 use crate::{
     assembly::StepContext,
     interference::{Positions, configuration, thickness},
+    outcome::{FreeMotion, FreeMover},
     problem::Problem,
     state::State,
 };
-
-/// A body that is free to move.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FreeMotion {
-    /// What it is.
-    pub mover: FreeMover,
-    /// The motions in words: `along x and about z`, or coordinates of a rigid body.
-    pub motions: String,
-}
-
-/// What is free to move.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum FreeMover {
-    /// A deformable body of this name.
-    Body(String),
-    /// A rigid body of this name, with all that is tied to it.
-    Rigid(String),
-}
-
-impl std::fmt::Display for FreeMotion {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let motions = &self.motions;
-        match &self.mover {
-            FreeMover::Body(name) => {
-                write!(f, "body `{name}` is not held: it is free to move {motions}")
-            }
-            FreeMover::Rigid(name) => write!(f, "{motions} of `{name}` is free"),
-        }
-    }
-}
 
 /// What friction holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

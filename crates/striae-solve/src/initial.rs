@@ -19,9 +19,9 @@ use striae_contact::{
 use striae_mesh::{ElementId, NodeId, Vec3};
 
 use crate::{
-    interference::{Positions, add_fibres, configuration, thickness, thickness_with},
+    interference::{Positions, configuration, thickness, thickness_with},
     model::{Initial, Model, PairId, Side},
-    problem::{PairGeometry, Problem, pair_geometry},
+    problem::{PairGeometry, Problem, add_fibres, pair_geometry},
     state::State,
 };
 

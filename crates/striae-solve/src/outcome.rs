@@ -2,7 +2,7 @@
 
 use striae_sparse::SolveError;
 
-use crate::{freedom::FreeMotion, norms::Norms};
+use crate::norms::Norms;
 
 /// Why an increment did not succeed and is tried again with a smaller one.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -214,6 +214,36 @@ pub enum Remedy {
     SmallerIncrement,
     /// Nothing that a run can do.
     None,
+}
+
+/// A body that is free to move.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FreeMotion {
+    /// What it is.
+    pub mover: FreeMover,
+    /// The motions in words: `along x and about z`, or coordinates of a rigid body.
+    pub motions: String,
+}
+
+/// What is free to move.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FreeMover {
+    /// A deformable body of this name.
+    Body(String),
+    /// A rigid body of this name, with all that is tied to it.
+    Rigid(String),
+}
+
+impl std::fmt::Display for FreeMotion {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let motions = &self.motions;
+        match &self.mover {
+            FreeMover::Body(name) => {
+                write!(f, "body `{name}` is not held: it is free to move {motions}")
+            }
+            FreeMover::Rigid(name) => write!(f, "{motions} of `{name}` is free"),
+        }
+    }
 }
 
 /// A contact node that changed its status in the last iterations.

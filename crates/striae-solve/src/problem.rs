@@ -1,9 +1,11 @@
 //! A validated model, ready to be solved: everything that is the same in all increments.
 
 mod contact_facet;
+mod fibres;
 mod shadow;
 
 pub use contact_facet::ContactFacet;
+pub(crate) use fibres::add_fibres;
 
 use std::collections::HashMap;
 use striae_contact::{
@@ -22,7 +24,7 @@ use striae_surface::{
 use crate::{
     body_mass::{BodyMass, masses},
     composition::Composition,
-    contact_mass, interference,
+    contact_mass,
     model::{Model, Pair, RigidShape, Side},
     plan::{StepPlan, plans},
     tie::{TieFault, Ties, first_nodes},
@@ -166,7 +168,7 @@ impl Problem {
         }
         let pairs = model.pairs.iter().map(|pair| pair_geometry(&model, pair));
         let mut pairs: Vec<PairGeometry> = pairs.collect::<Result<_, _>>()?;
-        interference::add_fibres(&model, &mut pairs);
+        add_fibres(&model, &mut pairs);
         let massless = contact_mass::massless(&model, &first_node, reference.len());
         Ok(Self {
             contact_facets: contact_facets(&pairs),

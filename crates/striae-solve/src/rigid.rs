@@ -19,10 +19,7 @@ use serde::{Deserialize, Serialize};
 use striae_contact::placement::Placement;
 use striae_mesh::Vec3;
 
-use crate::{
-    model::{Model, RigidInertia},
-    problem::Problem,
-};
+use crate::model::{Model, RigidInertia};
 
 /// Where a rigid body is.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -153,19 +150,17 @@ pub(crate) fn ties(
     (tied, heavy)
 }
 
-/// Velocity of the reference point and angular velocity that fit the velocities
-/// of the nodes tied to a rigid body best.
+/// Velocity of the reference point, which is at `point`, and angular velocity that fit the
+/// velocities of the nodes `tied` to a rigid body best.
 pub fn fitted_velocity(
-    problem: &Problem,
-    rigid: usize,
-    pose: &Pose,
+    point: &Vec3,
+    tied: &[usize],
     positions: &[Vec3],
     velocities: &[Vec3],
 ) -> [Vec3; 2] {
-    let point = problem.model.rigid_surfaces[rigid].reference + pose.displacement;
     let mut normal = nalgebra::Matrix6::<f64>::zeros();
     let mut right = nalgebra::Vector6::<f64>::zeros();
-    for &node in &problem.tied[rigid] {
+    for &node in tied {
         let mut row = nalgebra::Matrix3x6::<f64>::zeros();
         row.fixed_view_mut::<3, 3>(0, 0)
             .copy_from(&Matrix3::identity());

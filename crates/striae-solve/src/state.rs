@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 use striae_contact::{
     field::FacetForces,
-    pointed::RigidPoints,
     selection::Kept,
+    tip::RigidPoints,
     unknowns::{NodeResult, Tractions},
 };
 use striae_mesh::{FacetId, Vec3};

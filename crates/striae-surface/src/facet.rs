@@ -5,6 +5,7 @@
 //! list of four; the repeated corner has weight zero.
 
 use nalgebra::Vector3;
+use striae_mesh::Vec3;
 
 use crate::scalar::{Real, combination, constant, cross};
 
@@ -92,6 +93,12 @@ pub fn area_vector<D: Real>(weights: &Weights<D>, corners: &[Vector3<D>; 4]) -> 
         &combination(&weights.d_xi, corners),
         &combination(&weights.d_eta, corners),
     )
+}
+
+/// Unit normal of a facet of three or four corners, from its diagonals.
+pub fn facet_normal(corners: &[Vec3; 4]) -> Vec3 {
+    let [along, across] = [corners[2] - corners[0], corners[3] - corners[1]];
+    along.cross(&across).normalize()
 }
 
 #[cfg(test)]

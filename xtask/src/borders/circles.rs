@@ -20,44 +20,6 @@ use std::{
 use super::imports::Imports;
 use crate::breach::Breach;
 
-/// Modules at the root of a crate that are on circles still. A circle with any other module
-/// is refused; a name that is on none any more is to be taken off the list.
-const KNOWN: &[(&str, &[&str])] = &[
-    (
-        "striae-contact",
-        &[
-            "collocated",
-            "common_field",
-            "coverage",
-            "edge",
-            "frame",
-            "kinematics",
-            "opposing",
-            "pointed",
-            "projection",
-            "selection",
-            "slip_rate",
-            "texture",
-            "traction",
-            "unknowns",
-            "weighted",
-        ],
-    ),
-    (
-        "striae-solve",
-        &[
-            "assembly",
-            "freedom",
-            "interference",
-            "outcome",
-            "problem",
-            "rigid",
-            "stabilisation",
-            "state",
-        ],
-    ),
-];
-
 /// Names of the modules from the root of the crate down.
 type Module = Vec<String>;
 
@@ -71,7 +33,7 @@ type Level<'a> = BTreeMap<&'a str, BTreeMap<&'a str, String>>;
 
 /// Circles among the product files of a crate, each with its path within the workspace
 /// and its text.
-pub fn breaches(package: &str, source: &Path, files: &[(PathBuf, &str)]) -> Vec<Breach> {
+pub fn breaches(source: &Path, files: &[(PathBuf, &str)]) -> Vec<Breach> {
     let modules = files.iter().filter_map(|(path, text)| {
         let module = module(path.strip_prefix(source).ok()?)?;
         Some((module, (path.display().to_string(), Imports::of(text))))
@@ -89,13 +51,7 @@ pub fn breaches(package: &str, source: &Path, files: &[(PathBuf, &str)]) -> Vec<
             places.entry(b).or_insert_with(|| place.clone());
         }
     }
-    let known = KNOWN.iter().find(|(name, _)| *name == package);
-    let known = known.map_or(&[][..], |(_, modules)| modules);
-    let found = levels.iter().flat_map(|(path, level)| match path {
-        [] => circles(level, known),
-        _ => circles(level, &[]),
-    });
-    found.collect()
+    levels.values().flat_map(circles).collect()
 }
 
 /// The module that a file below `src` holds; none for a program beside the library.
@@ -177,12 +133,11 @@ impl Crate {
     }
 }
 
-/// The shortest circle through every module that is on one and not known to be, each
-/// circle once.
-fn circles(level: &Level, known: &[&str]) -> Vec<Breach> {
+/// The shortest circle through every module that is on one, each circle once.
+fn circles(level: &Level) -> Vec<Breach> {
     let mut seen = BTreeSet::new();
     let mut breaches = Vec::new();
-    for start in level.keys().filter(|name| !known.contains(name)) {
+    for start in level.keys() {
         let Some(circle) = shortest(level, start) else {
             continue;
         };
@@ -229,7 +184,7 @@ mod tests {
             .iter()
             .map(|(name, text)| (Path::new("c/src").join(name), *text))
             .collect();
-        let breaches = breaches("c", Path::new("c/src"), &files);
+        let breaches = breaches(Path::new("c/src"), &files);
         breaches.iter().map(Breach::to_string).collect()
     }
 

@@ -55,7 +55,7 @@ pub fn check() -> Result<(), Fault> {
             .map(|(path, text)| (within(path).to_owned(), text.as_str()))
             .collect();
         let source = package.folder.join("src");
-        breaches.extend(circles::breaches(&package.name, within(&source), &product));
+        breaches.extend(circles::breaches(within(&source), &product));
         count += files.len();
     }
     if breaches.is_empty() {

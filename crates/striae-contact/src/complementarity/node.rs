@@ -3,11 +3,8 @@
 use striae_mesh::Vec3;
 
 use crate::{
-    frame::Frame,
-    kinematics::{Kinematics, TrackedScalar},
-    table_1::Corrector,
-    texture::NodeTextures,
-    unknowns::Label,
+    frame::Frame, kinematics::Kinematics, table_1::Corrector, texture::NodeTextures,
+    tracked::TrackedScalar, unknowns::Label,
 };
 
 /// Which iteration of an increment is evaluated.

@@ -26,13 +26,15 @@ use striae_mesh::{FacetId, Vec3};
 
 pub mod points;
 
-use super::{Bend, RigidPoint, Tip, faced, ridge::bend_at};
+use super::{Bend, ridge::bend_at};
 use crate::{
     configuration::Configuration,
     pair::Enforcement,
     pairing::{Scope, paired_facets},
     segment::Derivatives,
     selection::{Kept, Selection, compliances},
+    spot::faced,
+    tip::{RigidPoint, Tip},
     unknowns::NodeResult,
 };
 

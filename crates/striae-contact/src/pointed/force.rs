@@ -6,12 +6,13 @@
 use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
 
-use super::{Spot, Tip};
 use crate::{
     common_field::CommonField,
     field::FacetForces,
     opposing::PlaceLanes,
+    spot::Spot,
     term::{Field, Lanes, LocalTerm, Row, Source},
+    tip::Tip,
 };
 
 /// Momentum rows of a pointed node and of the facet that it presses on.

@@ -15,13 +15,13 @@
 
 use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
-use striae_surface::topology::distinct_corners;
+use striae_surface::{facet::facet_normal, topology::distinct_corners};
 
-use super::{RigidPoint, facet_normal};
 use crate::{
     configuration::{Configuration, Snapshot},
     pairing::farthest,
     search::Bounds,
+    tip::RigidPoint,
 };
 
 /// Sine of the angle by which one facet falls away from the plane of the other at a sharp edge.

@@ -1,6 +1,6 @@
 //! What nodes are before the roles of an increment are chosen.
 
-use crate::pointed::RigidPoints;
+use crate::tip::RigidPoints;
 
 /// Nodes that were kept, by side.
 pub type Kept = [Vec<bool>; 2];

@@ -4,12 +4,13 @@ use std::ops::Range;
 
 use striae_mesh::FacetId;
 
-use super::{approach::approach, before::Kept, partner::Partner};
+use super::{approach::approach, before::Kept};
 use crate::{
     configuration::Configuration,
     pairing::{PairedFacets, Scope, paired_facets},
-    pointed::{RigidPoints, Tip},
+    partner::Partner,
     segment::Derivatives,
+    tip::{RigidPoints, Tip},
     traction_basis::{KeptNode, TractionBasis, Weak},
 };
 

@@ -14,12 +14,15 @@ use crate::{
     configuration::Configuration,
     coverage::{Contact, Found, Place},
     edge::on_edge,
-    frame::{Frame, Frames, Tracked, own_normal},
+    frame::{Frame, Frames},
+    nodal_normal::own_normal,
     opposing::{Opposing, PlaceLanes},
-    pointed::{RigidPoint, Spot, Tip},
     projection::{Hit, differentiated_rigid},
     selection::Selection,
+    spot::Spot,
     term::{Jacobian, Lanes, Source, variable, variable3},
+    tip::{RigidPoint, Tip},
+    tracked::Tracked,
     transported::Transported,
 };
 

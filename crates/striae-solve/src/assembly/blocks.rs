@@ -39,7 +39,7 @@ impl System<'_> {
         let outside = added.err().unwrap_or_default();
         let outside = outside.iter().map(|&at| known[at]).chain(unknown);
         let cliques: Vec<_> = outside.map(|term| self.clique_of(pair, term)).collect();
-        self.outside.extend(cliques);
+        self.growth.extend(cliques);
     }
 
     /// Whether the unknowns of a pair's terms are unknowns of the system as they are.

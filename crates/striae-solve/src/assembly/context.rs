@@ -1,5 +1,7 @@
 //! What does not change within a step, and what is imposed in it.
 
+mod dashpots;
+
 use striae_contact::{
     complementarity::Prescribed, configuration::Configuration, pair::ContactPair,
     placement::Placement,
@@ -13,9 +15,10 @@ use crate::{
     plan::StepPlan,
     problem::Problem,
     rigid::{Pose, Wrench},
-    stabilisation::{Dashpot, coefficient, dashpots},
+    stabilisation::Dashpot,
     state::State,
 };
+use dashpots::{coefficient, dashpots};
 
 /// What does not change within a step.
 #[derive(Clone, Debug)]

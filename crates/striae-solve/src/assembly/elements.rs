@@ -4,6 +4,7 @@
 
 use rayon::prelude::*;
 use std::{ops::Range, sync::Arc};
+use striae_condensed::Growth;
 use striae_contact::segment::Derivatives;
 use striae_element::{ElementBlock, ElementError, ElementFault, ElementResponse, Stiffness};
 use striae_law::bulk::Past;
@@ -191,7 +192,7 @@ impl System<'_> {
             let (unknowns, tangent) = (self.unknowns(nodes), share.response.stiffness.by_rows());
             return self
                 .add_square(nodes, &unknowns, &tangent)
-                .map_err(|_| Fault::Pattern(vec![self.clique(nodes)]));
+                .map_err(|_| Fault::Pattern(Growth::from_iter([self.clique(nodes)])));
         }
         for (slot, &node) in nodes.iter().enumerate() {
             let rows = self.matrix.rows_of_member(place.places, (at, slot));

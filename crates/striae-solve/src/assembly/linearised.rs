@@ -77,8 +77,8 @@ pub fn assemble_contact(
     )?;
     system.add_contacts(&contacts);
     system.stabilise(trial, imposed);
-    if !system.outside.is_empty() {
-        return Err(Fault::Pattern(system.outside));
+    if !system.growth.is_empty() {
+        return Err(Fault::Pattern(system.growth));
     }
     system.pass_on();
     let norms = system.norms(trial, &contacts);

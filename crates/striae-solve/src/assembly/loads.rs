@@ -1,12 +1,12 @@
 //! Loads on faces, whole or where no contact surface covers them.
 
+use striae_condensed::Growth;
 use striae_contact::{
     configuration::Configuration,
     exposed::{SurfaceLoad, covered_load},
     facet_coverage::FacetCoverage,
 };
 use striae_mesh::{Face, Vec3};
-use striae_sparse::Supervariable;
 use striae_surface::{facet::Shape, scalar::Real};
 
 use super::{Fault, Imposed, System, Trial, terms::Answer};
@@ -41,7 +41,7 @@ impl System<'_> {
                 match result {
                     Ok(()) => {}
                     Err(FaceFault::Load(error)) => return Err(fault(error)),
-                    Err(FaceFault::Pattern(outside)) => return Err(Fault::Pattern(outside)),
+                    Err(FaceFault::Pattern(growth)) => return Err(Fault::Pattern(growth)),
                 }
             }
         }
@@ -96,7 +96,7 @@ impl System<'_> {
             &load.force.map(|f| -f * share),
             &load.tangent.map(|k| -k * share),
         )
-        .map_err(|_| FaceFault::Pattern(vec![self.clique(&nodes)]))?;
+        .map_err(|_| FaceFault::Pattern(Growth::from_iter([self.clique(&nodes)])))?;
         for (corner, node) in nodes.iter().enumerate() {
             let force = Vec3::from_column_slice(&load.force[3 * corner..3 * corner + 3]);
             self.forces.applied[*node] += force;
@@ -116,17 +116,17 @@ impl System<'_> {
                 self.add_term(pair, &term, answer);
             }
         }
-        if self.outside.is_empty() {
+        if self.growth.is_empty() {
             Ok(())
         } else {
-            Err(FaceFault::Pattern(std::mem::take(&mut self.outside)))
+            Err(FaceFault::Pattern(std::mem::take(&mut self.growth)))
         }
     }
 }
 
 enum FaceFault {
     Load(load::LoadError),
-    Pattern(Vec<Vec<Supervariable>>),
+    Pattern(Growth),
 }
 
 struct LoadOnFace<'a> {

@@ -82,7 +82,7 @@ fn known(
     for (rigid, rates) in context.rigid_rates(0.0).iter().enumerate() {
         let pose = &trial.rigid[rigid];
         let point = problem.model.rigid_surfaces[rigid].reference + pose.displacement;
-        let [_, spin] = fitted_velocity(problem, rigid, pose, &trial.positions, velocities);
+        let [_, spin] = fitted_velocity(&point, &problem.tied[rigid], &trial.positions, velocities);
         let linear = Vec3::from_fn(|axis, _| rates[axis][1]);
         let angular = Vec3::from_fn(|axis, _| rates[3 + axis][1]);
         for &node in &problem.tied[rigid] {

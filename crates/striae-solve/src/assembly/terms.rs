@@ -115,7 +115,7 @@ impl System<'_> {
                 && system.turn(&rows, &columns, &term.residual, answer).is_ok()
         };
         if wanted && !is_placed(self) {
-            self.outside.push(self.clique_of(pair, term));
+            self.growth.extend([self.clique_of(pair, term)]);
         }
         self.scratch.slots = [rows, columns];
     }

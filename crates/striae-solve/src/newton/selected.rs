@@ -4,8 +4,9 @@
 use striae_contact::{
     configuration::Configuration,
     evaluation::Evaluation,
-    pointed::{self, Bend, Pierced, Progress, RigidPoints, choice::points, staying},
+    pointed::{self, Bend, Pierced, Progress, choice::points, staying},
     selection::{Before, Kept, Selection},
+    tip::RigidPoints,
     unknowns::{Label, NodeResult, Status, Tractions},
 };
 

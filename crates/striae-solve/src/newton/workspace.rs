@@ -6,7 +6,7 @@ pub use memory::Memory;
 
 use std::time::Instant;
 
-use striae_condensed::{Analysis, Automatic, Choice, Partition};
+use striae_condensed::{Analysis, Automatic, Choice, Growth, Partition};
 use striae_contact::{complementarity::Iteration, segment::Derivatives, selection::Selection};
 use striae_sparse::{Age, SolveError, SolveReport, SparseMatrix, Structure, Supervariable};
 
@@ -46,8 +46,8 @@ pub(super) struct SystemStorage {
     places: ElementPlaces,
     pub(super) matrix: SparseMatrix,
     pub(super) analysis: Analysis,
-    /// Cliques by which the pattern has grown beyond the elements.
-    grown: Vec<Vec<Supervariable>>,
+    /// By what the pattern has grown beyond the elements.
+    growth: Growth,
     analysed: bool,
 }
 
@@ -92,7 +92,7 @@ impl Workspace {
         let layout = Layout::new(problem, extent);
         let mut cliques: Vec<Vec<Supervariable>> = Vec::new();
         // Elements at tied nodes couple the others with the rigid body, which is no bulk.
-        let mut tied: Vec<Vec<Supervariable>> = Vec::new();
+        let mut tied = Growth::default();
         for (body, model) in problem.model.bodies.iter().enumerate() {
             for corners in model.mesh.elements() {
                 let nodes = problem.ties.behind(&problem.nodes(body, corners));
@@ -103,7 +103,7 @@ impl Workspace {
                 let free = nodes.iter().filter(|&&node| problem.tie_of[node].is_none());
                 cliques.push(free.map(|&node| layout.supervariable(node)).collect());
                 if nodes.iter().any(|&node| problem.tie_of[node].is_some()) {
-                    tied.push(owners);
+                    tied.extend([owners]);
                 }
             }
         }
@@ -122,7 +122,7 @@ impl Workspace {
             partition,
             layout,
             analysis: Analysis::default(),
-            grown: Vec::new(),
+            growth: Growth::default(),
             analysed: false,
         });
     }
@@ -144,7 +144,7 @@ impl Workspace {
             match self.assemble_once(setting, trial, contact, derivatives) {
                 Ok(assembled) => return Ok(assembled),
                 Err(Fault::CutBack(reason)) => return Err(reason),
-                Err(Fault::Pattern(cliques)) => self.system().grow(cliques),
+                Err(Fault::Pattern(growth)) => self.system().grow(growth),
             }
         }
     }
@@ -333,12 +333,12 @@ fn solved(
 }
 
 impl SystemStorage {
-    fn grow(&mut self, cliques: Vec<Vec<Supervariable>>) {
-        let grown = self.partition.grown(&cliques);
+    fn grow(&mut self, growth: Growth) {
+        let grown = self.partition.grown(&growth);
         self.partition = grown.expect("cliques name known supervariables");
         self.places.find(self.partition.structure());
         self.matrix = SparseMatrix::zero(self.partition.structure());
-        self.grown.extend(cliques);
+        self.growth.extend(growth);
         self.analysed = false;
     }
 }

@@ -3,8 +3,10 @@
 
 use striae_contact::{
     configuration::Configuration,
-    pointed::{Tip, faced, kinematics},
+    pointed::kinematics,
     selection::{Before, Selection},
+    spot::faced,
+    tip::Tip,
 };
 use striae_law::friction::Friction;
 use striae_mesh::{FacetId, Vec3};

@@ -1,7 +1,7 @@
 //! A block that stands on an edge, on a block, a rigid plane or rigid facets.
 
 use striae_contact::{
-    evaluation::Evaluation, pair::Enforcement, pointed::RigidPoint, unknowns::NodeResult,
+    evaluation::Evaluation, pair::Enforcement, tip::RigidPoint, unknowns::NodeResult,
 };
 use striae_law::{
     bulk::{LameConstants, Material},

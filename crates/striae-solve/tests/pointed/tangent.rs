@@ -6,9 +6,9 @@ use striae_contact::{
     complementarity::Iteration,
     configuration::Configuration,
     evaluation::{Evaluation, evaluate},
-    pointed::{RigidPoint, RigidPoints},
     segment::Derivatives,
     selection::{Before, Kept, Selection},
+    tip::{RigidPoint, RigidPoints},
     unknowns::{Status, Tractions},
 };
 use striae_law::friction::{Friction, SlipRule};

@@ -1,7 +1,7 @@
 //! The whole system of a step as a function of all unknowns.
 
 use nalgebra::DVector;
-use striae_condensed::Partition;
+use striae_condensed::{Growth, Partition};
 use striae_contact::{
     complementarity::Iteration,
     segment::Derivatives,
@@ -43,7 +43,7 @@ impl<'a> Whole<'a> {
             imposed: context.imposed(1.0),
             context,
             layout,
-            partition: partition.grown(&[&every]).unwrap(),
+            partition: partition.grown(&Growth::from_iter([every])).unwrap(),
             before,
             state,
         }

@@ -7,10 +7,9 @@ use striae_law::{
 };
 use striae_mesh::Vec3;
 use striae_solve::{
-    freedom::FreeMover,
     model::{BodyId, Freedom, LoadExtent, LoadKind, Model, RigidId, RigidMotion},
     model::{Curve, RigidShape, RigidSurface},
-    outcome::{CutBack, Ending},
+    outcome::{CutBack, Ending, FreeMover},
 };
 
 /// A block over a floor, pressed by a pressure on its top.

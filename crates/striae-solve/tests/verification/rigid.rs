@@ -82,9 +82,8 @@ fn tumbled(count: usize) -> [f64; 2] {
     assert!((p - p_0).norm() < 1e-9);
     let state = run.last();
     let [_, spin] = fitted_velocity(
-        &run.problem,
-        0,
-        &state.rigid[0],
+        &(run.problem.model.rigid_surfaces[0].reference + state.rigid[0].displacement),
+        &run.problem.tied[0],
         &state.positions,
         &state.velocities,
     );

@@ -4,12 +4,11 @@ use crate::scene::{Places, Run, block, body, coulomb, increments, model, plane, 
 use striae_law::friction::Friction;
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::{
-    freedom::FreeMover,
     model::{
         Curve, Freedom, LoadExtent, LoadKind, Model, PairId, RigidId, RigidMotion, RigidShape,
         RigidSurface,
     },
-    outcome::{CutBack, Ending},
+    outcome::{CutBack, Ending, FreeMover},
     report::pairs,
 };
 

@@ -27,13 +27,12 @@ use super::{CLOSING, PIERCED, SHARP, are_apart, is_pressed};
 use crate::{
     configuration::Configuration,
     pairing::{Scope, paired_facets},
-    pointed::{
-        RigidPoint, RigidPoints, Spot, Tip, faced,
-        ridge::{Bend, candidates},
-    },
+    pointed::ridge::{Bend, candidates},
     projection::Hit,
     segment::Derivatives,
     selection::{Selection, compliances},
+    spot::{Spot, faced},
+    tip::{RigidPoint, RigidPoints, Tip},
     unknowns::NodeResult,
 };
 

@@ -1,8 +1,7 @@
 //! What a workspace remembers between runs: it is part of a checkpoint.
 
 use serde::{Deserialize, Serialize};
-use striae_condensed::Experience;
-use striae_sparse::Supervariable;
+use striae_condensed::{Experience, FactoredInterior, Growth};
 
 use super::Workspace;
 use crate::{layout::Extent, newton::course::Course, problem::Problem};
@@ -14,33 +13,31 @@ use crate::{layout::Extent, newton::course::Course, problem::Problem};
 pub struct Memory {
     /// What has traction unknowns.
     pub extent: Extent,
-    /// Cliques of supervariables beyond the elements.
-    pub cliques: Vec<Vec<usize>>,
-    /// What the solver has from earlier matrices, older factors above all.
+    /// By what the pattern has grown beyond the elements.
+    pub growth: Growth,
+    /// What earlier matrices have taught the solver.
     pub solver: Experience,
+    /// What its older factors were made of.
+    pub interior: Option<FactoredInterior>,
     /// What the last increment started from.
     pub course: Option<Course>,
 }
 
 impl Workspace {
     /// A workspace that has grown to what another had.
-    pub fn recalled(problem: &Problem, memory: &Memory) -> Self {
+    pub(crate) fn recalled(problem: &Problem, memory: &Memory) -> Self {
         let mut workspace = Self::new(problem.model.solver.backend);
         workspace.lay_out(problem, memory.extent.clone());
-        if !memory.cliques.is_empty() {
-            let cliques = memory.cliques.iter();
-            let cliques: Vec<Vec<Supervariable>> = cliques
-                .map(|clique| clique.iter().map(|&at| Supervariable(at)).collect())
-                .collect();
-            workspace.system().grow(cliques);
+        if !memory.growth.is_empty() {
+            workspace.system().grow(memory.growth.clone());
         }
-        workspace.recall(&memory.solver);
+        workspace.recall(memory);
         workspace.course.clone_from(&memory.course);
         workspace
     }
 
     /// Takes up what a solver has learnt from systems of the same pattern.
-    fn recall(&mut self, experience: &Experience) {
+    fn recall(&mut self, memory: &Memory) {
         let Self { solver, system, .. } = self;
         let system = system.as_mut().expect("the workspace was laid out");
         // What cannot be analysed now fails again, and is reported, with the first matrix.
@@ -49,31 +46,25 @@ impl Workspace {
         {
             (system.analysis, system.analysed) = (analysis, true);
         }
-        solver.recall(experience);
-    }
-
-    /// What the solver has learnt; factors of another pattern are of no use.
-    fn experience(&self) -> Experience {
-        let experience = self.solver.experience();
-        match &self.system {
-            Some(system) if system.analysed => experience,
-            _ => Experience {
-                too_coarse: experience.too_coarse,
-                ..Experience::default()
-            },
-        }
+        solver.recall(&memory.solver, memory.interior.as_ref());
     }
 
     /// What it has grown to and its solver has learnt.
     pub fn memory(&self) -> Memory {
-        self.system.as_ref().map_or_else(Memory::default, |system| {
-            let cliques = system.grown.iter();
+        let system = self.system.as_ref();
+        system.map_or_else(Memory::default, |system| {
+            let experience = self.solver.experience();
+            // Factors of another pattern are of no use.
+            let (solver, interior) = if system.analysed {
+                (experience.clone(), self.solver.factored_interior())
+            } else {
+                (experience.of_other_pattern(), None)
+            };
             Memory {
                 extent: system.layout.extent().clone(),
-                cliques: cliques
-                    .map(|clique| clique.iter().map(|at| at.0).collect())
-                    .collect(),
-                solver: self.experience(),
+                growth: system.growth.clone(),
+                solver,
+                interior,
                 course: self.course.clone(),
             }
         })

@@ -31,7 +31,7 @@ impl Partner {
 }
 
 /// What is opposite to the kept nodes, where rows are collocated.
-pub(super) fn partners(
+pub(crate) fn partners(
     configuration: &Configuration,
     basis: &TractionBasis,
 ) -> Vec<Option<Partner>> {

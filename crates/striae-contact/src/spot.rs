@@ -7,18 +7,20 @@
 
 use nalgebra::Matrix3;
 use striae_mesh::Vec3;
-use striae_surface::{facet::Shape, topology::distinct_corners};
+use striae_surface::{
+    facet::{Shape, facet_normal},
+    topology::distinct_corners,
+};
 
-use super::Tip;
 use crate::{
     configuration::Configuration,
-    frame::{Tracked, own_normal},
-    kinematics::TrackedScalar,
+    nodal_normal::own_normal,
     opposing::Opposing,
+    partner::Partner,
     projection::{Hit, Margin, Ray, project, project_on},
-    selection::Partner,
     term::{Gradient, Jacobian},
-    weighted::add_chained,
+    tip::Tip,
+    tracked::{Tracked, TrackedScalar, add_chained, add_slope},
 };
 
 /// How many reaches around a tip an opposing facet is looked for.
@@ -85,19 +87,15 @@ impl Spot {
         let opposing = Opposing::new(Shape::of(&corners), &hit, &ray.value, &positions);
         let own = own.map(|own| (own, -opposing.gap_by_r));
         let mut gradient: Gradient = own.into_iter().collect();
-        let mut add = |first: u32, slope: Vec3| match gradient.iter_mut().find(|e| e.0 == first) {
-            Some((_, sum)) => *sum += slope,
-            None => gradient.push((first, slope)),
-        };
         if yields {
             for (corner, weight) in corners.iter().zip(opposing.weights) {
                 let first = numbering.position(1 - side, *corner);
-                add(first, opposing.gap_by_r * weight);
+                add_slope(&mut gradient, first, opposing.gap_by_r * weight);
             }
         }
         let by_n = opposing.gap_by_r * -hit.gap;
         for (first, block) in &ray.jacobian {
-            add(*first, block.tr_mul(&by_n));
+            add_slope(&mut gradient, *first, block.tr_mul(&by_n));
         }
         let n = match tip {
             Tip::Node { .. } => ray.clone(),
@@ -176,11 +174,6 @@ pub fn faced(configuration: &Configuration, tip: Tip, reach: f64) -> Option<Hit>
         return Some(hit);
     }
     project(target, &x, Ray::Facet(normal), reach, Margin::Seam)
-}
-
-/// Unit normal from the diagonals.
-pub fn facet_normal(x: &[Vec3; 4]) -> Vec3 {
-    (x[2] - x[0]).cross(&(x[3] - x[1])).normalize()
 }
 
 /// Derivatives of the opposite of the unit normal by the corners at the unknowns `first`.

@@ -1,0 +1,44 @@
+//! Fibres through what is behind the facets of pairs.
+
+use striae_contact::interference::{Fibre, fibres};
+use striae_mesh::Vec3;
+use striae_surface::topology::Surface;
+
+use super::PairGeometry;
+use crate::model::Model;
+
+/// Fibres through what is behind the facets of all pairs. They end at nodes of the
+/// body, or at surface nodes of a rigid side.
+pub(crate) fn add_fibres(model: &Model, pairs: &mut [PairGeometry]) {
+    let skin = |body: usize| {
+        let mesh = &model.bodies[body].mesh;
+        let faces = mesh.boundary_faces().into_iter();
+        Surface::new(&faces.map(|face| mesh.face_nodes(face)).collect::<Vec<_>>())
+    };
+    let mut skins: Vec<Option<Surface>> = vec![None; model.bodies.len()];
+    for pair in pairs {
+        pair.fibres = [0, 1].map(|side| {
+            let Some(surface) = pair.contact.sides[side].surface() else {
+                return Vec::new();
+            };
+            let Some(body) = pair.bodies[side] else {
+                let x = &pair.rigid_reference;
+                return fibres(surface, x, surface, x);
+            };
+            let skin = skins[body].get_or_insert_with(|| skin(body));
+            of_body(&model.bodies[body].mesh.positions, surface, skin)
+        });
+    }
+}
+
+fn of_body(positions: &[Vec3], surface: &Surface, skin: &Surface) -> Vec<Option<Fibre>> {
+    let at = |surface: &Surface| -> Vec<Vec3> {
+        let nodes = surface.nodes().iter();
+        nodes.map(|node| positions[node.index()]).collect()
+    };
+    let mut fibres = fibres(surface, &at(surface), skin, &at(skin));
+    for fibre in fibres.iter_mut().flatten() {
+        fibre.nodes = fibre.nodes.map(|node| skin.nodes()[node as usize].0);
+    }
+    fibres
+}
