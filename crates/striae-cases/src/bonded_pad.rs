@@ -9,8 +9,8 @@
 //! ```
 //!
 //! with the strain `e`. Its mean over the square is the series below, and `E_c = E + mean(p)/e`.
-//! Without change of volume that is `E (1 + 2.25 S^2)`, as a disc has Gent & Lindley's
-//! `E (1 + 2 S^2)`.
+//! Without change of volume that is `E (1 + 2.25 S^2)`, where Gent & Lindley take
+//! `E (1 + 2 S^2)` for discs and squares alike.
 
 use std::f64::consts::PI;
 use striae_figure::{Axis, Color, Content, Figure, Marker, Panel, Series, Width};

@@ -146,6 +146,10 @@ pub fn run(study: &mut Study) -> Result<(), Failure> {
     let mooney = fitted(&[EQUIBIAXIAL], Test::powers);
     study.measured("fit.mooney-rivlin.c10", mooney[0]);
     study.measured("fit.mooney-rivlin.c01", mooney[1]);
+    let [sum] = fitted(&[PLANAR], |test, l| [test.powers(l)[0]])[..] else {
+        unreachable!("one constant")
+    };
+    study.measured("fit.mooney-rivlin.planar", sum);
     for (name, value) in ["c10", "c20", "c30"]
         .into_iter()
         .zip(fitted(&TESTS, of_yeoh))
