@@ -22,7 +22,7 @@ pub use elements::OfBodies;
 use inertia::Inertia;
 pub use linearised::{Background, ContactAssembled, assemble_contact};
 pub use places::ElementPlaces;
-pub use start::initial_accelerations;
+pub(crate) use start::initial_accelerations;
 use std::{
     sync::Arc,
     time::{Duration, Instant},

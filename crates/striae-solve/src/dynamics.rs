@@ -139,7 +139,11 @@ impl Motion {
     }
 
     /// `a_alpha` of all nodes.
-    pub fn weighted_accelerations(&self, positions: &[Vec3], rates: &[ImposedRate]) -> Vec<Vec3> {
+    pub(crate) fn weighted_accelerations(
+        &self,
+        positions: &[Vec3],
+        rates: &[ImposedRate],
+    ) -> Vec<Vec3> {
         let mean = |weight: f64, a_0: f64, a_1: f64| a_1 * (1.0 - weight) + a_0 * weight;
         let ends = self.accelerations_at_end(positions, rates);
         let ends_of = |node: usize, axis: usize| (self.accelerations[node][axis], ends[node][axis]);

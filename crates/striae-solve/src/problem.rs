@@ -191,7 +191,7 @@ impl Problem {
 
     /// Whether the coordinates of a rigid body are unknowns: where nodes are tied to
     /// it, and where contact may move it, as some are free in a step.
-    pub fn has_coordinates(&self, rigid: usize) -> bool {
+    pub(crate) fn has_coordinates(&self, rigid: usize) -> bool {
         let free = |plan: &StepPlan| plan.rigid[rigid].iter().any(Option::is_none);
         !self.tied[rigid].is_empty() || self.plans.iter().any(free)
     }
@@ -207,7 +207,7 @@ impl Problem {
     }
 
     /// Body and node of a global node number.
-    pub fn body_node(&self, node: usize) -> (usize, NodeId) {
+    pub(crate) fn body_node(&self, node: usize) -> (usize, NodeId) {
         let body = self.first_node.partition_point(|&first| first <= node) - 1;
         (body, NodeId::new(node - self.first_node[body]))
     }
@@ -222,7 +222,7 @@ impl Problem {
 
     /// Global node that the traction unknowns of a node of a pair lodge with: itself, or
     /// that of side `a` at a point of a rigid side.
-    pub fn carrier(&self, pair: usize, side: usize, node: u32) -> Option<usize> {
+    pub(crate) fn carrier(&self, pair: usize, side: usize, node: u32) -> Option<usize> {
         let own = self.surface_node(pair, side, node);
         own.or_else(|| self.surface_node(pair, 0, node))
     }

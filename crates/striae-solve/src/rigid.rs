@@ -49,7 +49,7 @@ impl Wrench {
     }
 
     /// From force, then torque.
-    pub fn from_components(components: &[f64; 6]) -> Self {
+    pub(crate) fn from_components(components: &[f64; 6]) -> Self {
         Self {
             force: Vec3::from_column_slice(&components[..3]),
             torque: Vec3::from_column_slice(&components[3..]),
@@ -100,7 +100,7 @@ impl Pose {
 }
 
 /// `T(t)`, from changes of the angles to turns in space.
-pub fn turn_tangent(turn: &Vec3) -> Matrix3<f64> {
+pub(crate) fn turn_tangent(turn: &Vec3) -> Matrix3<f64> {
     let angle = turn.norm();
     if angle < 1e-6 {
         return Matrix3::identity() + turn.cross_matrix() * 0.5;
@@ -112,7 +112,7 @@ pub fn turn_tangent(turn: &Vec3) -> Matrix3<f64> {
 }
 
 /// Places of six equal masses with the inertia.
-pub fn mass_points(inertia: &RigidInertia) -> [Vec3; 6] {
+pub(crate) fn mass_points(inertia: &RigidInertia) -> [Vec3; 6] {
     let [a, b, c] = inertia.moments;
     let squares = [b + c - a, c + a - b, a + b - c].map(|sum| 0.5 * sum / inertia.mass);
     std::array::from_fn(|at| {

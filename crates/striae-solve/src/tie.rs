@@ -134,7 +134,7 @@ impl Ties {
     }
 
     /// Nodes that follow, ascending.
-    pub fn followers(&self) -> &[Follower] {
+    pub(crate) fn followers(&self) -> &[Follower] {
         &self.followers
     }
 
@@ -188,7 +188,7 @@ impl Ties {
 
     /// Passes forces on nodes that follow to those that they follow, and leaves none; returns
     /// with every follower the force that its row takes from it.
-    pub fn pass_on(&self, forces: &mut [Vec3]) -> impl Iterator<Item = (&Follower, Vec3)> {
+    pub(crate) fn pass_on(&self, forces: &mut [Vec3]) -> impl Iterator<Item = (&Follower, Vec3)> {
         let mut taken = vec![Vec3::zeros(); self.followers.len()];
         for (axis, order) in self.orders.iter().enumerate() {
             for group in order.iter().rev() {
@@ -211,7 +211,7 @@ impl Ties {
     }
 
     /// Adds the forces of ties on nodes to those that `own` takes from a follower.
-    pub fn react(follower: &Follower, own: &Vec3, forces: &mut [Vec3]) {
+    pub(crate) fn react(follower: &Follower, own: &Vec3, forces: &mut [Vec3]) {
         for (axis, row) in follower.row.iter().enumerate() {
             if let Some(row) = row {
                 forces[follower.node][axis] += own[axis];

@@ -239,7 +239,7 @@ impl<'a> StepContext<'a> {
     }
 
     /// Velocities and accelerations of the coordinates of rigid bodies, zero where free.
-    pub fn rigid_rates(&self, s: f64) -> Vec<[[f64; 2]; 6]> {
+    pub(crate) fn rigid_rates(&self, s: f64) -> Vec<[[f64; 2]; 6]> {
         let duration = self.problem.model.steps[self.index].duration;
         let plans = self.plan.rigid.iter().zip(&self.start.rigid);
         plans

@@ -22,7 +22,7 @@ use crate::{
 /// # Errors
 /// What `solve` says.
 #[allow(clippy::too_many_arguments)]
-pub fn initial_accelerations(
+pub(crate) fn initial_accelerations(
     context: &StepContext,
     trial: &Trial,
     imposed: &Imposed,
