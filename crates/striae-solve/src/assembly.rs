@@ -39,6 +39,7 @@ use ties::{Moving, Scratch, Tie};
 
 use crate::{
     layout::Layout,
+    node::GlobalNode,
     norms::Norms,
     outcome::CutBack,
     rigid::Pose,
@@ -286,7 +287,7 @@ impl System<'_> {
         Ok(bodies)
     }
 
-    fn clique(&self, nodes: &[usize]) -> Vec<Supervariable> {
+    fn clique(&self, nodes: &[GlobalNode]) -> Vec<Supervariable> {
         let owners = nodes.iter().flat_map(|&node| self.owners(node));
         let mut owners: Vec<Supervariable> = owners.collect();
         owners.sort_unstable();
@@ -310,7 +311,7 @@ impl System<'_> {
     }
 
     fn prescribe(&mut self, trial: &Trial, imposed: &Imposed) {
-        let shear = |node: usize| {
+        let shear = |node: GlobalNode| {
             let (body, _) = self.context.problem.body_node(node);
             self.context.problem.compositions[body].stiffest_shear()
         };

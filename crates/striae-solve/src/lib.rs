@@ -17,6 +17,7 @@ pub mod load;
 mod mass;
 pub mod model;
 pub mod newton;
+pub mod node;
 pub mod norms;
 pub mod outcome;
 pub mod painting;
