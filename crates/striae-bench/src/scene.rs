@@ -140,7 +140,7 @@ pub fn stiffness(model: &Model) -> Result<SparseMatrix, Box<dyn Error>> {
     for (body, model) in problem.model.bodies.iter().enumerate() {
         let nodes = |corners| -> Vec<Supervariable> {
             let nodes = problem.nodes(body, corners).into_iter();
-            nodes.map(Supervariable).collect()
+            nodes.map(|node| layout.supervariable(node)).collect()
         };
         cliques.extend(model.mesh.elements().map(nodes));
     }

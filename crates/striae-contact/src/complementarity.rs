@@ -1,7 +1,7 @@
 //! Contact and friction at a kept node.
 //!
 //! Unknowns `p` and `z = z1 t1 + z2 t2`. With the gap `g` and the slip `du` since the last
-//! converged configuration (see [`crate::kinematics`]),
+//! converged configuration (see `kinematics`),
 //! `varpi = varpi(max(p, 0), |du|/dt)` and `y = z + r_t K^-1 du`:
 //!
 //! ```text

@@ -10,7 +10,7 @@
 //!
 //! with `n` the facet's normal or, against a rigid surface, the normal
 //! interpolated from the nodal frames. Whole facets take 2x2 Gauss points, cut
-//! ones the points of [`crate::clip`].
+//! ones the points of `clip`.
 
 use nalgebra::{Matrix3, Vector3};
 use num_dual::DualSVec64;
@@ -47,7 +47,11 @@ pub struct Fields<'a> {
 }
 
 /// Terms of one facet: momentum rows of its corners.
-pub fn facet_terms(fields: &Fields, side: usize, facet: FacetId) -> (Vec<LocalTerm>, FacetForces) {
+pub(crate) fn facet_terms(
+    fields: &Fields,
+    side: usize,
+    facet: FacetId,
+) -> (Vec<LocalTerm>, FacetForces) {
     let mut sum = FacetForces::default();
     let mut terms = Vec::new();
     match fields.configuration.facet_coverage(side, facet) {

@@ -62,7 +62,7 @@ pub fn frames(configuration: &Configuration, selection: &Selection) -> Frames {
 }
 
 /// The frame of a node.
-pub fn frame_of(configuration: &Configuration, side: usize, node: u32) -> Frame {
+pub(crate) fn frame_of(configuration: &Configuration, side: usize, node: u32) -> Frame {
     let n = normal(configuration, side, node);
     let tip = Tip::Node {
         side,

@@ -168,7 +168,7 @@ pub fn nearest_of(snapshot: &Snapshot, x: &Vec3) -> Option<Nearest> {
 }
 
 /// Nodes and facet centres of a surface.
-pub fn spots(surface: &Surface) -> Vec<Spot> {
+pub(crate) fn spots(surface: &Surface) -> Vec<Spot> {
     let nodes = (0..surface.nodes().len() as u32).map(Spot::Node);
     let centres = (0..surface.facets().len()).map(|at| Spot::Centre(FacetId::new(at)));
     nodes.chain(centres).collect()

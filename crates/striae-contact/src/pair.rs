@@ -95,7 +95,7 @@ impl ContactPair {
     }
 
     /// Whether the nodes of a side are deformable.
-    pub fn is_deformable(&self, side: usize) -> bool {
+    pub(crate) fn is_deformable(&self, side: usize) -> bool {
         matches!(self.sides[side].geometry, Geometry::Deformable(_))
     }
 
@@ -121,7 +121,7 @@ impl Side {
 }
 
 /// Square root of the mean area of the facets around every node.
-pub fn local_sizes(surface: &Surface, x: &[Vec3]) -> Vec<f64> {
+pub(crate) fn local_sizes(surface: &Surface, x: &[Vec3]) -> Vec<f64> {
     let areas: Vec<f64> = surface
         .facets()
         .iter()

@@ -43,14 +43,14 @@ impl Placement {
     }
 
     /// The same for numbers with derivatives.
-    pub fn back_of<D: Real>(&self, x: &Vector3<D>) -> Vector3<D> {
+    pub(crate) fn back_of<D: Real>(&self, x: &Vector3<D>) -> Vector3<D> {
         self.rotation
             .map(D::from)
             .tr_mul(&(x - constant3(&self.shift)))
     }
 
     /// The same for directions, from the reference configuration.
-    pub fn direction_of<D: Real>(&self, reference: &Vector3<D>) -> Vector3<D> {
+    pub(crate) fn direction_of<D: Real>(&self, reference: &Vector3<D>) -> Vector3<D> {
         self.rotation.map(D::from) * reference
     }
 }

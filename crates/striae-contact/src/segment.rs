@@ -102,7 +102,7 @@ pub fn pair_index(c: usize, d: usize) -> usize {
 }
 
 /// The normal of two facets with these compliances; `None` where they have none.
-pub fn normal_between(a: &Facet, b: &Facet, compliance: [f64; 2]) -> Option<Vec3> {
+pub(crate) fn normal_between(a: &Facet, b: &Facet, compliance: [f64; 2]) -> Option<Vec3> {
     let (n_a, n_b) = (facet_normal(a)?, facet_normal(b)?);
     pair_normal([&n_a, &n_b], compliance)
 }

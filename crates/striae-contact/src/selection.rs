@@ -3,7 +3,7 @@
 //! Roles are chosen at the start of an increment, see [`crate::roles`], from the
 //! configuration it starts from and, where that shows too little, the one that it leads to.
 //! They are frozen in the increment, as is the transfer to nodes that are not kept, see
-//! [`crate::transfer`]. Of facets that are paired in both configurations the mean
+//! `transfer`. Of facets that are paired in both configurations the mean
 //! overlap counts.
 
 mod approach;

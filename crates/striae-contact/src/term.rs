@@ -98,7 +98,11 @@ impl<'a> Lanes<'a> {
     }
 
     /// Derivatives of rows by the unknowns of `triples`, column by column.
-    pub fn chained<const R: usize>(&self, gradient: &[[f64; R]], triples: &[u32]) -> Vec<[f64; R]> {
+    pub(crate) fn chained<const R: usize>(
+        &self,
+        gradient: &[[f64; R]],
+        triples: &[u32],
+    ) -> Vec<[f64; R]> {
         let mut columns = vec![[0.0; R]; 3 * triples.len()];
         let mut places = Places::of(triples.iter().copied());
         let mut position = |first: u32| 3 * places.find(first, triples.len());
@@ -158,7 +162,7 @@ impl<'a> Lanes<'a> {
 
 impl LocalTerm {
     /// A term from rows and their gradients over lanes.
-    pub fn from_lanes<const R: usize>(
+    pub(crate) fn from_lanes<const R: usize>(
         lanes: &Lanes,
         rows: &[Row; R],
         gradient: &[[f64; R]],
@@ -198,7 +202,7 @@ pub fn add_block(gradient: &mut [[f64; 3]], lane: usize, block: &Matrix3<f64>) {
 }
 
 /// Gradients of dual numbers over the lanes, lane by lane.
-pub fn by_lane<const R: usize, const N: usize>(rows: &[DualSVec64<N>; R]) -> [[f64; R]; N] {
+pub(crate) fn by_lane<const R: usize, const N: usize>(rows: &[DualSVec64<N>; R]) -> [[f64; R]; N] {
     let gradients = rows.each_ref().map(gradient);
     std::array::from_fn(|lane| std::array::from_fn(|row| gradients[row][lane]))
 }
@@ -215,12 +219,15 @@ pub fn variable<const N: usize>(value: f64, lane: usize) -> DualSVec64<N> {
 }
 
 /// A dual vector over three lanes.
-pub fn variable3<const N: usize>(value: &Vec3, lane: usize) -> nalgebra::Vector3<DualSVec64<N>> {
+pub(crate) fn variable3<const N: usize>(
+    value: &Vec3,
+    lane: usize,
+) -> nalgebra::Vector3<DualSVec64<N>> {
     nalgebra::Vector3::from_fn(|axis, _| variable(value[axis], lane + axis))
 }
 
 /// Four dual vectors over twelve lanes.
-pub fn variables3<const N: usize>(
+pub(crate) fn variables3<const N: usize>(
     values: &[Vec3; 4],
     lane: usize,
 ) -> [nalgebra::Vector3<DualSVec64<N>>; 4] {

@@ -134,7 +134,7 @@ impl Tip {
     }
 
     /// Whether nodes of the side that it presses on can move.
-    pub fn presses_on_deformable(&self, configuration: &Configuration) -> bool {
+    pub(crate) fn presses_on_deformable(&self, configuration: &Configuration) -> bool {
         configuration.pair.is_deformable(1 - self.side())
     }
 }

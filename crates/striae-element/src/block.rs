@@ -14,7 +14,7 @@ use super::{
     inertia::Inertia,
     reference::Reference,
     response::error_at,
-    rule::{Rule, hexahedron_recovery, pyramid_recovery, tetrahedron_recovery, wedge_recovery},
+    rule::{Recovery, Rule},
 };
 use nalgebra::Matrix3;
 use std::{fmt::Debug, sync::Arc};
@@ -116,20 +116,18 @@ impl ElementResponse {
 /// A block that is made, or the first element that is degenerate.
 pub(super) type Made = Result<Arc<dyn ElementBlock>, (usize, ElementError)>;
 
-/// The table of kinds.
+/// The table of numbers of corners and points, each of which has code of its own.
 pub(super) fn block(kind: CellKind, formulations: Vec<Formulation>, corners: &[Vec3]) -> Made {
-    match kind {
-        CellKind::Tetrahedron => {
-            Cells::<4, 4>::made(kind, formulations, tetrahedron_recovery(), corners)
-        }
-        CellKind::Pyramid => Cells::<5, 8>::made(kind, formulations, pyramid_recovery(), corners),
-        CellKind::Wedge => Cells::<6, 6>::made(kind, formulations, wedge_recovery(), corners),
-        CellKind::Hexahedron => {
-            Cells::<8, 8>::made(kind, formulations, hexahedron_recovery(), corners)
-        }
-        CellKind::CompositeTetrahedron => {
-            Cells::<{ composite::NODES }, { composite::POINTS }>::composite(formulations, corners)
-        }
+    let shape = kind.shape();
+    let Some(recovery) = shape.recovery else {
+        return Cells::composite(formulations, corners);
+    };
+    match (shape.corners.len(), shape.points.len()) {
+        (4, 4) => Cells::<4, 4>::made(kind, recovery, formulations, corners),
+        (5, 8) => Cells::<5, 8>::made(kind, recovery, formulations, corners),
+        (6, 6) => Cells::<6, 6>::made(kind, recovery, formulations, corners),
+        (8, 8) => Cells::<8, 8>::made(kind, recovery, formulations, corners),
+        (n, q) => unreachable!("the table has a line for {n} corners and {q} points"),
     }
 }
 
@@ -150,11 +148,11 @@ struct Cells<const N: usize, const Q: usize> {
 impl<const N: usize, const Q: usize> Cells<N, Q> {
     fn made(
         kind: CellKind,
+        recovery: Recovery,
         formulations: Vec<Formulation>,
-        recovery: [[f64; Q]; N],
         corners: &[Vec3],
     ) -> Made {
-        let rule = Rule::new(kind);
+        let rule = Rule::new(kind, recovery);
         let cells = corners.as_chunks::<N>().0.iter();
         let elements = cells.clone().enumerate();
         let elements = elements.map(|(at, x)| Reference::new(&rule, x).map_err(|e| (at, e)));
@@ -168,7 +166,7 @@ impl<const N: usize, const Q: usize> Cells<N, Q> {
             kind,
             formulations,
             inertia: Inertia::Points(rule.values),
-            recovery,
+            recovery: rule.recovery,
             elements,
             fields,
         }))

@@ -2,7 +2,8 @@
 //!
 //! A [`CellShape`] lists what a mesh needs of a kind: natural coordinates of the
 //! corners, faces outward by the right-hand rule, the edges at each corner, the
-//! linear interpolation `N_a(xi)` and a quadrature rule. The rule integrates
+//! linear interpolation `N_a(xi)` and a quadrature rule, with what continues values at its
+//! points to the corners. The rule integrates
 //! `dN_a/dX det(dX/dxi)` exactly in any cell with straight edges: volumes are exact, and
 //! elements that use it pass the patch test.
 //!
@@ -22,6 +23,9 @@ use std::{fmt, ops::Range};
 
 /// Most corners of a cell of any kind.
 pub const MAX_CORNERS: usize = 10;
+
+/// Most quadrature points from which values are continued to the corners of a cell.
+pub const MAX_POINTS: usize = 8;
 
 /// A kind of cell with linear interpolation. What the nodes of a cell are, in all of them, is
 /// its corners.
@@ -61,6 +65,11 @@ pub struct CellShape {
     pub corner_jacobian: f64,
     /// Natural coordinates and weights of the quadrature points.
     pub points: &'static [([f64; 3], f64)],
+    /// Shares of the values at the quadrature points in a value at natural coordinates, zero
+    /// beyond the last point; `None` where elements have points of their own.
+    pub recovery: Option<fn(&Vec3) -> [f64; MAX_POINTS]>,
+    /// VTK's number of the kind.
+    pub vtk: u8,
     /// `N_a` at natural coordinates; zero beyond the last corner.
     pub interpolation: fn(&Vec3) -> [f64; MAX_CORNERS],
     /// `dN_a/dxi` at natural coordinates; zero beyond the last corner.

@@ -28,7 +28,7 @@ mod sets;
 mod topology;
 mod transform;
 
-pub use cell::{COMPOSITE_PARTS, CellBlock, CellKind, CellShape, MAX_CORNERS};
+pub use cell::{COMPOSITE_PARTS, CellBlock, CellKind, CellShape, MAX_CORNERS, MAX_POINTS};
 pub use error::MeshError;
 pub use id::{ElementId, Face, FacetId, NodeId};
 pub use locate::Located;

@@ -22,7 +22,7 @@ pub use elements::OfBodies;
 use inertia::Inertia;
 pub use linearised::{Background, ContactAssembled, assemble_contact};
 pub use places::ElementPlaces;
-pub use start::initial_accelerations;
+pub(crate) use start::initial_accelerations;
 use std::{
     sync::Arc,
     time::{Duration, Instant},
@@ -39,6 +39,7 @@ use ties::{Moving, Scratch, Tie};
 
 use crate::{
     layout::Layout,
+    node::GlobalNode,
     norms::Norms,
     outcome::CutBack,
     rigid::Pose,
@@ -289,7 +290,7 @@ impl System<'_> {
         Ok(bodies)
     }
 
-    fn clique(&self, nodes: &[usize]) -> Vec<Supervariable> {
+    fn clique(&self, nodes: &[GlobalNode]) -> Vec<Supervariable> {
         let owners = nodes.iter().flat_map(|&node| self.owners(node));
         let mut owners: Vec<Supervariable> = owners.collect();
         owners.sort_unstable();
@@ -313,7 +314,7 @@ impl System<'_> {
     }
 
     fn prescribe(&mut self, trial: &Trial, imposed: &Imposed) {
-        let shear = |node: usize| {
+        let shear = |node: GlobalNode| {
             let (body, _) = self.context.problem.body_node(node);
             self.context.problem.compositions[body].stiffest_shear()
         };

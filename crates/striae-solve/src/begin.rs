@@ -8,6 +8,7 @@ use crate::{
     mass::kinetic_energy,
     model::Mover,
     newton::{Workspace, forces_at_start},
+    node::GlobalNode,
     outcome::CutBack,
     problem::Problem,
     rigid::fitted_velocity,
@@ -34,10 +35,8 @@ pub fn begin(
     if scheme(problem, index).is_some() {
         velocities.clone_from(&state.velocities);
         for start in &problem.model.steps[index].velocities {
-            let nodes: Vec<usize> = match start.body {
-                Mover::Deformable(body) => {
-                    (problem.first_node[body.0]..problem.first_node[body.0 + 1]).collect()
-                }
+            let nodes: Vec<GlobalNode> = match start.body {
+                Mover::Deformable(body) => problem.nodes_of(body.0).collect(),
                 Mover::Rigid(rigid) => problem.tied[rigid.0].clone(),
             };
             for node in nodes {

@@ -24,6 +24,7 @@ use striae_mesh::Vec3;
 
 use crate::{
     model::Procedure,
+    node::GlobalNode,
     problem::Problem,
     rigid::{Pose, Wrench},
     state::State,
@@ -59,8 +60,8 @@ impl Scheme {
 /// Velocity and acceleration of a prescribed component.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImposedRate {
-    /// Global node.
-    pub node: usize,
+    /// Node.
+    pub node: GlobalNode,
     /// Component.
     pub axis: usize,
     /// Velocity.
@@ -119,12 +120,12 @@ impl Motion {
     }
 
     /// `a_f (f_int - f_ext)_0` of a node.
-    pub fn carried(&self, node: usize) -> Vec3 {
+    pub fn carried(&self, node: GlobalNode) -> Vec3 {
         self.carried[node]
     }
 
     /// `a_f h_0` of a tied node.
-    pub fn held(&self, node: usize) -> Vec3 {
+    pub fn held(&self, node: GlobalNode) -> Vec3 {
         self.held[node]
     }
 
@@ -139,11 +140,17 @@ impl Motion {
     }
 
     /// `a_alpha` of all nodes.
-    pub fn weighted_accelerations(&self, positions: &[Vec3], rates: &[ImposedRate]) -> Vec<Vec3> {
+    pub(crate) fn weighted_accelerations(
+        &self,
+        positions: &[Vec3],
+        rates: &[ImposedRate],
+    ) -> Vec<Vec3> {
         let mean = |weight: f64, a_0: f64, a_1: f64| a_1 * (1.0 - weight) + a_0 * weight;
         let ends = self.accelerations_at_end(positions, rates);
-        let ends_of = |node: usize, axis: usize| (self.accelerations[node][axis], ends[node][axis]);
+        let ends_of =
+            |node: GlobalNode, axis: usize| (self.accelerations[node][axis], ends[node][axis]);
         let mut weighted: Vec<Vec3> = (0..positions.len())
+            .map(GlobalNode)
             .map(|node| {
                 Vec3::from_fn(|axis, _| {
                     let (a_0, a_1) = ends_of(node, axis);

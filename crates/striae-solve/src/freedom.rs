@@ -19,6 +19,7 @@ use striae_mesh::Vec3;
 use crate::{
     assembly::StepContext,
     interference::{Positions, configuration, thickness},
+    node::GlobalNode,
     outcome::{FreeMotion, FreeMover},
     problem::Problem,
     state::State,
@@ -266,12 +267,12 @@ impl Rows {
     fn prescribed(&mut self, context: &StepContext, at: Positions) {
         let problem = context.problem;
         let nodes = problem.first_node.last().copied().unwrap_or(0);
-        for node in 0..nodes {
+        for node in (0..nodes).map(GlobalNode) {
             let (body, _) = problem.body_node(node);
             let Some(component) = self.of[body] else {
                 continue;
             };
-            for axis in (0..3).filter(|axis| context.fixed[3 * node + axis]) {
+            for axis in (0..3).filter(|axis| context.fixed[node.component(*axis)]) {
                 let row = self.entries(component, &at.nodes[node], &Vec3::ith(axis, 1.0));
                 self.add(&[(component, row)]);
             }

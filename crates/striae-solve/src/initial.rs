@@ -28,10 +28,9 @@ use crate::{
 pub use close::close;
 pub use reach::may_meet;
 pub use surfaces::surfaces;
-pub use translation::nearest_approach;
 
 /// Overlap over the local facet size that is no fault of the mesh.
-pub const LARGEST_OVERLAP: f64 = 0.02;
+pub(crate) const LARGEST_OVERLAP: f64 = 0.02;
 /// Overlap over the local facet size that is round-off.
 pub const ROUND_OFF: f64 = 1e-9;
 

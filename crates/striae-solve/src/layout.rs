@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use striae_contact::{selection::Selection, unknown::Unknown};
 use striae_sparse::{Supervariable, Tier};
 
-use crate::problem::Problem;
+use crate::{node::GlobalNode, problem::Problem};
 
 /// Which surface nodes have traction unknowns.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -80,7 +80,7 @@ impl Layout {
         for size in &sizes {
             offsets.push(offsets[offsets.len() - 1] + size);
         }
-        let number = |slot: Option<(usize, usize)>| slot.map(|(node, at)| offsets[node] + at);
+        let number = |slot: Option<(GlobalNode, usize)>| slot.map(|(node, at)| offsets[node] + at);
         let tractions = local
             .into_iter()
             .map(|sides| sides.map(|side: Vec<_>| side.into_iter().map(number).collect()))
@@ -131,18 +131,18 @@ impl Layout {
     }
 
     /// Supervariable of a global node.
-    pub fn supervariable(&self, node: usize) -> Supervariable {
-        Supervariable(node)
+    pub fn supervariable(&self, node: GlobalNode) -> Supervariable {
+        Supervariable(node.0)
     }
 
     /// Supervariable of the positions of a global node: that of the rigid body it is tied to.
-    pub fn owner(&self, problem: &Problem, node: usize) -> Supervariable {
+    pub fn owner(&self, problem: &Problem, node: GlobalNode) -> Supervariable {
         let rigid = problem.tie_of[node].and_then(|rigid| self.rigids[rigid]);
-        Supervariable(rigid.unwrap_or(node))
+        Supervariable(rigid.unwrap_or(node.0))
     }
 
     /// Supervariables of the positions of a global node: those of the nodes that it follows.
-    pub fn owners(&self, problem: &Problem, node: usize) -> Vec<Supervariable> {
+    pub fn owners(&self, problem: &Problem, node: GlobalNode) -> Vec<Supervariable> {
         let behind = problem.ties.behind(&[node]).into_iter();
         let mut owners: Vec<Supervariable> = behind.map(|node| self.owner(problem, node)).collect();
         owners.sort_unstable();
@@ -166,7 +166,7 @@ impl Layout {
     }
 
     /// First position unknown of a global node.
-    pub fn position(&self, node: usize) -> usize {
+    pub fn position(&self, node: GlobalNode) -> usize {
         self.offsets[node]
     }
 
@@ -194,7 +194,7 @@ impl Layout {
             } => {
                 let first = self.traction(pair, side, node as usize)?;
                 let node = problem.carrier(pair, side, node)?;
-                Some((first + component, Supervariable(node)))
+                Some((first + component, Supervariable(node.0)))
             }
         }
     }

@@ -2,14 +2,14 @@
 
 pub mod assembly;
 mod begin;
-pub mod body_mass;
-pub mod composition;
+mod body_mass;
+mod composition;
 mod constitution;
 mod contact_mass;
 mod curve;
 pub mod drive;
 pub mod dynamics;
-pub mod freedom;
+mod freedom;
 pub mod initial;
 pub mod interference;
 pub mod layout;
@@ -17,6 +17,7 @@ pub mod load;
 mod mass;
 pub mod model;
 pub mod newton;
+pub mod node;
 pub mod norms;
 pub mod outcome;
 pub mod painting;

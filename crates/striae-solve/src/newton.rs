@@ -114,7 +114,7 @@ pub fn estimate(problem: &Problem) -> Result<Estimate, CutBack> {
 ///
 /// # Errors
 /// Why the state cannot be evaluated.
-pub fn forces_at_start(
+pub(crate) fn forces_at_start(
     context: &StepContext,
     state: &State,
     workspace: &mut Workspace,

@@ -2,6 +2,7 @@
 
 mod contact_facet;
 mod fibres;
+mod nodes;
 mod shadow;
 
 pub use contact_facet::ContactFacet;
@@ -26,6 +27,7 @@ use crate::{
     composition::Composition,
     contact_mass,
     model::{Model, Pair, RigidShape, Side},
+    node::GlobalNode,
     plan::{StepPlan, plans},
     tie::{TieFault, Ties, first_nodes},
 };
@@ -50,11 +52,11 @@ pub struct Problem {
     /// What holds in each step.
     pub plans: Vec<StepPlan>,
     /// Nodes tied to every rigid body, with its mass points.
-    pub tied: Vec<Vec<usize>>,
+    pub tied: Vec<Vec<GlobalNode>>,
     /// Rigid body that each global node is tied to.
     pub tie_of: Vec<Option<usize>>,
     /// Point masses: global nodes that belong to no body, after all others.
-    pub mass_points: Vec<(usize, f64)>,
+    pub mass_points: Vec<(GlobalNode, f64)>,
     /// Global nodes whose mass is moved to others.
     pub massless: Vec<bool>,
     /// Mass of every body.
@@ -191,40 +193,9 @@ impl Problem {
 
     /// Whether the coordinates of a rigid body are unknowns: where nodes are tied to
     /// it, and where contact may move it, as some are free in a step.
-    pub fn has_coordinates(&self, rigid: usize) -> bool {
+    pub(crate) fn has_coordinates(&self, rigid: usize) -> bool {
         let free = |plan: &StepPlan| plan.rigid[rigid].iter().any(Option::is_none);
         !self.tied[rigid].is_empty() || self.plans.iter().any(free)
-    }
-
-    /// Global number of a node of a body.
-    pub fn node(&self, body: usize, node: NodeId) -> usize {
-        self.first_node[body] + node.index()
-    }
-
-    /// Global numbers of nodes of a body.
-    pub fn nodes(&self, body: usize, nodes: &[NodeId]) -> Vec<usize> {
-        nodes.iter().map(|&node| self.node(body, node)).collect()
-    }
-
-    /// Body and node of a global node number.
-    pub fn body_node(&self, node: usize) -> (usize, NodeId) {
-        let body = self.first_node.partition_point(|&first| first <= node) - 1;
-        (body, NodeId::new(node - self.first_node[body]))
-    }
-
-    /// Global node of a surface node of a pair.
-    pub fn surface_node(&self, pair: usize, side: usize, node: u32) -> Option<usize> {
-        let geometry = &self.pairs[pair];
-        let surface = geometry.contact.sides[side].surface()?;
-        let body = geometry.bodies[side]?;
-        Some(self.node(body, surface.nodes()[node as usize]))
-    }
-
-    /// Global node that the traction unknowns of a node of a pair lodge with: itself, or
-    /// that of side `a` at a point of a rigid side.
-    pub fn carrier(&self, pair: usize, side: usize, node: u32) -> Option<usize> {
-        let own = self.surface_node(pair, side, node);
-        own.or_else(|| self.surface_node(pair, 0, node))
     }
 }
 

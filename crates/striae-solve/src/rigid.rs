@@ -19,7 +19,10 @@ use serde::{Deserialize, Serialize};
 use striae_contact::placement::Placement;
 use striae_mesh::Vec3;
 
-use crate::model::{Model, RigidInertia};
+use crate::{
+    model::{Model, RigidInertia},
+    node::GlobalNode,
+};
 
 /// Where a rigid body is.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -49,7 +52,7 @@ impl Wrench {
     }
 
     /// From force, then torque.
-    pub fn from_components(components: &[f64; 6]) -> Self {
+    pub(crate) fn from_components(components: &[f64; 6]) -> Self {
         Self {
             force: Vec3::from_column_slice(&components[..3]),
             torque: Vec3::from_column_slice(&components[3..]),
@@ -100,7 +103,7 @@ impl Pose {
 }
 
 /// `T(t)`, from changes of the angles to turns in space.
-pub fn turn_tangent(turn: &Vec3) -> Matrix3<f64> {
+pub(crate) fn turn_tangent(turn: &Vec3) -> Matrix3<f64> {
     let angle = turn.norm();
     if angle < 1e-6 {
         return Matrix3::identity() + turn.cross_matrix() * 0.5;
@@ -112,7 +115,7 @@ pub fn turn_tangent(turn: &Vec3) -> Matrix3<f64> {
 }
 
 /// Places of six equal masses with the inertia.
-pub fn mass_points(inertia: &RigidInertia) -> [Vec3; 6] {
+pub(crate) fn mass_points(inertia: &RigidInertia) -> [Vec3; 6] {
     let [a, b, c] = inertia.moments;
     let squares = [b + c - a, c + a - b, a + b - c].map(|sum| 0.5 * sum / inertia.mass);
     std::array::from_fn(|at| {
@@ -127,20 +130,22 @@ pub(crate) fn ties(
     model: &Model,
     first_node: &[usize],
     reference: &mut Vec<Vec3>,
-) -> (Vec<Vec<usize>>, Vec<(usize, f64)>) {
+) -> (Vec<Vec<GlobalNode>>, Vec<(GlobalNode, f64)>) {
     let mut heavy = Vec::new();
     let tied = model.rigid_surfaces.iter().map(|rigid| {
         let nodes = rigid.ties.iter().flat_map(|(body, nodes)| {
             let first = first_node[body.0];
-            nodes.iter().map(move |node| first + node.index())
+            nodes
+                .iter()
+                .map(move |node| GlobalNode(first + node.index()))
         });
-        let mut nodes: Vec<usize> = nodes.collect();
+        let mut nodes: Vec<GlobalNode> = nodes.collect();
         nodes.sort_unstable();
         nodes.dedup();
         if let Some(inertia) = &rigid.inertia {
             for place in mass_points(inertia) {
-                nodes.push(reference.len());
-                heavy.push((reference.len(), inertia.mass / 6.0));
+                nodes.push(GlobalNode(reference.len()));
+                heavy.push((GlobalNode(reference.len()), inertia.mass / 6.0));
                 reference.push(place);
             }
         }
@@ -154,7 +159,7 @@ pub(crate) fn ties(
 /// velocities of the nodes `tied` to a rigid body best.
 pub fn fitted_velocity(
     point: &Vec3,
-    tied: &[usize],
+    tied: &[GlobalNode],
     positions: &[Vec3],
     velocities: &[Vec3],
 ) -> [Vec3; 2] {

@@ -63,7 +63,7 @@ pub fn acts(model: &Model, step: usize, pair: usize) -> bool {
 }
 
 /// Whether any pair is stabilised in a step.
-pub fn acts_in(model: &Model, step: usize) -> bool {
+pub(crate) fn acts_in(model: &Model, step: usize) -> bool {
     (0..model.pairs.len()).any(|pair| acts(model, step, pair))
 }
 

@@ -35,13 +35,13 @@ pub use start::placed;
 use std::collections::BTreeMap;
 use striae_mesh::{NodeId, Vec3};
 
-use crate::model::Model;
+use crate::{model::Model, node::GlobalNode};
 use order::Group;
 use patch::Patch;
 use rows::Sides;
 
 /// Weights of nodes, by component: `None` where the node does not follow.
-pub type Weights = [Option<Vec<(usize, f64)>>; 3];
+pub type Weights = [Option<Vec<(GlobalNode, f64)>>; 3];
 
 /// A node that follows others.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,7 +49,7 @@ pub struct Follower {
     /// Its tie.
     pub tie: usize,
     /// The node.
-    pub node: usize,
+    pub node: GlobalNode,
     /// What its row says: nodes, which may follow others, and weights.
     pub row: Weights,
     /// The same in terms of nodes that follow none.
@@ -72,7 +72,7 @@ pub struct Joint {
     /// Size of the facets of the side that follows.
     pub facet_size: f64,
     /// Nodes of the tied surfaces, by side.
-    nodes: [Vec<usize>; 2],
+    nodes: [Vec<GlobalNode>; 2],
     /// What is tied, by facet of the side that follows.
     patches: Vec<Patch>,
 }
@@ -139,24 +139,24 @@ impl Ties {
     }
 
     /// Nodes that follow, ascending.
-    pub fn followers(&self) -> &[Follower] {
+    pub(crate) fn followers(&self) -> &[Follower] {
         &self.followers
     }
 
     /// How a node follows, if it does.
-    pub fn follower(&self, node: usize) -> Option<&Follower> {
-        let at = self.of_node.get(node).copied().flatten()?;
+    pub fn follower(&self, node: GlobalNode) -> Option<&Follower> {
+        let at = self.of_node.get(node.0).copied().flatten()?;
         Some(&self.followers[at as usize])
     }
 
     /// What a component of a node follows, if it does.
-    pub fn followed(&self, node: usize, axis: usize) -> Option<&[(usize, f64)]> {
+    pub fn followed(&self, node: GlobalNode, axis: usize) -> Option<&[(GlobalNode, f64)]> {
         self.follower(node)?.weights[axis].as_deref()
     }
 
     /// Nodes whose positions some nodes have theirs from, ascending: themselves, or what they
     /// follow.
-    pub fn behind(&self, nodes: &[usize]) -> Vec<usize> {
+    pub fn behind(&self, nodes: &[GlobalNode]) -> Vec<GlobalNode> {
         let mut behind = Vec::with_capacity(nodes.len());
         for &node in nodes {
             let Some(follower) = self.follower(node) else {
@@ -193,7 +193,7 @@ impl Ties {
 
     /// Passes forces on nodes that follow to those that they follow, and leaves none; returns
     /// with every follower the force that its row takes from it.
-    pub fn pass_on(&self, forces: &mut [Vec3]) -> impl Iterator<Item = (&Follower, Vec3)> {
+    pub(crate) fn pass_on(&self, forces: &mut [Vec3]) -> impl Iterator<Item = (&Follower, Vec3)> {
         let mut taken = vec![Vec3::zeros(); self.followers.len()];
         for (axis, order) in self.orders.iter().enumerate() {
             for group in order.iter().rev() {
@@ -216,7 +216,7 @@ impl Ties {
     }
 
     /// Adds the forces of ties on nodes to those that `own` takes from a follower.
-    pub fn react(follower: &Follower, own: &Vec3, forces: &mut [Vec3]) {
+    pub(crate) fn react(follower: &Follower, own: &Vec3, forces: &mut [Vec3]) {
         for (axis, row) in follower.row.iter().enumerate() {
             if let Some(row) = row {
                 forces[follower.node][axis] += own[axis];
@@ -228,7 +228,7 @@ impl Ties {
     }
 
     /// Forces of a tie on the nodes of both sides, from those of all ties on all nodes.
-    pub fn forces(&self, tie: usize, of_all: &[Vec3]) -> [BTreeMap<usize, Vec3>; 2] {
+    pub fn forces(&self, tie: usize, of_all: &[Vec3]) -> [BTreeMap<GlobalNode, Vec3>; 2] {
         let joint = &self.joints[tie];
         let mut left = of_all.to_vec();
         let mut forces = [BTreeMap::new(), BTreeMap::new()];
@@ -236,7 +236,7 @@ impl Ties {
             if follower.tie != tie {
                 continue;
             }
-            let mut add = |node: usize, axis: usize, force: f64| {
+            let mut add = |node: GlobalNode, axis: usize, force: f64| {
                 let on_own = joint.nodes[joint.follows].binary_search(&node).is_ok();
                 let side = if on_own {
                     joint.follows
@@ -269,7 +269,7 @@ pub(crate) fn first_nodes(model: &Model) -> Vec<usize> {
 }
 
 /// Body and node of a global node.
-fn body_node(first_node: &[usize], node: usize) -> (usize, NodeId) {
+fn body_node(first_node: &[usize], GlobalNode(node): GlobalNode) -> (usize, NodeId) {
     let body = first_node.partition_point(|&first| first <= node) - 1;
     (body, NodeId::new(node - first_node[body]))
 }

@@ -159,7 +159,7 @@ pub fn solve_upper<T: Real>(u: Block<'_, T>, x: &mut [T]) {
 }
 
 /// `x := U^-T x` with an upper triangle.
-pub fn solve_upper_transposed<T: Real>(u: Block<'_, T>, x: &mut [T]) {
+pub(crate) fn solve_upper_transposed<T: Real>(u: Block<'_, T>, x: &mut [T]) {
     for panel in (0..x.len()).step_by(PANEL) {
         let end = (panel + PANEL).min(x.len());
         let (above, own) = x[..end].split_at_mut(panel);

@@ -78,7 +78,7 @@ pub fn candidates(configuration: &Configuration, depth: f64) -> Vec<(RigidPoint,
 }
 
 /// The bend of the sharpest convex edge at a node, `None` where there is none.
-pub fn bend_at(side: &Snapshot, node: u32) -> Option<Bend> {
+pub(crate) fn bend_at(side: &Snapshot, node: u32) -> Option<Bend> {
     edges(side, node).map(|edge| edge.bend).max()
 }
 

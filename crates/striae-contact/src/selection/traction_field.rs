@@ -159,7 +159,11 @@ impl Selection {
     }
 
     /// Shares of the corners of paired facets in what is left of the overlap of the meshes.
-    pub fn offsets_at(&self, configuration: &Configuration, paired: &PairedFacets) -> [f64; 8] {
+    pub(crate) fn offsets_at(
+        &self,
+        configuration: &Configuration,
+        paired: &PairedFacets,
+    ) -> [f64; 8] {
         let share = if configuration.pair.is_rigid() {
             1.0
         } else {

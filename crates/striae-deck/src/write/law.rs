@@ -64,7 +64,8 @@ pub(super) fn friction_keys(friction: &Friction) -> Option<String> {
     Some(text)
 }
 
-/// Lines of a material but for its name; `None` for a law of one's own.
+/// Lines of a material but for its name; `None` for a law that decks have no table for, as of
+/// one's own.
 pub(super) fn material(of: &Material) -> Option<String> {
     match of {
         Material::NeoHookean {
@@ -97,7 +98,7 @@ pub(super) fn material(of: &Material) -> Option<String> {
             let families = list(law.families().iter().map(fibres));
             Some(material(law.ground())? + &format!("fibres = {families}\n"))
         }
-        Material::Own(_) => None,
+        _ => None,
     }
 }
 

@@ -109,6 +109,8 @@ pub(super) static SHAPE: CellShape = CellShape {
         middle(2, 0.0625, 96.0),
         middle(3, 0.0625, 96.0),
     ],
+    recovery: None,
+    vtk: 24,
     interpolation,
     gradients,
 };

@@ -7,7 +7,7 @@
 //! and 2 x 2 x 2 Gauss points; point `g` lies towards corner `g`, at `1/sqrt(3)` of its
 //! coordinates, with weight one.
 
-use super::{CellShape, MAX_CORNERS};
+use super::{CellShape, MAX_CORNERS, MAX_POINTS};
 use crate::Vec3;
 
 /// `1/sqrt(3)`.
@@ -49,6 +49,8 @@ pub(super) static SHAPE: CellShape = CellShape {
         ([G, G, G], 1.0),
         ([-G, G, G], 1.0),
     ],
+    recovery: Some(recovery),
+    vtk: 12,
     interpolation,
     gradients,
 };
@@ -84,6 +86,12 @@ fn gradients(at: &Vec3) -> [Vec3; MAX_CORNERS] {
         );
     }
     gradients
+}
+
+/// The trilinear field through the values.
+fn recovery(at: &Vec3) -> [f64; MAX_POINTS] {
+    let values = interpolation(&(at * 3f64.sqrt()));
+    std::array::from_fn(|g| values[g])
 }
 
 #[cfg(test)]

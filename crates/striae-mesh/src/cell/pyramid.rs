@@ -11,7 +11,7 @@
 //! `r, s` and two points of Gauss and Jacobi with the weight `u^2` in `u`, the roots of
 //! `u^2 - 4/3 u + 2/5`.
 
-use super::{CellShape, MAX_CORNERS};
+use super::{CellShape, MAX_CORNERS, MAX_POINTS};
 use crate::Vec3;
 
 /// `1/sqrt(3)`.
@@ -60,6 +60,8 @@ pub(super) static SHAPE: CellShape = CellShape {
         point(G, G, 0),
         point(-G, G, 0),
     ],
+    recovery: Some(recovery),
+    vtk: 14,
     interpolation,
     gradients,
 };
@@ -96,6 +98,19 @@ fn gradients(at: &Vec3) -> [Vec3; MAX_CORNERS] {
         *gradient = Vec3::new(x * q, y * p, p * q / u - p - q) / (4.0 * u);
     }
     gradients
+}
+
+/// The linear field closest to the values.
+fn recovery(at: &Vec3) -> [f64; MAX_POINTS] {
+    let point = |g: usize| Vec3::from(SHAPE.points[g].0);
+    let middle = (0..8).map(point).sum::<Vec3>() / 8.0;
+    // The points are symmetric: moments about their middle are diagonal.
+    let from_middle = |g: usize| point(g) - middle;
+    let squares: Vec3 = (0..8)
+        .map(|g| from_middle(g).component_mul(&from_middle(g)))
+        .sum();
+    let out = at - middle;
+    std::array::from_fn(|g| 0.125 + out.component_div(&squares).dot(&from_middle(g)))
 }
 
 #[cfg(test)]

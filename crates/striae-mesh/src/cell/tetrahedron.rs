@@ -8,7 +8,7 @@
 //! Appl. Mech. Eng. 55 (1986) 339). They are exact to degree two, so that the mass is
 //! consistent; gradients are constant.
 
-use super::{CellShape, MAX_CORNERS};
+use super::{CellShape, MAX_CORNERS, MAX_POINTS};
 use crate::Vec3;
 
 /// `(5 - sqrt(5))/20`.
@@ -37,6 +37,8 @@ pub(super) static SHAPE: CellShape = CellShape {
         ([NEAR, FAR, NEAR], WEIGHT),
         ([NEAR, NEAR, FAR], WEIGHT),
     ],
+    recovery: Some(recovery),
+    vtk: 10,
     interpolation,
     gradients,
 };
@@ -51,6 +53,13 @@ fn gradients(_: &Vec3) -> [Vec3; MAX_CORNERS] {
     let mut gradients = [Vec3::zeros(); MAX_CORNERS];
     gradients[..4].copy_from_slice(&[Vec3::repeat(-1.0), Vec3::x(), Vec3::y(), Vec3::z()]);
     gradients
+}
+
+/// The mean of the values: stress is constant.
+fn recovery(_: &Vec3) -> [f64; MAX_POINTS] {
+    let mut shares = [0.0; MAX_POINTS];
+    shares[..4].fill(0.25);
+    shares
 }
 
 #[cfg(test)]

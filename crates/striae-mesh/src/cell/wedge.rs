@@ -6,7 +6,7 @@
 //!
 //! and three points of the triangle, exact to degree two, on two Gauss levels.
 
-use super::{CellShape, MAX_CORNERS};
+use super::{CellShape, MAX_CORNERS, MAX_POINTS};
 use crate::Vec3;
 
 /// `1/sqrt(3)`.
@@ -53,6 +53,8 @@ pub(super) static SHAPE: CellShape = CellShape {
         ([FAR, NEAR, G], WEIGHT),
         ([NEAR, FAR, G], WEIGHT),
     ],
+    recovery: Some(recovery),
+    vtk: 13,
     interpolation,
     gradients,
 };
@@ -80,4 +82,12 @@ fn gradients(at: &Vec3) -> [Vec3; MAX_CORNERS] {
         gradients[a + 3] = Vec3::new(along_xi * high, along_eta * high, 0.5 * value);
     }
     gradients
+}
+
+/// The field linear in the triangle and along the axis through the values.
+fn recovery(at: &Vec3) -> [f64; MAX_POINTS] {
+    // Points of the triangle are halfway from its middle to the corners.
+    let out = |s: f64| 2.0 * s - 1.0 / 3.0;
+    let values = interpolation(&Vec3::new(out(at.x), out(at.y), at.z * 3f64.sqrt()));
+    std::array::from_fn(|g| values[g])
 }

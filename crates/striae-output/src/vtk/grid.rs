@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use nalgebra::Matrix3;
-use striae_mesh::{CellBlock, CellKind, NodeId, Vec3};
+use striae_mesh::{CellBlock, NodeId, Vec3};
 
 use crate::OutputError;
 
@@ -112,7 +112,7 @@ impl Cells<'_> {
         match self {
             Self::Blocks(blocks) => {
                 for block in *blocks {
-                    let shape = solid(block.kind);
+                    let shape = block.kind.shape().vtk;
                     for corners in block.cells() {
                         match *corners {
                             // VTK's wedge has the normal of its first triangle outward.
@@ -126,17 +126,6 @@ impl Cells<'_> {
             Self::Triangles(cells) => cells.iter().for_each(|cell| visit(polygon(cell), cell)),
             Self::Polygons(cells) => cells.iter().for_each(|cell| visit(polygon(cell), cell)),
         }
-    }
-}
-
-/// VTK's code for a kind of cell.
-fn solid(kind: CellKind) -> u8 {
-    match kind {
-        CellKind::Tetrahedron => 10,
-        CellKind::Hexahedron => 12,
-        CellKind::Wedge => 13,
-        CellKind::Pyramid => 14,
-        CellKind::CompositeTetrahedron => 24,
     }
 }
 

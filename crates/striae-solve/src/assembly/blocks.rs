@@ -55,7 +55,7 @@ impl System<'_> {
         let is_free = |&(_, row): &(usize, &u32)| {
             let axis = *row as usize % 3;
             let node = self.triple(pair, *row).position;
-            node.is_none_or(|node| !self.context.fixed[3 * node + axis])
+            node.is_none_or(|node| !self.context.fixed[node.component(axis)])
         };
         let rows = term.rows.iter().enumerate().filter(is_free);
         let columns = term.columns.iter().step_by(3);

@@ -11,7 +11,7 @@ use striae_contact::{
 use striae_mesh::{FacetId, Vec3};
 
 use super::{Contact, Fault, Setting, System, Trial};
-use crate::{outcome::CutBack, problem::Problem};
+use crate::{node::GlobalNode, outcome::CutBack, problem::Problem};
 
 impl Contact {
     /// Contact of every pair.
@@ -60,7 +60,7 @@ pub(super) fn contacts(
 fn not_evaluated(problem: &Problem, pair: usize, collapse: Collapse) -> CutBack {
     let (Collapse::Texture(CollapsedTexture { side, node })
     | Collapse::Facets(CollapsedFacets { side, node })) = collapse;
-    let global = problem.carrier(pair, side, node).unwrap_or(0);
+    let global = problem.carrier(pair, side, node).unwrap_or(GlobalNode(0));
     let (body, node) = problem.body_node(global);
     let pair = problem.model.pairs[pair].name.clone();
     let body = problem.model.bodies[body].name.clone();

@@ -6,12 +6,13 @@ use striae_contact::{
     complementarity::Prescribed, configuration::Configuration, pair::ContactPair,
     placement::Placement,
 };
-use striae_mesh::Vec3;
+use striae_mesh::{NodeId, Vec3};
 
 use crate::{
     dynamics::{ImposedRate, Motion},
     initial::Offsets,
     model::LoadKind,
+    node::GlobalNode,
     plan::StepPlan,
     problem::Problem,
     rigid::{Pose, Wrench},
@@ -50,7 +51,7 @@ pub struct StepContext<'a> {
 #[derive(Clone, Debug)]
 pub struct Imposed {
     /// Prescribed position components: `(node, axis, position)`.
-    pub positions: Vec<(usize, usize, f64)>,
+    pub positions: Vec<(GlobalNode, usize, f64)>,
     /// Loads with their kinds at this point.
     pub loads: Vec<LoadKind>,
     /// Coordinates of the rigid bodies; `None` where they are free.
@@ -91,9 +92,9 @@ impl<'a> StepContext<'a> {
         for (body, node, axis) in plan.displacements.keys() {
             fixed[3 * (problem.first_node[*body] + node) + axis] = true;
         }
-        let holds = |node: usize, axis: usize| match problem.ties.followed(node, axis) {
-            Some(followed) => followed.iter().all(|(node, _)| fixed[3 * node + axis]),
-            None => fixed[3 * node + axis],
+        let holds = |node: GlobalNode, axis: usize| match problem.ties.followed(node, axis) {
+            Some(followed) => followed.iter().all(|(node, _)| fixed[node.component(axis)]),
+            None => fixed[node.component(axis)],
         };
         let on_pair = |pair: usize| {
             [0, 1].map(|side| {
@@ -180,7 +181,7 @@ impl<'a> StepContext<'a> {
             .displacements
             .iter()
             .map(|((body, node, axis), how)| {
-                let node = self.problem.first_node[*body] + node;
+                let node = self.problem.node(*body, NodeId::new(*node));
                 let reference = self.problem.reference[node][*axis];
                 let start = self.start.positions[node][*axis];
                 let position = match how {
@@ -194,7 +195,7 @@ impl<'a> StepContext<'a> {
             .displacements
             .iter()
             .map(|((body, node, axis), how)| {
-                let node = self.problem.first_node[*body] + node;
+                let node = self.problem.node(*body, NodeId::new(*node));
                 let (velocity, acceleration) = match how {
                     Hold => (0.0, 0.0),
                     Go { target, curve } => {
@@ -239,7 +240,7 @@ impl<'a> StepContext<'a> {
     }
 
     /// Velocities and accelerations of the coordinates of rigid bodies, zero where free.
-    pub fn rigid_rates(&self, s: f64) -> Vec<[[f64; 2]; 6]> {
+    pub(crate) fn rigid_rates(&self, s: f64) -> Vec<[[f64; 2]; 6]> {
         let duration = self.problem.model.steps[self.index].duration;
         let plans = self.plan.rigid.iter().zip(&self.start.rigid);
         plans

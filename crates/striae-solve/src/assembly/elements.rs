@@ -16,7 +16,7 @@ use super::{
     inertia::{Inertia, Share},
     ties::Slot,
 };
-use crate::{outcome::CutBack, problem::Problem, state::State};
+use crate::{node::GlobalNode, outcome::CutBack, problem::Problem, state::State};
 
 /// What elements add up to at a supervariable.
 #[derive(Clone, Copy, Default)]
@@ -180,7 +180,7 @@ impl System<'_> {
         let problem = self.context.problem;
         let element = ElementId::new(place.first + at);
         let corners = problem.model.bodies[place.body].mesh.corners(element);
-        let mut nodes = [0; MAX_CORNERS];
+        let mut nodes = [GlobalNode(0); MAX_CORNERS];
         let nodes = globals(problem, place.body, corners, &mut nodes);
         for (slot, &node) in nodes.iter().enumerate() {
             at_nodes[node].add(share, slot, self.inertia.acts());
@@ -196,12 +196,7 @@ impl System<'_> {
         }
         for (slot, &node) in nodes.iter().enumerate() {
             let rows = self.matrix.rows_of_member(place.places, (at, slot));
-            add_rows(
-                rows,
-                share,
-                slot,
-                &self.context.fixed[3 * node..3 * node + 3],
-            );
+            add_rows(rows, share, slot, &self.context.fixed[node.components()]);
         }
         Ok(())
     }
@@ -209,7 +204,7 @@ impl System<'_> {
     /// Sums at the supervariables as they are now.
     fn at_nodes(&self) -> Vec<AtNode> {
         let mut at_nodes = vec![AtNode::default(); self.matrix.structure().supervariables()];
-        for node in 0..self.context.problem.reference.len() {
+        for node in self.context.problem.global_nodes() {
             let first = self.layout.position(node);
             at_nodes[node] = AtNode {
                 residual: Vec3::from_column_slice(&self.residual[first..first + 3]),
@@ -222,7 +217,7 @@ impl System<'_> {
     }
 
     fn take_from_nodes(&mut self, at_nodes: &[AtNode]) {
-        for node in 0..self.context.problem.reference.len() {
+        for node in self.context.problem.global_nodes() {
             let (first, sums) = (self.layout.position(node), &at_nodes[node]);
             self.residual[first..first + 3].copy_from_slice(sums.residual.as_slice());
             self.forces.internal[node] = sums.internal;
@@ -232,7 +227,7 @@ impl System<'_> {
     }
 
     /// The position unknowns of nodes.
-    pub(super) fn unknowns(&self, nodes: &[usize]) -> Vec<usize> {
+    pub(super) fn unknowns(&self, nodes: &[GlobalNode]) -> Vec<usize> {
         let first = nodes.iter().map(|&node| self.layout.position(node));
         first.flat_map(|first| first..first + 3).collect()
     }
@@ -240,7 +235,7 @@ impl System<'_> {
     /// Adds a square block of position unknowns, leaving out prescribed rows.
     pub(super) fn add_dense(
         &mut self,
-        nodes: &[usize],
+        nodes: &[GlobalNode],
         unknowns: &[usize],
         force: &[f64],
         tangent: &[f64],
@@ -254,12 +249,12 @@ impl System<'_> {
     /// The same without a force.
     fn add_square(
         &mut self,
-        nodes: &[usize],
+        nodes: &[GlobalNode],
         unknowns: &[usize],
         tangent: &[f64],
     ) -> Result<(), OutsidePattern> {
-        let is_fixed = |node: &usize| self.context.fixed[3 * node..3 * node + 3].contains(&true);
-        let is_plain = |node: &usize| !self.is_bound(*node) && !is_fixed(node);
+        let is_fixed = |node: &GlobalNode| self.context.fixed[node.components()].contains(&true);
+        let is_plain = |node: &GlobalNode| !self.is_bound(*node) && !is_fixed(node);
         if self.derivatives == Derivatives::None {
             return Ok(());
         }
@@ -313,7 +308,7 @@ fn shares_of(
                 variables: &place.variables[composition.variables(element)],
                 elapsed: place.elapsed,
             };
-            let mut nodes = [0; MAX_CORNERS];
+            let mut nodes = [GlobalNode(0); MAX_CORNERS];
             let nodes = globals(problem, body, model.mesh.corners(element), &mut nodes);
             let mut x = [Vec3::zeros(); MAX_CORNERS];
             for (x, node) in x.iter_mut().zip(nodes) {
@@ -379,8 +374,8 @@ fn globals<'a>(
     problem: &Problem,
     body: usize,
     corners: &[NodeId],
-    room: &'a mut [usize; MAX_CORNERS],
-) -> &'a [usize] {
+    room: &'a mut [GlobalNode; MAX_CORNERS],
+) -> &'a [GlobalNode] {
     for (node, corner) in room.iter_mut().zip(corners) {
         *node = problem.node(body, *corner);
     }

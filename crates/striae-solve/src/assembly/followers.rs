@@ -4,7 +4,7 @@
 use striae_mesh::Vec3;
 
 use super::System;
-use crate::tie::Ties;
+use crate::{node::GlobalNode, tie::Ties};
 
 impl System<'_> {
     /// Turns the residuals of nodes that follow into those of the nodes that they follow, and
@@ -14,14 +14,15 @@ impl System<'_> {
         if problem.ties.is_empty() {
             return;
         }
-        let place = |node: usize| self.layout.position(node);
-        let mut forces: Vec<Vec3> = (0..problem.reference.len())
+        let place = |node: GlobalNode| self.layout.position(node);
+        let mut forces: Vec<Vec3> = problem
+            .global_nodes()
             .map(|node| Vec3::from_column_slice(&self.residual[place(node)..place(node) + 3]))
             .collect();
         for (follower, own) in problem.ties.pass_on(&mut forces) {
             Ties::react(follower, &own, &mut self.forces.ties);
         }
-        for (node, force) in forces.iter().enumerate() {
+        for (node, force) in problem.global_nodes().zip(&forces) {
             let first = place(node);
             self.residual[first..first + 3].copy_from_slice(force.as_slice());
         }

@@ -13,7 +13,7 @@ use striae_element::ElementResponse;
 use striae_mesh::{MAX_CORNERS, Vec3};
 
 use super::{Imposed, System, Trial};
-use crate::tie::Ties;
+use crate::{node::GlobalNode, tie::Ties};
 
 /// What elements need of the increment.
 pub(super) struct Inertia {
@@ -74,7 +74,13 @@ impl Share {
 impl Inertia {
     /// Weighs the response of an element at some nodes, whose components are `fixed` or
     /// not, and adds its mass and weight; `mass` is empty where it has none.
-    pub(super) fn weigh(&self, nodes: &[usize], mass: &[f64], fixed: &[bool], own: &mut Share) {
+    pub(super) fn weigh(
+        &self,
+        nodes: &[GlobalNode],
+        mass: &[f64],
+        fixed: &[bool],
+        own: &mut Share,
+    ) {
         let share = self.share_of_end;
         for (internal, force) in own.internal.iter_mut().zip(&own.response.force) {
             *internal = Vec3::from(*force);
@@ -102,7 +108,7 @@ impl Inertia {
         self.accelerations.is_some() || self.gravity != Vec3::zeros()
     }
 
-    fn add_forces(&self, nodes: &[usize], mass: &[f64], own: &mut Share) {
+    fn add_forces(&self, nodes: &[GlobalNode], mass: &[f64], own: &mut Share) {
         for (a, mass) in mass.chunks_exact(nodes.len()).enumerate() {
             let weight = self.gravity * mass.iter().sum::<f64>();
             own.weight[a] = weight;
@@ -120,14 +126,14 @@ impl Inertia {
 
     fn add_mass(
         &self,
-        nodes: &[usize],
+        nodes: &[GlobalNode],
         mass: &[f64],
         fixed: &[bool],
         response: &mut ElementResponse,
     ) {
         for b in 0..nodes.len() {
             for axis in 0..3 {
-                if fixed[3 * nodes[b] + axis] {
+                if fixed[nodes[b].component(axis)] {
                     continue;
                 }
                 for a in 0..nodes.len() {
@@ -156,7 +162,7 @@ impl System<'_> {
     }
 
     /// Adds a force and a stiffness at a node.
-    pub(super) fn add_point(&mut self, node: usize, force: &Vec3, stiffness: f64) {
+    pub(super) fn add_point(&mut self, node: GlobalNode, force: &Vec3, stiffness: f64) {
         let first = self.layout.position(node);
         let unknowns = [first, first + 1, first + 2];
         let mut tangent = [0.0; 9];
@@ -172,7 +178,7 @@ impl System<'_> {
         let Some(motion) = &imposed.motion else {
             return;
         };
-        for node in 0..self.context.problem.reference.len() {
+        for node in self.context.problem.global_nodes() {
             let first = self.layout.position(node);
             let force = motion.carried(node);
             for axis in 0..3 {

@@ -15,14 +15,14 @@ impl System<'_> {
     pub(super) fn norms(&mut self, trial: &Trial, contacts: &[Evaluation]) -> Norms {
         let problem = self.context.problem;
         let mut free = self.free_squares();
-        for node in 0..problem.reference.len() {
+        for node in problem.global_nodes() {
             if self.tie(node).is_some() {
                 continue;
             }
             let first = self.layout.position(node);
             self.forces.reaction[node] = Vec3::from_column_slice(&self.residual[first..first + 3]);
             for axis in 0..3 {
-                if !self.context.fixed[3 * node + axis] {
+                if !self.context.fixed[node.component(axis)] {
                     free += self.residual[first + axis].powi(2);
                 }
             }

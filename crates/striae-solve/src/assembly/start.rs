@@ -22,7 +22,7 @@ use crate::{
 /// # Errors
 /// What `solve` says.
 #[allow(clippy::too_many_arguments)]
-pub fn initial_accelerations(
+pub(crate) fn initial_accelerations(
     context: &StepContext,
     trial: &Trial,
     imposed: &Imposed,
@@ -40,7 +40,11 @@ pub fn initial_accelerations(
     matrix.clear();
     let mut system = System::new(context, layout, (partition, matrix), trial, imposed);
     system.forces.pushed.clone_from(&found.pushed);
-    for (node, (force, inertia)) in forces.iter().zip(&inertia).enumerate() {
+    let at_nodes = context
+        .problem
+        .global_nodes()
+        .zip(forces.iter().zip(&inertia));
+    for (node, (force, inertia)) in at_nodes {
         let first = layout.position(node);
         for axis in 0..3 {
             system.residual[first + axis] = force[axis] + inertia[axis];
@@ -51,7 +55,7 @@ pub fn initial_accelerations(
     system.condense_forces(imposed);
     system.hold_the_rest();
     let correction = solve(system.matrix, &system.residual)?;
-    for (node, acceleration) in accelerations.iter_mut().enumerate() {
+    for (node, acceleration) in context.problem.global_nodes().zip(&mut accelerations) {
         *acceleration += match system.tie(node) {
             Some(tie) => tie.followed_by(&correction),
             None => {
@@ -111,7 +115,7 @@ impl System<'_> {
                 for (at, entry) in block.iter_mut().enumerate() {
                     let (row, column) = (at / count, at % count);
                     let (b, axis) = (column / 3, column % 3);
-                    if row % 3 == axis && !self.context.fixed[3 * nodes[b] + axis] {
+                    if row % 3 == axis && !self.context.fixed[nodes[b].component(axis)] {
                         *entry = mass[row / 3 * nodes.len() + b];
                     }
                 }
@@ -128,10 +132,10 @@ impl System<'_> {
     fn hold_the_rest(&mut self) {
         let problem = self.context.problem;
         let mut held = vec![true; self.residual.len()];
-        for node in 0..problem.reference.len() {
+        for node in problem.global_nodes() {
             let first = self.layout.position(node);
             for axis in 0..3 {
-                let free = !self.context.fixed[3 * node + axis] && !problem.massless[node];
+                let free = !self.context.fixed[node.component(axis)] && !problem.massless[node];
                 // Tied positions are held when they are condensed.
                 let follows = problem.ties.followed(node, axis).is_some();
                 held[first + axis] = (!free || follows) && self.tie(node).is_none();

@@ -26,6 +26,7 @@ use super::{
     System,
     ties::{Slot, Tie},
 };
+use crate::node::GlobalNode;
 
 /// What answers the forces of a term.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,7 +46,7 @@ pub(super) struct Triple {
     pub(super) first: usize,
     owner: Supervariable,
     /// The node whose position it is.
-    pub(super) position: Option<usize>,
+    pub(super) position: Option<GlobalNode>,
     /// Whether that node follows others.
     pub(super) follows: bool,
     /// The rigid body that moves on the other side.
@@ -196,7 +197,7 @@ impl System<'_> {
 
     /// Whether a row is prescribed and answered by no moving body.
     fn is_left_out(&self, slot: &Slot) -> bool {
-        let fixed = |(node, axis): (usize, usize)| self.context.fixed[3 * node + axis];
+        let fixed = |(node, axis): (GlobalNode, usize)| self.context.fixed[node.component(axis)];
         slot.against.is_none() && slot.position.is_some_and(fixed)
     }
 

@@ -25,6 +25,7 @@ use striae_sparse::{OutsidePattern, Supervariable};
 use super::{Imposed, System, Trial};
 use crate::{
     composition::Composition,
+    node::GlobalNode,
     problem::Problem,
     rigid::{Wrench, turn_tangent},
 };
@@ -34,7 +35,7 @@ use crate::{
 pub(super) struct Slot {
     pub(super) unknown: usize,
     /// Node and component of a position.
-    pub(super) position: Option<(usize, usize)>,
+    pub(super) position: Option<(GlobalNode, usize)>,
     /// The rigid body on the other side of the pair, whose motion is subtracted.
     pub(super) against: Option<usize>,
 }
@@ -135,12 +136,12 @@ impl System<'_> {
         }
     }
 
-    pub(super) fn tie(&self, node: usize) -> Option<&Tie> {
-        self.ties.get(node).and_then(Option::as_ref)
+    pub(super) fn tie(&self, node: GlobalNode) -> Option<&Tie> {
+        self.ties.get(node.0).and_then(Option::as_ref)
     }
 
     /// Whether the position of a node is no unknown of its own.
-    pub(super) fn is_bound(&self, node: usize) -> bool {
+    pub(super) fn is_bound(&self, node: GlobalNode) -> bool {
         self.tie(node).is_some() || self.context.problem.ties.follower(node).is_some()
     }
 
@@ -152,7 +153,7 @@ impl System<'_> {
     }
 
     /// Supervariables that a position of a node belongs to.
-    pub(super) fn owners(&self, node: usize) -> Vec<Supervariable> {
+    pub(super) fn owners(&self, node: GlobalNode) -> Vec<Supervariable> {
         self.layout.owners(self.context.problem, node)
     }
 
@@ -233,14 +234,14 @@ impl System<'_> {
     /// What a position that follows no other node stands for, times a weight.
     fn of_position(
         &self,
-        (node, axis): (usize, usize),
+        (node, axis): (GlobalNode, usize),
         kind: Kind,
         weight: f64,
         entries: &mut Vec<(usize, f64)>,
     ) {
         match self.tie(node) {
             Some(tie) => entries.extend(self.followed_tie(tie, axis, kind, weight)),
-            None if kind == Kind::Row && self.context.fixed[3 * node + axis] => {}
+            None if kind == Kind::Row && self.context.fixed[node.component(axis)] => {}
             None => entries.push((self.layout.position(node) + axis, weight)),
         }
     }

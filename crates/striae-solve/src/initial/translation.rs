@@ -19,7 +19,7 @@ type Ranges = [(f64, f64); 3];
 /// How near the sides of a pair come that move as one piece each, along the direction in
 /// which they stay farthest apart; negative where they may overlap. `None` where one of
 /// them may deform before it touches.
-pub fn nearest_approach(model: &Model, pair: PairId) -> Option<f64> {
+pub(crate) fn nearest_approach(model: &Model, pair: PairId) -> Option<f64> {
     let of_pair = &model.pairs[pair.0];
     let ways = [way(model, pair, &of_pair.a)?, way(model, pair, &of_pair.b)?];
     let directions = match normal(model, &of_pair.b) {

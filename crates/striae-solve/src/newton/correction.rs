@@ -68,7 +68,7 @@ pub(super) fn corrected(
             *pose = setting.imposed.before[rigid].moved_to(&moved);
         }
     }
-    for (node, position) in next.positions.iter_mut().enumerate() {
+    for (node, position) in problem.global_nodes().zip(&mut next.positions) {
         if let Some(rigid) = problem.tie_of[node] {
             let reference = &problem.model.rigid_surfaces[rigid].reference;
             let placement = next.rigid[rigid].placement(reference);

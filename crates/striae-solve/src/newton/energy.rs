@@ -46,6 +46,7 @@ use crate::{
     assembly::{Assembled, Imposed, StepContext, Trial},
     dynamics::{Scheme, wrenches},
     mass::{kinetic_energy, mass_times, product},
+    node::GlobalNode,
     problem::Problem,
     rigid::Pose,
     stabilisation::Dashpot,
@@ -119,13 +120,13 @@ impl Ends<'_> {
         mean(self.held_weight(), start, end)
     }
 
-    fn displacement(&self, node: usize) -> Vec3 {
+    fn displacement(&self, node: GlobalNode) -> Vec3 {
         self.trial.positions[node] - self.state.positions[node]
     }
 
     /// Sum over all nodes of the displacement times a force.
-    fn work(&self, force: impl Fn(usize) -> Vec3) -> f64 {
-        let nodes = 0..self.trial.positions.len();
+    fn work(&self, force: impl Fn(GlobalNode) -> Vec3) -> f64 {
+        let nodes = (0..self.trial.positions.len()).map(GlobalNode);
         nodes
             .map(|node| self.displacement(node).dot(&force(node)))
             .sum()
@@ -142,7 +143,7 @@ impl Ends<'_> {
                 - before.applied[node]
                 - before.contact[node]
                 - before.stabilisation[node];
-            let fixed = |axis: usize| f64::from(u8::from(self.context.fixed[3 * node + axis]));
+            let fixed = |axis: usize| f64::from(u8::from(self.context.fixed[node.component(axis)]));
             let reaction = Vec3::from_fn(|axis, _| fixed(axis) * after.reaction[node][axis]);
             self.held(found, reaction)
         });
@@ -291,13 +292,13 @@ impl Ends<'_> {
         let nodes = self.trial.positions.len();
         let (mut weighted, mut excess) = (vec![Vec3::zeros(); nodes], vec![Vec3::zeros(); nodes]);
         let (mut way, mut shift) = (weighted.clone(), weighted.clone());
-        for node in 0..nodes {
+        for node in (0..nodes).map(GlobalNode) {
             for axis in 0..3 {
                 let of = |vectors: &[Vec3]| vectors[node][axis];
                 let [v_0, v_1] = [&state.velocities[..], self.velocities].map(of);
                 let [a_0, a_1] = [&state.accelerations[..], self.accelerations].map(of);
                 way[node][axis] = 0.5 * dt * (v_0 + v_1);
-                if self.context.fixed[3 * node + axis] {
+                if self.context.fixed[node.component(axis)] {
                     let a = (1.0 - scheme.alpha_f) * a_1 + scheme.alpha_f * a_0;
                     weighted[node][axis] = a;
                     excess[node][axis] = a - (v_1 - v_0) / dt;

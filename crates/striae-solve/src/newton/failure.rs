@@ -6,6 +6,7 @@ use striae_sparse::SolveError;
 use crate::{
     assembly::{Setting, Trial},
     layout::Layout,
+    node::GlobalNode,
     outcome::CutBack,
     problem::Problem,
 };
@@ -54,9 +55,9 @@ fn place(problem: &Problem, layout: &Layout, unknown: usize) -> String {
         let kind = ["x", "y", "z", "rx", "ry", "rz"][unknown - layout.offsets()[at]];
         return format!("rigid body `{name}` is free to move in {kind}");
     }
-    let (body, node) = problem.body_node(at);
+    let (body, node) = problem.body_node(GlobalNode(at));
     let name = &problem.model.bodies[body].name;
-    match unknown - layout.position(at) {
+    match unknown - layout.position(GlobalNode(at)) {
         component @ 0..3 => {
             let axis = ["x", "y", "z"][component];
             format!("body `{name}` is not held: {node} is free to move in {axis}")

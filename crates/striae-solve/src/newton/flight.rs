@@ -12,6 +12,7 @@ use striae_mesh::Vec3;
 use crate::{
     assembly::{Setting, Trial},
     model::Procedure,
+    node::GlobalNode,
     outcome::CutBack,
 };
 
@@ -35,7 +36,7 @@ pub(super) fn flown(setting: &Setting, trial: &Trial) -> Option<CutBack> {
     if way <= FARTHEST * size + prescribed(setting, trial) {
         return None;
     }
-    let (body, node) = problem.body_node(node);
+    let (body, node) = problem.body_node(GlobalNode(node));
     Some(CutBack::Flown {
         body: problem.model.bodies[body].name.clone(),
         node,

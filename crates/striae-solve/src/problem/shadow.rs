@@ -6,7 +6,7 @@
 //! carries what its neighbours have.
 
 use super::PairGeometry;
-use crate::tie::Ties;
+use crate::{node::GlobalNode, tie::Ties};
 
 /// Weight over the largest one of a node that is not asked.
 const SMALL: f64 = 0.05;
@@ -23,13 +23,15 @@ pub(super) fn shadowed(
     if ties.is_empty() {
         return Vec::new();
     }
-    let of_side = |pair: &PairGeometry, side: usize| -> Vec<usize> {
+    let of_side = |pair: &PairGeometry, side: usize| -> Vec<GlobalNode> {
         let (Some(body), Some(surface)) = (pair.bodies[side], pair.contact.sides[side].surface())
         else {
             return Vec::new();
         };
         let nodes = surface.nodes().iter();
-        nodes.map(|node| first_node[body] + node.index()).collect()
+        nodes
+            .map(|node| GlobalNode(first_node[body] + node.index()))
+            .collect()
     };
     let opponent = |pair: &PairGeometry, side: usize| -> Opponent {
         (pair.bodies[1 - side], pair.rigid.filter(|_| side == 0))
@@ -42,7 +44,7 @@ pub(super) fn shadowed(
             }
         }
     }
-    let is_shadowed = |node: usize, opponent: &Opponent| {
+    let is_shadowed = |node: GlobalNode, opponent: &Opponent| {
         let Some(follower) = ties.follower(node) else {
             return false;
         };

@@ -105,8 +105,8 @@ pub fn tie_tractions(problem: &Problem, state: &State, tie: usize) -> [Vec<TieTr
         .areas(tie, &problem.reference, &state.positions);
     [0, 1].map(|side| {
         let surface = tie_surface(problem, tie, side);
-        let first = problem.first_node[problem.ties.joints[tie].bodies[side]];
-        let global = |local: usize| first + surface.nodes()[local].index();
+        let body = problem.ties.joints[tie].bodies[side];
+        let global = |local: usize| problem.node(body, surface.nodes()[local]);
         let count = surface.nodes().len();
         let x: Vec<Vec3> = (0..count).map(|at| state.positions[global(at)]).collect();
         let normals = nodal_normals(&surface, &x).into_iter();

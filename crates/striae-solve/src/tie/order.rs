@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use nalgebra::{DMatrix, DVector};
 
 use super::{Follower, TieFault};
-use crate::model::Model;
+use crate::{model::Model, node::GlobalNode};
 
 /// Largest entry of `(I - W_ss)^-1`; beyond, rows all but say the same.
 const LARGEST: f64 = 1e3;
@@ -44,7 +44,7 @@ impl Group {
 type Resolved = (Vec<Follower>, [Vec<Group>; 3]);
 
 /// What the members of a group come to follow, after the inverse.
-type Solved = (Option<DMatrix<f64>>, Vec<Vec<(usize, f64)>>);
+type Solved = (Option<DMatrix<f64>>, Vec<Vec<(GlobalNode, f64)>>);
 
 /// Finds what followers come to follow.
 pub(super) fn resolved(
@@ -52,7 +52,7 @@ pub(super) fn resolved(
     mut followers: Vec<Follower>,
 ) -> Result<Resolved, Vec<TieFault>> {
     followers.sort_by_key(|follower| follower.node);
-    let of_node: BTreeMap<usize, usize> = followers
+    let of_node: BTreeMap<GlobalNode, usize> = followers
         .iter()
         .enumerate()
         .map(|(at, follower)| (follower.node, at))
@@ -88,7 +88,7 @@ fn circle(model: &Model, followers: &[Follower], members: &[usize]) -> TieFault 
 /// Followers that each one follows in a component.
 fn followed(
     followers: &[Follower],
-    of_node: &BTreeMap<usize, usize>,
+    of_node: &BTreeMap<GlobalNode, usize>,
     axis: usize,
 ) -> Vec<Vec<usize>> {
     let follows = |at: &usize| followers[*at].row[axis].is_some();
@@ -104,13 +104,13 @@ fn followed(
 /// contradict or repeat each other.
 fn solved(
     followers: &[Follower],
-    of_node: &BTreeMap<usize, usize>,
+    of_node: &BTreeMap<GlobalNode, usize>,
     members: &[usize],
     axis: usize,
 ) -> Option<Solved> {
     let count = members.len();
     let mut within = DMatrix::<f64>::identity(count, count);
-    let mut outside: Vec<BTreeMap<usize, f64>> = vec![BTreeMap::new(); count];
+    let mut outside: Vec<BTreeMap<GlobalNode, f64>> = vec![BTreeMap::new(); count];
     for (row, &at) in members.iter().enumerate() {
         for &(node, weight) in followers[at].row[axis].iter().flatten() {
             let other = of_node.get(&node).copied();
@@ -136,7 +136,7 @@ fn solved(
         return None;
     }
     let weights = (0..count).map(|row| {
-        let mut sums: BTreeMap<usize, f64> = BTreeMap::new();
+        let mut sums: BTreeMap<GlobalNode, f64> = BTreeMap::new();
         for (column, entries) in outside.iter().enumerate() {
             for (&node, weight) in entries {
                 *sums.entry(node).or_insert(0.0) += inverse[(row, column)] * weight;

@@ -16,17 +16,18 @@ use striae_contact::tie::FacetRows;
 use striae_mesh::Vec3;
 
 use super::Ties;
+use crate::node::GlobalNode;
 
 /// Areas of the nodes of a side of a tie, by component: what of it is tied in the component.
-pub type NodalAreas = BTreeMap<usize, [f64; 3]>;
+pub type NodalAreas = BTreeMap<GlobalNode, [f64; 3]>;
 
 /// What a facet that follows has in common with the other side.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Patch {
     /// Its corners.
-    corners: Vec<usize>,
+    corners: Vec<GlobalNode>,
     /// `int N_k dA_0` by node: of the facet, of the other side.
-    areas: [Vec<(usize, f64)>; 2],
+    areas: [Vec<(GlobalNode, f64)>; 2],
     /// Components in which it is tied.
     tied: [bool; 3],
 }
@@ -36,12 +37,12 @@ impl Patch {
     /// other one, `follows` whether a node does in a component.
     pub(super) fn new(
         facet: &FacetRows,
-        global: [&[usize]; 2],
-        follows: impl Fn(usize, usize) -> bool,
+        global: [&[GlobalNode]; 2],
+        follows: impl Fn(GlobalNode, usize) -> bool,
     ) -> Self {
         let [own, other] = global;
         let corners = facet.corners.iter().map(|&corner| own[corner as usize]);
-        let corners: Vec<usize> = corners.collect();
+        let corners: Vec<GlobalNode> = corners.collect();
         let weights = facet.weights.iter().copied();
         let opposite = facet.opposite.iter();
         let opposite = opposite.map(|(&node, row)| (other[node as usize], row.iter().sum()));

@@ -14,6 +14,7 @@ use striae_surface::topology::Surface;
 
 use super::{Follower, Joint, TieFault, Weights, patch::Patch, side::finer};
 use crate::model::{Model, Side};
+use crate::node::GlobalNode;
 
 /// Covered part of the best covered facet at a node below which it does not follow.
 const LEAST_COVER: f64 = 0.3;
@@ -27,7 +28,7 @@ pub(super) struct Sides {
     bodies: [usize; 2],
     follows: usize,
     /// Global nodes of both surfaces.
-    nodes: [Vec<usize>; 2],
+    nodes: [Vec<GlobalNode>; 2],
     joined: Joined,
     /// Rows of the facets that follow, in surface-local nodes.
     facets: [Vec<FacetRows>; 2],
@@ -44,8 +45,8 @@ struct Bound {
 /// `d_j x_j + sum own - sum opposite` of a component of a node.
 #[derive(Clone, Default)]
 struct Sum {
-    own: BTreeMap<usize, f64>,
-    opposite: BTreeMap<usize, f64>,
+    own: BTreeMap<GlobalNode, f64>,
+    opposite: BTreeMap<GlobalNode, f64>,
 }
 
 impl Sides {
@@ -85,7 +86,9 @@ impl Sides {
             follows: finer(&joined, [a, b].map(|body| &model.bodies[body].mesh)),
             nodes: [(0, a), (1, b)].map(|(side, body)| {
                 let nodes = configuration.side(side).surface.nodes().iter();
-                nodes.map(|node| first_node[body] + node.index()).collect()
+                nodes
+                    .map(|node| GlobalNode(first_node[body] + node.index()))
+                    .collect()
             }),
             facets: [0, 1].map(|side| joined.rows(&configuration, side)),
             joined,
@@ -113,7 +116,7 @@ impl Sides {
     }
 
     /// What is tied, where nodes keep rows of components.
-    fn patches(&self, keeps: impl Fn(usize, usize) -> bool) -> Vec<Patch> {
+    fn patches(&self, keeps: impl Fn(GlobalNode, usize) -> bool) -> Vec<Patch> {
         let global = [self.follows, 1 - self.follows].map(|side| &self.nodes[side][..]);
         let facets = self.facets[self.follows].iter();
         facets
@@ -122,12 +125,12 @@ impl Sides {
     }
 
     /// Global node of a node of the side that follows.
-    fn own(&self, side: usize, node: u32) -> usize {
+    fn own(&self, side: usize, node: u32) -> GlobalNode {
         self.nodes[side][node as usize]
     }
 
     /// Nodes of a side that may follow, with what their functions weigh.
-    fn candidates(&self, side: usize, bound: &Bound) -> BTreeMap<usize, f64> {
+    fn candidates(&self, side: usize, bound: &Bound) -> BTreeMap<GlobalNode, f64> {
         let (mut weights, mut cover) = (BTreeMap::new(), BTreeMap::new());
         for facet in &self.facets[side] {
             for (at, &corner) in facet.corners.iter().enumerate() {
@@ -162,11 +165,11 @@ impl Bound {
         Self { prescribed }
     }
 
-    fn component(&self, node: usize, axis: usize) -> bool {
-        self.prescribed[3 * node + axis]
+    fn component(&self, node: GlobalNode, axis: usize) -> bool {
+        self.prescribed[node.component(axis)]
     }
 
-    fn wholly(&self, node: usize) -> bool {
+    fn wholly(&self, node: GlobalNode) -> bool {
         (0..3).all(|axis| self.component(node, axis))
     }
 }
@@ -186,9 +189,9 @@ pub(super) fn rows(
     let owner = owners(sides, &bound);
     let (mut all, mut faults) = (Vec::new(), Vec::new());
     for (tie, of_tie) in sides.iter_mut().enumerate() {
-        let follows = |node: usize| owner.get(&node) == Some(&tie);
-        let keeps = |node: usize, axis: usize| follows(node) && !bound.component(node, axis);
-        let mut found: BTreeMap<usize, Weights> = BTreeMap::new();
+        let follows = |node: GlobalNode| owner.get(&node) == Some(&tie);
+        let keeps = |node: GlobalNode, axis: usize| follows(node) && !bound.component(node, axis);
+        let mut found: BTreeMap<GlobalNode, Weights> = BTreeMap::new();
         for axis in 0..3 {
             for (node, sum) in sums(of_tie, |node| keeps(node, axis)) {
                 found.entry(node).or_default()[axis] = Some(sum.weights(node));
@@ -220,8 +223,8 @@ pub(super) fn rows(
 
 /// The tie that each node follows: the one in which it weighs most; of ties in which it
 /// weighs the same, the first by the place of what is tied.
-fn owners(sides: &[Sides], bound: &Bound) -> BTreeMap<usize, usize> {
-    let mut owners: BTreeMap<usize, (usize, f64)> = BTreeMap::new();
+fn owners(sides: &[Sides], bound: &Bound) -> BTreeMap<GlobalNode, usize> {
+    let mut owners: BTreeMap<GlobalNode, (usize, f64)> = BTreeMap::new();
     for (tie, of_tie) in sides.iter().enumerate() {
         for (node, weight) in of_tie.candidates(of_tie.follows, bound) {
             let known = owners.entry(node).or_insert((tie, weight));
@@ -251,16 +254,16 @@ fn comes_first(a: &Vec3, b: &Vec3) -> bool {
 
 /// Rows of one component of the nodes that keep theirs; the functions of the others go to
 /// the nodes of their facets that do, in equal parts.
-fn sums(sides: &Sides, keeps: impl Fn(usize) -> bool) -> BTreeMap<usize, Sum> {
+fn sums(sides: &Sides, keeps: impl Fn(GlobalNode) -> bool) -> BTreeMap<GlobalNode, Sum> {
     let side = sides.follows;
-    let mut sums: BTreeMap<usize, Sum> = BTreeMap::new();
+    let mut sums: BTreeMap<GlobalNode, Sum> = BTreeMap::new();
     for facet in &sides.facets[side] {
-        let nodes: Vec<usize> = facet
+        let nodes: Vec<GlobalNode> = facet
             .corners
             .iter()
             .map(|&corner| sides.own(side, corner))
             .collect();
-        let kept: Vec<usize> = nodes.iter().copied().filter(|&node| keeps(node)).collect();
+        let kept: Vec<GlobalNode> = nodes.iter().copied().filter(|&node| keeps(node)).collect();
         for (at, &node) in nodes.iter().enumerate() {
             let own_row = [node];
             let (takers, part) = match keeps(node) {
@@ -282,16 +285,18 @@ fn sums(sides: &Sides, keeps: impl Fn(usize) -> bool) -> BTreeMap<usize, Sum> {
 
 impl Sum {
     /// What the node follows, without round-off; the weights add up to one.
-    fn weights(mut self, node: usize) -> Vec<(usize, f64)> {
+    fn weights(mut self, node: GlobalNode) -> Vec<(GlobalNode, f64)> {
         let own = self.own.remove(&node).unwrap_or(1.0);
         for (other, weight) in self.own {
             *self.opposite.entry(other).or_insert(0.0) -= weight;
         }
         let weights = self.opposite.into_iter().map(|(node, w)| (node, w / own));
-        let mut weights: Vec<(usize, f64)> = weights.filter(|(_, w)| w.abs() > ROUND_OFF).collect();
+        let mut weights: Vec<(GlobalNode, f64)> =
+            weights.filter(|(_, w)| w.abs() > ROUND_OFF).collect();
         let excess = weights.iter().map(|(_, w)| w).sum::<f64>() - 1.0;
-        let by_size =
-            |a: &&mut (usize, f64), b: &&mut (usize, f64)| a.1.abs().total_cmp(&b.1.abs());
+        let by_size = |a: &&mut (GlobalNode, f64), b: &&mut (GlobalNode, f64)| {
+            a.1.abs().total_cmp(&b.1.abs())
+        };
         if let Some((_, largest)) = weights.iter_mut().max_by(by_size) {
             *largest -= excess;
         }

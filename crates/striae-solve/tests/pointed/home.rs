@@ -10,7 +10,7 @@ use striae_contact::{
 };
 use striae_law::friction::Friction;
 use striae_mesh::{FacetId, Vec3};
-use striae_solve::{assembly::StepContext, problem::Problem, state::State};
+use striae_solve::{assembly::StepContext, node::GlobalNode, problem::Problem, state::State};
 
 use crate::scene::{Floor, moved, standing, tilted};
 
@@ -43,7 +43,7 @@ struct Scene<'a> {
     context: &'a StepContext<'a>,
     /// The node, on the surface and among all.
     node: u32,
-    global: usize,
+    global: GlobalNode,
 }
 
 impl<'a> Scene<'a> {

@@ -14,6 +14,7 @@ use striae_solve::{
         assemble, assemble_contact,
     },
     layout::{Extent, Layout},
+    node::GlobalNode,
     state::State,
 };
 use striae_sparse::{SparseMatrix, Structure, Supervariable};
@@ -76,7 +77,7 @@ impl<'a> Whole<'a> {
 
     fn each(&self, trial: &mut Trial, mut visit: impl FnMut(usize, &mut f64)) {
         for (node, x) in trial.positions.iter_mut().enumerate() {
-            let first = self.layout.position(node);
+            let first = self.layout.position(GlobalNode(node));
             x.iter_mut()
                 .enumerate()
                 .for_each(|(axis, v)| visit(first + axis, v));

@@ -92,7 +92,7 @@ impl<const R: usize, const C: usize> Blocks<R, C, f64> {
 
 impl<const R: usize, const C: usize> Blocks<R, C, f32> {
     /// `y = f(A x, y)` in every component.
-    pub fn combine(&self, x: &[f32], y: &mut [f32], f: impl Fn(f32, f32) -> f32 + Sync) {
+    pub(crate) fn combine(&self, x: &[f32], y: &mut [f32], f: impl Fn(f32, f32) -> f32 + Sync) {
         y.par_chunks_exact_mut(R)
             .with_min_len(FEWEST)
             .enumerate()
@@ -241,7 +241,7 @@ impl<const R: usize, const C: usize> RowSum<R, C> {
 }
 
 /// `target += factor a b` for row-major blocks.
-pub fn add_product<const M: usize, const K: usize, const N: usize>(
+pub(crate) fn add_product<const M: usize, const K: usize, const N: usize>(
     target: &mut [f64],
     factor: f64,
     a: &[f64],
@@ -259,7 +259,7 @@ pub fn add_product<const M: usize, const K: usize, const N: usize>(
 }
 
 /// `target += a^T b` for row-major blocks.
-pub fn add_transposed_product<const M: usize, const K: usize, const N: usize>(
+pub(crate) fn add_transposed_product<const M: usize, const K: usize, const N: usize>(
     target: &mut [f64],
     a: &[f64],
     b: &[f64],

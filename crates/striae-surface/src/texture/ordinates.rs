@@ -38,7 +38,7 @@ impl Ordinates<'_> {
     /// part.
     ///
     /// Generic over the scalar, so that dual numbers give the derivatives.
-    pub fn convect<D: Real>(
+    pub(crate) fn convect<D: Real>(
         &self,
         position: Vector3<D>,
         neighbours: &[Vector3<D>],
