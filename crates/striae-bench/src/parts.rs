@@ -17,7 +17,7 @@ use striae_law::{
     friction::Friction,
 };
 use striae_solve::{
-    assembly::{Background, Contact, ElementPlaces, Setting, StepContext, Trial, assemble},
+    assembly::{ElementPlaces, Setting, StepContext, Trial},
     layout::{Extent, Layout},
     model::Backend,
     problem::Problem,
@@ -184,20 +184,8 @@ fn assembly(model: &striae_solve::model::Model) -> Result<Value, Box<dyn Error>>
         .map(|body| body.mesh.element_count())
         .sum();
     Ok(timed("assembly", "elements", elements, || {
-        let contact = Contact::Known(Vec::new());
         let parts = (&partition, &places, &mut matrix);
-        black_box(
-            assemble(
-                &setting,
-                &trial,
-                contact,
-                Derivatives::First,
-                &layout,
-                parts,
-                Background::default(),
-            )
-            .is_ok(),
-        );
+        black_box(scene::bodies(&setting, &trial, &layout, parts).is_ok());
     }))
 }
 

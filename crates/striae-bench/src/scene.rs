@@ -6,7 +6,9 @@ use striae_contact::segment::Derivatives;
 use striae_deck as deck;
 use striae_mesh::generate::CappedBlock;
 use striae_solve::{
-    assembly::{Background, Contact, ElementPlaces, Fault, Setting, StepContext, Trial, assemble},
+    assembly::{
+        Assembled, Background, Contact, ElementPlaces, Fault, Setting, StepContext, Trial, assemble,
+    },
     layout::{Extent, Layout},
     model::{Backend, Model},
     problem::Problem,
@@ -160,19 +162,33 @@ pub fn stiffness(model: &Model) -> Result<SparseMatrix, Box<dyn Error>> {
         selections: &[],
         imposed: &imposed,
     };
-    let contact = Contact::Known(Vec::new());
-    let parts = (&partition, &places, &mut matrix);
-    match assemble(
+    match bodies(
         &setting,
         &trial,
-        contact,
-        Derivatives::First,
         &layout,
-        parts,
-        Background::default(),
+        (&partition, &places, &mut matrix),
     ) {
         Ok(_) => Ok(matrix),
         Err(Fault::CutBack(reason)) => Err(reason.to_string().into()),
         Err(Fault::Pattern(_)) => Err("an element is outside the pattern".into()),
     }
+}
+
+/// Evaluates all elements, without contact.
+pub fn bodies(
+    setting: &Setting,
+    trial: &Trial,
+    layout: &Layout,
+    parts: (&Partition, &ElementPlaces, &mut SparseMatrix),
+) -> Result<Assembled, Fault> {
+    let (contact, room) = (Contact::Known(Vec::new()), Background::default());
+    assemble(
+        setting,
+        trial,
+        contact,
+        Derivatives::First,
+        layout,
+        parts,
+        room,
+    )
 }

@@ -1,16 +1,22 @@
 //! Time integration: order, conserved quantities, balance of energy.
 
 use crate::scene::{Places, Run, block, body, coulomb, increments, model, plane, rubber, step};
+use striae_contact::evaluation::Evaluation;
 use striae_law::bulk::{LameConstants, Material};
 use striae_mesh::Vec3;
 use striae_solve::report::pairs;
 use striae_solve::{
-    dynamics::{Scheme, mass_times, momentum},
-    model::{BodyId, ContactMass, Curve, Gravity, Model, Mover, Procedure, Step, Velocity},
-};
-use striae_solve::{
+    drive::{Continue, Observer, Point, Progress, run},
+    newton::{Increment, IterationObserver},
+    norms::Norms,
+    outcome::{CutBack, Ending},
+    problem::Problem,
     state::State,
     warning::{Judgement, Kind},
+};
+use striae_solve::{
+    dynamics::{Scheme, mass_times, momentum},
+    model::{BodyId, ContactMass, Curve, Gravity, Model, Mover, Procedure, Step, Velocity},
 };
 use striae_verify::fitted_rate;
 
@@ -335,5 +341,55 @@ fn a_linear_elastic_body_that_turns_is_warned_of() {
             .find(|warning| warning.kind == Kind::Rotation);
         assert_eq!(found.is_some(), warned, "{warnings:?}");
         assert!(found.is_none_or(|found| (found.value - angle).abs() < 1e-9));
+    }
+}
+
+/// For each increment but the first, whether the next one starts from a parabola.
+#[derive(Default)]
+struct Starts(Vec<bool>);
+
+impl IterationObserver for Starts {
+    fn iteration(&mut self, _: usize, _: &Norms, _: &[Evaluation]) {}
+}
+
+impl Observer for Starts {
+    fn step(&mut self, _: usize, _: &str) {}
+
+    fn increment(&mut self, _: Progress, _: &Increment) -> Continue {
+        Continue::Keep
+    }
+
+    fn cut_back(&mut self, _: Progress, reason: &CutBack) -> Continue {
+        panic!("{reason}")
+    }
+
+    fn point(&mut self, point: Point) {
+        let course = point.memory.course.expect("an increment has been made");
+        self.0.push(course.before.is_some());
+    }
+}
+
+#[test]
+fn increments_start_from_a_parabola_in_statics_and_from_a_line_with_inertia() {
+    for (procedure, expected) in [
+        (Procedure::QuasiStatic, [false, true, true, true]),
+        (
+            Procedure::Dynamic {
+                spectral_radius: 0.8,
+            },
+            [false; 4],
+        ),
+    ] {
+        let mut model = beam(4.0);
+        let mut step = moving(1.0, 4);
+        step.procedure = procedure;
+        step.displacements = vec![model.hold("beam", "xmin", [Some(0.0), Some(0.0), Some(0.1)])];
+        step.displacements[0].curve = Curve::Smooth;
+        model.steps.push(step);
+        let problem = Problem::new(model).unwrap();
+        let mut starts = Starts::default();
+        let (_, ending) = run(&problem, State::undeformed(&problem), &mut starts);
+        assert_eq!(ending, Ending::Completed);
+        assert_eq!(starts.0, expected, "{procedure:?}");
     }
 }
