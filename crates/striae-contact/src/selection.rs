@@ -66,6 +66,7 @@ impl Selection {
             partners,
             homes: Vec::new(),
             offsets: [Vec::new(), Vec::new()],
+            lifts: [Vec::new(), Vec::new()],
             required: before.required.clone(),
             points,
         };

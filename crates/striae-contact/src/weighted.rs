@@ -59,7 +59,9 @@ pub fn kinematics(
                 let patch = &patches[at as usize];
                 sum.add(patch, &patch.kept[entry as usize].1, slip);
             }
-            sum.over(selection.weight(k), selection.stiffness(k))
+            let mut mean = sum.over(selection.weight(k), selection.stiffness(k));
+            mean.gap.value -= selection.lift(kept.side, kept.node);
+            mean
         })
         .collect()
 }

@@ -13,7 +13,9 @@
 //! Where a converged state has no pressure in the pair, a node of a sharp edge that is deeper
 //! than [`FIRST`] pierces, too: an edge between facets that are tilted by a few degrees stands
 //! back by less than `SHARP`, and would pass into the other body unfelt. It stays pointed while
-//! the field carries nothing. Nodes of smooth surfaces are left to the mean.
+//! the field carries nothing. Nodes of smooth surfaces pierce from [`PIERCED`] on, if both bodies
+//! are deformable and nothing else has been found; against rigid surfaces they have rows of
+//! their own, which close at about that depth.
 //!
 //! A node between two deformable bodies that follows others without pressure, deeper than the
 //! same limits and with its facets in the mean, is *unfelt*: the field takes it up, see
@@ -151,12 +153,17 @@ fn sharp_and_unfelt(
             sharp || open && !is_pressed_around(configuration, carried, node)
         })
     };
-    let (sharp, mut smooth): (Vec<_>, Vec<_>) = deep.into_iter().partition(is_sharp);
-    smooth.retain(|&(side, node, _)| {
+    let (mut sharp, smooth): (Vec<_>, Vec<_>) = deep.into_iter().partition(is_sharp);
+    let (required, single): (Vec<_>, Vec<_>) = smooth.into_iter().partition(|&(side, node, _)| {
         let is_in = means[side][node as usize].is_some_and(|mean| mean < 0.0);
         is_in && progress == Progress::Converged && follows(configuration, selection, side, node)
     });
-    [sharp, smooth].map(|nodes| {
+    // The field feels nothing at all of two bodies that touch within a facet of both.
+    if unfelt && !configuration.pair.is_rigid() && sharp.is_empty() && required.is_empty() {
+        sharp = single;
+        sharp.retain(|&(side, node, _)| inside(configuration, side, node, PIERCED).is_some());
+    }
+    [sharp, required].map(|nodes| {
         let places = nodes.into_iter().map(|(side, node, _)| (side, node));
         places.collect()
     })
@@ -236,15 +243,30 @@ fn is_pressed(configuration: &Configuration, carried: &[Vec<[f64; 3]>; 2], facet
     pressures.any(|pressure| pressure > nothing)
 }
 
-/// Gap of a node that lies deeper inside the other side than `depth` of the facet size.
+/// Gap of a node that lies deeper inside the other side than `depth` of the smaller facet size.
 fn inside(configuration: &Configuration, side: usize, node: u32, depth: f64) -> Option<f64> {
+    let OwnGap { gap, sizes } = own_gap(configuration, side, node)?;
+    (gap < -depth * sizes[0].min(sizes[1])).then_some(gap)
+}
+
+/// Gap at a node.
+pub(crate) struct OwnGap {
+    /// The gap, along the normal of what the node faces.
+    pub gap: f64,
+    /// Facet sizes at the node and opposite to it; the same against a rigid side.
+    pub sizes: [f64; 2],
+}
+
+/// Gap at a node; `None` beside the other side or far away from it.
+pub(crate) fn own_gap(configuration: &Configuration, side: usize, node: u32) -> Option<OwnGap> {
     let own = configuration.side(side);
     let size = own.sizes[node as usize];
     if let Some((point, normal)) = configuration.plane() {
         let gap = (own.x[node as usize] - point).dot(&normal);
         let faces = own.normals[node as usize].dot(&normal) < 0.0;
         let near = -gap < configuration.reach(side, node);
-        return (faces && near && gap < -depth * size).then_some(gap);
+        let sizes = [size; 2];
+        return (faces && near).then_some(OwnGap { gap, sizes });
     }
     let tip = Tip::Node {
         side,
@@ -253,14 +275,17 @@ fn inside(configuration: &Configuration, side: usize, node: u32, depth: f64) -> 
     };
     let hit = faced(configuration, tip, tip.reach(configuration))?;
     let target = configuration.side(1 - side);
-    let size = if configuration.pair.is_rigid() {
+    let other = if configuration.pair.is_rigid() {
         size
     } else {
         let corners = target.corners(hit.facet);
         let sizes = corners.map(|corner| target.sizes[corner as usize]);
-        sizes.into_iter().fold(size, f64::min)
+        sizes.into_iter().fold(f64::INFINITY, f64::min)
     };
-    (hit.gap < -depth * size).then_some(hit.gap)
+    Some(OwnGap {
+        gap: hit.gap,
+        sizes: [size, other],
+    })
 }
 
 /// Pointed nodes of a converged configuration that are so in the next increment too.
@@ -286,10 +311,11 @@ pub fn staying(
     for &side in configuration.pair.deformable_sides() {
         let own = configuration.side(side);
         for (node, stays) in staying[side].iter_mut().enumerate() {
-            let edge = || bend_at(own, node as u32) == Some(Bend::Sharp);
+            let alone =
+                || !configuration.pair.is_rigid() || bend_at(own, node as u32) == Some(Bend::Sharp);
             let open = |gap| gap > CLOSING * own.sizes[node];
             *stays &= nodes[side][node].pressure > 0.0
-                && (gaps[side][node].is_none_or(open) || unfelt && edge());
+                && (gaps[side][node].is_none_or(open) || unfelt && alone());
         }
     }
     staying

@@ -7,6 +7,7 @@ use striae_mesh::FacetId;
 use super::{approach::approach, before::Kept};
 use crate::{
     configuration::Configuration,
+    lift::Lifts,
     pairing::{PairedFacets, Scope, paired_facets},
     partner::Partner,
     segment::Derivatives,
@@ -35,6 +36,8 @@ pub struct Selection {
     /// Overlap of the meshes at the nodes that is not pressed out yet, by side; empty where
     /// there is none.
     pub offsets: [Vec<f64>; 2],
+    /// Lengths by which rows are [lifted](crate::lift), by side; empty where none is.
+    pub lifts: Lifts,
     /// Nodes that are kept whatever their pivots, by side.
     pub required: Kept,
     /// Points of a rigid side that are pointed.
@@ -186,6 +189,12 @@ impl Selection {
         offset.copied().unwrap_or(0.0)
     }
 
+    /// Length by which the row of a node is lifted.
+    pub fn lift(&self, side: usize, node: u32) -> f64 {
+        let lift = self.lifts[side].get(node as usize);
+        lift.copied().unwrap_or(0.0)
+    }
+
     /// Which facets are paired.
     pub fn scope(&self) -> Scope<'_> {
         Scope {
@@ -199,7 +208,8 @@ impl Selection {
         !paired_facets(configuration, self.scope(), Derivatives::None, |_| true).is_empty()
     }
 
-    /// Corners of facets that overlap with others without a share in the traction field,
+    /// Corners of facets that overlap with others without a share in the traction field or
+    /// unknowns of their own,
     /// as side and node, in a configuration that was reached from `start`.
     pub fn left_out(
         &self,
@@ -218,8 +228,8 @@ impl Selection {
             // Deeper than contact looks in this increment.
             let beyond = -gap > paired.reach + self.depth;
             let nodes = (0..8).filter_map(|corner| paired.node(configuration, corner));
-            let found =
-                nodes.filter(|&(side, node)| beyond || touching && !self.carries(side, node));
+            let is_without = |side, node| !self.carries(side, node) && !self.is_pointed(side, node);
+            let found = nodes.filter(|&(side, node)| beyond || touching && is_without(side, node));
             left_out.extend(found);
         }
         left_out.sort_unstable();

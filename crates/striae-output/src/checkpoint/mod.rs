@@ -39,7 +39,7 @@ pub const END: &str = "end.bin";
 const MAGIC: &[u8] = b"striae checkpoint\n";
 
 /// Number of the format, to be raised when the content changes.
-pub const FORMAT: u64 = 13;
+pub const FORMAT: u64 = 14;
 
 /// A run under way.
 #[derive(Clone, Debug, Serialize, Deserialize)]

@@ -55,6 +55,7 @@ pub(super) fn accepted(
             kept: selection.kept_nodes(),
             pointed: selection.pointed_nodes(),
             required: selection.required,
+            lifts: selection.lifts,
             points: selection.points,
             tractions,
             carried: evaluation.carried,

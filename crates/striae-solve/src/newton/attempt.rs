@@ -1,6 +1,7 @@
 //! An increment under way: corrections until the residual is small.
 
 mod ending;
+mod lifting;
 
 use striae_contact::{
     complementarity::Iteration,
@@ -52,6 +53,8 @@ pub(super) struct Attempt<'a> {
     pub(super) iterations: Vec<Norms>,
     history: History,
     inflation: Inflation,
+    /// How many iterations there may be.
+    limit: usize,
     /// What came inside or through, by pair; empty before the end.
     pub(super) interferences: Vec<Vec<Interference>>,
     /// Which pairs are closed in the latest state.
@@ -93,6 +96,7 @@ impl<'a> Attempt<'a> {
             iterations: Vec::new(),
             history: History::default(),
             inflation: Inflation::default(),
+            limit: context.problem.model.solver.largest_iterations,
             interferences: Vec::new(),
             closed: vec![true; context.pairs.len()],
             first: Iteration::First,
@@ -160,7 +164,7 @@ impl Attempt<'_> {
             assembled = self.taken_up(found, workspace)?;
         }
         self.interferences = passage(&self.setting(), &self.trial, &assembled.contacts)?;
-        Ok(assembled)
+        Ok(self.lifted(assembled, workspace, observer))
     }
 
     fn setting(&self) -> Setting<'_> {

@@ -2,6 +2,7 @@
 
 mod edge;
 mod home;
+mod lift;
 mod ridge;
 mod scene;
 mod tangent;

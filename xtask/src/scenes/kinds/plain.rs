@@ -69,7 +69,8 @@ impl Stack {
         let (h_upper, layers) = height(random, upper_plan);
         let mut upper = block(random, middle, upper_plan, h_upper, layers);
         let size = (facet(&lower) * facet(&upper)).sqrt();
-        let gap = wanted.gap * size;
+        // A block that is behind the other one is no overlap.
+        let gap = (wanted.gap * size).max(-0.5 * h_lower.min(h_upper));
         upper.origin[2] = gap;
         let ratio = ratio(random);
         let width = [plan[0], plan[1], upper_plan[0], upper_plan[1]]

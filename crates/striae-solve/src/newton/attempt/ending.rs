@@ -56,7 +56,7 @@ impl Attempt<'_> {
                 norms: *norms,
             });
         }
-        if number >= self.context.problem.model.solver.largest_iterations {
+        if number >= self.limit {
             return Err(CutBack::NoConvergence {
                 iterations: number,
                 norms: *norms,
