@@ -14,32 +14,33 @@ const FINE: f64 = 0.05;
 /// How deep the cap is pressed.
 const DEPTH: f64 = 0.004;
 
-/// A cap of radius 1 that is pressed on a block with five facets along `x` and `y`.
-fn pressed_cap() -> Run {
+/// A cap of radius 1 with elements of a size that is pressed on a block with five facets along
+/// `x` and `y`.
+fn pressed_cap(size: f64, ratio: f64, depth: f64) -> Run {
     let cap = CappedBlock {
         size: [0.6; 2],
         height: 0.4,
         radius: 1.0,
-        element_size: FINE,
-        fine_half_width: 2.0 * FINE,
+        element_size: size,
+        fine_half_width: 2.0 * size,
         growth: 1.6,
         ..CappedBlock::default()
     };
     let base = block([-0.5, -0.5, -0.4], [1.0, 1.0, 0.4], [5, 5, 3]);
-    run(cap.mesh().unwrap(), base, "cap")
+    run(cap.mesh().unwrap(), base, "cap", ratio, depth)
 }
 
 /// A mesh that is pressed with its side `sole` on a block.
-fn run(upper: Mesh, base: Block, sole: &str) -> Run {
+fn run(upper: Mesh, base: Block, sole: &str, ratio: f64, depth: f64) -> Run {
     let mut model = model(vec![
-        body("upper", upper, rubber(RATIO, 0.3)),
+        body("upper", upper, rubber(ratio, 0.3)),
         body("base", base.mesh().unwrap(), rubber(1.0, 0.3)),
     ]);
     model.touch(("base", "zmax"), ("upper", sole), coulomb(0.3));
     let mut press = step();
     press.increments = increments(0.25, 0.05);
     press.displacements = vec![
-        model.hold("upper", "zmax", [Some(0.0), Some(0.0), Some(-DEPTH)]),
+        model.hold("upper", "zmax", [Some(0.0), Some(0.0), Some(-depth)]),
         model.hold("base", "zmin", [Some(0.0); 3]),
     ];
     model.steps = vec![press];
@@ -73,7 +74,7 @@ fn depth(run: &Run) -> f64 {
 
 #[test]
 fn contact_within_a_facet_of_the_softer_side_is_felt() {
-    let run = pressed_cap();
+    let run = pressed_cap(FINE, RATIO, DEPTH);
     // Nodes of the block alone do not feel it: their mean gaps are open.
     let nodes = &run.last().pairs[0].nodes;
     assert!(nodes[0].iter().all(|node| node.pressure == 0.0));
@@ -83,10 +84,27 @@ fn contact_within_a_facet_of_the_softer_side_is_felt() {
 }
 
 #[test]
+fn contact_within_a_facet_of_both_sides_is_felt() {
+    // The mean gap over the facets of the cap closes at h^2/(3.4 R), .029 of their size here.
+    let size = 0.1;
+    let run = pressed_cap(size, 1.0 / RATIO, 0.025 * size);
+    let pointed = &run.last().pairs[0].pointed;
+    assert_eq!(pointed.iter().flatten().filter(|node| **node).count(), 1);
+    assert_eq!(required(&run), 0);
+    assert!(force(&run) > 0.0);
+    assert!(depth(&run) < 1e-3 * size, "{}", depth(&run));
+    // It is an ordinary node again once the field feels the cap.
+    let pressed = pressed_cap(size, 1.0 / RATIO, 0.08 * size);
+    let pointed = &pressed.last().pairs[0].pointed;
+    assert!(!pointed.iter().flatten().any(|node| *node));
+    assert!(force(&pressed) > force(&run));
+}
+
+#[test]
 fn a_flat_face_needs_no_required_nodes() {
     let punch = block([-0.25, -0.25, 0.0], [0.5, 0.5, 0.3], [8, 8, 3]);
     let base = block([-0.5, -0.5, -0.4], [1.0, 1.0, 0.4], [3, 3, 3]);
-    let pressed = run(punch.mesh().unwrap(), base, "zmin");
+    let pressed = run(punch.mesh().unwrap(), base, "zmin", RATIO, DEPTH);
     assert_eq!(required(&pressed), 0);
     assert!(force(&pressed) > 0.0);
 }
