@@ -29,7 +29,7 @@ use crate::{
     configuration::Configuration,
     pair::Enforcement,
     pointed::choice::{OwnGap, own_gap},
-    selection::Selection,
+    selection::{Lifts, Selection},
     unknowns::{NodeResult, Status},
 };
 
@@ -41,9 +41,6 @@ pub const LEFT: f64 = 0.07;
 
 /// Mean gap over that at the edge where two tilted facets meet.
 const MEAN: f64 = 2.0 / 3.0;
-
-/// Lengths by which rows are lifted, by side and node; empty where none is.
-pub type Lifts = [Vec<f64>; 2];
 
 /// What holds the nodes that a converged configuration leaves too deep.
 #[derive(Clone, Debug, PartialEq)]

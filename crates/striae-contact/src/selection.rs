@@ -14,7 +14,7 @@ mod traction_field;
 
 pub use approach::approach;
 pub(crate) use approach::compliances;
-pub use before::{Before, Kept};
+pub use before::{Before, Kept, Lifts};
 pub use traction_field::Selection;
 
 use crate::{

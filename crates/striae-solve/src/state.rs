@@ -3,8 +3,7 @@
 use serde::{Deserialize, Serialize};
 use striae_contact::{
     field::FacetForces,
-    lift::Lifts,
-    selection::Kept,
+    selection::{Kept, Lifts},
     tip::RigidPoints,
     unknowns::{NodeResult, Tractions},
 };

@@ -4,10 +4,12 @@ use std::ops::Range;
 
 use striae_mesh::FacetId;
 
-use super::{approach::approach, before::Kept};
+use super::{
+    approach::approach,
+    before::{Kept, Lifts},
+};
 use crate::{
     configuration::Configuration,
-    lift::Lifts,
     pairing::{PairedFacets, Scope, paired_facets},
     partner::Partner,
     segment::Derivatives,
