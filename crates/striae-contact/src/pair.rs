@@ -16,7 +16,7 @@ pub struct ContactPair {
     /// Name for reports.
     pub name: String,
     /// The two sides.
-    pub sides: [Side; 2],
+    pub sides: [PairSide; 2],
     /// Friction law.
     pub friction: Friction,
     /// How contact is enforced.
@@ -27,7 +27,7 @@ pub struct ContactPair {
 
 /// One side of a pair.
 #[derive(Clone, Debug)]
-pub struct Side {
+pub struct PairSide {
     /// Shape and kind.
     pub geometry: Geometry,
     /// Young's modulus of the body behind a deformable side, for the scaling of the complementarity.
@@ -110,7 +110,7 @@ impl ContactPair {
     }
 }
 
-impl Side {
+impl PairSide {
     /// Facets of the side; `None` for a plane.
     pub fn surface(&self) -> Option<&Surface> {
         match &self.geometry {

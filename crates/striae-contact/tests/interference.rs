@@ -7,7 +7,7 @@ use striae_contact::{
     interference::{
         Interference, Kind, SHARE, Stage, Thickness, fibres, inside, interferences, lengths,
     },
-    pair::{ContactPair, Enforcement, Geometry, Side},
+    pair::{ContactPair, Enforcement, Geometry, PairSide},
     placement::Placement,
 };
 use striae_law::friction::Friction;
@@ -56,8 +56,8 @@ fn block(origin: [f64; 3], size: [f64; 3], divisions: [usize; 3]) -> Mesh {
     block.mesh().unwrap()
 }
 
-fn side(geometry: Geometry) -> Side {
-    Side {
+fn side(geometry: Geometry) -> PairSide {
+    PairSide {
         geometry,
         stiffness: 1.0,
         texture: None,

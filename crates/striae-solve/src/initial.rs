@@ -20,7 +20,7 @@ use striae_mesh::{ElementId, NodeId, Vec3};
 
 use crate::{
     interference::{Positions, configuration, thickness, thickness_with},
-    model::{Initial, Model, PairId, Side},
+    model::{ContactSurface, Initial, Model, PairId},
     problem::{PairGeometry, Problem, add_fibres, pair_geometry},
     state::State,
 };
@@ -173,10 +173,10 @@ pub fn other_name(model: &Model, pair: PairId, side: usize) -> &str {
     side_name(model, [&of_pair.b, &of_pair.a][side])
 }
 
-fn side_name<'m>(model: &'m Model, side: &Side) -> &'m str {
+fn side_name<'m>(model: &'m Model, side: &ContactSurface) -> &'m str {
     match side {
-        Side::Deformable { body, .. } => &model.bodies[body.0].name,
-        Side::Rigid(rigid) => &model.rigid_surfaces[rigid.0].name,
+        ContactSurface::Deformable { body, .. } => &model.bodies[body.0].name,
+        ContactSurface::Rigid(rigid) => &model.rigid_surfaces[rigid.0].name,
     }
 }
 

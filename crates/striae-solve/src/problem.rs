@@ -11,7 +11,7 @@ pub(crate) use fibres::add_fibres;
 use std::collections::HashMap;
 use striae_contact::{
     interference::Fibre,
-    pair::{ContactPair, Geometry, Side as ContactSide},
+    pair::{ContactPair, Geometry, PairSide},
     texture::SideTexture,
 };
 use striae_element::{ElementFault, Elements};
@@ -26,7 +26,7 @@ use crate::{
     body_mass::{BodyMass, masses},
     composition::Composition,
     contact_mass,
-    model::{Model, Pair, RigidShape, Side},
+    model::{ContactSurface, Model, Pair, RigidShape},
     node::GlobalNode,
     plan::{StepPlan, plans},
     tie::{TieFault, Ties, first_nodes},
@@ -208,7 +208,7 @@ pub(crate) fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, 
     let mut sides = Vec::with_capacity(2);
     for (index, side) in [&pair.a, &pair.b].into_iter().enumerate() {
         sides.push(match side {
-            Side::Deformable {
+            ContactSurface::Deformable {
                 body,
                 faces: of_side,
             } => {
@@ -216,7 +216,7 @@ pub(crate) fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, 
                 faces[index] = of_side.clone();
                 deformable(model, body.0, of_side)
             }
-            Side::Rigid(surface) => {
+            ContactSurface::Rigid(surface) => {
                 rigid = Some(surface.0);
                 let geometry = match &model.rigid_surfaces[surface.0].shape {
                     RigidShape::Plane { point, normal } => Geometry::Plane {
@@ -239,7 +239,7 @@ pub(crate) fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, 
                         Geometry::Rigid(surface)
                     }
                 };
-                ContactSide {
+                PairSide {
                     geometry,
                     stiffness: f64::INFINITY,
                     texture: None,
@@ -338,8 +338,12 @@ fn painted(
     let (texture, conditioning) = painted.map_err(|error| ProblemError::Texture {
         pair: pair.name.clone(),
         surface: match [&pair.a, &pair.b][index] {
-            Side::Deformable { body, .. } => format!("body `{}`", model.bodies[body.0].name),
-            Side::Rigid(rigid) => format!("rigid surface `{}`", model.rigid_surfaces[rigid.0].name),
+            ContactSurface::Deformable { body, .. } => {
+                format!("body `{}`", model.bodies[body.0].name)
+            }
+            ContactSurface::Rigid(rigid) => {
+                format!("rigid surface `{}`", model.rigid_surfaces[rigid.0].name)
+            }
         },
         node: error
             .node()
@@ -349,13 +353,13 @@ fn painted(
     Ok((SideTexture::Nodal(texture), Some(conditioning)))
 }
 
-fn deformable(model: &Model, body: usize, faces: &[Face]) -> ContactSide {
+fn deformable(model: &Model, body: usize, faces: &[Face]) -> PairSide {
     let body_model = &model.bodies[body];
     let facets: Vec<[NodeId; 4]> = faces
         .iter()
         .map(|&f| body_model.mesh.face_nodes(f))
         .collect();
-    ContactSide {
+    PairSide {
         geometry: Geometry::Deformable(Surface::new(&facets)),
         stiffness: body_model.modulus_at(faces),
         texture: None,

@@ -13,7 +13,7 @@
 use striae_contact::{
     evaluation::Evaluation,
     interference::{Interference, Kind, Place, SHARE, Spot},
-    pair::Side,
+    pair::PairSide,
     selection::approach,
 };
 use striae_mesh::FacetId;
@@ -98,7 +98,7 @@ fn missed(
 }
 
 /// Whether a point is deeper inside than contact resolves.
-fn is_missed(sides: &[Side; 2], contact: &Evaluation, found: &Interference) -> bool {
+fn is_missed(sides: &[PairSide; 2], contact: &Evaluation, found: &Interference) -> bool {
     let corners = |side: usize, facet: FacetId| -> Vec<u32> {
         let surface = sides[side].surface();
         let corners = surface.map(|surface| surface.facets()[facet.index()]);

@@ -12,7 +12,7 @@ use striae_contact::{
 
 use crate::{
     assembly::{Setting, StepContext, Trial},
-    model::{Side, Strategy},
+    model::{ContactSurface, Strategy},
     state::State,
 };
 
@@ -118,7 +118,7 @@ pub(super) fn pierced(
 /// would rock from one vertex of its round face to the next.
 fn least_bend(context: &StepContext, pair: usize) -> Bend {
     match context.problem.model.pairs[pair].b {
-        Side::Rigid(rigid) if context.fixed_rigid[rigid.0] != [true; 6] => Bend::Sharp,
+        ContactSurface::Rigid(rigid) if context.fixed_rigid[rigid.0] != [true; 6] => Bend::Sharp,
         _ => Bend::Blunt,
     }
 }

@@ -3,7 +3,7 @@
 use striae_mesh::Vec3;
 use striae_surface::{normal::nodal_normals, topology::Surface};
 
-use crate::{model::Side, problem::Problem, state::State};
+use crate::{model::ContactSurface, problem::Problem, state::State};
 
 /// What a tie amounts to.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,7 +88,7 @@ impl TieTraction {
 /// For a side of a rigid surface, which a problem does not have.
 pub fn tie_surface(problem: &Problem, tie: usize, side: usize) -> Surface {
     let of_tie = &problem.model.ties[tie];
-    let Side::Deformable { body, faces } = [&of_tie.a, &of_tie.b][side] else {
+    let ContactSurface::Deformable { body, faces } = [&of_tie.a, &of_tie.b][side] else {
         unreachable!("ties of rigid surfaces are faults");
     };
     let mesh = &problem.model.bodies[body.0].mesh;

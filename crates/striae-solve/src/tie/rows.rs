@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use striae_contact::{
     configuration::Configuration,
-    pair::{ContactPair, Enforcement, Geometry, Side as ContactSide},
+    pair::{ContactPair, Enforcement, Geometry, PairSide},
     placement::Placement,
     tie::{FacetRows, Joined, join},
 };
@@ -13,7 +13,7 @@ use striae_mesh::{Face, Vec3};
 use striae_surface::topology::Surface;
 
 use super::{Follower, Joint, TieFault, Weights, patch::Patch, side::finer};
-use crate::model::{Model, Side};
+use crate::model::{ContactSurface, Model};
 use crate::node::GlobalNode;
 
 /// Covered part of the best covered facet at a node below which it does not follow.
@@ -56,11 +56,11 @@ impl Sides {
         let name = || of_tie.name.clone();
         let [(a, faces_a), (b, faces_b)] = match [&of_tie.a, &of_tie.b] {
             [
-                Side::Deformable {
+                ContactSurface::Deformable {
                     body: a,
                     faces: on_a,
                 },
-                Side::Deformable {
+                ContactSurface::Deformable {
                     body: b,
                     faces: on_b,
                 },
@@ -312,7 +312,7 @@ fn contact_pair(
     let sides = sides.map(|(body, faces)| {
         let mesh = &model.bodies[body].mesh;
         let facets: Vec<_> = faces.iter().map(|face| mesh.face_nodes(*face)).collect();
-        ContactSide {
+        PairSide {
             geometry: Geometry::Deformable(Surface::new(&facets)),
             stiffness: 1.0,
             texture: None,

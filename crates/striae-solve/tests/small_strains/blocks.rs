@@ -9,8 +9,8 @@ use striae_mesh::{Vec3, generate::Block};
 use striae_solve::{
     drive::{Continue, Observer, Progress, run},
     model::{
-        Backend, Body, BodyId, ContactMass, Curve, Displacement, Formulation, Increments, Initial,
-        Model, Pair, Procedure, Side, Solver, Step, Strategy,
+        Backend, Body, BodyId, ContactMass, ContactSurface, Curve, Displacement, Formulation,
+        Increments, Initial, Model, Pair, Procedure, Solver, Step, Strategy,
     },
     newton::{Increment, IterationObserver},
     norms::Norms,
@@ -126,7 +126,7 @@ pub fn model(case: &Case, depth: f64) -> Model {
         body("base", 1.0, [0.0, 0.0, -0.5], [1.0, 1.0, 0.5], base),
         body("punch", case.ratio, [x, y, 0.0], [0.62, 0.65, 0.5], punch),
     ];
-    let faces = |body: usize, set: &str| Side::Deformable {
+    let faces = |body: usize, set: &str| ContactSurface::Deformable {
         body: BodyId(body),
         faces: bodies[body]
             .mesh

@@ -2,7 +2,7 @@
 
 use striae_contact::{initial::Fit, interference::Spot};
 use striae_mesh::Vec3;
-use striae_model::{Model, Pair, PairId, RigidShape, Side};
+use striae_model::{ContactSurface, Model, Pair, PairId, RigidShape};
 use striae_solve::{
     initial::{ROUND_OFF, other_name, surface_node},
     warning::warnings_at_start,
@@ -81,14 +81,14 @@ fn words(model: &Model, pair: PairId, fit: &Fit) -> String {
 fn looks_away(model: &Model, pair: &Pair) -> bool {
     let a = area_vectors(model, &pair.a);
     let b = match &pair.b {
-        Side::Rigid(rigid) => match &model.rigid_surfaces[rigid.0].shape {
+        ContactSurface::Rigid(rigid) => match &model.rigid_surfaces[rigid.0].shape {
             RigidShape::Plane { normal, .. } => {
                 let n = normal.normalize();
                 return a.iter().all(|v| v.dot(&n) > FACING * v.norm());
             }
             _ => area_vectors(model, &pair.b),
         },
-        Side::Deformable { .. } => area_vectors(model, &pair.b),
+        ContactSurface::Deformable { .. } => area_vectors(model, &pair.b),
     };
     match (plane(&a), plane(&b)) {
         (Some(a), Some(b)) => a.dot(&b) > FACING,
@@ -96,13 +96,13 @@ fn looks_away(model: &Model, pair: &Pair) -> bool {
     }
 }
 
-fn area_vectors(model: &Model, side: &Side) -> Vec<Vec3> {
+fn area_vectors(model: &Model, side: &ContactSurface) -> Vec<Vec3> {
     match side {
-        Side::Deformable { body, faces } => {
+        ContactSurface::Deformable { body, faces } => {
             let mesh = &model.bodies[body.0].mesh;
             faces.iter().map(|&face| mesh.area_vector(face)).collect()
         }
-        Side::Rigid(rigid) => match &model.rigid_surfaces[rigid.0].shape {
+        ContactSurface::Rigid(rigid) => match &model.rigid_surfaces[rigid.0].shape {
             RigidShape::Facets { positions, facets } => {
                 let facets = facets.iter();
                 let corners = facets.map(|facet| facet.map(|node| positions[node.index()]));
