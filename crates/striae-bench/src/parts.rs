@@ -10,6 +10,7 @@ use striae_contact::{
     evaluation::evaluate,
     segment::Derivatives,
     selection::{Before, Selection},
+    side::Side,
     unknowns::Tractions,
 };
 use striae_law::{
@@ -116,10 +117,13 @@ fn of_scene(group: &str, size: usize) -> Results {
         points,
     };
     let selection = Selection::new(&configuration, None, before, &context.fixed_on_pair[0]);
-    let nodes: usize = (0..2).map(|side| selection.nodes(side)).sum();
+    let nodes: usize = Side::BOTH
+        .into_iter()
+        .map(|side| selection.nodes(side))
+        .sum();
     Ok(match group {
         "surface" => {
-            let surface = configuration.side(0);
+            let surface = configuration.side(Side::A);
             vec![timed("surface", "nodal normals", surface.x.len(), || {
                 black_box(nodal_normals(surface.surface, &surface.x));
             })]

@@ -33,6 +33,7 @@ use crate::{
     partner::Partner,
     projection::differentiated_rigid,
     selection::Selection,
+    side::Side,
     term::{Gradient, Jacobian, Lanes, Source, add_block, gradient},
     tip::Tip,
     tracked::{Tracked, TrackedScalar, add_chained, add_slope},
@@ -84,7 +85,7 @@ pub fn kinematics(
 
 /// The gap along the normal; without derivatives, so that the node stays open, where it
 /// sees nothing.
-fn gap(configuration: &Configuration, side: usize, node: u32, frame: &Frame) -> TrackedScalar {
+fn gap(configuration: &Configuration, side: Side, node: u32, frame: &Frame) -> TrackedScalar {
     let numbering = configuration.pair.numbering();
     let Some((contact, found)) = configuration.opposite(side, node) else {
         return TrackedScalar {
@@ -105,11 +106,11 @@ fn gap(configuration: &Configuration, side: usize, node: u32, frame: &Frame) -> 
         }
         Place::Facet(hit) if configuration.pair.is_rigid() => {
             let x: Vector3<DualSVec64<3>> = crate::term::variable3(&x, 0);
-            let ([_, _, g], _) = differentiated_rigid(configuration.side(1), &hit, &x);
+            let ([_, _, g], _) = differentiated_rigid(configuration.side(Side::B), &hit, &x);
             vec![(own, gradient(&g).into())]
         }
         Place::Facet(hit) => {
-            let target = configuration.side(1 - side);
+            let target = configuration.side(side.opposite());
             let corners = target.corners(hit.facet);
             let shape = Shape::of(&corners);
             let positions = target.corner_positions(hit.facet);
@@ -119,7 +120,7 @@ fn gap(configuration: &Configuration, side: usize, node: u32, frame: &Frame) -> 
             let by_n = by_r * -hit.gap;
             let mut gradient: Gradient = vec![(own, -by_r)];
             for corner in 0..4 {
-                let first = numbering.position(1 - side, corners[corner]);
+                let first = numbering.position(side.opposite(), corners[corner]);
                 add_slope(&mut gradient, first, by_r * weights[corner]);
             }
             for (first, block) in &frame.n.jacobian {
@@ -144,7 +145,7 @@ pub fn slip(configuration: &Configuration, tip: Tip, partner: Partner, frame: &F
     if let Partner::Corners(corners, weights) = partner {
         for (at, corner) in corners.into_iter().enumerate() {
             lanes.push(Source::Unknowns {
-                first: numbering.position(1 - side, corner),
+                first: numbering.position(side.opposite(), corner),
                 count: 3,
             });
             add_block(&mut slopes, 6 + 3 * at, &(tangential * -weights[at]));
@@ -171,7 +172,7 @@ pub fn shares(
     let mut shares: Vec<(u32, f64)> = Vec::new();
     shares.extend(tip.unknown(configuration).map(|first| (first, 1.0)));
     if let Some(Partner::Corners(corners, weights)) = partner {
-        let opposite = corners.map(|corner| numbering.position(1 - side, corner));
+        let opposite = corners.map(|corner| numbering.position(side.opposite(), corner));
         shares.extend(opposite.into_iter().zip(weights));
     }
     shares
@@ -195,7 +196,7 @@ pub fn nodal_fields(
     tau: &NodalTractions,
 ) -> [Vec<NodalField>; 2] {
     let numbering = configuration.pair.numbering();
-    let at_node = |side: usize, node: usize| {
+    let at_node = |side: Side, node: usize| {
         let mut field = NodalField::default();
         let Some(frame) = &frames[side][node] else {
             return field;
@@ -224,7 +225,7 @@ pub fn nodal_fields(
         }
         field
     };
-    [0, 1].map(|side| {
+    Side::BOTH.map(|side| {
         (0..selection.nodes(side))
             .into_par_iter()
             .with_min_len(16)

@@ -23,6 +23,7 @@ use crate::{
     places::{ChainedSum, Places},
     segment_rows::AtCorners,
     selection::Selection,
+    side::Side,
     term::{Field, Jacobian, LocalTerm, Row},
     traction::NodalTractions,
     transported::Transported,
@@ -83,10 +84,10 @@ impl CommonField<'_> {
             sum * -SIGNS[c]
         });
         let term = self.momentum(patch, &q, &tractions, &forces);
-        let of_facets = [0, 1].map(|side| {
+        let of_facets = Side::BOTH.map(|side| {
             let mut of_facet = FacetForces::default();
             for at in 0..4 {
-                let corner = 4 * side + at;
+                let corner = 4 * side.index() + at;
                 of_facet.force[at] = forces[corner];
                 of_facet.area[at] = patch.paired.area_of(corner);
             }

@@ -15,7 +15,10 @@ use std::cmp::Ordering;
 
 use striae_mesh::Vec3;
 
-use crate::interface::{Interface, Opponent, SurfaceNode};
+use crate::{
+    interface::{Interface, Opponent, SurfaceNode},
+    side::Side,
+};
 
 /// Weight below which a node carries nothing, over the area of its largest facet.
 const WEIGHTLESS: f64 = 1e-12;
@@ -26,7 +29,7 @@ pub(crate) type SparseRow = Vec<(u32, f64)>;
 /// Common mass and what follows from it at once.
 pub(crate) struct CommonMass {
     /// Side and number of all nodes that matter, in order.
-    pub nodes: Vec<(usize, u32)>,
+    pub nodes: Vec<(Side, u32)>,
     /// Place of a node in the order.
     pub index: [Vec<Option<u32>>; 2],
     /// `D_kJ`.
@@ -42,7 +45,7 @@ pub(crate) struct CommonMass {
     /// Patch of a node, `None` without an overlap.
     pub patch: Vec<Option<u32>>,
     /// The side that goes first among equals.
-    first: usize,
+    first: Side,
 }
 
 impl CommonMass {
@@ -52,12 +55,12 @@ impl CommonMass {
         let carried = carriers(interface);
         let wanted = with_neighbours(interface, &carried);
         let (nodes, first) = ordered(interface, &wanted);
-        let mut index = [0, 1].map(|side| vec![None; interface.nodes[side].len()]);
+        let mut index = Side::BOTH.map(|side| vec![None; interface.nodes[side].len()]);
         for (at, &(side, node)) in nodes.iter().enumerate() {
             index[side][node as usize] = Some(at as u32);
         }
         let place =
-            |side: usize, node: u32| index[side][node as usize].expect("corners are in the order");
+            |side: Side, node: u32| index[side][node as usize].expect("corners are in the order");
         let corners = |overlap: usize| {
             let of = interface.overlaps[overlap].corners;
             sides
@@ -75,7 +78,8 @@ impl CommonMass {
                     .iter()
                     .filter(|facet| facet.corners.iter().any(|&node| carried[0][node as usize]))
                     .collect();
-                let corners = |facet: usize| near[facet].corners.map(|node| place(0, node)).into();
+                let corners =
+                    |facet: usize| near[facet].corners.map(|node| place(Side::A, node)).into();
                 let mass = |facet: usize, c: usize, d: usize| near[facet].mass[c][d];
                 sums(nodes.len(), &blocks(near.len(), corners, mass), mass)
             }
@@ -119,7 +123,7 @@ impl CommonMass {
 
 /// Nodes that carry traction: corners of overlaps and all within reach.
 fn carriers(interface: &Interface) -> [Vec<bool>; 2] {
-    let mut carried = [0, 1].map(|side| vec![false; interface.nodes[side].len()]);
+    let mut carried = Side::BOTH.map(|side| vec![false; interface.nodes[side].len()]);
     for &side in interface.sides() {
         for overlap in interface.overlaps {
             for node in overlap.corners[side] {
@@ -149,18 +153,18 @@ fn with_neighbours(interface: &Interface, carried: &[Vec<bool>; 2]) -> [Vec<bool
 }
 
 /// Nodes by position and the side that goes first; see the module.
-fn ordered(interface: &Interface, wanted: &[Vec<bool>; 2]) -> (Vec<(usize, u32)>, usize) {
-    let traits = |&(side, node): &(usize, u32)| {
+fn ordered(interface: &Interface, wanted: &[Vec<bool>; 2]) -> (Vec<(Side, u32)>, Side) {
+    let traits = |&(side, node): &(Side, u32)| {
         let node = &interface.nodes[side][node as usize];
         let [x, y, z] = node.position.into();
         [x, y, z, node.flexibility, node.compliance]
     };
-    let compare = |a: &(usize, u32), b: &(usize, u32)| {
+    let compare = |a: &(Side, u32), b: &(Side, u32)| {
         let (a, b) = (traits(a), traits(b));
         let by_trait = a.iter().zip(&b).map(|(a, b)| a.total_cmp(b));
         by_trait.fold(Ordering::Equal, Ordering::then)
     };
-    let of_side = [0, 1].map(|side| {
+    let of_side = Side::BOTH.map(|side| {
         let count = wanted[side].len() as u32;
         let mut nodes: Vec<_> = (0..count)
             .filter(|&node| wanted[side][node as usize])
@@ -176,8 +180,11 @@ fn ordered(interface: &Interface, wanted: &[Vec<bool>; 2]) -> (Vec<(usize, u32)>
     let sides = differ
         .fold(Ordering::Equal, Ordering::then)
         .then(of_side[0].len().cmp(&of_side[1].len()));
-    let first = usize::from(sides == Ordering::Greater);
-    let mut all = [of_side[first].as_slice(), &of_side[1 - first]].concat();
+    let first = match sides {
+        Ordering::Greater => Side::B,
+        Ordering::Less | Ordering::Equal => Side::A,
+    };
+    let mut all = [of_side[first].as_slice(), &of_side[first.opposite()]].concat();
     all.sort_by(compare);
     (all, first)
 }

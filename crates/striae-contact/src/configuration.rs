@@ -10,6 +10,7 @@ use crate::{
     pair::{ContactPair, Geometry, local_sizes},
     placement::Placement,
     search::{Bounds, Tree},
+    side::Side,
 };
 
 /// Both sides of a pair in one configuration.
@@ -52,14 +53,14 @@ impl<'a> Configuration<'a> {
         if pair.is_rigid() {
             b.iter_mut().for_each(|x| *x = placement.point(x));
         }
-        let snapshot = |side: usize, x: Vec<Vec3>| {
+        let snapshot = |side: Side, x: Vec<Vec3>| {
             pair.sides[side]
                 .surface()
                 .map(|surface| Snapshot::new(surface, x))
         };
         Self {
             pair,
-            sides: [snapshot(0, a), snapshot(1, b)],
+            sides: [snapshot(Side::A, a), snapshot(Side::B, b)],
             placement,
             elapsed: f64::INFINITY,
         }
@@ -74,30 +75,30 @@ impl<'a> Configuration<'a> {
     ///
     /// # Panics
     /// For a rigid plane.
-    pub fn side(&self, side: usize) -> &Snapshot<'a> {
+    pub fn side(&self, side: Side) -> &Snapshot<'a> {
         self.sides[side].as_ref().expect("a plane has no facets")
     }
 
     /// Distance within which the node looks for the other side: half the local facet size
     /// or, where that is larger, the search distance of the pair.
-    pub fn reach(&self, side: usize, node: u32) -> f64 {
+    pub fn reach(&self, side: Side, node: u32) -> f64 {
         let least = 0.5 * self.side(side).sizes[node as usize];
         self.pair.search_distance.unwrap_or(0.0).max(least)
     }
 
     /// Local facet size at a node; at a point of a rigid side that of the node it lodges with.
-    pub fn size(&self, side: usize, node: u32) -> f64 {
+    pub fn size(&self, side: Side, node: u32) -> f64 {
         let side = if self.pair.is_deformable(side) {
             side
         } else {
-            0
+            Side::A
         };
         self.side(side).sizes[node as usize]
     }
 
     /// Point and unit normal of the plane that is side `b`, if it is one.
     pub fn plane(&self) -> Option<(Vec3, Vec3)> {
-        match self.pair.sides[1].geometry {
+        match self.pair.sides[Side::B].geometry {
             Geometry::Plane { point, normal } => Some((
                 self.placement.point(&point),
                 self.placement.direction(&normal),

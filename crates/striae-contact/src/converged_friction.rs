@@ -18,6 +18,7 @@ use striae_mesh::Vec3;
 use crate::{
     configuration::Configuration,
     frame::{Frame, frame_of},
+    side::Side,
     tracked::{Tracked, add_chained},
     transported::Transported,
 };
@@ -30,7 +31,7 @@ use crate::{
 pub fn converged_friction(
     configuration: &Configuration,
     start: &Configuration,
-    (side, node): (usize, u32),
+    (side, node): (Side, u32),
     frame: &Frame,
     components: [f64; 2],
 ) -> Result<Tracked, CollapsedFacets> {
@@ -72,7 +73,7 @@ pub fn converged_friction(
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CollapsedFacets {
     /// Side of the pair.
-    pub side: usize,
+    pub side: Side,
     /// Surface-local node.
     pub node: u32,
 }
@@ -89,7 +90,7 @@ struct Edge {
 fn edges(
     configuration: &Configuration,
     start: &Configuration,
-    side: usize,
+    side: Side,
     node: u32,
     tangents: &[Vec3; 2],
 ) -> Result<Vec<Edge>, CollapsedFacets> {

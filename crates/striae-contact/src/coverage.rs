@@ -6,6 +6,7 @@ use striae_mesh::Vec3;
 use crate::{
     configuration::Configuration,
     projection::{Hit, Margin, Ray, nearest_edge, project},
+    side::Side,
 };
 
 /// What a node sees along its normal.
@@ -55,7 +56,7 @@ const FOLLOW: f64 = 6.0;
 
 impl Configuration<'_> {
     /// The point opposite to a node of a deformable side within `reach`.
-    pub fn contact(&self, side: usize, node: u32, reach: f64, margin: Margin) -> Option<Contact> {
+    pub fn contact(&self, side: Side, node: u32, reach: f64, margin: Margin) -> Option<Contact> {
         let own = self.side(side);
         self.contact_at(
             side,
@@ -69,7 +70,7 @@ impl Configuration<'_> {
     /// The point opposite to the point `x` with the normal `n` of a deformable side.
     pub fn contact_at(
         &self,
-        side: usize,
+        side: Side,
         x: Vec3,
         n: Vec3,
         reach: f64,
@@ -87,7 +88,7 @@ impl Configuration<'_> {
         } else {
             Ray::Own(n)
         };
-        let hit = project(self.side(1 - side), &x, ray, reach, margin)?;
+        let hit = project(self.side(side.opposite()), &x, ray, reach, margin)?;
         Some(Contact {
             gap: hit.gap,
             place: Place::Facet(hit),
@@ -95,7 +96,7 @@ impl Configuration<'_> {
     }
 
     /// The point opposite to a node of a deformable side, clamped to the other surface.
-    pub fn opposite(&self, side: usize, node: u32) -> Option<(Contact, Found)> {
+    pub fn opposite(&self, side: Side, node: u32) -> Option<(Contact, Found)> {
         let far = if self.pair.is_rigid() {
             FOLLOW
         } else {
@@ -111,7 +112,7 @@ impl Configuration<'_> {
         }
         let own = self.side(side);
         let (x, n) = (&own.x[node as usize], &own.normals[node as usize]);
-        let (hit, nodes) = nearest_edge(self.side(1 - side), x, n, reach)?;
+        let (hit, nodes) = nearest_edge(self.side(side.opposite()), x, n, reach)?;
         let contact = Contact {
             gap: hit.gap,
             place: Place::Facet(hit),
@@ -120,7 +121,7 @@ impl Configuration<'_> {
     }
 
     /// What a node of a deformable side sees.
-    pub fn coverage(&self, side: usize, node: u32) -> Coverage {
+    pub fn coverage(&self, side: Side, node: u32) -> Coverage {
         let reach = self.reach(side, node);
         match self.contact(side, node, HORIZON * reach, Margin::Inside) {
             Some(contact) if contact.gap.abs() <= reach => Coverage::Near(contact),
@@ -136,11 +137,11 @@ impl Place {
     pub fn weights(
         &self,
         configuration: &Configuration,
-        side: usize,
+        side: Side,
     ) -> Option<([u32; 4], [f64; 4])> {
         match self {
             Place::Facet(hit) => {
-                let corners = configuration.side(1 - side).corners(hit.facet);
+                let corners = configuration.side(side.opposite()).corners(hit.facet);
                 let shape = striae_surface::facet::Shape::of(&corners);
                 Some((corners, shape.weights(hit.xi, hit.eta).value))
             }
@@ -149,13 +150,13 @@ impl Place {
     }
 
     /// The point in space.
-    pub fn point(&self, configuration: &Configuration, side: usize) -> Vec3 {
+    pub fn point(&self, configuration: &Configuration, side: Side) -> Vec3 {
         match self {
             Place::Plane(point) => *point,
             Place::Facet(_) => self.weights(configuration, side).map_or_else(
                 Vector3::zeros,
                 |(corners, weights)| {
-                    let x = &configuration.side(1 - side).x;
+                    let x = &configuration.side(side.opposite()).x;
                     (0..4).map(|c| x[corners[c] as usize] * weights[c]).sum()
                 },
             ),

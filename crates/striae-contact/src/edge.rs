@@ -17,6 +17,7 @@ use crate::{
     configuration::Configuration,
     nodal_normal::own_normal,
     projection::{Hit, share_of_edge},
+    side::Side,
     term::Gradient,
     tracked::{TrackedScalar, add_slope},
 };
@@ -38,13 +39,13 @@ pub struct OnEdge {
 /// If they are no corners of the facet.
 pub fn on_edge(
     configuration: &Configuration,
-    side: usize,
+    side: Side,
     node: u32,
     hit: &Hit,
     nodes: [u32; 2],
 ) -> OnEdge {
     let own = configuration.side(side);
-    let other = configuration.side(1 - side);
+    let other = configuration.side(side.opposite());
     let corners = other.corners(hit.facet);
     let ends = nodes.map(|end| {
         let found = corners.iter().position(|corner| *corner == end);
@@ -69,7 +70,7 @@ pub fn on_edge(
         let numbering = configuration.pair.numbering();
         let mut gradient = vec![(numbering.position(side, node), -by_r)];
         if !configuration.pair.is_rigid() {
-            let [start, end] = nodes.map(|node| numbering.position(1 - side, node));
+            let [start, end] = nodes.map(|node| numbering.position(side.opposite(), node));
             gradient.extend([(start, by_r - by_d), (end, by_d)]);
         }
         for (first, block) in &n.jacobian {

@@ -23,6 +23,7 @@ use crate::{
     segment::Derivatives,
     segment_rows::{Given, Slip, segment_rows},
     selection::Selection,
+    side::Side,
     slip_rate::{SlipRates, slip_rates},
     term::LocalTerm,
     texture::{CollapsedTexture, Textures, own, textures},
@@ -147,10 +148,10 @@ fn patches(
     selection: &Selection,
     (slip, derivatives): (Slip, Derivatives),
 ) -> Vec<Patch> {
-    let own = configuration.side(0);
+    let own = configuration.side(Side::A);
     let carries = |facet: FacetId| {
         let corners = own.corners(facet);
-        corners.iter().any(|&node| selection.carries(0, node))
+        corners.iter().any(|&node| selection.carries(Side::A, node))
     };
     let scope = selection.scope();
     paired_facets(configuration, scope, derivatives, carries)
@@ -188,7 +189,7 @@ impl Stage<'_> {
     /// Results of all nodes, without the status, by the transfer from kept nodes.
     fn nodal(&self, patches: &[Patch]) -> Evaluation {
         let selection = self.selection;
-        let counts = [0, 1].map(|side| selection.nodes(side));
+        let counts = Side::BOTH.map(|side| selection.nodes(side));
         let reports = weighted::reports(self.configuration, counts, patches);
         let mut evaluation = Evaluation {
             terms: Vec::new(),
@@ -199,7 +200,7 @@ impl Stage<'_> {
             topology: topology(patches.iter().map(|patch| &patch.paired)),
             dissipated: 0.0,
         };
-        for side in 0..2 {
+        for side in Side::BOTH {
             for node in 0..counts[side] {
                 if let Some(frame) = &self.frames[side][node] {
                     let result = self.of_node(side, node, frame, &reports[side][node]);
@@ -212,7 +213,7 @@ impl Stage<'_> {
         evaluation
     }
 
-    fn of_node(&self, side: usize, node: usize, frame: &Frame, report: &Report) -> NodeResult {
+    fn of_node(&self, side: Side, node: usize, frame: &Frame, report: &Report) -> NodeResult {
         let mut result = NodeResult {
             gap: report.gap,
             normal: frame.n.value,
@@ -235,7 +236,7 @@ impl Stage<'_> {
     }
 
     /// Direction `s = a x n` of the node's own texture, zero without one.
-    fn own_texture(&self, side: usize, node: u32, frame: &Frame) -> Vec3 {
+    fn own_texture(&self, side: Side, node: u32, frame: &Frame) -> Vec3 {
         if let Tip::Rigid(_) = self.selection.tip(side, node) {
             return Vec3::zeros();
         }
@@ -292,7 +293,7 @@ impl Evaluation {
 
     /// Nodes that are not kept have the status of the kept node that they follow most.
     fn follow_status(&mut self, selection: &Selection) {
-        for side in 0..2 {
+        for side in Side::BOTH {
             for node in 0..selection.nodes(side) {
                 let row = selection.row(side, node as u32);
                 let most = row.iter().max_by(|a, b| a.1.total_cmp(&b.1));

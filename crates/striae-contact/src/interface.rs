@@ -4,6 +4,7 @@
 //! Lengths, areas and moduli in the user's units; `h` is a size of the facets at a
 //! node, `E` a modulus of the body behind it.
 
+use crate::side::Side;
 use striae_mesh::Vec3;
 
 /// Whether a node carried traction unknowns in the last increment, and what is known of it.
@@ -83,10 +84,10 @@ pub struct Interface<'a> {
 
 impl Interface<'_> {
     /// Sides whose nodes carry the field.
-    pub(crate) fn sides(&self) -> &'static [usize] {
+    pub(crate) fn sides(&self) -> &'static [Side] {
         match self.opponent {
-            Opponent::Deformable => &[0, 1],
-            Opponent::Rigid { .. } => &[0],
+            Opponent::Deformable => &Side::BOTH,
+            Opponent::Rigid { .. } => &[Side::A],
         }
     }
 }

@@ -33,6 +33,7 @@ pub use thickness::{Fibre, Thickness, fibres, lengths};
 use crate::{
     configuration::{Configuration, Snapshot},
     search::{Bounds, Tree},
+    side::Side,
 };
 use nearest::Placed;
 use passage::{Moving, Through};
@@ -56,7 +57,7 @@ pub struct Stage<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interference {
     /// Side of the point.
-    pub side: usize,
+    pub side: Side,
     /// The point.
     pub spot: Spot,
     /// Surface node that is the point, or the corner of its facet that is in deepest.
@@ -116,14 +117,14 @@ pub fn interferences(start: &Stage, end: &Stage, share: f64) -> Vec<Interference
     if let Some(plane) = end.configuration.plane() {
         return behind_plane(start.configuration, end.configuration, plane, share);
     }
-    let sides = [0, 1].map(|side| {
+    let sides = Side::BOTH.map(|side| {
         let at = [start, end].map(|stage| stage.configuration.side(side));
         Moving::new(at, end.thickness.largest(side))
     });
     if !sides[0].may_meet(&sides[1]) {
         return Vec::new();
     }
-    [0, 1]
+    Side::BOTH
         .into_iter()
         .flat_map(|side| of_side(start, end, &sides, side, share))
         .collect()
@@ -134,7 +135,7 @@ pub fn interferences(start: &Stage, end: &Stage, share: f64) -> Vec<Interference
 pub fn inside(stage: &Stage, share: f64) -> Vec<Interference> {
     let configuration = stage.configuration;
     if let Some(plane) = configuration.plane() {
-        let snapshot = configuration.side(0);
+        let snapshot = configuration.side(Side::A);
         let spots = spots(snapshot.surface);
         let found = spots.into_iter().filter_map(|spot| {
             let depth = -height(snapshot, spot, &plane);
@@ -144,7 +145,7 @@ pub fn inside(stage: &Stage, share: f64) -> Vec<Interference> {
         });
         return found.collect();
     }
-    let within = |side: usize| {
+    let within = |side: Side| {
         let spots = spots(configuration.side(side).surface);
         let found: Vec<_> = spots
             .into_par_iter()
@@ -159,7 +160,7 @@ pub fn inside(stage: &Stage, share: f64) -> Vec<Interference> {
             .collect();
         found
     };
-    [0, 1].into_iter().flat_map(within).collect()
+    Side::BOTH.into_iter().flat_map(within).collect()
 }
 
 /// Where a point is with respect to the facets of a side.
@@ -214,24 +215,24 @@ fn facet_size(snapshot: &Snapshot, facet: FacetId) -> f64 {
 /// Size that depth behind a facet is judged by: that of the facets of the deformable
 /// side, the larger of two; less where the body is thin, so that a point that has come
 /// to its middle is inside.
-fn judged_by(stage: &Stage, side: usize, spot: Spot, facet: FacetId) -> f64 {
+fn judged_by(stage: &Stage, side: Side, spot: Spot, facet: FacetId) -> f64 {
     let configuration = stage.configuration;
     let own = || size(configuration.side(side), spot);
-    let other = || facet_size(configuration.side(1 - side), facet);
+    let other = || facet_size(configuration.side(side.opposite()), facet);
     let size = match (configuration.pair.is_rigid(), side) {
         (false, _) => own().max(other()),
-        (true, 0) => own(),
+        (true, Side::A) => own(),
         (true, _) => other(),
     };
-    size.min(THIN * stage.thickness.0[1 - side][facet.index()])
+    size.min(THIN * stage.thickness.0[side.opposite()][facet.index()])
 }
 
 /// Where a point is inside the other side.
-fn depth_inside(stage: &Stage, side: usize, spot: Spot) -> Option<Nearest> {
+fn depth_inside(stage: &Stage, side: Side, spot: Spot) -> Option<Nearest> {
     let x = position(stage.configuration.side(side), spot);
-    let other = stage.configuration.side(1 - side);
-    let thickness = &stage.thickness.0[1 - side];
-    let most = stage.thickness.largest(1 - side);
+    let other = stage.configuration.side(side.opposite());
+    let thickness = &stage.thickness.0[side.opposite()];
+    let most = stage.thickness.largest(side.opposite());
     let near = other.tree.bounds()?.squared_distance(&x) <= most * most;
     let nearest = near.then(|| placed(other).nearest(&x))??;
     let inside =
@@ -241,7 +242,7 @@ fn depth_inside(stage: &Stage, side: usize, spot: Spot) -> Option<Nearest> {
 
 fn interference(
     stage: &Stage,
-    side: usize,
+    side: Side,
     spot: Spot,
     (point, nearest): (Vec3, &Nearest),
     size: f64,
@@ -278,7 +279,7 @@ fn height(snapshot: &Snapshot, spot: Spot, (point, normal): &(Vec3, Vec3)) -> f6
 
 fn at_plane(snapshot: &Snapshot, spot: Spot, depth: f64, size: f64) -> Interference {
     Interference {
-        side: 0,
+        side: Side::A,
         spot,
         node: match spot {
             Spot::Node(node) => node,
@@ -305,7 +306,7 @@ fn behind_plane(
     share: f64,
 ) -> Vec<Interference> {
     let before = start.plane().unwrap_or(plane);
-    let [first, last] = [start, end].map(|configuration| configuration.side(0));
+    let [first, last] = [start, end].map(|configuration| configuration.side(Side::A));
     (0..last.x.len() as u32)
         .map(Spot::Node)
         .filter_map(|spot| {
@@ -321,7 +322,7 @@ fn of_side(
     start: &Stage,
     end: &Stage,
     sides: &[Moving; 2],
-    side: usize,
+    side: Side,
     share: f64,
 ) -> Vec<Interference> {
     let spots = spots(end.configuration.side(side).surface);
@@ -336,7 +337,7 @@ fn of_spot(
     start: &Stage,
     end: &Stage,
     sides: &[Moving; 2],
-    (side, spot): (usize, Spot),
+    (side, spot): (Side, Spot),
     share: f64,
 ) -> Option<Interference> {
     let judged = |facet| judged_by(end, side, spot, facet);
@@ -350,13 +351,14 @@ fn of_spot(
         let found = || interference(end, side, spot, (point, &now), size, Kind::Inside);
         return news.then(found);
     }
-    let (passed, size, kind) = match sides[1 - side].passed_by(&sides[side].path(spot), before)? {
-        Through::Body(nearest) => (nearest, judged(nearest.facet), Kind::Crossed),
-        Through::Surface(deepest) => {
-            let size = judged(deepest.facet);
-            (deepest.distance > share * size).then_some((deepest, size, Kind::Passed))?
-        }
-    };
+    let (passed, size, kind) =
+        match sides[side.opposite()].passed_by(&sides[side].path(spot), before)? {
+            Through::Body(nearest) => (nearest, judged(nearest.facet), Kind::Crossed),
+            Through::Surface(deepest) => {
+                let size = judged(deepest.facet);
+                (deepest.distance > share * size).then_some((deepest, size, Kind::Passed))?
+            }
+        };
     Some(interference(end, side, spot, (point, &passed), size, kind))
 }
 

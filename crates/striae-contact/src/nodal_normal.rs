@@ -2,10 +2,10 @@
 
 use striae_surface::normal::normal_jacobian;
 
-use crate::{configuration::Configuration, tracked::Tracked};
+use crate::{configuration::Configuration, side::Side, tracked::Tracked};
 
 /// The normal of a node's own surface.
-pub fn own_normal(configuration: &Configuration, side: usize, node: u32) -> Tracked {
+pub fn own_normal(configuration: &Configuration, side: Side, node: u32) -> Tracked {
     let own = configuration.side(side);
     let numbering = configuration.pair.numbering();
     let mut jacobian = normal_jacobian(own.surface, &own.x, node);

@@ -8,7 +8,7 @@ use striae_surface::{
     topology::{Surface, distinct_corners},
 };
 
-use crate::unknown::Numbering;
+use crate::{side::Side, unknown::Numbering};
 
 /// Two surfaces that may touch. Side 0 (`a`) is deformable.
 #[derive(Clone, Debug)]
@@ -16,7 +16,7 @@ pub struct ContactPair {
     /// Name for reports.
     pub name: String,
     /// The two sides.
-    pub sides: [PairSide; 2],
+    pub sides: [PairedSurface; 2],
     /// Friction law.
     pub friction: Friction,
     /// How contact is enforced.
@@ -27,7 +27,7 @@ pub struct ContactPair {
 
 /// One side of a pair.
 #[derive(Clone, Debug)]
-pub struct PairSide {
+pub struct PairedSurface {
     /// Shape and kind.
     pub geometry: Geometry,
     /// Young's modulus of the body behind a deformable side, for the scaling of the complementarity.
@@ -74,7 +74,7 @@ pub enum Enforcement {
 impl ContactPair {
     /// Numbers of the pair's unknowns.
     pub fn numbering(&self) -> Numbering {
-        let positions = [0, 1].map(|side| match &self.sides[side].geometry {
+        let positions = Side::BOTH.map(|side| match &self.sides[side].geometry {
             Geometry::Deformable(surface) => surface.nodes().len(),
             Geometry::Rigid(_) | Geometry::Plane { .. } => 0,
         });
@@ -85,32 +85,36 @@ impl ContactPair {
     /// facets that pierce side `a` count as side `b` and lodge with the nodes of `a`, one with
     /// a node, see [`crate::pointed`].
     pub fn carriers(&self) -> [usize; 2] {
-        let nodes = |side: usize| self.sides[side].surface().map_or(0, |s| s.nodes().len());
-        let of_b = match self.sides[1].geometry {
-            Geometry::Deformable(_) => nodes(1),
-            Geometry::Rigid(_) if self.enforcement == Enforcement::Weighted => nodes(0),
+        let nodes = |side: Side| self.sides[side].surface().map_or(0, |s| s.nodes().len());
+        let of_b = match self.sides[Side::B].geometry {
+            Geometry::Deformable(_) => nodes(Side::B),
+            Geometry::Rigid(_) if self.enforcement == Enforcement::Weighted => nodes(Side::A),
             Geometry::Rigid(_) | Geometry::Plane { .. } => 0,
         };
-        [nodes(0), of_b]
+        [nodes(Side::A), of_b]
     }
 
     /// Whether the nodes of a side are deformable.
-    pub(crate) fn is_deformable(&self, side: usize) -> bool {
+    pub(crate) fn is_deformable(&self, side: Side) -> bool {
         matches!(self.sides[side].geometry, Geometry::Deformable(_))
     }
 
     /// Whether side `b` is rigid.
     pub fn is_rigid(&self) -> bool {
-        !matches!(self.sides[1].geometry, Geometry::Deformable(_))
+        !matches!(self.sides[Side::B].geometry, Geometry::Deformable(_))
     }
 
     /// Sides that carry traction unknowns.
-    pub fn deformable_sides(&self) -> &'static [usize] {
-        if self.is_rigid() { &[0] } else { &[0, 1] }
+    pub fn deformable_sides(&self) -> &'static [Side] {
+        if self.is_rigid() {
+            &[Side::A]
+        } else {
+            &Side::BOTH
+        }
     }
 }
 
-impl PairSide {
+impl PairedSurface {
     /// Facets of the side; `None` for a plane.
     pub fn surface(&self) -> Option<&Surface> {
         match &self.geometry {

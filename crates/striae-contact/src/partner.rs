@@ -5,6 +5,7 @@ use striae_mesh::Vec3;
 use crate::{
     configuration::Configuration,
     pair::Enforcement,
+    side::Side,
     traction_basis::{KeptNode, TractionBasis},
 };
 
@@ -19,11 +20,11 @@ pub enum Partner {
 
 impl Partner {
     /// Where the point is now, seen from a node of `side`.
-    pub fn point(&self, configuration: &Configuration, side: usize) -> Vec3 {
+    pub fn point(&self, configuration: &Configuration, side: Side) -> Vec3 {
         match self {
             Partner::Rigid(point) => configuration.placement.point(point),
             Partner::Corners(corners, weights) => {
-                let x = &configuration.side(1 - side).x;
+                let x = &configuration.side(side.opposite()).x;
                 (0..4).map(|c| x[corners[c] as usize] * weights[c]).sum()
             }
         }

@@ -5,7 +5,7 @@
 //! for it: the friction of a node and the row that it obeys ask at the same rate.
 
 use crate::{
-    configuration::Configuration, kinematics::Kinematics, selection::Selection,
+    configuration::Configuration, kinematics::Kinematics, selection::Selection, side::Side,
     tracked::TrackedScalar,
 };
 
@@ -18,7 +18,7 @@ pub fn slip_rates(
     selection: &Selection,
     kinematics: &[Kinematics],
 ) -> SlipRates {
-    let mut rates = [0, 1].map(|side| vec![TrackedScalar::default(); selection.nodes(side)]);
+    let mut rates = Side::BOTH.map(|side| vec![TrackedScalar::default(); selection.nodes(side)]);
     if configuration.pair.friction.decays() && configuration.elapsed.is_finite() {
         for (kept, kinematics) in selection.kept().iter().zip(kinematics) {
             let (side, node) = kept.place();

@@ -25,6 +25,7 @@ use crate::{
     frame::{Frame, Frames},
     kinematics::Kinematics,
     selection::Selection,
+    side::Side,
     term::{Jacobian, Lanes, Source, parts, variable3},
     tip::Tip,
     tracked::Tracked,
@@ -47,7 +48,7 @@ pub type Textures = [Vec<NodeTextures>; 2];
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CollapsedTexture {
     /// Side of the pair.
-    pub side: usize,
+    pub side: Side,
     /// Surface-local node.
     pub node: u32,
 }
@@ -63,9 +64,9 @@ pub fn textures(
     kinematics: &[Kinematics],
 ) -> Result<Textures, CollapsedTexture> {
     if configuration.pair.friction.required_textures() == RequiredTextures::Any {
-        return Ok([0, 1].map(|side| vec![NodeTextures::default(); selection.nodes(side)]));
+        return Ok(Side::BOTH.map(|side| vec![NodeTextures::default(); selection.nodes(side)]));
     }
-    let of_side = |side: usize| -> Result<Vec<NodeTextures>, CollapsedTexture> {
+    let of_side = |side: Side| -> Result<Vec<NodeTextures>, CollapsedTexture> {
         let found: Vec<_> = (0..selection.nodes(side))
             .into_par_iter()
             .with_min_len(8)
@@ -92,13 +93,13 @@ pub fn textures(
             .collect();
         found.into_iter().collect()
     };
-    Ok([of_side(0)?, of_side(1)?])
+    Ok([of_side(Side::A)?, of_side(Side::B)?])
 }
 
 /// The node's own `a`, for the normal `n`.
 pub fn own(
     configuration: &Configuration,
-    side: usize,
+    side: Side,
     node: u32,
     n: &Tracked,
 ) -> Result<Option<Tracked>, CollapsedTexture> {
@@ -132,14 +133,14 @@ pub fn own(
 
 /// Whether a node with unknowns faces nothing. No position changes its gap then, so it is open
 /// whatever the texture.
-fn is_beside(selection: &Selection, kinematics: &[Kinematics], side: usize, node: usize) -> bool {
+fn is_beside(selection: &Selection, kinematics: &[Kinematics], side: Side, node: usize) -> bool {
     let place = selection.basis.index[side][node];
     place.is_some_and(|k| kinematics[k as usize].gap.gradient.is_empty())
 }
 
 /// A tangent in place of the opposing texture, for nodes that friction does not act on.
-fn any_direction(configuration: &Configuration, side: usize, frame: &Frame) -> Option<Tracked> {
-    let textured = configuration.pair.sides[1 - side].texture.is_some();
+fn any_direction(configuration: &Configuration, side: Side, frame: &Frame) -> Option<Tracked> {
+    let textured = configuration.pair.sides[side.opposite()].texture.is_some();
     textured.then(|| Tracked {
         value: frame.t[0].value,
         jacobian: Jacobian::new(),

@@ -6,7 +6,7 @@
 use serde::{Deserialize, Serialize};
 use striae_mesh::{FacetId, Vec3};
 
-use crate::{configuration::Configuration, pairing::farthest, term::Source};
+use crate::{configuration::Configuration, pairing::farthest, side::Side, term::Source};
 
 /// A point of a rigid surface of facets, `x = (1 - s) x_0 + s x_1`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -40,12 +40,12 @@ impl RigidPoint {
 
     /// Where it is.
     pub fn position(&self, configuration: &Configuration) -> Vec3 {
-        self.between(&configuration.side(1).x)
+        self.between(&configuration.side(Side::B).x)
     }
 
     /// Unit normal, between those of the ends.
     pub fn normal(&self, configuration: &Configuration) -> Vec3 {
-        let normals = &configuration.side(1).normals;
+        let normals = &configuration.side(Side::B).normals;
         let between = self.between(normals);
         between
             .try_normalize(1e-6)
@@ -64,7 +64,7 @@ pub enum Tip {
     /// A node of a deformable side.
     Node {
         /// The side.
-        side: usize,
+        side: Side,
         /// Surface-local node.
         node: u32,
         /// The opposing facet that it was in at the start of the increment.
@@ -84,10 +84,10 @@ impl Tip {
     }
 
     /// Its side.
-    pub fn side(&self) -> usize {
+    pub fn side(&self) -> Side {
         match self {
             Self::Node { side, .. } => *side,
-            Self::Rigid(_) => 1,
+            Self::Rigid(_) => Side::B,
         }
     }
 
@@ -135,6 +135,6 @@ impl Tip {
 
     /// Whether nodes of the side that it presses on can move.
     pub(crate) fn presses_on_deformable(&self, configuration: &Configuration) -> bool {
-        configuration.pair.is_deformable(1 - self.side())
+        configuration.pair.is_deformable(self.side().opposite())
     }
 }

@@ -14,6 +14,7 @@ use crate::{
     configuration::Configuration,
     frame::{Frame, Frames},
     selection::Selection,
+    side::Side,
     slip_rate::SlipRates,
     term::{Lanes, Source, add_block, gradient, parts, variable, variable3},
     texture::{NodeTextures, Textures},
@@ -44,7 +45,7 @@ pub fn nodal_tractions(
     tractions: &Tractions,
 ) -> NodalTractions {
     let frictionless = configuration.pair.friction.cap(1.0, 0.0) == 0.0;
-    [0, 1].map(|side| {
+    Side::BOTH.map(|side| {
         (0..selection.nodes(side))
             .into_par_iter()
             .with_min_len(16)

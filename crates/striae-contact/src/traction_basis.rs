@@ -19,6 +19,7 @@ use crate::{
     common_mass::{CommonMass, SparseRow},
     interface::{Interface, Opponent},
     roles::{Choice, THETA_0},
+    side::Side,
     transfer::Transfer,
 };
 
@@ -33,14 +34,14 @@ const CLOSEST: f64 = 1e-3;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct KeptNode {
     /// Its side.
-    pub side: usize,
+    pub side: Side,
     /// Its number on that side.
     pub node: u32,
 }
 
 impl KeptNode {
     /// Side and node as indices.
-    pub fn place(self) -> (usize, usize) {
+    pub fn place(self) -> (Side, usize) {
         (self.side, self.node as usize)
     }
 }
@@ -95,9 +96,9 @@ impl TractionBasis {
             })
             .collect();
         let mut basis = Self {
-            index: [0, 1].map(|side| vec![None; interface.nodes[side].len()]),
-            node_weights: [0, 1].map(|side| vec![0.0; interface.nodes[side].len()]),
-            rows: [0, 1].map(|side| vec![Vec::new(); interface.nodes[side].len()]),
+            index: Side::BOTH.map(|side| vec![None; interface.nodes[side].len()]),
+            node_weights: Side::BOTH.map(|side| vec![0.0; interface.nodes[side].len()]),
+            rows: Side::BOTH.map(|side| vec![Vec::new(); interface.nodes[side].len()]),
             weights: weights(interface, &mass, &transfer, &choice.kept),
             pivots: choice.pivots.clone(),
             flexibility: choice.flexibility.clone(),
@@ -201,7 +202,7 @@ fn facing(interface: &Interface, kept: KeptNode) -> f64 {
     let own = interface.nodes[side][node as usize].flexibility;
     let other = match (interface.opponent, interface.opposing[side][node as usize]) {
         (Opponent::Deformable, Some((corners, weights))) => {
-            let at = |c: usize| interface.nodes[1 - side][corners[c] as usize].flexibility;
+            let at = |c: usize| interface.nodes[side.opposite()][corners[c] as usize].flexibility;
             let mut parts = [0, 1, 2, 3].map(|c| at(c) * weights[c]);
             // In an order that does not depend on the facet's first corner.
             parts.sort_by(f64::total_cmp);

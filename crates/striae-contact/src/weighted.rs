@@ -26,6 +26,7 @@ use crate::{
     pointed,
     segment_rows::{ROWS, Slip},
     selection::Selection,
+    side::Side,
     term::{Gradient, Jacobian},
     tracked::{Tracked, TrackedScalar},
     transported::Transported,
@@ -67,7 +68,7 @@ pub fn kinematics(
 /// Sum over the segments of a kept node.
 struct Sum<'a> {
     configuration: &'a Configuration<'a>,
-    side: usize,
+    side: Side,
     frame: Option<&'a Frame>,
     gap: f64,
     slip: Vec3,
@@ -80,7 +81,7 @@ struct Sum<'a> {
 }
 
 impl<'a> Sum<'a> {
-    fn new(configuration: &'a Configuration, side: usize, frame: Option<&'a Frame>) -> Self {
+    fn new(configuration: &'a Configuration, side: Side, frame: Option<&'a Frame>) -> Self {
         Self {
             configuration,
             side,

@@ -2,7 +2,10 @@
 
 use std::path::Path;
 
-use striae_contact::unknowns::{NodeResult, Status as ContactStatus};
+use striae_contact::{
+    side::Side,
+    unknowns::{NodeResult, Status as ContactStatus},
+};
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::{problem::Problem, state::State};
 
@@ -31,7 +34,7 @@ pub(crate) fn write_surface(
     path: &Path,
     problem: &Problem,
     state: &State,
-    (pair, side): (usize, usize),
+    (pair, side): (usize, Side),
     wanted: &Wanted,
 ) -> Result<(), OutputError> {
     let geometry = &problem.pairs[pair];
@@ -74,7 +77,7 @@ pub(crate) fn write_surface(
 fn arrays(
     field: ContactField,
     state: &State,
-    (pair, side): (usize, usize),
+    (pair, side): (usize, Side),
     wanted: &Wanted,
 ) -> Vec<(&'static str, Values)> {
     let nodes = &wanted.nodes[side];
@@ -127,9 +130,10 @@ fn arrays(
 
 /// Which nodes are kept and which are pointed. Points of a rigid side lodge with nodes of
 /// side `a`.
-fn roles(state: &State, (pair, side): (usize, usize)) -> Vec<(&'static str, Values)> {
+fn roles(state: &State, (pair, side): (usize, Side)) -> Vec<(&'static str, Values)> {
     let of_pair = &state.pairs[pair];
-    let lodges = |node: usize| side == 0 && of_pair.points.get(node).is_some_and(Option::is_some);
+    let lodges =
+        |node: usize| side == Side::A && of_pair.points.get(node).is_some_and(Option::is_some);
     let own = of_pair.pointed[side].iter().enumerate();
     let pointed = own.map(|(node, own)| u8::from(*own) + 2 * u8::from(lodges(node)));
     let kept = of_pair.kept[side].iter().copied().map(u8::from);

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use striae_contact::side::Side;
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::{
     problem::Problem,
@@ -19,7 +20,7 @@ pub(crate) fn write_tied(
     path: &Path,
     problem: &Problem,
     state: &State,
-    (tie, side): (usize, usize),
+    (tie, side): (usize, Side),
     tractions: &[TieTraction],
 ) -> Result<(), OutputError> {
     let surface = tie_surface(problem, tie, side);

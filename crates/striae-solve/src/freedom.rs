@@ -12,6 +12,7 @@ use nalgebra::{DMatrix, SymmetricEigen};
 use striae_contact::{
     initial::signed_gap,
     interference::{Stage, facing},
+    side::Side,
     unknowns::{NodeResult, Status},
 };
 use striae_mesh::Vec3;
@@ -305,12 +306,12 @@ impl Rows {
     ) {
         let geometry = &problem.pairs[pair];
         let bodies = problem.model.bodies.len();
-        let of_side = [0, 1].map(|side| match (geometry.bodies[side], geometry.rigid) {
+        let of_side = Side::BOTH.map(|side| match (geometry.bodies[side], geometry.rigid) {
             (Some(body), _) => self.of[body],
             (None, Some(rigid)) => self.of[bodies + rigid],
             (None, None) => None,
         });
-        for side in 0..2 {
+        for side in Side::BOTH {
             for (node, result) in nodes[side].iter().enumerate() {
                 let global = problem.carrier(pair, side, node as u32);
                 let (Some(global), false) = (global, result.status == Status::Open) else {
@@ -323,11 +324,11 @@ impl Rows {
                 }
                 let x = at.nodes[global];
                 for e in directions {
-                    let row = |side: usize, sign: f64| {
+                    let row = |side: Side, sign: f64| {
                         let component = of_side[side]?;
                         Some((component, self.entries(component, &x, &(e * sign))))
                     };
-                    let rows = [row(side, 1.0), row(1 - side, -1.0)];
+                    let rows = [row(side, 1.0), row(side.opposite(), -1.0)];
                     let rows: Vec<_> = rows.into_iter().flatten().collect();
                     self.add(&rows);
                 }

@@ -4,6 +4,7 @@ use striae_contact::{
     configuration::Configuration,
     interference::{Interference, Stage, Thickness, inside, interferences, lengths},
     placement::Placement,
+    side::Side,
 };
 use striae_mesh::{NodeId, Vec3};
 
@@ -61,7 +62,7 @@ pub fn within(problem: &Problem, pair: usize, at: Positions, share: f64) -> Vec<
 /// Where the sides of a pair are.
 pub fn configuration<'a>(problem: &'a Problem, pair: usize, at: Positions) -> Configuration<'a> {
     let geometry = &problem.pairs[pair];
-    let of_side = |side: usize| -> Vec<Vec3> {
+    let of_side = |side: Side| -> Vec<Vec3> {
         let surface = geometry.contact.sides[side].surface();
         match (geometry.bodies[side], surface) {
             (Some(body), Some(surface)) => {
@@ -76,7 +77,11 @@ pub fn configuration<'a>(problem: &'a Problem, pair: usize, at: Positions) -> Co
     let placement = geometry.rigid.map_or_else(Placement::at_rest, |id| {
         at.rigid[id].placement(&problem.model.rigid_surfaces[id].reference)
     });
-    Configuration::new(&geometry.contact, [of_side(0), of_side(1)], placement)
+    Configuration::new(
+        &geometry.contact,
+        [of_side(Side::A), of_side(Side::B)],
+        placement,
+    )
 }
 
 /// How thick the bodies behind the facets of a pair are.
@@ -90,7 +95,7 @@ pub(crate) fn thickness_with(
     geometry: &PairGeometry,
     at: impl Fn(usize, NodeId) -> Vec3,
 ) -> Thickness {
-    Thickness([0, 1].map(|side| {
+    Thickness(Side::BOTH.map(|side| {
         let Some(surface) = geometry.contact.sides[side].surface() else {
             return Vec::new();
         };

@@ -6,7 +6,7 @@
 
 use nalgebra::Matrix3;
 use serde::Serialize;
-pub use striae_contact::pair::Enforcement;
+pub use striae_contact::{pair::Enforcement, side::Side};
 use striae_law::{bulk::Material, friction::Friction};
 use striae_mesh::{ElementId, Face, Mesh, NodeId, Vec3};
 use striae_surface::texture::Paint;

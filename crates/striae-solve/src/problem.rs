@@ -11,7 +11,7 @@ pub(crate) use fibres::add_fibres;
 use std::collections::HashMap;
 use striae_contact::{
     interference::Fibre,
-    pair::{ContactPair, Geometry, PairSide},
+    pair::{ContactPair, Geometry, PairedSurface},
     texture::SideTexture,
 };
 use striae_element::{ElementFault, Elements};
@@ -239,7 +239,7 @@ pub(crate) fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, 
                         Geometry::Rigid(surface)
                     }
                 };
-                PairSide {
+                PairedSurface {
                     geometry,
                     stiffness: f64::INFINITY,
                     texture: None,
@@ -353,13 +353,13 @@ fn painted(
     Ok((SideTexture::Nodal(texture), Some(conditioning)))
 }
 
-fn deformable(model: &Model, body: usize, faces: &[Face]) -> PairSide {
+fn deformable(model: &Model, body: usize, faces: &[Face]) -> PairedSurface {
     let body_model = &model.bodies[body];
     let facets: Vec<[NodeId; 4]> = faces
         .iter()
         .map(|&f| body_model.mesh.face_nodes(f))
         .collect();
-    PairSide {
+    PairedSurface {
         geometry: Geometry::Deformable(Surface::new(&facets)),
         stiffness: body_model.modulus_at(faces),
         texture: None,

@@ -15,7 +15,8 @@
 //! the rigid surface at the point nearest to the node, on facets of their nearest corner.
 
 use striae_contact::{
-    configuration::Configuration, interference::nearest_of, pair::Geometry, texture::SideTexture,
+    configuration::Configuration, interference::nearest_of, pair::Geometry, side::Side,
+    texture::SideTexture,
 };
 use striae_mesh::Vec3;
 use striae_surface::{normal::nodal_normals, texture::Texture};
@@ -37,11 +38,11 @@ type Directions = [Vec3; 2];
 /// Force on each side of a pair in the frame of its texture; `None` for sides without one.
 pub fn resolved(problem: &Problem, state: &State, pair: usize) -> [Option<Resolved>; 2] {
     let contact = &problem.pairs[pair].contact;
-    [0, 1].map(|side| {
+    Side::BOTH.map(|side| {
         let texture = contact.sides[side].texture.as_ref()?;
         // The opposite of the forces on `a`, where `b` is rigid.
-        let (carrier, sign) = match contact.is_rigid() && side == 1 {
-            true => (0, -1.0),
+        let (carrier, sign) = match contact.is_rigid() && side == Side::B {
+            true => (Side::A, -1.0),
             false => (side, 1.0),
         };
         let forces = nodal_forces(problem, state, pair, carrier);
@@ -65,7 +66,7 @@ pub fn resolved(problem: &Problem, state: &State, pair: usize) -> [Option<Resolv
 }
 
 /// Contact forces on the surface nodes of a deformable side.
-fn nodal_forces(problem: &Problem, state: &State, pair: usize, side: usize) -> Vec<Vec3> {
+fn nodal_forces(problem: &Problem, state: &State, pair: usize, side: Side) -> Vec<Vec3> {
     let surface = problem.pairs[pair].contact.sides[side].surface();
     let Some(surface) = surface else {
         return Vec::new();
@@ -83,7 +84,7 @@ fn nodal_forces(problem: &Problem, state: &State, pair: usize, side: usize) -> V
 fn on_nodes<'a>(
     problem: &'a Problem,
     state: &'a State,
-    (pair, side): (usize, usize),
+    (pair, side): (usize, Side),
     texture: &'a Texture,
 ) -> impl Fn(u32) -> Directions + 'a {
     let surface = problem.pairs[pair].contact.sides[side].surface();
@@ -105,7 +106,7 @@ fn on_rigid<'a>(
 ) -> impl Fn(u32) -> Directions + 'a {
     let configuration = configuration(problem, pair, state.into());
     move |node| {
-        let x = configuration.side(0).x[node as usize];
+        let x = configuration.side(Side::A).x[node as usize];
         let axes = match (texture, &configuration.pair.sides[1].geometry) {
             (SideTexture::Plane(field), Geometry::Plane { point, normal }) => {
                 let place = configuration.placement.back(&x);
@@ -123,7 +124,7 @@ fn on_rigid<'a>(
 
 /// Directions at the corner nearest to `x` of the facet nearest to it.
 fn at_nearest(configuration: &Configuration, texture: &Texture, x: &Vec3) -> Option<Directions> {
-    let target = configuration.side(1);
+    let target = configuration.side(Side::B);
     let nearest = nearest_of(target, x)?;
     let distance = |corner: &u32| (target.x[*corner as usize] - nearest.point).norm();
     let corners = target.corners(nearest.facet).into_iter();

@@ -17,7 +17,10 @@
 //!
 //! The coefficient `c` follows from the loads of the step, see [`crate::assembly::StepContext`].
 
-use striae_contact::term::{Field, LocalTerm};
+use striae_contact::{
+    side::Side,
+    term::{Field, LocalTerm},
+};
 use striae_mesh::Vec3;
 
 use crate::{
@@ -47,7 +50,7 @@ pub struct Dashpot {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
     /// Side of the pair.
-    pub side: usize,
+    pub side: Side,
     /// Surface node.
     pub node: u32,
     /// Weight in the relative motion.

@@ -3,7 +3,7 @@
 use striae_mesh::Vec3;
 
 use crate::{
-    frame::Frame, kinematics::Kinematics, table_1::Corrector, texture::NodeTextures,
+    frame::Frame, kinematics::Kinematics, side::Side, table_1::Corrector, texture::NodeTextures,
     tracked::TrackedScalar, unknowns::Label,
 };
 
@@ -31,7 +31,7 @@ impl Iteration {
 #[derive(Clone, Debug)]
 pub struct ContactNode<'a> {
     /// Side of the pair.
-    pub side: usize,
+    pub side: Side,
     /// Surface-local node.
     pub node: u32,
     /// Gap and slip.

@@ -8,13 +8,16 @@ use super::{
     thickness::of_corners,
     triangle,
 };
-use crate::configuration::{Configuration, Snapshot};
+use crate::{
+    configuration::{Configuration, Snapshot},
+    side::Side,
+};
 
 /// A node of a deformable side and the nearest point of the other side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Facing {
     /// Side of the node.
-    pub side: usize,
+    pub side: Side,
     /// The node.
     pub node: u32,
     /// Its share in the area of its side.
@@ -35,7 +38,7 @@ const BESIDE: f64 = 0.5;
 /// All nodes of the deformable sides that face the other side: their normals are opposed,
 /// and they lie over the other side or beside it by less than half a facet.
 pub fn facing(configuration: &Configuration) -> Vec<Facing> {
-    let of_side = |&side: &usize| {
+    let of_side = |&side: &Side| {
         let snapshot = configuration.side(side);
         let areas = areas(snapshot);
         let nodes = areas.into_iter().enumerate();
@@ -59,13 +62,13 @@ pub fn facing(configuration: &Configuration) -> Vec<Facing> {
 
 type Opposite = Option<([u32; 4], [f64; 4])>;
 
-fn across(configuration: &Configuration, side: usize, node: usize) -> Option<(f64, Opposite)> {
+fn across(configuration: &Configuration, side: Side, node: usize) -> Option<(f64, Opposite)> {
     let snapshot = configuration.side(side);
     let (x, normal) = (snapshot.x[node], snapshot.normals[node]);
     if let Some((point, n)) = configuration.plane() {
         return (normal.dot(&n) < OPPOSED).then(|| ((x - point).dot(&n), None));
     }
-    let other = configuration.side(1 - side);
+    let other = configuration.side(side.opposite());
     let nearest = placed(other).nearest(&x)?;
     let gap = (x - nearest.point).dot(&nearest.normal);
     let beside = (x - nearest.point - nearest.normal * gap).norm();

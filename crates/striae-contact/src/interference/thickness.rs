@@ -10,7 +10,10 @@ use striae_mesh::Vec3;
 use striae_surface::topology::{Surface, distinct_corners};
 
 use super::nearest::triangles;
-use crate::search::{Bounds, Tree};
+use crate::{
+    search::{Bounds, Tree},
+    side::Side,
+};
 
 /// The end of a fibre through a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,7 +35,7 @@ impl Thickness {
     }
 
     /// The largest one of a side.
-    pub(super) fn largest(&self, side: usize) -> f64 {
+    pub(super) fn largest(&self, side: Side) -> f64 {
         self.0[side].iter().copied().fold(0.0, f64::max)
     }
 }

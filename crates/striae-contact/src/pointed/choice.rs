@@ -33,6 +33,7 @@ use crate::{
     pairing::{Scope, paired_facets},
     segment::Derivatives,
     selection::{Kept, Selection, compliances},
+    side::Side,
     spot::faced,
     tip::{RigidPoint, Tip},
     unknowns::NodeResult,
@@ -69,16 +70,16 @@ pub const COVERED: f64 = 0.1;
 const NO_PRESSURE: f64 = 1e-10;
 
 /// Nodes, as side and number.
-type Places = Vec<(usize, u32)>;
+type Places = Vec<(Side, u32)>;
 
 /// What pierces the other side without being pointed yet.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pierced {
     /// Nodes, as side and number.
-    pub nodes: Vec<(usize, u32)>,
+    pub nodes: Vec<(Side, u32)>,
     /// Nodes that the field is to have unknowns at, as side and number: their facets are in
     /// the other side in the mean, and no kept node feels it.
-    pub unfelt: Vec<(usize, u32)>,
+    pub unfelt: Vec<(Side, u32)>,
     /// Points of a rigid side with the nodes that they lodge with.
     pub points: Vec<(u32, RigidPoint)>,
 }
@@ -142,7 +143,7 @@ fn sharp_and_unfelt(
     let means = mean_gaps(configuration, selection.scope());
     // There is room for points of a rigid side of facets only.
     let on_facets = !selection.points.is_empty();
-    let is_sharp = |&(side, node, gap): &(usize, u32, f64)| {
+    let is_sharp = |&(side, node, gap): &(Side, u32, f64)| {
         let size = configuration.side(side).sizes[node as usize];
         means[side][node as usize].is_none_or(|mean| {
             let edge = || bend_at(configuration.side(side), node) == Some(Bend::Sharp);
@@ -164,7 +165,7 @@ fn sharp_and_unfelt(
 
 /// Whether a node between two deformable bodies follows others and has enough weight for an
 /// unknown of its own.
-fn follows(configuration: &Configuration, selection: &Selection, side: usize, node: u32) -> bool {
+fn follows(configuration: &Configuration, selection: &Selection, side: Side, node: u32) -> bool {
     let size = configuration.side(side).sizes[node as usize];
     let weight = |at: usize| selection.basis.node_weights[side][at];
     !configuration.pair.is_rigid()
@@ -180,7 +181,7 @@ fn deep_nodes(
     selection: &Selection,
     carried: &[Vec<[f64; 3]>; 2],
     depth: f64,
-) -> Vec<(usize, u32, f64)> {
+) -> Vec<(Side, u32, f64)> {
     let mut deep = Vec::new();
     for &side in configuration.pair.deformable_sides() {
         let nothing = NO_PRESSURE * configuration.pair.sides[side].stiffness;
@@ -192,7 +193,7 @@ fn deep_nodes(
                 .flatten();
             gap.map(|gap| (side, node, gap))
         };
-        let found: Vec<(usize, u32, f64)> = (0..selection.nodes(side) as u32)
+        let found: Vec<(Side, u32, f64)> = (0..selection.nodes(side) as u32)
             .into_par_iter()
             .with_min_len(16)
             .filter_map(own_gap)
@@ -212,7 +213,7 @@ fn presses(configuration: &Configuration, carried: &[Vec<[f64; 3]>; 2]) -> bool 
 /// Pressure that is none on either side.
 fn nothing(configuration: &Configuration) -> f64 {
     let pair = configuration.pair;
-    let stiffness = |&side: &usize| pair.sides[side].stiffness;
+    let stiffness = |&side: &Side| pair.sides[side].stiffness;
     let softer = pair.deformable_sides().iter().map(stiffness);
     NO_PRESSURE * softer.fold(f64::INFINITY, f64::min)
 }
@@ -223,21 +224,21 @@ fn is_pressed_around(
     carried: &[Vec<[f64; 3]>; 2],
     node: u32,
 ) -> bool {
-    let own = configuration.side(0);
+    let own = configuration.side(Side::A);
     let mut around = own.surface.corners(node).iter();
     around.any(|corner| is_pressed(configuration, carried, corner.facet))
 }
 
 /// Whether the field presses on a facet of side `a`.
 fn is_pressed(configuration: &Configuration, carried: &[Vec<[f64; 3]>; 2], facet: FacetId) -> bool {
-    let nothing = NO_PRESSURE * configuration.pair.sides[0].stiffness;
-    let corners = configuration.side(0).corners(facet).into_iter();
+    let nothing = NO_PRESSURE * configuration.pair.sides[Side::A].stiffness;
+    let corners = configuration.side(Side::A).corners(facet).into_iter();
     let mut pressures = corners.map(|node| carried[0][node as usize][0]);
     pressures.any(|pressure| pressure > nothing)
 }
 
 /// Gap of a node that lies deeper inside the other side than `depth` of the facet size.
-fn inside(configuration: &Configuration, side: usize, node: u32, depth: f64) -> Option<f64> {
+fn inside(configuration: &Configuration, side: Side, node: u32, depth: f64) -> Option<f64> {
     let own = configuration.side(side);
     let size = own.sizes[node as usize];
     if let Some((point, normal)) = configuration.plane() {
@@ -252,7 +253,7 @@ fn inside(configuration: &Configuration, side: usize, node: u32, depth: f64) -> 
         home: None,
     };
     let hit = faced(configuration, tip, tip.reach(configuration))?;
-    let target = configuration.side(1 - side);
+    let target = configuration.side(side.opposite());
     let size = if configuration.pair.is_rigid() {
         size
     } else {
@@ -297,7 +298,7 @@ pub fn staying(
 
 /// `integral N_I g / integral N_I` at all nodes with facets near the other side.
 fn mean_gaps(configuration: &Configuration, scope: Scope) -> [Vec<Option<f64>>; 2] {
-    let mut sums = [0, 1].map(|side| {
+    let mut sums = Side::BOTH.map(|side| {
         let count = configuration.sides[side].as_ref().map_or(0, |s| s.x.len());
         vec![[0.0; 2]; count]
     });

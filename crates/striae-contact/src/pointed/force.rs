@@ -10,6 +10,7 @@ use crate::{
     common_field::CommonField,
     field::FacetForces,
     opposing::PlaceLanes,
+    side::Side,
     spot::Spot,
     term::{Field, Lanes, LocalTerm, Row, Source},
     tip::Tip,
@@ -83,7 +84,7 @@ impl CommonField<'_> {
             && let Some(opposing) = &spot.opposing
         {
             for (&corner, share) in spot.corners.iter().zip(opposing.weights) {
-                add(numbering.position(1 - side, corner), -share);
+                add(numbering.position(side.opposite(), corner), -share);
             }
             let first = 3 * usize::from(own.is_some());
             for at in 0..spot.corners.len() {
@@ -112,7 +113,7 @@ impl CommonField<'_> {
 
     fn pointed_lanes<'b>(
         &'b self,
-        (side, node): (usize, usize),
+        (side, node): (Side, usize),
         tip: Tip,
         spot: &'b Spot,
     ) -> Lanes<'b> {
@@ -123,9 +124,9 @@ impl CommonField<'_> {
         lanes.push(Source::Vector(&spot.n.jacobian));
         match &spot.hit {
             Some(hit) if tip.presses_on_deformable(self.configuration) => {
-                let corners = self.configuration.side(1 - side).corners(hit.facet);
+                let corners = self.configuration.side(side.opposite()).corners(hit.facet);
                 for corner in corners {
-                    lanes.push(triple(numbering.position(1 - side, corner)));
+                    lanes.push(triple(numbering.position(side.opposite(), corner)));
                 }
             }
             _ => lanes.push(Source::Constant(12)),
@@ -138,7 +139,7 @@ impl CommonField<'_> {
 
     fn pointed_facets(
         &self,
-        (side, node): (usize, usize),
+        (side, node): (Side, usize),
         tip: Tip,
         spot: &Spot,
         force: &Vec3,
@@ -166,7 +167,7 @@ impl CommonField<'_> {
             for (at, share) in opposing.weights.iter().enumerate().take(spot.corners.len()) {
                 of_other.force[at] = force * -*share;
             }
-            facets[1 - side] = Some((hit.facet, of_other));
+            facets[side.opposite()] = Some((hit.facet, of_other));
         }
         facets
     }

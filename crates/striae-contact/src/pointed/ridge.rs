@@ -21,6 +21,7 @@ use crate::{
     configuration::{Configuration, Snapshot},
     pairing::farthest,
     search::Bounds,
+    side::Side,
     tip::RigidPoint,
 };
 
@@ -47,7 +48,7 @@ pub enum Bend {
 
 /// All points that are near side `a`, given how deep they may be beyond its reach.
 pub fn candidates(configuration: &Configuration, depth: f64) -> Vec<(RigidPoint, Bend)> {
-    let [a, b] = [0, 1].map(|side| configuration.side(side));
+    let [a, b] = Side::BOTH.map(|side| configuration.side(side));
     let reach = farthest(configuration) + depth;
     let Some(near) = a.tree.bounds().map(|bounds| bounds.inflated(reach)) else {
         return Vec::new();

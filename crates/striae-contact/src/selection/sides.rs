@@ -8,19 +8,20 @@ use crate::{
     configuration::Configuration,
     interface::{FacetMass, LastIncrement, SurfaceNode},
     segment::{Derivatives, FACING, Facet, plane_segment},
+    side::Side,
 };
 
 /// The nodes of a deformable side.
 pub(super) fn surface_nodes(
     configuration: &Configuration,
-    side: usize,
+    side: Side,
     before: Before,
     prescribed: &[bool],
 ) -> Vec<SurfaceNode> {
     let Some(snapshot) = &configuration.sides[side] else {
         return Vec::new();
     };
-    if side == 1 && configuration.pair.is_rigid() {
+    if side == Side::B && configuration.pair.is_rigid() {
         return Vec::new();
     }
     let modulus = configuration.pair.sides[side].stiffness;
@@ -51,7 +52,7 @@ pub(super) fn surface_nodes(
 /// Masses of the facets of side `a` as if they were covered wholly: of those that face what
 /// touches at one of their corners. A wall next to a sole cannot be covered.
 pub(super) fn whole_facets(configuration: &Configuration, facing: &[Vec3]) -> Vec<FacetMass> {
-    let own = configuration.side(0);
+    let own = configuration.side(Side::A);
     (0..own.surface.facets().len())
         .filter_map(|facet| {
             let facet = FacetId::new(facet);

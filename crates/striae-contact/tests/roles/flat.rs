@@ -1,7 +1,10 @@
 //! Flat faces with tensor grids: exact common integrals, products of those along a line.
 
-use striae_contact::interface::{
-    ClampedProjection, FacetMass, Interface, LastIncrement, Opponent, Overlap, SurfaceNode,
+use striae_contact::{
+    interface::{
+        ClampedProjection, FacetMass, Interface, LastIncrement, Opponent, Overlap, SurfaceNode,
+    },
+    side::Side,
 };
 use striae_mesh::Vec3;
 
@@ -90,8 +93,8 @@ impl Pair {
     /// Both faces deformable; everything is within reach.
     pub fn new(faces: [&Face; 2]) -> Self {
         let nodes = faces.map(Face::nodes);
-        let opposing = [0, 1].map(|side| {
-            let on = |node: &SurfaceNode| Some(faces[1 - side].projection(&node.position));
+        let opposing = Side::BOTH.map(|side| {
+            let on = |node: &SurfaceNode| Some(faces[side.opposite()].projection(&node.position));
             nodes[side].iter().map(on).collect()
         });
         Self {
@@ -138,7 +141,7 @@ fn overlaps(faces: [&Face; 2]) -> Vec<Overlap> {
     let mut overlaps = Vec::new();
     for v in &y {
         for u in &x {
-            let corners = [0, 1].map(|side| faces[side].corners(u.cells[side], v.cells[side]));
+            let corners = Side::BOTH.map(|side| faces[side].corners(u.cells[side], v.cells[side]));
             let mass = std::array::from_fn(|c| {
                 std::array::from_fn(|d| {
                     // Corners counter-clockwise: which end along x and along y.

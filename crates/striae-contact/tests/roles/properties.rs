@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use proptest::prelude::*;
 use striae_contact::{
     interface::{FacetMass, LastIncrement, Overlap},
+    side::Side,
     traction_basis::{KeptNode, TractionBasis},
 };
 
@@ -64,7 +65,7 @@ fn row_sum(row: &[(u32, f64)]) -> f64 {
 }
 
 fn check_basis(pair: &Pair, basis: &TractionBasis) -> Result<(), TestCaseError> {
-    for side in 0..2 {
+    for side in Side::BOTH {
         for (node, row) in basis.rows[side].iter().enumerate() {
             prop_assert!(row.iter().all(|&(_, value)| value >= 0.0));
             if pair.whole.is_none() {
@@ -90,8 +91,8 @@ fn check_basis(pair: &Pair, basis: &TractionBasis) -> Result<(), TestCaseError> 
 
 /// Rows of transferred nodes hold at their own values.
 fn check_transfer(pair: &Pair, basis: &TractionBasis) -> Result<(), TestCaseError> {
-    let positive = |side: usize, node: u32| basis.node_weights[side][node as usize] > 0.0;
-    for side in 0..2 {
+    let positive = |side: Side, node: u32| basis.node_weights[side][node as usize] > 0.0;
+    for side in Side::BOTH {
         for (node, row) in basis.rows[side].iter().enumerate() {
             let Some((corners, weights)) = pair.opposing[side][node] else {
                 continue;
@@ -99,11 +100,11 @@ fn check_transfer(pair: &Pair, basis: &TractionBasis) -> Result<(), TestCaseErro
             if basis.index[side][node].is_some() {
                 continue;
             }
-            let seen = || (0..4).filter(|&c| positive(1 - side, corners[c]));
+            let seen = || (0..4).filter(|&c| positive(side.opposite(), corners[c]));
             let total: f64 = seen().map(|c| weights[c]).sum();
             let mut difference: BTreeMap<u32, f64> = row.iter().copied().collect();
             for c in seen() {
-                for &(k, value) in &basis.rows[1 - side][corners[c] as usize] {
+                for &(k, value) in &basis.rows[side.opposite()][corners[c] as usize] {
                     *difference.entry(k).or_default() -= weights[c] / total * value;
                 }
             }
@@ -135,17 +136,21 @@ fn shuffled(count: usize, seed: &mut u64) -> Vec<u32> {
     order
 }
 
+fn relabelled_side(side: Side, swap: usize) -> Side {
+    Side::BOTH[side.index() ^ swap]
+}
+
 fn relabelled(pair: &Pair, mut seed: u64, swap: usize) -> Relabelled {
-    let to = [0, 1].map(|side| shuffled(pair.nodes[side].len(), &mut seed));
+    let to = Side::BOTH.map(|side| shuffled(pair.nodes[side].len(), &mut seed));
     let turn = (seed >> 40) as usize % 4;
-    let corners = |side: usize, c: [u32; 4]| {
+    let corners = |side: Side, c: [u32; 4]| {
         let c = c.map(|node| to[side][node as usize]);
         [0, 1, 2, 3].map(|at: usize| c[(at + turn) % 4])
     };
-    let new_side = |side: usize| side ^ swap;
+    let new_side = |side| relabelled_side(side, swap);
     let mut nodes = pair.nodes.clone();
     let mut opposing = pair.opposing.clone();
-    for side in 0..2 {
+    for side in Side::BOTH {
         for node in 0..pair.nodes[side].len() {
             let at = to[side][node] as usize;
             nodes[new_side(side)].resize(pair.nodes[side].len(), pair.nodes[side][0]);
@@ -153,21 +158,21 @@ fn relabelled(pair: &Pair, mut seed: u64, swap: usize) -> Relabelled {
             opposing[new_side(side)].resize(pair.nodes[side].len(), None);
             opposing[new_side(side)][at] = pair.opposing[side][node].map(|(c, w)| {
                 let w = [0, 1, 2, 3].map(|at: usize| w[(at + turn) % 4]);
-                (corners(1 - side, c), w)
+                (corners(side.opposite(), c), w)
             });
         }
     }
     let overlap = |o: &Overlap| {
-        let old = |c: usize| 4 * new_side(c / 4) + (c % 4 + turn) % 4;
+        let old = |c: usize| 4 * new_side(Side::BOTH[c / 4]).index() + (c % 4 + turn) % 4;
         Overlap {
-            corners: [0, 1].map(|side| corners(new_side(side), o.corners[new_side(side)])),
+            corners: Side::BOTH.map(|side| corners(new_side(side), o.corners[new_side(side)])),
             mass: std::array::from_fn(|c| std::array::from_fn(|d| o.mass[old(c)][old(d)])),
         }
     };
     let order = shuffled(pair.overlaps.len(), &mut seed);
     let overlaps = order.iter().map(|&at| overlap(&pair.overlaps[at as usize]));
     let facet = |f: &FacetMass| FacetMass {
-        corners: corners(0, f.corners),
+        corners: corners(Side::A, f.corners),
         mass: std::array::from_fn(|c| {
             std::array::from_fn(|d| f.mass[(c + turn) % 4][(d + turn) % 4])
         }),
@@ -185,9 +190,9 @@ fn relabelled(pair: &Pair, mut seed: u64, swap: usize) -> Relabelled {
 }
 
 /// Bits of rows by the old labels.
-type Named = BTreeMap<(usize, u32), Vec<(KeptNode, u64)>>;
+type Named = BTreeMap<(Side, u32), Vec<(KeptNode, u64)>>;
 
-fn named(basis: &TractionBasis, old: impl Fn(usize, u32) -> (usize, u32)) -> (Named, Named) {
+fn named(basis: &TractionBasis, old: impl Fn(Side, u32) -> (Side, u32)) -> (Named, Named) {
     let label = |k: u32| {
         let KeptNode { side, node } = basis.kept[k as usize];
         let (side, node) = old(side, node);
@@ -199,7 +204,7 @@ fn named(basis: &TractionBasis, old: impl Fn(usize, u32) -> (usize, u32)) -> (Na
         row
     };
     let mut rows = Named::new();
-    for side in 0..2 {
+    for side in Side::BOTH {
         for (node, values) in basis.rows[side].iter().enumerate() {
             rows.insert(old(side, node as u32), row(values));
         }
@@ -225,15 +230,15 @@ fn check_labels(pair: &Pair, seed: u64, swap: usize) -> Result<(), TestCaseError
     let basis = TractionBasis::new(&pair.interface());
     let other = relabelled(pair, seed, swap);
     let again = TractionBasis::new(&other.pair.interface());
-    let back = [0, 1].map(|side: usize| {
+    let back = Side::BOTH.map(|side| {
         let mut back = vec![0; other.to[side].len()];
         for (old, &new) in other.to[side].iter().enumerate() {
             back[new as usize] = old as u32;
         }
         back
     });
-    let old = |side: usize, node: u32| {
-        let side = side ^ other.swap;
+    let old = |side: Side, node: u32| {
+        let side = relabelled_side(side, other.swap);
         (side, back[side][node as usize])
     };
     let (rows, kept) = named(&basis, |side, node| (side, node));
@@ -249,7 +254,7 @@ fn are_alike(faces: &[Face; 2]) -> bool {
 }
 
 fn remember(pair: &mut Pair, basis: &TractionBasis) {
-    for side in 0..2 {
+    for side in Side::BOTH {
         for (node, kept) in pair.nodes[side].iter_mut().zip(&basis.index[side]) {
             node.last = match kept {
                 Some(_) => LastIncrement::Kept,

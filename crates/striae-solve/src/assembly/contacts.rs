@@ -6,6 +6,7 @@ use striae_contact::{
     converged_friction::CollapsedFacets,
     evaluation::{Collapse, Evaluation, evaluate},
     segment::Derivatives,
+    side::Side,
     texture::CollapsedTexture,
 };
 use striae_mesh::{FacetId, Vec3};
@@ -75,7 +76,7 @@ impl System<'_> {
     pub(super) fn add_contacts(&mut self, contacts: &[Evaluation]) {
         for (pair, evaluation) in contacts.iter().enumerate() {
             self.add_terms(pair, &evaluation.terms);
-            for side in 0..2 {
+            for side in Side::BOTH {
                 for (facet, forces) in &evaluation.facets[side] {
                     self.contact_forces(pair, side, *facet, &forces.force);
                 }
@@ -83,7 +84,7 @@ impl System<'_> {
         }
     }
 
-    fn contact_forces(&mut self, pair: usize, side: usize, facet: FacetId, forces: &[Vec3; 4]) {
+    fn contact_forces(&mut self, pair: usize, side: Side, facet: FacetId, forces: &[Vec3; 4]) {
         let problem = self.context.problem;
         if let Some(surface) = problem.pairs[pair].contact.sides[side].surface() {
             for (corner, force) in surface.facets()[facet.index()].iter().zip(forces) {

@@ -4,7 +4,7 @@ mod dashpots;
 
 use striae_contact::{
     complementarity::Prescribed, configuration::Configuration, pair::ContactPair,
-    placement::Placement,
+    placement::Placement, side::Side,
 };
 use striae_mesh::{NodeId, Vec3};
 
@@ -97,7 +97,7 @@ impl<'a> StepContext<'a> {
             None => fixed[node.component(axis)],
         };
         let on_pair = |pair: usize| {
-            [0, 1].map(|side| {
+            Side::BOTH.map(|side| {
                 let surface = problem.pairs[pair].contact.sides[side].surface();
                 let count = surface.map_or(0, |surface| surface.nodes().len() as u32);
                 let shadowed = problem.shadowed.get(pair).map(|sides| &sides[side]);
@@ -273,7 +273,7 @@ impl<'a> StepContext<'a> {
         rigid: &[Pose],
     ) -> Configuration<'_> {
         let geometry = &self.problem.pairs[pair];
-        let of_side = |side: usize| -> Vec<Vec3> {
+        let of_side = |side: Side| -> Vec<Vec3> {
             let count = geometry.contact.sides[side]
                 .surface()
                 .map_or(0, |s| s.nodes().len() as u32);
@@ -288,6 +288,10 @@ impl<'a> StepContext<'a> {
         let placement = geometry.rigid.map_or_else(Placement::at_rest, |id| {
             rigid[id].placement(&self.problem.model.rigid_surfaces[id].reference)
         });
-        Configuration::new(&self.pairs[pair], [of_side(0), of_side(1)], placement)
+        Configuration::new(
+            &self.pairs[pair],
+            [of_side(Side::A), of_side(Side::B)],
+            placement,
+        )
     }
 }

@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use striae_contact::{initial::signed_gap, interference::Stage};
+use striae_contact::{initial::signed_gap, interference::Stage, side::Side};
 use striae_mesh::{MeshError, Vec3};
 
 use super::{InitialFault, Reference};
@@ -50,7 +50,7 @@ fn close_pair(model: &mut Model, pair: PairId, gaps: ClosedGaps) -> Result<(), I
 fn closed(stage: &Stage, gaps: ClosedGaps) -> [Vec<Vec3>; 2] {
     let sides = moved(stage);
     let part = 1.0 / sides.len() as f64;
-    let mut x = [0, 1].map(|side| {
+    let mut x = Side::BOTH.map(|side| {
         let snapshot = stage.configuration.sides[side].as_ref();
         snapshot.map_or_else(Vec::new, |snapshot| snapshot.x.clone())
     });
@@ -65,12 +65,12 @@ fn closed(stage: &Stage, gaps: ClosedGaps) -> [Vec<Vec3>; 2] {
 
 /// Sides whose nodes are moved: the one with the smaller surface, which the other one
 /// covers, the finer one of two as large, or both half the way.
-fn moved(stage: &Stage) -> &'static [usize] {
+fn moved(stage: &Stage) -> &'static [Side] {
     const SAME: f64 = 1e-6;
     if stage.configuration.pair.is_rigid() {
-        return &[0];
+        return &[Side::A];
     }
-    let [a, b] = [0, 1].map(|side| {
+    let [a, b] = Side::BOTH.map(|side| {
         let snapshot = stage.configuration.side(side);
         let facets = snapshot.surface.facets();
         let area = |facet: &[u32; 4]| {
@@ -80,16 +80,16 @@ fn moved(stage: &Stage) -> &'static [usize] {
         (facets.iter().map(area).sum::<f64>(), facets.len())
     });
     match (a.0 / b.0, a.1.cmp(&b.1)) {
-        (ratio, _) if ratio < 1.0 - SAME => &[0],
-        (ratio, _) if ratio > 1.0 + SAME => &[1],
-        (_, Ordering::Greater) => &[0],
-        (_, Ordering::Less) => &[1],
-        (_, Ordering::Equal) => &[0, 1],
+        (ratio, _) if ratio < 1.0 - SAME => &[Side::A],
+        (ratio, _) if ratio > 1.0 + SAME => &[Side::B],
+        (_, Ordering::Greater) => &[Side::A],
+        (_, Ordering::Less) => &[Side::B],
+        (_, Ordering::Equal) => &Side::BOTH,
     }
 }
 
 /// Nodes with a gap that is closed, or with an overlap, and where they belong.
-fn chosen(stage: &Stage, side: usize, gaps: ClosedGaps) -> Vec<(u32, Vec3)> {
+fn chosen(stage: &Stage, side: Side, gaps: ClosedGaps) -> Vec<(u32, Vec3)> {
     let snapshot = stage.configuration.side(side);
     let limit = |node: u32| match gaps {
         ClosedGaps::Share(share) => share * snapshot.sizes[node as usize],

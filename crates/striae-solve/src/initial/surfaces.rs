@@ -6,7 +6,8 @@
 
 use rayon::prelude::*;
 use striae_contact::{
-    initial::signed_gap, interference::Stage, texture::SideTexture, unknowns::NodeResult,
+    initial::signed_gap, interference::Stage, side::Side, texture::SideTexture,
+    unknowns::NodeResult,
 };
 use striae_mesh::Vec3;
 
@@ -28,7 +29,7 @@ fn of_pair(problem: &Problem, state: &State, pair: usize) -> [Vec<NodeResult>; 2
         configuration: &configuration(problem, pair, state.into()),
         thickness: &thickness(problem, pair, &state.positions),
     };
-    [0, 1].map(|side| {
+    Side::BOTH.map(|side| {
         if problem.pairs[pair].bodies[side].is_none() {
             return state.pairs[pair].nodes[side].clone();
         }
@@ -38,7 +39,7 @@ fn of_pair(problem: &Problem, state: &State, pair: usize) -> [Vec<NodeResult>; 2
     })
 }
 
-fn of_node(stage: &Stage, side: usize, node: u32) -> NodeResult {
+fn of_node(stage: &Stage, side: Side, node: u32) -> NodeResult {
     let snapshot = stage.configuration.side(side);
     let normal = snapshot.normals[node as usize];
     let texture = match &stage.configuration.pair.sides[side].texture {

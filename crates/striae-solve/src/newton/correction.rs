@@ -1,7 +1,8 @@
 //! Corrections applied to a trial state.
 
 use striae_contact::{
-    complementarity::Iteration, evaluation::Evaluation, segment::Derivatives, unknowns::Tractions,
+    complementarity::Iteration, evaluation::Evaluation, segment::Derivatives, side::Side,
+    unknowns::Tractions,
 };
 use striae_mesh::Vec3;
 
@@ -92,7 +93,7 @@ fn add_tractions(
     correction: &[f64],
     factor: f64,
 ) {
-    for side in 0..2 {
+    for side in Side::BOTH {
         for (node, unknowns) in tractions.nodes[side].iter_mut().enumerate() {
             if let Some(first) = layout.traction(pair, side, node) {
                 for (component, unknown) in unknowns.iter_mut().enumerate() {

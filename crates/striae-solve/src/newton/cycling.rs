@@ -1,6 +1,6 @@
 //! Contact nodes that keep changing their status.
 
-use striae_contact::{evaluation::Evaluation, selection::Selection, unknowns::Status};
+use striae_contact::{evaluation::Evaluation, selection::Selection, side::Side, unknowns::Status};
 
 use crate::{outcome::CyclingNode, problem::Problem};
 
@@ -44,7 +44,7 @@ impl History {
         let last = &self.statuses[self.statuses.len().saturating_sub(WINDOW)..];
         let mut cycling = Vec::new();
         for (pair, selection) in selections.iter().enumerate() {
-            for side in 0..2 {
+            for side in Side::BOTH {
                 for node in 0..selection.nodes(side) {
                     let statuses: Vec<Status> = last
                         .iter()

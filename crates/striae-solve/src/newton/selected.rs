@@ -6,6 +6,7 @@ use striae_contact::{
     evaluation::Evaluation,
     pointed::{self, Bend, Pierced, Progress, choice::points, staying},
     selection::{Before, Kept, Selection},
+    side::Side,
     tip::RigidPoints,
     unknowns::{Label, NodeResult, Status, Tractions},
 };
@@ -88,7 +89,7 @@ pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected
 
 /// Those of some nodes that are pressed.
 fn pressed(nodes: &Kept, results: &[Vec<NodeResult>; 2]) -> Kept {
-    [0, 1].map(|side| {
+    Side::BOTH.map(|side| {
         let nodes = nodes[side].iter().zip(&results[side]);
         nodes
             .map(|(is_one, result)| *is_one && result.pressure > 0.0)
@@ -196,7 +197,7 @@ fn fit(
     carried: &[Vec<[f64; 3]>; 2],
     tractions: &mut Tractions,
 ) {
-    for side in 0..2 {
+    for side in Side::BOTH {
         for (node, unknowns) in tractions.nodes[side].iter_mut().enumerate() {
             let is_pointed = selection.is_pointed(side, node as u32);
             let is_kept = selection.is_kept(side, node as u32) && !is_pointed;

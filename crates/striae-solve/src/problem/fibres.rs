@@ -1,6 +1,9 @@
 //! Fibres through what is behind the facets of pairs.
 
-use striae_contact::interference::{Fibre, fibres};
+use striae_contact::{
+    interference::{Fibre, fibres},
+    side::Side,
+};
 use striae_mesh::Vec3;
 use striae_surface::topology::Surface;
 
@@ -17,7 +20,7 @@ pub(crate) fn add_fibres(model: &Model, pairs: &mut [PairGeometry]) {
     };
     let mut skins: Vec<Option<Surface>> = vec![None; model.bodies.len()];
     for pair in pairs {
-        pair.fibres = [0, 1].map(|side| {
+        pair.fibres = Side::BOTH.map(|side| {
             let Some(surface) = pair.contact.sides[side].surface() else {
                 return Vec::new();
             };

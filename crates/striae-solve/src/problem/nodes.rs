@@ -1,5 +1,6 @@
 //! Numbers of the nodes of bodies and surfaces in the whole problem.
 
+use striae_contact::side::Side;
 use striae_mesh::NodeId;
 
 use super::Problem;
@@ -33,7 +34,7 @@ impl Problem {
     }
 
     /// Global node of a surface node of a pair.
-    pub fn surface_node(&self, pair: usize, side: usize, node: u32) -> Option<GlobalNode> {
+    pub fn surface_node(&self, pair: usize, side: Side, node: u32) -> Option<GlobalNode> {
         let geometry = &self.pairs[pair];
         let surface = geometry.contact.sides[side].surface()?;
         let body = geometry.bodies[side]?;
@@ -42,8 +43,8 @@ impl Problem {
 
     /// Global node that the traction unknowns of a node of a pair lodge with: itself, or
     /// that of side `a` at a point of a rigid side.
-    pub(crate) fn carrier(&self, pair: usize, side: usize, node: u32) -> Option<GlobalNode> {
+    pub(crate) fn carrier(&self, pair: usize, side: Side, node: u32) -> Option<GlobalNode> {
         let own = self.surface_node(pair, side, node);
-        own.or_else(|| self.surface_node(pair, 0, node))
+        own.or_else(|| self.surface_node(pair, Side::A, node))
     }
 }

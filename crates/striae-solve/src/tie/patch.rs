@@ -71,7 +71,10 @@ impl Ties {
         let mut areas = [NodalAreas::new(), NodalAreas::new()];
         for patch in &joint.patches {
             let stretch = patch.area(positions) / patch.area(reference);
-            for (side, of_side) in [joint.follows, 1 - joint.follows].iter().zip(&patch.areas) {
+            for (side, of_side) in [joint.follows, joint.follows.opposite()]
+                .iter()
+                .zip(&patch.areas)
+            {
                 for (node, area) in of_side {
                     let sum = areas[*side].entry(*node).or_default();
                     for axis in (0..3).filter(|&axis| patch.tied[axis]) {

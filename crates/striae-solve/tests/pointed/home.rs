@@ -5,6 +5,7 @@ use striae_contact::{
     configuration::Configuration,
     pointed::kinematics,
     selection::{Before, Selection},
+    side::Side,
     spot::faced,
     tip::Tip,
 };
@@ -49,11 +50,11 @@ struct Scene<'a> {
 impl<'a> Scene<'a> {
     fn new(context: &'a StepContext<'a>) -> Self {
         let at = |node: &u32| {
-            let global = context.problem.surface_node(0, 0, *node).unwrap();
+            let global = context.problem.surface_node(0, Side::A, *node).unwrap();
             (context.start.positions[global] - Vec3::y() * Y).norm() < 1e-9
         };
         let node = (0..64).find(at).unwrap();
-        let global = context.problem.surface_node(0, 0, node).unwrap();
+        let global = context.problem.surface_node(0, Side::A, node).unwrap();
         Self {
             context,
             node,
@@ -93,7 +94,9 @@ impl<'a> Scene<'a> {
     /// The facet that the node faces, and its gap.
     fn faced(&self, selection: &Selection, x: Vec3) -> (FacetId, f64) {
         let now = self.configuration(x);
-        let facet = faced(&now, selection.tip(0, self.node), 1.0).unwrap().facet;
+        let facet = faced(&now, selection.tip(Side::A, self.node), 1.0)
+            .unwrap()
+            .facet;
         let places = selection.pointed_places();
         assert_eq!(places.len(), 1);
         (
@@ -114,7 +117,7 @@ fn a_pointed_node_stays_with_its_facet_until_it_is_a_tenth_beyond() {
     let scene = Scene::new(&context);
     let centre = |facet: FacetId| {
         let floor = scene.configuration(place(0.5));
-        let corners = floor.side(1).corner_positions(facet);
+        let corners = floor.side(Side::B).corner_positions(facet);
         corners.iter().sum::<Vec3>() * 0.25
     };
     let selection = scene.selection(place(0.9));
@@ -142,7 +145,7 @@ fn a_pointed_node_stays_with_its_facet_until_it_is_a_tenth_beyond() {
     // What holds it is where the increment started.
     let beyond = place(1.05);
     let homeless = Tip::Node {
-        side: 0,
+        side: Side::A,
         node: scene.node,
         home: None,
     };

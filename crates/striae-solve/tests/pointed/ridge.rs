@@ -1,6 +1,6 @@
 //! Rigid ridges and tops between the nodes of a flat block.
 
-use striae_contact::unknowns::Status;
+use striae_contact::{side::Side, unknowns::Status};
 use striae_law::friction::Friction;
 use striae_mesh::Vec3;
 use striae_solve::report::rigid_bodies;
@@ -27,7 +27,7 @@ fn sole(run: &Run) -> Vec<Vec3> {
     let surface = pair.sides[0].surface().unwrap();
     let (state, _) = run.last();
     let x: Vec<Vec3> = (0..surface.nodes().len() as u32)
-        .map(|node| state.positions[run.problem.surface_node(0, 0, node).unwrap()])
+        .map(|node| state.positions[run.problem.surface_node(0, Side::A, node).unwrap()])
         .collect();
     // Facets are bilinear over plane rectangles.
     let facets = surface.facets().iter().flat_map(|corners| {

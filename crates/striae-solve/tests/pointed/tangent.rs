@@ -8,6 +8,7 @@ use striae_contact::{
     evaluation::{Evaluation, evaluate},
     segment::Derivatives,
     selection::{Before, Kept, Selection},
+    side::Side,
     tip::{RigidPoint, RigidPoints},
     unknowns::{Status, Tractions},
 };
@@ -39,7 +40,7 @@ impl<'a> Contact<'a> {
         let start = context.configuration(0, &state.positions, &state.rigid);
         let none = state.pairs[0].kept.clone();
         let mut pointed: Kept = none.clone();
-        for (node, x) in start.side(0).x.iter().enumerate() {
+        for (node, x) in start.side(Side::A).x.iter().enumerate() {
             pointed[0][node] = !is_sharp(&start) && x.x.hypot(x.z) < 0.1;
         }
         let points = points(&start);
@@ -58,10 +59,10 @@ impl<'a> Contact<'a> {
     }
 
     fn nodes(&self) -> [usize; 2] {
-        [0, 1].map(|side| self.selection.nodes(side))
+        Side::BOTH.map(|side| self.selection.nodes(side))
     }
 
-    fn traction(&self, side: usize, node: usize) -> usize {
+    fn traction(&self, side: Side, node: usize) -> usize {
         let numbering = self.context.pairs[0].numbering();
         numbering.traction(side, node as u32) as usize
     }
@@ -81,7 +82,7 @@ impl<'a> Contact<'a> {
 
     fn tractions(&self, u: &DVector<f64>) -> Tractions {
         let mut tractions = Tractions::zero(self.nodes());
-        for side in 0..2 {
+        for side in Side::BOTH {
             for (node, unknowns) in tractions.nodes[side].iter_mut().enumerate() {
                 let at = self.traction(side, node);
                 *unknowns = [u[at], u[at + 1], u[at + 2]];
@@ -136,7 +137,7 @@ impl<'a> Contact<'a> {
         let mut u = DVector::zeros(pair.numbering().count() as usize);
         for &side in pair.deformable_sides() {
             for node in 0..self.nodes()[side] {
-                let slide = if side == 0 {
+                let slide = if side == Side::A {
                     Vec3::new(0.031, 0.023, -0.021)
                 } else {
                     Vec3::zeros()
@@ -146,7 +147,7 @@ impl<'a> Contact<'a> {
                 u.rows_mut(first, 3).copy_from(&x);
             }
         }
-        let traction = |side: usize, node: usize| self.traction(side, node);
+        let traction = |side: Side, node: usize| self.traction(side, node);
         let kept = self.selection.kept();
         for (k, kept) in kept.iter().enumerate() {
             let at = traction(kept.side, kept.node as usize);
@@ -194,7 +195,7 @@ impl<'a> Contact<'a> {
 
 /// Whether the floor is a ridge.
 fn is_sharp(start: &Configuration) -> bool {
-    start.pair.is_rigid() && start.plane().is_none() && start.side(1).x.len() == 9
+    start.pair.is_rigid() && start.plane().is_none() && start.side(Side::B).x.len() == 9
 }
 
 /// Its vertex and points on its edges, with the nearest nodes.
@@ -202,7 +203,7 @@ fn points(start: &Configuration) -> RigidPoints {
     if !is_sharp(start) {
         return Vec::new();
     }
-    let mut points = vec![None; start.side(0).x.len()];
+    let mut points = vec![None; start.side(Side::A).x.len()];
     let on = |ends: [u32; 2], share: f64| RigidPoint {
         ends,
         share,
@@ -216,7 +217,7 @@ fn points(start: &Configuration) -> RigidPoints {
     ];
     for point in all {
         let x = point.position(start);
-        let distance = |node: &usize| (start.side(0).x[*node] - x).norm();
+        let distance = |node: &usize| (start.side(Side::A).x[*node] - x).norm();
         let free = (0..points.len()).filter(|&node| points[node].is_none());
         let nearest = free.min_by(|a, b| distance(a).total_cmp(&distance(b)));
         points[nearest.unwrap()] = Some(point);

@@ -1,6 +1,6 @@
 //! The cases as models of the program.
 
-use striae_contact::{evaluation::Evaluation, pair::Enforcement};
+use striae_contact::{evaluation::Evaluation, pair::Enforcement, side::Side};
 use striae_law::{
     bulk::{LameConstants, Material},
     friction::Friction,
@@ -85,14 +85,14 @@ fn faces(case: &Case, problem: &Problem, state: &State) -> Faces {
         unknowns: Vec::new(),
         forces: [Vec::new(), Vec::new()],
     };
-    for side in 0..2 {
+    for side in Side::BOTH {
         for node in in_order(case, problem, side) {
             let global = problem.surface_node(0, side, node as u32);
             let global = global.expect("a node of a body");
             if pair.kept[side][node] {
                 faces.kept[side].push(faces.forces[side].len());
                 let result = &pair.nodes[side][node];
-                let tau = result.tau * if side == 0 { -1.0 } else { 1.0 };
+                let tau = result.tau * if side == Side::A { -1.0 } else { 1.0 };
                 let unknowns = Vec3::new(result.pressure, tau.x, tau.y);
                 faces.unknowns.push(unknowns);
             }
@@ -103,7 +103,7 @@ fn faces(case: &Case, problem: &Problem, state: &State) -> Faces {
 }
 
 /// Nodes of a face in the order of the reference: x counts first.
-fn in_order(case: &Case, problem: &Problem, side: usize) -> Vec<usize> {
+fn in_order(case: &Case, problem: &Problem, side: Side) -> Vec<usize> {
     let count = (case.divisions[side] + 1).pow(2);
     let place = |node: &usize| {
         let global = problem.surface_node(0, side, *node as u32);

@@ -8,6 +8,7 @@ use striae_contact::{
     placement::Placement,
     segment::Derivatives,
     selection::{Before, Selection},
+    side::Side,
     unknown::Unknown,
     unknowns::{Label, Status, Tractions},
 };
@@ -63,7 +64,7 @@ pub struct PairFunction<'a> {
 impl<'a> PairFunction<'a> {
     /// The pair on its way from `start` to `now`; roles look ahead.
     pub fn new(context: &'a StepContext<'a>, start: Places, now: Places, elapsed: f64) -> Self {
-        let counts = [0, 1].map(|side| {
+        let counts = Side::BOTH.map(|side| {
             let deformable = context.problem.pairs[0].bodies[side].is_some();
             let surface = context.pairs[0].sides[side].surface();
             surface.map_or(0, |s| if deformable { s.nodes().len() } else { 0 })
@@ -106,7 +107,7 @@ impl<'a> PairFunction<'a> {
     fn configuration(&self, u: &DVector<f64>) -> Configuration<'_> {
         let numbering = self.context.pairs[0].numbering();
         let mut places = self.now.clone();
-        for side in 0..2 {
+        for side in Side::BOTH {
             for node in 0..self.counts[side] as u32 {
                 let global = self.context.problem.surface_node(0, side, node).unwrap();
                 let first = numbering.position(side, node) as usize;
@@ -118,7 +119,7 @@ impl<'a> PairFunction<'a> {
 
     fn tractions(&self, u: &DVector<f64>) -> Tractions {
         let numbering = self.context.pairs[0].numbering();
-        let triple = |side: usize, node: usize| {
+        let triple = |side: Side, node: usize| {
             let first = numbering.traction(side, node as u32) as usize;
             [u[first], u[first + 1], u[first + 2]]
         };
@@ -127,7 +128,7 @@ impl<'a> PairFunction<'a> {
             labels[kept.side][kept.node as usize].status = *before;
         }
         Tractions {
-            nodes: [0, 1].map(|side| (0..self.counts[side]).map(|n| triple(side, n)).collect()),
+            nodes: Side::BOTH.map(|side| (0..self.counts[side]).map(|n| triple(side, n)).collect()),
             tau_n: self.tau_n.clone(),
             slipped: self.counts.map(|count| vec![false; count]),
             labels,
@@ -192,7 +193,7 @@ impl<'a> PairFunction<'a> {
         let mut random = Random::new(17);
         let mut u = DVector::zeros(self.len());
         let numbering = self.context.pairs[0].numbering();
-        for side in 0..2 {
+        for side in Side::BOTH {
             for node in 0..self.counts[side] as u32 {
                 let global = self.context.problem.surface_node(0, side, node).unwrap();
                 let first = numbering.position(side, node) as usize;
@@ -348,7 +349,7 @@ impl<'a> PairFunction<'a> {
 
 fn configuration<'a>(context: &'a StepContext, places: &Places) -> Configuration<'a> {
     let geometry = &context.problem.pairs[0];
-    let of_side = |side: usize| -> Vec<Vec3> {
+    let of_side = |side: Side| -> Vec<Vec3> {
         if geometry.bodies[side].is_none() {
             return geometry.rigid_reference.clone();
         }
@@ -359,7 +360,7 @@ fn configuration<'a>(context: &'a StepContext, places: &Places) -> Configuration
     };
     Configuration::new(
         &context.pairs[0],
-        [of_side(0), of_side(1)],
+        [of_side(Side::A), of_side(Side::B)],
         places.placement,
     )
 }

@@ -6,6 +6,7 @@ use striae_contact::{
     complementarity::Iteration,
     segment::Derivatives,
     selection::{Before, Selection},
+    side::Side,
     unknowns::Status,
 };
 use striae_solve::{
@@ -83,7 +84,7 @@ impl<'a> Whole<'a> {
                 .for_each(|(axis, v)| visit(first + axis, v));
         }
         for (pair, tractions) in trial.tractions.iter_mut().enumerate() {
-            for side in 0..2 {
+            for side in Side::BOTH {
                 for (node, values) in tractions.nodes[side].iter_mut().enumerate() {
                     if let Some(first) = self.layout.traction(pair, side, node) {
                         values
@@ -185,7 +186,7 @@ impl<'a> Whole<'a> {
         let mut u = self.unknowns();
         for _ in 0..200 {
             let (assembled, _) = self.evaluated(&u);
-            let nodes = assembled.contacts[0].nodes.iter().enumerate();
+            let nodes = Side::BOTH.into_iter().zip(&assembled.contacts[0].nodes);
             let slipping = nodes.flat_map(|(side, nodes)| {
                 let slipping = (0..nodes.len()).filter(|&n| nodes[n].status == Status::Slip);
                 slipping.filter_map(move |node| self.layout.traction(0, side, node))

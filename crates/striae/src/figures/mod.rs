@@ -9,10 +9,11 @@ pub mod texture;
 
 pub use surface::TexturedSurface;
 
+use striae_contact::side::Side;
 use striae_solve::model::{ContactSurface, Model};
 
 /// What a side of a pair belongs to, in words.
-pub fn owner(model: &Model, pair: usize, side: usize) -> String {
+pub fn owner(model: &Model, pair: usize, side: Side) -> String {
     let pair = &model.pairs[pair];
     match [&pair.a, &pair.b][side] {
         ContactSurface::Deformable { body, .. } => format!("body `{}`", model.bodies[body.0].name),

@@ -1,6 +1,6 @@
 //! A textured surface at rest, as points with their texture.
 
-use striae_contact::{pair::Geometry, texture::SideTexture};
+use striae_contact::{pair::Geometry, side::Side, texture::SideTexture};
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::problem::{Problem, ProblemError};
 use striae_surface::{
@@ -35,12 +35,12 @@ impl TexturedSurface {
     ///
     /// # Errors
     /// Where the texture has no direction on the surface.
-    pub fn new(problem: &Problem, pair: usize, side: usize) -> Result<Option<Self>, ProblemError> {
+    pub fn new(problem: &Problem, pair: usize, side: Side) -> Result<Option<Self>, ProblemError> {
         let geometry = &problem.pairs[pair].contact.sides[side];
         let textured = match (&geometry.geometry, &geometry.texture) {
             (_, None) => return Ok(None),
             (Geometry::Plane { point, normal }, Some(SideTexture::Plane(field))) => {
-                let opposite = positions(problem, pair, 1 - side);
+                let opposite = positions(problem, pair, side.opposite());
                 Self::on_plane(*point, *normal, field, &opposite)
             }
             (
@@ -143,7 +143,7 @@ pub(super) fn extent(points: impl Iterator<Item = [f64; 2]>) -> ([f64; 2], [f64;
 }
 
 /// Reference positions of the nodes of a side that has nodes.
-fn positions(problem: &Problem, pair: usize, side: usize) -> Vec<Vec3> {
+fn positions(problem: &Problem, pair: usize, side: Side) -> Vec<Vec3> {
     let geometry = &problem.pairs[pair];
     match &geometry.contact.sides[side].geometry {
         Geometry::Deformable(surface) => (0..surface.nodes().len() as u32)
@@ -158,7 +158,7 @@ fn positions(problem: &Problem, pair: usize, side: usize) -> Vec<Vec3> {
 fn texture_error(
     problem: &Problem,
     pair: usize,
-    side: usize,
+    side: Side,
     surface: &Surface,
     error: TextureError,
 ) -> ProblemError {

@@ -31,6 +31,7 @@ use crate::{
     projection::Hit,
     segment::Derivatives,
     selection::{Selection, compliances},
+    side::Side,
     spot::{Spot, faced},
     tip::{RigidPoint, RigidPoints, Tip},
     unknowns::NodeResult,
@@ -122,10 +123,10 @@ pub(super) fn pierced(
 
 /// Where rigid points and nodes of side `a` are that are pointed already.
 fn felt(configuration: &Configuration, selection: &Selection) -> Vec<Vec3> {
-    let own = configuration.side(0);
+    let own = configuration.side(Side::A);
     let points = selection.points.iter().flatten();
     let points = points.map(|point| point.position(configuration));
-    let nodes = (0..own.x.len()).filter(|&node| selection.is_pointed(0, node as u32));
+    let nodes = (0..own.x.len()).filter(|&node| selection.is_pointed(Side::A, node as u32));
     points.chain(nodes.map(|node| own.x[node])).collect()
 }
 
@@ -138,7 +139,7 @@ fn in_facet(
 ) -> Option<Inside> {
     let tip = Tip::Rigid(point);
     let hit = faced(configuration, tip, tip.reach(configuration) + depth)?;
-    let own = configuration.side(0);
+    let own = configuration.side(Side::A);
     let sizes = own.corners(hit.facet).map(|node| own.sizes[node as usize]);
     Some(Inside {
         point,
@@ -151,7 +152,7 @@ fn in_facet(
 
 /// The corner of the facet that is nearest to a point and lodges none yet.
 fn lodging(configuration: &Configuration, lodged: &RigidPoints, hit: &Hit) -> Option<u32> {
-    let corners = configuration.side(0).corners(hit.facet);
+    let corners = configuration.side(Side::A).corners(hit.facet);
     let weights = Shape::of(&corners).weights(hit.xi, hit.eta).value;
     let free = (0..4).filter(|&at| lodged[corners[at] as usize].is_none());
     let nearest = free.max_by(|&a, &b| weights[a].total_cmp(&weights[b]));
@@ -194,14 +195,19 @@ pub fn staying(
         .collect();
     // What several carry that leave at once is more than others can take in an increment.
     let closed = pressed.iter().filter(|(node, point, hit)| {
-        let is_closed = |gap| gap <= CLOSING * configuration.size(1, *node);
+        let is_closed = |gap| gap <= CLOSING * configuration.size(Side::B, *node);
         point.left == 0.0 && gaps[hit.facet.index()].is_some_and(is_closed)
     });
     let leaving = closed.map(|(node, ..)| *node);
     let leaving = leaving.min_by(|&a, &b| pressure(a).total_cmp(&pressure(b)));
     pressed.retain(|(node, ..)| Some(*node) != leaving);
     let mut lodged: RigidPoints = vec![None; points.len()];
-    let is_at = |hit: &Hit, node: u32| configuration.side(0).corners(hit.facet).contains(&node);
+    let is_at = |hit: &Hit, node: u32| {
+        configuration
+            .side(Side::A)
+            .corners(hit.facet)
+            .contains(&node)
+    };
     let (at_home, away): (Vec<_>, Vec<_>) = pressed
         .into_iter()
         .partition(|(node, _, hit)| is_at(hit, *node));
@@ -222,7 +228,7 @@ pub fn staying(
 
 /// Mean gap over the segments of every facet of side `a`.
 fn facet_gaps(configuration: &Configuration, scope: Scope) -> Vec<Option<f64>> {
-    let mut sums = vec![[0.0; 2]; configuration.side(0).surface.facets().len()];
+    let mut sums = vec![[0.0; 2]; configuration.side(Side::A).surface.facets().len()];
     for paired in paired_facets(configuration, scope, Derivatives::None, |_| true) {
         if let Some(facet) = paired.facets[0] {
             let [gap, area] = &mut sums[facet.index()];
