@@ -17,7 +17,10 @@ use std::collections::BTreeMap;
 use striae_contact::{side::Side, unknowns::Status};
 use striae_figure::{Axis, Content, Figure, Marker, Panel, Series, Width};
 use striae_mesh::Vec3;
-use striae_surface::facet::{Shape, area_vector};
+use striae_surface::{
+    facet::{Shape, area_vector},
+    node::SurfaceNode,
+};
 use striae_verify::fitted_rate;
 
 use super::{
@@ -73,7 +76,7 @@ pub fn samples(run: &Run, side: Side) -> Vec<Sample> {
 /// facets around them weighted by area.
 pub fn nodal_samples(run: &Run, side: Side) -> Vec<Sample> {
     const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-    let mut means: BTreeMap<u32, Sample> = BTreeMap::new();
+    let mut means: BTreeMap<SurfaceNode, Sample> = BTreeMap::new();
     for (facet, samples) in sampled(run, side, &CORNERS) {
         for (node, sample) in facet.into_iter().zip(samples) {
             let Some(mean) = means.get_mut(&node) else {
@@ -98,7 +101,7 @@ pub fn difference_of_means(run: &Run, side: Side, exact: impl Fn(&Vec3) -> f64) 
     let nodes = surface_nodes(run, side);
     let mut means = vec![[0.0; 3]; nodes.len()];
     for &facet in facets(run, side) {
-        let corners = facet.map(|corner| &nodes[corner as usize]);
+        let corners = facet.map(|corner| &nodes[corner]);
         for [xi, eta] in grid() {
             let weights = Shape::Quadrilateral.weights(xi, eta);
             let parts = || corners.iter().zip(weights.value);
@@ -111,7 +114,7 @@ pub fn difference_of_means(run: &Run, side: Side, exact: impl Fn(&Vec3) -> f64) 
             let known = exact(&place);
             for ((node, weight), corner) in parts().zip(facet) {
                 let share = weight * at_rest;
-                let [area, computed, expected] = &mut means[corner as usize];
+                let [area, computed, expected] = &mut means[corner];
                 *area += share;
                 *computed += share * stretch * node.result.mean_pressure();
                 *expected += share * known;
@@ -134,11 +137,11 @@ fn grid() -> impl Iterator<Item = [f64; 2]> {
 }
 
 /// Samples at places of the facets under pressure, in coordinates of the facets.
-fn sampled(run: &Run, side: Side, places: &[[f64; 2]]) -> Vec<([u32; 4], Vec<Sample>)> {
+fn sampled(run: &Run, side: Side, places: &[[f64; 2]]) -> Vec<([SurfaceNode; 4], Vec<Sample>)> {
     let nodes = surface_nodes(run, side);
     let mut all = Vec::new();
     for &facet in facets(run, side) {
-        let corners = facet.map(|corner| &nodes[corner as usize]);
+        let corners = facet.map(|corner| &nodes[corner]);
         if corners
             .iter()
             .all(|node| node.result.mean_pressure() <= 0.0)

@@ -100,7 +100,7 @@ fn pressed_areas(run: &Run, side: Side) -> Vec<(f64, Vec3)> {
     let points = places.map(|xi| places.map(|eta| Shape::Quadrilateral.weights(xi, eta)));
     let mut all = Vec::new();
     for facet in facets(run, side) {
-        let corners = facet.map(|corner| &nodes[corner as usize]);
+        let corners = facet.map(|corner| &nodes[corner]);
         let positions = corners.map(|node| node.position);
         for weights in points.as_flattened() {
             let parts = corners.iter().zip(weights.value);

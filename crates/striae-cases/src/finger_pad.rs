@@ -187,7 +187,7 @@ fn patch(run: &Run, state: &State, way: f64) -> Panel {
     let nodes = surface_nodes_in(run, state, Side::A);
     let (mut polygons, mut values) = (Vec::new(), Vec::new());
     for facet in facets(run, Side::A) {
-        let corners = facet[..3].iter().map(|corner| &nodes[*corner as usize]);
+        let corners = facet[..3].iter().map(|corner| &nodes[*corner]);
         let pressure = corners
             .clone()
             .map(|node| node.result.mean_pressure())

@@ -9,7 +9,7 @@ use striae_figure::{Axis, Color, Content, Series};
 use striae_law::friction::Textures;
 use striae_mesh::{ElementId, Vec3};
 use striae_solve::state::State;
-use striae_surface::facet::Shape;
+use striae_surface::{facet::Shape, node::SurfaceNode};
 
 use super::study::Run;
 
@@ -34,7 +34,7 @@ pub fn surface_nodes_in<'a>(run: &'a Run, state: &'a State, side: Side) -> Vec<M
     let results = state.pairs[0].nodes[side].iter().enumerate();
     results
         .filter_map(|(index, result)| {
-            let node = problem.surface_node(0, side, index as u32)?;
+            let node = problem.surface_node(0, side, SurfaceNode::new(index))?;
             Some(MeasuredNode {
                 reference: problem.reference[node],
                 position: state.positions[node],
@@ -124,7 +124,7 @@ fn cells(run: &Run, side: Side, parts: usize) -> Vec<(Vec<[f64; 2]>, f64)> {
     let nodes = surface_nodes(run, side);
     let mut cells = Vec::new();
     for facet in facets(run, side) {
-        let corners = facet.map(|corner| &nodes[corner as usize]);
+        let corners = facet.map(|corner| &nodes[corner]);
         let at = |i: f64, j: f64| {
             let place = |share: f64| 2.0 * share / parts as f64 - 1.0;
             let weights = Shape::Quadrilateral.weights(place(i), place(j)).value;
@@ -149,8 +149,8 @@ fn cells(run: &Run, side: Side, parts: usize) -> Vec<(Vec<[f64; 2]>, f64)> {
 /// Outlines of the facets of a side, counter-clockwise seen from above.
 fn outlines(run: &Run, side: Side) -> Vec<Vec<[f64; 2]>> {
     let nodes = surface_nodes(run, side);
-    let outline = |facet: &[u32; 4]| {
-        let ring = facet.map(|corner| nodes[corner as usize].position);
+    let outline = |facet: &[SurfaceNode; 4]| {
+        let ring = facet.map(|corner| nodes[corner].position);
         let mut ring = ring.map(|x| [x.x, x.y]).to_vec();
         if area(ring[0], ring[1], ring[2]) < 0.0 {
             ring.reverse();
@@ -191,7 +191,7 @@ pub fn mesh_lines(run: &Run, side: Side, name: &str, color: Color) -> Series {
     let nodes = surface_nodes(run, side);
     let mut points = Vec::new();
     for facet in facets(run, side) {
-        let ring = [0, 1, 2, 3, 0].map(|corner| nodes[facet[corner] as usize].position);
+        let ring = [0, 1, 2, 3, 0].map(|corner| nodes[facet[corner]].position);
         points.extend(ring.map(|x| [x.x, x.y]));
         points.push([f64::NAN; 2]);
     }
@@ -199,7 +199,7 @@ pub fn mesh_lines(run: &Run, side: Side, name: &str, color: Color) -> Series {
 }
 
 /// Facets of a side of the first pair.
-pub fn facets(run: &Run, side: Side) -> &[[u32; 4]] {
+pub fn facets(run: &Run, side: Side) -> &[[SurfaceNode; 4]] {
     let sides = &run.finished.problem.pairs[0].contact.sides;
     sides[side]
         .surface()

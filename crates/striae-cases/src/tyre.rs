@@ -77,7 +77,7 @@ pub fn areas(run: &Run, state: &State) -> Vec<f64> {
     let mut areas = vec![0.0; state.pairs[0].nodes[0].len()];
     for (facet, forces) in &state.pairs[0].facets[0] {
         for (corner, area) in corners[facet.index()].iter().zip(forces.area) {
-            areas[*corner as usize] += area;
+            areas[*corner] += area;
         }
     }
     areas
@@ -124,7 +124,7 @@ pub fn pressures(run: &Run, state: &State) -> Panel {
     let mut polygons = Vec::new();
     let mut values = Vec::new();
     for facet in facets(run, Side::A) {
-        let corners = facet.map(|corner| &nodes[corner as usize]);
+        let corners = facet.map(|corner| &nodes[corner]);
         if corners.iter().any(|node| node.result.pressure > 0.0) {
             for (i, j) in (0..4).flat_map(|i| (0..4).map(move |j| (f64::from(i), f64::from(j)))) {
                 let ring = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];

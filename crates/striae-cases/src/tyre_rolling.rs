@@ -61,7 +61,7 @@ fn stretched(run: &Run) -> f64 {
     let (mut ways, mut angles) = (0.0, 0.0);
     for facet in facets(run, Side::A) {
         for edge in 0..4 {
-            let [from, to] = [edge, (edge + 1) % 4].map(|at| &nodes[facet[at] as usize]);
+            let [from, to] = [edge, (edge + 1) % 4].map(|at| &nodes[facet[at]]);
             let both = [from, to].map(|node| node.result.status == Status::Stick);
             let along = (to.reference.y - from.reference.y).abs() < 1e-9;
             let turned = angle(&to.reference) - angle(&from.reference);

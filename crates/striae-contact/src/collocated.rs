@@ -20,7 +20,7 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::DualSVec64;
 use rayon::prelude::*;
 use striae_mesh::Vec3;
-use striae_surface::facet::Shape;
+use striae_surface::{facet::Shape, node::SurfaceNode};
 
 use crate::{
     configuration::Configuration,
@@ -55,24 +55,21 @@ pub fn kinematics(
             let (side, node) = selection.kept()[k].place();
             let frame = frames[side][node].as_ref();
             let slip = match (selection.partner(k), frame) {
-                (Some(partner), Some(frame)) => slip(
-                    configuration,
-                    selection.tip(side, node as u32),
-                    partner,
-                    frame,
-                ),
+                (Some(partner), Some(frame)) => {
+                    slip(configuration, selection.tip(side, node), partner, frame)
+                }
                 _ => Tracked::default(),
             };
             Kinematics {
                 gap: frame.map_or_else(TrackedScalar::default, |frame| {
-                    let mut gap = gap(configuration, side, node as u32, frame);
-                    gap.value += selection.offset(side, node as u32);
+                    let mut gap = gap(configuration, side, node, frame);
+                    gap.value += selection.offset(side, node);
                     gap
                 }),
                 seen_slip: slip.value,
                 shares: shares(
                     configuration,
-                    selection.tip(side, node as u32),
+                    selection.tip(side, node),
                     selection.partner(k),
                 ),
                 slip,
@@ -85,7 +82,12 @@ pub fn kinematics(
 
 /// The gap along the normal; without derivatives, so that the node stays open, where it
 /// sees nothing.
-fn gap(configuration: &Configuration, side: Side, node: u32, frame: &Frame) -> TrackedScalar {
+fn gap(
+    configuration: &Configuration,
+    side: Side,
+    node: SurfaceNode,
+    frame: &Frame,
+) -> TrackedScalar {
     let numbering = configuration.pair.numbering();
     let Some((contact, found)) = configuration.opposite(side, node) else {
         return TrackedScalar {
@@ -98,7 +100,7 @@ fn gap(configuration: &Configuration, side: Side, node: u32, frame: &Frame) -> T
     }
     let own = numbering.position(side, node);
     let value = contact.gap;
-    let x = configuration.side(side).x[node as usize];
+    let x = configuration.side(side).x[node];
     let gradient: Gradient = match contact.place {
         Place::Plane(_) => {
             let normal = configuration.plane().map_or_else(Vec3::zeros, |(_, n)| n);
@@ -196,14 +198,14 @@ pub fn nodal_fields(
     tau: &NodalTractions,
 ) -> [Vec<NodalField>; 2] {
     let numbering = configuration.pair.numbering();
-    let at_node = |side: Side, node: usize| {
+    let at_node = |side: Side, node: SurfaceNode| {
         let mut field = NodalField::default();
         let Some(frame) = &frames[side][node] else {
             return field;
         };
-        for &(k, weight) in selection.row(side, node as u32) {
+        for &(k, weight) in selection.row(side, node) {
             let (side_k, node_k) = selection.kept()[k as usize].place();
-            let first = numbering.traction(side_k, node_k as u32);
+            let first = numbering.traction(side_k, node_k);
             field.pressure.value += weight * tractions.nodes[side_k][node_k][0];
             let slope = Vec3::x() * weight;
             field.pressure.gradient.push((first, slope));
@@ -229,7 +231,7 @@ pub fn nodal_fields(
         (0..selection.nodes(side))
             .into_par_iter()
             .with_min_len(16)
-            .map(|node| at_node(side, node))
+            .map(|node| at_node(side, SurfaceNode::new(node)))
             .collect()
     })
 }

@@ -105,7 +105,7 @@ impl CommonField<'_> {
         let (side, node) = self.selection.kept()[k as usize].place();
         let numbering = self.configuration.pair.numbering();
         let n = patch.paired.segment.normal;
-        let first = numbering.traction(side, node as u32);
+        let first = numbering.traction(side, node);
         let pressure = self.tractions.nodes[side][node][0];
         let mut by_unknowns = Matrix3::zeros();
         by_unknowns.set_column(0, &-n);

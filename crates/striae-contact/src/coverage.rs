@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     configuration::Configuration,
@@ -45,7 +46,7 @@ pub enum Found {
     Inside,
     /// At the nearest place of the edge of the surface, between these nodes, as the normal
     /// passes beside it.
-    Edge([u32; 2]),
+    Edge([SurfaceNode; 2]),
 }
 
 /// How many reaches away a surface counts as seen, though out of reach.
@@ -56,15 +57,15 @@ const FOLLOW: f64 = 6.0;
 
 impl Configuration<'_> {
     /// The point opposite to a node of a deformable side within `reach`.
-    pub fn contact(&self, side: Side, node: u32, reach: f64, margin: Margin) -> Option<Contact> {
+    pub fn contact(
+        &self,
+        side: Side,
+        node: SurfaceNode,
+        reach: f64,
+        margin: Margin,
+    ) -> Option<Contact> {
         let own = self.side(side);
-        self.contact_at(
-            side,
-            own.x[node as usize],
-            own.normals[node as usize],
-            reach,
-            margin,
-        )
+        self.contact_at(side, own.x[node], own.normals[node], reach, margin)
     }
 
     /// The point opposite to the point `x` with the normal `n` of a deformable side.
@@ -96,7 +97,7 @@ impl Configuration<'_> {
     }
 
     /// The point opposite to a node of a deformable side, clamped to the other surface.
-    pub fn opposite(&self, side: Side, node: u32) -> Option<(Contact, Found)> {
+    pub fn opposite(&self, side: Side, node: SurfaceNode) -> Option<(Contact, Found)> {
         let far = if self.pair.is_rigid() {
             FOLLOW
         } else {
@@ -111,7 +112,7 @@ impl Configuration<'_> {
             return Some((contact, Found::Inside));
         }
         let own = self.side(side);
-        let (x, n) = (&own.x[node as usize], &own.normals[node as usize]);
+        let (x, n) = (&own.x[node], &own.normals[node]);
         let (hit, nodes) = nearest_edge(self.side(side.opposite()), x, n, reach)?;
         let contact = Contact {
             gap: hit.gap,
@@ -121,7 +122,7 @@ impl Configuration<'_> {
     }
 
     /// What a node of a deformable side sees.
-    pub fn coverage(&self, side: Side, node: u32) -> Coverage {
+    pub fn coverage(&self, side: Side, node: SurfaceNode) -> Coverage {
         let reach = self.reach(side, node);
         match self.contact(side, node, HORIZON * reach, Margin::Inside) {
             Some(contact) if contact.gap.abs() <= reach => Coverage::Near(contact),
@@ -138,7 +139,7 @@ impl Place {
         &self,
         configuration: &Configuration,
         side: Side,
-    ) -> Option<([u32; 4], [f64; 4])> {
+    ) -> Option<([SurfaceNode; 4], [f64; 4])> {
         match self {
             Place::Facet(hit) => {
                 let corners = configuration.side(side.opposite()).corners(hit.facet);
@@ -157,7 +158,7 @@ impl Place {
                 Vector3::zeros,
                 |(corners, weights)| {
                     let x = &configuration.side(side.opposite()).x;
-                    (0..4).map(|c| x[corners[c] as usize] * weights[c]).sum()
+                    (0..4).map(|c| x[corners[c]] * weights[c]).sum()
                 },
             ),
         }

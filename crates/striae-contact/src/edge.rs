@@ -11,7 +11,7 @@
 //! and `dt = 0` at an end of the edge.
 
 use striae_mesh::Vec3;
-use striae_surface::scalar::Real;
+use striae_surface::{node::SurfaceNode, scalar::Real};
 
 use crate::{
     configuration::Configuration,
@@ -40,9 +40,9 @@ pub struct OnEdge {
 pub fn on_edge(
     configuration: &Configuration,
     side: Side,
-    node: u32,
+    node: SurfaceNode,
     hit: &Hit,
-    nodes: [u32; 2],
+    nodes: [SurfaceNode; 2],
 ) -> OnEdge {
     let own = configuration.side(side);
     let other = configuration.side(side.opposite());
@@ -52,8 +52,8 @@ pub fn on_edge(
         found.expect("an edge joins corners of its facet")
     });
     let n = own_normal(configuration, side, node);
-    let [start, end] = nodes.map(|node| other.x[node as usize]);
-    let (r, d) = (start - own.x[node as usize], end - start);
+    let [start, end] = nodes.map(|node| other.x[node]);
+    let (r, d) = (start - own.x[node], end - start);
     let t = share_of_edge(&r, &d, &n.value);
     let (n_r, n_d) = (n.value.dot(&r), n.value.dot(&d));
     let across = |v: &Vec3, along: f64| v - n.value * along;

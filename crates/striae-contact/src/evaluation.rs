@@ -5,6 +5,7 @@
 
 use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     collocated,
@@ -201,7 +202,7 @@ impl Stage<'_> {
             dissipated: 0.0,
         };
         for side in Side::BOTH {
-            for node in 0..counts[side] {
+            for node in SurfaceNode::all(counts[side]) {
                 if let Some(frame) = &self.frames[side][node] {
                     let result = self.of_node(side, node, frame, &reports[side][node]);
                     let [t1, t2] = [0, 1].map(|axis| -frame.t[axis].value.dot(&result.tau));
@@ -213,16 +214,16 @@ impl Stage<'_> {
         evaluation
     }
 
-    fn of_node(&self, side: Side, node: usize, frame: &Frame, report: &Report) -> NodeResult {
+    fn of_node(&self, side: Side, node: SurfaceNode, frame: &Frame, report: &Report) -> NodeResult {
         let mut result = NodeResult {
             gap: report.gap,
             normal: frame.n.value,
-            texture: self.own_texture(side, node as u32, frame),
+            texture: self.own_texture(side, node, frame),
             ..NodeResult::default()
         };
         let n = frame.n.value;
         result.slip = report.slip - n * n.dot(&report.slip);
-        for &(k, weight) in self.selection.row(side, node as u32) {
+        for &(k, weight) in self.selection.row(side, node) {
             let (side_k, node_k) = self.selection.kept()[k as usize].place();
             result.pressure += weight * self.tractions.nodes[side_k][node_k][0];
             if let Some(from) = &self.frames[side_k][node_k] {
@@ -236,7 +237,7 @@ impl Stage<'_> {
     }
 
     /// Direction `s = a x n` of the node's own texture, zero without one.
-    fn own_texture(&self, side: Side, node: u32, frame: &Frame) -> Vec3 {
+    fn own_texture(&self, side: Side, node: SurfaceNode, frame: &Frame) -> Vec3 {
         if let Tip::Rigid(_) = self.selection.tip(side, node) {
             return Vec3::zeros();
         }
@@ -257,7 +258,7 @@ impl Evaluation {
                 let (side, node) = kept[k].place();
                 let contact_node = ContactNode {
                     side,
-                    node: node as u32,
+                    node: node,
                     kinematics: &stage.kinematics[k],
                     frame: stage.frames[side][node].as_ref()?,
                     textures: &stage.textures[side][node],
@@ -294,11 +295,11 @@ impl Evaluation {
     /// Nodes that are not kept have the status of the kept node that they follow most.
     fn follow_status(&mut self, selection: &Selection) {
         for side in Side::BOTH {
-            for node in 0..selection.nodes(side) {
-                let row = selection.row(side, node as u32);
+            for node in SurfaceNode::all(selection.nodes(side)) {
+                let row = selection.row(side, node);
                 let most = row.iter().max_by(|a, b| a.1.total_cmp(&b.1));
                 if let Some(&(k, _)) = most
-                    && !selection.is_kept(side, node as u32)
+                    && !selection.is_kept(side, node)
                 {
                     let (side_k, node_k) = selection.kept()[k as usize].place();
                     let pressure = self.nodes[side][node].pressure;
@@ -345,8 +346,8 @@ impl Evaluation {
             for (facet, forces) in &self.facets[side] {
                 let corners = configuration.side(side).corners(*facet);
                 for (at, node) in corners.into_iter().enumerate() {
-                    self.nodes[side][node as usize].mean += forces.force[at];
-                    areas[node as usize] += forces.area[at];
+                    self.nodes[side][node].mean += forces.force[at];
+                    areas[node] += forces.area[at];
                 }
             }
             let nodes = self.nodes[side].iter_mut().zip(areas);

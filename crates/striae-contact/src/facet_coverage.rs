@@ -56,9 +56,7 @@ impl Configuration<'_> {
         let edges = snapshot.surface.boundary_edges();
         let around = Bounds::around([*x]).inflated(distance);
         snapshot.edge_tree.meeting(&around).into_iter().any(|edge| {
-            let [a, b] = edges[edge as usize]
-                .nodes
-                .map(|node| snapshot.x[node as usize]);
+            let [a, b] = edges[edge as usize].nodes.map(|node| snapshot.x[node]);
             let along = b - a;
             let share = (along.dot(&(x - a)) / along.norm_squared()).clamp(0.0, 1.0);
             (a + along * share - x).norm() <= distance

@@ -137,9 +137,9 @@ impl<'a> Kernel<'a> {
         for first in rows {
             lanes.push(Source::Unknowns { first, count: 3 });
         }
-        let nodal = corners.map(|corner| &fields.nodal[side][corner as usize]);
+        let nodal = corners.map(|corner| &fields.nodal[side][corner]);
         let normals = corners.map(|corner| {
-            let frame = fields.frames[side][corner as usize].as_ref();
+            let frame = fields.frames[side][corner].as_ref();
             &frame.expect("all corners carry traction").n
         });
         for n in normals {

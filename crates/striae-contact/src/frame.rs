@@ -10,6 +10,7 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::DualSVec64;
 use rayon::prelude::*;
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     configuration::{Configuration, Snapshot},
@@ -46,8 +47,8 @@ pub fn frames(configuration: &Configuration, selection: &Selection) -> Frames {
         (0..selection.nodes(side))
             .into_par_iter()
             .with_min_len(16)
+            .map(SurfaceNode::new)
             .map(|node| {
-                let node = node as u32;
                 let pointed = selection.is_pointed(side, node);
                 (pointed || selection.carries(side, node)).then(|| {
                     let n = if pointed {
@@ -63,7 +64,7 @@ pub fn frames(configuration: &Configuration, selection: &Selection) -> Frames {
 }
 
 /// The frame of a node.
-pub(crate) fn frame_of(configuration: &Configuration, side: Side, node: u32) -> Frame {
+pub(crate) fn frame_of(configuration: &Configuration, side: Side, node: SurfaceNode) -> Frame {
     let n = normal(configuration, side, node);
     let tip = Tip::Node {
         side,
@@ -74,7 +75,7 @@ pub(crate) fn frame_of(configuration: &Configuration, side: Side, node: u32) -> 
 }
 
 /// The normal of a node: of its surface or, against a rigid one, of that.
-fn normal(configuration: &Configuration, side: Side, node: u32) -> Tracked {
+fn normal(configuration: &Configuration, side: Side, node: SurfaceNode) -> Tracked {
     let rigid = configuration.pair.is_rigid();
     let of_rigid = rigid.then(|| rigid_normal(configuration, node)).flatten();
     of_rigid.unwrap_or_else(|| own_normal(configuration, side, node))
@@ -85,7 +86,7 @@ fn pointed_normal(
     configuration: &Configuration,
     selection: &Selection,
     side: Side,
-    node: u32,
+    node: SurfaceNode,
 ) -> Tracked {
     let tip = selection.tip(side, node);
     let spot = Spot::new(configuration, tip);
@@ -100,7 +101,7 @@ fn pointed_normal(
 }
 
 /// The opposite of the rigid normal at the projection; `None` far away from the surface.
-fn rigid_normal(configuration: &Configuration, node: u32) -> Option<Tracked> {
+fn rigid_normal(configuration: &Configuration, node: SurfaceNode) -> Option<Tracked> {
     if let Some((_, normal)) = configuration.plane() {
         return Some(Tracked {
             value: -normal,
@@ -115,7 +116,7 @@ fn rigid_normal(configuration: &Configuration, node: u32) -> Option<Tracked> {
     if let Found::Edge(nodes) = found {
         return Some(normal_on_edge(configuration, node, &hit, nodes));
     }
-    let x: Vector3<DualSVec64<3>> = variable3(&configuration.side(Side::A).x[node as usize], 0);
+    let x: Vector3<DualSVec64<3>> = variable3(&configuration.side(Side::A).x[node], 0);
     let (_, rigid) = differentiated_rigid(target, &hit, &x);
     let mut lanes = Lanes::default();
     lanes.push(Source::Unknowns {
@@ -130,10 +131,15 @@ fn rigid_normal(configuration: &Configuration, node: u32) -> Option<Tracked> {
 }
 
 /// The same at the nearest place of the edge of the rigid surface.
-fn normal_on_edge(configuration: &Configuration, node: u32, hit: &Hit, nodes: [u32; 2]) -> Tracked {
+fn normal_on_edge(
+    configuration: &Configuration,
+    node: SurfaceNode,
+    hit: &Hit,
+    nodes: [SurfaceNode; 2],
+) -> Tracked {
     let place = on_edge(configuration, Side::A, node, hit, nodes);
     let target = configuration.side(Side::B);
-    let [start, end] = nodes.map(|node| target.normals[node as usize]);
+    let [start, end] = nodes.map(|node| target.normals[node]);
     let sum = start + (end - start) * place.share.value;
     let (length, value) = (sum.norm(), -sum.normalize());
     let across = Matrix3::identity() - value * value.transpose();
@@ -147,10 +153,10 @@ fn normal_on_edge(configuration: &Configuration, node: u32, hit: &Hit, nodes: [u
 
 /// The neighbour that the first tangent points to: the first one, unless it lies nearly
 /// along the normal.
-fn neighbour(own: &Snapshot, node: u32, n: &Vec3) -> u32 {
+fn neighbour(own: &Snapshot, node: SurfaceNode, n: &Vec3) -> SurfaceNode {
     let corners = own.surface.corners(node);
-    let tangential = |neighbour: u32| {
-        let edge = (own.x[neighbour as usize] - own.x[node as usize]).normalize();
+    let tangential = |neighbour: SurfaceNode| {
+        let edge = (own.x[neighbour] - own.x[node]).normalize();
         (edge - n * n.dot(&edge)).norm()
     };
     let first = corners[0].next;
@@ -173,7 +179,7 @@ fn frame(configuration: &Configuration, tip: Tip, n: Tracked) -> Frame {
     let own = configuration.side(side);
     let numbering = configuration.pair.numbering();
     let neighbour = neighbour(own, node, &n.value);
-    let edge = own.x[neighbour as usize] - own.x[node as usize];
+    let edge = own.x[neighbour] - own.x[node];
     let along = edge.dot(&n.value);
     let tangential = edge - n.value * along;
     let length = tangential.norm();

@@ -9,6 +9,7 @@
 
 use rayon::prelude::*;
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     configuration::Snapshot,
@@ -91,7 +92,7 @@ pub fn fit(stage: &Stage) -> Fit {
 
 /// Gap of a node and the point of the other side that it would have to go to, if it faces
 /// that or is inside.
-pub fn signed_gap(stage: &Stage, side: Side, node: u32) -> Option<(f64, Vec3)> {
+pub fn signed_gap(stage: &Stage, side: Side, node: SurfaceNode) -> Option<(f64, Vec3)> {
     let seen = seen(stage, side, Spot::Node(node))?;
     let gap = match seen.standing {
         Standing::Front => seen.faces.then_some(seen.opening.gap),
@@ -108,16 +109,16 @@ pub fn overlaps(stage: &Stage) -> [Vec<f64>; 2] {
     let mut all = [Vec::new(), Vec::new()];
     for side in sides(stage) {
         let snapshot = stage.configuration.side(side);
-        let of_node = |node: u32| {
+        let of_node = |node: SurfaceNode| {
             let seen = seen(stage, side, Spot::Node(node))?;
-            let near = seen.opening.gap < snapshot.sizes[node as usize];
+            let near = seen.opening.gap < snapshot.sizes[node];
             match seen.standing {
                 Standing::Front => None,
                 Standing::Behind => seen.within.then_some(seen.opening.gap),
                 Standing::Beside => (near && seen.depth > 0.0).then_some(seen.depth),
             }
         };
-        let nodes = 0..snapshot.x.len() as u32;
+        let nodes = SurfaceNode::all(snapshot.x.len());
         all[side] = nodes.map(|node| of_node(node).unwrap_or(0.0)).collect();
     }
     all
@@ -187,7 +188,7 @@ fn on_plane(x: &Vec3, (point, normal): &(Vec3, Vec3)) -> Nearest {
 
 fn normal(snapshot: &Snapshot, spot: Spot) -> Vec3 {
     match spot {
-        Spot::Node(node) => snapshot.normals[node as usize],
+        Spot::Node(node) => snapshot.normals[node],
         Spot::Centre(facet) => {
             let [a, b, c, d] = snapshot.corner_positions(facet);
             (c - a).cross(&(d - b)).normalize()

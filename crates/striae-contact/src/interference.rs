@@ -24,7 +24,10 @@ mod triangle;
 
 use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
-use striae_surface::topology::{Surface, distinct_corners};
+use striae_surface::{
+    node::SurfaceNode,
+    topology::{Surface, distinct_corners},
+};
 
 pub use facing::{Facing, facing};
 pub use nearest::{Nearest, Standing};
@@ -61,7 +64,7 @@ pub struct Interference {
     /// The point.
     pub spot: Spot,
     /// Surface node that is the point, or the corner of its facet that is in deepest.
-    pub node: u32,
+    pub node: SurfaceNode,
     /// Where the point is at the end.
     pub point: Vec3,
     /// Distance behind the other surface; the largest on its way for what passed, and
@@ -86,7 +89,7 @@ impl Interference {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Spot {
     /// Surface node.
-    Node(u32),
+    Node(SurfaceNode),
     /// Centre of a facet.
     Centre(FacetId),
 }
@@ -170,35 +173,35 @@ pub fn nearest_of(snapshot: &Snapshot, x: &Vec3) -> Option<Nearest> {
 
 /// Nodes and facet centres of a surface.
 pub(crate) fn spots(surface: &Surface) -> Vec<Spot> {
-    let nodes = (0..surface.nodes().len() as u32).map(Spot::Node);
+    let nodes = SurfaceNode::all(surface.nodes().len()).map(Spot::Node);
     let centres = (0..surface.facets().len()).map(|at| Spot::Centre(FacetId::new(at)));
     nodes.chain(centres).collect()
 }
 
 /// Where a point of a surface is.
 pub fn position(snapshot: &Snapshot, spot: Spot) -> Vec3 {
-    located(snapshot.surface, spot, |node| snapshot.x[node as usize])
+    located(snapshot.surface, spot, |node| snapshot.x[node])
 }
 
-fn located(surface: &Surface, spot: Spot, x: impl Fn(u32) -> Vec3) -> Vec3 {
+fn located(surface: &Surface, spot: Spot, x: impl Fn(SurfaceNode) -> Vec3) -> Vec3 {
     match spot {
         Spot::Node(node) => x(node),
         Spot::Centre(facet) => thickness::centre(&surface.facets()[facet.index()], x),
     }
 }
 
-fn placed<'a>(snapshot: &'a Snapshot) -> Placed<'a, impl Fn(u32) -> Vec3 + 'a> {
+fn placed<'a>(snapshot: &'a Snapshot) -> Placed<'a, impl Fn(SurfaceNode) -> Vec3 + 'a> {
     Placed {
         surface: snapshot.surface,
         tree: &snapshot.tree,
-        x: |node| snapshot.x[node as usize],
+        x: |node| snapshot.x[node],
     }
 }
 
 /// Local facet size at a point.
 fn size(snapshot: &Snapshot, spot: Spot) -> f64 {
     match spot {
-        Spot::Node(node) => snapshot.sizes[node as usize],
+        Spot::Node(node) => snapshot.sizes[node],
         Spot::Centre(facet) => facet_size(snapshot, facet),
     }
 }
@@ -206,10 +209,7 @@ fn size(snapshot: &Snapshot, spot: Spot) -> f64 {
 fn facet_size(snapshot: &Snapshot, facet: FacetId) -> f64 {
     let corners = snapshot.corners(facet);
     let ring = distinct_corners(&corners);
-    ring.iter()
-        .map(|&node| snapshot.sizes[node as usize])
-        .sum::<f64>()
-        / ring.len() as f64
+    ring.iter().map(|&node| snapshot.sizes[node]).sum::<f64>() / ring.len() as f64
 }
 
 /// Size that depth behind a facet is judged by: that of the facets of the deformable
@@ -262,12 +262,12 @@ fn interference(
 }
 
 /// The node, or the corner of a facet that is farthest against `n`.
-fn deepest_corner(snapshot: &Snapshot, spot: Spot, n: &Vec3) -> u32 {
+fn deepest_corner(snapshot: &Snapshot, spot: Spot, n: &Vec3) -> SurfaceNode {
     let facet = match spot {
         Spot::Node(node) => return node,
         Spot::Centre(facet) => facet,
     };
-    let height = |node: &u32| snapshot.x[*node as usize].dot(n);
+    let height = |node: &SurfaceNode| snapshot.x[*node].dot(n);
     let corners = snapshot.corners(facet).into_iter();
     let lowest = corners.min_by(|a, b| height(a).total_cmp(&height(b)));
     lowest.expect("a facet has corners")
@@ -307,7 +307,7 @@ fn behind_plane(
 ) -> Vec<Interference> {
     let before = start.plane().unwrap_or(plane);
     let [first, last] = [start, end].map(|configuration| configuration.side(Side::A));
-    (0..last.x.len() as u32)
+    SurfaceNode::all(last.x.len())
         .map(Spot::Node)
         .filter_map(|spot| {
             let depth = -height(last, spot, &plane);
@@ -363,9 +363,9 @@ fn of_spot(
 }
 
 /// The box around a surface on its way.
-fn swept_box(at: &[&Snapshot; 2], facet: &[u32; 4]) -> Bounds {
+fn swept_box(at: &[&Snapshot; 2], facet: &[SurfaceNode; 4]) -> Bounds {
     let corners = distinct_corners(facet).iter();
-    Bounds::around(corners.flat_map(|&node| at.map(|snapshot| snapshot.x[node as usize])))
+    Bounds::around(corners.flat_map(|&node| at.map(|snapshot| snapshot.x[node])))
 }
 
 /// A tree over the swept boxes of the facets.

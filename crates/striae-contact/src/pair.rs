@@ -4,6 +4,7 @@ use serde::Serialize;
 use striae_law::friction::Friction;
 use striae_mesh::Vec3;
 use striae_surface::{
+    node::SurfaceNode,
     texture::{Field, Texture},
     topology::{Surface, distinct_corners},
 };
@@ -131,15 +132,15 @@ pub(crate) fn local_sizes(surface: &Surface, x: &[Vec3]) -> Vec<f64> {
         .iter()
         .map(|facet| {
             let corners = distinct_corners(facet);
-            let origin = x[corners[0] as usize];
+            let origin = x[corners[0]];
             let fan: Vec3 = corners[1..]
                 .windows(2)
-                .map(|pair| (x[pair[0] as usize] - origin).cross(&(x[pair[1] as usize] - origin)))
+                .map(|pair| (x[pair[0]] - origin).cross(&(x[pair[1]] - origin)))
                 .sum();
             0.5 * fan.norm()
         })
         .collect();
-    (0..x.len() as u32)
+    SurfaceNode::all(x.len())
         .map(|node| {
             let corners = surface.corners(node);
             let sum: f64 = corners.iter().map(|c| areas[c.facet.index()]).sum();

@@ -7,7 +7,7 @@
 
 use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
-use striae_surface::facet::Shape;
+use striae_surface::{facet::Shape, node::SurfaceNode};
 
 use crate::{
     configuration::Configuration,
@@ -21,7 +21,7 @@ pub struct PairedFacets {
     /// Facets of the sides `a` and `b`; a plane has none.
     pub facets: [Option<FacetId>; 2],
     /// Corners of side `a`, then of side `b`, as surface-local nodes.
-    pub corners: [[u32; 4]; 2],
+    pub corners: [[SurfaceNode; 4]; 2],
     /// Their current positions.
     pub x: [Vec3; 8],
     /// Mean gap up to which they are paired.
@@ -85,7 +85,11 @@ impl PairedFacets {
 
     /// Side and surface-local node of a corner of a deformable side; `None` for the corners
     /// of a rigid side and the repeated corner of a triangle.
-    pub fn node(&self, configuration: &Configuration, corner: usize) -> Option<(Side, u32)> {
+    pub fn node(
+        &self,
+        configuration: &Configuration,
+        corner: usize,
+    ) -> Option<(Side, SurfaceNode)> {
         let (side, at) = (Side::BOTH[corner / 4], corner % 4);
         let corners = &self.corners[side];
         let repeated = at == 3 && Shape::of(corners) == Shape::Triangle;
@@ -156,7 +160,7 @@ fn of_facet(
         let nothing = [point; 4];
         let paired = plane_segment(&a, &normal, slopes).map(|segment| PairedFacets {
             facets: [Some(facet), None],
-            corners: [corners, [0; 4]],
+            corners: [corners, [SurfaceNode(0); 4]],
             x: joined(&positions, &nothing),
             reach,
             segment,
@@ -206,7 +210,7 @@ fn joined(a: &[Vec3; 4], b: &[Vec3; 4]) -> [Vec3; 8] {
 }
 
 /// Largest reach of the corners of a facet.
-fn reach(configuration: &Configuration, side: Side, corners: &[u32; 4]) -> f64 {
+fn reach(configuration: &Configuration, side: Side, corners: &[SurfaceNode; 4]) -> f64 {
     let reaches = corners.map(|node| configuration.reach(side, node));
     reaches.into_iter().fold(0.0, f64::max)
 }

@@ -1,6 +1,7 @@
 //! What was opposite to nodes at the start of an increment, for collocated slip.
 
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     configuration::Configuration,
@@ -13,7 +14,7 @@ use crate::{
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Partner {
     /// On a deformable facet, as weights of its corners.
-    Corners([u32; 4], [f64; 4]),
+    Corners([SurfaceNode; 4], [f64; 4]),
     /// On a rigid surface, in its reference configuration.
     Rigid(Vec3),
 }
@@ -25,7 +26,7 @@ impl Partner {
             Partner::Rigid(point) => configuration.placement.point(point),
             Partner::Corners(corners, weights) => {
                 let x = &configuration.side(side.opposite()).x;
-                (0..4).map(|c| x[corners[c] as usize] * weights[c]).sum()
+                (0..4).map(|c| x[corners[c]] * weights[c]).sum()
             }
         }
     }

@@ -17,6 +17,8 @@ pub(crate) use approach::compliances;
 pub use before::{Before, Kept};
 pub use traction_field::Selection;
 
+use striae_surface::node::SurfaceNode;
+
 use crate::{
     configuration::Configuration,
     pairing::Scope,
@@ -73,12 +75,17 @@ impl Selection {
         for &side in start.pair.deformable_sides() {
             let nodes = before.pointed[side].iter().enumerate();
             for (node, _) in nodes.filter(|(_, pointed)| **pointed) {
-                selection.add_pointed(start, predicted, prescribed, (side, node as u32));
+                selection.add_pointed(start, predicted, prescribed, (side, SurfaceNode::new(node)));
             }
         }
         let lodged = (0..selection.points.len()).filter(|&node| selection.points[node].is_some());
         for node in lodged.collect::<Vec<_>>() {
-            selection.add_pointed(start, predicted, prescribed, (Side::B, node as u32));
+            selection.add_pointed(
+                start,
+                predicted,
+                prescribed,
+                (Side::B, SurfaceNode::new(node)),
+            );
         }
         selection
     }
@@ -89,7 +96,7 @@ impl Selection {
         start: &Configuration,
         predicted: Option<&Configuration>,
         prescribed: &Prescribed,
-        (side, node): (Side, u32),
+        (side, node): (Side, SurfaceNode),
     ) {
         let tip = self.tip(side, node);
         let known = [Some(start), predicted];
@@ -99,8 +106,8 @@ impl Selection {
             Some((partner, spot.hit))
         });
         let size = start.size(side, node);
-        let yields = |side: Side, node: u32| {
-            let first = 3 * node as usize;
+        let yields = |side: Side, node: SurfaceNode| {
+            let first = 3 * node.index();
             let components = prescribed[side].get(first..first + 3);
             components.is_none_or(|components| components.contains(&false))
         };
@@ -119,7 +126,7 @@ impl Selection {
             }
         }
         let basis = &mut self.basis;
-        basis.index[side][node as usize] = Some(basis.kept.len() as u32);
+        basis.index[side][node] = Some(basis.kept.len() as u32);
         basis.kept.push(KeptNode { side, node });
         basis.pivots.push(THETA_1);
         basis.flexibility.push(flexibility);

@@ -9,6 +9,7 @@ use nalgebra::Matrix3;
 use striae_mesh::Vec3;
 use striae_surface::{
     facet::{Shape, facet_normal},
+    node::SurfaceNode,
     topology::distinct_corners,
 };
 
@@ -42,7 +43,7 @@ pub struct Spot {
     /// Gap.
     pub gap: TrackedScalar,
     /// Corners of the facet without repetition.
-    pub corners: Vec<u32>,
+    pub corners: Vec<SurfaceNode>,
     /// The projection with its derivatives.
     pub opposing: Option<Opposing>,
 }

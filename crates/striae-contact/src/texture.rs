@@ -17,7 +17,7 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::DualSVec64;
 use rayon::prelude::*;
 use striae_law::friction::RequiredTextures;
-use striae_surface::texture::Axes;
+use striae_surface::{node::SurfaceNode, texture::Axes};
 
 pub use crate::pair::SideTexture;
 use crate::{
@@ -50,7 +50,7 @@ pub struct CollapsedTexture {
     /// Side of the pair.
     pub side: Side,
     /// Surface-local node.
-    pub node: u32,
+    pub node: SurfaceNode,
 }
 
 /// Textures of all nodes that the friction law looks at. Nodes that face nothing have any.
@@ -70,21 +70,22 @@ pub fn textures(
         let found: Vec<_> = (0..selection.nodes(side))
             .into_par_iter()
             .with_min_len(8)
+            .map(SurfaceNode::new)
             .map(|node| match &frames[side][node] {
-                Some(frame) if selection.is_kept(side, node as u32) => Ok(NodeTextures {
-                    own: match selection.tip(side, node as u32) {
-                        Tip::Node { .. } => own(configuration, side, node as u32, &frame.n)?,
-                        Tip::Rigid(point) => of_point(configuration, node as u32, point, frame)?,
+                Some(frame) if selection.is_kept(side, node) => Ok(NodeTextures {
+                    own: match selection.tip(side, node) {
+                        Tip::Node { .. } => own(configuration, side, node, &frame.n)?,
+                        Tip::Rigid(point) => of_point(configuration, node, point, frame)?,
                     },
                     opposite: if is_beside(selection, kinematics, side, node) {
                         any_direction(configuration, side, frame)
                     } else {
                         opposite(
                             configuration,
-                            (side, node as u32),
-                            selection.tip(side, node as u32),
+                            (side, node),
+                            selection.tip(side, node),
                             (frame, frames),
-                            faced(configuration, selection, side, node as u32),
+                            faced(configuration, selection, side, node),
                         )?
                     },
                 }),
@@ -100,7 +101,7 @@ pub fn textures(
 pub fn own(
     configuration: &Configuration,
     side: Side,
-    node: u32,
+    node: SurfaceNode,
     n: &Tracked,
 ) -> Result<Option<Tracked>, CollapsedTexture> {
     let Some(SideTexture::Nodal(texture)) = &configuration.pair.sides[side].texture else {
@@ -111,8 +112,8 @@ pub fn own(
     let ordinates = texture.ordinates(node);
     let mut direction = Tracked::default();
     let mut total = 0.0;
-    let mut add = |other: u32, weight: f64| {
-        direction.value += snapshot.x[other as usize] * weight;
+    let mut add = |other: SurfaceNode, weight: f64| {
+        direction.value += snapshot.x[other] * weight;
         let first = numbering.position(side, other);
         let block = Matrix3::from_diagonal_element(weight);
         direction.jacobian.push((first, block));
@@ -133,7 +134,12 @@ pub fn own(
 
 /// Whether a node with unknowns faces nothing. No position changes its gap then, so it is open
 /// whatever the texture.
-fn is_beside(selection: &Selection, kinematics: &[Kinematics], side: Side, node: usize) -> bool {
+fn is_beside(
+    selection: &Selection,
+    kinematics: &[Kinematics],
+    side: Side,
+    node: SurfaceNode,
+) -> bool {
     let place = selection.basis.index[side][node];
     place.is_some_and(|k| kinematics[k as usize].gap.gradient.is_empty())
 }

@@ -19,7 +19,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector};
 use striae_mesh::{FacetId, Vec3};
-use striae_surface::topology::distinct_corners;
+use striae_surface::{node::SurfaceNode, topology::distinct_corners};
 
 use crate::{
     configuration::{Configuration, Snapshot},
@@ -67,13 +67,13 @@ pub struct Apart {
 #[derive(Clone, Debug)]
 pub struct FacetRows {
     /// Its corners, surface-local.
-    pub corners: Vec<u32>,
+    pub corners: Vec<SurfaceNode>,
     /// `d_l`.
     pub weights: Vec<f64>,
     /// `d_l` over what it were if all of the facet were covered.
     pub cover: Vec<f64>,
     /// `(A C)_lm` by opposite node, for every corner.
-    pub opposite: BTreeMap<u32, Vec<f64>>,
+    pub opposite: BTreeMap<SurfaceNode, Vec<f64>>,
 }
 
 /// What two surfaces have in common; facets that are further apart than `within`, or a tenth
@@ -185,7 +185,7 @@ impl Joined {
 
 /// Rows of a facet; `None` where what is covered of it is too thin for dual functions.
 fn facet_rows(
-    corners: &[u32; 4],
+    corners: &[SurfaceNode; 4],
     area: f64,
     paired: &[&PairedFacets],
     side: Side,
@@ -193,7 +193,7 @@ fn facet_rows(
     let own = distinct_corners(corners);
     let (count, first, first_opposite) = (own.len(), 4 * side.index(), 4 * side.opposite().index());
     let mut gram = DMatrix::<f64>::zeros(count, count);
-    let mut common: BTreeMap<u32, DVector<f64>> = BTreeMap::new();
+    let mut common: BTreeMap<SurfaceNode, DVector<f64>> = BTreeMap::new();
     for paired in paired {
         let mass = &paired.segment.mass;
         for l in 0..count {

@@ -5,6 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 use striae_mesh::{FacetId, Vec3};
+use striae_surface::node::SurfaceNode;
 
 use crate::{configuration::Configuration, pairing::farthest, side::Side, term::Source};
 
@@ -12,7 +13,7 @@ use crate::{configuration::Configuration, pairing::farthest, side::Side, term::S
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RigidPoint {
     /// Surface-local ends of the edge that it lies on; both the same at a vertex.
-    pub ends: [u32; 2],
+    pub ends: [SurfaceNode; 2],
     /// Share `s` of the way from the first to the second.
     pub share: f64,
     /// Depth that its row leaves to it.
@@ -25,7 +26,7 @@ pub type RigidPoints = Vec<Option<RigidPoint>>;
 
 impl RigidPoint {
     /// A vertex.
-    pub fn vertex(node: u32) -> Self {
+    pub fn vertex(node: SurfaceNode) -> Self {
         Self {
             ends: [node; 2],
             share: 0.0,
@@ -47,13 +48,11 @@ impl RigidPoint {
     pub fn normal(&self, configuration: &Configuration) -> Vec3 {
         let normals = &configuration.side(Side::B).normals;
         let between = self.between(normals);
-        between
-            .try_normalize(1e-6)
-            .unwrap_or(normals[self.ends[0] as usize])
+        between.try_normalize(1e-6).unwrap_or(normals[self.ends[0]])
     }
 
     fn between(&self, of_nodes: &[Vec3]) -> Vec3 {
-        let [start, end] = self.ends.map(|node| of_nodes[node as usize]);
+        let [start, end] = self.ends.map(|node| of_nodes[node]);
         start + (end - start) * self.share
     }
 }
@@ -66,7 +65,7 @@ pub enum Tip {
         /// The side.
         side: Side,
         /// Surface-local node.
-        node: u32,
+        node: SurfaceNode,
         /// The opposing facet that it was in at the start of the increment.
         home: Option<FacetId>,
     },
@@ -94,7 +93,7 @@ impl Tip {
     /// Where it is.
     pub fn position(&self, configuration: &Configuration) -> Vec3 {
         match self {
-            Self::Node { side, node, .. } => configuration.side(*side).x[*node as usize],
+            Self::Node { side, node, .. } => configuration.side(*side).x[*node],
             Self::Rigid(point) => point.position(configuration),
         }
     }
@@ -102,7 +101,7 @@ impl Tip {
     /// Unit outward normal of its own surface.
     pub fn normal(&self, configuration: &Configuration) -> Vec3 {
         match self {
-            Self::Node { side, node, .. } => configuration.side(*side).normals[*node as usize],
+            Self::Node { side, node, .. } => configuration.side(*side).normals[*node],
             Self::Rigid(point) => point.normal(configuration),
         }
     }

@@ -8,7 +8,7 @@ use num_dual::DualSVec64;
 use rayon::prelude::*;
 use striae_law::friction::{Friction, Textures as LawTextures};
 use striae_mesh::Vec3;
-use striae_surface::scalar::constant3;
+use striae_surface::{node::SurfaceNode, scalar::constant3};
 
 use crate::{
     configuration::Configuration,
@@ -49,17 +49,16 @@ pub fn nodal_tractions(
         (0..selection.nodes(side))
             .into_par_iter()
             .with_min_len(16)
+            .map(SurfaceNode::new)
             .map(|node| match &surroundings.frames[side][node] {
-                Some(frame) if selection.is_kept(side, node as u32) && !frictionless => {
-                    nodal_traction(
-                        configuration,
-                        frame,
-                        &surroundings.textures[side][node],
-                        &surroundings.rates[side][node],
-                        configuration.pair.numbering().traction(side, node as u32),
-                        tractions.nodes[side][node],
-                    )
-                }
+                Some(frame) if selection.is_kept(side, node) && !frictionless => nodal_traction(
+                    configuration,
+                    frame,
+                    &surroundings.textures[side][node],
+                    &surroundings.rates[side][node],
+                    configuration.pair.numbering().traction(side, node),
+                    tractions.nodes[side][node],
+                ),
                 _ => Tracked::default(),
             })
             .collect()

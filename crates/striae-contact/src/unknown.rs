@@ -12,6 +12,7 @@
 use crate::side::Side;
 use nalgebra::Matrix3;
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 /// Which position unknowns are prescribed, by side, three a node.
 pub type Prescribed = [Vec<bool>; 2];
@@ -38,7 +39,7 @@ pub enum Unknown {
         /// Side of the pair.
         side: Side,
         /// Surface-local node.
-        node: u32,
+        node: SurfaceNode,
         /// Component.
         axis: usize,
     },
@@ -47,7 +48,7 @@ pub enum Unknown {
         /// Side of the pair.
         side: Side,
         /// Surface-local node.
-        node: u32,
+        node: SurfaceNode,
         /// `0`: pressure, `1`, `2`: along the nodal tangents.
         component: usize,
     },
@@ -64,12 +65,12 @@ impl Numbering {
     }
 
     /// First of the three position unknowns of a node.
-    pub fn position(&self, side: Side, node: u32) -> u32 {
-        3 * (node + self.before(side))
+    pub fn position(&self, side: Side, node: SurfaceNode) -> u32 {
+        3 * (node.0 + self.before(side))
     }
 
     /// First of the three traction unknowns of a node.
-    pub fn traction(&self, side: Side, node: u32) -> u32 {
+    pub fn traction(&self, side: Side, node: SurfaceNode) -> u32 {
         3 * (self.nodes[0] + self.nodes[1]) + self.position(side, node)
     }
 
@@ -98,7 +99,7 @@ impl Numbering {
         } else {
             Side::B
         };
-        let node = node - self.before(side);
+        let node = SurfaceNode(node - self.before(side));
         if traction {
             Unknown::Traction {
                 side,
@@ -123,18 +124,18 @@ mod tests {
     fn numbers_and_meanings_agree() {
         let numbering = Numbering::new([4, 3], [4, 3]);
         assert_eq!(
-            numbering.unknown(numbering.position(Side::B, 2) + 1),
+            numbering.unknown(numbering.position(Side::B, SurfaceNode(2)) + 1),
             Unknown::Position {
                 side: Side::B,
-                node: 2,
+                node: SurfaceNode(2),
                 axis: 1
             }
         );
         assert_eq!(
-            numbering.unknown(numbering.traction(Side::A, 3) + 2),
+            numbering.unknown(numbering.traction(Side::A, SurfaceNode(3)) + 2),
             Unknown::Traction {
                 side: Side::A,
-                node: 3,
+                node: SurfaceNode(3),
                 component: 2
             }
         );

@@ -51,7 +51,7 @@ pub fn kinematics(
         .with_min_len(4)
         .map(|k| {
             let kept = selection.kept()[k];
-            let frame = frames[kept.side][kept.node as usize].as_ref();
+            let frame = frames[kept.side][kept.node].as_ref();
             if selection.is_pointed(kept.side, kept.node) {
                 return pointed::kinematics(configuration, selection, k, frame);
             }
@@ -225,7 +225,7 @@ pub fn reports(
     for patch in patches {
         for corner in 0..8 {
             if let Some((side, node)) = patch.paired.node(configuration, corner) {
-                let report = &mut reports[side][node as usize];
+                let report = &mut reports[side][node];
                 let [gap, x, y, z] = patch.rows.value[corner];
                 report.gap += gap;
                 report.slip += Vec3::new(x, y, z) * side_sign(side);

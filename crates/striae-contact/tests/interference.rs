@@ -39,7 +39,9 @@ fn body(mesh: &Mesh, sets: &[&str]) -> Body {
     };
     let (x, skin_x) = (at(&surface), at(&skin));
     let fibres = fibres(&surface, &x, &skin, &skin_x);
-    let thickness = lengths(&surface, &x, &fibres, |node| skin_x[node as usize]);
+    let thickness = lengths(&surface, &x, &fibres, |node| {
+        skin_x[skin.node(node).unwrap()]
+    });
     Body {
         surface,
         x,

@@ -8,6 +8,7 @@ use striae_contact::{
 };
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::{problem::Problem, state::State};
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     ContactField, OutputError,
@@ -41,16 +42,16 @@ pub(crate) fn write_surface(
     let Some(surface) = geometry.contact.sides[side].surface() else {
         return Ok(());
     };
-    let global = |node: usize| problem.surface_node(pair, side, node as u32);
+    let global = |node: SurfaceNode| problem.surface_node(pair, side, node);
     let count = surface.nodes().len();
-    let points: Vec<Vec3> = (0..count)
+    let points: Vec<Vec3> = SurfaceNode::all(count)
         .filter_map(global)
         .map(|n| state.positions[n])
         .collect();
     let quads: Vec<[NodeId; 4]> = surface
         .facets()
         .iter()
-        .map(|corners| corners.map(NodeId))
+        .map(|corners| corners.map(|node| NodeId(node.0)))
         .collect();
     let mut grid = Grid {
         points: &points,

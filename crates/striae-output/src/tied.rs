@@ -30,7 +30,9 @@ pub(crate) fn write_tied(
         .map(|node| state.positions[first + node.index()])
         .collect();
     let facets = surface.facets().iter();
-    let quads: Vec<[NodeId; 4]> = facets.map(|corners| corners.map(NodeId)).collect();
+    let quads: Vec<[NodeId; 4]> = facets
+        .map(|corners| corners.map(|node| NodeId(node.0)))
+        .collect();
     let vectors = |f: fn(&TieTraction) -> Vec3| Values::Vectors(tractions.iter().map(f).collect());
     let along_normal = tractions.iter().map(TieTraction::along_normal).collect();
     let grid = Grid {

@@ -34,6 +34,7 @@ use striae_contact::{
 };
 use striae_mesh::Vec3;
 use striae_sparse::{SparseMatrix, Supervariable};
+use striae_surface::node::SurfaceNode;
 use terms::Triple;
 use ties::{Moving, Scratch, Tie};
 
@@ -302,8 +303,8 @@ impl System<'_> {
     fn idle(&mut self, selections: &[Selection]) {
         for (pair, selection) in selections.iter().enumerate() {
             for side in Side::BOTH {
-                for node in 0..selection.nodes(side) {
-                    if !selection.is_kept(side, node as u32)
+                for node in SurfaceNode::all(selection.nodes(side)) {
+                    if !selection.is_kept(side, node)
                         && let Some(first) = self.layout.traction(pair, side, node)
                     {
                         (first..first + 3).for_each(|unknown| self.hold(unknown, 0.0, 1.0));

@@ -16,6 +16,7 @@ use striae_contact::{
     unknowns::{NodeResult, Status},
 };
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     assembly::StepContext,
@@ -136,7 +137,7 @@ fn closed(context: &StepContext, state: &State, pair: usize) -> [Vec<NodeResult>
             .collect();
     }
     for facing in facing(&configuration) {
-        nodes[facing.side][facing.node as usize].status = Status::Stick;
+        nodes[facing.side][facing.node].status = Status::Stick;
     }
     nodes
 }
@@ -153,16 +154,16 @@ fn touching(context: &StepContext, pair: usize) -> [Vec<NodeResult>; 2] {
     let mut nodes = [Vec::new(), Vec::new()];
     for &side in context.pairs[pair].deformable_sides() {
         let snapshot = configuration.side(side);
-        let result = |node: u32| {
+        let result = |node: SurfaceNode| {
             let touches = signed_gap(&stage, side, node)
-                .is_some_and(|(gap, _)| gap <= TOUCHING * snapshot.sizes[node as usize]);
+                .is_some_and(|(gap, _)| gap <= TOUCHING * snapshot.sizes[node]);
             NodeResult {
-                normal: snapshot.normals[node as usize],
+                normal: snapshot.normals[node],
                 status: if touches { Status::Stick } else { Status::Open },
                 ..NodeResult::default()
             }
         };
-        nodes[side] = (0..snapshot.x.len() as u32).map(result).collect();
+        nodes[side] = SurfaceNode::all(snapshot.x.len()).map(result).collect();
     }
     nodes
 }
@@ -313,7 +314,7 @@ impl Rows {
         });
         for side in Side::BOTH {
             for (node, result) in nodes[side].iter().enumerate() {
-                let global = problem.carrier(pair, side, node as u32);
+                let global = problem.carrier(pair, side, SurfaceNode::new(node));
                 let (Some(global), false) = (global, result.status == Status::Open) else {
                     continue;
                 };

@@ -18,6 +18,7 @@ use striae_contact::{
     side::Side,
 };
 use striae_mesh::{ElementId, NodeId, Vec3};
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     interference::{Positions, configuration, thickness, thickness_with},
@@ -162,10 +163,10 @@ pub fn fault(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
 }
 
 /// The node, of the mesh of its body or rigid surface, that a surface node is.
-pub fn surface_node(model: &Model, pair: PairId, side: Side, node: u32) -> Option<NodeId> {
+pub fn surface_node(model: &Model, pair: PairId, side: Side, node: SurfaceNode) -> Option<NodeId> {
     let geometry = pair_geometry(model, &untextured(&model.pairs[pair.0])).ok()?;
     let surface = geometry.contact.sides[side].surface()?;
-    surface.nodes().get(node as usize).copied()
+    surface.nodes().get(node.index()).copied()
 }
 
 /// Name of the body or rigid surface opposite to a side.

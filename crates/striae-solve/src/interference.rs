@@ -104,9 +104,13 @@ pub(crate) fn thickness_with(
             Some(body) => surface.nodes().iter().map(|&node| at(body, node)).collect(),
             None => rigid.clone(),
         };
-        let end = |node: u32| match geometry.bodies[side] {
-            Some(body) => at(body, NodeId(node)),
-            None => rigid[node as usize],
+        let end = |node: NodeId| match geometry.bodies[side] {
+            Some(body) => at(body, node),
+            None => {
+                rigid[surface
+                    .node(node)
+                    .expect("the skin of a rigid side is the side")]
+            }
         };
         lengths(surface, &x, &geometry.fibres[side], end)
     }))

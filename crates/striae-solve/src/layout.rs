@@ -9,6 +9,7 @@
 use serde::{Deserialize, Serialize};
 use striae_contact::{selection::Selection, side::Side, unknown::Unknown};
 use striae_sparse::{Supervariable, Tier};
+use striae_surface::node::SurfaceNode;
 
 use crate::{node::GlobalNode, problem::Problem};
 
@@ -60,7 +61,7 @@ impl Layout {
                 let active = sides[side].iter().enumerate();
                 active
                     .map(|(node, active)| {
-                        let node = problem.carrier(pair, side, node as u32)?;
+                        let node = problem.carrier(pair, side, SurfaceNode::new(node))?;
                         active.then(|| {
                             sizes[node] += 3;
                             (node, sizes[node] - 3)
@@ -171,8 +172,11 @@ impl Layout {
     }
 
     /// First traction unknown of a surface node, if it has any.
-    pub fn traction(&self, pair: usize, side: Side, node: usize) -> Option<usize> {
-        self.tractions[pair][side].get(node).copied().flatten()
+    pub fn traction(&self, pair: usize, side: Side, node: SurfaceNode) -> Option<usize> {
+        self.tractions[pair][side]
+            .get(node.index())
+            .copied()
+            .flatten()
     }
 
     /// Global number of a pair-local unknown and its supervariable.
@@ -192,7 +196,7 @@ impl Layout {
                 node,
                 component,
             } => {
-                let first = self.traction(pair, side, node as usize)?;
+                let first = self.traction(pair, side, node)?;
                 let node = problem.carrier(pair, side, node)?;
                 Some((first + component, Supervariable(node.0)))
             }

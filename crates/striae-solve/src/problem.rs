@@ -347,7 +347,7 @@ fn painted(
         },
         node: error
             .node()
-            .and_then(|node| surface.nodes().get(node as usize).copied()),
+            .and_then(|node| surface.nodes().get(node.index()).copied()),
         error,
     })?;
     Ok((SideTexture::Nodal(texture), Some(conditioning)))

@@ -12,6 +12,7 @@ use striae_contact::{
     unknowns::{NodeResult, Status, counted},
 };
 use striae_mesh::{FacetId, NodeId, Vec3};
+use striae_surface::node::SurfaceNode;
 
 use crate::{problem::Problem, rigid::Wrench, state::State};
 
@@ -232,7 +233,7 @@ fn side(problem: &Problem, state: &State, pair: usize, side: Side) -> SideReport
         sum.area += forces.area.iter().sum::<f64>();
         let corners = &surface.facets()[facet.index()];
         for (corner, area) in corners.iter().zip(&forces.area) {
-            let node = &state.pairs[pair].nodes[side][*corner as usize];
+            let node = &state.pairs[pair].nodes[side][*corner];
             sum.pressed += if node.pressure > 0.0 { *area } else { 0.0 };
         }
         let n = normal_of(problem, state, (pair, side), corners);
@@ -257,9 +258,9 @@ fn normal_of(
     problem: &Problem,
     state: &State,
     (pair, side): (usize, Side),
-    corners: &[u32; 4],
+    corners: &[SurfaceNode; 4],
 ) -> Vec3 {
-    let at = |corner: u32| problem.surface_node(pair, side, corner);
+    let at = |corner: SurfaceNode| problem.surface_node(pair, side, corner);
     let [a, b, c, d] =
         corners.map(|corner| at(corner).map_or(Vec3::zeros(), |n| state.positions[n]));
     (c - a).cross(&(d - b)).normalize()

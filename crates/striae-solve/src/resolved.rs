@@ -19,7 +19,7 @@ use striae_contact::{
     texture::SideTexture,
 };
 use striae_mesh::Vec3;
-use striae_surface::{normal::nodal_normals, texture::Texture};
+use striae_surface::{node::SurfaceNode, normal::nodal_normals, texture::Texture};
 
 use crate::{interference::configuration, problem::Problem, state::State};
 
@@ -49,14 +49,14 @@ pub fn resolved(problem: &Problem, state: &State, pair: usize) -> [Option<Resolv
         let directions = match (texture, carrier == side) {
             (SideTexture::Nodal(texture), true) => {
                 Box::new(on_nodes(problem, state, (pair, side), texture))
-                    as Box<dyn Fn(u32) -> Directions>
+                    as Box<dyn Fn(SurfaceNode) -> Directions>
             }
             (texture, _) => Box::new(on_rigid(problem, state, pair, texture)),
         };
         let mut sum = Resolved::default();
         for (node, force) in forces.iter().enumerate() {
             if *force != Vec3::zeros() {
-                let [s, a] = directions(node as u32);
+                let [s, a] = directions(SurfaceNode::new(node));
                 sum.along += sign * force.dot(&s);
                 sum.across += sign * force.dot(&a);
             }
@@ -75,7 +75,7 @@ fn nodal_forces(problem: &Problem, state: &State, pair: usize, side: Side) -> Ve
     for (facet, of_facet) in &state.pairs[pair].facets[side] {
         let corners = &surface.facets()[facet.index()];
         for (corner, force) in corners.iter().zip(&of_facet.force) {
-            forces[*corner as usize] += force;
+            forces[*corner] += force;
         }
     }
     forces
@@ -86,14 +86,14 @@ fn on_nodes<'a>(
     state: &'a State,
     (pair, side): (usize, Side),
     texture: &'a Texture,
-) -> impl Fn(u32) -> Directions + 'a {
+) -> impl Fn(SurfaceNode) -> Directions + 'a {
     let surface = problem.pairs[pair].contact.sides[side].surface();
-    let count = surface.map_or(0, |surface| surface.nodes().len() as u32);
-    let nodes = (0..count).filter_map(|node| problem.surface_node(pair, side, node));
+    let count = surface.map_or(0, |surface| surface.nodes().len());
+    let nodes = SurfaceNode::all(count).filter_map(|node| problem.surface_node(pair, side, node));
     let x: Vec<Vec3> = nodes.map(|node| state.positions[node]).collect();
     let normals = surface.map_or_else(Vec::new, |surface| nodal_normals(surface, &x));
     move |node| {
-        let axes = texture.at(node, &x, normals[node as usize]);
+        let axes = texture.at(node, &x, normals[node]);
         axes.map_or([Vec3::zeros(); 2], |axes| [axes.s, axes.a])
     }
 }
@@ -103,10 +103,10 @@ fn on_rigid<'a>(
     state: &'a State,
     pair: usize,
     texture: &'a SideTexture,
-) -> impl Fn(u32) -> Directions + 'a {
+) -> impl Fn(SurfaceNode) -> Directions + 'a {
     let configuration = configuration(problem, pair, state.into());
     move |node| {
-        let x = configuration.side(Side::A).x[node as usize];
+        let x = configuration.side(Side::A).x[node];
         let axes = match (texture, &configuration.pair.sides[1].geometry) {
             (SideTexture::Plane(field), Geometry::Plane { point, normal }) => {
                 let place = configuration.placement.back(&x);
@@ -126,10 +126,10 @@ fn on_rigid<'a>(
 fn at_nearest(configuration: &Configuration, texture: &Texture, x: &Vec3) -> Option<Directions> {
     let target = configuration.side(Side::B);
     let nearest = nearest_of(target, x)?;
-    let distance = |corner: &u32| (target.x[*corner as usize] - nearest.point).norm();
+    let distance = |corner: &SurfaceNode| (target.x[*corner] - nearest.point).norm();
     let corners = target.corners(nearest.facet).into_iter();
     let corner = corners.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-    let normal = target.normals[corner as usize];
+    let normal = target.normals[corner];
     let axes = texture.at(corner, &target.x, normal).ok()?;
     Some([axes.s, axes.a])
 }

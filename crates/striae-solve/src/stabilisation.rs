@@ -22,6 +22,7 @@ use striae_contact::{
     term::{Field, LocalTerm},
 };
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     model::{Model, Procedure},
@@ -52,7 +53,7 @@ pub struct Point {
     /// Side of the pair.
     pub side: Side,
     /// Surface node.
-    pub node: u32,
+    pub node: SurfaceNode,
     /// Weight in the relative motion.
     pub weight: f64,
     /// Where it was at the start of the increment.

@@ -1,6 +1,7 @@
 //! What the rows of a kept node are made from.
 
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     frame::Frame, kinematics::Kinematics, side::Side, table_1::Corrector, texture::NodeTextures,
@@ -33,7 +34,7 @@ pub struct ContactNode<'a> {
     /// Side of the pair.
     pub side: Side,
     /// Surface-local node.
-    pub node: u32,
+    pub node: SurfaceNode,
     /// Gap and slip.
     pub kinematics: &'a Kinematics,
     /// Nodal frame.

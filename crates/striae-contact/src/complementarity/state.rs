@@ -177,7 +177,7 @@ impl<'a> NodeState<'a> {
     pub(super) fn is_free_position(&self, first: u32, axis: usize) -> bool {
         match self.numbering.unknown(first) {
             Unknown::Position { side, node, .. } => {
-                self.answers(first) && !self.prescribed[side][3 * node as usize + axis]
+                self.answers(first) && !self.prescribed[side][3 * node.index() + axis]
             }
             Unknown::Traction { .. } => false,
         }

@@ -23,6 +23,7 @@
 
 use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
+use striae_surface::node::SurfaceNode;
 
 pub mod points;
 
@@ -70,18 +71,18 @@ pub const COVERED: f64 = 0.1;
 const NO_PRESSURE: f64 = 1e-10;
 
 /// Nodes, as side and number.
-type Places = Vec<(Side, u32)>;
+type Places = Vec<(Side, SurfaceNode)>;
 
 /// What pierces the other side without being pointed yet.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pierced {
     /// Nodes, as side and number.
-    pub nodes: Vec<(Side, u32)>,
+    pub nodes: Vec<(Side, SurfaceNode)>,
     /// Nodes that the field is to have unknowns at, as side and number: their facets are in
     /// the other side in the mean, and no kept node feels it.
-    pub unfelt: Vec<(Side, u32)>,
+    pub unfelt: Vec<(Side, SurfaceNode)>,
     /// Points of a rigid side with the nodes that they lodge with.
-    pub points: Vec<(u32, RigidPoint)>,
+    pub points: Vec<(SurfaceNode, RigidPoint)>,
 }
 
 impl Pierced {
@@ -111,7 +112,7 @@ pub fn pierced(
         .collect();
     nodes.retain(|&(side, node)| {
         let own = configuration.side(side);
-        let node = node as usize;
+        let node = node.index();
         are_apart(&felt, &own.x[node], own.sizes[node])
     });
     Pierced {
@@ -143,9 +144,9 @@ fn sharp_and_unfelt(
     let means = mean_gaps(configuration, selection.scope());
     // There is room for points of a rigid side of facets only.
     let on_facets = !selection.points.is_empty();
-    let is_sharp = |&(side, node, gap): &(Side, u32, f64)| {
-        let size = configuration.side(side).sizes[node as usize];
-        means[side][node as usize].is_none_or(|mean| {
+    let is_sharp = |&(side, node, gap): &(Side, SurfaceNode, f64)| {
+        let size = configuration.side(side).sizes[node];
+        means[side][node].is_none_or(|mean| {
             let edge = || bend_at(configuration.side(side), node) == Some(Bend::Sharp);
             let sharp = unfelt && edge() || mean > 0.0 && mean - gap > SHARP * size;
             let open = on_facets && mean > CLOSING * size;
@@ -154,7 +155,7 @@ fn sharp_and_unfelt(
     };
     let (sharp, mut smooth): (Vec<_>, Vec<_>) = deep.into_iter().partition(is_sharp);
     smooth.retain(|&(side, node, _)| {
-        let is_in = means[side][node as usize].is_some_and(|mean| mean < 0.0);
+        let is_in = means[side][node].is_some_and(|mean| mean < 0.0);
         is_in && progress == Progress::Converged && follows(configuration, selection, side, node)
     });
     [sharp, smooth].map(|nodes| {
@@ -165,13 +166,18 @@ fn sharp_and_unfelt(
 
 /// Whether a node between two deformable bodies follows others and has enough weight for an
 /// unknown of its own.
-fn follows(configuration: &Configuration, selection: &Selection, side: Side, node: u32) -> bool {
-    let size = configuration.side(side).sizes[node as usize];
+fn follows(
+    configuration: &Configuration,
+    selection: &Selection,
+    side: Side,
+    node: SurfaceNode,
+) -> bool {
+    let size = configuration.side(side).sizes[node];
     let weight = |at: usize| selection.basis.node_weights[side][at];
     !configuration.pair.is_rigid()
         && !selection.is_kept(side, node)
         && selection.carries(side, node)
-        && weight(node as usize) > COVERED * size * size
+        && weight(node.index()) > COVERED * size * size
 }
 
 /// Nodes without pressure that are not pointed and lie deeper inside the other side than
@@ -181,21 +187,21 @@ fn deep_nodes(
     selection: &Selection,
     carried: &[Vec<[f64; 3]>; 2],
     depth: f64,
-) -> Vec<(Side, u32, f64)> {
+) -> Vec<(Side, SurfaceNode, f64)> {
     let mut deep = Vec::new();
     for &side in configuration.pair.deformable_sides() {
         let nothing = NO_PRESSURE * configuration.pair.sides[side].stiffness;
-        let own_gap = |node: u32| {
-            let is_free =
-                !selection.is_pointed(side, node) && carried[side][node as usize][0] <= nothing;
+        let own_gap = |node: SurfaceNode| {
+            let is_free = !selection.is_pointed(side, node) && carried[side][node][0] <= nothing;
             let gap = is_free
                 .then(|| inside(configuration, side, node, depth))
                 .flatten();
             gap.map(|gap| (side, node, gap))
         };
-        let found: Vec<(Side, u32, f64)> = (0..selection.nodes(side) as u32)
+        let found: Vec<(Side, SurfaceNode, f64)> = (0..selection.nodes(side))
             .into_par_iter()
             .with_min_len(16)
+            .map(SurfaceNode::new)
             .filter_map(own_gap)
             .collect();
         deep.extend(found);
@@ -222,7 +228,7 @@ fn nothing(configuration: &Configuration) -> f64 {
 fn is_pressed_around(
     configuration: &Configuration,
     carried: &[Vec<[f64; 3]>; 2],
-    node: u32,
+    node: SurfaceNode,
 ) -> bool {
     let own = configuration.side(Side::A);
     let mut around = own.surface.corners(node).iter();
@@ -233,17 +239,17 @@ fn is_pressed_around(
 fn is_pressed(configuration: &Configuration, carried: &[Vec<[f64; 3]>; 2], facet: FacetId) -> bool {
     let nothing = NO_PRESSURE * configuration.pair.sides[Side::A].stiffness;
     let corners = configuration.side(Side::A).corners(facet).into_iter();
-    let mut pressures = corners.map(|node| carried[0][node as usize][0]);
+    let mut pressures = corners.map(|node| carried[0][node][0]);
     pressures.any(|pressure| pressure > nothing)
 }
 
 /// Gap of a node that lies deeper inside the other side than `depth` of the facet size.
-fn inside(configuration: &Configuration, side: Side, node: u32, depth: f64) -> Option<f64> {
+fn inside(configuration: &Configuration, side: Side, node: SurfaceNode, depth: f64) -> Option<f64> {
     let own = configuration.side(side);
-    let size = own.sizes[node as usize];
+    let size = own.sizes[node];
     if let Some((point, normal)) = configuration.plane() {
-        let gap = (own.x[node as usize] - point).dot(&normal);
-        let faces = own.normals[node as usize].dot(&normal) < 0.0;
+        let gap = (own.x[node] - point).dot(&normal);
+        let faces = own.normals[node].dot(&normal) < 0.0;
         let near = -gap < configuration.reach(side, node);
         return (faces && near && gap < -depth * size).then_some(gap);
     }
@@ -258,7 +264,7 @@ fn inside(configuration: &Configuration, side: Side, node: u32, depth: f64) -> O
         size
     } else {
         let corners = target.corners(hit.facet);
-        let sizes = corners.map(|corner| target.sizes[corner as usize]);
+        let sizes = corners.map(|corner| target.sizes[corner]);
         sizes.into_iter().fold(size, f64::min)
     };
     (hit.gap < -depth * size).then_some(hit.gap)
@@ -287,7 +293,7 @@ pub fn staying(
     for &side in configuration.pair.deformable_sides() {
         let own = configuration.side(side);
         for (node, stays) in staying[side].iter_mut().enumerate() {
-            let edge = || bend_at(own, node as u32) == Some(Bend::Sharp);
+            let edge = || bend_at(own, SurfaceNode::new(node)) == Some(Bend::Sharp);
             let open = |gap| gap > CLOSING * own.sizes[node];
             *stays &= nodes[side][node].pressure > 0.0
                 && (gaps[side][node].is_none_or(open) || unfelt && edge());
@@ -307,7 +313,7 @@ fn mean_gaps(configuration: &Configuration, scope: Scope) -> [Vec<Option<f64>>; 
         for corner in 0..8 {
             if let Some((side, node)) = paired.node(configuration, corner) {
                 let sum = paired.difference(corner, &paired.x, &origin);
-                let [gap, area] = &mut sums[side][node as usize];
+                let [gap, area] = &mut sums[side][node];
                 *gap += paired.segment.normal.dot(&sum);
                 *area += paired.area_of(corner);
             }

@@ -5,6 +5,7 @@
 
 use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     common_field::CommonField,
@@ -49,7 +50,7 @@ impl CommonField<'_> {
     fn pointed_term(&self, k: usize) -> Option<PointedTerm> {
         let configuration = self.configuration;
         let (side, node) = self.selection.kept()[k].place();
-        let tip = self.selection.tip(side, node as u32);
+        let tip = self.selection.tip(side, node);
         let spot = Spot::new(configuration, tip)?;
         let weight = self.selection.weight(k);
         let pressure = self.tractions.nodes[side][node][0];
@@ -113,7 +114,7 @@ impl CommonField<'_> {
 
     fn pointed_lanes<'b>(
         &'b self,
-        (side, node): (Side, usize),
+        (side, node): (Side, SurfaceNode),
         tip: Tip,
         spot: &'b Spot,
     ) -> Lanes<'b> {
@@ -131,7 +132,7 @@ impl CommonField<'_> {
             }
             _ => lanes.push(Source::Constant(12)),
         }
-        lanes.push(triple(numbering.traction(side, node as u32)));
+        lanes.push(triple(numbering.traction(side, node)));
         lanes.push(Source::Vector(&self.tau[side][node].jacobian));
         lanes.push(Source::Vector(&spot.ray.jacobian));
         lanes
@@ -139,7 +140,7 @@ impl CommonField<'_> {
 
     fn pointed_facets(
         &self,
-        (side, node): (Side, usize),
+        (side, node): (Side, SurfaceNode),
         tip: Tip,
         spot: &Spot,
         force: &Vec3,
@@ -156,9 +157,12 @@ impl CommonField<'_> {
         let mut facets = [None, None];
         if let Tip::Node { .. } = tip {
             let own = self.configuration.side(side);
-            let facet = own.surface.corners(node as u32)[0].facet;
+            let facet = own.surface.corners(node)[0].facet;
             let corners = own.corners(facet);
-            if let Some(at) = corners.iter().position(|corner| *corner as usize == node) {
+            if let Some(at) = corners
+                .iter()
+                .position(|corner| corner.index() == node.index())
+            {
                 of_side.force[at] = *force;
             }
             facets[side] = Some((facet, of_side));

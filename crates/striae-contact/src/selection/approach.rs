@@ -18,7 +18,7 @@ pub(crate) fn compliances(configuration: &Configuration) -> [Vec<f64>; 2] {
                 if rigid {
                     return 0.0;
                 }
-                let sizes = corners.map(|node| configuration.side(side).sizes[node as usize]);
+                let sizes = corners.map(|node| configuration.side(side).sizes[node]);
                 0.25 * sizes.iter().sum::<f64>() / of_side.stiffness
             })
             .collect()

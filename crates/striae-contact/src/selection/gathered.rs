@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use striae_mesh::{FacetId, Vec3};
-use striae_surface::facet::Shape;
+use striae_surface::{facet::Shape, node::SurfaceNode};
 
 use super::{
     before::Before,
@@ -45,7 +45,7 @@ impl Gathered {
         for paired in &paired {
             for corner in 0..8 {
                 if let Some((side, node)) = paired.node(configuration, corner) {
-                    near[side][node as usize] = true;
+                    near[side][node] = true;
                 }
             }
         }
@@ -53,7 +53,7 @@ impl Gathered {
             let nodes = near[side].iter().enumerate();
             nodes
                 .map(|(node, near)| {
-                    near.then(|| clamped(configuration, side, node as u32))
+                    near.then(|| clamped(configuration, side, SurfaceNode::new(node)))
                         .flatten()
                 })
                 .collect()
@@ -65,7 +65,7 @@ impl Gathered {
         let mut facing = vec![Vec3::zeros(); near[0].len()];
         for paired in &paired {
             for node in paired.corners[0] {
-                facing[node as usize] += paired.segment.normal * paired.segment.area;
+                facing[node] += paired.segment.normal * paired.segment.area;
             }
         }
         Self {
@@ -140,12 +140,9 @@ impl Gathered {
 /// Paired facets without patches that share next to no area.
 fn without_slivers(configuration: &Configuration, paired: Vec<PairedFacets>) -> Vec<PairedFacets> {
     let is_sliver = |paired: &PairedFacets| {
-        let size = |corners: &[u32; 4], side: Side| {
+        let size = |corners: &[SurfaceNode; 4], side: Side| {
             let sizes = &configuration.side(side).sizes;
-            corners
-                .iter()
-                .map(|&node| sizes[node as usize])
-                .fold(0.0, f64::max)
+            corners.iter().map(|&node| sizes[node]).fold(0.0, f64::max)
         };
         let size = size(&paired.corners[0], Side::A);
         paired.segment.area < SLIVER * size * size
@@ -158,7 +155,11 @@ fn without_slivers(configuration: &Configuration, paired: Vec<PairedFacets>) -> 
 }
 
 /// Corners and weights at the projection of a node, clamped to the other side.
-fn clamped(configuration: &Configuration, side: Side, node: u32) -> Option<ClampedProjection> {
+fn clamped(
+    configuration: &Configuration,
+    side: Side,
+    node: SurfaceNode,
+) -> Option<ClampedProjection> {
     let (contact, _) = configuration.opposite(side, node)?;
     match contact.place {
         Place::Facet(hit) if !configuration.pair.is_rigid() => {

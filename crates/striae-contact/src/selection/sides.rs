@@ -1,12 +1,12 @@
 //! Nodes and facets of a side as the choice of roles sees them.
 
 use striae_mesh::{FacetId, Vec3};
-use striae_surface::facet::Shape;
+use striae_surface::{facet::Shape, node::SurfaceNode};
 
 use super::before::Before;
 use crate::{
     configuration::Configuration,
-    interface::{FacetMass, LastIncrement, SurfaceNode},
+    interface::{FacetMass, InterfaceNode, LastIncrement},
     segment::{Derivatives, FACING, Facet, plane_segment},
     side::Side,
 };
@@ -17,7 +17,7 @@ pub(super) fn surface_nodes(
     side: Side,
     before: Before,
     prescribed: &[bool],
-) -> Vec<SurfaceNode> {
+) -> Vec<InterfaceNode> {
     let Some(snapshot) = &configuration.sides[side] else {
         return Vec::new();
     };
@@ -31,7 +31,7 @@ pub(super) fn surface_nodes(
             let components = prescribed.get(3 * node..3 * node + 3);
             let yields = components.is_none_or(|components| components.contains(&false));
             let share = f64::from(u8::from(yields));
-            SurfaceNode {
+            InterfaceNode {
                 position: *position,
                 flexibility: share * size / modulus,
                 compliance: share / (modulus * size),
@@ -60,8 +60,8 @@ pub(super) fn whole_facets(configuration: &Configuration, facing: &[Vec3]) -> Ve
             let x = own.corner_positions(facet);
             let shape = Shape::of(&corners);
             let n = normal(&x, shape);
-            let faces = |corner: &u32| {
-                let towards = facing[*corner as usize];
+            let faces = |corner: &SurfaceNode| {
+                let towards = facing[*corner];
                 n.dot(&towards) > -FACING * towards.norm()
             };
             if !corners.iter().any(faces) {

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use striae_mesh::FacetId;
+use striae_surface::node::SurfaceNode;
 
 use super::{approach::approach, before::Kept};
 use crate::{
@@ -44,8 +45,8 @@ pub struct Selection {
 
 impl Selection {
     /// What a node with unknowns stands for.
-    pub fn tip(&self, side: Side, node: u32) -> Tip {
-        let point = self.points.get(node as usize).copied().flatten();
+    pub fn tip(&self, side: Side, node: SurfaceNode) -> Tip {
+        let point = self.points.get(node.index()).copied().flatten();
         match (side, point) {
             (Side::B, Some(point)) => Tip::Rigid(point),
             _ => Tip::Node {
@@ -57,8 +58,8 @@ impl Selection {
     }
 
     /// The facet that a pointed node was in at the start.
-    fn home(&self, side: Side, node: u32) -> Option<FacetId> {
-        let k = self.basis.index[side].get(node as usize).copied()??;
+    fn home(&self, side: Side, node: SurfaceNode) -> Option<FacetId> {
+        let k = self.basis.index[side].get(node.index()).copied()??;
         let pointed = (k as usize).checked_sub(self.of_field)?;
         self.homes.get(pointed).copied()?
     }
@@ -92,26 +93,26 @@ impl Selection {
     }
 
     /// Whether the node is pointed.
-    pub fn is_pointed(&self, side: Side, node: u32) -> bool {
-        let index = self.basis.index[side].get(node as usize).copied();
+    pub fn is_pointed(&self, side: Side, node: SurfaceNode) -> bool {
+        let index = self.basis.index[side].get(node.index()).copied();
         index.flatten().is_some_and(|k| k as usize >= self.of_field)
     }
 
     /// Whether the node has unknowns: it is kept, or pointed.
-    pub fn is_kept(&self, side: Side, node: u32) -> bool {
-        let index = self.basis.index[side].get(node as usize);
+    pub fn is_kept(&self, side: Side, node: SurfaceNode) -> bool {
+        let index = self.basis.index[side].get(node.index());
         index.is_some_and(Option::is_some)
     }
 
     /// Whether the node has a share in the traction field.
-    pub fn carries(&self, side: Side, node: u32) -> bool {
-        let row = self.basis.rows[side].get(node as usize);
+    pub fn carries(&self, side: Side, node: SurfaceNode) -> bool {
+        let row = self.basis.rows[side].get(node.index());
         row.is_some_and(|row| !row.is_empty())
     }
 
     /// Shares of the kept nodes in the traction at a node.
-    pub fn row(&self, side: Side, node: u32) -> &[(u32, f64)] {
-        &self.basis.rows[side][node as usize]
+    pub fn row(&self, side: Side, node: SurfaceNode) -> &[(u32, f64)] {
+        &self.basis.rows[side][node]
     }
 
     /// Number of nodes of a side.
@@ -182,8 +183,8 @@ impl Selection {
     }
 
     /// What is left of the overlap of the meshes at a node.
-    pub fn offset(&self, side: Side, node: u32) -> f64 {
-        let offset = self.offsets[side].get(node as usize);
+    pub fn offset(&self, side: Side, node: SurfaceNode) -> f64 {
+        let offset = self.offsets[side].get(node.index());
         offset.copied().unwrap_or(0.0)
     }
 
@@ -206,13 +207,13 @@ impl Selection {
         &self,
         start: &Configuration,
         configuration: &Configuration,
-    ) -> Vec<(Side, u32)> {
+    ) -> Vec<(Side, SurfaceNode)> {
         let scope = Scope {
             depth: self.depth.max(approach(start, configuration)),
             ..self.scope()
         };
         let paired = paired_facets(configuration, scope, Derivatives::None, |_| true);
-        let mut left_out: Vec<(Side, u32)> = Vec::new();
+        let mut left_out: Vec<(Side, SurfaceNode)> = Vec::new();
         for paired in &paired {
             let gap = paired.mean_gap(configuration);
             let touching = gap < TOUCHING * paired.segment.area.sqrt();

@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::DualSVec64;
 use striae_surface::{
     facet::Shape,
+    node::SurfaceNode,
     scalar::{combination, constant3, dot, normalised, scaled},
     texture::Field,
     transport::transported,
@@ -33,7 +34,7 @@ pub(super) fn faced(
     configuration: &Configuration,
     selection: &Selection,
     side: Side,
-    node: u32,
+    node: SurfaceNode,
 ) -> Option<(Contact, Found)> {
     let tip = selection.tip(side, node);
     if selection.is_pointed(side, node)
@@ -55,7 +56,7 @@ pub(super) fn faced(
 /// The opposing `a_b'` at a node.
 pub(super) fn opposite(
     configuration: &Configuration,
-    (side, node): (Side, u32),
+    (side, node): (Side, SurfaceNode),
     tip: Tip,
     (frame, frames): (&Frame, &Frames),
     faced: Option<(Contact, Found)>,
@@ -84,12 +85,12 @@ pub(super) fn opposite(
 fn on_plane(
     configuration: &Configuration,
     side: Side,
-    node: u32,
+    node: SurfaceNode,
     field: &Field,
 ) -> Option<Tracked> {
     let (point, normal) = configuration.plane()?;
     let n = constant3(&normal);
-    let x: Vector3<DualSVec64<3>> = variable3(&configuration.side(side).x[node as usize], 0);
+    let x: Vector3<DualSVec64<3>> = variable3(&configuration.side(side).x[node], 0);
     let gap = dot(&(x - constant3(&point)), &n);
     let placement = &configuration.placement;
     let place = placement.back_of(&(x - scaled(&n, gap)));
@@ -105,7 +106,7 @@ fn on_plane(
 
 fn on_rigid(
     configuration: &Configuration,
-    node: u32,
+    node: SurfaceNode,
     hit: &Hit,
     found: Found,
 ) -> Result<Tracked, CollapsedTexture> {
@@ -117,7 +118,7 @@ fn on_rigid(
     // Lanes of the node's position or, on the edge, of the share of the way along it.
     let (weights, normal): ([DualSVec64<3>; 4], _) = match found {
         Found::Inside => {
-            let x = variable3(&configuration.side(Side::A).x[node as usize], 0);
+            let x = variable3(&configuration.side(Side::A).x[node], 0);
             let ([xi, eta, _], normal) = differentiated_rigid(target, hit, &x);
             lanes.push(Source::Unknowns {
                 first: configuration.pair.numbering().position(Side::A, node),
@@ -129,7 +130,7 @@ fn on_rigid(
             place = on_edge(configuration, Side::A, node, hit, nodes);
             lanes.push(Source::Scalar(&place.share.gradient));
             let weights = place.weights_along(variable(place.share.value, 0));
-            let normals = corners.map(|corner| constant3(&target.normals[corner as usize]));
+            let normals = corners.map(|corner| constant3(&target.normals[corner]));
             (weights, normalised(&combination(&weights, &normals)))
         }
     };
@@ -142,7 +143,7 @@ fn on_rigid(
             &fixed_normal(configuration, corners[corner]),
         )?
         .unwrap_or_default();
-        let n_j = target.normals[corners[corner] as usize];
+        let n_j = target.normals[corners[corner]];
         let turned = transported(&constant3(&a.value), &constant3(&n_j), &normal);
         sum -= scaled(&turned, weights[corner]);
     }
@@ -152,7 +153,7 @@ fn on_rigid(
 /// `a` of a rigid surface at a point that lodges with `node`: between the ends of its edge.
 pub(super) fn of_point(
     configuration: &Configuration,
-    node: u32,
+    node: SurfaceNode,
     point: RigidPoint,
     frame: &Frame,
 ) -> Result<Option<Tracked>, CollapsedTexture> {
@@ -177,9 +178,9 @@ pub(super) fn of_point(
     Ok(Some(tracked(&lanes, &normalised(&sum))))
 }
 
-fn fixed_normal(configuration: &Configuration, node: u32) -> Tracked {
+fn fixed_normal(configuration: &Configuration, node: SurfaceNode) -> Tracked {
     Tracked {
-        value: configuration.side(Side::B).normals[node as usize],
+        value: configuration.side(Side::B).normals[node],
         jacobian: Jacobian::new(),
     }
 }
@@ -195,7 +196,7 @@ fn on_deformable(
     let other = configuration.side(side.opposite());
     let numbering = configuration.pair.numbering();
     let corners = other.corners(hit.facet);
-    let normals = corners.map(|corner| match &frames[side.opposite()][corner as usize] {
+    let normals = corners.map(|corner| match &frames[side.opposite()][corner] {
         Some(frame) => frame.n.clone(),
         None => own_normal(configuration, side.opposite(), corner),
     });
@@ -204,7 +205,7 @@ fn on_deformable(
         a.push(own(configuration, side.opposite(), *corner, n)?.unwrap_or_default());
     }
     let mut lanes = Lanes::default();
-    let position = |side: Side, node: u32| Source::Unknowns {
+    let position = |side: Side, node: SurfaceNode| Source::Unknowns {
         first: numbering.position(side, node),
         count: 3,
     };

@@ -2,11 +2,12 @@
 
 use striae_contact::{
     interface::{
-        ClampedProjection, FacetMass, Interface, LastIncrement, Opponent, Overlap, SurfaceNode,
+        ClampedProjection, FacetMass, Interface, InterfaceNode, LastIncrement, Opponent, Overlap,
     },
     side::Side,
 };
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 /// A rectangular face with grid lines.
 #[derive(Clone, Debug)]
@@ -31,8 +32,8 @@ impl Face {
         }
     }
 
-    fn corners(&self, i: usize, j: usize) -> [u32; 4] {
-        let node = |i: usize, j: usize| (j * self.xs.len() + i) as u32;
+    fn corners(&self, i: usize, j: usize) -> [SurfaceNode; 4] {
+        let node = |i: usize, j: usize| SurfaceNode::new(j * self.xs.len() + i);
         [
             node(i, j),
             node(i + 1, j),
@@ -42,14 +43,14 @@ impl Face {
     }
 
     /// Nodes, x first; `h` is the root of the product of mean spacings.
-    fn nodes(&self) -> Vec<SurfaceNode> {
+    fn nodes(&self) -> Vec<InterfaceNode> {
         let spacing = |line: &[f64], at: usize| {
             let (low, high) = (at.saturating_sub(1), (at + 1).min(line.len() - 1));
             (line[high] - line[low]) / (high - low) as f64
         };
         let node = |i: usize, j: usize| {
             let h = (spacing(&self.xs, i) * spacing(&self.ys, j)).sqrt();
-            SurfaceNode {
+            InterfaceNode {
                 position: Vec3::new(self.xs[i], self.ys[j], 0.0),
                 flexibility: h / self.modulus,
                 compliance: 1.0 / (self.modulus * h),
@@ -82,7 +83,7 @@ fn locate(line: &[f64], at: f64) -> (usize, f64) {
 /// A pair as plain values that own what an `Interface` borrows.
 #[derive(Clone, Debug)]
 pub struct Pair {
-    pub nodes: [Vec<SurfaceNode>; 2],
+    pub nodes: [Vec<InterfaceNode>; 2],
     pub overlaps: Vec<Overlap>,
     pub opposing: [Vec<Option<ClampedProjection>>; 2],
     /// Of a pair with a rigid surface.
@@ -94,7 +95,7 @@ impl Pair {
     pub fn new(faces: [&Face; 2]) -> Self {
         let nodes = faces.map(Face::nodes);
         let opposing = Side::BOTH.map(|side| {
-            let on = |node: &SurfaceNode| Some(faces[side.opposite()].projection(&node.position));
+            let on = |node: &InterfaceNode| Some(faces[side.opposite()].projection(&node.position));
             nodes[side].iter().map(on).collect()
         });
         Self {

@@ -8,6 +8,7 @@ use striae_contact::{
     side::Side,
     traction_basis::{KeptNode, TractionBasis},
 };
+use striae_surface::node::SurfaceNode;
 
 use crate::flat::{Face, Pair};
 
@@ -91,7 +92,7 @@ fn check_basis(pair: &Pair, basis: &TractionBasis) -> Result<(), TestCaseError> 
 
 /// Rows of transferred nodes hold at their own values.
 fn check_transfer(pair: &Pair, basis: &TractionBasis) -> Result<(), TestCaseError> {
-    let positive = |side: Side, node: u32| basis.node_weights[side][node as usize] > 0.0;
+    let positive = |side: Side, node: SurfaceNode| basis.node_weights[side][node] > 0.0;
     for side in Side::BOTH {
         for (node, row) in basis.rows[side].iter().enumerate() {
             let Some((corners, weights)) = pair.opposing[side][node] else {
@@ -104,7 +105,7 @@ fn check_transfer(pair: &Pair, basis: &TractionBasis) -> Result<(), TestCaseErro
             let total: f64 = seen().map(|c| weights[c]).sum();
             let mut difference: BTreeMap<u32, f64> = row.iter().copied().collect();
             for c in seen() {
-                for &(k, value) in &basis.rows[side.opposite()][corners[c] as usize] {
+                for &(k, value) in &basis.rows[side.opposite()][corners[c]] {
                     *difference.entry(k).or_default() -= weights[c] / total * value;
                 }
             }
@@ -121,7 +122,7 @@ fn check_transfer(pair: &Pair, basis: &TractionBasis) -> Result<(), TestCaseErro
 struct Relabelled {
     pair: Pair,
     /// New number of an old node.
-    to: [Vec<u32>; 2],
+    to: [Vec<SurfaceNode>; 2],
     swap: usize,
 }
 
@@ -141,10 +142,13 @@ fn relabelled_side(side: Side, swap: usize) -> Side {
 }
 
 fn relabelled(pair: &Pair, mut seed: u64, swap: usize) -> Relabelled {
-    let to = Side::BOTH.map(|side| shuffled(pair.nodes[side].len(), &mut seed));
+    let to = Side::BOTH.map(|side| {
+        let order = shuffled(pair.nodes[side].len(), &mut seed);
+        order.into_iter().map(SurfaceNode).collect::<Vec<_>>()
+    });
     let turn = (seed >> 40) as usize % 4;
-    let corners = |side: Side, c: [u32; 4]| {
-        let c = c.map(|node| to[side][node as usize]);
+    let corners = |side: Side, c: [SurfaceNode; 4]| {
+        let c = c.map(|node| to[side][node]);
         [0, 1, 2, 3].map(|at: usize| c[(at + turn) % 4])
     };
     let new_side = |side| relabelled_side(side, swap);
@@ -152,7 +156,7 @@ fn relabelled(pair: &Pair, mut seed: u64, swap: usize) -> Relabelled {
     let mut opposing = pair.opposing.clone();
     for side in Side::BOTH {
         for node in 0..pair.nodes[side].len() {
-            let at = to[side][node] as usize;
+            let at = to[side][node].index();
             nodes[new_side(side)].resize(pair.nodes[side].len(), pair.nodes[side][0]);
             nodes[new_side(side)][at] = pair.nodes[side][node];
             opposing[new_side(side)].resize(pair.nodes[side].len(), None);
@@ -190,9 +194,12 @@ fn relabelled(pair: &Pair, mut seed: u64, swap: usize) -> Relabelled {
 }
 
 /// Bits of rows by the old labels.
-type Named = BTreeMap<(Side, u32), Vec<(KeptNode, u64)>>;
+type Named = BTreeMap<(Side, SurfaceNode), Vec<(KeptNode, u64)>>;
 
-fn named(basis: &TractionBasis, old: impl Fn(Side, u32) -> (Side, u32)) -> (Named, Named) {
+fn named(
+    basis: &TractionBasis,
+    old: impl Fn(Side, SurfaceNode) -> (Side, SurfaceNode),
+) -> (Named, Named) {
     let label = |k: u32| {
         let KeptNode { side, node } = basis.kept[k as usize];
         let (side, node) = old(side, node);
@@ -206,7 +213,7 @@ fn named(basis: &TractionBasis, old: impl Fn(Side, u32) -> (Side, u32)) -> (Name
     let mut rows = Named::new();
     for side in Side::BOTH {
         for (node, values) in basis.rows[side].iter().enumerate() {
-            rows.insert(old(side, node as u32), row(values));
+            rows.insert(old(side, SurfaceNode::new(node)), row(values));
         }
     }
     let mut kept = Named::new();
@@ -231,15 +238,15 @@ fn check_labels(pair: &Pair, seed: u64, swap: usize) -> Result<(), TestCaseError
     let other = relabelled(pair, seed, swap);
     let again = TractionBasis::new(&other.pair.interface());
     let back = Side::BOTH.map(|side| {
-        let mut back = vec![0; other.to[side].len()];
+        let mut back = vec![SurfaceNode(0); other.to[side].len()];
         for (old, &new) in other.to[side].iter().enumerate() {
-            back[new as usize] = old as u32;
+            back[new] = SurfaceNode::new(old);
         }
         back
     });
-    let old = |side: Side, node: u32| {
+    let old = |side: Side, node: SurfaceNode| {
         let side = relabelled_side(side, other.swap);
-        (side, back[side][node as usize])
+        (side, back[side][node])
     };
     let (rows, kept) = named(&basis, |side, node| (side, node));
     let (rows_again, kept_again) = named(&again, old);

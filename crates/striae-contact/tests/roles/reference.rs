@@ -4,6 +4,7 @@ use striae_contact::{
     side::Side,
     traction_basis::{KeptNode, TractionBasis},
 };
+use striae_surface::node::SurfaceNode;
 
 use crate::flat::{Face, Pair};
 
@@ -69,7 +70,7 @@ fn flat_pairs_agree_with_an_independent_implementation() {
                 let nodes = case.values(&format!("kept {}", side.index()));
                 nodes.into_iter().map(move |node| KeptNode {
                     side,
-                    node: node as u32,
+                    node: SurfaceNode::new(node as usize),
                 })
             })
             .collect();
@@ -79,7 +80,7 @@ fn flat_pairs_agree_with_an_independent_implementation() {
         let v: Vec<f64> = kept
             .iter()
             .map(|k| {
-                let x = pair.nodes[k.side][k.node as usize].position;
+                let x = pair.nodes[k.side][k.node].position;
                 (3.0 * x.x + 5.0 * x.y + k.side.index() as f64).cos()
             })
             .collect();

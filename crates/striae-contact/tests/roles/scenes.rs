@@ -8,6 +8,7 @@ use striae_contact::{
     side::Side,
     traction_basis::{KeptNode, THETA_1, TractionBasis},
 };
+use striae_surface::node::SurfaceNode;
 
 use crate::flat::{Face, Pair};
 
@@ -103,19 +104,23 @@ fn two_patches_do_not_take_from_each_other() {
         pair.nodes[side].extend(&sliver.nodes[side]);
         let moved = sliver.opposing[side].iter().map(|hit| {
             hit.map(|(corners, weights)| {
-                (corners.map(|node| node + shift[side.opposite()]), weights)
+                (
+                    corners.map(|node| SurfaceNode(node.0 + shift[side.opposite()])),
+                    weights,
+                )
             })
         });
         pair.opposing[side].extend(moved);
     }
     for mut overlap in sliver.overlaps {
         for side in Side::BOTH {
-            overlap.corners[side] = overlap.corners[side].map(|node| node + shift[side]);
+            overlap.corners[side] =
+                overlap.corners[side].map(|node| SurfaceNode(node.0 + shift[side]));
         }
         pair.overlaps.push(overlap);
     }
     let basis = TractionBasis::new(&pair.interface());
-    let is_in_sliver = |kept: &KeptNode| kept.node >= shift[kept.side];
+    let is_in_sliver = |kept: &KeptNode| kept.node.0 >= shift[kept.side];
     assert_eq!(
         basis.kept.iter().filter(|kept| is_in_sliver(kept)).count(),
         1
@@ -171,7 +176,7 @@ fn a_required_node_is_kept_whatever_its_pivot() {
     let mut pair = Pair::new([&soft, &stiff]);
     let middle = KeptNode {
         side: Side::B,
-        node: 12,
+        node: SurfaceNode(12),
     };
     let before = TractionBasis::new(&pair.interface());
     assert!(!before.kept.contains(&middle));

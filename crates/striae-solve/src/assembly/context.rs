@@ -7,6 +7,7 @@ use striae_contact::{
     placement::Placement, side::Side,
 };
 use striae_mesh::{NodeId, Vec3};
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     dynamics::{ImposedRate, Motion},
@@ -99,12 +100,12 @@ impl<'a> StepContext<'a> {
         let on_pair = |pair: usize| {
             Side::BOTH.map(|side| {
                 let surface = problem.pairs[pair].contact.sides[side].surface();
-                let count = surface.map_or(0, |surface| surface.nodes().len() as u32);
+                let count = surface.map_or(0, |surface| surface.nodes().len());
                 let shadowed = problem.shadowed.get(pair).map(|sides| &sides[side]);
-                (0..count)
+                SurfaceNode::all(count)
                     .flat_map(|node| {
                         let global = problem.surface_node(pair, side, node)?;
-                        let own = shadowed.is_some_and(|nodes| nodes[node as usize]);
+                        let own = shadowed.is_some_and(|nodes| nodes[node]);
                         Some([0, 1, 2].map(|axis| own || holds(global, axis)))
                     })
                     .flatten()
@@ -276,9 +277,9 @@ impl<'a> StepContext<'a> {
         let of_side = |side: Side| -> Vec<Vec3> {
             let count = geometry.contact.sides[side]
                 .surface()
-                .map_or(0, |s| s.nodes().len() as u32);
+                .map_or(0, |s| s.nodes().len());
             match geometry.bodies[side] {
-                Some(_) => (0..count)
+                Some(_) => SurfaceNode::all(count)
                     .filter_map(|node| self.problem.surface_node(pair, side, node))
                     .map(|node| positions[node])
                     .collect(),

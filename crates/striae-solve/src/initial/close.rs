@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 
 use striae_contact::{initial::signed_gap, interference::Stage, side::Side};
 use striae_mesh::{MeshError, Vec3};
+use striae_surface::node::SurfaceNode;
 
 use super::{InitialFault, Reference};
 use crate::model::{ClosedGaps, Initial, Model, PairId};
@@ -56,7 +57,7 @@ fn closed(stage: &Stage, gaps: ClosedGaps) -> [Vec<Vec3>; 2] {
     });
     for &side in sides {
         for (node, target) in chosen(stage, side, gaps) {
-            let place = &mut x[side][node as usize];
+            let place = &mut x[side][node];
             *place += (target - *place) * part;
         }
     }
@@ -73,8 +74,8 @@ fn moved(stage: &Stage) -> &'static [Side] {
     let [a, b] = Side::BOTH.map(|side| {
         let snapshot = stage.configuration.side(side);
         let facets = snapshot.surface.facets();
-        let area = |facet: &[u32; 4]| {
-            let [a, b, c, d] = facet.map(|node| snapshot.x[node as usize]);
+        let area = |facet: &[SurfaceNode; 4]| {
+            let [a, b, c, d] = facet.map(|node| snapshot.x[node]);
             0.5 * (c - a).cross(&(d - b)).norm()
         };
         (facets.iter().map(area).sum::<f64>(), facets.len())
@@ -89,15 +90,17 @@ fn moved(stage: &Stage) -> &'static [Side] {
 }
 
 /// Nodes with a gap that is closed, or with an overlap, and where they belong.
-fn chosen(stage: &Stage, side: Side, gaps: ClosedGaps) -> Vec<(u32, Vec3)> {
+fn chosen(stage: &Stage, side: Side, gaps: ClosedGaps) -> Vec<(SurfaceNode, Vec3)> {
     let snapshot = stage.configuration.side(side);
-    let limit = |node: u32| match gaps {
-        ClosedGaps::Share(share) => share * snapshot.sizes[node as usize],
+    let limit = |node: SurfaceNode| match gaps {
+        ClosedGaps::Share(share) => share * snapshot.sizes[node],
         ClosedGaps::UpTo(gap) => gap,
     };
-    let within = |node: u32| {
+    let within = |node: SurfaceNode| {
         let (gap, target) = signed_gap(stage, side, node)?;
         (gap <= limit(node) * (1.0 + 1e-9)).then_some((node, target))
     };
-    (0..snapshot.x.len() as u32).filter_map(within).collect()
+    SurfaceNode::all(snapshot.x.len())
+        .filter_map(within)
+        .collect()
 }

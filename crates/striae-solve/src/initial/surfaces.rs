@@ -10,6 +10,7 @@ use striae_contact::{
     unknowns::NodeResult,
 };
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     interference::{configuration, thickness},
@@ -33,15 +34,16 @@ fn of_pair(problem: &Problem, state: &State, pair: usize) -> [Vec<NodeResult>; 2
         if problem.pairs[pair].bodies[side].is_none() {
             return state.pairs[pair].nodes[side].clone();
         }
-        let nodes = 0..stage.configuration.side(side).x.len() as u32;
+        let nodes = 0..stage.configuration.side(side).x.len();
         let nodes = nodes.into_par_iter().with_min_len(16);
+        let nodes = nodes.map(SurfaceNode::new);
         nodes.map(|node| of_node(&stage, side, node)).collect()
     })
 }
 
-fn of_node(stage: &Stage, side: Side, node: u32) -> NodeResult {
+fn of_node(stage: &Stage, side: Side, node: SurfaceNode) -> NodeResult {
     let snapshot = stage.configuration.side(side);
-    let normal = snapshot.normals[node as usize];
+    let normal = snapshot.normals[node];
     let texture = match &stage.configuration.pair.sides[side].texture {
         Some(SideTexture::Nodal(texture)) => texture.at(node, &snapshot.x, normal).ok(),
         _ => None,

@@ -5,6 +5,7 @@ use striae_contact::{
     unknowns::Tractions,
 };
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 use super::workspace::{SystemStorage, Workspace};
 use crate::{
@@ -95,7 +96,7 @@ fn add_tractions(
 ) {
     for side in Side::BOTH {
         for (node, unknowns) in tractions.nodes[side].iter_mut().enumerate() {
-            if let Some(first) = layout.traction(pair, side, node) {
+            if let Some(first) = layout.traction(pair, side, SurfaceNode::new(node)) {
                 for (component, unknown) in unknowns.iter_mut().enumerate() {
                     *unknown += factor * correction[first + component];
                 }

@@ -7,6 +7,7 @@
 
 use striae_contact::{selection::Selection, side::Side};
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     assembly::{Imposed, StepContext},
@@ -34,7 +35,7 @@ pub(super) fn first_positions(
     for (pair, selection) in selections.iter().enumerate() {
         let bodies: Vec<usize> = Side::BOTH
             .into_iter()
-            .filter_map(|side| problem.surface_node(pair, side, 0))
+            .filter_map(|side| problem.surface_node(pair, side, SurfaceNode(0)))
             .map(|node| problem.body_node(node).0)
             .collect();
         let way = match *bodies.as_slice() {

@@ -18,7 +18,7 @@ use striae_contact::{
     side::Side,
 };
 use striae_mesh::FacetId;
-use striae_surface::topology::distinct_corners;
+use striae_surface::{node::SurfaceNode, topology::distinct_corners};
 
 use crate::{
     assembly::{Setting, Trial},
@@ -91,7 +91,7 @@ fn missed(
     Some(CutBack::Passage {
         pair: context.pairs[pair].name.clone(),
         body: other_name(model, id, worst.side.opposite()).to_owned(),
-        node: surface.nodes()[worst.node as usize],
+        node: surface.nodes()[worst.node],
         other: other_name(model, id, worst.side).to_owned(),
         depth: worst.depth,
         way: approach(&start, &end),
@@ -100,7 +100,7 @@ fn missed(
 
 /// Whether a point is deeper inside than contact resolves.
 fn is_missed(sides: &[PairedSurface; 2], contact: &Evaluation, found: &Interference) -> bool {
-    let corners = |side: Side, facet: FacetId| -> Vec<u32> {
+    let corners = |side: Side, facet: FacetId| -> Vec<SurfaceNode> {
         let surface = sides[side].surface();
         let corners = surface.map(|surface| surface.facets()[facet.index()]);
         corners.map_or_else(Vec::new, |corners| distinct_corners(&corners).to_vec())
@@ -113,10 +113,10 @@ fn is_missed(sides: &[PairedSurface; 2], contact: &Evaluation, found: &Interfere
         Place::Plane => Vec::new(),
         Place::Facet(facet) => corners(found.side.opposite(), facet),
     };
-    let acts = |side: Side, nodes: &[u32]| {
+    let acts = |side: Side, nodes: &[SurfaceNode]| {
         let mut carried = nodes
             .iter()
-            .filter_map(|&node| contact.carried[side].get(node as usize));
+            .filter_map(|&node| contact.carried[side].get(node.index()));
         carried.any(|[pressure, _, _]| *pressure > 0.0)
     };
     let limit = if acts(found.side, &own) || acts(found.side.opposite(), &others) {

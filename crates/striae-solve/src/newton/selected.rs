@@ -10,6 +10,7 @@ use striae_contact::{
     tip::RigidPoints,
     unknowns::{Label, NodeResult, Status, Tractions},
 };
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     assembly::{Setting, StepContext, Trial},
@@ -36,7 +37,7 @@ pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected
             let mut points: RigidPoints = vec![None; of_pair.points.len()];
             let mut tractions = of_pair.tractions.clone();
             for stay in &stays {
-                let (from, to) = (stay.from as usize, stay.to as usize);
+                let (from, to) = (stay.from.index(), stay.to.index());
                 points[to] = Some(stay.point);
                 tractions.nodes[1][to] = of_pair.tractions.nodes[1][from];
             }
@@ -71,7 +72,7 @@ pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected
             });
             let mut pointed = of_pair.pointed.clone();
             for stay in &stays {
-                pointed[1][stay.to as usize] = true;
+                pointed[1][stay.to] = true;
             }
             let had = Before {
                 pointed: &pointed,
@@ -140,15 +141,15 @@ pub(super) fn reselected(
             let (kept, had) = (had.kept_nodes(), had.pointed_nodes());
             let mut pointed = had.clone();
             for &(side, node) in &pierced[pair].nodes {
-                pointed[side][node as usize] = true;
+                pointed[side][node] = true;
             }
             let mut required = setting.selections[pair].required.clone();
             for &(side, node) in &pierced[pair].unfelt {
-                required[side][node as usize] = true;
+                required[side][node] = true;
             }
             let mut points = setting.selections[pair].points.clone();
             for &(node, point) in &pierced[pair].points {
-                points[node as usize] = Some(point);
+                points[node] = Some(point);
             }
             let before = |pointed| Before {
                 kept: &kept,
@@ -199,8 +200,9 @@ fn fit(
 ) {
     for side in Side::BOTH {
         for (node, unknowns) in tractions.nodes[side].iter_mut().enumerate() {
-            let is_pointed = selection.is_pointed(side, node as u32);
-            let is_kept = selection.is_kept(side, node as u32) && !is_pointed;
+            let node = SurfaceNode::new(node);
+            let is_pointed = selection.is_pointed(side, node);
+            let is_kept = selection.is_kept(side, node) && !is_pointed;
             if is_kept && !before.kept[side][node] {
                 *unknowns = carried[side][node];
             } else if !(is_kept || is_pointed && before.pointed[side][node]) {

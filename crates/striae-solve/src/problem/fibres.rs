@@ -11,7 +11,7 @@ use super::PairGeometry;
 use crate::model::Model;
 
 /// Fibres through what is behind the facets of all pairs. They end at nodes of the
-/// body, or at surface nodes of a rigid side.
+/// body, or of the rigid surface.
 pub(crate) fn add_fibres(model: &Model, pairs: &mut [PairGeometry]) {
     let skin = |body: usize| {
         let mesh = &model.bodies[body].mesh;
@@ -39,9 +39,5 @@ fn of_body(positions: &[Vec3], surface: &Surface, skin: &Surface) -> Vec<Option<
         let nodes = surface.nodes().iter();
         nodes.map(|node| positions[node.index()]).collect()
     };
-    let mut fibres = fibres(surface, &at(surface), skin, &at(skin));
-    for fibre in fibres.iter_mut().flatten() {
-        fibre.nodes = fibre.nodes.map(|node| skin.nodes()[node as usize].0);
-    }
-    fibres
+    fibres(surface, &at(surface), skin, &at(skin))
 }

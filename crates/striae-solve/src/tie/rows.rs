@@ -11,7 +11,7 @@ use striae_contact::{
 };
 use striae_law::friction::Friction;
 use striae_mesh::{Face, Vec3};
-use striae_surface::topology::Surface;
+use striae_surface::{node::SurfaceNode, topology::Surface};
 
 use super::{Follower, Joint, TieFault, Weights, patch::Patch, side::finer};
 use crate::model::{ContactSurface, Model};
@@ -126,8 +126,8 @@ impl Sides {
     }
 
     /// Global node of a node of the side that follows.
-    fn own(&self, side: Side, node: u32) -> GlobalNode {
-        self.nodes[side][node as usize]
+    fn own(&self, side: Side, node: SurfaceNode) -> GlobalNode {
+        self.nodes[side][node]
     }
 
     /// Nodes of a side that may follow, with what their functions weigh.

@@ -12,6 +12,7 @@ use striae_contact::{
 use striae_law::friction::Friction;
 use striae_mesh::{FacetId, Vec3};
 use striae_solve::{assembly::StepContext, node::GlobalNode, problem::Problem, state::State};
+use striae_surface::node::SurfaceNode;
 
 use crate::scene::{Floor, moved, standing, tilted};
 
@@ -43,17 +44,17 @@ fn gaps(x: &Vec3) -> [f64; 2] {
 struct Scene<'a> {
     context: &'a StepContext<'a>,
     /// The node, on the surface and among all.
-    node: u32,
+    node: SurfaceNode,
     global: GlobalNode,
 }
 
 impl<'a> Scene<'a> {
     fn new(context: &'a StepContext<'a>) -> Self {
-        let at = |node: &u32| {
+        let at = |node: &SurfaceNode| {
             let global = context.problem.surface_node(0, Side::A, *node).unwrap();
             (context.start.positions[global] - Vec3::y() * Y).norm() < 1e-9
         };
-        let node = (0..64).find(at).unwrap();
+        let node = SurfaceNode::all(64).find(at).unwrap();
         let global = context.problem.surface_node(0, Side::A, node).unwrap();
         Self {
             context,
@@ -81,7 +82,7 @@ impl<'a> Scene<'a> {
         let start = self.configuration(x);
         let none = self.context.start.pairs[0].kept.clone();
         let mut pointed = none.clone();
-        pointed[0][self.node as usize] = true;
+        pointed[0][self.node] = true;
         let before = Before {
             kept: &none,
             required: &none,

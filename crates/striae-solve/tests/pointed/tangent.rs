@@ -15,7 +15,10 @@ use striae_contact::{
 use striae_law::friction::{Friction, SlipRule};
 use striae_mesh::Vec3;
 use striae_solve::{assembly::StepContext, model::Model, problem::Problem, state::State};
-use striae_surface::texture::{Field, Lines, Paint};
+use striae_surface::{
+    node::SurfaceNode,
+    texture::{Field, Lines, Paint},
+};
 use striae_verify::{Difference, Random, derivative::directional};
 
 use crate::scene::{Floor, moved, standing, tilted};
@@ -62,9 +65,9 @@ impl<'a> Contact<'a> {
         Side::BOTH.map(|side| self.selection.nodes(side))
     }
 
-    fn traction(&self, side: Side, node: usize) -> usize {
+    fn traction(&self, side: Side, node: SurfaceNode) -> usize {
         let numbering = self.context.pairs[0].numbering();
-        numbering.traction(side, node as u32) as usize
+        numbering.traction(side, node) as usize
     }
 
     fn configuration(&self, u: &DVector<f64>) -> Configuration<'_> {
@@ -84,7 +87,7 @@ impl<'a> Contact<'a> {
         let mut tractions = Tractions::zero(self.nodes());
         for side in Side::BOTH {
             for (node, unknowns) in tractions.nodes[side].iter_mut().enumerate() {
-                let at = self.traction(side, node);
+                let at = self.traction(side, SurfaceNode::new(node));
                 *unknowns = [u[at], u[at + 1], u[at + 2]];
             }
         }
@@ -136,21 +139,21 @@ impl<'a> Contact<'a> {
         let pair = &self.context.pairs[0];
         let mut u = DVector::zeros(pair.numbering().count() as usize);
         for &side in pair.deformable_sides() {
-            for node in 0..self.nodes()[side] {
+            for node in SurfaceNode::all(self.nodes()[side]) {
                 let slide = if side == Side::A {
                     Vec3::new(0.031, 0.023, -0.021)
                 } else {
                     Vec3::zeros()
                 };
                 let x = self.start.side(side).x[node] + slide + random.vector3() * 0.006;
-                let first = pair.numbering().position(side, node as u32) as usize;
+                let first = pair.numbering().position(side, node) as usize;
                 u.rows_mut(first, 3).copy_from(&x);
             }
         }
-        let traction = |side: Side, node: usize| self.traction(side, node);
+        let traction = |side: Side, node: SurfaceNode| self.traction(side, node);
         let kept = self.selection.kept();
         for (k, kept) in kept.iter().enumerate() {
-            let at = traction(kept.side, kept.node as usize);
+            let at = traction(kept.side, kept.node);
             let values = [random.uniform(0.3, 0.5), 0.01, -0.02];
             u.rows_mut(at, 3).copy_from_slice(&values);
             if k % 3 == 0 {
@@ -160,7 +163,7 @@ impl<'a> Contact<'a> {
                 u.rows_mut(at, 3).copy_from_slice(&[-0.9, 0.0, 0.0]);
             }
         }
-        let pressed = |k: &usize| u[traction(kept[*k].side, kept[*k].node as usize)] > 0.0;
+        let pressed = |k: &usize| u[traction(kept[*k].side, kept[*k].node)] > 0.0;
         let sticking: Vec<usize> = (0..kept.len())
             .filter(|k| k % 3 == 1)
             .filter(pressed)
@@ -205,12 +208,12 @@ fn points(start: &Configuration) -> RigidPoints {
     }
     let mut points = vec![None; start.side(Side::A).x.len()];
     let on = |ends: [u32; 2], share: f64| RigidPoint {
-        ends,
+        ends: ends.map(SurfaceNode),
         share,
         left: 0.01,
     };
     let all = [
-        RigidPoint::vertex(4),
+        RigidPoint::vertex(SurfaceNode(4)),
         on([1, 4], 0.4),
         on([1, 4], 0.6),
         on([4, 7], 0.4),

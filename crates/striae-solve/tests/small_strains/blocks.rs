@@ -18,6 +18,7 @@ use striae_solve::{
     problem::Problem,
     state::State,
 };
+use striae_surface::node::SurfaceNode;
 
 use crate::reference::Case;
 
@@ -87,7 +88,7 @@ fn faces(case: &Case, problem: &Problem, state: &State) -> Faces {
     };
     for side in Side::BOTH {
         for node in in_order(case, problem, side) {
-            let global = problem.surface_node(0, side, node as u32);
+            let global = problem.surface_node(0, side, SurfaceNode::new(node));
             let global = global.expect("a node of a body");
             if pair.kept[side][node] {
                 faces.kept[side].push(faces.forces[side].len());
@@ -106,7 +107,7 @@ fn faces(case: &Case, problem: &Problem, state: &State) -> Faces {
 fn in_order(case: &Case, problem: &Problem, side: Side) -> Vec<usize> {
     let count = (case.divisions[side] + 1).pow(2);
     let place = |node: &usize| {
-        let global = problem.surface_node(0, side, *node as u32);
+        let global = problem.surface_node(0, side, SurfaceNode::new(*node));
         problem.reference[global.expect("a node of a body")]
     };
     let mut nodes: Vec<usize> = (0..count).collect();

@@ -14,6 +14,7 @@ use striae_contact::{
 };
 use striae_mesh::Vec3;
 use striae_solve::assembly::StepContext;
+use striae_surface::node::SurfaceNode;
 use striae_verify::{Difference, Random, derivative::directional};
 
 /// Where all nodes of a model and its rigid surface are.
@@ -108,7 +109,7 @@ impl<'a> PairFunction<'a> {
         let numbering = self.context.pairs[0].numbering();
         let mut places = self.now.clone();
         for side in Side::BOTH {
-            for node in 0..self.counts[side] as u32 {
+            for node in SurfaceNode::all(self.counts[side]) {
                 let global = self.context.problem.surface_node(0, side, node).unwrap();
                 let first = numbering.position(side, node) as usize;
                 places.positions[global] = u.fixed_rows::<3>(first).into();
@@ -119,16 +120,20 @@ impl<'a> PairFunction<'a> {
 
     fn tractions(&self, u: &DVector<f64>) -> Tractions {
         let numbering = self.context.pairs[0].numbering();
-        let triple = |side: Side, node: usize| {
-            let first = numbering.traction(side, node as u32) as usize;
+        let triple = |side: Side, node: SurfaceNode| {
+            let first = numbering.traction(side, node) as usize;
             [u[first], u[first + 1], u[first + 2]]
         };
         let mut labels = self.counts.map(|count| vec![Label::default(); count]);
         for (kept, before) in self.selection.kept().iter().zip(&self.before) {
-            labels[kept.side][kept.node as usize].status = *before;
+            labels[kept.side][kept.node].status = *before;
         }
         Tractions {
-            nodes: Side::BOTH.map(|side| (0..self.counts[side]).map(|n| triple(side, n)).collect()),
+            nodes: Side::BOTH.map(|side| {
+                SurfaceNode::all(self.counts[side])
+                    .map(|n| triple(side, n))
+                    .collect()
+            }),
             tau_n: self.tau_n.clone(),
             slipped: self.counts.map(|count| vec![false; count]),
             labels,
@@ -194,7 +199,7 @@ impl<'a> PairFunction<'a> {
         let mut u = DVector::zeros(self.len());
         let numbering = self.context.pairs[0].numbering();
         for side in Side::BOTH {
-            for node in 0..self.counts[side] as u32 {
+            for node in SurfaceNode::all(self.counts[side]) {
                 let global = self.context.problem.surface_node(0, side, node).unwrap();
                 let first = numbering.position(side, node) as usize;
                 let x = self.now.positions[global];
@@ -259,7 +264,7 @@ impl<'a> PairFunction<'a> {
             let evaluation = self.evaluation(u);
             let residual = self.sum(&evaluation);
             for (k, kept) in self.selection.kept().iter().enumerate() {
-                let status = evaluation.nodes[kept.side][kept.node as usize].status;
+                let status = evaluation.nodes[kept.side][kept.node].status;
                 let first = numbering.traction(kept.side, kept.node) as usize;
                 let [_, r_t] = self.selection.stiffness(k);
                 // Slip rows state `z - varpi y/|y|`, stick rows `du`.
@@ -297,7 +302,7 @@ impl<'a> PairFunction<'a> {
     pub fn statuses(&self, u: &DVector<f64>) -> Vec<Status> {
         let nodes = self.evaluation(u).nodes;
         let kept = self.selection.kept().iter();
-        kept.map(|kept| nodes[kept.side][kept.node as usize].status)
+        kept.map(|kept| nodes[kept.side][kept.node].status)
             .collect()
     }
 
@@ -336,7 +341,7 @@ impl<'a> PairFunction<'a> {
                 let [row, column] = [row, column].map(|at| numbering.unknown(*at as u32));
                 let status = match row {
                     Unknown::Traction { side, node, .. } => {
-                        let k = self.selection.basis.index[side][node as usize];
+                        let k = self.selection.basis.index[side][node];
                         k.map(|k| statuses[k as usize])
                     }
                     Unknown::Position { .. } => None,
@@ -354,9 +359,11 @@ fn configuration<'a>(context: &'a StepContext, places: &Places) -> Configuration
             return geometry.rigid_reference.clone();
         }
         let surface = context.pairs[0].sides[side].surface();
-        let count = surface.map_or(0, |surface| surface.nodes().len() as u32);
+        let count = surface.map_or(0, |surface| surface.nodes().len());
         let global = |node| context.problem.surface_node(0, side, node).unwrap();
-        (0..count).map(|n| places.positions[global(n)]).collect()
+        SurfaceNode::all(count)
+            .map(|n| places.positions[global(n)])
+            .collect()
     };
     Configuration::new(
         &context.pairs[0],

@@ -21,7 +21,7 @@
 
 use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
-use striae_surface::facet::Shape;
+use striae_surface::{facet::Shape, node::SurfaceNode};
 
 use super::{CLOSING, PIERCED, SHARP, are_apart, is_pressed};
 use crate::{
@@ -77,7 +77,7 @@ pub(super) fn pierced(
     selection: &Selection,
     carried: &[Vec<[f64; 3]>; 2],
     least: Bend,
-) -> Vec<(u32, RigidPoint)> {
+) -> Vec<(SurfaceNode, RigidPoint)> {
     if selection.points.is_empty() {
         return Vec::new();
     }
@@ -113,7 +113,7 @@ pub(super) fn pierced(
         let Some(node) = lodging(configuration, &lodged, &inside.hit) else {
             continue;
         };
-        lodged[node as usize] = Some(inside.point);
+        lodged[node] = Some(inside.point);
         taken.push(x);
         facets.push(inside.hit.facet);
         points.push((node, inside.point));
@@ -126,7 +126,8 @@ fn felt(configuration: &Configuration, selection: &Selection) -> Vec<Vec3> {
     let own = configuration.side(Side::A);
     let points = selection.points.iter().flatten();
     let points = points.map(|point| point.position(configuration));
-    let nodes = (0..own.x.len()).filter(|&node| selection.is_pointed(Side::A, node as u32));
+    let nodes =
+        (0..own.x.len()).filter(|&node| selection.is_pointed(Side::A, SurfaceNode::new(node)));
     points.chain(nodes.map(|node| own.x[node])).collect()
 }
 
@@ -140,7 +141,7 @@ fn in_facet(
     let tip = Tip::Rigid(point);
     let hit = faced(configuration, tip, tip.reach(configuration) + depth)?;
     let own = configuration.side(Side::A);
-    let sizes = own.corners(hit.facet).map(|node| own.sizes[node as usize]);
+    let sizes = own.corners(hit.facet).map(|node| own.sizes[node]);
     Some(Inside {
         point,
         bend,
@@ -151,10 +152,10 @@ fn in_facet(
 }
 
 /// The corner of the facet that is nearest to a point and lodges none yet.
-fn lodging(configuration: &Configuration, lodged: &RigidPoints, hit: &Hit) -> Option<u32> {
+fn lodging(configuration: &Configuration, lodged: &RigidPoints, hit: &Hit) -> Option<SurfaceNode> {
     let corners = configuration.side(Side::A).corners(hit.facet);
     let weights = Shape::of(&corners).weights(hit.xi, hit.eta).value;
-    let free = (0..4).filter(|&at| lodged[corners[at] as usize].is_none());
+    let free = (0..4).filter(|&at| lodged[corners[at]].is_none());
     let nearest = free.max_by(|&a, &b| weights[a].total_cmp(&weights[b]));
     nearest.map(|at| corners[at])
 }
@@ -162,9 +163,9 @@ fn lodging(configuration: &Configuration, lodged: &RigidPoints, hit: &Hit) -> Op
 /// A rigid point that stays, with the node that it lodged with and the one that it will.
 pub struct Stay {
     /// Node before.
-    pub from: u32,
+    pub from: SurfaceNode,
     /// Node from now on: a corner of the facet that the point is in.
-    pub to: u32,
+    pub to: SurfaceNode,
     /// The point.
     pub point: RigidPoint,
 }
@@ -184,12 +185,12 @@ pub fn staying(
         depth: 0.0,
     };
     let gaps = facet_gaps(configuration, scope);
-    let pressure = |node: u32| nodes[1][node as usize].pressure;
+    let pressure = |node: SurfaceNode| nodes[1][node].pressure;
     let numbered = points.iter().enumerate();
-    let mut pressed: Vec<(u32, RigidPoint, Hit)> = numbered
+    let mut pressed: Vec<(SurfaceNode, RigidPoint, Hit)> = numbered
         .filter_map(|(node, point)| {
             let hit = Spot::new(configuration, Tip::Rigid((*point)?))?.hit?;
-            Some((node as u32, (*point)?, hit))
+            Some((SurfaceNode::new(node), (*point)?, hit))
         })
         .filter(|(node, ..)| pressure(*node) > 0.0)
         .collect();
@@ -202,7 +203,7 @@ pub fn staying(
     let leaving = leaving.min_by(|&a, &b| pressure(a).total_cmp(&pressure(b)));
     pressed.retain(|(node, ..)| Some(*node) != leaving);
     let mut lodged: RigidPoints = vec![None; points.len()];
-    let is_at = |hit: &Hit, node: u32| {
+    let is_at = |hit: &Hit, node: SurfaceNode| {
         configuration
             .side(Side::A)
             .corners(hit.facet)
@@ -219,7 +220,7 @@ pub fn staying(
             lodging(configuration, &lodged, &hit)
         };
         if let Some(to) = to {
-            lodged[to as usize] = Some(point);
+            lodged[to] = Some(point);
             stays.push(Stay { from, to, point });
         }
     }

@@ -20,6 +20,7 @@ use striae_contact::{
     side::Side,
 };
 use striae_mesh::{ElementId, Vec3};
+use striae_surface::node::SurfaceNode;
 
 use super::StepContext;
 use crate::{
@@ -134,11 +135,11 @@ fn of_pair(context: &StepContext, state: &State, pair: usize, factor: f64) -> Ve
     let share = if is_rigid { 1.0 } else { 0.5 };
     let facing = facing(&configuration).into_iter();
     let dashpot = |facing: Facing| {
-        let point = |side: Side, node: u32, weight: f64| Point {
+        let point = |side: Side, node: SurfaceNode, weight: f64| Point {
             side,
             node,
             weight,
-            from: configuration.side(side).x[node as usize],
+            from: configuration.side(side).x[node],
         };
         let mut points = vec![point(facing.side, facing.node, 1.0)];
         if let (false, Some((corners, weights))) = (is_rigid, facing.opposite) {
