@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use std::{error::Error, hint::black_box};
 use striae_condensed::{Automatic, Choice, Partition};
 use striae_contact::{
-    complementarity::Iteration,
+    complementarity::{Conditions, Iteration},
     evaluation::evaluate,
     segment::Derivatives,
     selection::{Before, Selection},
@@ -138,17 +138,19 @@ fn of_scene(group: &str, size: usize) -> Results {
                 ));
             });
             let tractions: &Tractions = &state.pairs[0].tractions;
-            let prescribed = &context.fixed_on_pair[0];
+            let conditions = Conditions {
+                friction: &context.plan.frictions[0],
+                prescribed: &context.fixed_on_pair[0],
+                iteration: Iteration::First,
+            };
             let at = &configuration;
             let terms = timed("search", "segments and local terms", nodes, || {
-                let first = Iteration::First;
                 let evaluation = evaluate(
                     at,
                     at,
                     &selection,
                     tractions,
-                    prescribed,
-                    first,
+                    conditions,
                     Derivatives::First,
                 );
                 black_box(evaluation.is_ok());

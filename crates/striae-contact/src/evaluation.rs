@@ -10,7 +10,7 @@ use striae_surface::node::SurfaceNode;
 use crate::{
     collocated,
     common_field::{CommonField, by_facet, segment_terms},
-    complementarity::{ContactNode, Iteration, Prescribed, rows},
+    complementarity::{Conditions, ContactNode, rows},
     configuration::Configuration,
     converged_friction::CollapsedFacets,
     field::{FacetForces, Fields, facet_terms},
@@ -77,11 +77,11 @@ pub fn evaluate(
     start: &Configuration,
     selection: &Selection,
     tractions: &Tractions,
-    prescribed: &Prescribed,
-    iteration: Iteration,
+    conditions: Conditions,
     derivatives: Derivatives,
 ) -> Result<Evaluation, Collapse> {
-    let slip = if configuration.pair.friction.cap(1.0, 0.0) == 0.0 {
+    let friction = conditions.friction;
+    let slip = if friction.cap(1.0, 0.0) == 0.0 {
         Slip::Left
     } else {
         Slip::Wanted
@@ -97,10 +97,11 @@ pub fn evaluate(
         }
         Enforcement::Collocated => collocated::kinematics(configuration, selection, &frames),
     };
-    let textures = textures(configuration, selection, &frames, &kinematics);
+    let textures = textures(configuration, friction, selection, &frames, &kinematics);
     let textures = textures.map_err(Collapse::Texture)?;
-    let rates = slip_rates(configuration, selection, &kinematics);
+    let rates = slip_rates(configuration, friction, selection, &kinematics);
     let surroundings = Surroundings {
+        friction,
         frames: &frames,
         textures: &textures,
         rates: &rates,
@@ -132,7 +133,7 @@ pub fn evaluate(
         tau: &tau,
     };
     let mut evaluation = stage.nodal(&patches);
-    evaluation.add_rows(&stage, prescribed, iteration);
+    evaluation.add_rows(&stage, conditions);
     evaluation.follow_status(selection);
     match configuration.pair.enforcement {
         Enforcement::Weighted => evaluation.add_segments(&stage, &patches),
@@ -249,7 +250,7 @@ impl Stage<'_> {
 }
 
 impl Evaluation {
-    fn add_rows(&mut self, stage: &Stage, prescribed: &Prescribed, iteration: Iteration) {
+    fn add_rows(&mut self, stage: &Stage, conditions: Conditions) {
         let kept = stage.selection.kept();
         let found: Vec<Option<(LocalTerm, NodeResult)>> = (0..kept.len())
             .into_par_iter()
@@ -258,7 +259,7 @@ impl Evaluation {
                 let (side, node) = kept[k].place();
                 let contact_node = ContactNode {
                     side,
-                    node: node,
+                    node,
                     kinematics: &stage.kinematics[k],
                     frame: stage.frames[side][node].as_ref()?,
                     textures: &stage.textures[side][node],
@@ -268,12 +269,7 @@ impl Evaluation {
                     unknowns: stage.tractions.nodes[side][node],
                     tau: stage.tau[side][node].value,
                 };
-                Some(rows(
-                    stage.configuration,
-                    &contact_node,
-                    prescribed,
-                    iteration,
-                ))
+                Some(rows(stage.configuration, &contact_node, conditions))
             })
             .collect();
         for (k, found) in found.into_iter().enumerate() {

@@ -1,7 +1,6 @@
 //! A contact pair: what does not change during a run.
 
 use serde::Serialize;
-use striae_law::friction::Friction;
 use striae_mesh::Vec3;
 use striae_surface::{
     node::SurfaceNode,
@@ -18,8 +17,6 @@ pub struct ContactPair {
     pub name: String,
     /// The two sides.
     pub sides: [PairedSurface; 2],
-    /// Friction law.
-    pub friction: Friction,
     /// How contact is enforced.
     pub enforcement: Enforcement,
     /// Distance over which contact is looked for ahead; `None`: half the local facet size.

@@ -16,7 +16,7 @@ mod opposite;
 use nalgebra::{Matrix3, Vector3};
 use num_dual::DualSVec64;
 use rayon::prelude::*;
-use striae_law::friction::RequiredTextures;
+use striae_law::friction::{Friction, RequiredTextures};
 use striae_surface::{node::SurfaceNode, texture::Axes};
 
 pub use crate::pair::SideTexture;
@@ -59,11 +59,12 @@ pub struct CollapsedTexture {
 /// When a convected texture has no direction left.
 pub fn textures(
     configuration: &Configuration,
+    friction: &Friction,
     selection: &Selection,
     frames: &Frames,
     kinematics: &[Kinematics],
 ) -> Result<Textures, CollapsedTexture> {
-    if configuration.pair.friction.required_textures() == RequiredTextures::Any {
+    if friction.required_textures() == RequiredTextures::Any {
         return Ok(Side::BOTH.map(|side| vec![NodeTextures::default(); selection.nodes(side)]));
     }
     let of_side = |side: Side| -> Result<Vec<NodeTextures>, CollapsedTexture> {

@@ -29,6 +29,8 @@ pub type NodalTractions = [Vec<Tracked>; 2];
 /// What tractions depend on at every node.
 #[derive(Clone, Copy, Debug)]
 pub struct Surroundings<'a> {
+    /// Friction law.
+    pub friction: &'a Friction,
     /// Nodal frames.
     pub frames: &'a Frames,
     /// Textures of both sides.
@@ -44,7 +46,8 @@ pub fn nodal_tractions(
     surroundings: &Surroundings,
     tractions: &Tractions,
 ) -> NodalTractions {
-    let frictionless = configuration.pair.friction.cap(1.0, 0.0) == 0.0;
+    let friction = surroundings.friction;
+    let frictionless = friction.cap(1.0, 0.0) == 0.0;
     Side::BOTH.map(|side| {
         (0..selection.nodes(side))
             .into_par_iter()
@@ -52,7 +55,7 @@ pub fn nodal_tractions(
             .map(SurfaceNode::new)
             .map(|node| match &surroundings.frames[side][node] {
                 Some(frame) if selection.is_kept(side, node) && !frictionless => nodal_traction(
-                    configuration,
+                    friction,
                     frame,
                     &surroundings.textures[side][node],
                     &surroundings.rates[side][node],
@@ -66,7 +69,7 @@ pub fn nodal_tractions(
 }
 
 fn nodal_traction(
-    configuration: &Configuration,
+    friction: &Friction,
     frame: &Frame,
     textures: &NodeTextures,
     rate: &TrackedScalar,
@@ -76,7 +79,6 @@ fn nodal_traction(
     let [t1, t2] = &frame.t;
     let [pressure, z1, z2] = unknowns;
     let vector = in_frame(frame, [z1, z2]);
-    let friction = &configuration.pair.friction;
     let cap = Cap::new(friction, pressure, rate.value);
     let response = if *textures == NodeTextures::default() {
         Response::new::<4>(friction, frame, textures, cap, &vector)

@@ -11,7 +11,6 @@ use striae_contact::{
     placement::Placement,
     side::Side,
 };
-use striae_law::friction::Friction;
 use striae_mesh::{Mesh, Vec3, generate::Block};
 use striae_surface::topology::Surface;
 
@@ -71,7 +70,6 @@ fn pair(a: Geometry, b: Geometry) -> ContactPair {
     ContactPair {
         name: "pair".to_owned(),
         sides: [side(a), side(b)],
-        friction: Friction::frictionless(),
         enforcement: Enforcement::Weighted,
         search_distance: None,
     }

@@ -3,6 +3,7 @@
 use striae_contact::{
     configuration::Configuration,
     interference::{Interference, Stage, Thickness, inside, interferences, lengths},
+    pair::ContactPair,
     placement::Placement,
     side::Side,
 };
@@ -61,9 +62,19 @@ pub fn within(problem: &Problem, pair: usize, at: Positions, share: f64) -> Vec<
 
 /// Where the sides of a pair are.
 pub fn configuration<'a>(problem: &'a Problem, pair: usize, at: Positions) -> Configuration<'a> {
+    placed(problem, pair, &problem.pairs[pair].contact, at)
+}
+
+/// The same of a pair of the problem that looks for contact in another distance.
+pub(crate) fn placed<'a>(
+    problem: &Problem,
+    pair: usize,
+    contact: &'a ContactPair,
+    at: Positions,
+) -> Configuration<'a> {
     let geometry = &problem.pairs[pair];
     let of_side = |side: Side| -> Vec<Vec3> {
-        let surface = geometry.contact.sides[side].surface();
+        let surface = contact.sides[side].surface();
         match (geometry.bodies[side], surface) {
             (Some(body), Some(surface)) => {
                 let nodes = surface.nodes().iter();
@@ -77,11 +88,7 @@ pub fn configuration<'a>(problem: &'a Problem, pair: usize, at: Positions) -> Co
     let placement = geometry.rigid.map_or_else(Placement::at_rest, |id| {
         at.rigid[id].placement(&problem.model.rigid_surfaces[id].reference)
     });
-    Configuration::new(
-        &geometry.contact,
-        [of_side(Side::A), of_side(Side::B)],
-        placement,
-    )
+    Configuration::new(contact, Side::BOTH.map(of_side), placement)
 }
 
 /// How thick the bodies behind the facets of a pair are.

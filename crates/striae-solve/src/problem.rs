@@ -72,7 +72,7 @@ pub struct Problem {
 /// A contact pair with its place in the problem.
 #[derive(Clone, Debug)]
 pub struct PairGeometry {
-    /// The pair; its friction is that of the first step.
+    /// The pair.
     pub contact: ContactPair,
     /// Body of each side, `None` for a rigid one.
     pub bodies: [Option<usize>; 2],
@@ -280,7 +280,6 @@ pub(crate) fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, 
         contact: ContactPair {
             name: pair.name.clone(),
             sides: [a, b],
-            friction: pair.friction.clone(),
             enforcement: pair.enforcement,
             search_distance: pair.search_distance,
         },

@@ -1,7 +1,7 @@
 //! Contact of all pairs: its evaluation at a trial state, and its place in the system.
 
 use striae_contact::{
-    complementarity::Iteration,
+    complementarity::{Conditions, Iteration},
     configuration::Configuration,
     converged_friction::CollapsedFacets,
     evaluation::{Collapse, Evaluation, evaluate},
@@ -48,8 +48,11 @@ pub(super) fn contacts(
             &context.configuration(pair, &state.positions, &state.rigid),
             &setting.selections[pair],
             &trial.tractions[pair],
-            &context.fixed_on_pair[pair],
-            iteration,
+            Conditions {
+                friction: &context.plan.frictions[pair],
+                prescribed: &context.fixed_on_pair[pair],
+                iteration,
+            },
             derivatives,
         )
         .map_err(|error| Fault::CutBack(not_evaluated(context.problem, pair, error)))?;

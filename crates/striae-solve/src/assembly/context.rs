@@ -3,8 +3,7 @@
 mod dashpots;
 
 use striae_contact::{
-    complementarity::Prescribed, configuration::Configuration, pair::ContactPair,
-    placement::Placement, side::Side,
+    complementarity::Prescribed, configuration::Configuration, pair::ContactPair, side::Side,
 };
 use striae_mesh::{NodeId, Vec3};
 use striae_surface::node::SurfaceNode;
@@ -12,6 +11,7 @@ use striae_surface::node::SurfaceNode;
 use crate::{
     dynamics::{ImposedRate, Motion},
     initial::Offsets,
+    interference::{Positions, placed},
     model::LoadKind,
     node::GlobalNode,
     plan::StepPlan,
@@ -33,7 +33,7 @@ pub struct StepContext<'a> {
     pub plan: &'a StepPlan,
     /// State at its start.
     pub start: &'a State,
-    /// Pairs with the friction of the step.
+    /// Pairs with the distances in which the step looks for contact.
     pub pairs: Vec<ContactPair>,
     /// Whether each position component of each global node is prescribed.
     pub fixed: Vec<bool>,
@@ -112,14 +112,7 @@ impl<'a> StepContext<'a> {
                     .collect()
             })
         };
-        let pairs = problem
-            .pairs
-            .iter()
-            .zip(&plan.frictions)
-            .map(|(pair, friction)| ContactPair {
-                friction: friction.clone(),
-                ..pair.contact.clone()
-            });
+        let pairs = problem.pairs.iter().map(|pair| pair.contact.clone());
         let mut context = Self {
             stabilisation: Vec::new(),
             fixed_on_pair: (0..problem.pairs.len()).map(on_pair).collect(),
@@ -273,26 +266,10 @@ impl<'a> StepContext<'a> {
         positions: &[Vec3],
         rigid: &[Pose],
     ) -> Configuration<'_> {
-        let geometry = &self.problem.pairs[pair];
-        let of_side = |side: Side| -> Vec<Vec3> {
-            let count = geometry.contact.sides[side]
-                .surface()
-                .map_or(0, |s| s.nodes().len());
-            match geometry.bodies[side] {
-                Some(_) => SurfaceNode::all(count)
-                    .filter_map(|node| self.problem.surface_node(pair, side, node))
-                    .map(|node| positions[node])
-                    .collect(),
-                None => geometry.rigid_reference.clone(),
-            }
+        let at = Positions {
+            nodes: positions,
+            rigid,
         };
-        let placement = geometry.rigid.map_or_else(Placement::at_rest, |id| {
-            rigid[id].placement(&self.problem.model.rigid_surfaces[id].reference)
-        });
-        Configuration::new(
-            &self.pairs[pair],
-            [of_side(Side::A), of_side(Side::B)],
-            placement,
-        )
+        placed(self.problem, pair, &self.pairs[pair], at)
     }
 }

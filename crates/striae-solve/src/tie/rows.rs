@@ -9,7 +9,6 @@ use striae_contact::{
     side::Side,
     tie::{FacetRows, Joined, join},
 };
-use striae_law::friction::Friction;
 use striae_mesh::{Face, Vec3};
 use striae_surface::{node::SurfaceNode, topology::Surface};
 
@@ -322,7 +321,6 @@ fn contact_pair(
     ContactPair {
         name: String::new(),
         sides,
-        friction: Friction::frictionless(),
         enforcement: Enforcement::Weighted,
         search_distance: within,
     }

@@ -3,7 +3,7 @@
 
 use nalgebra::{DMatrix, DVector};
 use striae_contact::{
-    complementarity::Iteration,
+    complementarity::{Conditions, Iteration},
     configuration::Configuration,
     evaluation::{Evaluation, evaluate},
     segment::Derivatives,
@@ -100,8 +100,11 @@ impl<'a> Contact<'a> {
             &self.start,
             &self.selection,
             &self.tractions(u),
-            &self.nodes().map(|count| vec![false; 3 * count]),
-            Iteration::LATER,
+            Conditions {
+                friction: &self.context.plan.frictions[0],
+                prescribed: &self.nodes().map(|count| vec![false; 3 * count]),
+                iteration: Iteration::LATER,
+            },
             Derivatives::First,
         )
         .unwrap()

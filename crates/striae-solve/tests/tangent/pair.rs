@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 use striae_contact::{
-    complementarity::{Iteration, Prescribed},
+    complementarity::{Conditions, Iteration, Prescribed},
     configuration::Configuration,
     evaluation::{Evaluation, evaluate},
     placement::Placement,
@@ -146,8 +146,11 @@ impl<'a> PairFunction<'a> {
             &configuration(self.context, &self.start),
             &self.selection,
             &self.tractions(u),
-            &self.prescribed,
-            self.iteration,
+            Conditions {
+                friction: &self.context.plan.frictions[0],
+                prescribed: &self.prescribed,
+                iteration: self.iteration,
+            },
             Derivatives::First,
         )
         .unwrap()
