@@ -6,10 +6,11 @@ use serde_json::{Value, json};
 use std::{error::Error, hint::black_box};
 use striae_condensed::{Automatic, Choice, Partition};
 use striae_contact::{
-    complementarity::Iteration,
+    complementarity::{Conditions, Iteration},
     evaluation::evaluate,
     segment::Derivatives,
     selection::{Before, Selection},
+    side::Side,
     unknowns::Tractions,
 };
 use striae_law::{
@@ -116,10 +117,13 @@ fn of_scene(group: &str, size: usize) -> Results {
         points,
     };
     let selection = Selection::new(&configuration, None, before, &context.fixed_on_pair[0]);
-    let nodes: usize = (0..2).map(|side| selection.nodes(side)).sum();
+    let nodes: usize = Side::BOTH
+        .into_iter()
+        .map(|side| selection.nodes(side))
+        .sum();
     Ok(match group {
         "surface" => {
-            let surface = configuration.side(0);
+            let surface = configuration.side(Side::A);
             vec![timed("surface", "nodal normals", surface.x.len(), || {
                 black_box(nodal_normals(surface.surface, &surface.x));
             })]
@@ -134,17 +138,19 @@ fn of_scene(group: &str, size: usize) -> Results {
                 ));
             });
             let tractions: &Tractions = &state.pairs[0].tractions;
-            let prescribed = &context.fixed_on_pair[0];
+            let conditions = Conditions {
+                friction: &context.plan.frictions[0],
+                prescribed: &context.fixed_on_pair[0],
+                iteration: Iteration::First,
+            };
             let at = &configuration;
             let terms = timed("search", "segments and local terms", nodes, || {
-                let first = Iteration::First;
                 let evaluation = evaluate(
                     at,
                     at,
                     &selection,
                     tractions,
-                    prescribed,
-                    first,
+                    conditions,
                     Derivatives::First,
                 );
                 black_box(evaluation.is_ok());

@@ -1,5 +1,6 @@
 //! Many runs of one deck with other values, and the tables of what they gave.
 
+use striae_contact::side::Side;
 use striae_deck::Deck;
 use striae_solve::outcome::Ending;
 
@@ -185,7 +186,9 @@ pub fn normal_force(run: &Run) -> f64 {
 /// Smallest pressure of the kept nodes at the end.
 fn smallest_pressure(run: &Run) -> f64 {
     let pair = &run.finished.state.pairs[0];
-    let nodes = (0..2).flat_map(|side| pair.nodes[side].iter().zip(&pair.kept[side]));
+    let nodes = Side::BOTH
+        .into_iter()
+        .flat_map(|side| pair.nodes[side].iter().zip(&pair.kept[side]));
     let kept = nodes.filter(|(_, kept)| **kept);
     kept.map(|(node, _)| node.pressure)
         .fold(f64::INFINITY, f64::min)

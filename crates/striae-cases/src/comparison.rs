@@ -14,14 +14,17 @@
 
 use std::collections::BTreeMap;
 
-use striae_contact::unknowns::Status;
+use striae_contact::{side::Side, unknowns::Status};
 use striae_figure::{Axis, Content, Figure, Marker, Panel, Series, Width};
 use striae_mesh::Vec3;
-use striae_surface::facet::{Shape, area_vector};
+use striae_surface::{
+    facet::{Shape, area_vector},
+    node::SurfaceNode,
+};
 use striae_verify::fitted_rate;
 
 use super::{
-    measure::{SurfaceNode, facets, surface_nodes},
+    measure::{MeasuredNode, facets, surface_nodes},
     study::Run,
 };
 
@@ -60,7 +63,7 @@ impl Ellipse {
 }
 
 /// Samples inside of the facets under pressure on a side of the first pair.
-pub fn samples(run: &Run, side: usize) -> Vec<Sample> {
+pub fn samples(run: &Run, side: Side) -> Vec<Sample> {
     let grid: Vec<[f64; 2]> = grid().collect();
     let facets = sampled(run, side, &grid);
     facets
@@ -71,9 +74,9 @@ pub fn samples(run: &Run, side: usize) -> Vec<Sample> {
 
 /// Samples at the nodes under pressure on a side of the first pair, means over the
 /// facets around them weighted by area.
-pub fn nodal_samples(run: &Run, side: usize) -> Vec<Sample> {
+pub fn nodal_samples(run: &Run, side: Side) -> Vec<Sample> {
     const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-    let mut means: BTreeMap<u32, Sample> = BTreeMap::new();
+    let mut means: BTreeMap<SurfaceNode, Sample> = BTreeMap::new();
     for (facet, samples) in sampled(run, side, &CORNERS) {
         for (node, sample) in facet.into_iter().zip(samples) {
             let Some(mean) = means.get_mut(&node) else {
@@ -94,16 +97,16 @@ pub fn nodal_samples(run: &Run, side: usize) -> Vec<Sample> {
 /// side from the means of an exact one over the same areas, `integral N_k p / integral
 /// N_k` at rest. Unlike a field drawn through the means it has nothing of what the means
 /// take from a pressure that ends as a root.
-pub fn difference_of_means(run: &Run, side: usize, exact: impl Fn(&Vec3) -> f64) -> f64 {
+pub fn difference_of_means(run: &Run, side: Side, exact: impl Fn(&Vec3) -> f64) -> f64 {
     let nodes = surface_nodes(run, side);
     let mut means = vec![[0.0; 3]; nodes.len()];
     for &facet in facets(run, side) {
-        let corners = facet.map(|corner| &nodes[corner as usize]);
+        let corners = facet.map(|corner| &nodes[corner]);
         for [xi, eta] in grid() {
             let weights = Shape::Quadrilateral.weights(xi, eta);
             let parts = || corners.iter().zip(weights.value);
             let place: Vec3 = parts().map(|(node, weight)| node.reference * weight).sum();
-            let area = |place: &dyn Fn(&SurfaceNode) -> Vec3| {
+            let area = |place: &dyn Fn(&MeasuredNode) -> Vec3| {
                 area_vector(&weights, &corners.map(place)).norm()
             };
             let at_rest = area(&|node| node.reference) * 4.0 / (PARTS * PARTS) as f64;
@@ -111,7 +114,7 @@ pub fn difference_of_means(run: &Run, side: usize, exact: impl Fn(&Vec3) -> f64)
             let known = exact(&place);
             for ((node, weight), corner) in parts().zip(facet) {
                 let share = weight * at_rest;
-                let [area, computed, expected] = &mut means[corner as usize];
+                let [area, computed, expected] = &mut means[corner];
                 *area += share;
                 *computed += share * stretch * node.result.mean_pressure();
                 *expected += share * known;
@@ -134,11 +137,11 @@ fn grid() -> impl Iterator<Item = [f64; 2]> {
 }
 
 /// Samples at places of the facets under pressure, in coordinates of the facets.
-fn sampled(run: &Run, side: usize, places: &[[f64; 2]]) -> Vec<([u32; 4], Vec<Sample>)> {
+fn sampled(run: &Run, side: Side, places: &[[f64; 2]]) -> Vec<([SurfaceNode; 4], Vec<Sample>)> {
     let nodes = surface_nodes(run, side);
     let mut all = Vec::new();
     for &facet in facets(run, side) {
-        let corners = facet.map(|corner| &nodes[corner as usize]);
+        let corners = facet.map(|corner| &nodes[corner]);
         if corners
             .iter()
             .all(|node| node.result.mean_pressure() <= 0.0)
@@ -147,12 +150,12 @@ fn sampled(run: &Run, side: usize, places: &[[f64; 2]]) -> Vec<([u32; 4], Vec<Sa
         }
         let samples = places.iter().map(|&[xi, eta]| {
             let weights = Shape::Quadrilateral.weights(xi, eta);
-            let area = |place: &dyn Fn(&SurfaceNode) -> Vec3| {
+            let area = |place: &dyn Fn(&MeasuredNode) -> Vec3| {
                 area_vector(&weights, &corners.map(place)).norm()
             };
             let at_rest = area(&|node| node.reference);
             let stretch = area(&|node| node.position) / at_rest;
-            let mean = |value: &dyn Fn(&SurfaceNode) -> Vec3| -> Vec3 {
+            let mean = |value: &dyn Fn(&MeasuredNode) -> Vec3| -> Vec3 {
                 let parts = corners.iter().zip(weights.value);
                 parts.map(|(node, weight)| value(node) * weight).sum()
             };

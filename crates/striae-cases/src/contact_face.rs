@@ -25,6 +25,7 @@
 //! friction within the radius (Cerruti; Johnson 1985, section 3.6), so that the slope,
 //! weighted by pressure, is `3 (1 - 2 nu) mu p0/(16 G)`.
 
+use striae_contact::side::Side;
 use striae_mesh::Vec3;
 use striae_surface::facet::{Shape, area_vector};
 
@@ -50,8 +51,8 @@ impl ContactFace {
     /// The face between both sides, with the normal of the first, on which the force `F`
     /// acts. Equal bodies pass pressure along the mean of both normals.
     pub fn between(run: &Run, force: Vec3) -> Self {
-        let mut pressed = pressed_areas(run, 0);
-        let other = pressed_areas(run, 1).into_iter();
+        let mut pressed = pressed_areas(run, Side::A);
+        let other = pressed_areas(run, Side::B).into_iter();
         pressed.extend(other.map(|(p, area)| (p, -area)));
         Self::of(&pressed, force)
     }
@@ -92,14 +93,14 @@ impl ContactFace {
 }
 
 /// Pressure and area vector of the quadrature points of all facets.
-fn pressed_areas(run: &Run, side: usize) -> Vec<(f64, Vec3)> {
+fn pressed_areas(run: &Run, side: Side) -> Vec<(f64, Vec3)> {
     let nodes = surface_nodes(run, side);
     let place = 1.0 / 3.0_f64.sqrt();
     let places = [-place, place];
     let points = places.map(|xi| places.map(|eta| Shape::Quadrilateral.weights(xi, eta)));
     let mut all = Vec::new();
     for facet in facets(run, side) {
-        let corners = facet.map(|corner| &nodes[corner as usize]);
+        let corners = facet.map(|corner| &nodes[corner]);
         let positions = corners.map(|node| node.position);
         for weights in points.as_flattened() {
             let parts = corners.iter().zip(weights.value);

@@ -12,7 +12,7 @@
 //! which is zero for a parabola, half the change in an increment at most where the
 //! slope alone is broken, and the jump where there is one, whatever the increment.
 
-use striae_contact::unknowns::Status;
+use striae_contact::{side::Side, unknowns::Status};
 use striae_deck::Deck;
 use striae_figure::{Axis, Content, Figure, Panel, Series, Width};
 use striae_solve::outcome::Ending;
@@ -323,7 +323,9 @@ impl Scene {
 /// How far friction exceeds Coulomb's law at the end, over the largest limit.
 fn excess(run: &Run) -> f64 {
     let pair = &run.finished.state.pairs[0];
-    let nodes = (0..2).flat_map(|side| pair.nodes[side].iter().zip(&pair.kept[side]));
+    let nodes = Side::BOTH
+        .into_iter()
+        .flat_map(|side| pair.nodes[side].iter().zip(&pair.kept[side]));
     let kept = nodes.filter(|(node, kept)| **kept && node.status != Status::Open);
     let (mut over, mut limit) = (0.0_f64, 0.0_f64);
     for (node, _) in kept {

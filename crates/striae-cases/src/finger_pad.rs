@@ -4,6 +4,7 @@
 //! against it in the other, and the stroke costs `(m_f + m_b) N` a length. With Coulomb's law
 //! the loop is symmetric.
 
+use striae_contact::side::Side;
 use striae_figure::{Axis, Color, Content, Figure, Panel, Series, Width};
 use striae_law::friction::Friction;
 use striae_mesh::Vec3;
@@ -183,10 +184,10 @@ fn draw(study: &mut Study, all: &[Stroked]) -> Result<(), Failure> {
 
 /// Mean pressure on the facets that touch, seen from above, about the finger.
 fn patch(run: &Run, state: &State, way: f64) -> Panel {
-    let nodes = surface_nodes_in(run, state, 0);
+    let nodes = surface_nodes_in(run, state, Side::A);
     let (mut polygons, mut values) = (Vec::new(), Vec::new());
-    for facet in facets(run, 0) {
-        let corners = facet[..3].iter().map(|corner| &nodes[*corner as usize]);
+    for facet in facets(run, Side::A) {
+        let corners = facet[..3].iter().map(|corner| &nodes[*corner]);
         let pressure = corners
             .clone()
             .map(|node| node.result.mean_pressure())

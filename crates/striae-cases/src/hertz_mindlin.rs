@@ -10,6 +10,7 @@
 //! friction; a block of twice the edges is nearer to a half space. Away from the
 //! edge of the contact zone, where the pressure is smooth, little else is left.
 
+use striae_contact::side::Side;
 use striae_figure::{Axis, Color, Content, Figure, Line, Marker, Panel, Series, Width};
 use striae_mesh::Vec3;
 use striae_verify::closed_forms::{PartialSlip, PointContact, contact_modulus};
@@ -226,7 +227,7 @@ fn ran(study: &mut Study, name: &str, size: f64, passages: &[[&str; 2]]) -> Resu
 /// Relative difference of the pressure from Hertz's at the end of a run, up to a
 /// distance from the middle over the radius of the contact zone.
 fn pressure_error(run: &Run, radius: f64, within: f64) -> f64 {
-    let mut samples = samples(run, 0);
+    let mut samples = samples(run, Side::A);
     let middle = centre(&samples).x;
     let history = history(run);
     let [_, normal, _] = history[history.len() - 1];
@@ -243,11 +244,11 @@ fn pressure_error(run: &Run, radius: f64, within: f64) -> f64 {
 
 /// The same for the means around nodes beside those of Hertz's pressure.
 fn error_of_means(run: &Run, radius: f64) -> f64 {
-    let middle = centre(&samples(run, 0)).x;
+    let middle = centre(&samples(run, Side::A)).x;
     let history = history(run);
     let [_, normal, _] = history[history.len() - 1];
     let exact = PointContact::new(normal, radius, modulus());
-    difference_of_means(run, 0, |place| {
+    difference_of_means(run, Side::A, |place| {
         exact.pressure((place.x - middle).hypot(place.y))
     })
 }
@@ -261,13 +262,13 @@ impl Measured {
 }
 
 fn measured(run: &Run, size: f64) -> Measured {
-    let samples = samples(run, 0);
+    let samples = samples(run, Side::A);
     let middle = centre(&samples).x;
     let history = history(run);
     let exact = closed_form(history[history.len() - 1]);
     let distance = |sample: &Sample| (sample.place.x - middle).hypot(sample.place.y);
     let along = |value: f64| Vec3::new(value, 0.0, 0.0);
-    let mut nodes = nodal_samples(run, 0);
+    let mut nodes = nodal_samples(run, Side::A);
     let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
     let peaks = [
         largest(&mut nodes.iter().map(|node| node.pressure)),

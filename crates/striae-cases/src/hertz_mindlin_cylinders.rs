@@ -5,7 +5,7 @@
 //! zone; the largest friction is `mu` times the fitted pressure at its edge.
 //! Errors are told apart into those around the edges of both zones and the rest.
 
-use striae_contact::unknowns::Status;
+use striae_contact::{side::Side, unknowns::Status};
 use striae_figure::{Axis, Color, Content, Figure, Marker, Panel, Series, Width};
 use striae_mesh::Vec3;
 use striae_verify::closed_forms::{LineContact, LinePartialSlip, contact_modulus};
@@ -117,9 +117,9 @@ fn ran(study: &mut Study, size: f64) -> Result<Run, Failure> {
 }
 
 fn measured(run: &Run, size: f64, exact: &LinePartialSlip) -> Measured {
-    let samples = samples(run, 0);
+    let samples = samples(run, Side::A);
     let middle = centre(&samples).x;
-    let mut nodes = nodal_samples(run, 0);
+    let mut nodes = nodal_samples(run, Side::A);
     nodes.retain(|node| node.place.y == 0.0);
     nodes.sort_by(|a, b| a.place.x.total_cmp(&b.place.x));
     let at = |s: &Sample| [s.place.x - middle, s.pressure, -s.tau.x];

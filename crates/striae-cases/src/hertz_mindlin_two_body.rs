@@ -5,12 +5,13 @@
 //! tell where friction across the motion comes from: one without friction while it
 //! is pressed, and one of the same contact zone with a hundredth of the strains.
 
+use striae_contact::side::Side;
 use striae_figure::{Axis, Color, Content, Figure, Marker, Panel, Series, Width};
 use striae_mesh::Vec3;
 
 use super::{
     contact_face::ContactFace,
-    measure::{SurfaceNode, surface_nodes_in},
+    measure::{MeasuredNode, surface_nodes_in},
     study::{Extent, Run, Study},
 };
 use crate::failure::Failure;
@@ -126,7 +127,7 @@ fn slid(study: &mut Study, name: &str, run: &Run) -> f64 {
 }
 
 /// Largest value of the nodes of the spherical face at the end of a step.
-fn largest(run: &Run, step: usize, of: fn(&SurfaceNode) -> f64) -> f64 {
+fn largest(run: &Run, step: usize, of: fn(&MeasuredNode) -> f64) -> f64 {
     pressed(run, step).iter().map(of).fold(0.0, f64::max)
 }
 
@@ -149,14 +150,14 @@ fn friction_share(run: &Run, step: usize) -> f64 {
 }
 
 /// Nodes of the spherical face under pressure at the end of a step.
-fn pressed(run: &Run, step: usize) -> Vec<SurfaceNode<'_>> {
-    let mut nodes = surface_nodes_in(run, &run.finished.steps[step], 0);
+fn pressed(run: &Run, step: usize) -> Vec<MeasuredNode<'_>> {
+    let mut nodes = surface_nodes_in(run, &run.finished.steps[step], Side::A);
     nodes.retain(|node| node.result.pressure > 0.0);
     nodes
 }
 
 /// A vector of a node.
-type Vector = fn(&SurfaceNode) -> Vec3;
+type Vector = fn(&MeasuredNode) -> Vec3;
 
 /// Friction above at the ends of the steps, slip of the last increment below, once
 /// there is any.
@@ -174,7 +175,7 @@ fn arrows(run: &Run) -> Figure {
             if nodes.iter().all(|node| vector(node) == Vec3::zeros()) {
                 continue;
             }
-            let places = |node: &SurfaceNode| [node.position.x, node.position.y];
+            let places = |node: &MeasuredNode| [node.position.x, node.position.y];
             let vectors = nodes.iter().map(vector).map(|v| [v.x, v.y]);
             let content = Content::Arrows {
                 origins: nodes.iter().map(places).collect(),

@@ -1,17 +1,20 @@
 //! Fields of a finished run, as numbers and as parts of figures.
 
 use nalgebra::Matrix3;
-use striae_contact::unknowns::{NodeResult, Status};
+use striae_contact::{
+    side::Side,
+    unknowns::{NodeResult, Status},
+};
 use striae_figure::{Axis, Color, Content, Series};
 use striae_law::friction::Textures;
 use striae_mesh::{ElementId, Vec3};
 use striae_solve::state::State;
-use striae_surface::facet::Shape;
+use striae_surface::{facet::Shape, node::SurfaceNode};
 
 use super::study::Run;
 
 /// A node of a contact surface at the end of a run.
-pub struct SurfaceNode<'a> {
+pub struct MeasuredNode<'a> {
     /// Where it was.
     pub reference: Vec3,
     /// Where it is.
@@ -21,18 +24,18 @@ pub struct SurfaceNode<'a> {
 }
 
 /// Nodes of a side of the first pair, in the order of the surface.
-pub fn surface_nodes(run: &Run, side: usize) -> Vec<SurfaceNode<'_>> {
+pub fn surface_nodes(run: &Run, side: Side) -> Vec<MeasuredNode<'_>> {
     surface_nodes_in(run, &run.finished.state, side)
 }
 
 /// The same in another state of the run.
-pub fn surface_nodes_in<'a>(run: &'a Run, state: &'a State, side: usize) -> Vec<SurfaceNode<'a>> {
+pub fn surface_nodes_in<'a>(run: &'a Run, state: &'a State, side: Side) -> Vec<MeasuredNode<'a>> {
     let problem = &run.finished.problem;
     let results = state.pairs[0].nodes[side].iter().enumerate();
     results
         .filter_map(|(index, result)| {
-            let node = problem.surface_node(0, side, index as u32)?;
-            Some(SurfaceNode {
+            let node = problem.surface_node(0, side, SurfaceNode::new(index))?;
+            Some(MeasuredNode {
                 reference: problem.reference[node],
                 position: state.positions[node],
                 result,
@@ -96,8 +99,8 @@ pub fn stress_error(run: &Run, expected: &Matrix3<f64>) -> f64 {
 
 /// Pressure in colour on a side of the first pair where the other side covers
 /// it, seen from above; every facet is divided into `parts` x `parts`.
-pub fn pressure_map(run: &Run, side: usize, parts: usize, bar: Axis) -> Content {
-    let windows = outlines(run, 1 - side);
+pub fn pressure_map(run: &Run, side: Side, parts: usize, bar: Axis) -> Content {
+    let windows = outlines(run, side.opposite());
     let mut polygons = Vec::new();
     let mut values = Vec::new();
     for (polygon, pressure) in cells(run, side, parts) {
@@ -117,11 +120,11 @@ pub fn pressure_map(run: &Run, side: usize, parts: usize, bar: Axis) -> Content 
 }
 
 /// Parts of all facets of a side with the pressure in their middles.
-fn cells(run: &Run, side: usize, parts: usize) -> Vec<(Vec<[f64; 2]>, f64)> {
+fn cells(run: &Run, side: Side, parts: usize) -> Vec<(Vec<[f64; 2]>, f64)> {
     let nodes = surface_nodes(run, side);
     let mut cells = Vec::new();
     for facet in facets(run, side) {
-        let corners = facet.map(|corner| &nodes[corner as usize]);
+        let corners = facet.map(|corner| &nodes[corner]);
         let at = |i: f64, j: f64| {
             let place = |share: f64| 2.0 * share / parts as f64 - 1.0;
             let weights = Shape::Quadrilateral.weights(place(i), place(j)).value;
@@ -144,10 +147,10 @@ fn cells(run: &Run, side: usize, parts: usize) -> Vec<(Vec<[f64; 2]>, f64)> {
 }
 
 /// Outlines of the facets of a side, counter-clockwise seen from above.
-fn outlines(run: &Run, side: usize) -> Vec<Vec<[f64; 2]>> {
+fn outlines(run: &Run, side: Side) -> Vec<Vec<[f64; 2]>> {
     let nodes = surface_nodes(run, side);
-    let outline = |facet: &[u32; 4]| {
-        let ring = facet.map(|corner| nodes[corner as usize].position);
+    let outline = |facet: &[SurfaceNode; 4]| {
+        let ring = facet.map(|corner| nodes[corner].position);
         let mut ring = ring.map(|x| [x.x, x.y]).to_vec();
         if area(ring[0], ring[1], ring[2]) < 0.0 {
             ring.reverse();
@@ -184,11 +187,11 @@ fn area(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
 }
 
 /// Edges of the facets of a side of the first pair, seen from above.
-pub fn mesh_lines(run: &Run, side: usize, name: &str, color: Color) -> Series {
+pub fn mesh_lines(run: &Run, side: Side, name: &str, color: Color) -> Series {
     let nodes = surface_nodes(run, side);
     let mut points = Vec::new();
     for facet in facets(run, side) {
-        let ring = [0, 1, 2, 3, 0].map(|corner| nodes[facet[corner] as usize].position);
+        let ring = [0, 1, 2, 3, 0].map(|corner| nodes[facet[corner]].position);
         points.extend(ring.map(|x| [x.x, x.y]));
         points.push([f64::NAN; 2]);
     }
@@ -196,7 +199,7 @@ pub fn mesh_lines(run: &Run, side: usize, name: &str, color: Color) -> Series {
 }
 
 /// Facets of a side of the first pair.
-pub fn facets(run: &Run, side: usize) -> &[[u32; 4]] {
+pub fn facets(run: &Run, side: Side) -> &[[SurfaceNode; 4]] {
     let sides = &run.finished.problem.pairs[0].contact.sides;
     sides[side]
         .surface()

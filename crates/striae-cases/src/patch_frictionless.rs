@@ -4,6 +4,7 @@
 //! every deck is run with both orders of the sides of the pair.
 
 use nalgebra::Matrix3;
+use striae_contact::side::Side;
 use striae_deck::Deck;
 use striae_figure::{Axis, Color, Figure, Panel, Series, Width};
 
@@ -59,7 +60,7 @@ pub fn run(study: &mut Study) -> Result<(), Failure> {
 fn errors(run: &Run) -> [f64; 2] {
     let mut expected = Matrix3::zeros();
     expected[(2, 2)] = -PRESSURE;
-    let nodes = [0, 1].map(|side| surface_nodes(run, side));
+    let nodes = Side::BOTH.map(|side| surface_nodes(run, side));
     let carrying = nodes.iter().flatten().map(|node| node.result.pressure);
     let pressure = carrying
         .filter(|&pressure| pressure != 0.0)
@@ -82,7 +83,7 @@ fn panel(run: &Run, name: &str) -> Panel {
     let title = name.trim_end_matches("-upper-finer").replace('-', " ");
     Panel::plane(Axis::linear("x", ""), Axis::linear("y", ""))
         .titled(title)
-        .with(Series::new("", pressure_map(run, 1, 1, bar)))
-        .with(mesh_lines(run, 0, "lower block", Color::Black))
-        .with(mesh_lines(run, 1, "upper block", Color::Vermillion))
+        .with(Series::new("", pressure_map(run, Side::B, 1, bar)))
+        .with(mesh_lines(run, Side::A, "lower block", Color::Black))
+        .with(mesh_lines(run, Side::B, "upper block", Color::Vermillion))
 }

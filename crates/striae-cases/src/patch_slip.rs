@@ -10,7 +10,7 @@
 //! `g` at once. Source: Jones & Papadopoulos (2006), figure 11.
 
 use nalgebra::Matrix3;
-use striae_contact::unknowns::NodeResult;
+use striae_contact::{side::Side, unknowns::NodeResult};
 use striae_figure::{Axis, Color, Content, Figure, Panel, Series, Width};
 use striae_law::friction::{Friction, Textures};
 use striae_mesh::Vec3;
@@ -119,7 +119,7 @@ fn displacement_error(run: &Run, sliding: &Sliding) -> f64 {
 
 /// Largest difference of the nodal slip of the last increment from the uniform one, relative.
 fn slip_error(run: &Run) -> f64 {
-    let nodes = surface_nodes(run, 0).into_iter();
+    let nodes = surface_nodes(run, Side::A).into_iter();
     let errors = nodes.map(|node| (node.result.slip - along(DIRECTION) * SLIP).norm() / SLIP);
     errors.fold(0.0, f64::max)
 }
@@ -141,7 +141,7 @@ fn panel(run: &Run, name: &str) -> Panel {
         };
         corners.map(place).to_vec()
     };
-    let nodes = surface_nodes(run, 0);
+    let nodes = surface_nodes(run, Side::A);
     let origins: Vec<[f64; 2]> = nodes
         .iter()
         .map(|node| node.position - back)

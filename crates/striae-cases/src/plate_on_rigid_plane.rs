@@ -1,10 +1,10 @@
 //! `plate-on-rigid-plane`: partial slip under a plate that is pushed along a floor.
 
-use striae_contact::unknowns::Status;
+use striae_contact::{side::Side, unknowns::Status};
 use striae_figure::{Axis, Color, Content, Figure, Marker, Panel, Series, Width};
 
 use super::{
-    measure::{SurfaceNode, surface_nodes},
+    measure::{MeasuredNode, surface_nodes},
     study::{Run, Study},
 };
 use crate::failure::Failure;
@@ -33,16 +33,16 @@ pub fn run(study: &mut Study) -> Result<(), Failure> {
 }
 
 /// Nodes of the front edge on the floor, from left to right.
-fn along_floor(run: &Run) -> Vec<SurfaceNode<'_>> {
-    let mut nodes = surface_nodes(run, 0);
+fn along_floor(run: &Run) -> Vec<MeasuredNode<'_>> {
+    let mut nodes = surface_nodes(run, Side::A);
     nodes.retain(|node| node.reference.y == 0.0);
     nodes.sort_by(|a, b| a.reference.x.total_cmp(&b.reference.x));
     nodes
 }
 
 /// Displacement in micrometres at a place between two nodes.
-fn displacement(floor: &[SurfaceNode], place: f64) -> f64 {
-    let moved = |node: &SurfaceNode| 1e3 * (node.position.x - node.reference.x);
+fn displacement(floor: &[MeasuredNode], place: f64) -> f64 {
+    let moved = |node: &MeasuredNode| 1e3 * (node.position.x - node.reference.x);
     let pair = floor
         .windows(2)
         .find(|pair| (pair[0].reference.x..=pair[1].reference.x).contains(&place));
@@ -54,7 +54,7 @@ fn displacement(floor: &[SurfaceNode], place: f64) -> f64 {
 }
 
 /// Middle between the last slipping and the first sticking node.
-fn stick_from(floor: &[SurfaceNode]) -> f64 {
+fn stick_from(floor: &[MeasuredNode]) -> f64 {
     let first = floor
         .iter()
         .position(|node| node.result.status == Status::Stick);
@@ -64,8 +64,8 @@ fn stick_from(floor: &[SurfaceNode]) -> f64 {
     }
 }
 
-fn figure(floor: &[SurfaceNode]) -> Figure {
-    let along = |value: fn(&SurfaceNode) -> f64| {
+fn figure(floor: &[MeasuredNode]) -> Figure {
+    let along = |value: fn(&MeasuredNode) -> f64| {
         let points = floor.iter().map(|node| [node.reference.x, value(node)]);
         Content::line(points.collect())
     };

@@ -11,12 +11,13 @@
 //! with `phi` from the axis along which the coefficient is `mu_1`, or stop after
 //! `v^2/(2 mu g)` where they are guided.
 
+use striae_contact::side::Side;
 use striae_figure::{Axis, Color, Content, Figure, Marker, Panel, Series, Width};
 use striae_mesh::Vec3;
 use striae_solve::{model::Increments, outcome::Ending};
 
 use super::{
-    measure::{SurfaceNode, surface_nodes},
+    measure::{MeasuredNode, surface_nodes},
     study::{Run, Study},
 };
 use crate::failure::Failure;
@@ -293,14 +294,14 @@ fn along(degrees: f64) -> Vec3 {
 
 /// Mean slip of the base in the last increment.
 fn mean_slip(run: &Run) -> Vec3 {
-    let nodes = surface_nodes(run, 0);
+    let nodes = surface_nodes(run, Side::A);
     let sum: Vec3 = nodes.iter().map(|node| node.result.slip).sum();
     sum / nodes.len() as f64
 }
 
 /// Way of the middle of the base.
 fn middle(run: &Run) -> [f64; 2] {
-    let nodes = surface_nodes(run, 0);
+    let nodes = surface_nodes(run, Side::A);
     let ways = nodes.iter().map(|node| node.position - node.reference);
     let mean = ways.sum::<Vec3>() / nodes.len() as f64;
     [mean.x, mean.y]
@@ -339,10 +340,10 @@ fn scales(degrees: f64, name: &str, color: Color) -> Series {
 }
 
 fn tractions(drift: &Run) -> Panel {
-    let nodes = surface_nodes(drift, 0);
+    let nodes = surface_nodes(drift, Side::A);
     let back = middle(drift);
-    let origins = |node: &SurfaceNode| [node.position.x - back[0], node.position.y - back[1]];
-    let arrows = |vector: &dyn Fn(&SurfaceNode) -> Vec3| {
+    let origins = |node: &MeasuredNode| [node.position.x - back[0], node.position.y - back[1]];
+    let arrows = |vector: &dyn Fn(&MeasuredNode) -> Vec3| {
         let vectors = nodes.iter().map(vector);
         Content::Arrows {
             origins: nodes.iter().map(origins).collect(),

@@ -5,7 +5,7 @@
 //! slip, the law at the kept nodes that slip, and the indifference to the order of
 //! sides and bodies.
 
-use striae_contact::unknowns::Status;
+use striae_contact::{side::Side, unknowns::Status};
 use striae_figure::{Axis, Color, Content, Figure, Marker, Panel, Series, Width};
 
 use super::{
@@ -82,7 +82,7 @@ fn ratio(run: &Run, side: &str) -> f64 {
 fn law_error(run: &Run) -> f64 {
     let pair = &run.finished.state.pairs[0];
     let mut largest = 0.0_f64;
-    for side in 0..2 {
+    for side in Side::BOTH {
         for (node, kept) in pair.nodes[side].iter().zip(&pair.kept[side]) {
             if *kept && node.status == Status::Slip {
                 let limit = MU * node.pressure;
@@ -150,7 +150,7 @@ fn reactions(given: &Run) -> Figure {
 }
 
 fn pressures(given: &Run) -> Figure {
-    let panel = |side: usize, title: &str| {
+    let panel = |side: Side, title: &str| {
         let bar = Axis::linear("pressure", "kPa").within(0.0, 90.0);
         let mut map = pressure_map(given, side, 8, bar);
         if let Content::Facets { values, .. } = &mut map {
@@ -160,12 +160,12 @@ fn pressures(given: &Run) -> Figure {
         Panel::plane(axis("x"), axis("y"))
             .titled(title)
             .with(Series::new("", map))
-            .with(mesh_lines(given, 0, "lower block", Color::Grey))
-            .with(mesh_lines(given, 1, "upper block", Color::Black))
+            .with(mesh_lines(given, Side::A, "lower block", Color::Grey))
+            .with(mesh_lines(given, Side::B, "upper block", Color::Black))
     };
     let panels = vec![
-        panel(0, "on the lower block"),
-        panel(1, "on the upper block"),
+        panel(Side::A, "on the lower block"),
+        panel(Side::B, "on the upper block"),
     ];
     Figure::new(Width::Page, panels)
 }

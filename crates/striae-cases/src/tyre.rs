@@ -2,12 +2,13 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
+use striae_contact::side::Side;
 use striae_figure::{Axis, Color, Content, Panel, Series};
 use striae_mesh::Vec3;
 use striae_solve::state::State;
 
 use super::{
-    measure::{SurfaceNode, facets, surface_nodes_in},
+    measure::{MeasuredNode, facets, surface_nodes_in},
     study::{Extent, Run, Study},
 };
 use crate::failure::Failure;
@@ -72,11 +73,11 @@ pub fn drift() -> f64 {
 
 /// Area that belongs to each node of the tread in a state.
 pub fn areas(run: &Run, state: &State) -> Vec<f64> {
-    let corners = facets(run, 0);
+    let corners = facets(run, Side::A);
     let mut areas = vec![0.0; state.pairs[0].nodes[0].len()];
     for (facet, forces) in &state.pairs[0].facets[0] {
         for (corner, area) in corners[facet.index()].iter().zip(forces.area) {
-            areas[*corner as usize] += area;
+            areas[*corner] += area;
         }
     }
     areas
@@ -119,11 +120,11 @@ pub fn shapes(run: &Run, states: &[&State], x: Axis) -> Panel {
 
 /// Mean pressure around the nodes of the tread where it touches, seen from above.
 pub fn pressures(run: &Run, state: &State) -> Panel {
-    let nodes = surface_nodes_in(run, state, 0);
+    let nodes = surface_nodes_in(run, state, Side::A);
     let mut polygons = Vec::new();
     let mut values = Vec::new();
-    for facet in facets(run, 0) {
-        let corners = facet.map(|corner| &nodes[corner as usize]);
+    for facet in facets(run, Side::A) {
+        let corners = facet.map(|corner| &nodes[corner]);
         if corners.iter().any(|node| node.result.pressure > 0.0) {
             for (i, j) in (0..4).flat_map(|i| (0..4).map(move |j| (f64::from(i), f64::from(j)))) {
                 let ring = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
@@ -146,7 +147,7 @@ pub fn pressures(run: &Run, state: &State) -> Panel {
         .with(Series::new("", map))
 }
 
-fn interpolated(corners: &[&SurfaceNode; 4], s: f64, t: f64) -> [f64; 3] {
+fn interpolated(corners: &[&MeasuredNode; 4], s: f64, t: f64) -> [f64; 3] {
     let weights = [(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t];
     let pairs = weights.into_iter().zip(corners);
     pairs.fold([0.0; 3], |[x, y, p], (w, node)| {
@@ -159,10 +160,10 @@ fn interpolated(corners: &[&SurfaceNode; 4], s: f64, t: f64) -> [f64; 3] {
 }
 
 /// Axes around the patch.
-fn patch_axes(nodes: &[SurfaceNode]) -> [Axis; 2] {
+fn patch_axes(nodes: &[MeasuredNode]) -> [Axis; 2] {
     let touching = || nodes.iter().filter(|node| node.result.pressure > 0.0);
     ["x", "y"].map(|label| {
-        let of = |node: &SurfaceNode| {
+        let of = |node: &MeasuredNode| {
             if label == "x" {
                 node.position.x
             } else {
@@ -177,12 +178,12 @@ fn patch_axes(nodes: &[SurfaceNode]) -> [Axis; 2] {
 
 /// Friction on the tread and slip in the last increment, seen from above.
 pub fn arrows(run: &Run, state: &State) -> Panel {
-    let nodes = surface_nodes_in(run, state, 0);
-    let touching: Vec<&SurfaceNode> = nodes
+    let nodes = surface_nodes_in(run, state, Side::A);
+    let touching: Vec<&MeasuredNode> = nodes
         .iter()
         .filter(|node| node.result.pressure > 0.0)
         .collect();
-    let arrows = |vector: fn(&SurfaceNode) -> Vec3, unit: &str| Content::Arrows {
+    let arrows = |vector: fn(&MeasuredNode) -> Vec3, unit: &str| Content::Arrows {
         origins: touching
             .iter()
             .map(|n| [n.position.x, n.position.y])

@@ -6,6 +6,7 @@
 //! the travel, whatever the tyre is made of. The patch is at most as long as the chord
 //! `2 sqrt(2 R w - w^2)` that the road cuts from the circle when it is lowered by `w`.
 
+use striae_contact::side::Side;
 use striae_figure::{Axis, Color, Content, Figure, Panel, Series, Width};
 use striae_mesh::Vec3;
 use striae_solve::state::State;
@@ -91,7 +92,7 @@ fn pressed_state(run: &Run) -> &State {
 /// `sqrt(12)` of it in the mean square.
 fn length(run: &Run) -> f64 {
     let state = pressed_state(run);
-    let nodes = surface_nodes_in(run, state, 0);
+    let nodes = surface_nodes_in(run, state, Side::A);
     let shares = nodes.iter().zip(areas(run, state)).map(|(node, area)| {
         let force = area * node.result.mean_pressure().max(0.0);
         [
@@ -186,7 +187,7 @@ fn draw(study: &mut Study, belted: &Run, plain: &Run) -> Result<(), Failure> {
 /// Mean pressure along the patch in its middle plane, after pressing.
 fn along(belted: &Run, plain: &Run) -> Panel {
     let line = |run: &Run| {
-        let nodes = surface_nodes_in(run, pressed_state(run), 0);
+        let nodes = surface_nodes_in(run, pressed_state(run), Side::A);
         let least = nodes
             .iter()
             .map(|node| node.reference.y.abs())

@@ -6,6 +6,7 @@
 
 use std::f64::consts::FRAC_PI_4;
 
+use striae_contact::side::Side;
 use striae_figure::{Axis, Color, Content, Figure, Panel, Series, Width};
 use striae_law::friction::Friction;
 use striae_mesh::Vec3;
@@ -84,7 +85,7 @@ fn ran(study: &mut Study, name: &str) -> Result<Run, Failure> {
 ///
 /// The mean over nodes, each with its pressure and area, stands for that over the field.
 fn law(run: &Run, state: &State, road: Vec3) -> Vec3 {
-    let nodes = surface_nodes_in(run, state, 0);
+    let nodes = surface_nodes_in(run, state, Side::A);
     let (mut sum, mut force) = (Vec3::zeros(), 0.0);
     for (node, area) in nodes.iter().zip(areas(run, state)) {
         let result = node.result;

@@ -4,7 +4,7 @@
 //! its axle over an effective radius, which is the free one times the stretch of the
 //! tread along the travel.
 
-use striae_contact::unknowns::Status;
+use striae_contact::{side::Side, unknowns::Status};
 use striae_figure::{Axis, Color, Content, Figure, Panel, Series, Width};
 use striae_mesh::Vec3;
 use striae_solve::state::State;
@@ -56,12 +56,12 @@ fn radius(run: &Run) -> f64 {
 
 /// Radius of the tread times its stretch along the travel, over the sticking nodes.
 fn stretched(run: &Run) -> f64 {
-    let nodes = surface_nodes(run, 0);
+    let nodes = surface_nodes(run, Side::A);
     let angle = |x: &Vec3| x.x.atan2(-x.z);
     let (mut ways, mut angles) = (0.0, 0.0);
-    for facet in facets(run, 0) {
+    for facet in facets(run, Side::A) {
         for edge in 0..4 {
-            let [from, to] = [edge, (edge + 1) % 4].map(|at| &nodes[facet[at] as usize]);
+            let [from, to] = [edge, (edge + 1) % 4].map(|at| &nodes[facet[at]]);
             let both = [from, to].map(|node| node.result.status == Status::Stick);
             let along = (to.reference.y - from.reference.y).abs() < 1e-9;
             let turned = angle(&to.reference) - angle(&from.reference);
@@ -76,7 +76,7 @@ fn stretched(run: &Run) -> f64 {
 
 /// Share of the nodes in contact that stick.
 fn sticking(run: &Run) -> f64 {
-    let nodes = surface_nodes(run, 0);
+    let nodes = surface_nodes(run, Side::A);
     let count = |status: Status| {
         let of = nodes.iter().filter(|node| node.result.status == status);
         of.count() as f64

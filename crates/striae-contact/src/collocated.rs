@@ -20,7 +20,7 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::DualSVec64;
 use rayon::prelude::*;
 use striae_mesh::Vec3;
-use striae_surface::facet::Shape;
+use striae_surface::{facet::Shape, node::SurfaceNode};
 
 use crate::{
     configuration::Configuration,
@@ -33,6 +33,7 @@ use crate::{
     partner::Partner,
     projection::differentiated_rigid,
     selection::Selection,
+    side::Side,
     term::{Gradient, Jacobian, Lanes, Source, add_block, gradient},
     tip::Tip,
     tracked::{Tracked, TrackedScalar, add_chained, add_slope},
@@ -54,24 +55,21 @@ pub fn kinematics(
             let (side, node) = selection.kept()[k].place();
             let frame = frames[side][node].as_ref();
             let slip = match (selection.partner(k), frame) {
-                (Some(partner), Some(frame)) => slip(
-                    configuration,
-                    selection.tip(side, node as u32),
-                    partner,
-                    frame,
-                ),
+                (Some(partner), Some(frame)) => {
+                    slip(configuration, selection.tip(side, node), partner, frame)
+                }
                 _ => Tracked::default(),
             };
             Kinematics {
                 gap: frame.map_or_else(TrackedScalar::default, |frame| {
-                    let mut gap = gap(configuration, side, node as u32, frame);
-                    gap.value += selection.offset(side, node as u32);
+                    let mut gap = gap(configuration, side, node, frame);
+                    gap.value += selection.offset(side, node);
                     gap
                 }),
                 seen_slip: slip.value,
                 shares: shares(
                     configuration,
-                    selection.tip(side, node as u32),
+                    selection.tip(side, node),
                     selection.partner(k),
                 ),
                 slip,
@@ -84,7 +82,12 @@ pub fn kinematics(
 
 /// The gap along the normal; without derivatives, so that the node stays open, where it
 /// sees nothing.
-fn gap(configuration: &Configuration, side: usize, node: u32, frame: &Frame) -> TrackedScalar {
+fn gap(
+    configuration: &Configuration,
+    side: Side,
+    node: SurfaceNode,
+    frame: &Frame,
+) -> TrackedScalar {
     let numbering = configuration.pair.numbering();
     let Some((contact, found)) = configuration.opposite(side, node) else {
         return TrackedScalar {
@@ -97,7 +100,7 @@ fn gap(configuration: &Configuration, side: usize, node: u32, frame: &Frame) -> 
     }
     let own = numbering.position(side, node);
     let value = contact.gap;
-    let x = configuration.side(side).x[node as usize];
+    let x = configuration.side(side).x[node];
     let gradient: Gradient = match contact.place {
         Place::Plane(_) => {
             let normal = configuration.plane().map_or_else(Vec3::zeros, |(_, n)| n);
@@ -105,11 +108,11 @@ fn gap(configuration: &Configuration, side: usize, node: u32, frame: &Frame) -> 
         }
         Place::Facet(hit) if configuration.pair.is_rigid() => {
             let x: Vector3<DualSVec64<3>> = crate::term::variable3(&x, 0);
-            let ([_, _, g], _) = differentiated_rigid(configuration.side(1), &hit, &x);
+            let ([_, _, g], _) = differentiated_rigid(configuration.side(Side::B), &hit, &x);
             vec![(own, gradient(&g).into())]
         }
         Place::Facet(hit) => {
-            let target = configuration.side(1 - side);
+            let target = configuration.side(side.opposite());
             let corners = target.corners(hit.facet);
             let shape = Shape::of(&corners);
             let positions = target.corner_positions(hit.facet);
@@ -119,7 +122,7 @@ fn gap(configuration: &Configuration, side: usize, node: u32, frame: &Frame) -> 
             let by_n = by_r * -hit.gap;
             let mut gradient: Gradient = vec![(own, -by_r)];
             for corner in 0..4 {
-                let first = numbering.position(1 - side, corners[corner]);
+                let first = numbering.position(side.opposite(), corners[corner]);
                 add_slope(&mut gradient, first, by_r * weights[corner]);
             }
             for (first, block) in &frame.n.jacobian {
@@ -144,7 +147,7 @@ pub fn slip(configuration: &Configuration, tip: Tip, partner: Partner, frame: &F
     if let Partner::Corners(corners, weights) = partner {
         for (at, corner) in corners.into_iter().enumerate() {
             lanes.push(Source::Unknowns {
-                first: numbering.position(1 - side, corner),
+                first: numbering.position(side.opposite(), corner),
                 count: 3,
             });
             add_block(&mut slopes, 6 + 3 * at, &(tangential * -weights[at]));
@@ -171,7 +174,7 @@ pub fn shares(
     let mut shares: Vec<(u32, f64)> = Vec::new();
     shares.extend(tip.unknown(configuration).map(|first| (first, 1.0)));
     if let Some(Partner::Corners(corners, weights)) = partner {
-        let opposite = corners.map(|corner| numbering.position(1 - side, corner));
+        let opposite = corners.map(|corner| numbering.position(side.opposite(), corner));
         shares.extend(opposite.into_iter().zip(weights));
     }
     shares
@@ -195,14 +198,14 @@ pub fn nodal_fields(
     tau: &NodalTractions,
 ) -> [Vec<NodalField>; 2] {
     let numbering = configuration.pair.numbering();
-    let at_node = |side: usize, node: usize| {
+    let at_node = |side: Side, node: SurfaceNode| {
         let mut field = NodalField::default();
         let Some(frame) = &frames[side][node] else {
             return field;
         };
-        for &(k, weight) in selection.row(side, node as u32) {
+        for &(k, weight) in selection.row(side, node) {
             let (side_k, node_k) = selection.kept()[k as usize].place();
-            let first = numbering.traction(side_k, node_k as u32);
+            let first = numbering.traction(side_k, node_k);
             field.pressure.value += weight * tractions.nodes[side_k][node_k][0];
             let slope = Vec3::x() * weight;
             field.pressure.gradient.push((first, slope));
@@ -224,11 +227,11 @@ pub fn nodal_fields(
         }
         field
     };
-    [0, 1].map(|side| {
+    Side::BOTH.map(|side| {
         (0..selection.nodes(side))
             .into_par_iter()
             .with_min_len(16)
-            .map(|node| at_node(side, node))
+            .map(|node| at_node(side, SurfaceNode::new(node)))
             .collect()
     })
 }

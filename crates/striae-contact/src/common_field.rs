@@ -23,6 +23,7 @@ use crate::{
     places::{ChainedSum, Places},
     segment_rows::AtCorners,
     selection::Selection,
+    side::Side,
     term::{Field, Jacobian, LocalTerm, Row},
     traction::NodalTractions,
     transported::Transported,
@@ -83,10 +84,10 @@ impl CommonField<'_> {
             sum * -SIGNS[c]
         });
         let term = self.momentum(patch, &q, &tractions, &forces);
-        let of_facets = [0, 1].map(|side| {
+        let of_facets = Side::BOTH.map(|side| {
             let mut of_facet = FacetForces::default();
             for at in 0..4 {
-                let corner = 4 * side + at;
+                let corner = 4 * side.index() + at;
                 of_facet.force[at] = forces[corner];
                 of_facet.area[at] = patch.paired.area_of(corner);
             }
@@ -104,7 +105,7 @@ impl CommonField<'_> {
         let (side, node) = self.selection.kept()[k as usize].place();
         let numbering = self.configuration.pair.numbering();
         let n = patch.paired.segment.normal;
-        let first = numbering.traction(side, node as u32);
+        let first = numbering.traction(side, node);
         let pressure = self.tractions.nodes[side][node][0];
         let mut by_unknowns = Matrix3::zeros();
         by_unknowns.set_column(0, &-n);

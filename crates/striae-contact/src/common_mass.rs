@@ -14,8 +14,12 @@
 use std::cmp::Ordering;
 
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
-use crate::interface::{Interface, Opponent, SurfaceNode};
+use crate::{
+    interface::{Interface, InterfaceNode, Opponent},
+    side::Side,
+};
 
 /// Weight below which a node carries nothing, over the area of its largest facet.
 const WEIGHTLESS: f64 = 1e-12;
@@ -26,7 +30,7 @@ pub(crate) type SparseRow = Vec<(u32, f64)>;
 /// Common mass and what follows from it at once.
 pub(crate) struct CommonMass {
     /// Side and number of all nodes that matter, in order.
-    pub nodes: Vec<(usize, u32)>,
+    pub nodes: Vec<(Side, SurfaceNode)>,
     /// Place of a node in the order.
     pub index: [Vec<Option<u32>>; 2],
     /// `D_kJ`.
@@ -42,7 +46,7 @@ pub(crate) struct CommonMass {
     /// Patch of a node, `None` without an overlap.
     pub patch: Vec<Option<u32>>,
     /// The side that goes first among equals.
-    first: usize,
+    first: Side,
 }
 
 impl CommonMass {
@@ -52,12 +56,12 @@ impl CommonMass {
         let carried = carriers(interface);
         let wanted = with_neighbours(interface, &carried);
         let (nodes, first) = ordered(interface, &wanted);
-        let mut index = [0, 1].map(|side| vec![None; interface.nodes[side].len()]);
+        let mut index = Side::BOTH.map(|side| vec![None; interface.nodes[side].len()]);
         for (at, &(side, node)) in nodes.iter().enumerate() {
-            index[side][node as usize] = Some(at as u32);
+            index[side][node] = Some(at as u32);
         }
         let place =
-            |side: usize, node: u32| index[side][node as usize].expect("corners are in the order");
+            |side: Side, node: SurfaceNode| index[side][node].expect("corners are in the order");
         let corners = |overlap: usize| {
             let of = interface.overlaps[overlap].corners;
             sides
@@ -73,9 +77,10 @@ impl CommonMass {
             Opponent::Rigid { whole } => {
                 let near: Vec<_> = whole
                     .iter()
-                    .filter(|facet| facet.corners.iter().any(|&node| carried[0][node as usize]))
+                    .filter(|facet| facet.corners.iter().any(|&node| carried[0][node]))
                     .collect();
-                let corners = |facet: usize| near[facet].corners.map(|node| place(0, node)).into();
+                let corners =
+                    |facet: usize| near[facet].corners.map(|node| place(Side::A, node)).into();
                 let mass = |facet: usize, c: usize, d: usize| near[facet].mass[c][d];
                 sums(nodes.len(), &blocks(near.len(), corners, mass), mass)
             }
@@ -93,7 +98,7 @@ impl CommonMass {
                 .collect(),
             carries: nodes
                 .iter()
-                .map(|&(side, node)| carried[side][node as usize])
+                .map(|&(side, node)| carried[side][node])
                 .collect(),
             patch: patches(nodes.len(), &polygons),
             nodes,
@@ -111,19 +116,19 @@ impl CommonMass {
     }
 
     /// Node at a place in the order.
-    pub fn node<'a>(&self, interface: &Interface<'a>, k: u32) -> &'a SurfaceNode {
+    pub fn node<'a>(&self, interface: &Interface<'a>, k: u32) -> &'a InterfaceNode {
         let (side, node) = self.nodes[k as usize];
-        &interface.nodes[side][node as usize]
+        &interface.nodes[side][node]
     }
 }
 
 /// Nodes that carry traction: corners of overlaps and all within reach.
 fn carriers(interface: &Interface) -> [Vec<bool>; 2] {
-    let mut carried = [0, 1].map(|side| vec![false; interface.nodes[side].len()]);
+    let mut carried = Side::BOTH.map(|side| vec![false; interface.nodes[side].len()]);
     for &side in interface.sides() {
         for overlap in interface.overlaps {
             for node in overlap.corners[side] {
-                carried[side][node as usize] = true;
+                carried[side][node] = true;
             }
         }
         for (node, opposing) in interface.opposing[side].iter().enumerate() {
@@ -138,9 +143,9 @@ fn with_neighbours(interface: &Interface, carried: &[Vec<bool>; 2]) -> [Vec<bool
     let mut wanted = carried.clone();
     if let Opponent::Rigid { whole } = interface.opponent {
         for facet in whole {
-            if facet.corners.iter().any(|&node| carried[0][node as usize]) {
+            if facet.corners.iter().any(|&node| carried[0][node]) {
                 for node in facet.corners {
-                    wanted[0][node as usize] = true;
+                    wanted[0][node] = true;
                 }
             }
         }
@@ -149,21 +154,20 @@ fn with_neighbours(interface: &Interface, carried: &[Vec<bool>; 2]) -> [Vec<bool
 }
 
 /// Nodes by position and the side that goes first; see the module.
-fn ordered(interface: &Interface, wanted: &[Vec<bool>; 2]) -> (Vec<(usize, u32)>, usize) {
-    let traits = |&(side, node): &(usize, u32)| {
-        let node = &interface.nodes[side][node as usize];
+fn ordered(interface: &Interface, wanted: &[Vec<bool>; 2]) -> (Vec<(Side, SurfaceNode)>, Side) {
+    let traits = |&(side, node): &(Side, SurfaceNode)| {
+        let node = &interface.nodes[side][node];
         let [x, y, z] = node.position.into();
         [x, y, z, node.flexibility, node.compliance]
     };
-    let compare = |a: &(usize, u32), b: &(usize, u32)| {
+    let compare = |a: &(Side, SurfaceNode), b: &(Side, SurfaceNode)| {
         let (a, b) = (traits(a), traits(b));
         let by_trait = a.iter().zip(&b).map(|(a, b)| a.total_cmp(b));
         by_trait.fold(Ordering::Equal, Ordering::then)
     };
-    let of_side = [0, 1].map(|side| {
-        let count = wanted[side].len() as u32;
-        let mut nodes: Vec<_> = (0..count)
-            .filter(|&node| wanted[side][node as usize])
+    let of_side = Side::BOTH.map(|side| {
+        let mut nodes: Vec<_> = SurfaceNode::all(wanted[side].len())
+            .filter(|&node| wanted[side][node])
             .map(|node| (side, node))
             .collect();
         nodes.sort_by(compare);
@@ -176,8 +180,11 @@ fn ordered(interface: &Interface, wanted: &[Vec<bool>; 2]) -> (Vec<(usize, u32)>
     let sides = differ
         .fold(Ordering::Equal, Ordering::then)
         .then(of_side[0].len().cmp(&of_side[1].len()));
-    let first = usize::from(sides == Ordering::Greater);
-    let mut all = [of_side[first].as_slice(), &of_side[1 - first]].concat();
+    let first = match sides {
+        Ordering::Greater => Side::B,
+        Ordering::Less | Ordering::Equal => Side::A,
+    };
+    let mut all = [of_side[first].as_slice(), &of_side[first.opposite()]].concat();
     all.sort_by(compare);
     (all, first)
 }
@@ -258,10 +265,10 @@ fn largest_facets(interface: &Interface, index: &[Vec<Option<u32>>; 2], count: u
     for overlap in interface.overlaps {
         for &side in interface.sides() {
             let corners = overlap.corners[side];
-            let x: [Vec3; 4] = corners.map(|node| interface.nodes[side][node as usize].position);
+            let x: [Vec3; 4] = corners.map(|node| interface.nodes[side][node].position);
             let area = 0.5 * (x[2] - x[0]).cross(&(x[3] - x[1])).norm();
             for node in corners {
-                if let Some(k) = index[side][node as usize] {
+                if let Some(k) = index[side][node] {
                     areas[k as usize] = areas[k as usize].max(area);
                 }
             }

@@ -29,7 +29,7 @@ mod node;
 mod state;
 
 pub use crate::unknown::Prescribed;
-pub use node::{ContactNode, Iteration};
+pub use node::{Conditions, ContactNode, Iteration};
 
 use crate::{
     configuration::Configuration,
@@ -46,10 +46,14 @@ const TOUCHING: f64 = 1e-6;
 pub fn rows(
     configuration: &Configuration,
     node: &ContactNode,
-    prescribed: &Prescribed,
-    iteration: Iteration,
+    conditions: Conditions,
 ) -> (LocalTerm, NodeResult) {
-    let state = NodeState::new(configuration, node, prescribed);
+    let Conditions {
+        friction,
+        prescribed,
+        iteration,
+    } = conditions;
+    let state = NodeState::new(configuration, node, friction, prescribed);
     let [p, z1, z2] = node.unknowns;
     let size = configuration.size(node.side, node.node);
     let [r_n, r_t] = node.kinematics.stiffness;

@@ -2,6 +2,7 @@
 
 use striae_mesh::{FacetId, Vec3};
 use striae_surface::{
+    node::SurfaceNode,
     normal::nodal_normals,
     topology::{Surface, distinct_corners},
 };
@@ -10,6 +11,7 @@ use crate::{
     pair::{ContactPair, Geometry, local_sizes},
     placement::Placement,
     search::{Bounds, Tree},
+    side::Side,
 };
 
 /// Both sides of a pair in one configuration.
@@ -52,14 +54,14 @@ impl<'a> Configuration<'a> {
         if pair.is_rigid() {
             b.iter_mut().for_each(|x| *x = placement.point(x));
         }
-        let snapshot = |side: usize, x: Vec<Vec3>| {
+        let snapshot = |side: Side, x: Vec<Vec3>| {
             pair.sides[side]
                 .surface()
                 .map(|surface| Snapshot::new(surface, x))
         };
         Self {
             pair,
-            sides: [snapshot(0, a), snapshot(1, b)],
+            sides: [snapshot(Side::A, a), snapshot(Side::B, b)],
             placement,
             elapsed: f64::INFINITY,
         }
@@ -74,30 +76,30 @@ impl<'a> Configuration<'a> {
     ///
     /// # Panics
     /// For a rigid plane.
-    pub fn side(&self, side: usize) -> &Snapshot<'a> {
+    pub fn side(&self, side: Side) -> &Snapshot<'a> {
         self.sides[side].as_ref().expect("a plane has no facets")
     }
 
     /// Distance within which the node looks for the other side: half the local facet size
     /// or, where that is larger, the search distance of the pair.
-    pub fn reach(&self, side: usize, node: u32) -> f64 {
-        let least = 0.5 * self.side(side).sizes[node as usize];
+    pub fn reach(&self, side: Side, node: SurfaceNode) -> f64 {
+        let least = 0.5 * self.side(side).sizes[node];
         self.pair.search_distance.unwrap_or(0.0).max(least)
     }
 
     /// Local facet size at a node; at a point of a rigid side that of the node it lodges with.
-    pub fn size(&self, side: usize, node: u32) -> f64 {
+    pub fn size(&self, side: Side, node: SurfaceNode) -> f64 {
         let side = if self.pair.is_deformable(side) {
             side
         } else {
-            0
+            Side::A
         };
-        self.side(side).sizes[node as usize]
+        self.side(side).sizes[node]
     }
 
     /// Point and unit normal of the plane that is side `b`, if it is one.
     pub fn plane(&self) -> Option<(Vec3, Vec3)> {
-        match self.pair.sides[1].geometry {
+        match self.pair.sides[Side::B].geometry {
             Geometry::Plane { point, normal } => Some((
                 self.placement.point(&point),
                 self.placement.direction(&normal),
@@ -112,11 +114,11 @@ impl<'a> Snapshot<'a> {
         let facet_boxes = surface
             .facets()
             .iter()
-            .map(|facet| Bounds::around(distinct_corners(facet).iter().map(|&n| x[n as usize])));
+            .map(|facet| Bounds::around(distinct_corners(facet).iter().map(|&n| x[n])));
         let edge_boxes = surface
             .boundary_edges()
             .iter()
-            .map(|edge| Bounds::around(edge.nodes.map(|n| x[n as usize])));
+            .map(|edge| Bounds::around(edge.nodes.map(|n| x[n])));
         let sizes = local_sizes(surface, &x);
         Self {
             surface,
@@ -130,13 +132,13 @@ impl<'a> Snapshot<'a> {
     }
 
     /// Surface-local corners of a facet.
-    pub fn corners(&self, facet: FacetId) -> [u32; 4] {
+    pub fn corners(&self, facet: FacetId) -> [SurfaceNode; 4] {
         self.surface.facets()[facet.index()]
     }
 
     /// Current positions of the corners of a facet.
     pub fn corner_positions(&self, facet: FacetId) -> [Vec3; 4] {
-        self.corners(facet).map(|node| self.x[node as usize])
+        self.corners(facet).map(|node| self.x[node])
     }
 
     /// Box around a facet.

@@ -14,10 +14,12 @@
 
 use nalgebra::{Matrix2, Matrix3, Vector2};
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     configuration::Configuration,
     frame::{Frame, frame_of},
+    side::Side,
     tracked::{Tracked, add_chained},
     transported::Transported,
 };
@@ -30,7 +32,7 @@ use crate::{
 pub fn converged_friction(
     configuration: &Configuration,
     start: &Configuration,
-    (side, node): (usize, u32),
+    (side, node): (Side, SurfaceNode),
     frame: &Frame,
     components: [f64; 2],
 ) -> Result<Tracked, CollapsedFacets> {
@@ -72,15 +74,15 @@ pub fn converged_friction(
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CollapsedFacets {
     /// Side of the pair.
-    pub side: usize,
+    pub side: Side,
     /// Surface-local node.
-    pub node: u32,
+    pub node: SurfaceNode,
 }
 
 /// An edge from a node.
 struct Edge {
     /// The node at its end.
-    to: u32,
+    to: SurfaceNode,
     now: Vec3,
     /// `g_i`.
     share: [f64; 2],
@@ -89,21 +91,21 @@ struct Edge {
 fn edges(
     configuration: &Configuration,
     start: &Configuration,
-    side: usize,
-    node: u32,
+    side: Side,
+    node: SurfaceNode,
     tangents: &[Vec3; 2],
 ) -> Result<Vec<Edge>, CollapsedFacets> {
     let (before, now) = (start.side(side), configuration.side(side));
     let corners = before.surface.corners(node);
-    let mut ends: Vec<u32> = corners
+    let mut ends: Vec<SurfaceNode> = corners
         .iter()
         .flat_map(|corner| [corner.next, corner.previous])
         .collect();
     ends.sort_unstable();
     ends.dedup();
-    let from = before.x[node as usize];
-    let old = |to: &u32| {
-        let edge = before.x[*to as usize] - from;
+    let from = before.x[node];
+    let old = |to: &SurfaceNode| {
+        let edge = before.x[*to] - from;
         Vector2::new(tangents[0].dot(&edge), tangents[1].dot(&edge))
     };
     let squares: Matrix2<f64> = ends.iter().map(|to| old(to) * old(to).transpose()).sum();
@@ -114,7 +116,7 @@ fn edges(
         .iter()
         .map(|to| Edge {
             to: *to,
-            now: now.x[*to as usize] - now.x[node as usize],
+            now: now.x[*to] - now.x[node],
             share: (inverse * old(to)).into(),
         })
         .collect();

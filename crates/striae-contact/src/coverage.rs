@@ -2,10 +2,12 @@
 
 use nalgebra::Vector3;
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     configuration::Configuration,
     projection::{Hit, Margin, Ray, nearest_edge, project},
+    side::Side,
 };
 
 /// What a node sees along its normal.
@@ -44,7 +46,7 @@ pub enum Found {
     Inside,
     /// At the nearest place of the edge of the surface, between these nodes, as the normal
     /// passes beside it.
-    Edge([u32; 2]),
+    Edge([SurfaceNode; 2]),
 }
 
 /// How many reaches away a surface counts as seen, though out of reach.
@@ -55,21 +57,21 @@ const FOLLOW: f64 = 6.0;
 
 impl Configuration<'_> {
     /// The point opposite to a node of a deformable side within `reach`.
-    pub fn contact(&self, side: usize, node: u32, reach: f64, margin: Margin) -> Option<Contact> {
+    pub fn contact(
+        &self,
+        side: Side,
+        node: SurfaceNode,
+        reach: f64,
+        margin: Margin,
+    ) -> Option<Contact> {
         let own = self.side(side);
-        self.contact_at(
-            side,
-            own.x[node as usize],
-            own.normals[node as usize],
-            reach,
-            margin,
-        )
+        self.contact_at(side, own.x[node], own.normals[node], reach, margin)
     }
 
     /// The point opposite to the point `x` with the normal `n` of a deformable side.
     pub fn contact_at(
         &self,
-        side: usize,
+        side: Side,
         x: Vec3,
         n: Vec3,
         reach: f64,
@@ -87,7 +89,7 @@ impl Configuration<'_> {
         } else {
             Ray::Own(n)
         };
-        let hit = project(self.side(1 - side), &x, ray, reach, margin)?;
+        let hit = project(self.side(side.opposite()), &x, ray, reach, margin)?;
         Some(Contact {
             gap: hit.gap,
             place: Place::Facet(hit),
@@ -95,7 +97,7 @@ impl Configuration<'_> {
     }
 
     /// The point opposite to a node of a deformable side, clamped to the other surface.
-    pub fn opposite(&self, side: usize, node: u32) -> Option<(Contact, Found)> {
+    pub fn opposite(&self, side: Side, node: SurfaceNode) -> Option<(Contact, Found)> {
         let far = if self.pair.is_rigid() {
             FOLLOW
         } else {
@@ -110,8 +112,8 @@ impl Configuration<'_> {
             return Some((contact, Found::Inside));
         }
         let own = self.side(side);
-        let (x, n) = (&own.x[node as usize], &own.normals[node as usize]);
-        let (hit, nodes) = nearest_edge(self.side(1 - side), x, n, reach)?;
+        let (x, n) = (&own.x[node], &own.normals[node]);
+        let (hit, nodes) = nearest_edge(self.side(side.opposite()), x, n, reach)?;
         let contact = Contact {
             gap: hit.gap,
             place: Place::Facet(hit),
@@ -120,7 +122,7 @@ impl Configuration<'_> {
     }
 
     /// What a node of a deformable side sees.
-    pub fn coverage(&self, side: usize, node: u32) -> Coverage {
+    pub fn coverage(&self, side: Side, node: SurfaceNode) -> Coverage {
         let reach = self.reach(side, node);
         match self.contact(side, node, HORIZON * reach, Margin::Inside) {
             Some(contact) if contact.gap.abs() <= reach => Coverage::Near(contact),
@@ -136,11 +138,11 @@ impl Place {
     pub fn weights(
         &self,
         configuration: &Configuration,
-        side: usize,
-    ) -> Option<([u32; 4], [f64; 4])> {
+        side: Side,
+    ) -> Option<([SurfaceNode; 4], [f64; 4])> {
         match self {
             Place::Facet(hit) => {
-                let corners = configuration.side(1 - side).corners(hit.facet);
+                let corners = configuration.side(side.opposite()).corners(hit.facet);
                 let shape = striae_surface::facet::Shape::of(&corners);
                 Some((corners, shape.weights(hit.xi, hit.eta).value))
             }
@@ -149,14 +151,14 @@ impl Place {
     }
 
     /// The point in space.
-    pub fn point(&self, configuration: &Configuration, side: usize) -> Vec3 {
+    pub fn point(&self, configuration: &Configuration, side: Side) -> Vec3 {
         match self {
             Place::Plane(point) => *point,
             Place::Facet(_) => self.weights(configuration, side).map_or_else(
                 Vector3::zeros,
                 |(corners, weights)| {
-                    let x = &configuration.side(1 - side).x;
-                    (0..4).map(|c| x[corners[c] as usize] * weights[c]).sum()
+                    let x = &configuration.side(side.opposite()).x;
+                    (0..4).map(|c| x[corners[c]] * weights[c]).sum()
                 },
             ),
         }

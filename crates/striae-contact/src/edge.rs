@@ -11,12 +11,13 @@
 //! and `dt = 0` at an end of the edge.
 
 use striae_mesh::Vec3;
-use striae_surface::scalar::Real;
+use striae_surface::{node::SurfaceNode, scalar::Real};
 
 use crate::{
     configuration::Configuration,
     nodal_normal::own_normal,
     projection::{Hit, share_of_edge},
+    side::Side,
     term::Gradient,
     tracked::{TrackedScalar, add_slope},
 };
@@ -38,21 +39,21 @@ pub struct OnEdge {
 /// If they are no corners of the facet.
 pub fn on_edge(
     configuration: &Configuration,
-    side: usize,
-    node: u32,
+    side: Side,
+    node: SurfaceNode,
     hit: &Hit,
-    nodes: [u32; 2],
+    nodes: [SurfaceNode; 2],
 ) -> OnEdge {
     let own = configuration.side(side);
-    let other = configuration.side(1 - side);
+    let other = configuration.side(side.opposite());
     let corners = other.corners(hit.facet);
     let ends = nodes.map(|end| {
         let found = corners.iter().position(|corner| *corner == end);
         found.expect("an edge joins corners of its facet")
     });
     let n = own_normal(configuration, side, node);
-    let [start, end] = nodes.map(|node| other.x[node as usize]);
-    let (r, d) = (start - own.x[node as usize], end - start);
+    let [start, end] = nodes.map(|node| other.x[node]);
+    let (r, d) = (start - own.x[node], end - start);
     let t = share_of_edge(&r, &d, &n.value);
     let (n_r, n_d) = (n.value.dot(&r), n.value.dot(&d));
     let across = |v: &Vec3, along: f64| v - n.value * along;
@@ -69,7 +70,7 @@ pub fn on_edge(
         let numbering = configuration.pair.numbering();
         let mut gradient = vec![(numbering.position(side, node), -by_r)];
         if !configuration.pair.is_rigid() {
-            let [start, end] = nodes.map(|node| numbering.position(1 - side, node));
+            let [start, end] = nodes.map(|node| numbering.position(side.opposite(), node));
             gradient.extend([(start, by_r - by_d), (end, by_d)]);
         }
         for (first, block) in &n.jacobian {

@@ -5,11 +5,12 @@
 
 use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     collocated,
     common_field::{CommonField, by_facet, segment_terms},
-    complementarity::{ContactNode, Iteration, Prescribed, rows},
+    complementarity::{Conditions, ContactNode, rows},
     configuration::Configuration,
     converged_friction::CollapsedFacets,
     field::{FacetForces, Fields, facet_terms},
@@ -23,6 +24,7 @@ use crate::{
     segment::Derivatives,
     segment_rows::{Given, Slip, segment_rows},
     selection::Selection,
+    side::Side,
     slip_rate::{SlipRates, slip_rates},
     term::LocalTerm,
     texture::{CollapsedTexture, Textures, own, textures},
@@ -75,11 +77,11 @@ pub fn evaluate(
     start: &Configuration,
     selection: &Selection,
     tractions: &Tractions,
-    prescribed: &Prescribed,
-    iteration: Iteration,
+    conditions: Conditions,
     derivatives: Derivatives,
 ) -> Result<Evaluation, Collapse> {
-    let slip = if configuration.pair.friction.cap(1.0, 0.0) == 0.0 {
+    let friction = conditions.friction;
+    let slip = if friction.cap(1.0, 0.0) == 0.0 {
         Slip::Left
     } else {
         Slip::Wanted
@@ -95,10 +97,11 @@ pub fn evaluate(
         }
         Enforcement::Collocated => collocated::kinematics(configuration, selection, &frames),
     };
-    let textures = textures(configuration, selection, &frames, &kinematics);
+    let textures = textures(configuration, friction, selection, &frames, &kinematics);
     let textures = textures.map_err(Collapse::Texture)?;
-    let rates = slip_rates(configuration, selection, &kinematics);
+    let rates = slip_rates(configuration, friction, selection, &kinematics);
     let surroundings = Surroundings {
+        friction,
         frames: &frames,
         textures: &textures,
         rates: &rates,
@@ -130,7 +133,7 @@ pub fn evaluate(
         tau: &tau,
     };
     let mut evaluation = stage.nodal(&patches);
-    evaluation.add_rows(&stage, prescribed, iteration);
+    evaluation.add_rows(&stage, conditions);
     evaluation.follow_status(selection);
     match configuration.pair.enforcement {
         Enforcement::Weighted => evaluation.add_segments(&stage, &patches),
@@ -147,10 +150,10 @@ fn patches(
     selection: &Selection,
     (slip, derivatives): (Slip, Derivatives),
 ) -> Vec<Patch> {
-    let own = configuration.side(0);
+    let own = configuration.side(Side::A);
     let carries = |facet: FacetId| {
         let corners = own.corners(facet);
-        corners.iter().any(|&node| selection.carries(0, node))
+        corners.iter().any(|&node| selection.carries(Side::A, node))
     };
     let scope = selection.scope();
     paired_facets(configuration, scope, derivatives, carries)
@@ -188,7 +191,7 @@ impl Stage<'_> {
     /// Results of all nodes, without the status, by the transfer from kept nodes.
     fn nodal(&self, patches: &[Patch]) -> Evaluation {
         let selection = self.selection;
-        let counts = [0, 1].map(|side| selection.nodes(side));
+        let counts = Side::BOTH.map(|side| selection.nodes(side));
         let reports = weighted::reports(self.configuration, counts, patches);
         let mut evaluation = Evaluation {
             terms: Vec::new(),
@@ -199,8 +202,8 @@ impl Stage<'_> {
             topology: topology(patches.iter().map(|patch| &patch.paired)),
             dissipated: 0.0,
         };
-        for side in 0..2 {
-            for node in 0..counts[side] {
+        for side in Side::BOTH {
+            for node in SurfaceNode::all(counts[side]) {
                 if let Some(frame) = &self.frames[side][node] {
                     let result = self.of_node(side, node, frame, &reports[side][node]);
                     let [t1, t2] = [0, 1].map(|axis| -frame.t[axis].value.dot(&result.tau));
@@ -212,16 +215,16 @@ impl Stage<'_> {
         evaluation
     }
 
-    fn of_node(&self, side: usize, node: usize, frame: &Frame, report: &Report) -> NodeResult {
+    fn of_node(&self, side: Side, node: SurfaceNode, frame: &Frame, report: &Report) -> NodeResult {
         let mut result = NodeResult {
             gap: report.gap,
             normal: frame.n.value,
-            texture: self.own_texture(side, node as u32, frame),
+            texture: self.own_texture(side, node, frame),
             ..NodeResult::default()
         };
         let n = frame.n.value;
         result.slip = report.slip - n * n.dot(&report.slip);
-        for &(k, weight) in self.selection.row(side, node as u32) {
+        for &(k, weight) in self.selection.row(side, node) {
             let (side_k, node_k) = self.selection.kept()[k as usize].place();
             result.pressure += weight * self.tractions.nodes[side_k][node_k][0];
             if let Some(from) = &self.frames[side_k][node_k] {
@@ -235,7 +238,7 @@ impl Stage<'_> {
     }
 
     /// Direction `s = a x n` of the node's own texture, zero without one.
-    fn own_texture(&self, side: usize, node: u32, frame: &Frame) -> Vec3 {
+    fn own_texture(&self, side: Side, node: SurfaceNode, frame: &Frame) -> Vec3 {
         if let Tip::Rigid(_) = self.selection.tip(side, node) {
             return Vec3::zeros();
         }
@@ -247,7 +250,7 @@ impl Stage<'_> {
 }
 
 impl Evaluation {
-    fn add_rows(&mut self, stage: &Stage, prescribed: &Prescribed, iteration: Iteration) {
+    fn add_rows(&mut self, stage: &Stage, conditions: Conditions) {
         let kept = stage.selection.kept();
         let found: Vec<Option<(LocalTerm, NodeResult)>> = (0..kept.len())
             .into_par_iter()
@@ -256,7 +259,7 @@ impl Evaluation {
                 let (side, node) = kept[k].place();
                 let contact_node = ContactNode {
                     side,
-                    node: node as u32,
+                    node,
                     kinematics: &stage.kinematics[k],
                     frame: stage.frames[side][node].as_ref()?,
                     textures: &stage.textures[side][node],
@@ -266,12 +269,7 @@ impl Evaluation {
                     unknowns: stage.tractions.nodes[side][node],
                     tau: stage.tau[side][node].value,
                 };
-                Some(rows(
-                    stage.configuration,
-                    &contact_node,
-                    prescribed,
-                    iteration,
-                ))
+                Some(rows(stage.configuration, &contact_node, conditions))
             })
             .collect();
         for (k, found) in found.into_iter().enumerate() {
@@ -292,12 +290,12 @@ impl Evaluation {
 
     /// Nodes that are not kept have the status of the kept node that they follow most.
     fn follow_status(&mut self, selection: &Selection) {
-        for side in 0..2 {
-            for node in 0..selection.nodes(side) {
-                let row = selection.row(side, node as u32);
+        for side in Side::BOTH {
+            for node in SurfaceNode::all(selection.nodes(side)) {
+                let row = selection.row(side, node);
                 let most = row.iter().max_by(|a, b| a.1.total_cmp(&b.1));
                 if let Some(&(k, _)) = most
-                    && !selection.is_kept(side, node as u32)
+                    && !selection.is_kept(side, node)
                 {
                     let (side_k, node_k) = selection.kept()[k as usize].place();
                     let pressure = self.nodes[side][node].pressure;
@@ -344,8 +342,8 @@ impl Evaluation {
             for (facet, forces) in &self.facets[side] {
                 let corners = configuration.side(side).corners(*facet);
                 for (at, node) in corners.into_iter().enumerate() {
-                    self.nodes[side][node as usize].mean += forces.force[at];
-                    areas[node as usize] += forces.area[at];
+                    self.nodes[side][node].mean += forces.force[at];
+                    areas[node] += forces.area[at];
                 }
             }
             let nodes = self.nodes[side].iter_mut().zip(areas);

@@ -12,6 +12,7 @@ use striae_surface::{
 use crate::{
     clip::covered_points,
     configuration::Configuration,
+    side::Side,
     term::{Field, Lanes, LocalTerm, Row, Source, by_lane, variables3},
 };
 
@@ -27,14 +28,17 @@ pub trait SurfaceLoad {
 /// the external load).
 pub fn covered_load<L: SurfaceLoad>(
     configuration: &Configuration,
-    side: usize,
+    side: Side,
     facet: FacetId,
     covers: &[FacetId],
     load: &L,
 ) -> Vec<LocalTerm> {
     const N: usize = 24;
     let numbering = configuration.pair.numbering();
-    let (own, other) = (configuration.side(side), configuration.side(1 - side));
+    let (own, other) = (
+        configuration.side(side),
+        configuration.side(side.opposite()),
+    );
     let first = own
         .corners(facet)
         .map(|corner| numbering.position(side, corner));
@@ -52,7 +56,7 @@ pub fn covered_load<L: SurfaceLoad>(
                 Source::Constant(3)
             } else {
                 Source::Unknowns {
-                    first: numbering.position(1 - side, corner),
+                    first: numbering.position(side.opposite(), corner),
                     count: 3,
                 }
             });

@@ -7,7 +7,7 @@ use striae_surface::{
     topology::distinct_corners,
 };
 
-use crate::{configuration::Configuration, projection::Margin, search::Bounds};
+use crate::{configuration::Configuration, projection::Margin, search::Bounds, side::Side};
 
 /// How much of a facet the other side covers.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,7 +22,7 @@ pub enum FacetCoverage {
 
 impl Configuration<'_> {
     /// Coverage of a facet of a deformable side.
-    pub fn facet_coverage(&self, side: usize, facet: FacetId) -> FacetCoverage {
+    pub fn facet_coverage(&self, side: Side, facet: FacetId) -> FacetCoverage {
         let own = self.side(side);
         let corners = own.corners(facet);
         let reach = corners
@@ -40,7 +40,7 @@ impl Configuration<'_> {
             .map(|x| (x - middle).norm())
             .into_iter()
             .fold(0.0, f64::max);
-        if self.plane().is_none() && self.is_near_edge(1 - side, &middle, radius + reach) {
+        if self.plane().is_none() && self.is_near_edge(side.opposite(), &middle, radius + reach) {
             return self.cut(side, &bounds, &middle, &m, 2.0 * reach);
         }
         match self.contact_at(side, middle, m, 2.0 * reach, Margin::Inside) {
@@ -51,14 +51,12 @@ impl Configuration<'_> {
 
     /// Whether an edge of the surface passes within `distance` of the point. Boxes
     /// only sort out: the choice of quadrature must not depend on the axes.
-    fn is_near_edge(&self, side: usize, x: &Vec3, distance: f64) -> bool {
+    fn is_near_edge(&self, side: Side, x: &Vec3, distance: f64) -> bool {
         let snapshot = self.side(side);
         let edges = snapshot.surface.boundary_edges();
         let around = Bounds::around([*x]).inflated(distance);
         snapshot.edge_tree.meeting(&around).into_iter().any(|edge| {
-            let [a, b] = edges[edge as usize]
-                .nodes
-                .map(|node| snapshot.x[node as usize]);
+            let [a, b] = edges[edge as usize].nodes.map(|node| snapshot.x[node]);
             let along = b - a;
             let share = (along.dot(&(x - a)) / along.norm_squared()).clamp(0.0, 1.0);
             (a + along * share - x).norm() <= distance
@@ -67,13 +65,13 @@ impl Configuration<'_> {
 
     fn cut(
         &self,
-        side: usize,
+        side: Side,
         bounds: &Bounds,
         middle: &Vec3,
         m: &Vec3,
         distance: f64,
     ) -> FacetCoverage {
-        let other = self.side(1 - side);
+        let other = self.side(side.opposite());
         let faces = |facet: &FacetId| {
             let positions = other.corner_positions(*facet);
             let corners = distinct_corners(&other.surface.facets()[facet.index()]).len();

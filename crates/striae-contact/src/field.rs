@@ -31,6 +31,7 @@ use crate::{
     integral::{Density, Integral, LANES},
     moving::{FlatSlopes, moving_points},
     quadrature::GAUSS_2,
+    side::Side,
     term::{Field, Lanes, LocalTerm, Row, Source, add_block, variable3, variables3},
     transported::Transported,
 };
@@ -49,7 +50,7 @@ pub struct Fields<'a> {
 /// Terms of one facet: momentum rows of its corners.
 pub(crate) fn facet_terms(
     fields: &Fields,
-    side: usize,
+    side: Side,
     facet: FacetId,
 ) -> (Vec<LocalTerm>, FacetForces) {
     let mut sum = FacetForces::default();
@@ -83,16 +84,19 @@ struct Cover<'a> {
 }
 
 impl Cover<'_> {
-    fn new(fields: &Fields, side: usize, facet: FacetId) -> Self {
+    fn new(fields: &Fields, side: Side, facet: FacetId) -> Self {
         let configuration = fields.configuration;
-        let other = configuration.side(1 - side);
+        let other = configuration.side(side.opposite());
         let corners = other.corners(facet);
         let mut lanes = Lanes::default();
         if configuration.pair.is_rigid() {
             lanes.push(Source::Constant(12));
         } else {
             for corner in corners {
-                let first = configuration.pair.numbering().position(1 - side, corner);
+                let first = configuration
+                    .pair
+                    .numbering()
+                    .position(side.opposite(), corner);
                 lanes.push(Source::Unknowns { first, count: 3 });
             }
         }
@@ -122,7 +126,7 @@ enum NormalField {
 }
 
 impl<'a> Kernel<'a> {
-    fn new(fields: &Fields<'a>, side: usize, facet: FacetId) -> Self {
+    fn new(fields: &Fields<'a>, side: Side, facet: FacetId) -> Self {
         let configuration = fields.configuration;
         let rigid = configuration.pair.is_rigid();
         let numbering = configuration.pair.numbering();
@@ -133,9 +137,9 @@ impl<'a> Kernel<'a> {
         for first in rows {
             lanes.push(Source::Unknowns { first, count: 3 });
         }
-        let nodal = corners.map(|corner| &fields.nodal[side][corner as usize]);
+        let nodal = corners.map(|corner| &fields.nodal[side][corner]);
         let normals = corners.map(|corner| {
-            let frame = fields.frames[side][corner as usize].as_ref();
+            let frame = fields.frames[side][corner].as_ref();
             &frame.expect("all corners carry traction").n
         });
         for n in normals {

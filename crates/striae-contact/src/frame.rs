@@ -10,6 +10,7 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::DualSVec64;
 use rayon::prelude::*;
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     configuration::{Configuration, Snapshot},
@@ -18,6 +19,7 @@ use crate::{
     nodal_normal::own_normal,
     projection::{Hit, differentiated_rigid},
     selection::Selection,
+    side::Side,
     spot::Spot,
     term::{Jacobian, Lanes, Source, add_block, parts, variable3},
     tip::Tip,
@@ -41,12 +43,12 @@ pub type Frames = [Vec<Option<Frame>>; 2];
 
 /// Frames of all nodes that carry traction.
 pub fn frames(configuration: &Configuration, selection: &Selection) -> Frames {
-    [0, 1].map(|side| {
+    Side::BOTH.map(|side| {
         (0..selection.nodes(side))
             .into_par_iter()
             .with_min_len(16)
+            .map(SurfaceNode::new)
             .map(|node| {
-                let node = node as u32;
                 let pointed = selection.is_pointed(side, node);
                 (pointed || selection.carries(side, node)).then(|| {
                     let n = if pointed {
@@ -62,7 +64,7 @@ pub fn frames(configuration: &Configuration, selection: &Selection) -> Frames {
 }
 
 /// The frame of a node.
-pub(crate) fn frame_of(configuration: &Configuration, side: usize, node: u32) -> Frame {
+pub(crate) fn frame_of(configuration: &Configuration, side: Side, node: SurfaceNode) -> Frame {
     let n = normal(configuration, side, node);
     let tip = Tip::Node {
         side,
@@ -73,7 +75,7 @@ pub(crate) fn frame_of(configuration: &Configuration, side: usize, node: u32) ->
 }
 
 /// The normal of a node: of its surface or, against a rigid one, of that.
-fn normal(configuration: &Configuration, side: usize, node: u32) -> Tracked {
+fn normal(configuration: &Configuration, side: Side, node: SurfaceNode) -> Tracked {
     let rigid = configuration.pair.is_rigid();
     let of_rigid = rigid.then(|| rigid_normal(configuration, node)).flatten();
     of_rigid.unwrap_or_else(|| own_normal(configuration, side, node))
@@ -83,8 +85,8 @@ fn normal(configuration: &Configuration, side: usize, node: u32) -> Tracked {
 fn pointed_normal(
     configuration: &Configuration,
     selection: &Selection,
-    side: usize,
-    node: u32,
+    side: Side,
+    node: SurfaceNode,
 ) -> Tracked {
     let tip = selection.tip(side, node);
     let spot = Spot::new(configuration, tip);
@@ -99,26 +101,26 @@ fn pointed_normal(
 }
 
 /// The opposite of the rigid normal at the projection; `None` far away from the surface.
-fn rigid_normal(configuration: &Configuration, node: u32) -> Option<Tracked> {
+fn rigid_normal(configuration: &Configuration, node: SurfaceNode) -> Option<Tracked> {
     if let Some((_, normal)) = configuration.plane() {
         return Some(Tracked {
             value: -normal,
             jacobian: Vec::new(),
         });
     }
-    let (contact, found) = configuration.opposite(0, node)?;
+    let (contact, found) = configuration.opposite(Side::A, node)?;
     let Place::Facet(hit) = contact.place else {
         return None;
     };
-    let target = configuration.side(1);
+    let target = configuration.side(Side::B);
     if let Found::Edge(nodes) = found {
         return Some(normal_on_edge(configuration, node, &hit, nodes));
     }
-    let x: Vector3<DualSVec64<3>> = variable3(&configuration.side(0).x[node as usize], 0);
+    let x: Vector3<DualSVec64<3>> = variable3(&configuration.side(Side::A).x[node], 0);
     let (_, rigid) = differentiated_rigid(target, &hit, &x);
     let mut lanes = Lanes::default();
     lanes.push(Source::Unknowns {
-        first: configuration.pair.numbering().position(0, node),
+        first: configuration.pair.numbering().position(Side::A, node),
         count: 3,
     });
     let (value, gradient) = parts(&-rigid);
@@ -129,10 +131,15 @@ fn rigid_normal(configuration: &Configuration, node: u32) -> Option<Tracked> {
 }
 
 /// The same at the nearest place of the edge of the rigid surface.
-fn normal_on_edge(configuration: &Configuration, node: u32, hit: &Hit, nodes: [u32; 2]) -> Tracked {
-    let place = on_edge(configuration, 0, node, hit, nodes);
-    let target = configuration.side(1);
-    let [start, end] = nodes.map(|node| target.normals[node as usize]);
+fn normal_on_edge(
+    configuration: &Configuration,
+    node: SurfaceNode,
+    hit: &Hit,
+    nodes: [SurfaceNode; 2],
+) -> Tracked {
+    let place = on_edge(configuration, Side::A, node, hit, nodes);
+    let target = configuration.side(Side::B);
+    let [start, end] = nodes.map(|node| target.normals[node]);
     let sum = start + (end - start) * place.share.value;
     let (length, value) = (sum.norm(), -sum.normalize());
     let across = Matrix3::identity() - value * value.transpose();
@@ -146,10 +153,10 @@ fn normal_on_edge(configuration: &Configuration, node: u32, hit: &Hit, nodes: [u
 
 /// The neighbour that the first tangent points to: the first one, unless it lies nearly
 /// along the normal.
-fn neighbour(own: &Snapshot, node: u32, n: &Vec3) -> u32 {
+fn neighbour(own: &Snapshot, node: SurfaceNode, n: &Vec3) -> SurfaceNode {
     let corners = own.surface.corners(node);
-    let tangential = |neighbour: u32| {
-        let edge = (own.x[neighbour as usize] - own.x[node as usize]).normalize();
+    let tangential = |neighbour: SurfaceNode| {
+        let edge = (own.x[neighbour] - own.x[node]).normalize();
         (edge - n * n.dot(&edge)).norm()
     };
     let first = corners[0].next;
@@ -167,12 +174,12 @@ fn neighbour(own: &Snapshot, node: u32, n: &Vec3) -> u32 {
 fn frame(configuration: &Configuration, tip: Tip, n: Tracked) -> Frame {
     let (side, node) = match tip {
         Tip::Node { side, node, .. } => (side, node),
-        Tip::Rigid(point) => (1, point.ends[0]),
+        Tip::Rigid(point) => (Side::B, point.ends[0]),
     };
     let own = configuration.side(side);
     let numbering = configuration.pair.numbering();
     let neighbour = neighbour(own, node, &n.value);
-    let edge = own.x[neighbour as usize] - own.x[node as usize];
+    let edge = own.x[neighbour] - own.x[node];
     let along = edge.dot(&n.value);
     let tangential = edge - n.value * along;
     let length = tangential.norm();

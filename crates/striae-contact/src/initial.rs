@@ -9,12 +9,14 @@
 
 use rayon::prelude::*;
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     configuration::Snapshot,
     interference::{
         Interference, Nearest, Spot, Stage, Standing, inside, nearest_of, position, spots,
     },
+    side::Side,
 };
 
 /// Cosine between the normals of points that face each other.
@@ -46,7 +48,7 @@ pub enum Lies {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Opening {
     /// Side of the point.
-    pub side: usize,
+    pub side: Side,
     /// The point.
     pub spot: Spot,
     /// Where it is.
@@ -73,7 +75,7 @@ pub fn fit(stage: &Stage) -> Fit {
         .filter(|seen| seen.faces)
         .map(|seen| seen.opening);
     let distances = seen.iter().map(|seen| seen.opening.gap);
-    let of_a = || seen.iter().filter(|seen| seen.opening.side == 0);
+    let of_a = || seen.iter().filter(|seen| seen.opening.side == Side::A);
     let all_behind = of_a().all(|seen| seen.standing == Standing::Behind);
     let overlaps = inside(stage, 0.0).into_iter();
     Fit {
@@ -90,7 +92,7 @@ pub fn fit(stage: &Stage) -> Fit {
 
 /// Gap of a node and the point of the other side that it would have to go to, if it faces
 /// that or is inside.
-pub fn signed_gap(stage: &Stage, side: usize, node: u32) -> Option<(f64, Vec3)> {
+pub fn signed_gap(stage: &Stage, side: Side, node: SurfaceNode) -> Option<(f64, Vec3)> {
     let seen = seen(stage, side, Spot::Node(node))?;
     let gap = match seen.standing {
         Standing::Front => seen.faces.then_some(seen.opening.gap),
@@ -107,16 +109,16 @@ pub fn overlaps(stage: &Stage) -> [Vec<f64>; 2] {
     let mut all = [Vec::new(), Vec::new()];
     for side in sides(stage) {
         let snapshot = stage.configuration.side(side);
-        let of_node = |node: u32| {
+        let of_node = |node: SurfaceNode| {
             let seen = seen(stage, side, Spot::Node(node))?;
-            let near = seen.opening.gap < snapshot.sizes[node as usize];
+            let near = seen.opening.gap < snapshot.sizes[node];
             match seen.standing {
                 Standing::Front => None,
                 Standing::Behind => seen.within.then_some(seen.opening.gap),
                 Standing::Beside => (near && seen.depth > 0.0).then_some(seen.depth),
             }
         };
-        let nodes = 0..snapshot.x.len() as u32;
+        let nodes = SurfaceNode::all(snapshot.x.len());
         all[side] = nodes.map(|node| of_node(node).unwrap_or(0.0)).collect();
     }
     all
@@ -135,19 +137,22 @@ struct Seen {
     target: Vec3,
 }
 
-fn sides(stage: &Stage) -> impl Iterator<Item = usize> {
+fn sides(stage: &Stage) -> impl Iterator<Item = Side> {
     let sides = stage.configuration.sides.each_ref().map(Option::is_some);
-    (0..2).filter(move |&side| sides[side])
+    Side::BOTH.into_iter().filter(move |&side| sides[side])
 }
 
-fn seen(stage: &Stage, side: usize, spot: Spot) -> Option<Seen> {
+fn seen(stage: &Stage, side: Side, spot: Spot) -> Option<Seen> {
     let own = stage.configuration.side(side);
     let point = position(own, spot);
     let (nearest, thickness) = match stage.configuration.plane() {
         Some(plane) => (on_plane(&point, &plane), f64::INFINITY),
         None => {
-            let nearest = nearest_of(stage.configuration.side(1 - side), &point)?;
-            (nearest, stage.thickness.0[1 - side][nearest.facet.index()])
+            let nearest = nearest_of(stage.configuration.side(side.opposite()), &point)?;
+            (
+                nearest,
+                stage.thickness.0[side.opposite()][nearest.facet.index()],
+            )
         }
     };
     let cosine = normal(own, spot).dot(&nearest.normal);
@@ -183,7 +188,7 @@ fn on_plane(x: &Vec3, (point, normal): &(Vec3, Vec3)) -> Nearest {
 
 fn normal(snapshot: &Snapshot, spot: Spot) -> Vec3 {
     match spot {
-        Spot::Node(node) => snapshot.normals[node as usize],
+        Spot::Node(node) => snapshot.normals[node],
         Spot::Centre(facet) => {
             let [a, b, c, d] = snapshot.corner_positions(facet);
             (c - a).cross(&(d - b)).normalize()

@@ -4,7 +4,9 @@
 //! Lengths, areas and moduli in the user's units; `h` is a size of the facets at a
 //! node, `E` a modulus of the body behind it.
 
+use crate::side::Side;
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 /// Whether a node carried traction unknowns in the last increment, and what is known of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,7 +23,7 @@ pub enum LastIncrement {
 
 /// A node of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SurfaceNode {
+pub struct InterfaceNode {
     /// Where it is.
     pub position: Vec3,
     /// `h/E` of the body behind it, zero if rigid or wholly prescribed.
@@ -36,7 +38,7 @@ pub struct SurfaceNode {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Overlap {
     /// Corners of both facets; a triangle repeats its last one.
-    pub corners: [[u32; 4]; 2],
+    pub corners: [[SurfaceNode; 4]; 2],
     /// `integral N_c N_d` over the polygon, first the corners of side 0, then those
     /// of side 1. A repeated corner has no mass.
     pub mass: [[f64; 8]; 8],
@@ -46,14 +48,14 @@ pub struct Overlap {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FacetMass {
     /// Its corners; a triangle repeats its last one.
-    pub corners: [u32; 4],
+    pub corners: [SurfaceNode; 4],
     /// `integral N_c N_d` over the whole facet. A repeated corner has no mass.
     pub mass: [[f64; 4]; 4],
 }
 
 /// Corners of the opposing facet and their weights at the projection of a node,
 /// clamped to the opposing surface: non-negative, of sum one.
-pub type ClampedProjection = ([u32; 4], [f64; 4]);
+pub type ClampedProjection = ([SurfaceNode; 4], [f64; 4]);
 
 /// What side 1 is.
 #[derive(Clone, Copy, Debug)]
@@ -72,7 +74,7 @@ pub enum Opponent<'a> {
 #[derive(Clone, Copy, Debug)]
 pub struct Interface<'a> {
     /// Nodes of both sides.
-    pub nodes: [&'a [SurfaceNode]; 2],
+    pub nodes: [&'a [InterfaceNode]; 2],
     /// Common polygons.
     pub overlaps: &'a [Overlap],
     /// For every node its projection if it is within reach.
@@ -83,10 +85,10 @@ pub struct Interface<'a> {
 
 impl Interface<'_> {
     /// Sides whose nodes carry the field.
-    pub(crate) fn sides(&self) -> &'static [usize] {
+    pub(crate) fn sides(&self) -> &'static [Side] {
         match self.opponent {
-            Opponent::Deformable => &[0, 1],
-            Opponent::Rigid { .. } => &[0],
+            Opponent::Deformable => &Side::BOTH,
+            Opponent::Rigid { .. } => &[Side::A],
         }
     }
 }

@@ -24,7 +24,10 @@ mod triangle;
 
 use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
-use striae_surface::topology::{Surface, distinct_corners};
+use striae_surface::{
+    node::SurfaceNode,
+    topology::{Surface, distinct_corners},
+};
 
 pub use facing::{Facing, facing};
 pub use nearest::{Nearest, Standing};
@@ -33,6 +36,7 @@ pub use thickness::{Fibre, Thickness, fibres, lengths};
 use crate::{
     configuration::{Configuration, Snapshot},
     search::{Bounds, Tree},
+    side::Side,
 };
 use nearest::Placed;
 use passage::{Moving, Through};
@@ -56,11 +60,11 @@ pub struct Stage<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interference {
     /// Side of the point.
-    pub side: usize,
+    pub side: Side,
     /// The point.
     pub spot: Spot,
     /// Surface node that is the point, or the corner of its facet that is in deepest.
-    pub node: u32,
+    pub node: SurfaceNode,
     /// Where the point is at the end.
     pub point: Vec3,
     /// Distance behind the other surface; the largest on its way for what passed, and
@@ -85,7 +89,7 @@ impl Interference {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Spot {
     /// Surface node.
-    Node(u32),
+    Node(SurfaceNode),
     /// Centre of a facet.
     Centre(FacetId),
 }
@@ -116,14 +120,14 @@ pub fn interferences(start: &Stage, end: &Stage, share: f64) -> Vec<Interference
     if let Some(plane) = end.configuration.plane() {
         return behind_plane(start.configuration, end.configuration, plane, share);
     }
-    let sides = [0, 1].map(|side| {
+    let sides = Side::BOTH.map(|side| {
         let at = [start, end].map(|stage| stage.configuration.side(side));
         Moving::new(at, end.thickness.largest(side))
     });
     if !sides[0].may_meet(&sides[1]) {
         return Vec::new();
     }
-    [0, 1]
+    Side::BOTH
         .into_iter()
         .flat_map(|side| of_side(start, end, &sides, side, share))
         .collect()
@@ -134,7 +138,7 @@ pub fn interferences(start: &Stage, end: &Stage, share: f64) -> Vec<Interference
 pub fn inside(stage: &Stage, share: f64) -> Vec<Interference> {
     let configuration = stage.configuration;
     if let Some(plane) = configuration.plane() {
-        let snapshot = configuration.side(0);
+        let snapshot = configuration.side(Side::A);
         let spots = spots(snapshot.surface);
         let found = spots.into_iter().filter_map(|spot| {
             let depth = -height(snapshot, spot, &plane);
@@ -144,7 +148,7 @@ pub fn inside(stage: &Stage, share: f64) -> Vec<Interference> {
         });
         return found.collect();
     }
-    let within = |side: usize| {
+    let within = |side: Side| {
         let spots = spots(configuration.side(side).surface);
         let found: Vec<_> = spots
             .into_par_iter()
@@ -159,7 +163,7 @@ pub fn inside(stage: &Stage, share: f64) -> Vec<Interference> {
             .collect();
         found
     };
-    [0, 1].into_iter().flat_map(within).collect()
+    Side::BOTH.into_iter().flat_map(within).collect()
 }
 
 /// Where a point is with respect to the facets of a side.
@@ -169,35 +173,35 @@ pub fn nearest_of(snapshot: &Snapshot, x: &Vec3) -> Option<Nearest> {
 
 /// Nodes and facet centres of a surface.
 pub(crate) fn spots(surface: &Surface) -> Vec<Spot> {
-    let nodes = (0..surface.nodes().len() as u32).map(Spot::Node);
+    let nodes = SurfaceNode::all(surface.nodes().len()).map(Spot::Node);
     let centres = (0..surface.facets().len()).map(|at| Spot::Centre(FacetId::new(at)));
     nodes.chain(centres).collect()
 }
 
 /// Where a point of a surface is.
 pub fn position(snapshot: &Snapshot, spot: Spot) -> Vec3 {
-    located(snapshot.surface, spot, |node| snapshot.x[node as usize])
+    located(snapshot.surface, spot, |node| snapshot.x[node])
 }
 
-fn located(surface: &Surface, spot: Spot, x: impl Fn(u32) -> Vec3) -> Vec3 {
+fn located(surface: &Surface, spot: Spot, x: impl Fn(SurfaceNode) -> Vec3) -> Vec3 {
     match spot {
         Spot::Node(node) => x(node),
         Spot::Centre(facet) => thickness::centre(&surface.facets()[facet.index()], x),
     }
 }
 
-fn placed<'a>(snapshot: &'a Snapshot) -> Placed<'a, impl Fn(u32) -> Vec3 + 'a> {
+fn placed<'a>(snapshot: &'a Snapshot) -> Placed<'a, impl Fn(SurfaceNode) -> Vec3 + 'a> {
     Placed {
         surface: snapshot.surface,
         tree: &snapshot.tree,
-        x: |node| snapshot.x[node as usize],
+        x: |node| snapshot.x[node],
     }
 }
 
 /// Local facet size at a point.
 fn size(snapshot: &Snapshot, spot: Spot) -> f64 {
     match spot {
-        Spot::Node(node) => snapshot.sizes[node as usize],
+        Spot::Node(node) => snapshot.sizes[node],
         Spot::Centre(facet) => facet_size(snapshot, facet),
     }
 }
@@ -205,33 +209,30 @@ fn size(snapshot: &Snapshot, spot: Spot) -> f64 {
 fn facet_size(snapshot: &Snapshot, facet: FacetId) -> f64 {
     let corners = snapshot.corners(facet);
     let ring = distinct_corners(&corners);
-    ring.iter()
-        .map(|&node| snapshot.sizes[node as usize])
-        .sum::<f64>()
-        / ring.len() as f64
+    ring.iter().map(|&node| snapshot.sizes[node]).sum::<f64>() / ring.len() as f64
 }
 
 /// Size that depth behind a facet is judged by: that of the facets of the deformable
 /// side, the larger of two; less where the body is thin, so that a point that has come
 /// to its middle is inside.
-fn judged_by(stage: &Stage, side: usize, spot: Spot, facet: FacetId) -> f64 {
+fn judged_by(stage: &Stage, side: Side, spot: Spot, facet: FacetId) -> f64 {
     let configuration = stage.configuration;
     let own = || size(configuration.side(side), spot);
-    let other = || facet_size(configuration.side(1 - side), facet);
+    let other = || facet_size(configuration.side(side.opposite()), facet);
     let size = match (configuration.pair.is_rigid(), side) {
         (false, _) => own().max(other()),
-        (true, 0) => own(),
+        (true, Side::A) => own(),
         (true, _) => other(),
     };
-    size.min(THIN * stage.thickness.0[1 - side][facet.index()])
+    size.min(THIN * stage.thickness.0[side.opposite()][facet.index()])
 }
 
 /// Where a point is inside the other side.
-fn depth_inside(stage: &Stage, side: usize, spot: Spot) -> Option<Nearest> {
+fn depth_inside(stage: &Stage, side: Side, spot: Spot) -> Option<Nearest> {
     let x = position(stage.configuration.side(side), spot);
-    let other = stage.configuration.side(1 - side);
-    let thickness = &stage.thickness.0[1 - side];
-    let most = stage.thickness.largest(1 - side);
+    let other = stage.configuration.side(side.opposite());
+    let thickness = &stage.thickness.0[side.opposite()];
+    let most = stage.thickness.largest(side.opposite());
     let near = other.tree.bounds()?.squared_distance(&x) <= most * most;
     let nearest = near.then(|| placed(other).nearest(&x))??;
     let inside =
@@ -241,7 +242,7 @@ fn depth_inside(stage: &Stage, side: usize, spot: Spot) -> Option<Nearest> {
 
 fn interference(
     stage: &Stage,
-    side: usize,
+    side: Side,
     spot: Spot,
     (point, nearest): (Vec3, &Nearest),
     size: f64,
@@ -261,12 +262,12 @@ fn interference(
 }
 
 /// The node, or the corner of a facet that is farthest against `n`.
-fn deepest_corner(snapshot: &Snapshot, spot: Spot, n: &Vec3) -> u32 {
+fn deepest_corner(snapshot: &Snapshot, spot: Spot, n: &Vec3) -> SurfaceNode {
     let facet = match spot {
         Spot::Node(node) => return node,
         Spot::Centre(facet) => facet,
     };
-    let height = |node: &u32| snapshot.x[*node as usize].dot(n);
+    let height = |node: &SurfaceNode| snapshot.x[*node].dot(n);
     let corners = snapshot.corners(facet).into_iter();
     let lowest = corners.min_by(|a, b| height(a).total_cmp(&height(b)));
     lowest.expect("a facet has corners")
@@ -278,7 +279,7 @@ fn height(snapshot: &Snapshot, spot: Spot, (point, normal): &(Vec3, Vec3)) -> f6
 
 fn at_plane(snapshot: &Snapshot, spot: Spot, depth: f64, size: f64) -> Interference {
     Interference {
-        side: 0,
+        side: Side::A,
         spot,
         node: match spot {
             Spot::Node(node) => node,
@@ -305,8 +306,8 @@ fn behind_plane(
     share: f64,
 ) -> Vec<Interference> {
     let before = start.plane().unwrap_or(plane);
-    let [first, last] = [start, end].map(|configuration| configuration.side(0));
-    (0..last.x.len() as u32)
+    let [first, last] = [start, end].map(|configuration| configuration.side(Side::A));
+    SurfaceNode::all(last.x.len())
         .map(Spot::Node)
         .filter_map(|spot| {
             let depth = -height(last, spot, &plane);
@@ -321,7 +322,7 @@ fn of_side(
     start: &Stage,
     end: &Stage,
     sides: &[Moving; 2],
-    side: usize,
+    side: Side,
     share: f64,
 ) -> Vec<Interference> {
     let spots = spots(end.configuration.side(side).surface);
@@ -336,7 +337,7 @@ fn of_spot(
     start: &Stage,
     end: &Stage,
     sides: &[Moving; 2],
-    (side, spot): (usize, Spot),
+    (side, spot): (Side, Spot),
     share: f64,
 ) -> Option<Interference> {
     let judged = |facet| judged_by(end, side, spot, facet);
@@ -350,20 +351,21 @@ fn of_spot(
         let found = || interference(end, side, spot, (point, &now), size, Kind::Inside);
         return news.then(found);
     }
-    let (passed, size, kind) = match sides[1 - side].passed_by(&sides[side].path(spot), before)? {
-        Through::Body(nearest) => (nearest, judged(nearest.facet), Kind::Crossed),
-        Through::Surface(deepest) => {
-            let size = judged(deepest.facet);
-            (deepest.distance > share * size).then_some((deepest, size, Kind::Passed))?
-        }
-    };
+    let (passed, size, kind) =
+        match sides[side.opposite()].passed_by(&sides[side].path(spot), before)? {
+            Through::Body(nearest) => (nearest, judged(nearest.facet), Kind::Crossed),
+            Through::Surface(deepest) => {
+                let size = judged(deepest.facet);
+                (deepest.distance > share * size).then_some((deepest, size, Kind::Passed))?
+            }
+        };
     Some(interference(end, side, spot, (point, &passed), size, kind))
 }
 
 /// The box around a surface on its way.
-fn swept_box(at: &[&Snapshot; 2], facet: &[u32; 4]) -> Bounds {
+fn swept_box(at: &[&Snapshot; 2], facet: &[SurfaceNode; 4]) -> Bounds {
     let corners = distinct_corners(facet).iter();
-    Bounds::around(corners.flat_map(|&node| at.map(|snapshot| snapshot.x[node as usize])))
+    Bounds::around(corners.flat_map(|&node| at.map(|snapshot| snapshot.x[node])))
 }
 
 /// A tree over the swept boxes of the facets.

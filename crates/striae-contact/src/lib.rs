@@ -59,6 +59,7 @@ pub mod pointed;
 pub mod roles;
 pub mod segment;
 pub mod selection;
+pub mod side;
 pub mod spot;
 pub mod table_1;
 pub mod term;

@@ -24,12 +24,14 @@
 //! `h` is the larger facet size of the two sides, which is how finely a mean gap sees.
 
 use rayon::prelude::*;
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     configuration::Configuration,
     pair::Enforcement,
     pointed::choice::{OwnGap, own_gap},
     selection::{Lifts, Selection},
+    side::Side,
     unknowns::{NodeResult, Status},
 };
 
@@ -47,8 +49,8 @@ const MEAN: f64 = 2.0 / 3.0;
 pub struct Remedy {
     /// Lifts of the rows of kept nodes.
     pub lifts: Lifts,
-    /// Nodes that follow others and are to be kept first, as side and number.
-    pub required: Vec<(usize, u32)>,
+    /// Nodes that follow others and are to be kept first, with their sides.
+    pub required: Vec<(Side, SurfaceNode)>,
 }
 
 /// What holds the nodes that a converged configuration leaves too deep; `None` if there is
@@ -63,15 +65,15 @@ pub fn remedy(
         return None;
     }
     let mut remedy = Remedy {
-        lifts: [0, 1].map(|side| {
-            let nodes = 0..selection.nodes(side) as u32;
+        lifts: Side::BOTH.map(|side| {
+            let nodes = SurfaceNode::all(selection.nodes(side));
             nodes.map(|node| selection.lift(side, node)).collect()
         }),
         required: Vec::new(),
     };
     let mut is_deep = false;
     for &side in configuration.pair.deformable_sides() {
-        let in_field = |node: u32| selection.carries(side, node);
+        let in_field = |node: SurfaceNode| selection.carries(side, node);
         for Depth { node, depth, size } in depths(configuration, side, in_field) {
             if selection.is_pointed(side, node) || depth <= DEEP * size {
                 continue;
@@ -81,12 +83,12 @@ pub fn remedy(
                 remedy.required.push((side, node));
                 continue;
             }
-            let result = &nodes[side][node as usize];
+            let result = &nodes[side][node];
             let mean = match result.status {
                 Status::Open => result.gap.max(0.0),
                 Status::Stick | Status::Slip => 0.0,
             };
-            remedy.lifts[side][node as usize] += mean + MEAN * (depth - LEFT * size);
+            remedy.lifts[side][node] += mean + MEAN * (depth - LEFT * size);
         }
     }
     is_deep.then_some(remedy)
@@ -96,10 +98,10 @@ pub fn remedy(
 pub fn following(configuration: &Configuration, before: &Lifts) -> Lifts {
     let mut lifts = before.each_ref().map(|side| vec![0.0; side.len()]);
     for &side in configuration.pair.deformable_sides() {
-        let before = |node: u32| before[side].get(node as usize).copied().unwrap_or(0.0);
+        let before = |node: SurfaceNode| before[side].get(node.index()).copied().unwrap_or(0.0);
         for Depth { node, depth, size } in depths(configuration, side, |node| before(node) > 0.0) {
             let lift = before(node) + MEAN * (depth - LEFT * size);
-            lifts[side][node as usize] = lift.max(0.0);
+            lifts[side][node] = lift.max(0.0);
         }
     }
     lifts
@@ -107,7 +109,7 @@ pub fn following(configuration: &Configuration, before: &Lifts) -> Lifts {
 
 /// Where a node is.
 struct Depth {
-    node: u32,
+    node: SurfaceNode,
     /// Depth in the other side, negative outside.
     depth: f64,
     /// The larger facet size of the two sides.
@@ -117,10 +119,10 @@ struct Depth {
 /// Depths of the nodes of a side that are wanted and see the other side.
 fn depths(
     configuration: &Configuration,
-    side: usize,
-    is_wanted: impl Fn(u32) -> bool + Sync,
+    side: Side,
+    is_wanted: impl Fn(SurfaceNode) -> bool + Sync,
 ) -> Vec<Depth> {
-    let depth = |node: u32| {
+    let depth = |node: SurfaceNode| {
         let OwnGap { gap, sizes } = own_gap(configuration, side, node)?;
         Some(Depth {
             node,
@@ -128,8 +130,8 @@ fn depths(
             size: sizes[0].max(sizes[1]),
         })
     };
-    let nodes = 0..configuration.side(side).x.len() as u32;
-    let nodes = nodes.into_par_iter().with_min_len(16);
+    let nodes = (0..configuration.side(side).x.len()).into_par_iter();
+    let nodes = nodes.with_min_len(16).map(SurfaceNode::new);
     let wanted = nodes.filter(|&node| is_wanted(node));
     wanted.filter_map(depth).collect()
 }

@@ -1,14 +1,14 @@
 //! A contact pair: what does not change during a run.
 
 use serde::Serialize;
-use striae_law::friction::Friction;
 use striae_mesh::Vec3;
 use striae_surface::{
+    node::SurfaceNode,
     texture::{Field, Texture},
     topology::{Surface, distinct_corners},
 };
 
-use crate::unknown::Numbering;
+use crate::{side::Side, unknown::Numbering};
 
 /// Two surfaces that may touch. Side 0 (`a`) is deformable.
 #[derive(Clone, Debug)]
@@ -16,9 +16,7 @@ pub struct ContactPair {
     /// Name for reports.
     pub name: String,
     /// The two sides.
-    pub sides: [Side; 2],
-    /// Friction law.
-    pub friction: Friction,
+    pub sides: [PairedSurface; 2],
     /// How contact is enforced.
     pub enforcement: Enforcement,
     /// Distance over which contact is looked for ahead; `None`: half the local facet size.
@@ -27,7 +25,7 @@ pub struct ContactPair {
 
 /// One side of a pair.
 #[derive(Clone, Debug)]
-pub struct Side {
+pub struct PairedSurface {
     /// Shape and kind.
     pub geometry: Geometry,
     /// Young's modulus of the body behind a deformable side, for the scaling of the complementarity.
@@ -74,7 +72,7 @@ pub enum Enforcement {
 impl ContactPair {
     /// Numbers of the pair's unknowns.
     pub fn numbering(&self) -> Numbering {
-        let positions = [0, 1].map(|side| match &self.sides[side].geometry {
+        let positions = Side::BOTH.map(|side| match &self.sides[side].geometry {
             Geometry::Deformable(surface) => surface.nodes().len(),
             Geometry::Rigid(_) | Geometry::Plane { .. } => 0,
         });
@@ -85,32 +83,36 @@ impl ContactPair {
     /// facets that pierce side `a` count as side `b` and lodge with the nodes of `a`, one with
     /// a node, see [`crate::pointed`].
     pub fn carriers(&self) -> [usize; 2] {
-        let nodes = |side: usize| self.sides[side].surface().map_or(0, |s| s.nodes().len());
-        let of_b = match self.sides[1].geometry {
-            Geometry::Deformable(_) => nodes(1),
-            Geometry::Rigid(_) if self.enforcement == Enforcement::Weighted => nodes(0),
+        let nodes = |side: Side| self.sides[side].surface().map_or(0, |s| s.nodes().len());
+        let of_b = match self.sides[Side::B].geometry {
+            Geometry::Deformable(_) => nodes(Side::B),
+            Geometry::Rigid(_) if self.enforcement == Enforcement::Weighted => nodes(Side::A),
             Geometry::Rigid(_) | Geometry::Plane { .. } => 0,
         };
-        [nodes(0), of_b]
+        [nodes(Side::A), of_b]
     }
 
     /// Whether the nodes of a side are deformable.
-    pub(crate) fn is_deformable(&self, side: usize) -> bool {
+    pub(crate) fn is_deformable(&self, side: Side) -> bool {
         matches!(self.sides[side].geometry, Geometry::Deformable(_))
     }
 
     /// Whether side `b` is rigid.
     pub fn is_rigid(&self) -> bool {
-        !matches!(self.sides[1].geometry, Geometry::Deformable(_))
+        !matches!(self.sides[Side::B].geometry, Geometry::Deformable(_))
     }
 
     /// Sides that carry traction unknowns.
-    pub fn deformable_sides(&self) -> &'static [usize] {
-        if self.is_rigid() { &[0] } else { &[0, 1] }
+    pub fn deformable_sides(&self) -> &'static [Side] {
+        if self.is_rigid() {
+            &[Side::A]
+        } else {
+            &Side::BOTH
+        }
     }
 }
 
-impl Side {
+impl PairedSurface {
     /// Facets of the side; `None` for a plane.
     pub fn surface(&self) -> Option<&Surface> {
         match &self.geometry {
@@ -127,15 +129,15 @@ pub(crate) fn local_sizes(surface: &Surface, x: &[Vec3]) -> Vec<f64> {
         .iter()
         .map(|facet| {
             let corners = distinct_corners(facet);
-            let origin = x[corners[0] as usize];
+            let origin = x[corners[0]];
             let fan: Vec3 = corners[1..]
                 .windows(2)
-                .map(|pair| (x[pair[0] as usize] - origin).cross(&(x[pair[1] as usize] - origin)))
+                .map(|pair| (x[pair[0]] - origin).cross(&(x[pair[1]] - origin)))
                 .sum();
             0.5 * fan.norm()
         })
         .collect();
-    (0..x.len() as u32)
+    SurfaceNode::all(x.len())
         .map(|node| {
             let corners = surface.corners(node);
             let sum: f64 = corners.iter().map(|c| areas[c.facet.index()]).sum();

@@ -7,11 +7,12 @@
 
 use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
-use striae_surface::facet::Shape;
+use striae_surface::{facet::Shape, node::SurfaceNode};
 
 use crate::{
     configuration::Configuration,
     segment::{Derivatives, FIRST, Facet, Segment, mixed, plane_segment, segment},
+    side::Side,
 };
 
 /// Two facets and their segment.
@@ -20,7 +21,7 @@ pub struct PairedFacets {
     /// Facets of the sides `a` and `b`; a plane has none.
     pub facets: [Option<FacetId>; 2],
     /// Corners of side `a`, then of side `b`, as surface-local nodes.
-    pub corners: [[u32; 4]; 2],
+    pub corners: [[SurfaceNode; 4]; 2],
     /// Their current positions.
     pub x: [Vec3; 8],
     /// Mean gap up to which they are paired.
@@ -41,7 +42,7 @@ pub struct Scope<'a> {
 impl Scope<'_> {
     /// Weights of the normals of two paired facets.
     pub fn weights(&self, paired: &PairedFacets) -> [f64; 2] {
-        [0, 1].map(|side| match paired.facets[side] {
+        Side::BOTH.map(|side| match paired.facets[side] {
             Some(facet) => self.compliances[side][facet.index()],
             None => 0.0,
         })
@@ -84,11 +85,15 @@ impl PairedFacets {
 
     /// Side and surface-local node of a corner of a deformable side; `None` for the corners
     /// of a rigid side and the repeated corner of a triangle.
-    pub fn node(&self, configuration: &Configuration, corner: usize) -> Option<(usize, u32)> {
-        let (side, at) = (corner / 4, corner % 4);
+    pub fn node(
+        &self,
+        configuration: &Configuration,
+        corner: usize,
+    ) -> Option<(Side, SurfaceNode)> {
+        let (side, at) = (Side::BOTH[corner / 4], corner % 4);
         let corners = &self.corners[side];
         let repeated = at == 3 && Shape::of(corners) == Shape::Triangle;
-        let rigid = side == 1 && configuration.pair.is_rigid();
+        let rigid = side == Side::B && configuration.pair.is_rigid();
         (!rigid && !repeated).then(|| (side, corners[at]))
     }
 }
@@ -106,8 +111,8 @@ pub fn topology<'a>(paired: impl Iterator<Item = &'a PairedFacets>) -> u64 {
 pub const SIGNS: [f64; 8] = [-1.0, -1.0, -1.0, -1.0, 1.0, 1.0, 1.0, 1.0];
 
 /// 1 on side `a`, -1 on side `b`: how normal and friction of a node are seen from side `a`.
-pub fn side_sign(side: usize) -> f64 {
-    if side == 0 { 1.0 } else { -1.0 }
+pub fn side_sign(side: Side) -> f64 {
+    if side == Side::A { 1.0 } else { -1.0 }
 }
 
 /// All paired facets whose facet of side `a` is `wanted`, in the order of their facets.
@@ -117,7 +122,7 @@ pub fn paired_facets(
     slopes: Derivatives,
     wanted: impl Fn(FacetId) -> bool + Sync,
 ) -> Vec<PairedFacets> {
-    let own = configuration.side(0);
+    let own = configuration.side(Side::A);
     let found: Vec<Vec<PairedFacets>> = (0..own.surface.facets().len())
         .into_par_iter()
         .with_min_len(4)
@@ -139,14 +144,14 @@ fn of_facet(
     slopes: Derivatives,
     facet: FacetId,
 ) -> Vec<PairedFacets> {
-    let own = configuration.side(0);
+    let own = configuration.side(Side::A);
     let corners = own.corners(facet);
     let positions = own.corner_positions(facet);
     let a = Facet {
         corners: positions,
         shape: Shape::of(&corners),
     };
-    let reach = reach(configuration, 0, &corners);
+    let reach = reach(configuration, Side::A, &corners);
     let is_near = |paired: &PairedFacets| {
         let gap = paired.mean_gap(configuration);
         gap <= paired.reach && -gap <= paired.reach + scope.depth
@@ -155,14 +160,14 @@ fn of_facet(
         let nothing = [point; 4];
         let paired = plane_segment(&a, &normal, slopes).map(|segment| PairedFacets {
             facets: [Some(facet), None],
-            corners: [corners, [0; 4]],
+            corners: [corners, [SurfaceNode(0); 4]],
             x: joined(&positions, &nothing),
             reach,
             segment,
         });
         return paired.into_iter().filter(is_near).collect();
     }
-    let other = configuration.side(1);
+    let other = configuration.side(Side::B);
     let farthest = farthest(configuration);
     let bounds = own.bounds(facet).inflated(farthest + scope.depth);
     let mut found = Vec::new();
@@ -175,8 +180,8 @@ fn of_facet(
             shape: Shape::of(&corners_b),
         };
         let weights = [
-            scope.compliances[0][facet.index()],
-            scope.compliances[1][opposite.index()],
+            scope.compliances[Side::A][facet.index()],
+            scope.compliances[Side::B][opposite.index()],
         ];
         let Some(segment) = segment(&a, &b, weights, slopes) else {
             continue;
@@ -184,7 +189,7 @@ fn of_facet(
         let reach = if configuration.pair.is_rigid() {
             reach
         } else {
-            reach.max(self::reach(configuration, 1, &corners_b))
+            reach.max(self::reach(configuration, Side::B, &corners_b))
         };
         let paired = PairedFacets {
             facets: [Some(facet), Some(opposite)],
@@ -205,7 +210,7 @@ fn joined(a: &[Vec3; 4], b: &[Vec3; 4]) -> [Vec3; 8] {
 }
 
 /// Largest reach of the corners of a facet.
-fn reach(configuration: &Configuration, side: usize, corners: &[u32; 4]) -> f64 {
+fn reach(configuration: &Configuration, side: Side, corners: &[SurfaceNode; 4]) -> f64 {
     let reaches = corners.map(|node| configuration.reach(side, node));
     reaches.into_iter().fold(0.0, f64::max)
 }

@@ -1,10 +1,12 @@
 //! What was opposite to nodes at the start of an increment, for collocated slip.
 
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     configuration::Configuration,
     pair::Enforcement,
+    side::Side,
     traction_basis::{KeptNode, TractionBasis},
 };
 
@@ -12,19 +14,19 @@ use crate::{
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Partner {
     /// On a deformable facet, as weights of its corners.
-    Corners([u32; 4], [f64; 4]),
+    Corners([SurfaceNode; 4], [f64; 4]),
     /// On a rigid surface, in its reference configuration.
     Rigid(Vec3),
 }
 
 impl Partner {
     /// Where the point is now, seen from a node of `side`.
-    pub fn point(&self, configuration: &Configuration, side: usize) -> Vec3 {
+    pub fn point(&self, configuration: &Configuration, side: Side) -> Vec3 {
         match self {
             Partner::Rigid(point) => configuration.placement.point(point),
             Partner::Corners(corners, weights) => {
-                let x = &configuration.side(1 - side).x;
-                (0..4).map(|c| x[corners[c] as usize] * weights[c]).sum()
+                let x = &configuration.side(side.opposite()).x;
+                (0..4).map(|c| x[corners[c]] * weights[c]).sum()
             }
         }
     }

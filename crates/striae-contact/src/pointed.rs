@@ -51,7 +51,6 @@ pub fn kinematics(
     frame: Option<&Frame>,
 ) -> Kinematics {
     let (side, node) = selection.kept()[k].place();
-    let node = node as u32;
     let tip = selection.tip(side, node);
     let gap = match Spot::new(configuration, tip) {
         Some(spot) => TrackedScalar {

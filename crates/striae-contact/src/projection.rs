@@ -15,6 +15,7 @@ use nalgebra::{Matrix3, Vector3};
 use striae_mesh::{FacetId, Vec3};
 use striae_surface::{
     facet::{Shape, area_vector, facet_normal},
+    node::SurfaceNode,
     scalar::{Real, combination, constant3, normalised},
 };
 
@@ -98,13 +99,18 @@ pub fn project_on(
 
 /// The point on the edge of a surface that is nearest to the line through `x` along `n`,
 /// within the distance `reach` of `x`, and the nodes of that edge.
-pub fn nearest_edge(target: &Snapshot, x: &Vec3, n: &Vec3, reach: f64) -> Option<(Hit, [u32; 2])> {
+pub fn nearest_edge(
+    target: &Snapshot,
+    x: &Vec3,
+    n: &Vec3,
+    reach: f64,
+) -> Option<(Hit, [SurfaceNode; 2])> {
     let bounds = Bounds::around([*x]).inflated(reach);
     let edges = target.surface.boundary_edges();
-    let mut best: Option<(f64, Hit, [u32; 2])> = None;
+    let mut best: Option<(f64, Hit, [SurfaceNode; 2])> = None;
     for item in target.edge_tree.meeting(&bounds) {
         let edge = edges[item as usize];
-        let [start, end] = edge.nodes.map(|node| target.x[node as usize] - x);
+        let [start, end] = edge.nodes.map(|node| target.x[node] - x);
         let flat = |v: Vec3| v - n * n.dot(&v);
         let share = share_of_edge(&start, &(end - start), n);
         let point = start + (end - start) * share;
@@ -118,8 +124,9 @@ pub fn nearest_edge(target: &Snapshot, x: &Vec3, n: &Vec3, reach: f64) -> Option
             continue;
         }
         if best.is_none_or(|(known, ..)| distance < known) {
-            let at =
-                |node: u32| Shape::of(&corners).corner(corners.iter().position(|c| *c == node));
+            let at = |node: SurfaceNode| {
+                Shape::of(&corners).corner(corners.iter().position(|c| *c == node))
+            };
             let [a, b] = edge.nodes.map(at);
             let [xi, eta] = [0, 1].map(|k| a[k] + (b[k] - a[k]) * share);
             let gap = n.dot(&point);
@@ -184,7 +191,7 @@ fn on_facet(target: &Snapshot, facet: FacetId, x: &Vec3, ray: Ray) -> Option<Hit
     let corners = target.corners(facet);
     let shape = Shape::of(&corners);
     let positions = target.corner_positions(facet);
-    let normals = corners.map(|node| target.normals[node as usize]);
+    let normals = corners.map(|node| target.normals[node]);
     let ray = match ray {
         Ray::Facet(faced) => {
             let normal = facet_normal(&positions);
@@ -269,7 +276,7 @@ pub fn differentiated_rigid<D: Real>(
     let corners = target.corners(hit.facet);
     let shape = Shape::of(&corners);
     let positions = target.corner_positions(hit.facet);
-    let normals = corners.map(|node| target.normals[node as usize]);
+    let normals = corners.map(|node| target.normals[node]);
     let at = [hit.xi, hit.eta, hit.gap];
     let real = x.map(|component| component.re());
     let (value, jacobian) = system(shape, &positions, &normals, &real, Ray::Opposite, at);

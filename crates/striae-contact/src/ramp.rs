@@ -117,7 +117,7 @@ impl Ramp<'_> {
         let frame = self.frames[side][node].as_ref()?;
         let (configuration, start) = (self.configuration, self.start);
         let old = self.tractions.tau_n[side][node];
-        let old = converged_friction(configuration, start, (side, node as u32), frame, old);
+        let old = converged_friction(configuration, start, (side, node), frame, old);
         Some(old.map(|old| {
             let mut friction = self.tau[side][node].clone();
             friction.value -= old.value;

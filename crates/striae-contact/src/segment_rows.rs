@@ -25,6 +25,7 @@ use crate::{
     configuration::Configuration,
     pairing::{PairedFacets, SIGNS},
     segment::{Facet, Slopes, normal_between, pair_index},
+    side::Side,
     transported::Transported,
 };
 
@@ -143,7 +144,7 @@ impl Moved {
         weights: [f64; 2],
     ) -> Self {
         let n = paired.segment.normal;
-        let old = |corner: usize| start.side(0).x[paired.corners[0][corner] as usize];
+        let old = |corner: usize| start.side(Side::A).x[paired.corners[0][corner]];
         if configuration.pair.is_rigid() {
             let carried = |x: Vec3| {
                 let material = start.placement.back(&x);
@@ -166,7 +167,7 @@ impl Moved {
         let origin = old(0);
         let x: [Vec3; 8] = std::array::from_fn(|d| match d {
             0..4 => old(d),
-            _ => start.side(1).x[paired.corners[1][d - 4] as usize],
+            _ => start.side(Side::B).x[paired.corners[1][d - 4]],
         });
         let facet = |first: usize| {
             let shape = striae_surface::facet::Shape::of(&paired.corners[first / 4]);

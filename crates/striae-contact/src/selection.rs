@@ -17,10 +17,13 @@ pub(crate) use approach::compliances;
 pub use before::{Before, Kept, Lifts};
 pub use traction_field::Selection;
 
+use striae_surface::node::SurfaceNode;
+
 use crate::{
     configuration::Configuration,
     pairing::Scope,
     partner::partners,
+    side::Side,
     spot::Spot,
     tip::RigidPoint,
     traction_basis::{KeptNode, THETA_1},
@@ -48,11 +51,11 @@ impl Selection {
             gathered.add(Gathered::new(predicted, scope));
         }
         let mut basis = gathered.basis(start, before, prescribed);
-        for (side, count) in start.pair.carriers().into_iter().enumerate() {
+        for (side, count) in Side::BOTH.into_iter().zip(start.pair.carriers()) {
             basis.index[side].resize(count, None);
             basis.rows[side].resize(count, Vec::new());
         }
-        let of_b = basis.index[1].len();
+        let of_b = basis.index[Side::B].len();
         let lodges = start.pair.is_rigid();
         let mut points = vec![None; if lodges { of_b } else { 0 }];
         let known = points.iter_mut().zip(before.points);
@@ -73,12 +76,17 @@ impl Selection {
         for &side in start.pair.deformable_sides() {
             let nodes = before.pointed[side].iter().enumerate();
             for (node, _) in nodes.filter(|(_, pointed)| **pointed) {
-                selection.add_pointed(start, predicted, prescribed, (side, node as u32));
+                selection.add_pointed(start, predicted, prescribed, (side, SurfaceNode::new(node)));
             }
         }
         let lodged = (0..selection.points.len()).filter(|&node| selection.points[node].is_some());
         for node in lodged.collect::<Vec<_>>() {
-            selection.add_pointed(start, predicted, prescribed, (1, node as u32));
+            selection.add_pointed(
+                start,
+                predicted,
+                prescribed,
+                (Side::B, SurfaceNode::new(node)),
+            );
         }
         selection
     }
@@ -89,7 +97,7 @@ impl Selection {
         start: &Configuration,
         predicted: Option<&Configuration>,
         prescribed: &Prescribed,
-        (side, node): (usize, u32),
+        (side, node): (Side, SurfaceNode),
     ) {
         let tip = self.tip(side, node);
         let known = [Some(start), predicted];
@@ -99,8 +107,8 @@ impl Selection {
             Some((partner, spot.hit))
         });
         let size = start.size(side, node);
-        let yields = |side: usize, node: u32| {
-            let first = 3 * node as usize;
+        let yields = |side: Side, node: SurfaceNode| {
+            let first = 3 * node.index();
             let components = prescribed[side].get(first..first + 3);
             components.is_none_or(|components| components.contains(&false))
         };
@@ -113,13 +121,13 @@ impl Selection {
         if let Some((_, Some(hit))) = found
             && tip.presses_on_deformable(start)
         {
-            let mut corners = start.side(1 - side).corners(hit.facet).into_iter();
-            if corners.any(|corner| yields(1 - side, corner)) {
-                flexibility += self.compliances[1 - side][hit.facet.index()];
+            let mut corners = start.side(side.opposite()).corners(hit.facet).into_iter();
+            if corners.any(|corner| yields(side.opposite(), corner)) {
+                flexibility += self.compliances[side.opposite()][hit.facet.index()];
             }
         }
         let basis = &mut self.basis;
-        basis.index[side][node as usize] = Some(basis.kept.len() as u32);
+        basis.index[side][node] = Some(basis.kept.len() as u32);
         basis.kept.push(KeptNode { side, node });
         basis.pivots.push(THETA_1);
         basis.flexibility.push(flexibility);

@@ -4,8 +4,10 @@
 //! that is seen, without what the ramp adds. Only friction that decays with the slip rate asks
 //! for it: the friction of a node and the row that it obeys ask at the same rate.
 
+use striae_law::friction::Friction;
+
 use crate::{
-    configuration::Configuration, kinematics::Kinematics, selection::Selection,
+    configuration::Configuration, kinematics::Kinematics, selection::Selection, side::Side,
     tracked::TrackedScalar,
 };
 
@@ -15,11 +17,12 @@ pub type SlipRates = [Vec<TrackedScalar>; 2];
 /// Slip rates of all kept nodes, from kinematics without ramps.
 pub fn slip_rates(
     configuration: &Configuration,
+    friction: &Friction,
     selection: &Selection,
     kinematics: &[Kinematics],
 ) -> SlipRates {
-    let mut rates = [0, 1].map(|side| vec![TrackedScalar::default(); selection.nodes(side)]);
-    if configuration.pair.friction.decays() && configuration.elapsed.is_finite() {
+    let mut rates = Side::BOTH.map(|side| vec![TrackedScalar::default(); selection.nodes(side)]);
+    if friction.decays() && configuration.elapsed.is_finite() {
         for (kept, kinematics) in selection.kept().iter().zip(kinematics) {
             let (side, node) = kept.place();
             rates[side][node] = slip_rate(kinematics, configuration.elapsed);

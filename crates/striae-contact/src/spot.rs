@@ -9,6 +9,7 @@ use nalgebra::Matrix3;
 use striae_mesh::Vec3;
 use striae_surface::{
     facet::{Shape, facet_normal},
+    node::SurfaceNode,
     topology::distinct_corners,
 };
 
@@ -18,6 +19,7 @@ use crate::{
     opposing::Opposing,
     partner::Partner,
     projection::{Hit, Margin, Ray, project, project_on},
+    side::Side,
     term::{Gradient, Jacobian},
     tip::Tip,
     tracked::{Tracked, TrackedScalar, add_chained, add_slope},
@@ -41,7 +43,7 @@ pub struct Spot {
     /// Gap.
     pub gap: TrackedScalar,
     /// Corners of the facet without repetition.
-    pub corners: Vec<u32>,
+    pub corners: Vec<SurfaceNode>,
     /// The projection with its derivatives.
     pub opposing: Option<Opposing>,
 }
@@ -72,7 +74,7 @@ impl Spot {
             });
         }
         let hit = faced(configuration, tip, FOLLOW * tip.reach(configuration))?;
-        let target = configuration.side(1 - side);
+        let target = configuration.side(side.opposite());
         let corners = target.corners(hit.facet);
         let positions = target.corner_positions(hit.facet);
         let mut ray = Tracked {
@@ -81,7 +83,7 @@ impl Spot {
         };
         if yields {
             ray.jacobian = normal_jacobian(&positions, |corner| {
-                numbering.position(1 - side, corners[corner])
+                numbering.position(side.opposite(), corners[corner])
             });
         }
         let opposing = Opposing::new(Shape::of(&corners), &hit, &ray.value, &positions);
@@ -89,7 +91,7 @@ impl Spot {
         let mut gradient: Gradient = own.into_iter().collect();
         if yields {
             for (corner, weight) in corners.iter().zip(opposing.weights) {
-                let first = numbering.position(1 - side, *corner);
+                let first = numbering.position(side.opposite(), *corner);
                 add_slope(&mut gradient, first, opposing.gap_by_r * weight);
             }
         }
@@ -118,7 +120,7 @@ impl Spot {
     pub fn partner(&self, configuration: &Configuration, tip: Tip) -> Partner {
         match (&self.hit, &self.opposing) {
             (Some(hit), Some(opposing)) if tip.presses_on_deformable(configuration) => {
-                let corners = configuration.side(1 - tip.side()).corners(hit.facet);
+                let corners = configuration.side(tip.side().opposite()).corners(hit.facet);
                 Partner::Corners(corners, opposing.weights)
             }
             _ => {
@@ -137,8 +139,8 @@ fn between_nodes(
     ray: &Tracked,
 ) -> Tracked {
     let numbering = configuration.pair.numbering();
-    let corners = configuration.side(0).corners(hit.facet);
-    let normals = corners.map(|corner| own_normal(configuration, 0, corner));
+    let corners = configuration.side(Side::A).corners(hit.facet);
+    let normals = corners.map(|corner| own_normal(configuration, Side::A, corner));
     let weighted = || normals.iter().zip(opposing.weights);
     let sum: Vec3 = weighted()
         .map(|(normal, weight)| normal.value * weight)
@@ -151,7 +153,7 @@ fn between_nodes(
     let mut jacobian = Jacobian::new();
     for (at, (normal, weight)) in weighted().enumerate() {
         add_chained(&mut jacobian, &(by_sum * weight), &normal.jacobian);
-        let first = numbering.position(0, corners[at]);
+        let first = numbering.position(Side::A, corners[at]);
         let here = vec![(first, Matrix3::identity())];
         add_chained(&mut jacobian, &(by_r * weight), &here);
     }
@@ -164,7 +166,7 @@ fn between_nodes(
 /// between two facets that dip towards each other either normal drives it to the other.
 pub fn faced(configuration: &Configuration, tip: Tip, reach: f64) -> Option<Hit> {
     let (x, normal) = (tip.position(configuration), tip.normal(configuration));
-    let target = configuration.side(1 - tip.side());
+    let target = configuration.side(tip.side().opposite());
     if let Tip::Node {
         home: Some(home), ..
     } = tip

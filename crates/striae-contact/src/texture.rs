@@ -16,8 +16,8 @@ mod opposite;
 use nalgebra::{Matrix3, Vector3};
 use num_dual::DualSVec64;
 use rayon::prelude::*;
-use striae_law::friction::RequiredTextures;
-use striae_surface::texture::Axes;
+use striae_law::friction::{Friction, RequiredTextures};
+use striae_surface::{node::SurfaceNode, texture::Axes};
 
 pub use crate::pair::SideTexture;
 use crate::{
@@ -25,6 +25,7 @@ use crate::{
     frame::{Frame, Frames},
     kinematics::Kinematics,
     selection::Selection,
+    side::Side,
     term::{Jacobian, Lanes, Source, parts, variable3},
     tip::Tip,
     tracked::Tracked,
@@ -47,9 +48,9 @@ pub type Textures = [Vec<NodeTextures>; 2];
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CollapsedTexture {
     /// Side of the pair.
-    pub side: usize,
+    pub side: Side,
     /// Surface-local node.
-    pub node: u32,
+    pub node: SurfaceNode,
 }
 
 /// Textures of all nodes that the friction law looks at. Nodes that face nothing have any.
@@ -58,32 +59,34 @@ pub struct CollapsedTexture {
 /// When a convected texture has no direction left.
 pub fn textures(
     configuration: &Configuration,
+    friction: &Friction,
     selection: &Selection,
     frames: &Frames,
     kinematics: &[Kinematics],
 ) -> Result<Textures, CollapsedTexture> {
-    if configuration.pair.friction.required_textures() == RequiredTextures::Any {
-        return Ok([0, 1].map(|side| vec![NodeTextures::default(); selection.nodes(side)]));
+    if friction.required_textures() == RequiredTextures::Any {
+        return Ok(Side::BOTH.map(|side| vec![NodeTextures::default(); selection.nodes(side)]));
     }
-    let of_side = |side: usize| -> Result<Vec<NodeTextures>, CollapsedTexture> {
+    let of_side = |side: Side| -> Result<Vec<NodeTextures>, CollapsedTexture> {
         let found: Vec<_> = (0..selection.nodes(side))
             .into_par_iter()
             .with_min_len(8)
+            .map(SurfaceNode::new)
             .map(|node| match &frames[side][node] {
-                Some(frame) if selection.is_kept(side, node as u32) => Ok(NodeTextures {
-                    own: match selection.tip(side, node as u32) {
-                        Tip::Node { .. } => own(configuration, side, node as u32, &frame.n)?,
-                        Tip::Rigid(point) => of_point(configuration, node as u32, point, frame)?,
+                Some(frame) if selection.is_kept(side, node) => Ok(NodeTextures {
+                    own: match selection.tip(side, node) {
+                        Tip::Node { .. } => own(configuration, side, node, &frame.n)?,
+                        Tip::Rigid(point) => of_point(configuration, node, point, frame)?,
                     },
                     opposite: if is_beside(selection, kinematics, side, node) {
                         any_direction(configuration, side, frame)
                     } else {
                         opposite(
                             configuration,
-                            (side, node as u32),
-                            selection.tip(side, node as u32),
+                            (side, node),
+                            selection.tip(side, node),
                             (frame, frames),
-                            faced(configuration, selection, side, node as u32),
+                            faced(configuration, selection, side, node),
                         )?
                     },
                 }),
@@ -92,14 +95,14 @@ pub fn textures(
             .collect();
         found.into_iter().collect()
     };
-    Ok([of_side(0)?, of_side(1)?])
+    Ok([of_side(Side::A)?, of_side(Side::B)?])
 }
 
 /// The node's own `a`, for the normal `n`.
 pub fn own(
     configuration: &Configuration,
-    side: usize,
-    node: u32,
+    side: Side,
+    node: SurfaceNode,
     n: &Tracked,
 ) -> Result<Option<Tracked>, CollapsedTexture> {
     let Some(SideTexture::Nodal(texture)) = &configuration.pair.sides[side].texture else {
@@ -110,8 +113,8 @@ pub fn own(
     let ordinates = texture.ordinates(node);
     let mut direction = Tracked::default();
     let mut total = 0.0;
-    let mut add = |other: u32, weight: f64| {
-        direction.value += snapshot.x[other as usize] * weight;
+    let mut add = |other: SurfaceNode, weight: f64| {
+        direction.value += snapshot.x[other] * weight;
         let first = numbering.position(side, other);
         let block = Matrix3::from_diagonal_element(weight);
         direction.jacobian.push((first, block));
@@ -132,14 +135,19 @@ pub fn own(
 
 /// Whether a node with unknowns faces nothing. No position changes its gap then, so it is open
 /// whatever the texture.
-fn is_beside(selection: &Selection, kinematics: &[Kinematics], side: usize, node: usize) -> bool {
+fn is_beside(
+    selection: &Selection,
+    kinematics: &[Kinematics],
+    side: Side,
+    node: SurfaceNode,
+) -> bool {
     let place = selection.basis.index[side][node];
     place.is_some_and(|k| kinematics[k as usize].gap.gradient.is_empty())
 }
 
 /// A tangent in place of the opposing texture, for nodes that friction does not act on.
-fn any_direction(configuration: &Configuration, side: usize, frame: &Frame) -> Option<Tracked> {
-    let textured = configuration.pair.sides[1 - side].texture.is_some();
+fn any_direction(configuration: &Configuration, side: Side, frame: &Frame) -> Option<Tracked> {
+    let textured = configuration.pair.sides[side.opposite()].texture.is_some();
     textured.then(|| Tracked {
         value: frame.t[0].value,
         jacobian: Jacobian::new(),

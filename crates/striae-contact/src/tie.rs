@@ -19,12 +19,13 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector};
 use striae_mesh::{FacetId, Vec3};
-use striae_surface::topology::distinct_corners;
+use striae_surface::{node::SurfaceNode, topology::distinct_corners};
 
 use crate::{
     configuration::{Configuration, Snapshot},
     pairing::{PairedFacets, Scope, paired_facets},
     segment::Derivatives,
+    side::Side,
 };
 
 /// Distance over the reach of the larger facet, which is half its size, up to which facets
@@ -66,26 +67,26 @@ pub struct Apart {
 #[derive(Clone, Debug)]
 pub struct FacetRows {
     /// Its corners, surface-local.
-    pub corners: Vec<u32>,
+    pub corners: Vec<SurfaceNode>,
     /// `d_l`.
     pub weights: Vec<f64>,
     /// `d_l` over what it were if all of the facet were covered.
     pub cover: Vec<f64>,
     /// `(A C)_lm` by opposite node, for every corner.
-    pub opposite: BTreeMap<u32, Vec<f64>>,
+    pub opposite: BTreeMap<SurfaceNode, Vec<f64>>,
 }
 
 /// What two surfaces have in common; facets that are further apart than `within`, or a tenth
 /// of their size, are not tied.
 pub fn join(configuration: &Configuration, within: Option<f64>) -> Joined {
-    let counts = [0, 1].map(|side| configuration.side(side).surface.facets().len());
+    let counts = Side::BOTH.map(|side| configuration.side(side).surface.facets().len());
     let compliances = counts.map(|count| vec![1.0; count]);
     let scope = Scope {
         compliances: &compliances,
         depth: 0.0,
     };
     let paired = paired_facets(configuration, scope, Derivatives::None, |_| true);
-    let areas = [0, 1].map(|side| areas(configuration.side(side)));
+    let areas = Side::BOTH.map(|side| areas(configuration.side(side)));
     let gap = |paired: &PairedFacets| paired.mean_gap(configuration).abs();
     let limit = |paired: &PairedFacets| within.unwrap_or(NEAR * paired.reach);
     let (near, far): (Vec<_>, Vec<_>) = paired
@@ -135,8 +136,8 @@ fn areas(side: &Snapshot) -> Vec<f64> {
 fn cover(near: &[PairedFacets], areas: &[Vec<f64>; 2]) -> [Vec<f64>; 2] {
     let mut cover = areas.each_ref().map(|areas| vec![0.0; areas.len()]);
     for paired in near {
-        for (side, facet) in paired.facets.iter().enumerate() {
-            if let Some(facet) = facet {
+        for side in Side::BOTH {
+            if let Some(facet) = paired.facets[side] {
                 cover[side][facet.index()] += paired.segment.area / areas[side][facet.index()];
             }
         }
@@ -156,7 +157,7 @@ impl Joined {
     }
 
     /// Size of the facets of a side that are tied, the root of their mean area.
-    pub fn facet_size(&self, side: usize) -> f64 {
+    pub fn facet_size(&self, side: Side) -> f64 {
         let tied = self.cover[side].iter().zip(&self.areas[side]);
         let tied: Vec<f64> = tied
             .filter(|(cover, _)| **cover > 0.0)
@@ -166,7 +167,7 @@ impl Joined {
     }
 
     /// Rows of the facets of a side, which follows the other one, in the order of the facets.
-    pub fn rows(&self, configuration: &Configuration, side: usize) -> Vec<FacetRows> {
+    pub fn rows(&self, configuration: &Configuration, side: Side) -> Vec<FacetRows> {
         let mut of_facets: BTreeMap<usize, Vec<&PairedFacets>> = BTreeMap::new();
         for paired in &self.near {
             if let Some(facet) = paired.facets[side] {
@@ -184,15 +185,15 @@ impl Joined {
 
 /// Rows of a facet; `None` where what is covered of it is too thin for dual functions.
 fn facet_rows(
-    corners: &[u32; 4],
+    corners: &[SurfaceNode; 4],
     area: f64,
     paired: &[&PairedFacets],
-    side: usize,
+    side: Side,
 ) -> Option<FacetRows> {
     let own = distinct_corners(corners);
-    let (count, first, first_opposite) = (own.len(), 4 * side, 4 * (1 - side));
+    let (count, first, first_opposite) = (own.len(), 4 * side.index(), 4 * side.opposite().index());
     let mut gram = DMatrix::<f64>::zeros(count, count);
-    let mut common: BTreeMap<u32, DVector<f64>> = BTreeMap::new();
+    let mut common: BTreeMap<SurfaceNode, DVector<f64>> = BTreeMap::new();
     for paired in paired {
         let mass = &paired.segment.mass;
         for l in 0..count {
@@ -200,7 +201,7 @@ fn facet_rows(
                 gram[(l, k)] += mass[first + l][first + k];
             }
         }
-        let opposite = distinct_corners(&paired.corners[1 - side]);
+        let opposite = distinct_corners(&paired.corners[side.opposite()]);
         for (m, node) in opposite.iter().enumerate() {
             let sum = common.entry(*node).or_insert_with(|| DVector::zeros(count));
             for l in 0..count {

@@ -5,14 +5,15 @@
 
 use serde::{Deserialize, Serialize};
 use striae_mesh::{FacetId, Vec3};
+use striae_surface::node::SurfaceNode;
 
-use crate::{configuration::Configuration, pairing::farthest, term::Source};
+use crate::{configuration::Configuration, pairing::farthest, side::Side, term::Source};
 
 /// A point of a rigid surface of facets, `x = (1 - s) x_0 + s x_1`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RigidPoint {
     /// Surface-local ends of the edge that it lies on; both the same at a vertex.
-    pub ends: [u32; 2],
+    pub ends: [SurfaceNode; 2],
     /// Share `s` of the way from the first to the second.
     pub share: f64,
     /// Depth that its row leaves to it.
@@ -25,7 +26,7 @@ pub type RigidPoints = Vec<Option<RigidPoint>>;
 
 impl RigidPoint {
     /// A vertex.
-    pub fn vertex(node: u32) -> Self {
+    pub fn vertex(node: SurfaceNode) -> Self {
         Self {
             ends: [node; 2],
             share: 0.0,
@@ -40,20 +41,18 @@ impl RigidPoint {
 
     /// Where it is.
     pub fn position(&self, configuration: &Configuration) -> Vec3 {
-        self.between(&configuration.side(1).x)
+        self.between(&configuration.side(Side::B).x)
     }
 
     /// Unit normal, between those of the ends.
     pub fn normal(&self, configuration: &Configuration) -> Vec3 {
-        let normals = &configuration.side(1).normals;
+        let normals = &configuration.side(Side::B).normals;
         let between = self.between(normals);
-        between
-            .try_normalize(1e-6)
-            .unwrap_or(normals[self.ends[0] as usize])
+        between.try_normalize(1e-6).unwrap_or(normals[self.ends[0]])
     }
 
     fn between(&self, of_nodes: &[Vec3]) -> Vec3 {
-        let [start, end] = self.ends.map(|node| of_nodes[node as usize]);
+        let [start, end] = self.ends.map(|node| of_nodes[node]);
         start + (end - start) * self.share
     }
 }
@@ -64,9 +63,9 @@ pub enum Tip {
     /// A node of a deformable side.
     Node {
         /// The side.
-        side: usize,
+        side: Side,
         /// Surface-local node.
-        node: u32,
+        node: SurfaceNode,
         /// The opposing facet that it was in at the start of the increment.
         home: Option<FacetId>,
     },
@@ -84,17 +83,17 @@ impl Tip {
     }
 
     /// Its side.
-    pub fn side(&self) -> usize {
+    pub fn side(&self) -> Side {
         match self {
             Self::Node { side, .. } => *side,
-            Self::Rigid(_) => 1,
+            Self::Rigid(_) => Side::B,
         }
     }
 
     /// Where it is.
     pub fn position(&self, configuration: &Configuration) -> Vec3 {
         match self {
-            Self::Node { side, node, .. } => configuration.side(*side).x[*node as usize],
+            Self::Node { side, node, .. } => configuration.side(*side).x[*node],
             Self::Rigid(point) => point.position(configuration),
         }
     }
@@ -102,7 +101,7 @@ impl Tip {
     /// Unit outward normal of its own surface.
     pub fn normal(&self, configuration: &Configuration) -> Vec3 {
         match self {
-            Self::Node { side, node, .. } => configuration.side(*side).normals[*node as usize],
+            Self::Node { side, node, .. } => configuration.side(*side).normals[*node],
             Self::Rigid(point) => point.normal(configuration),
         }
     }
@@ -135,6 +134,6 @@ impl Tip {
 
     /// Whether nodes of the side that it presses on can move.
     pub(crate) fn presses_on_deformable(&self, configuration: &Configuration) -> bool {
-        configuration.pair.is_deformable(1 - self.side())
+        configuration.pair.is_deformable(self.side().opposite())
     }
 }

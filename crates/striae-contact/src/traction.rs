@@ -8,12 +8,13 @@ use num_dual::DualSVec64;
 use rayon::prelude::*;
 use striae_law::friction::{Friction, Textures as LawTextures};
 use striae_mesh::Vec3;
-use striae_surface::scalar::constant3;
+use striae_surface::{node::SurfaceNode, scalar::constant3};
 
 use crate::{
     configuration::Configuration,
     frame::{Frame, Frames},
     selection::Selection,
+    side::Side,
     slip_rate::SlipRates,
     term::{Lanes, Source, add_block, gradient, parts, variable, variable3},
     texture::{NodeTextures, Textures},
@@ -28,6 +29,8 @@ pub type NodalTractions = [Vec<Tracked>; 2];
 /// What tractions depend on at every node.
 #[derive(Clone, Copy, Debug)]
 pub struct Surroundings<'a> {
+    /// Friction law.
+    pub friction: &'a Friction,
     /// Nodal frames.
     pub frames: &'a Frames,
     /// Textures of both sides.
@@ -43,22 +46,22 @@ pub fn nodal_tractions(
     surroundings: &Surroundings,
     tractions: &Tractions,
 ) -> NodalTractions {
-    let frictionless = configuration.pair.friction.cap(1.0, 0.0) == 0.0;
-    [0, 1].map(|side| {
+    let friction = surroundings.friction;
+    let frictionless = friction.cap(1.0, 0.0) == 0.0;
+    Side::BOTH.map(|side| {
         (0..selection.nodes(side))
             .into_par_iter()
             .with_min_len(16)
+            .map(SurfaceNode::new)
             .map(|node| match &surroundings.frames[side][node] {
-                Some(frame) if selection.is_kept(side, node as u32) && !frictionless => {
-                    nodal_traction(
-                        configuration,
-                        frame,
-                        &surroundings.textures[side][node],
-                        &surroundings.rates[side][node],
-                        configuration.pair.numbering().traction(side, node as u32),
-                        tractions.nodes[side][node],
-                    )
-                }
+                Some(frame) if selection.is_kept(side, node) && !frictionless => nodal_traction(
+                    friction,
+                    frame,
+                    &surroundings.textures[side][node],
+                    &surroundings.rates[side][node],
+                    configuration.pair.numbering().traction(side, node),
+                    tractions.nodes[side][node],
+                ),
                 _ => Tracked::default(),
             })
             .collect()
@@ -66,7 +69,7 @@ pub fn nodal_tractions(
 }
 
 fn nodal_traction(
-    configuration: &Configuration,
+    friction: &Friction,
     frame: &Frame,
     textures: &NodeTextures,
     rate: &TrackedScalar,
@@ -76,7 +79,6 @@ fn nodal_traction(
     let [t1, t2] = &frame.t;
     let [pressure, z1, z2] = unknowns;
     let vector = in_frame(frame, [z1, z2]);
-    let friction = &configuration.pair.friction;
     let cap = Cap::new(friction, pressure, rate.value);
     let response = if *textures == NodeTextures::default() {
         Response::new::<4>(friction, frame, textures, cap, &vector)

@@ -15,10 +15,13 @@
 //! eps_k = c (h_a/E_a + h_b/E_b) (theta_1 - d_k)/(d_k - theta_0)
 //! ```
 
+use striae_surface::node::SurfaceNode;
+
 use crate::{
     common_mass::{CommonMass, SparseRow},
     interface::{Interface, Opponent},
     roles::{Choice, THETA_0},
+    side::Side,
     transfer::Transfer,
 };
 
@@ -33,15 +36,15 @@ const CLOSEST: f64 = 1e-3;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct KeptNode {
     /// Its side.
-    pub side: usize,
+    pub side: Side,
     /// Its number on that side.
-    pub node: u32,
+    pub node: SurfaceNode,
 }
 
 impl KeptNode {
     /// Side and node as indices.
-    pub fn place(self) -> (usize, usize) {
-        (self.side, self.node as usize)
+    pub fn place(self) -> (Side, SurfaceNode) {
+        (self.side, self.node)
     }
 }
 
@@ -95,9 +98,9 @@ impl TractionBasis {
             })
             .collect();
         let mut basis = Self {
-            index: [0, 1].map(|side| vec![None; interface.nodes[side].len()]),
-            node_weights: [0, 1].map(|side| vec![0.0; interface.nodes[side].len()]),
-            rows: [0, 1].map(|side| vec![Vec::new(); interface.nodes[side].len()]),
+            index: Side::BOTH.map(|side| vec![None; interface.nodes[side].len()]),
+            node_weights: Side::BOTH.map(|side| vec![0.0; interface.nodes[side].len()]),
+            rows: Side::BOTH.map(|side| vec![Vec::new(); interface.nodes[side].len()]),
             weights: weights(interface, &mass, &transfer, &choice.kept),
             pivots: choice.pivots.clone(),
             flexibility: choice.flexibility.clone(),
@@ -106,12 +109,12 @@ impl TractionBasis {
             coupling: Vec::new(),
         };
         for (k, &KeptNode { side, node }) in basis.kept.iter().enumerate() {
-            basis.index[side][node as usize] = Some(k as u32);
+            basis.index[side][node] = Some(k as u32);
         }
         for (t, &(side, node)) in mass.nodes.iter().enumerate() {
-            basis.node_weights[side][node as usize] = mass.weights[t];
+            basis.node_weights[side][node] = mass.weights[t];
             let row = basis.numbered(&mass, &transfer.rows[t]);
-            basis.rows[side][node as usize] = row;
+            basis.rows[side][node] = row;
         }
         basis.ramp = basis.ramp(interface, &mass, &transfer.released);
         basis.coupling = coupling(&basis.ramp, basis.kept.len());
@@ -122,7 +125,7 @@ impl TractionBasis {
     fn numbered(&self, mass: &CommonMass, row: &SparseRow) -> Vec<(u32, f64)> {
         let kept = |&(k, value): &(u32, f64)| {
             let (side, node) = mass.nodes[k as usize];
-            let k = self.index[side][node as usize].expect("rows lead to kept nodes");
+            let k = self.index[side][node].expect("rows lead to kept nodes");
             (k, value)
         };
         let mut row: Vec<_> = row.iter().map(kept).collect();
@@ -133,7 +136,7 @@ impl TractionBasis {
     fn ramp(&self, interface: &Interface, mass: &CommonMass, released: &[SparseRow]) -> Vec<Weak> {
         let place = |k: usize| {
             let KeptNode { side, node } = self.kept[k];
-            mass.index[side][node as usize]
+            mass.index[side][node]
         };
         let weak = (0..self.kept.len()).filter(|&k| self.pivots[k] < THETA_1);
         let weak = weak.filter_map(|k| {
@@ -198,10 +201,10 @@ fn departure(k: u32, released: &SparseRow) -> SparseRow {
 /// `h/E` of a node and of the opposing body at its projection.
 fn facing(interface: &Interface, kept: KeptNode) -> f64 {
     let KeptNode { side, node } = kept;
-    let own = interface.nodes[side][node as usize].flexibility;
-    let other = match (interface.opponent, interface.opposing[side][node as usize]) {
+    let own = interface.nodes[side][node].flexibility;
+    let other = match (interface.opponent, interface.opposing[side][node]) {
         (Opponent::Deformable, Some((corners, weights))) => {
-            let at = |c: usize| interface.nodes[1 - side][corners[c] as usize].flexibility;
+            let at = |c: usize| interface.nodes[side.opposite()][corners[c]].flexibility;
             let mut parts = [0, 1, 2, 3].map(|c| at(c) * weights[c]);
             // In an order that does not depend on the facet's first corner.
             parts.sort_by(f64::total_cmp);

@@ -10,10 +10,13 @@
 //! for a node without weight. A node whose row leads to no kept node takes the mean of
 //! the nearest ones of its patch. `Z >= 0` and `Z 1 = 1`, see `absorption.rs`.
 
+use striae_surface::node::SurfaceNode;
+
 use crate::{
     absorption::{State, absorption, combined, normalised},
     common_mass::{CommonMass, SparseRow, SparseSum},
     interface::{Interface, Opponent},
+    side::Side,
 };
 
 /// Sum of weights below which a projection sees no node with weight.
@@ -99,13 +102,13 @@ fn taken(interface: &Interface, mass: &CommonMass, t: u32) -> SparseRow {
     }
 }
 
-fn opposing(interface: &Interface, mass: &CommonMass, side: usize, node: u32) -> SparseRow {
-    let Some((corners, weights)) = interface.opposing[side][node as usize] else {
+fn opposing(interface: &Interface, mass: &CommonMass, side: Side, node: SurfaceNode) -> SparseRow {
+    let Some((corners, weights)) = interface.opposing[side][node] else {
         return SparseRow::new();
     };
     let mut row: SparseRow = Vec::with_capacity(4);
     for (corner, weight) in corners.into_iter().zip(weights) {
-        if let Some(j) = mass.index[1 - side][corner as usize] {
+        if let Some(j) = mass.index[side.opposite()][corner] {
             match row.iter_mut().find(|entry| entry.0 == j) {
                 Some(entry) => entry.1 += weight,
                 None => row.push((j, weight)),

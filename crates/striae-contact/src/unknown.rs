@@ -5,13 +5,14 @@
 //! 3 a node            | 3 a node            | (p, z1, z2)    | (p, z1, z2)
 //! ```
 //!
-//! Sides are numbered 0 (`a`) and 1 (`b`); the other side of `s` is `1 - s`.
 //! A rigid side `b` has no positions. If it has facets, its tractions are those of the
 //! [points](crate::tip::RigidPoint) that pierce side `a`, numbered by the nodes of `a`
 //! that lodge them.
 
+use crate::side::Side;
 use nalgebra::Matrix3;
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 /// Which position unknowns are prescribed, by side, three a node.
 pub type Prescribed = [Vec<bool>; 2];
@@ -36,18 +37,18 @@ pub enum Unknown {
     /// Component of the position of a surface node.
     Position {
         /// Side of the pair.
-        side: usize,
+        side: Side,
         /// Surface-local node.
-        node: u32,
+        node: SurfaceNode,
         /// Component.
         axis: usize,
     },
     /// Traction unknown of a surface node: pressure, then two tangential components.
     Traction {
         /// Side of the pair.
-        side: usize,
+        side: Side,
         /// Surface-local node.
-        node: u32,
+        node: SurfaceNode,
         /// `0`: pressure, `1`, `2`: along the nodal tangents.
         component: usize,
     },
@@ -64,13 +65,21 @@ impl Numbering {
     }
 
     /// First of the three position unknowns of a node.
-    pub fn position(&self, side: usize, node: u32) -> u32 {
-        3 * (node + side as u32 * self.nodes[0])
+    pub fn position(&self, side: Side, node: SurfaceNode) -> u32 {
+        3 * (node.0 + self.before(side))
     }
 
     /// First of the three traction unknowns of a node.
-    pub fn traction(&self, side: usize, node: u32) -> u32 {
+    pub fn traction(&self, side: Side, node: SurfaceNode) -> u32 {
         3 * (self.nodes[0] + self.nodes[1]) + self.position(side, node)
+    }
+
+    /// Number of nodes of the sides before this one.
+    fn before(&self, side: Side) -> u32 {
+        match side {
+            Side::A => 0,
+            Side::B => self.nodes[0],
+        }
     }
 
     /// Number of all unknowns.
@@ -85,8 +94,12 @@ impl Numbering {
         let traction = number >= 3 * count;
         let within = if traction { number - 3 * count } else { number };
         let (node, component) = (within / 3, (within % 3) as usize);
-        let side = usize::from(node >= self.nodes[0]);
-        let node = node - side as u32 * self.nodes[0];
+        let side = if node < self.nodes[0] {
+            Side::A
+        } else {
+            Side::B
+        };
+        let node = SurfaceNode(node - self.before(side));
         if traction {
             Unknown::Traction {
                 side,
@@ -111,18 +124,18 @@ mod tests {
     fn numbers_and_meanings_agree() {
         let numbering = Numbering::new([4, 3], [4, 3]);
         assert_eq!(
-            numbering.unknown(numbering.position(1, 2) + 1),
+            numbering.unknown(numbering.position(Side::B, SurfaceNode(2)) + 1),
             Unknown::Position {
-                side: 1,
-                node: 2,
+                side: Side::B,
+                node: SurfaceNode(2),
                 axis: 1
             }
         );
         assert_eq!(
-            numbering.unknown(numbering.traction(0, 3) + 2),
+            numbering.unknown(numbering.traction(Side::A, SurfaceNode(3)) + 2),
             Unknown::Traction {
-                side: 0,
-                node: 3,
+                side: Side::A,
+                node: SurfaceNode(3),
                 component: 2
             }
         );

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use striae_mesh::Vec3;
 
-use crate::tip::RigidPoints;
+use crate::{side::Side, tip::RigidPoints};
 
 /// Traction unknowns of a pair; the same shape whatever the roles.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -146,9 +146,9 @@ pub fn counted<'a>(
     nodes: &'a [Vec<NodeResult>; 2],
     points: &'a RigidPoints,
 ) -> impl Iterator<Item = &'a NodeResult> {
-    let of_b = nodes[1].iter().enumerate();
+    let of_b = nodes[Side::B].iter().enumerate();
     let of_b = of_b.filter(|(node, _)| points.is_empty() || points[*node].is_some());
-    nodes[0].iter().chain(of_b.map(|(_, result)| result))
+    nodes[Side::A].iter().chain(of_b.map(|(_, result)| result))
 }
 
 impl NodeResult {

@@ -26,6 +26,7 @@ use crate::{
     pointed,
     segment_rows::{ROWS, Slip},
     selection::Selection,
+    side::Side,
     term::{Gradient, Jacobian},
     tracked::{Tracked, TrackedScalar},
     transported::Transported,
@@ -50,7 +51,7 @@ pub fn kinematics(
         .with_min_len(4)
         .map(|k| {
             let kept = selection.kept()[k];
-            let frame = frames[kept.side][kept.node as usize].as_ref();
+            let frame = frames[kept.side][kept.node].as_ref();
             if selection.is_pointed(kept.side, kept.node) {
                 return pointed::kinematics(configuration, selection, k, frame);
             }
@@ -69,7 +70,7 @@ pub fn kinematics(
 /// Sum over the segments of a kept node.
 struct Sum<'a> {
     configuration: &'a Configuration<'a>,
-    side: usize,
+    side: Side,
     frame: Option<&'a Frame>,
     gap: f64,
     slip: Vec3,
@@ -82,7 +83,7 @@ struct Sum<'a> {
 }
 
 impl<'a> Sum<'a> {
-    fn new(configuration: &'a Configuration, side: usize, frame: Option<&'a Frame>) -> Self {
+    fn new(configuration: &'a Configuration, side: Side, frame: Option<&'a Frame>) -> Self {
         Self {
             configuration,
             side,
@@ -226,7 +227,7 @@ pub fn reports(
     for patch in patches {
         for corner in 0..8 {
             if let Some((side, node)) = patch.paired.node(configuration, corner) {
-                let report = &mut reports[side][node as usize];
+                let report = &mut reports[side][node];
                 let [gap, x, y, z] = patch.rows.value[corner];
                 report.gap += gap;
                 report.slip += Vec3::new(x, y, z) * side_sign(side);

@@ -7,10 +7,10 @@ use striae_contact::{
     interference::{
         Interference, Kind, SHARE, Stage, Thickness, fibres, inside, interferences, lengths,
     },
-    pair::{ContactPair, Enforcement, Geometry, Side},
+    pair::{ContactPair, Enforcement, Geometry, PairedSurface},
     placement::Placement,
+    side::Side,
 };
-use striae_law::friction::Friction;
 use striae_mesh::{Mesh, Vec3, generate::Block};
 use striae_surface::topology::Surface;
 
@@ -38,7 +38,9 @@ fn body(mesh: &Mesh, sets: &[&str]) -> Body {
     };
     let (x, skin_x) = (at(&surface), at(&skin));
     let fibres = fibres(&surface, &x, &skin, &skin_x);
-    let thickness = lengths(&surface, &x, &fibres, |node| skin_x[node as usize]);
+    let thickness = lengths(&surface, &x, &fibres, |node| {
+        skin_x[skin.node(node).unwrap()]
+    });
     Body {
         surface,
         x,
@@ -56,8 +58,8 @@ fn block(origin: [f64; 3], size: [f64; 3], divisions: [usize; 3]) -> Mesh {
     block.mesh().unwrap()
 }
 
-fn side(geometry: Geometry) -> Side {
-    Side {
+fn side(geometry: Geometry) -> PairedSurface {
+    PairedSurface {
         geometry,
         stiffness: 1.0,
         texture: None,
@@ -68,7 +70,6 @@ fn pair(a: Geometry, b: Geometry) -> ContactPair {
     ContactPair {
         name: "pair".to_owned(),
         sides: [side(a), side(b)],
-        friction: Friction::frictionless(),
         enforcement: Enforcement::Weighted,
         search_distance: None,
     }
@@ -88,7 +89,7 @@ fn between(bodies: [&Body; 2], from: [Motion; 2], to: [Motion; 2]) -> Vec<Interf
     let [a, b] = bodies.map(|body| Geometry::Deformable(body.surface.clone()));
     let pair = pair(a, b);
     let at = |motions: [Motion; 2]| {
-        let x = [0, 1].map(|side| bodies[side].x.iter().map(motions[side]).collect());
+        let x = Side::BOTH.map(|side| bodies[side].x.iter().map(motions[side]).collect());
         Configuration::new(&pair, x, Placement::at_rest())
     };
     let thickness = Thickness(bodies.map(|body| body.thickness.clone()));
@@ -124,11 +125,11 @@ fn a_block_pressed_into_a_block_from_a_gap_is_found_both_ways() {
     let [lower, upper] = two_blocks();
     let (open, pressed) = (shifted(0.0, 0.0, 0.4), shifted(0.0, 0.0, -0.2));
     let found = between([&lower, &upper], [&at_rest, &open], [&at_rest, &pressed]);
-    let of = |side: usize| found.iter().filter(|i| i.side == side).count();
+    let of = |side: Side| found.iter().filter(|i| i.side == side).count();
     // All 16 nodes and 9 centres of the upper one; of the lower one 3 x 2 nodes under it
     // (x = .25, .5, y = .5, .75 of which x = .2 .. .7, y = .3 .. .8) and 2 x 2 centres.
-    assert_eq!(of(1), 25);
-    assert_eq!(of(0), 4 + 4);
+    assert_eq!(of(Side::B), 25);
+    assert_eq!(of(Side::A), 4 + 4);
     assert!(
         found
             .iter()
@@ -152,8 +153,8 @@ fn sides_and_axes_do_not_matter() {
         [&|x| turn * x, &|x| turn * open(x)],
         [&|x| turn * x, &|x| turn * pressed(x)],
     );
-    let key = |i: &Interference, side: usize| (side, i.spot);
-    let mut swapped_keys: Vec<_> = swapped.iter().map(|i| key(i, 1 - i.side)).collect();
+    let key = |i: &Interference, side: Side| (side, i.spot);
+    let mut swapped_keys: Vec<_> = swapped.iter().map(|i| key(i, i.side.opposite())).collect();
     swapped_keys.sort_unstable();
     let keys = |list: &[Interference]| list.iter().map(|i| key(i, i.side)).collect::<Vec<_>>();
     assert!(!found.is_empty());
@@ -175,7 +176,7 @@ fn a_thin_sheet_that_is_passed_is_found() {
     let through = shifted(0.0, 0.0, -0.9);
     for sheet in [&top, &both] {
         let found = between([&punch, sheet], [&at_rest, &at_rest], [&through, &at_rest]);
-        assert!(found.iter().filter(|i| i.side == 0).count() >= 9 + 4);
+        assert!(found.iter().filter(|i| i.side == Side::A).count() >= 9 + 4);
         assert!(found.iter().all(|i| i.kind != Kind::Inside), "{found:?}");
         // What is below the sheet all the time is not inside.
         let up = shifted(0.0, 0.0, 0.04);
@@ -213,13 +214,13 @@ fn a_partial_overlap_is_found_where_it_is() {
     let found = between([&lower, &upper], [&at_rest, &open], [&at_rest, &pressed]);
     // The upper one spans x = .8 .. 1.3: two of four columns of nodes are over the face,
     // one of three columns of centres; of the lower one no node, a column of centres.
-    let count = |side: usize| found.iter().filter(|i| i.side == side).count();
-    assert_eq!(count(1), 8 + 3);
-    assert_eq!(count(0), 2 + 2);
+    let count = |side: Side| found.iter().filter(|i| i.side == side).count();
+    assert_eq!(count(Side::B), 8 + 3);
+    assert_eq!(count(Side::A), 2 + 2);
     assert!(
         found
             .iter()
-            .filter(|i| i.side == 1)
+            .filter(|i| i.side == Side::B)
             .all(|i| i.point.x < 1.0)
     );
 }
@@ -264,10 +265,10 @@ fn a_corner_that_turns_into_a_face_is_found() {
         about + Rotation3::from_axis_angle(&Vec3::y_axis(), 0.5) * (x - about)
     };
     let found = between([&lower, &upper], [&at_rest; 2], [&at_rest, &tilted]);
-    let of_upper = found.iter().filter(|i| i.side == 1);
+    let of_upper = found.iter().filter(|i| i.side == Side::B);
     let deepest = of_upper.map(|i| i.depth).fold(0.0, f64::max);
     assert!((deepest - 0.5 * 0.5_f64.sin()).abs() < 1e-12);
-    assert!(found.iter().any(|i| i.side == 0));
+    assert!(found.iter().any(|i| i.side == Side::A));
 }
 
 #[test]

@@ -4,8 +4,9 @@ mod facets;
 
 use facets::{mirrored, parallelogram, random_quad, triangle};
 use nalgebra::{DMatrix, DVector};
-use striae_contact::segment::{
-    Derivatives, Facet, Segment, Slopes, pair_index, plane_segment, segment,
+use striae_contact::{
+    segment::{Derivatives, Facet, Segment, Slopes, pair_index, plane_segment, segment},
+    side::Side,
 };
 use striae_mesh::Vec3;
 use striae_surface::facet::Shape;
@@ -13,8 +14,9 @@ use striae_verify::{Random, assert_derivative};
 
 /// Corners from coordinates around a pair, such that changes of order one are large.
 fn facets_at(x: &DVector<f64>, shapes: [Shape; 2]) -> [Facet; 2] {
-    [0, 1].map(|side| {
-        let corners = std::array::from_fn(|c| Vec3::from_fn(|i, _| x[12 * side + 3 * c + i]));
+    Side::BOTH.map(|side| {
+        let corners =
+            std::array::from_fn(|c| Vec3::from_fn(|i, _| x[12 * side.index() + 3 * c + i]));
         Facet {
             corners,
             shape: shapes[side],

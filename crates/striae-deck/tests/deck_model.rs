@@ -14,8 +14,9 @@ use striae_law::{
 use striae_mesh::{CellKind, NodeId, Region, Vec3, generate::Block};
 use striae_output::FieldOutput;
 use striae_solve::model::{
-    Backend, BodyId, Curve, Enforcement, Formulation, Freedom, Increments, LoadExtent, LoadKind,
-    Mover, PairId, Procedure, RigidId, RigidShape, Side, Solver, Strategy, Velocity,
+    Backend, BodyId, ContactSurface, Curve, Enforcement, Formulation, Freedom, Increments,
+    LoadExtent, LoadKind, Mover, PairId, Procedure, RigidId, RigidShape, Solver, Strategy,
+    Velocity,
 };
 
 use striae_surface::texture::{Field, Lines, Paint};
@@ -329,7 +330,7 @@ fn pairs_name_ids_and_faces() {
         .into_iter()
         .zip([(0, "zmax"), (1, "zmin")])
     {
-        let Side::Deformable { body, faces } = side else {
+        let ContactSurface::Deformable { body, faces } = side else {
             panic!("deformable")
         };
         assert_eq!(*body, BodyId(id));
@@ -355,12 +356,12 @@ fn a_rigid_side_becomes_the_second_one() {
     let pair = &lowered(&text).model.pairs[0];
     assert!(matches!(
         pair.a,
-        Side::Deformable {
+        ContactSurface::Deformable {
             body: BodyId(1),
             ..
         }
     ));
-    assert!(matches!(pair.b, Side::Rigid(RigidId(0))));
+    assert!(matches!(pair.b, ContactSurface::Rigid(RigidId(0))));
     assert_eq!(
         (pair.enforcement, pair.search_distance, pair.stabilised),
         (Enforcement::Collocated, Some(0.1), true)

@@ -4,7 +4,7 @@ use std::path::Path;
 use striae_deck::parse;
 use striae_mesh::Vec3;
 use striae_solve::{
-    model::{Model, Side},
+    model::{ContactSurface, Model},
     problem::Problem,
 };
 use striae_surface::texture::Paint;
@@ -126,7 +126,7 @@ fn directions_stand_in_the_order_of_the_nodes_of_the_surface() {
 fn every_node_gets_the_direction_of_its_number() {
     let folder = folder();
     let model = model(&deck(r#"{ nodal = "cube.msh" }"#, BLOCK), folder.path());
-    let Side::Deformable { body, faces } = &model.pairs[0].a else {
+    let ContactSurface::Deformable { body, faces } = &model.pairs[0].a else {
         panic!("side a is a body");
     };
     let mesh = &model.bodies[body.0].mesh;

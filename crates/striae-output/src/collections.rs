@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use striae_contact::unknowns::NodeResult;
+use striae_contact::{side::Side, unknowns::NodeResult};
 use striae_solve::{problem::Problem, report::tie_tractions, state::State};
 
 use crate::{
@@ -142,7 +142,7 @@ impl Collections {
         let mut parts = Vec::new();
         let names = Parts::new(problem).contact;
         for pair in 0..problem.pairs.len() {
-            for side in 0..2 {
+            for side in Side::BOTH {
                 let Some(body) = problem.pairs[pair].bodies[side] else {
                     continue;
                 };
@@ -181,7 +181,7 @@ impl Collections {
         let names = Parts::new(problem).ties;
         for (tie, joint) in problem.ties.joints.iter().enumerate() {
             let tractions = tie_tractions(problem, state, tie);
-            for (side, tractions) in tractions.iter().enumerate() {
+            for (side, tractions) in Side::BOTH.into_iter().zip(&tractions) {
                 let body = &problem.model.bodies[joint.bodies[side]].name;
                 let file = file(&names[tie][side], count);
                 let path = self.folder.join(&file);

@@ -14,7 +14,7 @@ use striae_solve::{
     problem::Problem,
     state::State,
 };
-use striae_surface::normal::nodal_normals;
+use striae_surface::{node::SurfaceNode, normal::nodal_normals};
 
 use crate::{
     OutputError,
@@ -247,7 +247,7 @@ fn painted(problem: &Problem, rigid: usize, positions: &[Vec3]) -> Option<[Vec<V
         (Geometry::Rigid(surface), SideTexture::Nodal(texture)) => {
             let normals = nodal_normals(surface, reference);
             for (own, node) in surface.nodes().iter().enumerate() {
-                if let Ok(found) = texture.at(own as u32, reference, normals[own]) {
+                if let Ok(found) = texture.at(SurfaceNode::new(own), reference, normals[own]) {
                     axes[0][node.index()] = found.s;
                     axes[1][node.index()] = found.a;
                 }

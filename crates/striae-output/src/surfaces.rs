@@ -2,9 +2,13 @@
 
 use std::path::Path;
 
-use striae_contact::unknowns::{NodeResult, Status as ContactStatus};
+use striae_contact::{
+    side::Side,
+    unknowns::{NodeResult, Status as ContactStatus},
+};
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::{problem::Problem, state::State};
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     ContactField, OutputError,
@@ -31,23 +35,23 @@ pub(crate) fn write_surface(
     path: &Path,
     problem: &Problem,
     state: &State,
-    (pair, side): (usize, usize),
+    (pair, side): (usize, Side),
     wanted: &Wanted,
 ) -> Result<(), OutputError> {
     let geometry = &problem.pairs[pair];
     let Some(surface) = geometry.contact.sides[side].surface() else {
         return Ok(());
     };
-    let global = |node: usize| problem.surface_node(pair, side, node as u32);
+    let global = |node: SurfaceNode| problem.surface_node(pair, side, node);
     let count = surface.nodes().len();
-    let points: Vec<Vec3> = (0..count)
+    let points: Vec<Vec3> = SurfaceNode::all(count)
         .filter_map(global)
         .map(|n| state.positions[n])
         .collect();
     let quads: Vec<[NodeId; 4]> = surface
         .facets()
         .iter()
-        .map(|corners| corners.map(NodeId))
+        .map(|corners| corners.map(|node| NodeId(node.0)))
         .collect();
     let mut grid = Grid {
         points: &points,
@@ -74,7 +78,7 @@ pub(crate) fn write_surface(
 fn arrays(
     field: ContactField,
     state: &State,
-    (pair, side): (usize, usize),
+    (pair, side): (usize, Side),
     wanted: &Wanted,
 ) -> Vec<(&'static str, Values)> {
     let nodes = &wanted.nodes[side];
@@ -127,9 +131,10 @@ fn arrays(
 
 /// Which nodes are kept and which are pointed. Points of a rigid side lodge with nodes of
 /// side `a`.
-fn roles(state: &State, (pair, side): (usize, usize)) -> Vec<(&'static str, Values)> {
+fn roles(state: &State, (pair, side): (usize, Side)) -> Vec<(&'static str, Values)> {
     let of_pair = &state.pairs[pair];
-    let lodges = |node: usize| side == 0 && of_pair.points.get(node).is_some_and(Option::is_some);
+    let lodges =
+        |node: usize| side == Side::A && of_pair.points.get(node).is_some_and(Option::is_some);
     let own = of_pair.pointed[side].iter().enumerate();
     let pointed = own.map(|(node, own)| u8::from(*own) + 2 * u8::from(lodges(node)));
     let kept = of_pair.kept[side].iter().copied().map(u8::from);

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use striae_contact::side::Side;
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::{
     problem::Problem,
@@ -19,7 +20,7 @@ pub(crate) fn write_tied(
     path: &Path,
     problem: &Problem,
     state: &State,
-    (tie, side): (usize, usize),
+    (tie, side): (usize, Side),
     tractions: &[TieTraction],
 ) -> Result<(), OutputError> {
     let surface = tie_surface(problem, tie, side);
@@ -29,7 +30,9 @@ pub(crate) fn write_tied(
         .map(|node| state.positions[first + node.index()])
         .collect();
     let facets = surface.facets().iter();
-    let quads: Vec<[NodeId; 4]> = facets.map(|corners| corners.map(NodeId)).collect();
+    let quads: Vec<[NodeId; 4]> = facets
+        .map(|corners| corners.map(|node| NodeId(node.0)))
+        .collect();
     let vectors = |f: fn(&TieTraction) -> Vec3| Values::Vectors(tractions.iter().map(f).collect());
     let along_normal = tractions.iter().map(TieTraction::along_normal).collect();
     let grid = Grid {

@@ -11,7 +11,7 @@
 //! with pressure and traction at the end of the increment. Open nodes do not slip.
 
 use serde::{Deserialize, Serialize};
-use striae_contact::unknowns::Status;
+use striae_contact::{side::Side, unknowns::Status};
 use striae_solve::state::State;
 
 /// Sums at a node: slip, friction work per area, pressure times slip.
@@ -43,7 +43,7 @@ impl Worn {
     }
 
     /// Sums at the nodes of a side, zero before the first increment.
-    pub fn of(&self, pair: usize, side: usize, nodes: usize) -> Vec<Sums> {
+    pub fn of(&self, pair: usize, side: Side, nodes: usize) -> Vec<Sums> {
         let known = self.pairs.get(pair).map(|sides| sides[side].clone());
         let mut sums = known.unwrap_or_default();
         sums.resize(nodes, [0.0; 3]);

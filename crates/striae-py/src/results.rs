@@ -154,7 +154,7 @@ impl Results {
         let facets = contact.sides[side as usize]
             .surface()
             .map_or(&[][..], |s| s.facets());
-        let corners = facets.iter().map(|facet| facet.map(NodeId));
+        let corners = facets.iter().map(|facet| facet.map(|node| NodeId(node.0)));
         all.set_item("nodes", node_array(py, nodes))?;
         all.set_item("facets", node_rows(py, corners)?)?;
         all.set_item("position", rows(py, at)?)?;

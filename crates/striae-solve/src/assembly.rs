@@ -30,10 +30,11 @@ use std::{
 use striae_condensed::{Growth, Partition};
 use striae_contact::{
     complementarity::Iteration, configuration::Configuration, evaluation::Evaluation,
-    segment::Derivatives, selection::Selection, unknowns::Tractions,
+    segment::Derivatives, selection::Selection, side::Side, unknowns::Tractions,
 };
 use striae_mesh::Vec3;
 use striae_sparse::{SparseMatrix, Supervariable};
+use striae_surface::node::SurfaceNode;
 use terms::Triple;
 use ties::{Moving, Scratch, Tie};
 
@@ -301,9 +302,9 @@ impl System<'_> {
     /// Holds traction unknowns of nodes that are not kept any more at zero.
     fn idle(&mut self, selections: &[Selection]) {
         for (pair, selection) in selections.iter().enumerate() {
-            for side in 0..2 {
-                for node in 0..selection.nodes(side) {
-                    if !selection.is_kept(side, node as u32)
+            for side in Side::BOTH {
+                for node in SurfaceNode::all(selection.nodes(side)) {
+                    if !selection.is_kept(side, node)
                         && let Some(first) = self.layout.traction(pair, side, node)
                     {
                         (first..first + 3).for_each(|unknown| self.hold(unknown, 0.0, 1.0));

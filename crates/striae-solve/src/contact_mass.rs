@@ -1,6 +1,6 @@
 //! Nodes whose mass is moved to others.
 
-use crate::model::{ContactMass, Model, Side};
+use crate::model::{ContactMass, ContactSurface, Model};
 
 /// Nodes of contact surfaces of bodies whose mass is redistributed, but for elements
 /// that have no other nodes.
@@ -8,7 +8,7 @@ pub(crate) fn massless(model: &Model, first_node: &[usize], nodes: usize) -> Vec
     let mut massless = vec![false; nodes];
     let sides = model.pairs.iter().flat_map(|pair| [&pair.a, &pair.b]);
     for side in sides {
-        if let Side::Deformable { body, faces } = side
+        if let ContactSurface::Deformable { body, faces } = side
             && model.bodies[body.0].contact_mass == ContactMass::Redistributed
         {
             for node in model.bodies[body.0].mesh.nodes_of_faces(faces) {

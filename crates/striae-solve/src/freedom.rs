@@ -12,9 +12,11 @@ use nalgebra::{DMatrix, SymmetricEigen};
 use striae_contact::{
     initial::signed_gap,
     interference::{Stage, facing},
+    side::Side,
     unknowns::{NodeResult, Status},
 };
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     assembly::StepContext,
@@ -135,7 +137,7 @@ fn closed(context: &StepContext, state: &State, pair: usize) -> [Vec<NodeResult>
             .collect();
     }
     for facing in facing(&configuration) {
-        nodes[facing.side][facing.node as usize].status = Status::Stick;
+        nodes[facing.side][facing.node].status = Status::Stick;
     }
     nodes
 }
@@ -152,16 +154,16 @@ fn touching(context: &StepContext, pair: usize) -> [Vec<NodeResult>; 2] {
     let mut nodes = [Vec::new(), Vec::new()];
     for &side in context.pairs[pair].deformable_sides() {
         let snapshot = configuration.side(side);
-        let result = |node: u32| {
+        let result = |node: SurfaceNode| {
             let touches = signed_gap(&stage, side, node)
-                .is_some_and(|(gap, _)| gap <= TOUCHING * snapshot.sizes[node as usize]);
+                .is_some_and(|(gap, _)| gap <= TOUCHING * snapshot.sizes[node]);
             NodeResult {
-                normal: snapshot.normals[node as usize],
+                normal: snapshot.normals[node],
                 status: if touches { Status::Stick } else { Status::Open },
                 ..NodeResult::default()
             }
         };
-        nodes[side] = (0..snapshot.x.len() as u32).map(result).collect();
+        nodes[side] = SurfaceNode::all(snapshot.x.len()).map(result).collect();
     }
     nodes
 }
@@ -177,7 +179,7 @@ pub fn free_motion(
     rows.prescribed(context, at);
     let slipping = slipping(contacts.iter().copied());
     for (pair, nodes) in contacts.iter().enumerate() {
-        let is_rough = context.pairs[pair].friction.cap(1.0, 0.0) > 0.0;
+        let is_rough = context.plan.frictions[pair].cap(1.0, 0.0) > 0.0;
         let holds = |status: Status| match friction {
             Friction::Any => is_rough,
             Friction::Dashpots => is_rough || context.stabilisation[pair] > 0.0,
@@ -305,14 +307,14 @@ impl Rows {
     ) {
         let geometry = &problem.pairs[pair];
         let bodies = problem.model.bodies.len();
-        let of_side = [0, 1].map(|side| match (geometry.bodies[side], geometry.rigid) {
+        let of_side = Side::BOTH.map(|side| match (geometry.bodies[side], geometry.rigid) {
             (Some(body), _) => self.of[body],
             (None, Some(rigid)) => self.of[bodies + rigid],
             (None, None) => None,
         });
-        for side in 0..2 {
+        for side in Side::BOTH {
             for (node, result) in nodes[side].iter().enumerate() {
-                let global = problem.carrier(pair, side, node as u32);
+                let global = problem.carrier(pair, side, SurfaceNode::new(node));
                 let (Some(global), false) = (global, result.status == Status::Open) else {
                     continue;
                 };
@@ -323,11 +325,11 @@ impl Rows {
                 }
                 let x = at.nodes[global];
                 for e in directions {
-                    let row = |side: usize, sign: f64| {
+                    let row = |side: Side, sign: f64| {
                         let component = of_side[side]?;
                         Some((component, self.entries(component, &x, &(e * sign))))
                     };
-                    let rows = [row(side, 1.0), row(1 - side, -1.0)];
+                    let rows = [row(side, 1.0), row(side.opposite(), -1.0)];
                     let rows: Vec<_> = rows.into_iter().flatten().collect();
                     self.add(&rows);
                 }

@@ -15,12 +15,14 @@ use striae_contact::{
     initial::{Fit, Lies, fit, overlaps},
     interference::{Stage, Standing, nearest_of},
     placement::Placement,
+    side::Side,
 };
 use striae_mesh::{ElementId, NodeId, Vec3};
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     interference::{Positions, configuration, thickness, thickness_with},
-    model::{Initial, Model, PairId, Side},
+    model::{ContactSurface, Initial, Model, PairId},
     problem::{PairGeometry, Problem, add_fibres, pair_geometry},
     state::State,
 };
@@ -147,7 +149,7 @@ pub fn fault(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
     let node = surface_node(model, pair, overlap.side, overlap.node)?;
     Some(InitialFault::Overlap {
         pair: of_pair.name.clone(),
-        body: other_name(model, pair, 1 - overlap.side).to_owned(),
+        body: other_name(model, pair, overlap.side.opposite()).to_owned(),
         node,
         other: other_name(model, pair, overlap.side).to_owned(),
         at: overlap.point,
@@ -161,22 +163,22 @@ pub fn fault(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
 }
 
 /// The node, of the mesh of its body or rigid surface, that a surface node is.
-pub fn surface_node(model: &Model, pair: PairId, side: usize, node: u32) -> Option<NodeId> {
+pub fn surface_node(model: &Model, pair: PairId, side: Side, node: SurfaceNode) -> Option<NodeId> {
     let geometry = pair_geometry(model, &untextured(&model.pairs[pair.0])).ok()?;
     let surface = geometry.contact.sides[side].surface()?;
-    surface.nodes().get(node as usize).copied()
+    surface.nodes().get(node.index()).copied()
 }
 
 /// Name of the body or rigid surface opposite to a side.
-pub fn other_name(model: &Model, pair: PairId, side: usize) -> &str {
+pub fn other_name(model: &Model, pair: PairId, side: Side) -> &str {
     let of_pair = &model.pairs[pair.0];
     side_name(model, [&of_pair.b, &of_pair.a][side])
 }
 
-fn side_name<'m>(model: &'m Model, side: &Side) -> &'m str {
+fn side_name<'m>(model: &'m Model, side: &ContactSurface) -> &'m str {
     match side {
-        Side::Deformable { body, .. } => &model.bodies[body.0].name,
-        Side::Rigid(rigid) => &model.rigid_surfaces[rigid.0].name,
+        ContactSurface::Deformable { body, .. } => &model.bodies[body.0].name,
+        ContactSurface::Rigid(rigid) => &model.rigid_surfaces[rigid.0].name,
     }
 }
 
@@ -201,7 +203,7 @@ impl Reference {
 
     /// Reference positions of the surface nodes.
     fn positions(&self, model: &Model) -> [Vec<Vec3>; 2] {
-        [0, 1].map(|side| match self.geometry.bodies[side] {
+        Side::BOTH.map(|side| match self.geometry.bodies[side] {
             Some(body) => {
                 let surface = self.geometry.contact.sides[side].surface();
                 let nodes = surface.map_or(&[][..], |surface| surface.nodes());
@@ -241,7 +243,7 @@ fn is_wholly_behind(model: &Model, pair: PairId) -> bool {
     reference.at(model, |stage| match stage.configuration.plane() {
         Some((point, normal)) => nodes.iter().all(|x| (x - point).dot(&normal) < 0.0),
         None => nodes.iter().all(|x| {
-            let nearest = nearest_of(stage.configuration.side(1), x);
+            let nearest = nearest_of(stage.configuration.side(Side::B), x);
             nearest.is_some_and(|nearest| nearest.standing == Standing::Behind)
         }),
     })

@@ -3,7 +3,9 @@
 use striae_contact::{
     configuration::Configuration,
     interference::{Interference, Stage, Thickness, inside, interferences, lengths},
+    pair::ContactPair,
     placement::Placement,
+    side::Side,
 };
 use striae_mesh::{NodeId, Vec3};
 
@@ -60,9 +62,19 @@ pub fn within(problem: &Problem, pair: usize, at: Positions, share: f64) -> Vec<
 
 /// Where the sides of a pair are.
 pub fn configuration<'a>(problem: &'a Problem, pair: usize, at: Positions) -> Configuration<'a> {
+    placed(problem, pair, &problem.pairs[pair].contact, at)
+}
+
+/// The same of a pair of the problem that looks for contact in another distance.
+pub(crate) fn placed<'a>(
+    problem: &Problem,
+    pair: usize,
+    contact: &'a ContactPair,
+    at: Positions,
+) -> Configuration<'a> {
     let geometry = &problem.pairs[pair];
-    let of_side = |side: usize| -> Vec<Vec3> {
-        let surface = geometry.contact.sides[side].surface();
+    let of_side = |side: Side| -> Vec<Vec3> {
+        let surface = contact.sides[side].surface();
         match (geometry.bodies[side], surface) {
             (Some(body), Some(surface)) => {
                 let nodes = surface.nodes().iter();
@@ -76,7 +88,7 @@ pub fn configuration<'a>(problem: &'a Problem, pair: usize, at: Positions) -> Co
     let placement = geometry.rigid.map_or_else(Placement::at_rest, |id| {
         at.rigid[id].placement(&problem.model.rigid_surfaces[id].reference)
     });
-    Configuration::new(&geometry.contact, [of_side(0), of_side(1)], placement)
+    Configuration::new(contact, Side::BOTH.map(of_side), placement)
 }
 
 /// How thick the bodies behind the facets of a pair are.
@@ -90,7 +102,7 @@ pub(crate) fn thickness_with(
     geometry: &PairGeometry,
     at: impl Fn(usize, NodeId) -> Vec3,
 ) -> Thickness {
-    Thickness([0, 1].map(|side| {
+    Thickness(Side::BOTH.map(|side| {
         let Some(surface) = geometry.contact.sides[side].surface() else {
             return Vec::new();
         };
@@ -99,9 +111,13 @@ pub(crate) fn thickness_with(
             Some(body) => surface.nodes().iter().map(|&node| at(body, node)).collect(),
             None => rigid.clone(),
         };
-        let end = |node: u32| match geometry.bodies[side] {
-            Some(body) => at(body, NodeId(node)),
-            None => rigid[node as usize],
+        let end = |node: NodeId| match geometry.bodies[side] {
+            Some(body) => at(body, node),
+            None => {
+                rigid[surface
+                    .node(node)
+                    .expect("the skin of a rigid side is the side")]
+            }
         };
         lengths(surface, &x, &geometry.fibres[side], end)
     }))

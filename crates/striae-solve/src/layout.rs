@@ -7,8 +7,9 @@
 //! rigid body that nodes are tied to or that contact may move are another one, kept for last.
 
 use serde::{Deserialize, Serialize};
-use striae_contact::{selection::Selection, unknown::Unknown};
+use striae_contact::{selection::Selection, side::Side, unknown::Unknown};
 use striae_sparse::{Supervariable, Tier};
+use striae_surface::node::SurfaceNode;
 
 use crate::{node::GlobalNode, problem::Problem};
 
@@ -37,7 +38,7 @@ impl Extent {
         let mut grown = self.clone();
         grown.nodes.resize_with(selections.len(), Default::default);
         for (of_pair, selection) in grown.nodes.iter_mut().zip(selections) {
-            for (side, of_side) in of_pair.iter_mut().enumerate() {
+            for (side, of_side) in Side::BOTH.into_iter().zip(of_pair.iter_mut()) {
                 of_side.resize(selection.nodes(side), false);
             }
             for kept in selection.kept() {
@@ -56,11 +57,11 @@ impl Layout {
         let mut sizes = vec![3; nodes];
         let mut local = Vec::with_capacity(extent.nodes.len());
         for (pair, sides) in extent.nodes.iter().enumerate() {
-            local.push([0, 1].map(|side| {
+            local.push(Side::BOTH.map(|side| {
                 let active = sides[side].iter().enumerate();
                 active
                     .map(|(node, active)| {
-                        let node = problem.carrier(pair, side, node as u32)?;
+                        let node = problem.carrier(pair, side, SurfaceNode::new(node))?;
                         active.then(|| {
                             sizes[node] += 3;
                             (node, sizes[node] - 3)
@@ -171,8 +172,11 @@ impl Layout {
     }
 
     /// First traction unknown of a surface node, if it has any.
-    pub fn traction(&self, pair: usize, side: usize, node: usize) -> Option<usize> {
-        self.tractions[pair][side].get(node).copied().flatten()
+    pub fn traction(&self, pair: usize, side: Side, node: SurfaceNode) -> Option<usize> {
+        self.tractions[pair][side]
+            .get(node.index())
+            .copied()
+            .flatten()
     }
 
     /// Global number of a pair-local unknown and its supervariable.
@@ -192,7 +196,7 @@ impl Layout {
                 node,
                 component,
             } => {
-                let first = self.traction(pair, side, node as usize)?;
+                let first = self.traction(pair, side, node)?;
                 let node = problem.carrier(pair, side, node)?;
                 Some((first + component, Supervariable(node.0)))
             }

@@ -6,7 +6,7 @@
 
 use nalgebra::Matrix3;
 use serde::Serialize;
-pub use striae_contact::pair::Enforcement;
+pub use striae_contact::{pair::Enforcement, side::Side};
 use striae_law::{bulk::Material, friction::Friction};
 use striae_mesh::{ElementId, Face, Mesh, NodeId, Vec3};
 use striae_surface::texture::Paint;
@@ -164,7 +164,7 @@ pub enum RigidShape {
 
 /// One side of a contact pair.
 #[derive(Clone, Debug, Serialize)]
-pub enum Side {
+pub enum ContactSurface {
     /// Faces of a deformable body.
     Deformable {
         /// The body.
@@ -182,9 +182,9 @@ pub struct Pair {
     /// Unique name.
     pub name: String,
     /// First side.
-    pub a: Side,
+    pub a: ContactSurface,
     /// Second side.
-    pub b: Side,
+    pub b: ContactSurface,
     /// Textures of the two sides, painted on their reference surfaces.
     pub textures: [Option<Paint>; 2],
     /// Friction from the start; steps may change it.
@@ -206,9 +206,9 @@ pub struct Tie {
     /// Unique name.
     pub name: String,
     /// First side.
-    pub a: Side,
+    pub a: ContactSurface,
     /// Second side.
-    pub b: Side,
+    pub b: ContactSurface,
     /// Distance up to which facets are tied; `None`: a tenth of their size, and facets that
     /// face each other from further away are a fault.
     pub within: Option<f64>,
@@ -219,7 +219,7 @@ pub struct Tie {
 impl Tie {
     /// Whether a body is a side of it.
     pub fn joins(&self, body: BodyId) -> bool {
-        let is = |side: &Side| matches!(side, Side::Deformable { body: of, .. } if *of == body);
+        let is = |side: &ContactSurface| matches!(side, ContactSurface::Deformable { body: of, .. } if *of == body);
         is(&self.a) || is(&self.b)
     }
 }

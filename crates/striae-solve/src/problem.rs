@@ -11,7 +11,7 @@ pub(crate) use fibres::add_fibres;
 use std::collections::HashMap;
 use striae_contact::{
     interference::Fibre,
-    pair::{ContactPair, Geometry, Side as ContactSide},
+    pair::{ContactPair, Geometry, PairedSurface},
     texture::SideTexture,
 };
 use striae_element::{ElementFault, Elements};
@@ -26,7 +26,7 @@ use crate::{
     body_mass::{BodyMass, masses},
     composition::Composition,
     contact_mass,
-    model::{Model, Pair, RigidShape, Side},
+    model::{ContactSurface, Model, Pair, RigidShape},
     node::GlobalNode,
     plan::{StepPlan, plans},
     tie::{TieFault, Ties, first_nodes},
@@ -72,7 +72,7 @@ pub struct Problem {
 /// A contact pair with its place in the problem.
 #[derive(Clone, Debug)]
 pub struct PairGeometry {
-    /// The pair; its friction is that of the first step.
+    /// The pair.
     pub contact: ContactPair,
     /// Body of each side, `None` for a rigid one.
     pub bodies: [Option<usize>; 2],
@@ -208,7 +208,7 @@ pub(crate) fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, 
     let mut sides = Vec::with_capacity(2);
     for (index, side) in [&pair.a, &pair.b].into_iter().enumerate() {
         sides.push(match side {
-            Side::Deformable {
+            ContactSurface::Deformable {
                 body,
                 faces: of_side,
             } => {
@@ -216,7 +216,7 @@ pub(crate) fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, 
                 faces[index] = of_side.clone();
                 deformable(model, body.0, of_side)
             }
-            Side::Rigid(surface) => {
+            ContactSurface::Rigid(surface) => {
                 rigid = Some(surface.0);
                 let geometry = match &model.rigid_surfaces[surface.0].shape {
                     RigidShape::Plane { point, normal } => Geometry::Plane {
@@ -239,7 +239,7 @@ pub(crate) fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, 
                         Geometry::Rigid(surface)
                     }
                 };
-                ContactSide {
+                PairedSurface {
                     geometry,
                     stiffness: f64::INFINITY,
                     texture: None,
@@ -280,7 +280,6 @@ pub(crate) fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, 
         contact: ContactPair {
             name: pair.name.clone(),
             sides: [a, b],
-            friction: pair.friction.clone(),
             enforcement: pair.enforcement,
             search_distance: pair.search_distance,
         },
@@ -338,24 +337,28 @@ fn painted(
     let (texture, conditioning) = painted.map_err(|error| ProblemError::Texture {
         pair: pair.name.clone(),
         surface: match [&pair.a, &pair.b][index] {
-            Side::Deformable { body, .. } => format!("body `{}`", model.bodies[body.0].name),
-            Side::Rigid(rigid) => format!("rigid surface `{}`", model.rigid_surfaces[rigid.0].name),
+            ContactSurface::Deformable { body, .. } => {
+                format!("body `{}`", model.bodies[body.0].name)
+            }
+            ContactSurface::Rigid(rigid) => {
+                format!("rigid surface `{}`", model.rigid_surfaces[rigid.0].name)
+            }
         },
         node: error
             .node()
-            .and_then(|node| surface.nodes().get(node as usize).copied()),
+            .and_then(|node| surface.nodes().get(node.index()).copied()),
         error,
     })?;
     Ok((SideTexture::Nodal(texture), Some(conditioning)))
 }
 
-fn deformable(model: &Model, body: usize, faces: &[Face]) -> ContactSide {
+fn deformable(model: &Model, body: usize, faces: &[Face]) -> PairedSurface {
     let body_model = &model.bodies[body];
     let facets: Vec<[NodeId; 4]> = faces
         .iter()
         .map(|&f| body_model.mesh.face_nodes(f))
         .collect();
-    ContactSide {
+    PairedSurface {
         geometry: Geometry::Deformable(Surface::new(&facets)),
         stiffness: body_model.modulus_at(faces),
         texture: None,

@@ -8,9 +8,11 @@ use std::collections::BTreeSet;
 
 use striae_contact::{
     field::FacetForces,
+    side::Side,
     unknowns::{NodeResult, Status, counted},
 };
 use striae_mesh::{FacetId, NodeId, Vec3};
+use striae_surface::node::SurfaceNode;
 
 use crate::{problem::Problem, rigid::Wrench, state::State};
 
@@ -181,7 +183,7 @@ fn wrench(problem: &Problem, state: &State, index: usize) -> Wrench {
     let reference = problem.model.rigid_surfaces[index].reference;
     let point = reference + state.rigid[index].displacement;
     for pair in (0..problem.pairs.len()).filter(|&p| problem.pairs[p].rigid == Some(index)) {
-        let side = side(problem, state, pair, 0);
+        let side = side(problem, state, pair, Side::A);
         wrench.force += side.force;
         wrench.torque += side.moment - point.cross(&side.force);
     }
@@ -190,7 +192,7 @@ fn wrench(problem: &Problem, state: &State, index: usize) -> Wrench {
 
 fn report(problem: &Problem, state: &State, pair: usize) -> PairReport {
     let of_pair = &state.pairs[pair];
-    let a = side(problem, state, pair, 0);
+    let a = side(problem, state, pair, Side::A);
     let b = if problem.pairs[pair].rigid.is_some() {
         SideReport {
             force: -a.force,
@@ -198,7 +200,7 @@ fn report(problem: &Problem, state: &State, pair: usize) -> PairReport {
             ..a
         }
     } else {
-        side(problem, state, pair, 1)
+        side(problem, state, pair, Side::B)
     };
     let largest = a.force.norm().max(b.force.norm());
     let arm = a.area.max(b.area).sqrt();
@@ -218,7 +220,7 @@ fn report(problem: &Problem, state: &State, pair: usize) -> PairReport {
     }
 }
 
-fn side(problem: &Problem, state: &State, pair: usize, side: usize) -> SideReport {
+fn side(problem: &Problem, state: &State, pair: usize, side: Side) -> SideReport {
     let mut sum = SideReport::default();
     let Some(surface) = problem.pairs[pair].contact.sides[side].surface() else {
         return sum;
@@ -231,7 +233,7 @@ fn side(problem: &Problem, state: &State, pair: usize, side: usize) -> SideRepor
         sum.area += forces.area.iter().sum::<f64>();
         let corners = &surface.facets()[facet.index()];
         for (corner, area) in corners.iter().zip(&forces.area) {
-            let node = &state.pairs[pair].nodes[side][*corner as usize];
+            let node = &state.pairs[pair].nodes[side][*corner];
             sum.pressed += if node.pressure > 0.0 { *area } else { 0.0 };
         }
         let n = normal_of(problem, state, (pair, side), corners);
@@ -255,10 +257,10 @@ fn side(problem: &Problem, state: &State, pair: usize, side: usize) -> SideRepor
 fn normal_of(
     problem: &Problem,
     state: &State,
-    (pair, side): (usize, usize),
-    corners: &[u32; 4],
+    (pair, side): (usize, Side),
+    corners: &[SurfaceNode; 4],
 ) -> Vec3 {
-    let at = |corner: u32| problem.surface_node(pair, side, corner);
+    let at = |corner: SurfaceNode| problem.surface_node(pair, side, corner);
     let [a, b, c, d] =
         corners.map(|corner| at(corner).map_or(Vec3::zeros(), |n| state.positions[n]));
     (c - a).cross(&(d - b)).normalize()

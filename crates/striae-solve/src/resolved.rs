@@ -15,10 +15,11 @@
 //! the rigid surface at the point nearest to the node, on facets of their nearest corner.
 
 use striae_contact::{
-    configuration::Configuration, interference::nearest_of, pair::Geometry, texture::SideTexture,
+    configuration::Configuration, interference::nearest_of, pair::Geometry, side::Side,
+    texture::SideTexture,
 };
 use striae_mesh::Vec3;
-use striae_surface::{normal::nodal_normals, texture::Texture};
+use striae_surface::{node::SurfaceNode, normal::nodal_normals, texture::Texture};
 
 use crate::{interference::configuration, problem::Problem, state::State};
 
@@ -37,25 +38,25 @@ type Directions = [Vec3; 2];
 /// Force on each side of a pair in the frame of its texture; `None` for sides without one.
 pub fn resolved(problem: &Problem, state: &State, pair: usize) -> [Option<Resolved>; 2] {
     let contact = &problem.pairs[pair].contact;
-    [0, 1].map(|side| {
+    Side::BOTH.map(|side| {
         let texture = contact.sides[side].texture.as_ref()?;
         // The opposite of the forces on `a`, where `b` is rigid.
-        let (carrier, sign) = match contact.is_rigid() && side == 1 {
-            true => (0, -1.0),
+        let (carrier, sign) = match contact.is_rigid() && side == Side::B {
+            true => (Side::A, -1.0),
             false => (side, 1.0),
         };
         let forces = nodal_forces(problem, state, pair, carrier);
         let directions = match (texture, carrier == side) {
             (SideTexture::Nodal(texture), true) => {
                 Box::new(on_nodes(problem, state, (pair, side), texture))
-                    as Box<dyn Fn(u32) -> Directions>
+                    as Box<dyn Fn(SurfaceNode) -> Directions>
             }
             (texture, _) => Box::new(on_rigid(problem, state, pair, texture)),
         };
         let mut sum = Resolved::default();
         for (node, force) in forces.iter().enumerate() {
             if *force != Vec3::zeros() {
-                let [s, a] = directions(node as u32);
+                let [s, a] = directions(SurfaceNode::new(node));
                 sum.along += sign * force.dot(&s);
                 sum.across += sign * force.dot(&a);
             }
@@ -65,7 +66,7 @@ pub fn resolved(problem: &Problem, state: &State, pair: usize) -> [Option<Resolv
 }
 
 /// Contact forces on the surface nodes of a deformable side.
-fn nodal_forces(problem: &Problem, state: &State, pair: usize, side: usize) -> Vec<Vec3> {
+fn nodal_forces(problem: &Problem, state: &State, pair: usize, side: Side) -> Vec<Vec3> {
     let surface = problem.pairs[pair].contact.sides[side].surface();
     let Some(surface) = surface else {
         return Vec::new();
@@ -74,7 +75,7 @@ fn nodal_forces(problem: &Problem, state: &State, pair: usize, side: usize) -> V
     for (facet, of_facet) in &state.pairs[pair].facets[side] {
         let corners = &surface.facets()[facet.index()];
         for (corner, force) in corners.iter().zip(&of_facet.force) {
-            forces[*corner as usize] += force;
+            forces[*corner] += force;
         }
     }
     forces
@@ -83,16 +84,16 @@ fn nodal_forces(problem: &Problem, state: &State, pair: usize, side: usize) -> V
 fn on_nodes<'a>(
     problem: &'a Problem,
     state: &'a State,
-    (pair, side): (usize, usize),
+    (pair, side): (usize, Side),
     texture: &'a Texture,
-) -> impl Fn(u32) -> Directions + 'a {
+) -> impl Fn(SurfaceNode) -> Directions + 'a {
     let surface = problem.pairs[pair].contact.sides[side].surface();
-    let count = surface.map_or(0, |surface| surface.nodes().len() as u32);
-    let nodes = (0..count).filter_map(|node| problem.surface_node(pair, side, node));
+    let count = surface.map_or(0, |surface| surface.nodes().len());
+    let nodes = SurfaceNode::all(count).filter_map(|node| problem.surface_node(pair, side, node));
     let x: Vec<Vec3> = nodes.map(|node| state.positions[node]).collect();
     let normals = surface.map_or_else(Vec::new, |surface| nodal_normals(surface, &x));
     move |node| {
-        let axes = texture.at(node, &x, normals[node as usize]);
+        let axes = texture.at(node, &x, normals[node]);
         axes.map_or([Vec3::zeros(); 2], |axes| [axes.s, axes.a])
     }
 }
@@ -102,10 +103,10 @@ fn on_rigid<'a>(
     state: &'a State,
     pair: usize,
     texture: &'a SideTexture,
-) -> impl Fn(u32) -> Directions + 'a {
+) -> impl Fn(SurfaceNode) -> Directions + 'a {
     let configuration = configuration(problem, pair, state.into());
     move |node| {
-        let x = configuration.side(0).x[node as usize];
+        let x = configuration.side(Side::A).x[node];
         let axes = match (texture, &configuration.pair.sides[1].geometry) {
             (SideTexture::Plane(field), Geometry::Plane { point, normal }) => {
                 let place = configuration.placement.back(&x);
@@ -123,12 +124,12 @@ fn on_rigid<'a>(
 
 /// Directions at the corner nearest to `x` of the facet nearest to it.
 fn at_nearest(configuration: &Configuration, texture: &Texture, x: &Vec3) -> Option<Directions> {
-    let target = configuration.side(1);
+    let target = configuration.side(Side::B);
     let nearest = nearest_of(target, x)?;
-    let distance = |corner: &u32| (target.x[*corner as usize] - nearest.point).norm();
+    let distance = |corner: &SurfaceNode| (target.x[*corner] - nearest.point).norm();
     let corners = target.corners(nearest.facet).into_iter();
     let corner = corners.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-    let normal = target.normals[corner as usize];
+    let normal = target.normals[corner];
     let axes = texture.at(corner, &target.x, normal).ok()?;
     Some([axes.s, axes.a])
 }

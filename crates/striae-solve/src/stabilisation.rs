@@ -17,8 +17,12 @@
 //!
 //! The coefficient `c` follows from the loads of the step, see [`crate::assembly::StepContext`].
 
-use striae_contact::term::{Field, LocalTerm};
+use striae_contact::{
+    side::Side,
+    term::{Field, LocalTerm},
+};
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     model::{Model, Procedure},
@@ -47,9 +51,9 @@ pub struct Dashpot {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
     /// Side of the pair.
-    pub side: usize,
+    pub side: Side,
     /// Surface node.
-    pub node: u32,
+    pub node: SurfaceNode,
     /// Weight in the relative motion.
     pub weight: f64,
     /// Where it was at the start of the increment.

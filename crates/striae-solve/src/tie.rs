@@ -33,6 +33,7 @@ pub use patch::NodalAreas;
 pub use start::placed;
 
 use std::collections::BTreeMap;
+use striae_contact::side::Side;
 use striae_mesh::{NodeId, Vec3};
 
 use crate::{model::Model, node::GlobalNode};
@@ -60,7 +61,7 @@ pub struct Follower {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
     /// Side whose nodes follow.
-    pub follows: usize,
+    pub follows: Side,
     /// Bodies of the sides.
     pub bodies: [usize; 2],
     /// Area that is tied.
@@ -241,7 +242,7 @@ impl Ties {
                 let side = if on_own {
                     joint.follows
                 } else {
-                    1 - joint.follows
+                    joint.follows.opposite()
                 };
                 let sum: &mut Vec3 = forces[side].entry(node).or_insert_with(Vec3::zeros);
                 sum[axis] += force;

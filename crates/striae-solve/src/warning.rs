@@ -27,6 +27,7 @@ use striae_contact::{
     initial::Fit,
     interference::{Interference, Kind as Interfering, SHARE},
     pointed::choice::PIERCED,
+    side::Side,
 };
 use striae_law::bulk::Material;
 use striae_mesh::{ElementId, Vec3};
@@ -517,7 +518,7 @@ pub fn warnings_at_start(model: &Model, fits: &[Option<Fit>]) -> Vec<Warning> {
         let pair = PairId(pair);
         if let Some(fit) = fit.as_ref().filter(|fit| !may_meet(model, pair, fit)) {
             let name = &model.pairs[pair.0].name;
-            let [a, b] = [1, 0].map(|side| other_name(model, pair, side));
+            let [a, b] = [Side::B, Side::A].map(|side| other_name(model, pair, side));
             let distance = fit.distance;
             warnings.push(Warning {
                 kind: Kind::NeverMeets,

@@ -17,7 +17,7 @@ use std::collections::BinaryHeap;
 
 use striae_mesh::Vec3;
 
-use crate::topology::distinct_corners;
+use crate::{node::SurfaceNode, topology::distinct_corners};
 
 #[cfg(test)]
 mod tests;
@@ -30,17 +30,17 @@ pub(crate) struct EdgeGraph {
 
 #[derive(Clone, Copy)]
 struct Arc {
-    to: u32,
+    to: SurfaceNode,
     length: f64,
 }
 
 impl EdgeGraph {
     /// The graph of the sides of `facets`.
-    pub(crate) fn new(positions: &[Vec3], facets: &[[u32; 4]]) -> Self {
-        let mut sides: Vec<(u32, u32)> = facets.iter().flat_map(sides).collect();
+    pub(crate) fn new(positions: &[Vec3], facets: &[[SurfaceNode; 4]]) -> Self {
+        let mut sides: Vec<(SurfaceNode, SurfaceNode)> = facets.iter().flat_map(sides).collect();
         sides.sort_unstable();
         sides.dedup();
-        let length = |a: u32, b: u32| (positions[a as usize] - positions[b as usize]).norm();
+        let length = |a: SurfaceNode, b: SurfaceNode| (positions[a] - positions[b]).norm();
         Self::from_edges(
             positions.len(),
             sides.into_iter().map(|(a, b)| (a, b, length(a, b))),
@@ -50,12 +50,12 @@ impl EdgeGraph {
     /// The graph of `nodes` nodes with edges `(a, b, length)`.
     pub(crate) fn from_edges(
         nodes: usize,
-        edges: impl IntoIterator<Item = (u32, u32, f64)>,
+        edges: impl IntoIterator<Item = (SurfaceNode, SurfaceNode, f64)>,
     ) -> Self {
         let mut rows = vec![Vec::new(); nodes];
         for (a, b, length) in edges {
-            rows[a as usize].push(Arc { to: b, length });
-            rows[b as usize].push(Arc { to: a, length });
+            rows[a].push(Arc { to: b, length });
+            rows[b].push(Arc { to: a, length });
         }
         let mut offsets = vec![0];
         offsets.extend(rows.iter().scan(0, |end, row| {
@@ -69,22 +69,22 @@ impl EdgeGraph {
     }
 
     /// Shortest distance of every node from `source`.
-    pub(crate) fn distances_from(&self, source: u32) -> Vec<f64> {
+    pub(crate) fn distances_from(&self, source: SurfaceNode) -> Vec<f64> {
         let mut distances = vec![f64::INFINITY; self.offsets.len() - 1];
-        distances[source as usize] = 0.0;
+        distances[source] = 0.0;
         let mut front = BinaryHeap::from([Reached {
             distance: 0.0,
             node: source,
         }]);
         while let Some(Reached { distance, node }) = front.pop() {
-            let node = node as usize;
+            let node = node.index();
             if distance > distances[node] {
                 continue;
             }
             for arc in &self.arcs[self.offsets[node]..self.offsets[node + 1]] {
                 let through = distance + arc.length;
-                if through < distances[arc.to as usize] {
-                    distances[arc.to as usize] = through;
+                if through < distances[arc.to] {
+                    distances[arc.to] = through;
                     front.push(Reached {
                         distance: through,
                         node: arc.to,
@@ -96,7 +96,7 @@ impl EdgeGraph {
     }
 }
 
-fn sides(facet: &[u32; 4]) -> impl Iterator<Item = (u32, u32)> {
+fn sides(facet: &[SurfaceNode; 4]) -> impl Iterator<Item = (SurfaceNode, SurfaceNode)> {
     let corners = distinct_corners(facet);
     (0..corners.len()).map(|i| {
         let (a, b) = (corners[i], corners[(i + 1) % corners.len()]);
@@ -108,7 +108,7 @@ fn sides(facet: &[u32; 4]) -> impl Iterator<Item = (u32, u32)> {
 #[derive(PartialEq)]
 struct Reached {
     distance: f64,
-    node: u32,
+    node: SurfaceNode,
 }
 
 impl Eq for Reached {}

@@ -2,6 +2,7 @@
 
 pub mod facet;
 mod graph;
+pub mod node;
 pub mod normal;
 pub mod scalar;
 pub mod texture;

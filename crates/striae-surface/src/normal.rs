@@ -6,23 +6,27 @@
 use nalgebra::Matrix3;
 use striae_mesh::Vec3;
 
-use crate::topology::Surface;
+use crate::{node::SurfaceNode, topology::Surface};
 
 /// Unit outward normals of all nodes at the positions `x` of the surface nodes.
 pub fn nodal_normals(surface: &Surface, x: &[Vec3]) -> Vec<Vec3> {
-    (0..x.len() as u32)
+    SurfaceNode::all(x.len())
         .map(|node| corner_sum(surface, x, node).normalize())
         .collect()
 }
 
 /// `d n_I / d x_J` for the node `I` and every node `J` that it depends on.
-pub fn normal_jacobian(surface: &Surface, x: &[Vec3], node: u32) -> Vec<(u32, Matrix3<f64>)> {
+pub fn normal_jacobian(
+    surface: &Surface,
+    x: &[Vec3],
+    node: SurfaceNode,
+) -> Vec<(SurfaceNode, Matrix3<f64>)> {
     let sum = corner_sum(surface, x, node);
     let length = sum.norm();
     let n = sum / length;
     let projector = (Matrix3::identity() - n * n.transpose()) / length;
-    let mut blocks: Vec<(u32, Matrix3<f64>)> = Vec::with_capacity(10);
-    let mut add = |other: u32, block: Matrix3<f64>| match blocks
+    let mut blocks: Vec<(SurfaceNode, Matrix3<f64>)> = Vec::with_capacity(10);
+    let mut add = |other: SurfaceNode, block: Matrix3<f64>| match blocks
         .iter_mut()
         .find(|(known, _)| *known == other)
     {
@@ -30,8 +34,8 @@ pub fn normal_jacobian(surface: &Surface, x: &[Vec3], node: u32) -> Vec<(u32, Ma
         None => blocks.push((other, block)),
     };
     for corner in surface.corners(node) {
-        let forward = (x[corner.next as usize] - x[node as usize]).cross_matrix();
-        let backward = (x[corner.previous as usize] - x[node as usize]).cross_matrix();
+        let forward = (x[corner.next] - x[node]).cross_matrix();
+        let backward = (x[corner.previous] - x[node]).cross_matrix();
         add(corner.next, -projector * backward);
         add(corner.previous, projector * forward);
         add(node, projector * (backward - forward));
@@ -39,14 +43,12 @@ pub fn normal_jacobian(surface: &Surface, x: &[Vec3], node: u32) -> Vec<(u32, Ma
     blocks
 }
 
-fn corner_sum(surface: &Surface, x: &[Vec3], node: u32) -> Vec3 {
-    let origin = x[node as usize];
+fn corner_sum(surface: &Surface, x: &[Vec3], node: SurfaceNode) -> Vec3 {
+    let origin = x[node];
     surface
         .corners(node)
         .iter()
-        .map(|corner| {
-            (x[corner.next as usize] - origin).cross(&(x[corner.previous as usize] - origin))
-        })
+        .map(|corner| (x[corner.next] - origin).cross(&(x[corner.previous] - origin)))
         .sum()
 }
 
@@ -83,23 +85,23 @@ mod tests {
     #[test]
     fn jacobian_error_falls_at_second_order() {
         let (surface, x) = bumpy();
-        for node in 0..16 {
+        for node in SurfaceNode::all(16) {
             let error = |step: f64| {
                 let mut exact = Vec3::zeros();
                 let (mut plus, mut minus) = (x.clone(), x.clone());
                 for (other, block) in normal_jacobian(&surface, &x, node) {
-                    let k = other as f64;
+                    let k = f64::from(other.0);
                     let direction = Vec3::new((3.0 * k).sin(), (5.0 * k).cos(), (k * k).sin());
                     exact += block * direction;
-                    plus[other as usize] += direction * step;
-                    minus[other as usize] -= direction * step;
+                    plus[other] += direction * step;
+                    minus[other] -= direction * step;
                 }
-                let change = nodal_normals(&surface, &plus)[node as usize]
-                    - nodal_normals(&surface, &minus)[node as usize];
+                let change =
+                    nodal_normals(&surface, &plus)[node] - nodal_normals(&surface, &minus)[node];
                 (change / (2.0 * step) - exact).norm()
             };
             let ratio = error(1e-2) / error(5e-3);
-            assert!(ratio > 3.5 && ratio < 4.5, "node {node}: ratio {ratio}");
+            assert!(ratio > 3.5 && ratio < 4.5, "{node}: ratio {ratio}");
         }
     }
 }

@@ -42,13 +42,14 @@ pub use ordinates::Ordinates;
 pub use paint::{Axis, Field, Lines, Paint};
 pub use radial_basis::Conditioning;
 
+use crate::node::SurfaceNode;
 use striae_mesh::Vec3;
 
 /// A texture: the edge ordinates of every node of a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
     offsets: Vec<usize>,
-    ring: Vec<u32>,
+    ring: Vec<SurfaceNode>,
     weights: Vec<f64>,
 }
 
@@ -59,7 +60,7 @@ impl Texture {
     /// that will not change; on a rigid plane [`Field::axes`] is the texture at any point.
     pub fn new(
         positions: &[Vec3],
-        facets: &[[u32; 4]],
+        facets: &[[SurfaceNode; 4]],
         normals: &[Vec3],
         paint: &Paint,
     ) -> Result<(Self, Conditioning), TextureError> {
@@ -82,8 +83,8 @@ impl Texture {
     }
 
     /// The neighbours of a surface-local node and their ordinates.
-    pub fn ordinates(&self, node: u32) -> Ordinates<'_> {
-        let range = self.offsets[node as usize]..self.offsets[node as usize + 1];
+    pub fn ordinates(&self, node: SurfaceNode) -> Ordinates<'_> {
+        let range = self.offsets[node]..self.offsets[node.index() + 1];
         Ordinates {
             ring: &self.ring[range.clone()],
             weights: &self.weights[range],
@@ -94,16 +95,16 @@ impl Texture {
     /// nodal normal.
     pub fn at(
         &self,
-        node: u32,
+        node: SurfaceNode,
         positions: &[Vec3],
         normal: Vec3,
     ) -> Result<Axes<f64>, TextureError> {
         let ordinates = self.ordinates(node);
         let neighbours: Vec<Vec3> = (ordinates.ring.iter())
-            .map(|&neighbour| positions[neighbour as usize])
+            .map(|&neighbour| positions[neighbour])
             .collect();
         ordinates
-            .convect(positions[node as usize], &neighbours, normal)
+            .convect(positions[node], &neighbours, normal)
             .ok_or(TextureError::Vanishing { node })
     }
 }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::node::SurfaceNode;
 use striae_mesh::{FacetId, NodeId};
 
 /// A surface of facets with three or four corners, in local numbering.
@@ -11,7 +12,7 @@ use striae_mesh::{FacetId, NodeId};
 #[derive(Clone, Debug)]
 pub struct Surface {
     nodes: Vec<NodeId>,
-    facets: Vec<[u32; 4]>,
+    facets: Vec<[SurfaceNode; 4]>,
     corners_of_node: Vec<Vec<Corner>>,
     boundary_edges: Vec<BoundaryEdge>,
     on_boundary: Vec<bool>,
@@ -23,16 +24,16 @@ pub struct Corner {
     /// The facet.
     pub facet: FacetId,
     /// Surface-local neighbour that follows the node counter-clockwise.
-    pub next: u32,
+    pub next: SurfaceNode,
     /// Surface-local neighbour that precedes the node.
-    pub previous: u32,
+    pub previous: SurfaceNode,
 }
 
 /// An edge that belongs to one facet only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BoundaryEdge {
     /// Surface-local end nodes in the facet's sense of rotation.
-    pub nodes: [u32; 2],
+    pub nodes: [SurfaceNode; 2],
     /// The facet.
     pub facet: FacetId,
 }
@@ -43,14 +44,15 @@ impl Surface {
         let mut nodes: Vec<NodeId> = facets.iter().flatten().copied().collect();
         nodes.sort_unstable();
         nodes.dedup();
-        let local = |node: &NodeId| nodes.partition_point(|other| other < node) as u32;
-        let facets: Vec<[u32; 4]> = facets.iter().map(|f| f.each_ref().map(local)).collect();
+        let local = |node: &NodeId| SurfaceNode::new(nodes.partition_point(|other| other < node));
+        let facets: Vec<[SurfaceNode; 4]> =
+            facets.iter().map(|f| f.each_ref().map(local)).collect();
         let corners_of_node = corners_of_node(nodes.len(), &facets);
         let boundary_edges = boundary_edges(&facets);
         let mut on_boundary = vec![false; nodes.len()];
         for edge in &boundary_edges {
             for node in edge.nodes {
-                on_boundary[node as usize] = true;
+                on_boundary[node] = true;
             }
         }
         Self {
@@ -67,14 +69,20 @@ impl Surface {
         &self.nodes
     }
 
+    /// The surface node that a mesh node is, if it lies on the surface.
+    pub fn node(&self, node: NodeId) -> Option<SurfaceNode> {
+        let place = self.nodes.binary_search(&node).ok();
+        place.map(SurfaceNode::new)
+    }
+
     /// Corners of every facet in surface-local numbering.
-    pub fn facets(&self) -> &[[u32; 4]] {
+    pub fn facets(&self) -> &[[SurfaceNode; 4]] {
         &self.facets
     }
 
     /// Facet corners that meet at a surface node.
-    pub fn corners(&self, node: u32) -> &[Corner] {
-        &self.corners_of_node[node as usize]
+    pub fn corners(&self, node: SurfaceNode) -> &[Corner] {
+        &self.corners_of_node[node]
     }
 
     /// Edges with a facet on one side only.
@@ -83,13 +91,13 @@ impl Surface {
     }
 
     /// Whether the surface node lies on an edge of the surface.
-    pub fn is_on_boundary(&self, node: u32) -> bool {
-        self.on_boundary[node as usize]
+    pub fn is_on_boundary(&self, node: SurfaceNode) -> bool {
+        self.on_boundary[node]
     }
 }
 
 /// Distinct corners of a facet: three or four.
-pub fn distinct_corners(facet: &[u32; 4]) -> &[u32] {
+pub fn distinct_corners(facet: &[SurfaceNode; 4]) -> &[SurfaceNode] {
     if facet[2] == facet[3] {
         &facet[..3]
     } else {
@@ -97,12 +105,12 @@ pub fn distinct_corners(facet: &[u32; 4]) -> &[u32] {
     }
 }
 
-fn corners_of_node(node_count: usize, facets: &[[u32; 4]]) -> Vec<Vec<Corner>> {
+fn corners_of_node(node_count: usize, facets: &[[SurfaceNode; 4]]) -> Vec<Vec<Corner>> {
     let mut corners = vec![Vec::new(); node_count];
     for (index, facet) in facets.iter().enumerate() {
         let ring = distinct_corners(facet);
         for (position, &node) in ring.iter().enumerate() {
-            corners[node as usize].push(Corner {
+            corners[node].push(Corner {
                 facet: FacetId::new(index),
                 next: ring[(position + 1) % ring.len()],
                 previous: ring[(position + ring.len() - 1) % ring.len()],
@@ -112,8 +120,8 @@ fn corners_of_node(node_count: usize, facets: &[[u32; 4]]) -> Vec<Vec<Corner>> {
     corners
 }
 
-fn boundary_edges(facets: &[[u32; 4]]) -> Vec<BoundaryEdge> {
-    let mut uses: BTreeMap<[u32; 2], Vec<BoundaryEdge>> = BTreeMap::new();
+fn boundary_edges(facets: &[[SurfaceNode; 4]]) -> Vec<BoundaryEdge> {
+    let mut uses: BTreeMap<[SurfaceNode; 2], Vec<BoundaryEdge>> = BTreeMap::new();
     for (index, facet) in facets.iter().enumerate() {
         let ring = distinct_corners(facet);
         for (position, &start) in ring.iter().enumerate() {
@@ -142,8 +150,8 @@ mod tests {
         let surface = Surface::new(&[[n(3), n(7), n(8), n(4)], [n(7), n(9), n(8), n(8)]]);
         assert_eq!(surface.nodes(), [n(3), n(4), n(7), n(8), n(9)]);
         assert_eq!(surface.boundary_edges().len(), 5);
-        assert_eq!(surface.corners(2).len(), 2);
-        assert_eq!(surface.corners(2)[0].next, 3);
-        assert_eq!(surface.corners(2)[0].previous, 0);
+        assert_eq!(surface.corners(SurfaceNode(2)).len(), 2);
+        assert_eq!(surface.corners(SurfaceNode(2))[0].next, SurfaceNode(3));
+        assert_eq!(surface.corners(SurfaceNode(2))[0].previous, SurfaceNode(0));
     }
 }

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use striae::{deck, model::RigidMotion, prelude::*};
 use striae_model::{
-    ContactMass, Fault, Increments, Load, Mover, Pair, RigidId, RigidShape, RigidSurface, Side,
-    Step, Velocity,
+    ContactMass, ContactSurface, Fault, Increments, Load, Mover, Pair, RigidId, RigidShape,
+    RigidSurface, Step, Velocity,
 };
 
 /// Eleven different faults.
@@ -86,14 +86,14 @@ fn block(name: &str, z: f64) -> striae::model::Body {
     }
 }
 
-fn side(bodies: &[striae::model::Body], body: usize, facets: &str) -> Side {
-    Side::Deformable {
+fn side(bodies: &[striae::model::Body], body: usize, facets: &str) -> ContactSurface {
+    ContactSurface::Deformable {
         body: striae::model::BodyId(body),
         faces: bodies[body].mesh.facet_sets.get(facets).unwrap().to_vec(),
     }
 }
 
-fn joined(name: &str, a: Side, b: Side, friction: Friction) -> Pair {
+fn joined(name: &str, a: ContactSurface, b: ContactSurface, friction: Friction) -> Pair {
     Pair {
         name: name.into(),
         a,
@@ -129,8 +129,8 @@ fn eleven_faults() -> Model {
         ),
         joined(
             "rigid",
-            Side::Rigid(RigidId(0)),
-            Side::Rigid(RigidId(0)),
+            ContactSurface::Rigid(RigidId(0)),
+            ContactSurface::Rigid(RigidId(0)),
             Friction::frictionless(),
         ),
         joined(
@@ -294,7 +294,7 @@ fn after(change: impl FnOnce(&mut Model)) -> Vec<String> {
 fn what_only_a_model_can_say_is_judged_too() {
     assert!(after(|_| ()).is_empty());
     let missing = after(|model| {
-        model.pairs[0].b = Side::Rigid(RigidId(3));
+        model.pairs[0].b = ContactSurface::Rigid(RigidId(3));
         model.steps[0].displacements[0].nodes.push(NodeId(99));
     });
     assert_eq!(

@@ -8,7 +8,9 @@ use striae_deck as deck;
 use striae_law::bulk::{LameConstants, Material};
 use striae_mesh::NodeId;
 use striae_solve::{
-    model::{Body, BodySection, Formulation, Model, Pair, RigidShape, RigidSurface, Side},
+    model::{
+        Body, BodySection, ContactSurface, Formulation, Model, Pair, RigidShape, RigidSurface,
+    },
     stabilisation::first_increment,
 };
 
@@ -115,7 +117,7 @@ fn rigid_line(rigid: &RigidSurface) -> String {
 
 fn pair_line(pair: &Pair, model: &Model) -> String {
     let [a, b] = [&pair.a, &pair.b].map(|side| match side {
-        Side::Deformable { body, faces } => {
+        ContactSurface::Deformable { body, faces } => {
             let name = &model.bodies[body.0].name;
             format!(
                 "`{name}` ({} facets, {} nodes)",
@@ -123,7 +125,7 @@ fn pair_line(pair: &Pair, model: &Model) -> String {
                 side_nodes(side, model).len()
             )
         }
-        Side::Rigid(rigid) => format!("rigid `{}`", model.rigid_surfaces[rigid.0].name),
+        ContactSurface::Rigid(rigid) => format!("rigid `{}`", model.rigid_surfaces[rigid.0].name),
     });
     let stabilised = if pair.stabilised { ", stabilised" } else { "" };
     format!("  pair `{}`: {a} and {b}{stabilised}", pair.name)
@@ -139,16 +141,16 @@ fn step_line(model: &Model, index: usize) -> String {
     )
 }
 
-fn side_nodes(side: &Side, model: &Model) -> BTreeSet<NodeId> {
+fn side_nodes(side: &ContactSurface, model: &Model) -> BTreeSet<NodeId> {
     match side {
-        Side::Deformable { body, faces } => {
+        ContactSurface::Deformable { body, faces } => {
             let mesh = &model.bodies[body.0].mesh;
             faces
                 .iter()
                 .flat_map(|face| mesh.face_nodes(*face))
                 .collect()
         }
-        Side::Rigid(_) => BTreeSet::new(),
+        ContactSurface::Rigid(_) => BTreeSet::new(),
     }
 }
 

@@ -16,6 +16,7 @@ use striae::{
     case_name,
     figures::{TexturedSurface, owner, texture},
 };
+use striae_contact::side::Side;
 use striae_deck as deck;
 use striae_output::vtk::{self, Array, Cells, Grid, Values};
 use striae_solve::problem::Problem;
@@ -43,9 +44,9 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let problem = Problem::new(deck.model)?;
     let mut surfaces = Vec::new();
     for pair in 0..problem.pairs.len() {
-        for side in 0..2 {
+        for side in Side::BOTH {
             if let Some(surface) = TexturedSurface::new(&problem, pair, side)? {
-                surfaces.push(([pair, side], surface));
+                surfaces.push(((pair, side), surface));
             }
         }
     }
@@ -62,14 +63,13 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
 
 fn show(
     problem: &Problem,
-    [pair, side]: [usize; 2],
+    (pair, side): (usize, Side),
     surface: &TexturedSurface,
     folder: &Path,
     out: &mut dyn Write,
 ) -> Result<(), Failure> {
     let model = &problem.model;
     let name = &model.pairs[pair].name;
-    let letter = ["a", "b"][side];
     let owner = owner(model, pair, side);
     let conditioning = problem.pairs[pair].conditionings[side].as_ref();
     let count = surface.positions.len();
@@ -77,9 +77,9 @@ fn show(
         Some(_) => format!("{count} nodes"),
         None => format!("a plane, sampled at {count} points"),
     };
-    writeln!(out, "pair `{name}`, side {letter}, {owner}: {nodes}")?;
+    writeln!(out, "pair `{name}`, side {side}, {owner}: {nodes}")?;
     writeln!(out, "  {}", told(conditioning))?;
-    let stem = format!("texture-{name}-{letter}");
+    let stem = format!("texture-{name}-{side}");
     texture::figure(surface).write(folder, &stem)?;
     write_surface(&folder.join(&stem).with_extension("vtu"), surface)?;
     let file = folder.join(&stem);

@@ -41,8 +41,7 @@ pub(super) fn tangential(
     iteration: Iteration,
 ) -> (Status, [TangentialRow; 2]) {
     let z = [Q::variable(z1, TRACTION + 1), Q::variable(z2, TRACTION + 2)];
-    let friction = &configuration.pair.friction;
-    if friction.cap(1.0, 0.0) == 0.0 {
+    if state.friction.cap(1.0, 0.0) == 0.0 {
         return (Status::Slip, z.map(traction));
     }
     let rate = match iteration {
@@ -52,15 +51,14 @@ pub(super) fn tangential(
         }
         Iteration::First | Iteration::Corrected(_) => Rate::Present,
     };
-    let varpi = state.varpi(configuration, p, rate);
+    let varpi = state.varpi(p, rate);
     let node = Friction {
         state,
-        configuration,
         mobility: Mobility::new(state),
         size: configuration.size(state.node.side, state.node.node),
         begun: match state.node.before.status {
             Status::Open | Status::Stick if state.node.before.begun % 2 == 1 => {
-                state.varpi(configuration, p, Rate::Endless)
+                state.varpi(p, Rate::Endless)
             }
             Status::Open | Status::Stick | Status::Slip => varpi,
         },
@@ -77,7 +75,6 @@ pub(super) fn tangential(
 /// Friction at a closed node.
 struct Friction<'a> {
     state: &'a NodeState<'a>,
-    configuration: &'a Configuration<'a>,
     mobility: Mobility,
     size: f64,
     varpi: Q,
@@ -154,7 +151,7 @@ impl Friction<'_> {
     fn continued_radius(&self) -> Q {
         let radius = self.reaching(&self.varpi, &self.z);
         let [z1, z2] = self.z.map(|z| z.re);
-        let share = match self.configuration.pair.friction.decays() {
+        let share = match self.state.friction.decays() {
             true if radius.re > 0.0 => (z1.hypot(z2) / radius.re).min(1.0),
             _ => 1.0,
         };
@@ -164,7 +161,7 @@ impl Friction<'_> {
     /// The radius of the slip surface at the highest slip rates.
     fn least_radius(&self) -> f64 {
         let p = self.state.node.unknowns[0];
-        let kinetic = self.state.varpi(self.configuration, p, Rate::Endless);
+        let kinetic = self.state.varpi(p, Rate::Endless);
         self.reaching(&kinetic, &self.z).re
     }
 
@@ -176,7 +173,7 @@ impl Friction<'_> {
         let before = &self.state.node.before;
         let around = first.re * y[0] + second.re * y[1] < 0.0;
         let du = self.state.slip[0].re.hypot(self.state.slip[1].re);
-        let sticks = self.configuration.pair.friction.decays()
+        let sticks = self.state.friction.decays()
             && before.status == Status::Slip
             && (around || before.goes_back_and_forth(du));
         length > radius && !sticks
@@ -184,7 +181,7 @@ impl Friction<'_> {
 
     /// `varpi rho`, the radius of the slip surface in a direction.
     fn reaching(&self, varpi: &Q, direction: &[Q; 2]) -> Q {
-        let reach = self.state.reach(self.configuration, direction);
+        let reach = self.state.reach(direction);
         Q::product(varpi, &reach)
     }
 

@@ -1,10 +1,12 @@
 //! What the rows of a kept node are made from.
 
+use striae_law::friction::Friction;
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 use crate::{
-    frame::Frame, kinematics::Kinematics, table_1::Corrector, texture::NodeTextures,
-    tracked::TrackedScalar, unknowns::Label,
+    frame::Frame, kinematics::Kinematics, side::Side, table_1::Corrector, texture::NodeTextures,
+    tracked::TrackedScalar, unknown::Prescribed, unknowns::Label,
 };
 
 /// Which iteration of an increment is evaluated.
@@ -27,13 +29,24 @@ impl Iteration {
     pub const LATER: Self = Self::Later { slip_weight: 1.0 };
 }
 
+/// What a pair is evaluated under.
+#[derive(Clone, Copy, Debug)]
+pub struct Conditions<'a> {
+    /// Friction law of the step.
+    pub friction: &'a Friction,
+    /// Prescribed positions.
+    pub prescribed: &'a Prescribed,
+    /// Which iteration it is.
+    pub iteration: Iteration,
+}
+
 /// A kept node with all that its rows need.
 #[derive(Clone, Debug)]
 pub struct ContactNode<'a> {
     /// Side of the pair.
-    pub side: usize,
+    pub side: Side,
     /// Surface-local node.
-    pub node: u32,
+    pub node: SurfaceNode,
     /// Gap and slip.
     pub kinematics: &'a Kinematics,
     /// Nodal frame.

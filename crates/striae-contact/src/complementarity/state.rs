@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 use num_dual::DualSVec64;
+use striae_law::friction::Friction;
 use striae_mesh::Vec3;
 use striae_surface::scalar::constant3;
 
@@ -53,6 +54,8 @@ pub(super) enum Rate {
 pub(super) struct NodeState<'a> {
     /// The node.
     pub(super) node: &'a ContactNode<'a>,
+    /// Friction law.
+    pub(super) friction: &'a Friction,
     numbering: Numbering,
     prescribed: &'a Prescribed,
     /// What the lanes depend on.
@@ -72,6 +75,7 @@ impl<'a> NodeState<'a> {
     pub(super) fn new(
         configuration: &Configuration,
         node: &'a ContactNode<'a>,
+        friction: &'a Friction,
         prescribed: &'a Prescribed,
     ) -> Self {
         let numbering = configuration.pair.numbering();
@@ -92,7 +96,7 @@ impl<'a> NodeState<'a> {
         // Lanes of the law: normal and textures.
         let normal: Vector3<DualSVec64<9>> = variable3(&node.frame.n.value, 0);
         let textures = on_lanes(node.textures, 3);
-        let kernel = configuration.pair.friction.kernel(&normal, &textures);
+        let kernel = friction.kernel(&normal, &textures);
         let (turned, by_surroundings) = parts(&(kernel.k_inverse * constant3(&slip.value)));
         let k_inverse = kernel.k_inverse.map(|component| component.re);
         // `t . v` for a vector `v` that depends on the slip and on the law's lanes.
@@ -113,6 +117,7 @@ impl<'a> NodeState<'a> {
         });
         Self {
             node,
+            friction,
             numbering,
             prescribed,
             lanes,
@@ -177,7 +182,7 @@ impl<'a> NodeState<'a> {
     pub(super) fn is_free_position(&self, first: u32, axis: usize) -> bool {
         match self.numbering.unknown(first) {
             Unknown::Position { side, node, .. } => {
-                self.answers(first) && !self.prescribed[side][3 * node as usize + axis]
+                self.answers(first) && !self.prescribed[side][3 * node.index() + axis]
             }
             Unknown::Traction { .. } => false,
         }
@@ -192,7 +197,7 @@ impl<'a> NodeState<'a> {
     }
 
     /// `varpi` at the pressure `p` and a slip rate.
-    pub(super) fn varpi(&self, configuration: &Configuration, p: f64, rate: Rate) -> Q {
+    pub(super) fn varpi(&self, p: f64, rate: Rate) -> Q {
         let present = self.node.rate.value;
         let rate = match rate {
             Rate::Present => present,
@@ -202,7 +207,7 @@ impl<'a> NodeState<'a> {
             }
             Rate::Endless => f64::INFINITY,
         };
-        let cap = Cap::new(&configuration.pair.friction, p, rate);
+        let cap = Cap::new(self.friction, p, rate);
         let mut varpi = Q::constant(cap.value);
         varpi.slope[TRACTION] = cap.by_pressure;
         if rate == present {
@@ -213,8 +218,8 @@ impl<'a> NodeState<'a> {
 
     /// `rho`, how far `z` reaches over `varpi` in a direction with components along the
     /// tangents.
-    pub(super) fn reach(&self, configuration: &Configuration, direction: &[Q; 2]) -> Q {
-        let friction = &configuration.pair.friction;
+    pub(super) fn reach(&self, direction: &[Q; 2]) -> Q {
+        let friction = self.friction;
         if !friction.turns() {
             return Q::constant(1.0);
         }

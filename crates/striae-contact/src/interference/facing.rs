@@ -1,6 +1,6 @@
 //! Nodes that face the other side, however far away.
 
-use striae_surface::topology::distinct_corners;
+use striae_surface::{node::SurfaceNode, topology::distinct_corners};
 
 use super::{
     nearest::{Standing, triangles},
@@ -8,21 +8,24 @@ use super::{
     thickness::of_corners,
     triangle,
 };
-use crate::configuration::{Configuration, Snapshot};
+use crate::{
+    configuration::{Configuration, Snapshot},
+    side::Side,
+};
 
 /// A node of a deformable side and the nearest point of the other side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Facing {
     /// Side of the node.
-    pub side: usize,
+    pub side: Side,
     /// The node.
-    pub node: u32,
+    pub node: SurfaceNode,
     /// Its share in the area of its side.
     pub area: f64,
     /// Distance along the normal of the other side, negative behind it.
     pub gap: f64,
     /// Corners of the facet of the nearest point and their weights there; `None` on a plane.
-    pub opposite: Option<([u32; 4], [f64; 4])>,
+    pub opposite: Option<([SurfaceNode; 4], [f64; 4])>,
 }
 
 /// Cosine between the normals of a node and of the point nearest to it below which they
@@ -35,16 +38,16 @@ const BESIDE: f64 = 0.5;
 /// All nodes of the deformable sides that face the other side: their normals are opposed,
 /// and they lie over the other side or beside it by less than half a facet.
 pub fn facing(configuration: &Configuration) -> Vec<Facing> {
-    let of_side = |&side: &usize| {
+    let of_side = |&side: &Side| {
         let snapshot = configuration.side(side);
         let areas = areas(snapshot);
         let nodes = areas.into_iter().enumerate();
         let found: Vec<Facing> = nodes
             .filter_map(|(node, area)| {
-                let (gap, opposite) = across(configuration, side, node)?;
+                let (gap, opposite) = across(configuration, side, SurfaceNode::new(node))?;
                 Some(Facing {
                     side,
-                    node: node as u32,
+                    node: SurfaceNode::new(node),
                     area,
                     gap,
                     opposite,
@@ -57,23 +60,23 @@ pub fn facing(configuration: &Configuration) -> Vec<Facing> {
     sides.iter().flat_map(of_side).collect()
 }
 
-type Opposite = Option<([u32; 4], [f64; 4])>;
+type Opposite = Option<([SurfaceNode; 4], [f64; 4])>;
 
-fn across(configuration: &Configuration, side: usize, node: usize) -> Option<(f64, Opposite)> {
+fn across(configuration: &Configuration, side: Side, node: SurfaceNode) -> Option<(f64, Opposite)> {
     let snapshot = configuration.side(side);
     let (x, normal) = (snapshot.x[node], snapshot.normals[node]);
     if let Some((point, n)) = configuration.plane() {
         return (normal.dot(&n) < OPPOSED).then(|| ((x - point).dot(&n), None));
     }
-    let other = configuration.side(1 - side);
+    let other = configuration.side(side.opposite());
     let nearest = placed(other).nearest(&x)?;
     let gap = (x - nearest.point).dot(&nearest.normal);
     let beside = (x - nearest.point - nearest.normal * gap).norm();
     let corners = other.corners(nearest.facet);
-    let size = other.sizes[corners[0] as usize];
+    let size = other.sizes[corners[0]];
     let over = nearest.standing != Standing::Beside || beside < BESIDE * size;
     (over && normal.dot(&nearest.normal) < OPPOSED).then(|| {
-        let fan = triangles(&corners, |node| other.x[node as usize]);
+        let fan = triangles(&corners, |node| other.x[node]);
         let distance = |at: &usize| {
             let (weights, _) = triangle::nearest(&fan[*at], &x);
             let point: striae_mesh::Vec3 = (0..3).map(|k| fan[*at][k] * weights[k]).sum();
@@ -91,11 +94,11 @@ fn across(configuration: &Configuration, side: usize, node: usize) -> Option<(f6
 fn areas(snapshot: &Snapshot) -> Vec<f64> {
     let mut areas = vec![0.0; snapshot.x.len()];
     for corners in snapshot.surface.facets() {
-        let fan = triangles(corners, |node| snapshot.x[node as usize]);
+        let fan = triangles(corners, |node| snapshot.x[node]);
         let area: striae_mesh::Vec3 = fan.iter().map(|[a, b, c]| (b - a).cross(&(c - a))).sum();
         let ring = distinct_corners(corners);
         for &node in ring {
-            areas[node as usize] += 0.5 * area.norm() / ring.len() as f64;
+            areas[node] += 0.5 * area.norm() / ring.len() as f64;
         }
     }
     areas

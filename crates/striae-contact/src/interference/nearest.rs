@@ -9,7 +9,10 @@
 //! over the edge.
 
 use striae_mesh::{FacetId, Vec3};
-use striae_surface::topology::{Surface, distinct_corners};
+use striae_surface::{
+    node::SurfaceNode,
+    topology::{Surface, distinct_corners},
+};
 
 use super::triangle::{self, Part};
 use crate::search::Tree;
@@ -41,7 +44,7 @@ pub enum Standing {
 }
 
 /// A surface with its nodes somewhere.
-pub(super) struct Placed<'a, F: Fn(u32) -> Vec3> {
+pub(super) struct Placed<'a, F: Fn(SurfaceNode) -> Vec3> {
     /// Topology.
     pub surface: &'a Surface,
     /// Tree over boxes that hold the facets.
@@ -63,7 +66,10 @@ enum Feature {
 const OVER_EDGE: f64 = 1e-6;
 
 /// Vertices of the triangles of a facet; the last one is the centre in quadrilaterals.
-pub(super) fn triangles(corners: &[u32; 4], x: impl Fn(u32) -> Vec3) -> Vec<[Vec3; 3]> {
+pub(super) fn triangles(
+    corners: &[SurfaceNode; 4],
+    x: impl Fn(SurfaceNode) -> Vec3,
+) -> Vec<[Vec3; 3]> {
     let ring = distinct_corners(corners);
     let x: Vec<Vec3> = ring.iter().map(|&node| x(node)).collect();
     if let [a, b, c] = x[..] {
@@ -75,7 +81,7 @@ pub(super) fn triangles(corners: &[u32; 4], x: impl Fn(u32) -> Vec3) -> Vec<[Vec
         .collect()
 }
 
-impl<F: Fn(u32) -> Vec3> Placed<'_, F> {
+impl<F: Fn(SurfaceNode) -> Vec3> Placed<'_, F> {
     /// The point of the surface nearest to `x`; `None` without facets.
     pub(super) fn nearest(&self, x: &Vec3) -> Option<Nearest> {
         let mut best: Option<(f64, u32, Vec3, Feature)> = None;
@@ -158,7 +164,7 @@ impl<F: Fn(u32) -> Vec3> Placed<'_, F> {
         (0.5 * self.area(facet).norm()).sqrt()
     }
 
-    fn edge_normal(&self, start: u32, end: u32) -> (Vec3, bool) {
+    fn edge_normal(&self, start: SurfaceNode, end: SurfaceNode) -> (Vec3, bool) {
         let (mut sum, mut count) = (Vec3::zeros(), 0);
         for corner in self.surface.corners(start) {
             if corner.next != end && corner.previous != end {
@@ -174,7 +180,7 @@ impl<F: Fn(u32) -> Vec3> Placed<'_, F> {
         (sum, count == 1)
     }
 
-    fn corner_normal(&self, node: u32) -> (Vec3, bool) {
+    fn corner_normal(&self, node: SurfaceNode) -> (Vec3, bool) {
         let corners = self.surface.corners(node).iter();
         let sum = corners
             .flat_map(|corner| self.at_corner(node, corner.facet))
@@ -184,7 +190,7 @@ impl<F: Fn(u32) -> Vec3> Placed<'_, F> {
     }
 
     /// Angle and unit normal of the triangles of a facet at a node, counter-clockwise.
-    fn at_corner(&self, node: u32, facet: FacetId) -> Vec<(f64, Vec3)> {
+    fn at_corner(&self, node: SurfaceNode, facet: FacetId) -> Vec<(f64, Vec3)> {
         let corners = &self.surface.facets()[facet.index()];
         let ring = distinct_corners(corners);
         let at = ring.iter().position(|&corner| corner == node);

@@ -7,6 +7,7 @@
 //! it has gone through the body.
 
 use striae_mesh::{FacetId, Vec3};
+use striae_surface::node::SurfaceNode;
 
 use super::{
     Spot, located,
@@ -68,7 +69,7 @@ impl<'a> Moving<'a> {
 
     /// Where a point is at both ends.
     pub(super) fn path(&self, spot: Spot) -> [Vec3; 2] {
-        let place = |at: &Snapshot| located(at.surface, spot, |node| at.x[node as usize]);
+        let place = |at: &Snapshot| located(at.surface, spot, |node| at.x[node]);
         self.at.map(place)
     }
 
@@ -108,9 +109,7 @@ impl<'a> Moving<'a> {
         let mut all = Vec::new();
         for &facet in near {
             let corners = self.at[0].corners(FacetId(facet));
-            let [start, end] = self
-                .at
-                .map(|at| triangles(&corners, |node| at.x[node as usize]));
+            let [start, end] = self.at.map(|at| triangles(&corners, |node| at.x[node]));
             for (first, last) in start.into_iter().zip(end) {
                 for (time, way) in passages(path, &[first, last]) {
                     let [a, b, c] = [0, 1, 2].map(|k: usize| first[k].lerp(&last[k], time));
@@ -123,18 +122,18 @@ impl<'a> Moving<'a> {
         all
     }
 
-    fn placed(&self, time: f64) -> Placed<'_, impl Fn(u32) -> Vec3> {
+    fn placed(&self, time: f64) -> Placed<'_, impl Fn(SurfaceNode) -> Vec3> {
         let at = self.at;
         Placed {
             surface: at[0].surface,
             tree: &self.tree,
-            x: move |node| at[0].x[node as usize].lerp(&at[1].x[node as usize], time),
+            x: move |node| at[0].x[node].lerp(&at[1].x[node], time),
         }
     }
 
     /// Steps that follow a point over the facets near it.
     fn steps(&self, path: &[Vec3; 2], facet: u32) -> usize {
-        let node = self.at[0].corners(FacetId(facet))[0] as usize;
+        let node = self.at[0].corners(FacetId(facet))[0].index();
         let own = self.at[1].x[node] - self.at[0].x[node];
         let motion = (path[1] - path[0] - own).norm();
         (STEPS * motion / self.at[1].sizes[node])

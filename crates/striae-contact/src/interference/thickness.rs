@@ -6,17 +6,23 @@
 //! once, in the reference configuration, and its length follows the deformation.
 
 use rayon::prelude::*;
-use striae_mesh::Vec3;
-use striae_surface::topology::{Surface, distinct_corners};
+use striae_mesh::{NodeId, Vec3};
+use striae_surface::{
+    node::SurfaceNode,
+    topology::{Surface, distinct_corners},
+};
 
 use super::nearest::triangles;
-use crate::search::{Bounds, Tree};
+use crate::{
+    search::{Bounds, Tree},
+    side::Side,
+};
 
 /// The end of a fibre through a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fibre {
-    /// Nodes of the skin around the end.
-    pub nodes: [u32; 4],
+    /// Nodes of the mesh, on its skin around the end.
+    pub nodes: [NodeId; 4],
     /// Their weights; they sum to one.
     pub weights: [f64; 4],
 }
@@ -32,7 +38,7 @@ impl Thickness {
     }
 
     /// The largest one of a side.
-    pub(super) fn largest(&self, side: usize) -> f64 {
+    pub(super) fn largest(&self, side: Side) -> f64 {
         self.0[side].iter().copied().fold(0.0, f64::max)
     }
 }
@@ -48,14 +54,14 @@ pub fn fibres(
     let boxes = skin
         .facets()
         .iter()
-        .map(|facet| Bounds::around(distinct_corners(facet).iter().map(|&n| skin_x[n as usize])));
+        .map(|facet| Bounds::around(distinct_corners(facet).iter().map(|&n| skin_x[n])));
     let tree = Tree::new(boxes.collect());
     let facets = surface.facets().par_iter().with_min_len(8);
     facets
         .map(|corners| {
-            let fan = triangles(corners, |node| x[node as usize]);
+            let fan = triangles(corners, |node| x[node]);
             let area: Vec3 = fan.iter().map(|[a, b, c]| (b - a).cross(&(c - a))).sum();
-            let start = centre(corners, |node| x[node as usize]);
+            let start = centre(corners, |node| x[node]);
             let least = 1e-6 * area.norm().sqrt();
             opposite(skin, skin_x, &tree, [&start, &-area.normalize()], least)
         })
@@ -67,7 +73,7 @@ pub fn lengths(
     surface: &Surface,
     x: &[Vec3],
     fibres: &[Option<Fibre>],
-    skin_x: impl Fn(u32) -> Vec3,
+    skin_x: impl Fn(NodeId) -> Vec3,
 ) -> Vec<f64> {
     let facets = surface.facets().iter().zip(fibres);
     facets
@@ -75,13 +81,13 @@ pub fn lengths(
             fibre.as_ref().map_or(f64::INFINITY, |fibre| {
                 let ends = fibre.nodes.iter().zip(fibre.weights);
                 let end: Vec3 = ends.map(|(&node, weight)| skin_x(node) * weight).sum();
-                (end - centre(corners, |node| x[node as usize])).norm()
+                (end - centre(corners, |node| x[node])).norm()
             })
         })
         .collect()
 }
 
-pub(super) fn centre(corners: &[u32; 4], x: impl Fn(u32) -> Vec3) -> Vec3 {
+pub(super) fn centre(corners: &[SurfaceNode; 4], x: impl Fn(SurfaceNode) -> Vec3) -> Vec3 {
     let ring = distinct_corners(corners);
     ring.iter().map(|&node| x(node)).sum::<Vec3>() / ring.len() as f64
 }
@@ -97,14 +103,14 @@ fn opposite(
     let mut best: Option<(f64, Fibre)> = None;
     for facet in tree.on_ray(start, direction) {
         let corners = &skin.facets()[facet as usize];
-        let fan = triangles(corners, |node| skin_x[node as usize]);
+        let fan = triangles(corners, |node| skin_x[node]);
         for (at, vertices) in fan.iter().enumerate() {
             let Some((distance, weights)) = met(vertices, start, direction) else {
                 continue;
             };
             if distance > least && best.as_ref().is_none_or(|known| distance < known.0) {
                 let weights = of_corners(at, fan.len(), weights);
-                let nodes = *corners;
+                let nodes = corners.map(|corner| skin.nodes()[corner]);
                 best = Some((distance, Fibre { nodes, weights }));
             }
         }

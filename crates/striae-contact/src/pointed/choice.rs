@@ -25,6 +25,7 @@
 
 use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
+use striae_surface::node::SurfaceNode;
 
 pub mod points;
 
@@ -35,6 +36,7 @@ use crate::{
     pairing::{Scope, paired_facets},
     segment::Derivatives,
     selection::{Kept, Selection, compliances},
+    side::Side,
     spot::faced,
     tip::{RigidPoint, Tip},
     unknowns::NodeResult,
@@ -71,18 +73,18 @@ pub const COVERED: f64 = 0.1;
 const NO_PRESSURE: f64 = 1e-10;
 
 /// Nodes, as side and number.
-type Places = Vec<(usize, u32)>;
+type Places = Vec<(Side, SurfaceNode)>;
 
 /// What pierces the other side without being pointed yet.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pierced {
     /// Nodes, as side and number.
-    pub nodes: Vec<(usize, u32)>,
+    pub nodes: Vec<(Side, SurfaceNode)>,
     /// Nodes that the field is to have unknowns at, as side and number: their facets are in
     /// the other side in the mean, and no kept node feels it.
-    pub unfelt: Vec<(usize, u32)>,
+    pub unfelt: Vec<(Side, SurfaceNode)>,
     /// Points of a rigid side with the nodes that they lodge with.
-    pub points: Vec<(u32, RigidPoint)>,
+    pub points: Vec<(SurfaceNode, RigidPoint)>,
 }
 
 impl Pierced {
@@ -112,7 +114,7 @@ pub fn pierced(
         .collect();
     nodes.retain(|&(side, node)| {
         let own = configuration.side(side);
-        let node = node as usize;
+        let node = node.index();
         are_apart(&felt, &own.x[node], own.sizes[node])
     });
     Pierced {
@@ -144,9 +146,9 @@ fn sharp_and_unfelt(
     let means = mean_gaps(configuration, selection.scope());
     // There is room for points of a rigid side of facets only.
     let on_facets = !selection.points.is_empty();
-    let is_sharp = |&(side, node, gap): &(usize, u32, f64)| {
-        let size = configuration.side(side).sizes[node as usize];
-        means[side][node as usize].is_none_or(|mean| {
+    let is_sharp = |&(side, node, gap): &(Side, SurfaceNode, f64)| {
+        let size = configuration.side(side).sizes[node];
+        means[side][node].is_none_or(|mean| {
             let edge = || bend_at(configuration.side(side), node) == Some(Bend::Sharp);
             let sharp = unfelt && edge() || mean > 0.0 && mean - gap > SHARP * size;
             let open = on_facets && mean > CLOSING * size;
@@ -155,7 +157,7 @@ fn sharp_and_unfelt(
     };
     let (mut sharp, smooth): (Vec<_>, Vec<_>) = deep.into_iter().partition(is_sharp);
     let (required, single): (Vec<_>, Vec<_>) = smooth.into_iter().partition(|&(side, node, _)| {
-        let is_in = means[side][node as usize].is_some_and(|mean| mean < 0.0);
+        let is_in = means[side][node].is_some_and(|mean| mean < 0.0);
         is_in && progress == Progress::Converged && follows(configuration, selection, side, node)
     });
     // The field feels nothing at all of two bodies that touch within a facet of both.
@@ -171,13 +173,18 @@ fn sharp_and_unfelt(
 
 /// Whether a node between two deformable bodies follows others and has enough weight for an
 /// unknown of its own.
-fn follows(configuration: &Configuration, selection: &Selection, side: usize, node: u32) -> bool {
-    let size = configuration.side(side).sizes[node as usize];
+fn follows(
+    configuration: &Configuration,
+    selection: &Selection,
+    side: Side,
+    node: SurfaceNode,
+) -> bool {
+    let size = configuration.side(side).sizes[node];
     let weight = |at: usize| selection.basis.node_weights[side][at];
     !configuration.pair.is_rigid()
         && !selection.is_kept(side, node)
         && selection.carries(side, node)
-        && weight(node as usize) > COVERED * size * size
+        && weight(node.index()) > COVERED * size * size
 }
 
 /// Nodes without pressure that are not pointed and lie deeper inside the other side than
@@ -187,21 +194,21 @@ fn deep_nodes(
     selection: &Selection,
     carried: &[Vec<[f64; 3]>; 2],
     depth: f64,
-) -> Vec<(usize, u32, f64)> {
+) -> Vec<(Side, SurfaceNode, f64)> {
     let mut deep = Vec::new();
     for &side in configuration.pair.deformable_sides() {
         let nothing = NO_PRESSURE * configuration.pair.sides[side].stiffness;
-        let own_gap = |node: u32| {
-            let is_free =
-                !selection.is_pointed(side, node) && carried[side][node as usize][0] <= nothing;
+        let own_gap = |node: SurfaceNode| {
+            let is_free = !selection.is_pointed(side, node) && carried[side][node][0] <= nothing;
             let gap = is_free
                 .then(|| inside(configuration, side, node, depth))
                 .flatten();
             gap.map(|gap| (side, node, gap))
         };
-        let found: Vec<(usize, u32, f64)> = (0..selection.nodes(side) as u32)
+        let found: Vec<(Side, SurfaceNode, f64)> = (0..selection.nodes(side))
             .into_par_iter()
             .with_min_len(16)
+            .map(SurfaceNode::new)
             .filter_map(own_gap)
             .collect();
         deep.extend(found);
@@ -219,7 +226,7 @@ fn presses(configuration: &Configuration, carried: &[Vec<[f64; 3]>; 2]) -> bool 
 /// Pressure that is none on either side.
 fn nothing(configuration: &Configuration) -> f64 {
     let pair = configuration.pair;
-    let stiffness = |&side: &usize| pair.sides[side].stiffness;
+    let stiffness = |&side: &Side| pair.sides[side].stiffness;
     let softer = pair.deformable_sides().iter().map(stiffness);
     NO_PRESSURE * softer.fold(f64::INFINITY, f64::min)
 }
@@ -228,23 +235,23 @@ fn nothing(configuration: &Configuration) -> f64 {
 fn is_pressed_around(
     configuration: &Configuration,
     carried: &[Vec<[f64; 3]>; 2],
-    node: u32,
+    node: SurfaceNode,
 ) -> bool {
-    let own = configuration.side(0);
+    let own = configuration.side(Side::A);
     let mut around = own.surface.corners(node).iter();
     around.any(|corner| is_pressed(configuration, carried, corner.facet))
 }
 
 /// Whether the field presses on a facet of side `a`.
 fn is_pressed(configuration: &Configuration, carried: &[Vec<[f64; 3]>; 2], facet: FacetId) -> bool {
-    let nothing = NO_PRESSURE * configuration.pair.sides[0].stiffness;
-    let corners = configuration.side(0).corners(facet).into_iter();
-    let mut pressures = corners.map(|node| carried[0][node as usize][0]);
+    let nothing = NO_PRESSURE * configuration.pair.sides[Side::A].stiffness;
+    let corners = configuration.side(Side::A).corners(facet).into_iter();
+    let mut pressures = corners.map(|node| carried[0][node][0]);
     pressures.any(|pressure| pressure > nothing)
 }
 
 /// Gap of a node that lies deeper inside the other side than `depth` of the smaller facet size.
-fn inside(configuration: &Configuration, side: usize, node: u32, depth: f64) -> Option<f64> {
+fn inside(configuration: &Configuration, side: Side, node: SurfaceNode, depth: f64) -> Option<f64> {
     let OwnGap { gap, sizes } = own_gap(configuration, side, node)?;
     (gap < -depth * sizes[0].min(sizes[1])).then_some(gap)
 }
@@ -258,12 +265,12 @@ pub(crate) struct OwnGap {
 }
 
 /// Gap at a node; `None` beside the other side or far away from it.
-pub(crate) fn own_gap(configuration: &Configuration, side: usize, node: u32) -> Option<OwnGap> {
+pub(crate) fn own_gap(configuration: &Configuration, side: Side, node: SurfaceNode) -> Option<OwnGap> {
     let own = configuration.side(side);
-    let size = own.sizes[node as usize];
+    let size = own.sizes[node];
     if let Some((point, normal)) = configuration.plane() {
-        let gap = (own.x[node as usize] - point).dot(&normal);
-        let faces = own.normals[node as usize].dot(&normal) < 0.0;
+        let gap = (own.x[node] - point).dot(&normal);
+        let faces = own.normals[node].dot(&normal) < 0.0;
         let near = -gap < configuration.reach(side, node);
         let sizes = [size; 2];
         return (faces && near).then_some(OwnGap { gap, sizes });
@@ -274,12 +281,12 @@ pub(crate) fn own_gap(configuration: &Configuration, side: usize, node: u32) -> 
         home: None,
     };
     let hit = faced(configuration, tip, tip.reach(configuration))?;
-    let target = configuration.side(1 - side);
+    let target = configuration.side(side.opposite());
     let other = if configuration.pair.is_rigid() {
         size
     } else {
         let corners = target.corners(hit.facet);
-        let sizes = corners.map(|corner| target.sizes[corner as usize]);
+        let sizes = corners.map(|corner| target.sizes[corner]);
         sizes.into_iter().fold(f64::INFINITY, f64::min)
     };
     Some(OwnGap {
@@ -312,7 +319,7 @@ pub fn staying(
         let own = configuration.side(side);
         for (node, stays) in staying[side].iter_mut().enumerate() {
             let alone =
-                || !configuration.pair.is_rigid() || bend_at(own, node as u32) == Some(Bend::Sharp);
+                || !configuration.pair.is_rigid() || bend_at(own, SurfaceNode::new(node)) == Some(Bend::Sharp);
             let open = |gap| gap > CLOSING * own.sizes[node];
             *stays &= nodes[side][node].pressure > 0.0
                 && (gaps[side][node].is_none_or(open) || unfelt && alone());
@@ -323,7 +330,7 @@ pub fn staying(
 
 /// `integral N_I g / integral N_I` at all nodes with facets near the other side.
 fn mean_gaps(configuration: &Configuration, scope: Scope) -> [Vec<Option<f64>>; 2] {
-    let mut sums = [0, 1].map(|side| {
+    let mut sums = Side::BOTH.map(|side| {
         let count = configuration.sides[side].as_ref().map_or(0, |s| s.x.len());
         vec![[0.0; 2]; count]
     });
@@ -332,7 +339,7 @@ fn mean_gaps(configuration: &Configuration, scope: Scope) -> [Vec<Option<f64>>; 
         for corner in 0..8 {
             if let Some((side, node)) = paired.node(configuration, corner) {
                 let sum = paired.difference(corner, &paired.x, &origin);
-                let [gap, area] = &mut sums[side][node as usize];
+                let [gap, area] = &mut sums[side][node];
                 *gap += paired.segment.normal.dot(&sum);
                 *area += paired.area_of(corner);
             }

@@ -5,11 +5,13 @@
 
 use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     common_field::CommonField,
     field::FacetForces,
     opposing::PlaceLanes,
+    side::Side,
     spot::Spot,
     term::{Field, Lanes, LocalTerm, Row, Source},
     tip::Tip,
@@ -48,7 +50,7 @@ impl CommonField<'_> {
     fn pointed_term(&self, k: usize) -> Option<PointedTerm> {
         let configuration = self.configuration;
         let (side, node) = self.selection.kept()[k].place();
-        let tip = self.selection.tip(side, node as u32);
+        let tip = self.selection.tip(side, node);
         let spot = Spot::new(configuration, tip)?;
         let weight = self.selection.weight(k);
         let pressure = self.tractions.nodes[side][node][0];
@@ -83,7 +85,7 @@ impl CommonField<'_> {
             && let Some(opposing) = &spot.opposing
         {
             for (&corner, share) in spot.corners.iter().zip(opposing.weights) {
-                add(numbering.position(1 - side, corner), -share);
+                add(numbering.position(side.opposite(), corner), -share);
             }
             let first = 3 * usize::from(own.is_some());
             for at in 0..spot.corners.len() {
@@ -112,7 +114,7 @@ impl CommonField<'_> {
 
     fn pointed_lanes<'b>(
         &'b self,
-        (side, node): (usize, usize),
+        (side, node): (Side, SurfaceNode),
         tip: Tip,
         spot: &'b Spot,
     ) -> Lanes<'b> {
@@ -123,14 +125,14 @@ impl CommonField<'_> {
         lanes.push(Source::Vector(&spot.n.jacobian));
         match &spot.hit {
             Some(hit) if tip.presses_on_deformable(self.configuration) => {
-                let corners = self.configuration.side(1 - side).corners(hit.facet);
+                let corners = self.configuration.side(side.opposite()).corners(hit.facet);
                 for corner in corners {
-                    lanes.push(triple(numbering.position(1 - side, corner)));
+                    lanes.push(triple(numbering.position(side.opposite(), corner)));
                 }
             }
             _ => lanes.push(Source::Constant(12)),
         }
-        lanes.push(triple(numbering.traction(side, node as u32)));
+        lanes.push(triple(numbering.traction(side, node)));
         lanes.push(Source::Vector(&self.tau[side][node].jacobian));
         lanes.push(Source::Vector(&spot.ray.jacobian));
         lanes
@@ -138,7 +140,7 @@ impl CommonField<'_> {
 
     fn pointed_facets(
         &self,
-        (side, node): (usize, usize),
+        (side, node): (Side, SurfaceNode),
         tip: Tip,
         spot: &Spot,
         force: &Vec3,
@@ -155,9 +157,12 @@ impl CommonField<'_> {
         let mut facets = [None, None];
         if let Tip::Node { .. } = tip {
             let own = self.configuration.side(side);
-            let facet = own.surface.corners(node as u32)[0].facet;
+            let facet = own.surface.corners(node)[0].facet;
             let corners = own.corners(facet);
-            if let Some(at) = corners.iter().position(|corner| *corner as usize == node) {
+            if let Some(at) = corners
+                .iter()
+                .position(|corner| corner.index() == node.index())
+            {
                 of_side.force[at] = *force;
             }
             facets[side] = Some((facet, of_side));
@@ -166,7 +171,7 @@ impl CommonField<'_> {
             for (at, share) in opposing.weights.iter().enumerate().take(spot.corners.len()) {
                 of_other.force[at] = force * -*share;
             }
-            facets[1 - side] = Some((hit.facet, of_other));
+            facets[side.opposite()] = Some((hit.facet, of_other));
         }
         facets
     }

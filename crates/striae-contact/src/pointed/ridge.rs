@@ -15,12 +15,13 @@
 
 use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
-use striae_surface::{facet::facet_normal, topology::distinct_corners};
+use striae_surface::{facet::facet_normal, node::SurfaceNode, topology::distinct_corners};
 
 use crate::{
     configuration::{Configuration, Snapshot},
     pairing::farthest,
     search::Bounds,
+    side::Side,
     tip::RigidPoint,
 };
 
@@ -47,26 +48,27 @@ pub enum Bend {
 
 /// All points that are near side `a`, given how deep they may be beyond its reach.
 pub fn candidates(configuration: &Configuration, depth: f64) -> Vec<(RigidPoint, Bend)> {
-    let [a, b] = [0, 1].map(|side| configuration.side(side));
+    let [a, b] = Side::BOTH.map(|side| configuration.side(side));
     let reach = farthest(configuration) + depth;
     let Some(near) = a.tree.bounds().map(|bounds| bounds.inflated(reach)) else {
         return Vec::new();
     };
     let is_near = |points: &[Vec3]| near.meets(&Bounds::around(points.iter().copied()));
-    let found: Vec<Vec<(RigidPoint, Bend)>> = (0..b.x.len() as u32)
+    let found: Vec<Vec<(RigidPoint, Bend)>> = (0..b.x.len())
         .into_par_iter()
         .with_min_len(32)
+        .map(SurfaceNode::new)
         .map(|vertex| {
             let mut points = Vec::new();
             let edges: Vec<Edge> = edges(b, vertex).collect();
             if let Some(bend) = edges.iter().map(|edge| edge.bend).max()
-                && is_near(&[b.x[vertex as usize]])
+                && is_near(&[b.x[vertex]])
             {
                 points.push((RigidPoint::vertex(vertex), bend));
             }
             // Of the two vertices of an edge one lists it.
             for edge in edges.iter().filter(|edge| edge.listed) {
-                if is_near(&edge.nodes.map(|node| b.x[node as usize])) {
+                if is_near(&edge.nodes.map(|node| b.x[node])) {
                     let over = over_facets(a, b, edge, reach);
                     points.extend(over.map(|point| (point, edge.bend)));
                 }
@@ -78,13 +80,13 @@ pub fn candidates(configuration: &Configuration, depth: f64) -> Vec<(RigidPoint,
 }
 
 /// The bend of the sharpest convex edge at a node, `None` where there is none.
-pub(crate) fn bend_at(side: &Snapshot, node: u32) -> Option<Bend> {
+pub(crate) fn bend_at(side: &Snapshot, node: SurfaceNode) -> Option<Bend> {
     edges(side, node).map(|edge| edge.bend).max()
 }
 
 /// A convex edge.
 struct Edge {
-    nodes: [u32; 2],
+    nodes: [SurfaceNode; 2],
     /// Mean normal of its facets.
     normal: Vec3,
     bend: Bend,
@@ -93,7 +95,7 @@ struct Edge {
 }
 
 /// Convex edges from a vertex.
-fn edges<'a>(b: &'a Snapshot<'_>, vertex: u32) -> impl Iterator<Item = Edge> + 'a {
+fn edges<'a>(b: &'a Snapshot<'_>, vertex: SurfaceNode) -> impl Iterator<Item = Edge> + 'a {
     let corners = b.surface.corners(vertex).iter();
     corners.filter_map(move |corner| {
         let mut beside = b.surface.corners(corner.next).iter();
@@ -102,8 +104,8 @@ fn edges<'a>(b: &'a Snapshot<'_>, vertex: u32) -> impl Iterator<Item = Edge> + '
         let (normal, bend) = match other {
             None => (one, Bend::Sharp),
             Some(other) => {
-                let along = b.x[corner.next as usize] - b.x[vertex as usize];
-                let away = centre(b, other.facet) - b.x[vertex as usize];
+                let along = b.x[corner.next] - b.x[vertex];
+                let away = centre(b, other.facet) - b.x[vertex];
                 let across = away - along * (away.dot(&along) / along.norm_squared());
                 let falls = -one.dot(&across) / across.norm();
                 let normal = one + facet_normal(&b.corner_positions(other.facet));
@@ -131,7 +133,7 @@ fn bend(falls: f64) -> Option<Bend> {
 fn centre(side: &Snapshot, facet: FacetId) -> Vec3 {
     let corners = side.corners(facet);
     let ring = distinct_corners(&corners);
-    let sum: Vec3 = ring.iter().map(|&node| side.x[node as usize]).sum();
+    let sum: Vec3 = ring.iter().map(|&node| side.x[node]).sum();
     sum / ring.len() as f64
 }
 
@@ -143,7 +145,7 @@ fn over_facets<'a>(
     reach: f64,
 ) -> impl Iterator<Item = RigidPoint> + 'a {
     let (ends, normal) = (edge.nodes, edge.normal);
-    let x = ends.map(|node| b.x[node as usize]);
+    let x = ends.map(|node| b.x[node]);
     let met = a.tree.meeting(&Bounds::around(x).inflated(reach));
     met.into_iter().filter_map(move |item| {
         let facet = FacetId(item);
@@ -168,8 +170,8 @@ fn part_over(a: &Snapshot, facet: FacetId, x: &[Vec3; 2], normal: &Vec3) -> Opti
     let ring = distinct_corners(&corners);
     let [mut from, mut to] = [0.0_f64, 1.0_f64];
     for (at, &corner) in ring.iter().enumerate() {
-        let start = a.x[corner as usize];
-        let end = a.x[ring[(at + 1) % ring.len()] as usize];
+        let start = a.x[corner];
+        let end = a.x[ring[(at + 1) % ring.len()]];
         let inward = m.cross(&(end - start));
         let [first, last] = x.map(|x| inward.dot(&(x - start)));
         match (first < 0.0, last < 0.0) {

@@ -2,23 +2,23 @@
 
 use striae_mesh::Vec3;
 
-use crate::configuration::Configuration;
+use crate::{configuration::Configuration, side::Side};
 
 /// `h/E` of the facets of deformable sides.
 pub(crate) fn compliances(configuration: &Configuration) -> [Vec<f64>; 2] {
-    [0, 1].map(|side| {
+    Side::BOTH.map(|side| {
         let of_side = &configuration.pair.sides[side];
         let Some(surface) = of_side.surface() else {
             return Vec::new();
         };
-        let rigid = side == 1 && configuration.pair.is_rigid();
+        let rigid = side == Side::B && configuration.pair.is_rigid();
         let facets = surface.facets().iter();
         facets
             .map(|corners| {
                 if rigid {
                     return 0.0;
                 }
-                let sizes = corners.map(|node| configuration.side(side).sizes[node as usize]);
+                let sizes = corners.map(|node| configuration.side(side).sizes[node]);
                 0.25 * sizes.iter().sum::<f64>() / of_side.stiffness
             })
             .collect()
@@ -27,7 +27,7 @@ pub(crate) fn compliances(configuration: &Configuration) -> [Vec<f64>; 2] {
 
 /// Largest motion of one side relative to the other.
 pub fn approach(start: &Configuration, end: &Configuration) -> f64 {
-    let moves = |side: usize| -> [Vec3; 2] {
+    let moves = |side: Side| -> [Vec3; 2] {
         let (Some(from), Some(to)) = (&start.sides[side], &end.sides[side]) else {
             let way = start.plane().zip(end.plane());
             let way = way.map_or_else(Vec3::zeros, |((from, _), (to, _))| to - from);
@@ -39,7 +39,7 @@ pub fn approach(start: &Configuration, end: &Configuration) -> f64 {
             [low.inf(&way), high.sup(&way)]
         })
     };
-    let [a, b] = [moves(0), moves(1)];
+    let [a, b] = [moves(Side::A), moves(Side::B)];
     let apart = (a[1] - b[0]).abs().sup(&(b[1] - a[0]).abs());
     apart.norm()
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use striae_mesh::{FacetId, Vec3};
-use striae_surface::facet::Shape;
+use striae_surface::{facet::Shape, node::SurfaceNode};
 
 use super::{
     before::Before,
@@ -15,6 +15,7 @@ use crate::{
     interface::{ClampedProjection, Interface, Opponent, Overlap},
     pairing::{PairedFacets, Scope, paired_facets},
     segment::Derivatives,
+    side::Side,
     traction_basis::TractionBasis,
     unknown::Prescribed,
 };
@@ -37,22 +38,22 @@ impl Gathered {
     pub(super) fn new(configuration: &Configuration, scope: Scope) -> Self {
         let paired = paired_facets(configuration, scope, Derivatives::None, |_| true);
         let paired = without_slivers(configuration, paired);
-        let mut near = [0, 1].map(|side| {
+        let mut near = Side::BOTH.map(|side| {
             let count = configuration.sides[side].as_ref().map_or(0, |s| s.x.len());
             vec![false; count]
         });
         for paired in &paired {
             for corner in 0..8 {
                 if let Some((side, node)) = paired.node(configuration, corner) {
-                    near[side][node as usize] = true;
+                    near[side][node] = true;
                 }
             }
         }
-        let opposing = [0, 1].map(|side| {
+        let opposing = Side::BOTH.map(|side| {
             let nodes = near[side].iter().enumerate();
             nodes
                 .map(|(node, near)| {
-                    near.then(|| clamped(configuration, side, node as u32))
+                    near.then(|| clamped(configuration, side, SurfaceNode::new(node)))
                         .flatten()
                 })
                 .collect()
@@ -64,7 +65,7 @@ impl Gathered {
         let mut facing = vec![Vec3::zeros(); near[0].len()];
         for paired in &paired {
             for node in paired.corners[0] {
-                facing[node as usize] += paired.segment.normal * paired.segment.area;
+                facing[node] += paired.segment.normal * paired.segment.area;
             }
         }
         Self {
@@ -95,7 +96,7 @@ impl Gathered {
 
     /// Facets that are paired, by side.
     fn paired(&self) -> [BTreeSet<FacetId>; 2] {
-        [0, 1].map(|side| self.facets.iter().filter_map(|pair| pair[side]).collect())
+        Side::BOTH.map(|side| self.facets.iter().filter_map(|pair| pair[side]).collect())
     }
 
     /// Halves the overlaps of facets that are paired in another configuration too.
@@ -117,7 +118,7 @@ impl Gathered {
         prescribed: &Prescribed,
     ) -> TractionBasis {
         let nodes =
-            [0, 1].map(|side| surface_nodes(configuration, side, before, &prescribed[side]));
+            Side::BOTH.map(|side| surface_nodes(configuration, side, before, &prescribed[side]));
         let whole = if configuration.pair.is_rigid() {
             whole_facets(configuration, &self.facing)
         } else {
@@ -139,14 +140,11 @@ impl Gathered {
 /// Paired facets without patches that share next to no area.
 fn without_slivers(configuration: &Configuration, paired: Vec<PairedFacets>) -> Vec<PairedFacets> {
     let is_sliver = |paired: &PairedFacets| {
-        let size = |corners: &[u32; 4], side: usize| {
+        let size = |corners: &[SurfaceNode; 4], side: Side| {
             let sizes = &configuration.side(side).sizes;
-            corners
-                .iter()
-                .map(|&node| sizes[node as usize])
-                .fold(0.0, f64::max)
+            corners.iter().map(|&node| sizes[node]).fold(0.0, f64::max)
         };
-        let size = size(&paired.corners[0], 0);
+        let size = size(&paired.corners[0], Side::A);
         paired.segment.area < SLIVER * size * size
     };
     if paired.iter().all(is_sliver) {
@@ -157,11 +155,15 @@ fn without_slivers(configuration: &Configuration, paired: Vec<PairedFacets>) -> 
 }
 
 /// Corners and weights at the projection of a node, clamped to the other side.
-fn clamped(configuration: &Configuration, side: usize, node: u32) -> Option<ClampedProjection> {
+fn clamped(
+    configuration: &Configuration,
+    side: Side,
+    node: SurfaceNode,
+) -> Option<ClampedProjection> {
     let (contact, _) = configuration.opposite(side, node)?;
     match contact.place {
         Place::Facet(hit) if !configuration.pair.is_rigid() => {
-            let corners = configuration.side(1 - side).corners(hit.facet);
+            let corners = configuration.side(side.opposite()).corners(hit.facet);
             let weights = Shape::of(&corners).weights(hit.xi, hit.eta).value;
             let weights = weights.map(|weight| weight.max(0.0));
             let sum: f64 = weights.iter().sum();

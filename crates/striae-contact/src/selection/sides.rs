@@ -1,26 +1,27 @@
 //! Nodes and facets of a side as the choice of roles sees them.
 
 use striae_mesh::{FacetId, Vec3};
-use striae_surface::facet::Shape;
+use striae_surface::{facet::Shape, node::SurfaceNode};
 
 use super::before::Before;
 use crate::{
     configuration::Configuration,
-    interface::{FacetMass, LastIncrement, SurfaceNode},
+    interface::{FacetMass, InterfaceNode, LastIncrement},
     segment::{Derivatives, FACING, Facet, plane_segment},
+    side::Side,
 };
 
 /// The nodes of a deformable side.
 pub(super) fn surface_nodes(
     configuration: &Configuration,
-    side: usize,
+    side: Side,
     before: Before,
     prescribed: &[bool],
-) -> Vec<SurfaceNode> {
+) -> Vec<InterfaceNode> {
     let Some(snapshot) = &configuration.sides[side] else {
         return Vec::new();
     };
-    if side == 1 && configuration.pair.is_rigid() {
+    if side == Side::B && configuration.pair.is_rigid() {
         return Vec::new();
     }
     let modulus = configuration.pair.sides[side].stiffness;
@@ -30,7 +31,7 @@ pub(super) fn surface_nodes(
             let components = prescribed.get(3 * node..3 * node + 3);
             let yields = components.is_none_or(|components| components.contains(&false));
             let share = f64::from(u8::from(yields));
-            SurfaceNode {
+            InterfaceNode {
                 position: *position,
                 flexibility: share * size / modulus,
                 compliance: share / (modulus * size),
@@ -51,7 +52,7 @@ pub(super) fn surface_nodes(
 /// Masses of the facets of side `a` as if they were covered wholly: of those that face what
 /// touches at one of their corners. A wall next to a sole cannot be covered.
 pub(super) fn whole_facets(configuration: &Configuration, facing: &[Vec3]) -> Vec<FacetMass> {
-    let own = configuration.side(0);
+    let own = configuration.side(Side::A);
     (0..own.surface.facets().len())
         .filter_map(|facet| {
             let facet = FacetId::new(facet);
@@ -59,8 +60,8 @@ pub(super) fn whole_facets(configuration: &Configuration, facing: &[Vec3]) -> Ve
             let x = own.corner_positions(facet);
             let shape = Shape::of(&corners);
             let n = normal(&x, shape);
-            let faces = |corner: &u32| {
-                let towards = facing[*corner as usize];
+            let faces = |corner: &SurfaceNode| {
+                let towards = facing[*corner];
                 n.dot(&towards) > -FACING * towards.norm()
             };
             if !corners.iter().any(faces) {

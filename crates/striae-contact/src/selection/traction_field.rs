@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use striae_mesh::FacetId;
+use striae_surface::node::SurfaceNode;
 
 use super::{
     approach::approach,
@@ -13,6 +14,7 @@ use crate::{
     pairing::{PairedFacets, Scope, paired_facets},
     partner::Partner,
     segment::Derivatives,
+    side::Side,
     tip::{RigidPoints, Tip},
     traction_basis::{KeptNode, TractionBasis, Weak},
 };
@@ -48,10 +50,10 @@ pub struct Selection {
 
 impl Selection {
     /// What a node with unknowns stands for.
-    pub fn tip(&self, side: usize, node: u32) -> Tip {
-        let point = self.points.get(node as usize).copied().flatten();
+    pub fn tip(&self, side: Side, node: SurfaceNode) -> Tip {
+        let point = self.points.get(node.index()).copied().flatten();
         match (side, point) {
-            (1, Some(point)) => Tip::Rigid(point),
+            (Side::B, Some(point)) => Tip::Rigid(point),
             _ => Tip::Node {
                 side,
                 node,
@@ -61,8 +63,8 @@ impl Selection {
     }
 
     /// The facet that a pointed node was in at the start.
-    fn home(&self, side: usize, node: u32) -> Option<FacetId> {
-        let k = self.basis.index[side].get(node as usize).copied()??;
+    fn home(&self, side: Side, node: SurfaceNode) -> Option<FacetId> {
+        let k = self.basis.index[side].get(node.index()).copied()??;
         let pointed = (k as usize).checked_sub(self.of_field)?;
         self.homes.get(pointed).copied()?
     }
@@ -96,30 +98,30 @@ impl Selection {
     }
 
     /// Whether the node is pointed.
-    pub fn is_pointed(&self, side: usize, node: u32) -> bool {
-        let index = self.basis.index[side].get(node as usize).copied();
+    pub fn is_pointed(&self, side: Side, node: SurfaceNode) -> bool {
+        let index = self.basis.index[side].get(node.index()).copied();
         index.flatten().is_some_and(|k| k as usize >= self.of_field)
     }
 
     /// Whether the node has unknowns: it is kept, or pointed.
-    pub fn is_kept(&self, side: usize, node: u32) -> bool {
-        let index = self.basis.index[side].get(node as usize);
+    pub fn is_kept(&self, side: Side, node: SurfaceNode) -> bool {
+        let index = self.basis.index[side].get(node.index());
         index.is_some_and(Option::is_some)
     }
 
     /// Whether the node has a share in the traction field.
-    pub fn carries(&self, side: usize, node: u32) -> bool {
-        let row = self.basis.rows[side].get(node as usize);
+    pub fn carries(&self, side: Side, node: SurfaceNode) -> bool {
+        let row = self.basis.rows[side].get(node.index());
         row.is_some_and(|row| !row.is_empty())
     }
 
     /// Shares of the kept nodes in the traction at a node.
-    pub fn row(&self, side: usize, node: u32) -> &[(u32, f64)] {
-        &self.basis.rows[side][node as usize]
+    pub fn row(&self, side: Side, node: SurfaceNode) -> &[(u32, f64)] {
+        &self.basis.rows[side][node]
     }
 
     /// Number of nodes of a side.
-    pub fn nodes(&self, side: usize) -> usize {
+    pub fn nodes(&self, side: Side) -> usize {
         self.basis.index[side].len()
     }
 
@@ -186,14 +188,14 @@ impl Selection {
     }
 
     /// What is left of the overlap of the meshes at a node.
-    pub fn offset(&self, side: usize, node: u32) -> f64 {
-        let offset = self.offsets[side].get(node as usize);
+    pub fn offset(&self, side: Side, node: SurfaceNode) -> f64 {
+        let offset = self.offsets[side].get(node.index());
         offset.copied().unwrap_or(0.0)
     }
 
     /// Length by which the row of a node is lifted.
-    pub fn lift(&self, side: usize, node: u32) -> f64 {
-        let lift = self.lifts[side].get(node as usize);
+    pub fn lift(&self, side: Side, node: SurfaceNode) -> f64 {
+        let lift = self.lifts[side].get(node.index());
         lift.copied().unwrap_or(0.0)
     }
 
@@ -217,13 +219,13 @@ impl Selection {
         &self,
         start: &Configuration,
         configuration: &Configuration,
-    ) -> Vec<(usize, u32)> {
+    ) -> Vec<(Side, SurfaceNode)> {
         let scope = Scope {
             depth: self.depth.max(approach(start, configuration)),
             ..self.scope()
         };
         let paired = paired_facets(configuration, scope, Derivatives::None, |_| true);
-        let mut left_out: Vec<(usize, u32)> = Vec::new();
+        let mut left_out: Vec<(Side, SurfaceNode)> = Vec::new();
         for paired in &paired {
             let gap = paired.mean_gap(configuration);
             let touching = gap < TOUCHING * paired.segment.area.sqrt();

@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::DualSVec64;
 use striae_surface::{
     facet::Shape,
+    node::SurfaceNode,
     scalar::{combination, constant3, dot, normalised, scaled},
     texture::Field,
     transport::transported,
@@ -19,6 +20,7 @@ use crate::{
     opposing::{Opposing, PlaceLanes},
     projection::{Hit, differentiated_rigid},
     selection::Selection,
+    side::Side,
     spot::Spot,
     term::{Jacobian, Lanes, Source, variable, variable3},
     tip::{RigidPoint, Tip},
@@ -31,8 +33,8 @@ use crate::{
 pub(super) fn faced(
     configuration: &Configuration,
     selection: &Selection,
-    side: usize,
-    node: u32,
+    side: Side,
+    node: SurfaceNode,
 ) -> Option<(Contact, Found)> {
     let tip = selection.tip(side, node);
     if selection.is_pointed(side, node)
@@ -54,13 +56,13 @@ pub(super) fn faced(
 /// The opposing `a_b'` at a node.
 pub(super) fn opposite(
     configuration: &Configuration,
-    (side, node): (usize, u32),
+    (side, node): (Side, SurfaceNode),
     tip: Tip,
     (frame, frames): (&Frame, &Frames),
     faced: Option<(Contact, Found)>,
 ) -> Result<Option<Tracked>, CollapsedTexture> {
     let collapsed = CollapsedTexture { side, node };
-    let Some(texture) = &configuration.pair.sides[1 - side].texture else {
+    let Some(texture) = &configuration.pair.sides[side.opposite()].texture else {
         return Ok(None);
     };
     let Some((contact, found)) = faced else {
@@ -82,13 +84,13 @@ pub(super) fn opposite(
 
 fn on_plane(
     configuration: &Configuration,
-    side: usize,
-    node: u32,
+    side: Side,
+    node: SurfaceNode,
     field: &Field,
 ) -> Option<Tracked> {
     let (point, normal) = configuration.plane()?;
     let n = constant3(&normal);
-    let x: Vector3<DualSVec64<3>> = variable3(&configuration.side(side).x[node as usize], 0);
+    let x: Vector3<DualSVec64<3>> = variable3(&configuration.side(side).x[node], 0);
     let gap = dot(&(x - constant3(&point)), &n);
     let placement = &configuration.placement;
     let place = placement.back_of(&(x - scaled(&n, gap)));
@@ -104,11 +106,11 @@ fn on_plane(
 
 fn on_rigid(
     configuration: &Configuration,
-    node: u32,
+    node: SurfaceNode,
     hit: &Hit,
     found: Found,
 ) -> Result<Tracked, CollapsedTexture> {
-    let target = configuration.side(1);
+    let target = configuration.side(Side::B);
     let corners = target.corners(hit.facet);
     let shape = Shape::of(&corners);
     let mut lanes = Lanes::default();
@@ -116,19 +118,19 @@ fn on_rigid(
     // Lanes of the node's position or, on the edge, of the share of the way along it.
     let (weights, normal): ([DualSVec64<3>; 4], _) = match found {
         Found::Inside => {
-            let x = variable3(&configuration.side(0).x[node as usize], 0);
+            let x = variable3(&configuration.side(Side::A).x[node], 0);
             let ([xi, eta, _], normal) = differentiated_rigid(target, hit, &x);
             lanes.push(Source::Unknowns {
-                first: configuration.pair.numbering().position(0, node),
+                first: configuration.pair.numbering().position(Side::A, node),
                 count: 3,
             });
             (shape.weights(xi, eta).value, normal)
         }
         Found::Edge(nodes) => {
-            place = on_edge(configuration, 0, node, hit, nodes);
+            place = on_edge(configuration, Side::A, node, hit, nodes);
             lanes.push(Source::Scalar(&place.share.gradient));
             let weights = place.weights_along(variable(place.share.value, 0));
-            let normals = corners.map(|corner| constant3(&target.normals[corner as usize]));
+            let normals = corners.map(|corner| constant3(&target.normals[corner]));
             (weights, normalised(&combination(&weights, &normals)))
         }
     };
@@ -136,12 +138,12 @@ fn on_rigid(
     for corner in 0..4 {
         let a = own(
             configuration,
-            1,
+            Side::B,
             corners[corner],
             &fixed_normal(configuration, corners[corner]),
         )?
         .unwrap_or_default();
-        let n_j = target.normals[corners[corner] as usize];
+        let n_j = target.normals[corners[corner]];
         let turned = transported(&constant3(&a.value), &constant3(&n_j), &normal);
         sum -= scaled(&turned, weights[corner]);
     }
@@ -151,7 +153,7 @@ fn on_rigid(
 /// `a` of a rigid surface at a point that lodges with `node`: between the ends of its edge.
 pub(super) fn of_point(
     configuration: &Configuration,
-    node: u32,
+    node: SurfaceNode,
     point: RigidPoint,
     frame: &Frame,
 ) -> Result<Option<Tracked>, CollapsedTexture> {
@@ -159,23 +161,26 @@ pub(super) fn of_point(
     let mut sum: Vector3<DualSVec64<3>> = Vector3::zeros();
     for (end, weight) in point.ends.into_iter().zip([1.0 - point.share, point.share]) {
         let normal = fixed_normal(configuration, end);
-        let Some(a) = own(configuration, 1, end, &normal)? else {
+        let Some(a) = own(configuration, Side::B, end, &normal)? else {
             return Ok(None);
         };
         let turned = transported(&constant3(&a.value), &constant3(&normal.value), &n);
         sum += scaled(&turned, DualSVec64::from(weight));
     }
     if sum.map(|component| component.re).norm() < f64::EPSILON {
-        return Err(CollapsedTexture { side: 1, node });
+        return Err(CollapsedTexture {
+            side: Side::B,
+            node,
+        });
     }
     let mut lanes = Lanes::default();
     lanes.push(Source::Vector(&frame.n.jacobian));
     Ok(Some(tracked(&lanes, &normalised(&sum))))
 }
 
-fn fixed_normal(configuration: &Configuration, node: u32) -> Tracked {
+fn fixed_normal(configuration: &Configuration, node: SurfaceNode) -> Tracked {
     Tracked {
-        value: configuration.side(1).normals[node as usize],
+        value: configuration.side(Side::B).normals[node],
         jacobian: Jacobian::new(),
     }
 }
@@ -188,26 +193,26 @@ fn on_deformable(
     (hit, found): (&Hit, Found),
 ) -> Result<Tracked, CollapsedTexture> {
     let side = tip.side();
-    let other = configuration.side(1 - side);
+    let other = configuration.side(side.opposite());
     let numbering = configuration.pair.numbering();
     let corners = other.corners(hit.facet);
-    let normals = corners.map(|corner| match &frames[1 - side][corner as usize] {
+    let normals = corners.map(|corner| match &frames[side.opposite()][corner] {
         Some(frame) => frame.n.clone(),
-        None => own_normal(configuration, 1 - side, corner),
+        None => own_normal(configuration, side.opposite(), corner),
     });
     let mut a = Vec::with_capacity(4);
     for (corner, n) in corners.iter().zip(&normals) {
-        a.push(own(configuration, 1 - side, *corner, n)?.unwrap_or_default());
+        a.push(own(configuration, side.opposite(), *corner, n)?.unwrap_or_default());
     }
     let mut lanes = Lanes::default();
-    let position = |side: usize, node: u32| Source::Unknowns {
+    let position = |side: Side, node: SurfaceNode| Source::Unknowns {
         first: numbering.position(side, node),
         count: 3,
     };
     lanes.push(tip.lanes(configuration));
     lanes.push(Source::Vector(&frame.n.jacobian));
     for corner in corners {
-        lanes.push(position(1 - side, corner));
+        lanes.push(position(side.opposite(), corner));
     }
     for n in &normals {
         lanes.push(Source::Vector(&n.jacobian));

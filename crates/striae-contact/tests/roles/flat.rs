@@ -1,9 +1,13 @@
 //! Flat faces with tensor grids: exact common integrals, products of those along a line.
 
-use striae_contact::interface::{
-    ClampedProjection, FacetMass, Interface, LastIncrement, Opponent, Overlap, SurfaceNode,
+use striae_contact::{
+    interface::{
+        ClampedProjection, FacetMass, Interface, InterfaceNode, LastIncrement, Opponent, Overlap,
+    },
+    side::Side,
 };
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 /// A rectangular face with grid lines.
 #[derive(Clone, Debug)]
@@ -28,8 +32,8 @@ impl Face {
         }
     }
 
-    fn corners(&self, i: usize, j: usize) -> [u32; 4] {
-        let node = |i: usize, j: usize| (j * self.xs.len() + i) as u32;
+    fn corners(&self, i: usize, j: usize) -> [SurfaceNode; 4] {
+        let node = |i: usize, j: usize| SurfaceNode::new(j * self.xs.len() + i);
         [
             node(i, j),
             node(i + 1, j),
@@ -39,14 +43,14 @@ impl Face {
     }
 
     /// Nodes, x first; `h` is the root of the product of mean spacings.
-    fn nodes(&self) -> Vec<SurfaceNode> {
+    fn nodes(&self) -> Vec<InterfaceNode> {
         let spacing = |line: &[f64], at: usize| {
             let (low, high) = (at.saturating_sub(1), (at + 1).min(line.len() - 1));
             (line[high] - line[low]) / (high - low) as f64
         };
         let node = |i: usize, j: usize| {
             let h = (spacing(&self.xs, i) * spacing(&self.ys, j)).sqrt();
-            SurfaceNode {
+            InterfaceNode {
                 position: Vec3::new(self.xs[i], self.ys[j], 0.0),
                 flexibility: h / self.modulus,
                 compliance: 1.0 / (self.modulus * h),
@@ -79,7 +83,7 @@ fn locate(line: &[f64], at: f64) -> (usize, f64) {
 /// A pair as plain values that own what an `Interface` borrows.
 #[derive(Clone, Debug)]
 pub struct Pair {
-    pub nodes: [Vec<SurfaceNode>; 2],
+    pub nodes: [Vec<InterfaceNode>; 2],
     pub overlaps: Vec<Overlap>,
     pub opposing: [Vec<Option<ClampedProjection>>; 2],
     /// Of a pair with a rigid surface.
@@ -90,8 +94,8 @@ impl Pair {
     /// Both faces deformable; everything is within reach.
     pub fn new(faces: [&Face; 2]) -> Self {
         let nodes = faces.map(Face::nodes);
-        let opposing = [0, 1].map(|side| {
-            let on = |node: &SurfaceNode| Some(faces[1 - side].projection(&node.position));
+        let opposing = Side::BOTH.map(|side| {
+            let on = |node: &InterfaceNode| Some(faces[side.opposite()].projection(&node.position));
             nodes[side].iter().map(on).collect()
         });
         Self {
@@ -138,7 +142,7 @@ fn overlaps(faces: [&Face; 2]) -> Vec<Overlap> {
     let mut overlaps = Vec::new();
     for v in &y {
         for u in &x {
-            let corners = [0, 1].map(|side| faces[side].corners(u.cells[side], v.cells[side]));
+            let corners = Side::BOTH.map(|side| faces[side].corners(u.cells[side], v.cells[side]));
             let mass = std::array::from_fn(|c| {
                 std::array::from_fn(|d| {
                     // Corners counter-clockwise: which end along x and along y.

@@ -5,8 +5,10 @@ use std::collections::BTreeMap;
 use proptest::prelude::*;
 use striae_contact::{
     interface::{FacetMass, LastIncrement, Overlap},
+    side::Side,
     traction_basis::{KeptNode, TractionBasis},
 };
+use striae_surface::node::SurfaceNode;
 
 use crate::flat::{Face, Pair};
 
@@ -64,7 +66,7 @@ fn row_sum(row: &[(u32, f64)]) -> f64 {
 }
 
 fn check_basis(pair: &Pair, basis: &TractionBasis) -> Result<(), TestCaseError> {
-    for side in 0..2 {
+    for side in Side::BOTH {
         for (node, row) in basis.rows[side].iter().enumerate() {
             prop_assert!(row.iter().all(|&(_, value)| value >= 0.0));
             if pair.whole.is_none() {
@@ -90,8 +92,8 @@ fn check_basis(pair: &Pair, basis: &TractionBasis) -> Result<(), TestCaseError> 
 
 /// Rows of transferred nodes hold at their own values.
 fn check_transfer(pair: &Pair, basis: &TractionBasis) -> Result<(), TestCaseError> {
-    let positive = |side: usize, node: u32| basis.node_weights[side][node as usize] > 0.0;
-    for side in 0..2 {
+    let positive = |side: Side, node: SurfaceNode| basis.node_weights[side][node] > 0.0;
+    for side in Side::BOTH {
         for (node, row) in basis.rows[side].iter().enumerate() {
             let Some((corners, weights)) = pair.opposing[side][node] else {
                 continue;
@@ -99,11 +101,11 @@ fn check_transfer(pair: &Pair, basis: &TractionBasis) -> Result<(), TestCaseErro
             if basis.index[side][node].is_some() {
                 continue;
             }
-            let seen = || (0..4).filter(|&c| positive(1 - side, corners[c]));
+            let seen = || (0..4).filter(|&c| positive(side.opposite(), corners[c]));
             let total: f64 = seen().map(|c| weights[c]).sum();
             let mut difference: BTreeMap<u32, f64> = row.iter().copied().collect();
             for c in seen() {
-                for &(k, value) in &basis.rows[1 - side][corners[c] as usize] {
+                for &(k, value) in &basis.rows[side.opposite()][corners[c]] {
                     *difference.entry(k).or_default() -= weights[c] / total * value;
                 }
             }
@@ -120,7 +122,7 @@ fn check_transfer(pair: &Pair, basis: &TractionBasis) -> Result<(), TestCaseErro
 struct Relabelled {
     pair: Pair,
     /// New number of an old node.
-    to: [Vec<u32>; 2],
+    to: [Vec<SurfaceNode>; 2],
     swap: usize,
 }
 
@@ -135,39 +137,46 @@ fn shuffled(count: usize, seed: &mut u64) -> Vec<u32> {
     order
 }
 
+fn relabelled_side(side: Side, swap: usize) -> Side {
+    Side::BOTH[side.index() ^ swap]
+}
+
 fn relabelled(pair: &Pair, mut seed: u64, swap: usize) -> Relabelled {
-    let to = [0, 1].map(|side| shuffled(pair.nodes[side].len(), &mut seed));
+    let to = Side::BOTH.map(|side| {
+        let order = shuffled(pair.nodes[side].len(), &mut seed);
+        order.into_iter().map(SurfaceNode).collect::<Vec<_>>()
+    });
     let turn = (seed >> 40) as usize % 4;
-    let corners = |side: usize, c: [u32; 4]| {
-        let c = c.map(|node| to[side][node as usize]);
+    let corners = |side: Side, c: [SurfaceNode; 4]| {
+        let c = c.map(|node| to[side][node]);
         [0, 1, 2, 3].map(|at: usize| c[(at + turn) % 4])
     };
-    let new_side = |side: usize| side ^ swap;
+    let new_side = |side| relabelled_side(side, swap);
     let mut nodes = pair.nodes.clone();
     let mut opposing = pair.opposing.clone();
-    for side in 0..2 {
+    for side in Side::BOTH {
         for node in 0..pair.nodes[side].len() {
-            let at = to[side][node] as usize;
+            let at = to[side][node].index();
             nodes[new_side(side)].resize(pair.nodes[side].len(), pair.nodes[side][0]);
             nodes[new_side(side)][at] = pair.nodes[side][node];
             opposing[new_side(side)].resize(pair.nodes[side].len(), None);
             opposing[new_side(side)][at] = pair.opposing[side][node].map(|(c, w)| {
                 let w = [0, 1, 2, 3].map(|at: usize| w[(at + turn) % 4]);
-                (corners(1 - side, c), w)
+                (corners(side.opposite(), c), w)
             });
         }
     }
     let overlap = |o: &Overlap| {
-        let old = |c: usize| 4 * new_side(c / 4) + (c % 4 + turn) % 4;
+        let old = |c: usize| 4 * new_side(Side::BOTH[c / 4]).index() + (c % 4 + turn) % 4;
         Overlap {
-            corners: [0, 1].map(|side| corners(new_side(side), o.corners[new_side(side)])),
+            corners: Side::BOTH.map(|side| corners(new_side(side), o.corners[new_side(side)])),
             mass: std::array::from_fn(|c| std::array::from_fn(|d| o.mass[old(c)][old(d)])),
         }
     };
     let order = shuffled(pair.overlaps.len(), &mut seed);
     let overlaps = order.iter().map(|&at| overlap(&pair.overlaps[at as usize]));
     let facet = |f: &FacetMass| FacetMass {
-        corners: corners(0, f.corners),
+        corners: corners(Side::A, f.corners),
         mass: std::array::from_fn(|c| {
             std::array::from_fn(|d| f.mass[(c + turn) % 4][(d + turn) % 4])
         }),
@@ -185,9 +194,12 @@ fn relabelled(pair: &Pair, mut seed: u64, swap: usize) -> Relabelled {
 }
 
 /// Bits of rows by the old labels.
-type Named = BTreeMap<(usize, u32), Vec<(KeptNode, u64)>>;
+type Named = BTreeMap<(Side, SurfaceNode), Vec<(KeptNode, u64)>>;
 
-fn named(basis: &TractionBasis, old: impl Fn(usize, u32) -> (usize, u32)) -> (Named, Named) {
+fn named(
+    basis: &TractionBasis,
+    old: impl Fn(Side, SurfaceNode) -> (Side, SurfaceNode),
+) -> (Named, Named) {
     let label = |k: u32| {
         let KeptNode { side, node } = basis.kept[k as usize];
         let (side, node) = old(side, node);
@@ -199,9 +211,9 @@ fn named(basis: &TractionBasis, old: impl Fn(usize, u32) -> (usize, u32)) -> (Na
         row
     };
     let mut rows = Named::new();
-    for side in 0..2 {
+    for side in Side::BOTH {
         for (node, values) in basis.rows[side].iter().enumerate() {
-            rows.insert(old(side, node as u32), row(values));
+            rows.insert(old(side, SurfaceNode::new(node)), row(values));
         }
     }
     let mut kept = Named::new();
@@ -225,16 +237,16 @@ fn check_labels(pair: &Pair, seed: u64, swap: usize) -> Result<(), TestCaseError
     let basis = TractionBasis::new(&pair.interface());
     let other = relabelled(pair, seed, swap);
     let again = TractionBasis::new(&other.pair.interface());
-    let back = [0, 1].map(|side: usize| {
-        let mut back = vec![0; other.to[side].len()];
+    let back = Side::BOTH.map(|side| {
+        let mut back = vec![SurfaceNode(0); other.to[side].len()];
         for (old, &new) in other.to[side].iter().enumerate() {
-            back[new as usize] = old as u32;
+            back[new] = SurfaceNode::new(old);
         }
         back
     });
-    let old = |side: usize, node: u32| {
-        let side = side ^ other.swap;
-        (side, back[side][node as usize])
+    let old = |side: Side, node: SurfaceNode| {
+        let side = relabelled_side(side, other.swap);
+        (side, back[side][node])
     };
     let (rows, kept) = named(&basis, |side, node| (side, node));
     let (rows_again, kept_again) = named(&again, old);
@@ -249,7 +261,7 @@ fn are_alike(faces: &[Face; 2]) -> bool {
 }
 
 fn remember(pair: &mut Pair, basis: &TractionBasis) {
-    for side in 0..2 {
+    for side in Side::BOTH {
         for (node, kept) in pair.nodes[side].iter_mut().zip(&basis.index[side]) {
             node.last = match kept {
                 Some(_) => LastIncrement::Kept,

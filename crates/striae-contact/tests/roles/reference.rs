@@ -1,6 +1,10 @@
 //! Flat pairs against numbers of an independent implementation.
 
-use striae_contact::traction_basis::{KeptNode, TractionBasis};
+use striae_contact::{
+    side::Side,
+    traction_basis::{KeptNode, TractionBasis},
+};
+use striae_surface::node::SurfaceNode;
 
 use crate::flat::{Face, Pair};
 
@@ -60,12 +64,13 @@ fn flat_pairs_agree_with_an_independent_implementation() {
     for (number, case) in cases().iter().enumerate() {
         let pair = Pair::new(case.faces.each_ref());
         let basis = TractionBasis::new(&pair.interface());
-        let kept: Vec<KeptNode> = (0..2)
+        let kept: Vec<KeptNode> = Side::BOTH
+            .into_iter()
             .flat_map(|side| {
-                let nodes = case.values(&format!("kept {side}"));
+                let nodes = case.values(&format!("kept {}", side.index()));
                 nodes.into_iter().map(move |node| KeptNode {
                     side,
-                    node: node as u32,
+                    node: SurfaceNode::new(node as usize),
                 })
             })
             .collect();
@@ -75,22 +80,22 @@ fn flat_pairs_agree_with_an_independent_implementation() {
         let v: Vec<f64> = kept
             .iter()
             .map(|k| {
-                let x = pair.nodes[k.side][k.node as usize].position;
-                (3.0 * x.x + 5.0 * x.y + k.side as f64).cos()
+                let x = pair.nodes[k.side][k.node].position;
+                (3.0 * x.x + 5.0 * x.y + k.side.index() as f64).cos()
             })
             .collect();
         let image = |row: &[(u32, f64)]| -> f64 {
             row.iter().map(|&(k, value)| value * v[k as usize]).sum()
         };
-        for side in 0..2 {
-            let nodes = case.values(&format!("carrying {side}"));
+        for side in Side::BOTH {
+            let nodes = case.values(&format!("carrying {}", side.index()));
             let found: Vec<f64> = nodes
                 .iter()
                 .map(|&node| image(&basis.rows[side][node as usize]))
                 .collect();
             assert_close(
                 &found,
-                &case.values(&format!("values {side}")),
+                &case.values(&format!("values {}", side.index())),
                 "transferred",
             );
         }

@@ -5,8 +5,10 @@ use std::time::Instant;
 use striae_contact::{
     interface::LastIncrement,
     roles::THETA_0,
+    side::Side,
     traction_basis::{KeptNode, THETA_1, TractionBasis},
 };
+use striae_surface::node::SurfaceNode;
 
 use crate::flat::{Face, Pair};
 
@@ -19,7 +21,7 @@ fn equal_faces_keep_one_node_of_every_pair() {
     let face = square(5, 1.0, 0.0, 1.0);
     let pair = Pair::new([&face, &face]);
     let basis = TractionBasis::new(&pair.interface());
-    let sides: Vec<usize> = basis.kept.iter().map(|kept| kept.side).collect();
+    let sides: Vec<Side> = basis.kept.iter().map(|kept| kept.side).collect();
     assert_eq!(basis.kept.len(), 36);
     assert!(sides.iter().all(|&side| side == sides[0]), "of one side");
     for node in 0..36 {
@@ -32,7 +34,7 @@ fn equal_faces_keep_one_node_of_every_pair() {
 #[test]
 fn a_much_softer_fine_face_keeps_its_nodes() {
     let (soft, hard) = (square(8, 1.0, 0.0, 1.0), square(2, 1.0, 0.0, 1e6));
-    for (faces, side) in [([&soft, &hard], 0), ([&hard, &soft], 1)] {
+    for (faces, side) in [([&soft, &hard], Side::A), ([&hard, &soft], Side::B)] {
         let pair = Pair::new(faces);
         let basis = TractionBasis::new(&pair.interface());
         let own = basis.kept.iter().filter(|kept| kept.side == side).count();
@@ -45,7 +47,7 @@ fn a_node_amid_a_matching_face_is_not_weak() {
     let (soft, hard) = (square(8, 1.0, 0.0, 1.0), square(8, 1.0, 0.0, 1e9));
     let pair = Pair::new([&soft, &hard]);
     let basis = TractionBasis::new(&pair.interface());
-    let [own, other] = [0, 1].map(|side: usize| basis.index[side][40]);
+    let [own, other] = Side::BOTH.map(|side| basis.index[side][40]);
     let middle = own.or(other).expect("one of both is kept") as usize;
     assert!(basis.pivots[middle] > THETA_1, "{}", basis.pivots[middle]);
     assert!((basis.flexibility[middle] - 0.125).abs() < 1e-8);
@@ -97,27 +99,33 @@ fn two_patches_do_not_take_from_each_other() {
     let foot = square(2, 1.0, 0.5, 1.0);
     let mut pair = Pair::new([&base, &foot]);
     let sliver = Pair::new([&square(1, 1.0, 10.0, 1.0), &square(1, 1.0, 10.98, 1.0)]);
-    let shift = [0, 1].map(|side| pair.nodes[side].len() as u32);
-    for side in 0..2 {
+    let shift = Side::BOTH.map(|side| pair.nodes[side].len() as u32);
+    for side in Side::BOTH {
         pair.nodes[side].extend(&sliver.nodes[side]);
         let moved = sliver.opposing[side].iter().map(|hit| {
-            hit.map(|(corners, weights)| (corners.map(|node| node + shift[1 - side]), weights))
+            hit.map(|(corners, weights)| {
+                (
+                    corners.map(|node| SurfaceNode(node.0 + shift[side.opposite()])),
+                    weights,
+                )
+            })
         });
         pair.opposing[side].extend(moved);
     }
     for mut overlap in sliver.overlaps {
-        for side in 0..2 {
-            overlap.corners[side] = overlap.corners[side].map(|node| node + shift[side]);
+        for side in Side::BOTH {
+            overlap.corners[side] =
+                overlap.corners[side].map(|node| SurfaceNode(node.0 + shift[side]));
         }
         pair.overlaps.push(overlap);
     }
     let basis = TractionBasis::new(&pair.interface());
-    let is_in_sliver = |kept: &KeptNode| kept.node >= shift[kept.side];
+    let is_in_sliver = |kept: &KeptNode| kept.node.0 >= shift[kept.side];
     assert_eq!(
         basis.kept.iter().filter(|kept| is_in_sliver(kept)).count(),
         1
     );
-    for side in 0..2 {
+    for side in Side::BOTH {
         for (node, row) in basis.rows[side].iter().enumerate() {
             let sliver = node as u32 >= shift[side];
             for &(k, _) in row {
@@ -149,7 +157,7 @@ fn a_node_that_was_kept_leaves_at_the_threshold_like_any_other() {
 #[test]
 fn of_equals_those_that_were_kept_are_kept_again() {
     let square = square(4, 1.0, 0.0, 1.0);
-    for side in 0..2 {
+    for side in Side::BOTH {
         let mut pair = Pair::new([&square, &square]);
         let were_kept = &mut pair.nodes[side];
         were_kept
@@ -166,7 +174,10 @@ fn a_required_node_is_kept_whatever_its_pivot() {
     let soft = square(3, 1.0, 0.0, 1.0);
     let stiff = square(4, 0.2, 0.4, 1e3);
     let mut pair = Pair::new([&soft, &stiff]);
-    let middle = KeptNode { side: 1, node: 12 };
+    let middle = KeptNode {
+        side: Side::B,
+        node: SurfaceNode(12),
+    };
     let before = TractionBasis::new(&pair.interface());
     assert!(!before.kept.contains(&middle));
     pair.nodes[1][12].last = LastIncrement::Required;
@@ -174,7 +185,7 @@ fn a_required_node_is_kept_whatever_its_pivot() {
     let place = basis.kept.iter().position(|kept| *kept == middle);
     let place = place.expect("the node is kept") as u32;
     assert!(basis.ramp.iter().all(|weak| weak.kept != place));
-    assert!(basis.kept.iter().any(|kept| kept.side == 0));
+    assert!(basis.kept.iter().any(|kept| kept.side == Side::A));
     let is_sum_one = |row: &Vec<(u32, f64)>| {
         let sum: f64 = row.iter().map(|(_, value)| value).sum();
         (sum - 1.0).abs() < 1e-14

@@ -4,7 +4,7 @@ use super::{friction::friction, surfaces::Surfaces, texture};
 use crate::{faults::FaultList, raw, read::At};
 use striae_law::friction::Friction;
 use striae_model::Known;
-use striae_solve::model::{ClosedGaps, Enforcement, Initial, Pair, RigidId, Side, Tie};
+use striae_solve::model::{ClosedGaps, ContactSurface, Enforcement, Initial, Pair, RigidId, Tie};
 use striae_surface::texture::Paint;
 
 /// A pair as far as it is known.
@@ -60,7 +60,7 @@ fn lower_pair(
         .as_ref()
         .and_then(|side| lower_side(&side.value, surfaces, faults));
     let ((a, texture_a), (b, texture_b)) = match (a?, b?) {
-        (a @ (Side::Rigid(_), _), b @ (Side::Deformable { .. }, _)) => (b, a),
+        (a @ (ContactSurface::Rigid(_), _), b @ (ContactSurface::Deformable { .. }, _)) => (b, a),
         sides => sides,
     };
     let textures = [texture_a, texture_b];
@@ -130,7 +130,7 @@ fn lower_side(
     raw: &raw::Side,
     surfaces: &Surfaces<'_>,
     faults: &mut FaultList<'_>,
-) -> Option<(Side, Option<Paint>)> {
+) -> Option<(ContactSurface, Option<Paint>)> {
     let side = lower_surface(raw, surfaces, faults);
     let texture = match &raw.texture {
         Some(raw) => texture::paint(&raw.value, side.as_ref(), surfaces, faults).map(Some),
@@ -143,7 +143,7 @@ fn lower_surface(
     raw: &raw::Side,
     surfaces: &Surfaces<'_>,
     faults: &mut FaultList<'_>,
-) -> Option<Side> {
+) -> Option<ContactSurface> {
     match raw.surface.as_ref()? {
         raw::SideSurface::Deformable(side) => faces(side, surfaces, faults),
         raw::SideSurface::Rigid(side) => {
@@ -152,7 +152,7 @@ fn lower_surface(
             if let Some(texture) = &raw.texture {
                 texture::check_plane(surfaces.rigid[rigid].as_ref(), texture, faults);
             }
-            Some(Side::Rigid(RigidId(rigid)))
+            Some(ContactSurface::Rigid(RigidId(rigid)))
         }
     }
 }
@@ -162,8 +162,8 @@ fn faces(
     raw: &raw::DeformableSide,
     surfaces: &Surfaces<'_>,
     faults: &mut FaultList<'_>,
-) -> Option<Side> {
+) -> Option<ContactSurface> {
     let body = surfaces.bodies.find(raw.body.as_ref(), faults)?;
     let faces = surfaces.bodies.faces(body, raw.facets.as_ref(), faults)?;
-    Some(Side::Deformable { body, faces })
+    Some(ContactSurface::Deformable { body, faces })
 }

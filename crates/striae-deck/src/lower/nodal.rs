@@ -9,14 +9,14 @@ use crate::{fault::FaultKind, faults::FaultList, raw};
 use std::path::PathBuf;
 use striae_mesh::NodeId;
 use striae_meshfile::{self as mesh_file, MeshFileError};
-use striae_solve::model::{RigidShape, Side};
+use striae_solve::model::{ContactSurface, RigidShape};
 use striae_surface::{texture::Paint, topology::Surface};
 
 /// The paint of a side that has nodes; `None` for a plane, or after faults have
 /// been noted.
 pub(super) fn paint(
     raw: &raw::NodalTexture,
-    side: &Side,
+    side: &ContactSurface,
     surfaces: &Surfaces<'_>,
     faults: &mut FaultList<'_>,
 ) -> Option<Paint> {
@@ -50,13 +50,13 @@ pub(super) fn paint(
 }
 
 /// Nodes of the surface in ascending order, none of a plane.
-fn nodes(side: &Side, surfaces: &Surfaces<'_>) -> Option<Vec<NodeId>> {
+fn nodes(side: &ContactSurface, surfaces: &Surfaces<'_>) -> Option<Vec<NodeId>> {
     let facets: Vec<[NodeId; 4]> = match side {
-        Side::Deformable { body, faces } => {
+        ContactSurface::Deformable { body, faces } => {
             let mesh = surfaces.bodies.mesh(*body)?;
             faces.iter().map(|face| mesh.face_nodes(*face)).collect()
         }
-        Side::Rigid(rigid) => match &surfaces.rigid[rigid.0].as_ref()?.shape {
+        ContactSurface::Rigid(rigid) => match &surfaces.rigid[rigid.0].as_ref()?.shape {
             RigidShape::Facets { facets, .. } => facets.clone(),
             RigidShape::Plane { .. } | RigidShape::Bare => return None,
         },
@@ -65,17 +65,17 @@ fn nodes(side: &Side, surfaces: &Surfaces<'_>) -> Option<Vec<NodeId>> {
 }
 
 /// The file of the mesh, if it was read from one.
-fn mesh_file_of(side: &Side, surfaces: &Surfaces<'_>) -> Option<PathBuf> {
+fn mesh_file_of(side: &ContactSurface, surfaces: &Surfaces<'_>) -> Option<PathBuf> {
     let written = surfaces.written;
     let file = match side {
-        Side::Deformable { body, .. } => {
+        ContactSurface::Deformable { body, .. } => {
             let body = &list(&written.body)[body.0].value;
             match &body.mesh.as_ref()?.value {
                 raw::Mesh::File(file) => &file.file,
                 raw::Mesh::Generated(_) | raw::Mesh::Inline(_) => return None,
             }
         }
-        Side::Rigid(rigid) => match list(&written.rigid)[rigid.0].value.shape.as_ref()? {
+        ContactSurface::Rigid(rigid) => match list(&written.rigid)[rigid.0].value.shape.as_ref()? {
             raw::RigidShape::Mesh(surface) => match &surface.mesh.as_ref()?.value {
                 raw::SurfaceMesh::File(file) => &file.file,
                 raw::SurfaceMesh::Inline(_) => return None,
@@ -87,17 +87,19 @@ fn mesh_file_of(side: &Side, surfaces: &Surfaces<'_>) -> Option<PathBuf> {
 }
 
 /// Numbers of the nodes in the file of their mesh, by id.
-fn numbers(side: &Side, mesh: PathBuf) -> Result<Vec<u64>, MeshFileError> {
+fn numbers(side: &ContactSurface, mesh: PathBuf) -> Result<Vec<u64>, MeshFileError> {
     match side {
-        Side::Deformable { .. } => mesh_file::node_numbers(mesh),
-        Side::Rigid(_) => mesh_file::rigid_node_numbers(mesh),
+        ContactSurface::Deformable { .. } => mesh_file::node_numbers(mesh),
+        ContactSurface::Rigid(_) => mesh_file::rigid_node_numbers(mesh),
     }
 }
 
-fn owner(side: &Side, surfaces: &Surfaces<'_>) -> String {
+fn owner(side: &ContactSurface, surfaces: &Surfaces<'_>) -> String {
     match side {
-        Side::Deformable { body, .. } => format!("body `{}`", surfaces.bodies.name(*body)),
-        Side::Rigid(rigid) => {
+        ContactSurface::Deformable { body, .. } => {
+            format!("body `{}`", surfaces.bodies.name(*body))
+        }
+        ContactSurface::Rigid(rigid) => {
             let name = surfaces.rigid[rigid.0].as_ref().map(|rigid| &rigid.name);
             format!("rigid surface `{}`", name.map_or("", String::as_str))
         }

@@ -9,13 +9,13 @@ use super::{
 use crate::{faults::FaultList, raw, read::At, value::vector};
 use striae_mesh::Vec3;
 use striae_model::FaultKind as ModelFault;
-use striae_solve::model::{RigidShape, RigidSurface, Side};
+use striae_solve::model::{ContactSurface, RigidShape, RigidSurface};
 use striae_surface::texture::{Field, Lines, Paint};
 
 /// The paint of a side, `None` after its faults or those of the side have been noted.
 pub(super) fn paint(
     raw: &raw::Texture,
-    side: Option<&Side>,
+    side: Option<&ContactSurface>,
     surfaces: &Surfaces<'_>,
     faults: &mut FaultList<'_>,
 ) -> Option<Paint> {

@@ -1,6 +1,6 @@
 //! Pairs: sides, textures, friction; ties.
 
-use striae_solve::model::{Enforcement, Initial, Pair, Side};
+use striae_solve::model::{ContactSurface, Enforcement, Initial, Pair};
 use striae_surface::texture::{Axis, Lines, Paint};
 
 use super::mesh::lines;
@@ -50,14 +50,14 @@ impl Writer<'_> {
         )
     }
 
-    fn surface(&mut self, side: &Side) -> String {
+    fn surface(&mut self, side: &ContactSurface) -> String {
         match side {
-            Side::Deformable { body, faces } => {
+            ContactSurface::Deformable { body, faces } => {
                 let set = self.meshes.facets(*body, "", faces);
                 let body = &self.model.bodies[body.0].name;
                 format!("body = {}, facets = {}", text(body), text(&set))
             }
-            Side::Rigid(rigid) => {
+            ContactSurface::Rigid(rigid) => {
                 let rigid = &self.model.rigid_surfaces[rigid.0].name;
                 format!("rigid = {}", text(rigid))
             }

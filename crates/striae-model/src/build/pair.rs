@@ -1,7 +1,7 @@
 //! Contact pairs.
 
 use striae_law::friction::Friction;
-use striae_solve::model::{Enforcement, Initial, Pair, Side};
+use striae_solve::model::{ContactSurface, Enforcement, Initial, Pair};
 use striae_surface::texture::Paint;
 
 use super::lookup::Names;
@@ -51,13 +51,13 @@ impl SideBuilder {
         path: &Path,
         names: &Names<'_>,
         faults: &mut Vec<Fault>,
-    ) -> Option<Side> {
+    ) -> Option<ContactSurface> {
         match &self.owner {
             Owner::Body { body, facets } => {
                 let (body, faces) = names.faces(body, facets, path, faults)?;
-                Some(Side::Deformable { body, faces })
+                Some(ContactSurface::Deformable { body, faces })
             }
-            Owner::Rigid(name) => names.rigid(name, path, faults).map(Side::Rigid),
+            Owner::Rigid(name) => names.rigid(name, path, faults).map(ContactSurface::Rigid),
         }
     }
 }
@@ -68,7 +68,7 @@ pub(super) fn sides(
     path: &Path,
     names: &Names<'_>,
     faults: &mut Vec<Fault>,
-) -> Option<[Side; 2]> {
+) -> Option<[ContactSurface; 2]> {
     let a = a.resolved(&path.clone().field("a"), names, faults);
     let b = b.resolved(&path.clone().field("b"), names, faults);
     Some([a?, b?])
@@ -143,7 +143,7 @@ impl PairBuilder {
     ) -> Option<Pair> {
         let [mut a, mut b] = sides(&self.sides, &Path::part("pairs", index), names, faults)?;
         let mut textures = self.sides.each_ref().map(|side| side.texture.clone());
-        if matches!(a, Side::Rigid(_)) {
+        if matches!(a, ContactSurface::Rigid(_)) {
             std::mem::swap(&mut a, &mut b);
             textures.reverse();
         }

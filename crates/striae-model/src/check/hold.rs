@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 
 use striae_mesh::{Mesh, NodeId, Vec3};
-use striae_solve::model::{BodyId, Procedure, Side, Step};
+use striae_solve::model::{BodyId, ContactSurface, Procedure, Step};
 
 use super::{Draft, List};
 use crate::{fault::FaultKind, motions::RigidMotions, path::Path};
@@ -51,7 +51,7 @@ fn is_tied(draft: &Draft<'_>, body: BodyId) -> bool {
 }
 
 fn touches(draft: &Draft<'_>, body: BodyId) -> bool {
-    let is = |side: &Side| matches!(side, Side::Deformable { body: other, .. } if *other == body);
+    let is = |side: &ContactSurface| matches!(side, ContactSurface::Deformable { body: other, .. } if *other == body);
     let mut pairs = draft.pairs.iter().filter_map(|pair| pair.pair);
     pairs.any(|pair| is(&pair.a) || is(&pair.b))
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use striae_law::friction::{Friction, RequiredTextures};
 use striae_mesh::{Face, Mesh, NodeId};
-use striae_solve::model::{Pair, Procedure, RigidShape, Side};
+use striae_solve::model::{ContactSurface, Pair, Procedure, RigidShape};
 use striae_surface::texture::Paint;
 
 use super::{Draft, Known, List, Positions};
@@ -97,8 +97,8 @@ pub(super) fn textures(
 
 /// Why two surfaces make no pair, with the side that is to blame where it is one.
 fn impossible_sides(draft: &Draft<'_>, pair: &Pair) -> Vec<(Option<&'static str>, FaultKind)> {
-    let without_surface = |(side, name): (&Side, &'static str)| {
-        let Side::Rigid(rigid) = side else {
+    let without_surface = |(side, name): (&ContactSurface, &'static str)| {
+        let ContactSurface::Rigid(rigid) = side else {
             return None;
         };
         let body = draft.rigid_surfaces[rigid.0].part?;
@@ -118,10 +118,12 @@ fn impossible_sides(draft: &Draft<'_>, pair: &Pair) -> Vec<(Option<&'static str>
 fn wrong_together(draft: &Draft<'_>, pair: &Pair) -> Option<FaultKind> {
     let name = || pair.name.clone();
     match (&pair.a, &pair.b) {
-        (Side::Rigid(_), Side::Rigid(_)) => Some(FaultKind::TwoRigid { pair: name() }),
+        (ContactSurface::Rigid(_), ContactSurface::Rigid(_)) => {
+            Some(FaultKind::TwoRigid { pair: name() })
+        }
         (
-            Side::Deformable { body, faces: on_a },
-            Side::Deformable {
+            ContactSurface::Deformable { body, faces: on_a },
+            ContactSurface::Deformable {
                 body: other,
                 faces: on_b,
             },
@@ -147,7 +149,7 @@ fn check_planes(draft: &Draft<'_>, pair: &Pair, path: &Path, faults: &mut List) 
         .zip(&pair.textures)
         .enumerate()
     {
-        let (Side::Rigid(rigid), Some(paint)) = texture else {
+        let (ContactSurface::Rigid(rigid), Some(paint)) = texture else {
             continue;
         };
         let Some(surface) = draft.rigid_surfaces[rigid.0].part else {
@@ -168,18 +170,18 @@ fn nodes(mesh: &Mesh, faces: &[Face]) -> BTreeSet<NodeId> {
 }
 
 fn same_sides(one: &Pair, other: &Pair) -> bool {
-    let same = |a: &Side, b: &Side| match (a, b) {
+    let same = |a: &ContactSurface, b: &ContactSurface| match (a, b) {
         (
-            Side::Deformable {
+            ContactSurface::Deformable {
                 body: i,
                 faces: on_i,
             },
-            Side::Deformable {
+            ContactSurface::Deformable {
                 body: j,
                 faces: on_j,
             },
         ) => i == j && on_i == on_j,
-        (Side::Rigid(i), Side::Rigid(j)) => i == j,
+        (ContactSurface::Rigid(i), ContactSurface::Rigid(j)) => i == j,
         _ => false,
     };
     same(&one.a, &other.a) && same(&one.b, &other.b)

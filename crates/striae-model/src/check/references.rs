@@ -1,7 +1,7 @@
 //! Ids, nodes and faces that are there.
 
 use striae_mesh::{Face, Mesh, NodeId};
-use striae_solve::model::{BodyId, Model, Mover, RigidId, RigidShape, Side};
+use striae_solve::model::{BodyId, ContactSurface, Model, Mover, RigidId, RigidShape};
 
 use super::List;
 use crate::{
@@ -93,10 +93,10 @@ impl Check<'_> {
         }
     }
 
-    fn side(&mut self, side: &Side, path: Path) {
+    fn side(&mut self, side: &ContactSurface, path: Path) {
         match side {
-            Side::Deformable { body, faces } => self.faces(*body, faces, path),
-            Side::Rigid(rigid) => self.rigid(*rigid, &path),
+            ContactSurface::Deformable { body, faces } => self.faces(*body, faces, path),
+            ContactSurface::Rigid(rigid) => self.rigid(*rigid, &path),
         }
     }
 

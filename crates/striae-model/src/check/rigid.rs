@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use striae_mesh::NodeId;
-use striae_solve::model::{BodyId, Freedom, RigidId, Side, Step};
+use striae_solve::model::{BodyId, ContactSurface, Freedom, RigidId, Step};
 
 use super::{Draft, List, Positions};
 use crate::{fault::FaultKind, path::Path};
@@ -56,7 +56,7 @@ fn free(draft: &Draft<'_>, impossible: &Positions, step: &Step) -> Vec<RigidId> 
         let Some(body) = draft.rigid_surfaces[rigid.0].part else {
             return false;
         };
-        let is = |side: &Side| matches!(side, Side::Rigid(id) if id == rigid);
+        let is = |side: &ContactSurface| matches!(side, ContactSurface::Rigid(id) if id == rigid);
         let pairs = draft.pairs.iter().enumerate();
         let mut possible = pairs
             .filter(|(index, _)| !impossible.contains(index))

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use striae_mesh::Face;
 use striae_solve::{
-    model::{BodyId, Side, Tie},
+    model::{BodyId, ContactSurface, Tie},
     tie::TieFault,
 };
 
@@ -57,10 +57,10 @@ fn is_positive(number: f64) -> bool {
     number > 0.0 && number.is_finite()
 }
 
-fn faces(side: &Side) -> Option<Surface<'_>> {
+fn faces(side: &ContactSurface) -> Option<Surface<'_>> {
     match side {
-        Side::Deformable { body, faces } => Some((*body, faces)),
-        Side::Rigid(_) => None,
+        ContactSurface::Deformable { body, faces } => Some((*body, faces)),
+        ContactSurface::Rigid(_) => None,
     }
 }
 

@@ -3,7 +3,7 @@
 //! Collocated contact is integrated over parts of quadrilaterals only.
 
 use striae_mesh::{Face, Mesh};
-use striae_solve::model::{BodyId, Enforcement, Pair, Side};
+use striae_solve::model::{BodyId, ContactSurface, Enforcement, Pair};
 
 use super::{Draft, List};
 use crate::{fault::FaultKind, path::Path};
@@ -23,7 +23,7 @@ pub(super) fn check(draft: &Draft<'_>, faults: &mut List) {
             continue;
         };
         for (field, side) in [("a", &pair.a), ("b", &pair.b)] {
-            if let Side::Deformable { body, faces } = side {
+            if let ContactSurface::Deformable { body, faces } = side {
                 let what = format!("collocated contact in pair `{}`", pair.name);
                 note(*body, faces, what, Path::part("pairs", index).field(field));
             }

@@ -1,11 +1,12 @@
 //! Contact of all pairs: its evaluation at a trial state, and its place in the system.
 
 use striae_contact::{
-    complementarity::Iteration,
+    complementarity::{Conditions, Iteration},
     configuration::Configuration,
     converged_friction::CollapsedFacets,
     evaluation::{Collapse, Evaluation, evaluate},
     segment::Derivatives,
+    side::Side,
     texture::CollapsedTexture,
 };
 use striae_mesh::{FacetId, Vec3};
@@ -47,8 +48,11 @@ pub(super) fn contacts(
             &context.configuration(pair, &state.positions, &state.rigid),
             &setting.selections[pair],
             &trial.tractions[pair],
-            &context.fixed_on_pair[pair],
-            iteration,
+            Conditions {
+                friction: &context.plan.frictions[pair],
+                prescribed: &context.fixed_on_pair[pair],
+                iteration,
+            },
             derivatives,
         )
         .map_err(|error| Fault::CutBack(not_evaluated(context.problem, pair, error)))?;
@@ -75,7 +79,7 @@ impl System<'_> {
     pub(super) fn add_contacts(&mut self, contacts: &[Evaluation]) {
         for (pair, evaluation) in contacts.iter().enumerate() {
             self.add_terms(pair, &evaluation.terms);
-            for side in 0..2 {
+            for side in Side::BOTH {
                 for (facet, forces) in &evaluation.facets[side] {
                     self.contact_forces(pair, side, *facet, &forces.force);
                 }
@@ -83,7 +87,7 @@ impl System<'_> {
         }
     }
 
-    fn contact_forces(&mut self, pair: usize, side: usize, facet: FacetId, forces: &[Vec3; 4]) {
+    fn contact_forces(&mut self, pair: usize, side: Side, facet: FacetId, forces: &[Vec3; 4]) {
         let problem = self.context.problem;
         if let Some(surface) = problem.pairs[pair].contact.sides[side].surface() {
             for (corner, force) in surface.facets()[facet.index()].iter().zip(forces) {

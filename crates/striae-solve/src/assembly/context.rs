@@ -3,14 +3,15 @@
 mod dashpots;
 
 use striae_contact::{
-    complementarity::Prescribed, configuration::Configuration, pair::ContactPair,
-    placement::Placement,
+    complementarity::Prescribed, configuration::Configuration, pair::ContactPair, side::Side,
 };
 use striae_mesh::{NodeId, Vec3};
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     dynamics::{ImposedRate, Motion},
     initial::Offsets,
+    interference::{Positions, placed},
     model::LoadKind,
     node::GlobalNode,
     plan::StepPlan,
@@ -32,7 +33,7 @@ pub struct StepContext<'a> {
     pub plan: &'a StepPlan,
     /// State at its start.
     pub start: &'a State,
-    /// Pairs with the friction of the step.
+    /// Pairs with the distances in which the step looks for contact.
     pub pairs: Vec<ContactPair>,
     /// Whether each position component of each global node is prescribed.
     pub fixed: Vec<bool>,
@@ -97,28 +98,21 @@ impl<'a> StepContext<'a> {
             None => fixed[node.component(axis)],
         };
         let on_pair = |pair: usize| {
-            [0, 1].map(|side| {
+            Side::BOTH.map(|side| {
                 let surface = problem.pairs[pair].contact.sides[side].surface();
-                let count = surface.map_or(0, |surface| surface.nodes().len() as u32);
+                let count = surface.map_or(0, |surface| surface.nodes().len());
                 let shadowed = problem.shadowed.get(pair).map(|sides| &sides[side]);
-                (0..count)
+                SurfaceNode::all(count)
                     .flat_map(|node| {
                         let global = problem.surface_node(pair, side, node)?;
-                        let own = shadowed.is_some_and(|nodes| nodes[node as usize]);
+                        let own = shadowed.is_some_and(|nodes| nodes[node]);
                         Some([0, 1, 2].map(|axis| own || holds(global, axis)))
                     })
                     .flatten()
                     .collect()
             })
         };
-        let pairs = problem
-            .pairs
-            .iter()
-            .zip(&plan.frictions)
-            .map(|(pair, friction)| ContactPair {
-                friction: friction.clone(),
-                ..pair.contact.clone()
-            });
+        let pairs = problem.pairs.iter().map(|pair| pair.contact.clone());
         let mut context = Self {
             stabilisation: Vec::new(),
             fixed_on_pair: (0..problem.pairs.len()).map(on_pair).collect(),
@@ -272,22 +266,10 @@ impl<'a> StepContext<'a> {
         positions: &[Vec3],
         rigid: &[Pose],
     ) -> Configuration<'_> {
-        let geometry = &self.problem.pairs[pair];
-        let of_side = |side: usize| -> Vec<Vec3> {
-            let count = geometry.contact.sides[side]
-                .surface()
-                .map_or(0, |s| s.nodes().len() as u32);
-            match geometry.bodies[side] {
-                Some(_) => (0..count)
-                    .filter_map(|node| self.problem.surface_node(pair, side, node))
-                    .map(|node| positions[node])
-                    .collect(),
-                None => geometry.rigid_reference.clone(),
-            }
+        let at = Positions {
+            nodes: positions,
+            rigid,
         };
-        let placement = geometry.rigid.map_or_else(Placement::at_rest, |id| {
-            rigid[id].placement(&self.problem.model.rigid_surfaces[id].reference)
-        });
-        Configuration::new(&self.pairs[pair], [of_side(0), of_side(1)], placement)
+        placed(self.problem, pair, &self.pairs[pair], at)
     }
 }

@@ -2,8 +2,9 @@
 
 use std::cmp::Ordering;
 
-use striae_contact::{initial::signed_gap, interference::Stage};
+use striae_contact::{initial::signed_gap, interference::Stage, side::Side};
 use striae_mesh::{MeshError, Vec3};
+use striae_surface::node::SurfaceNode;
 
 use super::{InitialFault, Reference};
 use crate::model::{ClosedGaps, Initial, Model, PairId};
@@ -50,13 +51,13 @@ fn close_pair(model: &mut Model, pair: PairId, gaps: ClosedGaps) -> Result<(), I
 fn closed(stage: &Stage, gaps: ClosedGaps) -> [Vec<Vec3>; 2] {
     let sides = moved(stage);
     let part = 1.0 / sides.len() as f64;
-    let mut x = [0, 1].map(|side| {
+    let mut x = Side::BOTH.map(|side| {
         let snapshot = stage.configuration.sides[side].as_ref();
         snapshot.map_or_else(Vec::new, |snapshot| snapshot.x.clone())
     });
     for &side in sides {
         for (node, target) in chosen(stage, side, gaps) {
-            let place = &mut x[side][node as usize];
+            let place = &mut x[side][node];
             *place += (target - *place) * part;
         }
     }
@@ -65,39 +66,41 @@ fn closed(stage: &Stage, gaps: ClosedGaps) -> [Vec<Vec3>; 2] {
 
 /// Sides whose nodes are moved: the one with the smaller surface, which the other one
 /// covers, the finer one of two as large, or both half the way.
-fn moved(stage: &Stage) -> &'static [usize] {
+fn moved(stage: &Stage) -> &'static [Side] {
     const SAME: f64 = 1e-6;
     if stage.configuration.pair.is_rigid() {
-        return &[0];
+        return &[Side::A];
     }
-    let [a, b] = [0, 1].map(|side| {
+    let [a, b] = Side::BOTH.map(|side| {
         let snapshot = stage.configuration.side(side);
         let facets = snapshot.surface.facets();
-        let area = |facet: &[u32; 4]| {
-            let [a, b, c, d] = facet.map(|node| snapshot.x[node as usize]);
+        let area = |facet: &[SurfaceNode; 4]| {
+            let [a, b, c, d] = facet.map(|node| snapshot.x[node]);
             0.5 * (c - a).cross(&(d - b)).norm()
         };
         (facets.iter().map(area).sum::<f64>(), facets.len())
     });
     match (a.0 / b.0, a.1.cmp(&b.1)) {
-        (ratio, _) if ratio < 1.0 - SAME => &[0],
-        (ratio, _) if ratio > 1.0 + SAME => &[1],
-        (_, Ordering::Greater) => &[0],
-        (_, Ordering::Less) => &[1],
-        (_, Ordering::Equal) => &[0, 1],
+        (ratio, _) if ratio < 1.0 - SAME => &[Side::A],
+        (ratio, _) if ratio > 1.0 + SAME => &[Side::B],
+        (_, Ordering::Greater) => &[Side::A],
+        (_, Ordering::Less) => &[Side::B],
+        (_, Ordering::Equal) => &Side::BOTH,
     }
 }
 
 /// Nodes with a gap that is closed, or with an overlap, and where they belong.
-fn chosen(stage: &Stage, side: usize, gaps: ClosedGaps) -> Vec<(u32, Vec3)> {
+fn chosen(stage: &Stage, side: Side, gaps: ClosedGaps) -> Vec<(SurfaceNode, Vec3)> {
     let snapshot = stage.configuration.side(side);
-    let limit = |node: u32| match gaps {
-        ClosedGaps::Share(share) => share * snapshot.sizes[node as usize],
+    let limit = |node: SurfaceNode| match gaps {
+        ClosedGaps::Share(share) => share * snapshot.sizes[node],
         ClosedGaps::UpTo(gap) => gap,
     };
-    let within = |node: u32| {
+    let within = |node: SurfaceNode| {
         let (gap, target) = signed_gap(stage, side, node)?;
         (gap <= limit(node) * (1.0 + 1e-9)).then_some((node, target))
     };
-    (0..snapshot.x.len() as u32).filter_map(within).collect()
+    SurfaceNode::all(snapshot.x.len())
+        .filter_map(within)
+        .collect()
 }

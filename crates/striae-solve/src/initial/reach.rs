@@ -9,7 +9,7 @@ use striae_contact::initial::Fit;
 use striae_mesh::Vec3;
 
 use super::translation::nearest_approach;
-use crate::model::{BodyId, Freedom, Model, PairId, Procedure, RigidId, Side};
+use crate::model::{BodyId, ContactSurface, Freedom, Model, PairId, Procedure, RigidId};
 
 /// Distance over that at the start that is none.
 const ROUND_OFF: f64 = 1e-9;
@@ -22,9 +22,9 @@ pub fn may_meet(model: &Model, pair: PairId, fit: &Fit) -> bool {
         return true;
     }
     let of_pair = &model.pairs[pair.0];
-    let reach = |side: &Side| match side {
-        Side::Deformable { body, .. } => body_reach(model, *body),
-        Side::Rigid(rigid) => rigid_reach(model, *rigid),
+    let reach = |side: &ContactSurface| match side {
+        ContactSurface::Deformable { body, .. } => body_reach(model, *body),
+        ContactSurface::Rigid(rigid) => rigid_reach(model, *rigid),
     };
     match (reach(&of_pair.a), reach(&of_pair.b)) {
         (Some(a), Some(b)) => fit.distance <= DEFORMATION * (a + b) && comes_near(model, pair, fit),

@@ -6,9 +6,11 @@
 
 use rayon::prelude::*;
 use striae_contact::{
-    initial::signed_gap, interference::Stage, texture::SideTexture, unknowns::NodeResult,
+    initial::signed_gap, interference::Stage, side::Side, texture::SideTexture,
+    unknowns::NodeResult,
 };
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     interference::{configuration, thickness},
@@ -28,19 +30,20 @@ fn of_pair(problem: &Problem, state: &State, pair: usize) -> [Vec<NodeResult>; 2
         configuration: &configuration(problem, pair, state.into()),
         thickness: &thickness(problem, pair, &state.positions),
     };
-    [0, 1].map(|side| {
+    Side::BOTH.map(|side| {
         if problem.pairs[pair].bodies[side].is_none() {
             return state.pairs[pair].nodes[side].clone();
         }
-        let nodes = 0..stage.configuration.side(side).x.len() as u32;
+        let nodes = 0..stage.configuration.side(side).x.len();
         let nodes = nodes.into_par_iter().with_min_len(16);
+        let nodes = nodes.map(SurfaceNode::new);
         nodes.map(|node| of_node(&stage, side, node)).collect()
     })
 }
 
-fn of_node(stage: &Stage, side: usize, node: u32) -> NodeResult {
+fn of_node(stage: &Stage, side: Side, node: SurfaceNode) -> NodeResult {
     let snapshot = stage.configuration.side(side);
-    let normal = snapshot.normals[node as usize];
+    let normal = snapshot.normals[node];
     let texture = match &stage.configuration.pair.sides[side].texture {
         Some(SideTexture::Nodal(texture)) => texture.at(node, &snapshot.x, normal).ok(),
         _ => None,

@@ -10,7 +10,8 @@ use std::collections::BTreeSet;
 use striae_mesh::Vec3;
 
 use crate::model::{
-    BodyId, Curve, Displacement, Freedom, Model, PairId, Procedure, RigidId, RigidShape, Side, Step,
+    BodyId, ContactSurface, Curve, Displacement, Freedom, Model, PairId, Procedure, RigidId,
+    RigidShape, Step,
 };
 
 /// Smallest and largest displacement along every axis.
@@ -44,8 +45,8 @@ fn farthest(way: &Ranges, d: &Vec3) -> f64 {
         .sum()
 }
 
-fn normal(model: &Model, side: &Side) -> Option<Vec3> {
-    let Side::Rigid(rigid) = side else {
+fn normal(model: &Model, side: &ContactSurface) -> Option<Vec3> {
+    let ContactSurface::Rigid(rigid) = side else {
         return None;
     };
     match &model.rigid_surfaces[rigid.0].shape {
@@ -55,18 +56,18 @@ fn normal(model: &Model, side: &Side) -> Option<Vec3> {
 }
 
 /// Where a side begins and ends along a direction.
-fn extent(model: &Model, side: &Side, d: &Vec3) -> (f64, f64) {
+fn extent(model: &Model, side: &ContactSurface, d: &Vec3) -> (f64, f64) {
     let over = |positions: &mut dyn Iterator<Item = Vec3>| {
         positions.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
             (low.min(x.dot(d)), high.max(x.dot(d)))
         })
     };
     match side {
-        Side::Deformable { body, faces } => {
+        ContactSurface::Deformable { body, faces } => {
             let mesh = &model.bodies[body.0].mesh;
             over(&mut faces.iter().flat_map(|&face| mesh.face_positions(face)))
         }
-        Side::Rigid(rigid) => match &model.rigid_surfaces[rigid.0].shape {
+        ContactSurface::Rigid(rigid) => match &model.rigid_surfaces[rigid.0].shape {
             RigidShape::Plane { point, .. } => (point.dot(d), f64::INFINITY),
             RigidShape::Facets { positions, .. } => over(&mut positions.iter().copied()),
             RigidShape::Bare => (f64::NEG_INFINITY, f64::INFINITY),
@@ -74,15 +75,15 @@ fn extent(model: &Model, side: &Side, d: &Vec3) -> (f64, f64) {
     }
 }
 
-fn way(model: &Model, pair: PairId, side: &Side) -> Option<Ranges> {
+fn way(model: &Model, pair: PairId, side: &ContactSurface) -> Option<Ranges> {
     match side {
-        Side::Deformable { body, .. } => body_way(model, pair, *body),
-        Side::Rigid(rigid) => rigid_way(model, *rigid),
+        ContactSurface::Deformable { body, .. } => body_way(model, pair, *body),
+        ContactSurface::Rigid(rigid) => rigid_way(model, *rigid),
     }
 }
 
 fn body_way(model: &Model, pair: PairId, body: BodyId) -> Option<Ranges> {
-    let is = |side: &Side| matches!(side, Side::Deformable { body: other, .. } if *other == body);
+    let is = |side: &ContactSurface| matches!(side, ContactSurface::Deformable { body: other, .. } if *other == body);
     let mut others = model.pairs.iter().enumerate();
     let touched = others.any(|(at, other)| at != pair.0 && (is(&other.a) || is(&other.b)));
     let mut ties = model.rigid_surfaces.iter().flat_map(|rigid| &rigid.ties);

@@ -1,9 +1,11 @@
 //! Corrections applied to a trial state.
 
 use striae_contact::{
-    complementarity::Iteration, evaluation::Evaluation, segment::Derivatives, unknowns::Tractions,
+    complementarity::Iteration, evaluation::Evaluation, segment::Derivatives, side::Side,
+    unknowns::Tractions,
 };
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 use super::workspace::{SystemStorage, Workspace};
 use crate::{
@@ -92,9 +94,9 @@ fn add_tractions(
     correction: &[f64],
     factor: f64,
 ) {
-    for side in 0..2 {
+    for side in Side::BOTH {
         for (node, unknowns) in tractions.nodes[side].iter_mut().enumerate() {
-            if let Some(first) = layout.traction(pair, side, node) {
+            if let Some(first) = layout.traction(pair, side, SurfaceNode::new(node)) {
                 for (component, unknown) in unknowns.iter_mut().enumerate() {
                     *unknown += factor * correction[first + component];
                 }

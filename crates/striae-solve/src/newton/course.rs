@@ -18,6 +18,7 @@
 //! belongs by the first correction and by the poses.
 
 use serde::{Deserialize, Serialize};
+use striae_contact::side::Side;
 use striae_mesh::Vec3;
 
 use crate::{
@@ -109,7 +110,7 @@ impl Course {
         }
         problem.ties.follow(&mut trial.positions);
         for (pair, tractions) in trial.tractions.iter_mut().enumerate() {
-            for side in 0..2 {
+            for side in Side::BOTH {
                 let unknowns = tractions.nodes[side].iter_mut().enumerate();
                 for (node, unknowns) in unknowns {
                     let now = state.pairs[pair].tractions.nodes[side][node];

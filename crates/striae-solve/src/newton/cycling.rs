@@ -1,6 +1,7 @@
 //! Contact nodes that keep changing their status.
 
-use striae_contact::{evaluation::Evaluation, selection::Selection, unknowns::Status};
+use striae_contact::{evaluation::Evaluation, selection::Selection, side::Side, unknowns::Status};
+use striae_surface::node::SurfaceNode;
 
 use crate::{outcome::CyclingNode, problem::Problem};
 
@@ -44,15 +45,15 @@ impl History {
         let last = &self.statuses[self.statuses.len().saturating_sub(WINDOW)..];
         let mut cycling = Vec::new();
         for (pair, selection) in selections.iter().enumerate() {
-            for side in 0..2 {
-                for node in 0..selection.nodes(side) {
+            for side in Side::BOTH {
+                for node in SurfaceNode::all(selection.nodes(side)) {
                     let statuses: Vec<Status> = last
                         .iter()
                         .map(|contacts| contacts[pair][side][node])
                         .collect();
                     let changes = statuses.windows(2).any(|pair| pair[0] != pair[1]);
-                    let kept = selection.is_kept(side, node as u32);
-                    if let Some(global) = problem.carrier(pair, side, node as u32)
+                    let kept = selection.is_kept(side, node);
+                    if let Some(global) = problem.carrier(pair, side, node)
                         && kept
                         && changes
                     {

@@ -5,8 +5,9 @@
 //! surfaces overlap and do not any more once the bodies have moved rigidly with the mean of
 //! what is prescribed on them, the bodies start from there, free of each other.
 
-use striae_contact::selection::Selection;
+use striae_contact::{selection::Selection, side::Side};
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     assembly::{Imposed, StepContext},
@@ -32,8 +33,9 @@ pub(super) fn first_positions(
     // Bodies of pairs that come apart, and of those that do not.
     let (mut apart, mut together) = (vec![false; moves.len()], vec![false; moves.len()]);
     for (pair, selection) in selections.iter().enumerate() {
-        let bodies: Vec<usize> = (0..2)
-            .filter_map(|side| problem.surface_node(pair, side, 0))
+        let bodies: Vec<usize> = Side::BOTH
+            .into_iter()
+            .filter_map(|side| problem.surface_node(pair, side, SurfaceNode(0)))
             .map(|node| problem.body_node(node).0)
             .collect();
         let way = match *bodies.as_slice() {
@@ -45,7 +47,7 @@ pub(super) fn first_positions(
             continue;
         }
         let start = context.configuration(pair, &state.positions, &state.rigid);
-        let is_far = way.norm() > start.side(0).largest_size;
+        let is_far = way.norm() > start.side(Side::A).largest_size;
         let left = is_far && {
             let end = context.configuration(pair, &moved, rigid);
             selection.overlaps(&start) && !selection.overlaps(&end)

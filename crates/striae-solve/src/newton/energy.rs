@@ -39,7 +39,7 @@
 
 use std::ops::{Add, Mul};
 
-use striae_contact::field::FacetForces;
+use striae_contact::{field::FacetForces, side::Side};
 use striae_mesh::{FacetId, Vec3};
 
 use crate::{
@@ -382,7 +382,7 @@ impl Pushing<'_> {
         for (facet, forces) in self.facets {
             let corners = surface.facets()[facet.index()];
             for (corner, force) in corners.iter().zip(&forces.force) {
-                let Some(node) = problem.surface_node(self.pair, 0, *corner) else {
+                let Some(node) = problem.surface_node(self.pair, Side::A, *corner) else {
                     continue;
                 };
                 let x = self.positions[node];

@@ -13,11 +13,12 @@
 use striae_contact::{
     evaluation::Evaluation,
     interference::{Interference, Kind, Place, SHARE, Spot},
-    pair::Side,
+    pair::PairedSurface,
     selection::approach,
+    side::Side,
 };
 use striae_mesh::FacetId;
-use striae_surface::topology::distinct_corners;
+use striae_surface::{node::SurfaceNode, topology::distinct_corners};
 
 use crate::{
     assembly::{Setting, Trial},
@@ -89,8 +90,8 @@ fn missed(
     let id = PairId(pair);
     Some(CutBack::Passage {
         pair: context.pairs[pair].name.clone(),
-        body: other_name(model, id, 1 - worst.side).to_owned(),
-        node: surface.nodes()[worst.node as usize],
+        body: other_name(model, id, worst.side.opposite()).to_owned(),
+        node: surface.nodes()[worst.node],
         other: other_name(model, id, worst.side).to_owned(),
         depth: worst.depth,
         way: approach(&start, &end),
@@ -98,8 +99,8 @@ fn missed(
 }
 
 /// Whether a point is deeper inside than contact resolves.
-fn is_missed(sides: &[Side; 2], contact: &Evaluation, found: &Interference) -> bool {
-    let corners = |side: usize, facet: FacetId| -> Vec<u32> {
+fn is_missed(sides: &[PairedSurface; 2], contact: &Evaluation, found: &Interference) -> bool {
+    let corners = |side: Side, facet: FacetId| -> Vec<SurfaceNode> {
         let surface = sides[side].surface();
         let corners = surface.map(|surface| surface.facets()[facet.index()]);
         corners.map_or_else(Vec::new, |corners| distinct_corners(&corners).to_vec())
@@ -110,15 +111,15 @@ fn is_missed(sides: &[Side; 2], contact: &Evaluation, found: &Interference) -> b
     };
     let others = match found.place {
         Place::Plane => Vec::new(),
-        Place::Facet(facet) => corners(1 - found.side, facet),
+        Place::Facet(facet) => corners(found.side.opposite(), facet),
     };
-    let acts = |side: usize, nodes: &[u32]| {
+    let acts = |side: Side, nodes: &[SurfaceNode]| {
         let mut carried = nodes
             .iter()
-            .filter_map(|&node| contact.carried[side].get(node as usize));
+            .filter_map(|&node| contact.carried[side].get(node.index()));
         carried.any(|[pressure, _, _]| *pressure > 0.0)
     };
-    let limit = if acts(found.side, &own) || acts(1 - found.side, &others) {
+    let limit = if acts(found.side, &own) || acts(found.side.opposite(), &others) {
         DEEP
     } else if found.kind == Kind::Inside {
         UNSEEN

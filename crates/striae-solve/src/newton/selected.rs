@@ -7,13 +7,15 @@ use striae_contact::{
     lift,
     pointed::{self, Bend, Pierced, Progress, choice::points, staying},
     selection::{Before, Kept, Selection},
+    side::Side,
     tip::RigidPoints,
     unknowns::{Label, NodeResult, Status, Tractions},
 };
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     assembly::{Setting, StepContext, Trial},
-    model::{Side, Strategy},
+    model::{ContactSurface, Strategy},
     state::State,
 };
 
@@ -36,7 +38,7 @@ pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected
             let mut points: RigidPoints = vec![None; of_pair.points.len()];
             let mut tractions = of_pair.tractions.clone();
             for stay in &stays {
-                let (from, to) = (stay.from as usize, stay.to as usize);
+                let (from, to) = (stay.from.index(), stay.to.index());
                 points[to] = Some(stay.point);
                 tractions.nodes[1][to] = of_pair.tractions.nodes[1][from];
             }
@@ -72,7 +74,7 @@ pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected
             });
             let mut pointed = of_pair.pointed.clone();
             for stay in &stays {
-                pointed[1][stay.to as usize] = true;
+                pointed[1][stay.to] = true;
             }
             let had = Before {
                 pointed: &pointed,
@@ -90,7 +92,7 @@ pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected
 
 /// Those of some nodes that are pressed.
 fn pressed(nodes: &Kept, results: &[Vec<NodeResult>; 2]) -> Kept {
-    [0, 1].map(|side| {
+    Side::BOTH.map(|side| {
         let nodes = nodes[side].iter().zip(&results[side]);
         nodes
             .map(|(is_one, result)| *is_one && result.pressure > 0.0)
@@ -120,7 +122,7 @@ pub(super) fn pierced(
 /// would rock from one vertex of its round face to the next.
 fn least_bend(context: &StepContext, pair: usize) -> Bend {
     match context.problem.model.pairs[pair].b {
-        Side::Rigid(rigid) if context.fixed_rigid[rigid.0] != [true; 6] => Bend::Sharp,
+        ContactSurface::Rigid(rigid) if context.fixed_rigid[rigid.0] != [true; 6] => Bend::Sharp,
         _ => Bend::Blunt,
     }
 }
@@ -141,15 +143,15 @@ pub(super) fn reselected(
             let (kept, had) = (had.kept_nodes(), had.pointed_nodes());
             let mut pointed = had.clone();
             for &(side, node) in &pierced[pair].nodes {
-                pointed[side][node as usize] = true;
+                pointed[side][node] = true;
             }
             let mut required = setting.selections[pair].required.clone();
             for &(side, node) in &pierced[pair].unfelt {
-                required[side][node as usize] = true;
+                required[side][node] = true;
             }
             let mut points = setting.selections[pair].points.clone();
             for &(node, point) in &pierced[pair].points {
-                points[node as usize] = Some(point);
+                points[node] = Some(point);
             }
             let before = |pointed| Before {
                 kept: &kept,
@@ -199,10 +201,11 @@ fn fit(
     carried: &[Vec<[f64; 3]>; 2],
     tractions: &mut Tractions,
 ) {
-    for side in 0..2 {
+    for side in Side::BOTH {
         for (node, unknowns) in tractions.nodes[side].iter_mut().enumerate() {
-            let is_pointed = selection.is_pointed(side, node as u32);
-            let is_kept = selection.is_kept(side, node as u32) && !is_pointed;
+            let node = SurfaceNode::new(node);
+            let is_pointed = selection.is_pointed(side, node);
+            let is_kept = selection.is_kept(side, node) && !is_pointed;
             if is_kept && !before.kept[side][node] {
                 *unknowns = carried[side][node];
             } else if !(is_kept || is_pointed && before.pointed[side][node]) {

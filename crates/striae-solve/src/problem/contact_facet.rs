@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use striae_contact::side::Side;
 use striae_mesh::{Face, FacetId};
 
 use super::PairGeometry;
@@ -12,7 +13,7 @@ pub struct ContactFacet {
     /// The pair.
     pub pair: usize,
     /// Its side.
-    pub side: usize,
+    pub side: Side,
     /// The facet.
     pub facet: FacetId,
 }
@@ -21,7 +22,7 @@ pub struct ContactFacet {
 pub(super) fn contact_facets(pairs: &[PairGeometry]) -> HashMap<(usize, Face), Vec<ContactFacet>> {
     let mut facets: HashMap<_, Vec<_>> = HashMap::new();
     for (pair, geometry) in pairs.iter().enumerate() {
-        for side in 0..2 {
+        for side in Side::BOTH {
             let Some(body) = geometry.bodies[side] else {
                 continue;
             };

@@ -1,6 +1,9 @@
 //! Fibres through what is behind the facets of pairs.
 
-use striae_contact::interference::{Fibre, fibres};
+use striae_contact::{
+    interference::{Fibre, fibres},
+    side::Side,
+};
 use striae_mesh::Vec3;
 use striae_surface::topology::Surface;
 
@@ -8,7 +11,7 @@ use super::PairGeometry;
 use crate::model::Model;
 
 /// Fibres through what is behind the facets of all pairs. They end at nodes of the
-/// body, or at surface nodes of a rigid side.
+/// body, or of the rigid surface.
 pub(crate) fn add_fibres(model: &Model, pairs: &mut [PairGeometry]) {
     let skin = |body: usize| {
         let mesh = &model.bodies[body].mesh;
@@ -17,7 +20,7 @@ pub(crate) fn add_fibres(model: &Model, pairs: &mut [PairGeometry]) {
     };
     let mut skins: Vec<Option<Surface>> = vec![None; model.bodies.len()];
     for pair in pairs {
-        pair.fibres = [0, 1].map(|side| {
+        pair.fibres = Side::BOTH.map(|side| {
             let Some(surface) = pair.contact.sides[side].surface() else {
                 return Vec::new();
             };
@@ -36,9 +39,5 @@ fn of_body(positions: &[Vec3], surface: &Surface, skin: &Surface) -> Vec<Option<
         let nodes = surface.nodes().iter();
         nodes.map(|node| positions[node.index()]).collect()
     };
-    let mut fibres = fibres(surface, &at(surface), skin, &at(skin));
-    for fibre in fibres.iter_mut().flatten() {
-        fibre.nodes = fibre.nodes.map(|node| skin.nodes()[node as usize].0);
-    }
-    fibres
+    fibres(surface, &at(surface), skin, &at(skin))
 }

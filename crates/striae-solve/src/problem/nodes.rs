@@ -1,6 +1,8 @@
 //! Numbers of the nodes of bodies and surfaces in the whole problem.
 
+use striae_contact::side::Side;
 use striae_mesh::NodeId;
+use striae_surface::node::SurfaceNode;
 
 use super::Problem;
 use crate::node::GlobalNode;
@@ -33,17 +35,17 @@ impl Problem {
     }
 
     /// Global node of a surface node of a pair.
-    pub fn surface_node(&self, pair: usize, side: usize, node: u32) -> Option<GlobalNode> {
+    pub fn surface_node(&self, pair: usize, side: Side, node: SurfaceNode) -> Option<GlobalNode> {
         let geometry = &self.pairs[pair];
         let surface = geometry.contact.sides[side].surface()?;
         let body = geometry.bodies[side]?;
-        Some(self.node(body, surface.nodes()[node as usize]))
+        Some(self.node(body, surface.nodes()[node]))
     }
 
     /// Global node that the traction unknowns of a node of a pair lodge with: itself, or
     /// that of side `a` at a point of a rigid side.
-    pub(crate) fn carrier(&self, pair: usize, side: usize, node: u32) -> Option<GlobalNode> {
+    pub(crate) fn carrier(&self, pair: usize, side: Side, node: SurfaceNode) -> Option<GlobalNode> {
         let own = self.surface_node(pair, side, node);
-        own.or_else(|| self.surface_node(pair, 0, node))
+        own.or_else(|| self.surface_node(pair, Side::A, node))
     }
 }

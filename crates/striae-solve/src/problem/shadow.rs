@@ -5,6 +5,8 @@
 //! theirs say, and its pressure would not be determined; so it is no candidate for one and
 //! carries what its neighbours have.
 
+use striae_contact::side::Side;
+
 use super::PairGeometry;
 use crate::{node::GlobalNode, tie::Ties};
 
@@ -23,7 +25,7 @@ pub(super) fn shadowed(
     if ties.is_empty() {
         return Vec::new();
     }
-    let of_side = |pair: &PairGeometry, side: usize| -> Vec<GlobalNode> {
+    let of_side = |pair: &PairGeometry, side: Side| -> Vec<GlobalNode> {
         let (Some(body), Some(surface)) = (pair.bodies[side], pair.contact.sides[side].surface())
         else {
             return Vec::new();
@@ -33,12 +35,15 @@ pub(super) fn shadowed(
             .map(|node| GlobalNode(first_node[body] + node.index()))
             .collect()
     };
-    let opponent = |pair: &PairGeometry, side: usize| -> Opponent {
-        (pair.bodies[1 - side], pair.rigid.filter(|_| side == 0))
+    let opponent = |pair: &PairGeometry, side: Side| -> Opponent {
+        (
+            pair.bodies[side.opposite()],
+            pair.rigid.filter(|_| side == Side::A),
+        )
     };
     let mut faces: Vec<Vec<Opponent>> = vec![Vec::new(); first_node[first_node.len() - 1]];
     for pair in pairs {
-        for side in 0..2 {
+        for side in Side::BOTH {
             for node in of_side(pair, side) {
                 faces[node].push(opponent(pair, side));
             }
@@ -55,7 +60,7 @@ pub(super) fn shadowed(
             .all(|(other, _)| faces[*other].contains(opponent))
     };
     let of_pair = |pair: &PairGeometry| {
-        [0, 1].map(|side| {
+        Side::BOTH.map(|side| {
             let opponent = opponent(pair, side);
             let nodes = of_side(pair, side).into_iter();
             nodes.map(|node| is_shadowed(node, &opponent)).collect()

@@ -1,9 +1,10 @@
 //! What ties amount to in a state.
 
+use striae_contact::side::Side;
 use striae_mesh::Vec3;
 use striae_surface::{normal::nodal_normals, topology::Surface};
 
-use crate::{model::Side, problem::Problem, state::State};
+use crate::{model::ContactSurface, problem::Problem, state::State};
 
 /// What a tie amounts to.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,9 +87,9 @@ impl TieTraction {
 ///
 /// # Panics
 /// For a side of a rigid surface, which a problem does not have.
-pub fn tie_surface(problem: &Problem, tie: usize, side: usize) -> Surface {
+pub fn tie_surface(problem: &Problem, tie: usize, side: Side) -> Surface {
     let of_tie = &problem.model.ties[tie];
-    let Side::Deformable { body, faces } = [&of_tie.a, &of_tie.b][side] else {
+    let ContactSurface::Deformable { body, faces } = [&of_tie.a, &of_tie.b][side] else {
         unreachable!("ties of rigid surfaces are faults");
     };
     let mesh = &problem.model.bodies[body.0].mesh;
@@ -103,7 +104,7 @@ pub fn tie_tractions(problem: &Problem, state: &State, tie: usize) -> [Vec<TieTr
     let areas = problem
         .ties
         .areas(tie, &problem.reference, &state.positions);
-    [0, 1].map(|side| {
+    Side::BOTH.map(|side| {
         let surface = tie_surface(problem, tie, side);
         let body = problem.ties.joints[tie].bodies[side];
         let global = |local: usize| problem.node(body, surface.nodes()[local]);

@@ -41,11 +41,11 @@ impl Patch {
         follows: impl Fn(GlobalNode, usize) -> bool,
     ) -> Self {
         let [own, other] = global;
-        let corners = facet.corners.iter().map(|&corner| own[corner as usize]);
+        let corners = facet.corners.iter().map(|&corner| own[corner]);
         let corners: Vec<GlobalNode> = corners.collect();
         let weights = facet.weights.iter().copied();
         let opposite = facet.opposite.iter();
-        let opposite = opposite.map(|(&node, row)| (other[node as usize], row.iter().sum()));
+        let opposite = opposite.map(|(&node, row)| (other[node], row.iter().sum()));
         Self {
             tied: [0, 1, 2].map(|axis| corners.iter().any(|&node| follows(node, axis))),
             areas: [
@@ -71,7 +71,10 @@ impl Ties {
         let mut areas = [NodalAreas::new(), NodalAreas::new()];
         for patch in &joint.patches {
             let stretch = patch.area(positions) / patch.area(reference);
-            for (side, of_side) in [joint.follows, 1 - joint.follows].iter().zip(&patch.areas) {
+            for (side, of_side) in [joint.follows, joint.follows.opposite()]
+                .iter()
+                .zip(&patch.areas)
+            {
                 for (node, area) in of_side {
                     let sum = areas[*side].entry(*node).or_default();
                     for axis in (0..3).filter(|&axis| patch.tied[axis]) {

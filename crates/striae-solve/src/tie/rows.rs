@@ -4,16 +4,16 @@ use std::collections::BTreeMap;
 
 use striae_contact::{
     configuration::Configuration,
-    pair::{ContactPair, Enforcement, Geometry, Side as ContactSide},
+    pair::{ContactPair, Enforcement, Geometry, PairedSurface},
     placement::Placement,
+    side::Side,
     tie::{FacetRows, Joined, join},
 };
-use striae_law::friction::Friction;
 use striae_mesh::{Face, Vec3};
-use striae_surface::topology::Surface;
+use striae_surface::{node::SurfaceNode, topology::Surface};
 
 use super::{Follower, Joint, TieFault, Weights, patch::Patch, side::finer};
-use crate::model::{Model, Side};
+use crate::model::{ContactSurface, Model};
 use crate::node::GlobalNode;
 
 /// Covered part of the best covered facet at a node below which it does not follow.
@@ -26,7 +26,7 @@ const SAME: f64 = 1e-6;
 /// The two surfaces of a tie.
 pub(super) struct Sides {
     bodies: [usize; 2],
-    follows: usize,
+    follows: Side,
     /// Global nodes of both surfaces.
     nodes: [Vec<GlobalNode>; 2],
     joined: Joined,
@@ -56,11 +56,11 @@ impl Sides {
         let name = || of_tie.name.clone();
         let [(a, faces_a), (b, faces_b)] = match [&of_tie.a, &of_tie.b] {
             [
-                Side::Deformable {
+                ContactSurface::Deformable {
                     body: a,
                     faces: on_a,
                 },
-                Side::Deformable {
+                ContactSurface::Deformable {
                     body: b,
                     faces: on_b,
                 },
@@ -72,7 +72,7 @@ impl Sides {
             return Err(TieFault::SameBody { tie: name(), body });
         }
         let pair = contact_pair(model, [(a, faces_a), (b, faces_b)], of_tie.within);
-        let positions = [(0, a), (1, b)].map(|(side, body)| {
+        let positions = [(Side::A, a), (Side::B, b)].map(|(side, body)| {
             let nodes = pair.sides[side].surface().map_or(&[][..], Surface::nodes);
             let mesh = &model.bodies[body].mesh;
             let places = nodes.iter().map(|node| mesh.positions[node.index()]);
@@ -84,13 +84,13 @@ impl Sides {
         Ok(Self {
             bodies: [a, b],
             follows: finer(&joined, [a, b].map(|body| &model.bodies[body].mesh)),
-            nodes: [(0, a), (1, b)].map(|(side, body)| {
+            nodes: [(Side::A, a), (Side::B, b)].map(|(side, body)| {
                 let nodes = configuration.side(side).surface.nodes().iter();
                 nodes
                     .map(|node| GlobalNode(first_node[body] + node.index()))
                     .collect()
             }),
-            facets: [0, 1].map(|side| joined.rows(&configuration, side)),
+            facets: Side::BOTH.map(|side| joined.rows(&configuration, side)),
             joined,
             patches: Vec::new(),
         })
@@ -98,7 +98,7 @@ impl Sides {
 
     /// What is known of the tie.
     pub(super) fn joint(self) -> Joint {
-        let cover = [0, 1].map(|side| {
+        let cover = Side::BOTH.map(|side| {
             let facets = self.joined.cover[side].iter().zip(&self.joined.areas[side]);
             let tied: f64 = facets.map(|(cover, area)| cover.min(1.0) * area).sum();
             tied / self.joined.areas[side].iter().sum::<f64>()
@@ -117,7 +117,7 @@ impl Sides {
 
     /// What is tied, where nodes keep rows of components.
     fn patches(&self, keeps: impl Fn(GlobalNode, usize) -> bool) -> Vec<Patch> {
-        let global = [self.follows, 1 - self.follows].map(|side| &self.nodes[side][..]);
+        let global = [self.follows, self.follows.opposite()].map(|side| &self.nodes[side][..]);
         let facets = self.facets[self.follows].iter();
         facets
             .map(|facet| Patch::new(facet, global, &keeps))
@@ -125,12 +125,12 @@ impl Sides {
     }
 
     /// Global node of a node of the side that follows.
-    fn own(&self, side: usize, node: u32) -> GlobalNode {
-        self.nodes[side][node as usize]
+    fn own(&self, side: Side, node: SurfaceNode) -> GlobalNode {
+        self.nodes[side][node]
     }
 
     /// Nodes of a side that may follow, with what their functions weigh.
-    fn candidates(&self, side: usize, bound: &Bound) -> BTreeMap<GlobalNode, f64> {
+    fn candidates(&self, side: Side, bound: &Bound) -> BTreeMap<GlobalNode, f64> {
         let (mut weights, mut cover) = (BTreeMap::new(), BTreeMap::new());
         for facet in &self.facets[side] {
             for (at, &corner) in facet.corners.iter().enumerate() {
@@ -183,7 +183,7 @@ pub(super) fn rows(
     let bound = Bound::new(model, first_node);
     for of_tie in &mut *sides {
         if of_tie.candidates(of_tie.follows, &bound).is_empty() {
-            of_tie.follows = 1 - of_tie.follows;
+            of_tie.follows = of_tie.follows.opposite();
         }
     }
     let owner = owners(sides, &bound);
@@ -274,7 +274,7 @@ fn sums(sides: &Sides, keeps: impl Fn(GlobalNode) -> bool) -> BTreeMap<GlobalNod
                 let sum = sums.entry(*taker).or_default();
                 *sum.own.entry(node).or_insert(0.0) += part * facet.weights[at];
                 for (opposite, row) in &facet.opposite {
-                    let opposite = sides.own(1 - side, *opposite);
+                    let opposite = sides.own(side.opposite(), *opposite);
                     *sum.opposite.entry(opposite).or_insert(0.0) += part * row[at];
                 }
             }
@@ -312,7 +312,7 @@ fn contact_pair(
     let sides = sides.map(|(body, faces)| {
         let mesh = &model.bodies[body].mesh;
         let facets: Vec<_> = faces.iter().map(|face| mesh.face_nodes(*face)).collect();
-        ContactSide {
+        PairedSurface {
             geometry: Geometry::Deformable(Surface::new(&facets)),
             stiffness: 1.0,
             texture: None,
@@ -321,7 +321,6 @@ fn contact_pair(
     ContactPair {
         name: String::new(),
         sides,
-        friction: Friction::frictionless(),
         enforcement: Enforcement::Weighted,
         search_distance: within,
     }
@@ -363,7 +362,7 @@ fn unmet(
 
 /// Distance of the nearest nodes of both sides.
 fn distance(configuration: &Configuration) -> f64 {
-    let nodes = [0, 1].map(|side| &configuration.side(side).x);
+    let nodes = Side::BOTH.map(|side| &configuration.side(side).x);
     let distances = nodes[0].iter().map(|x| {
         let others = nodes[1].iter().map(|y| (x - y).norm());
         others.fold(f64::INFINITY, f64::min)

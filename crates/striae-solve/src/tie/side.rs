@@ -6,15 +6,15 @@
 
 use std::cmp::Ordering;
 
-use striae_contact::tie::Joined;
+use striae_contact::{side::Side, tie::Joined};
 use striae_mesh::{Mesh, Vec3};
 
 /// Relative difference that is none.
 const SAME: f64 = 1e-6;
 
 /// The side that follows.
-pub(super) fn finer(joined: &Joined, meshes: [&Mesh; 2]) -> usize {
-    let sizes = [0, 1].map(|side| joined.facet_size(side));
+pub(super) fn finer(joined: &Joined, meshes: [&Mesh; 2]) -> Side {
+    let sizes = Side::BOTH.map(|side| joined.facet_size(side));
     let spreads = meshes.map(Spread::new);
     let scale = spreads[0].radius.max(spreads[1].radius);
     let by_spread = || {
@@ -24,7 +24,10 @@ pub(super) fn finer(joined: &Joined, meshes: [&Mesh; 2]) -> usize {
         different.fold(Ordering::Equal, Ordering::then)
     };
     let order = compared(sizes[0], sizes[1], sizes[0].max(sizes[1])).then_with(by_spread);
-    usize::from(order == Ordering::Greater)
+    match order {
+        Ordering::Greater => Side::B,
+        Ordering::Less | Ordering::Equal => Side::A,
+    }
 }
 
 fn compared(a: f64, b: f64, scale: f64) -> Ordering {

@@ -27,7 +27,7 @@ fn nodal_areas(run: &Run, state: &State) -> Vec<f64> {
     let mut areas = vec![0.0; surface.nodes().len()];
     for (facet, forces) in &state.pairs[0].facets[0] {
         for (corner, area) in surface.facets()[facet.index()].iter().zip(forces.area) {
-            areas[*corner as usize] += area;
+            areas[*corner] += area;
         }
     }
     areas

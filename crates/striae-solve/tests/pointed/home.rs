@@ -5,12 +5,14 @@ use striae_contact::{
     configuration::Configuration,
     pointed::kinematics,
     selection::{Before, Selection},
+    side::Side,
     spot::faced,
     tip::Tip,
 };
 use striae_law::friction::Friction;
 use striae_mesh::{FacetId, Vec3};
 use striae_solve::{assembly::StepContext, node::GlobalNode, problem::Problem, state::State};
+use striae_surface::node::SurfaceNode;
 
 use crate::scene::{Floor, moved, standing, tilted};
 
@@ -42,18 +44,18 @@ fn gaps(x: &Vec3) -> [f64; 2] {
 struct Scene<'a> {
     context: &'a StepContext<'a>,
     /// The node, on the surface and among all.
-    node: u32,
+    node: SurfaceNode,
     global: GlobalNode,
 }
 
 impl<'a> Scene<'a> {
     fn new(context: &'a StepContext<'a>) -> Self {
-        let at = |node: &u32| {
-            let global = context.problem.surface_node(0, 0, *node).unwrap();
+        let at = |node: &SurfaceNode| {
+            let global = context.problem.surface_node(0, Side::A, *node).unwrap();
             (context.start.positions[global] - Vec3::y() * Y).norm() < 1e-9
         };
-        let node = (0..64).find(at).unwrap();
-        let global = context.problem.surface_node(0, 0, node).unwrap();
+        let node = SurfaceNode::all(64).find(at).unwrap();
+        let global = context.problem.surface_node(0, Side::A, node).unwrap();
         Self {
             context,
             node,
@@ -80,7 +82,7 @@ impl<'a> Scene<'a> {
         let start = self.configuration(x);
         let none = self.context.start.pairs[0].kept.clone();
         let mut pointed = none.clone();
-        pointed[0][self.node as usize] = true;
+        pointed[0][self.node] = true;
         let before = Before {
             kept: &none,
             required: &none,
@@ -93,7 +95,9 @@ impl<'a> Scene<'a> {
     /// The facet that the node faces, and its gap.
     fn faced(&self, selection: &Selection, x: Vec3) -> (FacetId, f64) {
         let now = self.configuration(x);
-        let facet = faced(&now, selection.tip(0, self.node), 1.0).unwrap().facet;
+        let facet = faced(&now, selection.tip(Side::A, self.node), 1.0)
+            .unwrap()
+            .facet;
         let places = selection.pointed_places();
         assert_eq!(places.len(), 1);
         (
@@ -114,7 +118,7 @@ fn a_pointed_node_stays_with_its_facet_until_it_is_a_tenth_beyond() {
     let scene = Scene::new(&context);
     let centre = |facet: FacetId| {
         let floor = scene.configuration(place(0.5));
-        let corners = floor.side(1).corner_positions(facet);
+        let corners = floor.side(Side::B).corner_positions(facet);
         corners.iter().sum::<Vec3>() * 0.25
     };
     let selection = scene.selection(place(0.9));
@@ -142,7 +146,7 @@ fn a_pointed_node_stays_with_its_facet_until_it_is_a_tenth_beyond() {
     // What holds it is where the increment started.
     let beyond = place(1.05);
     let homeless = Tip::Node {
-        side: 0,
+        side: Side::A,
         node: scene.node,
         home: None,
     };

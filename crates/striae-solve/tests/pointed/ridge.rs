@@ -1,9 +1,10 @@
 //! Rigid ridges and tops between the nodes of a flat block.
 
-use striae_contact::unknowns::Status;
+use striae_contact::{side::Side, unknowns::Status};
 use striae_law::friction::Friction;
 use striae_mesh::Vec3;
 use striae_solve::report::rigid_bodies;
+use striae_surface::node::SurfaceNode;
 
 use crate::scene::{Floor, Run, TOP, moved, standing, tilted};
 
@@ -26,12 +27,12 @@ fn sole(run: &Run) -> Vec<Vec3> {
     let pair = &run.problem.pairs[0].contact;
     let surface = pair.sides[0].surface().unwrap();
     let (state, _) = run.last();
-    let x: Vec<Vec3> = (0..surface.nodes().len() as u32)
-        .map(|node| state.positions[run.problem.surface_node(0, 0, node).unwrap()])
+    let x: Vec<Vec3> = SurfaceNode::all(surface.nodes().len())
+        .map(|node| state.positions[run.problem.surface_node(0, Side::A, node).unwrap()])
         .collect();
     // Facets are bilinear over plane rectangles.
     let facets = surface.facets().iter().flat_map(|corners| {
-        let [a, b, c, d] = corners.map(|node| x[node as usize]);
+        let [a, b, c, d] = corners.map(|node| x[node]);
         (0..=20).flat_map(move |i| {
             (0..=20).map(move |j| {
                 let (s, t) = (f64::from(i) / 20.0, f64::from(j) / 20.0);

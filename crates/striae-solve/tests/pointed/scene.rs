@@ -14,8 +14,9 @@ use striae_mesh::{
 use striae_solve::{
     drive::{Continue, Observer, Progress, run},
     model::{
-        Backend, Body, BodyId, ContactMass, Curve, Displacement, Formulation, Increments, Initial,
-        Model, Pair, Procedure, RigidId, RigidShape, RigidSurface, Side, Solver, Step, Strategy,
+        Backend, Body, BodyId, ContactMass, ContactSurface, Curve, Displacement, Formulation,
+        Increments, Initial, Model, Pair, Procedure, RigidId, RigidShape, RigidSurface, Solver,
+        Step, Strategy,
     },
     newton::{Increment, IterationObserver},
     norms::Norms,
@@ -96,13 +97,13 @@ pub fn standing(upper: Block, sole: &[&str], floor: Floor, friction: Friction) -
             let faces = faces(&lower, &["zmax"]);
             bodies.push(body("lower", lower, 2.0));
             let body = BodyId(1);
-            Side::Deformable { body, faces }
+            ContactSurface::Deformable { body, faces }
         }
         Floor::Plane => {
             let (point, normal) = (Vec3::zeros(), Vec3::z());
             let shape = RigidShape::Plane { point, normal };
             rigid_surfaces.push(RigidSurface::new("floor", shape));
-            Side::Rigid(RigidId(0))
+            ContactSurface::Rigid(RigidId(0))
         }
         Floor::Facets | Floor::Ridge | Floor::Pyramid | Floor::Hill | Floor::Narrow => {
             let shape = match floor {
@@ -113,7 +114,7 @@ pub fn standing(upper: Block, sole: &[&str], floor: Floor, friction: Friction) -
                 _ => facets(),
             };
             rigid_surfaces.push(RigidSurface::new("floor", shape));
-            Side::Rigid(RigidId(0))
+            ContactSurface::Rigid(RigidId(0))
         }
     };
     Model {
@@ -123,7 +124,7 @@ pub fn standing(upper: Block, sole: &[&str], floor: Floor, friction: Friction) -
         rigid_surfaces,
         pairs: vec![Pair {
             name: "contact".to_owned(),
-            a: Side::Deformable {
+            a: ContactSurface::Deformable {
                 body: BodyId(0),
                 faces: sole,
             },

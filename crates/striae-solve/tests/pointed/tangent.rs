@@ -3,18 +3,22 @@
 
 use nalgebra::{DMatrix, DVector};
 use striae_contact::{
-    complementarity::Iteration,
+    complementarity::{Conditions, Iteration},
     configuration::Configuration,
     evaluation::{Evaluation, evaluate},
     segment::Derivatives,
     selection::{Before, Kept, Selection},
+    side::Side,
     tip::{RigidPoint, RigidPoints},
     unknowns::{Status, Tractions},
 };
 use striae_law::friction::{Friction, SlipRule};
 use striae_mesh::Vec3;
 use striae_solve::{assembly::StepContext, model::Model, problem::Problem, state::State};
-use striae_surface::texture::{Field, Lines, Paint};
+use striae_surface::{
+    node::SurfaceNode,
+    texture::{Field, Lines, Paint},
+};
 use striae_verify::{Difference, Random, derivative::directional};
 
 use crate::scene::{Floor, moved, standing, tilted};
@@ -39,7 +43,7 @@ impl<'a> Contact<'a> {
         let start = context.configuration(0, &state.positions, &state.rigid);
         let none = state.pairs[0].kept.clone();
         let mut pointed: Kept = none.clone();
-        for (node, x) in start.side(0).x.iter().enumerate() {
+        for (node, x) in start.side(Side::A).x.iter().enumerate() {
             pointed[0][node] = !is_sharp(&start) && x.x.hypot(x.z) < 0.1;
         }
         let points = points(&start);
@@ -58,12 +62,12 @@ impl<'a> Contact<'a> {
     }
 
     fn nodes(&self) -> [usize; 2] {
-        [0, 1].map(|side| self.selection.nodes(side))
+        Side::BOTH.map(|side| self.selection.nodes(side))
     }
 
-    fn traction(&self, side: usize, node: usize) -> usize {
+    fn traction(&self, side: Side, node: SurfaceNode) -> usize {
         let numbering = self.context.pairs[0].numbering();
-        numbering.traction(side, node as u32) as usize
+        numbering.traction(side, node) as usize
     }
 
     fn configuration(&self, u: &DVector<f64>) -> Configuration<'_> {
@@ -81,9 +85,9 @@ impl<'a> Contact<'a> {
 
     fn tractions(&self, u: &DVector<f64>) -> Tractions {
         let mut tractions = Tractions::zero(self.nodes());
-        for side in 0..2 {
+        for side in Side::BOTH {
             for (node, unknowns) in tractions.nodes[side].iter_mut().enumerate() {
-                let at = self.traction(side, node);
+                let at = self.traction(side, SurfaceNode::new(node));
                 *unknowns = [u[at], u[at + 1], u[at + 2]];
             }
         }
@@ -96,8 +100,11 @@ impl<'a> Contact<'a> {
             &self.start,
             &self.selection,
             &self.tractions(u),
-            &self.nodes().map(|count| vec![false; 3 * count]),
-            Iteration::LATER,
+            Conditions {
+                friction: &self.context.plan.frictions[0],
+                prescribed: &self.nodes().map(|count| vec![false; 3 * count]),
+                iteration: Iteration::LATER,
+            },
             Derivatives::First,
         )
         .unwrap()
@@ -135,21 +142,21 @@ impl<'a> Contact<'a> {
         let pair = &self.context.pairs[0];
         let mut u = DVector::zeros(pair.numbering().count() as usize);
         for &side in pair.deformable_sides() {
-            for node in 0..self.nodes()[side] {
-                let slide = if side == 0 {
+            for node in SurfaceNode::all(self.nodes()[side]) {
+                let slide = if side == Side::A {
                     Vec3::new(0.031, 0.023, -0.021)
                 } else {
                     Vec3::zeros()
                 };
                 let x = self.start.side(side).x[node] + slide + random.vector3() * 0.006;
-                let first = pair.numbering().position(side, node as u32) as usize;
+                let first = pair.numbering().position(side, node) as usize;
                 u.rows_mut(first, 3).copy_from(&x);
             }
         }
-        let traction = |side: usize, node: usize| self.traction(side, node);
+        let traction = |side: Side, node: SurfaceNode| self.traction(side, node);
         let kept = self.selection.kept();
         for (k, kept) in kept.iter().enumerate() {
-            let at = traction(kept.side, kept.node as usize);
+            let at = traction(kept.side, kept.node);
             let values = [random.uniform(0.3, 0.5), 0.01, -0.02];
             u.rows_mut(at, 3).copy_from_slice(&values);
             if k % 3 == 0 {
@@ -159,7 +166,7 @@ impl<'a> Contact<'a> {
                 u.rows_mut(at, 3).copy_from_slice(&[-0.9, 0.0, 0.0]);
             }
         }
-        let pressed = |k: &usize| u[traction(kept[*k].side, kept[*k].node as usize)] > 0.0;
+        let pressed = |k: &usize| u[traction(kept[*k].side, kept[*k].node)] > 0.0;
         let sticking: Vec<usize> = (0..kept.len())
             .filter(|k| k % 3 == 1)
             .filter(pressed)
@@ -194,7 +201,7 @@ impl<'a> Contact<'a> {
 
 /// Whether the floor is a ridge.
 fn is_sharp(start: &Configuration) -> bool {
-    start.pair.is_rigid() && start.plane().is_none() && start.side(1).x.len() == 9
+    start.pair.is_rigid() && start.plane().is_none() && start.side(Side::B).x.len() == 9
 }
 
 /// Its vertex and points on its edges, with the nearest nodes.
@@ -202,21 +209,21 @@ fn points(start: &Configuration) -> RigidPoints {
     if !is_sharp(start) {
         return Vec::new();
     }
-    let mut points = vec![None; start.side(0).x.len()];
+    let mut points = vec![None; start.side(Side::A).x.len()];
     let on = |ends: [u32; 2], share: f64| RigidPoint {
-        ends,
+        ends: ends.map(SurfaceNode),
         share,
         left: 0.01,
     };
     let all = [
-        RigidPoint::vertex(4),
+        RigidPoint::vertex(SurfaceNode(4)),
         on([1, 4], 0.4),
         on([1, 4], 0.6),
         on([4, 7], 0.4),
     ];
     for point in all {
         let x = point.position(start);
-        let distance = |node: &usize| (start.side(0).x[*node] - x).norm();
+        let distance = |node: &usize| (start.side(Side::A).x[*node] - x).norm();
         let free = (0..points.len()).filter(|&node| points[node].is_none());
         let nearest = free.min_by(|a, b| distance(a).total_cmp(&distance(b)));
         points[nearest.unwrap()] = Some(point);

@@ -1,6 +1,6 @@
 //! The cases as models of the program.
 
-use striae_contact::{evaluation::Evaluation, pair::Enforcement};
+use striae_contact::{evaluation::Evaluation, pair::Enforcement, side::Side};
 use striae_law::{
     bulk::{LameConstants, Material},
     friction::Friction,
@@ -9,8 +9,8 @@ use striae_mesh::{Vec3, generate::Block};
 use striae_solve::{
     drive::{Continue, Observer, Progress, run},
     model::{
-        Backend, Body, BodyId, ContactMass, Curve, Displacement, Formulation, Increments, Initial,
-        Model, Pair, Procedure, Side, Solver, Step, Strategy,
+        Backend, Body, BodyId, ContactMass, ContactSurface, Curve, Displacement, Formulation,
+        Increments, Initial, Model, Pair, Procedure, Solver, Step, Strategy,
     },
     newton::{Increment, IterationObserver},
     norms::Norms,
@@ -18,6 +18,7 @@ use striae_solve::{
     problem::Problem,
     state::State,
 };
+use striae_surface::node::SurfaceNode;
 
 use crate::reference::Case;
 
@@ -85,14 +86,14 @@ fn faces(case: &Case, problem: &Problem, state: &State) -> Faces {
         unknowns: Vec::new(),
         forces: [Vec::new(), Vec::new()],
     };
-    for side in 0..2 {
+    for side in Side::BOTH {
         for node in in_order(case, problem, side) {
-            let global = problem.surface_node(0, side, node as u32);
+            let global = problem.surface_node(0, side, SurfaceNode::new(node));
             let global = global.expect("a node of a body");
             if pair.kept[side][node] {
                 faces.kept[side].push(faces.forces[side].len());
                 let result = &pair.nodes[side][node];
-                let tau = result.tau * if side == 0 { -1.0 } else { 1.0 };
+                let tau = result.tau * if side == Side::A { -1.0 } else { 1.0 };
                 let unknowns = Vec3::new(result.pressure, tau.x, tau.y);
                 faces.unknowns.push(unknowns);
             }
@@ -103,10 +104,10 @@ fn faces(case: &Case, problem: &Problem, state: &State) -> Faces {
 }
 
 /// Nodes of a face in the order of the reference: x counts first.
-fn in_order(case: &Case, problem: &Problem, side: usize) -> Vec<usize> {
+fn in_order(case: &Case, problem: &Problem, side: Side) -> Vec<usize> {
     let count = (case.divisions[side] + 1).pow(2);
     let place = |node: &usize| {
-        let global = problem.surface_node(0, side, *node as u32);
+        let global = problem.surface_node(0, side, SurfaceNode::new(*node));
         problem.reference[global.expect("a node of a body")]
     };
     let mut nodes: Vec<usize> = (0..count).collect();
@@ -126,7 +127,7 @@ pub fn model(case: &Case, depth: f64) -> Model {
         body("base", 1.0, [0.0, 0.0, -0.5], [1.0, 1.0, 0.5], base),
         body("punch", case.ratio, [x, y, 0.0], [0.62, 0.65, 0.5], punch),
     ];
-    let faces = |body: usize, set: &str| Side::Deformable {
+    let faces = |body: usize, set: &str| ContactSurface::Deformable {
         body: BodyId(body),
         faces: bodies[body]
             .mesh

@@ -11,6 +11,7 @@ mod reference;
 
 use blocks::{Faces, History};
 use reference::{Case, cases};
+use striae_contact::side::Side;
 use striae_mesh::Vec3;
 
 /// The largest depth; the others are its halves.
@@ -72,7 +73,7 @@ fn assert_agrees(case: &Case) {
         let unknowns = over_depth(&|faces: &Faces| faces.unknowns.clone());
         let scale = largest(&expected.unknowns);
         assert_close(&unknowns, &expected.unknowns, scale, &what("tractions"));
-        for side in 0..2 {
+        for side in Side::BOTH {
             let forces = over_depth(&|faces: &Faces| faces.forces[side].clone());
             let of_side = &expected.forces[side];
             let scale = largest(of_side);

@@ -48,7 +48,7 @@ fn of_two_curved_surfaces_that_stick_slip_and_open() {
                 let context = StepContext::new(&problem, 0, &state);
                 let [start, now] = of_bodies(&problem, 7);
                 let mut pair = PairFunction::new(&context, start, now, 0.5);
-                let decays = context.pairs[0].friction.decays();
+                let decays = context.plan.frictions[0].decays();
                 let name = format!("{enforcement:?} {moduli:?} {divisions:?}, decays: {decays}");
                 weak += pair.selection.ramp().len();
                 for of_pair in pair.selection.kept() {
@@ -97,7 +97,7 @@ fn on_rigid_surfaces() {
                 let context = StepContext::new(&problem, 0, &state);
                 let [start, now] = of_rigid(&problem, bump, 11);
                 let pair = PairFunction::new(&context, start, now, 0.5);
-                let decays = context.pairs[0].friction.decays();
+                let decays = context.plan.frictions[0].decays();
                 let name = format!("{enforcement:?} on {on}, decays: {decays}");
                 let u = pair.state(Wanted::Mixed);
                 let statuses = pair.statuses(&u);

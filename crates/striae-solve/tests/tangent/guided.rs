@@ -46,7 +46,7 @@ fn check(name: &str, model: Model, guided: Guided, places: impl Fn(&Problem) -> 
             .kept()
             .iter()
             .zip(pair.statuses(&u))
-            .filter(|(kept, _)| pair.prescribed[kept.side][3 * kept.node as usize + 1])
+            .filter(|(kept, _)| pair.prescribed[kept.side][3 * kept.node.index() + 1])
             .map(|(_, status)| status)
             .collect();
         for status in [Status::Stick, Status::Slip] {

@@ -2,17 +2,19 @@
 
 use nalgebra::{DMatrix, DVector};
 use striae_contact::{
-    complementarity::{Iteration, Prescribed},
+    complementarity::{Conditions, Iteration, Prescribed},
     configuration::Configuration,
     evaluation::{Evaluation, evaluate},
     placement::Placement,
     segment::Derivatives,
     selection::{Before, Selection},
+    side::Side,
     unknown::Unknown,
     unknowns::{Label, Status, Tractions},
 };
 use striae_mesh::Vec3;
 use striae_solve::assembly::StepContext;
+use striae_surface::node::SurfaceNode;
 use striae_verify::{Difference, Random, derivative::directional};
 
 /// Where all nodes of a model and its rigid surface are.
@@ -63,7 +65,7 @@ pub struct PairFunction<'a> {
 impl<'a> PairFunction<'a> {
     /// The pair on its way from `start` to `now`; roles look ahead.
     pub fn new(context: &'a StepContext<'a>, start: Places, now: Places, elapsed: f64) -> Self {
-        let counts = [0, 1].map(|side| {
+        let counts = Side::BOTH.map(|side| {
             let deformable = context.problem.pairs[0].bodies[side].is_some();
             let surface = context.pairs[0].sides[side].surface();
             surface.map_or(0, |s| if deformable { s.nodes().len() } else { 0 })
@@ -106,8 +108,8 @@ impl<'a> PairFunction<'a> {
     fn configuration(&self, u: &DVector<f64>) -> Configuration<'_> {
         let numbering = self.context.pairs[0].numbering();
         let mut places = self.now.clone();
-        for side in 0..2 {
-            for node in 0..self.counts[side] as u32 {
+        for side in Side::BOTH {
+            for node in SurfaceNode::all(self.counts[side]) {
                 let global = self.context.problem.surface_node(0, side, node).unwrap();
                 let first = numbering.position(side, node) as usize;
                 places.positions[global] = u.fixed_rows::<3>(first).into();
@@ -118,16 +120,20 @@ impl<'a> PairFunction<'a> {
 
     fn tractions(&self, u: &DVector<f64>) -> Tractions {
         let numbering = self.context.pairs[0].numbering();
-        let triple = |side: usize, node: usize| {
-            let first = numbering.traction(side, node as u32) as usize;
+        let triple = |side: Side, node: SurfaceNode| {
+            let first = numbering.traction(side, node) as usize;
             [u[first], u[first + 1], u[first + 2]]
         };
         let mut labels = self.counts.map(|count| vec![Label::default(); count]);
         for (kept, before) in self.selection.kept().iter().zip(&self.before) {
-            labels[kept.side][kept.node as usize].status = *before;
+            labels[kept.side][kept.node].status = *before;
         }
         Tractions {
-            nodes: [0, 1].map(|side| (0..self.counts[side]).map(|n| triple(side, n)).collect()),
+            nodes: Side::BOTH.map(|side| {
+                SurfaceNode::all(self.counts[side])
+                    .map(|n| triple(side, n))
+                    .collect()
+            }),
             tau_n: self.tau_n.clone(),
             slipped: self.counts.map(|count| vec![false; count]),
             labels,
@@ -140,8 +146,11 @@ impl<'a> PairFunction<'a> {
             &configuration(self.context, &self.start),
             &self.selection,
             &self.tractions(u),
-            &self.prescribed,
-            self.iteration,
+            Conditions {
+                friction: &self.context.plan.frictions[0],
+                prescribed: &self.prescribed,
+                iteration: self.iteration,
+            },
             Derivatives::First,
         )
         .unwrap()
@@ -192,8 +201,8 @@ impl<'a> PairFunction<'a> {
         let mut random = Random::new(17);
         let mut u = DVector::zeros(self.len());
         let numbering = self.context.pairs[0].numbering();
-        for side in 0..2 {
-            for node in 0..self.counts[side] as u32 {
+        for side in Side::BOTH {
+            for node in SurfaceNode::all(self.counts[side]) {
                 let global = self.context.problem.surface_node(0, side, node).unwrap();
                 let first = numbering.position(side, node) as usize;
                 let x = self.now.positions[global];
@@ -258,7 +267,7 @@ impl<'a> PairFunction<'a> {
             let evaluation = self.evaluation(u);
             let residual = self.sum(&evaluation);
             for (k, kept) in self.selection.kept().iter().enumerate() {
-                let status = evaluation.nodes[kept.side][kept.node as usize].status;
+                let status = evaluation.nodes[kept.side][kept.node].status;
                 let first = numbering.traction(kept.side, kept.node) as usize;
                 let [_, r_t] = self.selection.stiffness(k);
                 // Slip rows state `z - varpi y/|y|`, stick rows `du`.
@@ -296,7 +305,7 @@ impl<'a> PairFunction<'a> {
     pub fn statuses(&self, u: &DVector<f64>) -> Vec<Status> {
         let nodes = self.evaluation(u).nodes;
         let kept = self.selection.kept().iter();
-        kept.map(|kept| nodes[kept.side][kept.node as usize].status)
+        kept.map(|kept| nodes[kept.side][kept.node].status)
             .collect()
     }
 
@@ -335,7 +344,7 @@ impl<'a> PairFunction<'a> {
                 let [row, column] = [row, column].map(|at| numbering.unknown(*at as u32));
                 let status = match row {
                     Unknown::Traction { side, node, .. } => {
-                        let k = self.selection.basis.index[side][node as usize];
+                        let k = self.selection.basis.index[side][node];
                         k.map(|k| statuses[k as usize])
                     }
                     Unknown::Position { .. } => None,
@@ -348,18 +357,20 @@ impl<'a> PairFunction<'a> {
 
 fn configuration<'a>(context: &'a StepContext, places: &Places) -> Configuration<'a> {
     let geometry = &context.problem.pairs[0];
-    let of_side = |side: usize| -> Vec<Vec3> {
+    let of_side = |side: Side| -> Vec<Vec3> {
         if geometry.bodies[side].is_none() {
             return geometry.rigid_reference.clone();
         }
         let surface = context.pairs[0].sides[side].surface();
-        let count = surface.map_or(0, |surface| surface.nodes().len() as u32);
+        let count = surface.map_or(0, |surface| surface.nodes().len());
         let global = |node| context.problem.surface_node(0, side, node).unwrap();
-        (0..count).map(|n| places.positions[global(n)]).collect()
+        SurfaceNode::all(count)
+            .map(|n| places.positions[global(n)])
+            .collect()
     };
     Configuration::new(
         &context.pairs[0],
-        [of_side(0), of_side(1)],
+        [of_side(Side::A), of_side(Side::B)],
         places.placement,
     )
 }

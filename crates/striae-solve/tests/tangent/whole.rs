@@ -6,6 +6,7 @@ use striae_contact::{
     complementarity::Iteration,
     segment::Derivatives,
     selection::{Before, Selection},
+    side::Side,
     unknowns::Status,
 };
 use striae_solve::{
@@ -18,6 +19,7 @@ use striae_solve::{
     state::State,
 };
 use striae_sparse::{SparseMatrix, Structure, Supervariable};
+use striae_surface::node::SurfaceNode;
 use striae_verify::{Difference, Random, derivative::directional};
 
 /// The whole system of a step as a function of all unknowns, after the converged state
@@ -83,9 +85,9 @@ impl<'a> Whole<'a> {
                 .for_each(|(axis, v)| visit(first + axis, v));
         }
         for (pair, tractions) in trial.tractions.iter_mut().enumerate() {
-            for side in 0..2 {
+            for side in Side::BOTH {
                 for (node, values) in tractions.nodes[side].iter_mut().enumerate() {
-                    if let Some(first) = self.layout.traction(pair, side, node) {
+                    if let Some(first) = self.layout.traction(pair, side, SurfaceNode::new(node)) {
                         values
                             .iter_mut()
                             .enumerate()
@@ -185,10 +187,11 @@ impl<'a> Whole<'a> {
         let mut u = self.unknowns();
         for _ in 0..200 {
             let (assembled, _) = self.evaluated(&u);
-            let nodes = assembled.contacts[0].nodes.iter().enumerate();
+            let nodes = Side::BOTH.into_iter().zip(&assembled.contacts[0].nodes);
             let slipping = nodes.flat_map(|(side, nodes)| {
                 let slipping = (0..nodes.len()).filter(|&n| nodes[n].status == Status::Slip);
-                slipping.filter_map(move |node| self.layout.traction(0, side, node))
+                slipping
+                    .filter_map(move |node| self.layout.traction(0, side, SurfaceNode::new(node)))
             });
             let rows: Vec<usize> = slipping.flat_map(|at| [at + 1, at + 2]).collect();
             let off = rows.iter().map(|&row| assembled.residual[row].abs());

@@ -8,7 +8,7 @@
 use crate::scene::{
     Places, Run, block, body, coulomb, increments, model, pressed_on_plane, rubber, step,
 };
-use striae_contact::unknowns::Status;
+use striae_contact::{side::Side, unknowns::Status};
 use striae_solve::outcome::Ending;
 
 const STATIC: f64 = 0.5;
@@ -62,8 +62,8 @@ fn over_the_edge(rate: f64) -> Run {
 fn assert_obeyed(run: &Run, rate: f64) -> usize {
     let mut slipping = 0;
     for pair in run.states[1..].iter().map(|state| &state.pairs[0]) {
-        let of_side = |side: usize| pair.nodes[side].iter().zip(&pair.kept[side]);
-        let nodes = of_side(0).chain(of_side(1));
+        let of_side = |side: Side| pair.nodes[side].iter().zip(&pair.kept[side]);
+        let nodes = of_side(Side::A).chain(of_side(Side::B));
         for (node, _) in nodes.filter(|(node, kept)| **kept && node.status != Status::Open) {
             let speed = node.slip.norm() * f64::from(COUNT);
             let kinetic = KINETIC_OVER_STATIC + (1.0 - KINETIC_OVER_STATIC) * (-speed / rate).exp();

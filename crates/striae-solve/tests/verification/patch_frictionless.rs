@@ -9,6 +9,7 @@
 
 use crate::scene::{Places, Run, block, body, largest_distance, model, rubber, step};
 use nalgebra::{Matrix2, Matrix3, Vector2};
+use striae_contact::side::Side;
 use striae_law::{bulk::Material, friction::Friction};
 use striae_mesh::{CellKind, Vec3, generate::Block};
 use striae_solve::model::{LoadExtent, LoadKind, Model};
@@ -169,7 +170,7 @@ fn check_bodies(what: &str, run: &Run, case: &Case, tolerance: f64) {
 fn check_interface(what: &str, run: &Run, tolerance: f64) {
     let pair = &run.last().pairs[0];
     let mut kept = 0;
-    for side in 0..2 {
+    for side in Side::BOTH {
         for (node, is_kept) in pair.kept[side].iter().enumerate() {
             let p = pair.nodes[side][node].pressure;
             let off = (p - PRESSURE).abs();

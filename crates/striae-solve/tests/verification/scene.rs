@@ -9,9 +9,9 @@ use striae_mesh::{Face, Mesh, NodeId, Vec3, generate::Block};
 use striae_solve::{
     drive::{Continue, Observer, Progress, run},
     model::{
-        Backend, Body, BodyId, ContactMass, Curve, Displacement, Formulation, Increments, Initial,
-        Load, LoadExtent, LoadKind, Model, Pair, PairId, Procedure, RigidId, RigidShape,
-        RigidSurface, Side, Solver, Step, Strategy,
+        Backend, Body, BodyId, ContactMass, ContactSurface, Curve, Displacement, Formulation,
+        Increments, Initial, Load, LoadExtent, LoadKind, Model, Pair, PairId, Procedure, RigidId,
+        RigidShape, RigidSurface, Solver, Step, Strategy,
     },
     newton::{Increment, IterationObserver, LinearWork},
     norms::Norms,
@@ -284,7 +284,7 @@ impl Places for Model {
     }
 
     fn touch(&mut self, a: (&str, &str), b: (&str, &str), friction: Friction) -> PairId {
-        let side = |(body, set): (&str, &str)| Side::Deformable {
+        let side = |(body, set): (&str, &str)| ContactSurface::Deformable {
             body: BodyId(self.body(body)),
             faces: self.faces(body, set),
         };
@@ -294,12 +294,12 @@ impl Places for Model {
     }
 
     fn touch_rigid(&mut self, a: (&str, &str), shape: RigidShape, friction: Friction) -> PairId {
-        let side = Side::Deformable {
+        let side = ContactSurface::Deformable {
             body: BodyId(self.body(a.0)),
             faces: self.faces(a.0, a.1),
         };
         self.rigid_surfaces.push(RigidSurface::new("floor", shape));
-        let rigid = Side::Rigid(RigidId(self.rigid_surfaces.len() - 1));
+        let rigid = ContactSurface::Rigid(RigidId(self.rigid_surfaces.len() - 1));
         self.pairs.push(pair("interface", side, rigid, friction));
         PairId(self.pairs.len() - 1)
     }
@@ -336,7 +336,7 @@ impl Places for Model {
     }
 }
 
-fn pair(name: &str, a: Side, b: Side, friction: Friction) -> Pair {
+fn pair(name: &str, a: ContactSurface, b: ContactSurface, friction: Friction) -> Pair {
     Pair {
         name: name.to_owned(),
         a,

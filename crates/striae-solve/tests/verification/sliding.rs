@@ -3,7 +3,7 @@
 use crate::scene::{
     Places, Run, block, body, coulomb, increments, model, pressed_on_plane, rubber, step,
 };
-use striae_contact::unknowns::Status;
+use striae_contact::{side::Side, unknowns::Status};
 use striae_mesh::Vec3;
 use striae_solve::{
     model::Model,
@@ -137,7 +137,7 @@ fn largest_gap(run: &Run, state: usize) -> f64 {
     let state = &run.states[state];
     let pair = &state.pairs[0];
     let mut upright = 1.0_f64;
-    let heights = [0, 1].map(|side| {
+    let heights = Side::BOTH.map(|side| {
         let surface = run.problem.pairs[0].contact.sides[side].surface().unwrap();
         let mut extent = [f64::INFINITY, f64::NEG_INFINITY];
         for (facet, _) in &pair.facets[side] {

@@ -2,11 +2,13 @@ use proptest::prelude::*;
 
 use super::*;
 
+type Edge = (SurfaceNode, SurfaceNode, f64);
+
 /// Shortest distances between all nodes, by R. W. Floyd, doi:10.1145/367766.368168.
-fn floyd_warshall(nodes: usize, edges: &[(u32, u32, f64)]) -> Vec<Vec<f64>> {
+fn floyd_warshall(nodes: usize, edges: &[Edge]) -> Vec<Vec<f64>> {
     let mut distances = vec![vec![f64::INFINITY; nodes]; nodes];
     for &(a, b, length) in edges {
-        let (a, b) = (a as usize, b as usize);
+        let (a, b) = (a.index(), b.index());
         distances[a][b] = length.min(distances[a][b]);
         distances[b][a] = distances[a][b];
     }
@@ -25,9 +27,9 @@ fn floyd_warshall(nodes: usize, edges: &[(u32, u32, f64)]) -> Vec<Vec<f64>> {
 }
 
 /// Sparse graphs, often of several components and with many ties.
-fn graphs() -> impl Strategy<Value = (usize, Vec<(u32, u32, f64)>)> {
+fn graphs() -> impl Strategy<Value = (usize, Vec<Edge>)> {
     (2usize..30).prop_flat_map(|nodes| {
-        let node = 0..nodes as u32;
+        let node = (0..nodes).prop_map(SurfaceNode::new);
         let length = prop_oneof![Just(1.0), 0.01..3.0f64];
         let edges = prop::collection::vec((node.clone(), node, length), 1..60);
         (Just(nodes), edges)
@@ -42,7 +44,7 @@ proptest! {
         let graph = EdgeGraph::from_edges(nodes, edges.iter().copied());
         let expected = floyd_warshall(nodes, &edges);
         for source in 0..nodes {
-            let distances = graph.distances_from(source as u32);
+            let distances = graph.distances_from(SurfaceNode::new(source));
             for node in 0..nodes {
                 let (found, expected) = (distances[node], expected[source][node]);
                 prop_assert!(
@@ -59,17 +61,18 @@ proptest! {
         seed in any::<prop::sample::Index>(),
     ) {
         let shift = seed.index(nodes) as u32;
-        let new = |node: u32| (nodes as u32 - 1) - (node + shift) % nodes as u32;
+        let last = nodes as u32 - 1;
+        let new = |node: SurfaceNode| SurfaceNode(last - (node.0 + shift) % nodes as u32);
         let graph = EdgeGraph::from_edges(nodes, edges.iter().copied());
         let renumbered = EdgeGraph::from_edges(
             nodes,
             edges.iter().rev().map(|&(a, b, length)| (new(b), new(a), length)),
         );
-        for source in 0..nodes as u32 {
+        for source in SurfaceNode::all(nodes) {
             let distances = graph.distances_from(source);
             let again = renumbered.distances_from(new(source));
-            for node in 0..nodes as u32 {
-                prop_assert_eq!(distances[node as usize], again[new(node) as usize]);
+            for node in SurfaceNode::all(nodes) {
+                prop_assert_eq!(distances[node], again[new(node)]);
             }
         }
     }
@@ -86,7 +89,10 @@ fn triangles_and_quadrilaterals_have_their_sides_only() {
         square(6.0, 0.0),
         square(9.0, 9.0),
     ];
-    let graph = EdgeGraph::new(&positions, &[[0, 1, 2, 3], [1, 4, 2, 2]]);
-    let distances = graph.distances_from(0);
+    let graph = EdgeGraph::new(
+        &positions,
+        &[[0, 1, 2, 3], [1, 4, 2, 2]].map(|facet| facet.map(SurfaceNode)),
+    );
+    let distances = graph.distances_from(SurfaceNode(0));
     assert_eq!(distances, [0.0, 3.0, 7.0, 4.0, 6.0, f64::INFINITY]);
 }

@@ -1,5 +1,6 @@
 //! What can be wrong with a texture.
 
+use crate::node::SurfaceNode;
 use striae_mesh::FacetId;
 
 /// Why a texture cannot be painted or convected; nodes are numbered as in the surface.
@@ -16,45 +17,45 @@ pub enum TextureError {
         nodes: usize,
     },
     /// A facet or a painted place names a node that does not exist.
-    #[error("surface node {node} does not exist: the surface has {nodes} nodes")]
+    #[error("{node} does not exist: the surface has {nodes} nodes")]
     MissingNode {
         /// The node that is named.
-        node: u32,
+        node: SurfaceNode,
         /// Nodes of the surface.
         nodes: usize,
     },
     /// A corner of a facet is flat, or folded against the nodal normal.
     #[error(
-        "{facet} is degenerate or folded at surface node {node}: its edges there span no area facing along the nodal normal"
+        "{facet} is degenerate or folded at {node}: its edges there span no area facing along the nodal normal"
     )]
     DegenerateFacet {
         /// The facet.
         facet: FacetId,
         /// The corner.
-        node: u32,
+        node: SurfaceNode,
     },
     /// No facet has this node.
-    #[error("surface node {node} belongs to no facet, so it has no tangent plane")]
+    #[error("{node} belongs to no facet, so it has no tangent plane")]
     LooseNode {
         /// The node.
-        node: u32,
+        node: SurfaceNode,
     },
     /// Interpolation from no places at all.
     #[error("no direction is painted anywhere")]
     NothingPainted,
     /// Two painted places fall on the same node.
     #[error(
-        "surface node {node} is painted twice: it is the nearest node of two painted places; drop one of them or refine the surface"
+        "{node} is painted twice: it is the nearest node of two painted places; drop one of them or refine the surface"
     )]
     PaintedTwice {
         /// The node.
-        node: u32,
+        node: SurfaceNode,
     },
     /// A part of the surface is not connected with any painted place.
-    #[error("surface node {node} is in a part of the surface on which no direction is painted")]
+    #[error("{node} is in a part of the surface on which no direction is painted")]
     Unpainted {
         /// First node of that part.
-        node: u32,
+        node: SurfaceNode,
     },
     /// The width of the interpolation is not a positive number.
     #[error("the width of the interpolation must be positive, not {width}")]
@@ -75,16 +76,16 @@ pub enum TextureError {
         advice: f64,
     },
     /// The direction is zero or along the normal.
-    #[error("the direction at surface node {node} has no tangential part")]
+    #[error("the direction at {node} has no tangential part")]
     Vanishing {
         /// The node.
-        node: u32,
+        node: SurfaceNode,
     },
 }
 
 impl TextureError {
     /// The surface node it is about, if it is about one.
-    pub fn node(&self) -> Option<u32> {
+    pub fn node(&self) -> Option<SurfaceNode> {
         match *self {
             Self::MissingNode { node, .. }
             | Self::DegenerateFacet { node, .. }

@@ -17,8 +17,11 @@ use nalgebra::Vector3;
 use striae_mesh::{FacetId, Vec3};
 
 use super::{Axes, TextureError};
-use crate::scalar::{Real, constant, scaled};
-use crate::topology::distinct_corners;
+use crate::{
+    node::SurfaceNode,
+    scalar::{Real, constant, scaled},
+    topology::distinct_corners,
+};
 
 /// Least `d/(|E_J| |E_K|)` of a facet's corner.
 const FLAT: f64 = 1e-6;
@@ -27,7 +30,7 @@ const FLAT: f64 = 1e-6;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ordinates<'a> {
     /// Neighbours in ascending order.
-    pub ring: &'a [u32],
+    pub ring: &'a [SurfaceNode],
     /// Ordinate on the edge to each neighbour, 1/length.
     pub weights: &'a [f64],
 }
@@ -56,14 +59,14 @@ impl Ordinates<'_> {
 /// Averaged ordinates of every node, by neighbour, for unit tangential `directions`.
 pub(super) fn split(
     positions: &[Vec3],
-    facets: &[[u32; 4]],
+    facets: &[[SurfaceNode; 4]],
     normals: &[Vec3],
     directions: &[Vec3],
-) -> Vec<BTreeMap<u32, f64>> {
+) -> Vec<BTreeMap<SurfaceNode, f64>> {
     let mut facets_at = vec![0.0; positions.len()];
     let mut rings = vec![BTreeMap::new(); positions.len()];
     for corner in facets.iter().flat_map(|facet| fans(positions, facet)) {
-        let node = corner.node as usize;
+        let node = corner.node.index();
         let [e_j, e_k] = corner.edges;
         let (direction, normal) = (directions[node], normals[node]);
         let d = normal.dot(&e_j.cross(&e_k));
@@ -81,7 +84,7 @@ pub(super) fn split(
 /// Whether every node has facets, and all facets have corners that can carry ordinates.
 pub(super) fn check(
     positions: &[Vec3],
-    facets: &[[u32; 4]],
+    facets: &[[SurfaceNode; 4]],
     normals: &[Vec3],
 ) -> Result<(), TextureError> {
     let nodes = positions.len();
@@ -94,40 +97,45 @@ pub(super) fn check(
     }
     let mut loose = vec![true; nodes];
     for (number, facet) in facets.iter().enumerate() {
-        if let Some(&node) = facet.iter().find(|&&node| node as usize >= nodes) {
+        if let Some(&node) = facet.iter().find(|&&node| node.index() >= nodes) {
             return Err(TextureError::MissingNode { node, nodes });
         }
         for corner in fans(positions, facet) {
             let [e_j, e_k] = corner.edges;
-            let d = normals[corner.node as usize].dot(&e_j.cross(&e_k));
+            let d = normals[corner.node].dot(&e_j.cross(&e_k));
             let spans_area = d > FLAT * e_j.norm() * e_k.norm();
             if !spans_area {
                 let (facet, node) = (FacetId::new(number), corner.node);
                 return Err(TextureError::DegenerateFacet { facet, node });
             }
-            loose[corner.node as usize] = false;
+            loose[corner.node] = false;
         }
     }
     match loose.iter().position(|&loose| loose) {
-        Some(node) => Err(TextureError::LooseNode { node: node as u32 }),
+        Some(node) => Err(TextureError::LooseNode {
+            node: SurfaceNode::new(node),
+        }),
         None => Ok(()),
     }
 }
 
 /// A corner of a facet with the edges to the next and to the previous corner.
 struct Corner {
-    node: u32,
-    next: u32,
-    previous: u32,
+    node: SurfaceNode,
+    next: SurfaceNode,
+    previous: SurfaceNode,
     edges: [Vec3; 2],
 }
 
-fn fans<'a>(positions: &'a [Vec3], facet: &'a [u32; 4]) -> impl Iterator<Item = Corner> + 'a {
+fn fans<'a>(
+    positions: &'a [Vec3],
+    facet: &'a [SurfaceNode; 4],
+) -> impl Iterator<Item = Corner> + 'a {
     let corners = distinct_corners(facet);
     let count = corners.len();
     (0..count).map(move |i| {
         let [node, next, previous] = [i, i + 1, i + count - 1].map(|k| corners[k % count]);
-        let edge = |to: u32| positions[to as usize] - positions[node as usize];
+        let edge = |to: SurfaceNode| positions[to] - positions[node];
         Corner {
             node,
             next,

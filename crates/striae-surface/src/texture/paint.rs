@@ -12,8 +12,11 @@ use striae_mesh::Vec3;
 use super::axes::tangential;
 use super::radial_basis::interpolate;
 use super::{Axes, Conditioning, TextureError};
-use crate::graph::EdgeGraph;
-use crate::scalar::{Real, constant, constant3, cross, dot, normalised, scaled};
+use crate::{
+    graph::EdgeGraph,
+    node::SurfaceNode,
+    scalar::{Real, constant, constant3, cross, dot, normalised, scaled},
+};
 
 /// Where the directions of a texture come from.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -34,7 +37,7 @@ pub enum Paint {
     /// Directions at chosen nodes, interpolated in between.
     Nodes {
         /// Surface-local node and direction.
-        directions: Vec<(u32, Vec3)>,
+        directions: Vec<(SurfaceNode, Vec3)>,
         /// Width `beta` of the interpolation; `None`: a quarter of the diameter of the
         /// edge graph, which suits about five places. Many places need less: half
         /// their spacing is safe on a regular grid of them.
@@ -116,7 +119,7 @@ impl Paint {
     pub(super) fn directions(
         &self,
         positions: &[Vec3],
-        facets: &[[u32; 4]],
+        facets: &[[SurfaceNode; 4]],
         normals: &[Vec3],
     ) -> Result<(Vec<Vec3>, Conditioning), TextureError> {
         let (places, width) = match self {
@@ -145,16 +148,16 @@ impl Paint {
 
 /// Painted nodes with unit tangential directions; each node at most once.
 fn made_tangential(
-    places: &[(u32, Vec3)],
+    places: &[(SurfaceNode, Vec3)],
     normals: &[Vec3],
-) -> Result<Vec<(u32, Vec3)>, TextureError> {
+) -> Result<Vec<(SurfaceNode, Vec3)>, TextureError> {
     let nodes = normals.len();
     let mut painted = vec![false; nodes];
     (places.iter())
         .map(|&(node, direction)| {
             let normal =
-                *(normals.get(node as usize)).ok_or(TextureError::MissingNode { node, nodes })?;
-            if std::mem::replace(&mut painted[node as usize], true) {
+                *(normals.get(node.index())).ok_or(TextureError::MissingNode { node, nodes })?;
+            if std::mem::replace(&mut painted[node], true) {
                 return Err(TextureError::PaintedTwice { node });
             }
             let axes = Axes::along(unit(direction), normal);
@@ -165,7 +168,7 @@ fn made_tangential(
 
 /// Nearest node of each place; of equally near ones that of least coordinates, whatever
 /// the numbering.
-fn nearest(directions: &[(Vec3, Vec3)], positions: &[Vec3]) -> Vec<(u32, Vec3)> {
+fn nearest(directions: &[(Vec3, Vec3)], positions: &[Vec3]) -> Vec<(SurfaceNode, Vec3)> {
     let key = |place: &Vec3, x: &Vec3| [(x - place).norm_squared(), x.x, x.y, x.z];
     (directions.iter())
         .filter_map(|(place, direction)| {
@@ -175,7 +178,7 @@ fn nearest(directions: &[(Vec3, Vec3)], positions: &[Vec3]) -> Vec<(u32, Vec3)> 
                     order.then(x.total_cmp(&y))
                 })
             })?;
-            Some((node as u32, *direction))
+            Some((SurfaceNode::new(node), *direction))
         })
         .collect()
 }
@@ -185,7 +188,9 @@ fn units(axes: impl Iterator<Item = Option<Axes<f64>>>) -> Result<Vec<Vec3>, Tex
     axes.enumerate()
         .map(|(node, axes)| match axes {
             Some(axes) => Ok(axes.s),
-            None => Err(TextureError::Vanishing { node: node as u32 }),
+            None => Err(TextureError::Vanishing {
+                node: SurfaceNode::new(node),
+            }),
         })
         .collect()
 }

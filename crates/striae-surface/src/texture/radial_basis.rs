@@ -22,7 +22,7 @@ use nalgebra::{DMatrix, SymmetricEigen};
 use striae_mesh::Vec3;
 
 use super::TextureError;
-use crate::graph::EdgeGraph;
+use crate::{graph::EdgeGraph, node::SurfaceNode};
 
 /// Smallest eigenvalue, relative to the largest, of a kernel that counts as positive definite.
 const DEFINITE: f64 = 1e-12;
@@ -51,7 +51,7 @@ pub enum Conditioning {
 /// Directions at all nodes from unit directions at `places`, of which no two are the same node.
 pub(super) fn interpolate(
     graph: &EdgeGraph,
-    places: &[(u32, Vec3)],
+    places: &[(SurfaceNode, Vec3)],
     width: Option<f64>,
 ) -> Result<(Vec<Vec3>, Conditioning), TextureError> {
     let distances: Vec<Vec<f64>> = (places.iter())
@@ -63,7 +63,7 @@ pub(super) fn interpolate(
         return Err(TextureError::Width { width });
     }
     let between = DMatrix::from_fn(places.len(), places.len(), |k, l| {
-        distances[k.min(l)][places[k.max(l)].0 as usize]
+        distances[k.min(l)][places[k.max(l)].0]
     });
     let kernel = definite_kernel(&between, width)?;
     let painted = DMatrix::from_fn(places.len(), 3, |k, i| places[k].1[i]);
@@ -90,7 +90,9 @@ pub(super) fn interpolate(
 fn diameter(distances: &[Vec<f64>]) -> Result<f64, TextureError> {
     let nodes = distances.first().ok_or(TextureError::NothingPainted)?.len();
     if let Some(node) = (0..nodes).find(|&i| distances.iter().all(|from| from[i].is_infinite())) {
-        return Err(TextureError::Unpainted { node: node as u32 });
+        return Err(TextureError::Unpainted {
+            node: SurfaceNode::new(node),
+        });
     }
     let finite = distances.iter().flatten().filter(|r| r.is_finite());
     Ok(finite.copied().fold(0.0, f64::max))

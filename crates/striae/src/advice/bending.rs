@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 use nalgebra::{Matrix3, SymmetricEigen};
 use striae_contact::initial::Fit;
 use striae_mesh::{CellKind, Face, Mesh, NodeId, Vec3};
-use striae_model::{Body, BodyId, Formulation, LoadKind, Model, RigidShape, Side, Step};
+use striae_model::{Body, BodyId, ContactSurface, Formulation, LoadKind, Model, RigidShape, Step};
 
 use super::{Advice, Topic, parts::Part};
 
@@ -161,7 +161,7 @@ fn is_pushed(model: &Model, body: BodyId, axis: &Vec3) -> bool {
                 Vec3::from(target).dot(axis) != 0.0
             })
     };
-    let touches = |side: &Side| matches!(side, Side::Deformable { body: of, faces } if *of == body && across(faces));
+    let touches = |side: &ContactSurface| matches!(side, ContactSurface::Deformable { body: of, faces } if *of == body && across(faces));
     let mut pairs = model.pairs.iter();
     model.steps.iter().any(pushes) || pairs.any(|pair| touches(&pair.a) || touches(&pair.b))
 }
@@ -216,7 +216,7 @@ fn supported_faces(
     let pairs = pairs.filter(|(_, fit)| fit.as_ref().is_some_and(touches));
     for (pair, _) in pairs {
         for (own, other) in [(&pair.a, &pair.b), (&pair.b, &pair.a)] {
-            let Side::Deformable {
+            let ContactSurface::Deformable {
                 body: of,
                 faces: own,
             } = own
@@ -238,14 +238,14 @@ fn supported_faces(
 }
 
 /// Extent of a side along an axis.
-fn side_range(model: &Model, side: &Side, axis: &Vec3) -> [f64; 2] {
+fn side_range(model: &Model, side: &ContactSurface, axis: &Vec3) -> [f64; 2] {
     match side {
-        Side::Deformable { body, faces } => {
+        ContactSurface::Deformable { body, faces } => {
             let mesh = &model.bodies[body.0].mesh;
             let positions = faces.iter().flat_map(|&face| mesh.face_positions(face));
             range(positions, axis)
         }
-        Side::Rigid(rigid) => match &model.rigid_surfaces[rigid.0].shape {
+        ContactSurface::Rigid(rigid) => match &model.rigid_surfaces[rigid.0].shape {
             RigidShape::Plane { .. } => [f64::NEG_INFINITY, f64::INFINITY],
             RigidShape::Facets { positions, .. } => range(positions.iter().copied(), axis),
             RigidShape::Bare => [f64::INFINITY, f64::NEG_INFINITY],

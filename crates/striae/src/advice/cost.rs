@@ -12,7 +12,7 @@
 //! Time is that of six iterations an increment, with the fewest increments, at 4e9
 //! operations a second.
 
-use striae_model::{Backend, Model, Side};
+use striae_model::{Backend, ContactSurface, Model};
 use striae_output::available_bytes;
 use striae_solve::{
     newton::{Analysis, Estimate, estimate},
@@ -96,8 +96,8 @@ fn unknowns(model: &Model) -> usize {
     let sides = model.pairs.iter().flat_map(|pair| [&pair.a, &pair.b]);
     let facets: usize = sides
         .map(|side| match side {
-            Side::Deformable { faces, .. } => faces.len(),
-            Side::Rigid(_) => 0,
+            ContactSurface::Deformable { faces, .. } => faces.len(),
+            ContactSurface::Rigid(_) => 0,
         })
         .sum();
     3 * nodes + 3 * facets / 2

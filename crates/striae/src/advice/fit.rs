@@ -1,8 +1,8 @@
 //! Gaps and overlaps of pairs, pairs that never meet, surfaces that look away.
 
-use striae_contact::{initial::Fit, interference::Spot};
+use striae_contact::{initial::Fit, interference::Spot, side::Side};
 use striae_mesh::Vec3;
-use striae_model::{Model, Pair, PairId, RigidShape, Side};
+use striae_model::{ContactSurface, Model, Pair, PairId, RigidShape};
 use striae_solve::{
     initial::{ROUND_OFF, other_name, surface_node},
     warning::warnings_at_start,
@@ -22,7 +22,7 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
         let text = format!("pair `{}`: {}", pair.name, words(model, PairId(index), fit));
         advice.note(Topic::Fit, &pair.name, text);
         if looks_away(model, pair) {
-            let [a, b] = [1, 0].map(|side| other_name(model, PairId(index), side));
+            let [a, b] = [Side::B, Side::A].map(|side| other_name(model, PairId(index), side));
             let text = format!(
                 "pair `{}`: the surface of `{a}` looks away from that of `{b}`, so they cannot touch; name the facets that face each other, or turn the normal of a rigid side round",
                 pair.name
@@ -38,7 +38,7 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
 
 /// Smallest gap and deepest overlap of a pair, and where.
 fn words(model: &Model, pair: PairId, fit: &Fit) -> String {
-    let at = |side: usize, spot: Spot, x: &Vec3| {
+    let at = |side: Side, spot: Spot, x: &Vec3| {
         let spot = match spot {
             Spot::Node(node) => surface_node(model, pair, side, node).map(|node| node.to_string()),
             Spot::Centre(facet) => Some(format!("the centre of {facet}")),
@@ -46,7 +46,7 @@ fn words(model: &Model, pair: PairId, fit: &Fit) -> String {
         format!(
             "{} of `{}` ({:.6}, {:.6}, {:.6})",
             spot.unwrap_or_default(),
-            other_name(model, pair, 1 - side),
+            other_name(model, pair, side.opposite()),
             x.x,
             x.y,
             x.z
@@ -81,14 +81,14 @@ fn words(model: &Model, pair: PairId, fit: &Fit) -> String {
 fn looks_away(model: &Model, pair: &Pair) -> bool {
     let a = area_vectors(model, &pair.a);
     let b = match &pair.b {
-        Side::Rigid(rigid) => match &model.rigid_surfaces[rigid.0].shape {
+        ContactSurface::Rigid(rigid) => match &model.rigid_surfaces[rigid.0].shape {
             RigidShape::Plane { normal, .. } => {
                 let n = normal.normalize();
                 return a.iter().all(|v| v.dot(&n) > FACING * v.norm());
             }
             _ => area_vectors(model, &pair.b),
         },
-        Side::Deformable { .. } => area_vectors(model, &pair.b),
+        ContactSurface::Deformable { .. } => area_vectors(model, &pair.b),
     };
     match (plane(&a), plane(&b)) {
         (Some(a), Some(b)) => a.dot(&b) > FACING,
@@ -96,13 +96,13 @@ fn looks_away(model: &Model, pair: &Pair) -> bool {
     }
 }
 
-fn area_vectors(model: &Model, side: &Side) -> Vec<Vec3> {
+fn area_vectors(model: &Model, side: &ContactSurface) -> Vec<Vec3> {
     match side {
-        Side::Deformable { body, faces } => {
+        ContactSurface::Deformable { body, faces } => {
             let mesh = &model.bodies[body.0].mesh;
             faces.iter().map(|&face| mesh.area_vector(face)).collect()
         }
-        Side::Rigid(rigid) => match &model.rigid_surfaces[rigid.0].shape {
+        ContactSurface::Rigid(rigid) => match &model.rigid_surfaces[rigid.0].shape {
             RigidShape::Facets { positions, facets } => {
                 let facets = facets.iter();
                 let corners = facets.map(|facet| facet.map(|node| positions[node.index()]));

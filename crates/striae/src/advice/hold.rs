@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use striae_contact::initial::Fit;
 use striae_law::friction::Law;
 use striae_mesh::{Mesh, NodeId, Vec3};
-use striae_model::{Body, BodyId, Model, PairId, Procedure, RigidMotions, Side, Step};
+use striae_model::{Body, BodyId, ContactSurface, Model, PairId, Procedure, RigidMotions, Step};
 
 use super::{Advice, Topic};
 
@@ -74,7 +74,7 @@ fn by_contact(
     advice: &mut Advice,
 ) {
     let name = &body.name;
-    let is = |side: &Side| matches!(side, Side::Deformable { body: of, .. } if *of == id);
+    let is = |side: &ContactSurface| matches!(side, ContactSurface::Deformable { body: of, .. } if *of == id);
     let pairs = model.pairs.iter().enumerate();
     let pairs = pairs.filter(|(_, pair)| is(&pair.a) || is(&pair.b));
     let pairs: Vec<usize> = pairs.map(|(index, _)| index).collect();
@@ -142,7 +142,7 @@ fn stop_by(model: &Model, pair: PairId, body: BodyId, motions: &mut RigidMotions
     let is_rough =
         !matches!(friction.law(), Law::Frictionless) && friction.coefficient().at_rest() > 0.0;
     for side in [&pair.a, &pair.b] {
-        let Side::Deformable { body: of, faces } = side else {
+        let ContactSurface::Deformable { body: of, faces } = side else {
             continue;
         };
         for &face in faces.iter().filter(|_| *of == body) {

@@ -1,6 +1,6 @@
 //! Textures that have no direction on their surface.
 
-use striae_model::{Model, Pair, RigidShape, Side};
+use striae_model::{ContactSurface, Model, Pair, RigidShape};
 use striae_solve::painting;
 use striae_surface::texture::{Lines, Paint};
 
@@ -22,7 +22,8 @@ pub(super) fn look(model: &Model, advice: &mut Advice) {
 }
 
 fn on_plane(model: &Model, pair: &Pair, advice: &mut Advice) {
-    let (Side::Rigid(rigid), Some(Paint::Field(field))) = (&pair.b, &pair.textures[1]) else {
+    let (ContactSurface::Rigid(rigid), Some(Paint::Field(field))) = (&pair.b, &pair.textures[1])
+    else {
         return;
     };
     let rigid = &model.rigid_surfaces[rigid.0];

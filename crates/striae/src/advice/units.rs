@@ -5,7 +5,7 @@
 //! and 1.7e8 psi: a modulus above 2e8 is in pascals or the like, so that lengths are in
 //! metres. Waves run with `sqrt(E/rho)`, in no solid faster than 2e4 m/s = 2e7 mm/s.
 
-use striae_model::{Body, BodyId, LoadKind, Model, RigidId, Side};
+use striae_model::{Body, BodyId, ContactSurface, LoadKind, Model, RigidId};
 
 use super::{
     Advice, Topic,
@@ -95,8 +95,9 @@ fn forces(model: &Model, body: BodyId, modulus: f64, advice: &mut Advice) {
 }
 
 fn meets(model: &Model, rigid: RigidId, body: BodyId) -> bool {
-    let is_body = |side: &Side| matches!(side, Side::Deformable { body: of, .. } if *of == body);
-    let is_rigid = |side: &Side| matches!(side, Side::Rigid(of) if *of == rigid);
+    let is_body = |side: &ContactSurface| matches!(side, ContactSurface::Deformable { body: of, .. } if *of == body);
+    let is_rigid =
+        |side: &ContactSurface| matches!(side, ContactSurface::Rigid(of) if *of == rigid);
     let mut pairs = model.pairs.iter();
     let mut ties = model.rigid_surfaces[rigid.0].ties.iter();
     pairs.any(|pair| is_body(&pair.a) && is_rigid(&pair.b)) || ties.any(|(of, _)| *of == body)

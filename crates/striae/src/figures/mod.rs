@@ -9,13 +9,16 @@ pub mod texture;
 
 pub use surface::TexturedSurface;
 
-use striae_solve::model::{Model, Side};
+use striae_contact::side::Side;
+use striae_solve::model::{ContactSurface, Model};
 
 /// What a side of a pair belongs to, in words.
-pub fn owner(model: &Model, pair: usize, side: usize) -> String {
+pub fn owner(model: &Model, pair: usize, side: Side) -> String {
     let pair = &model.pairs[pair];
     match [&pair.a, &pair.b][side] {
-        Side::Deformable { body, .. } => format!("body `{}`", model.bodies[body.0].name),
-        Side::Rigid(rigid) => format!("rigid surface `{}`", model.rigid_surfaces[rigid.0].name),
+        ContactSurface::Deformable { body, .. } => format!("body `{}`", model.bodies[body.0].name),
+        ContactSurface::Rigid(rigid) => {
+            format!("rigid surface `{}`", model.rigid_surfaces[rigid.0].name)
+        }
     }
 }

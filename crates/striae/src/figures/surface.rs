@@ -1,9 +1,10 @@
 //! A textured surface at rest, as points with their texture.
 
-use striae_contact::{pair::Geometry, texture::SideTexture};
+use striae_contact::{pair::Geometry, side::Side, texture::SideTexture};
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::problem::{Problem, ProblemError};
 use striae_surface::{
+    node::SurfaceNode,
     normal::nodal_normals,
     texture::{Field, Texture, TextureError},
     topology::Surface,
@@ -35,12 +36,12 @@ impl TexturedSurface {
     ///
     /// # Errors
     /// Where the texture has no direction on the surface.
-    pub fn new(problem: &Problem, pair: usize, side: usize) -> Result<Option<Self>, ProblemError> {
+    pub fn new(problem: &Problem, pair: usize, side: Side) -> Result<Option<Self>, ProblemError> {
         let geometry = &problem.pairs[pair].contact.sides[side];
         let textured = match (&geometry.geometry, &geometry.texture) {
             (_, None) => return Ok(None),
             (Geometry::Plane { point, normal }, Some(SideTexture::Plane(field))) => {
-                let opposite = positions(problem, pair, 1 - side);
+                let opposite = positions(problem, pair, side.opposite());
                 Self::on_plane(*point, *normal, field, &opposite)
             }
             (
@@ -64,10 +65,10 @@ impl TexturedSurface {
         let normals = nodal_normals(surface, &positions);
         let axes = normals.iter().enumerate();
         let axes = axes
-            .map(|(node, normal)| texture.at(node as u32, &positions, *normal))
+            .map(|(node, normal)| texture.at(SurfaceNode::new(node), &positions, *normal))
             .collect::<Result<Vec<_>, _>>()?;
         let facets = surface.facets().iter().map(|corners| {
-            let mut corners: Vec<NodeId> = corners.iter().map(|&corner| NodeId(corner)).collect();
+            let mut corners: Vec<NodeId> = corners.iter().map(|&corner| NodeId(corner.0)).collect();
             corners.dedup();
             corners
         });
@@ -143,10 +144,10 @@ pub(super) fn extent(points: impl Iterator<Item = [f64; 2]>) -> ([f64; 2], [f64;
 }
 
 /// Reference positions of the nodes of a side that has nodes.
-fn positions(problem: &Problem, pair: usize, side: usize) -> Vec<Vec3> {
+fn positions(problem: &Problem, pair: usize, side: Side) -> Vec<Vec3> {
     let geometry = &problem.pairs[pair];
     match &geometry.contact.sides[side].geometry {
-        Geometry::Deformable(surface) => (0..surface.nodes().len() as u32)
+        Geometry::Deformable(surface) => SurfaceNode::all(surface.nodes().len())
             .filter_map(|node| problem.surface_node(pair, side, node))
             .map(|node| problem.reference[node])
             .collect(),
@@ -158,7 +159,7 @@ fn positions(problem: &Problem, pair: usize, side: usize) -> Vec<Vec3> {
 fn texture_error(
     problem: &Problem,
     pair: usize,
-    side: usize,
+    side: Side,
     surface: &Surface,
     error: TextureError,
 ) -> ProblemError {
@@ -167,7 +168,7 @@ fn texture_error(
         surface: super::owner(&problem.model, pair, side),
         node: error
             .node()
-            .and_then(|node| surface.nodes().get(node as usize).copied()),
+            .and_then(|node| surface.nodes().get(node.index()).copied()),
         error,
     }
 }

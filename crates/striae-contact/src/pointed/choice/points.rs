@@ -21,7 +21,7 @@
 
 use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
-use striae_surface::facet::Shape;
+use striae_surface::{facet::Shape, node::SurfaceNode};
 
 use super::{CLOSING, PIERCED, SHARP, are_apart, is_pressed};
 use crate::{
@@ -31,6 +31,7 @@ use crate::{
     projection::Hit,
     segment::Derivatives,
     selection::{Selection, compliances},
+    side::Side,
     spot::{Spot, faced},
     tip::{RigidPoint, RigidPoints, Tip},
     unknowns::NodeResult,
@@ -76,7 +77,7 @@ pub(super) fn pierced(
     selection: &Selection,
     carried: &[Vec<[f64; 3]>; 2],
     least: Bend,
-) -> Vec<(u32, RigidPoint)> {
+) -> Vec<(SurfaceNode, RigidPoint)> {
     if selection.points.is_empty() {
         return Vec::new();
     }
@@ -112,7 +113,7 @@ pub(super) fn pierced(
         let Some(node) = lodging(configuration, &lodged, &inside.hit) else {
             continue;
         };
-        lodged[node as usize] = Some(inside.point);
+        lodged[node] = Some(inside.point);
         taken.push(x);
         facets.push(inside.hit.facet);
         points.push((node, inside.point));
@@ -122,10 +123,11 @@ pub(super) fn pierced(
 
 /// Where rigid points and nodes of side `a` are that are pointed already.
 fn felt(configuration: &Configuration, selection: &Selection) -> Vec<Vec3> {
-    let own = configuration.side(0);
+    let own = configuration.side(Side::A);
     let points = selection.points.iter().flatten();
     let points = points.map(|point| point.position(configuration));
-    let nodes = (0..own.x.len()).filter(|&node| selection.is_pointed(0, node as u32));
+    let nodes =
+        (0..own.x.len()).filter(|&node| selection.is_pointed(Side::A, SurfaceNode::new(node)));
     points.chain(nodes.map(|node| own.x[node])).collect()
 }
 
@@ -138,8 +140,8 @@ fn in_facet(
 ) -> Option<Inside> {
     let tip = Tip::Rigid(point);
     let hit = faced(configuration, tip, tip.reach(configuration) + depth)?;
-    let own = configuration.side(0);
-    let sizes = own.corners(hit.facet).map(|node| own.sizes[node as usize]);
+    let own = configuration.side(Side::A);
+    let sizes = own.corners(hit.facet).map(|node| own.sizes[node]);
     Some(Inside {
         point,
         bend,
@@ -150,10 +152,10 @@ fn in_facet(
 }
 
 /// The corner of the facet that is nearest to a point and lodges none yet.
-fn lodging(configuration: &Configuration, lodged: &RigidPoints, hit: &Hit) -> Option<u32> {
-    let corners = configuration.side(0).corners(hit.facet);
+fn lodging(configuration: &Configuration, lodged: &RigidPoints, hit: &Hit) -> Option<SurfaceNode> {
+    let corners = configuration.side(Side::A).corners(hit.facet);
     let weights = Shape::of(&corners).weights(hit.xi, hit.eta).value;
-    let free = (0..4).filter(|&at| lodged[corners[at] as usize].is_none());
+    let free = (0..4).filter(|&at| lodged[corners[at]].is_none());
     let nearest = free.max_by(|&a, &b| weights[a].total_cmp(&weights[b]));
     nearest.map(|at| corners[at])
 }
@@ -161,9 +163,9 @@ fn lodging(configuration: &Configuration, lodged: &RigidPoints, hit: &Hit) -> Op
 /// A rigid point that stays, with the node that it lodged with and the one that it will.
 pub struct Stay {
     /// Node before.
-    pub from: u32,
+    pub from: SurfaceNode,
     /// Node from now on: a corner of the facet that the point is in.
-    pub to: u32,
+    pub to: SurfaceNode,
     /// The point.
     pub point: RigidPoint,
 }
@@ -183,25 +185,30 @@ pub fn staying(
         depth: 0.0,
     };
     let gaps = facet_gaps(configuration, scope);
-    let pressure = |node: u32| nodes[1][node as usize].pressure;
+    let pressure = |node: SurfaceNode| nodes[1][node].pressure;
     let numbered = points.iter().enumerate();
-    let mut pressed: Vec<(u32, RigidPoint, Hit)> = numbered
+    let mut pressed: Vec<(SurfaceNode, RigidPoint, Hit)> = numbered
         .filter_map(|(node, point)| {
             let hit = Spot::new(configuration, Tip::Rigid((*point)?))?.hit?;
-            Some((node as u32, (*point)?, hit))
+            Some((SurfaceNode::new(node), (*point)?, hit))
         })
         .filter(|(node, ..)| pressure(*node) > 0.0)
         .collect();
     // What several carry that leave at once is more than others can take in an increment.
     let closed = pressed.iter().filter(|(node, point, hit)| {
-        let is_closed = |gap| gap <= CLOSING * configuration.size(1, *node);
+        let is_closed = |gap| gap <= CLOSING * configuration.size(Side::B, *node);
         point.left == 0.0 && gaps[hit.facet.index()].is_some_and(is_closed)
     });
     let leaving = closed.map(|(node, ..)| *node);
     let leaving = leaving.min_by(|&a, &b| pressure(a).total_cmp(&pressure(b)));
     pressed.retain(|(node, ..)| Some(*node) != leaving);
     let mut lodged: RigidPoints = vec![None; points.len()];
-    let is_at = |hit: &Hit, node: u32| configuration.side(0).corners(hit.facet).contains(&node);
+    let is_at = |hit: &Hit, node: SurfaceNode| {
+        configuration
+            .side(Side::A)
+            .corners(hit.facet)
+            .contains(&node)
+    };
     let (at_home, away): (Vec<_>, Vec<_>) = pressed
         .into_iter()
         .partition(|(node, _, hit)| is_at(hit, *node));
@@ -213,7 +220,7 @@ pub fn staying(
             lodging(configuration, &lodged, &hit)
         };
         if let Some(to) = to {
-            lodged[to as usize] = Some(point);
+            lodged[to] = Some(point);
             stays.push(Stay { from, to, point });
         }
     }
@@ -222,7 +229,7 @@ pub fn staying(
 
 /// Mean gap over the segments of every facet of side `a`.
 fn facet_gaps(configuration: &Configuration, scope: Scope) -> Vec<Option<f64>> {
-    let mut sums = vec![[0.0; 2]; configuration.side(0).surface.facets().len()];
+    let mut sums = vec![[0.0; 2]; configuration.side(Side::A).surface.facets().len()];
     for paired in paired_facets(configuration, scope, Derivatives::None, |_| true) {
         if let Some(facet) = paired.facets[0] {
             let [gap, area] = &mut sums[facet.index()];

@@ -15,8 +15,12 @@
 //! to 1, which has no bound: what is driven towards the other side gets there, given
 //! small enough increments.
 
-use striae_contact::interference::{Facing, facing};
+use striae_contact::{
+    interference::{Facing, facing},
+    side::Side,
+};
 use striae_mesh::{ElementId, Vec3};
+use striae_surface::node::SurfaceNode;
 
 use super::StepContext;
 use crate::{
@@ -131,16 +135,16 @@ fn of_pair(context: &StepContext, state: &State, pair: usize, factor: f64) -> Ve
     let share = if is_rigid { 1.0 } else { 0.5 };
     let facing = facing(&configuration).into_iter();
     let dashpot = |facing: Facing| {
-        let point = |side: usize, node: u32, weight: f64| Point {
+        let point = |side: Side, node: SurfaceNode, weight: f64| Point {
             side,
             node,
             weight,
-            from: configuration.side(side).x[node as usize],
+            from: configuration.side(side).x[node],
         };
         let mut points = vec![point(facing.side, facing.node, 1.0)];
         if let (false, Some((corners, weights))) = (is_rigid, facing.opposite) {
             let corners = corners.into_iter().zip(weights).filter(|(_, w)| *w != 0.0);
-            points.extend(corners.map(|(node, w)| point(1 - facing.side, node, -w)));
+            points.extend(corners.map(|(node, w)| point(facing.side.opposite(), node, -w)));
         }
         Dashpot {
             stiffness: factor * share * facing.area,

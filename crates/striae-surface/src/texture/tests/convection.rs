@@ -6,7 +6,10 @@ use striae_mesh::Vec3;
 use striae_verify::{Random, assert_derivative, fitted_rate};
 
 use super::shapes::*;
-use crate::texture::{Axes, Ordinates, Paint};
+use crate::{
+    node::SurfaceNode,
+    texture::{Axes, Ordinates, Paint},
+};
 
 #[test]
 fn a_rigid_motion_rotates_the_texture() {
@@ -150,13 +153,13 @@ fn stacked<D: crate::scalar::Real>(ordinates: &Ordinates<'_>, x: &[D]) -> Vec<D>
 fn derivatives_by_dual_numbers_have_the_right_order() {
     let shape = Shape::patch(3, torus).partly_triangular();
     let texture = shape.painted(&helices(0.5));
-    for node in [0, 5, 6, 9] {
+    for node in [0, 5, 6, 9].map(SurfaceNode) {
         let ordinates = texture.ordinates(node);
-        let mut x: Vec<f64> = shape.positions[node as usize].iter().copied().collect();
+        let mut x: Vec<f64> = shape.positions[node].iter().copied().collect();
         for &neighbour in ordinates.ring {
-            x.extend(shape.positions[neighbour as usize].iter());
+            x.extend(shape.positions[neighbour].iter());
         }
-        x.extend(shape.normals()[node as usize].iter());
+        x.extend(shape.normals()[node].iter());
         let jacobian = |x: &DVector<f64>| {
             let column = |j: usize| {
                 let seeded = |i: usize| Dual64::new(x[i], f64::from(i == j));

@@ -6,7 +6,10 @@ use striae_mesh::Vec3;
 use striae_verify::{Random, fitted_rate};
 
 use super::shapes::*;
-use crate::texture::{Axes, Conditioning, Paint, Texture, TextureError};
+use crate::{
+    node::SurfaceNode,
+    texture::{Axes, Conditioning, Paint, Texture, TextureError},
+};
 
 /// Random directions at places spread over a patch.
 fn scattered(map: fn(f64, f64) -> Vec3, seed: u64) -> Vec<(Vec3, Vec3)> {
@@ -50,7 +53,7 @@ fn five_points(n: usize, width: Option<f64>) -> Result<Conditioning, TextureErro
     let n = n as u32;
     let nodes = [0, n, n * (n + 1), n * (n + 2), n * (n + 2) / 2];
     let paint = Paint::Nodes {
-        directions: nodes.map(|node| (node, Vec3::x())).to_vec(),
+        directions: nodes.map(|node| (SurfaceNode(node), Vec3::x())).to_vec(),
         width,
     };
     Texture::new(&shape.positions, &shape.facets, &shape.normals(), &paint)
@@ -105,7 +108,7 @@ fn renumbering_nodes_and_facets_changes_nothing() {
         other.positions[new(node)] = shape.positions[node];
     }
     other.facets = (shape.facets.iter().rev())
-        .map(|facet| facet.map(|node| new(node as usize) as u32))
+        .map(|facet| facet.map(|node| SurfaceNode::new(new(node.index()))))
         .map(|[a, b, c, d]| if c == d { [b, c, a, a] } else { [c, d, a, b] })
         .collect();
     let mut directions = scattered(torus, 8);
@@ -139,12 +142,17 @@ fn two_parts_are_interpolated_on_their_own() {
     let both = Shape {
         positions: [&square.positions[..], &far.positions].concat(),
         facets: (square.facets.iter().copied())
-            .chain(square.facets.iter().map(|f| f.map(|node| node + nodes)))
+            .chain(
+                square
+                    .facets
+                    .iter()
+                    .map(|f| f.map(|node| SurfaceNode(node.0 + nodes))),
+            )
             .collect(),
     };
     let (one, two) = (Vec3::new(1.0, 0.2, -0.3), Vec3::new(-0.1, 0.9, 0.4));
     let paint = Paint::Nodes {
-        directions: vec![(0, one), (nodes, two)],
+        directions: vec![(SurfaceNode(0), one), (SurfaceNode(nodes), two)],
         width: None,
     };
     let axes = both.axes(&both.painted(&paint));
@@ -163,7 +171,7 @@ fn helix_error(shape: &Shape, step: usize) -> f64 {
     let paint = Paint::Nodes {
         directions: (0..exact.len())
             .filter(chosen)
-            .map(|node| (node as u32, exact[node].s))
+            .map(|node| (SurfaceNode::new(node), exact[node].s))
             .collect(),
         width: Some(spacing / 2.0),
     };

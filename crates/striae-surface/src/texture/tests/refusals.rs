@@ -3,7 +3,10 @@
 use striae_mesh::{FacetId, Vec3};
 
 use super::shapes::*;
-use crate::texture::{Field, Lines, Paint, Texture, TextureError};
+use crate::{
+    node::SurfaceNode,
+    texture::{Field, Lines, Paint, Texture, TextureError},
+};
 
 fn square() -> Shape {
     Shape::patch(2, |u, v| Vec3::new(u, v, 0.0))
@@ -16,14 +19,19 @@ fn fault(shape: &Shape, paint: &Paint) -> TextureError {
 
 fn nodes(directions: &[(u32, Vec3)]) -> Paint {
     Paint::Nodes {
-        directions: directions.to_vec(),
+        directions: directions
+            .iter()
+            .map(|&(node, direction)| (SurfaceNode(node), direction))
+            .collect(),
         width: None,
     }
 }
 
 #[test]
 fn directions_without_tangential_part() {
-    let at = |node| TextureError::Vanishing { node };
+    let at = |node| TextureError::Vanishing {
+        node: SurfaceNode(node),
+    };
     assert_eq!(fault(&square(), &uniform(Vec3::z())), at(0));
     assert_eq!(fault(&square(), &uniform(Vec3::zeros())), at(0));
     let mut axis = z_axis();
@@ -51,10 +59,15 @@ fn parts_without_paint() {
         .map(|x| x + Vec3::z())
         .collect::<Vec<_>>();
     shape.positions.extend(upper);
-    shape
-        .facets
-        .extend(square().facets.iter().map(|f| f.map(|node| node + 9)));
-    let unpainted = |node| TextureError::Unpainted { node };
+    shape.facets.extend(
+        square()
+            .facets
+            .iter()
+            .map(|f| f.map(|node| SurfaceNode(node.0 + 9))),
+    );
+    let unpainted = |node| TextureError::Unpainted {
+        node: SurfaceNode(node),
+    };
     assert_eq!(fault(&shape, &nodes(&[(0, Vec3::x())])), unpainted(9));
     assert_eq!(fault(&shape, &nodes(&[(12, Vec3::x())])), unpainted(0));
 }
@@ -62,7 +75,7 @@ fn parts_without_paint() {
 #[test]
 fn wrong_paint() {
     let x = Vec3::x();
-    let (node, nodes_of_square) = (4, 9);
+    let (node, nodes_of_square) = (SurfaceNode(4), 9);
     assert_eq!(fault(&square(), &nodes(&[])), TextureError::NothingPainted);
     assert_eq!(
         fault(&square(), &nodes(&[(4, x), (4, x)])),
@@ -71,7 +84,7 @@ fn wrong_paint() {
     assert_eq!(
         fault(&square(), &nodes(&[(9, x)])),
         TextureError::MissingNode {
-            node: 9,
+            node: SurfaceNode(9),
             nodes: nodes_of_square
         }
     );
@@ -99,12 +112,20 @@ fn wrong_surfaces() {
     let paint = uniform(Vec3::x());
     let mut loose = square();
     loose.positions.push(Vec3::zeros());
-    assert_eq!(fault(&loose, &paint), TextureError::LooseNode { node: 9 });
+    assert_eq!(
+        fault(&loose, &paint),
+        TextureError::LooseNode {
+            node: SurfaceNode(9)
+        }
+    );
     let mut missing = square();
-    missing.facets[2][1] = 11;
+    missing.facets[2][1] = SurfaceNode(11);
     assert_eq!(
         fault(&missing, &paint),
-        TextureError::MissingNode { node: 11, nodes: 9 }
+        TextureError::MissingNode {
+            node: SurfaceNode(11),
+            nodes: 9
+        }
     );
     let mut flat = square();
     flat.positions[4] = Vec3::new(0.25, 0.25, 0.0); // facet 0 becomes a triangle
@@ -112,7 +133,7 @@ fn wrong_surfaces() {
         fault(&flat, &paint),
         TextureError::DegenerateFacet {
             facet: FacetId(0),
-            node: 4
+            node: SurfaceNode(4)
         }
     );
     let mut inward = square();
@@ -134,7 +155,9 @@ fn a_surface_that_collapses_loses_its_texture() {
         .map(|x| Vec3::new(0.0, x.y, 0.0))
         .collect();
     assert_eq!(
-        texture.at(4, &line, Vec3::z()),
-        Err(TextureError::Vanishing { node: 4 })
+        texture.at(SurfaceNode(4), &line, Vec3::z()),
+        Err(TextureError::Vanishing {
+            node: SurfaceNode(4)
+        })
     );
 }

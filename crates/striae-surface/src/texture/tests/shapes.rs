@@ -4,21 +4,24 @@ use std::f64::consts::TAU;
 
 use striae_mesh::{NodeId, Vec3};
 
-use crate::normal::nodal_normals;
-use crate::texture::{Axes, Axis, Field, Lines, Paint, Texture};
-use crate::topology::Surface;
+use crate::{
+    node::SurfaceNode,
+    normal::nodal_normals,
+    texture::{Axes, Axis, Field, Lines, Paint, Texture},
+    topology::Surface,
+};
 
 /// Nodes and facets of a surface.
 #[derive(Clone)]
 pub struct Shape {
     pub positions: Vec<Vec3>,
-    pub facets: Vec<[u32; 4]>,
+    pub facets: Vec<[SurfaceNode; 4]>,
 }
 
 impl Shape {
     /// `n x n` quadrilaterals on the image of the unit square, `u` first.
     pub fn patch(n: usize, map: impl Fn(f64, f64) -> Vec3) -> Self {
-        let at = |i: usize, j: usize| (i + (n + 1) * j) as u32;
+        let at = |i: usize, j: usize| SurfaceNode::new(i + (n + 1) * j);
         let coordinate = |i: usize| i as f64 / n as f64;
         Self {
             positions: (0..(n + 1) * (n + 1))
@@ -33,7 +36,7 @@ impl Shape {
 
     /// Closed tube about the z axis of radius 1 and height 1.5.
     pub fn tube(around: usize, along: usize) -> Self {
-        let at = |i: usize, j: usize| (i % around + around * j) as u32;
+        let at = |i: usize, j: usize| SurfaceNode::new(i % around + around * j);
         let place = |k: usize| {
             let angle = TAU * (k % around) as f64 / around as f64;
             let height = 1.5 * (k / around) as f64 / along as f64;
@@ -50,7 +53,7 @@ impl Shape {
 
     /// The same with every third quadrilateral cut into triangles.
     pub fn partly_triangular(mut self) -> Self {
-        let cut = |(k, facet): (usize, [u32; 4])| match (k % 3, facet) {
+        let cut = |(k, facet): (usize, [SurfaceNode; 4])| match (k % 3, facet) {
             (0, [a, b, c, d]) => vec![[a, b, c, c], [a, c, d, d]],
             _ => vec![facet],
         };
@@ -67,7 +70,7 @@ impl Shape {
     }
 
     pub fn surface(&self) -> Surface {
-        let facet = |facet: &[u32; 4]| facet.map(NodeId);
+        let facet = |facet: &[SurfaceNode; 4]| facet.map(|node| NodeId(node.0));
         Surface::new(&self.facets.iter().map(facet).collect::<Vec<_>>())
     }
 
@@ -79,7 +82,7 @@ impl Shape {
     pub fn inner_nodes(&self) -> Vec<usize> {
         let surface = self.surface();
         (0..self.positions.len())
-            .filter(|&node| !surface.is_on_boundary(node as u32))
+            .filter(|&node| !surface.is_on_boundary(SurfaceNode::new(node)))
             .collect()
     }
 
@@ -92,7 +95,11 @@ impl Shape {
     /// The texture at all nodes.
     pub fn axes(&self, texture: &Texture) -> Vec<Axes<f64>> {
         (self.normals().into_iter().enumerate())
-            .map(|(node, normal)| texture.at(node as u32, &self.positions, normal).unwrap())
+            .map(|(node, normal)| {
+                texture
+                    .at(SurfaceNode::new(node), &self.positions, normal)
+                    .unwrap()
+            })
             .collect()
     }
 }
