@@ -27,7 +27,7 @@ fn close_pair(model: &mut Model, pair: PairId, gaps: ClosedGaps) -> Result<(), I
         return Ok(());
     };
     let x = reference.at(model, |stage| closed(stage, gaps));
-    for (side, x) in x.into_iter().enumerate() {
+    for (side, x) in Side::BOTH.into_iter().zip(x) {
         let surface = reference.geometry.contact.sides[side].surface();
         let (Some(body), Some(surface)) = (reference.geometry.bodies[side], surface) else {
             continue;
