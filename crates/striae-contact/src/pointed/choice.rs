@@ -265,7 +265,11 @@ pub(crate) struct OwnGap {
 }
 
 /// Gap at a node; `None` beside the other side or far away from it.
-pub(crate) fn own_gap(configuration: &Configuration, side: Side, node: SurfaceNode) -> Option<OwnGap> {
+pub(crate) fn own_gap(
+    configuration: &Configuration,
+    side: Side,
+    node: SurfaceNode,
+) -> Option<OwnGap> {
     let own = configuration.side(side);
     let size = own.sizes[node];
     if let Some((point, normal)) = configuration.plane() {
@@ -318,8 +322,10 @@ pub fn staying(
     for &side in configuration.pair.deformable_sides() {
         let own = configuration.side(side);
         for (node, stays) in staying[side].iter_mut().enumerate() {
-            let alone =
-                || !configuration.pair.is_rigid() || bend_at(own, SurfaceNode::new(node)) == Some(Bend::Sharp);
+            let alone = || {
+                !configuration.pair.is_rigid()
+                    || bend_at(own, SurfaceNode::new(node)) == Some(Bend::Sharp)
+            };
             let open = |gap| gap > CLOSING * own.sizes[node];
             *stays &= nodes[side][node].pressure > 0.0
                 && (gaps[side][node].is_none_or(open) || unfelt && alone());

@@ -9,11 +9,11 @@ impl Attempt<'_> {
     /// Whether the labels of all nodes are those of the iteration before, where friction
     /// decays with the slip rate: a node that begins to slip may have the row of another rate.
     pub(super) fn labels_rest(&self, assembled: &Assembled) -> bool {
-        let pairs = &self.context.problem.model.pairs;
+        let frictions = &self.context.plan.frictions;
         let contacts = self.trial.tractions.iter().zip(&assembled.contacts);
         contacts
-            .zip(pairs)
-            .filter(|(_, pair)| pair.friction.decays())
+            .zip(frictions)
+            .filter(|(_, friction)| friction.decays())
             .all(|((before, now), _)| {
                 let sides = before.labels.iter().zip(&now.nodes);
                 sides
