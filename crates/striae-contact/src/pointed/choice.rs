@@ -162,13 +162,38 @@ fn sharp_and_unfelt(
     });
     // The field feels nothing at all of two bodies that touch within a facet of both.
     if unfelt && !configuration.pair.is_rigid() && sharp.is_empty() && required.is_empty() {
-        sharp = single;
-        sharp.retain(|&(side, node, _)| inside(configuration, side, node, PIERCED).is_some());
+        sharp = apart(configuration, selection, single);
     }
     [sharp, required].map(|nodes| {
         let places = nodes.into_iter().map(|(side, node, _)| (side, node));
         places.collect()
     })
+}
+
+/// Those of some smooth nodes that are deeper than [`PIERCED`] and keep apart from each other and
+/// from what is pointed, whatever their sides: rows of two nodes that face each other are
+/// nearly the same. Nodes of finer facets go first, then deeper ones.
+fn apart(
+    configuration: &Configuration,
+    selection: &Selection,
+    mut nodes: Vec<(Side, SurfaceNode, f64)>,
+) -> Vec<(Side, SurfaceNode, f64)> {
+    let place = |side: Side, node: SurfaceNode| configuration.side(side).x[node];
+    let size = |side: Side, node: SurfaceNode| configuration.side(side).sizes[node];
+    nodes.retain(|&(side, node, _)| inside(configuration, side, node, PIERCED).is_some());
+    nodes.sort_by(|one, other| {
+        let [a, b] = [one, other].map(|&(side, node, _)| size(side, node));
+        a.total_cmp(&b).then(one.2.total_cmp(&other.2))
+    });
+    let pointed = &selection.kept()[selection.pointed_places()];
+    let mut tips: Vec<Vec3> = pointed.iter().map(|k| place(k.side, k.node)).collect();
+    nodes.retain(|&(side, node, _)| {
+        let x = place(side, node);
+        let is_apart = are_apart(&tips, &x, size(side, node));
+        tips.extend(is_apart.then_some(x));
+        is_apart
+    });
+    nodes
 }
 
 /// Whether a node between two deformable bodies follows others and has enough weight for an
