@@ -273,9 +273,10 @@ impl<const N: usize, const Q: usize> ElementBlock for Cells<N, Q> {
             (Formulation::Standard | Formulation::AssumedStrain, _) => {}
         }
         let each = variables.len() / Q;
+        let gradients = element.deformation_gradients(all(x));
         (0..Q)
             .map(|g| {
-                let f = element.deformation_gradient(g, all(x));
+                let f = gradients[g];
                 let variables = &variables[g * each..(g + 1) * each];
                 let stress = material.cauchy_stress_after(&f, variables);
                 stress.map_err(error_at(g))

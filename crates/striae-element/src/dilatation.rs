@@ -28,30 +28,16 @@
 
 use super::{
     ElementError, ElementResponse,
-    reference::Reference,
-    response::{error_at, product, stiffness},
+    compact::Compact,
+    deformation::{Deformation, by_components},
+    reference::{Matrices, Reference},
+    response::{Answer, error_at},
+    tangent::Tangents,
 };
 use nalgebra::Matrix3;
 use pulp::{Arch, Simd, WithSimd};
-use striae_law::bulk::{Material, Past, Tangent};
+use striae_law::bulk::{Material, Past, Present, Tangent};
 use striae_mesh::Vec3;
-
-/// Deformation at a quadrature point, and the law at `Fbar` but for its tangent.
-#[derive(Clone, Copy, Default)]
-struct Point {
-    /// `F`.
-    gradient: Matrix3<f64>,
-    /// `F^-T`.
-    inverse_transposed: Matrix3<f64>,
-    /// `J`.
-    ratio: f64,
-    /// `alpha`.
-    scale: f64,
-    /// `Pbar`.
-    first_piola: Matrix3<f64>,
-    /// `pi`.
-    third: f64,
-}
 
 impl<const N: usize, const Q: usize> Reference<N, Q> {
     /// As [`Reference::respond`], with mean dilatation.
@@ -67,26 +53,29 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
         element: &mut ElementResponse,
         share: f64,
     ) -> Result<(), ElementError> {
-        let (mut points, volume) = self.points(current, share)?;
-        let mut tangents = [Tangent::zeros(); Q];
-        (element.energy, element.dissipated) = (0.0, 0.0);
-        for (g, point) in points.iter_mut().enumerate() {
-            let scaled = point.gradient * point.scale;
-            let mut present = element.present(g, Q);
-            let law = material.respond(&scaled, past.of_point(g, Q), &mut present);
-            let dissipated = present.dissipated;
-            let law = law.map_err(error_at(g))?;
-            element.energy += self.weights[g] * law.energy;
-            element.dissipated += self.weights[g] * dissipated;
-            tangents[g] = law.tangent;
-            point.first_piola = law.first_piola;
-            point.third = law.first_piola.dot(&scaled) * share / 3.0;
+        let at = self.deformation(current, share)?;
+        match material.compact_response() {
+            Some(law) => self.dilate_by::<Compact<Q>>(&at, share, element, |_, f, _| law(f)),
+            None => self.dilate_by::<[Tangent; Q]>(&at, share, element, |g, f, present| {
+                material.respond(f, past.of_point(g, Q), present)
+            }),
         }
+    }
+
+    /// The same where the `law` answers at a point.
+    fn dilate_by<T: Tangents<Q>>(
+        &self,
+        deformation: &Deformation<Q>,
+        share: f64,
+        element: &mut ElementResponse,
+        law: impl Fn(usize, &Matrix3<f64>, &mut Present) -> Answer<T::OfLaw>,
+    ) -> Result<(), ElementError> {
+        let mut tangents = T::unknown();
+        let stresses = self.answers(&deformation.scaled, element, law, &mut tangents)?;
         Arch::new().dispatch(Completion {
             reference: self,
-            points: &points,
-            pressure: self.mean(|g| points[g].third) / volume,
-            volume,
+            deformation,
+            stresses: &stresses,
             share,
             tangents: &mut tangents,
             element,
@@ -108,203 +97,128 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
         variables: &[f64],
         share: f64,
     ) -> Result<Vec<Matrix3<f64>>, ElementError> {
-        let (points, volume) = self.points(current, share)?;
-        let theta = volume / self.volume();
+        let at = self.deformation(current, share)?;
+        let theta = at.volume / self.volume();
         let each = variables.len() / Q;
         let mut stress = Vec::with_capacity(Q);
-        let ratio = |point: &Point| theta * (point.ratio / theta).powf(1.0 - share);
-        for (g, point) in points.iter().enumerate() {
-            let scaled = point.gradient * point.scale;
+        // Jbar.
+        let scaled = at.ratios.map(|j| theta * (j / theta).powf(1.0 - share));
+        for (g, gradient) in at.scaled.iter().enumerate() {
             let variables = &variables[g * each..(g + 1) * each];
-            let found = material.cauchy_stress_after(&scaled, variables);
+            let found = material.cauchy_stress_after(gradient, variables);
             stress.push(found.map_err(error_at(g))?);
         }
-        let at_point = |g: usize| stress[g].trace() / 3.0 * (ratio(&points[g]) / theta);
-        let pressure = self.mean(|g| share * at_point(g)) / self.volume();
-        for (sigma, point) in stress.iter_mut().zip(&points) {
+        let at_point = |g: usize| stress[g].trace() / 3.0 * (scaled[g] / theta);
+        let sum: f64 = (0..Q)
+            .map(|g| self.weights[g] * (share * at_point(g)))
+            .sum();
+        let pressure = sum / self.volume();
+        for (g, sigma) in stress.iter_mut().enumerate() {
             let mean = Matrix3::identity() * (share * sigma.trace() / 3.0);
-            let own = (*sigma - mean) * (ratio(point) / point.ratio);
+            let own = (*sigma - mean) * (scaled[g] / at.ratios[g]);
             *sigma = own + Matrix3::identity() * pressure;
         }
         Ok(stress)
     }
-
-    /// Deformation at all points, and the current volume `theta V`.
-    fn points(&self, current: &[Vec3; N], share: f64) -> Result<([Point; Q], f64), ElementError> {
-        let mut points = [Point::default(); Q];
-        for (g, point) in points.iter_mut().enumerate() {
-            let gradient = self.deformation_gradient(g, current);
-            let [a, b, c] = [0, 1, 2].map(|j| gradient.column(j).into_owned());
-            let (first, determinant) = (b.cross(&c), a.dot(&b.cross(&c)));
-            if determinant.is_nan() || determinant <= 0.0 {
-                let point = g;
-                return Err(ElementError::Inverted { point, determinant });
-            }
-            let cofactors = Matrix3::from_columns(&[first, c.cross(&a), a.cross(&b)]);
-            point.gradient = gradient;
-            point.inverse_transposed = cofactors * determinant.recip();
-            point.ratio = determinant;
-        }
-        let volume = self.mean(|g| points[g].ratio);
-        let theta = volume / self.volume();
-        let whole: [f64; Q] = cube_roots(std::array::from_fn(|g| theta / points[g].ratio));
-        for (point, whole) in points.iter_mut().zip(whole) {
-            point.scale = if share == 1.0 {
-                whole
-            } else {
-                whole.powf(share)
-            };
-        }
-        Ok((points, volume))
-    }
-
-    /// `sum_g w value`.
-    fn mean(&self, value: impl Fn(usize) -> f64) -> f64 {
-        (0..Q).map(|g| self.weights[g] * value(g)).sum()
-    }
-}
-
-/// Cube roots of positive numbers, side by side: Halley's method, whose error is the cube
-/// of the one before, from a third of the exponent, which is right to 5 %.
-fn cube_roots<const Q: usize>(numbers: [f64; Q]) -> [f64; Q] {
-    /// Two thirds of the bits of 1.
-    const BIAS: u64 = 0x2a9f_7893_782d_a1ce;
-    let mut roots = numbers.map(|x| f64::from_bits(x.to_bits() / 3 + BIAS));
-    for _ in 0..3 {
-        for (root, x) in roots.iter_mut().zip(numbers) {
-            let cube = *root * *root * *root;
-            *root *= (cube + 2.0 * x) / (2.0 * cube + x);
-        }
-    }
-    roots
 }
 
 /// Makes of the tangents of the law those for the mean volume held,
 /// `alpha^2 Abar + H x W + W x H - (p J - pi) H_iL H_kJ` with `W = (p J + m/9)/2 H - M/3`,
 /// and writes force and stiffness, by as many lanes as the processor has.
-struct Completion<'a, const N: usize, const Q: usize> {
+struct Completion<'a, T, const N: usize, const Q: usize> {
     reference: &'a Reference<N, Q>,
-    points: &'a [Point; Q],
-    pressure: f64,
-    volume: f64,
+    deformation: &'a Deformation<Q>,
+    /// `Pbar`.
+    stresses: &'a [Matrix3<f64>; Q],
     share: f64,
-    tangents: &'a mut [Tangent; Q],
+    tangents: &'a mut T,
     element: &'a mut ElementResponse,
 }
 
-impl<const N: usize, const Q: usize> WithSimd for Completion<'_, N, Q> {
+/// What the mean volume makes of the stresses and tangents of the law.
+struct Held<const Q: usize> {
+    /// `w P`, of which the forces are gathered.
+    stresses: Matrices<Q>,
+    /// `w J H / (theta V)`, of which the `b_a` are gathered.
+    dilatations: Matrices<Q>,
+    /// `w (M/3 - m/9 H)`, of which the `c_a` are gathered.
+    changes: Matrices<Q>,
+    /// `W`.
+    mixed: Matrices<Q>,
+    /// `p J - pi`.
+    excess: [f64; Q],
+    /// `sum_g w m/9 - p theta V`.
+    curvature: f64,
+}
+
+impl<T: Tangents<Q>, const N: usize, const Q: usize> WithSimd for Completion<'_, T, N, Q> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        // What the gradients of a point are multiplied by, by J: components i of the force, of
-        // b_a and of c_a.
-        let mut factors = [[[0.0; 9]; 3]; Q];
-        let mut curvature = -self.pressure * self.volume;
-        for (g, point) in self.points.iter().enumerate() {
-            let tangent = &mut self.tangents[g].data.0;
-            let weight = self.reference.weights[g];
-            let f = components(&point.gradient);
-            let h = components(&point.inverse_transposed);
-            let stress = components(&point.first_piola);
-            let m = turned(tangent, &f).map(|of_f| of_f * point.scale);
-            let m: [f64; 9] =
-                std::array::from_fn(|at| (stress[at] + m[at]) * (point.scale * self.share));
-            let ninth = (0..9).map(|at| m[at] * f[at]).sum::<f64>() * self.share / 9.0;
-            let normal = self.pressure * point.ratio;
-            let excess = normal - point.third;
-            curvature += weight * ninth;
-            let ratio = point.ratio / self.volume;
-            for at in 0..9 {
-                let (i, j) = (at / 3, at % 3);
-                factors[g][j][i] = (stress[at] * point.scale + h[at] * excess) * weight;
-                factors[g][j][3 + i] = h[at] * ratio * weight;
-                factors[g][j][6 + i] = (m[at] / 3.0 - h[at] * ninth) * weight;
-            }
-            let half = 0.5 * (normal + ninth);
-            let w = std::array::from_fn(|at| h[at] * half - m[at] / 3.0);
-            complete(tangent, point.scale * point.scale, &h, &w, excess);
-        }
-        let gradients = self.reference.gradients.as_flattened();
-        let mut sums = [[0.0; N]; 9];
-        product::<9, N, 3, 1>([(factors.as_flattened(), gradients)], &mut sums);
-        let [f_x, f_y, f_z, b @ .., c_x, c_y, c_z] = sums;
-        for (a, force) in self.element.force.iter_mut().enumerate() {
-            *force = [f_x[a], f_y[a], f_z[a]];
-        }
+        let held = self.held();
+        self.tangents
+            .complete(self.deformation, &held.mixed, &held.excess);
+        self.element
+            .set_force(&self.reference.gathered(&held.stresses));
+        let b = self.reference.gathered(&held.dilatations);
         // c x b + b x c + s b x b is d x b + b x d.
-        let mut d = [c_x, c_y, c_z];
-        for (d, b) in d.as_flattened_mut().iter_mut().zip(b.as_flattened()) {
-            *d += 0.5 * curvature * b;
+        let mut d = self.reference.gathered(&held.changes);
+        for i in 0..3 {
+            for a in 0..N {
+                d[i][a] += 0.5 * held.curvature * b[i][a];
+            }
         }
-        stiffness(
+        self.tangents.stiffness(
             self.reference,
-            self.tangents,
             |i, k| ([d[i], b[i]], [b[k], d[k]]),
-            &mut self.element.stiffness,
+            self.element.stiffness.blocks_mut(),
         );
     }
 }
 
-/// `A : F`, the tangent by columns.
-#[inline(always)]
-fn turned(tangent: &[[f64; 9]; 9], f: &[f64; 9]) -> [f64; 9] {
-    let mut sums = [0.0; 9];
-    for (column, by) in tangent.iter().zip(f) {
-        for row in 0..9 {
-            sums[row] += column[row] * by;
+impl<T: Tangents<Q>, const N: usize, const Q: usize> Completion<'_, T, N, Q> {
+    #[inline(always)]
+    fn held(&self) -> Held<Q> {
+        let (at, weights) = (self.deformation, &self.reference.weights);
+        let (f, h) = (&at.gradients, &at.inverse_transposed);
+        let mut p = by_components(self.stresses);
+        let mut m = self.tangents.times_gradients(at);
+        let (mut ninth, mut third) = ([0.0; Q], [0.0; Q]);
+        for c in 0..9 {
+            for g in 0..Q {
+                m[c][g] = (p[c][g] + m[c][g]) * (at.scales[g] * self.share);
+                ninth[g] += m[c][g] * f[c][g] * (self.share / 9.0);
+                third[g] += p[c][g] * f[c][g] * (at.scales[g] * self.share / 3.0);
+            }
         }
-    }
-    sums
-}
-
-/// The tangent for the mean volume held, by columns; of its blocks those with `i <= k` and
-/// what shares their lanes, as the stiffness needs no others.
-#[inline(always)]
-fn complete(tangent: &mut [[f64; 9]; 9], square: f64, h: &[f64; 9], w: &[f64; 9], excess: f64) {
-    column_block::<4>(tangent, 0, square, h, w, excess);
-    column_block::<8>(tangent, 1, square, h, w, excess);
-    column_block::<9>(tangent, 2, square, h, w, excess);
-}
-
-/// Completes the first rows of the columns `3 k + L`.
-#[inline(always)]
-fn column_block<const ROWS: usize>(
-    tangent: &mut [[f64; 9]; 9],
-    k: usize,
-    square: f64,
-    h: &[f64; 9],
-    w: &[f64; 9],
-    excess: f64,
-) {
-    let along: [f64; ROWS] = std::array::from_fn(|row| excess * h[3 * k + row % 3]);
-    for l in 0..3 {
-        let (of_h, of_w, column) = (h[3 * k + l], w[3 * k + l], &mut tangent[3 * k + l]);
-        let across: [f64; ROWS] = std::array::from_fn(|row| h[3 * (row / 3) + l]);
-        for row in 0..ROWS {
-            let mixed = h[row] * of_w + w[row] * of_h;
-            column[row] = column[row] * square + mixed - along[row] * across[row];
+        let (mut pressure, mut curvature) = (0.0, 0.0);
+        for g in 0..Q {
+            pressure += weights[g] * third[g];
+            curvature += weights[g] * ninth[g];
         }
-    }
-}
-
-/// Components `3 i + J`.
-#[inline(always)]
-fn components(matrix: &Matrix3<f64>) -> [f64; 9] {
-    std::array::from_fn(|at| matrix[(at / 3, at % 3)])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::cube_roots;
-
-    #[test]
-    fn cube_roots_are_right_to_round_off_at_all_sizes() {
-        let numbers = (-500..500).map(|at| (0.37 * f64::from(at)).exp());
-        for x in numbers.chain([1.0, 8.0, 1e-300, 1e300]) {
-            let [root] = cube_roots([x]);
-            let error = (root / x.cbrt() - 1.0).abs();
-            assert!(error < 4.0 * f64::EPSILON, "{x}: {error}");
+        pressure /= at.volume;
+        let (mut mixed, mut dilatations) = ([[0.0; Q]; 9], [[0.0; Q]; 9]);
+        let mut excess = [0.0; Q];
+        for g in 0..Q {
+            excess[g] = pressure * at.ratios[g] - third[g];
+        }
+        for c in 0..9 {
+            for g in 0..Q {
+                let half = 0.5 * (pressure * at.ratios[g] + ninth[g]);
+                mixed[c][g] = h[c][g] * half - m[c][g] / 3.0;
+                m[c][g] = (m[c][g] / 3.0 - h[c][g] * ninth[g]) * weights[g];
+                p[c][g] = (p[c][g] * at.scales[g] + h[c][g] * excess[g]) * weights[g];
+                dilatations[c][g] = h[c][g] * (at.ratios[g] / at.volume) * weights[g];
+            }
+        }
+        Held {
+            stresses: p,
+            dilatations,
+            changes: m,
+            mixed,
+            excess,
+            curvature: curvature - pressure * at.volume,
         }
     }
 }

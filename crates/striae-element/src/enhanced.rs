@@ -111,16 +111,15 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
         })?;
         (element.energy, element.dissipated) = (0.0, 0.0);
         let modified = self.modified(fields, &settled.covectors);
-        let mut force = [[0.0; 3]; N];
+        let mut stresses = [Matrix3::zeros(); Q];
         let mut tangents = [Tangent::zeros(); Q];
         for (g, law) in settled.laws.iter().enumerate() {
             element.energy += self.weights[g] * law.energy;
             element.dissipated += self.weights[g] * settled.dissipated[g];
-            modified.add_force(g, &law.first_piola, &mut force);
+            stresses[g] = law.first_piola;
             tangents[g] = law.tangent;
         }
-        element.force.copy_from_slice(&force);
-        modified.sum(&tangents, &mut element.stiffness);
+        modified.sum(&stresses, &tangents, element);
         let mixed = modified.mixed(fields, &settled);
         let lower = settled.inner.cholesky().ok_or(ElementError::Unsettled)?;
         let reduced = mixed.map(|of_corner| {
@@ -152,9 +151,10 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
             Ok((response.map_err(error_at(g))?, 0.0))
         })?;
         let modified = self.modified(fields, &settled.covectors);
+        let gradients = modified.deformation_gradients(current);
         let each = variables.len() / Q;
         let stress = |g: usize| {
-            let f = modified.deformation_gradient(g, current);
+            let f = gradients[g];
             let variables = &variables[g * each..(g + 1) * each];
             material
                 .cauchy_stress_after(&f, variables)
@@ -173,8 +173,7 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
     ) -> Result<Settled<Q>, ElementError> {
         let arms = arms::<N>();
         let axes = [0, 1, 2].map(|i| (0..N).map(|a| current[a] * arms[a][i]).sum::<Vec3>());
-        let plain: [Matrix3<f64>; Q] =
-            std::array::from_fn(|g| self.deformation_gradient(g, current));
+        let plain = self.deformation_gradients(current);
         let mut covectors = [Vec3::zeros(); 3];
         let mut before = f64::INFINITY;
         for _ in 0..ITERATIONS {

@@ -14,7 +14,9 @@
 //! doi:10.1007/978-3-540-71001-1). Interpolation and quadrature are those of the
 //! [`CellKind`](striae_mesh::CellKind). `dilatation.rs` has the same with the volume ratio
 //! constant in the element, see [`Formulation`], `enhanced.rs` hexahedra
-//! that bend, `composite.rs` a gradient that is projected.
+//! that bend, `composite.rs` a gradient that is projected. Sums over quadrature points take
+//! `A` by all components (`tangent.rs`), or half the work where it takes a few numbers only
+//! (`compact.rs`).
 //!
 //! [`Elements`] keeps what depends on the reference configuration alone; nothing of it
 //! is found again while iterating. An [`ElementBlock`] knows the numbers of corners and
@@ -25,7 +27,9 @@
 //! table of `block.rs`.
 
 mod block;
+mod compact;
 mod composite;
+mod deformation;
 mod dilatation;
 mod element;
 mod elements;
@@ -34,11 +38,13 @@ mod fault;
 mod formulation;
 mod inertia;
 mod mass;
+mod product;
 mod reference;
 mod response;
 mod rule;
 mod stiffness;
 mod stress;
+mod tangent;
 #[cfg(test)]
 mod tests;
 

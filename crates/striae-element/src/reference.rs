@@ -2,7 +2,11 @@
 
 use super::{ElementError, rule::Rule};
 use nalgebra::Matrix3;
+use pulp::{Arch, Simd, WithSimd};
 use striae_mesh::Vec3;
+
+/// Matrices at the quadrature points, by component `3 i + J`.
+pub(super) type Matrices<const Q: usize> = [[f64; Q]; 9];
 
 /// `G_a,J = dN_a/dX_J` by component `J` and corner `a`.
 pub(super) type Gradients<const N: usize> = [[f64; N]; 3];
@@ -64,16 +68,67 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
 
     /// Angle by which the element with the current corners `x` is turned on average.
     pub(super) fn rotation(&self, current: &[Vec3; N]) -> f64 {
-        let points = (0..Q).map(|g| self.deformation_gradient(g, current) * self.weights[g]);
+        let points = self.deformation_gradients(current).into_iter();
+        let points = points.zip(self.weights).map(|(f, weight)| f * weight);
         let decomposed = points.sum::<Matrix3<f64>>().svd(true, true);
         let rotation = decomposed.u.zip(decomposed.v_t).map(|(u, v)| u * v);
         let cosine = rotation.map_or(1.0, |rotation| 0.5 * (rotation.trace() - 1.0));
         cosine.clamp(-1.0, 1.0).acos()
     }
 
-    /// Deformation gradient `F` at a quadrature point for current corners `x`.
-    pub(super) fn deformation_gradient(&self, g: usize, current: &[Vec3; N]) -> Matrix3<f64> {
-        let gradients = &self.gradients[g];
-        Matrix3::from_fn(|i, j| (0..N).map(|a| current[a][i] * gradients[j][a]).sum())
+    /// `sum_g T_iJ G_a,J` of matrices at the quadrature points, by component and corner.
+    #[inline(always)]
+    pub(super) fn gathered(&self, matrices: &Matrices<Q>) -> Gradients<N> {
+        let mut sums = [[0.0; N]; 3];
+        for (i, sums) in sums.iter_mut().enumerate() {
+            for (g, [x, y, z]) in self.gradients.iter().enumerate() {
+                let [t_x, t_y, t_z] = [
+                    matrices[3 * i][g],
+                    matrices[3 * i + 1][g],
+                    matrices[3 * i + 2][g],
+                ];
+                for a in 0..N {
+                    sums[a] += t_x * x[a] + t_y * y[a] + t_z * z[a];
+                }
+            }
+        }
+        sums
+    }
+
+    /// Deformation gradients `F` at the quadrature points for current corners `x`.
+    pub(super) fn deformation_gradients(&self, current: &[Vec3; N]) -> [Matrix3<f64>; Q] {
+        let gradients = &self.gradients;
+        Arch::new().dispatch(DeformationGradients { gradients, current })
+    }
+}
+
+/// Deformation gradients by as many lanes as the processor has: they are filled with
+/// components of the positions.
+struct DeformationGradients<'a, const N: usize, const Q: usize> {
+    gradients: &'a [Gradients<N>; Q],
+    current: &'a [Vec3; N],
+}
+
+impl<const N: usize, const Q: usize> WithSimd for DeformationGradients<'_, N, Q> {
+    type Output = [Matrix3<f64>; Q];
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Self::Output {
+        // With a fourth component, as lanes come in fours.
+        let mut positions = [[0.0; 4]; N];
+        for (position, x) in positions.iter_mut().zip(self.current) {
+            position[..3].copy_from_slice(&x.data.0[0]);
+        }
+        let mut all = [Matrix3::zeros(); Q];
+        for (f, gradients) in all.iter_mut().zip(self.gradients) {
+            for (column, gradients) in f.data.0.iter_mut().zip(gradients) {
+                let mut sums = [0.0; 4];
+                for (x, gradient) in positions.iter().zip(gradients) {
+                    (0..4).for_each(|i| sums[i] += x[i] * gradient);
+                }
+                column.copy_from_slice(&sums[..3]);
+            }
+        }
+        all
     }
 }

@@ -1,13 +1,12 @@
 //! Stored energy, internal force and consistent stiffness of an element.
 
 use super::{
-    ElementError, Stiffness,
-    reference::{Gradients, Reference},
-    stiffness::COMPONENTS,
+    ElementError, Stiffness, compact::Compact, deformation::by_components, reference::Reference,
+    tangent::Tangents,
 };
 use nalgebra::Matrix3;
 use pulp::{Arch, Simd, WithSimd};
-use striae_law::bulk::{Material, Past, Present, ResponseError, Tangent};
+use striae_law::bulk::{Material, Past, Present, Response, ResponseError, Tangent};
 use striae_mesh::Vec3;
 
 /// Energy of an element with its first and second derivatives.
@@ -25,6 +24,9 @@ pub struct ElementResponse {
     pub variables: Vec<f64>,
 }
 
+/// Answer of a law at a point.
+pub(super) type Answer<T> = Result<Response<T>, ResponseError>;
+
 impl ElementResponse {
     /// Where one of `count` points writes what it has come to.
     pub(super) fn present(&mut self, point: usize, count: usize) -> Present<'_> {
@@ -32,6 +34,14 @@ impl ElementResponse {
         Present {
             variables: &mut self.variables[point * each..(point + 1) * each],
             dissipated: 0.0,
+        }
+    }
+
+    /// Takes over a force by components.
+    #[inline(always)]
+    pub(super) fn set_force<const N: usize>(&mut self, [x, y, z]: &[[f64; N]; 3]) {
+        for (a, force) in self.force.iter_mut().enumerate() {
+            *force = [x[a], y[a], z[a]];
         }
     }
 }
@@ -49,150 +59,91 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
         past: Past,
         element: &mut ElementResponse,
     ) -> Result<(), ElementError> {
+        match material.compact_response() {
+            Some(law) => self.respond_by::<Compact<Q>>(current, element, |_, f, _| law(f)),
+            None => self.respond_by::<[Tangent; Q]>(current, element, |g, f, present| {
+                material.respond(f, past.of_point(g, Q), present)
+            }),
+        }
+    }
+
+    /// The response where the `law` answers at a point.
+    fn respond_by<T: Tangents<Q>>(
+        &self,
+        current: &[Vec3; N],
+        element: &mut ElementResponse,
+        law: impl Fn(usize, &Matrix3<f64>, &mut Present) -> Answer<T::OfLaw>,
+    ) -> Result<(), ElementError> {
+        let mut tangents = T::unknown();
+        let gradients = self.deformation_gradients(current);
+        let stresses = self.answers(&gradients, element, law, &mut tangents)?;
+        self.sum(&stresses, &tangents, element);
+        Ok(())
+    }
+
+    /// The stresses with which the `law` answers to deformation gradients, and its tangents;
+    /// sums up energies.
+    pub(super) fn answers<T: Tangents<Q>>(
+        &self,
+        gradients: &[Matrix3<f64>; Q],
+        element: &mut ElementResponse,
+        law: impl Fn(usize, &Matrix3<f64>, &mut Present) -> Answer<T::OfLaw>,
+        tangents: &mut T,
+    ) -> Result<[Matrix3<f64>; Q], ElementError> {
+        let mut stresses = [Matrix3::zeros(); Q];
         (element.energy, element.dissipated) = (0.0, 0.0);
-        let mut force = [[0.0; 3]; N];
-        let mut tangents = [Tangent::zeros(); Q];
-        for g in 0..Q {
-            let f = self.deformation_gradient(g, current);
+        for (g, f) in gradients.iter().enumerate() {
             let mut present = element.present(g, Q);
-            let response = material.respond(&f, past.of_point(g, Q), &mut present);
+            let response = law(g, f, &mut present);
             let dissipated = present.dissipated;
             let response = response.map_err(error_at(g))?;
             element.energy += self.weights[g] * response.energy;
             element.dissipated += self.weights[g] * dissipated;
-            self.add_force(g, &response.first_piola, &mut force);
-            tangents[g] = response.tangent;
+            stresses[g] = response.first_piola;
+            tangents.set(g, &response.tangent);
         }
-        element.force.copy_from_slice(&force);
-        self.sum(&tangents, &mut element.stiffness);
-        Ok(())
+        Ok(stresses)
     }
 
-    /// `f_ai += w P_iJ G_a,J` at quadrature point `g`.
-    pub(super) fn add_force(
+    /// Force and stiffness from the stresses and tangents at the quadrature points.
+    pub(super) fn sum<T: Tangents<Q>>(
         &self,
-        g: usize,
-        first_piola: &Matrix3<f64>,
-        force: &mut [[f64; 3]; N],
+        stresses: &[Matrix3<f64>; Q],
+        tangents: &T,
+        element: &mut ElementResponse,
     ) {
-        let [x, y, z] = &self.gradients[g];
-        let stress = first_piola * self.weights[g];
-        for a in 0..N {
-            for i in 0..3 {
-                force[a][i] +=
-                    stress[(i, 0)] * x[a] + stress[(i, 1)] * y[a] + stress[(i, 2)] * z[a];
-            }
-        }
-    }
-
-    /// The stiffness from the tangents at the quadrature points.
-    pub(super) fn sum(&self, tangents: &[Tangent; Q], stiffness: &mut Stiffness) {
         Arch::new().dispatch(Sum {
-            element: self,
+            reference: self,
+            stresses,
             tangents,
-            stiffness,
+            element,
         });
     }
 }
 
-/// The stiffness from the tangents, by as many lanes as the processor has: they are filled
-/// with corners, so that sums do not depend on their number.
-struct Sum<'a, const N: usize, const Q: usize> {
-    element: &'a Reference<N, Q>,
-    tangents: &'a [Tangent; Q],
-    stiffness: &'a mut Stiffness,
+/// Force and stiffness, by as many lanes as the processor has.
+struct Sum<'a, T, const N: usize, const Q: usize> {
+    reference: &'a Reference<N, Q>,
+    stresses: &'a [Matrix3<f64>; Q],
+    tangents: &'a T,
+    element: &'a mut ElementResponse,
 }
 
-impl<const N: usize, const Q: usize> WithSimd for Sum<'_, N, Q> {
+impl<T: Tangents<Q>, const N: usize, const Q: usize> WithSimd for Sum<'_, T, N, Q> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        stiffness(self.element, self.tangents, |_, _| ([], []), self.stiffness);
-    }
-}
-
-/// The stiffness from the tangents, and of `E` products of vectors of corners, of which the two
-/// factors of each are given for components `i` and `k`.
-#[inline(always)]
-pub(super) fn stiffness<const N: usize, const Q: usize, const E: usize>(
-    element: &Reference<N, Q>,
-    tangents: &[Tangent; Q],
-    products: impl Fn(usize, usize) -> ([[f64; N]; E], [[f64; N]; E]),
-    stiffness: &mut Stiffness,
-) {
-    let gradients = element.gradients.as_flattened();
-    for ((i, k), block) in COMPONENTS.into_iter().zip(stiffness.blocks_mut::<N>()) {
-        let right = right(element, tangents, i, k);
-        let (first, second) = products(i, k);
-        let parts = [(gradients, right.as_flattened()), (&first, &second)];
-        // Some rows at a time in registers: as many as divide the corners.
-        match N {
-            4 | 8 => product::<N, N, 4, 2>(parts, block),
-            6 => product::<N, N, 3, 2>(parts, block),
-            10 => product::<N, N, 5, 2>(parts, block),
-            _ => product::<N, N, 1, 2>(parts, block),
-        }
-        if i == k {
-            mirror(block);
-        }
-    }
-}
-
-/// `sum_L w A_iJkL G_b,L` for two components `i`, `k` by quadrature point, `J` and corner.
-#[inline(always)]
-fn right<const N: usize, const Q: usize>(
-    element: &Reference<N, Q>,
-    tangents: &[Tangent; Q],
-    i: usize,
-    k: usize,
-) -> [Gradients<N>; Q] {
-    let mut right = [[[0.0; N]; 3]; Q];
-    for g in 0..Q {
-        let ([x, y, z], weight) = (&element.gradients[g], element.weights[g]);
-        for j in 0..3 {
-            let [t_x, t_y, t_z] =
-                [0, 1, 2].map(|l| tangents[g].data.0[3 * k + l][3 * i + j] * weight);
-            for b in 0..N {
-                right[g][j][b] = t_x * x[b] + t_y * y[b] + t_z * z[b];
+        let mut stresses = by_components(self.stresses);
+        for component in &mut stresses {
+            for g in 0..Q {
+                component[g] *= self.reference.weights[g];
             }
         }
-    }
-    right
-}
-
-/// Factors `L` and `R` of a product, by what is summed over.
-type Factors<'a, const M: usize, const N: usize> = (&'a [[f64; M]], &'a [[f64; N]]);
-
-/// `K_ab = sum_c L_ca R_cb` over all `c` of some parts, a product of tall and wide matrices,
-/// `ROWS` rows at a time.
-#[inline(always)]
-pub(super) fn product<const M: usize, const N: usize, const ROWS: usize, const PARTS: usize>(
-    parts: [Factors<M, N>; PARTS],
-    block: &mut [[f64; N]; M],
-) {
-    for (first, rows) in (0..M).step_by(ROWS).zip(block.chunks_exact_mut(ROWS)) {
-        let mut sums = [[0.0; N]; ROWS];
-        for (left, right) in parts {
-            for (left, right) in left.iter().zip(right) {
-                for a in 0..ROWS {
-                    for b in 0..N {
-                        sums[a][b] += left[first + a] * right[b];
-                    }
-                }
-            }
-        }
-        rows.copy_from_slice(&sums);
-    }
-}
-
-/// Makes a block symmetric to the last bit.
-#[inline(always)]
-fn mirror<const N: usize>(block: &mut [[f64; N]; N]) {
-    for a in 0..N {
-        for b in 0..a {
-            block[b][a] = block[a][b];
-        }
+        self.element.set_force(&self.reference.gathered(&stresses));
+        let none = |_, _| ([], []);
+        let blocks = self.element.stiffness.blocks_mut();
+        self.tangents.stiffness(self.reference, none, blocks);
     }
 }
 

@@ -9,6 +9,9 @@
 /// Components of the blocks that are kept.
 pub(super) const COMPONENTS: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
 
+/// The blocks of [`COMPONENTS`] for `N` corners, by the corners `a` and `b`.
+pub(super) type Blocks<'a, const N: usize> = &'a mut [[[f64; N]; N]];
+
 /// Derivative of the internal force of an element by its corner positions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stiffness {
@@ -72,11 +75,8 @@ impl Stiffness {
     }
 
     /// The blocks of [`COMPONENTS`] for `N` corners, by the corners `a` and `b`.
-    pub(super) fn blocks_mut<const N: usize>(
-        &mut self,
-    ) -> impl Iterator<Item = &mut [[f64; N]; N]> {
+    pub(super) fn blocks_mut<const N: usize>(&mut self) -> Blocks<'_, N> {
         let (rows, _) = self.entries.as_chunks_mut::<N>();
-        let (blocks, _) = rows.as_chunks_mut::<N>();
-        blocks.iter_mut()
+        rows.as_chunks_mut::<N>().0
     }
 }

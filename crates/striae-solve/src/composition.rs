@@ -22,6 +22,16 @@ pub struct Composition {
     first_variables: Vec<usize>,
     /// Shear modulus at rest of the stiffest material.
     stiffest_shear: f64,
+    resistances: Vec<Resistance>,
+}
+
+/// What an element resists motion with.
+#[derive(Clone, Copy, Debug)]
+pub struct Resistance {
+    /// Mean of the diagonal of its stiffness at rest, `(lambda + 2 G)/n sum_ga w |G_a|^2`.
+    pub stiffness: f64,
+    /// Its mass.
+    pub mass: f64,
 }
 
 impl Composition {
@@ -43,11 +53,26 @@ impl Composition {
         }
         let used = body.used_sections().into_iter();
         let shear = used.map(|section| body.material_of(section).lame_constants().shear);
+        let resistances = elements.iter().enumerate().map(|(at, element)| {
+            let section = sections.get(at).map_or(0, |section| *section as usize);
+            let constants = body.material_of(section).lame_constants();
+            let modulus = constants.lambda + 2.0 * constants.shear;
+            Resistance {
+                stiffness: modulus * element.stiffness_per_modulus(),
+                mass: body.density_of(section) * element.volume(),
+            }
+        });
         Self {
+            resistances: resistances.collect(),
             sections,
             first_variables,
             stiffest_shear: shear.fold(0.0, f64::max),
         }
+    }
+
+    /// What every element resists motion with.
+    pub fn resistances(&self) -> &[Resistance] {
+        &self.resistances
     }
 
     /// Shear modulus at rest of the stiffest material.

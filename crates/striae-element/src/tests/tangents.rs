@@ -174,3 +174,23 @@ fn of_laws_with_a_memory() {
         }
     }
 }
+
+#[test]
+fn compact_ones_make_what_all_their_components_make() {
+    let slow = Material::own(Foreign);
+    for (kind, formulation) in single::each_kind() {
+        let (single, _, x) = led(kind, formulation, &slow);
+        let x = x.as_slice().chunks_exact(3).map(Vec3::from_column_slice);
+        let x: Vec<Vec3> = x.collect();
+        let [found, expected] = [&neo_hookean(), &slow].map(|law| single.response(&x, law));
+        let largest = |values: &[f64]| values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        let far = |a: &[f64], b: &[f64]| {
+            let difference: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();
+            largest(&difference) / largest(b)
+        };
+        let [k, k_slow] = [&found, &expected].map(|of| of.stiffness.by_rows());
+        let [f, f_slow] = [&found, &expected].map(|of| of.force.as_flattened());
+        assert!(far(&k, &k_slow) < 1e-14, "{kind} {formulation:?}");
+        assert!(far(f, f_slow) < 1e-14, "{kind} {formulation:?}");
+    }
+}

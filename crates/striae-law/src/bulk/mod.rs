@@ -18,6 +18,7 @@
 
 mod analysis;
 mod battery;
+mod compact;
 mod direction;
 mod fibrous;
 mod hardening;
@@ -38,6 +39,7 @@ mod volumetric;
 
 pub use analysis::{Mode, TestState};
 pub use battery::{Violation, battery};
+pub use compact::CompactTangent;
 pub use direction::{Direction, LinesAbout};
 pub use fibrous::{FibreStiffness, Fibres, Fibrous, InadmissibleFibres};
 pub use hardening::{Hardening, HardeningForm, InadmissibleHardening};
@@ -89,14 +91,27 @@ pub enum Material {
 
 /// Answer of a material to a deformation gradient.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Response {
+pub struct Response<T = Tangent> {
     /// Stored energy `W` per reference volume.
     pub energy: f64,
     /// First Piola-Kirchhoff stress `P`.
     pub first_piola: Matrix3<f64>,
     /// First elasticity tensor `A = dP/dF`.
-    pub tangent: Tangent,
+    pub tangent: T,
 }
+
+impl From<Response<CompactTangent>> for Response {
+    fn from(response: Response<CompactTangent>) -> Self {
+        Self {
+            energy: response.energy,
+            first_piola: response.first_piola,
+            tangent: response.tangent.full(),
+        }
+    }
+}
+
+/// A response with a compact tangent.
+pub type CompactResult = Result<Response<CompactTangent>, ResponseError>;
 
 /// Why a material has no answer to a deformation gradient.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -250,7 +265,7 @@ impl Material {
                 lambda,
                 shear,
                 volumetric,
-            } => neo_hookean::response(*lambda, *shear, *volumetric, f),
+            } => neo_hookean::response(*lambda, *shear, *volumetric, f).map(Response::from),
             Self::LinearElastic { lambda, shear } => {
                 Ok(linear_elastic::response(*lambda, *shear, f))
             }
@@ -269,6 +284,18 @@ impl Material {
                 self.respond(f, past, &mut present)
             }
             Self::Own(own) => own.law().response(f),
+        }
+    }
+
+    /// The response as a function of the deformation gradient, where its tangent is compact.
+    pub fn compact_response(&self) -> Option<impl Fn(&Matrix3<f64>) -> CompactResult + use<>> {
+        match *self {
+            Self::NeoHookean {
+                lambda,
+                shear,
+                volumetric,
+            } => Some(move |f: &Matrix3<f64>| neo_hookean::response(lambda, shear, volumetric, f)),
+            _ => None,
         }
     }
 

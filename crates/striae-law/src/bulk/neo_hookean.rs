@@ -15,7 +15,7 @@
 //! elasticity with `lambda` and `G`.
 
 use super::invariants::inverse;
-use super::{Response, ResponseError, Tangent, Volumetric};
+use super::{CompactResult, CompactTangent, Response, Volumetric};
 use nalgebra::Matrix3;
 use num_dual::DualNum;
 
@@ -41,34 +41,17 @@ pub(super) fn response(
     G: f64,
     volumetric: Volumetric,
     F: &Matrix3<f64>,
-) -> Result<Response, ResponseError> {
+) -> CompactResult {
     let (J, B) = inverse(F)?;
     let (pressure, stiffness) = volumetric.pressure(lambda, J);
     Ok(Response {
         energy: energy(lambda, G, volumetric, F),
         first_piola: (F - B) * G + B * pressure,
-        tangent: tangent(G, G - pressure, stiffness, &B),
+        tangent: CompactTangent {
+            identity: G,
+            crossed: G - pressure,
+            direct: stiffness,
+            inverse_transposed: B,
+        },
     })
-}
-
-/// `A_iJkL = G d_ik d_JL + crossed B_iL B_kJ + direct B_iJ B_kL`, column `3 k + L` by column.
-#[allow(non_snake_case)]
-fn tangent(G: f64, crossed: f64, direct: f64, B: &Matrix3<f64>) -> Tangent {
-    let mut A = Tangent::zeros();
-    let (crossed_B, direct_B) = (B * crossed, B * direct);
-    // All rows `3 i + J` of a column at once.
-    let direct_iJ: [f64; 9] = std::array::from_fn(|row| direct_B[(row / 3, row % 3)]);
-    for k in 0..3 {
-        let B_kJ: [f64; 9] = std::array::from_fn(|row| B[(k, row % 3)]);
-        for L in 0..3 {
-            let crossed_iL: [f64; 9] = std::array::from_fn(|row| crossed_B[(row / 3, L)]);
-            let (at, B_kL) = (3 * k + L, B[(k, L)]);
-            let column = &mut A.data.0[at];
-            for row in 0..9 {
-                column[row] = crossed_iL[row] * B_kJ[row] + direct_iJ[row] * B_kL;
-            }
-            column[at] += G;
-        }
-    }
-    A
 }

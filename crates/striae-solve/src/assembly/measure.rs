@@ -1,8 +1,7 @@
 //! Norms of the residual, field by field.
 
 use striae_contact::evaluation::Evaluation;
-use striae_element::Element;
-use striae_mesh::{ElementId, Vec3};
+use striae_mesh::Vec3;
 
 use super::{System, Trial};
 use crate::{
@@ -70,19 +69,15 @@ const SMALLEST_PRESSURE: f64 = 1e-4;
 /// smallest height where it is flat.
 fn round_off(problem: &Problem, positions: &[Vec3], inertia: f64) -> f64 {
     let extent = positions.iter().map(|x| x.norm()).fold(0.0, f64::max);
-    let bodies = problem.elements.iter().enumerate();
+    let bodies = problem.compositions.iter();
     let sum: f64 = bodies
-        .map(|(body, elements)| {
-            let of_element = |(at, element): (usize, Element)| {
-                let id = ElementId::new(at);
-                let constants = problem.material(body, id).lame_constants();
-                let modulus = constants.lambda + 2.0 * constants.shear;
-                let stiffness = modulus * element.stiffness_per_modulus();
-                let density = problem.density(body, id);
-                let stiffness = stiffness + density * element.volume() * inertia;
+        .map(|composition| {
+            let elements = composition.resistances().iter();
+            let squares = elements.map(|element| {
+                let stiffness = element.stiffness + element.mass * inertia;
                 (stiffness * extent).powi(2)
-            };
-            elements.iter().enumerate().map(of_element).sum::<f64>()
+            });
+            squares.sum::<f64>()
         })
         .sum();
     let points = problem.mass_points.iter();
