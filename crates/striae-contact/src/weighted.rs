@@ -10,7 +10,8 @@
 //! ```
 //!
 //! `w_k = integral phi_k da` is frozen in an increment. Slip is seen from the node's own
-//! side. The terms with `E` are those of [`crate::ramp`].
+//! side. The terms with `E` are those of [`crate::ramp`]. Of a [lifted](crate::lift) row the
+//! gap is less by its constant `L_k`.
 
 use nalgebra::Matrix3;
 use rayon::prelude::*;
