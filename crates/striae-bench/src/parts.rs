@@ -4,7 +4,7 @@ use crate::{clock::timed, compare, element, scene, yardstick};
 use nalgebra::Matrix3;
 use serde_json::{Value, json};
 use std::{error::Error, hint::black_box};
-use striae_condensed::{Automatic, Choice, Partition};
+use striae_condensed::{Automatic, Choice, Partition, Tangent};
 use striae_contact::{
     complementarity::{Conditions, Iteration},
     evaluation::evaluate,
@@ -24,7 +24,7 @@ use striae_solve::{
     problem::Problem,
     state::State,
 };
-use striae_sparse::{LinearSolver, MultifrontalLu};
+use striae_sparse::{LinearSolver, MultifrontalLu, SparseMatrix};
 use striae_surface::normal::nodal_normals;
 
 type Results = Result<Vec<Value>, Box<dyn Error>>;
@@ -100,7 +100,7 @@ fn law() -> Results {
 fn of_scene(group: &str, size: usize) -> Results {
     let model = scene::model("stacked", size, Backend::Condensed)?;
     if group == "factor" {
-        return factor(&scene::stiffness(&model)?);
+        return factor(scene::stiffness(&model)?);
     }
     let problem = Problem::new(model.clone())?;
     let state = State::undeformed(&problem);
@@ -163,15 +163,15 @@ fn of_scene(group: &str, size: usize) -> Results {
 
 /// Elements of the bodies without contact.
 fn assembly(model: &striae_solve::model::Model) -> Result<Value, Box<dyn Error>> {
-    let mut matrix = scene::stiffness(model)?;
-    let partition = Partition::from(matrix.structure());
+    let mut tangent = Tangent::from(scene::stiffness(model)?);
+    let partition = Partition::from(tangent.bodies.structure());
     let mut bodies = model.clone();
     bodies.pairs.clear();
     let problem = Problem::new(bodies)?;
     let state = State::undeformed(&problem);
     let context = StepContext::new(&problem, 0, &state);
     let layout = Layout::new(&problem, Extent::default());
-    let places = ElementPlaces::new(&problem, &layout, matrix.structure());
+    let places = ElementPlaces::new(&problem, &layout, partition.structure());
     let imposed = context.imposed(0.0);
     let trial = Trial {
         positions: state.positions.clone(),
@@ -190,25 +190,28 @@ fn assembly(model: &striae_solve::model::Model) -> Result<Value, Box<dyn Error>>
         .map(|body| body.mesh.element_count())
         .sum();
     Ok(timed("assembly", "elements", elements, || {
-        let parts = (&partition, &places, &mut matrix);
+        let parts = (&partition, &places, &mut tangent);
         black_box(scene::bodies(&setting, &trial, &layout, parts).is_ok());
     }))
 }
 
 /// Factorisations of the stiffness alone.
-fn factor(matrix: &striae_sparse::SparseMatrix) -> Results {
-    let unknowns = matrix.structure().unknowns();
-    let mut results = Vec::new();
-    let solvers: [(&str, Box<dyn LinearSolver>); 2] = [
-        ("condensed", Box::new(Automatic::new(Choice::ByCost))),
-        ("multifrontal LU", Box::new(MultifrontalLu::new())),
+fn factor(stiffness: SparseMatrix) -> Results {
+    let unknowns = stiffness.structure().unknowns();
+    let tangent = Tangent::from(stiffness);
+    let matrix = &tangent.bodies;
+    let mut condensed = Automatic::new(Choice::ByCost);
+    condensed.analyse(&Partition::from(matrix.structure()))?;
+    let mut lu = MultifrontalLu::new();
+    lu.analyse(matrix.structure())?;
+    let mut results = vec![
+        timed("factor", "condensed", unknowns, || {
+            black_box(condensed.factor(&tangent).is_ok());
+        }),
+        timed("factor", "multifrontal LU", unknowns, || {
+            black_box(lu.factor(matrix).is_ok());
+        }),
     ];
-    for (name, mut solver) in solvers {
-        solver.analyse(matrix.structure())?;
-        results.push(timed("factor", name, unknowns, || {
-            black_box(solver.factor(matrix).is_ok());
-        }));
-    }
     let seconds = yardstick::cholesky(matrix)?.wall;
     println!(
         "factor    faer Cholesky, same ordering     {}",

@@ -1,14 +1,12 @@
 //! Problems of about a given number of unknowns.
 
 use std::{error::Error, path::Path};
-use striae_condensed::Partition;
+use striae_condensed::{Partition, Tangent};
 use striae_contact::segment::Derivatives;
 use striae_deck as deck;
 use striae_mesh::generate::CappedBlock;
 use striae_solve::{
-    assembly::{
-        Assembled, Background, Contact, ElementPlaces, Fault, Setting, StepContext, Trial, assemble,
-    },
+    assembly::{Assembled, Contact, ElementPlaces, Fault, Setting, StepContext, Trial, assemble},
     layout::{Extent, Layout},
     model::{Backend, Model},
     problem::Problem,
@@ -149,7 +147,7 @@ pub fn stiffness(model: &Model) -> Result<SparseMatrix, Box<dyn Error>> {
     let structure = Structure::from_cliques(layout.offsets().to_vec(), &cliques)?;
     let partition = Partition::from(&structure);
     let places = ElementPlaces::new(&problem, &layout, &structure);
-    let mut matrix = SparseMatrix::zero(&structure);
+    let mut tangent = Tangent::zero(&partition);
     let trial = Trial {
         positions: state.positions.clone(),
         tractions: Vec::new(),
@@ -166,9 +164,9 @@ pub fn stiffness(model: &Model) -> Result<SparseMatrix, Box<dyn Error>> {
         &setting,
         &trial,
         &layout,
-        (&partition, &places, &mut matrix),
+        (&partition, &places, &mut tangent),
     ) {
-        Ok(_) => Ok(matrix),
+        Ok(_) => Ok(tangent.bodies),
         Err(Fault::CutBack(reason)) => Err(reason.to_string().into()),
         Err(Fault::Pattern(_)) => Err("an element is outside the pattern".into()),
     }
@@ -179,16 +177,8 @@ pub fn bodies(
     setting: &Setting,
     trial: &Trial,
     layout: &Layout,
-    parts: (&Partition, &ElementPlaces, &mut SparseMatrix),
+    parts: (&Partition, &ElementPlaces, &mut Tangent),
 ) -> Result<Assembled, Fault> {
-    let (contact, room) = (Contact::Known(Vec::new()), Background::default());
-    assemble(
-        setting,
-        trial,
-        contact,
-        Derivatives::First,
-        layout,
-        parts,
-        room,
-    )
+    let contact = Contact::Known(Vec::new());
+    assemble(setting, trial, contact, Derivatives::First, layout, parts)
 }

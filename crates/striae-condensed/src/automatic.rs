@@ -24,6 +24,7 @@ use crate::{
     iterative::Iterative,
     partition::Partition,
     report::{Analysis, Factored, FallBack, Method},
+    tangent::Tangent,
 };
 use striae_sparse::{
     Age, Cost, FactorReport, FaerLu, LinearSolver, MultifrontalLu, Precision, SolveError,
@@ -110,10 +111,10 @@ impl Automatic {
     }
 
     /// Factors with the LU, which is analysed when first needed.
-    fn factor_lu(&mut self, matrix: &SparseMatrix) -> Result<Factored, SolveError> {
+    fn factor_lu(&mut self, tangent: &Tangent) -> Result<Factored, SolveError> {
         let partition = self.partition.as_ref().ok_or(SolveError::NotAnalysed)?;
         if self.lu.is_none() {
-            let (solver, analysis) = analysed_lu(Method::Multifrontal, partition)?;
+            let (solver, analysis) = analysed_lu(Method::Multifrontal, partition.whole())?;
             if analysis.cost.peak_bytes > LARGEST && self.iterative.is_some() {
                 let bytes = analysis.cost.peak_bytes;
                 return Err(SolveError::TooLarge { bytes });
@@ -121,7 +122,7 @@ impl Automatic {
             self.lu = Some(solver);
         }
         let solver = self.lu.as_mut().ok_or(SolveError::NotAnalysed)?;
-        let report = solver.factor(matrix)?;
+        let report = solver.factor(&tangent.sum(partition))?;
         let method = match self.choice {
             Choice::Faer => Method::Faer,
             _ => Method::Multifrontal,
@@ -134,11 +135,11 @@ impl Automatic {
     }
 
     /// Factors everything.
-    fn factor_anew(&mut self, matrix: &SparseMatrix) -> Result<Factored, SolveError> {
+    fn factor_anew(&mut self, tangent: &Tangent) -> Result<Factored, SolveError> {
         self.experience.taken = 0;
         let iterative = self.iterative.as_mut();
         if let Some(iterative) = iterative.filter(|_| self.experience.rest == 0) {
-            match iterative.factor(matrix) {
+            match iterative.factor(tangent) {
                 Ok(report) => {
                     self.factored = Some(Made::Iterative);
                     (self.condensed, self.lu) = (None, None);
@@ -158,9 +159,9 @@ impl Automatic {
         self.plan_direct()?;
         if self.condensed.is_none() || self.experience.patience > 0 {
             self.experience.patience = self.experience.patience.saturating_sub(1);
-            return self.factor_lu(matrix);
+            return self.factor_lu(tangent);
         }
-        match self.factor_condensed(matrix) {
+        match self.factor_condensed(tangent) {
             Ok(report) => {
                 let reason = self.iterative.as_ref().and(self.experience.fall_back);
                 self.experience.fall_back = reason;
@@ -173,9 +174,9 @@ impl Automatic {
                 })
             }
             Err(SolveError::NotPositiveDefinite { unknown, .. }) => {
-                self.fall_back(FallBack::IndefiniteInterior { unknown }, matrix)
+                self.fall_back(FallBack::IndefiniteInterior { unknown }, tangent)
             }
-            Err(SolveError::Singular { .. }) => self.fall_back(FallBack::SingularContact, matrix),
+            Err(SolveError::Singular { .. }) => self.fall_back(FallBack::SingularContact, tangent),
             Err(other) => Err(other),
         }
     }
@@ -189,16 +190,16 @@ impl Automatic {
     }
 
     /// Factors with the condensed solver, the bodies in single precision while that does.
-    fn factor_condensed(&mut self, matrix: &SparseMatrix) -> Result<Factored, SolveError> {
+    fn factor_condensed(&mut self, tangent: &Tangent) -> Result<Factored, SolveError> {
         let single = self.precision() == Precision::Single;
         let condensed = self.condensed.as_mut().ok_or(SolveError::NotAnalysed)?;
         if single {
-            match condensed.factor(matrix, Precision::Single) {
+            match condensed.factor(tangent, Precision::Single) {
                 Err(SolveError::NotPositiveDefinite { .. } | SolveError::Singular { .. }) => {}
                 other => return other,
             }
         }
-        let done = condensed.factor(matrix, Precision::Double);
+        let done = condensed.factor(tangent, Precision::Double);
         self.experience.too_coarse |= single && done.is_ok();
         done
     }
@@ -208,19 +209,19 @@ impl Automatic {
     fn solve_condensed(
         &mut self,
         age: Age,
-        matrix: &SparseMatrix,
+        tangent: &Tangent,
         (rhs, x): (&[f64], &mut [f64]),
         reduction: f64,
     ) -> Result<Option<SolveReport>, SolveError> {
         let condensed = self.condensed.as_ref().ok_or(SolveError::NotFactored)?;
         if (age, condensed.precision()) == (Age::Fresh, Precision::Double) {
-            return condensed.solve(matrix, rhs, x).map(Some);
+            return condensed.solve(tangent, rhs, x).map(Some);
         }
         let ends = Ends {
             iterations: self.allowance,
             reduction,
         };
-        let report = condensed.solve_nearby(matrix, (rhs, x), ends)?;
+        let report = condensed.solve_nearby(tangent, (rhs, x), ends)?;
         match &report {
             Some(report) => self.experience.taken = report.krylov_iterations,
             None => self.experience.too_coarse |= age == Age::Fresh,
@@ -250,13 +251,9 @@ impl Automatic {
         Ok(())
     }
 
-    fn fall_back(
-        &mut self,
-        reason: FallBack,
-        matrix: &SparseMatrix,
-    ) -> Result<Factored, SolveError> {
+    fn fall_back(&mut self, reason: FallBack, tangent: &Tangent) -> Result<Factored, SolveError> {
         self.experience.condensed_failed(reason);
-        self.factor_lu(matrix)
+        self.factor_lu(tangent)
     }
 }
 
@@ -279,7 +276,7 @@ impl Automatic {
             Choice::ByCost | Choice::Iterative => None,
         };
         if let Some(method) = direct {
-            let (solver, analysis) = analysed_lu(method, partition)?;
+            let (solver, analysis) = analysed_lu(method, partition.whole())?;
             self.lu = Some(solver);
             return Ok(analysis);
         }
@@ -291,7 +288,7 @@ impl Automatic {
             if self.choice == Choice::ByCost {
                 self.reason = Some(FallBack::ManyUnknowns { unknowns });
             }
-            return Ok(Iterative::analysis(partition));
+            return Ok(Iterative::analysis(partition.whole()));
         }
         let condensed = Condensed::analyse(partition)?;
         // In double precision, in case single is too coarse.
@@ -300,7 +297,7 @@ impl Automatic {
         let (contact, bodies) = condensed.work();
         // Where the bodies outweigh the interface, the LU of both costs more.
         let direct = if contact > bodies {
-            let (solver, other) = analysed_lu(Method::Multifrontal, partition)?;
+            let (solver, other) = analysed_lu(Method::Multifrontal, partition.whole())?;
             let dense = size_of::<f64>() * order * order;
             let is_dearer = contact + REUSED * bodies > other.cost.flops;
             (dense > LARGEST_DENSE || is_dearer).then_some((solver, other))
@@ -315,7 +312,7 @@ impl Automatic {
                     bytes: cheaper.peak_bytes,
                     flops: cheaper.flops,
                 });
-                return Ok(Iterative::analysis(partition));
+                return Ok(Iterative::analysis(partition.whole()));
             }
         }
         if let Some((solver, other)) = direct {
@@ -340,10 +337,10 @@ impl Automatic {
         }
         let mut all = vec![
             Condensed::analyse(partition)?.analysis(self.precision()),
-            analysed_lu(Method::Multifrontal, partition)?.1,
+            analysed_lu(Method::Multifrontal, partition.whole())?.1,
         ];
         if Iterative::analyse(partition).is_some() {
-            all.push(Iterative::analysis(partition));
+            all.push(Iterative::analysis(partition.whole()));
         }
         Ok(all)
     }
@@ -388,38 +385,38 @@ impl Automatic {
         }
     }
 
-    /// Factors a matrix of the analysed structure.
+    /// Factors a matrix of the analysed partition.
     ///
     /// # Errors
     /// Why no method can.
-    pub fn factor(&mut self, matrix: &SparseMatrix) -> Result<Factored, SolveError> {
+    pub fn factor(&mut self, tangent: &Tangent) -> Result<Factored, SolveError> {
         self.factored = None;
         let good = self.allowance >= FEWEST && 4 * self.experience.taken <= 3 * self.allowance;
         if let Some(condensed) = self.condensed.as_mut()
             && self.experience.patience == 0
             && good
-            && let Ok(Some(report)) = condensed.refresh(matrix)
+            && let Ok(Some(report)) = condensed.refresh(tangent)
         {
             self.factored = Some(Made::Condensed(Age::Stale));
             return Ok(report);
         }
-        self.factor_anew(matrix)
+        self.factor_anew(tangent)
     }
 
-    /// Solves `matrix x = rhs` with the last factorisation, to [`REDUCTION`] at least.
+    /// Solves `tangent x = rhs` with the last factorisation, to [`REDUCTION`] at least.
     ///
-    /// `matrix` is the factored one or one close to it: the residual is that of
-    /// `matrix`. The old content of `x` is not used.
+    /// `tangent` is the factored one or one close to it: the residual is that of
+    /// `tangent`. The old content of `x` is not used.
     ///
     /// # Errors
     /// Why there is no accurate answer.
     pub fn solve(
         &mut self,
-        matrix: &SparseMatrix,
+        tangent: &Tangent,
         rhs: &[f64],
         x: &mut [f64],
     ) -> Result<SolveReport, SolveError> {
-        self.solve_to(matrix, rhs, x, REDUCTION)
+        self.solve_to(tangent, rhs, x, REDUCTION)
     }
 
     /// Solves as [`solve`](Self::solve) does, with a residual reduced by `reduction`
@@ -430,31 +427,33 @@ impl Automatic {
     /// Why there is no accurate answer.
     pub fn solve_to(
         &mut self,
-        matrix: &SparseMatrix,
+        tangent: &Tangent,
         rhs: &[f64],
         x: &mut [f64],
         reduction: f64,
     ) -> Result<SolveReport, SolveError> {
         if self.factored == Some(Made::Iterative) {
             let iterative = self.iterative.as_ref().ok_or(SolveError::NotFactored)?;
-            if let Some(report) = iterative.solve(matrix, rhs, x, reduction)? {
+            if let Some(report) = iterative.solve(tangent, rhs, x, reduction)? {
                 return Ok(report);
             }
             self.give_up(FallBack::NotConverged);
-            self.factor_anew(matrix)?;
+            self.factor_anew(tangent)?;
         }
         while let Some(Made::Condensed(age)) = self.factored {
-            match self.solve_condensed(age, matrix, (rhs, &mut *x), reduction) {
+            match self.solve_condensed(age, tangent, (rhs, &mut *x), reduction) {
                 Ok(Some(report)) => return Ok(report),
-                Ok(None) => self.factor_anew(matrix)?,
+                Ok(None) => self.factor_anew(tangent)?,
                 Err(SolveError::Inaccurate { backward_error }) => {
-                    self.fall_back(FallBack::Inaccurate { backward_error }, matrix)?
+                    self.fall_back(FallBack::Inaccurate { backward_error }, tangent)?
                 }
                 Err(other) => return Err(other),
             };
         }
-        match (self.lu.as_mut(), self.factored) {
-            (Some(solver), Some(_)) => solver.solve(matrix, rhs, x),
+        match (self.lu.as_mut(), self.partition.as_ref(), self.factored) {
+            (Some(solver), Some(partition), Some(_)) => {
+                solver.solve(&tangent.sum(partition), rhs, x)
+            }
             _ => Err(SolveError::NotFactored),
         }
     }
@@ -466,8 +465,8 @@ impl Automatic {
             && condensed.is_some_and(|condensed| condensed.share_of_contact() <= CHEAP)
     }
 
-    /// Solves `matrix x = rhs` where `matrix` differs from the last factored one in
-    /// entries between kept supervariables only, on the factors of the interior there
+    /// Solves `tangent x = rhs` where `tangent` differs from the last factored one in
+    /// contact only, on the factors of the interior there
     /// are and without refinement: for corrections that are checked by other means.
     ///
     /// `None` where there are no such factors after all.
@@ -476,12 +475,12 @@ impl Automatic {
     /// Why the contact system cannot be solved.
     pub fn solve_other_contact(
         &mut self,
-        matrix: &SparseMatrix,
+        tangent: &Tangent,
         rhs: &[f64],
     ) -> Result<Option<Vec<f64>>, SolveError> {
         match (&mut self.condensed, self.factored) {
             (Some(condensed), Some(Made::Condensed(_))) => {
-                condensed.solve_other_contact(matrix, rhs)
+                condensed.solve_other_contact(tangent, rhs)
             }
             _ => Ok(None),
         }
@@ -501,7 +500,7 @@ fn analysed_lu(
     Ok((solver, Analysis { cost, method }))
 }
 
-/// As a solver of plain matrices, in which everything is bulk.
+/// As a solver of plain matrices, in which everything is bulk; it works on copies of them.
 impl LinearSolver for Automatic {
     fn analyse(&mut self, structure: &Structure) -> Result<Cost, SolveError> {
         let analysis = Self::analyse(self, &Partition::from(structure))?;
@@ -509,7 +508,7 @@ impl LinearSolver for Automatic {
     }
 
     fn factor(&mut self, matrix: &SparseMatrix) -> Result<FactorReport, SolveError> {
-        let factored = Self::factor(self, matrix)?;
+        let factored = Self::factor(self, &Tangent::from(matrix.clone()))?;
         Ok(FactorReport {
             factor_entries: factored.factor_entries,
             ..FactorReport::default()
@@ -522,6 +521,6 @@ impl LinearSolver for Automatic {
         rhs: &[f64],
         x: &mut [f64],
     ) -> Result<SolveReport, SolveError> {
-        Self::solve(self, matrix, rhs, x)
+        Self::solve(self, &Tangent::from(matrix.clone()), rhs, x)
     }
 }

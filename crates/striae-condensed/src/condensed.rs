@@ -21,12 +21,12 @@ use crate::{
     partition::Partition,
     report::{Analysis, Factored, Method},
     scaling,
+    tangent::Tangent,
 };
 use contact::ContactSystem;
 use rayon::prelude::*;
 use striae_sparse::{
-    Cost, Equilibration, Factors, Precision, SolveError, SolveReport, SparseMatrix, gmres::Ends,
-    refinement,
+    Cost, Equilibration, Factors, Precision, SolveError, SolveReport, gmres::Ends, refinement,
 };
 use substitution::Substitution;
 use untouched::Untouched;
@@ -113,19 +113,24 @@ impl Condensed {
     /// Factors a matrix of the analysed structure, the interior in the given precision.
     pub(crate) fn factor(
         &mut self,
-        matrix: &SparseMatrix,
+        tangent: &Tangent,
         precision: Precision,
     ) -> Result<Factored, SolveError> {
         self.numeric = None;
-        if !self.partition.fits(matrix) {
+        if !self.partition.fits(tangent) {
             return Err(SolveError::NotAnalysed);
         }
-        let rows = self.kept.rows(&self.partition, matrix)?;
-        let scaling = scaling::by_diagonal(&self.partition, matrix, (&self.kept, &rows))?;
-        let prescribed = prescribed(&self.partition, matrix);
+        let rows = self.kept.rows(tangent)?;
+        let scaling = scaling::by_diagonal(&self.partition, tangent, (&self.kept, &rows))?;
+        let prescribed = prescribed(&self.partition, tangent);
         let (partition, bodies) = (&self.partition, self.bodies.par_iter_mut());
         bodies.try_for_each(|body| {
-            body.factor((partition, matrix), &scaling, &prescribed, precision)
+            body.factor(
+                (partition, &tangent.bodies),
+                &scaling,
+                &prescribed,
+                precision,
+            )
         })?;
         let nothing = ContactSystem::default();
         self.factor_contact(rows, scaling, (prescribed, precision), nothing)
@@ -179,17 +184,15 @@ impl Condensed {
     /// Factors the contact system of a matrix on the older interior.
     ///
     /// `None` when there is no interior or it has other prescribed unknowns.
-    pub(crate) fn refresh(
-        &mut self,
-        matrix: &SparseMatrix,
-    ) -> Result<Option<Factored>, SolveError> {
+    pub(crate) fn refresh(&mut self, tangent: &Tangent) -> Result<Option<Factored>, SolveError> {
         let Some(older) = self.numeric.take() else {
             return Ok(None);
         };
-        if !self.partition.fits(matrix) || prescribed(&self.partition, matrix) != older.prescribed {
+        if !self.partition.fits(tangent) || prescribed(&self.partition, tangent) != older.prescribed
+        {
             return Ok(None);
         }
-        let rows = self.kept.rows(&self.partition, matrix)?;
+        let rows = self.kept.rows(tangent)?;
         let bulk = older.scaling.columns;
         let scaling = scaling::with_multipliers(&self.partition, bulk, (&self.kept, &rows));
         let interior = (older.prescribed, older.precision);
@@ -200,7 +203,7 @@ impl Condensed {
     /// Solves with the last factorisation and refines.
     pub(crate) fn solve(
         &self,
-        matrix: &SparseMatrix,
+        tangent: &Tangent,
         rhs: &[f64],
         x: &mut [f64],
     ) -> Result<SolveReport, SolveError> {
@@ -208,17 +211,17 @@ impl Condensed {
         let factors = Substitution {
             condensed: self,
             numeric,
-            matrix,
+            tangent,
             purpose: Purpose::Answer,
         };
-        refinement::solve(matrix, &numeric.scaling, &factors, rhs, x)
+        refinement::solve(tangent, &numeric.scaling, &factors, rhs, x)
     }
 
     /// Solves with the factors as a preconditioner, of an older interior or in single
     /// precision; `None` when they are too far from the matrix.
     pub(crate) fn solve_nearby(
         &self,
-        matrix: &SparseMatrix,
+        tangent: &Tangent,
         (rhs, x): (&[f64], &mut [f64]),
         ends: Ends,
     ) -> Result<Option<SolveReport>, SolveError> {
@@ -226,10 +229,10 @@ impl Condensed {
         let factors = Substitution {
             condensed: self,
             numeric,
-            matrix,
+            tangent,
             purpose: Purpose::Precondition,
         };
-        refinement::solve_nearby(matrix, &numeric.scaling, &factors, (rhs, x), ends)
+        refinement::solve_nearby(tangent, &numeric.scaling, &factors, (rhs, x), ends)
     }
 
     /// Factors the contact system of a matrix on the older interior and solves once.
@@ -237,10 +240,10 @@ impl Condensed {
     /// `None` as for [`refresh`](Self::refresh).
     pub(crate) fn solve_other_contact(
         &mut self,
-        matrix: &SparseMatrix,
+        tangent: &Tangent,
         rhs: &[f64],
     ) -> Result<Option<Vec<f64>>, SolveError> {
-        if self.refresh(matrix)?.is_none() {
+        if self.refresh(tangent)?.is_none() {
             return Ok(None);
         }
         let numeric = self.numeric.as_ref().ok_or(SolveError::NotFactored)?;
@@ -254,7 +257,7 @@ impl Condensed {
         let factors = Substitution {
             condensed: self,
             numeric,
-            matrix,
+            tangent,
             purpose: Purpose::Answer,
         };
         factors.solve_in_place(&mut x);
@@ -299,14 +302,14 @@ impl Condensed {
 }
 
 /// Bulk unknowns whose rows have no entry but the diagonal.
-pub(crate) fn prescribed(partition: &Partition, matrix: &SparseMatrix) -> Vec<bool> {
+pub(crate) fn prescribed(partition: &Partition, tangent: &Tangent) -> Vec<bool> {
     (0..partition.unknowns())
         .into_par_iter()
         .with_min_len(1024)
         .map(|u| {
             let i = partition.owner(u).0;
             partition.bulk_group(i).contains(&u)
-                && matrix.row(u).all(|(v, a)| (u == v) == (a != 0.0))
+                && tangent.row(u).all(|(v, a)| (u == v) == (a != 0.0))
         })
         .collect()
 }

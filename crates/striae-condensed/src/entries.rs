@@ -1,8 +1,8 @@
 //! Kept unknowns, numbered, and the entries of a matrix between them.
 
-use crate::partition::Partition;
+use crate::{partition::Partition, tangent::Tangent};
 use rayon::prelude::*;
-use striae_sparse::{SolveError, SparseMatrix, Supervariable, sparse_elimination::Row};
+use striae_sparse::{SolveError, Supervariable, sparse_elimination::Row};
 
 /// Not kept.
 const NONE: u32 = u32::MAX;
@@ -50,30 +50,16 @@ impl Kept {
     ///
     /// # Errors
     /// [`SolveError::NotFinite`] for an entry of theirs.
-    pub(crate) fn rows(
-        &self,
-        partition: &Partition,
-        matrix: &SparseMatrix,
-    ) -> Result<Vec<Row>, SolveError> {
-        let row = |&u: &u32| {
-            let row = u as usize;
-            let owner = partition.owner(row).0;
-            let values = &matrix.values()[partition.row(owner, row - partition.group(owner).start)];
-            let mut entries = Row::with_capacity(values.len());
+    pub(crate) fn rows(&self, tangent: &Tangent) -> Result<Vec<Row>, SolveError> {
+        let row = |&unknown: &u32| {
+            let row = unknown as usize;
             let mut sum = 0.0;
-            for edge in partition.edges(owner) {
-                let target = partition.target(edge);
-                if !partition.is_kept(Supervariable(target)) {
-                    continue;
-                }
-                let values = &values[partition.column(edge)..];
-                for (v, &a) in partition.group(target).zip(values) {
-                    sum += 0.0 * a;
-                    if a != 0.0 {
-                        entries.push((self.places[v], a));
-                    }
-                }
-            }
+            let between = tangent.row(row).filter_map(|(column, a)| {
+                let place = self.places[column];
+                sum += if place == NONE { 0.0 } else { 0.0 * a };
+                (place != NONE && a != 0.0).then_some((place, a))
+            });
+            let entries: Row = between.collect();
             match sum == 0.0 {
                 true => Ok(entries),
                 false => Err(SolveError::NotFinite { row }),

@@ -32,13 +32,14 @@ use crate::{
     partition::Partition,
     report::{Analysis, Factored, Method},
     scaling,
+    tangent::Tangent,
 };
 use constraints::{Compliance, Constraint};
 use contact::Contact;
 use rayon::prelude::*;
 use scaled::Scaled;
 use striae_sparse::{
-    Age, Cost, Equilibration, SolveError, SolveReport, SparseMatrix, Structure,
+    Age, Cost, Equilibration, LinearOperator, SolveError, SolveReport, Structure,
     aggregation::Hierarchy,
     gmres::{self, Ends},
 };
@@ -131,19 +132,19 @@ impl Iterative {
     }
 
     /// Makes the preconditioner of a matrix of the analysed structure.
-    pub(crate) fn factor(&mut self, matrix: &SparseMatrix) -> Result<Factored, SolveError> {
+    pub(crate) fn factor(&mut self, tangent: &Tangent) -> Result<Factored, SolveError> {
         self.numeric = None;
-        if !self.nodes.partition.fits(matrix) {
+        if !self.nodes.partition.fits(tangent) {
             return Err(SolveError::NotAnalysed);
         }
         let partition = &self.nodes.partition;
         let kept = Kept::of(partition);
-        let rows = kept.rows(partition, matrix)?;
-        let scaling = scaling::by_diagonal(partition, matrix, (&kept, &rows))?;
-        let prescribed = prescribed(&self.nodes.partition, matrix);
+        let rows = kept.rows(tangent)?;
+        let scaling = scaling::by_diagonal(partition, tangent, (&kept, &rows))?;
+        let prescribed = prescribed(&self.nodes.partition, tangent);
         let scaled = Scaled {
             nodes: &self.nodes,
-            matrix,
+            tangent,
             scaling: &scaling,
             prescribed: &prescribed,
         };
@@ -181,7 +182,7 @@ impl Iterative {
     /// Solves to a reduction of the scaled residual; `None` when that takes too many iterations.
     pub(crate) fn solve(
         &self,
-        matrix: &SparseMatrix,
+        tangent: &Tangent,
         rhs: &[f64],
         x: &mut [f64],
         reduction: f64,
@@ -191,15 +192,15 @@ impl Iterative {
         let multiply = |v: &[f64], image: &mut [f64]| {
             let mut v = v.to_vec();
             scaling.scale_columns(&mut v);
-            matrix.multiply(&v, image);
+            tangent.multiply(&v, image);
             scaling.scale_rows(image);
         };
         let precondition = |v: &mut [f64]| self.precondition(numeric, v);
         x.fill(0.0);
         for (u, _) in numeric.prescribed.iter().enumerate().filter(|p| *p.1) {
-            x[u] = rhs[u] / matrix.get(u, u).unwrap_or(1.0);
+            x[u] = rhs[u] / tangent.diagonal(u);
         }
-        let mut residual = matrix.residual(x, rhs, &scaling.columns);
+        let mut residual = tangent.residual(x, rhs, &scaling.columns);
         scaling.scale_rows(&mut residual.values);
         let size = gmres::norm(&residual.values);
         let (mut iterations, mut present) = (0, size);
@@ -216,7 +217,7 @@ impl Iterative {
             for (u, d) in correction.solution.iter().enumerate() {
                 x[u] += d * scaling.columns[u];
             }
-            residual = matrix.residual(x, rhs, &scaling.columns);
+            residual = tangent.residual(x, rhs, &scaling.columns);
             scaling.scale_rows(&mut residual.values);
             let before = present;
             present = gmres::norm(&residual.values);

@@ -1,20 +1,24 @@
 //! What belongs to the bodies in a structure, and what to their interface.
 //!
 //! The *bulk* is what elements couple: of every supervariable the leading unknowns,
-//! and the edges between them. What contact may couple beyond, [`Partition::grown`]
-//! adds to the pattern: its supervariables are the *interface*, and they are *kept*
-//! when the rest of the bulk is condensed, as are those with other unknowns
-//! (multipliers).
+//! and the edges between them. Ties may couple more ([`Partition::tied`]), and so may
+//! contact ([`Partition::grown`]): their supervariables are the *interface*, and they are
+//! *kept* when the rest of the bulk is condensed, as are those with other unknowns
+//! (multipliers). Bodies and ties share a pattern; contact has a part of the
+//! [`Tangent`](crate::Tangent) of its own.
 
-use crate::growth::Growth;
+use crate::{growth::Growth, tangent::Tangent};
 use std::{ops::Deref, ops::Range, sync::Arc};
-use striae_sparse::{SparseMatrix, Structure, StructureError, Supervariable};
+use striae_sparse::{CompressedRows, PlacedBlock, Structure, StructureError, Supervariable};
 use thiserror::Error;
 
 /// A structure with its bulk and its interface; cheap to clone.
 #[derive(Clone, Debug)]
 pub struct Partition {
+    /// Pattern of the bodies.
     structure: Structure,
+    /// The same with what contact couples.
+    whole: Structure,
     parts: Arc<Parts>,
 }
 
@@ -72,6 +76,7 @@ impl From<&Structure> for Partition {
                 points: None,
             }),
             structure: structure.clone(),
+            whole: structure.clone(),
         }
     }
 }
@@ -118,12 +123,13 @@ impl Partition {
         Ok(self)
     }
 
-    /// The same grown by more cliques, whose supervariables are kept.
+    /// The same with cliques that ties couple: they join the pattern of the bodies, not the
+    /// bulk, and their supervariables are kept.
     ///
     /// # Errors
     /// When a clique names a supervariable that does not exist.
-    pub fn grown(&self, growth: &Growth) -> Result<Self, StructureError> {
-        let structure = self.structure.grown(growth.cliques())?;
+    pub fn tied(&self, ties: &Growth) -> Result<Self, StructureError> {
+        let structure = self.structure.grown(ties.cliques())?;
         let mut parts = (*self.parts).clone();
         parts.bulk_edges.clear();
         for i in 0..structure.supervariables() {
@@ -132,18 +138,71 @@ impl Partition {
                 older.is_some_and(|older| self.is_bulk_edge(older))
             }));
         }
-        for s in growth.cliques().iter().flatten() {
-            parts.kept[s.0] = true;
-        }
+        parts.keep(ties);
         Ok(Self {
             structure,
+            whole: self.whole.grown(ties.cliques())?,
             parts: Arc::new(parts),
         })
     }
 
-    /// The structure.
+    /// The same with cliques that contact couples, whose supervariables are kept.
+    ///
+    /// # Errors
+    /// When a clique names a supervariable that does not exist.
+    pub fn grown(&self, growth: &Growth) -> Result<Self, StructureError> {
+        let mut parts = (*self.parts).clone();
+        let whole = self.whole.grown(growth.cliques())?;
+        parts.keep(growth);
+        Ok(Self {
+            structure: self.structure.clone(),
+            whole,
+            parts: Arc::new(parts),
+        })
+    }
+
+    /// The sum of blocks of contact, which couple kept supervariables.
+    ///
+    /// # Errors
+    /// By what the partition is to [grow](Self::grown) before it has a place for all blocks.
+    pub fn gathered(&self, blocks: &[PlacedBlock]) -> Result<CompressedRows, Growth> {
+        let is_kept = |unknown: usize| self.is_kept(self.owner(unknown));
+        let is_known = |block: &PlacedBlock| {
+            let mut rows = block.rows.iter().map(|row| row.0);
+            let mut columns = block.columns.iter().map(|run| run.start);
+            rows.all(is_kept) && columns.all(is_kept)
+        };
+        let unknown = (0..blocks.len()).filter(|&at| !is_known(&blocks[at]));
+        let mut outside: Vec<usize> = unknown.collect();
+        let gathered = CompressedRows::gathered(&self.whole, blocks);
+        match gathered {
+            Ok(rows) if outside.is_empty() => return Ok(rows),
+            Ok(_) => {}
+            Err(others) => outside.extend(others),
+        }
+        outside.sort_unstable();
+        outside.dedup();
+        Err(outside.iter().map(|&at| self.clique(&blocks[at])).collect())
+    }
+
+    /// Supervariables that a block couples.
+    fn clique(&self, block: &PlacedBlock) -> Vec<Supervariable> {
+        let rows = block.rows.iter().map(|row| row.0);
+        let unknowns = rows.chain(block.columns.iter().map(|run| run.start));
+        let mut clique: Vec<Supervariable> = unknowns.map(|unknown| self.owner(unknown)).collect();
+        clique.sort_unstable();
+        clique.dedup();
+        clique
+    }
+
+    /// Pattern of the bodies.
     pub fn structure(&self) -> &Structure {
         &self.structure
+    }
+
+    /// The same with what contact couples.
+    pub fn whole(&self) -> &Structure {
+        &self.whole
     }
 
     /// Whether a supervariable belongs to the interface.
@@ -158,8 +217,9 @@ impl Partition {
     }
 
     /// Whether a matrix is on this pattern.
-    pub(crate) fn fits(&self, matrix: &SparseMatrix) -> bool {
-        self.structure.same_as(matrix.structure())
+    pub(crate) fn fits(&self, tangent: &Tangent) -> bool {
+        self.structure.same_as(tangent.bodies.structure())
+            && tangent.contact.unknowns() == self.unknowns()
     }
 
     /// Unknowns of supervariable `i` that belong to the bulk.
@@ -181,5 +241,14 @@ impl Partition {
     /// Points of all supervariables.
     pub(crate) fn points(&self) -> Option<&[[f64; 3]]> {
         self.parts.points.as_deref()
+    }
+}
+
+impl Parts {
+    /// The supervariables of cliques are kept.
+    fn keep(&mut self, cliques: &Growth) {
+        for s in cliques.cliques().iter().flatten() {
+            self.kept[s.0] = true;
+        }
     }
 }

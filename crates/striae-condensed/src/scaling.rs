@@ -1,10 +1,8 @@
 //! Scaling by the diagonal of the bulk.
 
-use crate::{entries::Kept, partition::Partition};
+use crate::{entries::Kept, partition::Partition, tangent::Tangent};
 use rayon::prelude::*;
-use striae_sparse::{
-    Equilibration, SolveError, SparseMatrix, check_finite, root, sparse_elimination::Row,
-};
+use striae_sparse::{Equilibration, SolveError, check_finite, root, sparse_elimination::Row};
 
 /// Rows that a thread looks at at a time.
 const ROWS: usize = 512;
@@ -19,14 +17,14 @@ const ROWS: usize = 512;
 /// that only other multipliers know come last.
 pub(crate) fn by_diagonal(
     partition: &Partition,
-    matrix: &SparseMatrix,
+    tangent: &Tangent,
     (kept, rows): (&Kept, &[Row]),
 ) -> Result<Equilibration, SolveError> {
-    check_finite(matrix)?;
+    check_finite(&tangent.bodies)?;
     let mut bulk = vec![1.0; partition.unknowns()];
     for i in 0..partition.supervariables() {
         for u in partition.bulk_group(i) {
-            bulk[u] = root(matrix.get(u, u).unwrap_or(0.0).abs());
+            bulk[u] = root(tangent.diagonal(u).abs());
         }
     }
     Ok(with_multipliers(partition, bulk, (kept, rows)))

@@ -2,7 +2,9 @@
 //!
 //! Longer than other files, as all tests are of the same blocks.
 
-use striae_condensed::{Automatic, Choice, FallBack, Growth, Method, Partition};
+mod parts;
+
+use striae_condensed::{Automatic, Choice, FallBack, Growth, Method, Partition, Tangent};
 use striae_sparse::{Age, SolveError, SparseMatrix, Structure, Supervariable};
 
 /// What the lower block's face does on the upper one's.
@@ -71,8 +73,8 @@ impl Blocks {
     }
 
     /// Stiffness of both blocks; bottom and top are prescribed, as rows without other entries.
-    fn matrix(&self, stiffness: [f64; 2], contact: Contact) -> SparseMatrix {
-        let mut matrix = SparseMatrix::zero(self.partition.structure());
+    fn matrix(&self, stiffness: [f64; 2], contact: Contact) -> Tangent {
+        let mut matrix = SparseMatrix::zero(self.partition.whole());
         let area = self.side * self.side;
         let nodes = 2 * self.height * area;
         let held = |s: Supervariable| s.0 < area || s.0 >= nodes - area;
@@ -99,7 +101,7 @@ impl Blocks {
         for tie in self.ties() {
             self.tie(&mut matrix, &tie, contact);
         }
-        matrix
+        parts::tangent(&self.partition, &matrix, 0.25)
     }
 
     fn cells(&self, block: usize) -> impl Iterator<Item = [Supervariable; 8]> {
@@ -154,7 +156,7 @@ fn entry(a: usize, b: usize) -> f64 {
 
 fn solution(
     solver: &mut Automatic,
-    (blocks, matrix): (&Blocks, &SparseMatrix),
+    (blocks, matrix): (&Blocks, &Tangent),
     rhs: &[f64],
 ) -> (Vec<f64>, Method) {
     let mut x = vec![0.0; rhs.len()];
@@ -284,7 +286,7 @@ fn an_indefinite_interior_is_left_to_the_lu() {
     let mut matrix = blocks.matrix([1.0, 1.0], Contact::Stick);
     let node = Supervariable(25 + 12);
     let u = blocks.first(node);
-    matrix.add(&[u], &[u], &[-20.0]).unwrap();
+    matrix.bodies.add(&[u], &[u], &[-20.0]).unwrap();
     let rhs = load(blocks.partition.unknowns());
     let mut solver = Automatic::new(Choice::ByCost);
     solver.analyse(&blocks.partition).unwrap();
@@ -309,7 +311,7 @@ fn a_bulk_that_is_not_quite_symmetric_is_refined() {
         blocks.first(Supervariable(30)),
         blocks.first(Supervariable(31)),
     );
-    matrix.add(&[a], &[b], &[0.05]).unwrap();
+    matrix.bodies.add(&[a], &[b], &[0.05]).unwrap();
     let rhs = load(blocks.partition.unknowns());
     let (x, method) = solution(
         &mut Automatic::new(Choice::ByCost),
@@ -333,7 +335,7 @@ fn a_block_that_nothing_holds_is_named() {
     let nodes = 2 * 3 * 16;
     for s in (nodes - 16..nodes).map(Supervariable) {
         let u = blocks.first(s);
-        (u..u + 3).for_each(|u| matrix.add(&[u], &[u], &[-1.0]).unwrap());
+        (u..u + 3).for_each(|u| matrix.bodies.add(&[u], &[u], &[-1.0]).unwrap());
     }
     let mut solver = Automatic::new(Choice::ByCost);
     solver.analyse(&blocks.partition).unwrap();
@@ -385,7 +387,7 @@ fn factors_are_in_double_precision_where_single_is_too_coarse() {
     let mut solver = Automatic::new(Choice::ByCost);
     solution(&mut solver, (&blocks, &matrix), &rhs);
     assert!(!solver.experience().too_coarse);
-    matrix.add(&pair, &pair, &spring).unwrap();
+    matrix.bodies.add(&pair, &pair, &spring).unwrap();
     let (x, method) = solution(&mut solver, (&blocks, &matrix), &rhs);
     assert!(solver.experience().too_coarse);
     assert_eq!(method, Method::Condensed);
@@ -431,7 +433,7 @@ fn other_contact_is_solved_on_the_same_interior() {
     let rhs = load(blocks.partition.unknowns());
     let mut solver = Automatic::new(Choice::ByCost);
     assert!(!solver.has_interior());
-    let mut matrix = blocks.matrix([1.0, 2.0], Contact::Part(2));
+    let matrix = blocks.matrix([1.0, 2.0], Contact::Part(2));
     solution(&mut solver, (&blocks, &matrix), &rhs);
     assert!(solver.has_interior());
     for contact in [
@@ -442,9 +444,7 @@ fn other_contact_is_solved_on_the_same_interior() {
         Contact::Stick,
     ] {
         let other = blocks.matrix([1.0, 2.0], contact);
-        let partition = &blocks.partition;
-        partition.set_kept_rows(&mut matrix, &partition.kept_rows(&other, Vec::new()));
-        let x = solver.solve_other_contact(&matrix, &rhs).unwrap().unwrap();
+        let x = solver.solve_other_contact(&other, &rhs).unwrap().unwrap();
         let (expected, _) = solution(
             &mut Automatic::new(Choice::Multifrontal),
             (&blocks, &other),

@@ -1,6 +1,8 @@
 //! The iterative solver on two elastic blocks in contact, against the LU.
 
-use striae_condensed::{Automatic, Choice, FallBack, Method, Partition, REDUCTION};
+mod parts;
+
+use striae_condensed::{Automatic, Choice, FallBack, Method, Partition, REDUCTION, Tangent};
 use striae_sparse::{SolveReport, SparseMatrix, Structure, Supervariable};
 
 #[path = "../../striae-sparse/tests/elastic/mod.rs"]
@@ -67,8 +69,8 @@ impl Blocks {
         self.partition.unknowns_of(s).start
     }
 
-    fn matrix(&self, stiffness: [f64; 2], contact: Contact, top: Top) -> SparseMatrix {
-        let mut matrix = SparseMatrix::zero(self.partition.structure());
+    fn matrix(&self, stiffness: [f64; 2], contact: Contact, top: Top) -> Tangent {
+        let mut matrix = SparseMatrix::zero(self.partition.whole());
         let area = self.side * self.side;
         let nodes = 2 * self.height * area;
         let held = |s: Supervariable| s.0 < area || top == Top::Held && s.0 >= nodes - area;
@@ -91,7 +93,7 @@ impl Blocks {
         for tie in ties(self.side, self.height) {
             self.tie(&mut matrix, &tie, contact);
         }
-        matrix
+        parts::tangent(&self.partition, &matrix, 0.0)
     }
 
     /// Normal and tangential rows of one node; forces act on the nodes it is tied to.
@@ -162,7 +164,7 @@ fn ties(side: usize, height: usize) -> Vec<Vec<Supervariable>> {
 
 fn solved(
     solver: &mut Automatic,
-    (partition, matrix): (&Partition, &SparseMatrix),
+    (partition, matrix): (&Partition, &Tangent),
     rhs: &[f64],
 ) -> (Vec<f64>, Method, SolveReport) {
     let mut x = vec![0.0; rhs.len()];
@@ -257,7 +259,7 @@ fn a_body_without_support_is_left_to_the_lu() {
     let mut matrix = blocks.matrix([1.0, 1.0], Contact::Stick, Top::Held);
     // Far from definite, but not singular.
     for u in blocks.first(Supervariable(90))..blocks.first(Supervariable(100)) {
-        matrix.add(&[u], &[u], &[-40.0]).unwrap();
+        matrix.bodies.add(&[u], &[u], &[-40.0]).unwrap();
     }
     let rhs = blocks.load();
     let mut solver = Automatic::new(Choice::Iterative);
@@ -281,7 +283,7 @@ fn bulks_of_other_than_three_unknowns_are_left_to_direct_solvers() {
     (0..4).for_each(|u| matrix.add(&[u], &[u], &[2.0]).unwrap());
     let (x, method, _) = solved(
         &mut Automatic::new(Choice::Iterative),
-        (&Partition::from(&structure), &matrix),
+        (&Partition::from(&structure), &Tangent::from(matrix)),
         &[2.0; 4],
     );
     assert!(x.iter().all(|x| (x - 1.0).abs() < 1e-15));

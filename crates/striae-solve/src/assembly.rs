@@ -27,13 +27,13 @@ use std::{
     sync::Arc,
     time::{Duration, Instant},
 };
-use striae_condensed::{Growth, Partition};
+use striae_condensed::{Growth, Partition, Tangent};
 use striae_contact::{
     complementarity::Iteration, configuration::Configuration, evaluation::Evaluation,
     segment::Derivatives, selection::Selection, side::Side, unknowns::Tractions,
 };
 use striae_mesh::Vec3;
-use striae_sparse::{SparseMatrix, Supervariable};
+use striae_sparse::{PlacedBlock, SparseMatrix};
 use striae_surface::node::SurfaceNode;
 use terms::Triple;
 use ties::{Moving, Scratch, Tie};
@@ -107,12 +107,12 @@ pub struct Assembled {
 pub enum Fault {
     /// The trial state cannot be evaluated.
     CutBack(CutBack),
-    /// Terms have no place in the pattern, which is to grow.
+    /// Contact has no place in the pattern, which is to grow.
     Pattern(Growth),
 }
 
-/// Evaluates the problem at a trial state and fills the matrix; without derivatives the matrix
-/// stays as it is. The background takes the `room` of one that is of no use any more.
+/// Evaluates the problem at a trial state and fills the tangent; without derivatives the tangent
+/// stays as it is.
 ///
 /// # Errors
 /// See [`Fault`].
@@ -122,8 +122,7 @@ pub fn assemble(
     contact: Contact,
     derivatives: Derivatives,
     layout: &Layout,
-    (partition, places, matrix): (&Partition, &ElementPlaces, &mut SparseMatrix),
-    room: Background,
+    (partition, places, tangent): (&Partition, &ElementPlaces, &mut Tangent),
 ) -> Result<Assembled, Fault> {
     // On a thread of the pool, as from others each parallel part would have to wake one.
     rayon::scope(|_| {
@@ -133,8 +132,7 @@ pub fn assemble(
             contact,
             derivatives,
             layout,
-            (partition, places, matrix),
-            room,
+            (partition, places, tangent),
         )
     })
 }
@@ -145,11 +143,14 @@ fn on_this_thread(
     contact: Contact,
     derivatives: Derivatives,
     layout: &Layout,
-    (partition, places, matrix): (&Partition, &ElementPlaces, &mut SparseMatrix),
-    room: Background,
+    (partition, places, tangent): (&Partition, &ElementPlaces, &mut Tangent),
 ) -> Result<Assembled, Fault> {
     let imposed = setting.imposed;
-    let mut system = System::new(setting.context, layout, (partition, matrix), trial, imposed);
+    let Tangent {
+        bodies,
+        contact: contact_rows,
+    } = tangent;
+    let mut system = System::new(setting.context, layout, bodies, trial, imposed);
     match derivatives {
         Derivatives::First => system.matrix.clear(),
         Derivatives::None => system.derivatives = derivatives,
@@ -166,13 +167,19 @@ fn on_this_thread(
     let (contacts, evaluation_time) = evaluated;
     let (contacts, bodies) = (contacts?, bodies?);
     let background = match derivatives {
-        Derivatives::First => system.background(room),
+        Derivatives::First => system.background(),
         Derivatives::None => Background::default(),
     };
-    let ((), adding_time) = timed(|| system.add_contacts(&contacts));
-    system.stabilise(trial, imposed);
-    if !system.growth.is_empty() {
-        return Err(Fault::Pattern(system.growth));
+    let (gathered, adding_time) = timed(|| {
+        system.add_contacts(&contacts);
+        system.stabilise(trial, imposed);
+        match derivatives {
+            Derivatives::First => system.gathered(&contacts, partition).map(Some),
+            Derivatives::None => Ok(None),
+        }
+    });
+    if let Some(gathered) = gathered? {
+        *contact_rows = gathered;
     }
     system.pass_on();
     system.condense(imposed);
@@ -210,10 +217,14 @@ fn configurations<'a>(setting: &Setting<'a>, trial: &'a Trial) -> Vec<Configurat
 struct System<'a> {
     context: &'a StepContext<'a>,
     layout: &'a Layout,
-    partition: &'a Partition,
+    /// The part of the bodies in the tangent.
     matrix: &'a mut SparseMatrix,
-    /// Whether the matrix is filled in.
+    /// Whether the tangent is filled in.
     derivatives: Derivatives,
+    /// Whether the bodies are linearised elsewhere, so that their part stays as it is.
+    is_linearised: bool,
+    /// What contact couples but for the terms that are blocks as they are.
+    blocks: Vec<PlacedBlock<'static>>,
     residual: Vec<f64>,
     forces: NodalForces,
     force_scale: f64,
@@ -227,8 +238,6 @@ struct System<'a> {
     longest_push: Vec<f64>,
     /// Unknowns of every pair.
     triples: Vec<Vec<Option<Triple>>>,
-    /// Cliques of terms that the pattern has no place for.
-    growth: Growth,
     scratch: Scratch,
 }
 
@@ -236,7 +245,7 @@ impl<'a> System<'a> {
     fn new(
         context: &'a StepContext<'a>,
         layout: &'a Layout,
-        (partition, matrix): (&'a Partition, &'a mut SparseMatrix),
+        matrix: &'a mut SparseMatrix,
         trial: &'a Trial,
         imposed: &Imposed,
     ) -> Self {
@@ -245,9 +254,10 @@ impl<'a> System<'a> {
         let mut system = Self {
             context,
             layout,
-            partition,
             matrix,
             derivatives: Derivatives::First,
+            is_linearised: false,
+            blocks: Vec::new(),
             residual: vec![0.0; layout.unknowns()],
             forces: NodalForces::zero(nodes, problem.model.rigid_surfaces.len()),
             force_scale: 0.0,
@@ -257,7 +267,6 @@ impl<'a> System<'a> {
             moving: Vec::new(),
             longest_push: vec![0.0; problem.model.rigid_surfaces.len()],
             triples: Vec::new(),
-            growth: Growth::default(),
             scratch: Scratch::default(),
         };
         system.find_ties(trial, imposed);
@@ -289,14 +298,6 @@ impl System<'_> {
         self.pass_on();
         self.hold_followers();
         Ok(bodies)
-    }
-
-    fn clique(&self, nodes: &[GlobalNode]) -> Vec<Supervariable> {
-        let owners = nodes.iter().flat_map(|&node| self.owners(node));
-        let mut owners: Vec<Supervariable> = owners.collect();
-        owners.sort_unstable();
-        owners.dedup();
-        owners
     }
 
     /// Holds traction unknowns of nodes that are not kept any more at zero.
@@ -334,7 +335,7 @@ impl System<'_> {
 
     fn hold(&mut self, unknown: usize, residual: f64, scale: f64) {
         self.residual[unknown] = residual;
-        if self.derivatives == Derivatives::First {
+        if self.derivatives == Derivatives::First && !self.is_linearised {
             self.matrix.add_to_diagonal(unknown, scale);
         }
     }

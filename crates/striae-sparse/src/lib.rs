@@ -24,6 +24,7 @@
 //! ```
 
 pub mod aggregation;
+mod compressed;
 pub mod dense;
 mod descent;
 mod equilibration;
@@ -51,14 +52,15 @@ pub mod symmetric;
 mod tree;
 pub mod triangular;
 
+pub use compressed::{CompressedRows, PlacedBlock};
 pub use equilibration::{Equilibration, check_finite, root};
 pub use error::{OutsidePattern, SolveError, StructureError};
 pub use faer::Mat;
 pub use faer_lu::FaerLu;
-pub use matrix::{CliquePlaces, Member, MemberRows, PlacedBlock, SparseMatrix};
+pub use matrix::{CliquePlaces, Member, MemberRows, SparseMatrix};
 pub use multifrontal::MultifrontalLu;
 pub use ordering::nested_dissection;
-pub use products::Residual;
+pub use products::{LinearOperator, Residual, RowSums};
 pub use real::{Precision, Real};
 pub use schur::{SchurCholesky, Values, mirror_lower};
 pub use singularity::Factors;

@@ -4,10 +4,8 @@
 //! by its supervariable and needs no column indices of its own.
 
 mod cliques;
-mod scatter;
 
 pub use cliques::{CliquePlaces, Member, MemberRows};
-pub use scatter::PlacedBlock;
 
 use crate::{error::OutsidePattern, structure::Structure, supervariable::Supervariable};
 use rayon::prelude::*;
@@ -311,7 +309,7 @@ fn runs(structure: &Structure, unknowns: &[usize]) -> Vec<Run> {
 
 /// Edges from `i` to others, given in ascending order with the slots of `edges` where
 /// theirs belong; the slot of one that is no neighbour as the error.
-fn edges_to(
+pub(crate) fn edges_to(
     structure: &Structure,
     i: usize,
     ascending: &[(usize, usize)],

@@ -14,6 +14,104 @@ use std::ops::Range;
 /// Supervariables in a piece.
 const PIECE: usize = 256;
 
+/// A square matrix that is known by its products with vectors.
+pub trait LinearOperator: Sync {
+    /// Number of rows and columns.
+    fn unknowns(&self) -> usize;
+
+    /// `y = A x`.
+    ///
+    /// # Panics
+    /// When a vector does not have one entry per unknown.
+    fn multiply(&self, x: &[f64], y: &mut [f64]);
+
+    /// What each row of `A x` sums up, unknowns measured in `units`.
+    fn row_sums(&self, x: &[f64], units: &[f64]) -> Vec<RowSums>;
+
+    /// `b - A x` and its componentwise backward error, unknowns measured in `units`.
+    fn residual(&self, x: &[f64], b: &[f64], units: &[f64]) -> Residual {
+        let sizes = x.iter().zip(units).map(|(x, unit)| x.abs() / unit);
+        let largest = sizes.fold(0.0, f64::max);
+        let round_off = 1000.0 * x.len() as f64 * f64::EPSILON;
+        let mut backward_error = 0.0;
+        let sums = self.row_sums(x, units);
+        let rows = sums.iter().zip(b).map(|(row, b)| {
+            let r = b - row.product;
+            let bound = row.norm * largest + b.abs();
+            let size = row.terms + b.abs();
+            let size = if size > round_off * bound {
+                size
+            } else {
+                row.terms + row.norm * largest
+            };
+            let error = if r == 0.0 { 0.0 } else { r.abs() / size };
+            // `f64::max` would drop an error that is not a number.
+            if error > backward_error || error.is_nan() {
+                backward_error = error;
+            }
+            r
+        });
+        let values = rows.collect();
+        Residual {
+            values,
+            backward_error,
+        }
+    }
+}
+
+/// Sums over a row of `A x`.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct RowSums {
+    /// Of `a x`.
+    pub product: f64,
+    /// Of `|a x|`.
+    pub terms: f64,
+    /// Of `|a|` in the units of `x`.
+    pub norm: f64,
+}
+
+impl RowSums {
+    /// Adds an entry `a` whose unknown is `x`.
+    pub fn add(&mut self, a: f64, x: f64, unit: f64) {
+        self.product += a * x;
+        self.terms += (a * x).abs();
+        self.norm += a.abs() * unit;
+    }
+}
+
+impl LinearOperator for SparseMatrix {
+    fn unknowns(&self) -> usize {
+        self.structure().unknowns()
+    }
+
+    fn multiply(&self, x: &[f64], y: &mut [f64]) {
+        Self::multiply(self, x, y);
+    }
+
+    fn row_sums(&self, x: &[f64], units: &[f64]) -> Vec<RowSums> {
+        let mut rows = vec![RowSums::default(); x.len()];
+        self.by_pieces(&mut rows, |supervariables, rows| {
+            let mut rest = rows;
+            let mut own = Vec::new();
+            for i in supervariables {
+                own.clear();
+                for group in self.structure().column_groups(i) {
+                    own.extend(x[group.clone()].iter().zip(&units[group]));
+                }
+                let (rows, others) = rest.split_at_mut(self.structure().group(i).len());
+                rest = others;
+                for (local, row) in rows.iter_mut().enumerate() {
+                    let values = &self.values()[self.structure().row(i, local)];
+                    for (&a, &(&x, &unit)) in values.iter().zip(&own) {
+                        row.add(a, x, unit);
+                    }
+                }
+            }
+        });
+        rows
+    }
+}
+
 impl SparseMatrix {
     /// `y = A x`.
     ///
@@ -40,52 +138,6 @@ impl SparseMatrix {
                 subtract_transposed(rows, Block::new(values, own.len()), &own);
             }
         });
-    }
-
-    /// `b - A x` and its componentwise backward error, unknowns measured in `units`.
-    pub fn residual(&self, x: &[f64], b: &[f64], units: &[f64]) -> Residual {
-        let sizes = x.iter().zip(units).map(|(x, unit)| x.abs() / unit);
-        let largest = sizes.fold(0.0, f64::max);
-        let round_off = 1000.0 * x.len() as f64 * f64::EPSILON;
-        let mut rows = vec![(0.0, 0.0); b.len()];
-        self.by_pieces(&mut rows, |supervariables, rows| {
-            let mut rest = rows;
-            let mut own = Vec::new();
-            for i in supervariables {
-                own.clear();
-                for group in self.structure().column_groups(i) {
-                    own.extend(x[group.clone()].iter().zip(&units[group]));
-                }
-                let group = self.structure().group(i);
-                let (rows, others) = rest.split_at_mut(group.len());
-                rest = others;
-                for (local, (row, b)) in rows.iter_mut().zip(&b[group]).enumerate() {
-                    let (mut sum, mut terms, mut norm) = (0.0, 0.0, 0.0);
-                    let values = &self.values()[self.structure().row(i, local)];
-                    for (a, &(x, unit)) in values.iter().zip(&own) {
-                        sum += a * x;
-                        terms += (a * x).abs();
-                        norm += a.abs() * unit;
-                    }
-                    let r = b - sum;
-                    let bound = norm * largest + b.abs();
-                    let size = terms + b.abs();
-                    let size = if size > round_off * bound {
-                        size
-                    } else {
-                        terms + norm * largest
-                    };
-                    *row = (r, if r == 0.0 { 0.0 } else { r.abs() / size });
-                }
-            }
-        });
-        let (values, errors): (Vec<f64>, Vec<f64>) = rows.into_iter().unzip();
-        // `f64::max` would drop an error that is not a number.
-        let worse = |m: f64, &e: &f64| if e > m || e.is_nan() { e } else { m };
-        Residual {
-            backward_error: errors.iter().fold(0.0, worse),
-            values,
-        }
     }
 
     /// Calls `work` for pieces of the supervariables with their parts of a vector, on all threads.

@@ -2,8 +2,8 @@
 
 use proptest::prelude::*;
 use striae_sparse::{
-    CliquePlaces, Member, MemberRows, OutsidePattern, PlacedBlock, SparseMatrix, Structure,
-    StructureError, Supervariable,
+    CliquePlaces, CompressedRows, LinearOperator, Member, MemberRows, OutsidePattern, PlacedBlock,
+    RowSums, SparseMatrix, Structure, StructureError, Supervariable,
 };
 
 fn s(list: &[usize]) -> Vec<Supervariable> {
@@ -184,14 +184,13 @@ fn cliques_outside_the_pattern_have_no_place() {
 
 proptest! {
     #[test]
-    fn blocks_added_at_once_are_those_added_one_by_one(
+    fn gathered_blocks_are_those_added_one_by_one(
         values in prop::collection::vec(-1.0..1.0_f64, 40 * 36),
         rows in prop::collection::vec(prop::array::uniform3(0_usize..10), 40),
         triples in prop::collection::vec(prop::array::uniform4(0_usize..4), 40),
     ) {
         let structure = Structure::from_cliques(vec![0, 3, 6, 10], &[s(&[0, 1, 2])]);
         let mut expected = SparseMatrix::zero(&structure.unwrap());
-        let mut found = expected.clone();
         let mut blocks = Vec::new();
         for ((values, rows), triples) in values.chunks(36).zip(&rows).zip(&triples) {
             let triples = triples.map(|at| [0, 3, 6, 7][at]);
@@ -200,13 +199,28 @@ proptest! {
             expected.add(&rows[1..], &columns, &values[12..]).unwrap();
             blocks.push(PlacedBlock {
                 rows: vec![(rows[1], 1), (rows[2], 2)],
-                triples: triples.to_vec(),
-                values,
+                columns: triples.iter().map(|&at| at..at + 3).collect(),
+                values: values.into(),
             });
         }
-        found.add_all(&blocks).unwrap();
+        let found = CompressedRows::gathered(expected.structure(), &blocks).unwrap();
         for row in 0..10 {
-            prop_assert!(expected.row(row).eq(found.row(row)));
+            prop_assert!(expected.row(row).filter(|entry| entry.1 != 0.0).eq(found.row(row)));
+        }
+        let x: Vec<f64> = (0..10).map(|at| f64::from(at) - 4.5).collect();
+        let (mut by_rows, mut by_blocks) = (vec![1.0; 10], vec![1.0; 10]);
+        found.add_product(&x, &mut by_rows);
+        blocks.iter().for_each(|block| block.add_product(&x, &mut by_blocks));
+        let units = [1.0; 10];
+        let mut sums = vec![RowSums::default(); 10];
+        found.add_row_sums(&x, &units, &mut sums);
+        for (row, expected) in expected.row_sums(&x, &units).iter().enumerate() {
+            let round_off = 1e-14 * (1.0 + expected.terms);
+            prop_assert!((sums[row].product - expected.product).abs() <= round_off);
+            prop_assert!((sums[row].terms - expected.terms).abs() <= round_off);
+            prop_assert!((sums[row].norm - expected.norm).abs() <= round_off);
+            prop_assert!((by_rows[row] - 1.0 - expected.product).abs() <= round_off);
+            prop_assert!((by_blocks[row] - 1.0 - expected.product).abs() <= round_off);
         }
     }
 }
@@ -215,15 +229,19 @@ proptest! {
 fn blocks_outside_the_pattern_are_named() {
     let block = |row: usize, column: usize| PlacedBlock {
         rows: vec![(1, 0), (row, 0)],
-        triples: vec![3, column],
-        values: &[1.0; 6],
+        columns: vec![3..6, column..column + 3],
+        values: vec![1.0; 6].into(),
     };
     let cliques = [s(&[0, 1]), s(&[1, 2])];
     let structure = Structure::from_cliques(vec![0, 3, 6, 9], &cliques).unwrap();
-    let mut matrix = SparseMatrix::zero(&structure);
     let blocks = [block(3, 0), block(0, 6), block(2, 0), block(7, 0)];
-    assert_eq!(matrix.add_all(&blocks), Err(vec![1, 3]));
-    assert_eq!(matrix.add_all(&[]), Ok(()));
+    assert_eq!(
+        CompressedRows::gathered(&structure, &blocks),
+        Err(vec![1, 3])
+    );
+    let nothing = CompressedRows::gathered(&structure, &[]).unwrap();
+    assert_eq!(nothing, CompressedRows::zero(9));
+    assert!(nothing.is_zero());
 }
 
 #[test]

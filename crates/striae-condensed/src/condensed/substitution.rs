@@ -1,15 +1,15 @@
 //! Substitution with the factors of the condensed solver.
 
 use super::{Condensed, Numeric, contact::ContactSystem};
-use crate::interface::Purpose;
+use crate::{interface::Purpose, tangent::Tangent};
 use rayon::prelude::*;
-use striae_sparse::{Equilibration, Factors, SparseMatrix, Supervariable};
+use striae_sparse::{Equilibration, Factors, Supervariable};
 
 /// Factors together with the matrix, whose columns of known unknowns are needed.
 pub(super) struct Substitution<'a> {
     pub(super) condensed: &'a Condensed,
     pub(super) numeric: &'a Numeric,
-    pub(super) matrix: &'a SparseMatrix,
+    pub(super) tangent: &'a Tangent,
     pub(super) purpose: Purpose,
 }
 
@@ -77,29 +77,47 @@ impl Factors for Substitution<'_> {
 impl Substitution<'_> {
     /// Solves for the known unknowns and takes them to the right-hand side.
     fn eliminate_known(&self, x: &mut [f64]) {
-        let structure = self.matrix.structure();
+        let bodies = &self.tangent.bodies;
+        let structure = bodies.structure();
         let Equilibration { rows, columns } = &self.numeric.scaling;
+        let known = &self.numeric.contact.known;
+        let mut is_zero = true;
         for i in 0..structure.supervariables() {
             for (local, u) in structure.group(i).enumerate() {
-                if !self.numeric.contact.known[u] {
+                if !known[u] {
                     continue;
                 }
-                let diagonal = self.matrix.get(u, u).unwrap_or(1.0);
-                x[u] /= diagonal * rows[u] * columns[u];
+                x[u] /= self.tangent.diagonal(u) * rows[u] * columns[u];
                 if x[u] == 0.0 {
                     continue;
                 }
+                is_zero = false;
                 for j in structure.neighbours(Supervariable(i)) {
                     let Some(edge) = structure.edge(j.0, i) else {
                         continue;
                     };
                     for (a, row) in structure.group(j.0).enumerate() {
                         let at = structure.row(j.0, a).start + structure.column(edge) + local;
-                        let entry = self.matrix.values()[at];
                         if row != u {
-                            x[row] -= entry * rows[row] * columns[u] * x[u];
+                            x[row] -= bodies.values()[at] * rows[row] * columns[u] * x[u];
                         }
                     }
+                }
+            }
+        }
+        if !is_zero {
+            self.take_known(known, x);
+        }
+    }
+
+    /// Takes what contact has in the columns of known unknowns to the right-hand side.
+    fn take_known(&self, known: &[bool], x: &mut [f64]) {
+        let Equilibration { rows, columns } = &self.numeric.scaling;
+        for &unknown in &self.condensed.kept.unknowns {
+            let row = unknown as usize;
+            for (column, a) in self.tangent.contact.row(row) {
+                if known[column] && column != row {
+                    x[row] -= a * rows[row] * columns[column] * x[column];
                 }
             }
         }

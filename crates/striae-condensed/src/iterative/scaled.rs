@@ -1,12 +1,13 @@
 //! The equilibrated system, seen by nodes.
 
 use super::{NONE, Nodes};
-use striae_sparse::{Equilibration, SparseMatrix, aggregation::MODES};
+use crate::tangent::Tangent;
+use striae_sparse::{Equilibration, aggregation::MODES};
 
 /// A matrix with its scaling.
 pub(super) struct Scaled<'a> {
     pub(super) nodes: &'a Nodes,
-    pub(super) matrix: &'a SparseMatrix,
+    pub(super) tangent: &'a Tangent,
     pub(super) scaling: &'a Equilibration,
     pub(super) prescribed: &'a [bool],
 }
@@ -15,7 +16,7 @@ impl Scaled<'_> {
     /// Scaled entries of a row, but those of prescribed unknowns.
     pub(super) fn row(&self, u: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let scale = self.scaling.rows[u];
-        let entries = self.matrix.row(u).filter(|&(v, _)| !self.prescribed[v]);
+        let entries = self.tangent.row(u).filter(|&(v, _)| !self.prescribed[v]);
         entries.map(move |(v, a)| (v, scale * a * self.scaling.columns[v]))
     }
 
@@ -35,7 +36,7 @@ impl Scaled<'_> {
     pub(super) fn bulk_row(&self, node: usize, mut add: impl FnMut(usize, &[f64; 9])) {
         let structure = &self.nodes.partition;
         let i = self.nodes.supervariables[node] as usize;
-        let values = self.matrix.values();
+        let values = self.tangent.bodies.values();
         for edge in structure.edges(i).filter(|&e| structure.is_bulk_edge(e)) {
             let j = structure.target(edge);
             let (other, mirror) = (self.nodes.of[j], structure.edge(j, i));

@@ -1,20 +1,21 @@
 //! All terms of a pair in the system.
 //!
 //! Where nothing is tied and no body that moves answers contact, a term is a dense block
-//! whose rows and columns are unknowns as they are, and blocks are added on all threads.
-//! All other terms are added one by one.
+//! whose rows and columns are unknowns as they are. Of all other terms blocks are made one
+//! by one, with ties eliminated. What contact has in the tangent is the sum of all blocks.
 
 use rayon::prelude::*;
-use striae_contact::{segment::Derivatives, term::LocalTerm};
-use striae_sparse::PlacedBlock;
+use striae_condensed::Partition;
+use striae_contact::{evaluation::Evaluation, term::LocalTerm};
+use striae_sparse::{CompressedRows, PlacedBlock};
 
-use super::{System, terms::Answer};
+use super::{Fault, System, terms::Answer};
 
 /// Terms for one thread at a time.
 const TERMS: usize = 16;
 
 impl System<'_> {
-    /// Adds the terms of a pair; remembers the cliques of those that have no place.
+    /// Adds the terms of a pair; those that are blocks as they are to the residual only.
     pub(super) fn add_terms(&mut self, pair: usize, terms: &[LocalTerm]) {
         if !self.is_plain(pair) {
             for term in terms {
@@ -28,18 +29,25 @@ impl System<'_> {
                 self.residual[unknown] += residual;
             }
         }
-        if self.derivatives == Derivatives::None {
-            return;
+    }
+
+    /// What contact has in the tangent.
+    ///
+    /// # Errors
+    /// By what the pattern is to grow.
+    pub(super) fn gathered(
+        &mut self,
+        contacts: &[Evaluation],
+        partition: &Partition,
+    ) -> Result<CompressedRows, Fault> {
+        let mut blocks: Vec<PlacedBlock> = std::mem::take(&mut self.blocks);
+        for (pair, evaluation) in contacts.iter().enumerate() {
+            if self.is_plain(pair) {
+                let terms = evaluation.terms.par_iter().with_min_len(TERMS);
+                blocks.par_extend(terms.map(|term| self.placed(pair, term)));
+            }
         }
-        let (known, unknown): (Vec<&LocalTerm>, Vec<_>) =
-            terms.iter().partition(|term| self.is_known(pair, term));
-        let blocks = known.par_iter().with_min_len(TERMS);
-        let blocks: Vec<PlacedBlock> = blocks.map(|term| self.placed(pair, term)).collect();
-        let added = self.matrix.add_all(&blocks);
-        let outside = added.err().unwrap_or_default();
-        let outside = outside.iter().map(|&at| known[at]).chain(unknown);
-        let cliques: Vec<_> = outside.map(|term| self.clique_of(pair, term)).collect();
-        self.growth.extend(cliques);
+        partition.gathered(&blocks).map_err(Fault::Pattern)
     }
 
     /// Whether the unknowns of a pair's terms are unknowns of the system as they are.
@@ -63,8 +71,11 @@ impl System<'_> {
             rows: rows
                 .map(|(at, row)| (self.unknown(pair, *row), at))
                 .collect(),
-            triples: columns.map(|column| self.unknown(pair, *column)).collect(),
-            values: &term.tangent,
+            columns: columns
+                .map(|column| self.unknown(pair, *column))
+                .map(|first| first..first + 3)
+                .collect(),
+            values: term.tangent.as_slice().into(),
         }
     }
 

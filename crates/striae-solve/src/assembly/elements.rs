@@ -4,17 +4,16 @@
 
 use rayon::prelude::*;
 use std::{ops::Range, sync::Arc};
-use striae_condensed::Growth;
 use striae_contact::segment::Derivatives;
 use striae_element::{ElementBlock, ElementError, ElementFault, ElementResponse, Stiffness};
 use striae_law::bulk::Past;
 use striae_mesh::{ElementId, MAX_CORNERS, NodeId, Vec3};
-use striae_sparse::{CliquePlaces, Member, MemberRows, OutsidePattern};
+use striae_sparse::{CliquePlaces, Member, MemberRows};
 
 use super::{
     ElementPlaces, Fault, StepContext, System, Trial,
     inertia::{Inertia, Share},
-    ties::Slot,
+    ties::{Part, Slot},
 };
 use crate::{node::GlobalNode, outcome::CutBack, problem::Problem, state::State};
 
@@ -190,9 +189,8 @@ impl System<'_> {
         }
         if !self.is_plain_element(place, at) {
             let (unknowns, tangent) = (self.unknowns(nodes), share.response.stiffness.by_rows());
-            return self
-                .add_square(nodes, &unknowns, &tangent)
-                .map_err(|_| Fault::Pattern(Growth::from_iter([self.clique(nodes)])));
+            self.add_square(nodes, &unknowns, &tangent);
+            return Ok(());
         }
         for (slot, &node) in nodes.iter().enumerate() {
             let rows = self.matrix.rows_of_member(place.places, (at, slot));
@@ -239,27 +237,23 @@ impl System<'_> {
         unknowns: &[usize],
         force: &[f64],
         tangent: &[f64],
-    ) -> Result<(), OutsidePattern> {
+    ) {
         for (unknown, force) in unknowns.iter().zip(force) {
             self.residual[*unknown] += force;
         }
-        self.add_square(nodes, unknowns, tangent)
+        self.add_square(nodes, unknowns, tangent);
     }
 
     /// The same without a force.
-    fn add_square(
-        &mut self,
-        nodes: &[GlobalNode],
-        unknowns: &[usize],
-        tangent: &[f64],
-    ) -> Result<(), OutsidePattern> {
+    fn add_square(&mut self, nodes: &[GlobalNode], unknowns: &[usize], tangent: &[f64]) {
         let is_fixed = |node: &GlobalNode| self.context.fixed[node.components()].contains(&true);
         let is_plain = |node: &GlobalNode| !self.is_bound(*node) && !is_fixed(node);
         if self.derivatives == Derivatives::None {
-            return Ok(());
+            return;
         }
         if nodes.iter().all(is_plain) {
-            return self.matrix.add(unknowns, unknowns, tangent);
+            let added = self.matrix.add(unknowns, unknowns, tangent);
+            return added.expect("elements are in the pattern of the bodies");
         }
         let slots = unknowns.iter().enumerate().map(|(at, &unknown)| Slot {
             unknown,
@@ -267,7 +261,7 @@ impl System<'_> {
             against: None,
         });
         let slots: Vec<Slot> = slots.collect();
-        self.add_rows(&slots, &slots, tangent)
+        self.add_rows(Part::Bodies, &slots, &slots, tangent);
     }
 }
 

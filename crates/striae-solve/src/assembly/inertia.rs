@@ -169,8 +169,7 @@ impl System<'_> {
         for at in [0, 4, 8] {
             tangent[at] = stiffness;
         }
-        self.add_dense(&[node], &unknowns, force.as_slice(), &tangent)
-            .expect("the unknowns of a body are in the pattern");
+        self.add_dense(&[node], &unknowns, force.as_slice(), &tangent);
     }
 
     /// Forces carried over from the last converged state.

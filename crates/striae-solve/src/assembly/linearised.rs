@@ -9,12 +9,14 @@
 //! ```
 //!
 //! Rows of supervariables that are not kept know no contact. A correction that solves
-//! the first linear system leaves nothing in them, and none that follows changes that.
+//! the first linear system leaves nothing in them, and none that follows changes that. `K`
+//! is the part of the bodies in the tangent, and blocks of loads on faces that contact
+//! surfaces cover in part, which are in the other one.
 
-use striae_condensed::Partition;
+use striae_condensed::{Partition, Tangent};
 use striae_contact::{complementarity::Iteration, evaluation::Evaluation, segment::Derivatives};
 use striae_mesh::Vec3;
-use striae_sparse::SparseMatrix;
+use striae_sparse::PlacedBlock;
 
 use super::{Fault, Setting, System, Trial, configurations, contacts::contacts};
 use crate::{layout::Layout, norms::Norms};
@@ -22,8 +24,8 @@ use crate::{layout::Layout, norms::Norms};
 /// All but contact at a trial state.
 #[derive(Clone, Debug, Default)]
 pub struct Background {
-    /// Tangent in the rows of kept supervariables.
-    rows: Vec<f64>,
+    /// Blocks in the part of contact.
+    blocks: Vec<PlacedBlock<'static>>,
     residual: Vec<f64>,
     applied: Vec<Vec3>,
     force_scale: f64,
@@ -41,7 +43,8 @@ pub struct ContactAssembled {
 }
 
 /// Evaluates contact at a trial state `change` away from where the background was
-/// linearised, and puts it into the matrix in the place of what contact was there.
+/// linearised, and puts it in the place of what contact there was in the tangent, whose
+/// part of the bodies is that of the background.
 ///
 /// No rigid body may have coordinates among the unknowns.
 ///
@@ -53,7 +56,7 @@ pub fn assemble_contact(
     (trial, change): (&Trial, &[f64]),
     iteration: Iteration,
     layout: &Layout,
-    (partition, matrix): (&Partition, &mut SparseMatrix),
+    (partition, tangent): (&Partition, &mut Tangent),
 ) -> Result<ContactAssembled, Fault> {
     let &Setting {
         context,
@@ -61,9 +64,8 @@ pub fn assemble_contact(
         imposed,
         ..
     } = setting;
-    partition.set_kept_rows(matrix, &background.rows);
-    let mut system = System::new(context, layout, (partition, matrix), trial, imposed);
-    system.linear_background(background, change);
+    let mut system = System::new(context, layout, &mut tangent.bodies, trial, imposed);
+    system.linear_background(background, change, partition);
     let configurations = configurations(setting, trial);
     for (pair, configuration) in configurations.iter().enumerate() {
         system.find_triples(pair, configuration);
@@ -77,9 +79,7 @@ pub fn assemble_contact(
     )?;
     system.add_contacts(&contacts);
     system.stabilise(trial, imposed);
-    if !system.growth.is_empty() {
-        return Err(Fault::Pattern(system.growth));
-    }
+    tangent.contact = system.gathered(&contacts, partition)?;
     system.pass_on();
     let norms = system.norms(trial, &contacts);
     system.idle(selections);
@@ -92,10 +92,10 @@ pub fn assemble_contact(
 }
 
 impl System<'_> {
-    /// What there is before contact is added, in the room of an older one.
-    pub(super) fn background(&self, older: Background) -> Background {
+    /// What there is before contact is added.
+    pub(super) fn background(&self) -> Background {
         Background {
-            rows: self.partition.kept_rows(self.matrix, older.rows),
+            blocks: self.blocks.clone(),
             residual: self.residual.clone(),
             applied: self.forces.applied.clone(),
             force_scale: self.force_scale,
@@ -103,13 +103,23 @@ impl System<'_> {
     }
 
     /// Fills in the background at a state `change` away from it.
-    fn linear_background(&mut self, background: &Background, change: &[f64]) {
-        let partition = self.partition;
-        for kept in partition.kept() {
-            let unknowns = partition.unknowns_of(kept);
-            self.residual[unknowns.clone()].copy_from_slice(&background.residual[unknowns]);
+    fn linear_background(
+        &mut self,
+        background: &Background,
+        change: &[f64],
+        partition: &Partition,
+    ) {
+        self.is_linearised = true;
+        for row in partition
+            .kept()
+            .flat_map(|kept| partition.unknowns_of(kept))
+        {
+            self.residual[row] = background.residual[row] + self.matrix.row_product(row, change);
         }
-        partition.add_product_of_kept_rows(self.matrix, change, &mut self.residual);
+        self.blocks.clone_from(&background.blocks);
+        for block in &self.blocks {
+            block.add_product(change, &mut self.residual);
+        }
         self.force_scale = background.force_scale;
         self.forces.applied.clone_from(&background.applied);
     }

@@ -1,6 +1,5 @@
 //! Loads on faces, whole or where no contact surface covers them.
 
-use striae_condensed::Growth;
 use striae_contact::{
     configuration::Configuration,
     exposed::{SurfaceLoad, covered_load},
@@ -27,22 +26,15 @@ impl System<'_> {
         for (planned, kind) in self.context.plan.loads.iter().zip(&imposed.loads) {
             for face in &planned.faces {
                 let extent = planned.extent;
-                let fault = |error| {
+                let body = planned.body.0;
+                let loaded = self.face_load(configurations, trial, body, *face, kind, extent);
+                loaded.map_err(|error| {
                     Fault::CutBack(CutBack::Load {
-                        body: self.context.problem.model.bodies[planned.body.0]
-                            .name
-                            .clone(),
+                        body: self.context.problem.model.bodies[body].name.clone(),
                         set: planned.set.clone(),
                         error,
                     })
-                };
-                let result =
-                    self.face_load(configurations, trial, planned.body.0, *face, kind, extent);
-                match result {
-                    Ok(()) => {}
-                    Err(FaceFault::Load(error)) => return Err(fault(error)),
-                    Err(FaceFault::Pattern(growth)) => return Err(Fault::Pattern(growth)),
-                }
+                })?;
             }
         }
         Ok(())
@@ -56,7 +48,7 @@ impl System<'_> {
         face: Face,
         kind: &LoadKind,
         extent: LoadExtent,
-    ) -> Result<(), FaceFault> {
+    ) -> Result<(), load::LoadError> {
         let problem = self.context.problem;
         let corners = problem.model.bodies[body].mesh.face_nodes(face);
         let nodes = corners.map(|node| problem.node(body, node));
@@ -84,7 +76,7 @@ impl System<'_> {
             }
         }
         let share = self.inertia.share_of_end;
-        let load = load::response(kind, &reference, &current).map_err(FaceFault::Load)?;
+        let load = load::response(kind, &reference, &current)?;
         let unknowns = nodes.map(|node| self.layout.position(node));
         let unknowns: Vec<usize> = unknowns
             .iter()
@@ -95,8 +87,7 @@ impl System<'_> {
             &unknowns,
             &load.force.map(|f| -f * share),
             &load.tangent.map(|k| -k * share),
-        )
-        .map_err(|_| FaceFault::Pattern(Growth::from_iter([self.clique(&nodes)])))?;
+        );
         for (corner, node) in nodes.iter().enumerate() {
             let force = Vec3::from_column_slice(&load.force[3 * corner..3 * corner + 3]);
             self.forces.applied[*node] += force;
@@ -116,17 +107,8 @@ impl System<'_> {
                 self.add_term(pair, &term, answer);
             }
         }
-        if self.growth.is_empty() {
-            Ok(())
-        } else {
-            Err(FaceFault::Pattern(std::mem::take(&mut self.growth)))
-        }
+        Ok(())
     }
-}
-
-enum FaceFault {
-    Load(load::LoadError),
-    Pattern(Growth),
 }
 
 struct LoadOnFace<'a> {

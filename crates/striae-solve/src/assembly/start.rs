@@ -7,9 +7,8 @@
 //! a = c'' + w' x r + w x (w x r).
 //! ```
 
-use striae_condensed::Partition;
+use striae_condensed::Tangent;
 use striae_mesh::{ElementId, Vec3};
-use striae_sparse::SparseMatrix;
 
 use super::{Imposed, StepContext, System, Trial};
 use crate::{
@@ -29,16 +28,16 @@ pub(crate) fn initial_accelerations(
     velocities: &[Vec3],
     found: &NodalForces,
     layout: &Layout,
-    (partition, matrix): (&Partition, &mut SparseMatrix),
-    solve: impl FnOnce(&SparseMatrix, &[f64]) -> Result<Vec<f64>, CutBack>,
+    tangent: &mut Tangent,
+    solve: impl FnOnce(&Tangent, &[f64]) -> Result<Vec<f64>, CutBack>,
 ) -> Result<(Vec<Vec3>, Vec<Vec3>), CutBack> {
     let mut accelerations = known(context, trial, imposed, velocities);
     let inertia = mass_times(context.problem, &accelerations);
     let forces: Vec<Vec3> = (0..trial.positions.len())
         .map(|node| found.internal[node] - found.applied[node] - found.contact[node])
         .collect();
-    matrix.clear();
-    let mut system = System::new(context, layout, (partition, matrix), trial, imposed);
+    tangent.clear();
+    let mut system = System::new(context, layout, &mut tangent.bodies, trial, imposed);
     system.forces.pushed.clone_from(&found.pushed);
     let at_nodes = context
         .problem
@@ -54,9 +53,10 @@ pub(crate) fn initial_accelerations(
     system.pass_on();
     system.condense_forces(imposed);
     system.hold_the_rest();
-    let correction = solve(system.matrix, &system.residual)?;
+    let System { residual, ties, .. } = system;
+    let correction = solve(tangent, &residual)?;
     for (node, acceleration) in context.problem.global_nodes().zip(&mut accelerations) {
-        *acceleration += match system.tie(node) {
+        *acceleration += match ties.get(node.0).and_then(Option::as_ref) {
             Some(tie) => tie.followed_by(&correction),
             None => {
                 let first = layout.position(node);
@@ -119,8 +119,7 @@ impl System<'_> {
                         *entry = mass[row / 3 * nodes.len() + b];
                     }
                 }
-                self.add_dense(&nodes, &unknowns, &vec![0.0; count], &block)
-                    .expect("elements are in the pattern");
+                self.add_dense(&nodes, &unknowns, &vec![0.0; count], &block);
             }
         }
         for &(node, mass) in &problem.mass_points {

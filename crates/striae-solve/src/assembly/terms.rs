@@ -20,11 +20,11 @@ use striae_contact::{
     configuration::Configuration, segment::Derivatives, term::LocalTerm, unknown::Unknown,
 };
 use striae_mesh::Vec3;
-use striae_sparse::{OutsidePattern, Supervariable};
+use striae_sparse::Supervariable;
 
 use super::{
     System,
-    ties::{Slot, Tie},
+    ties::{Part, Slot, Tie},
 };
 use crate::node::GlobalNode;
 
@@ -44,7 +44,6 @@ pub(super) enum Answer {
 pub(super) struct Triple {
     /// The first of its unknowns.
     pub(super) first: usize,
-    owner: Supervariable,
     /// The node whose position it is.
     pub(super) position: Option<GlobalNode>,
     /// Whether that node follows others.
@@ -62,14 +61,13 @@ impl System<'_> {
         let moving = rigid.filter(|&rigid| self.moving[rigid].is_some());
         let triple = |at: u32| {
             let unknown = numbering.unknown(3 * at);
-            let (first, owner) = self.layout.global(problem, pair, unknown)?;
+            let (first, _) = self.layout.global(problem, pair, unknown)?;
             let position = match unknown {
                 Unknown::Position { side, node, .. } => problem.surface_node(pair, side, node),
                 Unknown::Traction { .. } => None,
             };
             Some(Triple {
                 first,
-                owner,
                 position,
                 follows: position.is_some_and(|node| problem.ties.follower(node).is_some()),
                 against: position.and(moving),
@@ -86,7 +84,7 @@ impl System<'_> {
         triple.as_ref().expect("terms refer to active unknowns")
     }
 
-    /// Adds a contact term; remembers its clique where it has no place.
+    /// Adds a contact term.
     pub(super) fn add_term(&mut self, pair: usize, term: &LocalTerm, answer: Answer) {
         let slots = std::mem::take(&mut self.scratch.slots);
         let slot = |unknown: &u32| {
@@ -109,27 +107,11 @@ impl System<'_> {
             self.residual[row.unknown] += residual;
             self.push_back(row, *residual);
         }
-        let wanted = self.derivatives == Derivatives::First;
-        let is_placed = |system: &mut Self| {
-            system.is_known(pair, term)
-                && system.add_rows(&rows, &columns, &term.tangent).is_ok()
-                && system.turn(&rows, &columns, &term.residual, answer).is_ok()
-        };
-        if wanted && !is_placed(self) {
-            self.growth.extend([self.clique_of(pair, term)]);
+        if self.derivatives == Derivatives::First {
+            self.add_rows(Part::Contact, &rows, &columns, &term.tangent);
+            self.turn(&rows, &columns, &term.residual, answer);
         }
         self.scratch.slots = [rows, columns];
-    }
-
-    /// Supervariables that a term couples.
-    pub(super) fn clique_of(&self, pair: usize, term: &LocalTerm) -> Vec<Supervariable> {
-        let unknowns = term.rows.iter().chain(&term.columns);
-        let owners = unknowns.flat_map(|u| self.owners_of(self.triple(pair, *u)));
-        let mut clique: Vec<Supervariable> = owners.collect();
-        clique.extend(self.opposite_body(pair));
-        clique.sort_unstable();
-        clique.dedup();
-        clique
     }
 
     /// Adds the answer to the force of a row to what acts on the body on the other side.
@@ -150,38 +132,10 @@ impl System<'_> {
         rigid.and_then(|rigid| self.layout.body(rigid))
     }
 
-    /// Whether the supervariables of a term are among those that are kept.
-    pub(super) fn is_known(&self, pair: usize, term: &LocalTerm) -> bool {
-        let partition = self.partition;
-        let mut unknowns = term.rows.iter().chain(term.columns.iter().step_by(3));
-        let mut body = self.opposite_body(pair).into_iter();
-        body.all(|body| partition.is_kept(body))
-            && unknowns.all(|unknown| match self.triple(pair, *unknown) {
-                triple if triple.follows => {
-                    let mut owners = self.owners_of(triple).into_iter();
-                    owners.all(|owner| partition.is_kept(owner))
-                }
-                triple => partition.is_kept(triple.owner),
-            })
-    }
-
-    /// Supervariables that a triple belongs to.
-    fn owners_of(&self, triple: &Triple) -> Vec<Supervariable> {
-        match triple.position.filter(|_| triple.follows) {
-            Some(node) => self.owners(node),
-            None => vec![triple.owner],
-        }
-    }
-
     /// Adds rows of a block, leaving out prescribed ones.
-    pub(super) fn add_rows(
-        &mut self,
-        rows: &[Slot],
-        columns: &[Slot],
-        block: &[f64],
-    ) -> Result<(), OutsidePattern> {
+    pub(super) fn add_rows(&mut self, part: Part, rows: &[Slot], columns: &[Slot], block: &[f64]) {
         if !rows.iter().any(|row| self.is_left_out(row)) {
-            return self.scatter(rows, columns, block);
+            return self.scatter(part, rows, columns, block);
         }
         let kept: Vec<usize> = (0..rows.len())
             .filter(|&at| !self.is_left_out(&rows[at]))
@@ -192,7 +146,7 @@ impl System<'_> {
             .flat_map(|at| &block[at * columns.len()..(at + 1) * columns.len()])
             .copied()
             .collect();
-        self.scatter(&rows, columns, &block)
+        self.scatter(part, &rows, columns, &block);
     }
 
     /// Whether a row is prescribed and answered by no moving body.
@@ -202,15 +156,9 @@ impl System<'_> {
     }
 
     /// Tangent of the forces that turn with a moving body, and of their arms.
-    fn turn(
-        &mut self,
-        rows: &[Slot],
-        columns: &[Slot],
-        residual: &[f64],
-        answer: Answer,
-    ) -> Result<(), OutsidePattern> {
+    fn turn(&mut self, rows: &[Slot], columns: &[Slot], residual: &[f64], answer: Answer) {
         let Some(tie) = columns.iter().find_map(|slot| self.against(slot)) else {
-            return Ok(());
+            return;
         };
         let first_of_node = |at: &usize| matches!(rows[*at].position, Some((_, 0)));
         for at in (0..rows.len()).filter(first_of_node) {
@@ -219,22 +167,16 @@ impl System<'_> {
             if answer != Answer::Dead {
                 // The row states -f.
                 let turned = force.cross_matrix() * tie.tangent;
-                self.scatter(&node, &angles(&tie), &by_rows(&turned))?;
+                self.scatter(Part::Contact, &node, &angles(&tie), &by_rows(&turned));
             }
             if answer == Answer::Opposite {
-                self.shift_arms(&node, &tie, &force)?;
+                self.shift_arms(&node, &tie, &force);
             }
         }
-        Ok(())
     }
 
     /// `(dx - du) x f` in the torque on what pushes the body.
-    fn shift_arms(
-        &mut self,
-        node: &[Slot; 3],
-        tie: &Tie,
-        force: &Vec3,
-    ) -> Result<(), OutsidePattern> {
+    fn shift_arms(&mut self, node: &[Slot; 3], tie: &Tie, force: &Vec3) {
         let fixed = &self.context.fixed_rigid[tie.rigid];
         let free: Vec<usize> = (0..3).filter(|axis| !fixed[3 + axis]).collect();
         let rows: Vec<Slot> = free
@@ -252,9 +194,8 @@ impl System<'_> {
                 .iter()
                 .flat_map(|&row| (0..3).map(move |column| sign * cross[(row, column)]))
                 .collect();
-            self.scatter(&rows, &columns, &block)?;
+            self.scatter(Part::Contact, &rows, &columns, &block);
         }
-        Ok(())
     }
 }
 

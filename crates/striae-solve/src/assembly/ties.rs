@@ -18,9 +18,10 @@
 //! `pushed`, joins `F` and `M`, fully at the end.
 
 use nalgebra::Matrix3;
+use std::{borrow::Cow, ops::Range};
 use striae_contact::segment::Derivatives;
 use striae_mesh::Vec3;
-use striae_sparse::{OutsidePattern, Supervariable};
+use striae_sparse::PlacedBlock;
 
 use super::{Imposed, System, Trial};
 use crate::{
@@ -90,6 +91,15 @@ impl Moving {
     }
 }
 
+/// A part of the tangent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    /// What elements and ties couple.
+    Bodies,
+    /// What contact couples.
+    Contact,
+}
+
 /// What slots become: equations or unknowns, and their weights by slot.
 struct Spread {
     targets: Vec<usize>,
@@ -152,33 +162,24 @@ impl System<'_> {
         Some(body.tie(&self.positions[node]))
     }
 
-    /// Supervariables that a position of a node belongs to.
-    pub(super) fn owners(&self, node: GlobalNode) -> Vec<Supervariable> {
-        self.layout.owners(self.context.problem, node)
-    }
-
-    /// Adds a block to the matrix, with ties eliminated.
-    pub(super) fn scatter(
-        &mut self,
-        rows: &[Slot],
-        columns: &[Slot],
-        block: &[f64],
-    ) -> Result<(), OutsidePattern> {
+    /// Adds a block to a part of the tangent, with ties eliminated.
+    pub(super) fn scatter(&mut self, part: Part, rows: &[Slot], columns: &[Slot], block: &[f64]) {
         if self.derivatives == Derivatives::None {
-            return Ok(());
+            return;
         }
         let tied = |slot: &Slot| {
             let position = slot.position;
             slot.against.is_some() || position.is_some_and(|(node, _)| self.is_bound(node))
         };
         if !rows.iter().chain(columns).any(tied) {
-            let unknowns = &mut self.scratch.unknowns;
+            let mut unknowns = std::mem::take(&mut self.scratch.unknowns);
             for (unknowns, slots) in unknowns.iter_mut().zip([rows, columns]) {
                 unknowns.clear();
                 unknowns.extend(slots.iter().map(|slot| slot.unknown));
             }
-            let [rows, columns] = unknowns;
-            return self.matrix.add(rows, columns, block);
+            self.add_block(part, [&unknowns[0], &unknowns[1]], block.into());
+            self.scratch.unknowns = unknowns;
+            return;
         }
         let rows = self.spread(rows, Kind::Row);
         let columns = self.spread(columns, Kind::Column);
@@ -194,7 +195,41 @@ impl System<'_> {
                 }
             }
         }
-        self.matrix.add(&rows.targets, &columns.targets, &spread)
+        self.add_block(part, [&rows.targets, &columns.targets], spread.into());
+    }
+
+    /// Adds a block of unknowns to a part of the tangent.
+    fn add_block(&mut self, part: Part, [rows, columns]: [&[usize]; 2], values: Cow<[f64]>) {
+        match part {
+            Part::Bodies => {
+                let added = self.matrix.add(rows, columns, &values);
+                added.expect("what elements and ties couple is in the pattern of the bodies");
+            }
+            Part::Contact => self.blocks.push(PlacedBlock {
+                rows: rows.iter().copied().zip(0..).collect(),
+                columns: self.runs(columns),
+                values: values.into_owned().into(),
+            }),
+        }
+    }
+
+    /// Unknowns in runs of one supervariable each.
+    fn runs(&self, unknowns: &[usize]) -> Vec<Range<usize>> {
+        let mut runs: Vec<Range<usize>> = Vec::with_capacity(unknowns.len() / 3 + 1);
+        for &unknown in unknowns {
+            match runs.last_mut() {
+                Some(run) if run.end == unknown && self.are_together(run.start, unknown) => {
+                    run.end += 1;
+                }
+                _ => runs.push(unknown..unknown + 1),
+            }
+        }
+        runs
+    }
+
+    fn are_together(&self, a: usize, b: usize) -> bool {
+        let structure = self.matrix.structure();
+        structure.owner(a) == structure.owner(b)
     }
 
     fn spread(&self, slots: &[Slot], kind: Kind) -> Spread {

@@ -194,7 +194,7 @@ impl Attempt<'_> {
                 assembled = self.assembled(workspace, iteration)?;
             }
             let (next, taken) = self.iterate(&assembled, before, iteration, workspace)?;
-            workspace.reuse(std::mem::replace(&mut assembled, next));
+            assembled = next;
             // Statuses are known with derivatives only, without which a state is not the last.
             if assembled.norms.largest() <= solver.tolerance && !self.is_sure(&assembled) {
                 assembled = self.assembled(workspace, iteration)?;

@@ -6,9 +6,11 @@ pub use memory::Memory;
 
 use std::time::Instant;
 
-use striae_condensed::{Analysis, Automatic, Choice, Growth, Partition};
+use striae_condensed::{Analysis, Automatic, Choice, Growth, Partition, Tangent};
 use striae_contact::{complementarity::Iteration, segment::Derivatives, selection::Selection};
-use striae_sparse::{Age, SolveError, SolveReport, SparseMatrix, Structure, Supervariable};
+use striae_sparse::{
+    Age, CompressedRows, LinearOperator, SolveError, SolveReport, Structure, Supervariable,
+};
 
 use striae_mesh::Vec3;
 
@@ -36,15 +38,13 @@ pub struct Workspace {
     work: LinearWork,
     /// What the last increment started from.
     pub(super) course: Option<Course>,
-    /// A background that is of no use any more but for its room.
-    spare: Background,
 }
 
 pub(super) struct SystemStorage {
     pub(super) layout: Layout,
     pub(super) partition: Partition,
     places: ElementPlaces,
-    pub(super) matrix: SparseMatrix,
+    pub(super) tangent: Tangent,
     pub(super) analysis: Analysis,
     /// By what the pattern has grown beyond the elements.
     growth: Growth,
@@ -65,7 +65,6 @@ impl Workspace {
             system: None,
             work: LinearWork::default(),
             course: None,
-            spare: Background::default(),
         }
     }
 
@@ -115,10 +114,10 @@ impl Workspace {
         let partition = Partition::new(&bulk, &layout.bulk())
             .and_then(|partition| partition.with_points(layout.points(problem)))
             .expect(own);
-        let partition = partition.grown(&tied).expect(own);
+        let partition = partition.tied(&tied).expect(own);
         self.system = Some(SystemStorage {
             places: ElementPlaces::new(problem, &layout, partition.structure()),
-            matrix: SparseMatrix::zero(partition.structure()),
+            tangent: Tangent::zero(&partition),
             partition,
             layout,
             analysis: Analysis::default(),
@@ -159,18 +158,12 @@ impl Workspace {
     ) -> Result<Assembled, Fault> {
         let started = Instant::now();
         let system = self.system.as_mut().expect("the workspace was prepared");
-        let parts = (&system.partition, &system.places, &mut system.matrix);
-        let (layout, room) = (&system.layout, std::mem::take(&mut self.spare));
-        let assembled = assemble(setting, trial, contact, derivatives, layout, parts, room);
+        let parts = (&system.partition, &system.places, &mut system.tangent);
+        let assembled = assemble(setting, trial, contact, derivatives, &system.layout, parts);
         self.work.times.assembly += started.elapsed();
         let of_contact = assembled.as_ref().map(|assembled| assembled.contact_time);
         self.work.times.pairs += of_contact.unwrap_or_default();
         assembled
-    }
-
-    /// Takes back the room of a state that has been left.
-    pub(super) fn reuse(&mut self, left: Assembled) {
-        self.spare = left.background;
     }
 
     /// Whether contact can be corrected on linearised bodies.
@@ -189,7 +182,7 @@ impl Workspace {
     ) -> Result<ContactAssembled, Fault> {
         let started = Instant::now();
         let system = self.system.as_mut().expect("the workspace was prepared");
-        let (layout, parts) = (&system.layout, (&system.partition, &mut system.matrix));
+        let (layout, parts) = (&system.layout, (&system.partition, &mut system.tangent));
         let assembled = assemble_contact(setting, background, moved, iteration, layout, parts);
         self.work.times.contact += started.elapsed();
         assembled
@@ -202,7 +195,7 @@ impl Workspace {
         let system = self.system.as_ref().expect("the workspace was prepared");
         let rhs: Vec<f64> = residual.iter().map(|r| -r).collect();
         let solver = &mut self.solver;
-        let correction = rayon::scope(|_| solver.solve_other_contact(&system.matrix, &rhs));
+        let correction = rayon::scope(|_| solver.solve_other_contact(&system.tangent, &rhs));
         self.work.times.contact += started.elapsed();
         let correction = correction.ok().flatten();
         self.work.contact_corrections += usize::from(correction.is_some());
@@ -249,9 +242,9 @@ impl Workspace {
             system.analysed = true;
         }
         solver.forget();
-        let solve = |matrix: &SparseMatrix, residual: &[f64]| {
-            solver.factor(matrix).map_err(without_mass)?;
-            let solved = solved(solver, matrix, residual, EXACT);
+        let solve = |tangent: &Tangent, residual: &[f64]| {
+            solver.factor(tangent).map_err(without_mass)?;
+            let solved = solved(solver, tangent, residual, EXACT);
             solver.forget();
             let (solution, _) = solved.map_err(without_mass)?;
             Ok(solution)
@@ -263,7 +256,7 @@ impl Workspace {
             velocities,
             forces,
             &system.layout,
-            (&system.partition, &mut system.matrix),
+            &mut system.tangent,
             solve,
         )
     }
@@ -291,7 +284,7 @@ impl Workspace {
         }
         let analysed = Instant::now();
         times.analysis += analysed - started;
-        let report = rayon::scope(|_| solver.factor(&system.matrix))?;
+        let report = rayon::scope(|_| solver.factor(&system.tangent))?;
         times.factorisation += analysed.elapsed();
         (self.work.method, self.work.fall_back) = (report.method, report.fall_back);
         let (correction, age) = self.solution(residual, part)?;
@@ -312,23 +305,23 @@ impl Workspace {
     fn solution(&mut self, residual: &[f64], part: f64) -> Result<(Vec<f64>, Age), SolveError> {
         let started = Instant::now();
         let system = self.system.as_ref().expect("the workspace was prepared");
-        let (correction, report) = solved(&mut self.solver, &system.matrix, residual, part)?;
+        let (correction, report) = solved(&mut self.solver, &system.tangent, residual, part)?;
         self.work.krylov_iterations += report.krylov_iterations;
         self.work.times.solution += started.elapsed();
         Ok((correction, report.age))
     }
 }
 
-/// The solution of `matrix correction = -residual` with a factored matrix.
+/// The solution of `tangent correction = -residual` with a factored tangent.
 fn solved(
     solver: &mut Automatic,
-    matrix: &SparseMatrix,
+    tangent: &Tangent,
     residual: &[f64],
     part: f64,
 ) -> Result<(Vec<f64>, SolveReport), SolveError> {
     let rhs: Vec<f64> = residual.iter().map(|r| -r).collect();
     let mut correction = vec![0.0; rhs.len()];
-    let report = rayon::scope(|_| solver.solve_to(matrix, &rhs, &mut correction, part))?;
+    let report = rayon::scope(|_| solver.solve_to(tangent, &rhs, &mut correction, part))?;
     Ok((correction, report))
 }
 
@@ -336,8 +329,7 @@ impl SystemStorage {
     fn grow(&mut self, growth: Growth) {
         let grown = self.partition.grown(&growth);
         self.partition = grown.expect("cliques name known supervariables");
-        self.places.find(self.partition.structure());
-        self.matrix = SparseMatrix::zero(self.partition.structure());
+        self.tangent.contact = CompressedRows::zero(self.tangent.unknowns());
         self.growth.extend(growth);
         self.analysed = false;
     }

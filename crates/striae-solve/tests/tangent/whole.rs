@@ -1,7 +1,7 @@
 //! The whole system of a step as a function of all unknowns.
 
 use nalgebra::DVector;
-use striae_condensed::{Growth, Partition};
+use striae_condensed::{Growth, Partition, Tangent};
 use striae_contact::{
     complementarity::Iteration,
     segment::Derivatives,
@@ -11,14 +11,14 @@ use striae_contact::{
 };
 use striae_solve::{
     assembly::{
-        Assembled, Background, Contact, ElementPlaces, Fault, Imposed, Setting, StepContext, Trial,
-        assemble, assemble_contact,
+        Assembled, Contact, ElementPlaces, Fault, Imposed, Setting, StepContext, Trial, assemble,
+        assemble_contact,
     },
     layout::{Extent, Layout},
     node::GlobalNode,
     state::State,
 };
-use striae_sparse::{SparseMatrix, Structure, Supervariable};
+use striae_sparse::{LinearOperator, Structure, Supervariable};
 use striae_surface::node::SurfaceNode;
 use striae_verify::{Difference, Random, derivative::directional};
 
@@ -114,12 +114,12 @@ impl<'a> Whole<'a> {
     }
 
     pub fn assert_order_at(&self, u: DVector<f64>) {
-        let (assembled, matrix) = self.evaluated(&u);
-        self.assert_rows_alone(&u, &assembled, &matrix);
+        let (assembled, tangent) = self.evaluated(&u);
+        self.assert_rows_alone(&u, &assembled, &tangent);
         for seed in 0..2 {
             let direction = Random::new(seed).unit(u.len());
             let mut claimed = DVector::zeros(u.len());
-            matrix.multiply(direction.as_slice(), claimed.as_mut_slice());
+            tangent.multiply(direction.as_slice(), claimed.as_mut_slice());
             let order = directional(
                 Difference::Central,
                 |u| self.assembled(u).0,
@@ -133,10 +133,10 @@ impl<'a> Whole<'a> {
         }
     }
 
-    /// Without derivatives rows and results are the same to the last bit, and the matrix stays
+    /// Without derivatives rows and results are the same to the last bit, and the tangent stays
     /// as it is.
-    fn assert_rows_alone(&self, u: &DVector<f64>, whole: &Assembled, matrix: &SparseMatrix) {
-        let mut kept = matrix.clone();
+    fn assert_rows_alone(&self, u: &DVector<f64>, whole: &Assembled, tangent: &Tangent) {
+        let mut kept = tangent.clone();
         let alone = self.filled(u, Derivatives::None, &mut kept);
         assert_eq!(alone.residual, whole.residual);
         assert_eq!(alone.norms, whole.norms);
@@ -147,27 +147,28 @@ impl<'a> Whole<'a> {
             assert_eq!(alone.carried, whole.carried);
             assert_eq!(alone.dissipated, whole.dissipated);
         }
-        assert_eq!(kept.values(), matrix.values());
+        assert_eq!(kept.bodies.values(), tangent.bodies.values());
+        assert_eq!(kept.contact, tangent.contact);
     }
 
     /// The same with all but contact linearised at `u`.
     pub fn assert_order_of_contact(&self) {
         let u = self.unknowns();
-        let (assembled, matrix) = self.evaluated(&u);
+        let (assembled, tangent) = self.evaluated(&u);
         let setting = self.setting();
         let direction = Random::new(2).unit(u.len());
         let mut claimed = DVector::zeros(u.len());
-        matrix.multiply(direction.as_slice(), claimed.as_mut_slice());
+        tangent.multiply(direction.as_slice(), claimed.as_mut_slice());
         let contact = |v: &DVector<f64>| {
             let (trial, change) = (self.trial(v), v - &u);
-            let mut matrix = matrix.clone();
+            let mut tangent = tangent.clone();
             let found = assemble_contact(
                 &setting,
                 &assembled.background,
                 (&trial, change.as_slice()),
                 Iteration::LATER,
                 &self.layout,
-                (&self.partition, &mut matrix),
+                (&self.partition, &mut tangent),
             );
             DVector::from_vec(found.expect("the pattern is full").residual)
         };
@@ -213,31 +214,30 @@ impl<'a> Whole<'a> {
         }
     }
 
-    pub fn assembled(&self, u: &DVector<f64>) -> (DVector<f64>, SparseMatrix) {
-        let (assembled, matrix) = self.evaluated(u);
-        (DVector::from_vec(assembled.residual), matrix)
+    pub fn assembled(&self, u: &DVector<f64>) -> (DVector<f64>, Tangent) {
+        let (assembled, tangent) = self.evaluated(u);
+        (DVector::from_vec(assembled.residual), tangent)
     }
 
-    fn evaluated(&self, u: &DVector<f64>) -> (Assembled, SparseMatrix) {
-        let mut matrix = SparseMatrix::zero(self.partition.structure());
-        let assembled = self.filled(u, Derivatives::First, &mut matrix);
-        (assembled, matrix)
+    fn evaluated(&self, u: &DVector<f64>) -> (Assembled, Tangent) {
+        let mut tangent = Tangent::zero(&self.partition);
+        let assembled = self.filled(u, Derivatives::First, &mut tangent);
+        (assembled, tangent)
     }
 
     fn filled(
         &self,
         u: &DVector<f64>,
         derivatives: Derivatives,
-        matrix: &mut SparseMatrix,
+        tangent: &mut Tangent,
     ) -> Assembled {
         let contact = Contact::Evaluated(Iteration::LATER);
         let trial = self.trial(u);
         let structure = self.partition.structure();
         let places = ElementPlaces::new(self.context.problem, &self.layout, structure);
-        let parts = (&self.partition, &places, matrix);
+        let parts = (&self.partition, &places, tangent);
         let (setting, layout) = (self.setting(), &self.layout);
-        let room = Background::default();
-        match assemble(&setting, &trial, contact, derivatives, layout, parts, room) {
+        match assemble(&setting, &trial, contact, derivatives, layout, parts) {
             Ok(assembled) => assembled,
             Err(Fault::CutBack(reason)) => panic!("{reason}"),
             Err(Fault::Pattern(_)) => panic!("the pattern is full"),

@@ -1,0 +1,105 @@
+//! The matrix of bodies in contact, in two parts.
+
+use crate::partition::Partition;
+use std::{borrow::Cow, cmp::Ordering, iter};
+use striae_sparse::{CompressedRows, LinearOperator, RowSums, SparseMatrix};
+
+/// What the bodies are, and what contact adds between supervariables that are kept.
+///
+/// A method that looks at the bodies alone, as the condensed solver does for their
+/// interiors, need not tell the two apart in one matrix; contact is renewed while the
+/// bodies stay. A [`SparseMatrix`] is a tangent without contact.
+#[derive(Clone, Debug)]
+pub struct Tangent {
+    /// Elements, masses, ties and what is held, on the [pattern of the
+    /// bodies](Partition::structure).
+    pub bodies: SparseMatrix,
+    /// Contact, see [`Partition::gathered`].
+    pub contact: CompressedRows,
+}
+
+impl From<SparseMatrix> for Tangent {
+    fn from(bodies: SparseMatrix) -> Self {
+        Self {
+            contact: CompressedRows::zero(bodies.structure().unknowns()),
+            bodies,
+        }
+    }
+}
+
+impl Tangent {
+    /// The zero matrix.
+    pub fn zero(partition: &Partition) -> Self {
+        Self::from(SparseMatrix::zero(partition.structure()))
+    }
+
+    /// Sets all values to zero.
+    pub fn clear(&mut self) {
+        self.bodies.clear();
+        self.contact = CompressedRows::zero(self.unknowns());
+    }
+
+    /// Entries of a row with their columns, in rising order of the columns; some are zero.
+    pub fn row(&self, row: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let mut bodies = self.bodies.row(row).peekable();
+        let mut contact = self.contact.row(row).peekable();
+        iter::from_fn(move || {
+            let (Some(own), Some(other)) = (bodies.peek(), contact.peek()) else {
+                return bodies.next().or_else(|| contact.next());
+            };
+            match own.0.cmp(&other.0) {
+                Ordering::Less => bodies.next(),
+                Ordering::Greater => contact.next(),
+                Ordering::Equal => {
+                    let added = contact.next().map_or(0.0, |entry| entry.1);
+                    bodies.next().map(|(column, a)| (column, a + added))
+                }
+            }
+        })
+    }
+
+    /// An entry of the diagonal.
+    pub(crate) fn diagonal(&self, unknown: usize) -> f64 {
+        self.bodies.get(unknown, unknown).unwrap_or(0.0) + self.contact.get(unknown, unknown)
+    }
+
+    /// Both parts in one matrix on the [whole pattern](Partition::whole).
+    ///
+    /// # Panics
+    /// When the matrix is of another partition.
+    pub fn sum(&self, partition: &Partition) -> Cow<'_, SparseMatrix> {
+        let whole = partition.whole();
+        if self.contact.is_zero() && whole.same_as(self.bodies.structure()) {
+            return Cow::Borrowed(&self.bodies);
+        }
+        let mut sum = SparseMatrix::zero(whole);
+        for i in 0..whole.supervariables() {
+            for (local, row) in whole.group(i).enumerate() {
+                let values = &mut sum.values_mut()[whole.row(i, local)];
+                let mut places = whole.row_columns(i).zip(values);
+                for (column, a) in self.row(row) {
+                    let place = places.find(|(other, _)| *other == column);
+                    *place.expect("the whole pattern has both parts").1 = a;
+                }
+            }
+        }
+        Cow::Owned(sum)
+    }
+}
+
+impl LinearOperator for Tangent {
+    fn unknowns(&self) -> usize {
+        self.bodies.structure().unknowns()
+    }
+
+    fn multiply(&self, x: &[f64], y: &mut [f64]) {
+        self.bodies.multiply(x, y);
+        self.contact.add_product(x, y);
+    }
+
+    fn row_sums(&self, x: &[f64], units: &[f64]) -> Vec<RowSums> {
+        let mut sums = self.bodies.row_sums(x, units);
+        self.contact.add_row_sums(x, units, &mut sums);
+        sums
+    }
+}
