@@ -164,7 +164,7 @@ fn of_scene(group: &str, size: usize) -> Results {
 /// Elements of the bodies without contact.
 fn assembly(model: &striae_solve::model::Model) -> Result<Value, Box<dyn Error>> {
     let mut tangent = Tangent::from(scene::stiffness(model)?);
-    let partition = Partition::from(tangent.bodies.structure());
+    let mut partition = Partition::from(tangent.bodies.structure());
     let mut bodies = model.clone();
     bodies.pairs.clear();
     let problem = Problem::new(bodies)?;
@@ -190,7 +190,7 @@ fn assembly(model: &striae_solve::model::Model) -> Result<Value, Box<dyn Error>>
         .map(|body| body.mesh.element_count())
         .sum();
     Ok(timed("assembly", "elements", elements, || {
-        let parts = (&partition, &places, &mut tangent);
+        let parts = (&mut partition, &places, &mut tangent);
         black_box(scene::bodies(&setting, &trial, &layout, parts).is_ok());
     }))
 }

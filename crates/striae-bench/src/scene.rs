@@ -6,9 +6,10 @@ use striae_contact::segment::Derivatives;
 use striae_deck as deck;
 use striae_mesh::generate::CappedBlock;
 use striae_solve::{
-    assembly::{Assembled, Contact, ElementPlaces, Fault, Setting, StepContext, Trial, assemble},
+    assembly::{Assembled, Contact, ElementPlaces, Setting, StepContext, Trial, assemble},
     layout::{Extent, Layout},
     model::{Backend, Model},
+    outcome::CutBack,
     problem::Problem,
     state::State,
 };
@@ -145,7 +146,7 @@ pub fn stiffness(model: &Model) -> Result<SparseMatrix, Box<dyn Error>> {
         cliques.extend(model.mesh.elements().map(nodes));
     }
     let structure = Structure::from_cliques(layout.offsets().to_vec(), &cliques)?;
-    let partition = Partition::from(&structure);
+    let mut partition = Partition::from(&structure);
     let places = ElementPlaces::new(&problem, &layout, &structure);
     let mut tangent = Tangent::zero(&partition);
     let trial = Trial {
@@ -164,11 +165,10 @@ pub fn stiffness(model: &Model) -> Result<SparseMatrix, Box<dyn Error>> {
         &setting,
         &trial,
         &layout,
-        (&partition, &places, &mut tangent),
+        (&mut partition, &places, &mut tangent),
     ) {
         Ok(_) => Ok(tangent.bodies),
-        Err(Fault::CutBack(reason)) => Err(reason.to_string().into()),
-        Err(Fault::Pattern(_)) => Err("an element is outside the pattern".into()),
+        Err(reason) => Err(reason.to_string().into()),
     }
 }
 
@@ -177,8 +177,8 @@ pub fn bodies(
     setting: &Setting,
     trial: &Trial,
     layout: &Layout,
-    parts: (&Partition, &ElementPlaces, &mut Tangent),
-) -> Result<Assembled, Fault> {
+    parts: (&mut Partition, &ElementPlaces, &mut Tangent),
+) -> Result<Assembled, CutBack> {
     let contact = Contact::Known(Vec::new());
     assemble(setting, trial, contact, Derivatives::First, layout, parts)
 }

@@ -259,11 +259,19 @@ impl Automatic {
 
 /// What it is called with.
 impl Automatic {
-    /// Orders the unknowns and predicts the cost; forgets earlier factorisations.
+    /// Orders the unknowns and predicts the cost. Earlier factorisations are forgotten,
+    /// unless what contact couples more matters to an LU alone: where the condensed solver
+    /// is taken and no more supervariables are kept.
     ///
     /// # Errors
     /// Why the unknowns cannot be ordered.
     pub fn analyse(&mut self, partition: &Partition) -> Result<Analysis, SolveError> {
+        if let Some(condensed) = self.unchanged(partition) {
+            let analysis = condensed.analysis(self.precision());
+            self.partition = Some(partition.clone());
+            self.lu = None;
+            return Ok(analysis);
+        }
         *self = Self {
             choice: self.choice,
             experience: self.experience.of_other_pattern(),
@@ -325,6 +333,16 @@ impl Automatic {
         let analysis = condensed.analysis(self.precision());
         self.condensed = Some(condensed);
         Ok(analysis)
+    }
+
+    /// The condensed solver, if it was chosen without a look at contact and is that of another
+    /// partition, too.
+    fn unchanged(&self, partition: &Partition) -> Option<&Condensed> {
+        let condensed = self.condensed.as_ref()?;
+        let (contact, bodies) = condensed.work();
+        let is_chosen = self.iterative.is_none() && contact <= bodies;
+        let before = self.partition.as_ref()?;
+        (is_chosen && before.condenses_like(partition)).then_some(condensed)
     }
 
     /// Predicted costs of all methods it chooses between, in the order they are tried.

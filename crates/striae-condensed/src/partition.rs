@@ -222,6 +222,11 @@ impl Partition {
             && tangent.contact.unknowns() == self.unknowns()
     }
 
+    /// Whether bodies and what is kept are those of another partition.
+    pub(crate) fn condenses_like(&self, other: &Self) -> bool {
+        self.structure.same_as(&other.structure) && self.parts == other.parts
+    }
+
     /// Unknowns of supervariable `i` that belong to the bulk.
     pub(crate) fn bulk_group(&self, i: usize) -> Range<usize> {
         let start = self.group(i).start;

@@ -98,32 +98,25 @@ pub struct Assembled {
     pub derivatives: Derivatives,
     /// All but contact.
     pub background: Background,
+    /// By what the pattern of contact has grown.
+    pub growth: Growth,
     /// Time that contact took on the clock, most of it beside the bodies; for profiles only.
     pub contact_time: Duration,
 }
 
-/// Why an assembly came to nothing.
-#[derive(Debug)]
-pub enum Fault {
-    /// The trial state cannot be evaluated.
-    CutBack(CutBack),
-    /// Contact has no place in the pattern, which is to grow.
-    Pattern(Growth),
-}
-
 /// Evaluates the problem at a trial state and fills the tangent; without derivatives the tangent
-/// stays as it is.
+/// stays as it is. The partition grows where contact couples what it has not coupled before.
 ///
 /// # Errors
-/// See [`Fault`].
+/// Why the trial state cannot be evaluated.
 pub fn assemble(
     setting: &Setting,
     trial: &Trial,
     contact: Contact,
     derivatives: Derivatives,
     layout: &Layout,
-    (partition, places, tangent): (&Partition, &ElementPlaces, &mut Tangent),
-) -> Result<Assembled, Fault> {
+    (partition, places, tangent): (&mut Partition, &ElementPlaces, &mut Tangent),
+) -> Result<Assembled, CutBack> {
     // On a thread of the pool, as from others each parallel part would have to wake one.
     rayon::scope(|_| {
         on_this_thread(
@@ -143,8 +136,8 @@ fn on_this_thread(
     contact: Contact,
     derivatives: Derivatives,
     layout: &Layout,
-    (partition, places, tangent): (&Partition, &ElementPlaces, &mut Tangent),
-) -> Result<Assembled, Fault> {
+    (partition, places, tangent): (&mut Partition, &ElementPlaces, &mut Tangent),
+) -> Result<Assembled, CutBack> {
     let imposed = setting.imposed;
     let Tangent {
         bodies,
@@ -170,17 +163,14 @@ fn on_this_thread(
         Derivatives::First => system.background(),
         Derivatives::None => Background::default(),
     };
-    let (gathered, adding_time) = timed(|| {
+    let (growth, adding_time) = timed(|| {
         system.add_contacts(&contacts);
         system.stabilise(trial, imposed);
         match derivatives {
-            Derivatives::First => system.gathered(&contacts, partition).map(Some),
-            Derivatives::None => Ok(None),
+            Derivatives::First => system.gather(&contacts, partition, contact_rows),
+            Derivatives::None => Growth::default(),
         }
     });
-    if let Some(gathered) = gathered? {
-        *contact_rows = gathered;
-    }
     system.pass_on();
     system.condense(imposed);
     let norms = system.norms(trial, &contacts);
@@ -198,6 +188,7 @@ fn on_this_thread(
         contacts,
         derivatives,
         background,
+        growth,
         contact_time: evaluation_time + adding_time,
     })
 }
@@ -289,7 +280,7 @@ impl System<'_> {
         setting: &Setting,
         trial: &Trial,
         places: &ElementPlaces,
-    ) -> Result<OfBodies, Fault> {
+    ) -> Result<OfBodies, CutBack> {
         let imposed = setting.imposed;
         self.loads(configurations, trial, imposed)?;
         let bodies = self.elements(places, trial, setting.state, imposed.flowing())?;

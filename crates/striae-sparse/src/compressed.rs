@@ -90,13 +90,18 @@ impl CompressedRows {
             outside.dedup();
             return Err(outside);
         }
-        let mut sum = Self::default();
-        sum.starts.reserve(structure.unknowns() + 1);
-        for (parts, rows) in owners.iter().zip(gathered.into_iter().flatten()) {
+        let gathered: Vec<Rows> = gathered.into_iter().flatten().collect();
+        let count = gathered.iter().map(|rows| rows.values.len()).sum();
+        let mut sum = Self {
+            starts: Vec::with_capacity(structure.unknowns() + 1),
+            columns: Vec::with_capacity(count),
+            values: Vec::with_capacity(count),
+        };
+        for (parts, rows) in owners.iter().zip(gathered) {
             let first = structure.group(parts[0].owner).start;
             sum.starts.resize(first + 1, sum.values.len());
-            let ends = rows.ends.iter().map(|end| sum.values.len() + end);
-            sum.starts.extend(ends);
+            let before = sum.values.len();
+            sum.starts.extend(rows.ends.iter().map(|end| before + end));
             sum.columns.extend(rows.columns);
             sum.values.extend(rows.values);
         }

@@ -5,11 +5,11 @@
 //! by one, with ties eliminated. What contact has in the tangent is the sum of all blocks.
 
 use rayon::prelude::*;
-use striae_condensed::Partition;
+use striae_condensed::{Growth, Partition};
 use striae_contact::{evaluation::Evaluation, term::LocalTerm};
 use striae_sparse::{CompressedRows, PlacedBlock};
 
-use super::{Fault, System, terms::Answer};
+use super::{System, terms::Answer};
 
 /// Terms for one thread at a time.
 const TERMS: usize = 16;
@@ -31,15 +31,29 @@ impl System<'_> {
         }
     }
 
-    /// What contact has in the tangent.
-    ///
-    /// # Errors
-    /// By what the pattern is to grow.
-    pub(super) fn gathered(
+    /// Puts contact into its part of the tangent; returns by what its pattern had to grow.
+    pub(super) fn gather(
         &mut self,
         contacts: &[Evaluation],
-        partition: &Partition,
-    ) -> Result<CompressedRows, Fault> {
+        partition: &mut Partition,
+        target: &mut CompressedRows,
+    ) -> Growth {
+        let blocks = self.all_blocks(contacts);
+        let growth = match partition.gathered(&blocks) {
+            Ok(rows) => {
+                *target = rows;
+                return Growth::default();
+            }
+            Err(growth) => growth,
+        };
+        let own = "contact couples supervariables of the partition";
+        *partition = partition.grown(&growth).expect(own);
+        *target = partition.gathered(&blocks).expect(own);
+        growth
+    }
+
+    /// What contact couples.
+    pub(super) fn all_blocks<'t>(&mut self, contacts: &'t [Evaluation]) -> Vec<PlacedBlock<'t>> {
         let mut blocks: Vec<PlacedBlock> = std::mem::take(&mut self.blocks);
         for (pair, evaluation) in contacts.iter().enumerate() {
             if self.is_plain(pair) {
@@ -47,7 +61,7 @@ impl System<'_> {
                 blocks.par_extend(terms.map(|term| self.placed(pair, term)));
             }
         }
-        partition.gathered(&blocks).map_err(Fault::Pattern)
+        blocks
     }
 
     /// Whether the unknowns of a pair's terms are unknowns of the system as they are.

@@ -11,7 +11,7 @@ use striae_contact::{
 };
 use striae_mesh::{FacetId, Vec3};
 
-use super::{Contact, Fault, Setting, System, Trial};
+use super::{Contact, Setting, System, Trial};
 use crate::{node::GlobalNode, outcome::CutBack, problem::Problem};
 
 impl Contact {
@@ -22,7 +22,7 @@ impl Contact {
         setting: &Setting,
         trial: &Trial,
         derivatives: Derivatives,
-    ) -> Result<Vec<Evaluation>, Fault> {
+    ) -> Result<Vec<Evaluation>, CutBack> {
         match self {
             Self::Known(contacts) => Ok(contacts),
             Self::Evaluated(iteration) => {
@@ -39,7 +39,7 @@ pub(super) fn contacts(
     trial: &Trial,
     iteration: Iteration,
     derivatives: Derivatives,
-) -> Result<Vec<Evaluation>, Fault> {
+) -> Result<Vec<Evaluation>, CutBack> {
     let (context, state) = (setting.context, setting.state);
     let mut contacts = Vec::with_capacity(configurations.len());
     for (pair, configuration) in configurations.iter().enumerate() {
@@ -55,7 +55,7 @@ pub(super) fn contacts(
             },
             derivatives,
         )
-        .map_err(|error| Fault::CutBack(not_evaluated(context.problem, pair, error)))?;
+        .map_err(|error| not_evaluated(context.problem, pair, error))?;
         contacts.push(evaluation);
     }
     Ok(contacts)

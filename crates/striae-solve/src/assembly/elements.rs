@@ -11,7 +11,7 @@ use striae_mesh::{ElementId, MAX_CORNERS, NodeId, Vec3};
 use striae_sparse::{CliquePlaces, Member, MemberRows};
 
 use super::{
-    ElementPlaces, Fault, StepContext, System, Trial,
+    ElementPlaces, StepContext, System, Trial,
     inertia::{Inertia, Share},
     ties::{Part, Slot},
 };
@@ -52,7 +52,7 @@ impl System<'_> {
         trial: &Trial,
         state: &State,
         elapsed: f64,
-    ) -> Result<OfBodies, Fault> {
+    ) -> Result<OfBodies, CutBack> {
         let problem = self.context.problem;
         let mut sums = Sums::default();
         let mut at_nodes = self.at_nodes();
@@ -84,7 +84,7 @@ impl System<'_> {
         trial: &Trial,
         at_nodes: &mut [AtNode],
         sums: &mut Sums,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), CutBack> {
         let (context, inertia) = (self.context, Arc::clone(&self.inertia));
         let material = &context.problem.model.bodies[place.body].material;
         let empty = Share::new(ElementResponse::zero(place.block, material));
@@ -118,19 +118,17 @@ impl System<'_> {
         results: &[Result<(), ElementError>],
         at_nodes: &mut [AtNode],
         sums: &mut Sums,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), CutBack> {
         let problem = self.context.problem;
         let places = place.places;
         let range = places.batches().nth(batch).unwrap_or(0..0);
         for ((at, share), result) in range.clone().zip(shares).zip(results) {
-            result.map_err(|error| {
-                Fault::CutBack(CutBack::InvertedElement {
-                    body: problem.model.bodies[place.body].name.clone(),
-                    element: ElementFault {
-                        element: ElementId::new(place.first + at),
-                        error,
-                    },
-                })
+            result.map_err(|error| CutBack::InvertedElement {
+                body: problem.model.bodies[place.body].name.clone(),
+                element: ElementFault {
+                    element: ElementId::new(place.first + at),
+                    error,
+                },
             })?;
             let response = &share.response;
             sums.of_bodies.strain += response.energy;
@@ -175,7 +173,7 @@ impl System<'_> {
         at: usize,
         share: &Share,
         at_nodes: &mut [AtNode],
-    ) -> Result<(), Fault> {
+    ) -> Result<(), CutBack> {
         let problem = self.context.problem;
         let element = ElementId::new(place.first + at);
         let corners = problem.model.bodies[place.body].mesh.corners(element);

@@ -18,8 +18,8 @@ use striae_contact::{complementarity::Iteration, evaluation::Evaluation, segment
 use striae_mesh::Vec3;
 use striae_sparse::PlacedBlock;
 
-use super::{Fault, Setting, System, Trial, configurations, contacts::contacts};
-use crate::{layout::Layout, norms::Norms};
+use super::{Setting, System, Trial, configurations, contacts::contacts};
+use crate::{layout::Layout, norms::Norms, outcome::CutBack};
 
 /// All but contact at a trial state.
 #[derive(Clone, Debug, Default)]
@@ -46,10 +46,11 @@ pub struct ContactAssembled {
 /// linearised, and puts it in the place of what contact there was in the tangent, whose
 /// part of the bodies is that of the background.
 ///
-/// No rigid body may have coordinates among the unknowns.
+/// No rigid body may have coordinates among the unknowns. `None` where the partition would have
+/// to grow.
 ///
 /// # Errors
-/// See [`Fault`].
+/// Why contact cannot be evaluated.
 pub fn assemble_contact(
     setting: &Setting,
     background: &Background,
@@ -57,7 +58,7 @@ pub fn assemble_contact(
     iteration: Iteration,
     layout: &Layout,
     (partition, tangent): (&Partition, &mut Tangent),
-) -> Result<ContactAssembled, Fault> {
+) -> Result<Option<ContactAssembled>, CutBack> {
     let &Setting {
         context,
         selections,
@@ -79,16 +80,19 @@ pub fn assemble_contact(
     )?;
     system.add_contacts(&contacts);
     system.stabilise(trial, imposed);
-    tangent.contact = system.gathered(&contacts, partition)?;
+    let Ok(rows) = partition.gathered(&system.all_blocks(&contacts)) else {
+        return Ok(None);
+    };
+    tangent.contact = rows;
     system.pass_on();
     let norms = system.norms(trial, &contacts);
     system.idle(selections);
     system.prescribe(trial, imposed);
-    Ok(ContactAssembled {
+    Ok(Some(ContactAssembled {
         residual: system.residual,
         norms,
         contacts,
-    })
+    }))
 }
 
 impl System<'_> {

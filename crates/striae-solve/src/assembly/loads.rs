@@ -8,7 +8,7 @@ use striae_contact::{
 use striae_mesh::{Face, Vec3};
 use striae_surface::{facet::Shape, scalar::Real};
 
-use super::{Fault, Imposed, System, Trial, terms::Answer};
+use super::{Imposed, System, Trial, terms::Answer};
 use crate::{
     load,
     model::{LoadExtent, LoadKind},
@@ -22,18 +22,16 @@ impl System<'_> {
         configurations: &[Configuration],
         trial: &Trial,
         imposed: &Imposed,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), CutBack> {
         for (planned, kind) in self.context.plan.loads.iter().zip(&imposed.loads) {
             for face in &planned.faces {
                 let extent = planned.extent;
                 let body = planned.body.0;
                 let loaded = self.face_load(configurations, trial, body, *face, kind, extent);
-                loaded.map_err(|error| {
-                    Fault::CutBack(CutBack::Load {
-                        body: self.context.problem.model.bodies[body].name.clone(),
-                        set: planned.set.clone(),
-                        error,
-                    })
+                loaded.map_err(|error| CutBack::Load {
+                    body: self.context.problem.model.bodies[body].name.clone(),
+                    set: planned.set.clone(),
+                    error,
                 })?;
             }
         }

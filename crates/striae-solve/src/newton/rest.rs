@@ -45,11 +45,11 @@ pub(super) fn contact_at_rest(
         let next = corrected(setting, workspace.system(), &from, &whole, 1.0);
         let moved = (&next, whole.as_slice());
         let found = workspace.assemble_contact(setting, background, moved, Iteration::LATER);
-        let found = found.ok()?;
+        let found = found.ok()??;
         if pass == MOST || found.norms.largest() <= enough {
             let contact = Contact::Known(found.contacts);
             let assembled = workspace
-                .assemble_once(setting, &next, contact, Derivatives::First)
+                .assemble_with(contact, setting, &next, Derivatives::First)
                 .ok()?;
             let is_better = assembled.norms.largest() <= before.unwrap_or(1.0);
             return is_better.then_some((next, assembled));

@@ -8,16 +8,14 @@ use std::time::Instant;
 
 use striae_condensed::{Analysis, Automatic, Choice, Growth, Partition, Tangent};
 use striae_contact::{complementarity::Iteration, segment::Derivatives, selection::Selection};
-use striae_sparse::{
-    Age, CompressedRows, LinearOperator, SolveError, SolveReport, Structure, Supervariable,
-};
+use striae_sparse::{Age, SolveError, SolveReport, Structure, Supervariable};
 
 use striae_mesh::Vec3;
 
 use super::{course::Course, work::LinearWork};
 use crate::{
     assembly::{
-        Assembled, Background, Contact, ContactAssembled, ElementPlaces, Fault, Imposed, Setting,
+        Assembled, Background, Contact, ContactAssembled, ElementPlaces, Imposed, Setting,
         StepContext, Trial, assemble, assemble_contact, initial_accelerations,
     },
     layout::{Extent, Layout},
@@ -130,7 +128,8 @@ impl Workspace {
         self.system.as_mut().expect("the workspace was prepared")
     }
 
-    /// Evaluates a trial state; the pattern grows as contact asks for it.
+    /// Evaluates a trial state with contact in an iteration; the pattern grows as contact asks
+    /// for it.
     pub(super) fn assemble(
         &mut self,
         setting: &Setting,
@@ -138,28 +137,27 @@ impl Workspace {
         iteration: Iteration,
         derivatives: Derivatives,
     ) -> Result<Assembled, CutBack> {
-        loop {
-            let contact = Contact::Evaluated(iteration);
-            match self.assemble_once(setting, trial, contact, derivatives) {
-                Ok(assembled) => return Ok(assembled),
-                Err(Fault::CutBack(reason)) => return Err(reason),
-                Err(Fault::Pattern(growth)) => self.system().grow(growth),
-            }
-        }
+        self.assemble_with(Contact::Evaluated(iteration), setting, trial, derivatives)
     }
 
-    /// Evaluates a trial state, with contact that is inside the pattern.
-    pub(super) fn assemble_once(
+    /// The same with contact from where it comes.
+    pub(super) fn assemble_with(
         &mut self,
+        contact: Contact,
         setting: &Setting,
         trial: &Trial,
-        contact: Contact,
         derivatives: Derivatives,
-    ) -> Result<Assembled, Fault> {
+    ) -> Result<Assembled, CutBack> {
         let started = Instant::now();
-        let system = self.system.as_mut().expect("the workspace was prepared");
-        let parts = (&system.partition, &system.places, &mut system.tangent);
+        let Self { system, solver, .. } = self;
+        let system = system.as_mut().expect("the workspace was prepared");
+        let parts = (&mut system.partition, &system.places, &mut system.tangent);
         let assembled = assemble(setting, trial, contact, derivatives, &system.layout, parts);
+        if let Ok(Assembled { growth, .. }) = &assembled
+            && !growth.is_empty()
+        {
+            system.has_grown(growth, solver);
+        }
         self.work.times.assembly += started.elapsed();
         let of_contact = assembled.as_ref().map(|assembled| assembled.contact_time);
         self.work.times.pairs += of_contact.unwrap_or_default();
@@ -179,7 +177,7 @@ impl Workspace {
         background: &Background,
         moved: (&Trial, &[f64]),
         iteration: Iteration,
-    ) -> Result<ContactAssembled, Fault> {
+    ) -> Result<Option<ContactAssembled>, CutBack> {
         let started = Instant::now();
         let system = self.system.as_mut().expect("the workspace was prepared");
         let (layout, parts) = (&system.layout, (&system.partition, &mut system.tangent));
@@ -326,12 +324,23 @@ fn solved(
 }
 
 impl SystemStorage {
-    fn grow(&mut self, growth: Growth) {
-        let grown = self.partition.grown(&growth);
+    /// Grows the pattern of contact.
+    fn grow(&mut self, growth: &Growth) {
+        let grown = self.partition.grown(growth);
         self.partition = grown.expect("cliques name known supervariables");
-        self.tangent.contact = CompressedRows::zero(self.tangent.unknowns());
-        self.growth.extend(growth);
+        self.growth.extend(growth.clone());
         self.analysed = false;
+    }
+
+    /// The pattern of contact has grown. A solver that knows the older one looks at the new
+    /// one now, so that what it has kept does not depend on when it is asked next.
+    fn has_grown(&mut self, growth: &Growth, solver: &mut Automatic) {
+        self.growth.extend(growth.clone());
+        if std::mem::take(&mut self.analysed)
+            && let Ok(analysis) = solver.analyse(&self.partition)
+        {
+            (self.analysis, self.analysed) = (analysis, true);
+        }
     }
 }
 

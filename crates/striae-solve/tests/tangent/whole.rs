@@ -11,7 +11,7 @@ use striae_contact::{
 };
 use striae_solve::{
     assembly::{
-        Assembled, Contact, ElementPlaces, Fault, Imposed, Setting, StepContext, Trial, assemble,
+        Assembled, Contact, ElementPlaces, Imposed, Setting, StepContext, Trial, assemble,
         assemble_contact,
     },
     layout::{Extent, Layout},
@@ -170,6 +170,7 @@ impl<'a> Whole<'a> {
                 &self.layout,
                 (&self.partition, &mut tangent),
             );
+            let found = found.expect("the state can be evaluated");
             DVector::from_vec(found.expect("the pattern is full").residual)
         };
         let here = contact(&u);
@@ -235,12 +236,12 @@ impl<'a> Whole<'a> {
         let trial = self.trial(u);
         let structure = self.partition.structure();
         let places = ElementPlaces::new(self.context.problem, &self.layout, structure);
-        let parts = (&self.partition, &places, tangent);
+        let mut partition = self.partition.clone();
+        let parts = (&mut partition, &places, tangent);
         let (setting, layout) = (self.setting(), &self.layout);
         match assemble(&setting, &trial, contact, derivatives, layout, parts) {
             Ok(assembled) => assembled,
-            Err(Fault::CutBack(reason)) => panic!("{reason}"),
-            Err(Fault::Pattern(_)) => panic!("the pattern is full"),
+            Err(reason) => panic!("{reason}"),
         }
     }
 }

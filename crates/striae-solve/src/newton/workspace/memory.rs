@@ -29,7 +29,7 @@ impl Workspace {
         let mut workspace = Self::new(problem.model.solver.backend);
         workspace.lay_out(problem, memory.extent.clone());
         if !memory.growth.is_empty() {
-            workspace.system().grow(memory.growth.clone());
+            workspace.system().grow(&memory.growth);
         }
         workspace.recall(memory);
         workspace.course.clone_from(&memory.course);
