@@ -17,6 +17,7 @@ mod collocated;
 mod common_field;
 mod common_mass;
 mod coverage;
+mod crease;
 mod edge;
 mod integral;
 mod kinematics;

@@ -61,7 +61,7 @@ const ROUND_OFF: f64 = 1e-8;
 const EXTRAPOLATION: f64 = 0.5;
 const SEAM: f64 = 0.05;
 /// Cosine of the angle between normals from which facets face each other.
-const FACING: f64 = 0.2;
+pub const FACING: f64 = 0.2;
 
 /// Projects the point `x` onto `target` within the distance `reach`.
 pub fn project(target: &Snapshot, x: &Vec3, ray: Ray, reach: f64, margin: Margin) -> Option<Hit> {

@@ -1,12 +1,13 @@
 //! The place that a tip presses on, with its derivatives.
 //!
-//! It is found along the normal `m` of the facet. The traction of a node acts along that
+//! It is found along the normal `m` of the facet; a rigid point that is beyond the edges of all
+//! facets faces the edge or node between them, see [`crate::crease`]. The traction of a node acts along that
 //! normal, too; that of a rigid point along the one between the nodal normals of the
 //! deformable side, `n = -unit(sum N_J n_J)`. It turns continuously where the point goes from
 //! one facet to the next, as it does again and again in the valley that it presses in.
 
 use nalgebra::Matrix3;
-use striae_mesh::Vec3;
+use striae_mesh::{FacetId, Vec3};
 use striae_surface::{
     facet::{Shape, facet_normal},
     node::SurfaceNode,
@@ -15,6 +16,7 @@ use striae_surface::{
 
 use crate::{
     configuration::Configuration,
+    crease::{Crease, Kind, crease},
     nodal_normal::own_normal,
     opposing::Opposing,
     partner::Partner,
@@ -38,7 +40,8 @@ pub struct Spot {
     pub hit: Option<Hit>,
     /// Unit normal of the tip, against that of the facet or plane.
     pub n: Tracked,
-    /// Opposite of the normal of the facet, along which it is found.
+    /// Opposite of the normal along which it is found, with the derivatives that
+    /// [`Opposing`] is chained with.
     pub ray: Tracked,
     /// Gap.
     pub gap: TrackedScalar,
@@ -73,20 +76,11 @@ impl Spot {
                 opposing: None,
             });
         }
-        let hit = faced(configuration, tip, FOLLOW * tip.reach(configuration))?;
+        let place = faced_place(configuration, tip, FOLLOW * tip.reach(configuration))?;
+        let hit = place.hit();
         let target = configuration.side(side.opposite());
         let corners = target.corners(hit.facet);
-        let positions = target.corner_positions(hit.facet);
-        let mut ray = Tracked {
-            value: -facet_normal(&positions),
-            jacobian: Vec::new(),
-        };
-        if yields {
-            ray.jacobian = normal_jacobian(&positions, |corner| {
-                numbering.position(side.opposite(), corners[corner])
-            });
-        }
-        let opposing = Opposing::new(Shape::of(&corners), &hit, &ray.value, &positions);
+        let (ray, opposing) = place.seen(configuration, tip);
         let own = own.map(|own| (own, -opposing.gap_by_r));
         let mut gradient: Gradient = own.into_iter().collect();
         if yields {
@@ -95,9 +89,8 @@ impl Spot {
                 add_slope(&mut gradient, first, opposing.gap_by_r * weight);
             }
         }
-        let by_n = opposing.gap_by_r * -hit.gap;
         for (first, block) in &ray.jacobian {
-            add_slope(&mut gradient, *first, block.tr_mul(&by_n));
+            add_slope(&mut gradient, *first, block.tr_mul(&opposing.gap_by_n));
         }
         let n = match tip {
             Tip::Node { .. } => ray.clone(),
@@ -161,21 +154,88 @@ fn between_nodes(
     Tracked { value, jacobian }
 }
 
-/// The facet that a tip faces within `reach`, along the normal of that facet. The one that a
-/// node was in at the start of an increment holds it until it is `AWAY` beyond its edges:
-/// between two facets that dip towards each other either normal drives it to the other.
+/// What a tip faces.
+enum Place {
+    /// A facet, along its normal.
+    Facet(Hit),
+    /// The edge or node between facets.
+    Between(Crease),
+}
+
+impl Place {
+    fn hit(&self) -> Hit {
+        match self {
+            Self::Facet(hit) => *hit,
+            Self::Between(crease) => crease.hit,
+        }
+    }
+
+    /// Opposite of the normal that leads there, and the place with its derivatives.
+    fn seen(&self, configuration: &Configuration, tip: Tip) -> (Tracked, Opposing) {
+        let opposite = tip.side().opposite();
+        let target = configuration.side(opposite);
+        let by_corners = |facet: FacetId| {
+            let (corners, x) = (target.corners(facet), target.corner_positions(facet));
+            let numbering = configuration.pair.numbering();
+            let first = |corner: usize| numbering.position(opposite, corners[corner]);
+            match tip.presses_on_deformable(configuration) {
+                true => normal_jacobian(&x, first),
+                false => Jacobian::new(),
+            }
+        };
+        match self {
+            Self::Facet(hit) => {
+                let (corners, x) = (
+                    target.corners(hit.facet),
+                    target.corner_positions(hit.facet),
+                );
+                let value = -facet_normal(&x);
+                let opposing = Opposing::new(Shape::of(&corners), hit, &value, &x);
+                let jacobian = by_corners(hit.facet);
+                (Tracked { value, jacobian }, opposing)
+            }
+            Self::Between(crease) => {
+                let mut jacobian = Jacobian::new();
+                if let Kind::Edge(edge) = &crease.kind {
+                    for (facet, share) in edge.facets.into_iter().zip(edge.shares) {
+                        let by = Matrix3::from_diagonal_element(share);
+                        add_chained(&mut jacobian, &by, &by_corners(facet));
+                    }
+                }
+                let value = crease.normal;
+                let opposing = crease.opposing(&target.corners(crease.hit.facet));
+                (Tracked { value, jacobian }, opposing)
+            }
+        }
+    }
+}
+
+/// The point that a tip faces within `reach`, see [`Spot`].
 pub fn faced(configuration: &Configuration, tip: Tip, reach: f64) -> Option<Hit> {
+    faced_place(configuration, tip, reach).map(|place| place.hit())
+}
+
+/// What a tip faces within `reach`. The facet that a node was in at the start of an increment
+/// holds it until it is `AWAY` beyond its edges: between two facets that dip towards each other
+/// either normal drives it to the other.
+fn faced_place(configuration: &Configuration, tip: Tip, reach: f64) -> Option<Place> {
     let (x, normal) = (tip.position(configuration), tip.normal(configuration));
     let target = configuration.side(tip.side().opposite());
-    if let Tip::Node {
-        home: Some(home), ..
-    } = tip
-        && let Some(hit) = project_on(target, home, &x, Ray::Facet(normal), AWAY)
-        && hit.gap.abs() <= reach
-    {
-        return Some(hit);
+    let along = Ray::Facet(normal);
+    let on_facet = |margin: Margin| project(target, &x, along, reach, margin).map(Place::Facet);
+    match tip {
+        Tip::Node { home, .. } => {
+            let held = home.and_then(|home| project_on(target, home, &x, along, AWAY));
+            let held = held.filter(|hit| hit.gap.abs() <= reach);
+            held.map(Place::Facet).or_else(|| on_facet(Margin::Seam))
+        }
+        Tip::Rigid(_) => {
+            let inside = on_facet(Margin::Inside);
+            let nearer = inside.as_ref().map_or(reach, |place| place.hit().gap.abs());
+            let between = crease(target, &x, &normal, nearer).map(Place::Between);
+            between.or(inside).or_else(|| on_facet(Margin::Seam))
+        }
     }
-    project(target, &x, Ray::Facet(normal), reach, Margin::Seam)
 }
 
 /// Derivatives of the opposite of the unit normal by the corners at the unknowns `first`.

@@ -229,14 +229,15 @@ fn on_deformable(
         _ => None,
     };
     // A rigid point is not found along its own normal.
-    let ray = match tip {
-        Tip::Rigid(_) => Spot::new(configuration, tip).map(|spot| spot.ray),
+    let spot = match tip {
+        Tip::Rigid(_) => Spot::new(configuration, tip),
         Tip::Node { .. } => None,
     };
-    let along = ray.as_ref().map_or(&n, |ray| &ray.value);
-    let opposing = match &on_edge {
-        None => Opposing::new(shape, hit, along, &other.corner_positions(hit.facet)),
-        Some(place) => Opposing::at(place.weights()),
+    let (ray, of_spot) = spot.map(|spot| (spot.ray, spot.opposing)).unzip();
+    let opposing = match (&on_edge, of_spot.flatten()) {
+        (None, Some(opposing)) => opposing,
+        (None, None) => Opposing::new(shape, hit, &n, &other.corner_positions(hit.facet)),
+        (Some(place), _) => Opposing::at(place.weights()),
     };
     let turned: [Transported; 4] = std::array::from_fn(|corner| {
         Transported::new(&a[corner].value, &-normals[corner].value, &n)

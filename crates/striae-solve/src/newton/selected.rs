@@ -34,7 +34,7 @@ pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected
         .enumerate()
         .map(|(pair, of_pair)| {
             let start = context.configuration(pair, &state.positions, &state.rigid);
-            let stays = points::staying(&start, &of_pair.points, &of_pair.nodes);
+            let stays = points::staying(&start, &of_pair.points, &of_pair.nodes, &of_pair.carried);
             let mut points: RigidPoints = vec![None; of_pair.points.len()];
             let mut tractions = of_pair.tractions.clone();
             for stay in &stays {

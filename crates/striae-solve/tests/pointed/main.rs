@@ -6,3 +6,4 @@ mod lift;
 mod ridge;
 mod scene;
 mod tangent;
+mod valley;

@@ -9,7 +9,8 @@ use striae_contact::{
     segment::Derivatives,
     selection::{Before, Kept, Selection},
     side::Side,
-    tip::{RigidPoint, RigidPoints},
+    spot::Spot,
+    tip::{RigidPoint, RigidPoints, Tip},
     unknowns::{Status, Tractions},
 };
 use striae_law::friction::{Friction, SlipRule};
@@ -21,7 +22,7 @@ use striae_surface::{
 };
 use striae_verify::{Difference, Random, derivative::directional};
 
-use crate::scene::{Floor, moved, standing, tilted};
+use crate::scene::{Floor, TOP, moved, standing, tilted};
 
 /// What the field does beside the pointed nodes.
 #[derive(Clone, Copy, PartialEq)]
@@ -30,15 +31,26 @@ enum Carries {
     Nothing,
 }
 
+/// What the sole over a rigid ridge is like.
+#[derive(Clone, Copy, PartialEq)]
+enum Sole {
+    Plane,
+    /// Dips towards its edge along the ridge.
+    Valley,
+    /// Dips towards its node over the vertex of the ridge.
+    Pit,
+}
+
 /// A pair with all nodes of the edge pointed as a function of its unknowns.
 struct Contact<'a> {
+    sole: Sole,
     context: &'a StepContext<'a>,
     start: Configuration<'a>,
     selection: Selection,
 }
 
 impl<'a> Contact<'a> {
-    fn new(context: &'a StepContext<'a>) -> Self {
+    fn new(context: &'a StepContext<'a>, sole: Sole) -> Self {
         let state = context.start;
         let start = context.configuration(0, &state.positions, &state.rigid);
         let none = state.pairs[0].kept.clone();
@@ -55,10 +67,39 @@ impl<'a> Contact<'a> {
         };
         let selection = Selection::new(&start, None, before, &context.fixed_on_pair[0]);
         Self {
+            sole,
             context,
             start,
             selection,
         }
+    }
+
+    /// Where a node of the block is put from its place at the start.
+    fn place(&self, x: &Vec3, random: Vec3) -> Vec3 {
+        const INNER: [f64; 2] = [1.0 / 3.0, 1.0 / 6.0];
+        const DEPTH: f64 = 0.03;
+        let (way, slopes) = match self.sole {
+            Sole::Plane => return x + Vec3::new(0.031, 0.023, -0.021) + random * 0.006,
+            Sole::Valley => (Vec3::new(TOP - INNER[0], 0.023, -DEPTH), [0.3, 0.0]),
+            Sole::Pit => {
+                let to_vertex = Vec3::new(TOP - INNER[0], 0.07 - INNER[1], -DEPTH);
+                (to_vertex, [0.3, 0.2])
+            }
+        };
+        let dips = slopes[0] * (x.x - INNER[0]).abs() + slopes[1] * (x.y - INNER[1]).abs();
+        x + way - Vec3::z() * dips + random * 0.0005
+    }
+
+    /// Whether rigid points are on edges or at nodes of the sole, as that is.
+    fn is_between(&self, u: &DVector<f64>) -> bool {
+        let now = self.configuration(u);
+        let on_border = |point: &RigidPoint| {
+            let hit = Spot::new(&now, Tip::Rigid(*point)).unwrap().hit.unwrap();
+            [hit.xi, hit.eta].map(|c| usize::from(c.abs() == 1.0))
+        };
+        let points = self.selection.points.iter().flatten();
+        let most = points.map(|point| on_border(point).iter().sum()).max();
+        most.unwrap_or(0) == self.sole as usize
     }
 
     fn nodes(&self) -> [usize; 2] {
@@ -143,12 +184,11 @@ impl<'a> Contact<'a> {
         let mut u = DVector::zeros(pair.numbering().count() as usize);
         for &side in pair.deformable_sides() {
             for node in SurfaceNode::all(self.nodes()[side]) {
-                let slide = if side == Side::A {
-                    Vec3::new(0.031, 0.023, -0.021)
-                } else {
-                    Vec3::zeros()
+                let (x, random) = (&self.start.side(side).x[node], random.vector3());
+                let x = match side {
+                    Side::A => self.place(x, random),
+                    Side::B => x + random * 0.006,
                 };
-                let x = self.start.side(side).x[node] + slide + random.vector3() * 0.006;
                 let first = pair.numbering().position(side, node) as usize;
                 u.rows_mut(first, 3).copy_from(&x);
             }
@@ -231,17 +271,18 @@ fn points(start: &Configuration) -> RigidPoints {
     points
 }
 
-fn assert_order(model: Model, field: Carries, wanted: &[Status]) {
+fn assert_order(model: Model, sole: Sole, field: Carries, wanted: &[Status]) {
     let mut model = model;
     model.steps = vec![moved(&model, [0.0; 3], 1)];
     let problem = Problem::new(model).unwrap();
     let start = State::undeformed(&problem);
     let context = StepContext::new(&problem, 0, &start);
-    let contact = Contact::new(&context);
+    let contact = Contact::new(&context, sole);
     let pointed: Vec<_> = contact.selection.pointed_places().collect();
     assert_eq!(pointed.len(), 4);
     let mut random = Random::new(5);
     let u = contact.state(field, &mut random);
+    assert!(contact.is_between(&u));
     let found = contact.evaluation(&u).nodes;
     let found: Vec<_> = pointed
         .iter()
@@ -265,6 +306,15 @@ fn assert_order(model: Model, field: Carries, wanted: &[Status]) {
     }
 }
 
+const SCENES: [(Floor, Sole); 6] = [
+    (Floor::Soft, Sole::Plane),
+    (Floor::Plane, Sole::Plane),
+    (Floor::Facets, Sole::Plane),
+    (Floor::Ridge, Sole::Plane),
+    (Floor::Ridge, Sole::Valley),
+    (Floor::Ridge, Sole::Pit),
+];
+
 /// A block on a ridge stands flat.
 fn angle(floor: Floor) -> f64 {
     if floor == Floor::Ridge { 3.0 } else { 33.0 }
@@ -272,11 +322,12 @@ fn angle(floor: Floor) -> f64 {
 
 #[test]
 fn under_coulomb_friction() {
-    for floor in [Floor::Soft, Floor::Plane, Floor::Facets, Floor::Ridge] {
+    for (floor, sole) in SCENES {
         let friction = Friction::coulomb(0.4).unwrap();
         let model = standing(tilted(angle(floor), 3), &["zmin", "xmin"], floor, friction);
         assert_order(
             model,
+            sole,
             Carries::Traction,
             &[Status::Open, Status::Stick, Status::Slip],
         );
@@ -285,7 +336,7 @@ fn under_coulomb_friction() {
 
 #[test]
 fn under_friction_of_the_opposing_texture() {
-    for floor in [Floor::Soft, Floor::Plane, Floor::Facets, Floor::Ridge] {
+    for (floor, sole) in SCENES {
         let friction = Friction::orthotropic(0.2, 0.5, SlipRule::Associated).unwrap();
         let mut model = standing(tilted(angle(floor), 3), &["zmin", "xmin"], floor, friction);
         model.pairs[0].textures[1] = Some(Paint::Field(Field {
@@ -293,6 +344,6 @@ fn under_friction_of_the_opposing_texture() {
             turn: 0.0,
         }));
         // Textures that ordinary nodes see past the rim of the block are not differentiated.
-        assert_order(model, Carries::Nothing, &[Status::Open, Status::Slip]);
+        assert_order(model, sole, Carries::Nothing, &[Status::Open, Status::Slip]);
     }
 }

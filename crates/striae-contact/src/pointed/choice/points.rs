@@ -16,8 +16,15 @@
 //!
 //! One facet gets one new point at a time, the deepest, and points keep a distance of
 //! [`APART`](super::APART) of the facet size from each other: more than the facets can follow
-//! would leave the pressures undetermined. For the same reason they keep it from pointed nodes. A node next to a vertex that pierces its facet is inside the rigid surface, too; with
-//! rows for both, a large pressure of one would stand against tension of the other.
+//! would leave the pressures undetermined. For the same reason they keep it from pointed nodes.
+//! A node next to a vertex that pierces its facet is inside the rigid surface, too; with
+//! rows for both, a large pressure of one would stand against tension of the other. Nor does
+//! distance alone help where two nodes of an edge are pointed and a point is on that edge: three
+//! rows would determine two positions. What pointed nodes hold by a share `sum N_J` of more than
+//! [`HELD`] is left alone down to [`DEEP`], too, and kept at [`LEFT`] from there on.
+//!
+//! A point leaves when its facet has closed in the mean and the field presses there, so that
+//! its load has somewhere to go.
 
 use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
@@ -43,6 +50,10 @@ pub const DEEP: f64 = 0.08;
 /// Depth that is left to it then.
 pub const LEFT: f64 = 0.07;
 
+/// Share of pointed nodes in a place on a facet from which they hold it: what is left of the
+/// facet would move by four times as much as the place.
+const HELD: f64 = 0.75;
+
 /// A rigid point in a facet.
 struct Inside {
     point: RigidPoint,
@@ -55,9 +66,14 @@ struct Inside {
 }
 
 impl Inside {
-    /// Depth that its row would leave to it, given the mean gap of the facet; `None` where
-    /// others feel it.
-    fn left(&self, mean: Option<f64>, is_pressed: bool) -> Option<f64> {
+    /// Depth that its row would leave to it, given the mean gap of the facet and the share by
+    /// which pointed nodes hold the place; `None` where others feel it.
+    fn left(&self, mean: Option<f64>, is_pressed: bool, held: f64) -> Option<f64> {
+        let is_deep = self.hit.gap < -DEEP * self.least;
+        let kept = Some(LEFT * self.least);
+        if held > HELD {
+            return kept.filter(|_| is_deep);
+        }
         let Some(mean) = mean else {
             return Some(0.0);
         };
@@ -66,8 +82,7 @@ impl Inside {
         if is_sharp || !is_pressed && mean > 0.0 {
             return Some(0.0);
         }
-        let is_deep = self.hit.gap < -DEEP * self.least && stands_back > 0.5 * SHARP;
-        is_deep.then_some(LEFT * self.least)
+        kept.filter(|_| is_deep && stands_back > 0.5 * SHARP)
     }
 }
 
@@ -95,7 +110,8 @@ pub(super) fn pierced(
     deep.retain_mut(|inside| {
         let facet = inside.hit.facet;
         let is_pressed = is_pressed(configuration, carried, facet);
-        let left = inside.left(means[facet.index()], is_pressed);
+        let held = held(configuration, selection, &inside.hit);
+        let left = inside.left(means[facet.index()], is_pressed, held);
         inside.point = inside.point.leaving(left.unwrap_or_default());
         left.is_some()
     });
@@ -129,6 +145,15 @@ fn felt(configuration: &Configuration, selection: &Selection) -> Vec<Vec3> {
     let nodes =
         (0..own.x.len()).filter(|&node| selection.is_pointed(Side::A, SurfaceNode::new(node)));
     points.chain(nodes.map(|node| own.x[node])).collect()
+}
+
+/// Share of pointed nodes in a place on a facet.
+fn held(configuration: &Configuration, selection: &Selection, hit: &Hit) -> f64 {
+    let corners = configuration.side(Side::A).corners(hit.facet);
+    let weights = Shape::of(&corners).weights(hit.xi, hit.eta).value;
+    let pointed = corners.iter().zip(weights);
+    let pointed = pointed.filter(|(corner, _)| selection.is_pointed(Side::A, **corner));
+    pointed.map(|(_, weight)| weight).sum()
 }
 
 /// The facet that a rigid point is in or faces.
@@ -175,6 +200,7 @@ pub fn staying(
     configuration: &Configuration,
     points: &RigidPoints,
     nodes: &[Vec<NodeResult>; 2],
+    carried: &[Vec<[f64; 3]>; 2],
 ) -> Vec<Stay> {
     if points.iter().all(Option::is_none) {
         return Vec::new();
@@ -197,7 +223,9 @@ pub fn staying(
     // What several carry that leave at once is more than others can take in an increment.
     let closed = pressed.iter().filter(|(node, point, hit)| {
         let is_closed = |gap| gap <= CLOSING * configuration.size(Side::B, *node);
-        point.left == 0.0 && gaps[hit.facet.index()].is_some_and(is_closed)
+        point.left == 0.0
+            && gaps[hit.facet.index()].is_some_and(is_closed)
+            && is_pressed(configuration, carried, hit.facet)
     });
     let leaving = closed.map(|(node, ..)| *node);
     let leaving = leaving.min_by(|&a, &b| pressure(a).total_cmp(&pressure(b)));
