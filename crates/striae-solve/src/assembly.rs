@@ -144,10 +144,7 @@ fn on_this_thread(
         contact: contact_rows,
     } = tangent;
     let mut system = System::new(setting.context, layout, bodies, trial, imposed);
-    match derivatives {
-        Derivatives::First => system.matrix.clear(),
-        Derivatives::None => system.derivatives = derivatives,
-    }
+    system.derivatives = derivatives;
     let configurations = configurations(setting, trial);
     for (pair, configuration) in configurations.iter().enumerate() {
         system.find_triples(pair, configuration);
@@ -282,8 +279,8 @@ impl System<'_> {
         places: &ElementPlaces,
     ) -> Result<OfBodies, CutBack> {
         let imposed = setting.imposed;
-        self.loads(configurations, trial, imposed)?;
         let bodies = self.elements(places, trial, setting.state, imposed.flowing())?;
+        self.loads(configurations, trial, imposed)?;
         self.point_masses();
         self.carried(imposed);
         self.pass_on();

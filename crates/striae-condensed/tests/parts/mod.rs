@@ -28,7 +28,7 @@ pub fn tangent(partition: &Partition, whole: &SparseMatrix, share: f64) -> Tange
             if of_contact != 0.0 {
                 blocks.push(PlacedBlock {
                     rows: vec![(row, 0)],
-                    columns: vec![column..column + 1],
+                    columns: std::iter::once(column..column + 1).collect(),
                     values: vec![of_contact].into(),
                 });
             }

@@ -8,7 +8,7 @@ use striae_contact::segment::Derivatives;
 use striae_element::{ElementBlock, ElementError, ElementFault, ElementResponse, Stiffness};
 use striae_law::bulk::Past;
 use striae_mesh::{ElementId, MAX_CORNERS, NodeId, Vec3};
-use striae_sparse::{CliquePlaces, Member, MemberRows};
+use striae_sparse::{CliquePlaces, Member, MemberRows, Supervariable};
 
 use super::{
     ElementPlaces, StepContext, System, Trial,
@@ -24,6 +24,8 @@ struct AtNode {
     internal: Vec3,
     weight: Vec3,
     inertia: Vec3,
+    /// Whether the rows of the matrix are still those of another state.
+    is_stale: bool,
 }
 
 /// Sums over all elements.
@@ -45,7 +47,7 @@ pub struct OfBodies {
 }
 
 impl System<'_> {
-    /// Internal forces and stiffness.
+    /// Internal forces and stiffness, in the place of what there was.
     pub(super) fn elements(
         &mut self,
         places: &ElementPlaces,
@@ -55,7 +57,11 @@ impl System<'_> {
     ) -> Result<OfBodies, CutBack> {
         let problem = self.context.problem;
         let mut sums = Sums::default();
-        let mut at_nodes = self.at_nodes();
+        let nothing = AtNode {
+            is_stale: self.derivatives == Derivatives::First,
+            ..AtNode::default()
+        };
+        let mut at_nodes = vec![nothing; self.matrix.structure().supervariables()];
         for (body, elements) in problem.elements.iter().enumerate() {
             let variables = state.histories[body].as_slice();
             let room = Vec::with_capacity(variables.len());
@@ -72,6 +78,7 @@ impl System<'_> {
                 self.block(&place, trial, &mut at_nodes, &mut sums)?;
             }
         }
+        self.clear_stale(&mut at_nodes);
         self.take_from_nodes(&at_nodes);
         self.force_scale = sums.square_of_forces.sqrt();
         Ok(sums.of_bodies)
@@ -139,10 +146,14 @@ impl System<'_> {
         if range.clone().all(|at| self.is_plain_element(place, at)) {
             let (first, fixed, acts) = (range.start, &self.context.fixed, self.inertia.acts());
             let derivatives = self.derivatives;
-            let add = |member: Member, rows: MemberRows, at_node: &mut AtNode| {
+            let add = |member: Member, mut rows: MemberRows, at_node: &mut AtNode| {
                 let share = &shares[member.clique - first];
                 at_node.add(share, member.slot, acts);
                 if derivatives == Derivatives::First {
+                    // Cleared only now, they are in the cache when they are added to.
+                    if std::mem::take(&mut at_node.is_stale) {
+                        rows.clear();
+                    }
                     let node = member.supervariable.0;
                     add_rows(rows, share, member.slot, &fixed[3 * node..3 * node + 3]);
                 }
@@ -150,6 +161,7 @@ impl System<'_> {
             self.matrix.add_batch(places, batch, at_nodes, add);
             return Ok(());
         }
+        self.clear_stale(at_nodes);
         for (at, share) in range.zip(shares) {
             self.add_element(place, at, share, at_nodes)?;
         }
@@ -197,19 +209,13 @@ impl System<'_> {
         Ok(())
     }
 
-    /// Sums at the supervariables as they are now.
-    fn at_nodes(&self) -> Vec<AtNode> {
-        let mut at_nodes = vec![AtNode::default(); self.matrix.structure().supervariables()];
-        for node in self.context.problem.global_nodes() {
-            let first = self.layout.position(node);
-            at_nodes[node] = AtNode {
-                residual: Vec3::from_column_slice(&self.residual[first..first + 3]),
-                internal: self.forces.internal[node],
-                weight: self.forces.applied[node],
-                inertia: self.forces.inertia[node],
-            };
-        }
-        at_nodes
+    /// Clears the rows of the matrix that are still those of another state.
+    fn clear_stale(&mut self, at_nodes: &mut [AtNode]) {
+        let rows = at_nodes.iter_mut().enumerate();
+        let stale = rows.filter_map(|(at, sums)| {
+            std::mem::take(&mut sums.is_stale).then_some(Supervariable(at))
+        });
+        self.matrix.clear_rows(stale);
     }
 
     fn take_from_nodes(&mut self, at_nodes: &[AtNode]) {
@@ -351,12 +357,8 @@ fn add_rows_of<const N: usize>(
 ) {
     let derivatives = stiffness.rows::<N>(corner);
     for (row, blocks) in derivatives.iter().enumerate() {
-        if fixed[row] {
-            continue;
-        }
-        for (slot, block) in blocks.iter().enumerate() {
-            let entries: &mut [f64; 3] = rows.entries(row, slot);
-            entries.iter_mut().zip(block).for_each(|(k, d)| *k += d);
+        if !fixed[row] {
+            rows.add(row, blocks);
         }
     }
 }

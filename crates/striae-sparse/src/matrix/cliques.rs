@@ -49,12 +49,19 @@ pub struct MemberRows<'a> {
 }
 
 impl MemberRows<'_> {
-    /// Entries of a row, counted within the member, in the leading columns of the member of
-    /// the clique at `slot`.
-    pub fn entries<const W: usize>(&mut self, row: usize, slot: usize) -> &mut [f64; W] {
-        let first = row * self.length + self.columns[slot] as usize;
-        let entries = self.values[first..].first_chunk_mut();
-        entries.expect("a member has as many unknowns as its blocks have columns")
+    /// Sets all entries to zero.
+    pub fn clear(&mut self) {
+        self.values.fill(0.0);
+    }
+
+    /// Adds to the leading columns of all members of the clique in a row, counted within the
+    /// member.
+    pub fn add<const W: usize>(&mut self, row: usize, blocks: &[[f64; W]]) {
+        let values = &mut self.values[row * self.length..][..self.length];
+        for (&column, block) in self.columns.iter().zip(blocks) {
+            let entries = values[column as usize..][..W].iter_mut();
+            entries.zip(block).for_each(|(entry, by)| *entry += by);
+        }
     }
 }
 
@@ -156,6 +163,13 @@ impl SparseMatrix {
             first: 0,
         };
         share.add(&self.structure, places, &add);
+    }
+
+    /// Sets the rows of some supervariables to zero.
+    pub fn clear_rows(&mut self, of: impl Iterator<Item = Supervariable>) {
+        for supervariable in of {
+            self.values[self.structure.rows(supervariable.0)].fill(0.0);
+        }
     }
 
     /// The rows of the member at a slot of a clique that has a place.
