@@ -148,7 +148,7 @@ pub fn stiffness(model: &Model) -> Result<SparseMatrix, Box<dyn Error>> {
     let structure = Structure::from_cliques(layout.offsets().to_vec(), &cliques)?;
     let mut partition = Partition::from(&structure);
     let places = ElementPlaces::new(&problem, &layout, &structure);
-    let mut tangent = Tangent::zero(&partition);
+    let mut tangent = Tangent::zero(partition.structure());
     let trial = Trial {
         positions: state.positions.clone(),
         tractions: Vec::new(),

@@ -122,7 +122,7 @@ impl Automatic {
             self.lu = Some(solver);
         }
         let solver = self.lu.as_mut().ok_or(SolveError::NotAnalysed)?;
-        let report = solver.factor(&tangent.sum(partition))?;
+        let report = solver.factor(&tangent.sum(partition.whole()))?;
         let method = match self.choice {
             Choice::Faer => Method::Faer,
             _ => Method::Multifrontal,
@@ -470,7 +470,7 @@ impl Automatic {
         }
         match (self.lu.as_mut(), self.partition.as_ref(), self.factored) {
             (Some(solver), Some(partition), Some(_)) => {
-                solver.solve(&tangent.sum(partition), rhs, x)
+                solver.solve(&tangent.sum(partition.whole()), rhs, x)
             }
             _ => Err(SolveError::NotFactored),
         }

@@ -14,7 +14,7 @@
 //! let (a, b) = (Supervariable(0), Supervariable(1));
 //! let bulk = Structure::from_cliques(vec![0, 1, 3], &[[a], [b]])?;
 //! let partition = Partition::new(&bulk, &[1, 1])?.grown(&Growth::from_iter([vec![a, b]]))?;
-//! let mut tangent = Tangent::zero(&partition);
+//! let mut tangent = Tangent::zero(partition.structure());
 //! tangent.bodies.add(&[0], &[0], &[2.0])?;
 //! tangent.bodies.add(&[1], &[1], &[3.0])?;
 //! let contact = [

@@ -1,8 +1,7 @@
 //! The matrix of bodies in contact, in two parts.
 
-use crate::partition::Partition;
 use std::{borrow::Cow, cmp::Ordering, iter};
-use striae_sparse::{CompressedRows, LinearOperator, RowSums, SparseMatrix};
+use striae_sparse::{CompressedRows, LinearOperator, RowSums, SparseMatrix, Structure};
 
 /// What the bodies are, and what contact adds between supervariables that are kept.
 ///
@@ -12,9 +11,9 @@ use striae_sparse::{CompressedRows, LinearOperator, RowSums, SparseMatrix};
 #[derive(Clone, Debug)]
 pub struct Tangent {
     /// Elements, masses, ties and what is held, on the [pattern of the
-    /// bodies](Partition::structure).
+    /// bodies](crate::Partition::structure).
     pub bodies: SparseMatrix,
-    /// Contact, see [`Partition::gathered`].
+    /// Contact, see [`Partition::gathered`](crate::Partition::gathered).
     pub contact: CompressedRows,
 }
 
@@ -28,9 +27,9 @@ impl From<SparseMatrix> for Tangent {
 }
 
 impl Tangent {
-    /// The zero matrix.
-    pub fn zero(partition: &Partition) -> Self {
-        Self::from(SparseMatrix::zero(partition.structure()))
+    /// The zero matrix on a pattern of the bodies.
+    pub fn zero(bodies: &Structure) -> Self {
+        Self::from(SparseMatrix::zero(bodies))
     }
 
     /// Sets all values to zero.
@@ -63,12 +62,11 @@ impl Tangent {
         self.bodies.get(unknown, unknown).unwrap_or(0.0) + self.contact.get(unknown, unknown)
     }
 
-    /// Both parts in one matrix on the [whole pattern](Partition::whole).
+    /// Both parts in one matrix on a [whole pattern](crate::Partition::whole).
     ///
     /// # Panics
-    /// When the matrix is of another partition.
-    pub fn sum(&self, partition: &Partition) -> Cow<'_, SparseMatrix> {
-        let whole = partition.whole();
+    /// When an entry is outside that pattern.
+    pub fn sum(&self, whole: &Structure) -> Cow<'_, SparseMatrix> {
         if self.contact.is_zero() && whole.same_as(self.bodies.structure()) {
             return Cow::Borrowed(&self.bodies);
         }

@@ -10,6 +10,7 @@ mod linearised;
 mod loads;
 mod measure;
 mod places;
+mod scatter;
 mod stabilisation;
 mod start;
 mod terms;
@@ -22,6 +23,7 @@ pub use elements::OfBodies;
 use inertia::Inertia;
 pub use linearised::{Background, ContactAssembled, assemble_contact};
 pub use places::ElementPlaces;
+use scatter::Scratch;
 pub(crate) use start::initial_accelerations;
 use std::{
     sync::Arc,
@@ -36,7 +38,7 @@ use striae_mesh::Vec3;
 use striae_sparse::{PlacedBlock, SparseMatrix};
 use striae_surface::node::SurfaceNode;
 use terms::Triple;
-use ties::{Moving, Scratch, Tie};
+use ties::{Moving, Tie};
 
 use crate::{
     layout::Layout,

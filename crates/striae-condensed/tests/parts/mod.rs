@@ -6,7 +6,7 @@ use striae_sparse::{PlacedBlock, SparseMatrix};
 /// The two parts of a matrix on the whole pattern: contact has what bodies have no place for,
 /// and a `share` of what lies between kept supervariables otherwise.
 pub fn tangent(partition: &Partition, whole: &SparseMatrix, share: f64) -> Tangent {
-    let mut tangent = Tangent::zero(partition);
+    let mut tangent = Tangent::zero(partition.structure());
     let mut blocks = Vec::new();
     for row in 0..partition.unknowns() {
         for (column, a) in whole.row(row).filter(|entry| entry.1 != 0.0) {

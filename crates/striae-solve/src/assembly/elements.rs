@@ -13,7 +13,7 @@ use striae_sparse::{CliquePlaces, Member, MemberRows, Supervariable};
 use super::{
     ElementPlaces, StepContext, System, Trial,
     inertia::{Inertia, Share},
-    ties::{Part, Slot},
+    scatter::{Part, Slot},
 };
 use crate::{node::GlobalNode, outcome::CutBack, problem::Problem, state::State};
 

@@ -24,7 +24,8 @@ use striae_sparse::Supervariable;
 
 use super::{
     System,
-    ties::{Part, Slot, Tie},
+    scatter::{Part, Slot},
+    ties::Tie,
 };
 use crate::node::GlobalNode;
 

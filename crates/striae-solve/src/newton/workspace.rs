@@ -115,7 +115,7 @@ impl Workspace {
         let partition = partition.tied(&tied).expect(own);
         self.system = Some(SystemStorage {
             places: ElementPlaces::new(problem, &layout, partition.structure()),
-            tangent: Tangent::zero(&partition),
+            tangent: Tangent::zero(partition.structure()),
             partition,
             layout,
             analysis: Analysis::default(),

@@ -221,7 +221,7 @@ impl<'a> Whole<'a> {
     }
 
     fn evaluated(&self, u: &DVector<f64>) -> (Assembled, Tangent) {
-        let mut tangent = Tangent::zero(&self.partition);
+        let mut tangent = Tangent::zero(self.partition.structure());
         let assembled = self.filled(u, Derivatives::First, &mut tangent);
         (assembled, tangent)
     }
