@@ -27,8 +27,8 @@ use crate::{
     tangent::Tangent,
 };
 use striae_sparse::{
-    Age, Cost, FactorReport, FaerLu, LinearSolver, MultifrontalLu, Precision, SolveError,
-    SolveReport, SparseMatrix, Structure, gmres::Ends,
+    Age, FaerLu, LinearSolver, MultifrontalLu, Precision, SolveError, SolveReport, Structure,
+    gmres::Ends,
 };
 
 /// Part of a factorisation of the bodies that an iteration of Newton's method takes: in
@@ -468,10 +468,8 @@ impl Automatic {
                 Err(other) => return Err(other),
             };
         }
-        match (self.lu.as_mut(), self.partition.as_ref(), self.factored) {
-            (Some(solver), Some(partition), Some(_)) => {
-                solver.solve(&tangent.sum(partition.whole()), rhs, x)
-            }
+        match (self.lu.as_mut(), self.factored) {
+            (Some(solver), Some(_)) => solver.solve(tangent, rhs, x),
             _ => Err(SolveError::NotFactored),
         }
     }
@@ -516,29 +514,4 @@ fn analysed_lu(
     };
     let cost = solver.analyse(structure)?;
     Ok((solver, Analysis { cost, method }))
-}
-
-/// As a solver of plain matrices, in which everything is bulk; it works on copies of them.
-impl LinearSolver for Automatic {
-    fn analyse(&mut self, structure: &Structure) -> Result<Cost, SolveError> {
-        let analysis = Self::analyse(self, &Partition::from(structure))?;
-        Ok(analysis.cost)
-    }
-
-    fn factor(&mut self, matrix: &SparseMatrix) -> Result<FactorReport, SolveError> {
-        let factored = Self::factor(self, &Tangent::from(matrix.clone()))?;
-        Ok(FactorReport {
-            factor_entries: factored.factor_entries,
-            ..FactorReport::default()
-        })
-    }
-
-    fn solve(
-        &mut self,
-        matrix: &SparseMatrix,
-        rhs: &[f64],
-        x: &mut [f64],
-    ) -> Result<SolveReport, SolveError> {
-        Self::solve(self, &Tangent::from(matrix.clone()), rhs, x)
-    }
 }

@@ -1,7 +1,11 @@
 //! The matrix of bodies in contact, in two parts.
 
+use rayon::prelude::*;
 use std::{borrow::Cow, cmp::Ordering, iter};
 use striae_sparse::{CompressedRows, LinearOperator, RowSums, SparseMatrix, Structure};
+
+/// Supervariables whose rows a thread puts together at a time.
+const OWNERS: usize = 64;
 
 /// What the bodies are, and what contact adds between supervariables that are kept.
 ///
@@ -71,17 +75,40 @@ impl Tangent {
             return Cow::Borrowed(&self.bodies);
         }
         let mut sum = SparseMatrix::zero(whole);
+        let mut owners = Vec::with_capacity(whole.supervariables());
+        let mut rest = sum.values_mut();
         for i in 0..whole.supervariables() {
-            for (local, row) in whole.group(i).enumerate() {
-                let values = &mut sum.values_mut()[whole.row(i, local)];
-                let mut places = whole.row_columns(i).zip(values);
-                for (column, a) in self.row(row) {
-                    let place = places.find(|(other, _)| *other == column);
-                    *place.expect("the whole pattern has both parts").1 = a;
-                }
+            let (own, others) = rest.split_at_mut(whole.rows(i).len());
+            owners.push((i, own));
+            rest = others;
+        }
+        let owners = owners.into_par_iter().with_min_len(OWNERS);
+        owners.for_each(|(i, values)| self.add_rows_of(i, whole, values));
+        Cow::Owned(sum)
+    }
+
+    /// Puts the rows of a supervariable into those of a whole pattern.
+    fn add_rows_of(&self, i: usize, whole: &Structure, values: &mut [f64]) {
+        let (bodies, own) = (self.bodies.structure(), self.bodies.values());
+        let length = whole.row_length(i);
+        let has_place = "the whole pattern has both parts";
+        for edge in bodies.edges(i) {
+            let place = whole.edge(i, bodies.target(edge)).expect(has_place);
+            let (to, from) = (whole.column(place), bodies.column(edge));
+            let width = bodies.group(bodies.target(edge)).len();
+            for local in 0..bodies.group(i).len() {
+                let block = &own[bodies.row(i, local)][from..][..width];
+                values[local * length + to..][..width].copy_from_slice(block);
             }
         }
-        Cow::Owned(sum)
+        for (local, row) in whole.group(i).enumerate() {
+            for (column, a) in self.contact.row(row) {
+                let owner = whole.owner(column).0;
+                let place = whole.edge(i, owner).expect(has_place);
+                let at = whole.column(place) + column - whole.group(owner).start;
+                values[local * length + at] += a;
+            }
+        }
     }
 }
 

@@ -6,6 +6,7 @@ use crate::{
     error::SolveError,
     matrix::SparseMatrix,
     multifrontal::MultifrontalLu,
+    products::LinearOperator,
     refinement,
     singularity::{self, Factors, TransposedFactors},
     solver::{Cost, FactorReport, LinearSolver, SolveReport},
@@ -75,7 +76,7 @@ impl LinearSolver for FaerLu {
 
     fn solve(
         &mut self,
-        matrix: &SparseMatrix,
+        matrix: &dyn LinearOperator,
         rhs: &[f64],
         x: &mut [f64],
     ) -> Result<SolveReport, SolveError> {

@@ -13,7 +13,9 @@ use crate::{
     front::{FrontFactor, System},
     matrix::SparseMatrix,
     numeric::Numeric,
-    ordering, refinement,
+    ordering,
+    products::LinearOperator,
+    refinement,
     singularity::{self, Factors, TransposedFactors},
     solver::{Cost, FactorReport, LinearSolver, SolveReport},
     structure::Structure,
@@ -116,7 +118,7 @@ impl LinearSolver for MultifrontalLu {
 
     fn solve(
         &mut self,
-        matrix: &SparseMatrix,
+        matrix: &dyn LinearOperator,
         rhs: &[f64],
         x: &mut [f64],
     ) -> Result<SolveReport, SolveError> {

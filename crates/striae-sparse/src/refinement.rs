@@ -28,7 +28,7 @@ const CYCLE: gmres::Ends = gmres::Ends {
 
 /// Solves `matrix x = rhs` with factors of the equilibrated matrix.
 pub fn solve(
-    matrix: &impl LinearOperator,
+    matrix: &dyn LinearOperator,
     scaling: &Equilibration,
     factors: &dyn Factors,
     rhs: &[f64],
@@ -85,7 +85,7 @@ pub fn solve(
 ///
 /// `None` when the residual of the equilibrated system is not as small as asked for.
 pub fn solve_nearby(
-    matrix: &impl LinearOperator,
+    matrix: &dyn LinearOperator,
     scaling: &Equilibration,
     factors: &dyn Factors,
     (rhs, x): (&[f64], &mut [f64]),
@@ -118,7 +118,7 @@ pub fn solve_nearby(
     }))
 }
 
-fn check(matrix: &impl LinearOperator, rhs: &[f64], x: &[f64]) -> Result<(), SolveError> {
+fn check(matrix: &dyn LinearOperator, rhs: &[f64], x: &[f64]) -> Result<(), SolveError> {
     let expected = matrix.unknowns();
     for found in [rhs.len(), x.len()] {
         if found != expected {

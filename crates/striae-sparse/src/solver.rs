@@ -1,6 +1,8 @@
 //! What every solver offers: analyse once, factor per matrix, solve per right-hand side.
 
-use crate::{error::SolveError, matrix::SparseMatrix, structure::Structure};
+use crate::{
+    error::SolveError, matrix::SparseMatrix, products::LinearOperator, structure::Structure,
+};
 
 /// A solver of square sparse systems.
 ///
@@ -19,7 +21,7 @@ pub trait LinearSolver: Send {
     /// `matrix`. The old content of `x` is not used.
     fn solve(
         &mut self,
-        matrix: &SparseMatrix,
+        matrix: &dyn LinearOperator,
         rhs: &[f64],
         x: &mut [f64],
     ) -> Result<SolveReport, SolveError>;
