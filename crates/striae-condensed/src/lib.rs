@@ -51,6 +51,7 @@ mod iterative;
 mod partition;
 mod report;
 mod scaling;
+mod shared;
 mod tangent;
 
 pub use automatic::{Automatic, Choice, REDUCTION};
@@ -58,4 +59,5 @@ pub use experience::{Experience, FactoredInterior};
 pub use growth::Growth;
 pub use partition::{Partition, PartitionError};
 pub use report::{Analysis, Factored, FallBack, Method};
+pub use shared::{Numbering, SharedSolver};
 pub use tangent::Tangent;

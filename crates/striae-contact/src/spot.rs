@@ -1,7 +1,7 @@
 //! The place that a tip presses on, with its derivatives.
 //!
 //! It is found along the normal `m` of the facet; a rigid point that is beyond the edges of all
-//! facets faces the edge or node between them, see [`crate::crease`]. The traction of a node acts along that
+//! facets faces the edge or node between them, see `crate::crease`. The traction of a node acts along that
 //! normal, too; that of a rigid point along the one between the nodal normals of the
 //! deformable side, `n = -unit(sum N_J n_J)`. It turns continuously where the point goes from
 //! one facet to the next, as it does again and again in the valley that it presses in.
@@ -41,7 +41,7 @@ pub struct Spot {
     /// Unit normal of the tip, against that of the facet or plane.
     pub n: Tracked,
     /// Opposite of the normal along which it is found, with the derivatives that
-    /// [`Opposing`] is chained with.
+    /// `Opposing` is chained with.
     pub ray: Tracked,
     /// Gap.
     pub gap: TrackedScalar,

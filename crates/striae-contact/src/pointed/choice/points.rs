@@ -21,7 +21,7 @@
 //! rows for both, a large pressure of one would stand against tension of the other. Nor does
 //! distance alone help where two nodes of an edge are pointed and a point is on that edge: three
 //! rows would determine two positions. What pointed nodes hold by a share `sum N_J` of more than
-//! [`HELD`] is left alone down to [`DEEP`], too, and kept at [`LEFT`] from there on.
+//! `HELD` is left alone down to [`DEEP`], too, and kept at [`LEFT`] from there on.
 //!
 //! A point leaves when its facet has closed in the mean and the field presses there, so that
 //! its load has somewhere to go.
