@@ -42,7 +42,14 @@ const LADDER: &[Row] = &[
     Row {
         name: "striae-contact",
         own: &["striae-law", "striae-mesh", "striae-surface"],
-        outside: &["nalgebra", "num-dual", "rayon", "serde", "thiserror"],
+        outside: &[
+            "nalgebra",
+            "num-dual",
+            "pulp",
+            "rayon",
+            "serde",
+            "thiserror",
+        ],
     },
     Row {
         name: "striae-sparse",
