@@ -6,7 +6,7 @@ pub enum Choice {
     /// MUMPS for systems of few unknowns, else FGMRES, and MUMPS where that fails.
     #[default]
     ByCost,
-    /// FGMRES, and no other.
+    /// FGMRES, whatever it costs; MUMPS where it fails.
     Iterative,
     /// MUMPS, and no other.
     Mumps,

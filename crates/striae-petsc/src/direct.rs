@@ -6,7 +6,7 @@ use crate::{
     error::Error,
     foreign::{exchange, starts},
     iterative::Shared,
-    product::{Product, norm, scale},
+    product::{Product, largest, norm, normalise, place, scale},
 };
 use striae_condensed::Tangent;
 use striae_solve::team::Team;
@@ -213,32 +213,6 @@ fn assembled(shared: &Shared<'_>, scaling: &Equilibration) -> Result<Matrix, Err
         }
     };
     Matrix::assembled(ranks.library(), (lay(numbering), 1), row)
-}
-
-/// Largest magnitude on all ranks; what is not a number wins.
-fn largest(team: &dyn Team, own: &[f64]) -> f64 {
-    let larger = |m: f64, v: &f64| if m.is_nan() || v.abs() <= m { m } else { v.abs() };
-    let mut largest = [own.iter().fold(0.0, larger)];
-    team.largest(&mut largest);
-    largest[0]
-}
-
-/// Divides by the largest magnitude, which is returned.
-fn normalise(team: &dyn Team, own: &mut [f64]) -> f64 {
-    let size = largest(team, own);
-    if size > 0.0 {
-        own.iter_mut().for_each(|v| *v /= size);
-    }
-    size
-}
-
-/// First place on all ranks whose component is within one per cent of the largest.
-fn place(team: &dyn Team, own: &[f64], first: usize) -> usize {
-    let size = largest(team, own);
-    let found = own.iter().position(|v| v.abs() >= 0.99 * size);
-    let mut least = [found.map_or(f64::NEG_INFINITY, |at| -((first + at) as f64))];
-    team.largest(&mut least);
-    if least[0].is_finite() { -least[0] as usize } else { 0 }
 }
 
 /// A number with a magnitude between one half and one and any sign, the same for a place

@@ -11,7 +11,7 @@ use crate::{
     coupling::{Coupling, Part},
     error::Error,
     nodes::Nodes,
-    product::{Product, norm, scale},
+    product::{Product, norm, normalise, place, scale},
     ranks::Ranks,
 };
 use striae_condensed::{Numbering, Partition, Tangent};
@@ -24,6 +24,11 @@ const MOST: usize = 600;
 const LOOKS: usize = 5;
 /// Reduction of the residual between looks; more is lost to round-off.
 const GAIN: f64 = 1e-10;
+/// Backward error of an answer that cannot become much better.
+const ROUND_OFF: f64 = 1e-12;
+/// Size of a solution over that of its right-hand side at which the matrix, whose entries
+/// are near one, counts as singular.
+const SINGULAR: f64 = 1e13;
 
 /// A preconditioner of the sum of parts.
 #[derive(Debug)]
@@ -103,19 +108,20 @@ impl Iterative {
         }))
     }
 
-    /// Entries that are kept.
+    /// Entries that this rank keeps of the matrices.
     pub(crate) fn entries(&self) -> usize {
-        self.coupling.as_ref().map_or(0, Coupling::entries)
+        self.cycle.entries() + self.coupling.as_ref().map_or(0, Coupling::entries)
     }
 
-    /// Solves for own unknowns; `None` where that takes too many iterations.
+    /// Solves for own unknowns, of which the `first` is known; the error says how large the residual stays where that takes
+    /// too many iterations.
     pub(crate) fn solve(
         &mut self,
         product: &mut Product<'_>,
         team: &dyn Team,
-        (rhs, x): (&[f64], &mut [f64]),
+        (rhs, x, first): (&[f64], &mut [f64], usize),
         reduction: f64,
-    ) -> Result<Option<SolveReport>, Error> {
+    ) -> Result<SolveReport, SolveError> {
         x.fill(0.0);
         for &(at, diagonal) in &self.prescribed {
             x[at as usize] = rhs[at as usize] / diagonal;
@@ -145,13 +151,26 @@ impl Iterative {
                 break;
             }
         }
-        let is_small = present <= reduction * size;
-        Ok(is_small.then_some(SolveReport {
-            backward_error: residual.backward_error,
-            refinements: 0,
-            krylov_iterations: iterations,
-            age: Age::Fresh,
-        }))
+        let mut scaled: Vec<f64> = x.iter().zip(&scaling.columns).map(|(x, c)| x / c).collect();
+        let mut whole = rhs.to_vec();
+        scale(&mut whole, &scaling.rows);
+        if norm(team, &scaled) > SINGULAR * norm(team, &whole) {
+            // What is left of the right-hand side in so large a solution is a null vector.
+            normalise(team, &mut scaled);
+            let unknown = place(team, &scaled, first);
+            let equation = unknown;
+            return Err(SolveError::Singular { unknown, equation });
+        }
+        let backward_error = residual.backward_error;
+        match present <= reduction * size || backward_error <= ROUND_OFF {
+            true => Ok(SolveReport {
+                backward_error,
+                refinements: 0,
+                krylov_iterations: iterations,
+                age: Age::Fresh,
+            }),
+            false => Err(SolveError::Inaccurate { backward_error }),
+        }
     }
 
     /// A correction in scaled unknowns; returns the iterations it took.

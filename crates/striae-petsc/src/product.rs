@@ -106,3 +106,29 @@ pub(crate) fn norm(team: &dyn Team, own: &[f64]) -> f64 {
 pub(crate) fn scale(values: &mut [f64], factors: &[f64]) {
     values.iter_mut().zip(factors).for_each(|(v, f)| *v *= f);
 }
+
+/// Largest magnitude on all ranks; what is not a number wins.
+pub(crate) fn largest(team: &dyn Team, own: &[f64]) -> f64 {
+    let larger = |m: f64, v: &f64| if m.is_nan() || v.abs() <= m { m } else { v.abs() };
+    let mut largest = [own.iter().fold(0.0, larger)];
+    team.largest(&mut largest);
+    largest[0]
+}
+
+/// Divides by the largest magnitude, which is returned.
+pub(crate) fn normalise(team: &dyn Team, own: &mut [f64]) -> f64 {
+    let size = largest(team, own);
+    if size > 0.0 {
+        own.iter_mut().for_each(|v| *v /= size);
+    }
+    size
+}
+
+/// First place on all ranks whose component is within one per cent of the largest.
+pub(crate) fn place(team: &dyn Team, own: &[f64], first: usize) -> usize {
+    let size = largest(team, own);
+    let found = own.iter().position(|v| v.abs() >= 0.99 * size);
+    let mut least = [found.map_or(f64::NEG_INFINITY, |at| -((first + at) as f64))];
+    team.largest(&mut least);
+    if least[0].is_finite() { -least[0] as usize } else { 0 }
+}

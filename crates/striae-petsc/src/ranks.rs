@@ -31,7 +31,7 @@ struct World {
     size: usize,
     /// Held while MPI is called.
     turn: Mutex<()>,
-    universe: Ended,
+    _universe: Ended,
 }
 
 /// MPI, to be finalised.
@@ -78,7 +78,7 @@ impl Ranks {
             rank: world.rank() as usize,
             size: world.size() as usize,
             turn: Mutex::new(()),
-            universe,
+            _universe: universe,
         })))
     }
 

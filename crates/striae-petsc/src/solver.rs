@@ -22,12 +22,17 @@ use striae_sparse::{Cost, SolveError, SolveReport, check_finite};
 const FEW: usize = 100_000;
 /// Unknowns a rank up to which it takes over where FGMRES fails.
 const MANY: usize = 450_000;
+/// Factorisations that MUMPS makes before FGMRES is tried again.
+const REST: usize = 10;
 
 /// A solver of systems whose parts the ranks hold.
 #[derive(Debug)]
 pub struct PetscSolver {
     choice: Choice,
     system: Option<System>,
+    /// Factorisations for which FGMRES is not tried again after it failed, and why.
+    rest: usize,
+    failure: Option<FallBack>,
     ranks: Ranks,
 }
 
@@ -56,27 +61,30 @@ impl PetscSolver {
         Self {
             choice,
             system: None,
+            rest: 0,
+            failure: None,
             ranks: ranks.clone(),
         }
     }
 
     /// Whether MUMPS may take over where FGMRES fails.
     fn has_fall_back(&self, unknowns: usize) -> bool {
-        self.choice == Choice::ByCost && unknowns <= MANY * self.ranks.size()
+        unknowns <= MANY * self.ranks.size()
     }
 
     /// Factors with the solver that is chosen.
-    fn make(&self, part: &Tangent) -> Result<(Borders, Made, Option<FallBack>), SolveError> {
+    fn make(&mut self, part: &Tangent) -> Result<(Borders, Made), SolveError> {
         let system = self.system.as_ref().ok_or(SolveError::NotAnalysed)?;
         let library = self.ranks.library();
         let mut borders = system.touched(library, part)?;
         let mut shared = system.shared(&self.ranks, part, &mut borders);
-        let mut fall_back = None;
-        if let Some(nodes) = &system.nodes {
+        let nodes = system.nodes.as_ref().filter(|_| self.rest == 0);
+        if let Some(nodes) = nodes {
             match Iterative::new(&mut shared, nodes) {
                 Ok(Some(made)) => {
                     let made = Made::Iterative(Box::new(made));
-                    return Ok((borders, made, None));
+                    self.failure = None;
+                    return Ok((borders, made));
                 }
                 failed if !self.has_fall_back(system.numbering.count) => {
                     let indefinite = SolveError::NotPositiveDefinite {
@@ -85,11 +93,15 @@ impl PetscSolver {
                     };
                     return Err(failed.err().unwrap_or(indefinite));
                 }
-                _ => fall_back = Some(FallBack::NoPreconditioner),
+                _ => {
+                    self.failure = Some(FallBack::NoPreconditioner);
+                    self.rest = REST;
+                }
             }
         }
+        self.rest = self.rest.saturating_sub(1);
         let made = Made::Direct(Direct::new(&mut shared)?);
-        Ok((borders, made, fall_back))
+        Ok((borders, made))
     }
 
     /// Solves for own unknowns.
@@ -102,20 +114,21 @@ impl PetscSolver {
         let ranks = self.ranks.clone();
         let system = self.system.as_mut().ok_or(SolveError::NotAnalysed)?;
         let (borders, made) = system.factored.as_mut().ok_or(SolveError::NotFactored)?;
+        let first = system.numbering.own.start;
         let mut product = Product::new(part, borders);
         let iterative = match made {
             Made::Direct(direct) => return direct.solve(&mut product, &ranks, (rhs, x), reduction),
             Made::Iterative(iterative) => iterative,
         };
-        if let Some(report) = iterative.solve(&mut product, &ranks, (rhs, x), reduction)? {
-            return Ok(report);
-        }
+        let solved = iterative.solve(&mut product, &ranks, (rhs, x, first), reduction);
         let unknowns = system.numbering.count;
-        let (mut borders, _) = system.factored.take().ok_or(SolveError::NotFactored)?;
-        if !self.has_fall_back(unknowns) {
-            let backward_error = f64::INFINITY;
-            return Err(SolveError::Inaccurate { backward_error });
+        if solved.is_ok() || !self.has_fall_back(unknowns) {
+            return solved;
         }
+        self.failure = Some(FallBack::NotConverged);
+        self.rest = REST;
+        let system = self.system.as_mut().ok_or(SolveError::NotAnalysed)?;
+        let (mut borders, _) = system.factored.take().ok_or(SolveError::NotFactored)?;
         let system = self.system.as_mut().ok_or(SolveError::NotAnalysed)?;
         let mut direct = Direct::new(&mut system.shared(&ranks, part, &mut borders))?;
         let mut product = Product::new(part, &mut borders);
@@ -236,7 +249,7 @@ impl SharedSolver for PetscSolver {
         self.forget();
         agreed(&self.ranks, self.check(part))?;
         let made = self.make(part);
-        let (borders, made, fall_back) = agreed(&self.ranks, made)?;
+        let (borders, made) = agreed(&self.ranks, made)?;
         let (method, factor_entries) = match &made {
             Made::Iterative(iterative) => (Method::Iterative, iterative.entries()),
             Made::Direct(direct) => (Method::Mumps, direct.entries()),
@@ -247,7 +260,7 @@ impl SharedSolver for PetscSolver {
         Ok(Factored {
             factor_entries,
             method,
-            fall_back,
+            fall_back: self.failure,
             ..Factored::default()
         })
     }

@@ -32,7 +32,7 @@ pub(crate) struct Cycle {
     y: Vector,
     library: Arc<Library>,
     /// What it was made of.
-    _matrix: Matrix,
+    matrix: Matrix,
 }
 
 impl Cycle {
@@ -52,7 +52,7 @@ impl Cycle {
             x: Vector::new(&library, lay, 3)?,
             y: Vector::new(&library, lay, 3)?,
             library: Arc::clone(&library),
-            _matrix: matrix,
+            matrix,
         };
         let mut vectors = Vec::new();
         for _ in kernel {
@@ -61,7 +61,7 @@ impl Cycle {
         let lent = vectors.iter_mut().zip(kernel);
         let lent: Vec<_> = lent.map(|(v, x)| v.with(x)).collect::<Result<_, _>>()?;
         let raw: Vec<ffi::Vec> = lent.iter().map(|lent| lent.raw()).collect();
-        let own = cycle._matrix.raw();
+        let own = cycle.matrix.raw();
         let mut reason = 0;
         // SAFETY: live objects; vectors have values up to the end of the function, and are
         // not looked at after set-up.
@@ -80,6 +80,11 @@ impl Cycle {
             library.check(ffi::PCGetFailedReason(cycle.raw, &mut reason))?;
         }
         Ok((reason == 0).then_some(cycle))
+    }
+
+    /// Entries of the matrix on this rank.
+    pub(crate) fn entries(&self) -> usize {
+        self.matrix.entries
     }
 
     /// `y = M^-1 x`.

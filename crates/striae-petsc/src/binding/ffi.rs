@@ -45,9 +45,7 @@ pub(super) type ErrorHandler = unsafe extern "C" fn(
     *mut c_void,
 ) -> Code;
 
-pub(super) const TRUE: Bool = 1;
 pub(super) const FALSE: Bool = 0;
-pub(super) const DETERMINE: c_int = -1;
 pub(super) const ERROR_INITIAL: c_int = 0;
 pub(super) const INSERT_VALUES: c_int = 1;
 pub(super) const ADD_VALUES: c_int = 2;
@@ -179,7 +177,6 @@ unsafe extern "C" {
     pub(super) fn MatAssemblyBegin(matrix: Mat, kind: c_int) -> Code;
     pub(super) fn MatAssemblyEnd(matrix: Mat, kind: c_int) -> Code;
     pub(super) fn MatMult(matrix: Mat, x: Vec, y: Vec) -> Code;
-    pub(super) fn MatMultTranspose(matrix: Mat, x: Vec, y: Vec) -> Code;
     pub(super) fn MatDestroy(matrix: *mut Mat) -> Code;
     pub(super) fn MatNullSpaceCreate(
         comm: MPI_Comm,
@@ -243,7 +240,6 @@ unsafe extern "C" {
     pub(super) fn KSPGMRESSetRestart(ksp: Ksp, restart: c_int) -> Code;
     pub(super) fn KSPGetPC(ksp: Ksp, pc: *mut Pc) -> Code;
     pub(super) fn KSPSolve(ksp: Ksp, rhs: Vec, solution: Vec) -> Code;
-    pub(super) fn KSPGetConvergedReason(ksp: Ksp, reason: *mut c_int) -> Code;
     pub(super) fn KSPGetIterationNumber(ksp: Ksp, iterations: *mut c_int) -> Code;
     pub(super) fn KSPDestroy(ksp: *mut Ksp) -> Code;
 }

@@ -143,14 +143,6 @@ impl Matrix {
         self.library.check(code)
     }
 
-    /// `y = A^T x`.
-    pub(crate) fn multiply_transposed(&mut self, x: &[f64], y: &mut [f64]) -> Result<(), Error> {
-        let (x, y) = (self.x.with(x)?, self.y.with_mut(y)?);
-        // SAFETY: vectors with values, of which `y` is borrowed alone.
-        let code = unsafe { ffi::MatMultTranspose(self.raw, x.raw(), y.raw()) };
-        self.library.check(code)
-    }
-
     pub(super) fn raw(&self) -> ffi::Mat {
         self.raw
     }

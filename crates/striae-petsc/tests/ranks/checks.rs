@@ -1,7 +1,7 @@
 //! What has to hold on any number of ranks.
 
 use crate::blocks::{Blocks, Contact, Part, Rank, Top};
-use striae_condensed::{Automatic, Choice as Serial, Method, SharedSolver};
+use striae_condensed::{Automatic, Choice as Serial, FallBack, Method, SharedSolver};
 use striae_petsc::{Choice, PetscSolver, Ranks};
 use striae_solve::team::Team;
 use striae_sparse::{SolveError, SolveReport};
@@ -15,7 +15,8 @@ pub fn all(ranks: &Ranks) {
         ("answers of the iterative solver", iterative),
         ("singular matrices", singular),
         ("what is not finite", not_finite),
-        ("fall-back", fall_back),
+        ("few unknowns", few_unknowns),
+        ("indefinite bodies", indefinite),
     ] {
         check(ranks);
         if ranks.rank() == 0 {
@@ -115,7 +116,9 @@ fn direct(ranks: &Ranks) {
         assert_eq!(method, Method::Mumps);
         assert!(report.backward_error < 1e-12, "{blocks:?} {report:?}");
         let error = difference(&blocks, &part, &x);
-        assert!(error < 1e-9, "{blocks:?} {error:e}");
+        // The answer of one rank has round-off, too.
+        let condition = if blocks.stiffness[0] == blocks.stiffness[1] { 1.0 } else { 1e2 };
+        assert!(error < condition * 1e-9, "{blocks:?} {error:e}");
         check_same(ranks, &part, &x);
     }
 }
@@ -124,8 +127,9 @@ fn iterative(ranks: &Ranks) {
     let mut solver = PetscSolver::new(ranks, Choice::Iterative);
     for blocks in cases() {
         let part = blocks.part(Rank(ranks.rank(), ranks.size()));
-        let (x, method, report) = solved(&mut solver, &part, 1e-13);
+        let (x, method, report) = solved(&mut solver, &part, 1e-11);
         assert_eq!(method, Method::Iterative);
+        assert!(report.krylov_iterations > 0);
         let error = difference(&blocks, &part, &x);
         if ranks.rank() == 0 && std::env::var_os("VERBOSE").is_some() {
             println!(
@@ -133,7 +137,9 @@ fn iterative(ranks: &Ranks) {
                 blocks.contact, blocks.top, blocks.stiffness, report.krylov_iterations
             );
         }
-        assert!(error < 1e-9, "{blocks:?} {error:e} {report:?}");
+        // The condition does the rest.
+        let condition = if blocks.stiffness[0] == blocks.stiffness[1] { 1e2 } else { 1e4 };
+        assert!(error < condition * 1e-11, "{blocks:?} {error:e} {report:?}");
         check_same(ranks, &part, &x);
     }
 }
@@ -179,11 +185,13 @@ fn singular(ranks: &Ranks) {
         let mut x = vec![0.0; part.rhs.len()];
         iterative.solve(&part.tangent, &part.rhs, &mut x, 1e-9)
     });
-    assert!(failed.is_err(), "{failed:?}");
+    assert!(matches!(failed, Err(SolveError::Singular { .. })), "{failed:?}");
     // It goes on with another matrix.
     let held = blocks(Top::Held).part(Rank(ranks.rank(), ranks.size()));
     solved(&mut direct, &held, 1e-9);
-    solved(&mut iterative, &held, 1e-9);
+    let mut iterative = PetscSolver::new(ranks, Choice::Iterative);
+    let (_, method, _) = solved(&mut iterative, &held, 1e-9);
+    assert_eq!(method, Method::Iterative);
 }
 
 fn not_finite(ranks: &Ranks) {
@@ -207,7 +215,7 @@ fn not_finite(ranks: &Ranks) {
     assert_eq!(error, Err(SolveError::NotFactored));
 }
 
-fn fall_back(ranks: &Ranks) {
+fn few_unknowns(ranks: &Ranks) {
     // Small systems go to MUMPS by cost.
     let part = blocks(Top::Free).part(Rank(ranks.rank(), ranks.size()));
     let mut solver = PetscSolver::new(ranks, Choice::ByCost);
@@ -217,4 +225,21 @@ fn fall_back(ranks: &Ranks) {
     let mut x = vec![0.0; part.rhs.len()];
     let error = solver.solve(&part.tangent, &part.rhs, &mut x, 1e-9);
     assert_eq!(error, Err(SolveError::NotFactored));
+}
+
+fn indefinite(ranks: &Ranks) {
+    let mut part = blocks(Top::Held).part(Rank(ranks.rank(), ranks.size()));
+    // Far from definite, but not singular.
+    for (u, whole) in part.numbering.whole.iter().enumerate() {
+        if part.numbering.own.contains(whole) && part.serial[u] % 2 == 0 {
+            part.tangent.bodies.add(&[u], &[u], &[-10.0]).unwrap();
+        }
+    }
+    let mut solver = PetscSolver::new(ranks, Choice::Iterative);
+    let (_, _, report) = solved(&mut solver, &part, 1e-9);
+    assert!(report.backward_error < 1e-12, "{report:?}");
+    let again = solver.factor(&part.tangent).unwrap();
+    assert_eq!(again.method, Method::Mumps);
+    let expected = [FallBack::NoPreconditioner, FallBack::NotConverged];
+    assert!(again.fall_back.is_some_and(|f| expected.contains(&f)), "{again:?}");
 }
