@@ -166,6 +166,15 @@ impl Layout {
         self.rigids.iter().all(Option::is_none)
     }
 
+    /// Whether a supervariable is this rank's own: that of a node is with the node, that of a
+    /// rigid body with the first rank.
+    pub fn is_own(&self, problem: &Problem, Supervariable(at): Supervariable) -> bool {
+        match at < self.nodes {
+            true => problem.share.owns(GlobalNode(at)),
+            false => problem.share.owns_bodies(),
+        }
+    }
+
     /// First position unknown of a global node.
     pub fn position(&self, node: GlobalNode) -> usize {
         self.offsets[node]

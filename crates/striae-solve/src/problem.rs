@@ -29,6 +29,7 @@ use crate::{
     model::{ContactSurface, Model, Pair, RigidShape},
     node::GlobalNode,
     plan::{StepPlan, plans},
+    share::Share,
     tie::{TieFault, Ties, first_nodes},
 };
 use contact_facet::contact_facets;
@@ -67,6 +68,8 @@ pub struct Problem {
     pub shadowed: Vec<[Vec<bool>; 2]>,
     /// Contact facets that each face of each body is.
     pub contact_facets: HashMap<(usize, Face), Vec<ContactFacet>>,
+    /// What of the whole this is.
+    pub share: Share,
 }
 
 /// A contact pair with its place in the problem.
@@ -173,6 +176,7 @@ impl Problem {
         add_fibres(&model, &mut pairs);
         let massless = contact_mass::massless(&model, &first_node, reference.len());
         Ok(Self {
+            share: Share::alone(),
             contact_facets: contact_facets(&pairs),
             masses: masses(&model, &elements, &compositions, (&first_node, &massless)),
             massless,

@@ -175,7 +175,7 @@ pub struct Worst {
 }
 
 impl Judgement {
-    /// Judges a converged increment by what it came from.
+    /// Judges a converged increment by what it came from; collective.
     pub fn converged(&mut self, problem: &Problem, before: &State, increment: &Increment) {
         self.change(
             problem,
@@ -184,7 +184,7 @@ impl Judgement {
         );
     }
 
-    /// Judges an increment from `before` to `after`, however it came about.
+    /// Judges an increment from `before` to `after`, however it came about; collective.
     pub fn increment(&mut self, problem: &Problem, before: &State, after: &State) {
         let ends = [before, after].map(Positions::from);
         let pairs = 0..problem.pairs.len();
@@ -354,7 +354,7 @@ impl Judgement {
 }
 
 /// Energy below which all is round-off: that of strains of 4e-6 or less. Its balance is
-/// judged at a thousandth, which is a hundred units in the last place of `G V`.
+/// judged at a thousandth, which is a hundred units in the last place of `G V`. Collective.
 fn round_off(problem: &Problem) -> f64 {
     const STRAIN_SQUARED: f64 = 2e-11;
     let bodies = problem.elements.iter().enumerate();
@@ -365,10 +365,10 @@ fn round_off(problem: &Problem) -> f64 {
         });
         energies.sum::<f64>()
     });
-    STRAIN_SQUARED * energies.sum::<f64>()
+    STRAIN_SQUARED * problem.share.sum(energies.sum())
 }
 
-/// Largest angle by which elements of linear elastic bodies have turned.
+/// Largest angle by which elements of linear elastic bodies have turned; collective.
 fn rotation(problem: &Problem, state: &State) -> f64 {
     let bodies = problem.model.bodies.iter().zip(&problem.elements);
     let angles = bodies.enumerate().filter(|(_, (body, _))| is_linear(body));
@@ -385,7 +385,7 @@ fn rotation(problem: &Problem, state: &State) -> f64 {
         });
         angles.fold(0.0, f64::max)
     });
-    angles.fold(0.0, f64::max)
+    problem.share.largest(angles.fold(0.0, f64::max))
 }
 
 fn is_linear(body: &Body) -> bool {

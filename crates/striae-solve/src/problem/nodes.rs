@@ -13,6 +13,11 @@ impl Problem {
         (0..self.reference.len()).map(GlobalNode)
     }
 
+    /// Nodes that belong to this rank: all where it is alone.
+    pub fn own_nodes(&self) -> impl Iterator<Item = GlobalNode> {
+        self.global_nodes().filter(|node| self.share.owns(*node))
+    }
+
     /// Nodes of a body.
     pub fn nodes_of(&self, body: usize) -> impl Iterator<Item = GlobalNode> + use<> {
         (self.first_node[body]..self.first_node[body + 1]).map(GlobalNode)
@@ -26,6 +31,12 @@ impl Problem {
     /// Global numbers of nodes of a body.
     pub fn nodes(&self, body: usize, nodes: &[NodeId]) -> Vec<GlobalNode> {
         nodes.iter().map(|&node| self.node(body, node)).collect()
+    }
+
+    /// Body and node, in the whole mesh, of a global node number: what messages name.
+    pub(crate) fn named_node(&self, node: GlobalNode) -> (usize, NodeId) {
+        let (body, node) = self.body_node(node);
+        (body, self.share.whole_mesh_node(body, node))
     }
 
     /// Body and node of a global node number.
