@@ -4,7 +4,11 @@
 //! that they decide alike. Every function here is collective: all ranks call it, in the same
 //! order. A reduction adds in the order of the ranks and has the same bits on all.
 
+mod together;
+
 use std::fmt::Debug;
+
+pub use together::Together;
 
 /// The ranks of a run, as one of them sees them.
 pub trait Team: Debug + Send + Sync {
