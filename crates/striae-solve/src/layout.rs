@@ -5,6 +5,9 @@
 //! supervariable, so that the
 //! factorisation meets gap rows and their multipliers together. The six coordinates of a
 //! rigid body that nodes are tied to or that contact may move are another one, kept for last.
+//! What the unknowns of a share are in the whole system is in `layout/shared.rs`.
+
+mod shared;
 
 use serde::{Deserialize, Serialize};
 use striae_contact::{selection::Selection, side::Side, unknown::Unknown};

@@ -11,6 +11,7 @@ mod shadow;
 pub use contact_facet::ContactFacet;
 pub(crate) use fibres::add_fibres;
 pub(crate) use frame::Frame;
+pub(crate) use nodes::extent;
 
 use std::collections::HashMap;
 use striae_contact::{

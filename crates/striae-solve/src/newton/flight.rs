@@ -31,7 +31,7 @@ pub(super) fn flown(setting: &Setting, trial: &Trial) -> Option<CutBack> {
     if !is_static || is_resisted {
         return None;
     }
-    let (before, size) = (&setting.state.positions, size(&problem.reference));
+    let (before, size) = (&setting.state.positions, problem.size());
     let (node, way) = furthest(before, &trial.positions)?;
     if way <= FARTHEST * size + prescribed(setting, trial) {
         return None;
@@ -43,17 +43,6 @@ pub(super) fn flown(setting: &Setting, trial: &Trial) -> Option<CutBack> {
         way,
         times: way / size,
     })
-}
-
-/// Diagonal of the box around all nodes.
-fn size(reference: &[Vec3]) -> f64 {
-    let Some(&first) = reference.first() else {
-        return 0.0;
-    };
-    let ends = reference.iter().fold((first, first), |(least, most), x| {
-        (least.inf(x), most.sup(x))
-    });
-    (ends.1 - ends.0).norm()
 }
 
 /// The node with the longest way.
@@ -83,7 +72,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_size_is_that_of_the_box_and_the_longest_way_is_found() {
+    fn the_longest_way_is_found() {
         let before = [
             Vec3::zeros(),
             Vec3::new(3.0, 0.0, 0.0),
@@ -91,7 +80,6 @@ mod tests {
         ];
         let mut now = before;
         now[2].z = -7.0;
-        assert_eq!(size(&before), 5.0);
         assert_eq!(furthest(&before, &now), Some((2, 7.0)));
     }
 }

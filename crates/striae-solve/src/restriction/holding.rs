@@ -7,7 +7,7 @@ use crate::{
     initial::{fits, may_meet},
     model::{Model, PairId},
     node::GlobalNode,
-    problem::Frame,
+    problem::{Frame, extent},
     rigid::mass_points,
     share::{Division, Holding, Whole},
 };
@@ -99,12 +99,6 @@ fn known(whole: &Frame, points: &[Vec3], nodes: usize) -> Whole {
     let model = &whole.model;
     let at = whole.placed.as_ref().unwrap_or(model);
     let positions = at.bodies.iter().flat_map(|body| &body.mesh.positions);
-    let [least, most] = [f64::INFINITY, f64::NEG_INFINITY].map(Vec3::repeat);
-    let extent = positions
-        .chain(points)
-        .fold([least, most], |[least, most], x| {
-            [least.inf(x), most.sup(x)]
-        });
     let fits = fits(model);
     let pairs = fits.iter().enumerate();
     Whole {
@@ -115,7 +109,7 @@ fn known(whole: &Frame, points: &[Vec3], nodes: usize) -> Whole {
         elements: (at.bodies.iter())
             .map(|body| body.mesh.element_count())
             .collect(),
-        extent,
+        extent: extent(positions.chain(points)),
         may_meet: pairs
             .map(|(pair, fit)| {
                 let fit = fit.as_ref();
