@@ -21,7 +21,7 @@ use std::collections::BTreeSet;
 use striae_law::bulk::Past;
 use striae_mesh::{ElementId, Face, Mesh, NodeId, Vec3, sorted_face};
 
-use crate::{problem::Problem, state::State};
+use crate::{problem::Problem, share::Share, state::State};
 
 /// A cut of a body.
 #[derive(Clone, Debug, PartialEq)]
@@ -135,21 +135,23 @@ impl Section {
         })
     }
 
-    /// Force and moment through the section of a body in a state.
+    /// Force and moment through the section of a body in a state; collective.
     pub fn report(&self, problem: &Problem, state: &State, body: usize) -> SectionReport {
         let mesh = &problem.model.bodies[body].mesh;
         let at = |node: NodeId| state.positions[problem.node(body, node)];
-        let (normal, area, centre) = self.geometry(at);
-        let (mut force, mut moment) = (Vec3::zeros(), Vec3::zeros());
+        let (normal, area, centre) = self.geometry(&problem.share, at);
+        let mut sums = [Vec3::zeros(); 2];
         for (element, on_section) in &self.elements {
             let forces = internal_forces(problem, state, body, *element);
             let corners = mesh.corners(*element);
             for &corner in on_section {
                 let f = forces[corner];
-                force += f;
-                moment += (at(corners[corner]) - centre).cross(&f);
+                sums[0] += f;
+                sums[1] += (at(corners[corner]) - centre).cross(&f);
             }
         }
+        problem.share.sum_vectors(&mut sums);
+        let [force, moment] = sums;
         SectionReport {
             force,
             moment,
@@ -160,7 +162,7 @@ impl Section {
     }
 
     /// Unit normal, area and centroid.
-    fn geometry(&self, at: impl Fn(NodeId) -> Vec3) -> (Vec3, f64, Vec3) {
+    fn geometry(&self, share: &Share, at: impl Fn(NodeId) -> Vec3) -> (Vec3, f64, Vec3) {
         let (mut vector, mut total, mut centre) = (Vec3::zeros(), 0.0, Vec3::zeros());
         for face in &self.faces {
             let [a, b, c, d] = face.map(&at);
@@ -171,6 +173,9 @@ impl Section {
                 centre += (p + q + r) * (area.norm() / 3.0);
             }
         }
+        let mut sums = [vector, centre];
+        share.sum_vectors(&mut sums);
+        let ([vector, centre], total) = (sums, share.sum(total));
         (vector.normalize(), vector.norm(), centre / total)
     }
 }

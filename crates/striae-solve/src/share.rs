@@ -50,6 +50,9 @@
 //! offsets and poses follow from what is replicated alone and need nothing.
 
 mod division;
+mod exchange;
+mod fault;
+mod reduced;
 
 use std::sync::Arc;
 
@@ -145,6 +148,11 @@ impl Share {
         holding.map_or(0, |holding| holding.owners[node] as usize)
     }
 
+    /// Whether there is no other rank.
+    pub fn is_alone(&self) -> bool {
+        self.team.size() == 1
+    }
+
     /// Whether this rank owns a node.
     pub fn owns(&self, node: GlobalNode) -> bool {
         let holding = self.holding.as_ref();
@@ -165,13 +173,31 @@ impl Share {
     /// Number of a node of a body in its whole mesh.
     pub fn whole_mesh_node(&self, body: usize, node: NodeId) -> NodeId {
         let holding = self.holding.as_ref();
-        holding.map_or(node, |holding| holding.mesh_nodes[body][node.index()])
+        let nodes = holding.and_then(|holding| holding.mesh_nodes.get(body));
+        // Mass points are those of no body.
+        nodes.map_or(node, |nodes| nodes[node.index()])
     }
 
     /// Number of an element of a body in its whole mesh.
     pub fn whole_element(&self, body: usize, element: ElementId) -> ElementId {
         let holding = self.holding.as_ref();
         holding.map_or(element, |holding| holding.elements[body][element.index()])
+    }
+
+    /// How many nodes the whole problem has, where this rank holds `local` ones.
+    pub(crate) fn whole_node_count(&self, local: usize) -> usize {
+        self.holding().map_or(local, |holding| holding.whole.nodes)
+    }
+
+    /// Local number of a node of the whole problem, where it is held.
+    pub(crate) fn local_node(&self, node: GlobalNode) -> Option<GlobalNode> {
+        match &self.holding {
+            None => Some(node),
+            Some(holding) => {
+                let place = holding.nodes.binary_search(&node.0).ok();
+                place.map(GlobalNode)
+            }
+        }
     }
 
     /// Local number of a node of the whole mesh of a body, where it is held.

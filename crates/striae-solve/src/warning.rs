@@ -176,7 +176,7 @@ pub struct Worst {
 }
 
 impl Judgement {
-    /// Judges a converged increment by what it came from.
+    /// Judges a converged increment by what it came from; collective.
     pub fn converged(&mut self, problem: &Problem, before: &State, increment: &Increment) {
         self.change(
             problem,
@@ -185,7 +185,7 @@ impl Judgement {
         );
     }
 
-    /// Judges an increment from `before` to `after`, however it came about.
+    /// Judges an increment from `before` to `after`, however it came about; collective.
     pub fn increment(&mut self, problem: &Problem, before: &State, after: &State) {
         let ends = [before, after].map(Positions::from);
         let pairs = 0..problem.pairs.len();
@@ -364,7 +364,7 @@ impl Judgement {
 }
 
 /// Energy below which all is round-off: that of strains of 4e-6 or less. Its balance is
-/// judged at a thousandth, which is a hundred units in the last place of `G V`.
+/// judged at a thousandth, which is a hundred units in the last place of `G V`. Collective.
 fn round_off(problem: &Problem) -> f64 {
     const STRAIN_SQUARED: f64 = 2e-11;
     let bodies = problem.elements.iter().enumerate();
@@ -375,10 +375,10 @@ fn round_off(problem: &Problem) -> f64 {
         });
         energies.sum::<f64>()
     });
-    STRAIN_SQUARED * energies.sum::<f64>()
+    STRAIN_SQUARED * problem.share.sum(energies.sum())
 }
 
-/// Largest angle by which elements of linear elastic bodies have turned.
+/// Largest angle by which elements of linear elastic bodies have turned; collective.
 fn rotation(problem: &Problem, state: &State) -> f64 {
     let bodies = problem.model.bodies.iter().zip(&problem.elements);
     let angles = bodies.enumerate().filter(|(at, _)| is_linear(problem, *at));
@@ -395,7 +395,7 @@ fn rotation(problem: &Problem, state: &State) -> f64 {
         });
         angles.fold(0.0, f64::max)
     });
-    angles.fold(0.0, f64::max)
+    problem.share.largest(angles.fold(0.0, f64::max))
 }
 
 fn is_linear(problem: &Problem, body: usize) -> bool {
@@ -533,11 +533,7 @@ pub fn warnings_at_start(model: &Model, fits: &[Option<Fit>]) -> Vec<Warning> {
 }
 
 /// Warnings of pairs that can never meet.
-fn never(
-    model: &Model,
-    fits: &[Option<Fit>],
-    may_meet: impl Fn(usize) -> bool,
-) -> Vec<Warning> {
+fn never(model: &Model, fits: &[Option<Fit>], may_meet: impl Fn(usize) -> bool) -> Vec<Warning> {
     let mut warnings = Vec::new();
     for (pair, fit) in fits.iter().enumerate() {
         let fit = fit.as_ref().filter(|_| !may_meet(pair));

@@ -22,6 +22,11 @@ impl Problem {
         (most - least).norm()
     }
 
+    /// Nodes that belong to this rank: all where it is alone.
+    pub fn own_nodes(&self) -> impl Iterator<Item = GlobalNode> {
+        self.global_nodes().filter(|node| self.share.owns(*node))
+    }
+
     /// Nodes of a body.
     pub fn nodes_of(&self, body: usize) -> impl Iterator<Item = GlobalNode> + use<> {
         (self.first_node[body]..self.first_node[body + 1]).map(GlobalNode)
@@ -35,6 +40,12 @@ impl Problem {
     /// Global numbers of nodes of a body.
     pub fn nodes(&self, body: usize, nodes: &[NodeId]) -> Vec<GlobalNode> {
         nodes.iter().map(|&node| self.node(body, node)).collect()
+    }
+
+    /// Body and node, in the whole mesh, of a global node number: what messages name.
+    pub(crate) fn named_node(&self, node: GlobalNode) -> (usize, NodeId) {
+        let (body, node) = self.body_node(node);
+        (body, self.share.whole_mesh_node(body, node))
     }
 
     /// Body and node of a global node number.
@@ -63,7 +74,9 @@ impl Problem {
 pub(crate) fn extent<'a>(places: impl IntoIterator<Item = &'a Vec3>) -> [Vec3; 2] {
     let mut places = places.into_iter();
     let first = places.next().copied().unwrap_or_default();
-    places.fold([first, first], |[least, most], x| [least.inf(x), most.sup(x)])
+    places.fold([first, first], |[least, most], x| {
+        [least.inf(x), most.sup(x)]
+    })
 }
 
 #[cfg(test)]
