@@ -52,8 +52,6 @@
 mod division;
 mod exchange;
 mod fault;
-mod growth;
-mod numbering;
 mod reduced;
 
 use std::sync::Arc;
@@ -67,8 +65,6 @@ use crate::{
 };
 
 pub use division::Division;
-pub(crate) use growth::united;
-pub(crate) use numbering::numbering;
 
 /// What of a problem a rank holds.
 #[derive(Clone, Debug)]
@@ -177,7 +173,9 @@ impl Share {
     /// Number of a node of a body in its whole mesh.
     pub fn whole_mesh_node(&self, body: usize, node: NodeId) -> NodeId {
         let holding = self.holding.as_ref();
-        holding.map_or(node, |holding| holding.mesh_nodes[body][node.index()])
+        let nodes = holding.and_then(|holding| holding.mesh_nodes.get(body));
+        // Mass points are those of no body.
+        nodes.map_or(node, |nodes| nodes[node.index()])
     }
 
     /// Number of an element of a body in its whole mesh.

@@ -10,7 +10,7 @@ use striae_contact::{evaluation::Evaluation, term::LocalTerm};
 use striae_sparse::{CompressedRows, PlacedBlock};
 
 use super::{System, terms::Answer};
-use crate::share::united;
+use crate::layout::united;
 
 /// Terms for one thread at a time.
 const TERMS: usize = 16;

@@ -15,7 +15,6 @@ use crate::{
     node::GlobalNode,
     outcome::CutBack,
     problem::Problem,
-    share::Share,
 };
 
 /// Way in one increment, over the size of the undeformed bodies, beyond what is prescribed.
@@ -34,7 +33,7 @@ pub(super) fn flown(setting: &Setting, trial: &Trial) -> Option<CutBack> {
         return None;
     }
     let (share, before) = (&problem.share, &setting.state.positions);
-    let size = size(share, &problem.reference);
+    let size = problem.size();
     let (body, node, way) = first(problem, furthest(before, &trial.positions))?;
     if way <= FARTHEST * size + share.largest(prescribed(setting, trial)) {
         return None;
@@ -73,16 +72,6 @@ fn first(problem: &Problem, own: Option<(usize, f64)>) -> Option<(usize, NodeId,
     })
 }
 
-/// Diagonal of the box around all nodes; collective.
-fn size(share: &Share, reference: &[Vec3]) -> f64 {
-    let mut ends = reference.iter().fold([f64::NEG_INFINITY; 6], |ends, x| {
-        std::array::from_fn(|at| ends[at].max(if at < 3 { x[at] } else { -x[at - 3] }))
-    });
-    share.team().largest(&mut ends);
-    let size = Vec3::from_fn(|axis, _| ends[axis] + ends[axis + 3]).norm();
-    if size.is_finite() { size } else { 0.0 }
-}
-
 /// The node with the longest way.
 fn furthest(before: &[Vec3], now: &[Vec3]) -> Option<(usize, f64)> {
     let ways = before.iter().zip(now).map(|(from, to)| (to - from).norm());
@@ -110,7 +99,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_size_is_that_of_the_box_and_the_longest_way_is_found() {
+    fn the_longest_way_is_found() {
         let before = [
             Vec3::zeros(),
             Vec3::new(3.0, 0.0, 0.0),
@@ -118,8 +107,6 @@ mod tests {
         ];
         let mut now = before;
         now[2].z = -7.0;
-        assert_eq!(size(&Share::alone(), &before), 5.0);
-        assert_eq!(size(&Share::alone(), &[]), 0.0);
         assert_eq!(furthest(&before, &now), Some((2, 7.0)));
     }
 }

@@ -23,7 +23,6 @@ use crate::{
     outcome::CutBack,
     problem::Problem,
     rigid::Pose,
-    share::numbering,
     state::{NodalForces, State},
 };
 
@@ -96,7 +95,7 @@ impl Workspace {
         let layout = Layout::new(problem, extent);
         let numbering = match self.solver {
             Linear::Alone(_) => None,
-            Linear::Shared(_) => Some(numbering(problem, &layout)),
+            Linear::Shared(_) => Some(layout.numbering(problem)),
         };
         let mut cliques: Vec<Vec<Supervariable>> = Vec::new();
         // Elements at tied nodes couple the others with the rigid body, which is no bulk.

@@ -9,7 +9,7 @@
 use striae_mesh::{CellBlock, NodeId};
 use striae_sparse::{Neighbourhood, SolveError, divided};
 
-use crate::{model::Model, team::Team};
+use crate::{model::Model, node::GlobalNode, team::Team};
 
 /// Nodes in common from which on elements are neighbours.
 const LEAST_COMMON: u8 = 3;
@@ -113,6 +113,11 @@ impl Division {
     /// Owner of every node of all bodies, one body after the other.
     pub fn owners(&self) -> &[u32] {
         &self.owners
+    }
+
+    /// Owner of a node of the whole problem, which may be a mass point.
+    pub fn owner(&self, node: GlobalNode) -> usize {
+        self.owners.get(node.0).map_or(0, |owner| *owner as usize)
     }
 }
 

@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use striae_condensed::Growth;
 use striae_sparse::Supervariable;
 
-use crate::{layout::Layout, node::GlobalNode, problem::Problem};
+use super::Layout;
+use crate::{node::GlobalNode, problem::Problem};
 
 /// By what the patterns of all ranks have grown together, in this rank's numbers; collective.
 ///
