@@ -1,5 +1,6 @@
 //! Residual and tangent of the whole problem at a trial state.
 
+mod agreement;
 mod blocks;
 mod contacts;
 mod context;
@@ -20,6 +21,7 @@ pub use crate::dynamics::ImposedRate;
 pub use context::{Imposed, StepContext};
 pub use elements::OfBodies;
 
+use agreement::agreed;
 use inertia::Inertia;
 pub use linearised::{Background, ContactAssembled, assemble_contact};
 pub use places::ElementPlaces;
@@ -158,7 +160,7 @@ fn in_phases(
     });
     let (contacts, evaluation_time) = evaluated;
     let found = contacts.and_then(|contacts| Ok((contacts, bodies?)));
-    let (contacts, mut bodies) = share.agreed(found)?;
+    let (contacts, mut bodies) = agreed(setting.context.problem, found)?;
     if !share.is_alone() {
         system.sum_at_nodes();
         system.beside_elements(imposed);

@@ -51,7 +51,6 @@
 
 mod division;
 mod exchange;
-mod fault;
 mod reduced;
 
 use std::sync::Arc;

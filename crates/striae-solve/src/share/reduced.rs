@@ -9,8 +9,7 @@
 
 use striae_mesh::Vec3;
 
-use super::{Share, exchange, fault};
-use crate::outcome::CutBack;
+use super::{Share, exchange};
 
 impl Share {
     /// Sum over all ranks.
@@ -69,14 +68,5 @@ impl Share {
         if let Some(holding) = self.holding() {
             exchange::sum(self.team(), holding, fields);
         }
-    }
-
-    /// What a phase came to that may have failed on some ranks only: on all of them it fails for
-    /// the reason of the first one.
-    ///
-    /// # Errors
-    /// That reason.
-    pub fn agreed<T>(&self, found: Result<T, CutBack>) -> Result<T, CutBack> {
-        fault::agreed(self.team(), found)
     }
 }

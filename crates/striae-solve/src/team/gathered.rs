@@ -2,9 +2,7 @@
 
 use std::sync::Arc;
 
-use striae_condensed::{
-    Analysis, Factored, Method, Numbering, Partition, SharedSolver, Tangent,
-};
+use striae_condensed::{Analysis, Factored, Method, Numbering, Partition, SharedSolver, Tangent};
 use striae_sparse::{
     LinearSolver, MultifrontalLu, SolveError, SolveReport, SparseMatrix, Structure,
 };

@@ -1,28 +1,42 @@
 //! What fails on one rank fails on all.
 //!
 //! Elements and loads are evaluated by one rank each, so that one may fail where others do not.
-//! All learn of the first that does, by its words on a list of bytes.
+//! All learn of the first element that does, by body and number in the whole mesh, as a rank that
+//! is alone would come upon it; then of the first load, by rank.
 
 use striae_element::{ElementError, ElementFault};
 use striae_mesh::{ElementId, NodeId};
 
-use crate::{load::LoadError, outcome::CutBack, team::Team};
+use crate::{load::LoadError, outcome::CutBack, problem::Problem};
 
-/// What a phase came to, or why it failed on the first rank on which it did.
-pub(super) fn agreed<T>(team: &dyn Team, found: Result<T, CutBack>) -> Result<T, CutBack> {
-    let mut failed = [f64::from(u8::from(found.is_err()))];
-    team.largest(&mut failed);
-    if failed == [0.0] {
+/// What a phase came to, or the first reason for which it failed on any rank; collective.
+pub(super) fn agreed<T>(problem: &Problem, found: Result<T, CutBack>) -> Result<T, CutBack> {
+    let share = &problem.share;
+    if share.is_alone() || !share.any(found.is_err()) {
         return found;
     }
     let own = found.err();
     let words = own.as_ref().map_or_else(Vec::new, written);
-    let all = team.gather(&words);
-    let first = all.iter().find_map(|words| read(&mut Words(words)));
+    let all = share.team().gather(&words);
+    let told = all.iter().filter_map(|words| read(&mut Words(words)));
+    let first = told.min_by_key(|fault| place(problem, fault));
     // What cannot be told is of contact, which is the same everywhere.
     Err(first
         .or(own)
         .expect("what is not told has failed on all ranks"))
+}
+
+/// Where a fault is met: contact is looked at first, then elements, then loads.
+fn place(problem: &Problem, fault: &CutBack) -> (usize, usize, usize) {
+    match fault {
+        CutBack::InvertedElement { body, element } => {
+            let bodies = &problem.model.bodies;
+            let body = bodies.iter().position(|other| other.name == *body);
+            (1, body.unwrap_or_default(), element.element.index())
+        }
+        CutBack::Load { .. } => (2, 0, 0),
+        _ => (0, 0, 0),
+    }
 }
 
 /// A fault in bytes; nothing for one that all ranks have anyway.
