@@ -128,8 +128,13 @@ impl Composition {
 impl Body {
     /// Names of what points of a body remember that is written with the results.
     pub fn remembered(&self) -> Vec<String> {
+        self.remembered_in(&self.used_sections())
+    }
+
+    /// The same of points in some sections.
+    pub(crate) fn remembered_in(&self, sections: &[usize]) -> Vec<String> {
         let mut names = Vec::new();
-        for section in self.used_sections() {
+        for &section in sections {
             for field in self.material_of(section).fields() {
                 if !names.contains(&field.name) {
                     names.push(field.name);

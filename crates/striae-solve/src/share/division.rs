@@ -1,10 +1,13 @@
 //! Who has which element, and who owns which node.
 //!
 //! Elements of all bodies are the vertices of one graph that is divided into parts of about the
-//! same weight, which of an element is the number of its nodes. Elements with three nodes or more
-//! in common are neighbours, by a face or by an edge with a node in its middle, and it costs so
-//! many nodes to have them on two ranks. Elements on both sides of a contact pair are no
-//! neighbours: as all ranks hold the contact surfaces, nothing is saved by that.
+//! same weight. Of an element that is its part of its nodes, each of which is shared out among
+//! its elements: rows of the system go with nodes, and so do, in meshes of any kind of cell, the
+//! work and the memory that their elements take, as kinds of which more meet at a node are
+//! smaller. Elements with three nodes or more in common are neighbours, by a face or by an edge
+//! with a node in its middle, and it costs so many nodes to have them on two ranks. Elements on
+//! both sides of a contact pair are no neighbours: as all ranks hold the contact surfaces, nothing
+//! is saved by that.
 
 use striae_mesh::{CellBlock, NodeId};
 use striae_sparse::{Neighbourhood, SolveError, divided};
@@ -13,6 +16,8 @@ use crate::{model::Model, node::GlobalNode, team::Team};
 
 /// Nodes in common from which on elements are neighbours.
 const LEAST_COMMON: u8 = 3;
+/// Weight of a node: enough for parts of it to be about whole numbers.
+const NODE: f64 = 24.0;
 
 /// Who has which element, and who owns which node.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -148,7 +153,9 @@ fn graph(model: &Model) -> Neighbourhood {
                 let is_one = shared >= LEAST_COMMON && other as usize != at;
                 is_one.then_some((first + other, u32::from(shared)))
             });
-            graph.add(corners.len() as u32, neighbours);
+            let parts = corners.iter().map(|node| of_nodes.of(*node).len() as f64);
+            let weight: f64 = parts.map(|count| NODE / count).sum();
+            graph.add(weight.round() as u32, neighbours);
         }
         first += common.len() as u32;
     }
