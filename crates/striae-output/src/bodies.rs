@@ -74,7 +74,7 @@ pub(crate) fn stress(problem: &Problem, state: &State, body: usize) -> Option<Ve
 /// Means over the elements of what the points of a body remember, as far as it has a name;
 /// zero in elements whose material does not remember it.
 fn memory(problem: &Problem, state: &State, body: usize) -> Vec<Array> {
-    let names = problem.model.bodies[body].remembered();
+    let names = problem.names_remembered(body);
     let names = names.into_iter();
     names
         .map(|name| {

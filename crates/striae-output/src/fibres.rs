@@ -15,8 +15,8 @@ use crate::vtk::{Array, Values};
 /// An array for each family, zero in elements without it.
 pub(crate) fn fibres(problem: &Problem, state: &State, body: usize) -> Vec<Array> {
     let model = &problem.model.bodies[body];
-    let materials = model.used_sections().into_iter();
-    let families = materials.map(|section| model.material_of(section).fibres().len());
+    let sections = problem.compositions[body].used_sections().iter();
+    let families = sections.map(|section| model.material_of(*section).fibres().len());
     let families = families.max().unwrap_or(0);
     let mut arrays = vec![Vec::new(); families];
     if families == 0 {

@@ -82,7 +82,7 @@ fn placed(problem: &Problem, section: &Section) -> Result<(String, usize, Cut), 
     let place = bodies.iter().position(|known| known.name == *body);
     let place =
         place.ok_or_else(|| format!("there is no body `{body}`, which section `{name}` cuts"))?;
-    let cut = cut(&bodies[place].mesh, section);
+    let cut = Cut::of(problem, place, &section.point, &section.normal);
     let cut = cut.map_err(|cause| format!("section `{name}`: {cause}"))?;
     Ok((name.clone(), place, cut))
 }

@@ -1,5 +1,6 @@
 //! Residual and tangent of the whole problem at a trial state.
 
+mod agreement;
 mod blocks;
 mod contacts;
 mod context;
@@ -20,6 +21,7 @@ pub use crate::dynamics::ImposedRate;
 pub use context::{Imposed, StepContext};
 pub use elements::OfBodies;
 
+use agreement::agreed;
 use inertia::Inertia;
 pub use linearised::{Background, ContactAssembled, assemble_contact};
 pub use places::ElementPlaces;
@@ -119,20 +121,18 @@ pub fn assemble(
     layout: &Layout,
     (partition, places, tangent): (&mut Partition, &ElementPlaces, &mut Tangent),
 ) -> Result<Assembled, CutBack> {
-    // On a thread of the pool, as from others each parallel part would have to wake one.
-    rayon::scope(|_| {
-        on_this_thread(
-            setting,
-            trial,
-            contact,
-            derivatives,
-            layout,
-            (partition, places, tangent),
-        )
-    })
+    let whole = (partition, places, tangent);
+    let phases = || in_phases(setting, trial, contact, derivatives, layout, whole);
+    if setting.context.problem.share.is_alone() {
+        // On a thread of the pool, as from others each parallel part would have to wake one.
+        rayon::scope(|_| phases())
+    } else {
+        // No thread of the pool may wait for other ranks.
+        phases()
+    }
 }
 
-fn on_this_thread(
+fn in_phases(
     setting: &Setting,
     trial: &Trial,
     contact: Contact,
@@ -140,7 +140,7 @@ fn on_this_thread(
     layout: &Layout,
     (partition, places, tangent): (&mut Partition, &ElementPlaces, &mut Tangent),
 ) -> Result<Assembled, CutBack> {
-    let imposed = setting.imposed;
+    let (imposed, share) = (setting.imposed, &setting.context.problem.share);
     let Tangent {
         bodies,
         contact: contact_rows,
@@ -152,15 +152,22 @@ fn on_this_thread(
         system.find_triples(pair, configuration);
     }
     // Bodies are added while contact is evaluated.
-    let (evaluated, bodies) = rayon::join(
-        || timed(|| contact.evaluated(&configurations, setting, trial, derivatives)),
-        || system.bodies(&configurations, setting, trial, places),
-    );
+    let (evaluated, bodies) = rayon::scope(|_| {
+        rayon::join(
+            || timed(|| contact.evaluated(&configurations, setting, trial, derivatives)),
+            || system.bodies(&configurations, setting, trial, places),
+        )
+    });
     let (contacts, evaluation_time) = evaluated;
-    let (contacts, bodies) = (contacts?, bodies?);
+    let found = contacts.and_then(|contacts| Ok((contacts, bodies?)));
+    let (contacts, mut bodies) = agreed(setting.context.problem, found)?;
+    if !share.is_alone() {
+        system.sum_at_nodes();
+        system.beside_elements(imposed);
+    }
     let background = match derivatives {
-        Derivatives::First => system.background(),
-        Derivatives::None => Background::default(),
+        Derivatives::First if share.is_alone() => system.background(),
+        Derivatives::First | Derivatives::None => Background::default(),
     };
     let (growth, adding_time) = timed(|| {
         system.add_contacts(&contacts);
@@ -173,6 +180,7 @@ fn on_this_thread(
     system.pass_on();
     system.condense(imposed);
     let norms = system.norms(trial, &contacts);
+    [bodies.strain, bodies.dissipated] = share.sums([bodies.strain, bodies.dissipated]);
     system.idle(setting.selections);
     system.prescribe(trial, imposed);
     system.prescribe_rigid(trial, imposed);
@@ -217,7 +225,8 @@ struct System<'a> {
     blocks: Vec<PlacedBlock<'static>>,
     residual: Vec<f64>,
     forces: NodalForces,
-    force_scale: f64,
+    /// Of the forces in all elements.
+    square_of_forces: f64,
     inertia: Arc<Inertia>,
     /// Ties of all nodes; empty where nothing is tied.
     ties: Vec<Option<Tie>>,
@@ -250,7 +259,7 @@ impl<'a> System<'a> {
             blocks: Vec::new(),
             residual: vec![0.0; layout.unknowns()],
             forces: NodalForces::zero(nodes, problem.model.rigid_surfaces.len()),
-            force_scale: 0.0,
+            square_of_forces: 0.0,
             inertia: Arc::new(Inertia::new(&problem.ties, trial, imposed)),
             ties: Vec::new(),
             positions: &trial.positions,
@@ -272,7 +281,7 @@ fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
 }
 
 impl System<'_> {
-    /// Everything but contact.
+    /// Elements and loads, and on a rank that is alone everything but contact.
     fn bodies(
         &mut self,
         configurations: &[Configuration],
@@ -283,11 +292,33 @@ impl System<'_> {
         let imposed = setting.imposed;
         let bodies = self.elements(places, trial, setting.state, imposed.flowing())?;
         self.loads(configurations, trial, imposed)?;
+        if self.context.problem.share.is_alone() {
+            self.beside_elements(imposed);
+        }
+        Ok(bodies)
+    }
+
+    /// All of the bodies but elements and loads: what every rank that holds a node knows of it.
+    fn beside_elements(&mut self, imposed: &Imposed) {
         self.point_masses();
         self.carried(imposed);
         self.pass_on();
         self.hold_followers();
-        Ok(bodies)
+    }
+
+    /// Gives all ranks that hold a node the whole of what elements and loads add up to there;
+    /// collective.
+    fn sum_at_nodes(&mut self) {
+        let problem = self.context.problem;
+        let mut residual = self.position_rows();
+        let forces = &mut self.forces;
+        problem.share.sum_at_nodes(&mut [
+            &mut residual,
+            &mut forces.internal,
+            &mut forces.applied,
+            &mut forces.inertia,
+        ]);
+        self.put_position_rows(&residual);
     }
 
     /// Holds traction unknowns of nodes that are not kept any more at zero.
@@ -325,8 +356,34 @@ impl System<'_> {
 
     fn hold(&mut self, unknown: usize, residual: f64, scale: f64) {
         self.residual[unknown] = residual;
-        if self.derivatives == Derivatives::First && !self.is_linearised {
+        let fills = self.derivatives == Derivatives::First && !self.is_linearised;
+        if fills && self.owns(unknown) {
             self.matrix.add_to_diagonal(unknown, scale);
+        }
+    }
+
+    /// Whether this rank adds to the tangent what all ranks know of a row.
+    fn owns(&self, unknown: usize) -> bool {
+        let problem = self.context.problem;
+        problem.share.is_alone()
+            || self
+                .layout
+                .is_own(problem, self.matrix.structure().owner(unknown))
+    }
+
+    /// Residuals of the positions of all nodes.
+    fn position_rows(&self) -> Vec<Vec3> {
+        let rows = |node: GlobalNode| {
+            let first = self.layout.position(node);
+            Vec3::from_column_slice(&self.residual[first..first + 3])
+        };
+        self.context.problem.global_nodes().map(rows).collect()
+    }
+
+    fn put_position_rows(&mut self, rows: &[Vec3]) {
+        for (node, row) in self.context.problem.global_nodes().zip(rows) {
+            let first = self.layout.position(node);
+            self.residual[first..first + 3].copy_from_slice(row.as_slice());
         }
     }
 }

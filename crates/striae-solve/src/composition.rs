@@ -20,9 +20,30 @@ pub struct Composition {
     sections: Vec<u32>,
     /// First variable of every element, and the number of all; empty where there are none.
     first_variables: Vec<usize>,
+    materials: Materials,
+    resistances: Vec<Resistance>,
+}
+
+/// What a body is made of, all of its elements together.
+#[derive(Clone, Debug)]
+pub(crate) struct Materials {
+    /// Sections that have elements.
+    used: Vec<usize>,
     /// Shear modulus at rest of the stiffest material.
     stiffest_shear: f64,
-    resistances: Vec<Resistance>,
+}
+
+impl Materials {
+    /// Those of a body.
+    pub(crate) fn of(body: &Body) -> Self {
+        let used = body.used_sections();
+        let shear = used.iter();
+        let shear = shear.map(|section| body.material_of(*section).lame_constants().shear);
+        Self {
+            stiffest_shear: shear.fold(0.0, f64::max),
+            used,
+        }
+    }
 }
 
 /// What an element resists motion with.
@@ -35,8 +56,8 @@ pub struct Resistance {
 }
 
 impl Composition {
-    /// That of a body with its reference elements.
-    pub(crate) fn new(body: &Body, elements: &Elements) -> Self {
+    /// That of a body, or what a rank has of it, with its reference elements.
+    pub(crate) fn new(body: &Body, elements: &Elements, materials: Materials) -> Self {
         let sections = body.section_of_elements();
         let counts = elements.iter().enumerate().map(|(at, element)| {
             let section = sections.get(at).map_or(0, |section| *section as usize);
@@ -51,8 +72,6 @@ impl Composition {
         if sum == 0 {
             first_variables.clear();
         }
-        let used = body.used_sections().into_iter();
-        let shear = used.map(|section| body.material_of(section).lame_constants().shear);
         let resistances = elements.iter().enumerate().map(|(at, element)| {
             let section = sections.get(at).map_or(0, |section| *section as usize);
             let constants = body.material_of(section).lame_constants();
@@ -66,7 +85,7 @@ impl Composition {
             resistances: resistances.collect(),
             sections,
             first_variables,
-            stiffest_shear: shear.fold(0.0, f64::max),
+            materials,
         }
     }
 
@@ -75,9 +94,15 @@ impl Composition {
         &self.resistances
     }
 
-    /// Shear modulus at rest of the stiffest material.
+    /// Shear modulus at rest of the stiffest material of the whole body.
     pub fn stiffest_shear(&self) -> f64 {
-        self.stiffest_shear
+        self.materials.stiffest_shear
+    }
+
+    /// Numbers of the sections of which the whole body has elements, see
+    /// [`Body::used_sections`].
+    pub fn used_sections(&self) -> &[usize] {
+        &self.materials.used
     }
 
     /// How many variables all points remember together.
@@ -103,8 +128,13 @@ impl Composition {
 impl Body {
     /// Names of what points of a body remember that is written with the results.
     pub fn remembered(&self) -> Vec<String> {
+        self.remembered_in(&self.used_sections())
+    }
+
+    /// The same of points in some sections.
+    pub(crate) fn remembered_in(&self, sections: &[usize]) -> Vec<String> {
         let mut names = Vec::new();
-        for section in self.used_sections() {
+        for &section in sections {
             for field in self.material_of(section).fields() {
                 if !names.contains(&field.name) {
                     names.push(field.name);

@@ -38,6 +38,13 @@ impl Problem {
         self.model.bodies[body].density_of(section)
     }
 
+    /// Names of what points of a body remember that is written with the results, on whatever
+    /// rank they are.
+    pub fn names_remembered(&self, body: usize) -> Vec<String> {
+        let sections = self.compositions[body].used_sections();
+        self.model.bodies[body].remembered_in(sections)
+    }
+
     /// Mean over each element of a body of what its points remember under a name; zero in
     /// elements whose material does not remember it.
     pub fn remembered(&self, state: &State, body: usize, name: &str) -> Vec<f64> {

@@ -4,8 +4,8 @@ use crate::model::{ContactMass, ContactSurface, Model};
 
 /// Nodes of contact surfaces of bodies whose mass is redistributed, but for elements
 /// that have no other nodes.
-pub(crate) fn massless(model: &Model, first_node: &[usize], nodes: usize) -> Vec<bool> {
-    let mut massless = vec![false; nodes];
+pub(crate) fn massless(model: &Model, first_node: &[usize]) -> Vec<bool> {
+    let mut massless = vec![false; first_node[model.bodies.len()]];
     let sides = model.pairs.iter().flat_map(|pair| [&pair.a, &pair.b]);
     for side in sides {
         if let ContactSurface::Deformable { body, faces } = side

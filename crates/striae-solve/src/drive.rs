@@ -14,6 +14,7 @@ use crate::{
     newton::{Increment, IterationObserver, Memory, Workspace, advance},
     outcome::{CutBack, Ending, Remedy},
     problem::Problem,
+    share::Share,
     stabilisation::first_increment,
     state::State,
 };
@@ -39,6 +40,22 @@ pub enum Continue {
     Keep,
     /// It ends after this increment, and the observer is given the point.
     Stop,
+}
+
+impl Continue {
+    /// What the ranks of a run do together: stop if one does, keep if one does; collective.
+    fn together(self, share: &Share) -> Self {
+        let own = match self {
+            Self::Yes => 0.0,
+            Self::Keep => 1.0,
+            Self::Stop => 2.0,
+        };
+        match share.largest(own) {
+            0.0 => Self::Yes,
+            1.0 => Self::Keep,
+            _ => Self::Stop,
+        }
+    }
 }
 
 /// Where a run is.
@@ -83,8 +100,7 @@ pub struct Point {
 
 /// Runs all steps from `state`.
 pub fn run(problem: &Problem, state: State, observer: &mut dyn Observer) -> (State, Ending) {
-    let mut workspace = Workspace::new(problem.model.solver.backend);
-    run_steps(problem, 0, state, 0, &mut workspace, observer)
+    run_after(problem, 0, state, 0, observer)
 }
 
 /// Runs the steps from number `first` on, from the `state` at the end of those before,
@@ -96,13 +112,36 @@ pub fn run_after(
     increments: usize,
     observer: &mut dyn Observer,
 ) -> (State, Ending) {
-    let mut workspace = Workspace::new(problem.model.solver.backend);
+    let workspace = Workspace::new(problem.model.solver.backend);
+    run_in(workspace, problem, (first, increments), state, observer)
+}
+
+/// The same in a workspace, such as that of one of several ranks; collective there. The pair is
+/// the number of the first step and how many increments those before it took.
+pub fn run_in(
+    mut workspace: Workspace,
+    problem: &Problem,
+    (first, increments): (usize, usize),
+    state: State,
+    observer: &mut dyn Observer,
+) -> (State, Ending) {
     run_steps(problem, first, state, increments, &mut workspace, observer)
 }
 
 /// Goes on from a point of an earlier run, with the same results to the last bit.
 pub fn resume(problem: &Problem, point: Point, observer: &mut dyn Observer) -> (State, Ending) {
-    let mut workspace = Workspace::recalled(problem, &point.memory);
+    let workspace = Workspace::new(problem.model.solver.backend);
+    resume_in(workspace, problem, point, observer)
+}
+
+/// The same in a workspace, such as that of one of several ranks; collective there.
+pub fn resume_in(
+    workspace: Workspace,
+    problem: &Problem,
+    point: Point,
+    observer: &mut dyn Observer,
+) -> (State, Ending) {
+    let mut workspace = workspace.recalling(problem, &point.memory);
     let context = StepContext::new(problem, point.step, &point.start);
     let mut progress = Division {
         count: point.increments,
@@ -252,6 +291,7 @@ fn run_step(
                 next
             }
         };
+        let next = next.together(&context.problem.share);
         if next != Continue::Yes {
             observer.point(Point {
                 step: context.index,

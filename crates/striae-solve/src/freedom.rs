@@ -6,6 +6,8 @@
 //! two bodies that both move, of the difference of their motions. What is left is the null
 //! space of the rows. Lengths are scaled by the size of the bodies.
 //!
+//! Prescribed nodes are looked at by the ranks that own them, all else by all of them.
+//!
 //! Longer than other files, as rows and the words for their null space belong together.
 
 use nalgebra::{DMatrix, SymmetricEigen};
@@ -21,7 +23,6 @@ use striae_surface::node::SurfaceNode;
 use crate::{
     assembly::StepContext,
     interference::{Positions, configuration, thickness},
-    node::GlobalNode,
     outcome::{FreeMotion, FreeMover},
     problem::Problem,
     state::State,
@@ -168,7 +169,7 @@ fn touching(context: &StepContext, pair: usize) -> [Vec<NodeResult>; 2] {
     nodes
 }
 
-/// A motion that nothing holds; `contacts` are the nodes of every pair.
+/// A motion that nothing holds; `contacts` are the nodes of every pair. Collective.
 pub fn free_motion(
     context: &StepContext,
     at: Positions,
@@ -177,6 +178,7 @@ pub fn free_motion(
 ) -> Option<FreeMotion> {
     let mut rows = Rows::new(context, at);
     rows.prescribed(context, at);
+    rows.prescribed_coordinates(context, at);
     let slipping = slipping(contacts.iter().copied());
     for (pair, nodes) in contacts.iter().enumerate() {
         let is_rough = context.plan.frictions[pair].cap(1.0, 0.0) > 0.0;
@@ -266,10 +268,12 @@ impl Rows {
         }
     }
 
+    /// Rows of prescribed nodes, the first ones; collective.
     fn prescribed(&mut self, context: &StepContext, at: Positions) {
         let problem = context.problem;
         let nodes = problem.first_node.last().copied().unwrap_or(0);
-        for node in (0..nodes).map(GlobalNode) {
+        let nodes = problem.own_nodes().take_while(|node| node.0 < nodes);
+        for node in nodes {
             let (body, _) = problem.body_node(node);
             let Some(component) = self.of[body] else {
                 continue;
@@ -279,6 +283,11 @@ impl Rows {
                 self.add(&[(component, row)]);
             }
         }
+        problem.share.team().sum(self.normal.as_mut_slice());
+    }
+
+    fn prescribed_coordinates(&mut self, context: &StepContext, at: Positions) {
+        let problem = context.problem;
         let bodies = problem.model.bodies.len();
         for (rigid, fixed) in context.fixed_rigid.iter().enumerate() {
             let Some(component) = self.of[bodies + rigid] else {
@@ -370,19 +379,21 @@ impl Rows {
 }
 
 impl Component {
+    /// Bodies and rigid bodies that move as one; collective.
     fn new(problem: &Problem, at: Positions, bodies: Vec<usize>, rigid: Vec<usize>) -> Self {
-        let first = &problem.first_node;
-        let nodes: Vec<Vec3> = bodies
-            .iter()
-            .flat_map(|&body| at.nodes[first[body]..first[body + 1]].iter().copied())
-            .collect();
+        let share = &problem.share;
+        let nodes = bodies.iter().flat_map(|&body| problem.nodes_of(body));
+        let nodes = nodes.filter(|node| share.owns(*node));
+        let nodes: Vec<Vec3> = nodes.map(|node| at.nodes[node]).collect();
+        let mut sum = [nodes.iter().sum::<Vec3>()];
+        share.sum_vectors(&mut sum);
         let reference = rigid.first().map(|&rigid| {
             problem.model.rigid_surfaces[rigid].reference + at.rigid[rigid].displacement
         });
-        let mean = nodes.iter().sum::<Vec3>() / nodes.len().max(1) as f64;
+        let mean = sum[0] / share.sum(nodes.len() as f64).max(1.0);
         let middle = reference.unwrap_or(mean);
         let arms = nodes.iter().map(|x| (x - middle).norm());
-        let size = arms.fold(0.0, f64::max);
+        let size = share.largest(arms.fold(0.0, f64::max));
         Self {
             bodies,
             rigid,

@@ -5,6 +5,10 @@
 //! supervariable, so that the
 //! factorisation meets gap rows and their multipliers together. The six coordinates of a
 //! rigid body that nodes are tied to or that contact may move are another one, kept for last.
+//! What the unknowns of a share are in the whole system is in `layout/shared.rs`.
+
+mod growth;
+mod shared;
 
 use serde::{Deserialize, Serialize};
 use striae_contact::{selection::Selection, side::Side, unknown::Unknown};
@@ -12,6 +16,7 @@ use striae_sparse::{Supervariable, Tier};
 use striae_surface::node::SurfaceNode;
 
 use crate::{node::GlobalNode, problem::Problem};
+pub(crate) use growth::united;
 
 /// Which surface nodes have traction unknowns.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -164,6 +169,15 @@ impl Layout {
     /// Whether no rigid body has coordinates that are unknowns.
     pub fn moves_no_body(&self) -> bool {
         self.rigids.iter().all(Option::is_none)
+    }
+
+    /// Whether a supervariable is this rank's own: that of a node is with the node, that of a
+    /// rigid body with the first rank.
+    pub fn is_own(&self, problem: &Problem, Supervariable(at): Supervariable) -> bool {
+        match at < self.nodes {
+            true => problem.share.owns(GlobalNode(at)),
+            false => problem.share.owns_bodies(),
+        }
     }
 
     /// First position unknown of a global node.

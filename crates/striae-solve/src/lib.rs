@@ -26,6 +26,7 @@ pub mod problem;
 pub mod repetition;
 pub mod report;
 pub mod resolved;
+mod restriction;
 pub mod rigid;
 pub mod section;
 pub mod share;

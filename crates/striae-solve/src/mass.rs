@@ -2,9 +2,9 @@
 
 use striae_mesh::{ElementId, Vec3};
 
-use crate::{problem::Problem, state::State};
+use crate::{node::GlobalNode, problem::Problem, state::State};
 
-/// `M v`, node by node.
+/// `M v`, node by node; collective.
 pub fn mass_times(problem: &Problem, vectors: &[Vec3]) -> Vec<Vec3> {
     let mut product = vec![Vec3::zeros(); vectors.len()];
     for (body, model) in problem.model.bodies.iter().enumerate() {
@@ -21,26 +21,34 @@ pub fn mass_times(problem: &Problem, vectors: &[Vec3]) -> Vec<Vec3> {
             }
         }
     }
+    problem.share.sum_at_nodes(&mut [&mut product]);
     for &(node, mass) in &problem.mass_points {
         product[node] += vectors[node] * mass;
     }
     product
 }
 
-/// `v . M v / 2`.
+/// `v . M v / 2`; collective.
 pub fn kinetic_energy(problem: &Problem, velocities: &[Vec3]) -> f64 {
     let momentum = mass_times(problem, velocities);
-    0.5 * product(&momentum, velocities)
+    0.5 * product(problem, &momentum, velocities)
 }
 
-/// `a . b` over all nodes.
-pub(crate) fn product(a: &[Vec3], b: &[Vec3]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
+/// `a . b` over all nodes; collective.
+pub(crate) fn product(problem: &Problem, a: &[Vec3], b: &[Vec3]) -> f64 {
+    let own = problem.own_nodes().map(|node| a[node].dot(&b[node]));
+    problem.share.sum(own.sum())
 }
 
-/// Linear momentum and angular momentum about the origin.
+/// Linear momentum and angular momentum about the origin; collective.
 pub fn momentum(problem: &Problem, state: &State) -> (Vec3, Vec3) {
     let nodal = mass_times(problem, &state.velocities);
-    let turning = nodal.iter().zip(&state.positions);
-    (nodal.iter().sum(), turning.map(|(p, x)| x.cross(p)).sum())
+    let turning = |node: GlobalNode| state.positions[node].cross(&nodal[node]);
+    let mut sums = [
+        problem.own_nodes().map(|node| nodal[node]).sum(),
+        problem.own_nodes().map(turning).sum(),
+    ];
+    problem.share.sum_vectors(&mut sums);
+    let [linear, angular] = sums;
+    (linear, angular)
 }

@@ -16,6 +16,7 @@ mod departure;
 mod energy;
 mod failure;
 mod flight;
+mod linear;
 mod passage;
 mod release;
 mod rest;
@@ -44,6 +45,7 @@ use crate::{
 use acceptance::accepted;
 use attempt::Attempt;
 use failure::linear_system;
+use linear::automatic;
 use selected::{Selected, selected};
 
 /// A converged increment.
@@ -86,7 +88,7 @@ pub struct Estimate {
     pub others: Vec<Analysis>,
 }
 
-/// Predicts the cost of the first linear system of a problem.
+/// Predicts the cost of the first linear system of a problem that is on one rank.
 ///
 /// # Errors
 /// Why the undeformed state cannot be evaluated.
@@ -95,13 +97,14 @@ pub fn estimate(problem: &Problem) -> Result<Estimate, CutBack> {
     let context = StepContext::new(problem, 0, &state);
     let mut workspace = Workspace::new(problem.model.solver.backend);
     forces_at_start(&context, &state, &mut workspace)?;
-    let partition = workspace.system().partition.clone();
-    let analysis = workspace
-        .solver
-        .analyse(&partition)
-        .and_then(|analysis| Ok((analysis, workspace.solver.estimates(&partition)?)));
+    let system = workspace.system();
+    let mut solver = automatic(problem.model.solver.backend);
+    let partition = &system.partition;
+    let analysis = solver
+        .analyse(partition)
+        .and_then(|analysis| Ok((analysis, solver.estimates(partition)?)));
     let (analysis, mut others) =
-        analysis.map_err(|error| linear_system(problem, &workspace.system().layout, error))?;
+        analysis.map_err(|error| linear_system(problem, (&system.layout, None), error))?;
     others.retain(|other| other.method != analysis.method);
     Ok(Estimate {
         unknowns: partition.unknowns(),

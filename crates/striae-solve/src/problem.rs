@@ -1,12 +1,17 @@
 //! A validated model, ready to be solved: everything that is the same in all increments.
+//!
+//! Of a model that ranks share, each has a problem of its own, see [`crate::share`].
 
 mod contact_facet;
 mod fibres;
+mod frame;
 mod nodes;
 mod shadow;
 
 pub use contact_facet::ContactFacet;
 pub(crate) use fibres::add_fibres;
+pub(crate) use frame::Frame;
+pub(crate) use nodes::extent;
 
 use std::collections::HashMap;
 use striae_contact::{
@@ -25,14 +30,13 @@ use striae_surface::{
 use crate::{
     body_mass::{BodyMass, masses},
     composition::Composition,
-    contact_mass,
     model::{ContactSurface, Model, Pair, RigidShape},
     node::GlobalNode,
     plan::{StepPlan, plans},
+    share::Share,
     tie::{TieFault, Ties, first_nodes},
 };
 use contact_facet::contact_facets;
-use shadow::shadowed;
 
 /// A model with what follows from it.
 #[derive(Clone, Debug)]
@@ -67,6 +71,8 @@ pub struct Problem {
     pub shadowed: Vec<[Vec<bool>; 2]>,
     /// Contact facets that each face of each body is.
     pub contact_facets: HashMap<(usize, Face), Vec<ContactFacet>>,
+    /// What of the whole problem it is.
+    pub share: Share,
 }
 
 /// A contact pair with its place in the problem.
@@ -80,8 +86,9 @@ pub struct PairGeometry {
     pub rigid_reference: Vec<Vec3>,
     /// Rigid surface that is side `b`.
     pub rigid: Option<usize>,
-    /// Faces of each deformable side, in the order of the facets.
-    pub faces: [Vec<Face>; 2],
+    /// Faces of each deformable side, in the order of the facets; `None` where another rank has
+    /// the element.
+    pub faces: [Vec<Option<Face>>; 2],
     /// How well conditioned the painting of each textured surface was.
     pub conditionings: [Option<Conditioning>; 2],
     /// Fibres through what is behind the facets, see [`crate::interference`].
@@ -146,39 +153,54 @@ impl Problem {
     /// # Errors
     /// When the mesh has degenerate elements or a pair no deformable first side.
     pub fn new(model: Model) -> Result<Self, ProblemError> {
-        let ties = Ties::new(&model).map_err(|mut faults| ProblemError::Tie(faults.remove(0)))?;
-        // The model stays as it was given, up to round-off, by which checkpoints know it.
-        let given = (!ties.is_empty()).then(|| model.clone());
-        let model = ties.moved(model).map_err(ProblemError::Tie)?;
+        Self::on(Frame::new(model)?)
+    }
+
+    /// Adds the elements to what is known before them.
+    ///
+    /// # Errors
+    /// When the mesh has degenerate elements.
+    pub(crate) fn on(frame: Frame) -> Result<Self, ProblemError> {
+        let Frame {
+            model,
+            placed,
+            ties,
+            pairs,
+            mut massless,
+            shadowed,
+            materials,
+            share,
+        } = frame;
+        let (given, model) = match placed {
+            Some(placed) => (Some(model), placed),
+            None => (None, model),
+        };
         let first_node = first_nodes(&model);
         let mut reference = Vec::new();
         let mut elements = Vec::new();
         let mut compositions = Vec::new();
-        for body in &model.bodies {
+        for (body, materials) in model.bodies.iter().zip(materials) {
             reference.extend_from_slice(&body.mesh.positions);
             let of_body = body.elements().map_err(|fault| ProblemError::Element {
                 body: body.name.clone(),
                 fault,
             })?;
-            compositions.push(Composition::new(body, &of_body));
+            compositions.push(Composition::new(body, &of_body, materials));
             elements.push(of_body);
         }
         let (tied, mass_points) = crate::rigid::ties(&model, &first_node, &mut reference);
+        massless.resize(reference.len(), false);
         let mut tie_of = vec![None; reference.len()];
         for (rigid, nodes) in tied.iter().enumerate() {
             nodes.iter().for_each(|&node| tie_of[node] = Some(rigid));
         }
-        let pairs = model.pairs.iter().map(|pair| pair_geometry(&model, pair));
-        let mut pairs: Vec<PairGeometry> = pairs.collect::<Result<_, _>>()?;
-        add_fibres(&model, &mut pairs);
-        let massless = contact_mass::massless(&model, &first_node, reference.len());
         Ok(Self {
             contact_facets: contact_facets(&pairs),
             masses: masses(&model, &elements, &compositions, (&first_node, &massless)),
             massless,
             plans: plans(&model),
             tied,
-            shadowed: shadowed(&pairs, &first_node, &ties),
+            shadowed,
             ties,
             tie_of,
             mass_points,
@@ -188,6 +210,7 @@ impl Problem {
             elements,
             compositions,
             model: given.unwrap_or(model),
+            share,
         })
     }
 
@@ -213,7 +236,7 @@ pub(crate) fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, 
                 faces: of_side,
             } => {
                 bodies[index] = Some(body.0);
-                faces[index] = of_side.clone();
+                faces[index] = of_side.iter().copied().map(Some).collect();
                 deformable(model, body.0, of_side)
             }
             ContactSurface::Rigid(surface) => {

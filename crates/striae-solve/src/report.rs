@@ -1,4 +1,5 @@
-//! Resultants, reactions and counts of a state.
+//! Resultants, reactions and counts of a state. Those of pairs, ties and rigid bodies follow
+//! from what all ranks hold; reactions and those of bodies are collective.
 
 mod ties;
 
@@ -66,18 +67,19 @@ pub fn pairs(problem: &Problem, state: &State) -> Vec<PairReport> {
 }
 
 /// Sum of the reactions at the nodes of every named node set, as
-/// `body.set`, and the force that holds every rigid surface, by its name.
+/// `body.set`, and the force that holds every rigid surface, by its name. Collective.
 pub fn reactions(problem: &Problem, state: &State) -> Vec<(String, Vec3)> {
-    let mut all = Vec::new();
+    let (mut names, mut sums) = (Vec::new(), Vec::new());
     for (body, model) in problem.model.bodies.iter().enumerate() {
         for (name, nodes) in model.mesh.node_sets.iter() {
-            let sum = nodes
-                .iter()
-                .map(|&n| state.forces.reaction[problem.node(body, n)])
-                .sum();
-            all.push((format!("{}.{name}", model.name), sum));
+            let nodes = nodes.iter().map(|&node| problem.node(body, node));
+            let own = nodes.filter(|node| problem.share.owns(*node));
+            sums.push(own.map(|node| state.forces.reaction[node]).sum());
+            names.push(format!("{}.{name}", model.name));
         }
     }
+    problem.share.sum_vectors(&mut sums);
+    let mut all: Vec<(String, Vec3)> = names.into_iter().zip(sums).collect();
     for (index, rigid) in problem.model.rigid_surfaces.iter().enumerate() {
         all.push((rigid.name.clone(), wrench(problem, state, index).force));
     }
@@ -85,7 +87,7 @@ pub fn reactions(problem: &Problem, state: &State) -> Vec<(String, Vec3)> {
 }
 
 /// The [`reactions`] without those of node sets of which no step prescribes a node and no
-/// rigid body holds one: there is nothing but the residual.
+/// rigid body holds one: there is nothing but the residual. Collective.
 pub fn held_reactions(problem: &Problem, state: &State) -> Vec<(String, Vec3)> {
     let prescribed = problem
         .plans
@@ -103,6 +105,7 @@ pub fn held_reactions(problem: &Problem, state: &State) -> Vec<(String, Vec3)> {
         sets.map(move |(_, nodes)| (body, nodes))
     });
     let is_held = sets.map(|(body, nodes)| nodes.iter().any(|node| holds(body, *node)));
+    let is_held = problem.share.any_of(is_held).into_iter();
     let rigid = problem.model.rigid_surfaces.iter().map(|_| true);
     let is_held = is_held.chain(rigid);
     let all = reactions(problem, state).into_iter().zip(is_held);
@@ -121,10 +124,10 @@ pub struct BodyReport {
     pub velocity: Vec3,
 }
 
-/// Reports of all bodies.
+/// Reports of all bodies; collective.
 pub fn bodies(problem: &Problem, state: &State) -> Vec<BodyReport> {
-    let names = problem.model.bodies.iter().enumerate();
-    names
+    let bodies = problem.model.bodies.iter().enumerate();
+    bodies
         .map(|(body, model)| {
             let (mut mass, mut centre, mut velocity) = (0.0, Vec3::zeros(), Vec3::zeros());
             let elements = model.mesh.elements().zip(problem.elements[body].iter());
@@ -137,6 +140,10 @@ pub fn bodies(problem: &Problem, state: &State) -> Vec<BodyReport> {
                     velocity += state.velocities[node] * share;
                 }
             }
+            let mass = problem.share.sum(mass);
+            let mut sums = [centre, velocity];
+            problem.share.sum_vectors(&mut sums);
+            let [centre, velocity] = sums;
             BodyReport {
                 name: model.name.clone(),
                 centre: centre / mass,

@@ -15,13 +15,18 @@
 //! behind to the residual of Newton's method, however rough the faces are; loads on the
 //! nodes of the section itself, and their inertia, count for the part in front. Tension is
 //! positive along `n`.
+//!
+//! Where ranks share a body, each has the elements behind that are its own, and their faces.
+
+mod borders;
 
 use std::collections::BTreeSet;
 
 use striae_law::bulk::Past;
 use striae_mesh::{ElementId, Face, Mesh, NodeId, Vec3, sorted_face};
 
-use crate::{problem::Problem, state::State};
+use crate::{problem::Problem, share::Share, state::State};
+use borders::Borders;
 
 /// A cut of a body.
 #[derive(Clone, Debug, PartialEq)]
@@ -97,6 +102,29 @@ impl Section {
     /// # Errors
     /// When the plane does not divide the elements.
     pub fn new(mesh: &Mesh, point: &Vec3, normal: &Vec3) -> Result<Self, SectionError> {
+        Self::cut(mesh, point, normal, &Borders::of_whole())
+    }
+
+    /// What a rank holds of the cut of a body of a problem; collective.
+    ///
+    /// # Errors
+    /// When the plane does not divide the elements of the whole body.
+    pub fn of(
+        problem: &Problem,
+        body: usize,
+        point: &Vec3,
+        normal: &Vec3,
+    ) -> Result<Self, SectionError> {
+        let mesh = &problem.model.bodies[body].mesh;
+        Self::cut(mesh, point, normal, &Borders::new(problem, body))
+    }
+
+    fn cut(
+        mesh: &Mesh,
+        point: &Vec3,
+        normal: &Vec3,
+        borders: &Borders,
+    ) -> Result<Self, SectionError> {
         if *normal == Vec3::zeros() {
             return Err(SectionError::Normal);
         }
@@ -107,21 +135,21 @@ impl Section {
                 (sum / corners.len() as f64 - point).dot(normal) < 0.0
             })
             .collect();
-        match is_behind.iter().filter(|behind| **behind).count() {
-            0 => return Err(SectionError::OneSided(Part::Front)),
-            count if count == is_behind.len() => {
-                return Err(SectionError::OneSided(Part::Behind));
-            }
-            _ => {}
+        let [front, behind] = [false, true].map(|side| is_behind.contains(&side));
+        match borders.any_of([front, behind])[..] {
+            [true, true] => {}
+            [_, false] => return Err(SectionError::OneSided(Part::Front)),
+            _ => return Err(SectionError::OneSided(Part::Behind)),
         }
-        let faces = between(mesh, &is_behind);
-        if faces.is_empty() {
+        let faces = between(mesh, &is_behind, borders);
+        if borders.any_of([!faces.is_empty()]) != [true] {
             return Err(SectionError::Apart);
         }
         let mut on_section = vec![false; mesh.positions.len()];
         for node in faces.iter().flatten() {
             on_section[node.index()] = true;
         }
+        let on_section = borders.any_at_nodes(on_section);
         let behind = mesh.elements().enumerate().filter(|(at, _)| is_behind[*at]);
         let elements = behind.filter_map(|(at, corners)| {
             let corners = corners.iter().enumerate();
@@ -135,21 +163,23 @@ impl Section {
         })
     }
 
-    /// Force and moment through the section of a body in a state.
+    /// Force and moment through the section of a body in a state; collective.
     pub fn report(&self, problem: &Problem, state: &State, body: usize) -> SectionReport {
         let mesh = &problem.model.bodies[body].mesh;
         let at = |node: NodeId| state.positions[problem.node(body, node)];
-        let (normal, area, centre) = self.geometry(at);
-        let (mut force, mut moment) = (Vec3::zeros(), Vec3::zeros());
+        let (normal, area, centre) = self.geometry(&problem.share, at);
+        let mut sums = [Vec3::zeros(); 2];
         for (element, on_section) in &self.elements {
             let forces = internal_forces(problem, state, body, *element);
             let corners = mesh.corners(*element);
             for &corner in on_section {
                 let f = forces[corner];
-                force += f;
-                moment += (at(corners[corner]) - centre).cross(&f);
+                sums[0] += f;
+                sums[1] += (at(corners[corner]) - centre).cross(&f);
             }
         }
+        problem.share.sum_vectors(&mut sums);
+        let [force, moment] = sums;
         SectionReport {
             force,
             moment,
@@ -160,7 +190,7 @@ impl Section {
     }
 
     /// Unit normal, area and centroid.
-    fn geometry(&self, at: impl Fn(NodeId) -> Vec3) -> (Vec3, f64, Vec3) {
+    fn geometry(&self, share: &Share, at: impl Fn(NodeId) -> Vec3) -> (Vec3, f64, Vec3) {
         let (mut vector, mut total, mut centre) = (Vec3::zeros(), 0.0, Vec3::zeros());
         for face in &self.faces {
             let [a, b, c, d] = face.map(&at);
@@ -171,12 +201,15 @@ impl Section {
                 centre += (p + q + r) * (area.norm() / 3.0);
             }
         }
+        let mut sums = [vector, centre];
+        share.sum_vectors(&mut sums);
+        let ([vector, centre], total) = (sums, share.sum(total));
         (vector.normalize(), vector.norm(), centre / total)
     }
 }
 
-/// Faces of elements behind that elements in front share.
-fn between(mesh: &Mesh, is_behind: &[bool]) -> Vec<[NodeId; 4]> {
+/// Faces of elements behind that elements in front share, also those of other ranks.
+fn between(mesh: &Mesh, is_behind: &[bool], borders: &Borders) -> Vec<[NodeId; 4]> {
     let faces_of = |at: usize| {
         let element = ElementId::new(at);
         let sides = 0..mesh.kind(element).shape().faces.len() as u8;
@@ -184,11 +217,9 @@ fn between(mesh: &Mesh, is_behind: &[bool]) -> Vec<[NodeId; 4]> {
     };
     let (behind, front): (Vec<usize>, Vec<usize>) =
         (0..is_behind.len()).partition(|at| is_behind[*at]);
-    let in_front: BTreeSet<[NodeId; 4]> = front
-        .into_iter()
-        .flat_map(faces_of)
-        .map(sorted_face)
-        .collect();
+    let in_front = front.into_iter().flat_map(faces_of).map(sorted_face);
+    let mut in_front: BTreeSet<[NodeId; 4]> = in_front.collect();
+    in_front.extend(borders.in_front(mesh, is_behind));
     let faces = behind.into_iter().flat_map(faces_of);
     faces
         .filter(|nodes| in_front.contains(&sorted_face(*nodes)))

@@ -1,33 +1,223 @@
 //! What of a problem a rank holds.
 //!
-//! The volume is divided: a rank holds its own elements and their nodes. Contact surfaces,
-//! tied surfaces, rigid bodies and the nodes tied to them are held by all ranks. Nodes,
-//! elements and unknowns have local numbers; a share says which of the whole they are.
+//! The volume is divided by a [`Division`]: a rank has its own elements and their nodes. What
+//! grows with the surface only is *replicated*, all ranks hold it: the nodes of contact surfaces
+//! and tied surfaces, nodes around the ends of fibres, nodes tied to rigid bodies and mass points.
+//! Nodes, elements and unknowns have local numbers in the order of those of the whole problem,
+//! so that sums over what is replicated are the same to the last bit on all ranks.
+//! [`Problem::shared`](crate::problem::Problem::shared) makes the problem of a share.
+//!
+//! Every node has one *owner*, a rank that has an element of it: the one with most of them, of
+//! several as good the one that owns the fewest nodes so far. Mass points, the coordinates of
+//! rigid bodies and nodes without an element are owned by rank 0. Traction unknowns are owned
+//! with the node that carries them.
+//!
+//! # What is of a share, what of the whole
+//!
+//! | of a problem | on a share |
+//! | --- | --- |
+//! | `model`: meshes, sets, sections, displacements, releases, loads, faces of pairs and ties | what is local of it; empty where nothing is |
+//! | `model`: all else, such as materials, rigid surfaces, frictions, settings | the whole |
+//! | `first_node`, `reference`, `elements`, `masses`, `massless`, `tie_of`, `plans` | local nodes and elements |
+//! | `compositions` | local elements, but stiffest shear modulus and used sections of the whole body |
+//! | `pairs` | all facets and surface nodes, with local mesh nodes; `faces` is `None` where another rank has the element |
+//! | `tied`, `mass_points`, `ties`, `shadowed` | all of them, in local nodes |
+//! | [`Whole`] | counts, extent, fits of pairs |
+//!
+//! # What is partial
+//!
+//! What is summed over elements, over faces with loads, or over all nodes is a part of the
+//! whole on a share, and is reduced by whoever reads it:
+//!
+//! | where | what | how |
+//! | --- | --- | --- |
+//! | `assembly` | residuals, internal, inertia and applied forces at nodes of several ranks | sum |
+//! | `assembly` | what only its owner may add: held rows, terms of contact and stabilisation, mass points, forces carried over, driving forces | owner |
+//! | `assembly/elements` | strain energy, dissipation, squares of forces; inverted elements | sum; any |
+//! | `assembly/ties` | forces and torques on rigid bodies from tied nodes, before their rows are read | sum |
+//! | `assembly/measure` | squares of residuals and of applied forces, over owned nodes; squares of round-off; largest distance from the origin | sum; largest |
+//! | `assembly/context/dashpots` | magnitudes of loads, masses | sum |
+//! | `mass` | `M v`, kinetic energy, momentum | sum, mass points once |
+//! | `newton/energy` | work over all nodes | sum over owned nodes |
+//! | `newton/departure` | mean of what is prescribed on a body | sum over owned nodes |
+//! | `newton/flight` | the node that flies furthest, the longest way that is prescribed | largest |
+//! | `freedom` | rows of prescribed nodes, middles and sizes of bodies | sum over owned nodes; largest |
+//! | `report` | reactions of node sets; middles of mass and velocities of bodies; which sets are held | sum over owned nodes; sum; any |
+//! | `section` | forces, moments, areas and centres of cuts | sum |
+//! | `warning` | energy that is round-off, largest rotation | sum; largest |
+//!
+//! Resultants of pairs, reports of ties, interference, passages, roles and status of contact nodes,
+//! offsets and poses follow from what is replicated alone and need nothing.
+
+mod division;
+mod exchange;
+mod reduced;
 
 use std::sync::Arc;
 
-use crate::{node::GlobalNode, team::Team};
+use striae_contact::initial::Fit;
+use striae_mesh::{ElementId, NodeId, Vec3};
+
+use crate::{
+    node::GlobalNode,
+    team::{Alone, Team},
+};
+
+pub use division::Division;
 
 /// What of a problem a rank holds.
 #[derive(Clone, Debug)]
 pub struct Share {
-    /// All ranks.
-    pub team: Arc<dyn Team>,
-    /// Rank that owns each local node, one of those that hold it.
+    team: Arc<dyn Team>,
+    /// `None` where it is the whole.
+    holding: Option<Arc<Holding>>,
+}
+
+/// A part of a problem, and which of the whole it is.
+#[derive(Clone, Debug)]
+pub struct Holding {
+    /// Rank that owns each local node.
     pub owners: Vec<u32>,
-    /// Number of each local node in the whole problem.
-    pub whole_nodes: Vec<usize>,
-    /// Nodes of the whole problem.
-    pub node_count: usize,
-    /// Number in the whole mesh of each local element of each body.
-    pub whole_elements: Vec<Vec<usize>>,
-    /// Number in the whole mesh of each local node of each body.
-    pub whole_mesh_nodes: Vec<Vec<usize>>,
+    /// Place of each local node among all nodes that its owner owns, which are in their order.
+    pub places: Vec<u32>,
+    /// How many nodes each rank owns.
+    pub owned: Vec<usize>,
+    /// Number of each local node in the whole problem, ascending.
+    pub nodes: Vec<usize>,
+    /// Local nodes that all ranks hold, ascending.
+    pub replicated: Vec<GlobalNode>,
+    /// Other local nodes that each other rank holds as well, ascending; so both ranks have
+    /// them in the same order.
+    pub common: Vec<Vec<GlobalNode>>,
+    /// Number in the whole mesh of each local element of each body, ascending.
+    pub elements: Vec<Vec<ElementId>>,
+    /// Number in the whole mesh of each local node of each body, ascending.
+    pub mesh_nodes: Vec<Vec<NodeId>>,
+    /// What is known of the whole.
+    pub whole: Whole,
+}
+
+/// What a share knows of the whole problem.
+#[derive(Clone, Debug)]
+pub struct Whole {
+    /// How many nodes there are, mass points with them.
+    pub nodes: usize,
+    /// How many nodes each body has.
+    pub mesh_nodes: Vec<usize>,
+    /// How many elements each body has.
+    pub elements: Vec<usize>,
+    /// Ends of the box around all nodes at rest.
+    pub extent: [Vec3; 2],
+    /// How the pairs fit.
+    pub fits: Vec<Option<Fit>>,
+    /// Whether they may ever meet.
+    pub may_meet: Vec<bool>,
 }
 
 impl Share {
+    /// The whole, on a rank that is alone.
+    pub fn alone() -> Self {
+        Self {
+            team: Arc::new(Alone),
+            holding: None,
+        }
+    }
+
+    /// A part.
+    pub fn new(team: Arc<dyn Team>, holding: Holding) -> Self {
+        Self {
+            team,
+            holding: Some(Arc::new(holding)),
+        }
+    }
+
+    /// All ranks.
+    pub fn team(&self) -> &dyn Team {
+        &*self.team
+    }
+
+    /// What is held; `None` where that is the whole.
+    pub fn holding(&self) -> Option<&Holding> {
+        self.holding.as_deref()
+    }
+
+    /// Rank that owns a node.
+    pub fn owner(&self, node: GlobalNode) -> usize {
+        let holding = self.holding.as_ref();
+        holding.map_or(0, |holding| holding.owners[node] as usize)
+    }
+
+    /// Whether there is no other rank.
+    pub fn is_alone(&self) -> bool {
+        self.team.size() == 1
+    }
+
     /// Whether this rank owns a node.
     pub fn owns(&self, node: GlobalNode) -> bool {
-        self.owners[node.0] as usize == self.team.rank()
+        let holding = self.holding.as_ref();
+        holding.is_none_or(|holding| holding.owners[node] as usize == self.team.rank())
+    }
+
+    /// Whether this rank owns what belongs to no node: the coordinates of rigid bodies.
+    pub fn owns_bodies(&self) -> bool {
+        self.team.rank() == 0
+    }
+
+    /// Number of a node in the whole problem.
+    pub fn whole_node(&self, node: GlobalNode) -> GlobalNode {
+        let holding = self.holding.as_ref();
+        holding.map_or(node, |holding| GlobalNode(holding.nodes[node]))
+    }
+
+    /// Number of a node of a body in its whole mesh.
+    pub fn whole_mesh_node(&self, body: usize, node: NodeId) -> NodeId {
+        let holding = self.holding.as_ref();
+        let nodes = holding.and_then(|holding| holding.mesh_nodes.get(body));
+        // Mass points are those of no body.
+        nodes.map_or(node, |nodes| nodes[node.index()])
+    }
+
+    /// Number of an element of a body in its whole mesh.
+    pub fn whole_element(&self, body: usize, element: ElementId) -> ElementId {
+        let holding = self.holding.as_ref();
+        holding.map_or(element, |holding| holding.elements[body][element.index()])
+    }
+
+    /// How many nodes the whole problem has, where this rank holds `local` ones.
+    pub(crate) fn whole_node_count(&self, local: usize) -> usize {
+        self.holding().map_or(local, |holding| holding.whole.nodes)
+    }
+
+    /// Local number of a node of the whole problem, where it is held.
+    pub(crate) fn local_node(&self, node: GlobalNode) -> Option<GlobalNode> {
+        match &self.holding {
+            None => Some(node),
+            Some(holding) => {
+                let place = holding.nodes.binary_search(&node.0).ok();
+                place.map(GlobalNode)
+            }
+        }
+    }
+
+    /// Local number of a node of the whole mesh of a body, where it is held.
+    pub fn local_mesh_node(&self, body: usize, node: NodeId) -> Option<NodeId> {
+        match &self.holding {
+            None => Some(node),
+            Some(holding) => {
+                let place = holding.mesh_nodes[body].binary_search(&node).ok();
+                place.map(NodeId::new)
+            }
+        }
+    }
+
+    /// Local number of an element of the whole mesh of a body, where it is held.
+    pub fn local_element(&self, body: usize, element: ElementId) -> Option<ElementId> {
+        match &self.holding {
+            None => Some(element),
+            Some(holding) => {
+                let place = holding.elements[body].binary_search(&element).ok();
+                place.map(ElementId::new)
+            }
+        }
     }
 }

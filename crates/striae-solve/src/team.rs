@@ -4,7 +4,13 @@
 //! that they decide alike. Every function here is collective: all ranks call it, in the same
 //! order. A reduction adds in the order of the ranks and has the same bits on all.
 
+mod gathered;
+mod together;
+
 use std::fmt::Debug;
+
+pub use gathered::Gathered;
+pub use together::Together;
 
 /// The ranks of a run, as one of them sees them.
 pub trait Team: Debug + Send + Sync {

@@ -24,6 +24,7 @@
 mod fault;
 mod order;
 mod patch;
+mod renumbered;
 mod rows;
 mod side;
 mod start;
@@ -35,6 +36,7 @@ pub use start::placed;
 use std::collections::BTreeMap;
 use striae_contact::side::Side;
 use striae_mesh::{NodeId, Vec3};
+use striae_surface::topology::Surface;
 
 use crate::{model::Model, node::GlobalNode};
 use order::Group;
@@ -73,7 +75,9 @@ pub struct Joint {
     /// Size of the facets of the side that follows.
     pub facet_size: f64,
     /// Nodes of the tied surfaces, by side.
-    nodes: [Vec<GlobalNode>; 2],
+    pub(crate) nodes: [Vec<GlobalNode>; 2],
+    /// Their facets in nodes of the meshes; a triangle repeats its last corner.
+    facets: [Vec<[NodeId; 4]>; 2],
     /// What is tied, by facet of the side that follows.
     patches: Vec<Patch>,
 }
@@ -173,6 +177,11 @@ impl Ties {
         behind.sort_unstable();
         behind.dedup();
         behind
+    }
+
+    /// The surface of a side of a tie, in nodes of the mesh of its body.
+    pub fn surface(&self, tie: usize, side: Side) -> Surface {
+        Surface::new(&self.joints[tie].facets[side])
     }
 
     /// Whether a body has a side in a tie.

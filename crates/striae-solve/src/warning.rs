@@ -35,11 +35,12 @@ use striae_mesh::{ElementId, Vec3};
 use crate::{
     initial::{fits, may_meet, other_name},
     interference::{Positions, between, within},
-    model::{Body, Initial, Model, PairId},
+    model::{Initial, Model, PairId},
     newton::Increment,
     outcome::Ending,
     problem::Problem,
     report::{PairReport, pairs, ties},
+    share::Whole,
     state::{Energies, State},
 };
 
@@ -175,7 +176,7 @@ pub struct Worst {
 }
 
 impl Judgement {
-    /// Judges a converged increment by what it came from.
+    /// Judges a converged increment by what it came from; collective.
     pub fn converged(&mut self, problem: &Problem, before: &State, increment: &Increment) {
         self.change(
             problem,
@@ -184,7 +185,7 @@ impl Judgement {
         );
     }
 
-    /// Judges an increment from `before` to `after`, however it came about.
+    /// Judges an increment from `before` to `after`, however it came about; collective.
     pub fn increment(&mut self, problem: &Problem, before: &State, after: &State) {
         let ends = [before, after].map(Positions::from);
         let pairs = 0..problem.pairs.len();
@@ -315,8 +316,17 @@ impl Judgement {
     /// Warnings at the end of a run.
     pub fn warnings(&self, problem: &Problem, ending: &Ending) -> Vec<Warning> {
         let model = &problem.model;
-        let fits = fits(model);
-        let mut warnings = warnings_at_start(model, &fits);
+        let (fits, mut warnings) = match problem.share.holding() {
+            None => {
+                let fits = fits(model);
+                let warnings = warnings_at_start(model, &fits);
+                (fits, warnings)
+            }
+            Some(holding) => {
+                let Whole { fits, may_meet, .. } = &holding.whole;
+                (fits.clone(), never(model, fits, |pair| may_meet[pair]))
+            }
+        };
         let mut worst: Vec<Worst> = self
             .worst
             .iter()
@@ -339,7 +349,7 @@ impl Judgement {
         }
         worst.retain(|worst| worst.kind == Kind::NeverTouched || worst.value > worst.kind.limit());
         worst.sort_by_key(|worst| (worst.kind, worst.pair));
-        warnings.extend(worst.iter().map(|worst| warning(model, worst)));
+        warnings.extend(worst.iter().map(|worst| warning(problem, worst)));
         warnings
     }
 
@@ -354,7 +364,7 @@ impl Judgement {
 }
 
 /// Energy below which all is round-off: that of strains of 4e-6 or less. Its balance is
-/// judged at a thousandth, which is a hundred units in the last place of `G V`.
+/// judged at a thousandth, which is a hundred units in the last place of `G V`. Collective.
 fn round_off(problem: &Problem) -> f64 {
     const STRAIN_SQUARED: f64 = 2e-11;
     let bodies = problem.elements.iter().enumerate();
@@ -365,13 +375,13 @@ fn round_off(problem: &Problem) -> f64 {
         });
         energies.sum::<f64>()
     });
-    STRAIN_SQUARED * energies.sum::<f64>()
+    STRAIN_SQUARED * problem.share.sum(energies.sum())
 }
 
-/// Largest angle by which elements of linear elastic bodies have turned.
+/// Largest angle by which elements of linear elastic bodies have turned; collective.
 fn rotation(problem: &Problem, state: &State) -> f64 {
     let bodies = problem.model.bodies.iter().zip(&problem.elements);
-    let angles = bodies.enumerate().filter(|(_, (body, _))| is_linear(body));
+    let angles = bodies.enumerate().filter(|(at, _)| is_linear(problem, *at));
     let angles = angles.map(|(at, (body, elements))| -> f64 {
         let turned = elements.iter().zip(body.mesh.elements()).enumerate();
         let linear = turned.filter(|(element, _)| {
@@ -385,18 +395,20 @@ fn rotation(problem: &Problem, state: &State) -> f64 {
         });
         angles.fold(0.0, f64::max)
     });
-    angles.fold(0.0, f64::max)
+    problem.share.largest(angles.fold(0.0, f64::max))
 }
 
-fn is_linear(body: &Body) -> bool {
-    let used = body.used_sections();
-    let mut materials = used.iter().map(|section| body.material_of(*section));
+fn is_linear(problem: &Problem, body: usize) -> bool {
+    let used = problem.compositions[body].used_sections().iter();
+    let mut materials = used.map(|section| problem.model.bodies[body].material_of(*section));
     materials.any(|material| matches!(material, Material::LinearElastic { .. }))
 }
 
-fn linear_text(model: &Model) -> String {
-    let linear = model.bodies.iter().filter(|body| is_linear(body));
-    let names: Vec<String> = linear.map(|body| format!("`{}`", body.name)).collect();
+fn linear_text(problem: &Problem) -> String {
+    let bodies = problem.model.bodies.iter().enumerate();
+    let linear = bodies.filter(|(at, _)| is_linear(problem, *at));
+    let names = linear.map(|(_, body)| format!("`{}`", body.name));
+    let names: Vec<String> = names.collect();
     match &names[..] {
         [name] => format!("body {name} turns by up to"),
         names => format!("one of the bodies {} turns by up to", names.join(", ")),
@@ -432,7 +444,8 @@ fn largest(energies: &Energies) -> f64 {
         .fold(0.0, |most: f64, energy| most.max(energy.abs()))
 }
 
-fn warning(model: &Model, worst: &Worst) -> Warning {
+fn warning(problem: &Problem, worst: &Worst) -> Warning {
+    let model = &problem.model;
     let &Worst {
         kind,
         pair,
@@ -475,7 +488,7 @@ fn warning(model: &Model, worst: &Worst) -> Warning {
         ),
         Kind::Rotation => format!(
             "{} {:.0} degrees at time {time:.4}: linear elasticity takes rotations for strains, of {:.1e} here; use neo-hookean",
-            linear_text(model),
+            linear_text(problem),
             value.to_degrees(),
             1.0 - value.cos()
         ),
@@ -513,10 +526,19 @@ impl std::fmt::Display for Warning {
 
 /// What a model should be read with care for, given how its pairs fit.
 pub fn warnings_at_start(model: &Model, fits: &[Option<Fit>]) -> Vec<Warning> {
+    never(model, fits, |pair| {
+        let fit = fits[pair].as_ref();
+        fit.is_none_or(|fit| may_meet(model, PairId(pair), fit))
+    })
+}
+
+/// Warnings of pairs that can never meet.
+fn never(model: &Model, fits: &[Option<Fit>], may_meet: impl Fn(usize) -> bool) -> Vec<Warning> {
     let mut warnings = Vec::new();
     for (pair, fit) in fits.iter().enumerate() {
+        let fit = fit.as_ref().filter(|_| !may_meet(pair));
         let pair = PairId(pair);
-        if let Some(fit) = fit.as_ref().filter(|fit| !may_meet(model, pair, fit)) {
+        if let Some(fit) = fit {
             let name = &model.pairs[pair.0].name;
             let [a, b] = [Side::B, Side::A].map(|side| other_name(model, pair, side));
             let distance = fit.distance;

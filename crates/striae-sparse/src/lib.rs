@@ -27,6 +27,7 @@ pub mod aggregation;
 mod compressed;
 pub mod dense;
 mod descent;
+mod division;
 mod equilibration;
 mod error;
 mod faer_lu;
@@ -53,6 +54,7 @@ mod tree;
 pub mod triangular;
 
 pub use compressed::{CompressedRows, PlacedBlock};
+pub use division::{Neighbourhood, divided};
 pub use equilibration::{Equilibration, check_finite, root};
 pub use error::{OutsidePattern, SolveError, StructureError};
 pub use faer::Mat;

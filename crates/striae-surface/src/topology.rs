@@ -64,6 +64,16 @@ impl Surface {
         }
     }
 
+    /// The same surface where the nodes of the mesh have other numbers, in the same order.
+    ///
+    /// # Panics
+    /// When the order is another one.
+    pub fn renumbered(mut self, number: impl Fn(NodeId) -> NodeId) -> Self {
+        self.nodes.iter_mut().for_each(|node| *node = number(*node));
+        assert!(self.nodes.is_sorted(), "nodes keep their order");
+        self
+    }
+
     /// Mesh node of every surface node, ascending.
     pub fn nodes(&self) -> &[NodeId] {
         &self.nodes

@@ -10,6 +10,7 @@ use striae_contact::{evaluation::Evaluation, term::LocalTerm};
 use striae_sparse::{CompressedRows, PlacedBlock};
 
 use super::{System, terms::Answer};
+use crate::layout::united;
 
 /// Terms for one thread at a time.
 const TERMS: usize = 16;
@@ -32,6 +33,7 @@ impl System<'_> {
     }
 
     /// Puts contact into its part of the tangent; returns by what its pattern had to grow.
+    /// Collective.
     pub(super) fn gather(
         &mut self,
         contacts: &[Evaluation],
@@ -39,13 +41,15 @@ impl System<'_> {
         target: &mut CompressedRows,
     ) -> Growth {
         let blocks = self.all_blocks(contacts);
-        let growth = match partition.gathered(&blocks) {
-            Ok(rows) => {
-                *target = rows;
-                return Growth::default();
-            }
-            Err(growth) => growth,
+        let (rows, growth) = match partition.gathered(&blocks) {
+            Ok(rows) => (rows, Growth::default()),
+            Err(growth) => (CompressedRows::default(), growth),
         };
+        let growth = united(self.context.problem, self.layout, growth);
+        if growth.is_empty() {
+            *target = rows;
+            return growth;
+        }
         let own = "contact couples supervariables of the partition";
         *partition = partition.grown(&growth).expect(own);
         *target = partition.gathered(&blocks).expect(own);
@@ -72,14 +76,16 @@ impl System<'_> {
         self.ties.is_empty() && !moves && self.opposite_body(pair).is_none() && !follows()
     }
 
-    /// Where a term belongs, leaving out prescribed rows.
+    /// Where a term belongs, leaving out prescribed rows and those of other ranks.
     fn placed<'t>(&self, pair: usize, term: &'t LocalTerm) -> PlacedBlock<'t> {
         let is_free = |&(_, row): &(usize, &u32)| {
             let axis = *row as usize % 3;
             let node = self.triple(pair, *row).position;
             node.is_none_or(|node| !self.context.fixed[node.component(axis)])
         };
-        let rows = term.rows.iter().enumerate().filter(is_free);
+        let is_own = |&(_, row): &(usize, &u32)| self.owns(self.unknown(pair, *row));
+        let rows = term.rows.iter().enumerate();
+        let rows = rows.filter(is_free).filter(is_own);
         let columns = term.columns.iter().step_by(3);
         PlacedBlock {
             rows: rows

@@ -65,7 +65,7 @@ fn not_evaluated(problem: &Problem, pair: usize, collapse: Collapse) -> CutBack 
     let (Collapse::Texture(CollapsedTexture { side, node })
     | Collapse::Facets(CollapsedFacets { side, node })) = collapse;
     let global = problem.carrier(pair, side, node).unwrap_or(GlobalNode(0));
-    let (body, node) = problem.body_node(global);
+    let (body, node) = problem.named_node(global);
     let pair = problem.model.pairs[pair].name.clone();
     let body = problem.model.bodies[body].name.clone();
     match collapse {

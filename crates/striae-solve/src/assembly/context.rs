@@ -86,7 +86,7 @@ impl Imposed {
 }
 
 impl<'a> StepContext<'a> {
-    /// The context of step `index` that starts from `start`.
+    /// The context of step `index` that starts from `start`; collective.
     pub fn new(problem: &'a Problem, index: usize, start: &'a State) -> Self {
         let plan = &problem.plans[index];
         let mut fixed = vec![false; 3 * problem.reference.len()];

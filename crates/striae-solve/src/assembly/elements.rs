@@ -80,7 +80,7 @@ impl System<'_> {
         }
         self.clear_stale(&mut at_nodes);
         self.take_from_nodes(&at_nodes);
-        self.force_scale = sums.square_of_forces.sqrt();
+        self.square_of_forces = sums.square_of_forces;
         Ok(sums.of_bodies)
     }
 
@@ -133,7 +133,9 @@ impl System<'_> {
             result.map_err(|error| CutBack::InvertedElement {
                 body: problem.model.bodies[place.body].name.clone(),
                 element: ElementFault {
-                    element: ElementId::new(place.first + at),
+                    element: problem
+                        .share
+                        .whole_element(place.body, ElementId::new(place.first + at)),
                     error,
                 },
             })?;

@@ -161,13 +161,15 @@ impl System<'_> {
         }
     }
 
-    /// Adds a force and a stiffness at a node.
+    /// Adds a force and a stiffness at a node that all ranks know.
     pub(super) fn add_point(&mut self, node: GlobalNode, force: &Vec3, stiffness: f64) {
         let first = self.layout.position(node);
         let unknowns = [first, first + 1, first + 2];
         let mut tangent = [0.0; 9];
-        for at in [0, 4, 8] {
-            tangent[at] = stiffness;
+        if self.owns(first) {
+            for at in [0, 4, 8] {
+                tangent[at] = stiffness;
+            }
         }
         self.add_dense(&[node], &unknowns, force.as_slice(), &tangent);
     }

@@ -11,7 +11,7 @@
 //! Rows of supervariables that are not kept know no contact. A correction that solves
 //! the first linear system leaves nothing in them, and none that follows changes that. `K`
 //! is the part of the bodies in the tangent, and blocks of loads on faces that contact
-//! surfaces cover in part, which are in the other one.
+//! surfaces cover in part, which are in the other one. All that is on one rank.
 
 use striae_condensed::{Partition, Tangent};
 use striae_contact::{complementarity::Iteration, evaluation::Evaluation, segment::Derivatives};
@@ -28,7 +28,7 @@ pub struct Background {
     blocks: Vec<PlacedBlock<'static>>,
     residual: Vec<f64>,
     applied: Vec<Vec3>,
-    force_scale: f64,
+    square_of_forces: f64,
 }
 
 /// Contact at a trial state, on a linear background.
@@ -102,7 +102,7 @@ impl System<'_> {
             blocks: self.blocks.clone(),
             residual: self.residual.clone(),
             applied: self.forces.applied.clone(),
-            force_scale: self.force_scale,
+            square_of_forces: self.square_of_forces,
         }
     }
 
@@ -124,7 +124,7 @@ impl System<'_> {
         for block in &self.blocks {
             block.add_product(change, &mut self.residual);
         }
-        self.force_scale = background.force_scale;
+        self.square_of_forces = background.square_of_forces;
         self.forces.applied.clone_from(&background.applied);
     }
 }

@@ -10,27 +10,35 @@ use crate::{
 };
 
 impl System<'_> {
-    /// Norms of all fields; notes the reactions.
+    /// Norms of all fields; notes the reactions. Collective.
     pub(super) fn norms(&mut self, trial: &Trial, contacts: &[Evaluation]) -> Norms {
         let problem = self.context.problem;
-        let mut free = self.free_squares();
+        let share = &problem.share;
+        let mut free = match share.owns_bodies() {
+            true => self.free_squares(),
+            false => 0.0,
+        };
         for node in problem.global_nodes() {
             if self.tie(node).is_some() {
                 continue;
             }
             let first = self.layout.position(node);
             self.forces.reaction[node] = Vec3::from_column_slice(&self.residual[first..first + 3]);
-            for axis in 0..3 {
+            for axis in (0..3).filter(|_| share.owns(node)) {
                 if !self.context.fixed[node.component(axis)] {
                     free += self.residual[first + axis].powi(2);
                 }
             }
         }
-        let applied: f64 = self.forces.applied.iter().map(|f| f.norm_squared()).sum();
+        let own_nodes = problem.own_nodes();
+        let applied: f64 = own_nodes
+            .map(|node| self.forces.applied[node].norm_squared())
+            .sum();
+        let [free, applied, squares] = share.sums([free, applied, self.square_of_forces]);
         let unavoidable = round_off(problem, &trial.positions, self.inertia.stiffness);
         // Where there are next to no forces, norms are those over what is just negligible.
         let smallest = unavoidable / problem.model.solver.tolerance;
-        let force = self.force_scale.max(applied.sqrt()).max(smallest);
+        let force = squares.sqrt().max(applied.sqrt()).max(smallest);
         let mut norms = Norms {
             force: free.sqrt() / force,
             round_off: unavoidable / force,
@@ -66,9 +74,10 @@ const SMALLEST_PRESSURE: f64 = 1e-4;
 /// Residual force that round-off of the positions leaves in bodies without stress: an
 /// element gives `eps (k + m da_alpha/dx) |x|` with its mass `m` and the mean `k` of the
 /// diagonal of its stiffness, `(lambda + 2 G)/8 sum_ga w |G_a|^2`, which is that of its
-/// smallest height where it is flat.
+/// smallest height where it is flat. Collective.
 fn round_off(problem: &Problem, positions: &[Vec3], inertia: f64) -> f64 {
     let extent = positions.iter().map(|x| x.norm()).fold(0.0, f64::max);
+    let extent = problem.share.largest(extent);
     let bodies = problem.compositions.iter();
     let sum: f64 = bodies
         .map(|composition| {
@@ -84,5 +93,5 @@ fn round_off(problem: &Problem, positions: &[Vec3], inertia: f64) -> f64 {
     let points: f64 = points
         .map(|(_, mass)| (mass * inertia * extent).powi(2))
         .sum();
-    10.0 * f64::EPSILON * (sum + points).sqrt()
+    10.0 * f64::EPSILON * (problem.share.sum(sum) + points).sqrt()
 }

@@ -42,8 +42,10 @@ pub(super) struct Scratch {
 pub(super) enum Part {
     /// What elements and ties couple.
     Bodies,
-    /// What contact couples.
+    /// What contact couples; all ranks know it.
     Contact,
+    /// What loads on faces that contact covers in part couple, in the part of contact.
+    Loads,
 }
 
 /// What slots become: equations or unknowns, and their weights by slot.
@@ -109,11 +111,15 @@ impl System<'_> {
                 let added = self.matrix.add(rows, columns, &values);
                 added.expect("what elements and ties couple is in the pattern of the bodies");
             }
-            Part::Contact => self.blocks.push(PlacedBlock {
-                rows: rows.iter().copied().zip(0..).collect(),
-                columns: self.runs(columns),
-                values: values.into_owned().into(),
-            }),
+            Part::Contact | Part::Loads => {
+                let rows = rows.iter().copied().zip(0..);
+                let is_added = |row: &(usize, usize)| part == Part::Loads || self.owns(row.0);
+                self.blocks.push(PlacedBlock {
+                    rows: rows.filter(is_added).collect(),
+                    columns: self.runs(columns),
+                    values: values.into_owned().into(),
+                });
+            }
         }
     }
 

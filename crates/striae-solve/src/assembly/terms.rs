@@ -40,6 +40,16 @@ pub(super) enum Answer {
     Dead,
 }
 
+impl Answer {
+    /// The part of the tangent that terms are in.
+    fn part(self) -> Part {
+        match self {
+            Self::Opposite => Part::Contact,
+            Self::Follower | Self::Dead => Part::Loads,
+        }
+    }
+}
+
 /// Where a triple of unknowns of a pair is in the system.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Triple {
@@ -109,7 +119,7 @@ impl System<'_> {
             self.push_back(row, *residual);
         }
         if self.derivatives == Derivatives::First {
-            self.add_rows(Part::Contact, &rows, &columns, &term.tangent);
+            self.add_rows(answer.part(), &rows, &columns, &term.tangent);
             self.turn(&rows, &columns, &term.residual, answer);
         }
         self.scratch.slots = [rows, columns];
@@ -168,7 +178,7 @@ impl System<'_> {
             if answer != Answer::Dead {
                 // The row states -f.
                 let turned = force.cross_matrix() * tie.tangent;
-                self.scatter(Part::Contact, &node, &angles(&tie), &by_rows(&turned));
+                self.scatter(answer.part(), &node, &angles(&tie), &by_rows(&turned));
             }
             if answer == Answer::Opposite {
                 self.shift_arms(&node, &tie, &force);

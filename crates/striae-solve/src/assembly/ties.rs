@@ -168,7 +168,7 @@ impl System<'_> {
     }
 
     fn add_turning(&mut self, rigid: usize, turning: &Matrix3<f64>) {
-        let Some(first) = self.layout.rigid(rigid) else {
+        let Some(first) = self.layout.rigid(rigid).filter(|first| self.owns(*first)) else {
             return;
         };
         for row in 0..3 {

@@ -117,9 +117,11 @@ impl<'a> Attempt<'a> {
         self.first != Iteration::First
     }
 
-    /// Starts where the increment before leads to at a time, unless bodies leave each other.
+    /// Starts where the increment before leads to at a time, unless bodies leave each other;
+    /// collective.
     pub(super) fn follow(&mut self, course: &Course, time: f64) {
-        if self.trial.positions == self.state.positions {
+        let leave = self.trial.positions != self.state.positions;
+        if !self.context.problem.share.any(leave) {
             course.follow(self.context, self.state, time, &mut self.trial);
             self.first = Iteration::LATER;
         }
@@ -243,7 +245,7 @@ impl Attempt<'_> {
             Derivatives::None => workspace.chord_correction(residual, part),
         };
         let correction = correction
-            .map_err(|error| linear_system(context.problem, &workspace.system().layout, error))?;
+            .map_err(|error| linear_system(context.problem, workspace.system().numbers(), error))?;
         let derivatives = self.wanted(assembled, iteration);
         let at_rest = match iteration {
             Iteration::Later { .. } if derivatives == Derivatives::First => {
@@ -305,7 +307,11 @@ impl Attempt<'_> {
     fn norm(&self, assembled: &Assembled) -> Option<f64> {
         let norm = assembled.norms.largest();
         match (self.iterations.is_empty(), self.follows()) {
-            (true, true) => Some(norm.max(share_to_go(&self.trial, self.state, self.imposed))),
+            (true, true) => {
+                let share = &self.context.problem.share;
+                let to_go = share_to_go(share, &self.trial, self.state, self.imposed);
+                Some(norm.max(to_go))
+            }
             (true, false) => None,
             (false, _) => Some(norm),
         }

@@ -11,6 +11,7 @@ use striae_contact::{segment::Derivatives, unknowns::Status};
 
 use crate::{
     assembly::{Assembled, Imposed, Trial},
+    share::Share,
     state::State,
 };
 
@@ -56,14 +57,17 @@ impl Chord {
     }
 }
 
-/// Largest part of the way of a prescribed position that a trial state is away from it.
-pub(super) fn share_to_go(trial: &Trial, state: &State, imposed: &Imposed) -> f64 {
+/// Largest part of the way of a prescribed position that a trial state is away from it;
+/// collective.
+pub(super) fn share_to_go(share: &Share, trial: &Trial, state: &State, imposed: &Imposed) -> f64 {
     let ways = imposed.positions.iter().map(|&(node, axis, end)| {
         [&trial.positions, &state.positions].map(|x| (end - x[node][axis]).abs())
     });
-    let [left, whole] = ways.fold([0.0; 2], |sum: [f64; 2], way| {
+    let mut most = ways.fold([0.0; 2], |sum: [f64; 2], way| {
         [0, 1].map(|at| sum[at].max(way[at]))
     });
+    share.team().largest(&mut most);
+    let [left, whole] = most;
     if left > 0.0 {
         left / whole.max(left)
     } else {

@@ -57,7 +57,7 @@ impl History {
                         && kept
                         && changes
                     {
-                        let (body, node) = problem.body_node(global);
+                        let (body, node) = problem.named_node(global);
                         cycling.push(CyclingNode {
                             pair: problem.model.pairs[pair].name.clone(),
                             body: problem.model.bodies[body].name.clone(),

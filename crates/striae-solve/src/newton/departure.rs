@@ -15,7 +15,7 @@ use crate::{
     state::State,
 };
 
-/// Positions to start iterating from.
+/// Positions to start iterating from; collective.
 pub(super) fn first_positions(
     context: &StepContext,
     state: &State,
@@ -64,15 +64,19 @@ pub(super) fn first_positions(
 }
 
 /// How far what is prescribed moves each body on average, zero for bodies that are tied.
+/// Collective.
 fn mean_moves(context: &StepContext, state: &State, imposed: &Imposed) -> Vec<Vec3> {
     let problem = context.problem;
     let bodies = problem.model.bodies.len();
     let (mut sums, mut counts) = (vec![Vec3::zeros(); bodies], vec![Vec3::zeros(); bodies]);
-    for &(node, axis, position) in &imposed.positions {
+    let own = imposed.positions.iter();
+    for &(node, axis, position) in own.filter(|(node, _, _)| problem.share.owns(*node)) {
         let (body, _) = problem.body_node(node);
         sums[body][axis] += position - state.positions[node][axis];
         counts[body][axis] += 1.0;
     }
+    problem.share.sum_vectors(&mut sums);
+    problem.share.sum_vectors(&mut counts);
     let mean = |body: usize| {
         let mut nodes = problem.first_node[body]..problem.first_node[body + 1];
         if problem.ties.joins(body) || nodes.any(|node| problem.tie_of[node].is_some()) {

@@ -68,7 +68,7 @@ pub(super) struct Ends<'a> {
 }
 
 impl Ends<'_> {
-    /// Energies at the end; `friction` is dissipated in the increment.
+    /// Energies at the end; `friction` is dissipated in the increment. Collective.
     pub(super) fn energies(&self, friction: f64) -> Energies {
         let (resisted, stabilisation) = (self.resisted(|_| true), self.stabilisation());
         let resisted = resisted - self.work_of_stabilisation();
@@ -124,12 +124,11 @@ impl Ends<'_> {
         self.trial.positions[node] - self.state.positions[node]
     }
 
-    /// Sum over all nodes of the displacement times a force.
+    /// Sum over all nodes of the displacement times a force; collective.
     fn work(&self, force: impl Fn(GlobalNode) -> Vec3) -> f64 {
-        let nodes = (0..self.trial.positions.len()).map(GlobalNode);
-        nodes
-            .map(|node| self.displacement(node).dot(&force(node)))
-            .sum()
+        let problem = self.context.problem;
+        let of_node = |node: GlobalNode| self.displacement(node).dot(&force(node));
+        problem.share.sum(problem.own_nodes().map(of_node).sum())
     }
 
     fn external(&self) -> f64 {
@@ -315,8 +314,8 @@ impl Ends<'_> {
         for vectors in [&mut weighted, &mut excess, &mut shift] {
             problem.ties.follow(vectors);
         }
-        product(&way, &mass_times(problem, &excess))
-            + product(&shift, &mass_times(problem, &weighted))
+        product(problem, &way, &mass_times(problem, &excess))
+            + product(problem, &shift, &mass_times(problem, &weighted))
     }
 
     /// Work of tie forces, and of contact forces on moving bodies, along chords beyond

@@ -1,6 +1,7 @@
 //! Words for what stops an increment: contact met unnoticed, linear systems
 //! without a solution.
 
+use striae_condensed::Numbering;
 use striae_sparse::SolveError;
 
 use crate::{
@@ -21,7 +22,7 @@ pub(super) fn missed(setting: &Setting, trial: &Trial) -> Option<CutBack> {
         let missed = selection.left_out(&start, &configuration);
         if let Some(&(side, node)) = missed.first() {
             let global = problem.surface_node(pair, side, node)?;
-            let (body, node) = problem.body_node(global);
+            let (body, node) = problem.named_node(global);
             return Some(CutBack::MissedContact {
                 pair: problem.model.pairs[pair].name.clone(),
                 body: problem.model.bodies[body].name.clone(),
@@ -33,13 +34,32 @@ pub(super) fn missed(setting: &Setting, trial: &Trial) -> Option<CutBack> {
     None
 }
 
-/// A linear system that cannot be solved, with the place of its singularity.
-pub(super) fn linear_system(problem: &Problem, layout: &Layout, error: SolveError) -> CutBack {
-    let place = match &error {
-        SolveError::Singular { unknown, .. } => place(problem, layout, *unknown),
+/// A linear system that cannot be solved, with the place of its singularity. Collective for a
+/// shared system, whose solver names unknowns by their numbers in the whole.
+pub(super) fn linear_system(
+    problem: &Problem,
+    (layout, numbering): (&Layout, Option<&Numbering>),
+    error: SolveError,
+) -> CutBack {
+    let place = match (&error, numbering) {
+        (SolveError::Singular { unknown, .. }, None) => place(problem, layout, *unknown),
+        (SolveError::Singular { unknown, .. }, Some(numbering)) => {
+            let own = numbering.own.contains(unknown);
+            let at = || numbering.whole.iter().position(|whole| whole == unknown);
+            let found = own.then(at).flatten();
+            let words = found.map(|at| place(problem, layout, at));
+            told(problem, &words.unwrap_or_default())
+        }
         _ => "linear system".to_owned(),
     };
     CutBack::LinearSystem { place, error }
+}
+
+/// The words of the one rank that has any; collective.
+fn told(problem: &Problem, own: &str) -> String {
+    let all = problem.share.team().gather(own.as_bytes());
+    let words = all.iter().map(|words| String::from_utf8_lossy(words));
+    words.collect()
 }
 
 /// Words for a global unknown.
@@ -55,7 +75,7 @@ fn place(problem: &Problem, layout: &Layout, unknown: usize) -> String {
         let kind = ["x", "y", "z", "rx", "ry", "rz"][unknown - layout.offsets()[at]];
         return format!("rigid body `{name}` is free to move in {kind}");
     }
-    let (body, node) = problem.body_node(GlobalNode(at));
+    let (body, node) = problem.named_node(GlobalNode(at));
     let name = &problem.model.bodies[body].name;
     match unknown - layout.position(GlobalNode(at)) {
         component @ 0..3 => {

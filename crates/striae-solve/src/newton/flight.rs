@@ -7,19 +7,20 @@
 //! further than what drives it. Stabilisation, which resists as long as a step lasts, has an
 //! ending of its own.
 
-use striae_mesh::Vec3;
+use striae_mesh::{NodeId, Vec3};
 
 use crate::{
     assembly::{Setting, Trial},
     model::Procedure,
     node::GlobalNode,
     outcome::CutBack,
+    problem::Problem,
 };
 
 /// Way in one increment, over the size of the undeformed bodies, beyond what is prescribed.
 const FARTHEST: f64 = 100.0;
 
-/// The node that flies furthest, if one does.
+/// The node that flies furthest, if one does; collective.
 pub(super) fn flown(setting: &Setting, trial: &Trial) -> Option<CutBack> {
     let context = setting.context;
     let problem = context.problem;
@@ -31,12 +32,12 @@ pub(super) fn flown(setting: &Setting, trial: &Trial) -> Option<CutBack> {
     if !is_static || is_resisted {
         return None;
     }
-    let (before, size) = (&setting.state.positions, size(&problem.reference));
-    let (node, way) = furthest(before, &trial.positions)?;
-    if way <= FARTHEST * size + prescribed(setting, trial) {
+    let (share, before) = (&problem.share, &setting.state.positions);
+    let size = problem.size();
+    let (body, node, way) = first(problem, furthest(before, &trial.positions))?;
+    if way <= FARTHEST * size + share.largest(prescribed(setting, trial)) {
         return None;
     }
-    let (body, node) = problem.body_node(GlobalNode(node));
     Some(CutBack::Flown {
         body: problem.model.bodies[body].name.clone(),
         node,
@@ -45,15 +46,30 @@ pub(super) fn flown(setting: &Setting, trial: &Trial) -> Option<CutBack> {
     })
 }
 
-/// Diagonal of the box around all nodes.
-fn size(reference: &[Vec3]) -> f64 {
-    let Some(&first) = reference.first() else {
-        return 0.0;
-    };
-    let ends = reference.iter().fold((first, first), |(least, most), x| {
-        (least.inf(x), most.sup(x))
+/// Body, node and way of the first node of all ranks that has gone furthest; collective.
+fn first(problem: &Problem, own: Option<(usize, f64)>) -> Option<(usize, NodeId, f64)> {
+    let own = own.map(|(node, way)| (problem.named_node(GlobalNode(node)), way));
+    if problem.share.is_alone() {
+        return own.map(|((body, node), way)| (body, node, way));
+    }
+    let bytes = own.map_or_else(Vec::new, |((body, node), way)| {
+        let numbers = [way.to_bits(), body as u64, node.index() as u64];
+        numbers.map(u64::to_le_bytes).concat()
     });
-    (ends.1 - ends.0).norm()
+    let all = problem.share.team().gather(&bytes).into_iter();
+    let all = all.filter(|bytes| !bytes.is_empty()).map(|bytes| {
+        let bits = |at: usize| {
+            let bytes = bytes[8 * at..8 * (at + 1)].try_into();
+            u64::from_le_bytes(bytes.expect("numbers have eight bytes"))
+        };
+        let (body, node) = (bits(1) as usize, NodeId::new(bits(2) as usize));
+        (body, node, f64::from_bits(bits(0)))
+    });
+    all.reduce(|most, other| {
+        let is_first = (other.0, other.1) < (most.0, most.1);
+        let is_it = other.2 > most.2 || other.2 == most.2 && is_first;
+        if is_it { other } else { most }
+    })
 }
 
 /// The node with the longest way.
@@ -83,7 +99,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_size_is_that_of_the_box_and_the_longest_way_is_found() {
+    fn the_longest_way_is_found() {
         let before = [
             Vec3::zeros(),
             Vec3::new(3.0, 0.0, 0.0),
@@ -91,7 +107,6 @@ mod tests {
         ];
         let mut now = before;
         now[2].z = -7.0;
-        assert_eq!(size(&before), 5.0);
         assert_eq!(furthest(&before, &now), Some((2, 7.0)));
     }
 }

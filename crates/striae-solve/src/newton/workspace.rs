@@ -6,13 +6,13 @@ pub use memory::Memory;
 
 use std::time::Instant;
 
-use striae_condensed::{Analysis, Automatic, Choice, Growth, Partition, Tangent};
+use striae_condensed::{Analysis, Growth, Numbering, Partition, SharedSolver, Tangent};
 use striae_contact::{complementarity::Iteration, segment::Derivatives, selection::Selection};
-use striae_sparse::{Age, SolveError, SolveReport, Structure, Supervariable};
+use striae_sparse::{Age, SolveError, Structure, Supervariable};
 
 use striae_mesh::Vec3;
 
-use super::{course::Course, work::LinearWork};
+use super::{course::Course, linear::Linear, work::LinearWork};
 use crate::{
     assembly::{
         Assembled, Background, Contact, ContactAssembled, ElementPlaces, Imposed, Setting,
@@ -31,7 +31,7 @@ const EXACT: f64 = 1e-12;
 
 /// What survives between increments to save work; it holds no results.
 pub struct Workspace {
-    pub(super) solver: Automatic,
+    pub(super) solver: Linear,
     system: Option<SystemStorage>,
     work: LinearWork,
     /// What the last increment started from.
@@ -41,6 +41,8 @@ pub struct Workspace {
 pub(super) struct SystemStorage {
     pub(super) layout: Layout,
     pub(super) partition: Partition,
+    /// Of a shared system.
+    numbering: Option<Numbering>,
     places: ElementPlaces,
     pub(super) tangent: Tangent,
     pub(super) analysis: Analysis,
@@ -52,14 +54,18 @@ pub(super) struct SystemStorage {
 impl Workspace {
     /// An empty workspace with the given factorisation.
     pub fn new(backend: Backend) -> Self {
-        let choice = match backend {
-            Backend::Condensed => Choice::ByCost,
-            Backend::Iterative => Choice::Iterative,
-            Backend::Multifrontal => Choice::Multifrontal,
-            Backend::Faer => Choice::Faer,
-        };
+        Self::with(Linear::new(backend))
+    }
+
+    /// An empty workspace of one of several ranks that solve their systems together. What is
+    /// done with it is collective.
+    pub fn shared(solver: Box<dyn SharedSolver>) -> Self {
+        Self::with(Linear::Shared(solver))
+    }
+
+    fn with(solver: Linear) -> Self {
         Self {
-            solver: Automatic::new(choice),
+            solver,
             system: None,
             work: LinearWork::default(),
             course: None,
@@ -87,6 +93,10 @@ impl Workspace {
 
     fn lay_out(&mut self, problem: &Problem, extent: Extent) {
         let layout = Layout::new(problem, extent);
+        let numbering = match self.solver {
+            Linear::Alone(_) => None,
+            Linear::Shared(_) => Some(layout.numbering(problem)),
+        };
         let mut cliques: Vec<Vec<Supervariable>> = Vec::new();
         // Elements at tied nodes couple the others with the rigid body, which is no bulk.
         let mut tied = Growth::default();
@@ -105,6 +115,7 @@ impl Workspace {
             }
         }
         cliques.extend((0..layout.offsets().len() - 1).map(|at| vec![Supervariable(at)]));
+        tied.extend(tied_elsewhere(problem, &tied));
         let own = "the layout names its own supervariables";
         let bulk = Structure::from_cliques(layout.offsets().to_vec(), &cliques)
             .and_then(|structure| structure.with_tiers(layout.tiers()))
@@ -117,6 +128,7 @@ impl Workspace {
             places: ElementPlaces::new(problem, &layout, partition.structure()),
             tangent: Tangent::zero(partition.structure()),
             partition,
+            numbering,
             layout,
             analysis: Analysis::default(),
             growth: Growth::default(),
@@ -191,11 +203,9 @@ impl Workspace {
     pub(super) fn contact_correction(&mut self, residual: &[f64]) -> Option<Vec<f64>> {
         let started = Instant::now();
         let system = self.system.as_ref().expect("the workspace was prepared");
-        let rhs: Vec<f64> = residual.iter().map(|r| -r).collect();
         let solver = &mut self.solver;
-        let correction = rayon::scope(|_| solver.solve_other_contact(&system.tangent, &rhs));
+        let correction = solver.solved_with_other_contact(&system.tangent, residual);
         self.work.times.contact += started.elapsed();
-        let correction = correction.ok().flatten();
         self.work.contact_corrections += usize::from(correction.is_some());
         correction
     }
@@ -235,14 +245,11 @@ impl Workspace {
         };
         let Self { solver, system, .. } = self;
         let system = system.as_mut().expect("the workspace was prepared");
-        if !system.analysed {
-            system.analysis = solver.analyse(&system.partition).map_err(without_mass)?;
-            system.analysed = true;
-        }
+        system.analyse(solver).map_err(without_mass)?;
         solver.forget();
         let solve = |tangent: &Tangent, residual: &[f64]| {
             solver.factor(tangent).map_err(without_mass)?;
-            let solved = solved(solver, tangent, residual, EXACT);
+            let solved = solver.solved(tangent, residual, EXACT);
             solver.forget();
             let (solution, _) = solved.map_err(without_mass)?;
             Ok(solution)
@@ -265,8 +272,6 @@ impl Workspace {
     }
 
     /// Solves for the correction, `J correction = -residual`, up to a part of the residual.
-    ///
-    /// As all linear algebra on a thread of the pool, which need not be woken then.
     pub(super) fn correction(
         &mut self,
         residual: &[f64],
@@ -276,13 +281,10 @@ impl Workspace {
         let system = self.system.as_mut().expect("the workspace was prepared");
         let times = &mut self.work.times;
         let started = Instant::now();
-        if !system.analysed {
-            system.analysis = solver.analyse(&system.partition)?;
-            system.analysed = true;
-        }
+        system.analyse(solver)?;
         let analysed = Instant::now();
         times.analysis += analysed - started;
-        let report = rayon::scope(|_| solver.factor(&system.tangent))?;
+        let report = solver.factor(&system.tangent)?;
         times.factorisation += analysed.elapsed();
         (self.work.method, self.work.fall_back) = (report.method, report.fall_back);
         let (correction, age) = self.solution(residual, part)?;
@@ -303,27 +305,47 @@ impl Workspace {
     fn solution(&mut self, residual: &[f64], part: f64) -> Result<(Vec<f64>, Age), SolveError> {
         let started = Instant::now();
         let system = self.system.as_ref().expect("the workspace was prepared");
-        let (correction, report) = solved(&mut self.solver, &system.tangent, residual, part)?;
+        let (correction, report) = self.solver.solved(&system.tangent, residual, part)?;
         self.work.krylov_iterations += report.krylov_iterations;
         self.work.times.solution += started.elapsed();
         Ok((correction, report.age))
     }
 }
 
-/// The solution of `tangent correction = -residual` with a factored tangent.
-fn solved(
-    solver: &mut Automatic,
-    tangent: &Tangent,
-    residual: &[f64],
-    part: f64,
-) -> Result<(Vec<f64>, SolveReport), SolveError> {
-    let rhs: Vec<f64> = residual.iter().map(|r| -r).collect();
-    let mut correction = vec![0.0; rhs.len()];
-    let report = rayon::scope(|_| solver.solve_to(tangent, &rhs, &mut correction, part))?;
-    Ok((correction, report))
+/// Nodes that elements of other ranks couple with a rigid body, each on its own: a node is kept
+/// by all ranks that hold it. Collective.
+fn tied_elsewhere(problem: &Problem, tied: &Growth) -> Vec<Vec<Supervariable>> {
+    let share = &problem.share;
+    let is_tied = problem.tied.iter().any(|nodes| !nodes.is_empty());
+    if share.is_alone() || !is_tied {
+        return Vec::new();
+    }
+    let mut own = vec![false; problem.reference.len()];
+    for Supervariable(at) in tied.clone().into_iter().flatten() {
+        if let Some(own) = own.get_mut(at) {
+            *own = true;
+        }
+    }
+    let all = share.any_at_nodes(&own).into_iter().enumerate();
+    let tied = all.filter(|(_, is_tied)| *is_tied);
+    tied.map(|(at, _)| vec![Supervariable(at)]).collect()
 }
 
 impl SystemStorage {
+    /// Numbers of the unknowns, those in the whole for a shared system.
+    pub(super) fn numbers(&self) -> (&Layout, Option<&Numbering>) {
+        (&self.layout, self.numbering.as_ref())
+    }
+
+    /// Lets a solver take up the pattern, unless it has.
+    fn analyse(&mut self, solver: &mut Linear) -> Result<(), SolveError> {
+        if !self.analysed {
+            self.analysis = solver.analyse(&self.partition, self.numbering.as_ref())?;
+            self.analysed = true;
+        }
+        Ok(())
+    }
+
     /// Grows the pattern of contact.
     fn grow(&mut self, growth: &Growth) {
         let grown = self.partition.grown(growth);
@@ -334,12 +356,11 @@ impl SystemStorage {
 
     /// The pattern of contact has grown. A solver that knows the older one looks at the new
     /// one now, so that what it has kept does not depend on when it is asked next.
-    fn has_grown(&mut self, growth: &Growth, solver: &mut Automatic) {
+    fn has_grown(&mut self, growth: &Growth, solver: &mut Linear) {
         self.growth.extend(growth.clone());
-        if std::mem::take(&mut self.analysed)
-            && let Ok(analysis) = solver.analyse(&self.partition)
-        {
-            (self.analysis, self.analysed) = (analysis, true);
+        if std::mem::take(&mut self.analysed) {
+            // What cannot be analysed now fails again, and is reported, with the next matrix.
+            let _ = self.analyse(solver);
         }
     }
 }

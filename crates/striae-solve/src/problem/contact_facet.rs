@@ -18,7 +18,7 @@ pub struct ContactFacet {
     pub facet: FacetId,
 }
 
-/// Contact facets that each face of each body is.
+/// Contact facets that each face of each body is, of those whose element is here.
 pub(super) fn contact_facets(pairs: &[PairGeometry]) -> HashMap<(usize, Face), Vec<ContactFacet>> {
     let mut facets: HashMap<_, Vec<_>> = HashMap::new();
     for (pair, geometry) in pairs.iter().enumerate() {
@@ -27,11 +27,13 @@ pub(super) fn contact_facets(pairs: &[PairGeometry]) -> HashMap<(usize, Face), V
                 continue;
             };
             for (at, face) in geometry.faces[side].iter().enumerate() {
-                facets.entry((body, *face)).or_default().push(ContactFacet {
-                    pair,
-                    side,
-                    facet: FacetId::new(at),
-                });
+                if let Some(face) = *face {
+                    facets.entry((body, face)).or_default().push(ContactFacet {
+                        pair,
+                        side,
+                        facet: FacetId::new(at),
+                    });
+                }
             }
         }
     }

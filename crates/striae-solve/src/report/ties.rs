@@ -4,7 +4,7 @@ use striae_contact::side::Side;
 use striae_mesh::Vec3;
 use striae_surface::{normal::nodal_normals, topology::Surface};
 
-use crate::{model::ContactSurface, problem::Problem, state::State};
+use crate::{problem::Problem, state::State};
 
 /// What a tie amounts to.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,17 +84,8 @@ impl TieTraction {
 }
 
 /// The surface of a side of a tie, in nodes of the mesh of its body.
-///
-/// # Panics
-/// For a side of a rigid surface, which a problem does not have.
 pub fn tie_surface(problem: &Problem, tie: usize, side: Side) -> Surface {
-    let of_tie = &problem.model.ties[tie];
-    let ContactSurface::Deformable { body, faces } = [&of_tie.a, &of_tie.b][side] else {
-        unreachable!("ties of rigid surfaces are faults");
-    };
-    let mesh = &problem.model.bodies[body.0].mesh;
-    let facets: Vec<_> = faces.iter().map(|face| mesh.face_nodes(*face)).collect();
-    Surface::new(&facets)
+    problem.ties.surface(tie, side)
 }
 
 /// Tractions of a tie at the nodes of its surfaces, by side, in the order of

@@ -56,6 +56,19 @@ impl Patch {
         }
     }
 
+    /// The same with other numbers of nodes.
+    pub(super) fn renumbered(self, number: impl Fn(GlobalNode) -> GlobalNode) -> Self {
+        let areas = self.areas.map(|of_side| {
+            let areas = of_side.into_iter();
+            areas.map(|(node, area)| (number(node), area)).collect()
+        });
+        Self {
+            corners: self.corners.into_iter().map(number).collect(),
+            areas,
+            tied: self.tied,
+        }
+    }
+
     /// Area of the facet.
     fn area(&self, positions: &[Vec3]) -> f64 {
         let at = |corner: usize| positions[self.corners[corner]];

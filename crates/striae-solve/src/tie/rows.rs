@@ -9,7 +9,7 @@ use striae_contact::{
     side::Side,
     tie::{FacetRows, Joined, join},
 };
-use striae_mesh::{Face, Vec3};
+use striae_mesh::{Face, NodeId, Vec3};
 use striae_surface::{node::SurfaceNode, topology::Surface};
 
 use super::{Follower, Joint, TieFault, Weights, patch::Patch, side::finer};
@@ -29,6 +29,8 @@ pub(super) struct Sides {
     follows: Side,
     /// Global nodes of both surfaces.
     nodes: [Vec<GlobalNode>; 2],
+    /// Corners of their facets, as nodes of the meshes.
+    corners: [Vec<[NodeId; 4]>; 2],
     joined: Joined,
     /// Rows of the facets that follow, in surface-local nodes.
     facets: [Vec<FacetRows>; 2],
@@ -90,6 +92,13 @@ impl Sides {
                     .map(|node| GlobalNode(first_node[body] + node.index()))
                     .collect()
             }),
+            corners: Side::BOTH.map(|side| {
+                let surface = configuration.side(side).surface;
+                let facets = surface.facets().iter();
+                facets
+                    .map(|facet| facet.map(|corner| surface.nodes()[corner]))
+                    .collect()
+            }),
             facets: Side::BOTH.map(|side| joined.rows(&configuration, side)),
             joined,
             patches: Vec::new(),
@@ -111,6 +120,7 @@ impl Sides {
             gap: self.joined.gap,
             facet_size: self.joined.facet_size(self.follows),
             nodes: self.nodes,
+            facets: self.corners,
             patches: self.patches,
         }
     }

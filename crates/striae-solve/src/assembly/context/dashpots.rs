@@ -35,7 +35,7 @@ const BEYOND: f64 = 0.1;
 /// Largest coefficient over `E T/h`.
 const LARGEST: f64 = 1e-3;
 
-/// Coefficient `c` of a pair in the step; zero where it is not stabilised.
+/// Coefficient `c` of a pair in the step; zero where it is not stabilised. Collective.
 pub(super) fn coefficient(context: &StepContext, pair: usize) -> f64 {
     let problem = context.problem;
     if !acts(&problem.model, context.index, pair) {
@@ -75,15 +75,15 @@ pub(super) fn coefficient(context: &StepContext, pair: usize) -> f64 {
     }
 }
 
-/// Sum of the magnitudes of all loads at the fraction `s` of the step.
+/// Sum of the magnitudes of all loads at the fraction `s` of the step; collective.
 fn loads(context: &StepContext, s: f64) -> f64 {
     let problem = context.problem;
     let imposed = context.imposed(s);
-    let mut sum: f64 = imposed
-        .driving
-        .iter()
-        .map(|wrench| wrench.force.norm())
-        .sum();
+    let driving = imposed.driving.iter().map(|wrench| wrench.force.norm());
+    let mut sum: f64 = match problem.share.owns_bodies() {
+        true => driving.sum(),
+        false => 0.0,
+    };
     for (planned, kind) in context.plan.loads.iter().zip(&imposed.loads) {
         let body = planned.body.0;
         for face in &planned.faces {
@@ -107,7 +107,7 @@ fn loads(context: &StepContext, s: f64) -> f64 {
         sum += gravity * masses.sum::<f64>();
     }
     let points: f64 = problem.mass_points.iter().map(|(_, mass)| mass).sum();
-    sum + gravity * points
+    problem.share.sum(sum) + gravity * points
 }
 
 /// What resists the motion of every pair from `state` to the fraction `s` of the step in

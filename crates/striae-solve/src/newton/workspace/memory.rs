@@ -25,15 +25,15 @@ pub struct Memory {
 
 impl Workspace {
     /// A workspace that has grown to what another had.
-    pub(crate) fn recalled(problem: &Problem, memory: &Memory) -> Self {
-        let mut workspace = Self::new(problem.model.solver.backend);
-        workspace.lay_out(problem, memory.extent.clone());
+    #[must_use]
+    pub(crate) fn recalling(mut self, problem: &Problem, memory: &Memory) -> Self {
+        self.lay_out(problem, memory.extent.clone());
         if !memory.growth.is_empty() {
-            workspace.system().grow(&memory.growth);
+            self.system().grow(&memory.growth);
         }
-        workspace.recall(memory);
-        workspace.course.clone_from(&memory.course);
-        workspace
+        self.recall(memory);
+        self.course.clone_from(&memory.course);
+        self
     }
 
     /// Takes up what a solver has learnt from systems of the same pattern.
@@ -41,11 +41,7 @@ impl Workspace {
         let Self { solver, system, .. } = self;
         let system = system.as_mut().expect("the workspace was laid out");
         // What cannot be analysed now fails again, and is reported, with the first matrix.
-        if !system.analysed
-            && let Ok(analysis) = solver.analyse(&system.partition)
-        {
-            (system.analysis, system.analysed) = (analysis, true);
-        }
+        let _ = system.analyse(solver);
         solver.recall(&memory.solver, memory.interior.as_ref());
     }
 
@@ -53,10 +49,10 @@ impl Workspace {
     pub fn memory(&self) -> Memory {
         let system = self.system.as_ref();
         system.map_or_else(Memory::default, |system| {
-            let experience = self.solver.experience();
+            let (experience, interior) = self.solver.experience();
             // Factors of another pattern are of no use.
             let (solver, interior) = if system.analysed {
-                (experience.clone(), self.solver.factored_interior())
+                (experience, interior)
             } else {
                 (experience.of_other_pattern(), None)
             };

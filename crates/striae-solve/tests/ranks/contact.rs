@@ -1,0 +1,112 @@
+//! Bodies in contact.
+
+use striae_contact::pair::Enforcement;
+use striae_law::bulk::{Hyperelastic, Isochoric, Material, Volumetric};
+use striae_law::friction::Friction;
+use striae_mesh::{CellKind, Vec3, generate::Block};
+use striae_solve::model::{Formulation, LoadExtent, LoadKind, Model};
+use striae_surface::texture::{Field, Lines, Paint};
+
+use crate::{
+    scene::{Places, block, body, coulomb, increments, model, rubber, step},
+    told::assert_same,
+};
+
+/// A smaller block pressed on a larger one and slid over it.
+fn two_blocks(mu: f64) -> Model {
+    two_blocks_of(CellKind::Hexahedron, coulomb(mu))
+}
+
+/// The same, the smaller one of other elements.
+fn two_blocks_of(cells: CellKind, friction: Friction) -> Model {
+    let lower = block([0.0; 3], [1.0, 1.0, 0.5], [4, 4, 2]).mesh().unwrap();
+    let upper = Block {
+        cells,
+        ..block([0.2, 0.2, 0.5], [0.6, 0.6, 0.5], [3, 3, 2])
+    };
+    let mut model = model(vec![
+        body("lower", lower, rubber(10.0, 0.3)),
+        body("upper", upper.mesh().unwrap(), rubber(1.0, 0.3)),
+    ]);
+    model.touch(("lower", "zmax"), ("upper", "zmin"), friction);
+    let mut press = step();
+    press.displacements = vec![
+        model.hold("lower", "zmin", [Some(0.0); 3]),
+        model.hold("upper", "zmax", [Some(0.0), Some(0.0), Some(-0.02)]),
+    ];
+    let mut slide = step();
+    slide.displacements = vec![model.hold("upper", "zmax", [Some(0.1), Some(0.03), None])];
+    slide.increments = increments(0.25, 0.01);
+    model.steps = vec![press, slide];
+    model
+}
+
+#[test]
+fn blocks_that_stick_and_slide() {
+    let told = assert_same(&two_blocks(0.3));
+    assert_eq!(told.increments.len(), 5);
+}
+
+#[test]
+fn blocks_without_friction() {
+    let mut model = two_blocks(0.0);
+    model.steps.truncate(1);
+    assert_same(&model);
+}
+
+#[test]
+fn fields_that_are_collocated() {
+    let mut model = two_blocks(0.3);
+    model.pairs[0].enforcement = Enforcement::Collocated;
+    assert_same(&model);
+}
+
+#[test]
+fn textures_on_both_sides_and_elements_of_other_kinds() {
+    let mut model = two_blocks_of(
+        CellKind::Tetrahedron,
+        Friction::two_textures(0.3, 0.2, 0.1, 0.1).unwrap(),
+    );
+    let field = |x: f64, y: f64| {
+        Some(Paint::Field(Field {
+            lines: Lines::Uniform(Vec3::new(x, y, 0.0)),
+            turn: 0.0,
+        }))
+    };
+    model.pairs[0].textures = [field(1.0, 0.2), field(0.3, -1.0)];
+    assert_same(&model);
+}
+
+#[test]
+fn mean_dilatation_under_a_load_beside_contact() {
+    let soft = Isochoric::NeoHookean { shear: 1.0 };
+    let soft = Hyperelastic::new(soft, 200.0, Volumetric::Logarithmic).unwrap();
+    let mut model = two_blocks(0.5);
+    model.bodies[1].material = Material::Hyperelastic(soft);
+    model.bodies[1].formulation = Formulation::MeanDilatation;
+    let pressure = LoadKind::Pressure(0.02);
+    let exposed = model.load("lower", "zmax", pressure.clone(), LoadExtent::Exposed);
+    let side = model.load("upper", "xmin", pressure, LoadExtent::Whole);
+    model.steps.truncate(1);
+    model.steps[0].loads = vec![exposed, side];
+    assert_same(&model);
+}
+
+#[test]
+fn a_block_that_stabilisation_carries_to_another() {
+    let lower = block([-0.2, -0.2, 0.0], [1.4, 1.4, 0.5], [4, 4, 2]);
+    let upper = block([0.0, 0.0, 0.55], [1.0, 1.0, 0.6], [3, 3, 2]);
+    let mut model = model(vec![
+        body("lower", lower.mesh().unwrap(), rubber(1.0, 0.3)),
+        body("upper", upper.mesh().unwrap(), rubber(2.0, 0.2)),
+    ]);
+    model.touch(("lower", "zmax"), ("upper", "zmin"), coulomb(0.4));
+    model.pairs[0].stabilised = true;
+    let mut press = step();
+    press.increments = increments(0.25, 1e-3);
+    press.displacements = vec![model.hold("lower", "zmin", [Some(0.0); 3])];
+    let pressure = LoadKind::Pressure(0.01);
+    press.loads = vec![model.load("upper", "zmax", pressure, LoadExtent::Whole)];
+    model.steps = vec![press];
+    assert_same(&model);
+}
