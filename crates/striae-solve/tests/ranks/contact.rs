@@ -85,7 +85,7 @@ fn mean_dilatation_under_a_load_beside_contact() {
     model.bodies[1].material = Material::Hyperelastic(soft);
     model.bodies[1].formulation = Formulation::MeanDilatation;
     let pressure = LoadKind::Pressure(0.02);
-    let exposed = model.load("lower", "zmax", pressure.clone(), LoadExtent::Exposed);
+    let exposed = model.load("lower", "zmax", pressure, LoadExtent::Exposed);
     let side = model.load("upper", "xmin", pressure, LoadExtent::Whole);
     model.steps.truncate(1);
     model.steps[0].loads = vec![exposed, side];
