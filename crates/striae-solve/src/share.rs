@@ -27,14 +27,15 @@
 //! # What is partial
 //!
 //! What is summed over elements, over faces with loads, or over all nodes is a part of the
-//! whole on a share, and is reduced by whoever reads it:
+//! whole on a share, and is reduced by whoever makes it, so that all functions that come to such
+//! sums are collective:
 //!
 //! | where | what | how |
 //! | --- | --- | --- |
-//! | `assembly` | residuals, internal, inertia and applied forces at nodes of several ranks | sum |
-//! | `assembly` | what only its owner may add: held rows, terms of contact and stabilisation, mass points, forces carried over, driving forces | owner |
-//! | `assembly/elements` | strain energy, dissipation, squares of forces; inverted elements | sum; any |
-//! | `assembly/ties` | forces and torques on rigid bodies from tied nodes, before their rows are read | sum |
+//! | `assembly` | residuals, internal, inertia and applied forces at nodes of several ranks, as elements and loads leave them | sum |
+//! | `assembly` | rows of the tangent that all ranks know: what is held, contact, stabilisation, mass points, turning arms | owner |
+//! | `assembly/elements` | strain energy, dissipation, squares of forces; the first inverted element | sum; any |
+//! | `layout` | what the pattern of contact grows by | union |
 //! | `assembly/measure` | squares of residuals and of applied forces, over owned nodes; squares of round-off; largest distance from the origin | sum; largest |
 //! | `assembly/context/dashpots` | magnitudes of loads, masses | sum |
 //! | `mass` | `M v`, kinetic energy, momentum | sum, mass points once |
@@ -45,6 +46,11 @@
 //! | `report` | reactions of node sets; middles of mass and velocities of bodies; which sets are held | sum over owned nodes; sum; any |
 //! | `section` | forces, moments, areas and centres of cuts | sum |
 //! | `warning` | energy that is round-off, largest rotation | sum; largest |
+//!
+//! Once elements and loads are summed at nodes, all ranks that hold a node have the same bits of
+//! its residual. What follows from there, contact, ties, rigid bodies, mass points and what is
+//! carried over in time, is added by each of them, to the same bits again; so of the residual
+//! nothing is left out.
 //!
 //! Resultants of pairs, reports of ties, interference, passages, roles and status of contact nodes,
 //! offsets and poses follow from what is replicated alone and need nothing.
