@@ -132,3 +132,15 @@ pub(crate) fn place(team: &dyn Team, own: &[f64], first: usize) -> usize {
     team.largest(&mut least);
     if least[0].is_finite() { -least[0] as usize } else { 0 }
 }
+
+/// A number with a magnitude between one half and one and any sign, the same for a place
+/// however it is reached.
+pub(crate) fn pseudo_random(place: usize) -> f64 {
+    // SplitMix64.
+    let mut z = (place as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^= z >> 31;
+    let magnitude = 0.5 + 0.5 * (z >> 12) as f64 / (1_u64 << 52) as f64;
+    if z & 1 == 0 { magnitude } else { -magnitude }
+}
