@@ -40,6 +40,8 @@ mod direct;
 #[cfg(feature = "petsc")]
 mod error;
 #[cfg(feature = "petsc")]
+mod finest;
+#[cfg(feature = "petsc")]
 mod foreign;
 #[cfg(feature = "petsc")]
 mod iterative;
