@@ -23,7 +23,10 @@
 
 mod constraints;
 mod contact;
+mod replicated;
 mod scaled;
+
+pub use replicated::{ContactFactors, Group, Stiffening};
 
 use crate::{
     bulk,
@@ -84,27 +87,7 @@ struct Numeric {
 impl Iterative {
     /// Plans the solution; `None` where the bulk does not have three unknowns a node.
     pub(crate) fn analyse(partition: &Partition) -> Option<Self> {
-        let mut nodes = Nodes {
-            partition: partition.clone(),
-            supervariables: Vec::new(),
-            of: vec![NONE; partition.supervariables()],
-            parts: Vec::new(),
-            multipliers: Vec::new(),
-        };
-        for i in 0..partition.supervariables() {
-            let bulk = partition.bulk_group(i);
-            let others = bulk.end..partition.group(i).end;
-            nodes.multipliers.extend(others.map(|u| u as u32));
-            match bulk.len() {
-                0 => {}
-                3 => {
-                    nodes.of[i] = nodes.supervariables.len() as u32;
-                    nodes.supervariables.push(i as u32);
-                }
-                _ => return None,
-            }
-        }
-        nodes.parts = vec![NONE; nodes.supervariables.len()];
+        let mut nodes = Nodes::new(partition)?;
         for (part, members) in bulk::parts(partition).iter().enumerate() {
             for &i in members {
                 nodes.parts[nodes.of[i as usize] as usize] = part as u32;
@@ -260,6 +243,32 @@ impl Iterative {
 }
 
 impl Nodes {
+    /// Those of a partition, in no part yet; `None` where the bulk does not have three
+    /// unknowns a node.
+    fn new(partition: &Partition) -> Option<Self> {
+        let mut nodes = Self {
+            partition: partition.clone(),
+            supervariables: Vec::new(),
+            of: vec![NONE; partition.supervariables()],
+            parts: Vec::new(),
+            multipliers: Vec::new(),
+        };
+        for i in 0..partition.supervariables() {
+            let others = partition.multiplier_group(i);
+            nodes.multipliers.extend(others.map(|u| u as u32));
+            match partition.bulk_group(i).len() {
+                0 => {}
+                3 => {
+                    nodes.of[i] = nodes.supervariables.len() as u32;
+                    nodes.supervariables.push(i as u32);
+                }
+                _ => return None,
+            }
+        }
+        nodes.parts = vec![NONE; nodes.supervariables.len()];
+        Some(nodes)
+    }
+
     /// Bulk unknowns by node.
     fn gather(&self, v: &[f64]) -> Vec<f32> {
         let mut b = vec![0.0; 3 * self.supervariables.len()];

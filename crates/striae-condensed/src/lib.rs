@@ -57,6 +57,7 @@ mod tangent;
 pub use automatic::{Automatic, Choice, REDUCTION};
 pub use experience::{Experience, FactoredInterior};
 pub use growth::Growth;
+pub use iterative::{ContactFactors, Group, Stiffening};
 pub use partition::{Partition, PartitionError};
 pub use report::{Analysis, Factored, FallBack, Method};
 pub use shared::{Numbering, SharedSolver};

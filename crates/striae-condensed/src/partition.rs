@@ -216,6 +216,12 @@ impl Partition {
         all.filter(|&supervariable| self.is_kept(supervariable))
     }
 
+    /// The same with all supervariables kept.
+    pub(crate) fn with_all_kept(mut self) -> Self {
+        Arc::make_mut(&mut self.parts).kept.fill(true);
+        self
+    }
+
     /// Whether a matrix is on this pattern.
     pub(crate) fn fits(&self, tangent: &Tangent) -> bool {
         self.structure.same_as(tangent.bodies.structure())
@@ -228,13 +234,13 @@ impl Partition {
     }
 
     /// Unknowns of supervariable `i` that belong to the bulk.
-    pub(crate) fn bulk_group(&self, i: usize) -> Range<usize> {
+    pub fn bulk_group(&self, i: usize) -> Range<usize> {
         let start = self.group(i).start;
         start..start + self.parts.bulk[i] as usize
     }
 
     /// The unknowns of supervariable `i` that are no bulk.
-    pub(crate) fn multiplier_group(&self, i: usize) -> Range<usize> {
+    pub fn multiplier_group(&self, i: usize) -> Range<usize> {
         self.bulk_group(i).end..self.group(i).end
     }
 
@@ -244,7 +250,7 @@ impl Partition {
     }
 
     /// Points of all supervariables.
-    pub(crate) fn points(&self) -> Option<&[[f64; 3]]> {
+    pub fn points(&self) -> Option<&[[f64; 3]]> {
         self.parts.points.as_deref()
     }
 }

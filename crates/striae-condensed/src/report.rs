@@ -47,6 +47,8 @@ pub enum Method {
     Faer,
     /// GMRES with smoothed aggregation for the bodies.
     Iterative,
+    /// Multifrontal LU of MUMPS, on several ranks.
+    Mumps,
 }
 
 impl std::fmt::Display for Method {
@@ -56,6 +58,7 @@ impl std::fmt::Display for Method {
             Self::Multifrontal => "multifrontal",
             Self::Faer => "faer",
             Self::Iterative => "iterative",
+            Self::Mumps => "MUMPS",
         })
     }
 }

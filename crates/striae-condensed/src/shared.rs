@@ -21,7 +21,8 @@ pub struct Numbering {
     pub whole: Vec<usize>,
 }
 
-/// A solver of systems in parts. All functions are collective.
+/// A solver of systems in parts. All functions are collective, and errors are the same on
+/// all ranks: they name unknowns and rows by their numbers in the whole system.
 pub trait SharedSolver: Send {
     /// Takes up a pattern. Unknowns may have other numbers than before.
     ///
@@ -39,9 +40,9 @@ pub trait SharedSolver: Send {
     /// When it is singular; the same on all ranks.
     fn factor(&mut self, part: &Tangent) -> Result<Factored, SolveError>;
 
-    /// Solves for the last matrix that was factored. `rhs` has the values of the whole
-    /// right-hand side, not parts of sums, at all unknowns of the part; so has `x`, whose old
-    /// content is not used.
+    /// Solves for the last matrix that was factored, of which `part` is this rank's. `rhs` has
+    /// the values of the whole right-hand side, not parts of sums, at all unknowns of the part;
+    /// so has `x`, whose old content is not used.
     ///
     /// The residual becomes at most `reduction` times the right-hand side.
     ///
@@ -49,8 +50,12 @@ pub trait SharedSolver: Send {
     /// When it does not; the same on all ranks.
     fn solve(
         &mut self,
+        part: &Tangent,
         rhs: &[f64],
         x: &mut [f64],
         reduction: f64,
     ) -> Result<SolveReport, SolveError>;
+
+    /// Forgets factors, for the sake of memory.
+    fn forget(&mut self);
 }

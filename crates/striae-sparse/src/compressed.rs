@@ -62,6 +62,29 @@ impl CompressedRows {
         }
     }
 
+    /// A matrix of so many unknowns from its entries, `(row, column, value)`, in rising order
+    /// of rows and columns.
+    ///
+    /// # Panics
+    /// When they are in another order, or outside the matrix.
+    pub fn from_entries(unknowns: usize, entries: &[(u32, u32, f64)]) -> Self {
+        let places = entries.iter().map(|&(row, column, _)| (row, column));
+        assert!(places.is_sorted_by(|a, b| a < b), "entries in rising order");
+        let mut starts = vec![0; unknowns + 1];
+        for &(row, column, _) in entries {
+            assert!((column as usize) < unknowns, "a column outside the matrix");
+            starts[row as usize + 1] += 1;
+        }
+        for row in 0..unknowns {
+            starts[row + 1] += starts[row];
+        }
+        Self {
+            starts,
+            columns: entries.iter().map(|entry| entry.1).collect(),
+            values: entries.iter().map(|entry| entry.2).collect(),
+        }
+    }
+
     /// The sum of dense blocks on the pattern of a structure.
     ///
     /// # Errors

@@ -1,0 +1,49 @@
+//! Finds PETSc, where it is asked for.
+
+use std::{env, process::Command};
+
+/// Oldest version that is known to do.
+const OLDEST: [u32; 2] = [3, 18];
+/// What to do where there is none.
+const ADVICE: &str = "the feature `petsc` needs PETSc 3.18 or newer with real numbers, \
+    found by pkg-config as `PETSc` or `petsc`; on Debian and Ubuntu: \
+    apt-get install libpetsc-real-dev pkg-config libclang-dev. \
+    Elsewhere, add the folder of PETSc.pc to PKG_CONFIG_PATH";
+
+fn main() {
+    println!("cargo:rerun-if-changed=build.rs");
+    println!("cargo:rerun-if-env-changed=PKG_CONFIG_PATH");
+    if env::var_os("CARGO_FEATURE_PETSC").is_none() {
+        return;
+    }
+    let found = ["PETSc", "petsc"].into_iter().find_map(|name| {
+        let version = asked(&["--modversion", name])?;
+        Some((name, version))
+    });
+    let Some((name, version)) = found else {
+        panic!("{ADVICE}");
+    };
+    let numbers: Vec<u32> = version
+        .split('.')
+        .map_while(|part| part.trim().parse().ok())
+        .collect();
+    assert!(
+        numbers.as_slice() >= OLDEST.as_slice(),
+        "PETSc {version} is too old: {ADVICE}"
+    );
+    let libraries = asked(&["--libs", name]).unwrap_or_default();
+    for flag in libraries.split_whitespace() {
+        if let Some(folder) = flag.strip_prefix("-L") {
+            println!("cargo:rustc-link-search=native={folder}");
+        } else if let Some(library) = flag.strip_prefix("-l") {
+            println!("cargo:rustc-link-lib={library}");
+        }
+    }
+}
+
+/// What pkg-config answers, if it does.
+fn asked(arguments: &[&str]) -> Option<String> {
+    let answer = Command::new("pkg-config").args(arguments).output().ok()?;
+    let text = String::from_utf8(answer.stdout).ok()?;
+    answer.status.success().then(|| text.trim().to_owned())
+}

@@ -1,0 +1,119 @@
+//! One cycle of algebraic multigrid in the place of the inverse of a matrix.
+
+use super::{
+    ffi,
+    library::{Library, index, text, world},
+    matrix::Matrix,
+    vectors::{Lay, Vector},
+};
+use crate::error::Error;
+use std::{sync::Arc, thread};
+
+/// Prefix of the options.
+const PREFIX: &str = "striae_bulk_";
+/// Options unless others are given: smoothed aggregation, smoothed by Chebyshev polynomials
+/// of the blocks of the diagonal.
+const OPTIONS: [(&str, &str); 8] = [
+    ("pc_type", "gamg"),
+    ("pc_gamg_agg_nsmooths", "1"),
+    ("pc_gamg_threshold", "0.01"),
+    ("pc_gamg_coarse_eq_limit", "1000"),
+    ("mg_levels_ksp_type", "chebyshev"),
+    ("mg_levels_ksp_max_it", "2"),
+    ("mg_levels_pc_type", "pbjacobi"),
+    ("mg_levels_esteig_ksp_type", "cg"),
+];
+
+/// A preconditioner of a symmetric positive definite matrix.
+#[derive(Debug)]
+pub(crate) struct Cycle {
+    raw: ffi::Pc,
+    x: Vector,
+    y: Vector,
+    library: Arc<Library>,
+    /// What it was made of.
+    matrix: Matrix,
+}
+
+impl Cycle {
+    /// For a matrix of blocks of three, with orthonormal vectors that it nearly takes to
+    /// zero. `None` where the matrix does not have such an inverse.
+    pub(crate) fn new(
+        matrix: Matrix,
+        lay: Lay,
+        kernel: &[Vec<f64>],
+    ) -> Result<Option<Self>, Error> {
+        let library = Arc::clone(matrix.library());
+        for (name, value) in OPTIONS {
+            library.option(PREFIX, name, value)?;
+        }
+        let cycle = Self {
+            raw: create(&library)?,
+            x: Vector::new(&library, lay, 3)?,
+            y: Vector::new(&library, lay, 3)?,
+            library: Arc::clone(&library),
+            matrix,
+        };
+        let mut vectors = Vec::new();
+        for _ in kernel {
+            vectors.push(Vector::new(&library, lay, 3)?);
+        }
+        let lent = vectors.iter_mut().zip(kernel);
+        let lent: Vec<_> = lent.map(|(v, x)| v.with(x)).collect::<Result<_, _>>()?;
+        let raw: Vec<ffi::Vec> = lent.iter().map(|lent| lent.raw()).collect();
+        let own = cycle.matrix.raw();
+        let mut reason = 0;
+        // SAFETY: live objects; vectors have values up to the end of the function, and are
+        // not looked at after set-up.
+        unsafe {
+            let mut space = ffi::NullSpace::NULL;
+            let count = index(raw.len())?;
+            let code =
+                ffi::MatNullSpaceCreate(world(), ffi::FALSE, count, raw.as_ptr(), &mut space);
+            library.check(code)?;
+            library.check(ffi::MatSetNearNullSpace(own, space))?;
+            library.check(ffi::PCSetOperators(cycle.raw, own, own))?;
+            let set_up = library.check(ffi::PCSetUp(cycle.raw));
+            library.check(ffi::MatSetNearNullSpace(own, ffi::NullSpace::NULL))?;
+            library.check(ffi::MatNullSpaceDestroy(&mut space))?;
+            set_up?;
+            library.check(ffi::PCGetFailedReason(cycle.raw, &mut reason))?;
+        }
+        Ok((reason == 0).then_some(cycle))
+    }
+
+    /// Entries of the matrix on this rank.
+    pub(crate) fn entries(&self) -> usize {
+        self.matrix.entries
+    }
+
+    /// `y = M^-1 x`.
+    pub(crate) fn apply(&mut self, x: &[f64], y: &mut [f64]) -> Result<(), Error> {
+        let (x, y) = (self.x.with(x)?, self.y.with_mut(y)?);
+        // SAFETY: vectors with values, of which `y` is borrowed alone.
+        let code = unsafe { ffi::PCApply(self.raw, x.raw(), y.raw()) };
+        self.library.check(code)
+    }
+}
+
+/// A preconditioner that has its options.
+fn create(library: &Library) -> Result<ffi::Pc, Error> {
+    let mut raw = ffi::Pc::NULL;
+    let prefix = text(PREFIX);
+    // SAFETY: a place for the handle, and a string that is copied.
+    unsafe {
+        library.check(ffi::PCCreate(world(), &mut raw))?;
+        library.check(ffi::PCSetOptionsPrefix(raw, prefix.as_ptr()))?;
+        library.check(ffi::PCSetFromOptions(raw))?;
+    }
+    Ok(raw)
+}
+
+impl Drop for Cycle {
+    fn drop(&mut self) {
+        if !thread::panicking() {
+            // SAFETY: created in `new`, not destroyed before.
+            unsafe { ffi::PCDestroy(&mut self.raw) };
+        }
+    }
+}

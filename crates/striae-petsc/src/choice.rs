@@ -1,0 +1,13 @@
+//! Which of PETSc's solvers is taken.
+
+/// Which of PETSc's solvers is taken.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Choice {
+    /// MUMPS for systems of few unknowns, else FGMRES, and MUMPS where that fails.
+    #[default]
+    ByCost,
+    /// FGMRES, whatever it costs; MUMPS where it fails.
+    Iterative,
+    /// MUMPS, and no other.
+    Mumps,
+}
