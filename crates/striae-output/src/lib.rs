@@ -12,6 +12,7 @@ pub mod expected;
 mod fibres;
 mod folder;
 pub mod history;
+mod means;
 mod memory;
 mod parts;
 mod probes;
