@@ -76,7 +76,7 @@ impl Linear {
             Self::Alone(solver) => {
                 rayon::scope(|_| solver.solve_to(tangent, &rhs, &mut correction, part))
             }
-            Self::Shared(solver) => solver.solve(&rhs, &mut correction, part),
+            Self::Shared(solver) => solver.solve(tangent, &rhs, &mut correction, part),
         };
         Ok((correction, report?))
     }
@@ -98,8 +98,9 @@ impl Linear {
 
     /// Forgets factors.
     pub(super) fn forget(&mut self) {
-        if let Self::Alone(solver) = self {
-            solver.forget();
+        match self {
+            Self::Alone(solver) => solver.forget(),
+            Self::Shared(solver) => solver.forget(),
         }
     }
 

@@ -79,7 +79,13 @@ impl SharedSolver for Gathered {
         })
     }
 
-    fn solve(&mut self, rhs: &[f64], x: &mut [f64], _: f64) -> Result<SolveReport, SolveError> {
+    fn solve(
+        &mut self,
+        _: &Tangent,
+        rhs: &[f64],
+        x: &mut [f64],
+        _: f64,
+    ) -> Result<SolveReport, SolveError> {
         let numbering = self.numbering.as_ref().ok_or(SolveError::NotAnalysed)?;
         let matrix = self.matrix.as_ref().ok_or(SolveError::NotFactored)?;
         let mut own = vec![0.0; numbering.own.len()];
@@ -98,6 +104,10 @@ impl SharedSolver for Gathered {
             *x = solution[whole];
         }
         Ok(report)
+    }
+
+    fn forget(&mut self) {
+        (self.solver, self.matrix) = (MultifrontalLu::new(), None);
     }
 }
 
