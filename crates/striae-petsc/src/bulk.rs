@@ -36,7 +36,10 @@ impl Bulk<'_> {
         let nodes = self.nodes;
         let foreign = self.foreign(team);
         let row = |k: usize, entries: &mut Vec<Entry<9>>| {
-            let (i, node) = (nodes.supervariables[k] as usize, (nodes.lay.first + k) as u32);
+            let (i, node) = (
+                nodes.supervariables[k] as usize,
+                (nodes.lay.first + k) as u32,
+            );
             self.add_blocks(i, entries);
             if let Some(others) = foreign.get(&node) {
                 entries.extend_from_slice(others);
@@ -143,7 +146,9 @@ fn orthonormalise(team: &dyn Team, vectors: &mut [Vec<f64>]) {
         let mut products: Vec<f64> = before.iter().map(|other| dot(other, own)).collect();
         team.sum(&mut products);
         for (other, product) in before.iter().zip(products) {
-            own.iter_mut().zip(other).for_each(|(a, b)| *a -= product * b);
+            own.iter_mut()
+                .zip(other)
+                .for_each(|(a, b)| *a -= product * b);
         }
         let mut square = [dot(own, own)];
         team.sum(&mut square);

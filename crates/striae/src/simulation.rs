@@ -279,10 +279,10 @@ impl Simulation {
         } = self;
         let mut log = match (recording, &begun) {
             (Some(recording), Begun::Stopped(stopped)) => {
-                Log::resumed(recording, output, &stopped.0)?
+                Log::resumed(&problem.share, recording, output, &stopped.0)?
             }
             (recording, _) => {
-                let log = Log::new(recording.clone(), output)?;
+                let log = Log::new(&problem.share, recording.clone(), output)?;
                 if let Some(recording) = &recording {
                     beside::write(recording, &problem.model)?;
                 }

@@ -63,7 +63,11 @@ impl ContactFactors {
     ) -> Result<Self, SolveError> {
         let partition = partition(groups).map_err(|_| SolveError::NotAnalysed)?;
         assert_eq!(bulk.len(), partition.unknowns(), "one factor an unknown");
-        assert_eq!(prescribed.len(), partition.unknowns(), "one flag an unknown");
+        assert_eq!(
+            prescribed.len(),
+            partition.unknowns(),
+            "one flag an unknown"
+        );
         let nodes = Nodes::new(&partition).ok_or(SolveError::NotAnalysed)?;
         let tangent = tangent(&partition, entries);
         let kept = Kept::of(&partition);

@@ -130,7 +130,15 @@ impl Matrix {
         // SAFETY: as many rows, columns and values as are told, all copied.
         let code = unsafe {
             let (rows, columns) = (rows.as_ptr(), columns.as_ptr());
-            ffi::MatSetValues(self.raw, height, rows, width, columns, values.as_ptr(), mode)
+            ffi::MatSetValues(
+                self.raw,
+                height,
+                rows,
+                width,
+                columns,
+                values.as_ptr(),
+                mode,
+            )
         };
         self.library.check(code)
     }
