@@ -11,7 +11,7 @@ use std::{
 
 use striae_files::FileError;
 
-use crate::{OutputError, checkpoint};
+use crate::{OutputError, checkpoint, parts::is_of};
 
 /// What becomes of the results of an earlier run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -90,7 +90,10 @@ fn remove_results(folder: &Path) -> Result<(), OutputError> {
     remove_where(folder, |name| {
         name.starts_with("law-") && name.ends_with(".svg")
     })?;
-    remove_where(&folder.join("fields"), |name| name.ends_with(".vtu"))
+    remove_where(folder, checkpoint::is_piece)?;
+    remove_where(&folder.join("fields"), |name| {
+        name.ends_with(".vtu") || name.ends_with(".pvtu")
+    })
 }
 
 fn removed(path: &Path) -> Result<(), OutputError> {
@@ -104,7 +107,7 @@ fn removed(path: &Path) -> Result<(), OutputError> {
     }
 }
 
-fn remove_where(folder: &Path, goes: impl Fn(&str) -> bool) -> Result<(), OutputError> {
+pub(crate) fn remove_where(folder: &Path, goes: impl Fn(&str) -> bool) -> Result<(), OutputError> {
     let refused = |cause| FileError::Write {
         path: folder.to_owned(),
         cause,
@@ -120,8 +123,7 @@ fn remove_where(folder: &Path, goes: impl Fn(&str) -> bool) -> Result<(), Output
 
 /// Removes the fields of an increment, which an interrupted run writes out of turn.
 pub(crate) fn remove_fields(folder: &Path, increment: usize) -> Result<(), OutputError> {
-    let end = format!("-{increment:05}.vtu");
-    remove_where(folder, |name| name.ends_with(&end))
+    remove_where(folder, |name| is_of(name, increment))
 }
 
 #[cfg(test)]

@@ -198,6 +198,7 @@ const LADDER: &[Row] = &[
             "striae-law",
             "striae-mesh",
             "striae-output",
+            "striae-petsc",
             "striae-report",
             "striae-solve",
             "striae-surface",
