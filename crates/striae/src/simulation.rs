@@ -22,7 +22,7 @@ use std::{
 use striae_deck::Deck;
 use striae_model::{Model, StepBuilder, Validate, extended};
 use striae_output::{
-    Existing, Output, available_bytes,
+    Existing, Output, agreed, available_bytes,
     checkpoint::{
         self, Checkpoint, CheckpointError, Source, Written, fingerprint, part_fingerprints,
         step_fingerprints,
@@ -284,7 +284,11 @@ impl Simulation {
             (recording, _) => {
                 let log = Log::new(&problem.share, recording.clone(), output)?;
                 if let Some(recording) = &recording {
-                    beside::write(recording, &problem.model)?;
+                    let beside = match problem.share.team().rank() {
+                        0 => beside::write(recording, &problem.model),
+                        _ => Ok(()),
+                    };
+                    agreed(&problem.share, beside)?;
                 }
                 log
             }
