@@ -85,6 +85,10 @@ pub enum Failure {
     #[error("{0}")]
     Fit(#[from] FitError),
     /// MPI or PETSc does not start.
+    #[cfg_attr(
+        not(feature = "petsc"),
+        allow(dead_code, reason = "only ranks fail so")
+    )]
     #[error("{0}")]
     Petsc(String),
     /// PETSc is asked for, but not built in.
@@ -97,6 +101,10 @@ pub enum Failure {
     )]
     Alone,
     /// Another rank tells it.
+    #[cfg_attr(
+        not(feature = "petsc"),
+        allow(dead_code, reason = "only ranks fail so")
+    )]
     #[error("{0}")]
     Told(Box<Failure>),
     /// The threads cannot be started.

@@ -13,6 +13,7 @@ pub enum Voice {
     /// The first rank, or one that is alone.
     First,
     /// Another one speaks.
+    #[cfg_attr(not(feature = "petsc"), allow(dead_code, reason = "there is one rank"))]
     Silent,
 }
 

@@ -5,13 +5,16 @@
 
 use std::{
     fs::{self, File, TryLockError},
-    io::ErrorKind,
     path::Path,
 };
 
 use striae_files::FileError;
 
-use crate::{OutputError, checkpoint, parts::is_of};
+use crate::{
+    OutputError, checkpoint,
+    parts::is_of,
+    removal::{remove_where, removed},
+};
 
 /// What becomes of the results of an earlier run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -94,31 +97,6 @@ fn remove_results(folder: &Path) -> Result<(), OutputError> {
     remove_where(&folder.join("fields"), |name| {
         name.ends_with(".vtu") || name.ends_with(".pvtu")
     })
-}
-
-fn removed(path: &Path) -> Result<(), OutputError> {
-    match fs::remove_file(path) {
-        Err(cause) if cause.kind() != ErrorKind::NotFound => Err(FileError::Write {
-            path: path.to_owned(),
-            cause,
-        }
-        .into()),
-        _ => Ok(()),
-    }
-}
-
-pub(crate) fn remove_where(folder: &Path, goes: impl Fn(&str) -> bool) -> Result<(), OutputError> {
-    let refused = |cause| FileError::Write {
-        path: folder.to_owned(),
-        cause,
-    };
-    for entry in fs::read_dir(folder).map_err(refused)? {
-        let entry = entry.map_err(refused)?;
-        if goes(&entry.file_name().to_string_lossy()) {
-            removed(&entry.path())?;
-        }
-    }
-    Ok(())
 }
 
 /// Removes the fields of an increment, which an interrupted run writes out of turn.

@@ -19,6 +19,7 @@ mod pieces;
 mod probes;
 mod ranks;
 pub mod recorder;
+mod removal;
 mod rigid;
 mod row;
 mod sections;

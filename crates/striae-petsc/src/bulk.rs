@@ -94,7 +94,9 @@ impl Bulk<'_> {
             let mut entries = Vec::new();
             stiffened(k, &mut entries);
             sum(&mut entries);
-            let own = entries.iter().find(|entry| nodes.is_own(entry.0) && entry.0 as usize == nodes.lay.first + k);
+            let own = entries
+                .iter()
+                .find(|entry| nodes.is_own(entry.0) && entry.0 as usize == nodes.lay.first + k);
             own.map_or([0.0; 9], |entry| entry.1)
         };
         let problem = Problem {
@@ -104,7 +106,8 @@ impl Bulk<'_> {
             near,
             kernel: &kernel,
         };
-        Ok(Finest::new(problem, stiffened, diagonal)?.map(|finest| Inverse::Usual(Box::new(finest))))
+        Ok(Finest::new(problem, stiffened, diagonal)?
+            .map(|finest| Inverse::Usual(Box::new(finest))))
     }
 
     /// What other ranks add to this rank's rows.
@@ -193,7 +196,9 @@ pub(crate) fn orthonormalise(team: &dyn Team, vectors: &mut [Vec<f64>]) {
         let mut products: Vec<f64> = before.iter().map(|other| dot(other, own)).collect();
         team.sum(&mut products);
         for (other, product) in before.iter().zip(products) {
-            own.iter_mut().zip(other).for_each(|(a, b)| *a -= product * b);
+            own.iter_mut()
+                .zip(other)
+                .for_each(|(a, b)| *a -= product * b);
         }
         let size = norm(team, own);
         if size > 0.0 {

@@ -152,7 +152,10 @@ impl Finest {
     /// `residual = b - A x`.
     fn find_residual(&mut self, b: &[f64], x: &[f64]) -> Result<(), Error> {
         self.matrix.multiply(x, &mut self.residual)?;
-        self.residual.iter_mut().zip(b).for_each(|(r, b)| *r = b - *r);
+        self.residual
+            .iter_mut()
+            .zip(b)
+            .for_each(|(r, b)| *r = b - *r);
         Ok(())
     }
 
@@ -201,11 +204,7 @@ fn product(block: &[f64; 9], r: &[f64]) -> [f64; 3] {
 }
 
 /// Largest eigenvalue of `D^-1 A`, from below.
-fn power_method(
-    team: &dyn Team,
-    matrix: &mut Matrix,
-    inverses: &[[f64; 9]],
-) -> Result<f64, Error> {
+fn power_method(team: &dyn Team, matrix: &mut Matrix, inverses: &[[f64; 9]]) -> Result<f64, Error> {
     let Lay { first, own, .. } = matrix.rows().unknowns();
     let mut x: Vec<f64> = (first..first + own).map(pseudo_random).collect();
     let mut image = vec![0.0; own];

@@ -11,6 +11,8 @@
 //!     .writing(output).recorded(folder, case).until(interrupt)
 //!     .run() or .run_with(observer) -> Finished
 //! ```
+//!
+//! Longer than other files, as all ways to begin a run are in one place.
 
 mod branch;
 mod watch;
@@ -341,20 +343,7 @@ impl Simulation {
             interrupt,
             ranks,
         } = self;
-        let mut log = match (recording, &begun) {
-            (Some(recording), Begun::Stopped(stopped)) => {
-                Log::resumed(&problem.share, recording, output, &stopped.0)?
-            }
-            (recording, _) => {
-                let log = Log::new(&problem.share, recording.clone(), output)?;
-                if let Some(recording) = &recording {
-                    let is_first = problem.share.team().rank() == 0;
-                    let written = is_first.then(|| beside::write(recording, &problem.model));
-                    agreed(ranks.as_ref(), written.unwrap_or(Ok(())))?;
-                }
-                log
-            }
-        };
+        let mut log = log(&problem, output, recording, &begun, ranks.as_ref())?;
         let (start, before) = match &begun {
             Begun::Undeformed => (State::undeformed(&problem), 0),
             Begun::After(after) => (after.2.clone(), after.1),
@@ -412,6 +401,27 @@ impl Simulation {
             history,
         })
     }
+}
+
+/// The record of a run that begins or goes on.
+fn log(
+    problem: &Problem,
+    output: Output,
+    recording: Option<Recording>,
+    begun: &Begun,
+    ranks: Option<&Arc<dyn Ranks>>,
+) -> Result<Log, Error> {
+    let share = &problem.share;
+    if let (Some(recording), Begun::Stopped(stopped)) = (&recording, begun) {
+        return Ok(Log::resumed(share, recording.clone(), output, &stopped.0)?);
+    }
+    let log = Log::new(share, recording.clone(), output)?;
+    if let Some(recording) = &recording {
+        let is_first = share.team().rank() == 0;
+        let written = is_first.then(|| beside::write(recording, &problem.model));
+        agreed(ranks, written.unwrap_or(Ok(())))?;
+    }
+    Ok(log)
 }
 
 /// What a checkpoint knows of a deck.

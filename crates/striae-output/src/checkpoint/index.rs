@@ -16,8 +16,8 @@ use super::{
 };
 use crate::{
     Checksums, OutputError,
-    folder::remove_where,
     ranks::{agreed, from_first, on_first, told},
+    removal::remove_where,
 };
 
 /// First bytes of a file.
