@@ -7,7 +7,7 @@ use crate::{
     finest::{Finest, Problem},
     foreign::{Foreign, exchange},
     nodes::{NONE, Nodes},
-    product::norm,
+    product::orthonormalise,
 };
 use std::sync::Arc;
 use striae_condensed::{Partition, Tangent};
@@ -184,25 +184,5 @@ impl Bulk<'_> {
             }
         }
         kernel
-    }
-}
-
-/// Makes vectors orthonormal, one after the other.
-pub(crate) fn orthonormalise(team: &dyn Team, vectors: &mut [Vec<f64>]) {
-    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    for k in 0..vectors.len() {
-        let (before, own) = vectors.split_at_mut(k);
-        let own = &mut own[0];
-        let mut products: Vec<f64> = before.iter().map(|other| dot(other, own)).collect();
-        team.sum(&mut products);
-        for (other, product) in before.iter().zip(products) {
-            own.iter_mut()
-                .zip(other)
-                .for_each(|(a, b)| *a -= product * b);
-        }
-        let size = norm(team, own);
-        if size > 0.0 {
-            own.iter_mut().for_each(|a| *a /= size);
-        }
     }
 }

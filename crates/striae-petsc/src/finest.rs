@@ -7,10 +7,9 @@
 
 use crate::{
     binding::{Cycle, Entry, Lay, Library, Matrix, Side},
-    bulk::orthonormalise,
     error::Error,
     foreign::starts,
-    product::{norm, pseudo_random},
+    product::{norm, orthonormalise, pseudo_random},
 };
 use rayon::prelude::*;
 use std::sync::Arc;

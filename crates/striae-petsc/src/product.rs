@@ -154,3 +154,23 @@ pub(crate) fn pseudo_random(place: usize) -> f64 {
     let magnitude = 0.5 + 0.5 * (z >> 12) as f64 / (1_u64 << 52) as f64;
     if z & 1 == 0 { magnitude } else { -magnitude }
 }
+
+/// Makes vectors orthonormal, one after the other.
+pub(crate) fn orthonormalise(team: &dyn Team, vectors: &mut [Vec<f64>]) {
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    for k in 0..vectors.len() {
+        let (before, own) = vectors.split_at_mut(k);
+        let own = &mut own[0];
+        let mut products: Vec<f64> = before.iter().map(|other| dot(other, own)).collect();
+        team.sum(&mut products);
+        for (other, product) in before.iter().zip(products) {
+            own.iter_mut()
+                .zip(other)
+                .for_each(|(a, b)| *a -= product * b);
+        }
+        let size = norm(team, own);
+        if size > 0.0 {
+            own.iter_mut().for_each(|a| *a /= size);
+        }
+    }
+}

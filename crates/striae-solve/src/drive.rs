@@ -1,4 +1,6 @@
 //! Steps and increments.
+//!
+//! Longer than other files, as it is the whole course of a run.
 
 use serde::{Deserialize, Serialize};
 use striae_contact::{
