@@ -186,7 +186,7 @@ impl Simulation {
         let source = source(case_name(path), path, &deck.model, &deck.output);
         let simulation = Self::of_on(Some(ranks), deck)?;
         let case = source.case.clone();
-        Ok(simulation.recorded(folder, case).from_source(source))
+        Ok(simulation.recorded(folder, case).with_source(source))
     }
 
     /// Goes on on several ranks, however many wrote the checkpoint; collective.
@@ -292,10 +292,10 @@ impl Simulation {
     ) -> Self {
         let case = case.into();
         let source = source(case.clone(), deck, &self.problem.model, &self.output);
-        self.recorded(folder, case).from_source(source)
+        self.recorded(folder, case).with_source(source)
     }
 
-    fn from_source(mut self, source: Source) -> Self {
+    fn with_source(mut self, source: Source) -> Self {
         if let Some(recording) = &mut self.recording {
             recording.source = Some(source);
         }

@@ -26,6 +26,8 @@ use striae::{
         team::{Gathered, Team, Together},
     },
 };
+use striae_contact::evaluation::Evaluation;
+use striae_solve::norms::Norms;
 
 const DECK: &str = r#"
 title = "A block of metal pressed on a soft one and drawn over it"
@@ -106,7 +108,9 @@ struct Watch<'a> {
     after: &'a (dyn Fn(usize) + Sync),
 }
 
-impl IterationObserver for Watch<'_> {}
+impl IterationObserver for Watch<'_> {
+    fn iteration(&mut self, _: usize, _: &Norms, _: &[Evaluation]) {}
+}
 
 impl Observer for Watch<'_> {
     fn step(&mut self, _: usize, _: &str) {}
