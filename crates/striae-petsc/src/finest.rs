@@ -7,10 +7,9 @@
 
 use crate::{
     binding::{Cycle, Entry, Lay, Library, Matrix, Side},
-    bulk::orthonormalise,
     error::Error,
     foreign::starts,
-    product::{norm, pseudo_random},
+    product::{norm, orthonormalise, pseudo_random},
 };
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -93,19 +92,13 @@ impl Finest {
         let inverses: Vec<[f64; 9]> = inverses.collect();
         let mut matrix = Matrix::assembled(library, (side, side), row)?;
         let largest = SAFETY * power_method(team, &mut matrix, &inverses)?;
-        let starts = starts(team, coarsening.count);
-        let aggregates = Side {
-            blocks: Lay {
-                first: starts[team.rank()],
-                own: coarsening.count,
-                total: starts[team.size()],
-            },
-            size: MODES,
-        };
+        let aggregates = aggregates(team, &coarsening);
         let omega = 4.0 / 3.0 / largest;
         let interpolation = smoothed(&matrix, (&coarsening, aggregates), &inverses, omega)?;
         let mut coarse = matrix.galerkin(&interpolation)?;
-        let first = aggregates.unknowns().first;
+        let Lay {
+            first, own: size, ..
+        } = aggregates.unknowns();
         coarse.set_ones(coarsening.empty().map(|unknown| first + unknown))?;
         let mut kernel: Vec<Vec<f64>> = (0..MODES)
             .map(|mode| {
@@ -113,9 +106,8 @@ impl Finest {
                 rows.map(|row| row[mode]).collect()
             })
             .collect();
-        orthonormalise(team, &mut kernel);
-        let size = kernel[0].len();
         drop(coarsening);
+        orthonormalise(team, &mut kernel);
         Ok(Cycle::new(coarse, &kernel)?.map(|coarser| Self {
             matrix,
             inverses,
@@ -152,7 +144,10 @@ impl Finest {
     /// `residual = b - A x`.
     fn find_residual(&mut self, b: &[f64], x: &[f64]) -> Result<(), Error> {
         self.matrix.multiply(x, &mut self.residual)?;
-        self.residual.iter_mut().zip(b).for_each(|(r, b)| *r = b - *r);
+        self.residual
+            .iter_mut()
+            .zip(b)
+            .for_each(|(r, b)| *r = b - *r);
         Ok(())
     }
 
@@ -195,17 +190,26 @@ impl Finest {
     }
 }
 
+/// Aggregates of all ranks.
+fn aggregates(team: &dyn Team, coarsening: &Coarsening) -> Side {
+    let starts = starts(team, coarsening.count);
+    Side {
+        blocks: Lay {
+            first: starts[team.rank()],
+            own: coarsening.count,
+            total: starts[team.size()],
+        },
+        size: MODES,
+    }
+}
+
 /// `B r` of a block.
 fn product(block: &[f64; 9], r: &[f64]) -> [f64; 3] {
     [0, 3, 6].map(|row| block[row] * r[0] + block[row + 1] * r[1] + block[row + 2] * r[2])
 }
 
 /// Largest eigenvalue of `D^-1 A`, from below.
-fn power_method(
-    team: &dyn Team,
-    matrix: &mut Matrix,
-    inverses: &[[f64; 9]],
-) -> Result<f64, Error> {
+fn power_method(team: &dyn Team, matrix: &mut Matrix, inverses: &[[f64; 9]]) -> Result<f64, Error> {
     let Lay { first, own, .. } = matrix.rows().unknowns();
     let mut x: Vec<f64> = (first..first + own).map(pseudo_random).collect();
     let mut image = vec![0.0; own];

@@ -95,7 +95,9 @@ impl Iterative {
         let Some(inverse) = bulk.inverse(library, ranks, coupling.as_ref())? else {
             return Ok(None);
         };
-        let held = (0..).zip(&places).map(|(at, &u)| (at, prescribed[u as usize]));
+        let held = (0..)
+            .zip(&places)
+            .map(|(at, &u)| (at, prescribed[u as usize]));
         Ok(Some(Self {
             krylov: Krylov::new(library, lay(numbering))?,
             inverse,

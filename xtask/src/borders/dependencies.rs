@@ -68,6 +68,11 @@ const LADDER: &[Row] = &[
         outside: &["nalgebra", "num-dual", "rayon", "serde", "thiserror"],
     },
     Row {
+        name: "striae-petsc",
+        own: &["striae-condensed", "striae-solve", "striae-sparse"],
+        outside: &["mpi", "rayon", "thiserror"],
+    },
+    Row {
         name: "striae-model",
         own: &[
             "striae-law",

@@ -12,14 +12,14 @@ use std::{sync::Arc, thread};
 /// Prefix of the options.
 const PREFIX: &str = "striae_bulk_";
 /// Options unless others are given: smoothed aggregation, smoothed by Chebyshev polynomials
-/// of the diagonal. Its blocks would not do: those of aggregates of one node are singular.
+/// over symmetric sweeps of every rank.
 const OPTIONS: [(&str, &str); 7] = [
     ("pc_gamg_agg_nsmooths", "1"),
-    ("pc_gamg_threshold", "0.01"),
+    ("pc_gamg_threshold", "0.04"),
     ("pc_gamg_coarse_eq_limit", "1000"),
     ("mg_levels_ksp_type", "chebyshev"),
     ("mg_levels_ksp_max_it", "2"),
-    ("mg_levels_pc_type", "jacobi"),
+    ("mg_levels_pc_type", "sor"),
     ("mg_levels_esteig_ksp_type", "cg"),
 ];
 

@@ -178,7 +178,9 @@ unsafe extern "C" fn collect(
     let words = |text: *const c_char| match text.is_null() {
         true => String::new(),
         // SAFETY: PETSc hands over strings that end with zero.
-        false => unsafe { CStr::from_ptr(text) }.to_string_lossy().into_owned(),
+        false => unsafe { CStr::from_ptr(text) }
+            .to_string_lossy()
+            .into_owned(),
     };
     // SAFETY: the context is the one that was given with the handler, and is never freed.
     let said = unsafe { &*context.cast::<Mutex<Option<String>>>() };

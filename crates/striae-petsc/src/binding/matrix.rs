@@ -154,7 +154,15 @@ impl Matrix {
         // SAFETY: as many rows, columns and values as are told, all copied.
         let code = unsafe {
             let (rows, columns) = (rows.as_ptr(), columns.as_ptr());
-            ffi::MatSetValues(self.raw, height, rows, width, columns, values.as_ptr(), mode)
+            ffi::MatSetValues(
+                self.raw,
+                height,
+                rows,
+                width,
+                columns,
+                values.as_ptr(),
+                mode,
+            )
         };
         self.library.check(code)
     }
@@ -209,7 +217,8 @@ impl Matrix {
         // SAFETY: a live matrix that was made as a product.
         unsafe {
             self.library.check(ffi::MatProductClear(self.raw))?;
-            self.library.check(ffi::MatSetBlockSizes(self.raw, row, column))?;
+            self.library
+                .check(ffi::MatSetBlockSizes(self.raw, row, column))?;
         }
         Ok(self)
     }

@@ -23,15 +23,6 @@ pub fn report(ranks: &Ranks, sides: &[&str]) {
             };
             let part = blocks.part(Rank(ranks.rank(), ranks.size()));
             let unknowns = part.numbering.count;
-            if std::env::var_os("SERIAL").is_some() {
-                let mut solver = striae_condensed::Automatic::new(striae_condensed::Choice::Iterative);
-                solver.analyse(&part.partition).unwrap();
-                let f = solver.factor(&part.tangent).unwrap();
-                let mut x = vec![0.0; part.rhs.len()];
-                let t = Instant::now();
-                let report = solver.solve_to(&part.tangent, &part.rhs, &mut x, 1e-6).unwrap();
-                println!("serial {:?} {:?} {}", f.method, t.elapsed(), report.krylov_iterations);
-            }
             let before = memory("VmRSS:");
             let mut solver = PetscSolver::new(ranks, Choice::Iterative);
             solver.analyse(&part.partition, &part.numbering).unwrap();

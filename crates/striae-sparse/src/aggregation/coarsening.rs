@@ -1,11 +1,6 @@
 //! Aggregates of a finest level whose coarser ones are someone else's.
 
-use super::{
-    MODES, STRONG,
-    aggregates::Aggregates,
-    blocks::Blocks,
-    prolongator::Tentative,
-};
+use super::{MODES, STRONG, aggregates::Aggregates, blocks::Blocks, prolongator::Tentative};
 
 pub use super::aggregates::NONE;
 
