@@ -44,6 +44,67 @@ impl Inverse {
     }
 }
 
+/// Rows of this rank's nodes.
+struct Rows<'a> {
+    bulk: &'a Bulk<'a>,
+    foreign: Foreign<9>,
+    coupling: Option<&'a Coupling>,
+}
+
+impl Rows<'_> {
+    /// What the bodies have in the row of an own node.
+    fn add_bodies(&self, k: usize, entries: &mut Vec<Entry<9>>) {
+        let Bulk {
+            nodes, partition, ..
+        } = *self.bulk;
+        let (i, node) = (nodes.supervariables[k] as usize, self.node(k));
+        self.bulk.add_blocks(i, entries);
+        if let Some(others) = self.foreign.get(&node) {
+            entries.extend_from_slice(others);
+        }
+        let mut diagonal = [0.0; 9];
+        for (component, unknown) in partition.bulk_group(i).enumerate() {
+            diagonal[4 * component] = f64::from(self.bulk.prescribed[unknown]);
+        }
+        entries.push((node, diagonal));
+    }
+
+    /// The same with the stiffness of constraints.
+    fn add_stiffened(&self, k: usize, entries: &mut Vec<Entry<9>>) {
+        self.add_bodies(k, entries);
+        if let Some(coupling) = self.coupling {
+            coupling.add_stiffness(k, entries);
+        }
+    }
+
+    /// The block on the diagonal, with that stiffness.
+    fn diagonal(&self, k: usize) -> [f64; 9] {
+        let mut entries = Vec::new();
+        self.add_stiffened(k, &mut entries);
+        sum(&mut entries);
+        let own = entries.iter().find(|entry| entry.0 == self.node(k));
+        own.map_or([0.0; 9], |entry| entry.1)
+    }
+
+    /// What the bodies couple on this rank.
+    fn near(&self) -> Blocks<3, 3, f64> {
+        let nodes = self.bulk.nodes;
+        Blocks::from_rows(nodes.lay.own, nodes.lay.own, |k, row| {
+            let mut entries = Vec::new();
+            self.add_bodies(k, &mut entries);
+            for (column, block) in entries.iter().filter(|entry| nodes.is_own(entry.0)) {
+                let target = row.block(*column as usize - nodes.lay.first);
+                target.iter_mut().zip(block).for_each(|(t, b)| *t += b);
+            }
+        })
+    }
+
+    /// Number of an own node.
+    fn node(&self, k: usize) -> u32 {
+        (self.bulk.nodes.lay.first + k) as u32
+    }
+}
+
 impl Bulk<'_> {
     /// What takes the place of its inverse; `None` where it is not definite.
     pub(crate) fn inverse(
@@ -52,62 +113,31 @@ impl Bulk<'_> {
         team: &dyn Team,
         coupling: Option<&Coupling>,
     ) -> Result<Option<Inverse>, Error> {
-        let nodes = self.nodes;
-        let foreign = self.foreign(team);
-        let bodies = |k: usize, entries: &mut Vec<Entry<9>>| {
-            let (i, node) = (nodes.supervariables[k] as usize, nodes.lay.first + k);
-            self.add_blocks(i, entries);
-            if let Some(others) = foreign.get(&(node as u32)) {
-                entries.extend_from_slice(others);
-            }
-            let mut diagonal = [0.0; 9];
-            for (component, unknown) in self.partition.bulk_group(i).enumerate() {
-                diagonal[4 * component] = f64::from(self.prescribed[unknown]);
-            }
-            entries.push((node as u32, diagonal));
-        };
-        let stiffened = |k: usize, entries: &mut Vec<Entry<9>>| {
-            bodies(k, entries);
-            if let Some(coupling) = coupling {
-                coupling.add_stiffness(k, entries);
-            }
+        let rows = Rows {
+            bulk: self,
+            foreign: self.foreign(team),
+            coupling,
         };
         let side = Side {
-            blocks: nodes.lay,
+            blocks: self.nodes.lay,
             size: 3,
         };
+        let stiffened = |k: usize, entries: &mut Vec<Entry<9>>| rows.add_stiffened(k, entries);
         let mut kernel = self.near_kernel(team);
         if Cycle::is_chosen(library)? {
             let matrix = Matrix::assembled(library, (side, side), stiffened)?;
             orthonormalise(team, &mut kernel);
             return Ok(Cycle::new(matrix, &kernel)?.map(Inverse::Chosen));
         }
-        let near = Blocks::from_rows(nodes.lay.own, nodes.lay.own, |k, row| {
-            let mut entries = Vec::new();
-            bodies(k, &mut entries);
-            for (column, block) in entries.iter().filter(|entry| nodes.is_own(entry.0)) {
-                let target = row.block(*column as usize - nodes.lay.first);
-                target.iter_mut().zip(block).for_each(|(t, b)| *t += b);
-            }
-        });
-        let diagonal = |k: usize| {
-            let mut entries = Vec::new();
-            stiffened(k, &mut entries);
-            sum(&mut entries);
-            let own = entries
-                .iter()
-                .find(|entry| nodes.is_own(entry.0) && entry.0 as usize == nodes.lay.first + k);
-            own.map_or([0.0; 9], |entry| entry.1)
-        };
         let problem = Problem {
             library,
             team,
             side,
-            near,
+            near: rows.near(),
             kernel: &kernel,
         };
-        Ok(Finest::new(problem, stiffened, diagonal)?
-            .map(|finest| Inverse::Usual(Box::new(finest))))
+        let finest = Finest::new(problem, stiffened, |k| rows.diagonal(k))?;
+        Ok(finest.map(|finest| Inverse::Usual(Box::new(finest))))
     }
 
     /// What other ranks add to this rank's rows.
@@ -164,7 +194,7 @@ impl Bulk<'_> {
         team.largest(&mut ends);
         let size = (0..3).map(|k| ends[k] + ends[k + 3]).fold(0.0, f64::max);
         let size = if size > 0.0 { size } else { 1.0 };
-        let mut kernel = vec![Vec::with_capacity(3 * self.nodes.lay.own); MODES];
+        let mut kernel = vec![Vec::new(); MODES];
         for &i in &self.nodes.supervariables {
             let at = own(i);
             let [x, y, z] = [0, 1, 2].map(|k| (at[k] - 0.5 * (ends[k] - ends[k + 3])) / size);

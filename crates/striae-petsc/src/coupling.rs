@@ -18,10 +18,8 @@ const SUMMED: usize = 15;
 #[derive(Debug)]
 pub(crate) struct Coupling {
     factors: ContactFactors,
-    /// Stiffness that is added, `(g, s)`, with the places of nodes.
-    stiffening: Vec<(Vec<(u32, [f64; 3])>, f64)>,
-    /// By own node: where it is in the stiffening.
-    incident: HashMap<u32, Vec<(u32, u32)>>,
+    /// Constraints that own nodes are in.
+    incident: HashMap<u32, Vec<Incidence>>,
     /// Nodes, numbered over all ranks.
     nodes: Vec<u32>,
     /// Place of each own node among the own ones, with its place here.
@@ -34,6 +32,15 @@ pub(crate) struct Coupling {
     positions: Vec<f64>,
     single: Vec<f32>,
     multipliers: Vec<f64>,
+}
+
+/// A place of a node in a constraint.
+#[derive(Clone, Copy, Debug)]
+struct Incidence {
+    /// Number of the constraint.
+    constraint: u32,
+    /// Number of the node's entry in it.
+    entry: u32,
 }
 
 /// What all ranks know of the interface.
@@ -110,16 +117,14 @@ impl Coupling {
             .zip(&gathered.nodes)
             .filter(|&(_, &node)| part.nodes.is_own(node));
         let own_nodes: Vec<(u32, u32)> = own.map(|(at, &node)| (node - first, at)).collect();
-        let stiffening: Vec<_> = factors
-            .stiffening()
-            .map(|added| (added.entries.to_vec(), added.stiffness))
-            .collect();
         let places: HashMap<u32, u32> = own_nodes.iter().map(|&(k, at)| (at, k)).collect();
-        let mut incident: HashMap<u32, Vec<(u32, u32)>> = HashMap::new();
-        for (which, (entries, _)) in (0..).zip(&stiffening) {
-            for (entry, (at, _)) in (0..).zip(entries) {
+        let mut incident: HashMap<u32, Vec<Incidence>> = HashMap::new();
+        for constraint in 0..factors.constraints() {
+            for (entry, (at, _)) in (0..).zip(factors.stiffening(constraint).entries) {
                 if let Some(&k) = places.get(at) {
-                    incident.entry(k).or_default().push((which, entry));
+                    let constraint = constraint as u32;
+                    let place = Incidence { constraint, entry };
+                    incident.entry(k).or_default().push(place);
                 }
             }
         }
@@ -131,7 +136,6 @@ impl Coupling {
         let multipliers = &gathered.multipliers;
         Ok(Self {
             factors,
-            stiffening,
             incident,
             own_nodes,
             own_multipliers,
@@ -149,11 +153,11 @@ impl Coupling {
         let Some(incident) = self.incident.get(&(node as u32)) else {
             return;
         };
-        for &(which, entry) in incident {
-            let (others, stiffness) = &self.stiffening[which as usize];
-            let own = others[entry as usize].1;
-            for &(at, values) in others {
-                let block = std::array::from_fn(|k| stiffness * own[k / 3] * values[k % 3]);
+        for &Incidence { constraint, entry } in incident {
+            let added = self.factors.stiffening(constraint as usize);
+            let own = added.entries[entry as usize].1;
+            for &(at, values) in added.entries {
+                let block = std::array::from_fn(|k| added.stiffness * own[k / 3] * values[k % 3]);
                 entries.push((self.nodes[at as usize], block));
             }
         }

@@ -92,19 +92,13 @@ impl Finest {
         let inverses: Vec<[f64; 9]> = inverses.collect();
         let mut matrix = Matrix::assembled(library, (side, side), row)?;
         let largest = SAFETY * power_method(team, &mut matrix, &inverses)?;
-        let starts = starts(team, coarsening.count);
-        let aggregates = Side {
-            blocks: Lay {
-                first: starts[team.rank()],
-                own: coarsening.count,
-                total: starts[team.size()],
-            },
-            size: MODES,
-        };
+        let aggregates = aggregates(team, &coarsening);
         let omega = 4.0 / 3.0 / largest;
         let interpolation = smoothed(&matrix, (&coarsening, aggregates), &inverses, omega)?;
         let mut coarse = matrix.galerkin(&interpolation)?;
-        let first = aggregates.unknowns().first;
+        let Lay {
+            first, own: size, ..
+        } = aggregates.unknowns();
         coarse.set_ones(coarsening.empty().map(|unknown| first + unknown))?;
         let mut kernel: Vec<Vec<f64>> = (0..MODES)
             .map(|mode| {
@@ -112,9 +106,8 @@ impl Finest {
                 rows.map(|row| row[mode]).collect()
             })
             .collect();
-        orthonormalise(team, &mut kernel);
-        let size = kernel[0].len();
         drop(coarsening);
+        orthonormalise(team, &mut kernel);
         Ok(Cycle::new(coarse, &kernel)?.map(|coarser| Self {
             matrix,
             inverses,
@@ -194,6 +187,19 @@ impl Finest {
                 });
         }
         Ok(())
+    }
+}
+
+/// Aggregates of all ranks.
+fn aggregates(team: &dyn Team, coarsening: &Coarsening) -> Side {
+    let starts = starts(team, coarsening.count);
+    Side {
+        blocks: Lay {
+            first: starts[team.rank()],
+            own: coarsening.count,
+            total: starts[team.size()],
+        },
+        size: MODES,
     }
 }
 

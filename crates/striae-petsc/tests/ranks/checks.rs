@@ -246,7 +246,7 @@ fn indefinite(ranks: &Ranks) {
     let mut part = blocks(Top::Held).part(Rank(ranks.rank(), ranks.size()));
     // Far from definite, but not singular.
     for (u, whole) in part.numbering.whole.iter().enumerate() {
-        if part.numbering.own.contains(whole) && part.serial[u] % 2 == 0 {
+        if part.numbering.own.contains(whole) && part.serial[u].is_multiple_of(2) {
             part.tangent.bodies.add(&[u], &[u], &[-10.0]).unwrap();
         }
     }
