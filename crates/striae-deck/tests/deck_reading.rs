@@ -390,7 +390,7 @@ enforcement = "weighed""#,
         "unknown backend",
         &[(r#""faer""#, r#""pardiso""#)],
         &[
-            "44:11: `backend` in [solver] cannot be `pardiso`; expected one of `condensed`, `multifrontal`, `faer`, `iterative`",
+            "44:11: `backend` in [solver] cannot be `pardiso`; expected one of `condensed`, `multifrontal`, `faer`, `iterative`, `mumps`",
         ],
     );
 }
