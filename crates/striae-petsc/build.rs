@@ -10,27 +10,24 @@ const ADVICE: &str = "the feature `petsc` needs PETSc 3.18 or newer with real nu
     apt-get install libpetsc-real-dev pkg-config libclang-dev. \
     Elsewhere, add the folder of PETSc.pc to PKG_CONFIG_PATH";
 
-fn main() {
+fn main() -> Result<(), String> {
     println!("cargo:rerun-if-changed=build.rs");
     println!("cargo:rerun-if-env-changed=PKG_CONFIG_PATH");
     if env::var_os("CARGO_FEATURE_PETSC").is_none() {
-        return;
+        return Ok(());
     }
     let found = ["PETSc", "petsc"].into_iter().find_map(|name| {
         let version = asked(&["--modversion", name])?;
         Some((name, version))
     });
-    let Some((name, version)) = found else {
-        panic!("{ADVICE}");
-    };
+    let (name, version) = found.ok_or(ADVICE)?;
     let numbers: Vec<u32> = version
         .split('.')
         .map_while(|part| part.trim().parse().ok())
         .collect();
-    assert!(
-        numbers.as_slice() >= OLDEST.as_slice(),
-        "PETSc {version} is too old: {ADVICE}"
-    );
+    if numbers.as_slice() < OLDEST.as_slice() {
+        return Err(format!("PETSc {version} is too old: {ADVICE}"));
+    }
     let libraries = asked(&["--libs", name]).unwrap_or_default();
     for flag in libraries.split_whitespace() {
         if let Some(folder) = flag.strip_prefix("-L") {
@@ -39,6 +36,7 @@ fn main() {
             println!("cargo:rustc-link-lib={library}");
         }
     }
+    Ok(())
 }
 
 /// What pkg-config answers, if it does.

@@ -52,6 +52,14 @@ pub enum Fault {
     /// There is no interpreter for the Python package.
     #[error("there is no Python 3.10 or newer that makes virtual environments")]
     NoPython,
+    /// Something that ranks need is not installed.
+    #[error(
+        "there is no {0}; on Debian and Ubuntu: apt-get install libpetsc-real-dev pkg-config libclang-dev"
+    )]
+    NoMpi(&'static str),
+    /// Ranks did not do what they must.
+    #[error("{0}")]
+    Mpi(&'static str),
     /// Scenes came out wrong.
     #[error("{count} of {of} scenes came out wrong")]
     Scenes {

@@ -10,6 +10,7 @@
 //! | `book` | the book as HTML, its links checked; see [`book`] |
 //! | `mathematics` | formulas of the book, for mdBook; see [`book::mathematics`] |
 //! | `endurance` | runs that are killed, interrupted, short of disk, damaged; see [`endurance`] |
+//! | `mpi` | tests of the feature `petsc` on one to four ranks; see [`mpi`] |
 //! | `bench` | times of parts and of whole runs; see `crates/striae-bench/README.md` |
 //!
 //! Exit codes: 0 when all is well, 1 when a check failed, 2 for an unknown task.
@@ -23,12 +24,13 @@ mod check;
 mod decks;
 mod endurance;
 mod fault;
+mod mpi;
 mod python;
 mod scenes;
 
 use std::{env, process::ExitCode};
 
-const USAGE: &str = "usage: cargo xtask check | python | borders | scenes [OPTIONS] | report-test | book | endurance | bench [ARGUMENTS]";
+const USAGE: &str = "usage: cargo xtask check | python | borders | scenes [OPTIONS] | report-test | book | endurance | mpi | bench [ARGUMENTS]";
 
 fn main() -> ExitCode {
     let tasks: Vec<String> = env::args().skip(1).collect();
@@ -41,6 +43,7 @@ fn main() -> ExitCode {
         ["book", ..] => book::book(&tasks[1..]),
         ["mathematics", ..] => book::mathematics::preprocess(&tasks[1..]),
         ["endurance", ..] => endurance::endurance(&tasks[1..]),
+        ["mpi"] => mpi::check(),
         ["bench", ..] => check::bench(&tasks[1..]),
         _ => {
             eprintln!("{USAGE}");

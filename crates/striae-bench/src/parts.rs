@@ -106,15 +106,12 @@ fn of_scene(group: &str, size: usize) -> Results {
     let state = State::undeformed(&problem);
     let context = StepContext::new(&problem, 0, &state);
     let configuration = context.configuration(0, &state.positions, &state.rigid);
-    let kept = &state.pairs[0].kept;
-    let required = &state.pairs[0].required;
-    let pointed = &state.pairs[0].pointed;
-    let points = &state.pairs[0].points;
+    let pair = &state.pairs[0];
     let before = Before {
-        kept,
-        required,
-        pointed,
-        points,
+        kept: &pair.kept,
+        required: &pair.required,
+        pointed: &pair.pointed,
+        points: &pair.points,
     };
     let selection = Selection::new(&configuration, None, before, &context.fixed_on_pair[0]);
     let nodes: usize = Side::BOTH

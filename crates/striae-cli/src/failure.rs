@@ -84,6 +84,29 @@ pub enum Failure {
     /// Measurements give no law.
     #[error("{0}")]
     Fit(#[from] FitError),
+    /// MPI or PETSc does not start.
+    #[cfg_attr(
+        not(feature = "petsc"),
+        allow(dead_code, reason = "only ranks fail so")
+    )]
+    #[error("{0}")]
+    Petsc(String),
+    /// PETSc is asked for, but not built in.
+    #[cfg(not(feature = "petsc"))]
+    #[error("this program was built without PETSc; build it with `--features petsc`")]
+    NoPetsc,
+    /// Something that several ranks cannot do.
+    #[error(
+        "`resume --with` works on one rank only; without `mpirun` it goes on from any checkpoint"
+    )]
+    Alone,
+    /// Another rank tells it.
+    #[cfg_attr(
+        not(feature = "petsc"),
+        allow(dead_code, reason = "only ranks fail so")
+    )]
+    #[error("{0}")]
+    Told(Box<Failure>),
     /// The threads cannot be started.
     #[error("the threads cannot be started: {0}")]
     Threads(String),
@@ -132,6 +155,11 @@ impl From<striae_cases::Failure> for Failure {
 }
 
 impl Failure {
+    /// Whether another rank tells it.
+    pub fn is_told(&self) -> bool {
+        matches!(self, Self::Told(_))
+    }
+
     /// Whether nobody reads what the program prints any more, as after `| head`.
     pub fn is_broken_pipe(&self) -> bool {
         matches!(self, Self::Output(cause) if cause.kind() == io::ErrorKind::BrokenPipe)
@@ -140,7 +168,15 @@ impl Failure {
     /// The exit code: 2 for bad input, 130 for an interrupt, 1 for everything else.
     pub fn exit_code(&self) -> ExitCode {
         match self {
-            Self::Deck(_)
+            Self::Told(failure) => failure.exit_code(),
+            // What another rank says is no fault of the model.
+            Self::Model(error) if matches!(**error, striae::Error::Elsewhere { .. }) => {
+                ExitCode::from(1)
+            }
+            #[cfg(not(feature = "petsc"))]
+            Self::NoPetsc => ExitCode::from(2),
+            Self::Alone
+            | Self::Deck(_)
             | Self::Model(_)
             | Self::Exists(_)
             | Self::Checkpoint(_)
@@ -169,6 +205,7 @@ impl Failure {
             | Self::Figure(_)
             | Self::Report(_)
             | Self::Threads(_)
+            | Self::Petsc(_)
             | Self::Output(_) => ExitCode::from(1),
         }
     }

@@ -10,6 +10,7 @@ mod failure;
 mod forecast;
 mod interrupt;
 mod progress;
+mod ranks;
 mod reporting;
 
 use clap::{Parser, Subcommand};
@@ -67,7 +68,7 @@ fn main() -> ExitCode {
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) if failure.is_broken_pipe() => failure.exit_code(),
+        Err(failure) if failure.is_told() || failure.is_broken_pipe() => failure.exit_code(),
         Err(failure) => {
             let _ = writeln!(io::stderr(), "{failure}");
             failure.exit_code()

@@ -298,6 +298,11 @@ impl Automatic {
             }
             return Ok(Iterative::analysis(partition.whole()));
         }
+        self.plan_by_cost(partition)
+    }
+
+    /// Plans the solver that costs least.
+    fn plan_by_cost(&mut self, partition: &Partition) -> Result<Analysis, SolveError> {
         let condensed = Condensed::analyse(partition)?;
         // In double precision, in case single is too coarse.
         let analysis = condensed.analysis(Precision::Double);

@@ -87,18 +87,19 @@ pub fn evaluate(
         Slip::Wanted
     };
     let frames = frames(configuration, selection);
-    let patches = match configuration.pair.enforcement {
-        Enforcement::Weighted => patches(configuration, start, selection, (slip, derivatives)),
-        Enforcement::Collocated => Vec::new(),
-    };
-    let mut kinematics = match configuration.pair.enforcement {
+    let (patches, mut kinematics) = match configuration.pair.enforcement {
         Enforcement::Weighted => {
-            weighted::kinematics(configuration, selection, &frames, &patches, slip)
+            let patches = patches(configuration, start, selection, (slip, derivatives));
+            let rows = weighted::kinematics(configuration, selection, &frames, &patches, slip);
+            (patches, rows)
         }
-        Enforcement::Collocated => collocated::kinematics(configuration, selection, &frames),
+        Enforcement::Collocated => {
+            let rows = collocated::kinematics(configuration, selection, &frames);
+            (Vec::new(), rows)
+        }
     };
-    let textures = textures(configuration, friction, selection, &frames, &kinematics);
-    let textures = textures.map_err(Collapse::Texture)?;
+    let textures = textures(configuration, friction, selection, &frames, &kinematics)
+        .map_err(Collapse::Texture)?;
     let rates = slip_rates(configuration, friction, selection, &kinematics);
     let surroundings = Surroundings {
         friction,

@@ -292,14 +292,15 @@ impl<'a> Kernel<'a> {
         density.d_eta += by_a * d_a[1];
         let (cross_xi, cross_eta) = (x_xi.cross_matrix(), x_eta.cross_matrix());
         for corner in 0..4 {
-            let share = size * weights.value[corner];
             let by_x = cross_xi * weights.d_eta[corner] - cross_eta * weights.d_xi[corner];
-            let mut add = |lane: usize, block: Matrix3<f64>| {
-                add_block(&mut density.gradient, lane + 3 * corner, &block);
-            };
-            add(X, by_a * by_x);
-            add(NORMAL, turned[corner].by_from * share);
-            add(TAU, turned[corner].by_vector * share);
+            let share = size * weights.value[corner];
+            add_corner(
+                &mut density.gradient,
+                corner,
+                by_a * by_x,
+                &turned[corner],
+                share,
+            );
             density.gradient[PRESSURE + corner] = (n * -share).into();
         }
         density
@@ -322,4 +323,21 @@ impl<'a> Kernel<'a> {
             .collect();
         LocalTerm::from_columns(&rows, &triples, &columns)
     }
+}
+
+/// Adds the derivatives of a density by the place, the normal and the friction of a corner,
+/// which has a share of the field there.
+fn add_corner(
+    gradient: &mut [[f64; 3]],
+    corner: usize,
+    by_x: Matrix3<f64>,
+    turned: &Transported,
+    share: f64,
+) {
+    let mut add = |lane: usize, block: Matrix3<f64>| {
+        add_block(gradient, lane + 3 * corner, &block);
+    };
+    add(X, by_x);
+    add(NORMAL, turned.by_from * share);
+    add(TAU, turned.by_vector * share);
 }

@@ -28,13 +28,14 @@ mod rule;
 mod sums;
 
 use nalgebra::Matrix3;
+use pulp::{Simd, WithSimd};
 use striae_mesh::Vec3;
 use striae_surface::facet::Shape;
 
 pub use rigid_plane::plane_segment;
 
 use chain::{CornerSlopes, Plane};
-use fan::{Apex, fan};
+use fan::{Apex, Fan, fan};
 use normal::{facet_normal, pair_normal, pair_slopes};
 use plane_facet::{PlaneFacet, Vec2};
 pub(crate) use polygon::{FIRST, mixed};
@@ -229,14 +230,39 @@ impl PlanePair {
             Derivatives::None => None,
             Derivatives::First => Some(PlaneSlopes::zero(fan.places.len())),
         };
-        for indices in &fan.triangles {
-            let triangle = Triangle {
-                places: indices.map(|at| fan.places[at]),
-                indices: *indices,
-            };
-            add_triangle(&self.facets, &triangle, rule, &mut mass, slopes.as_mut());
-        }
+        let sums = Sums {
+            facets: &self.facets,
+            fan: &fan,
+            rule,
+            mass: &mut mass,
+            slopes: slopes.as_mut(),
+        };
+        pulp::Arch::new().dispatch(sums);
         let slopes = slopes.map(|own| CornerSlopes::new(own, polygon, &fan, &self.places));
         (mass, slopes)
+    }
+}
+
+/// Sums over all triangles of a fan, made with the widest registers there are: the same to
+/// the last bit.
+struct Sums<'a> {
+    facets: &'a [PlaneFacet; 2],
+    fan: &'a Fan,
+    rule: &'a [([f64; 3], f64)],
+    mass: &'a mut [f64; PAIRS],
+    slopes: Option<&'a mut PlaneSlopes>,
+}
+
+impl WithSimd for Sums<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, _: S) {
+        for &indices in &self.fan.triangles {
+            let places = indices.map(|at| self.fan.places[at]);
+            let triangle = Triangle { places, indices };
+            let slopes = self.slopes.as_deref_mut();
+            add_triangle(self.facets, &triangle, self.rule, self.mass, slopes);
+        }
     }
 }

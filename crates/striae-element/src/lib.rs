@@ -56,4 +56,4 @@ pub use formulation::Formulation;
 pub use mass::{Mass, redistributed};
 pub use response::ElementResponse;
 pub use stiffness::Stiffness;
-pub use stress::{nodal_cauchy_stress, von_mises};
+pub use stress::{nodal_cauchy_stress, nodal_stress_sums, von_mises};

@@ -30,6 +30,27 @@ pub fn nodal_cauchy_stress<'a>(
     positions: &[Vec3],
     made_of: impl Fn(ElementId) -> (&'a Material, &'a [f64]),
 ) -> Result<Vec<Matrix3<f64>>, ElementFault> {
+    let (mut stress, volume) = nodal_stress_sums(mesh, reference, positions, made_of)?;
+    for (sigma, volume) in stress.iter_mut().zip(volume) {
+        if volume > 0.0 {
+            *sigma /= volume;
+        }
+    }
+    Ok(stress)
+}
+
+/// Sums at every node of what [`nodal_cauchy_stress`] averages: stress times volume, and volume.
+/// Sums of the parts of a mesh add up to those of the whole.
+///
+/// # Errors
+///
+/// The first element that is turned inside out.
+pub fn nodal_stress_sums<'a>(
+    mesh: &Mesh,
+    reference: &Elements,
+    positions: &[Vec3],
+    made_of: impl Fn(ElementId) -> (&'a Material, &'a [f64]),
+) -> Result<(Vec<Matrix3<f64>>, Vec<f64>), ElementFault> {
     let mut stress = vec![Matrix3::zeros(); positions.len()];
     let mut volume = vec![0.0; positions.len()];
     for (index, (corners, element)) in mesh.elements().zip(reference.iter()).enumerate() {
@@ -43,12 +64,7 @@ pub fn nodal_cauchy_stress<'a>(
             volume[node.index()] += element.volume();
         }
     }
-    for (sigma, volume) in stress.iter_mut().zip(volume) {
-        if volume > 0.0 {
-            *sigma /= volume;
-        }
-    }
-    Ok(stress)
+    Ok((stress, volume))
 }
 
 /// Equivalent stress of von Mises, `sqrt(3/2 s : s)` with the deviator `s`.

@@ -15,7 +15,7 @@ use super::color::{Rgb, WHITE};
 use super::description::Figure;
 use super::font::{BASELINE_LIFT, TextStyle};
 use super::layout::{Page, page};
-use super::shape::{Direction, Place, Shape};
+use super::shape::{Direction, Place, Shape, Text};
 use super::table;
 use crate::FigureError;
 use striae_files::write_atomically;
@@ -119,7 +119,7 @@ fn draw<B: DrawingBackend>(
     backend
         .draw_rect((0, 0), all, &opaque(WHITE), true)
         .map_err(sentence)?;
-    let pixel = |place: &Place| place.map(|c| (c * scale).round() as i32).into();
+    let pixel = |place: &Place| pixel(place, scale);
     for shape in &page.shapes {
         match shape {
             Shape::Fill { places, color } => {
@@ -158,24 +158,32 @@ fn draw<B: DrawingBackend>(
                     )?;
                 }
             }
-            Shape::Text(text) => {
-                let lift = BASELINE_LIFT * text.size;
-                let place = match text.direction {
-                    Direction::Right => [text.place[0], text.place[1] + lift],
-                    Direction::Up => [text.place[0] + lift, text.place[1]],
-                };
-                let style = TextStyle {
-                    size: text.size * scale,
-                    anchor: text.anchor,
-                    direction: text.direction,
-                };
-                backend
-                    .draw_text(&text.words, &style, pixel(&place))
-                    .map_err(sentence)?;
-            }
+            Shape::Text(text) => write(&mut backend, text, scale)?,
         }
     }
     backend.present().map_err(sentence)
+}
+
+/// Puts words on the page.
+fn write<B: DrawingBackend>(backend: &mut B, text: &Text, scale: f64) -> Result<(), String> {
+    let lift = BASELINE_LIFT * text.size;
+    let place = match text.direction {
+        Direction::Right => [text.place[0], text.place[1] + lift],
+        Direction::Up => [text.place[0] + lift, text.place[1]],
+    };
+    let style = TextStyle {
+        size: text.size * scale,
+        anchor: text.anchor,
+        direction: text.direction,
+    };
+    backend
+        .draw_text(&text.words, &style, pixel(&place, scale))
+        .map_err(sentence)
+}
+
+/// Pixel of a place.
+fn pixel(place: &Place, scale: f64) -> BackendCoord {
+    place.map(|c| (c * scale).round() as i32).into()
 }
 
 /// Fills a polygon; in SVG with a hairline of its own colour, without which

@@ -1,19 +1,20 @@
 //! Fields of bodies for their files, and what materials remember.
 
 use nalgebra::Matrix3;
-use striae_element::{nodal_cauchy_stress, von_mises};
+use striae_element::{nodal_stress_sums, von_mises};
 use striae_mesh::{ElementId, Vec3};
 use striae_solve::{problem::Problem, state::State};
 
 use crate::{
     BodyField,
     fibres::fibres,
-    strain::nodal_strain,
+    means::{Sums, means, tensor_means},
+    strain::strain_sums,
     vtk::{Array, Cells, Grid, Values},
 };
 
 /// A body with the fields that are asked for. Those of stress, strain and energy are left
-/// out where the state has none.
+/// out where the state has none. Collective.
 pub(crate) fn body_grid<'a>(
     problem: &'a Problem,
     state: &'a State,
@@ -37,7 +38,9 @@ pub(crate) fn body_grid<'a>(
     ]);
     let tensors = Tensors {
         stress: of_stress.then(|| stress(problem, state, body)).flatten(),
-        strain: of_strain.then(|| nodal_strain(mesh, points)).flatten(),
+        strain: of_strain
+            .then(|| tensor_means(problem, body, strain_sums(mesh, points)))
+            .flatten(),
     };
     let mut grid = Grid {
         points,
@@ -58,17 +61,17 @@ struct Tensors {
     strain: Option<Vec<Matrix3<f64>>>,
 }
 
-/// Cauchy stress at the nodes of a body.
+/// Cauchy stress at the nodes of a body; collective.
 pub(crate) fn stress(problem: &Problem, state: &State, body: usize) -> Option<Vec<Matrix3<f64>>> {
     let range = problem.first_node[body]..problem.first_node[body + 1];
     let model = &problem.model.bodies[body];
-    nodal_cauchy_stress(
+    let sums = nodal_stress_sums(
         &model.mesh,
         &problem.elements[body],
         &state.positions[range],
         |element| problem.made_of(state, body, element),
-    )
-    .ok()
+    );
+    tensor_means(problem, body, sums.ok())
 }
 
 /// Means over the elements of what the points of a body remember, as far as it has a name;
@@ -106,7 +109,8 @@ fn add(
         }
         (BodyField::Velocity, ..) => {
             let velocities = &state.velocities[range];
-            if velocities.iter().any(|velocity| *velocity != Vec3::zeros()) {
+            let moves = velocities.iter().any(|velocity| *velocity != Vec3::zeros());
+            if problem.share.any(moves) {
                 point("velocity", Values::Vectors(velocities.to_vec()));
             }
         }
@@ -138,7 +142,7 @@ fn add(
             }
         }
         (BodyField::StrainEnergyDensity, ..) => {
-            if let Some(density) = energy_density(problem, state, body) {
+            if let Some(density) = means(problem, body, energy_sums(problem, state, body)) {
                 point("strain_energy_density", Values::Scalars(density));
             }
         }
@@ -189,10 +193,11 @@ fn principal(tensor: &Matrix3<f64>) -> (Vec3, [Vec3; 3]) {
     (values.into(), axes)
 }
 
-/// Stored energy of the elements at every node over their volume at rest.
-fn energy_density(problem: &Problem, state: &State, body: usize) -> Option<Vec<f64>> {
+/// Stored energy of the elements at every node, and their volume at rest.
+fn energy_sums(problem: &Problem, state: &State, body: usize) -> Option<Sums<f64>> {
     let model = &problem.model.bodies[body];
-    let mut sums = vec![[0.0; 2]; model.mesh.positions.len()];
+    let nodes = model.mesh.positions.len();
+    let (mut energies, mut volumes) = (vec![0.0; nodes], vec![0.0; nodes]);
     let elements = model.mesh.elements().zip(problem.elements[body].iter());
     for (at, (corners, element)) in elements.enumerate() {
         let nodes = problem.nodes(body, corners).into_iter();
@@ -200,15 +205,11 @@ fn energy_density(problem: &Problem, state: &State, body: usize) -> Option<Vec<f
         let (material, variables) = problem.made_of(state, body, ElementId::new(at));
         let energy = element.stored_energy(&x, material, variables).ok()?;
         for corner in corners {
-            sums[corner.index()][0] += energy;
-            sums[corner.index()][1] += element.volume();
+            energies[corner.index()] += energy;
+            volumes[corner.index()] += element.volume();
         }
     }
-    Some(
-        sums.into_iter()
-            .map(|[energy, volume]| energy / volume)
-            .collect(),
-    )
+    Some((energies, volumes))
 }
 
 #[cfg(test)]

@@ -11,6 +11,8 @@ use crate::{
     bodies::body_grid,
     checksums::{Checksums, sum},
     parts::{Parts, file},
+    pieces::write_pieces,
+    ranks::on_first,
     rigid::RigidGrid,
     surfaces::{Wanted, write_surface},
     tied::write_tied,
@@ -81,7 +83,8 @@ impl Collections {
         Ok(())
     }
 
-    /// Writes the bodies that are asked for, after so many increments.
+    /// Writes the bodies that are asked for, after so many increments; collective, as ranks
+    /// write their pieces.
     pub(crate) fn write_bodies(
         &mut self,
         problem: &Problem,
@@ -96,16 +99,32 @@ impl Collections {
             if chosen.is_some_and(|chosen| !chosen.contains(&model.name)) {
                 continue;
             }
-            let file = file(&names[body], count);
-            let grid = body_grid(problem, state, body, &output.body_fields);
-            write(&self.folder.join(&file), &grid)?;
+            let file = match problem.share.is_alone() {
+                true => {
+                    let file = file(&names[body], count);
+                    let grid = body_grid(problem, state, body, &output.body_fields);
+                    write(&self.folder.join(&file), &grid)?;
+                    file
+                }
+                false => {
+                    let place = (body, names[body].as_str(), count);
+                    let fields = &output.body_fields;
+                    let written = write_pieces(&self.folder, (problem, state), place, fields);
+                    let (file, sums) = written?;
+                    self.sums.extend(sums);
+                    file
+                }
+            };
             parts.push((model.name.clone(), file));
         }
         if parts.is_empty() {
             return Ok(());
         }
         let time = state.time;
-        self.bodies.append(Snapshot { time, parts })
+        on_first(&problem.share, || {
+            self.bodies.append(Snapshot { time, parts })
+        })?;
+        Ok(())
     }
 
     /// Writes the rigid surfaces.

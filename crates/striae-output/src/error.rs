@@ -10,6 +10,14 @@ pub enum OutputError {
     /// A file cannot be written or read.
     #[error(transparent)]
     File(#[from] FileError),
+    /// Another rank of the run has failed.
+    #[error("rank {rank}: {cause}")]
+    Elsewhere {
+        /// The rank.
+        rank: usize,
+        /// What it says.
+        cause: String,
+    },
     /// The content of a file is not what it should be.
     #[error("{}: {cause}", path.display())]
     Content {

@@ -5,13 +5,16 @@
 
 use std::{
     fs::{self, File, TryLockError},
-    io::ErrorKind,
     path::Path,
 };
 
 use striae_files::FileError;
 
-use crate::{OutputError, checkpoint};
+use crate::{
+    OutputError, checkpoint,
+    parts::is_of,
+    removal::{remove_where, removed},
+};
 
 /// What becomes of the results of an earlier run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -90,38 +93,15 @@ fn remove_results(folder: &Path) -> Result<(), OutputError> {
     remove_where(folder, |name| {
         name.starts_with("law-") && name.ends_with(".svg")
     })?;
-    remove_where(&folder.join("fields"), |name| name.ends_with(".vtu"))
-}
-
-fn removed(path: &Path) -> Result<(), OutputError> {
-    match fs::remove_file(path) {
-        Err(cause) if cause.kind() != ErrorKind::NotFound => Err(FileError::Write {
-            path: path.to_owned(),
-            cause,
-        }
-        .into()),
-        _ => Ok(()),
-    }
-}
-
-fn remove_where(folder: &Path, goes: impl Fn(&str) -> bool) -> Result<(), OutputError> {
-    let refused = |cause| FileError::Write {
-        path: folder.to_owned(),
-        cause,
-    };
-    for entry in fs::read_dir(folder).map_err(refused)? {
-        let entry = entry.map_err(refused)?;
-        if goes(&entry.file_name().to_string_lossy()) {
-            removed(&entry.path())?;
-        }
-    }
-    Ok(())
+    remove_where(folder, checkpoint::is_piece)?;
+    remove_where(&folder.join("fields"), |name| {
+        name.ends_with(".vtu") || name.ends_with(".pvtu")
+    })
 }
 
 /// Removes the fields of an increment, which an interrupted run writes out of turn.
 pub(crate) fn remove_fields(folder: &Path, increment: usize) -> Result<(), OutputError> {
-    let end = format!("-{increment:05}.vtu");
-    remove_where(folder, |name| name.ends_with(&end))
+    remove_where(folder, |name| is_of(name, increment))
 }
 
 #[cfg(test)]

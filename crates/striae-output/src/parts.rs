@@ -67,3 +67,40 @@ impl Parts {
 pub(crate) fn file(part: &str, count: usize) -> PathBuf {
     PathBuf::from(format!("fields/{part}-{count:05}.vtu"))
 }
+
+/// The file that names the pieces of a part.
+pub(crate) fn file_of_pieces(part: &str, count: usize) -> PathBuf {
+    PathBuf::from(format!("fields/{part}-{count:05}.pvtu"))
+}
+
+/// The piece of a rank.
+pub(crate) fn piece(part: &str, count: usize, rank: usize) -> PathBuf {
+    PathBuf::from(format!("fields/{part}-{count:05}.{rank}.vtu"))
+}
+
+/// Whether a file is of an increment, whole or a piece.
+pub(crate) fn is_of(name: &str, increment: usize) -> bool {
+    let stem = ["vtu", "pvtu"].into_iter().find_map(|end| {
+        let stem = name.strip_suffix(end)?;
+        stem.strip_suffix('.')
+    });
+    let of = |stem: &str| stem.ends_with(&format!("-{increment:05}"));
+    let is_number = |rank: &str| rank.bytes().all(|byte| byte.is_ascii_digit());
+    stem.is_some_and(|stem| {
+        let piece = stem.rsplit_once('.');
+        of(stem) || piece.is_some_and(|(stem, rank)| is_number(rank) && of(stem))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_of_an_increment_are_known() {
+        for name in ["a-00012.vtu", "a-00012.pvtu", "a-00012.3.vtu"] {
+            assert!(is_of(name, 12) && !is_of(name, 2), "{name}");
+        }
+        assert!(!is_of("a-00012.txt", 12) && !is_of("a-00012.x.vtu", 12));
+    }
+}

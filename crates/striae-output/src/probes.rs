@@ -11,12 +11,17 @@ use striae_element::von_mises;
 use striae_mesh::{Mesh, NodeId, Vec3};
 use striae_solve::{drive::Progress, problem::Problem, state::State};
 
-use crate::{OutputError, Probe, ProbePlace, bodies::stress, history::History};
+use crate::{
+    OutputError, Probe, ProbePlace,
+    bodies::stress,
+    history::History,
+    ranks::{agreed, on_first, told},
+};
 
-/// Probes of a problem and their file.
+/// Probes of a problem and their file, which rank 0 writes.
 pub(crate) struct Probes {
     placed: Vec<Placed>,
-    file: History,
+    file: Option<History>,
 }
 
 struct Placed {
@@ -26,7 +31,7 @@ struct Placed {
 }
 
 impl Probes {
-    /// Finds all probes, and goes on with their file after so many rows.
+    /// Finds all probes, and goes on with their file after so many rows; collective.
     ///
     /// # Errors
     /// What is wrong with the first probe that is nowhere, or when there are no such rows.
@@ -42,11 +47,11 @@ impl Probes {
             path: path.clone(),
             cause,
         })?;
-        let file = History::after(path, rows)?;
+        let file = on_first(&problem.share, || History::after(path, rows))?;
         Ok(Self { placed, file })
     }
 
-    /// Writes the row of an increment.
+    /// Writes the row of an increment; collective.
     pub(crate) fn append(
         &mut self,
         problem: &Problem,
@@ -55,7 +60,11 @@ impl Probes {
     ) -> Result<(), OutputError> {
         let row = self.row(problem, progress, state);
         let named: Vec<(&str, f64)> = row.iter().map(|(n, v)| (n.as_str(), *v)).collect();
-        self.file.append(&named)
+        let appended = self
+            .file
+            .as_mut()
+            .map_or(Ok(()), |file| file.append(&named));
+        agreed(&problem.share, appended)
     }
 
     fn row(&self, problem: &Problem, progress: Progress, state: &State) -> Vec<(String, f64)> {
@@ -82,7 +91,10 @@ impl Placed {
             let body = &probe.body;
             format!("there is no body `{body}`, in which probe `{name}` is")
         })?;
-        let weights = weights(&bodies[body].mesh, &probe.place);
+        let weights = match problem.share.is_alone() {
+            true => weights(&bodies[body].mesh, &probe.place),
+            false => shared_weights(problem, body, &probe.place),
+        };
         Ok(Self {
             name: name.clone(),
             body,
@@ -108,6 +120,10 @@ impl Placed {
             .sum();
         let of_node = |node: &NodeId| stress.get(node.index()).copied().unwrap_or_default();
         let sigma: Matrix3<f64> = weights.map(|(node, weight)| of_node(node) * *weight).sum();
+        let columns = [0, 1, 2].map(|column| sigma.column(column).into_owned());
+        let mut sums = [u, columns[0], columns[1], columns[2]];
+        problem.share.sum_vectors(&mut sums);
+        let (u, sigma) = (sums[0], Matrix3::from_columns(&sums[1..]));
         for (axis, value) in ["x", "y", "z"].iter().zip(u.iter()) {
             row.push((format!("{name}.displacement.{axis}"), *value));
         }
@@ -122,6 +138,43 @@ impl Placed {
             row.push((format!("{name}.stress.{component}"), sigma[at]));
         }
         row.push((format!("{name}.von_mises"), von_mises(&sigma)));
+    }
+}
+
+/// Nodes of a rank with their weights: those of a place in an element are on one rank, those
+/// of a set are with the ranks that own them. Collective.
+fn shared_weights(
+    problem: &Problem,
+    body: usize,
+    place: &ProbePlace,
+) -> Result<Vec<(NodeId, f64)>, String> {
+    let (mesh, share) = (&problem.model.bodies[body].mesh, &problem.share);
+    if let ProbePlace::Nodes(set) = place {
+        let nodes = mesh.node_sets.get(set).map_or(&[][..], |nodes| nodes);
+        let own = nodes.iter();
+        let own = own.filter(|node| share.owns(problem.node(body, **node)));
+        let count = share.sum(own.clone().count() as f64);
+        return match count > 0.0 {
+            true => Ok(own.map(|node| (*node, 1.0 / count)).collect()),
+            false => Err(format!("the body has no node in a set `{set}`")),
+        };
+    }
+    let own = weights(mesh, place);
+    let depth = |weights: &[(NodeId, f64)]| {
+        let values = weights.iter().map(|(_, weight)| *weight);
+        values.fold(f64::INFINITY, f64::min)
+    };
+    let own_depth = own.as_deref().ok().map(depth);
+    let deepest = told(share, &own_depth).into_iter().enumerate();
+    let deepest = deepest.filter_map(|(rank, depth)| depth.map(|depth| (rank, depth)));
+    let better = |best: (usize, f64), next: (usize, f64)| match next.1 > best.1 {
+        true => next,
+        false => best,
+    };
+    match deepest.reduce(better) {
+        Some((rank, _)) if rank == share.team().rank() => own,
+        Some(_) => Ok(Vec::new()),
+        None => own,
     }
 }
 

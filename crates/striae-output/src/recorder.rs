@@ -9,7 +9,8 @@
 //! DIR/contact.pvd           fields of contact surfaces, see [`crate::ContactField`], and wear
 //! DIR/rigid.pvd             rigid surfaces: displacement, texture `s`, structural vector
 //! DIR/ties.pvd              tied surfaces: tractions
-//! DIR/fields/*.vtu          what the collections list
+//! DIR/fields/*.vtu          what the collections list; on several ranks `.pvtu` files of bodies,
+//!                           which name a `.vtu` piece of every rank
 //! DIR/summary.json          how the run ended
 //! DIR/checkpoint.bin        where a run under way is, see [`crate::checkpoint`]
 //! ```
@@ -18,6 +19,9 @@
 //! known then.
 //!
 //! Everything is on disk after each increment.
+//!
+//! Of a run on several ranks all of them have a recorder, whose functions are collective. Each
+//! writes its pieces of the bodies, rank 0 all else, and what fails on one fails on all.
 
 use std::{
     path::{Path, PathBuf},
@@ -27,7 +31,7 @@ use std::{
 use striae_contact::unknowns::NodeResult;
 use striae_solve::{
     drive::Progress, initial::surfaces, newton::Increment, outcome::Ending, problem::Problem,
-    state::State,
+    share::Share, state::State,
 };
 
 use crate::{
@@ -36,7 +40,8 @@ use crate::{
     checksums::{Checksums, check, sum},
     collections::{Collections, Contact},
     folder::{Claim, Existing, remove_fields},
-    history::History,
+    history::{History, Table},
+    ranks::{agreed, from_first, is_first, on_first},
     row::row,
     summary::Summary,
     tally::Tally,
@@ -53,13 +58,16 @@ const ROUND_OFF: f64 = 1e-9;
 
 /// Writes the output of one run.
 pub struct Recorder {
-    _claim: Claim,
+    share: Share,
+    /// Of rank 0.
+    _claim: Option<Claim>,
     folder: PathBuf,
     case: String,
     output: Output,
     /// Seconds spent before a restart.
     spent: f64,
-    history: History,
+    /// Of rank 0.
+    history: Option<History>,
     fields: Collections,
     started: Instant,
     tally: Tally,
@@ -82,9 +90,24 @@ impl Recorder {
         output: Output,
         existing: Existing,
     ) -> Result<Self, OutputError> {
+        Self::shared(&Share::alone(), folder, case, output, existing)
+    }
+
+    /// The same for one of several ranks.
+    ///
+    /// # Errors
+    /// When a file cannot be written, or the folder belongs to other results or another run.
+    pub fn shared(
+        share: &Share,
+        folder: &Path,
+        case: &str,
+        output: Output,
+        existing: Existing,
+    ) -> Result<Self, OutputError> {
         Ok(Self {
-            _claim: Claim::new(folder, existing)?,
-            history: History::create(folder.join("history.csv"))?,
+            share: share.clone(),
+            _claim: on_first(share, || Claim::new(folder, existing))?,
+            history: on_first(share, || History::create(folder.join("history.csv")))?,
             fields: Collections::resumed(folder, &Default::default(), Checksums::new()),
             folder: folder.to_owned(),
             case: case.to_owned(),
@@ -109,17 +132,32 @@ impl Recorder {
         output: Output,
         written: &Written,
     ) -> Result<Self, OutputError> {
-        let claim = Claim::of(folder)?;
-        check(folder, &written.sums)?;
+        Self::resume_shared(&Share::alone(), folder, case, output, written)
+    }
+
+    /// The same for one of several ranks.
+    ///
+    /// # Errors
+    /// When the output is not there, or cannot be written.
+    pub fn resume_shared(
+        share: &Share,
+        folder: &Path,
+        case: &str,
+        output: Output,
+        written: &Written,
+    ) -> Result<Self, OutputError> {
+        let claim = on_first(share, || Claim::of(folder))?;
+        on_first(share, || check(folder, &written.sums))?;
         let fields = written.sums.iter();
         let fields = fields.filter(|(name, _)| !TABLES.contains(&name.as_str()));
         let rows = written.iterations.len();
         if written.fields != Some(rows) {
-            remove_fields(&folder.join("fields"), rows)?;
+            on_first(share, || remove_fields(&folder.join("fields"), rows))?;
         }
         Ok(Self {
+            share: share.clone(),
             _claim: claim,
-            history: History::resume(folder.join("history.csv"), rows)?,
+            history: on_first(share, || History::resume(folder.join("history.csv"), rows))?,
             fields: Collections::resumed(folder, &written.series, fields.cloned().collect()),
             folder: folder.to_owned(),
             case: case.to_owned(),
@@ -140,11 +178,16 @@ impl Recorder {
         })
     }
 
-    /// What is on disk, for a checkpoint.
+    /// What is on disk, for a checkpoint: nothing on ranks but the first.
     ///
     /// # Errors
     /// When a file cannot be read back.
     pub fn written(&self) -> Result<Written, OutputError> {
+        let written = on_first(&self.share, || self.written_here())?;
+        Ok(written.unwrap_or_default())
+    }
+
+    fn written_here(&self) -> Result<Written, OutputError> {
         let tally = &self.tally;
         let mut sums = self.fields.sums().clone();
         for name in TABLES
@@ -215,7 +258,11 @@ impl Recorder {
         self.tally.increment(increment);
         let row = row(problem, progress, increment, self.tally.cut_backs);
         let named: Vec<(&str, f64)> = row.iter().map(|(n, v)| (n.as_str(), *v)).collect();
-        self.history.append(&named)?;
+        let appended = self
+            .history
+            .as_mut()
+            .map_or(Ok(()), |file| file.append(&named));
+        agreed(&self.share, appended)?;
         self.worn.add(&increment.state);
         self.watch(problem, progress, &increment.state)?;
         let is_due = match self.output.fields {
@@ -223,7 +270,8 @@ impl Recorder {
             FieldOutput::Interval(interval) => self.has_passed(interval, increment.state.time),
             FieldOutput::Last => false,
         };
-        match is_due {
+        // Rank 0 knows what has been written.
+        match self.share.any(is_first(&self.share) && is_due) {
             true => self.write_fields(problem, &increment.state),
             false => Ok(()),
         }
@@ -269,8 +317,20 @@ impl Recorder {
         }
         let (case, seconds) = (&self.case, self.seconds());
         let summary = self.tally.summary(case, problem, state, ending, seconds);
-        summary.write(&self.folder.join("summary.json"))?;
+        let file = self.folder.join("summary.json");
+        on_first(&self.share, || summary.write(&file))?;
         Ok(summary)
+    }
+
+    /// The history so far, on all ranks.
+    ///
+    /// # Errors
+    /// When it cannot be read back.
+    pub fn table(&self) -> Result<Table, OutputError> {
+        let file = self.folder.join("history.csv");
+        let read = || Table::read(&file).map(|table| (table.columns, table.rows));
+        let (columns, rows) = from_first(&self.share, read)?;
+        Ok(Table { columns, rows })
     }
 
     fn write_fields(&mut self, problem: &Problem, state: &State) -> Result<(), OutputError> {
@@ -290,14 +350,17 @@ impl Recorder {
     ) -> Result<(), OutputError> {
         let fields = &mut self.fields;
         fields.write_bodies(problem, state, count, &self.output)?;
-        fields.write_rigid(problem, state, count)?;
         let contact = Contact {
             nodes,
             worn: &self.worn,
             elapsed: self.elapsed,
         };
-        fields.write_contact(problem, state, count, &self.output, &contact)?;
-        fields.write_ties(problem, state, count)?;
-        fields.sum_up()
+        let written = on_first(&self.share, || {
+            fields.write_rigid(problem, state, count)?;
+            fields.write_contact(problem, state, count, &self.output, &contact)?;
+            fields.write_ties(problem, state, count)?;
+            fields.sum_up()
+        });
+        written.map(|_| ())
     }
 }

@@ -14,12 +14,18 @@ use striae_solve::{
     state::State,
 };
 
-use crate::{OutputError, Section, history::History, row::add_vector};
+use crate::{
+    OutputError, Section,
+    history::History,
+    ranks::{agreed, on_first},
+    row::add_vector,
+};
 
 /// Sections of a problem and their file.
 pub(crate) struct Sections {
     cuts: Vec<(String, usize, Cut)>,
-    file: History,
+    /// Of rank 0.
+    file: Option<History>,
 }
 
 /// The cut of a mesh that a section is.
@@ -47,11 +53,11 @@ impl Sections {
             path: path.clone(),
             cause,
         })?;
-        let file = History::after(path, rows)?;
+        let file = on_first(&problem.share, || History::after(path, rows))?;
         Ok(Self { cuts, file })
     }
 
-    /// Writes the row of an increment.
+    /// Writes the row of an increment; collective.
     pub(crate) fn append(
         &mut self,
         problem: &Problem,
@@ -72,7 +78,11 @@ impl Sections {
             row.push((format!("{name}.area"), report.area));
         }
         let named: Vec<(&str, f64)> = row.iter().map(|(n, v)| (n.as_str(), *v)).collect();
-        self.file.append(&named)
+        let appended = self
+            .file
+            .as_mut()
+            .map_or(Ok(()), |file| file.append(&named));
+        agreed(&problem.share, appended)
     }
 }
 

@@ -42,7 +42,7 @@ impl Tally {
         self.note_work(&increment.work);
     }
 
-    /// The summary of a run that has ended.
+    /// The summary of a run that has ended; collective.
     pub fn summary(
         &self,
         case: &str,
@@ -68,7 +68,7 @@ impl Tally {
             unknowns: self.unknowns,
             solver: self.solver.clone(),
             wall_s: seconds,
-            peak_rss_mib: peak_rss_mib(),
+            peak_rss_mib: peak_rss_mib().map(|own| problem.share.largest(own)),
             pairs: pairs(problem, state).iter().map(pair_summary).collect(),
             ties: tie_summaries(problem, state),
             reactions: held_reactions(problem, state)

@@ -21,10 +21,7 @@ pub(crate) struct Borders {
 
 impl Borders {
     /// With all unknowns that are others'; `None` where an own one is missing.
-    pub(crate) fn new(
-        library: &Arc<Library>,
-        numbering: &Numbering,
-    ) -> Result<Self, Error> {
+    pub(crate) fn new(library: &Arc<Library>, numbering: &Numbering) -> Result<Self, Error> {
         let mut own = vec![0; numbering.own.len()];
         let mut others = Vec::new();
         for (unknown, whole) in (0..).zip(&numbering.whole) {
@@ -84,12 +81,7 @@ impl Borders {
     }
 
     /// Values of parts to who owns the unknowns.
-    pub(crate) fn collect(
-        &mut self,
-        part: &[f64],
-        own: &mut [f64],
-        sum: Sum,
-    ) -> Result<(), Error> {
+    pub(crate) fn collect(&mut self, part: &[f64], own: &mut [f64], sum: Sum) -> Result<(), Error> {
         for (value, &unknown) in own.iter_mut().zip(&self.own) {
             *value = part[unknown as usize];
         }

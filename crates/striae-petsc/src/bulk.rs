@@ -1,18 +1,18 @@
 //! The bulk that multigrid inverts: symmetric, scaled, stiffened by constraints.
 
 use crate::{
-    binding::{Cycle, Entry, Library, Matrix},
+    binding::{Cycle, Entry, Library, Matrix, Side, sum},
     coupling::Coupling,
     error::Error,
+    finest::{Finest, Problem},
     foreign::{Foreign, exchange},
     nodes::{NONE, Nodes},
+    product::orthonormalise,
 };
 use std::sync::Arc;
 use striae_condensed::{Partition, Tangent};
 use striae_solve::team::Team;
-
-/// Motions of a rigid body.
-const MODES: usize = 6;
+use striae_sparse::aggregation::{MODES, blocks::Blocks};
 
 /// A part of the bulk, as it is scaled.
 pub(crate) struct Bulk<'a> {
@@ -25,35 +25,119 @@ pub(crate) struct Bulk<'a> {
     pub(crate) prescribed: &'a [bool],
 }
 
+/// What takes the place of the inverse.
+#[derive(Debug)]
+pub(crate) enum Inverse {
+    /// What options say.
+    Chosen(Cycle),
+    /// Own aggregates on the finest level.
+    Usual(Box<Finest>),
+}
+
+impl Inverse {
+    /// `x = M^-1 b`.
+    pub(crate) fn apply(&mut self, b: &[f64], x: &mut [f64]) -> Result<(), Error> {
+        match self {
+            Self::Chosen(cycle) => cycle.apply(b, x),
+            Self::Usual(finest) => finest.apply(b, x),
+        }
+    }
+}
+
+/// Rows of this rank's nodes.
+struct Rows<'a> {
+    bulk: &'a Bulk<'a>,
+    foreign: Foreign<9>,
+    coupling: Option<&'a Coupling>,
+}
+
+impl Rows<'_> {
+    /// What the bodies have in the row of an own node.
+    fn add_bodies(&self, k: usize, entries: &mut Vec<Entry<9>>) {
+        let Bulk {
+            nodes, partition, ..
+        } = *self.bulk;
+        let (i, node) = (nodes.supervariables[k] as usize, self.node(k));
+        self.bulk.add_blocks(i, entries);
+        if let Some(others) = self.foreign.get(&node) {
+            entries.extend_from_slice(others);
+        }
+        let mut diagonal = [0.0; 9];
+        for (component, unknown) in partition.bulk_group(i).enumerate() {
+            diagonal[4 * component] = f64::from(self.bulk.prescribed[unknown]);
+        }
+        entries.push((node, diagonal));
+    }
+
+    /// The same with the stiffness of constraints.
+    fn add_stiffened(&self, k: usize, entries: &mut Vec<Entry<9>>) {
+        self.add_bodies(k, entries);
+        if let Some(coupling) = self.coupling {
+            coupling.add_stiffness(k, entries);
+        }
+    }
+
+    /// The block on the diagonal, with that stiffness.
+    fn diagonal(&self, k: usize) -> [f64; 9] {
+        let mut entries = Vec::new();
+        self.add_stiffened(k, &mut entries);
+        sum(&mut entries);
+        let own = entries.iter().find(|entry| entry.0 == self.node(k));
+        own.map_or([0.0; 9], |entry| entry.1)
+    }
+
+    /// What the bodies couple on this rank.
+    fn near(&self) -> Blocks<3, 3, f64> {
+        let nodes = self.bulk.nodes;
+        Blocks::from_rows(nodes.lay.own, nodes.lay.own, |k, row| {
+            let mut entries = Vec::new();
+            self.add_bodies(k, &mut entries);
+            for (column, block) in entries.iter().filter(|entry| nodes.is_own(entry.0)) {
+                let target = row.block(*column as usize - nodes.lay.first);
+                target.iter_mut().zip(block).for_each(|(t, b)| *t += b);
+            }
+        })
+    }
+
+    /// Number of an own node.
+    fn node(&self, k: usize) -> u32 {
+        (self.bulk.nodes.lay.first + k) as u32
+    }
+}
+
 impl Bulk<'_> {
-    /// A cycle in the place of its inverse; `None` where it is not definite.
+    /// What takes the place of its inverse; `None` where it is not definite.
     pub(crate) fn inverse(
         &self,
         library: &Arc<Library>,
         team: &dyn Team,
         coupling: Option<&Coupling>,
-    ) -> Result<Option<Cycle>, Error> {
-        let nodes = self.nodes;
-        let foreign = self.foreign(team);
-        let row = |k: usize, entries: &mut Vec<Entry<9>>| {
-            let (i, node) = (nodes.supervariables[k] as usize, (nodes.lay.first + k) as u32);
-            self.add_blocks(i, entries);
-            if let Some(others) = foreign.get(&node) {
-                entries.extend_from_slice(others);
-            }
-            if let Some(coupling) = coupling {
-                coupling.add_stiffness(k, entries);
-            }
-            let mut diagonal = [0.0; 9];
-            for (component, unknown) in self.partition.bulk_group(i).enumerate() {
-                diagonal[4 * component] = f64::from(self.prescribed[unknown]);
-            }
-            entries.push((node, diagonal));
+    ) -> Result<Option<Inverse>, Error> {
+        let rows = Rows {
+            bulk: self,
+            foreign: self.foreign(team),
+            coupling,
         };
-        let matrix = Matrix::assembled(library, (nodes.lay, 3), row)?;
-        drop(foreign);
-        let kernel = self.near_kernel(team);
-        Cycle::new(matrix, nodes.lay_of_unknowns(), &kernel)
+        let side = Side {
+            blocks: self.nodes.lay,
+            size: 3,
+        };
+        let stiffened = |k: usize, entries: &mut Vec<Entry<9>>| rows.add_stiffened(k, entries);
+        let mut kernel = self.near_kernel(team);
+        if Cycle::is_chosen(library)? {
+            let matrix = Matrix::assembled(library, (side, side), stiffened)?;
+            orthonormalise(team, &mut kernel);
+            return Ok(Cycle::new(matrix, &kernel)?.map(Inverse::Chosen));
+        }
+        let problem = Problem {
+            library,
+            team,
+            side,
+            near: rows.near(),
+            kernel: &kernel,
+        };
+        let finest = Finest::new(problem, stiffened, |k| rows.diagonal(k))?;
+        Ok(finest.map(|finest| Inverse::Usual(Box::new(finest))))
     }
 
     /// What other ranks add to this rank's rows.
@@ -96,7 +180,7 @@ impl Bulk<'_> {
         }
     }
 
-    /// Motions of a rigid body in scaled unknowns of this rank's nodes, orthonormal.
+    /// Motions of a rigid body in scaled unknowns of this rank's nodes.
     fn near_kernel(&self, team: &dyn Team) -> Vec<Vec<f64>> {
         let points = self.partition.points();
         let own = |i: u32| points.map_or([0.0; 3], |points| points[i as usize]);
@@ -110,7 +194,7 @@ impl Bulk<'_> {
         team.largest(&mut ends);
         let size = (0..3).map(|k| ends[k] + ends[k + 3]).fold(0.0, f64::max);
         let size = if size > 0.0 { size } else { 1.0 };
-        let mut kernel = vec![Vec::with_capacity(3 * self.nodes.lay.own); MODES];
+        let mut kernel = vec![Vec::new(); MODES];
         for &i in &self.nodes.supervariables {
             let at = own(i);
             let [x, y, z] = [0, 1, 2].map(|k| (at[k] - 0.5 * (ends[k] - ends[k + 3])) / size);
@@ -129,27 +213,6 @@ impl Bulk<'_> {
                 }
             }
         }
-        orthonormalise(team, &mut kernel);
         kernel
-    }
-}
-
-/// Makes vectors orthonormal, one after the other.
-fn orthonormalise(team: &dyn Team, vectors: &mut [Vec<f64>]) {
-    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    for k in 0..vectors.len() {
-        let (before, own) = vectors.split_at_mut(k);
-        let own = &mut own[0];
-        let mut products: Vec<f64> = before.iter().map(|other| dot(other, own)).collect();
-        team.sum(&mut products);
-        for (other, product) in before.iter().zip(products) {
-            own.iter_mut().zip(other).for_each(|(a, b)| *a -= product * b);
-        }
-        let mut square = [dot(own, own)];
-        team.sum(&mut square);
-        let size = square[0].sqrt();
-        if size > 0.0 {
-            own.iter_mut().for_each(|a| *a /= size);
-        }
     }
 }

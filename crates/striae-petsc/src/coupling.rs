@@ -18,10 +18,8 @@ const SUMMED: usize = 15;
 #[derive(Debug)]
 pub(crate) struct Coupling {
     factors: ContactFactors,
-    /// Stiffness that is added, `(g, s)`, with the places of nodes.
-    stiffening: Vec<(Vec<(u32, [f64; 3])>, f64)>,
-    /// By own node: where it is in the stiffening.
-    incident: HashMap<u32, Vec<(u32, u32)>>,
+    /// Constraints that own nodes are in.
+    incident: HashMap<u32, Vec<Incidence>>,
     /// Nodes, numbered over all ranks.
     nodes: Vec<u32>,
     /// Place of each own node among the own ones, with its place here.
@@ -34,6 +32,15 @@ pub(crate) struct Coupling {
     positions: Vec<f64>,
     single: Vec<f32>,
     multipliers: Vec<f64>,
+}
+
+/// A place of a node in a constraint.
+#[derive(Clone, Copy, Debug)]
+struct Incidence {
+    /// Number of the constraint.
+    constraint: u32,
+    /// Number of the node's entry in it.
+    entry: u32,
 }
 
 /// What all ranks know of the interface.
@@ -77,8 +84,7 @@ impl Coupling {
         }
         let mut gathered = part.gathered(team);
         let (bulk, prescribed) = part.add_nodes(team, &mut gathered);
-        let factors =
-            ContactFactors::new(&gathered.groups, &gathered.entries, bulk, &prescribed)?;
+        let factors = ContactFactors::new(&gathered.groups, &gathered.entries, bulk, &prescribed)?;
         let own = &part.numbering.own;
         let mut own_multipliers = Vec::new();
         for (at, &whole) in (0..).zip(&gathered.multipliers) {
@@ -92,7 +98,12 @@ impl Coupling {
             scaling.rows[place as usize] = factors.scaling().rows[unknown];
             scaling.columns[place as usize] = factors.scaling().columns[unknown];
         }
-        Ok(Some(Self::of(library, part, gathered, (factors, own_multipliers))?))
+        Ok(Some(Self::of(
+            library,
+            part,
+            gathered,
+            (factors, own_multipliers),
+        )?))
     }
 
     fn of(
@@ -102,26 +113,29 @@ impl Coupling {
         (factors, own_multipliers): (ContactFactors, Vec<(u32, u32)>),
     ) -> Result<Self, Error> {
         let first = part.nodes.lay.first as u32;
-        let own = (0..).zip(&gathered.nodes).filter(|&(_, &node)| part.nodes.is_own(node));
+        let own = (0..)
+            .zip(&gathered.nodes)
+            .filter(|&(_, &node)| part.nodes.is_own(node));
         let own_nodes: Vec<(u32, u32)> = own.map(|(at, &node)| (node - first, at)).collect();
-        let stiffening: Vec<_> = factors
-            .stiffening()
-            .map(|added| (added.entries.to_vec(), added.stiffness))
-            .collect();
         let places: HashMap<u32, u32> = own_nodes.iter().map(|&(k, at)| (at, k)).collect();
-        let mut incident: HashMap<u32, Vec<(u32, u32)>> = HashMap::new();
-        for (which, (entries, _)) in (0..).zip(&stiffening) {
-            for (entry, (at, _)) in (0..).zip(entries) {
+        let mut incident: HashMap<u32, Vec<Incidence>> = HashMap::new();
+        for constraint in 0..factors.constraints() {
+            for (entry, (at, _)) in (0..).zip(factors.stiffening(constraint).entries) {
                 if let Some(&k) = places.get(at) {
-                    incident.entry(k).or_default().push((which, entry));
+                    let constraint = constraint as u32;
+                    let place = Incidence { constraint, entry };
+                    incident.entry(k).or_default().push(place);
                 }
             }
         }
-        let wanted: Vec<u32> = gathered.nodes.iter().flat_map(|&n| 3 * n..3 * n + 3).collect();
+        let wanted: Vec<u32> = gathered
+            .nodes
+            .iter()
+            .flat_map(|&n| 3 * n..3 * n + 3)
+            .collect();
         let multipliers = &gathered.multipliers;
         Ok(Self {
             factors,
-            stiffening,
             incident,
             own_nodes,
             own_multipliers,
@@ -139,11 +153,11 @@ impl Coupling {
         let Some(incident) = self.incident.get(&(node as u32)) else {
             return;
         };
-        for &(which, entry) in incident {
-            let (others, stiffness) = &self.stiffening[which as usize];
-            let own = others[entry as usize].1;
-            for &(at, values) in others {
-                let block = std::array::from_fn(|k| stiffness * own[k / 3] * values[k % 3]);
+        for &Incidence { constraint, entry } in incident {
+            let added = self.factors.stiffening(constraint as usize);
+            let own = added.entries[entry as usize].1;
+            for &(at, values) in added.entries {
+                let block = std::array::from_fn(|k| added.stiffness * own[k / 3] * values[k % 3]);
                 entries.push((self.nodes[at as usize], block));
             }
         }
@@ -157,13 +171,15 @@ impl Coupling {
         x: &[f64],
         b: &mut [f64],
     ) -> Result<(), Error> {
-        self.fetch_multipliers.fetch(residual, &mut self.multipliers)?;
+        self.fetch_multipliers
+            .fetch(residual, &mut self.multipliers)?;
         self.fetch_nodes.fetch(x, &mut self.positions)?;
         let pairs = self.single.iter_mut().zip(&self.positions);
         pairs.for_each(|(single, &x)| *single = x as f32);
         self.factors.solve(&self.single, &mut self.multipliers);
         self.single.fill(0.0);
-        self.factors.subtract_forces(&self.multipliers, &mut self.single);
+        self.factors
+            .subtract_forces(&self.multipliers, &mut self.single);
         for &(k, at) in &self.own_nodes {
             for component in 0..3 {
                 let force = self.single[3 * at as usize + component];
@@ -189,7 +205,9 @@ impl Coupling {
 impl Part<'_> {
     /// Groups with multipliers and all entries in their rows and columns, from all ranks.
     fn gathered(&self, team: &dyn Team) -> Gathered {
-        let Self { partition, nodes, .. } = *self;
+        let Self {
+            partition, nodes, ..
+        } = *self;
         let (mut entries, mut groups) = (Vec::new(), Vec::new());
         for Supervariable(i) in partition.kept() {
             for unknown in partition.group(i) {
@@ -211,7 +229,9 @@ impl Part<'_> {
             let tier = partition.tier(Supervariable(i)).0;
             let head = [nodes.of[i], tier, multipliers.len() as u32];
             let each = multipliers.flat_map(|u| [nodes.inner[u], whole[u] as u32]);
-            head.into_iter().chain(each).for_each(|word| groups.extend(word.to_le_bytes()));
+            head.into_iter()
+                .chain(each)
+                .for_each(|word| groups.extend(word.to_le_bytes()));
         }
         let words = |bytes: Vec<u8>| -> Vec<u32> {
             let words = bytes.as_chunks().0.iter();
@@ -233,7 +253,9 @@ impl Part<'_> {
     /// Adds the blocks of the bodies at nodes, and returns factors of their unknowns and
     /// which are prescribed.
     fn add_nodes(&self, team: &dyn Team, gathered: &mut Gathered) -> (Vec<f64>, Vec<bool>) {
-        let Self { partition, nodes, .. } = *self;
+        let Self {
+            partition, nodes, ..
+        } = *self;
         let place: HashMap<u32, usize> = gathered.nodes.iter().copied().zip(0..).collect();
         let mut summed = vec![0.0; SUMMED * gathered.nodes.len()];
         for i in 0..partition.supervariables() {
@@ -314,7 +336,10 @@ impl Gathered {
 
     /// Groups of nodes without multipliers that entries name, and the places of all entries.
     fn add_bare_nodes(&mut self, nodes: &Nodes) {
-        let named = self.entries.iter().flat_map(|&(row, column, _)| [row, column]);
+        let named = self
+            .entries
+            .iter()
+            .flat_map(|&(row, column, _)| [row, column]);
         let mut bare: Vec<u32> = named
             .filter(|&inner| !nodes.is_multiplier(inner))
             .map(|inner| inner / 3)

@@ -1,13 +1,14 @@
 //! MUMPS on the whole matrix, equilibrated, put together from all parts.
 
 use crate::{
-    binding::{Entry, Factors, Made, Matrix, Sum},
+    binding::{Entry, Factors, Made, Matrix, Side, Sum, sum},
     borders::lay,
     error::Error,
     foreign::{exchange, starts},
     iterative::Shared,
-    product::{Product, largest, norm, normalise, place, scale},
+    product::{Product, largest, norm, normalise, place, pseudo_random, scale},
 };
+use rayon::prelude::*;
 use striae_condensed::Tangent;
 use striae_solve::team::Team;
 use striae_sparse::{Age, Equilibration, SolveError, SolveReport, root};
@@ -29,6 +30,8 @@ pub(crate) struct Direct {
     factors: Box<Factors>,
     /// Factors of own unknowns and rows.
     scaling: Equilibration,
+    /// Largest sum of magnitudes in a row.
+    norm: f64,
 }
 
 impl Direct {
@@ -36,7 +39,7 @@ impl Direct {
     pub(crate) fn new(shared: &mut Shared<'_>) -> Result<Self, SolveError> {
         let ranks = shared.ranks;
         let scaling = equilibration(shared)?;
-        let matrix = assembled(shared, &scaling)?;
+        let (matrix, norm) = assembled(shared, &scaling)?;
         let lay = lay(shared.numbering);
         let own = |values: &[f64]| {
             let places = shared.borders.own.iter();
@@ -45,6 +48,7 @@ impl Direct {
         let mut direct = match Factors::of(matrix, lay)? {
             Made::Factors(factors) => Self {
                 factors,
+                norm,
                 scaling: Equilibration {
                     rows: own(&scaling.rows),
                     columns: own(&scaling.columns),
@@ -125,7 +129,6 @@ impl Direct {
     /// projections show the null space.
     fn check_regular(&mut self, team: &dyn Team, first: usize) -> Result<(), SolveError> {
         let own = self.scaling.rows.len();
-        let norm = largest(team, &self.factors.matrix.row_sums);
         let mut left = vec![0.0; own];
         let start: Vec<f64> = (first..first + own).map(pseudo_random).collect();
         self.factors.solve_transposed(&start, &mut left)?;
@@ -137,7 +140,7 @@ impl Direct {
                 break;
             }
             self.factors.matrix.multiply(&right, &mut image)?;
-            let size = largest(team, &image) / norm;
+            let size = largest(team, &image) / self.norm;
             if size <= ROUND_OFF {
                 return Err(SolveError::Singular {
                     unknown: place(team, &right, first),
@@ -184,8 +187,8 @@ fn largest_entries(tangent: &Tangent, scaling: &Equilibration) -> (Vec<f64>, Vec
     (rows, columns)
 }
 
-/// The scaled sum of all parts.
-fn assembled(shared: &Shared<'_>, scaling: &Equilibration) -> Result<Matrix, Error> {
+/// The scaled sum of all parts, and its largest sum of magnitudes in a row.
+fn assembled(shared: &Shared<'_>, scaling: &Equilibration) -> Result<(Matrix, f64), Error> {
     let Shared {
         ranks,
         numbering,
@@ -212,17 +215,15 @@ fn assembled(shared: &Shared<'_>, scaling: &Equilibration) -> Result<Matrix, Err
             entries.extend_from_slice(others);
         }
     };
-    Matrix::assembled(ranks.library(), (lay(numbering), 1), row)
-}
-
-/// A number with a magnitude between one half and one and any sign, the same for a place
-/// however it is reached.
-fn pseudo_random(place: usize) -> f64 {
-    // SplitMix64.
-    let mut z = (place as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    z ^= z >> 31;
-    let magnitude = 0.5 + 0.5 * (z >> 12) as f64 / (1_u64 << 52) as f64;
-    if z & 1 == 0 { magnitude } else { -magnitude }
+    let blocks = lay(numbering);
+    let side = Side { blocks, size: 1 };
+    let sums = (0..own.len()).into_par_iter().with_min_len(256).map(|k| {
+        let mut entries = Vec::new();
+        row(k, &mut entries);
+        sum(&mut entries);
+        entries.iter().map(|entry| entry.1[0].abs()).sum()
+    });
+    let norm = largest(ranks, &sums.collect::<Vec<f64>>());
+    let matrix = Matrix::assembled(ranks.library(), (side, side), row)?;
+    Ok((matrix, norm))
 }

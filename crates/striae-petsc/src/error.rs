@@ -57,7 +57,11 @@ pub(crate) fn agreed<T>(team: &dyn Team, own: Result<T, SolveError>) -> Result<T
     let bytes: Vec<u8> = words.into_iter().flat_map(f64::to_le_bytes).collect();
     let all = team.gather(&bytes);
     let read = |bytes: &Vec<u8>| {
-        let words = bytes.as_chunks().0.iter().map(|&word| f64::from_le_bytes(word));
+        let words = bytes
+            .as_chunks()
+            .0
+            .iter()
+            .map(|&word| f64::from_le_bytes(word));
         error(&words.collect::<Vec<f64>>())
     };
     match (all.iter().find_map(read), own) {

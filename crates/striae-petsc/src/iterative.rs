@@ -5,9 +5,9 @@
 //! is the inverse of the bodies, and all ranks factor the contact system alike.
 
 use crate::{
-    binding::{Cycle, Krylov, Sum},
+    binding::{Krylov, Sum},
     borders::{Borders, lay},
-    bulk::Bulk,
+    bulk::{Bulk, Inverse},
     coupling::{Coupling, Part},
     error::Error,
     nodes::Nodes,
@@ -34,7 +34,7 @@ const SINGULAR: f64 = 1e13;
 #[derive(Debug)]
 pub(crate) struct Iterative {
     krylov: Krylov,
-    cycle: Cycle,
+    inverse: Inverse,
     coupling: Option<Coupling>,
     /// Factors of own unknowns and rows.
     scaling: Equilibration,
@@ -92,13 +92,15 @@ impl Iterative {
             scaling: &factors,
             prescribed: &is_prescribed,
         };
-        let Some(cycle) = bulk.inverse(library, ranks, coupling.as_ref())? else {
+        let Some(inverse) = bulk.inverse(library, ranks, coupling.as_ref())? else {
             return Ok(None);
         };
-        let held = (0..).zip(&places).map(|(at, &u)| (at, prescribed[u as usize]));
+        let held = (0..)
+            .zip(&places)
+            .map(|(at, &u)| (at, prescribed[u as usize]));
         Ok(Some(Self {
             krylov: Krylov::new(library, lay(numbering))?,
-            cycle,
+            inverse,
             coupling,
             scaling,
             prescribed: held.filter(|(_, diagonal)| *diagonal != 0.0).collect(),
@@ -108,9 +110,9 @@ impl Iterative {
         }))
     }
 
-    /// Entries that this rank keeps of the matrices.
+    /// Entries of the contact part that every rank keeps.
     pub(crate) fn entries(&self) -> usize {
-        self.cycle.entries() + self.coupling.as_ref().map_or(0, Coupling::entries)
+        self.coupling.as_ref().map_or(0, Coupling::entries)
     }
 
     /// Solves for own unknowns, of which the `first` is known; the error says how large the residual stays where that takes
@@ -183,7 +185,7 @@ impl Iterative {
     ) -> Result<usize, Error> {
         let Self {
             krylov,
-            cycle,
+            inverse,
             coupling,
             bulk,
             b,
@@ -203,11 +205,11 @@ impl Iterative {
             let places = bulk.iter().map(|&at| v[at as usize]);
             b.iter_mut().zip(places).for_each(|(b, v)| *b = v);
             image.copy_from_slice(v);
-            cycle.apply(b, x)?;
+            inverse.apply(b, x)?;
             if let Some(coupling) = coupling {
                 coupling.solve(v, x, b)?;
                 coupling.put_multipliers(image);
-                cycle.apply(b, x)?;
+                inverse.apply(b, x)?;
             }
             for (&at, x) in bulk.iter().zip(&*x) {
                 image[at as usize] = *x;

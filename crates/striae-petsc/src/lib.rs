@@ -1,13 +1,14 @@
 //! Ranks over MPI, and systems in parts solved by PETSc.
 //!
-//! [`Ranks`] are the [`Team`](striae_solve::team::Team) of a program that was started as
-//! `mpirun -n N ...`. [`PetscSolver`] is the
-//! [`SharedSolver`](striae_condensed::SharedSolver) of systems whose parts the ranks hold:
+//! `Ranks` are the [`Team`](striae_solve::team::Team) of a program that was started as
+//! `mpirun -n N ...`. `PetscSolver` is the [`SharedSolver`](striae_condensed::SharedSolver)
+//! of systems whose parts the ranks hold:
 //!
 //! - by FGMRES. The product with the matrix is the sum of the products of the parts, no
 //!   rank puts a whole row together. The preconditioner is the block factorisation of the
-//!   [iterative solver](striae_condensed): bodies by one cycle of PETSc's algebraic
-//!   multigrid, contact by factors that all ranks make of it alike.
+//!   [iterative solver](striae_condensed): bodies by one cycle of algebraic multigrid,
+//!   contact by factors that all ranks make of it alike. The finest level has aggregates of
+//!   its own, which do not reach over contact; all others are PETSc's (GAMG).
 //! - or by MUMPS, a direct solver, on the matrix put together.
 //!
 //! Without the feature `petsc` this crate is empty, and needs neither library.
@@ -15,9 +16,9 @@
 //! # Options
 //!
 //! PETSc takes its options from the variable `PETSC_OPTIONS` and from what
-//! [`Ranks::start`] is given. Prefixes are `striae_` for FGMRES, `striae_bulk_` for the
+//! `Ranks::start` is given. Prefixes are `striae_` for FGMRES, `striae_bulk_` for the
 //! cycle on the bodies and `striae_direct_` for the direct solver: `-striae_ksp_monitor`
-//! prints residuals, `-striae_bulk_pc_type hypre` takes BoomerAMG.
+//! prints residuals, `-striae_bulk_pc_type hypre` takes BoomerAMG for all levels.
 //!
 //! # Faults
 //!
@@ -39,6 +40,8 @@ mod coupling;
 mod direct;
 #[cfg(feature = "petsc")]
 mod error;
+#[cfg(feature = "petsc")]
+mod finest;
 #[cfg(feature = "petsc")]
 mod foreign;
 #[cfg(feature = "petsc")]

@@ -3,12 +3,7 @@
 //! *Inner* numbers have the bulk first: `3 node + component`, and multipliers after all
 //! nodes. Of nodes and of multipliers every rank owns a range.
 
-use crate::{
-    binding::Lay,
-    borders::Borders,
-    error::Error,
-    foreign::starts,
-};
+use crate::{binding::Lay, borders::Borders, error::Error, foreign::starts};
 use striae_condensed::{Numbering, Partition};
 use striae_solve::team::Team;
 

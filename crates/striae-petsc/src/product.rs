@@ -1,10 +1,6 @@
 //! Products with the sum of all parts.
 
-use crate::{
-    binding::Sum,
-    borders::Borders,
-    error::Error,
-};
+use crate::{binding::Sum, borders::Borders, error::Error};
 use striae_condensed::Tangent;
 use striae_solve::team::Team;
 use striae_sparse::{LinearOperator, RowSums};
@@ -79,7 +75,11 @@ impl<'a> Product<'a> {
                 true => size,
                 false => terms[k] + bound,
             };
-            let error = if residual == 0.0 { 0.0 } else { residual.abs() / size };
+            let error = if residual == 0.0 {
+                0.0
+            } else {
+                residual.abs() / size
+            };
             // `f64::max` would drop an error that is not a number.
             if error > backward_error[0] || error.is_nan() {
                 backward_error[0] = error;
@@ -109,7 +109,13 @@ pub(crate) fn scale(values: &mut [f64], factors: &[f64]) {
 
 /// Largest magnitude on all ranks; what is not a number wins.
 pub(crate) fn largest(team: &dyn Team, own: &[f64]) -> f64 {
-    let larger = |m: f64, v: &f64| if m.is_nan() || v.abs() <= m { m } else { v.abs() };
+    let larger = |m: f64, v: &f64| {
+        if m.is_nan() || v.abs() <= m {
+            m
+        } else {
+            v.abs()
+        }
+    };
     let mut largest = [own.iter().fold(0.0, larger)];
     team.largest(&mut largest);
     largest[0]
@@ -130,5 +136,41 @@ pub(crate) fn place(team: &dyn Team, own: &[f64], first: usize) -> usize {
     let found = own.iter().position(|v| v.abs() >= 0.99 * size);
     let mut least = [found.map_or(f64::NEG_INFINITY, |at| -((first + at) as f64))];
     team.largest(&mut least);
-    if least[0].is_finite() { -least[0] as usize } else { 0 }
+    if least[0].is_finite() {
+        -least[0] as usize
+    } else {
+        0
+    }
+}
+
+/// A number with a magnitude between one half and one and any sign, the same for a place
+/// however it is reached.
+pub(crate) fn pseudo_random(place: usize) -> f64 {
+    // SplitMix64.
+    let mut z = (place as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^= z >> 31;
+    let magnitude = 0.5 + 0.5 * (z >> 12) as f64 / (1_u64 << 52) as f64;
+    if z & 1 == 0 { magnitude } else { -magnitude }
+}
+
+/// Makes vectors orthonormal, one after the other.
+pub(crate) fn orthonormalise(team: &dyn Team, vectors: &mut [Vec<f64>]) {
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    for k in 0..vectors.len() {
+        let (before, own) = vectors.split_at_mut(k);
+        let own = &mut own[0];
+        let mut products: Vec<f64> = before.iter().map(|other| dot(other, own)).collect();
+        team.sum(&mut products);
+        for (other, product) in before.iter().zip(products) {
+            own.iter_mut()
+                .zip(other)
+                .for_each(|(a, b)| *a -= product * b);
+        }
+        let size = norm(team, own);
+        if size > 0.0 {
+            own.iter_mut().for_each(|a| *a /= size);
+        }
+    }
 }

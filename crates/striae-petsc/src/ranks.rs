@@ -121,8 +121,7 @@ impl Ranks {
         let mut all = vec![0.0; total as usize];
         let (from, to) = (starts(&sent), starts(&received));
         let send = mpi::datatype::Partition::new(&out[..], &sent[..], &from[..]);
-        let mut receive =
-            mpi::datatype::PartitionMut::new(&mut all[..], &received[..], &to[..]);
+        let mut receive = mpi::datatype::PartitionMut::new(&mut all[..], &received[..], &to[..]);
         world.all_to_all_varcount_into(&send, &mut receive);
         split(&all, &received)
     }
@@ -180,7 +179,9 @@ impl Team for Ranks {
         for round in 0..self.most(own.len()).div_ceil(most) {
             let part = &own[(round * most).min(own.len())..((round + 1) * most).min(own.len())];
             let parts = self.gather_once(part, 0);
-            all.iter_mut().zip(parts).for_each(|(all, part)| all.extend(part));
+            all.iter_mut()
+                .zip(parts)
+                .for_each(|(all, part)| all.extend(part));
         }
         all
     }
@@ -191,10 +192,13 @@ impl Team for Ranks {
         let longest = parcels.iter().map(Vec::len).max().unwrap_or(0);
         let mut all = vec![Vec::new(); self.0.size];
         for round in 0..self.most(longest).div_ceil(most) {
-            let part = |p: &Vec<f64>| (round * most).min(p.len())..((round + 1) * most).min(p.len());
+            let part =
+                |p: &Vec<f64>| (round * most).min(p.len())..((round + 1) * most).min(p.len());
             let parts: Vec<&[f64]> = parcels.iter().map(|p| &p[part(p)]).collect();
             let parts = self.exchange_once(&parts);
-            all.iter_mut().zip(parts).for_each(|(all, part)| all.extend(part));
+            all.iter_mut()
+                .zip(parts)
+                .for_each(|(all, part)| all.extend(part));
         }
         all
     }

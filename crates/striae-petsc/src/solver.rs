@@ -140,7 +140,10 @@ impl PetscSolver {
     /// What is wrong with a matrix of this rank, as others cannot know.
     fn check(&self, part: &Tangent) -> Result<(), SolveError> {
         let system = self.system.as_ref().ok_or(SolveError::NotAnalysed)?;
-        let is_known = system.partition.structure().same_as(part.bodies.structure())
+        let is_known = system
+            .partition
+            .structure()
+            .same_as(part.bodies.structure())
             && part.contact.unknowns() == system.partition.unknowns();
         if !is_known {
             return Err(SolveError::NotAnalysed);
@@ -207,7 +210,10 @@ impl SharedSolver for PetscSolver {
     ) -> Result<Analysis, SolveError> {
         self.system = None;
         let ranks = &self.ranks;
-        let own = numbering.whole.iter().filter(|whole| numbering.own.contains(whole));
+        let own = numbering
+            .whole
+            .iter()
+            .filter(|whole| numbering.own.contains(whole));
         let is_whole = numbering.whole.len() == partition.unknowns()
             && own.count() == numbering.own.len()
             && numbering.count < i32::MAX as usize;

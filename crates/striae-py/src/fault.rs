@@ -47,8 +47,11 @@ pub fn raised(error: Error, place: &str) -> PyErr {
         | Error::Checkpoint(_)
         | Error::Figure(_)
         | Error::File(_)
+        | Error::Division(_)
+        | Error::Elsewhere { .. }
         | Error::NotCompleted => PyRuntimeError::new_err(error.to_string()),
         Error::Problem(_)
+        | Error::NotTogether
         | Error::Mesh(_)
         | Error::MeshFile(_)
         | Error::Friction(_)

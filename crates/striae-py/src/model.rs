@@ -286,6 +286,7 @@ fn settings((backend, tolerance, largest_iterations): Solver) -> model::Solver {
             "multifrontal" => Backend::Multifrontal,
             "faer" => Backend::Faer,
             "iterative" => Backend::Iterative,
+            "mumps" => Backend::Mumps,
             _ => Backend::Condensed,
         },
         tolerance,

@@ -1,4 +1,6 @@
 //! Steps and increments.
+//!
+//! Longer than other files, as it is the whole course of a run.
 
 use serde::{Deserialize, Serialize};
 use striae_contact::{
@@ -176,6 +178,30 @@ struct Division {
 }
 
 impl Division {
+    /// An increment up to a fraction of the step has converged.
+    fn converged(&mut self, fraction: f64, increment: &Increment, largest: f64) {
+        self.count += 1;
+        self.done = fraction;
+        self.search.clear();
+        if increment.iterations.len() <= EASY {
+            self.size = (self.size * GROWTH).min(largest);
+        }
+    }
+
+    /// The point that a step has come to in `state`.
+    fn point(&self, context: &StepContext, state: &State, workspace: &Workspace) -> Point {
+        Point {
+            step: context.index,
+            increments: self.count,
+            fraction: self.done,
+            size: self.size,
+            search: self.search.clone(),
+            start: context.start.clone(),
+            state: state.clone(),
+            memory: workspace.memory(),
+        }
+    }
+
     /// After bodies have gone through each other, the next attempt looks for contact from
     /// the start on over the distance that they went.
     fn look_farther(&mut self, context: &StepContext, reason: &CutBack) {
@@ -242,32 +268,11 @@ fn run_step(
             fraction,
             time: context.start.time + fraction * step.duration,
         };
-        let attempt = match not_bridged(context, state, fraction) {
-            Some(reason) => Err(reason),
-            None if division.search.is_empty() => {
-                advance(context, state, fraction, progress.time, workspace, observer)
-            }
-            None => {
-                let context = context.looking(&division.search);
-                advance(
-                    &context,
-                    state,
-                    fraction,
-                    progress.time,
-                    workspace,
-                    observer,
-                )
-            }
-        };
-        let next = match attempt {
+        let attempted = attempted(context, state, progress, division, (workspace, observer));
+        let next = match attempted {
             Ok(increment) => {
-                division.count += 1;
-                division.done = fraction;
-                division.search.clear();
-                if increment.iterations.len() <= EASY {
-                    division.size = (division.size * GROWTH).min(step.increments.largest);
-                }
                 let next = observer.increment(progress, &increment);
+                division.converged(fraction, &increment, step.increments.largest);
                 *state = increment.state;
                 next
             }
@@ -278,37 +283,51 @@ fn run_step(
                 division.size = (fraction - division.done) * CUT;
                 let helps = reason.remedy() == Remedy::SmallerIncrement;
                 if !helps || division.size < step.increments.smallest {
-                    let limit = || at_limit(context, state, division.done);
-                    let is_named = matches!(reason, CutBack::NotBridged { .. });
-                    let limit = if is_named { None } else { limit() };
-                    let reason = limit.unwrap_or(reason);
-                    return Some(Ending::Stopped {
-                        step: step.name.clone(),
-                        time: state.time,
-                        reason,
-                    });
+                    return Some(stopped(context, state, division.done, reason));
                 }
                 next
             }
         };
         let next = next.together(&context.problem.share);
         if next != Continue::Yes {
-            observer.point(Point {
-                step: context.index,
-                increments: division.count,
-                fraction: division.done,
-                size: division.size,
-                search: division.search.clone(),
-                start: context.start.clone(),
-                state: state.clone(),
-                memory: workspace.memory(),
-            });
+            observer.point(division.point(context, state, workspace));
         }
         if next == Continue::Stop {
             return Some(Ending::Interrupted { time: state.time });
         }
     }
     None
+}
+
+/// An increment to where a step is to come to.
+fn attempted(
+    context: &StepContext,
+    state: &State,
+    progress: Progress,
+    division: &Division,
+    (workspace, observer): (&mut Workspace, &mut dyn Observer),
+) -> Result<Increment, CutBack> {
+    let Progress { fraction, time, .. } = progress;
+    if let Some(reason) = not_bridged(context, state, fraction) {
+        return Err(reason);
+    }
+    if division.search.is_empty() {
+        return advance(context, state, fraction, time, workspace, observer);
+    }
+    let context = context.looking(&division.search);
+    advance(&context, state, fraction, time, workspace, observer)
+}
+
+/// The end of a run in which no increment beyond `state` is possible.
+fn stopped(context: &StepContext, state: &State, reached: f64, reason: CutBack) -> Ending {
+    let is_named = matches!(reason, CutBack::NotBridged { .. });
+    let limit = || at_limit(context, state, reached);
+    let limit = if is_named { None } else { limit() };
+    Ending::Stopped {
+        step: context.problem.model.steps[context.index].name.clone(),
+        time: state.time,
+        reason: limit.unwrap_or(reason),
+    }
 }
 
 /// The motion that nothing holds, if that is why there is no equilibrium beyond `state`.

@@ -481,4 +481,6 @@ pub enum Backend {
     Faer,
     /// GMRES, the bodies by smoothed aggregation; direct factors where that fails.
     Iterative,
+    /// MUMPS, a direct solver of several ranks; multifrontal LU on one rank without them.
+    Mumps,
 }

@@ -29,7 +29,7 @@ pub use course::Course;
 pub use work::{LinearWork, Times};
 pub use workspace::{Memory, Workspace};
 
-pub use striae_condensed::{Analysis, Experience, FactoredInterior};
+pub use striae_condensed::{Analysis, Experience, FactoredInterior, SharedSolver};
 use striae_contact::{
     complementarity::Iteration, evaluation::Evaluation, interference::Interference,
     segment::Derivatives,

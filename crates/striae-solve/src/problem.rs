@@ -228,72 +228,36 @@ pub(crate) fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, 
     let mut faces = [Vec::new(), Vec::new()];
     let mut rigid = None;
     let mut rigid_reference = Vec::new();
-    let mut sides = Vec::with_capacity(2);
-    for (index, side) in [&pair.a, &pair.b].into_iter().enumerate() {
-        sides.push(match side {
-            ContactSurface::Deformable {
-                body,
-                faces: of_side,
-            } => {
-                bodies[index] = Some(body.0);
-                faces[index] = of_side.iter().copied().map(Some).collect();
-                deformable(model, body.0, of_side)
-            }
-            ContactSurface::Rigid(surface) => {
-                rigid = Some(surface.0);
-                let geometry = match &model.rigid_surfaces[surface.0].shape {
-                    RigidShape::Plane { point, normal } => Geometry::Plane {
-                        point: *point,
-                        normal: normal.normalize(),
-                    },
-                    RigidShape::Bare => {
-                        return Err(ProblemError::BareSide {
-                            pair: pair.name.clone(),
-                            rigid: model.rigid_surfaces[surface.0].name.clone(),
-                        });
-                    }
-                    RigidShape::Facets { positions, facets } => {
-                        let surface = Surface::new(facets);
-                        rigid_reference = surface
-                            .nodes()
-                            .iter()
-                            .map(|n| positions[n.index()])
-                            .collect();
-                        Geometry::Rigid(surface)
-                    }
-                };
-                PairedSurface {
-                    geometry,
-                    stiffness: f64::INFINITY,
-                    texture: None,
-                }
-            }
-        });
-    }
+    let mut side = |index: usize, surface: &ContactSurface| match surface {
+        ContactSurface::Deformable {
+            body,
+            faces: of_side,
+        } => {
+            bodies[index] = Some(body.0);
+            faces[index] = of_side.iter().copied().map(Some).collect();
+            Ok(deformable(model, body.0, of_side))
+        }
+        ContactSurface::Rigid(surface) => {
+            rigid = Some(surface.0);
+            let (geometry, reference) = rigid_geometry(model, pair, surface.0)?;
+            rigid_reference = reference;
+            Ok(PairedSurface {
+                geometry,
+                stiffness: f64::INFINITY,
+                texture: None,
+            })
+        }
+    };
+    let mut sides = [side(0, &pair.a)?, side(1, &pair.b)?];
     let mut conditionings = [None, None];
     for (index, paint) in pair.textures.iter().enumerate() {
-        if let Some(paint) = paint {
-            let positions = side_positions(
-                model,
-                bodies[index],
-                &sides[index].geometry,
-                &rigid_reference,
-            );
-            let (texture, conditioning) = painted(
-                model,
-                pair,
-                index,
-                &sides[index].geometry,
-                &positions,
-                paint,
-            )?;
-            sides[index].texture = Some(texture);
-            conditionings[index] = conditioning;
-        }
+        let Some(paint) = paint else { continue };
+        let geometry = &sides[index].geometry;
+        let positions = side_positions(model, bodies[index], geometry, &rigid_reference);
+        let (texture, conditioning) = painted(model, pair, index, geometry, &positions, paint)?;
+        sides[index].texture = Some(texture);
+        conditionings[index] = conditioning;
     }
-    let (Some(b), Some(a)) = (sides.pop(), sides.pop()) else {
-        unreachable!("two sides were pushed");
-    };
     if bodies[0].is_none() {
         return Err(ProblemError::RigidSide {
             pair: pair.name.clone(),
@@ -302,7 +266,7 @@ pub(crate) fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, 
     Ok(PairGeometry {
         contact: ContactPair {
             name: pair.name.clone(),
-            sides: [a, b],
+            sides,
             enforcement: pair.enforcement,
             search_distance: pair.search_distance,
         },
@@ -313,6 +277,33 @@ pub(crate) fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, 
         conditionings,
         fibres: [Vec::new(), Vec::new()],
     })
+}
+
+/// Geometry of a rigid surface, and the reference positions of its nodes.
+fn rigid_geometry(
+    model: &Model,
+    pair: &Pair,
+    surface: usize,
+) -> Result<(Geometry, Vec<Vec3>), ProblemError> {
+    match &model.rigid_surfaces[surface].shape {
+        RigidShape::Plane { point, normal } => {
+            let plane = Geometry::Plane {
+                point: *point,
+                normal: normal.normalize(),
+            };
+            Ok((plane, Vec::new()))
+        }
+        RigidShape::Bare => Err(ProblemError::BareSide {
+            pair: pair.name.clone(),
+            rigid: model.rigid_surfaces[surface].name.clone(),
+        }),
+        RigidShape::Facets { positions, facets } => {
+            let surface = Surface::new(facets);
+            let nodes = surface.nodes().iter();
+            let reference = nodes.map(|n| positions[n.index()]).collect();
+            Ok((Geometry::Rigid(surface), reference))
+        }
+    }
 }
 
 /// Reference positions of the surface nodes of a side; none for a plane.

@@ -11,10 +11,13 @@
 
 mod aggregates;
 pub mod blocks;
+mod coarsening;
 mod coarsest;
 mod level;
 mod packed;
 mod prolongator;
+
+pub use coarsening::{Coarsening, NONE};
 
 use blocks::Blocks;
 use coarsest::Coarsest;

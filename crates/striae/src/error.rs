@@ -38,6 +38,22 @@ pub enum Error {
         /// Bytes that there are.
         available: f64,
     },
+    /// The solver is not among those of a run on one rank.
+    #[error(
+        "`backend = \"mumps\"` needs PETSc: build with `--features petsc` and run with `--petsc` or under `mpirun`; `backend = \"multifrontal\"` is a direct solver that needs neither"
+    )]
+    NotTogether,
+    /// The model cannot be divided among ranks.
+    #[error("the model cannot be divided among ranks: {0}")]
+    Division(String),
+    /// Another rank failed.
+    #[error("rank {rank}: {cause}")]
+    Elsewhere {
+        /// Which one.
+        rank: usize,
+        /// What it says.
+        cause: String,
+    },
     /// A run cannot be taken up again.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),

@@ -204,6 +204,7 @@ mod log;
 pub mod measurements;
 mod observer;
 pub mod prelude;
+mod ranks;
 mod results;
 mod simulation;
 
@@ -212,6 +213,7 @@ pub use interrupt::{Before, Interrupt};
 pub use nalgebra;
 pub use num_dual;
 pub use observer::{Converged, Next, Observer};
+pub use ranks::Ranks;
 pub use results::{PairSide, Results};
 pub use simulation::{Finished, Simulation, case_name};
 pub use striae_contact as contact;

@@ -15,6 +15,7 @@ use striae_solve::{
     newton::{Increment, Memory as Grown},
     outcome::Ending,
     problem::Problem,
+    share::Share,
     state::State,
 };
 
@@ -52,7 +53,11 @@ pub(crate) struct Files {
 
 impl Log {
     /// The log of a run that begins.
-    pub(crate) fn new(recording: Option<Recording>, output: Output) -> Result<Self, OutputError> {
+    pub(crate) fn new(
+        share: &Share,
+        recording: Option<Recording>,
+        output: Output,
+    ) -> Result<Self, OutputError> {
         let Some(recording) = recording else {
             return Ok(Self::Memory(Box::new(Memory {
                 started: Instant::now(),
@@ -63,7 +68,8 @@ impl Log {
                 },
             })));
         };
-        let recorder = Recorder::create(
+        let recorder = Recorder::shared(
+            share,
             &recording.folder,
             &recording.case,
             output,
@@ -77,12 +83,13 @@ impl Log {
 
     /// The log of a run that goes on.
     pub(crate) fn resumed(
+        share: &Share,
         recording: Recording,
         output: Output,
         written: &Written,
     ) -> Result<Self, CheckpointError> {
         let Recording { folder, case, .. } = &recording;
-        let recorder = Recorder::resume(folder, case, output, written)?;
+        let recorder = Recorder::resume_shared(share, folder, case, output, written)?;
         Ok(Self::Files(Box::new(Files {
             recorder,
             recording,
@@ -140,7 +147,7 @@ impl Log {
     }
 
     /// Writes a checkpoint, where there are any.
-    pub(crate) fn point(&self, point: Point) -> Result<(), OutputError> {
+    pub(crate) fn point(&self, problem: &Problem, point: Point) -> Result<(), OutputError> {
         let Self::Files(files) = self else {
             return Ok(());
         };
@@ -152,7 +159,7 @@ impl Log {
             written: files.recorder.written()?,
             point,
         };
-        checkpoint.write(&files.recording.folder)
+        checkpoint.write_shared(&files.recording.folder, problem)
     }
 
     /// Writes the checkpoint of the end of a run, from which it can go on with other
@@ -186,7 +193,7 @@ impl Log {
                 memory: Grown::default(),
             },
         };
-        checkpoint.write_end(&files.recording.folder)
+        checkpoint.write_end(&files.recording.folder, problem)
     }
 
     /// Summary and history of a run that has ended.
@@ -210,10 +217,9 @@ impl Log {
                 } = *files;
                 let summary = recorder.finish(problem, state, ending)?;
                 if *ending == Ending::Completed {
-                    Checkpoint::remove(&recording.folder)?;
+                    Checkpoint::remove_shared(&recording.folder, &problem.share)?;
                 }
-                let history = Table::read(&recording.folder.join("history.csv"))?;
-                Ok((summary, history))
+                Ok((summary, recorder.table()?))
             }
         }
     }

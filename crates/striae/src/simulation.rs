@@ -7,9 +7,12 @@
 //!           ::resume(folder)   a run that was stopped
 //!           ::after(run, steps) a run that has ended, with further steps
 //!           ::resume_with(folder, deck) a run with the steps of another deck
+//!           ::open_on(ranks, path), ::resume_on(ranks, folder)  the same on several ranks
 //!     .writing(output).recorded(folder, case).until(interrupt)
 //!     .run() or .run_with(observer) -> Finished
 //! ```
+//!
+//! Longer than other files, as all ways to begin a run are in one place.
 
 mod branch;
 mod watch;
@@ -24,7 +27,7 @@ use striae_model::{Model, StepBuilder, Validate, extended};
 use striae_output::{
     Existing, Output, available_bytes,
     checkpoint::{
-        self, Checkpoint, CheckpointError, Source, Written, fingerprint, part_fingerprints,
+        self, Checkpoint, CheckpointError, Index, Source, Written, fingerprint, part_fingerprints,
         step_fingerprints,
     },
     history::Table,
@@ -32,8 +35,11 @@ use striae_output::{
 };
 use striae_solve::{
     drive::{self, Point},
+    model::Backend,
+    newton::Workspace,
     outcome::Ending,
     problem::Problem,
+    share::Division,
     state::State,
 };
 
@@ -44,6 +50,7 @@ use crate::{
     interrupt::Interrupt,
     log::{Log, Recording},
     observer::Observer,
+    ranks::{Ranks, agreed},
     results::Results,
 };
 use watch::Watch;
@@ -56,6 +63,7 @@ pub struct Simulation {
     recording: Option<Recording>,
     begun: Begun,
     interrupt: Interrupt,
+    ranks: Option<Arc<dyn Ranks>>,
 }
 
 /// Where a run begins.
@@ -109,19 +117,34 @@ impl Simulation {
     /// # Errors
     /// All faults of the model, or why it cannot be solved.
     pub fn new(model: Model) -> Result<Self, Error> {
-        Self::of_valid(model.checked()?)
+        Self::of_valid(None, model.checked()?)
     }
 
-    fn of_valid(model: Model) -> Result<Self, Error> {
-        if let Some(available) = available_bytes() {
-            Cost::estimated(&model).fits(available)?;
-        }
+    fn of_valid(ranks: Option<Arc<dyn Ranks>>, model: Model) -> Result<Self, Error> {
+        let problem = match &ranks {
+            None => {
+                if model.solver.backend == Backend::Mumps {
+                    return Err(Error::NotTogether);
+                }
+                if let Some(available) = available_bytes() {
+                    Cost::estimated(&model).fits(available)?;
+                }
+                Problem::new(model)?
+            }
+            Some(ranks) => {
+                let team = ranks.team();
+                let division = Division::agreed(&model, &*team)
+                    .map_err(|error| Error::Division(error.to_string()))?;
+                Problem::shared(model, &division, team)?
+            }
+        };
         Ok(Self {
-            problem: Arc::new(Problem::new(model)?),
+            problem: Arc::new(problem),
             output: Output::default(),
             recording: None,
             begun: Begun::Undeformed,
             interrupt: Interrupt::default(),
+            ranks,
         })
     }
 
@@ -130,7 +153,11 @@ impl Simulation {
     /// # Errors
     /// When its model cannot be solved.
     pub fn of(deck: Deck) -> Result<Self, Error> {
-        Ok(Self::of_valid(deck.model)?.writing(deck.output))
+        Self::of_on(None, deck)
+    }
+
+    fn of_on(ranks: Option<Arc<dyn Ranks>>, deck: Deck) -> Result<Self, Error> {
+        Ok(Self::of_valid(ranks, deck.model)?.writing(deck.output))
     }
 
     /// A run of a deck in a file, written to `folder` with checkpoints, so that it
@@ -141,6 +168,42 @@ impl Simulation {
     pub fn open(deck: &Path, folder: impl Into<PathBuf>) -> Result<Self, Error> {
         let simulation = Self::of(striae_deck::read(deck)?)?;
         Ok(simulation.resumable(folder, case_name(deck), deck))
+    }
+
+    /// The same on several ranks, each of which reads the deck; collective. Results of the
+    /// run are those of what this rank holds, history and summary those of the whole.
+    ///
+    /// # Errors
+    /// As [`Self::open`], on all ranks.
+    pub fn open_on(
+        ranks: Arc<dyn Ranks>,
+        deck: &Path,
+        folder: impl Into<PathBuf>,
+    ) -> Result<Self, Error> {
+        let path = deck;
+        let read = striae_deck::read(path).map_err(Error::from);
+        let deck = agreed(Some(&ranks), read)?;
+        let source = source(case_name(path), path, &deck.model, &deck.output);
+        let simulation = Self::of_on(Some(ranks), deck)?;
+        let case = source.case.clone();
+        Ok(simulation.recorded(folder, case).with_source(source))
+    }
+
+    /// Goes on on several ranks, however many wrote the checkpoint; collective.
+    ///
+    /// # Errors
+    /// As [`Self::resume`], on all ranks.
+    pub fn resume_on(ranks: Arc<dyn Ranks>, folder: &Path) -> Result<Self, Error> {
+        let read = || -> Result<(Index, Deck), Error> {
+            let index = Index::read(folder)?;
+            let deck = striae_deck::read(&index.source().path)?;
+            index.source().check(&deck.model, &deck.output)?;
+            Ok((index, deck))
+        };
+        let (index, deck) = agreed(Some(&ranks), read())?;
+        let simulation = Self::of_on(Some(ranks), deck)?;
+        let checkpoint = index.held(&simulation.problem)?;
+        Ok(simulation.stopped_at(checkpoint, folder))
     }
 
     /// Goes on with a run from the checkpoint in its folder, to the same results to
@@ -159,26 +222,31 @@ impl Simulation {
     /// # Errors
     /// When the deck is not that of the checkpoint.
     pub fn resume_from(deck: Deck, checkpoint: Checkpoint, folder: &Path) -> Result<Self, Error> {
+        checkpoint.source.check(&deck.model, &deck.output)?;
+        let simulation = Self::of(deck)?;
+        let states = [&checkpoint.point.start, &checkpoint.point.state];
+        if !(states.iter()).all(|state| state.remembers_as(&simulation.problem)) {
+            let path = folder.join(checkpoint::FILE);
+            return Err(CheckpointError::Damaged { path }.into());
+        }
+        Ok(simulation.stopped_at(checkpoint, folder))
+    }
+
+    /// A run that goes on from a checkpoint that fits it.
+    fn stopped_at(mut self, checkpoint: Checkpoint, folder: &Path) -> Self {
         let Checkpoint {
             source,
             written,
             point,
         } = checkpoint;
-        source.check(&deck.model, &deck.output)?;
-        let mut simulation = Self::of(deck)?;
-        let states = [&point.start, &point.state];
-        if !(states.iter()).all(|state| state.remembers_as(&simulation.problem)) {
-            let path = folder.join(checkpoint::FILE);
-            return Err(CheckpointError::Damaged { path }.into());
-        }
-        simulation.recording = Some(Recording {
+        self.recording = Some(Recording {
             folder: folder.to_owned(),
             case: source.case.clone(),
             source: Some(source),
             existing: Existing::Keep,
         });
-        simulation.begun = Begun::Stopped(Box::new((written, point)));
-        Ok(simulation)
+        self.begun = Begun::Stopped(Box::new((written, point)));
+        self
     }
 
     /// Goes on from the end of a completed run with further steps. Times and numbers of
@@ -192,7 +260,7 @@ impl Simulation {
             return Err(Error::NotCompleted);
         }
         let model = &run.problem.model;
-        let mut simulation = Self::of_valid(extended(model.clone(), steps)?)?;
+        let mut simulation = Self::of_valid(None, extended(model.clone(), steps)?)?;
         let begun = (model.steps.len(), run.increments, run.state.clone());
         simulation.begun = Begun::After(Box::new(begun));
         Ok(simulation)
@@ -223,18 +291,15 @@ impl Simulation {
         deck: &Path,
     ) -> Self {
         let case = case.into();
-        let source = Source {
-            case: case.clone(),
-            path: std::path::absolute(deck).unwrap_or_else(|_| deck.to_owned()),
-            fingerprint: fingerprint(&self.problem.model, &self.output),
-            parts: part_fingerprints(&self.problem.model),
-            steps: step_fingerprints(&self.problem.model),
-        };
-        let mut simulation = self.recorded(folder, case);
-        if let Some(recording) = &mut simulation.recording {
+        let source = source(case.clone(), deck, &self.problem.model, &self.output);
+        self.recorded(folder, case).with_source(source)
+    }
+
+    fn with_source(mut self, source: Source) -> Self {
+        if let Some(recording) = &mut self.recording {
             recording.source = Some(source);
         }
-        simulation
+        self
     }
 
     /// What becomes of results that are in the folder already; without a word they stay,
@@ -276,19 +341,9 @@ impl Simulation {
             recording,
             begun,
             interrupt,
+            ranks,
         } = self;
-        let mut log = match (recording, &begun) {
-            (Some(recording), Begun::Stopped(stopped)) => {
-                Log::resumed(recording, output, &stopped.0)?
-            }
-            (recording, _) => {
-                let log = Log::new(recording.clone(), output)?;
-                if let Some(recording) = &recording {
-                    beside::write(recording, &problem.model)?;
-                }
-                log
-            }
-        };
+        let mut log = log(&problem, output, recording, &begun, ranks.as_ref())?;
         let (start, before) = match &begun {
             Begun::Undeformed => (State::undeformed(&problem), 0),
             Begun::After(after) => (after.2.clone(), after.1),
@@ -308,14 +363,19 @@ impl Simulation {
             increments: before,
             failure: None,
         };
+        let backend = problem.model.solver.backend;
+        let workspace = match &ranks {
+            None => Workspace::new(backend),
+            Some(ranks) => Workspace::shared(ranks.solver(backend)),
+        };
         let (state, ending) = match begun {
-            Begun::Undeformed => drive::run(&problem, start, &mut watch),
+            Begun::Undeformed => drive::run_in(workspace, &problem, (0, 0), start, &mut watch),
             Begun::After(after) => {
-                let (steps, increments, _) = *after;
-                drive::run_after(&problem, steps, start, increments, &mut watch)
+                let done = (after.0, after.1);
+                drive::run_in(workspace, &problem, done, start, &mut watch)
             }
-            Begun::Within(point) => drive::resume(&problem, *point, &mut watch),
-            Begun::Stopped(stopped) => drive::resume(&problem, stopped.1, &mut watch),
+            Begun::Within(point) => drive::resume_in(workspace, &problem, *point, &mut watch),
+            Begun::Stopped(stopped) => drive::resume_in(workspace, &problem, stopped.1, &mut watch),
         };
         let Watch {
             log,
@@ -340,6 +400,38 @@ impl Simulation {
             summary,
             history,
         })
+    }
+}
+
+/// The record of a run that begins or goes on.
+fn log(
+    problem: &Problem,
+    output: Output,
+    recording: Option<Recording>,
+    begun: &Begun,
+    ranks: Option<&Arc<dyn Ranks>>,
+) -> Result<Log, Error> {
+    let share = &problem.share;
+    if let (Some(recording), Begun::Stopped(stopped)) = (&recording, begun) {
+        return Ok(Log::resumed(share, recording.clone(), output, &stopped.0)?);
+    }
+    let log = Log::new(share, recording.clone(), output)?;
+    if let Some(recording) = &recording {
+        let is_first = share.team().rank() == 0;
+        let written = is_first.then(|| beside::write(recording, &problem.model));
+        agreed(ranks, written.unwrap_or(Ok(())))?;
+    }
+    Ok(log)
+}
+
+/// What a checkpoint knows of a deck.
+fn source(case: String, deck: &Path, model: &Model, output: &Output) -> Source {
+    Source {
+        case,
+        path: std::path::absolute(deck).unwrap_or_else(|_| deck.to_owned()),
+        fingerprint: fingerprint(model, output),
+        parts: part_fingerprints(model),
+        steps: step_fingerprints(model),
     }
 }
 

@@ -42,7 +42,14 @@ const LADDER: &[Row] = &[
     Row {
         name: "striae-contact",
         own: &["striae-law", "striae-mesh", "striae-surface"],
-        outside: &["nalgebra", "num-dual", "rayon", "serde", "thiserror"],
+        outside: &[
+            "nalgebra",
+            "num-dual",
+            "pulp",
+            "rayon",
+            "serde",
+            "thiserror",
+        ],
     },
     Row {
         name: "striae-sparse",
@@ -66,6 +73,11 @@ const LADDER: &[Row] = &[
             "striae-surface",
         ],
         outside: &["nalgebra", "num-dual", "rayon", "serde", "thiserror"],
+    },
+    Row {
+        name: "striae-petsc",
+        own: &["striae-condensed", "striae-solve", "striae-sparse"],
+        outside: &["mpi", "rayon", "thiserror"],
     },
     Row {
         name: "striae-model",
@@ -191,6 +203,7 @@ const LADDER: &[Row] = &[
             "striae-law",
             "striae-mesh",
             "striae-output",
+            "striae-petsc",
             "striae-report",
             "striae-solve",
             "striae-surface",

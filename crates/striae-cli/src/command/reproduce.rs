@@ -23,6 +23,7 @@ use crate::{
     failure::Failure,
     interrupt::listen,
     progress::{Progress, Verbosity},
+    ranks::Voices,
 };
 
 /// Run cases with known results and compare.
@@ -68,7 +69,7 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     if arguments.list {
         return list(out);
     }
-    arguments.common.start_threads()?;
+    arguments.common.start_threads(Voices::Alone)?;
     let interrupt = listen();
     let mut failed = Vec::new();
     for case in cases {

@@ -9,8 +9,11 @@ use std::{
 use striae::{Simulation, case_name};
 use striae_output::Existing;
 
-use super::run::{Common, Reported, concluded, watched};
-use crate::failure::Failure;
+use super::run::{Common, Reported, finish};
+use crate::{
+    failure::Failure,
+    ranks::{Crew, Options},
+};
 
 /// Go on with a run from its last checkpoint, as it was or with other steps.
 #[derive(clap::Args)]
@@ -30,22 +33,29 @@ pub struct Arguments {
     common: Common,
     #[command(flatten)]
     report: Reported,
+    #[command(flatten)]
+    ranks: Options,
 }
 
 /// Goes on from the checkpoint in the folder and prints what came of it.
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    arguments.common.start_threads()?;
-    let (simulation, folder) = match &arguments.with {
-        None => (
-            Simulation::resume(&arguments.folder)?,
-            arguments.folder.clone(),
-        ),
-        Some(deck) => branched(arguments, deck)?,
+    let crew = Crew::start(&arguments.ranks)?;
+    let result = resume_on(arguments, &crew, out);
+    crew.ended(result)
+}
+
+fn resume_on(arguments: &Arguments, crew: &Crew, out: &mut dyn Write) -> Result<(), Failure> {
+    arguments.common.start_threads(crew.voices())?;
+    let own = || arguments.folder.clone();
+    let (simulation, folder) = match (&arguments.with, crew.ranks()) {
+        (None, None) => (Simulation::resume(&arguments.folder)?, own()),
+        (None, Some(ranks)) => (Simulation::resume_on(ranks, &arguments.folder)?, own()),
+        (Some(deck), None) => branched(arguments, deck)?,
+        (Some(_), Some(_)) => return Err(Failure::Alone),
     };
     let report = arguments.report.of(&folder);
-    let finished = watched(simulation, arguments.common.verbosity(), report)?;
-    let strictness = arguments.common.strictness();
-    concluded(finished, &folder, strictness, out)
+    let common = (&arguments.common, crew.voice());
+    finish(simulation, &folder, common, report, out)
 }
 
 /// The run with other steps, and its folder.

@@ -13,6 +13,7 @@ use crate::{
     failure::Failure,
     interrupt::listen,
     progress::{Progress, Verbosity},
+    ranks::{Crew, Options, Voice, Voices},
     reporting::Reporting,
 };
 
@@ -31,6 +32,8 @@ pub struct Arguments {
     common: Common,
     #[command(flatten)]
     report: Reported,
+    #[command(flatten)]
+    ranks: Options,
 }
 
 /// Whether there is a report.
@@ -51,7 +54,7 @@ impl Reported {
 /// Options of everything that runs simulations.
 #[derive(clap::Args)]
 pub struct Common {
-    /// Number of threads; by default that of the machine.
+    /// Number of threads; by default that of the machine, and one a rank where there are several.
     #[arg(long)]
     threads: Option<std::num::NonZeroUsize>,
     /// Say nothing but errors and results.
@@ -94,8 +97,12 @@ impl Common {
     }
 
     /// Sets the number of threads for the whole program.
-    pub fn start_threads(&self) -> Result<(), Failure> {
-        let threads = self.threads.map_or(0, std::num::NonZeroUsize::get);
+    pub fn start_threads(&self, together: Voices) -> Result<(), Failure> {
+        let most = match together {
+            Voices::Alone => 0,
+            Voices::Several => 1,
+        };
+        let threads = self.threads.map_or(most, std::num::NonZeroUsize::get);
         rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build_global()
@@ -105,7 +112,13 @@ impl Common {
 
 /// Runs the deck and prints what came of it.
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    arguments.common.start_threads()?;
+    let crew = Crew::start(&arguments.ranks)?;
+    let result = run_on(arguments, &crew, out);
+    crew.ended(result)
+}
+
+fn run_on(arguments: &Arguments, crew: &Crew, out: &mut dyn Write) -> Result<(), Failure> {
+    arguments.common.start_threads(crew.voices())?;
     let folder = arguments
         .out
         .clone()
@@ -115,10 +128,34 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     } else {
         Existing::Keep
     };
-    let simulation = Simulation::open(&arguments.deck, &folder)?.over(existing);
-    let verbosity = arguments.common.verbosity();
-    let finished = watched(simulation, verbosity, arguments.report.of(&folder))?;
-    concluded(finished, &folder, arguments.common.strictness(), out)
+    let simulation = match crew.ranks() {
+        None => Simulation::open(&arguments.deck, &folder)?,
+        Some(ranks) => Simulation::open_on(ranks, &arguments.deck, &folder)?,
+    };
+    let common = (&arguments.common, crew.voice());
+    let report = arguments.report.of(&folder);
+    finish(simulation.over(existing), &folder, common, report, out)
+}
+
+/// Runs, and tells what came of it where this rank speaks.
+pub fn finish(
+    simulation: Simulation,
+    folder: &Path,
+    (common, voice): (&Common, Voice),
+    report: Option<PathBuf>,
+    out: &mut dyn Write,
+) -> Result<(), Failure> {
+    let strictness = common.strictness();
+    match voice {
+        Voice::First => {
+            let finished = watched(simulation, common.verbosity(), report)?;
+            concluded(finished, folder, strictness, out)
+        }
+        Voice::Silent => {
+            let finished = watched(simulation, Verbosity::Quiet, None)?;
+            ended(finished, folder, strictness)
+        }
+    }
 }
 
 /// Runs with progress, stops at an interrupt, and makes the report of a folder if one is given.
@@ -145,10 +182,15 @@ pub fn concluded(
     strictness: Strictness,
     out: &mut dyn Write,
 ) -> Result<(), Failure> {
-    let warnings = &finished.summary.warnings;
     warn(&finished.summary);
     write!(out, "{}", told(&finished.summary))?;
     writeln!(out, "output in {}", folder.display())?;
+    ended(finished, folder, strictness)
+}
+
+/// Whether a run went well.
+fn ended(finished: Finished, folder: &Path, strictness: Strictness) -> Result<(), Failure> {
+    let warnings = &finished.summary.warnings;
     match finished.ending {
         Ending::Completed if strictness == Strictness::Strict && !warnings.is_empty() => {
             Err(Failure::Warned(warnings.len()))

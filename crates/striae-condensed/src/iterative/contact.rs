@@ -43,19 +43,7 @@ impl Contact {
         for (k, &u) in multipliers.iter().enumerate() {
             place[u as usize] = k as u32;
         }
-        let mut forces = Vec::new();
-        for (node, &i) in scaled.nodes.supervariables.iter().enumerate() {
-            if !structure.is_kept(Supervariable(i as usize)) {
-                continue;
-            }
-            for (component, u) in structure.bulk_group(i as usize).enumerate() {
-                let entries = scaled.row(u).filter(|&(v, a)| a != 0.0 && place[v] != NONE);
-                let row: Row = entries.map(|(v, a)| (place[v], a)).collect();
-                if !scaled.prescribed[u] && !row.is_empty() {
-                    forces.push(((3 * node + component) as u32, row));
-                }
-            }
-        }
+        let forces = forces(scaled, &place);
         let mut is_constraint = vec![false; multipliers.len()];
         for constraint in constraints {
             is_constraint[place[constraint.unknown as usize] as usize] = true;
@@ -69,13 +57,7 @@ impl Contact {
             .enumerate()
             .with_min_len(64)
             .map(|(k, &u)| {
-                let (mut positions, mut own) = (Row::new(), Row::new());
-                for (v, a) in scaled.row(u as usize).filter(|e| e.1 != 0.0) {
-                    match scaled.node(v) {
-                        (NONE, _) => own.push((place[v], a)),
-                        (node, component) => positions.push((3 * node + component as u32, a)),
-                    }
-                }
+                let (positions, mut own) = parts(scaled, &place, u as usize);
                 for entries in positions.chunk_by(|a, b| a.0 / 3 == b.0 / 3) {
                     let node = entries[0].0 / 3;
                     let mut g = [0.0; 3];
@@ -172,4 +154,35 @@ fn assembled(scaled: &Scaled<'_>, rows: &[Row]) -> Result<SparseMatrix, SolveErr
         }
     }
     Ok(matrix)
+}
+
+/// Rows of `C` with entries, by `3 node + component`.
+fn forces(scaled: &Scaled<'_>, place: &[u32]) -> Vec<(u32, Row)> {
+    let structure = &scaled.nodes.partition;
+    let mut forces = Vec::new();
+    for (node, &i) in scaled.nodes.supervariables.iter().enumerate() {
+        if !structure.is_kept(Supervariable(i as usize)) {
+            continue;
+        }
+        for (component, u) in structure.bulk_group(i as usize).enumerate() {
+            let entries = scaled.row(u).filter(|&(v, a)| a != 0.0 && place[v] != NONE);
+            let row: Row = entries.map(|(v, a)| (place[v], a)).collect();
+            if !scaled.prescribed[u] && !row.is_empty() {
+                forces.push(((3 * node + component) as u32, row));
+            }
+        }
+    }
+    forces
+}
+
+/// Entries of the row of a multiplier: by `3 node + component`, and by multiplier.
+fn parts(scaled: &Scaled<'_>, place: &[u32], multiplier: usize) -> (Row, Row) {
+    let (mut positions, mut own) = (Row::new(), Row::new());
+    for (v, a) in scaled.row(multiplier).filter(|e| e.1 != 0.0) {
+        match scaled.node(v) {
+            (NONE, _) => own.push((place[v], a)),
+            (node, component) => positions.push((3 * node + component as u32, a)),
+        }
+    }
+    (positions, own)
 }

@@ -63,7 +63,11 @@ impl ContactFactors {
     ) -> Result<Self, SolveError> {
         let partition = partition(groups).map_err(|_| SolveError::NotAnalysed)?;
         assert_eq!(bulk.len(), partition.unknowns(), "one factor an unknown");
-        assert_eq!(prescribed.len(), partition.unknowns(), "one flag an unknown");
+        assert_eq!(
+            prescribed.len(),
+            partition.unknowns(),
+            "one flag an unknown"
+        );
         let nodes = Nodes::new(&partition).ok_or(SolveError::NotAnalysed)?;
         let tangent = tangent(&partition, entries);
         let kept = Kept::of(&partition);
@@ -90,12 +94,21 @@ impl ContactFactors {
         &self.scaling
     }
 
-    /// What is added to the bulk.
-    pub fn stiffening(&self) -> impl Iterator<Item = Stiffening<'_>> {
-        self.constraints.iter().map(|constraint| Stiffening {
+    /// Number of constraints.
+    pub fn constraints(&self) -> usize {
+        self.constraints.len()
+    }
+
+    /// What a constraint adds to the bulk.
+    ///
+    /// # Panics
+    /// When there is none of that number.
+    pub fn stiffening(&self, constraint: usize) -> Stiffening<'_> {
+        let constraint = &self.constraints[constraint];
+        Stiffening {
             entries: &constraint.entries,
             stiffness: constraint.stiffness,
-        })
+        }
     }
 
     /// `m := S^-1 (m - G_x x)`, with scaled multipliers in their order and three unknowns of

@@ -57,13 +57,7 @@ impl CommonField<'_> {
         let tau = &self.tau[side][node];
         let force = (tau.value - spot.n.value * pressure) * weight;
         let lanes = self.pointed_lanes((side, node), tip, &spot);
-        // Rows state what is left without the forces, so the node's own -f.
-        let mut by_force = [[0.0; 3]; LANES];
-        for axis in 0..3 {
-            by_force[NORMAL + axis][axis] = -weight * pressure;
-            by_force[TAU + axis][axis] = weight;
-        }
-        by_force[PRESSURE] = (spot.n.value * -weight).into();
+        let by_force = by_force(&spot.n.value, pressure, weight);
         let numbering = configuration.pair.numbering();
         let mut rows: Vec<Row> = Vec::with_capacity(15);
         let mut gradient = [[0.0; 15]; LANES];
@@ -175,4 +169,16 @@ impl CommonField<'_> {
         }
         facets
     }
+}
+
+/// Derivatives of `-f` of the node itself by the lanes of its normal, pressure and friction:
+/// rows state what is left without the forces.
+fn by_force(n: &Vec3, pressure: f64, weight: f64) -> [[f64; 3]; LANES] {
+    let mut by_force = [[0.0; 3]; LANES];
+    for axis in 0..3 {
+        by_force[NORMAL + axis][axis] = -weight * pressure;
+        by_force[TAU + axis][axis] = weight;
+    }
+    by_force[PRESSURE] = (n * -weight).into();
+    by_force
 }

@@ -76,6 +76,7 @@ impl PlaneFacet {
     }
 
     /// Interpolation functions and gradients at the point `y`.
+    #[inline(always)]
     pub fn at(&self, y: &Vec2) -> PlaneWeights {
         let r = y - self.origin;
         let (a, b, c) = (&self.by_xi, &self.by_eta, &self.twist);

@@ -96,6 +96,7 @@ pub(super) struct Triangle {
 }
 
 /// Adds the integrals over a triangle of all `N_c N_d`, and derivatives if asked for.
+#[inline(always)]
 pub(super) fn add_triangle(
     facets: &[PlaneFacet; 2],
     triangle: &Triangle,
@@ -141,6 +142,7 @@ pub(super) fn add_triangle(
 }
 
 /// `sum += factor terms`.
+#[inline(always)]
 pub(super) fn add<const N: usize>(sum: &mut [f64; N], factor: f64, terms: &[f64; N]) {
     for at in 0..N {
         sum[at] += factor * terms[at];
@@ -148,6 +150,7 @@ pub(super) fn add<const N: usize>(sum: &mut [f64; N], factor: f64, terms: &[f64;
 }
 
 /// `N_c N_d` of all pairs.
+#[inline(always)]
 fn products(a: &[f64; 4], b: &[f64; 4]) -> ByPair {
     let mut products = [0.0; PAIRS];
     for (pair, (c, d)) in OWN.into_iter().enumerate() {
@@ -163,6 +166,7 @@ fn products(a: &[f64; 4], b: &[f64; 4]) -> ByPair {
 }
 
 /// Derivatives of `N_c N_d` along an axis by the place on side `a` and by that on `b`.
+#[inline(always)]
 fn gradients([a, b]: [&PlaneWeights; 2], axis: usize) -> [ByOwn; 2] {
     let (grad_a, grad_b) = (&a.gradient[axis], &b.gradient[axis]);
     let mut gradients = [[0.0; TOUCHED]; 2];
@@ -180,6 +184,7 @@ fn gradients([a, b]: [&PlaneWeights; 2], axis: usize) -> [ByOwn; 2] {
 }
 
 /// The sum of both, for all pairs.
+#[inline(always)]
 fn total(gradients: &[ByOwn; 2]) -> ByPair {
     std::array::from_fn(|pair| {
         let first = if pair < LAST { gradients[0][pair] } else { 0.0 };

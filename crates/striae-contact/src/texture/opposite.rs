@@ -194,7 +194,6 @@ fn on_deformable(
 ) -> Result<Tracked, CollapsedTexture> {
     let side = tip.side();
     let other = configuration.side(side.opposite());
-    let numbering = configuration.pair.numbering();
     let corners = other.corners(hit.facet);
     let normals = corners.map(|corner| match &frames[side.opposite()][corner] {
         Some(frame) => frame.n.clone(),
@@ -204,16 +203,7 @@ fn on_deformable(
     for (corner, n) in corners.iter().zip(&normals) {
         a.push(own(configuration, side.opposite(), *corner, n)?.unwrap_or_default());
     }
-    let mut lanes = Lanes::default();
-    let position = |side: Side, node: SurfaceNode| Source::Unknowns {
-        first: numbering.position(side, node),
-        count: 3,
-    };
-    lanes.push(tip.lanes(configuration));
-    lanes.push(Source::Vector(&frame.n.jacobian));
-    for corner in corners {
-        lanes.push(position(side.opposite(), corner));
-    }
+    let mut lanes = lanes_of(configuration, tip, frame, &corners);
     for n in &normals {
         lanes.push(Source::Vector(&n.jacobian));
     }
@@ -268,4 +258,24 @@ fn on_deformable(
         value,
         jacobian: lanes.jacobian(&gradient),
     })
+}
+
+/// Lanes of the tip, its normal and the corners that it faces.
+fn lanes_of<'a>(
+    configuration: &Configuration,
+    tip: Tip,
+    frame: &'a Frame,
+    corners: &[SurfaceNode; 4],
+) -> Lanes<'a> {
+    let numbering = configuration.pair.numbering();
+    let mut lanes = Lanes::default();
+    lanes.push(tip.lanes(configuration));
+    lanes.push(Source::Vector(&frame.n.jacobian));
+    for &corner in corners {
+        lanes.push(Source::Unknowns {
+            first: numbering.position(tip.side().opposite(), corner),
+            count: 3,
+        });
+    }
+    lanes
 }

@@ -123,9 +123,8 @@ fn isochoric(law: &raw::BulkLaw) -> Option<(Isochoric, Common<'_>)> {
         | raw::BulkLaw::ElasticPlastic(_) => return None,
         raw::BulkLaw::IsochoricNeoHookean(law) => {
             let shear = law.shear_modulus.as_ref()?.value.0;
-            let isochoric = Isochoric::NeoHookean { shear };
             (
-                isochoric,
+                Isochoric::NeoHookean { shear },
                 (&law.compressibility, &law.volumetric, &law.relaxation),
             )
         }
@@ -152,9 +151,8 @@ fn isochoric(law: &raw::BulkLaw) -> Option<(Isochoric, Common<'_>)> {
         }
         raw::BulkLaw::Ogden(law) => {
             let terms = law.terms.as_ref()?.value.iter().map(ogden_term);
-            let isochoric = Isochoric::Ogden(terms.collect::<Option<_>>()?);
             (
-                isochoric,
+                Isochoric::Ogden(terms.collect::<Option<_>>()?),
                 (&law.compressibility, &law.volumetric, &law.relaxation),
             )
         }

@@ -254,6 +254,7 @@ fn solver(raw: Option<&raw::SolverSettings>) -> Solver {
             Some(raw::Backend::Multifrontal) => Backend::Multifrontal,
             Some(raw::Backend::Faer) => Backend::Faer,
             Some(raw::Backend::Iterative) => Backend::Iterative,
+            Some(raw::Backend::Mumps) => Backend::Mumps,
         },
         strategy: strategy(raw),
         tolerance: tolerance.map_or(default.tolerance, |tolerance| tolerance.value.0),

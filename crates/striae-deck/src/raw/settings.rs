@@ -165,6 +165,8 @@ words! {
         Faer = "faer",
         /// GMRES, the bodies by smoothed aggregation; direct factors where that fails.
         Iterative = "iterative",
+        /// MUMPS, a direct solver, in a build with PETSc.
+        Mumps = "mumps",
     }
 }
 

@@ -125,6 +125,7 @@ fn solver(solver: &Solver) -> String {
         Backend::Multifrontal => "multifrontal",
         Backend::Faer => "faer",
         Backend::Iterative => "iterative",
+        Backend::Mumps => "mumps",
     };
     let strategy = match solver.strategy {
         Strategy::Semismooth => "{ method = \"semismooth\" }".to_owned(),

@@ -43,11 +43,7 @@ impl<'m> Writer<'m> {
     fn conditions(&mut self, step: &'m Step) -> String {
         let pressed = |load: &&Load| matches!(load.kind, LoadKind::Pressure(_));
         let (pressures, tractions): (Vec<&Load>, Vec<&Load>) = step.loads.iter().partition(pressed);
-        let frictions = step.frictions.iter().map(|(pair, friction)| {
-            let pair = &self.model.pairs[pair.0].name;
-            (pair, law::friction_keys(friction))
-        });
-        let frictions: Vec<_> = frictions.collect();
+        let frictions = self.frictions(step);
         let all = [
             (
                 "velocity",
@@ -85,26 +81,31 @@ impl<'m> Writer<'m> {
                     .map(|one| self.motion(step, one))
                     .collect(),
             ),
-            (
-                "friction",
-                frictions
-                    .into_iter()
-                    .map(|(pair, keys)| {
-                        let keys = keys.unwrap_or_else(|| {
-                            let part = format!("step `{}`, pair `{pair}`", step.name);
-                            self.refuse(part, "its friction is a law of one's own");
-                            String::new()
-                        });
-                        format!("{{ pair = {}, {keys} }}", text(pair))
-                    })
-                    .collect(),
-            ),
+            ("friction", frictions),
         ];
         let all = all
             .into_iter()
             .filter(|(_, items): &(_, Vec<String>)| !items.is_empty());
         all.map(|(key, items)| format!("{key} = {}\n", lines(items.into_iter())))
             .collect()
+    }
+
+    /// Friction that begins with a step.
+    fn frictions(&mut self, step: &'m Step) -> Vec<String> {
+        let stated = step.frictions.iter().map(|(pair, friction)| {
+            let pair = &self.model.pairs[pair.0].name;
+            (pair, law::friction_keys(friction))
+        });
+        let stated: Vec<_> = stated.collect();
+        let told = stated.into_iter().map(|(pair, keys)| {
+            let keys = keys.unwrap_or_else(|| {
+                let part = format!("step `{}`, pair `{pair}`", step.name);
+                self.refuse(part, "its friction is a law of one's own");
+                String::new()
+            });
+            format!("{{ pair = {}, {keys} }}", text(pair))
+        });
+        told.collect()
     }
 
     fn velocity(&self, velocity: &Velocity) -> String {

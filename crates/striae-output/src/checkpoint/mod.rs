@@ -4,7 +4,14 @@
 //! DIR/checkpoint.bin = "striae checkpoint\n", format, CRC-32 of the rest,
 //!                      version of the program, source, what is on disk, point of the run
 //! DIR/end.bin          the same at the end of a completed run, without what is on disk
+//! DIR/checkpoint-SET.RANK.bin, DIR/end-SET.RANK.bin
+//!                      pieces: values at the nodes and in the elements of a rank
 //! ```
+//!
+//! On several ranks a checkpoint is an index with what all ranks hold, and a piece of each. A
+//! new set of pieces is there before the index that names it, the old one goes after, so that
+//! at any moment the folder has one set that is whole. Pieces number nodes and elements as the
+//! whole does: a run goes on on as many ranks as there are then, see [`Index`].
 //!
 //! Format and checksum are little-endian numbers of eight bytes, the rest is in the format of
 //! [postcard](https://postcard.jamesmunns.com/wire-format). The file is written whole or not
@@ -12,22 +19,24 @@
 //! meshes included, so that a run never goes on with another one than it began with.
 
 mod error;
+mod index;
+mod pieces;
 
 use postcard::ser_flavors::Flavor;
 use serde::{Deserialize, Serialize, Serializer};
-use std::{
-    io::ErrorKind,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
-use striae_files::{FileError, write_atomically};
 use striae_solve::{
     drive::Point,
     model::{Model, Step},
+    problem::Problem,
+    share::Share,
 };
 
-use crate::{Checksums, Output, OutputError, vtk::Snapshot, worn::Worn};
+use crate::{Checksums, Output, OutputError, ranks::on_first, vtk::Snapshot, worn::Worn};
 pub use error::CheckpointError;
+pub use index::Index;
+pub(crate) use pieces::is_piece;
 
 /// Name of the file in the folder of a run.
 pub const FILE: &str = "checkpoint.bin";
@@ -35,11 +44,8 @@ pub const FILE: &str = "checkpoint.bin";
 /// Name of that which a completed run leaves.
 pub const END: &str = "end.bin";
 
-/// First bytes of the file.
-const MAGIC: &[u8] = b"striae checkpoint\n";
-
 /// Number of the format, to be raised when the content changes.
-pub const FORMAT: u64 = 14;
+pub const FORMAT: u64 = 15;
 
 /// A run under way.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -158,44 +164,31 @@ impl Checkpoint {
     /// # Errors
     /// When the file cannot be written.
     pub fn write(&self, folder: &Path) -> Result<(), OutputError> {
-        self.write_as(&folder.join(FILE))
+        index::write_whole(folder, FILE, self)
     }
 
-    /// Writes it as that of the end of a completed run.
+    /// Writes the checkpoint of a rank's share of a problem, in pieces; collective.
     ///
     /// # Errors
-    /// When the file cannot be written.
-    pub fn write_end(&self, folder: &Path) -> Result<(), OutputError> {
-        self.write_as(&folder.join(END))
+    /// When a file cannot be written on any rank; the checkpoint that was there stays.
+    pub fn write_shared(self, folder: &Path, problem: &Problem) -> Result<(), OutputError> {
+        index::write(folder, FILE, self, problem)
     }
 
-    fn write_as(&self, path: &Path) -> Result<(), OutputError> {
-        let content = (env!("CARGO_PKG_VERSION"), self);
-        let content = postcard::to_allocvec(&content).expect("checkpoints are plain values");
-        let sum = u64::from(crc32fast::hash(&content));
-        let head = [MAGIC, &FORMAT.to_le_bytes(), &sum.to_le_bytes()];
-        let bytes = [&head.concat(), content.as_slice()].concat();
-        write_atomically(path, &bytes)?;
-        Ok(())
+    /// Writes it as that of the end of a completed run; collective.
+    ///
+    /// # Errors
+    /// When a file cannot be written on any rank.
+    pub fn write_end(self, folder: &Path, problem: &Problem) -> Result<(), OutputError> {
+        index::write(folder, END, self, problem)
     }
 
-    /// Reads the checkpoint of a folder.
+    /// Reads the checkpoint of a folder, whole.
     ///
     /// # Errors
     /// When there is none, or none that can be used.
     pub fn read(folder: &Path) -> Result<Self, CheckpointError> {
-        let path = folder.join(FILE);
-        match std::fs::read(&path) {
-            Ok(bytes) => taken(&path, &bytes),
-            Err(cause) if cause.kind() == ErrorKind::NotFound => {
-                let folder = folder.to_owned();
-                Err(match folder.join(END).exists() {
-                    true => CheckpointError::Completed { folder },
-                    false => CheckpointError::Missing { folder },
-                })
-            }
-            Err(cause) => Err(CheckpointError::Unreadable { path, cause }),
-        }
+        Index::read(folder)?.whole()
     }
 
     /// Reads the checkpoint of a folder, or that of the end of a completed run.
@@ -203,11 +196,7 @@ impl Checkpoint {
     /// # Errors
     /// When there is none, or none that can be used.
     pub fn read_last(folder: &Path) -> Result<Self, CheckpointError> {
-        let end = folder.join(END);
-        match (Self::read(folder), std::fs::read(&end)) {
-            (Err(CheckpointError::Completed { .. }), Ok(bytes)) => taken(&end, &bytes),
-            (read, _) => read,
-        }
+        Index::read_last(folder)?.whole()
     }
 
     /// Takes the checkpoint out of a folder, if there is one.
@@ -215,13 +204,15 @@ impl Checkpoint {
     /// # Errors
     /// When the file is there and cannot be removed.
     pub fn remove(folder: &Path) -> Result<(), OutputError> {
-        let path = folder.join(FILE);
-        match std::fs::remove_file(&path) {
-            Err(cause) if cause.kind() != ErrorKind::NotFound => {
-                Err(FileError::Write { path, cause }.into())
-            }
-            _ => Ok(()),
-        }
+        index::remove(folder)
+    }
+
+    /// The same for ranks that share a problem; collective.
+    ///
+    /// # Errors
+    /// When the file is there and cannot be removed.
+    pub fn remove_shared(folder: &Path, share: &Share) -> Result<(), OutputError> {
+        on_first(share, || index::remove(folder)).map(|_| ())
     }
 }
 
@@ -272,43 +263,6 @@ impl Source {
             Err(CheckpointError::StepDiffers { step: name.clone() })
         })
     }
-}
-
-fn taken(path: &Path, bytes: &[u8]) -> Result<Checkpoint, CheckpointError> {
-    let path = || path.to_owned();
-    let rest = bytes
-        .strip_prefix(MAGIC)
-        .ok_or_else(|| CheckpointError::Foreign { path: path() })?;
-    let damaged = || CheckpointError::Damaged { path: path() };
-    let (found, rest) = number(rest).ok_or_else(damaged)?;
-    if found != FORMAT {
-        return Err(CheckpointError::Format {
-            path: path(),
-            found,
-        });
-    }
-    let (sum, content) = number(rest).ok_or_else(damaged)?;
-    if sum != u64::from(crc32fast::hash(content)) {
-        return Err(damaged());
-    }
-    let found = postcard::take_from_bytes::<String>(content);
-    let (found, content) = found.map_err(|_| damaged())?;
-    if found != env!("CARGO_PKG_VERSION") {
-        return Err(CheckpointError::Version {
-            path: path(),
-            found,
-        });
-    }
-    match postcard::take_from_bytes(content) {
-        Ok((checkpoint, [])) => Ok(checkpoint),
-        _ => Err(damaged()),
-    }
-}
-
-/// The number at the front, and what follows it.
-fn number(bytes: &[u8]) -> Option<(u64, &[u8])> {
-    let (number, rest) = bytes.split_first_chunk()?;
-    Some((u64::from_le_bytes(*number), rest))
 }
 
 /// A path as text, also where it is no UTF-8.

@@ -5,6 +5,7 @@
 //! zlib (`vtkZLibDataCompressor`), little endian, with `UInt64` headers. Real
 //! numbers are `Float64` and survive a round trip bit by bit. The time of the
 //! state is the field array `TimeValue`.
+//! On several ranks a body is in pieces, `.vtu` files that a `.pvtu` file names.
 //! [`Series`] strings such files together in time as a `.pvd` collection. [`Stored`] and
 //! [`read_series`] read both back.
 //!
@@ -31,11 +32,15 @@ mod decode;
 mod grid;
 mod read;
 mod series;
+mod stored;
 #[cfg(test)]
 mod tests;
+mod together;
 mod xml;
 
 pub use grid::{Array, Cells, Grid, Values};
-pub use read::{Stored, StoredCells, StoredValues, read_series};
+pub use read::{Stored, read_series};
 pub use series::{Series, Snapshot};
+pub use stored::{StoredCells, StoredValues};
+pub(crate) use together::{ELEMENT, NODE, write_together};
 pub use xml::write;

@@ -3,26 +3,40 @@
 //!
 //! Cells may be of any of VTK's types; see [`Stored::cells`]. Files of other programs are
 //! read as far as they are of the same form: one piece, raw appended arrays in blocks
-//! compressed by zlib, `UInt64` headers, little endian.
+//! compressed by zlib, `UInt64` headers, little endian. Pieces are put together by the numbers
+//! of their points and cells.
 
 use std::{io::Read, path::Path};
 
 use flate2::read::ZlibDecoder;
 
+use super::{
+    stored::{StoredCells, StoredValues},
+    together::{ELEMENT, Joint, NODE},
+};
 use crate::OutputError;
 use striae_files::{FileError, read_text};
 
 /// What begins the appended section.
 const SECTION: &[u8] = b"<AppendedData encoding=\"raw\">";
 
-/// A grid in a file.
+/// A grid in a file, or in the pieces that a `.pvtu` file names.
 pub struct Stored {
+    /// The file, or the pieces.
+    files: Vec<OneFile>,
+    /// How pieces fit together; `None` where there is one file.
+    joint: Option<Joint>,
+    /// Time of the state.
+    pub time: f64,
+}
+
+/// One file.
+struct OneFile {
     bytes: Vec<u8>,
     /// Where the appended section begins, behind its underscore.
     section: usize,
     arrays: Vec<Described>,
-    /// Time of the state.
-    pub time: f64,
+    time: f64,
 }
 
 /// What the text of a file says of an array.
@@ -35,41 +49,115 @@ struct Described {
     offset: usize,
 }
 
-/// Cells of any shapes.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct StoredCells {
-    /// Corners of all cells, one after the other.
-    pub corners: Vec<usize>,
-    /// End of each cell in `corners`.
-    pub ends: Vec<usize>,
-    /// VTK's codes of the shapes.
-    pub shapes: Vec<u8>,
-}
+impl Stored {
+    /// Reads the text of a file, or of all pieces; arrays wait until they are asked for.
+    ///
+    /// # Errors
+    /// When a file cannot be read or is of another form.
+    pub fn open(path: &Path) -> Result<Self, OutputError> {
+        if path.extension().is_none_or(|end| end != "pvtu") {
+            let file = OneFile::open(path)?;
+            return Ok(Self {
+                time: file.time,
+                files: vec![file],
+                joint: None,
+            });
+        }
+        let text = read_text(path)?;
+        let pieces = text.split('<').filter(|tag| tag.starts_with("Piece "));
+        let pieces = pieces.filter_map(|tag| attribute(tag, "Source"));
+        let files = pieces.map(|source| OneFile::open(&path.with_file_name(plain(source))));
+        let files: Vec<OneFile> = files.collect::<Result<_, _>>()?;
+        let numbers = |group: &str, name: &str| {
+            let files = files.iter();
+            let of = files.map(|file| Ok(file.found(group, Some(name))?.numbers));
+            of.collect::<Result<Vec<_>, String>>()
+        };
+        let nodes = numbers("PointData", NODE).map_err(content(path))?;
+        let elements = numbers("CellData", ELEMENT).map_err(content(path))?;
+        let first = files.first().ok_or_else(|| "no piece".to_owned());
+        Ok(Self {
+            time: first.map_err(content(path))?.time,
+            joint: Some(Joint::new(&nodes, &elements)),
+            files,
+        })
+    }
 
-impl StoredCells {
-    /// Shape and corners of every cell.
-    pub fn iter(&self) -> impl Iterator<Item = (u8, &[usize])> {
-        let starts = std::iter::once(&0).chain(&self.ends);
-        let spans = starts.zip(&self.ends).zip(&self.shapes);
-        spans.map(|((start, end), shape)| (*shape, &self.corners[*start..*end]))
+    /// Names of the arrays with a value a point, and their numbers a point.
+    pub fn names(&self) -> impl Iterator<Item = (&str, usize)> {
+        let arrays = self.files.first().map_or(&[][..], |file| &file.arrays);
+        let points = arrays.iter().filter(|array| array.group == "PointData");
+        let named = points.map(|array| (array.name.as_str(), array.components));
+        named.filter(|(name, _)| *name != NODE || self.joint.is_none())
+    }
+
+    /// Positions of the points.
+    ///
+    /// # Errors
+    /// When the array is missing or damaged.
+    pub fn points(&self, path: &Path) -> Result<Vec<[f64; 3]>, OutputError> {
+        let values = self.at_points("Points", None).map_err(content(path))?;
+        let rows = values.numbers.chunks_exact(3);
+        Ok(rows.map(|row| [row[0], row[1], row[2]]).collect())
+    }
+
+    /// The cells.
+    ///
+    /// # Errors
+    /// When an array is missing or damaged.
+    pub fn cells(&self, path: &Path) -> Result<StoredCells, OutputError> {
+        let cells = self.files.iter().map(OneFile::cells);
+        let cells: Vec<StoredCells> = cells.collect::<Result<_, _>>().map_err(content(path))?;
+        Ok(match &self.joint {
+            Some(joint) => joint.cells(&cells),
+            None => cells.into_iter().next().unwrap_or_default(),
+        })
+    }
+
+    /// An array with a value a point; `None` where there is none of that name.
+    ///
+    /// # Errors
+    /// When it is damaged.
+    pub fn array(&self, path: &Path, name: &str) -> Result<Option<StoredValues>, OutputError> {
+        if self.files.iter().any(|file| !file.has("PointData", name)) {
+            return Ok(None);
+        }
+        let values = self.at_points("PointData", Some(name));
+        values.map(Some).map_err(content(path))
+    }
+
+    /// An array with a value a cell; `None` where there is none of that name.
+    ///
+    /// # Errors
+    /// When it is damaged.
+    pub fn cell_array(&self, path: &Path, name: &str) -> Result<Option<StoredValues>, OutputError> {
+        if self.files.iter().any(|file| !file.has("CellData", name)) {
+            return Ok(None);
+        }
+        let values = self.of_files("CellData", Some(name));
+        let mut values = values.map_err(content(path))?;
+        Ok(match &self.joint {
+            Some(joint) => Some(joint.in_cells(&values)),
+            None => values.pop(),
+        })
+    }
+
+    fn at_points(&self, group: &str, name: Option<&str>) -> Result<StoredValues, String> {
+        let mut values = self.of_files(group, name)?;
+        match &self.joint {
+            Some(joint) => Ok(joint.at_points(&values)),
+            None => values.pop().ok_or_else(|| "no file".to_owned()),
+        }
+    }
+
+    fn of_files(&self, group: &str, name: Option<&str>) -> Result<Vec<StoredValues>, String> {
+        let files = self.files.iter();
+        files.map(|file| file.found(group, name)).collect()
     }
 }
 
-/// Values of an array.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StoredValues {
-    /// Numbers of a point: 1, 3, 6 or 9.
-    pub components: usize,
-    /// Numbers point by point.
-    pub numbers: Vec<f64>,
-}
-
-impl Stored {
-    /// Reads the text of a file; arrays wait until they are asked for.
-    ///
-    /// # Errors
-    /// When the file cannot be read or is of another form.
-    pub fn open(path: &Path) -> Result<Self, OutputError> {
+impl OneFile {
+    fn open(path: &Path) -> Result<Self, OutputError> {
         let bytes = std::fs::read(path).map_err(|cause| FileError::Read {
             path: path.to_owned(),
             cause,
@@ -102,36 +190,10 @@ impl Stored {
         })
     }
 
-    /// Names of the arrays with a value a point, and their numbers a point.
-    pub fn names(&self) -> impl Iterator<Item = (&str, usize)> {
-        let points = self.arrays.iter().filter(|a| a.group == "PointData");
-        points.map(|array| (array.name.as_str(), array.components))
-    }
-
-    /// Positions of the points.
-    ///
-    /// # Errors
-    /// When the array is missing or damaged.
-    pub fn points(&self, path: &Path) -> Result<Vec<[f64; 3]>, OutputError> {
-        let values = self
-            .find("Points", None)
-            .and_then(|array| self.values(array));
-        let numbers = values.map_err(content(path))?.numbers;
-        let rows = numbers.chunks_exact(3);
-        Ok(rows.map(|row| [row[0], row[1], row[2]]).collect())
-    }
-
-    /// The cells.
-    ///
-    /// # Errors
-    /// When an array is missing or damaged.
-    pub fn cells(&self, path: &Path) -> Result<StoredCells, OutputError> {
+    fn cells(&self) -> Result<StoredCells, String> {
         let whole = |name| {
-            let values = self
-                .find("Cells", Some(name))
-                .and_then(|array| self.values(array));
-            let numbers = values.map_err(content(path))?.numbers;
-            Ok::<_, OutputError>(numbers.into_iter().map(|number| number as usize))
+            let numbers = self.found("Cells", Some(name))?.numbers;
+            Ok::<_, String>(numbers.into_iter().map(|number| number as usize))
         };
         let cells = StoredCells {
             corners: whole("connectivity")?.collect(),
@@ -141,32 +203,22 @@ impl Stored {
         let sound = cells.ends.is_sorted()
             && cells.ends.last().copied().unwrap_or(0) == cells.corners.len()
             && cells.ends.len() == cells.shapes.len();
-        if sound {
-            Ok(cells)
-        } else {
-            Err(content(path)("the cells do not fit each other".to_owned()))
+        match sound {
+            true => Ok(cells),
+            false => Err("the cells do not fit each other".to_owned()),
         }
     }
 
-    /// An array with a value a point; `None` where there is none of that name.
-    ///
-    /// # Errors
-    /// When it is damaged.
-    pub fn array(&self, path: &Path, name: &str) -> Result<Option<StoredValues>, OutputError> {
-        match self.find("PointData", Some(name)) {
-            Err(_) => Ok(None),
-            Ok(array) => self.values(array).map(Some).map_err(content(path)),
-        }
+    fn has(&self, group: &str, name: &str) -> bool {
+        let mut arrays = self.arrays.iter();
+        arrays.any(|array| array.group == group && array.name == name)
     }
 
-    fn find(&self, group: &str, name: Option<&str>) -> Result<&Described, String> {
+    fn found(&self, group: &str, name: Option<&str>) -> Result<StoredValues, String> {
         let fits =
             |array: &&Described| array.group == group && name.is_none_or(|name| array.name == name);
         let found = self.arrays.iter().find(fits);
-        found.ok_or_else(|| format!("no array `{}`", name.unwrap_or(group)))
-    }
-
-    fn values(&self, array: &Described) -> Result<StoredValues, String> {
+        let array = found.ok_or_else(|| format!("no array `{}`", name.unwrap_or(group)))?;
         let damaged = || format!("array `{}` is damaged", array.name);
         let bytes = inflated(&self.bytes, self.section + array.offset).ok_or_else(damaged)?;
         let numbers = numbers(&array.number, &bytes)

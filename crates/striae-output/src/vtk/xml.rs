@@ -95,22 +95,27 @@ fn arrays(arrays: &[Array], appended: &mut Appended) -> String {
     arrays
         .iter()
         .map(|array| {
-            let (number, components): (&str, &[&str]) = match array.values {
-                Values::Scalars(_) => ("Float64", &[]),
-                Values::Vectors(_) => ("Float64", &["X", "Y", "Z"]),
-                Values::SymmetricTensors(_) => ("Float64", &["XX", "YY", "ZZ", "XY", "YZ", "XZ"]),
-                Values::Tensors(_) => (
-                    "Float64",
-                    &["XX", "XY", "XZ", "YX", "YY", "YZ", "ZX", "ZY", "ZZ"],
-                ),
-                Values::Integers(_) => ("Int32", &[]),
-                Values::Codes(_) => ("UInt8", &[]),
-            };
+            let (number, components) = form(&array.values);
             let (name, count) = (escaped(&array.name), components.len().max(1));
             let bytes = value_bytes(&array.values);
             element(number, &name, count, components, bytes, appended)
         })
         .collect()
+}
+
+/// VTK's type of the numbers of an array, and names of its components.
+pub(super) fn form(values: &Values) -> (&'static str, &'static [&'static str]) {
+    match values {
+        Values::Scalars(_) => ("Float64", &[]),
+        Values::Vectors(_) => ("Float64", &["X", "Y", "Z"]),
+        Values::SymmetricTensors(_) => ("Float64", &["XX", "YY", "ZZ", "XY", "YZ", "XZ"]),
+        Values::Tensors(_) => (
+            "Float64",
+            &["XX", "XY", "XZ", "YX", "YY", "YZ", "ZX", "ZY", "ZZ"],
+        ),
+        Values::Integers(_) => ("Int32", &[]),
+        Values::Codes(_) => ("UInt8", &[]),
+    }
 }
 
 fn element(

@@ -4,7 +4,7 @@ use super::{
     ffi,
     library::{Library, index, text, world},
     matrix::Matrix,
-    vectors::{Lay, Vector},
+    vectors::Vector,
 };
 use crate::error::Error;
 use std::{sync::Arc, thread};
@@ -12,15 +12,14 @@ use std::{sync::Arc, thread};
 /// Prefix of the options.
 const PREFIX: &str = "striae_bulk_";
 /// Options unless others are given: smoothed aggregation, smoothed by Chebyshev polynomials
-/// of the blocks of the diagonal.
-const OPTIONS: [(&str, &str); 8] = [
-    ("pc_type", "gamg"),
+/// over symmetric sweeps of every rank.
+const OPTIONS: [(&str, &str); 7] = [
     ("pc_gamg_agg_nsmooths", "1"),
-    ("pc_gamg_threshold", "0.01"),
+    ("pc_gamg_threshold", "0.04"),
     ("pc_gamg_coarse_eq_limit", "1000"),
     ("mg_levels_ksp_type", "chebyshev"),
     ("mg_levels_ksp_max_it", "2"),
-    ("mg_levels_pc_type", "pbjacobi"),
+    ("mg_levels_pc_type", "sor"),
     ("mg_levels_esteig_ksp_type", "cg"),
 ];
 
@@ -36,27 +35,24 @@ pub(crate) struct Cycle {
 }
 
 impl Cycle {
-    /// For a matrix of blocks of three, with orthonormal vectors that it nearly takes to
-    /// zero. `None` where the matrix does not have such an inverse.
-    pub(crate) fn new(
-        matrix: Matrix,
-        lay: Lay,
-        kernel: &[Vec<f64>],
-    ) -> Result<Option<Self>, Error> {
+    /// For a matrix with orthonormal vectors that it nearly takes to zero. `None` where the
+    /// matrix does not have such an inverse.
+    pub(crate) fn new(matrix: Matrix, kernel: &[Vec<f64>]) -> Result<Option<Self>, Error> {
         let library = Arc::clone(matrix.library());
+        let (lay, block) = (matrix.rows().unknowns(), matrix.rows().size);
         for (name, value) in OPTIONS {
             library.option(PREFIX, name, value)?;
         }
         let cycle = Self {
             raw: create(&library)?,
-            x: Vector::new(&library, lay, 3)?,
-            y: Vector::new(&library, lay, 3)?,
+            x: Vector::new(&library, lay, block)?,
+            y: Vector::new(&library, lay, block)?,
             library: Arc::clone(&library),
             matrix,
         };
         let mut vectors = Vec::new();
         for _ in kernel {
-            vectors.push(Vector::new(&library, lay, 3)?);
+            vectors.push(Vector::new(&library, lay, block)?);
         }
         let lent = vectors.iter_mut().zip(kernel);
         let lent: Vec<_> = lent.map(|(v, x)| v.with(x)).collect::<Result<_, _>>()?;
@@ -82,9 +78,9 @@ impl Cycle {
         Ok((reason == 0).then_some(cycle))
     }
 
-    /// Entries of the matrix on this rank.
-    pub(crate) fn entries(&self) -> usize {
-        self.matrix.entries
+    /// Whether options choose another preconditioner than the usual one.
+    pub(crate) fn is_chosen(library: &Library) -> Result<bool, Error> {
+        library.has_option(PREFIX, "pc_type")
     }
 
     /// `y = M^-1 x`.
@@ -104,6 +100,7 @@ fn create(library: &Library) -> Result<ffi::Pc, Error> {
     unsafe {
         library.check(ffi::PCCreate(world(), &mut raw))?;
         library.check(ffi::PCSetOptionsPrefix(raw, prefix.as_ptr()))?;
+        library.check(ffi::PCSetType(raw, c"gamg".as_ptr()))?;
         library.check(ffi::PCSetFromOptions(raw))?;
     }
     Ok(raw)

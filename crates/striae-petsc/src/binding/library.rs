@@ -61,25 +61,29 @@ impl Library {
         Err(Error::Petsc { code, message })
     }
 
+    /// Whether an option has a value.
+    pub(crate) fn has_option(&self, prefix: &str, name: &str) -> Result<bool, Error> {
+        let mut is_set = ffi::FALSE;
+        let (prefix, name) = (text(prefix), text(&format!("-{name}")));
+        // SAFETY: strings end with zero and live beyond the call; null means all options.
+        let code = unsafe {
+            let (all, prefix) = (ptr::null_mut(), prefix.as_ptr());
+            ffi::PetscOptionsHasName(all, prefix, name.as_ptr(), &mut is_set)
+        };
+        self.check(code)?;
+        Ok(is_set != ffi::FALSE)
+    }
+
     /// Gives an option a value unless it has one.
     pub(crate) fn option(&self, prefix: &str, name: &str, value: &str) -> Result<(), Error> {
-        let mut is_set = ffi::FALSE;
-        let (own, full) = (text(prefix), text(&format!("-{prefix}{name}")));
-        let (name, value) = (text(&format!("-{name}")), text(value));
-        let all = ptr::null_mut();
-        // SAFETY: strings end with zero and live beyond the calls; null means all options.
-        unsafe {
-            self.check(ffi::PetscOptionsHasName(
-                all,
-                own.as_ptr(),
-                name.as_ptr(),
-                &mut is_set,
-            ))?;
-            if is_set == ffi::FALSE {
-                self.check(ffi::PetscOptionsSetValue(all, full.as_ptr(), value.as_ptr()))?;
-            }
+        if self.has_option(prefix, name)? {
+            return Ok(());
         }
-        Ok(())
+        let (name, value) = (text(&format!("-{prefix}{name}")), text(value));
+        let all = ptr::null_mut();
+        // SAFETY: strings end with zero and live beyond the call; null means all options.
+        let code = unsafe { ffi::PetscOptionsSetValue(all, name.as_ptr(), value.as_ptr()) };
+        self.check(code)
     }
 
     /// Whether numbers are as they are declared here.
@@ -174,7 +178,9 @@ unsafe extern "C" fn collect(
     let words = |text: *const c_char| match text.is_null() {
         true => String::new(),
         // SAFETY: PETSc hands over strings that end with zero.
-        false => unsafe { CStr::from_ptr(text) }.to_string_lossy().into_owned(),
+        false => unsafe { CStr::from_ptr(text) }
+            .to_string_lossy()
+            .into_owned(),
     };
     // SAFETY: the context is the one that was given with the handler, and is never freed.
     let said = unsafe { &*context.cast::<Mutex<Option<String>>>() };

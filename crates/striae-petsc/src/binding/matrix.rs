@@ -11,82 +11,108 @@ use std::{ffi::c_int, sync::Arc, thread};
 
 /// Rows of blocks that are put together at a time.
 const ROWS: usize = 4096;
+/// Entries of a product over those of its factors, as a guess.
+const FILL: f64 = 1.5;
 
-/// A block and the column of blocks it is in.
+/// A block, row by row, and the column of blocks it is in.
 pub(crate) type Entry<const AREA: usize> = (u32, [f64; AREA]);
 
-/// A matrix of square blocks.
+/// Rows or columns of blocks: how they lie, and how many unknowns each has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Side {
+    /// Blocks on the ranks.
+    pub(crate) blocks: Lay,
+    /// Unknowns of a block.
+    pub(crate) size: usize,
+}
+
+/// A matrix of blocks.
 #[derive(Debug)]
 pub(crate) struct Matrix {
     raw: ffi::Mat,
+    rows: Side,
+    columns: Side,
+    /// Vectors of columns and of rows.
     x: Vector,
     y: Vector,
-    /// Entries of this rank's rows.
-    pub(crate) entries: usize,
-    /// Sums of magnitudes in this rank's rows.
-    pub(crate) row_sums: Vec<f64>,
     library: Arc<Library>,
 }
 
+impl Side {
+    /// The same as a number of unknowns.
+    pub(crate) fn unknowns(self) -> Lay {
+        Lay {
+            first: self.blocks.first * self.size,
+            own: self.blocks.own * self.size,
+            total: self.blocks.total * self.size,
+        }
+    }
+
+    fn contains(self, block: u32) -> bool {
+        let Lay { first, own, .. } = self.blocks;
+        (first..first + own).contains(&(block as usize))
+    }
+}
+
 impl Matrix {
-    /// A matrix of blocks of `block * block = AREA` values. `lay` counts rows of blocks;
-    /// `row` lists what is in one of this rank's, in any order, where blocks of one column
-    /// add up.
+    /// A matrix of blocks; `row` lists what is in one of this rank's rows, in any order,
+    /// where blocks of one column add up.
     pub(crate) fn assembled<const AREA: usize>(
         library: &Arc<Library>,
-        (lay, block): (Lay, usize),
+        (rows, columns): (Side, Side),
         row: impl Fn(usize, &mut Vec<Entry<AREA>>) + Sync,
     ) -> Result<Self, Error> {
-        let rows = Lay {
-            first: lay.first * block,
-            own: lay.own * block,
-            total: lay.total * block,
-        };
+        let own = rows.blocks.own;
         let summed = |k: usize| {
             let mut entries = Vec::with_capacity(64);
             row(k, &mut entries);
             sum(&mut entries);
             entries
         };
-        let near = lay.first as u32..(lay.first + lay.own) as u32;
-        let counts = (0..lay.own).into_par_iter().with_min_len(256).map(|k| {
+        let counts = (0..own).into_par_iter().with_min_len(256).map(|k| {
             let entries = summed(k);
-            let inside = entries.iter().filter(|e| near.contains(&e.0)).count();
-            [inside, entries.len() - inside].map(|count| (count * block) as c_int)
+            let inside = entries.iter().filter(|e| columns.contains(e.0)).count();
+            [inside, entries.len() - inside].map(|count| (count * columns.size) as c_int)
         });
         let counts: Vec<[c_int; 2]> = counts.collect();
-        let spread = |side: usize| {
+        let spread = |side: usize| -> Vec<c_int> {
             let each = counts.iter().map(move |c| c[side]);
-            each.flat_map(|count| std::iter::repeat_n(count, block))
-                .collect::<Vec<c_int>>()
+            each.flat_map(|count| std::iter::repeat_n(count, rows.size))
+                .collect()
         };
-        let total: c_int = counts.iter().flatten().sum();
-        let mut matrix = Self {
-            raw: ffi::Mat::NULL,
-            x: Vector::new(library, rows, block)?,
-            y: Vector::new(library, rows, block)?,
-            entries: total as usize * block,
-            row_sums: Vec::with_capacity(rows.own),
-            library: Arc::clone(library),
-        };
-        matrix.create(rows, block, [&spread(0), &spread(1)])?;
-        for start in (0..lay.own).step_by(ROWS) {
-            let piece = start..lay.own.min(start + ROWS);
+        let mut matrix = Self::of(library, (rows, columns), ffi::Mat::NULL)?;
+        matrix.create([&spread(0), &spread(1)])?;
+        for start in (0..own).step_by(ROWS) {
+            let piece = start..own.min(start + ROWS);
             let piece: Vec<Vec<Entry<AREA>>> = piece.into_par_iter().map(summed).collect();
-            for (k, entries) in (lay.first + start..).zip(piece) {
-                matrix.set_row(k, block, &entries)?;
+            for (k, entries) in (rows.blocks.first + start..).zip(piece) {
+                matrix.set_row(k, &entries)?;
             }
         }
-        // SAFETY: a live matrix whose values are set.
-        unsafe {
-            library.check(ffi::MatAssemblyBegin(matrix.raw, ffi::FINAL_ASSEMBLY))?;
-            library.check(ffi::MatAssemblyEnd(matrix.raw, ffi::FINAL_ASSEMBLY))?;
-        }
+        matrix.finish()?;
         Ok(matrix)
     }
 
-    fn create(&mut self, rows: Lay, block: usize, counts: [&[c_int]; 2]) -> Result<(), Error> {
-        let (own, total, block) = (index(rows.own)?, index(rows.total)?, index(block)?);
+    fn of(
+        library: &Arc<Library>,
+        (rows, columns): (Side, Side),
+        raw: ffi::Mat,
+    ) -> Result<Self, Error> {
+        Ok(Self {
+            raw,
+            rows,
+            columns,
+            x: Vector::new(library, columns.unknowns(), columns.size)?,
+            y: Vector::new(library, rows.unknowns(), rows.size)?,
+            library: Arc::clone(library),
+        })
+    }
+
+    fn create(&mut self, counts: [&[c_int]; 2]) -> Result<(), Error> {
+        let (rows, columns) = (self.rows.unknowns(), self.columns.unknowns());
+        let (height, width) = (index(rows.own)?, index(columns.own)?);
+        let (all_rows, all_columns) = (index(rows.total)?, index(columns.total)?);
+        let (row, column) = (index(self.rows.size)?, index(self.columns.size)?);
         let [inside, outside] = counts.map(<[c_int]>::as_ptr);
         let library = &self.library;
         let is_alone = ranks() == 1;
@@ -94,12 +120,13 @@ impl Matrix {
         // SAFETY: counts have one entry a row, and are copied.
         unsafe {
             library.check(ffi::MatCreate(world(), &mut self.raw))?;
-            library.check(ffi::MatSetSizes(self.raw, own, own, total, total))?;
-            library.check(ffi::MatSetBlockSize(self.raw, block))?;
-            library.check(ffi::MatSetType(self.raw, kind.as_ptr()))?;
+            let raw = self.raw;
+            library.check(ffi::MatSetSizes(raw, height, width, all_rows, all_columns))?;
+            library.check(ffi::MatSetBlockSizes(raw, row, column))?;
+            library.check(ffi::MatSetType(raw, kind.as_ptr()))?;
             library.check(match is_alone {
-                true => ffi::MatSeqAIJSetPreallocation(self.raw, 0, inside),
-                false => ffi::MatMPIAIJSetPreallocation(self.raw, 0, inside, 0, outside),
+                true => ffi::MatSeqAIJSetPreallocation(raw, 0, inside),
+                false => ffi::MatMPIAIJSetPreallocation(raw, 0, inside, 0, outside),
             })
         }
     }
@@ -108,34 +135,103 @@ impl Matrix {
     fn set_row<const AREA: usize>(
         &mut self,
         row: usize,
-        block: usize,
         entries: &[Entry<AREA>],
     ) -> Result<(), Error> {
-        let rows: Vec<c_int> = (0..block).map(|r| (row * block + r) as c_int).collect();
-        let columns: Vec<c_int> = entries
-            .iter()
-            .flat_map(|e| (0..block).map(|c| e.0 as c_int * block as c_int + c as c_int))
+        let (height, width) = (self.rows.size, self.columns.size);
+        let rows: Vec<c_int> = (0..height).map(|r| (row * height + r) as c_int).collect();
+        let columns = entries.iter().map(|entry| entry.0 as usize);
+        let columns: Vec<c_int> = columns
+            .flat_map(|column| (0..width).map(move |c| (column * width + c) as c_int))
             .collect();
         let mut values = Vec::with_capacity(AREA * entries.len());
-        for r in 0..block {
-            let start = values.len();
+        for r in 0..height {
             for (_, own) in entries {
-                values.extend_from_slice(&own[r * block..(r + 1) * block]);
+                values.extend_from_slice(&own[r * width..(r + 1) * width]);
             }
-            let sizes = values[start..].iter().map(|a: &f64| a.abs());
-            self.row_sums.push(sizes.sum());
         }
         let (height, width) = (rows.len() as c_int, columns.len() as c_int);
         let mode = ffi::INSERT_VALUES;
         // SAFETY: as many rows, columns and values as are told, all copied.
         let code = unsafe {
             let (rows, columns) = (rows.as_ptr(), columns.as_ptr());
-            ffi::MatSetValues(self.raw, height, rows, width, columns, values.as_ptr(), mode)
+            ffi::MatSetValues(
+                self.raw,
+                height,
+                rows,
+                width,
+                columns,
+                values.as_ptr(),
+                mode,
+            )
         };
         self.library.check(code)
     }
 
-    /// `y = A x` on this rank's rows.
+    /// Sets entries of the diagonal of this rank to one.
+    pub(crate) fn set_ones(&mut self, unknowns: impl Iterator<Item = usize>) -> Result<(), Error> {
+        for unknown in unknowns {
+            let (at, mode) = (index(unknown)?, ffi::INSERT_VALUES);
+            // SAFETY: one row, one column, one value, all copied.
+            let code = unsafe { ffi::MatSetValues(self.raw, 1, &at, 1, &at, &1.0, mode) };
+            self.library.check(code)?;
+        }
+        self.finish()
+    }
+
+    fn finish(&mut self) -> Result<(), Error> {
+        let library = &self.library;
+        // SAFETY: a live matrix whose values are set.
+        unsafe {
+            library.check(ffi::MatAssemblyBegin(self.raw, ffi::FINAL_ASSEMBLY))?;
+            library.check(ffi::MatAssemblyEnd(self.raw, ffi::FINAL_ASSEMBLY))
+        }
+    }
+
+    /// `A B`.
+    pub(crate) fn product(&self, other: &Self) -> Result<Self, Error> {
+        let mut product = Self::of(&self.library, (self.rows, other.columns), ffi::Mat::NULL)?;
+        let reuse = ffi::INITIAL_MATRIX;
+        // SAFETY: live matrices, and a place for the product, which keeps nothing of them.
+        unsafe {
+            let code = ffi::MatMatMult(self.raw, other.raw, reuse, FILL, &mut product.raw);
+            self.library.check(code)?;
+        }
+        product.released()
+    }
+
+    /// `P^T A P`.
+    pub(crate) fn galerkin(&self, p: &Self) -> Result<Self, Error> {
+        let mut product = Self::of(&self.library, (p.columns, p.columns), ffi::Mat::NULL)?;
+        let reuse = ffi::INITIAL_MATRIX;
+        // SAFETY: live matrices, and a place for the product.
+        unsafe {
+            let code = ffi::MatPtAP(self.raw, p.raw, reuse, FILL, &mut product.raw);
+            self.library.check(code)?;
+        }
+        product.released()
+    }
+
+    /// A product that forgets its factors.
+    fn released(self) -> Result<Self, Error> {
+        let (row, column) = (index(self.rows.size)?, index(self.columns.size)?);
+        // SAFETY: a live matrix that was made as a product.
+        unsafe {
+            self.library.check(ffi::MatProductClear(self.raw))?;
+            self.library
+                .check(ffi::MatSetBlockSizes(self.raw, row, column))?;
+        }
+        Ok(self)
+    }
+
+    /// `A := B + factor A`.
+    pub(crate) fn scale_and_add(&mut self, factor: f64, other: &Self) -> Result<(), Error> {
+        let pattern = ffi::DIFFERENT_PATTERN;
+        // SAFETY: live matrices of one size.
+        let code = unsafe { ffi::MatAYPX(self.raw, factor, other.raw, pattern) };
+        self.library.check(code)
+    }
+
+    /// `y = A x`, on this rank's columns and rows.
     pub(crate) fn multiply(&mut self, x: &[f64], y: &mut [f64]) -> Result<(), Error> {
         let (x, y) = (self.x.with(x)?, self.y.with_mut(y)?);
         // SAFETY: vectors with values, of which `y` is borrowed alone.
@@ -143,11 +239,24 @@ impl Matrix {
         self.library.check(code)
     }
 
+    /// `y = A^T x`, on this rank's rows and columns.
+    pub(crate) fn multiply_transposed(&mut self, x: &[f64], y: &mut [f64]) -> Result<(), Error> {
+        let (x, y) = (self.y.with(x)?, self.x.with_mut(y)?);
+        // SAFETY: vectors with values, of which `y` is borrowed alone.
+        let code = unsafe { ffi::MatMultTranspose(self.raw, x.raw(), y.raw()) };
+        self.library.check(code)
+    }
+
+    /// Rows.
+    pub(crate) fn rows(&self) -> Side {
+        self.rows
+    }
+
     pub(super) fn raw(&self) -> ffi::Mat {
         self.raw
     }
 
-    pub(super) fn library(&self) -> &Arc<Library> {
+    pub(crate) fn library(&self) -> &Arc<Library> {
         &self.library
     }
 }
@@ -155,14 +264,14 @@ impl Matrix {
 impl Drop for Matrix {
     fn drop(&mut self) {
         if !thread::panicking() {
-            // SAFETY: null or created in `create`, not destroyed before.
+            // SAFETY: null or created, not destroyed before.
             unsafe { ffi::MatDestroy(&mut self.raw) };
         }
     }
 }
 
 /// Sorts blocks by column and adds up those of one column, in the order they came in.
-fn sum<const AREA: usize>(entries: &mut Vec<Entry<AREA>>) {
+pub(crate) fn sum<const AREA: usize>(entries: &mut Vec<Entry<AREA>>) {
     entries.sort_by_key(|entry| entry.0);
     entries.dedup_by(|next, kept| {
         let is_same = next.0 == kept.0;

@@ -16,5 +16,5 @@ pub(crate) use cycle::Cycle;
 pub(crate) use factors::{Factors, Made};
 pub(crate) use krylov::Krylov;
 pub(crate) use library::Library;
-pub(crate) use matrix::{Entry, Matrix};
+pub(crate) use matrix::{Entry, Matrix, Side, sum};
 pub(crate) use vectors::{Lay, Scatter, Sum};

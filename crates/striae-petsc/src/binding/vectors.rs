@@ -56,9 +56,8 @@ impl Vector {
     pub(super) fn alone(library: &Arc<Library>, own: usize) -> Result<Self, Error> {
         let mut raw = ffi::Vec::NULL;
         // SAFETY: null instead of values is allowed.
-        let code = unsafe {
-            ffi::VecCreateSeqWithArray(alone(), 1, index(own)?, ptr::null(), &mut raw)
-        };
+        let code =
+            unsafe { ffi::VecCreateSeqWithArray(alone(), 1, index(own)?, ptr::null(), &mut raw) };
         library.check(code)?;
         Ok(Self::of(library, raw, own))
     }
@@ -134,9 +133,8 @@ impl Scatter {
         let (from, to) = (IndexSet::new(library, &from)?, IndexSet::new(library, &to)?);
         let mut raw = ffi::VecScatter::NULL;
         // SAFETY: live objects of matching lengths; their values are not looked at.
-        let code = unsafe {
-            ffi::VecScatterCreate(whole.raw, from.raw, local.raw, to.raw, &mut raw)
-        };
+        let code =
+            unsafe { ffi::VecScatterCreate(whole.raw, from.raw, local.raw, to.raw, &mut raw) };
         library.check(code)?;
         let wanted = local;
         Ok(Self { raw, whole, wanted })
@@ -149,18 +147,15 @@ impl Scatter {
         let (insert, mode) = (ffi::INSERT_VALUES, ffi::SCATTER_FORWARD);
         // SAFETY: both have values of the right length, and `to` is borrowed alone.
         unsafe {
-            library.check(ffi::VecScatterBegin(self.raw, from.raw, to.raw, insert, mode))?;
+            library.check(ffi::VecScatterBegin(
+                self.raw, from.raw, to.raw, insert, mode,
+            ))?;
             library.check(ffi::VecScatterEnd(self.raw, from.raw, to.raw, insert, mode))
         }
     }
 
     /// Brings values back to where they were fetched from.
-    pub(crate) fn bring(
-        &mut self,
-        wanted: &[f64],
-        own: &mut [f64],
-        sum: Sum,
-    ) -> Result<(), Error> {
+    pub(crate) fn bring(&mut self, wanted: &[f64], own: &mut [f64], sum: Sum) -> Result<(), Error> {
         let library = Arc::clone(&self.whole.library);
         let (from, to) = (self.wanted.with(wanted)?, self.whole.with_mut(own)?);
         let insert = match sum {
@@ -170,7 +165,9 @@ impl Scatter {
         let mode = ffi::SCATTER_REVERSE;
         // SAFETY: both have values of the right length, and `to` is borrowed alone.
         unsafe {
-            library.check(ffi::VecScatterBegin(self.raw, from.raw, to.raw, insert, mode))?;
+            library.check(ffi::VecScatterBegin(
+                self.raw, from.raw, to.raw, insert, mode,
+            ))?;
             library.check(ffi::VecScatterEnd(self.raw, from.raw, to.raw, insert, mode))
         }
     }
@@ -195,9 +192,8 @@ impl IndexSet {
         let mut raw = ffi::IndexSet::NULL;
         let (count, mode) = (index(indices.len())?, ffi::COPY_VALUES);
         // SAFETY: PETSc copies so many indices.
-        let code = unsafe {
-            ffi::ISCreateGeneral(alone(), count, indices.as_ptr(), mode, &mut raw)
-        };
+        let code =
+            unsafe { ffi::ISCreateGeneral(alone(), count, indices.as_ptr(), mode, &mut raw) };
         library.check(code)?;
         Ok(Self { raw })
     }

@@ -64,7 +64,11 @@ impl Blocks {
     }
 
     fn size(&self, node: usize) -> usize {
-        if node / self.area() == self.height - 1 { 6 } else { 3 }
+        if node / self.area() == self.height - 1 {
+            6
+        } else {
+            3
+        }
     }
 
     /// Cells of a block, with the rank that has each: slices along the first axis.
@@ -113,21 +117,26 @@ impl Blocks {
         let owners = self.owners(ranks);
         let (area, height) = (self.area(), self.height);
         let cells: Vec<(usize, [usize; 8])> = (0..2)
-            .flat_map(|block| self.cells(block, ranks).into_iter().map(move |c| (block, c)))
+            .flat_map(|block| {
+                self.cells(block, ranks)
+                    .into_iter()
+                    .map(move |c| (block, c))
+            })
             .filter(|(_, (owner, _))| *owner == rank)
             .map(|(block, (_, cell))| (block, cell))
             .collect();
         let mut is_here = vec![false; self.nodes()];
         is_here[(height - 1) * area..(height + 1) * area].fill(true);
-        cells.iter().flat_map(|c| c.1).for_each(|n| is_here[n] = true);
+        cells
+            .iter()
+            .flat_map(|c| c.1)
+            .for_each(|n| is_here[n] = true);
         let here: Vec<usize> = (0..self.nodes()).filter(|&n| is_here[n]).collect();
         let mut local = vec![usize::MAX; self.nodes()];
         here.iter().zip(0..).for_each(|(&n, k)| local[n] = k);
         let (partition, offsets) = self.partition(&here, &local, &cells);
         let first = |n: usize| offsets[local[n]];
-        let is_held = |n: usize| {
-            n < area || self.top == Top::Held && n >= self.nodes() - area
-        };
+        let is_held = |n: usize| n < area || self.top == Top::Held && n >= self.nodes() - area;
         let mut bodies = SparseMatrix::zero(partition.structure());
         for block in 0..2 {
             let shear = self.stiffness[block];
@@ -159,7 +168,10 @@ impl Blocks {
             _ if n < area || n >= self.nodes() - area => 0.0,
             c => [0.3, 0.1, -1.0][c] + ((21 * n + 8 * c) % 13) as f64 / 13.0,
         };
-        let each = || here.iter().flat_map(|&n| (0..self.size(n)).map(move |c| (n, c)));
+        let each = || {
+            here.iter()
+                .flat_map(|&n| (0..self.size(n)).map(move |c| (n, c)))
+        };
         Part {
             rhs: each().map(|(n, c)| load(n, c)).collect(),
             is_position: each().map(|(_, c)| c < 3).collect(),
@@ -224,7 +236,9 @@ impl Blocks {
             serial.push(serial[n] + self.size(n));
         }
         let unknowns = |starts: &[usize]| -> Vec<usize> {
-            let each = here.iter().flat_map(|&n| starts[n]..starts[n] + self.size(n));
+            let each = here
+                .iter()
+                .flat_map(|&n| starts[n]..starts[n] + self.size(n));
             each.collect()
         };
         let whole = unknowns(&first);
@@ -254,8 +268,7 @@ impl Blocks {
         };
         for c in 0..3 {
             let (row, is_normal) = (multiplier + c, c == 2);
-            let is_open =
-                self.top == Top::Loose || self.contact == Contact::Open && is_left;
+            let is_open = self.top == Top::Loose || self.contact == Contact::Open && is_left;
             let slips = self.contact == Contact::Slip && is_left && !is_normal && !is_open;
             if is_open || slips {
                 add(tie[0], row, row, 1.0);

@@ -54,7 +54,11 @@ fn team(ranks: &Ranks) {
 
 fn long_messages(ranks: &Ranks) {
     let all = ranks.gather(&vec![ranks.rank() as u8; 3_000_000]);
-    assert!(all.iter().zip(0..).all(|(part, r)| part.len() == 3_000_000 && part[17] == r));
+    assert!(
+        all.iter()
+            .zip(0..)
+            .all(|(part, r)| part.len() == 3_000_000 && part[17] == r)
+    );
 }
 
 fn cases() -> impl Iterator<Item = Blocks> {
@@ -117,7 +121,11 @@ fn direct(ranks: &Ranks) {
         assert!(report.backward_error < 1e-12, "{blocks:?} {report:?}");
         let error = difference(&blocks, &part, &x);
         // The answer of one rank has round-off, too.
-        let condition = if blocks.stiffness[0] == blocks.stiffness[1] { 1.0 } else { 1e2 };
+        let condition = if blocks.stiffness[0] == blocks.stiffness[1] {
+            1.0
+        } else {
+            1e2
+        };
         assert!(error < condition * 1e-9, "{blocks:?} {error:e}");
         check_same(ranks, &part, &x);
     }
@@ -138,7 +146,11 @@ fn iterative(ranks: &Ranks) {
             );
         }
         // The condition does the rest.
-        let condition = if blocks.stiffness[0] == blocks.stiffness[1] { 1e2 } else { 1e4 };
+        let condition = if blocks.stiffness[0] == blocks.stiffness[1] {
+            1e2
+        } else {
+            1e4
+        };
         assert!(error < condition * 1e-11, "{blocks:?} {error:e} {report:?}");
         check_same(ranks, &part, &x);
     }
@@ -185,7 +197,10 @@ fn singular(ranks: &Ranks) {
         let mut x = vec![0.0; part.rhs.len()];
         iterative.solve(&part.tangent, &part.rhs, &mut x, 1e-9)
     });
-    assert!(matches!(failed, Err(SolveError::Singular { .. })), "{failed:?}");
+    assert!(
+        matches!(failed, Err(SolveError::Singular { .. })),
+        "{failed:?}"
+    );
     // It goes on with another matrix.
     let held = blocks(Top::Held).part(Rank(ranks.rank(), ranks.size()));
     solved(&mut direct, &held, 1e-9);
@@ -231,7 +246,7 @@ fn indefinite(ranks: &Ranks) {
     let mut part = blocks(Top::Held).part(Rank(ranks.rank(), ranks.size()));
     // Far from definite, but not singular.
     for (u, whole) in part.numbering.whole.iter().enumerate() {
-        if part.numbering.own.contains(whole) && part.serial[u] % 2 == 0 {
+        if part.numbering.own.contains(whole) && part.serial[u].is_multiple_of(2) {
             part.tangent.bodies.add(&[u], &[u], &[-10.0]).unwrap();
         }
     }
@@ -241,5 +256,8 @@ fn indefinite(ranks: &Ranks) {
     let again = solver.factor(&part.tangent).unwrap();
     assert_eq!(again.method, Method::Mumps);
     let expected = [FallBack::NoPreconditioner, FallBack::NotConverged];
-    assert!(again.fall_back.is_some_and(|f| expected.contains(&f)), "{again:?}");
+    assert!(
+        again.fall_back.is_some_and(|f| expected.contains(&f)),
+        "{again:?}"
+    );
 }

@@ -13,7 +13,7 @@ pub(super) fn automatic(backend: Backend) -> Automatic {
     Automatic::new(match backend {
         Backend::Condensed => Choice::ByCost,
         Backend::Iterative => Choice::Iterative,
-        Backend::Multifrontal => Choice::Multifrontal,
+        Backend::Multifrontal | Backend::Mumps => Choice::Multifrontal,
         Backend::Faer => Choice::Faer,
     })
 }

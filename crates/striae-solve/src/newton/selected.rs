@@ -61,17 +61,8 @@ pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected
                 let slipped = |status| semismooth && status == Status::Slip;
                 side.iter().map(|node| slipped(node.status)).collect()
             });
-            tractions.labels = tractions.slipped.each_ref().map(|side| {
-                let status = |slipped: &bool| match slipped {
-                    true => Status::Slip,
-                    false => Status::Open,
-                };
-                let label = |slipped| Label {
-                    status: status(slipped),
-                    ..Label::default()
-                };
-                side.iter().map(label).collect()
-            });
+            let labelled = |side: &Vec<bool>| side.iter().map(|slipped| label(*slipped)).collect();
+            tractions.labels = tractions.slipped.each_ref().map(labelled);
             let mut pointed = of_pair.pointed.clone();
             for stay in &stays {
                 pointed[1][stay.to] = true;
@@ -87,6 +78,18 @@ pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected
     Selected {
         selections,
         tractions,
+    }
+}
+
+/// What a node starts with that has slipped in the converged state, or not.
+fn label(slipped: bool) -> Label {
+    let status = match slipped {
+        true => Status::Slip,
+        false => Status::Open,
+    };
+    Label {
+        status,
+        ..Label::default()
     }
 }
 

@@ -10,7 +10,7 @@ use super::blocks::Blocks;
 use rayon::prelude::*;
 
 /// In no aggregate.
-pub(crate) const NONE: u32 = u32::MAX;
+pub const NONE: u32 = u32::MAX;
 
 /// Aggregate of every node, and their number.
 #[derive(Debug)]

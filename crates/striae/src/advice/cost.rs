@@ -54,7 +54,7 @@ impl Cost {
         let iterates = match model.solver.backend {
             Backend::Iterative => true,
             Backend::Condensed => unknowns > ITERATED,
-            Backend::Multifrontal | Backend::Faer => false,
+            Backend::Multifrontal | Backend::Faer | Backend::Mumps => false,
         };
         let scale = n / 2e4;
         let (bytes, operations) = match iterates {

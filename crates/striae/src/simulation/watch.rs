@@ -66,7 +66,7 @@ impl drive::Observer for Watch<'_> {
 
     fn point(&mut self, point: Point) {
         if self.failure.is_none() {
-            self.failure = self.log.point(point).err();
+            self.failure = self.log.point(self.problem, point).err();
         }
     }
 
