@@ -103,8 +103,7 @@ impl Direct {
             }
         }
         let backward_error = residual.backward_error;
-        let is_small = size(&residual.values) <= reduction * whole;
-        match is_small && backward_error.is_finite() {
+        match residual.suffices(size(&residual.values), reduction * whole) {
             true => Ok(SolveReport {
                 backward_error,
                 refinements,

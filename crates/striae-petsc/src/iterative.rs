@@ -24,8 +24,6 @@ const MOST: usize = 600;
 const LOOKS: usize = 5;
 /// Reduction of the residual between looks; more is lost to round-off.
 const GAIN: f64 = 1e-10;
-/// Backward error of an answer that cannot become much better.
-const ROUND_OFF: f64 = 1e-12;
 /// Size of a solution over that of its right-hand side at which the matrix, whose entries
 /// are near one, counts as singular.
 const SINGULAR: f64 = 1e13;
@@ -164,7 +162,7 @@ impl Iterative {
             return Err(SolveError::Singular { unknown, equation });
         }
         let backward_error = residual.backward_error;
-        match present <= reduction * size || backward_error <= ROUND_OFF {
+        match residual.suffices(present, reduction * size) {
             true => Ok(SolveReport {
                 backward_error,
                 refinements: 0,

@@ -13,12 +13,23 @@ pub(crate) struct Product<'a> {
     y: Vec<f64>,
 }
 
+/// Backward error of an answer that is at round-off, as on one rank.
+const ROUND_OFF: f64 = 1e-12;
+
 /// `b - A x`, and how large it is.
 pub(crate) struct Residual {
     /// In own rows.
     pub(crate) values: Vec<f64>,
     /// Componentwise.
     pub(crate) backward_error: f64,
+}
+
+impl Residual {
+    /// Whether an answer will do: its scaled residual, of some size, is as small as is wanted,
+    /// or at round-off, where it cannot become much smaller.
+    pub(crate) fn suffices(&self, size: f64, wanted: f64) -> bool {
+        size <= wanted || self.backward_error <= ROUND_OFF
+    }
 }
 
 impl<'a> Product<'a> {

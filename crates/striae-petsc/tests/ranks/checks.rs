@@ -131,28 +131,30 @@ fn direct(ranks: &Ranks) {
     }
 }
 
+/// A residual that is reduced by 1e-9 takes GMRES alone. Between bodies whose stiffness differs
+/// by 1e5, a reduction by 1e-11 is below round-off for some divisions: MUMPS may take over, and
+/// the answer is as good.
 fn iterative(ranks: &Ranks) {
-    let mut solver = PetscSolver::new(ranks, Choice::Iterative);
     for blocks in cases() {
+        let is_even = blocks.stiffness[0] == blocks.stiffness[1];
         let part = blocks.part(Rank(ranks.rank(), ranks.size()));
-        let (x, method, report) = solved(&mut solver, &part, 1e-11);
-        assert_eq!(method, Method::Iterative);
-        assert!(report.krylov_iterations > 0);
-        let error = difference(&blocks, &part, &x);
-        if ranks.rank() == 0 && std::env::var_os("VERBOSE").is_some() {
-            println!(
-                "{:?} {:?} {:?}: {} iterations, {error:.1e}",
-                blocks.contact, blocks.top, blocks.stiffness, report.krylov_iterations
-            );
+        for (reduction, is_asked_much) in [(1e-9, false), (1e-11, true)] {
+            let mut solver = PetscSolver::new(ranks, Choice::Iterative);
+            let (x, method, report) = solved(&mut solver, &part, reduction);
+            assert_eq!(method, Method::Iterative);
+            assert!(report.krylov_iterations > 0 || is_asked_much && !is_even);
+            let error = difference(&blocks, &part, &x);
+            if ranks.rank() == 0 && std::env::var_os("VERBOSE").is_some() {
+                println!(
+                    "{:?} {:?} {:?}, {reduction:e}: {} iterations, {error:.1e}",
+                    blocks.contact, blocks.top, blocks.stiffness, report.krylov_iterations
+                );
+            }
+            // The condition does the rest.
+            let bound = if is_even { 1e2 * reduction } else { 1e-7 };
+            assert!(error < bound, "{blocks:?} {error:e} {report:?}");
+            check_same(ranks, &part, &x);
         }
-        // The condition does the rest.
-        let condition = if blocks.stiffness[0] == blocks.stiffness[1] {
-            1e2
-        } else {
-            1e4
-        };
-        assert!(error < condition * 1e-11, "{blocks:?} {error:e} {report:?}");
-        check_same(ranks, &part, &x);
     }
 }
 
