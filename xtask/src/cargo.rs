@@ -10,8 +10,13 @@ use crate::fault::Fault;
 /// When it cannot be built.
 pub fn program() -> Result<PathBuf, Fault> {
     cargo(&["build", "--release", "-p", "striae-cli"], &[])?;
+    Ok(built())
+}
+
+/// Where the program is once it is built.
+pub fn built() -> PathBuf {
     let folder = env::var_os("CARGO_TARGET_DIR").map_or("target".into(), PathBuf::from);
-    Ok(folder.join("release").join("striae"))
+    folder.join("release").join("striae")
 }
 
 /// Runs cargo with arguments and an environment.

@@ -59,7 +59,7 @@ pub enum Fault {
     NoMpi(&'static str),
     /// Ranks did not do what they must.
     #[error("{0}")]
-    Mpi(&'static str),
+    Mpi(String),
     /// Scenes came out wrong.
     #[error("{count} of {of} scenes came out wrong")]
     Scenes {

@@ -30,7 +30,7 @@ mod scenes;
 
 use std::{env, process::ExitCode};
 
-const USAGE: &str = "usage: cargo xtask check | python | borders | scenes [OPTIONS] | report-test | book | endurance | mpi | bench [ARGUMENTS]";
+const USAGE: &str = "usage: cargo xtask check | python | borders | scenes [OPTIONS] | report-test | book | endurance | mpi [--all] | bench [ARGUMENTS]";
 
 fn main() -> ExitCode {
     let tasks: Vec<String> = env::args().skip(1).collect();
@@ -43,7 +43,7 @@ fn main() -> ExitCode {
         ["book", ..] => book::book(&tasks[1..]),
         ["mathematics", ..] => book::mathematics::preprocess(&tasks[1..]),
         ["endurance", ..] => endurance::endurance(&tasks[1..]),
-        ["mpi"] => mpi::check(),
+        ["mpi", ..] => mpi::check(&tasks[1..]),
         ["bench", ..] => check::bench(&tasks[1..]),
         _ => {
             eprintln!("{USAGE}");

@@ -1,7 +1,11 @@
-//! `cargo xtask mpi`: tests of the feature `petsc`, on one to four ranks.
+//! `cargo xtask mpi [--all]`: tests of the feature `petsc`, on one to four ranks.
 //!
 //! They are programs, not functions: `mpirun -n N` runs each as cargo's runner, so that
-//! arguments and exit codes are those of `cargo test`. A test is a row of [`TESTS`].
+//! arguments and exit codes are those of `cargo test`. A test is a row of [`TESTS`]. Then
+//! published [`cases`] are run on ranks and held against one process; with `--all` those that
+//! take minutes, too.
+
+mod cases;
 
 use std::{
     process::{Command, Stdio},
@@ -10,6 +14,7 @@ use std::{
 };
 
 use crate::fault::Fault;
+use cases::Extent;
 
 /// A test target that runs under `mpirun`.
 struct Test {
@@ -41,18 +46,24 @@ const ENVIRONMENT: [(&str, &str); 4] = [
 ///
 /// # Errors
 /// What is missing, or the first test that fails.
-pub fn check() -> Result<(), Fault> {
+pub fn check(options: &[String]) -> Result<(), Fault> {
+    let extent = match options {
+        [] => Extent::Short,
+        [all] if all == "--all" => Extent::All,
+        _ => return Err(Fault::Option("usage: cargo xtask mpi [--all]".into())),
+    };
     missing()?;
     for test in &TESTS {
         // Built once, so that the time of a run is that of the tests.
-        finished(test.command(&["--no-run"]))?;
+        finished(&mut test.command(&["--no-run"]))?;
         for ranks in RANKS {
             println!("== {} on {ranks} ranks", test.target);
-            finished(test.run(ranks, &[]))?;
+            finished(&mut test.run(ranks, &[]))?;
         }
     }
     println!("== a rank that panics");
-    ends_all(TESTS[0].run(PANICKING, &["panic"]))
+    ends_all(TESTS[0].run(PANICKING, &["panic"]))?;
+    cases::check(extent)
 }
 
 /// What the tests need and is not here.
@@ -96,15 +107,15 @@ impl Test {
 }
 
 /// Waits for a command to end well.
-fn finished(mut command: Command) -> Result<(), Fault> {
+fn finished(command: &mut Command) -> Result<(), Fault> {
     let status = command.status().map_err(|cause| Fault::Start {
-        command: words(&command),
+        command: words(command),
         cause,
     })?;
     match status.success() {
         true => Ok(()),
         false => Err(Fault::Failed {
-            command: words(&command),
+            command: words(command),
             status,
         }),
     }
@@ -123,11 +134,11 @@ fn ends_all(mut command: Command) -> Result<(), Fault> {
     loop {
         match child.try_wait().map_err(start)? {
             Some(status) if !status.success() => return Ok(()),
-            Some(_) => return Err(Fault::Mpi("a rank panicked, and the run ended well")),
+            Some(_) => return Err(Fault::Mpi("a rank panicked, and the run ended well".into())),
             None if started.elapsed() > PATIENCE => {
                 // The other ranks end with mpirun, which ends with its parent.
                 child.kill().map_err(start)?;
-                return Err(Fault::Mpi("a rank panicked, and the others went on"));
+                return Err(Fault::Mpi("a rank panicked, and the others went on".into()));
             }
             None => thread::sleep(Duration::from_millis(100)),
         }

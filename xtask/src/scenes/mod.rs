@@ -19,7 +19,7 @@ mod geometry;
 mod kinds;
 mod law;
 mod options;
-mod output;
+pub mod output;
 mod random;
 mod run;
 mod scene;

@@ -54,6 +54,11 @@ impl History {
         self.rows.len()
     }
 
+    /// Names of the columns, in no order.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.columns.keys().map(String::as_str)
+    }
+
     /// A number, if the table has the row and the column.
     pub fn number(&self, row: usize, name: &str) -> Option<f64> {
         self.rows.get(row)?.get(*self.columns.get(name)?).copied()
