@@ -269,6 +269,7 @@ impl Evaluation {
                     before: stage.tractions.labels[side][node],
                     unknowns: stage.tractions.nodes[side][node],
                     tau: stage.tau[side][node].value,
+                    yields: stage.selection.yields && stage.selection.is_point(side, node),
                 };
                 Some(rows(stage.configuration, &contact_node, conditions))
             })

@@ -72,6 +72,7 @@ impl Selection {
             lifts: [Vec::new(), Vec::new()],
             required: before.required.clone(),
             points,
+            yields: false,
         };
         for &side in start.pair.deformable_sides() {
             let nodes = before.pointed[side].iter().enumerate();

@@ -63,4 +63,6 @@ pub struct ContactNode<'a> {
     pub unknowns: [f64; 3],
     /// Friction traction `tau`.
     pub tau: Vec3,
+    /// Whether its rows have a compliance in the tangent.
+    pub yields: bool,
 }

@@ -166,6 +166,7 @@ pub(super) fn reselected(
             let selection = Selection {
                 offsets,
                 lifts: setting.selections[pair].lifts.clone(),
+                yields: setting.selections[pair].yields,
                 ..Selection::new(&start, Some(&latest), before(&pointed), prescribed)
             };
             let mut tractions = trial.tractions[pair].clone();
