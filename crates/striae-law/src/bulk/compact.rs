@@ -26,6 +26,7 @@ pub struct CompactTangent {
 impl CompactTangent {
     /// All components, column `3 k + L` by column.
     #[allow(non_snake_case)]
+    #[inline]
     pub fn full(&self) -> Tangent {
         let mut A = Tangent::zeros();
         let B = &self.inverse_transposed;

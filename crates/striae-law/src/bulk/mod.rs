@@ -101,6 +101,7 @@ pub struct Response<T = Tangent> {
 }
 
 impl From<Response<CompactTangent>> for Response {
+    #[inline]
     fn from(response: Response<CompactTangent>) -> Self {
         Self {
             energy: response.energy,

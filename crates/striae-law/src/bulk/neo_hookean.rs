@@ -36,6 +36,7 @@ pub(super) fn energy<D: DualNum<Primitive = f64> + Copy>(
 }
 
 #[allow(non_snake_case)]
+#[inline]
 pub(super) fn response(
     lambda: f64,
     G: f64,
