@@ -64,7 +64,8 @@ fn yielding(rows: [TangentialRow; 3], [r_n, r_t]: [f64; 2]) -> [TangentialRow; 3
     })
 }
 
-/// The three rows of a kept node.
+/// The three rows of a kept node. Where it yields, closed rows have a compliance in the tangent,
+/// so that rows of places that depend on each other do not make it singular.
 pub fn rows(
     configuration: &Configuration,
     node: &ContactNode,

@@ -174,15 +174,11 @@ fn largest(alone: &History, together: &History, name: &str) -> Result<(f64, f64)
         return Err(format!("{} rows of `{name}` for {}", b.len(), a.len()));
     }
     let value = a.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
-    let pairs = a.iter().zip(&b);
-    // Unlike `max`, this lets no NaN pass.
-    let difference = pairs
-        .map(|(a, b)| (a - b).abs())
-        .fold(0.0, |most, next| if next <= most { most } else { next });
-    match difference.is_finite() {
-        true => Ok((value, difference)),
-        false => Err(format!("`{name}` is not finite")),
+    if a.iter().chain(&b).any(|number| !number.is_finite()) {
+        return Err(format!("`{name}` is not finite"));
     }
+    let differences = a.iter().zip(&b).map(|(a, b)| (a - b).abs());
+    Ok((value, differences.fold(0.0, f64::max)))
 }
 
 #[cfg(test)]
@@ -206,7 +202,13 @@ mod tests {
     fn runs_that_ended_elsewhere_differ() {
         let alone = history("3,1,-4\n4,2,0\n");
         assert!(Differences::of(&alone, &history("3,1,-4\n")).is_err());
-        assert!(Differences::of(&alone, &history("3,1,-4\n4,NaN,0\n")).is_err());
+        for rows in [
+            "3,NaN,-4\n4,2,0\n",
+            "3,1,-4\n4,NaN,0\n",
+            "3,inf,-4\n4,2,0\n",
+        ] {
+            assert!(Differences::of(&alone, &history(rows)).is_err(), "{rows}");
+        }
         assert!(Differences::of(&history("3,0,0\n"), &history("3,0,0\n")).is_err());
     }
 

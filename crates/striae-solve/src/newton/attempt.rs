@@ -107,7 +107,7 @@ impl<'a> Attempt<'a> {
     /// The increment from the beginning, without what the one before leads to.
     pub(super) fn anew(self, s: f64, workspace: &mut Workspace) -> Self {
         Self {
-            given_up: self.iterations,
+            given_up: [self.given_up, self.iterations].concat(),
             ..Self::new(self.context, self.state, self.imposed, s, workspace)
         }
     }
