@@ -56,26 +56,29 @@ impl Contact {
             .par_iter()
             .enumerate()
             .with_min_len(64)
-            .map(|(k, &u)| {
-                let (positions, mut own) = parts(scaled, &place, u as usize);
-                for entries in positions.chunk_by(|a, b| a.0 / 3 == b.0 / 3) {
-                    let node = entries[0].0 / 3;
-                    let mut g = [0.0; 3];
-                    entries.iter().for_each(|&(at, a)| g[at as usize % 3] = a);
-                    for component in 0..3 {
-                        let moved = compliance.along(node, component, &g);
-                        let row = force(3 * node + component as u32).iter();
-                        own.extend(row.map(|&(m, c)| (m, -moved * c)));
+            .map_init(
+                || RowSum::new(multipliers.len()),
+                |sum, (k, &u)| {
+                    let (positions, own) = parts(scaled, &place, u as usize);
+                    own.iter().for_each(|&(m, a)| sum.add(m, a));
+                    for entries in positions.chunk_by(|a, b| a.0 / 3 == b.0 / 3) {
+                        let node = entries[0].0 / 3;
+                        let mut g = [0.0; 3];
+                        entries.iter().for_each(|&(at, a)| g[at as usize % 3] = a);
+                        for component in 0..3 {
+                            let moved = compliance.along(node, component, &g);
+                            let row = force(3 * node + component as u32).iter();
+                            row.for_each(|&(m, c)| sum.add(m, -moved * c));
+                        }
                     }
-                }
-                if is_constraint[k] {
-                    // Tractions may act on nothing but prescribed unknowns.
-                    let diagonal = own.iter().filter(|e| e.0 == k as u32);
-                    let diagonal: f64 = diagonal.map(|e| e.1).sum();
-                    own.push((k as u32, if diagonal > 0.0 { SLIGHT } else { -SLIGHT }));
-                }
-                (positions, own)
-            })
+                    if is_constraint[k] {
+                        // Tractions may act on nothing but prescribed unknowns.
+                        let is_positive = sum.get(k as u32) > 0.0;
+                        sum.add(k as u32, if is_positive { SLIGHT } else { -SLIGHT });
+                    }
+                    (positions, sum.take())
+                },
+            )
             .collect();
         let (rows, own): (Vec<Row>, Vec<Row>) = split.into_iter().unzip();
         let matrix = assembled(scaled, &own)?;
@@ -117,15 +120,56 @@ impl Contact {
     }
 }
 
-/// A matrix of the multipliers, grouped as in the whole system.
+/// A row over all multipliers that is being added up.
+struct RowSum {
+    values: Vec<f64>,
+    is_there: Vec<bool>,
+    columns: Vec<u32>,
+}
+
+impl RowSum {
+    fn new(multipliers: usize) -> Self {
+        Self {
+            values: vec![0.0; multipliers],
+            is_there: vec![false; multipliers],
+            columns: Vec::new(),
+        }
+    }
+
+    fn add(&mut self, multiplier: u32, value: f64) {
+        let at = multiplier as usize;
+        if !self.is_there[at] {
+            self.is_there[at] = true;
+            self.columns.push(multiplier);
+        }
+        self.values[at] += value;
+    }
+
+    fn get(&self, multiplier: u32) -> f64 {
+        self.values[multiplier as usize]
+    }
+
+    /// The row in rising order; the sum is empty again.
+    fn take(&mut self) -> Row {
+        self.columns.sort_unstable();
+        let row = self.columns.drain(..).map(|multiplier| {
+            let at = multiplier as usize;
+            self.is_there[at] = false;
+            (multiplier, std::mem::take(&mut self.values[at]))
+        });
+        row.collect()
+    }
+}
+
+/// A matrix of the multipliers by sorted rows, grouped as in the whole system.
 fn assembled(scaled: &Scaled<'_>, rows: &[Row]) -> Result<SparseMatrix, SolveError> {
-    let structure = &scaled.nodes.partition;
+    let partition = &scaled.nodes.partition;
     let (mut offsets, mut tiers, mut owners) = (vec![0], Vec::<Tier>::new(), Vec::new());
     let mut before = None;
     for (k, &u) in scaled.nodes.multipliers.iter().enumerate() {
-        let owner = structure.owner(u as usize);
+        let owner = partition.owner(u as usize);
         if before != Some(owner) {
-            tiers.push(structure.tier(owner));
+            tiers.push(partition.tier(owner));
             offsets.push(k);
         }
         before = Some(owner);
@@ -133,24 +177,30 @@ fn assembled(scaled: &Scaled<'_>, rows: &[Row]) -> Result<SparseMatrix, SolveErr
         offsets[tiers.len()] = k + 1;
     }
     let mut pairs: Vec<[Supervariable; 2]> = Vec::new();
-    for (k, row) in rows.iter().enumerate() {
-        let near = row.iter().map(|&(m, _)| owners[m as usize]);
-        let mut near: Vec<usize> = near.filter(|&j| j != owners[k]).collect();
+    for (i, range) in offsets.windows(2).map(|ends| ends[0]..ends[1]).enumerate() {
+        let near = rows[range]
+            .iter()
+            .flatten()
+            .map(|&(m, _)| owners[m as usize]);
+        let mut near: Vec<usize> = near.filter(|&j| j != i).collect();
         near.sort_unstable();
         near.dedup();
-        pairs.extend(near.iter().map(|&j| [owners[k], j].map(Supervariable)));
+        pairs.extend(near.into_iter().map(|j| [i, j].map(Supervariable)));
     }
-    pairs.sort_unstable();
-    pairs.dedup();
     let structure = Structure::from_cliques(offsets, &pairs)
         .and_then(|structure| structure.with_tiers(tiers))
         .map_err(|_| SolveError::NotAnalysed)?;
     let mut matrix = SparseMatrix::zero(&structure);
     for (k, row) in rows.iter().enumerate() {
-        for &(m, a) in row {
-            matrix
-                .add(&[k], &[m as usize], &[a])
-                .map_err(|_| SolveError::NotAnalysed)?;
+        let i = owners[k];
+        let start = structure.row(i, k - structure.group(i).start).start;
+        for entries in row.chunk_by(|a, b| owners[a.0 as usize] == owners[b.0 as usize]) {
+            let j = owners[entries[0].0 as usize];
+            let edge = structure.edge(i, j).ok_or(SolveError::NotAnalysed)?;
+            let first = start + structure.column(edge);
+            for &(m, a) in entries {
+                matrix.values_mut()[first + m as usize - structure.group(j).start] = a;
+            }
         }
     }
     Ok(matrix)
