@@ -139,6 +139,7 @@ fn of_scene(group: &str, size: usize) -> Results {
                 friction: &context.plan.frictions[0],
                 prescribed: &context.fixed_on_pair[0],
                 iteration: Iteration::First,
+                wanted: None,
             };
             let at = &configuration;
             let terms = timed("search", "segments and local terms", nodes, || {

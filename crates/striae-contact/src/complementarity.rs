@@ -75,6 +75,7 @@ pub fn rows(
         friction,
         prescribed,
         iteration,
+        wanted: _,
     } = conditions;
     let state = NodeState::new(configuration, node, friction, prescribed);
     let [p, z1, z2] = node.unknowns;

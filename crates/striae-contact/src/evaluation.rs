@@ -137,7 +137,7 @@ pub fn evaluate(
     evaluation.add_rows(&stage, conditions);
     evaluation.follow_status(selection);
     match configuration.pair.enforcement {
-        Enforcement::Weighted => evaluation.add_segments(&stage, &patches),
+        Enforcement::Weighted => evaluation.add_segments(&stage, conditions.wanted, &patches),
         Enforcement::Collocated => evaluation.add_facets(&stage),
     }
     evaluation.add_means(configuration);
@@ -251,6 +251,14 @@ impl Stage<'_> {
 }
 
 impl Evaluation {
+    /// Forgets the derivatives of the terms, which take the most room.
+    pub fn forget_derivatives(&mut self) {
+        for term in &mut self.terms {
+            term.columns = Vec::new();
+            term.tangent = Vec::new();
+        }
+    }
+
     fn add_rows(&mut self, stage: &Stage, conditions: Conditions) {
         let kept = stage.selection.kept();
         let found: Vec<Option<(LocalTerm, NodeResult)>> = (0..kept.len())
@@ -311,13 +319,14 @@ impl Evaluation {
         }
     }
 
-    fn add_segments(&mut self, stage: &Stage, patches: &[Patch]) {
+    fn add_segments(&mut self, stage: &Stage, wanted: Option<&[Vec<bool>; 2]>, patches: &[Patch]) {
         let field = CommonField {
             configuration: stage.configuration,
             selection: stage.selection,
             frames: stage.frames,
             tractions: stage.tractions,
             tau: stage.tau,
+            wanted,
         };
         let mut forces = [Vec::new(), Vec::new()];
         for ((term, of_facets), patch) in segment_terms(field, patches).into_iter().zip(patches) {

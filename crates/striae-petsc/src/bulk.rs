@@ -1,7 +1,7 @@
 //! The bulk that multigrid inverts: symmetric, scaled, stiffened by constraints.
 
 use crate::{
-    binding::{Cycle, Entry, Library, Matrix, Side, sum},
+    binding::{Cycle, Entry, Library, Matrix, Side},
     coupling::Coupling,
     error::Error,
     finest::{Finest, Problem},
@@ -77,15 +77,6 @@ impl Rows<'_> {
         }
     }
 
-    /// The block on the diagonal, with that stiffness.
-    fn diagonal(&self, k: usize) -> [f64; 9] {
-        let mut entries = Vec::new();
-        self.add_stiffened(k, &mut entries);
-        sum(&mut entries);
-        let own = entries.iter().find(|entry| entry.0 == self.node(k));
-        own.map_or([0.0; 9], |entry| entry.1)
-    }
-
     /// What the bodies couple on this rank.
     fn near(&self) -> Blocks<3, 3, f64> {
         let nodes = self.bulk.nodes;
@@ -133,10 +124,8 @@ impl Bulk<'_> {
             library,
             team,
             side,
-            near: rows.near(),
-            kernel: &kernel,
         };
-        let finest = Finest::new(problem, stiffened, |k| rows.diagonal(k))?;
+        let finest = Finest::new(&problem, (rows.near(), &kernel), stiffened)?;
         Ok(finest.map(|finest| Inverse::Usual(Box::new(finest))))
     }
 

@@ -2,261 +2,312 @@
 //!
 //! They do not reach over contact: bodies that slide on each other keep motions of their
 //! own. PETSc's aggregation would not know that, as what constraints couple is as strong as
-//! elements are. The coarser levels are PETSc's. Smoothing, aggregates and interpolation
-//! are those of [`striae_sparse::aggregation`]; aggregates do not reach over ranks either.
+//! elements are. Aggregates do not reach over ranks either. The coarser levels are PETSc's.
 
 use crate::{
     binding::{Cycle, Entry, Lay, Library, Matrix, Side},
     error::Error,
-    foreign::starts,
-    product::{norm, orthonormalise, pseudo_random},
+    foreign::{exchange, fetch, starts},
+    halo::{Halo, narrow, widen},
+    product::orthonormalise,
 };
 use rayon::prelude::*;
 use std::sync::Arc;
 use striae_solve::team::Team;
-use striae_sparse::aggregation::{
-    Coarsening, MODES, NONE,
-    blocks::{Blocks, invert},
-};
+use striae_sparse::aggregation::{self, Coarsening, MODES, NONE, Others, blocks::Blocks};
 
 /// Values of an interpolation from an aggregate to a node.
 const AREA: usize = 3 * MODES;
-/// Steps of the power method.
-const STEPS: usize = 12;
-/// By how much its estimate of the largest eigenvalue is raised.
-const SAFETY: f64 = 1.1;
-/// Largest eigenvalue over the smallest one that smoothing reduces.
-const RATIO: f64 = 10.0;
-/// Degree of the smoothing polynomial.
-const DEGREE: usize = 2;
+/// Values of a block of the next level.
+const COARSE: usize = MODES * MODES;
 
 /// A matrix of three unknowns a node with a cycle in the place of its inverse.
 #[derive(Debug)]
 pub(crate) struct Finest {
-    matrix: Matrix,
-    /// Inverses of the diagonal blocks.
-    inverses: Vec<[f64; 9]>,
-    /// Largest eigenvalue of the matrix times those.
-    largest: f64,
-    interpolation: Matrix,
+    level: aggregation::Finest,
+    nodes: Halo,
+    aggregates: Halo,
     coarser: Cycle,
     /// Vectors of this level and of the next.
-    residual: Vec<f64>,
-    step: Vec<f64>,
+    b: Vec<f32>,
+    x: Vec<f32>,
     restricted: Vec<f64>,
     correction: Vec<f64>,
 }
 
-/// What a level is made of, but for its rows.
+/// Where the rows of a level lie.
 pub(crate) struct Problem<'a> {
     pub(crate) library: &'a Arc<Library>,
     pub(crate) team: &'a dyn Team,
     pub(crate) side: Side,
-    /// What the bodies couple on this rank.
-    pub(crate) near: Blocks<3, 3, f64>,
-    /// Near-kernel on this rank, column by column.
-    pub(crate) kernel: &'a [Vec<f64>],
 }
 
-/// What is known of the solution before smoothing.
-#[derive(Clone, Copy, PartialEq)]
-enum Start {
-    Zero,
-    Given,
+/// The ranks that hold the other rows, of the next level where there is one.
+struct Neighbours<'a> {
+    nodes: &'a mut Halo,
+    aggregates: Option<&'a mut Halo>,
+    /// The first that went wrong.
+    failure: Result<(), Error>,
+}
+
+/// Interpolation to own nodes and to others' that own rows name, by places of aggregates.
+struct Interpolation {
+    own: Blocks<3, MODES, f64>,
+    theirs: Blocks<3, MODES, f64>,
+    aggregates: Halo,
 }
 
 impl Finest {
-    /// From the rows of this rank's nodes and their diagonal blocks; `None` where it is not
-    /// definite. Collective.
+    /// From what the bodies couple on this rank, the near-kernel, column by column, and the
+    /// rows of this rank's nodes, where blocks of one column add up; `None` where the matrix is
+    /// not definite. Collective.
     pub(crate) fn new(
-        problem: Problem<'_>,
+        problem: &Problem<'_>,
+        (near, kernel): (Blocks<3, 3, f64>, &[Vec<f64>]),
         row: impl Fn(usize, &mut Vec<Entry<9>>) + Sync,
-        diagonal: impl Fn(usize) -> [f64; 9] + Sync,
     ) -> Result<Option<Self>, Error> {
-        let Problem {
-            library,
-            team,
-            side,
-            near,
-            kernel,
-        } = problem;
-        let own = side.blocks.own;
+        let own = problem.side.blocks.own;
         let by_node = (0..3 * own).flat_map(|k| kernel.iter().map(move |mode| mode[k]));
         let coarsening = Coarsening::new(&near, &by_node.collect::<Vec<f64>>());
         drop(near);
-        let inverses = (0..own).into_par_iter().with_min_len(64).map(|k| {
-            let mut inverse = [0.0; 9];
-            invert::<3>(&diagonal(k), &mut inverse);
-            inverse
-        });
-        let inverses: Vec<[f64; 9]> = inverses.collect();
-        let mut matrix = Matrix::assembled(library, (side, side), row)?;
-        let largest = SAFETY * power_method(team, &mut matrix, &inverses)?;
-        let aggregates = aggregates(team, &coarsening);
-        let omega = 4.0 / 3.0 / largest;
-        let interpolation = smoothed(&matrix, (&coarsening, aggregates), &inverses, omega)?;
-        let mut coarse = matrix.galerkin(&interpolation)?;
-        let Lay {
-            first, own: size, ..
-        } = aggregates.unknowns();
-        coarse.set_ones(coarsening.empty().map(|unknown| first + unknown))?;
-        let mut kernel: Vec<Vec<f64>> = (0..MODES)
-            .map(|mode| {
-                let rows = coarsening.near_kernel.chunks_exact(MODES);
-                rows.map(|row| row[mode]).collect()
-            })
-            .collect();
-        drop(coarsening);
-        orthonormalise(team, &mut kernel);
-        Ok(Cycle::new(coarse, &kernel)?.map(|coarser| Self {
-            matrix,
-            inverses,
-            largest,
-            interpolation,
+        let (mut nodes, matrix) = problem.rows(row)?;
+        let sum = |own: f64| {
+            let mut sum = [own];
+            problem.team.sum(&mut sum);
+            sum[0]
+        };
+        let mut neighbours = Neighbours {
+            nodes: &mut nodes,
+            aggregates: None,
+            failure: Ok(()),
+        };
+        let mut level =
+            aggregation::Finest::new(&matrix, neighbours.nodes.blocks(), (&mut neighbours, &sum));
+        neighbours.failure?;
+        let coarse = problem.coarse(coarsening.count);
+        let interpolation =
+            problem.interpolation((&level, &matrix), &nodes, (&coarsening, coarse))?;
+        let Interpolation {
+            own: interpolated,
+            theirs,
+            aggregates,
+        } = interpolation;
+        let product = level.coarsen(matrix, (interpolated, &theirs), aggregates.blocks());
+        drop(theirs);
+        let product = problem.summed(product, (&aggregates, coarse), &coarsening)?;
+        let kernel = coarse_kernel(problem.team, &coarsening);
+        let unknowns = coarse.unknowns().own;
+        Ok(Cycle::new(product, &kernel)?.map(|coarser| Self {
+            level,
+            b: vec![0.0; 3 * own],
+            x: vec![0.0; 3 * nodes.blocks()],
+            nodes,
+            aggregates,
             coarser,
-            residual: vec![0.0; 3 * own],
-            step: vec![0.0; 3 * own],
-            restricted: vec![0.0; size],
-            correction: vec![0.0; size],
+            restricted: vec![0.0; unknowns],
+            correction: vec![0.0; unknowns],
         }))
     }
 
     /// `x = M^-1 b`: smoothing, a correction by the coarser levels, smoothing.
     pub(crate) fn apply(&mut self, b: &[f64], x: &mut [f64]) -> Result<(), Error> {
-        x.fill(0.0);
-        self.smooth(b, x, Start::Zero)?;
-        self.find_residual(b, x)?;
         let Self {
-            interpolation,
-            coarser,
-            residual,
-            restricted,
-            correction,
-            ..
+            nodes, aggregates, ..
         } = self;
-        interpolation.multiply_transposed(residual, restricted)?;
-        coarser.apply(restricted, correction)?;
-        interpolation.multiply(correction, residual)?;
-        x.iter_mut().zip(residual).for_each(|(x, d)| *x += *d);
-        self.smooth(b, x, Start::Given)
-    }
-
-    /// `residual = b - A x`.
-    fn find_residual(&mut self, b: &[f64], x: &[f64]) -> Result<(), Error> {
-        self.matrix.multiply(x, &mut self.residual)?;
-        self.residual
-            .iter_mut()
-            .zip(b)
-            .for_each(|(r, b)| *r = b - *r);
+        narrow(b, &mut self.b);
+        let mut neighbours = Neighbours {
+            nodes,
+            aggregates: Some(aggregates),
+            failure: Ok(()),
+        };
+        let mut failure = Ok(());
+        let mut coarser = |b: &[f32], x: &mut [f32]| {
+            widen(b, &mut self.restricted);
+            let applied = self.coarser.apply(&self.restricted, &mut self.correction);
+            keep_first(&mut failure, applied);
+            narrow(&self.correction, x);
+        };
+        self.level
+            .cycle(&self.b, &mut self.x, &mut neighbours, &mut coarser);
+        neighbours.failure.and(failure)?;
+        widen(&self.x[..b.len()], x);
         Ok(())
     }
+}
 
-    /// Chebyshev iteration on the upper part of the spectrum (Saad, Iterative Methods, alg. 12.1).
-    fn smooth(&mut self, b: &[f64], x: &mut [f64], start: Start) -> Result<(), Error> {
-        let (upper, lower) = (self.largest, self.largest / RATIO);
-        let (centre, half) = (0.5 * (upper + lower), 0.5 * (upper - lower));
-        let sigma = centre / half;
-        let mut rho = 1.0 / sigma;
-        for k in 0..DEGREE {
-            match k > 0 || start == Start::Given {
-                true => self.find_residual(b, x)?,
-                false => self.residual.copy_from_slice(b),
+impl Problem<'_> {
+    /// This rank's rows, and the nodes of others that they name.
+    fn rows(
+        &self,
+        row: impl Fn(usize, &mut Vec<Entry<9>>) + Sync,
+    ) -> Result<(Halo, Blocks<3, 3, f64>), Error> {
+        let side = self.side;
+        let own = side.blocks.own;
+        let named: Vec<Vec<u32>> = (0..own)
+            .into_par_iter()
+            .with_min_len(256)
+            .map_init(Vec::new, |entries, k| {
+                entries.clear();
+                row(k, entries);
+                let others = entries.iter().map(|entry| entry.0);
+                others.filter(|&node| !side.contains(node)).collect()
+            })
+            .collect();
+        let nodes = Halo::new(self.library, side, named.into_iter().flatten())?;
+        let rows = Blocks::from_rows(own, nodes.blocks(), |k, sum| {
+            let mut entries = Vec::with_capacity(64);
+            row(k, &mut entries);
+            for (node, block) in &entries {
+                let target = sum.block(nodes.place(*node)).iter_mut();
+                target.zip(block).for_each(|(t, b)| *t += b);
             }
-            let (keep, take) = if k == 0 {
-                (0.0, 1.0 / centre)
-            } else {
-                let before = rho;
-                rho = 1.0 / (2.0 * sigma - before);
-                (rho * before, 2.0 * rho / half)
-            };
-            let Self {
-                inverses,
-                residual,
-                step,
-                ..
-            } = self;
-            let nodes = step.par_chunks_exact_mut(3).zip(x.par_chunks_exact_mut(3));
-            let nodes = nodes.zip(residual.par_chunks_exact(3)).zip(&*inverses);
-            nodes
-                .with_min_len(1024)
-                .for_each(|(((step, x), residual), inverse)| {
-                    for (r, image) in product(inverse, residual).into_iter().enumerate() {
-                        step[r] = keep * step[r] + take * image;
-                        x[r] += step[r];
-                    }
-                });
+        });
+        Ok((nodes, rows))
+    }
+
+    /// Aggregates of all ranks, of which this one has so many.
+    fn coarse(&self, count: usize) -> Side {
+        let starts = starts(self.team, count);
+        Side {
+            blocks: Lay {
+                first: starts[self.team.rank()],
+                own: count,
+                total: starts[self.team.size()],
+            },
+            size: MODES,
         }
-        Ok(())
+    }
+
+    fn interpolation(
+        &self,
+        (level, matrix): (&aggregation::Finest, &Blocks<3, 3, f64>),
+        nodes: &Halo,
+        (coarsening, coarse): (&Coarsening, Side),
+    ) -> Result<Interpolation, Error> {
+        let starts = starts(self.team, self.side.blocks.own);
+        let first = coarse.blocks.first as u32;
+        let tentative = fetch(self.team, &starts, nodes.others(), |k| {
+            let values = coarsening.columns[k * AREA..].first_chunk::<AREA>();
+            let is_in = coarsening.aggregates[k] != NONE;
+            let value = values.filter(|_| is_in);
+            let entries = value.map(|values| (first + coarsening.aggregates[k], *values));
+            entries.into_iter().collect()
+        });
+        let named = tentative.values().flatten().map(|entry| entry.0);
+        let near = Halo::new(self.library, coarse, named)?;
+        let (mut of, mut columns) = (coarsening.aggregates.clone(), coarsening.columns.clone());
+        for node in nodes.others() {
+            let entry = tentative.get(node).and_then(|entries| entries.first());
+            of.push(entry.map_or(NONE, |entry| near.place(entry.0) as u32));
+            columns.extend(entry.map_or([0.0; AREA], |entry| entry.1));
+        }
+        let own = level.interpolation(matrix, (of, columns), near.blocks());
+        let theirs = fetch(self.team, &starts, nodes.others(), |k| {
+            let entries = own.row(k).map(|(place, values)| {
+                let mut copy = [0.0; AREA];
+                copy.copy_from_slice(values);
+                (near.number(place), copy)
+            });
+            entries.collect()
+        });
+        let named = theirs.values().flatten().map(|entry| entry.0);
+        let named = named.chain(near.others().iter().copied());
+        let aggregates = Halo::new(self.library, coarse, named)?;
+        let count = aggregates.blocks();
+        let own = Blocks::from_rows(own.rows(), count, |k, sum| {
+            for (place, values) in own.row(k) {
+                let place = aggregates.place(near.number(place));
+                sum.block(place).copy_from_slice(values);
+            }
+        });
+        let others = nodes.others();
+        let theirs = Blocks::from_rows(others.len(), count, |k, sum| {
+            for (aggregate, values) in theirs.get(&others[k]).into_iter().flatten() {
+                let place = aggregates.place(*aggregate);
+                sum.block(place).copy_from_slice(values);
+            }
+        });
+        Ok(Interpolation {
+            own,
+            theirs,
+            aggregates,
+        })
+    }
+
+    /// The matrix of the next level from what all ranks add to it.
+    fn summed(
+        &self,
+        part: Blocks<MODES, MODES, f64>,
+        (aggregates, coarse): (&Halo, Side),
+        coarsening: &Coarsening,
+    ) -> Result<Matrix, Error> {
+        let own = coarse.blocks.own;
+        let entries = |place: usize| -> Vec<Entry<COARSE>> {
+            let row = part.row(place).map(|(other, values)| {
+                let mut copy = [0.0; COARSE];
+                copy.copy_from_slice(values);
+                (aggregates.number(other), copy)
+            });
+            row.collect()
+        };
+        let starts = starts(self.team, own);
+        let others = own..aggregates.blocks();
+        let others = others.map(|place| (aggregates.number(place), entries(place)));
+        let foreign = exchange(self.team, &starts, others);
+        let row = |k: usize, sum: &mut Vec<Entry<COARSE>>| {
+            sum.extend(entries(k));
+            let number = (coarse.blocks.first + k) as u32;
+            sum.extend(foreign.get(&number).into_iter().flatten());
+        };
+        let mut matrix = Matrix::assembled(self.library, (coarse, coarse), row)?;
+        let first = coarse.unknowns().first;
+        matrix.set_ones(coarsening.empty().map(|unknown| first + unknown))?;
+        Ok(matrix)
     }
 }
 
-/// Aggregates of all ranks.
-fn aggregates(team: &dyn Team, coarsening: &Coarsening) -> Side {
-    let starts = starts(team, coarsening.count);
-    Side {
-        blocks: Lay {
-            first: starts[team.rank()],
-            own: coarsening.count,
-            total: starts[team.size()],
-        },
-        size: MODES,
+impl Neighbours<'_> {
+    fn keep(&mut self, done: Result<(), Error>) {
+        keep_first(&mut self.failure, done);
     }
 }
 
-/// `B r` of a block.
-fn product(block: &[f64; 9], r: &[f64]) -> [f64; 3] {
-    [0, 3, 6].map(|row| block[row] * r[0] + block[row + 1] * r[1] + block[row + 2] * r[2])
-}
-
-/// Largest eigenvalue of `D^-1 A`, from below.
-fn power_method(team: &dyn Team, matrix: &mut Matrix, inverses: &[[f64; 9]]) -> Result<f64, Error> {
-    let Lay { first, own, .. } = matrix.rows().unknowns();
-    let mut x: Vec<f64> = (first..first + own).map(pseudo_random).collect();
-    let mut image = vec![0.0; own];
-    let (mut estimate, mut before) = (1.0, norm(team, &x));
-    for _ in 0..STEPS {
-        matrix.multiply(&x, &mut image)?;
-        for (x, (image, inverse)) in x
-            .chunks_exact_mut(3)
-            .zip(image.chunks_exact(3).zip(inverses))
-        {
-            x.copy_from_slice(&product(inverse, image));
-        }
-        let after = norm(team, &x);
-        if before == 0.0 || after == 0.0 {
-            break;
-        }
-        estimate = after / before;
-        x.iter_mut().for_each(|x| *x /= after);
-        before = 1.0;
+impl Others for Neighbours<'_> {
+    fn fetch(&mut self, x: &mut [f32]) {
+        let done = self.nodes.fetch(x);
+        self.keep(done);
     }
-    Ok(estimate)
+
+    fn fetch_coarse(&mut self, x: &mut [f32]) {
+        if let Some(aggregates) = &mut self.aggregates {
+            let done = aggregates.fetch(x);
+            self.keep(done);
+        }
+    }
+
+    fn bring_coarse(&mut self, x: &mut [f32]) {
+        if let Some(aggregates) = &mut self.aggregates {
+            let done = aggregates.bring(x);
+            self.keep(done);
+        }
+    }
 }
 
-/// `(I - omega D^-1 A) T` with the orthonormal columns `T`.
-fn smoothed(
-    matrix: &Matrix,
-    (coarsening, columns): (&Coarsening, Side),
-    inverses: &[[f64; 9]],
-    omega: f64,
-) -> Result<Matrix, Error> {
-    let (library, rows) = (matrix.library(), matrix.rows());
-    let first = columns.blocks.first as u32;
-    let tentative = |k: usize, entries: &mut Vec<Entry<AREA>>| {
-        let aggregate = coarsening.aggregates[k];
-        let values = coarsening.columns[k * AREA..].first_chunk();
-        if let (true, Some(values)) = (aggregate != NONE, values) {
-            entries.push((first + aggregate, *values));
-        }
-    };
-    let tentative = Matrix::assembled(library, (rows, columns), tentative)?;
-    let inverse = |k: usize, entries: &mut Vec<Entry<9>>| {
-        entries.push(((rows.blocks.first + k) as u32, inverses[k]));
-    };
-    let inverse = Matrix::assembled(library, (rows, rows), inverse)?;
-    let image = matrix.product(&tentative)?;
-    let mut smoothed = inverse.product(&image)?;
-    drop((inverse, image));
-    smoothed.scale_and_add(-omega, &tentative)?;
-    Ok(smoothed)
+/// Orthonormal near-kernel of the next level, column by column.
+fn coarse_kernel(team: &dyn Team, coarsening: &Coarsening) -> Vec<Vec<f64>> {
+    let mut kernel: Vec<Vec<f64>> = (0..MODES)
+        .map(|mode| {
+            let rows = coarsening.near_kernel.chunks_exact(MODES);
+            rows.map(|row| row[mode]).collect()
+        })
+        .collect();
+    orthonormalise(team, &mut kernel);
+    kernel
+}
+
+/// Keeps what went wrong first.
+fn keep_first(failure: &mut Result<(), Error>, done: Result<(), Error>) {
+    if failure.is_ok() {
+        *failure = done;
+    }
 }

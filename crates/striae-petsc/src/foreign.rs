@@ -25,17 +25,54 @@ pub(crate) fn exchange<const AREA: usize>(
     rows: impl Iterator<Item = (u32, Vec<Entry<AREA>>)>,
 ) -> Foreign<AREA> {
     let mut parcels = vec![Vec::new(); team.size()];
-    for (row, entries) in rows.filter(|(_, entries)| !entries.is_empty()) {
-        let owner = starts.partition_point(|&start| start <= row as usize) - 1;
-        let parcel: &mut Vec<f64> = &mut parcels[owner];
-        parcel.extend([f64::from(row), entries.len() as f64]);
-        for (column, values) in entries {
-            parcel.push(f64::from(column));
-            parcel.extend(values);
-        }
+    for (row, entries) in rows {
+        pack(&mut parcels[owner(starts, row)], row, &entries);
     }
+    unpacked(team.exchange(parcels))
+}
+
+/// Rows that this rank wants of those they belong to; `row` makes one of its own.
+pub(crate) fn fetch<const AREA: usize>(
+    team: &dyn Team,
+    starts: &[usize],
+    wanted: &[u32],
+    row: impl Fn(usize) -> Vec<Entry<AREA>>,
+) -> Foreign<AREA> {
+    let mut wishes = vec![Vec::new(); team.size()];
+    for &row in wanted {
+        wishes[owner(starts, row)].push(f64::from(row));
+    }
+    let parcels = team.exchange(wishes).into_iter().map(|wishes| {
+        let mut parcel = Vec::new();
+        for wish in wishes {
+            let own = wish as usize - starts[team.rank()];
+            pack(&mut parcel, wish as u32, &row(own));
+        }
+        parcel
+    });
+    let parcels = parcels.collect();
+    unpacked(team.exchange(parcels))
+}
+
+/// The rank that owns a row.
+fn owner(starts: &[usize], row: u32) -> usize {
+    starts.partition_point(|&start| start <= row as usize) - 1
+}
+
+fn pack<const AREA: usize>(parcel: &mut Vec<f64>, row: u32, entries: &[Entry<AREA>]) {
+    if entries.is_empty() {
+        return;
+    }
+    parcel.extend([f64::from(row), entries.len() as f64]);
+    for (column, values) in entries {
+        parcel.push(f64::from(*column));
+        parcel.extend(values);
+    }
+}
+
+fn unpacked<const AREA: usize>(parcels: Vec<Vec<f64>>) -> Foreign<AREA> {
     let mut foreign = Foreign::new();
-    for parcel in team.exchange(parcels) {
+    for parcel in parcels {
         let mut rest = parcel.as_slice();
         while let [row, count, entries @ ..] = rest {
             let (entries, others) = entries.split_at(*count as usize * (1 + AREA));

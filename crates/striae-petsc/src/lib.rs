@@ -45,6 +45,8 @@ mod finest;
 #[cfg(feature = "petsc")]
 mod foreign;
 #[cfg(feature = "petsc")]
+mod halo;
+#[cfg(feature = "petsc")]
 mod iterative;
 #[cfg(feature = "petsc")]
 mod nodes;

@@ -151,16 +151,19 @@ fn in_phases(
     for (pair, configuration) in configurations.iter().enumerate() {
         system.find_triples(pair, configuration);
     }
+    let wanted: Vec<_> = (0..configurations.len())
+        .map(|pair| system.own_nodes(pair))
+        .collect();
     // Bodies are added while contact is evaluated.
     let (evaluated, bodies) = rayon::scope(|_| {
         rayon::join(
-            || timed(|| contact.evaluated(&configurations, setting, trial, derivatives)),
+            || timed(|| contact.evaluated(&configurations, setting, trial, derivatives, &wanted)),
             || system.bodies(&configurations, setting, trial, places),
         )
     });
     let (contacts, evaluation_time) = evaluated;
     let found = contacts.and_then(|contacts| Ok((contacts, bodies?)));
-    let (contacts, mut bodies) = agreed(setting.context.problem, found)?;
+    let (mut contacts, mut bodies) = agreed(setting.context.problem, found)?;
     if !share.is_alone() {
         system.sum_at_nodes();
         system.beside_elements(imposed);
@@ -180,6 +183,7 @@ fn in_phases(
     system.pass_on();
     system.condense(imposed);
     let norms = system.norms(trial, &contacts);
+    contacts.iter_mut().for_each(Evaluation::forget_derivatives);
     [bodies.strain, bodies.dissipated] = share.sums([bodies.strain, bodies.dissipated]);
     system.idle(setting.selections);
     system.prescribe(trial, imposed);

@@ -186,7 +186,7 @@ pub fn advance(
     workspace.course = Some(Course::new(context.index, state, time, before));
     let work = workspace.take_work();
     let system = workspace.system();
-    let (unknowns, peak_bytes) = (system.layout.unknowns(), system.analysis.cost.peak_bytes);
+    let (unknowns, peak_bytes) = (system.unknowns(), system.analysis.cost.peak_bytes);
     Ok(Increment {
         work,
         unknowns,

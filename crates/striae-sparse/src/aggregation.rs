@@ -11,17 +11,20 @@
 
 mod aggregates;
 pub mod blocks;
-mod coarsening;
 mod coarsest;
+mod finest;
 mod level;
+mod others;
 mod packed;
 mod prolongator;
 
-pub use coarsening::{Coarsening, NONE};
+pub use finest::{Coarsening, Finest, NONE};
+pub use others::{Others, Sum};
 
 use blocks::Blocks;
 use coarsest::Coarsest;
 use level::Level;
+use others::Nobody;
 
 /// Columns of the near-kernel: rigid motions.
 pub const MODES: usize = 6;
@@ -50,7 +53,7 @@ impl Hierarchy {
         near_kernel: &[f64],
         may_join: impl Fn(usize, usize) -> bool + Sync,
     ) -> Option<Self> {
-        let mut finest = Level::new(&matrix);
+        let mut finest = Level::new(&matrix, matrix.rows(), (&mut Nobody, &|own| own));
         let (mut coarser, mut theta) = (Vec::new(), STRONG);
         if matrix.rows() * 3 <= COARSEST {
             let coarsest = Coarsest::new(&matrix)?;
@@ -63,7 +66,7 @@ impl Hierarchy {
         let (mut next, mut kernel) = finest.coarsen(matrix, near_kernel, theta, may_join);
         while next.rows() * MODES > COARSEST && coarser.len() < LEVELS {
             theta *= 0.5;
-            let mut level = Level::new(&next);
+            let mut level = Level::new(&next, next.rows(), (&mut Nobody, &|own| own));
             let before = next.rows();
             let all = |_: usize, _: usize| true;
             let (product, modes) = level.coarsen(next, &kernel, theta, all);
@@ -86,13 +89,17 @@ impl Hierarchy {
         if self.finest.is_last() {
             self.coarsest.solve(b, x);
         } else {
-            self.finest.cycle(b, x, &|b, x| self.descend(0, b, x));
+            let mut coarser = |b: &[f32], x: &mut [f32]| self.descend(0, b, x);
+            self.finest.cycle(b, x, &mut Nobody, &mut coarser);
         }
     }
 
     fn descend(&self, depth: usize, b: &[f32], x: &mut [f32]) {
         match self.coarser.get(depth) {
-            Some(level) => level.cycle(b, x, &|b, x| self.descend(depth + 1, b, x)),
+            Some(level) => {
+                let mut coarser = |b: &[f32], x: &mut [f32]| self.descend(depth + 1, b, x);
+                level.cycle(b, x, &mut Nobody, &mut coarser);
+            }
             None => self.coarsest.solve(b, x),
         }
     }

@@ -38,6 +38,8 @@ pub struct Conditions<'a> {
     pub prescribed: &'a Prescribed,
     /// Which iteration it is.
     pub iteration: Iteration,
+    /// Nodes whose momentum rows are wanted with derivatives, by side; of all without.
+    pub wanted: Option<&'a [Vec<bool>; 2]>,
 }
 
 /// A kept node with all that its rows need.

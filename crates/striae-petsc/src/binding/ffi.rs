@@ -54,8 +54,6 @@ pub(super) const SCATTER_FORWARD: c_int = 0;
 pub(super) const SCATTER_REVERSE: c_int = 1;
 pub(super) const COPY_VALUES: c_int = 0;
 pub(super) const FINAL_ASSEMBLY: c_int = 0;
-pub(super) const INITIAL_MATRIX: c_int = 0;
-pub(super) const DIFFERENT_PATTERN: c_int = 0;
 pub(super) const MATOP_MULT: c_int = 3;
 
 unsafe extern "C" {
@@ -179,11 +177,6 @@ unsafe extern "C" {
     pub(super) fn MatAssemblyBegin(matrix: Mat, kind: c_int) -> Code;
     pub(super) fn MatAssemblyEnd(matrix: Mat, kind: c_int) -> Code;
     pub(super) fn MatMult(matrix: Mat, x: Vec, y: Vec) -> Code;
-    pub(super) fn MatMultTranspose(matrix: Mat, x: Vec, y: Vec) -> Code;
-    pub(super) fn MatMatMult(a: Mat, b: Mat, reuse: c_int, fill: f64, product: *mut Mat) -> Code;
-    pub(super) fn MatPtAP(a: Mat, p: Mat, reuse: c_int, fill: f64, product: *mut Mat) -> Code;
-    pub(super) fn MatProductClear(product: Mat) -> Code;
-    pub(super) fn MatAYPX(y: Mat, factor: f64, x: Mat, pattern: c_int) -> Code;
     pub(super) fn MatDestroy(matrix: *mut Mat) -> Code;
     pub(super) fn MatNullSpaceCreate(
         comm: MPI_Comm,

@@ -11,8 +11,6 @@ use std::{ffi::c_int, sync::Arc, thread};
 
 /// Rows of blocks that are put together at a time.
 const ROWS: usize = 4096;
-/// Entries of a product over those of its factors, as a guess.
-const FILL: f64 = 1.5;
 
 /// A block, row by row, and the column of blocks it is in.
 pub(crate) type Entry<const AREA: usize> = (u32, [f64; AREA]);
@@ -48,7 +46,8 @@ impl Side {
         }
     }
 
-    fn contains(self, block: u32) -> bool {
+    /// Whether a block is this rank's own.
+    pub(crate) fn contains(self, block: u32) -> bool {
         let Lay { first, own, .. } = self.blocks;
         (first..first + own).contains(&(block as usize))
     }
@@ -187,63 +186,11 @@ impl Matrix {
         }
     }
 
-    /// `A B`.
-    pub(crate) fn product(&self, other: &Self) -> Result<Self, Error> {
-        let mut product = Self::of(&self.library, (self.rows, other.columns), ffi::Mat::NULL)?;
-        let reuse = ffi::INITIAL_MATRIX;
-        // SAFETY: live matrices, and a place for the product, which keeps nothing of them.
-        unsafe {
-            let code = ffi::MatMatMult(self.raw, other.raw, reuse, FILL, &mut product.raw);
-            self.library.check(code)?;
-        }
-        product.released()
-    }
-
-    /// `P^T A P`.
-    pub(crate) fn galerkin(&self, p: &Self) -> Result<Self, Error> {
-        let mut product = Self::of(&self.library, (p.columns, p.columns), ffi::Mat::NULL)?;
-        let reuse = ffi::INITIAL_MATRIX;
-        // SAFETY: live matrices, and a place for the product.
-        unsafe {
-            let code = ffi::MatPtAP(self.raw, p.raw, reuse, FILL, &mut product.raw);
-            self.library.check(code)?;
-        }
-        product.released()
-    }
-
-    /// A product that forgets its factors.
-    fn released(self) -> Result<Self, Error> {
-        let (row, column) = (index(self.rows.size)?, index(self.columns.size)?);
-        // SAFETY: a live matrix that was made as a product.
-        unsafe {
-            self.library.check(ffi::MatProductClear(self.raw))?;
-            self.library
-                .check(ffi::MatSetBlockSizes(self.raw, row, column))?;
-        }
-        Ok(self)
-    }
-
-    /// `A := B + factor A`.
-    pub(crate) fn scale_and_add(&mut self, factor: f64, other: &Self) -> Result<(), Error> {
-        let pattern = ffi::DIFFERENT_PATTERN;
-        // SAFETY: live matrices of one size.
-        let code = unsafe { ffi::MatAYPX(self.raw, factor, other.raw, pattern) };
-        self.library.check(code)
-    }
-
     /// `y = A x`, on this rank's columns and rows.
     pub(crate) fn multiply(&mut self, x: &[f64], y: &mut [f64]) -> Result<(), Error> {
         let (x, y) = (self.x.with(x)?, self.y.with_mut(y)?);
         // SAFETY: vectors with values, of which `y` is borrowed alone.
         let code = unsafe { ffi::MatMult(self.raw, x.raw(), y.raw()) };
-        self.library.check(code)
-    }
-
-    /// `y = A^T x`, on this rank's rows and columns.
-    pub(crate) fn multiply_transposed(&mut self, x: &[f64], y: &mut [f64]) -> Result<(), Error> {
-        let (x, y) = (self.y.with(x)?, self.x.with_mut(y)?);
-        // SAFETY: vectors with values, of which `y` is borrowed alone.
-        let code = unsafe { ffi::MatMultTranspose(self.raw, x.raw(), y.raw()) };
         self.library.check(code)
     }
 

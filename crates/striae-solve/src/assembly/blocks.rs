@@ -6,8 +6,9 @@
 
 use rayon::prelude::*;
 use striae_condensed::{Growth, Partition};
-use striae_contact::{evaluation::Evaluation, term::LocalTerm};
+use striae_contact::{evaluation::Evaluation, side::Side, term::LocalTerm};
 use striae_sparse::{CompressedRows, PlacedBlock};
+use striae_surface::node::SurfaceNode;
 
 use super::{System, terms::Answer};
 use crate::layout::united;
@@ -74,6 +75,23 @@ impl System<'_> {
         let moves = rigid.is_some_and(|rigid| self.moving[rigid].is_some());
         let follows = || self.triples[pair].iter().flatten().any(|t| t.follows);
         self.ties.is_empty() && !moves && self.opposite_body(pair).is_none() && !follows()
+    }
+
+    /// Which nodes on the sides of a pair this rank owns; `None` where momentum rows of others'
+    /// nodes, too, become rows of this rank, or all are its own.
+    pub(super) fn own_nodes(&self, pair: usize) -> Option<[Vec<bool>; 2]> {
+        let problem = self.context.problem;
+        if problem.share.is_alone() || !self.is_plain(pair) {
+            return None;
+        }
+        let own = |side: Side| {
+            let surface = problem.pairs[pair].contact.sides[side].surface();
+            let count = surface.map_or(0, |surface| surface.nodes().len());
+            let nodes = SurfaceNode::all(count).map(|node| problem.surface_node(pair, side, node));
+            let is_own = nodes.map(|node| node.is_some_and(|node| problem.share.owns(node)));
+            is_own.collect()
+        };
+        Some(Side::BOTH.map(own))
     }
 
     /// Where a term belongs, leaving out prescribed rows and those of other ranks.

@@ -22,23 +22,26 @@ impl Contact {
         setting: &Setting,
         trial: &Trial,
         derivatives: Derivatives,
+        wanted: &[Option<[Vec<bool>; 2]>],
     ) -> Result<Vec<Evaluation>, CutBack> {
         match self {
             Self::Known(contacts) => Ok(contacts),
             Self::Evaluated(iteration) => {
-                contacts(configurations, setting, trial, iteration, derivatives)
+                let which = (iteration, derivatives);
+                contacts(configurations, setting, trial, which, wanted)
             }
         }
     }
 }
 
-/// Contact of every pair.
+/// Contact of every pair; `wanted` has the nodes whose momentum rows are wanted with
+/// derivatives, where not those of all are.
 pub(super) fn contacts(
     configurations: &[Configuration],
     setting: &Setting,
     trial: &Trial,
-    iteration: Iteration,
-    derivatives: Derivatives,
+    (iteration, derivatives): (Iteration, Derivatives),
+    wanted: &[Option<[Vec<bool>; 2]>],
 ) -> Result<Vec<Evaluation>, CutBack> {
     let (context, state) = (setting.context, setting.state);
     let mut contacts = Vec::with_capacity(configurations.len());
@@ -52,6 +55,7 @@ pub(super) fn contacts(
                 friction: &context.plan.frictions[pair],
                 prescribed: &context.fixed_on_pair[pair],
                 iteration,
+                wanted: wanted.get(pair).and_then(Option::as_ref),
             },
             derivatives,
         )

@@ -75,8 +75,8 @@ pub fn assemble_contact(
         &configurations,
         setting,
         trial,
-        iteration,
-        Derivatives::First,
+        (iteration, Derivatives::First),
+        &[],
     )?;
     system.add_contacts(&contacts);
     system.stabilise(trial, imposed);

@@ -332,6 +332,12 @@ fn tied_elsewhere(problem: &Problem, tied: &Growth) -> Vec<Vec<Supervariable>> {
 }
 
 impl SystemStorage {
+    /// Unknowns of all ranks.
+    pub(super) fn unknowns(&self) -> usize {
+        let numbering = self.numbering.as_ref();
+        numbering.map_or(self.layout.unknowns(), |numbering| numbering.count)
+    }
+
     /// Numbers of the unknowns, those in the whole for a shared system.
     pub(super) fn numbers(&self) -> (&Layout, Option<&Numbering>) {
         (&self.layout, self.numbering.as_ref())

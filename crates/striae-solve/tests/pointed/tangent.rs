@@ -145,6 +145,7 @@ impl<'a> Contact<'a> {
                 friction: &self.context.plan.frictions[0],
                 prescribed: &self.nodes().map(|count| vec![false; 3 * count]),
                 iteration: Iteration::LATER,
+                wanted: None,
             },
             Derivatives::First,
         )

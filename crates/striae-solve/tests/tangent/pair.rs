@@ -150,6 +150,7 @@ impl<'a> PairFunction<'a> {
                 friction: &self.context.plan.frictions[0],
                 prescribed: &self.prescribed,
                 iteration: self.iteration,
+                wanted: None,
             },
             Derivatives::First,
         )

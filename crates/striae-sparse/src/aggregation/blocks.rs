@@ -70,14 +70,17 @@ impl<const R: usize, const C: usize> Blocks<R, C, f64> {
             values: Vec::with_capacity(count * R * C),
         };
         whole.starts.push(0);
-        for chunk in chunks {
-            let before = whole.columns.len();
-            let ends = chunk.starts[1..].iter().map(|end| before + end);
-            whole.starts.extend(ends);
-            whole.columns.extend(chunk.columns);
-            whole.values.extend(chunk.values);
-        }
+        chunks.into_iter().for_each(|chunk| whole.append(chunk));
         whole
+    }
+
+    /// Puts more rows below.
+    pub(crate) fn append(&mut self, below: Self) {
+        let before = self.columns.len();
+        let ends = below.starts[1..].iter().map(|end| before + end);
+        self.starts.extend(ends);
+        self.columns.extend(below.columns);
+        self.values.extend(below.values);
     }
 
     /// The same in single precision.

@@ -4,10 +4,12 @@ use super::{
     MODES,
     aggregates::Aggregates,
     blocks::{Blocks, Mirror, add_product, add_transposed_product, invert},
+    others::{Others, Sum},
     packed::Packed,
     prolongator::Tentative,
 };
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Steps of the power method.
 const STEPS: usize = 12;
@@ -15,6 +17,8 @@ const STEPS: usize = 12;
 const SAFETY: f64 = 1.1;
 /// Largest eigenvalue over the smallest one that smoothing reduces.
 const RATIO: f64 = 10.0;
+/// Rows of a coarse matrix that are made at a time.
+const PIECE: usize = 2048;
 /// Degree of the smoothing polynomial.
 const DEGREE: usize = 2;
 
@@ -31,8 +35,13 @@ pub(crate) struct Level<const N: usize> {
 }
 
 impl<const N: usize> Level<N> {
-    /// A level without a coarser one.
-    pub(crate) fn new(matrix: &Blocks<N, N, f64>) -> Self {
+    /// A level without a coarser one, of a matrix with so many columns of blocks: one a row,
+    /// and those that others have.
+    pub(crate) fn new(
+        matrix: &Blocks<N, N, f64>,
+        columns: usize,
+        (others, sum): (&mut dyn Others, Sum<'_>),
+    ) -> Self {
         let inverses = inverses(matrix);
         let mut level = Self {
             matrix: Packed::of(matrix),
@@ -41,8 +50,19 @@ impl<const N: usize> Level<N> {
             prolongator: Blocks::default(),
             mirror: Mirror::default(),
         };
-        level.largest = SAFETY * level.power_method();
+        level.largest = SAFETY * level.power_method(columns, (others, sum));
         level
+    }
+
+    /// Smooth interpolation from aggregates with columns on their nodes.
+    pub(crate) fn interpolation(
+        &self,
+        matrix: &Blocks<N, N, f64>,
+        aggregates: &Aggregates,
+        tentative: &Tentative,
+    ) -> Blocks<N, MODES, f64> {
+        let omega = 4.0 / 3.0 / self.largest;
+        tentative.smoothed(aggregates, matrix, &inverses(matrix), omega)
     }
 
     /// Interpolates from aggregates; the coarse matrix and its near-kernel.
@@ -55,30 +75,73 @@ impl<const N: usize> Level<N> {
     ) -> (Blocks<MODES, MODES, f64>, Vec<f64>) {
         let aggregates = Aggregates::new(&matrix, theta, may_join);
         let tentative = Tentative::new::<N>(&aggregates, near_kernel);
-        let omega = 4.0 / 3.0 / self.largest;
-        let prolongator = tentative.smoothed(&aggregates, &matrix, &inverses(&matrix), omega);
-        let coarse = aggregates.count;
-        let image = Blocks::<N, MODES, f64>::from_rows(matrix.rows(), coarse, |i, sum| {
-            for (j, block) in matrix.row(i) {
-                for (k, p) in prolongator.row(j) {
+        let prolongator = self.interpolation(&matrix, &aggregates, &tentative);
+        let none = Blocks::default();
+        let mut product = self.galerkin(matrix, prolongator, &none, aggregates.count);
+        without_zeros(&mut product);
+        (product, tentative.coarse)
+    }
+
+    /// `P^T A P` of the rows of this level, with as many coarse blocks as are told, from its
+    /// interpolation and that of the nodes that others have.
+    pub(crate) fn galerkin(
+        &mut self,
+        matrix: Blocks<N, N, f64>,
+        own: Blocks<N, MODES, f64>,
+        theirs: &Blocks<N, MODES, f64>,
+        coarse: usize,
+    ) -> Blocks<MODES, MODES, f64> {
+        self.mirror = Mirror::of(&own, coarse);
+        let mut product = Blocks::<MODES, MODES, f64>::from_rows(0, coarse, |_, _| {});
+        for first in (0..coarse).step_by(PIECE) {
+            let piece = first..coarse.min(first + PIECE);
+            product.append(self.piece_of_galerkin(&matrix, (&own, theirs), piece));
+        }
+        drop(matrix);
+        self.prolongator = own.rounded();
+        product
+    }
+
+    /// Some rows of `P^T A P`. All of `A P` would be larger than all else there is.
+    fn piece_of_galerkin(
+        &self,
+        matrix: &Blocks<N, N, f64>,
+        (own, theirs): (&Blocks<N, MODES, f64>, &Blocks<N, MODES, f64>),
+        piece: Range<usize>,
+    ) -> Blocks<MODES, MODES, f64> {
+        let (rows, coarse) = (matrix.rows(), self.mirror.columns());
+        let mut places = vec![u32::MAX; rows];
+        let named = piece.clone().flat_map(|i| self.mirror.column(i));
+        named.for_each(|(row, _)| places[row] = 0);
+        let mut fine = Vec::new();
+        for (row, place) in places
+            .iter_mut()
+            .enumerate()
+            .filter(|(_, place)| **place == 0)
+        {
+            *place = fine.len() as u32;
+            fine.push(row);
+        }
+        let image = Blocks::<N, MODES, f64>::from_rows(fine.len(), coarse, |k, sum| {
+            for (j, block) in matrix.row(fine[k]) {
+                let (interpolation, j) = if j < rows {
+                    (own, j)
+                } else {
+                    (theirs, j - rows)
+                };
+                for (k, p) in interpolation.row(j) {
                     add_product::<N, N, MODES>(sum.block(k), 1.0, block, p);
                 }
             }
         });
-        drop(matrix);
-        self.mirror = Mirror::of(&prolongator, coarse);
-        let mirror = &self.mirror;
-        let mut product = Blocks::<MODES, MODES, f64>::from_rows(coarse, coarse, |i, sum| {
-            for (row, at) in mirror.column(i) {
-                let p = &prolongator.values[at * N * MODES..][..N * MODES];
-                for (k, a) in image.row(row) {
+        Blocks::from_rows(piece.len(), coarse, |k, sum| {
+            for (row, at) in self.mirror.column(piece.start + k) {
+                let p = &own.values[at * N * MODES..][..N * MODES];
+                for (k, a) in image.row(places[row] as usize) {
                     add_transposed_product::<MODES, N, MODES>(sum.block(k), p, a);
                 }
             }
-        });
-        without_zeros(&mut product);
-        self.prolongator = prolongator.rounded();
-        (product, tentative.coarse)
+        })
     }
 
     /// Whether there is no coarser level.
@@ -86,24 +149,35 @@ impl<const N: usize> Level<N> {
         self.prolongator.starts.is_empty()
     }
 
-    /// `x` from `b` by smoothing, a correction by the coarser levels, smoothing.
-    pub(crate) fn cycle(&self, b: &[f32], x: &mut [f32], coarser: &dyn Fn(&[f32], &mut [f32])) {
+    /// `x` from `b` by smoothing, a correction by the coarser levels, smoothing. Where others
+    /// have nodes, `x` has room for them.
+    pub(crate) fn cycle(
+        &self,
+        b: &[f32],
+        x: &mut [f32],
+        others: &mut dyn Others,
+        coarser: &mut dyn FnMut(&[f32], &mut [f32]),
+    ) {
         x.fill(0.0);
-        self.smooth(b, x, Start::Zero);
+        self.smooth(b, x, others, Start::Zero);
         let mut residual = b.to_vec();
+        others.fetch(x);
         self.matrix.combine(x, &mut residual, |ax, b| b - ax);
         let size = MODES * self.mirror.columns();
         let (mut restricted, mut correction) = (vec![0.0; size], vec![0.0; size]);
         self.mirror
             .multiply(&self.prolongator, &residual, &mut restricted);
         drop(residual);
+        others.bring_coarse(&mut restricted);
         coarser(&restricted, &mut correction);
-        self.prolongator.combine(&correction, x, |p, x| x + p);
-        self.smooth(b, x, Start::Given);
+        others.fetch_coarse(&mut correction);
+        let own = &mut x[..b.len()];
+        self.prolongator.combine(&correction, own, |p, x| x + p);
+        self.smooth(b, x, others, Start::Given);
     }
 
     /// Chebyshev iteration on the upper part of the spectrum (Saad, Iterative Methods, alg. 12.1).
-    fn smooth(&self, b: &[f32], x: &mut [f32], start: Start) {
+    fn smooth(&self, b: &[f32], x: &mut [f32], others: &mut dyn Others, start: Start) {
         let (upper, lower) = (self.largest, self.largest / RATIO);
         let (centre, half) = (0.5 * (upper + lower), 0.5 * (upper - lower));
         let sigma = centre / half;
@@ -113,6 +187,7 @@ impl<const N: usize> Level<N> {
         for k in 0..DEGREE {
             if k > 0 || start == Start::Given {
                 residual.copy_from_slice(b);
+                others.fetch(x);
                 self.matrix.combine(x, &mut residual, |ax, b| b - ax);
             }
             let (keep, take) = if k == 0 {
@@ -147,25 +222,27 @@ impl<const N: usize> Level<N> {
     }
 
     /// Largest eigenvalue of `D^-1 A`, from below.
-    fn power_method(&self) -> f64 {
+    fn power_method(&self, columns: usize, (others, sum): (&mut dyn Others, Sum<'_>)) -> f64 {
         let n = N * self.matrix.rows();
         let mut x: Vec<f32> = pseudo_random(n);
+        x.resize(N * columns, 0.0);
         let (mut image, mut estimate) = (vec![0.0; n], 1.0);
         for _ in 0..STEPS {
+            others.fetch(&mut x);
             self.matrix.combine(&x, &mut image, |ax, _| ax);
             let mut next = vec![0.0; n];
             let mut unused = vec![0.0; n];
             self.advance(&image, (0.0, 1.0), &mut next, &mut unused);
             let square = |v: &[f32]| v.iter().map(|&v| f64::from(v) * f64::from(v)).sum::<f64>();
-            let (before, after) = (square(&x).sqrt(), square(&next).sqrt());
+            let length = |v: &[f32]| sum(square(v)).sqrt();
+            let (before, after) = (length(&x[..n]), length(&next));
             if before == 0.0 || after == 0.0 {
                 break;
             }
             estimate = after / before;
-            x = next
-                .iter()
-                .map(|v| (f64::from(*v) / after) as f32)
-                .collect();
+            for (x, v) in x.iter_mut().zip(next) {
+                *x = (f64::from(v) / after) as f32;
+            }
         }
         estimate
     }

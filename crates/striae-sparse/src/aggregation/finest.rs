@@ -1,0 +1,105 @@
+//! The finest level of a matrix whose rows several parts hold; the coarser levels are
+//! someone else's.
+
+use super::{
+    MODES, STRONG,
+    aggregates::Aggregates,
+    blocks::Blocks,
+    level::Level,
+    others::{Others, Sum},
+    prolongator::Tentative,
+};
+
+pub use super::aggregates::NONE;
+
+/// Aggregates of nodes, and columns on them that reproduce the near-kernel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coarsening {
+    /// Aggregate of every node, [`NONE`] where smoothing alone does.
+    pub aggregates: Vec<u32>,
+    /// How many there are.
+    pub count: usize,
+    /// Orthonormal columns on every aggregate, three rows by six a node.
+    pub columns: Vec<f64>,
+    /// The near-kernel in terms of those, six rows by six an aggregate. Rows of columns that
+    /// depend on others are zero, and so are those columns.
+    pub near_kernel: Vec<f64>,
+}
+
+impl Coarsening {
+    /// Of a symmetric positive definite matrix with a near-kernel of 3 rows by six a node.
+    pub fn new(matrix: &Blocks<3, 3, f64>, near_kernel: &[f64]) -> Self {
+        let aggregates = Aggregates::new(matrix, STRONG, |_, _| true);
+        let tentative = Tentative::new::<3>(&aggregates, near_kernel);
+        Self {
+            aggregates: aggregates.of,
+            count: aggregates.count,
+            columns: tentative.values,
+            near_kernel: tentative.coarse,
+        }
+    }
+
+    /// Unknowns of the coarser level that nothing interpolates from.
+    pub fn empty(&self) -> impl Iterator<Item = usize> + '_ {
+        let rows = self.near_kernel.chunks_exact(MODES).enumerate();
+        rows.filter(|(row, values)| values[row % MODES] == 0.0)
+            .map(|(row, _)| row)
+    }
+}
+
+/// Some rows of the finest level.
+#[derive(Debug)]
+pub struct Finest(Level<3>);
+
+impl Finest {
+    /// From rows with so many columns of blocks: one a row, then those that others have.
+    pub fn new(
+        matrix: &Blocks<3, 3, f64>,
+        columns: usize,
+        others: (&mut dyn Others, Sum<'_>),
+    ) -> Self {
+        Self(Level::new(matrix, columns, others))
+    }
+
+    /// Smooth interpolation at the nodes of the rows, from aggregates and columns at the
+    /// nodes of all columns of blocks. Numbers of aggregates are below `count`.
+    pub fn interpolation(
+        &self,
+        matrix: &Blocks<3, 3, f64>,
+        (aggregates, columns): (Vec<u32>, Vec<f64>),
+        count: usize,
+    ) -> Blocks<3, MODES, f64> {
+        let aggregates = Aggregates {
+            of: aggregates,
+            count,
+        };
+        let tentative = Tentative {
+            values: columns,
+            coarse: Vec::new(),
+        };
+        self.0.interpolation(matrix, &aggregates, &tentative)
+    }
+
+    /// What these rows add to the matrix of the next level, from the interpolation at their
+    /// nodes and at those that others have. Numbers of aggregates are below `count`.
+    pub fn coarsen(
+        &mut self,
+        matrix: Blocks<3, 3, f64>,
+        (own, theirs): (Blocks<3, MODES, f64>, &Blocks<3, MODES, f64>),
+        count: usize,
+    ) -> Blocks<MODES, MODES, f64> {
+        self.0.galerkin(matrix, own, theirs, count)
+    }
+
+    /// `x` from `b` by smoothing, a correction by the coarser levels, smoothing. Vectors that
+    /// `coarser` is given and fills in have others' places after the own ones.
+    pub fn cycle(
+        &self,
+        b: &[f32],
+        x: &mut [f32],
+        others: &mut dyn Others,
+        coarser: &mut dyn FnMut(&[f32], &mut [f32]),
+    ) {
+        self.0.cycle(b, x, others, coarser);
+    }
+}
