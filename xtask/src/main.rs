@@ -10,7 +10,7 @@
 //! | `book` | the book as HTML, its links checked; see [`book`] |
 //! | `mathematics` | formulas of the book, for mdBook; see [`book::mathematics`] |
 //! | `endurance` | runs that are killed, interrupted, short of disk, damaged; see [`endurance`] |
-//! | `mpi` | tests of the feature `petsc` on one to four ranks; see [`mpi`] |
+//! | `mpi` | the feature `petsc` on one to four ranks; see [`mpi`] |
 //! | `bench` | times of parts and of whole runs; see `crates/striae-bench/README.md` |
 //!
 //! Exit codes: 0 when all is well, 1 when a check failed, 2 for an unknown task.
@@ -30,7 +30,7 @@ mod scenes;
 
 use std::{env, process::ExitCode};
 
-const USAGE: &str = "usage: cargo xtask check | python | borders | scenes [OPTIONS] | report-test | book | endurance | mpi [--all] | bench [ARGUMENTS]";
+const USAGE: &str = "usage: cargo xtask check | python | borders | scenes [OPTIONS] | report-test | book | endurance | mpi [--all] [PARTS] | bench [ARGUMENTS]";
 
 fn main() -> ExitCode {
     let tasks: Vec<String> = env::args().skip(1).collect();

@@ -1,11 +1,21 @@
-//! `cargo xtask mpi [--all]`: tests of the feature `petsc`, on one to four ranks.
+//! `cargo xtask mpi [--all] [PART ...]`: the feature `petsc`, on one to four ranks.
 //!
-//! They are programs, not functions: `mpirun -n N` runs each as cargo's runner, so that
-//! arguments and exit codes are those of `cargo test`. A test is a row of [`TESTS`]. Then
-//! published [`cases`] are run on ranks and held against one process; with `--all` those that
-//! take minutes, too.
+//! | part | what it does |
+//! | --- | --- |
+//! | `tests` | tests of the crate, see [`TESTS`] |
+//! | `cases` | published [`cases`] on ranks against one process |
+//! | `endings` | runs that are killed, cannot go on, have no room or get a signal, see [`endings`] |
+//! | `scenes` | random scenes on three ranks against one process, see [`scenes`] |
+//!
+//! Without a part it does all; `--all` adds what takes minutes. Tests are programs, not
+//! functions: `mpirun -n N` runs each as cargo's runner, so that arguments and exit codes are
+//! those of `cargo test`.
 
 mod cases;
+mod differences;
+mod endings;
+mod scenes;
+mod started;
 
 use std::{
     process::{Command, Stdio},
@@ -13,7 +23,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use crate::fault::Fault;
+use crate::{cargo, fault::Fault};
 use cases::Extent;
 
 /// A test target that runs under `mpirun`.
@@ -42,17 +52,75 @@ const ENVIRONMENT: [(&str, &str); 4] = [
     ("RAYON_NUM_THREADS", "1"),
 ];
 
-/// Builds the tests and runs them.
+/// What is run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Part {
+    Tests,
+    Cases,
+    Endings,
+    Scenes,
+}
+
+impl Part {
+    const ALL: [(&str, Self); 4] = [
+        ("tests", Self::Tests),
+        ("cases", Self::Cases),
+        ("endings", Self::Endings),
+        ("scenes", Self::Scenes),
+    ];
+}
+
+/// Builds the tests and the program and runs what is asked for, or all.
 ///
 /// # Errors
 /// What is missing, or the first test that fails.
 pub fn check(options: &[String]) -> Result<(), Fault> {
-    let extent = match options {
-        [] => Extent::Short,
-        [all] if all == "--all" => Extent::All,
-        _ => return Err(Fault::Option("usage: cargo xtask mpi [--all]".into())),
-    };
+    let (extent, parts) = asked(options)?;
     missing()?;
+    if parts.contains(&Part::Tests) {
+        tests()?;
+    }
+    if parts == [Part::Tests] {
+        return Ok(());
+    }
+    let build = ["build", "--release", "-p", "striae-cli"];
+    cargo::cargo(&[&build[..], &["--features", "petsc"]].concat(), &[])?;
+    let program = cargo::built();
+    for part in parts {
+        let started = Instant::now();
+        match part {
+            Part::Tests => continue,
+            Part::Cases => cases::check(&program, extent)?,
+            Part::Endings => endings::check(&program, extent)?,
+            Part::Scenes => scenes::check(&program, extent)?,
+        }
+        println!("{:.0} s", started.elapsed().as_secs_f64());
+    }
+    Ok(())
+}
+
+/// How much of which parts.
+fn asked(options: &[String]) -> Result<(Extent, Vec<Part>), Fault> {
+    let (mut extent, mut parts) = (Extent::Short, Vec::new());
+    for option in options {
+        let mut known = Part::ALL.into_iter();
+        match known.find(|(name, _)| name == option) {
+            Some((_, part)) => parts.push(part),
+            None if option == "--all" => extent = Extent::All,
+            None => {
+                let usage = "usage: cargo xtask mpi [--all] [tests] [cases] [endings] [scenes]";
+                return Err(Fault::Option(usage.into()));
+            }
+        }
+    }
+    if parts.is_empty() {
+        parts = Part::ALL.map(|(_, part)| part).to_vec();
+    }
+    Ok((extent, parts))
+}
+
+/// The tests on all numbers of ranks.
+fn tests() -> Result<(), Fault> {
     for test in &TESTS {
         // Built once, so that the time of a run is that of the tests.
         finished(&mut test.command(&["--no-run"]))?;
@@ -62,8 +130,7 @@ pub fn check(options: &[String]) -> Result<(), Fault> {
         }
     }
     println!("== a rank that panics");
-    ends_all(TESTS[0].run(PANICKING, &["panic"]))?;
-    cases::check(extent)
+    ends_all(TESTS[0].run(PANICKING, &["panic"]))
 }
 
 /// What the tests need and is not here.

@@ -50,6 +50,7 @@ enum Command {
 }
 
 fn main() -> ExitCode {
+    interrupt::prepare();
     let out = &mut io::stdout();
     let result = match Arguments::parse().command {
         Command::New(arguments) => command::new::run(&arguments, out),

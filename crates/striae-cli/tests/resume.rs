@@ -144,10 +144,53 @@ fn interrupted_runs_give_the_files_of_uninterrupted_ones() {
 #[test]
 fn other_signals_that_end_programs_interrupt_a_run() {
     let folder = stopped();
-    for signal in ["-TERM", "-HUP"] {
+    for signal in ["-TERM", "-HUP", "-USR1"] {
         let last = ended_by(signal, folder.path(), &["resume", "results/cube"], 3);
         assert!(last.starts_with("interrupted at time"), "{signal}: {last}");
     }
+}
+
+#[test]
+fn a_run_that_cannot_go_on_leaves_where_it_came_to() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = folder.path();
+    fs::write(place.join("cube.inp"), MESH).unwrap();
+    fs::write(
+        place.join("cube.toml"),
+        DECK.replace("z = -0.05", "z = -1.5"),
+    )
+    .unwrap();
+    let ended = |arguments: &[&str]| {
+        let output = striae(place, arguments);
+        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+        assert!(stderr(&output).contains("turned inside out"));
+        let results = place.join("results/cube");
+        assert!(results.join("checkpoint.bin").exists());
+        let summary = fs::read_to_string(results.join("summary.json")).unwrap();
+        let own = |line: &&str| !line.contains("wall_s") && !line.contains("peak_rss_mib");
+        let summary: String = summary.lines().filter(own).collect();
+        (
+            summary,
+            fs::read_to_string(results.join("history.csv")).unwrap(),
+        )
+    };
+    let first = ended(&["run", "cube.toml"]);
+    assert!(first.1.lines().count() > 2);
+    // It makes the last attempt again, and comes to the same end.
+    assert_eq!(ended(&["resume", "results/cube"]), first);
+}
+
+#[test]
+fn a_limit_on_the_size_of_files_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("cube.inp"), MESH).unwrap();
+    fs::write(folder.path().join("cube.toml"), DECK).unwrap();
+    let mut command = Command::new("sh");
+    command.args(["-c", "ulimit -f 8; exec \"$0\" \"$@\""]);
+    command.args([env!("CARGO_BIN_EXE_striae"), "run", "cube.toml"]);
+    let output = command.current_dir(folder.path()).output().unwrap();
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert!(stderr(&output).contains("File too large"));
 }
 
 #[test]

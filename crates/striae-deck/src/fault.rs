@@ -211,6 +211,11 @@ pub enum FaultKind {
         /// Why one is needed.
         need: &'static str,
     },
+    /// A solver of a run without ranks that only ranks have.
+    #[error(
+        "`backend = \"mumps\"` needs PETSc: build with `--features petsc` and run with `--petsc` or under `mpirun`; `backend = \"multifrontal\"` is a direct solver that needs neither"
+    )]
+    Together,
     /// What the deck describes is not possible.
     #[error(transparent)]
     Model(Box<striae_model::FaultKind>),

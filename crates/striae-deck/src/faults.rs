@@ -136,6 +136,11 @@ impl<'s> FaultList<'s> {
         position(self.text, span.start).line
     }
 
+    /// A fault that is found later than others.
+    pub(crate) fn only(&self, span: &Span, kind: FaultKind) -> Faults {
+        Faults(vec![locate(self.file, self.text, span, kind)])
+    }
+
     pub(crate) fn into_faults(mut self) -> Faults {
         self.found.sort_by_key(|(span, _)| span.start);
         let located = |(span, kind)| locate(self.file, self.text, &span, kind);

@@ -42,6 +42,21 @@ pub struct Deck {
     pub output: Output,
     /// What is made of mesh files that they do not say, a line each.
     pub notes: Vec<String>,
+    /// What is wrong with it where there are no ranks.
+    together: Option<Box<Faults>>,
+}
+
+impl Deck {
+    /// The deck, for a run without ranks.
+    ///
+    /// # Errors
+    /// When it asks for a solver that only ranks have.
+    pub fn alone(self) -> Result<Self, Faults> {
+        match self.together {
+            Some(faults) => Err(*faults),
+            None => Ok(self),
+        }
+    }
 }
 
 /// Reads a deck from a file; paths in it are relative to its folder.

@@ -708,3 +708,14 @@ fn elements_of_files_choose_the_formulation_and_are_noted() {
     let stated = read(r#", formulation = "standard""#);
     assert_eq!(stated.model.bodies[0].formulation, Formulation::Standard);
 }
+
+#[test]
+fn a_solver_of_ranks_is_a_fault_where_there_are_none() {
+    assert!(lowered(BASE).alone().is_ok());
+    let deck = lowered(&BASE.replace(r#""faer""#, r#""mumps""#));
+    assert_eq!(deck.model.solver.backend, Backend::Mumps);
+    let faults = deck.alone().unwrap_err().to_string();
+    let place = "deck.toml:44:11: `backend = \"mumps\"` needs PETSc: build with";
+    assert!(faults.starts_with(place), "{faults}");
+    assert!(faults.contains("`backend = \"multifrontal\"`"));
+}

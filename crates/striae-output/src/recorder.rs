@@ -25,7 +25,7 @@
 
 use std::{
     path::{Path, PathBuf},
-    time::Instant,
+    time::{Duration, Instant},
 };
 
 use striae_contact::unknowns::NodeResult;
@@ -53,6 +53,9 @@ use crate::{
 /// Tables, which grow.
 const TABLES: [&str; 3] = ["history.csv", FILES[0], FILES[1]];
 
+/// Longest time between checkpoints but for that of an increment: what a run loses that is killed.
+const KEPT: Duration = Duration::from_secs(60);
+
 /// Time over the interval of fields that is round-off.
 const ROUND_OFF: f64 = 1e-9;
 
@@ -70,6 +73,8 @@ pub struct Recorder {
     history: Option<History>,
     fields: Collections,
     started: Instant,
+    /// When the last checkpoint was written, or the run began.
+    kept: Instant,
     tally: Tally,
     written: Option<usize>,
     worn: Worn,
@@ -114,6 +119,7 @@ impl Recorder {
             output,
             spent: 0.0,
             started: Instant::now(),
+            kept: Instant::now(),
             tally: Tally::default(),
             written: None,
             worn: Worn::default(),
@@ -164,6 +170,7 @@ impl Recorder {
             output,
             spent: written.seconds,
             started: Instant::now(),
+            kept: Instant::now(),
             tally: Tally {
                 iterations: written.iterations.clone(),
                 cut_backs: written.cut_backs,
@@ -211,10 +218,17 @@ impl Recorder {
         })
     }
 
-    /// Whether a checkpoint is due after so many increments.
+    /// Whether a checkpoint is due after so many increments; ranks may say otherwise, as each has
+    /// a clock of its own.
     pub fn keeps(&self, increment: usize) -> bool {
+        let is_late = || self.kept.elapsed() >= KEPT;
         let every = self.output.checkpoint_every;
-        every.is_some_and(|every| increment.is_multiple_of(every.get()))
+        every.is_some_and(|every| increment.is_multiple_of(every.get()) || is_late())
+    }
+
+    /// A checkpoint has been written.
+    pub fn kept(&mut self) {
+        self.kept = Instant::now();
     }
 
     fn seconds(&self) -> f64 {

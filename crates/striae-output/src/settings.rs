@@ -23,7 +23,7 @@ pub struct Output {
     pub probes: Vec<Probe>,
     /// Cuts whose forces are written to `sections.csv` after every increment.
     pub sections: Vec<Section>,
-    /// Increments between checkpoints; `None`: only when interrupted.
+    /// Increments between checkpoints at most; `None`: only when the run stops.
     pub checkpoint_every: Option<NonZeroUsize>,
 }
 

@@ -27,7 +27,8 @@ pub trait Observer: IterationObserver {
     fn step(&mut self, index: usize, name: &str);
     /// An increment has converged.
     fn increment(&mut self, progress: Progress, increment: &Increment) -> Continue;
-    /// A point that was asked for by the answer to [`Observer::increment`] or [`Observer::cut_back`].
+    /// A point that was asked for by the answer to [`Observer::increment`] or [`Observer::cut_back`],
+    /// or the last one of a step that does not reach its end.
     fn point(&mut self, _point: Point) {}
     /// An increment has failed and is tried again with a smaller one.
     fn cut_back(&mut self, progress: Progress, reason: &CutBack) -> Continue;
@@ -278,13 +279,19 @@ fn run_step(
             }
             Err(reason) => {
                 let reason = free(context, state).unwrap_or(reason);
-                let next = observer.cut_back(progress, &reason);
-                division.look_farther(context, &reason);
-                division.size = (fraction - division.done) * CUT;
+                let size = (fraction - division.done) * CUT;
                 let helps = reason.remedy() == Remedy::SmallerIncrement;
-                if !helps || division.size < step.increments.smallest {
+                let ends = !helps || size < step.increments.smallest;
+                if ends {
+                    // Before this attempt, so that who goes on from there makes it again.
+                    observer.point(division.point(context, state, workspace));
+                }
+                let next = observer.cut_back(progress, &reason);
+                if ends {
                     return Some(stopped(context, state, division.done, reason));
                 }
+                division.look_farther(context, &reason);
+                division.size = size;
                 next
             }
         };

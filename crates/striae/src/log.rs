@@ -147,7 +147,7 @@ impl Log {
     }
 
     /// Writes a checkpoint, where there are any.
-    pub(crate) fn point(&self, problem: &Problem, point: Point) -> Result<(), OutputError> {
+    pub(crate) fn point(&mut self, problem: &Problem, point: Point) -> Result<(), OutputError> {
         let Self::Files(files) = self else {
             return Ok(());
         };
@@ -159,7 +159,9 @@ impl Log {
             written: files.recorder.written()?,
             point,
         };
-        checkpoint.write_shared(&files.recording.folder, problem)
+        checkpoint.write_shared(&files.recording.folder, problem)?;
+        files.recorder.kept();
+        Ok(())
     }
 
     /// Writes the checkpoint of the end of a run, from which it can go on with other

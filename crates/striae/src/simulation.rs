@@ -157,6 +157,10 @@ impl Simulation {
     }
 
     fn of_on(ranks: Option<Arc<dyn Ranks>>, deck: Deck) -> Result<Self, Error> {
+        let deck = match &ranks {
+            None => deck.alone()?,
+            Some(_) => deck,
+        };
         Ok(Self::of_valid(ranks, deck.model)?.writing(deck.output))
     }
 

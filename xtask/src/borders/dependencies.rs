@@ -213,6 +213,7 @@ const LADDER: &[Row] = &[
             "ctrlc",
             "indicatif",
             "mimalloc",
+            "nix",
             "rayon",
             "thiserror",
         ],

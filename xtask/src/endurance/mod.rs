@@ -17,7 +17,7 @@
 //! is passed over where there is none.
 
 mod damage;
-mod disk;
+pub mod disk;
 mod folder;
 mod trials;
 

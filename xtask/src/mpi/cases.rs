@@ -9,8 +9,8 @@ use std::{
     process::Command,
 };
 
-use super::{ENVIRONMENT, RANKS, finished};
-use crate::{cargo, fault::Fault, scenes::output::History};
+use super::{ENVIRONMENT, RANKS, differences::Differences, finished};
+use crate::{fault::Fault, scenes::output::History};
 
 /// A deck, and whether it takes minutes.
 struct Case {
@@ -34,11 +34,6 @@ const CASES: [Case; 6] = [
         is_long: true,
     },
 ];
-/// Largest difference of a resultant or reaction, over the largest of them.
-const FORCES: f64 = 1e-8;
-/// Largest difference of the iterations of an increment.
-const ITERATIONS: f64 = 1.0;
-
 /// Which cases are run.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
@@ -52,26 +47,22 @@ pub enum Extent {
 ///
 /// # Errors
 /// The first run that fails, or differs from that of one process.
-pub fn check(extent: Extent) -> Result<(), Fault> {
-    let build = ["build", "--release", "-p", "striae-cli"];
-    cargo::cargo(&[&build[..], &["--features", "petsc"]].concat(), &[])?;
-    let program = cargo::built();
+pub fn check(program: &Path, extent: Extent) -> Result<(), Fault> {
     for case in &CASES {
         if case.is_long && extent == Extent::Short {
             continue;
         }
         println!("== {}", case.deck);
-        let alone = case.alone(&program)?;
+        let alone = case.alone(program)?;
         for ranks in RANKS {
-            let together = case.together(&program, ranks)?;
+            let together = case.together(program, ranks)?;
             let differences = Differences::of(&alone, &together)
                 .map_err(|words| Fault::Mpi(format!("{} on {ranks} ranks: {words}", case.deck)))?;
-            let Differences { forces, iterations } = differences;
             println!(
-                "{ranks} ranks: {} increments, forces differ by {forces:.1e}, iterations by {iterations}",
+                "{ranks} ranks: {} increments, {differences}",
                 together.len()
             );
-            if forces > FORCES || iterations > ITERATIONS {
+            if !differences.are_small() {
                 let words = format!("{} differs on {ranks} ranks", case.deck);
                 return Err(Fault::Mpi(words));
             }
@@ -128,7 +119,7 @@ impl Case {
 }
 
 /// A deck with another solver.
-fn by_multifrontal(deck: &str) -> String {
+pub fn by_multifrontal(deck: &str) -> String {
     let solver = "[solver]\nbackend = \"multifrontal\"\n";
     match deck.contains("[solver]\n") {
         true => deck.replace("[solver]\n", solver),
@@ -136,81 +127,9 @@ fn by_multifrontal(deck: &str) -> String {
     }
 }
 
-/// How much two histories differ.
-struct Differences {
-    /// Of resultants and reactions, over the largest of them.
-    forces: f64,
-    /// Of the iterations of an increment.
-    iterations: f64,
-}
-
-impl Differences {
-    /// # Errors
-    /// Where the histories have other columns or another number of rows.
-    fn of(alone: &History, together: &History) -> Result<Self, String> {
-        let is_force = |name: &&str| name.contains(".resultant_") || name.starts_with("reaction.");
-        let mut differences = Self {
-            forces: 0.0,
-            iterations: largest(alone, together, "iterations")?.1,
-        };
-        let mut size: f64 = 0.0;
-        for name in alone.names().filter(is_force) {
-            let (value, difference) = largest(alone, together, name)?;
-            size = size.max(value);
-            differences.forces = differences.forces.max(difference);
-        }
-        if size == 0.0 {
-            return Err("the history has no forces".into());
-        }
-        differences.forces /= size;
-        Ok(differences)
-    }
-}
-
-/// The largest value and the largest difference of a column.
-fn largest(alone: &History, together: &History, name: &str) -> Result<(f64, f64), String> {
-    let [a, b] = [alone, together].map(|history| history.column(name));
-    if a.is_empty() || a.len() != b.len() {
-        return Err(format!("{} rows of `{name}` for {}", b.len(), a.len()));
-    }
-    let value = a.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
-    if a.iter().chain(&b).any(|number| !number.is_finite()) {
-        return Err(format!("`{name}` is not finite"));
-    }
-    let differences = a.iter().zip(&b).map(|(a, b)| (a - b).abs());
-    Ok((value, differences.fold(0.0, f64::max)))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn history(rows: &str) -> History {
-        let names = "iterations,pair.a.resultant_a.x,reaction.b.y";
-        History::of(&format!("{names}\n{rows}")).unwrap()
-    }
-
-    #[test]
-    fn forces_are_compared_over_the_largest() {
-        let alone = history("3,1,-4\n4,2,0\n");
-        let differences = Differences::of(&alone, &history("3,1.5,-4\n6,2,0\n")).unwrap();
-        assert_eq!(differences.forces, 0.125);
-        assert_eq!(differences.iterations, 2.0);
-    }
-
-    #[test]
-    fn runs_that_ended_elsewhere_differ() {
-        let alone = history("3,1,-4\n4,2,0\n");
-        assert!(Differences::of(&alone, &history("3,1,-4\n")).is_err());
-        for rows in [
-            "3,NaN,-4\n4,2,0\n",
-            "3,1,-4\n4,NaN,0\n",
-            "3,inf,-4\n4,2,0\n",
-        ] {
-            assert!(Differences::of(&alone, &history(rows)).is_err(), "{rows}");
-        }
-        assert!(Differences::of(&history("3,0,0\n"), &history("3,0,0\n")).is_err());
-    }
 
     #[test]
     fn the_solver_of_a_deck_is_another() {

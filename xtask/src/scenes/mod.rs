@@ -20,7 +20,7 @@ mod kinds;
 mod law;
 mod options;
 pub mod output;
-mod random;
+pub mod random;
 mod run;
 mod scene;
 mod summary;
@@ -157,6 +157,16 @@ fn one(keep: &Path, binary: &Path, seed: u64, dialect: Dialect) -> Result<Judged
         }
     }
     Ok(Judged { scene, verdict })
+}
+
+/// Kind of a seed's scene, and its deck.
+pub fn deck_of(seed: u64) -> (&'static str, String) {
+    let dialect = Dialect {
+        initial: Choice::Known,
+        enforcement: None,
+    };
+    let scene = kinds::scene(seed, dialect);
+    (scene.kind, deck::text(&scene))
 }
 
 fn told(scene: &scene::Scene, verdict: &Verdict) {

@@ -30,7 +30,7 @@ mod texture;
 use super::{
     Deck,
     fault::FaultKind,
-    faults::{FaultList, Span},
+    faults::{FaultList, Faults, Span},
     names::Names,
     raw,
     read::At,
@@ -82,7 +82,17 @@ pub(super) fn deck(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_
         model: fitted.ok()?,
         output,
         notes,
+        together: together(raw, faults),
     })
+}
+
+/// What is wrong with the deck where there are no ranks.
+fn together(raw: &raw::Simulation, faults: &FaultList<'_>) -> Option<Box<Faults>> {
+    let backend = raw.solver.as_ref()?.value.backend.as_ref()?;
+    match backend.value {
+        raw::Backend::Mumps => Some(Box::new(faults.only(&backend.span, FaultKind::Together))),
+        _ => None,
+    }
 }
 
 /// The parts of a model; those with faults are missing.

@@ -25,7 +25,7 @@ table! {
         optional probes: Vec<At<Probe>>,
         /// Plane cuts of bodies; force and moment through them are written to `sections.csv` after every increment.
         optional sections: Vec<At<Section>>,
-        /// Increments between checkpoints, from which `striae resume` goes on; 0: only when interrupted. Default: 10.
+        /// Increments between checkpoints, from which `striae resume` goes on, with another one where a minute has passed; 0: only when the run stops. Default: 10.
         optional checkpoint_every: Whole<0>,
     }
 }

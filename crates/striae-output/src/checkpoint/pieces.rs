@@ -2,13 +2,18 @@
 //!
 //! All else of a point of a run, such as pairs, rigid bodies and energies, is the same on all
 //! ranks. What the linear system has learnt bears on digits only and is of a rank, so that
-//! it is left out.
+//! it is left out; what increments lead to is there, as it saves the next one iterations.
 
-use std::mem::take;
+use std::{iter::successors, mem::take};
 
 use serde::{Deserialize, Serialize};
 use striae_mesh::{ElementId, Vec3};
-use striae_solve::{drive::Point, newton::Memory, problem::Problem, state::State};
+use striae_solve::{
+    drive::Point,
+    newton::{Course, Memory},
+    problem::Problem,
+    state::State,
+};
 
 use crate::ranks::told;
 
@@ -25,9 +30,28 @@ pub(super) struct Piece {
 #[derive(Default, Serialize, Deserialize)]
 pub(super) struct Entries {
     /// Number of each node in the whole, and its values.
-    nodes: Vec<(u32, [[Vec3; VECTORS]; 2])>,
+    nodes: Vec<(u32, Values)>,
     /// Number of each element that remembers something, by body, and its variables.
     elements: Vec<Vec<(u32, [Vec<f64>; 2])>>,
+}
+
+/// Values at a node.
+#[derive(Serialize, Deserialize)]
+struct Values {
+    states: [[Vec3; VECTORS]; 2],
+    /// Where it was before the last increment and the one before, as far as they lead on.
+    course: Vec<Vec3>,
+}
+
+impl Values {
+    fn of(point: &Point, node: usize) -> Self {
+        let states = [&point.start, &point.state];
+        let course = courses(&point.memory);
+        Self {
+            states: states.map(|state| fields(state).map(|field| field[node])),
+            course: course.map(|course| course.positions[node]).collect(),
+        }
+    }
 }
 
 impl Entries {
@@ -36,7 +60,7 @@ impl Entries {
         let share = &problem.share;
         let states = [&point.start, &point.state];
         let nodes = problem.own_nodes().map(|node| {
-            let values = states.map(|state| fields(state).map(|field| field[node.0]));
+            let values = Values::of(point, node.0);
             (share.whole_node(node).0 as u32, values)
         });
         let nodes = nodes.collect();
@@ -71,13 +95,11 @@ impl Entries {
             known.all(|field| field.len() == holding.whole.nodes)
                 && variables.eq(counts.iter().map(|of_body| of_body.iter().sum::<usize>()))
         };
-        if !states.iter().all(fits) {
+        let follows = |course: &Course| course.positions.len() == holding.whole.nodes;
+        if !states.iter().all(fits) || !courses(&point.memory).all(follows) {
             return None;
         }
-        let nodes = (0..holding.whole.nodes).map(|node| {
-            let values = states.map(|state| fields(state).map(|field| field[node]));
-            (node as u32, values)
-        });
+        let nodes = (0..holding.whole.nodes).map(|node| (node as u32, Values::of(point, node)));
         let elements = counts.iter().enumerate().map(|(body, counts)| {
             let mut first = 0;
             let values = (0..).zip(counts).map(|(element, count)| {
@@ -122,7 +144,8 @@ impl Entries {
         for (at, state) in [&mut point.start, &mut point.state].into_iter().enumerate() {
             for (place, field) in fields_mut(state).into_iter().enumerate() {
                 let values = self.nodes.iter();
-                *field = values.map(|(_, values)| values[at][place]).collect();
+                let values = values.map(|(_, values)| values.states[at][place]);
+                *field = values.collect();
             }
             let bodies = self.elements.iter();
             let of_body = |elements: &Vec<(u32, [Vec<f64>; 2])>| {
@@ -130,6 +153,14 @@ impl Entries {
                 variables.copied().collect()
             };
             state.histories = bodies.map(of_body).collect();
+        }
+        let mut course = point.memory.course.as_mut();
+        for place in 0.. {
+            let Some(of_increment) = course else { break };
+            let values = self.nodes.iter();
+            let values = values.map(|(_, values)| values.course[place]);
+            of_increment.positions = values.collect();
+            course = of_increment.before.as_deref_mut();
         }
     }
 }
@@ -169,8 +200,19 @@ fn strip(point: &mut Point) {
     }
     point.memory = Memory {
         extent: take(&mut point.memory.extent),
+        course: take(&mut point.memory.course),
         ..Memory::default()
     };
+    let mut course = point.memory.course.as_mut();
+    while let Some(of_increment) = course {
+        of_increment.positions.clear();
+        course = of_increment.before.as_deref_mut();
+    }
+}
+
+/// What the last increment came from, and the one before.
+fn courses(memory: &Memory) -> impl Iterator<Item = &Course> {
+    successors(memory.course.as_ref(), |course| course.before.as_deref())
 }
 
 fn fields(state: &State) -> [&Vec<Vec3>; VECTORS] {
