@@ -3,8 +3,7 @@
 //! | trial | what it must say |
 //! | --- | --- |
 //! | a rank is killed | `mpirun`: signal 9 |
-//! | an element turns inside out on one rank | all cut the increment back; one process does, too |
-//! | the same where no smaller increment helps | its number, once, and the end of the step |
+//! | an element turns inside out on one rank | its number, at each increment that all ranks cut back, and where none is small enough; as often as one process |
 //! | a rank may write no more | its number, the file, "File too large" |
 //! | the disk is full | the file, "No space left" |
 //! | `mpirun` gets SIGTERM | "stopping after this increment" |
@@ -29,7 +28,7 @@ use super::{
     started::{Ended, Started, broken_off, history, start},
 };
 use crate::{endurance::disk::SmallDisk, fault::Fault, scenes::output::History};
-use decks::{BENT, CRUSHED, PAD};
+use decks::{CRUSHED, PAD};
 
 /// Ranks of the runs that are disturbed.
 const RANKS: usize = 3;
@@ -66,7 +65,6 @@ pub fn check(program: &Path, extent: Extent) -> Result<(), Fault> {
     for moment in 0..moments {
         trials.killed(moment % RANKS, ROWS + 2 * moment, after[moment % 2])?;
     }
-    trials.bent()?;
     trials.crushed()?;
     trials.limited()?;
     trials.full()?;
@@ -98,11 +96,7 @@ impl To {
 
 impl<'a> Trials<'a> {
     fn new(program: &'a Path, root: PathBuf) -> Result<Self, Fault> {
-        for (name, deck) in [
-            ("pad", PAD.deck()),
-            ("bent", BENT.deck()),
-            ("crushed", CRUSHED.deck()),
-        ] {
+        for (name, deck) in [("pad", PAD.deck()), ("crushed", CRUSHED.to_owned())] {
             fs::write(root.join(name).with_extension("toml"), deck).map_err(broken_off)?;
         }
         let mut trials = Self {
@@ -128,23 +122,7 @@ impl<'a> Trials<'a> {
         self.resumed(&name, &ended, &folder, after)
     }
 
-    /// All ranks cut back what one of them cannot do.
-    fn bent(&self) -> Result<(), Fault> {
-        let folder = self.root.join("bent");
-        let ended = self.begun("bent", &folder)?.ended()?;
-        let (cut, done) = ("turned inside out", "all steps completed");
-        expect("an element inside out", &ended, Some(0), &[cut, done])?;
-        let alone = self.alone("bent", 0)?;
-        let differences = alike("an element inside out", &alone, &history(&folder)?)?;
-        let cuts = |of: &History| of.number(of.len() - 1, "cutbacks");
-        if cuts(&alone) != cuts(&history(&folder)?) || cuts(&alone) == Some(0.0) {
-            return Err(Fault::Mpi("ranks cut back otherwise".into()));
-        }
-        println!("an element inside out on one rank: cut back by all, {differences}");
-        Ok(())
-    }
-
-    /// All ranks end where one cannot go on.
+    /// All ranks cut back what one of them cannot do, and end where that does not help.
     fn crushed(&self) -> Result<(), Fault> {
         let name = "an element inside out for good";
         let folder = self.root.join("crushed");
@@ -153,16 +131,24 @@ impl<'a> Trials<'a> {
         let ended = run.ended()?;
         let words = ["stopped at time", "turned inside out"];
         expect(name, &ended, Some(1), &words)?;
-        let alike_alone = alike(name, &self.alone("crushed", 1)?, &history(&folder)?)?;
-        let before = history(&folder)?;
+        let (alone, before) = (self.alone("crushed", 1)?, history(&folder)?);
+        let alike_alone = alike(name, &alone, &before)?;
+        let [one, other] = [&alone, &before].map(|of| of.number(of.len() - 1, "cutbacks"));
+        if one != other || one == Some(0.0) {
+            return Err(Fault::Mpi(format!(
+                "{name}: {other:?} cut-backs for {one:?}"
+            )));
+        }
         let again = self.taken_up(&folder, 2)?.ended()?;
         expect(name, &again, Some(1), &words)?;
         let differences = alike(name, &before, &history(&folder)?)?;
         let last = said(&ended, "stopped at time");
         println!(
-            "{name}: {:.1} s, code {:?}, \"{last}\"; one process: {alike_alone}; \
-             resumed on 2 ranks to the same end: {differences}",
-            ended.seconds, ended.code
+            "{name}: {:.1} s, code 1, {} increments cut back before the last that converged; \
+             \"{last}\"; one process: {alike_alone}; resumed on 2 ranks to the same end: \
+             {differences}",
+            ended.seconds,
+            one.unwrap_or(0.0)
         );
         Ok(())
     }
