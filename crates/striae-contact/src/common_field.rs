@@ -21,7 +21,6 @@ use crate::{
     pairing::{SIGNS, side_sign},
     patch::Patch,
     places::{ChainedSum, Places},
-    segment::Derivatives,
     segment_rows::AtCorners,
     selection::Selection,
     side::Side,
@@ -44,8 +43,6 @@ pub struct CommonField<'a> {
     pub tractions: &'a Tractions,
     /// Friction tractions of the kept nodes.
     pub tau: &'a NodalTractions,
-    /// Nodes whose rows are wanted with derivatives, by side; of all without.
-    pub wanted: Option<&'a [Vec<bool>; 2]>,
 }
 
 /// Momentum rows of every segment and the forces on its two facets.
@@ -69,11 +66,10 @@ struct Traction {
 
 impl CommonField<'_> {
     fn term(&self, patch: &Patch) -> (LocalTerm, [FacetForces; 2]) {
-        let derivatives = self.derivatives(patch);
         let tractions: Vec<Traction> = patch
             .kept
             .iter()
-            .map(|(k, _)| self.traction(patch, *k, derivatives))
+            .map(|(k, _)| self.traction(patch, *k))
             .collect();
         // `q_d = sum_k share_kd t_k`, so that `f_c = sum_d D_cd q_d`.
         let mut q = [Vec3::zeros(); 8];
@@ -87,7 +83,7 @@ impl CommonField<'_> {
             let sum: Vec3 = (0..8).map(|d| q[d] * mass[c][d]).sum();
             sum * -SIGNS[c]
         });
-        let term = self.momentum((patch, derivatives), &q, &tractions, &forces);
+        let term = self.momentum(patch, &q, &tractions, &forces);
         let of_facets = Side::BOTH.map(|side| {
             let mut of_facet = FacetForces::default();
             for at in 0..4 {
@@ -105,19 +101,7 @@ impl CommonField<'_> {
         (term, of_facets)
     }
 
-    /// Whether the rows of a segment are wanted with derivatives.
-    fn derivatives(&self, patch: &Patch) -> Derivatives {
-        let corners = || (0..8).filter_map(|c| patch.paired.node(self.configuration, c));
-        let is_wanted = self
-            .wanted
-            .is_none_or(|wanted| corners().any(|(side, node)| wanted[side][node]));
-        match is_wanted && patch.paired.segment.slopes.is_some() {
-            true => Derivatives::First,
-            false => Derivatives::None,
-        }
-    }
-
-    fn traction(&self, patch: &Patch, k: u32, derivatives: Derivatives) -> Traction {
+    fn traction(&self, patch: &Patch, k: u32) -> Traction {
         let (side, node) = self.selection.kept()[k as usize].place();
         let numbering = self.configuration.pair.numbering();
         let n = patch.paired.segment.normal;
@@ -140,7 +124,7 @@ impl CommonField<'_> {
             let turned = Transported::new(&tau.value, &(frame.n.value * sign), &n);
             traction.value += turned.value * sign;
             traction.friction = tau.value.norm();
-            if derivatives == Derivatives::None {
+            if patch.paired.segment.slopes.is_none() {
                 return traction;
             }
             traction.by_n += turned.by_n * sign;
@@ -156,7 +140,7 @@ impl CommonField<'_> {
 
     fn momentum(
         &self,
-        (patch, derivatives): (&Patch, Derivatives),
+        patch: &Patch,
         q: &[Vec3; 8],
         tractions: &[Traction],
         forces: &[Vec3; 8],
@@ -176,8 +160,7 @@ impl CommonField<'_> {
             })
             .collect();
         let mut block = Columns::new();
-        let slopes = segment.slopes.as_ref();
-        let Some(slopes) = slopes.filter(|_| derivatives == Derivatives::First) else {
+        let Some(slopes) = &segment.slopes else {
             return block.term(&rows, &corners);
         };
         for first in owners.iter().flatten() {

@@ -17,7 +17,7 @@ use crate::{
     frame::{Frame, Frames, frames},
     kinematics::{Kinematics, Report},
     pair::Enforcement,
-    pairing::{paired_facets, side_sign, topology},
+    pairing::{Corners, paired_facets, side_sign, topology},
     patch::Patch,
     pointed::{self, PointedTerm},
     ramp::{self, Ramp},
@@ -89,7 +89,11 @@ pub fn evaluate(
     let frames = frames(configuration, selection);
     let (patches, mut kinematics) = match configuration.pair.enforcement {
         Enforcement::Weighted => {
-            let patches = patches(configuration, start, selection, (slip, derivatives));
+            let slopes = |corners: &[Corners]| match derivatives {
+                Derivatives::First => wanted(selection, conditions.wanted, corners),
+                Derivatives::None => Derivatives::None,
+            };
+            let patches = patches(configuration, start, selection, (slip, &slopes));
             let rows = weighted::kinematics(configuration, selection, &frames, &patches, slip);
             (patches, rows)
         }
@@ -137,11 +141,37 @@ pub fn evaluate(
     evaluation.add_rows(&stage, conditions);
     evaluation.follow_status(selection);
     match configuration.pair.enforcement {
-        Enforcement::Weighted => evaluation.add_segments(&stage, conditions.wanted, &patches),
+        Enforcement::Weighted => evaluation.add_segments(&stage, &patches),
         Enforcement::Collocated => evaluation.add_facets(&stage),
     }
     evaluation.add_means(configuration);
     Ok(evaluation)
+}
+
+/// Whether derivatives of what facets with these corners add to rows are wanted.
+fn wanted(
+    selection: &Selection,
+    wanted: Option<&[Vec<bool>; 2]>,
+    corners: &[Corners],
+) -> Derivatives {
+    let Some(wanted) = wanted else {
+        return Derivatives::First;
+    };
+    let followed = |side: Side, node: SurfaceNode| {
+        let mut row = selection.row(side, node).iter();
+        row.any(|&(k, _)| {
+            let (side, node) = selection.kept()[k as usize].place();
+            wanted[side][node]
+        })
+    };
+    let nodes = corners
+        .iter()
+        .flat_map(|(side, nodes)| nodes.map(|node| (*side, node)));
+    let mut nodes = nodes.map(|(side, node)| wanted[side][node] || followed(side, node));
+    match nodes.any(|is_wanted| is_wanted) {
+        true => Derivatives::First,
+        false => Derivatives::None,
+    }
 }
 
 /// The segments between facets whose corners carry traction.
@@ -149,7 +179,7 @@ fn patches(
     configuration: &Configuration,
     start: &Configuration,
     selection: &Selection,
-    (slip, derivatives): (Slip, Derivatives),
+    (slip, slopes): (Slip, &(impl Fn(&[Corners]) -> Derivatives + Sync)),
 ) -> Vec<Patch> {
     let own = configuration.side(Side::A);
     let carries = |facet: FacetId| {
@@ -157,7 +187,7 @@ fn patches(
         corners.iter().any(|&node| selection.carries(Side::A, node))
     };
     let scope = selection.scope();
-    paired_facets(configuration, scope, derivatives, carries)
+    paired_facets(configuration, scope, slopes, carries)
         .into_par_iter()
         .with_min_len(4)
         .map(|paired| {
@@ -319,14 +349,13 @@ impl Evaluation {
         }
     }
 
-    fn add_segments(&mut self, stage: &Stage, wanted: Option<&[Vec<bool>; 2]>, patches: &[Patch]) {
+    fn add_segments(&mut self, stage: &Stage, patches: &[Patch]) {
         let field = CommonField {
             configuration: stage.configuration,
             selection: stage.selection,
             frames: stage.frames,
             tractions: stage.tractions,
             tau: stage.tau,
-            wanted,
         };
         let mut forces = [Vec::new(), Vec::new()];
         for ((term, of_facets), patch) in segment_terms(field, patches).into_iter().zip(patches) {

@@ -115,11 +115,12 @@ pub fn side_sign(side: Side) -> f64 {
     if side == Side::A { 1.0 } else { -1.0 }
 }
 
-/// All paired facets whose facet of side `a` is `wanted`, in the order of their facets.
+/// All paired facets whose facet of side `a` is `wanted`, in the order of their facets;
+/// `slopes` says by the corners of both whether derivatives are.
 pub fn paired_facets(
     configuration: &Configuration,
     scope: Scope,
-    slopes: Derivatives,
+    slopes: &(impl Fn(&[Corners]) -> Derivatives + Sync),
     wanted: impl Fn(FacetId) -> bool + Sync,
 ) -> Vec<PairedFacets> {
     let own = configuration.side(Side::A);
@@ -138,10 +139,13 @@ pub fn paired_facets(
     found.into_iter().flatten().collect()
 }
 
+/// A side and the corners of a facet of it.
+pub type Corners = (Side, [SurfaceNode; 4]);
+
 fn of_facet(
     configuration: &Configuration,
     scope: Scope,
-    slopes: Derivatives,
+    slopes: &impl Fn(&[Corners]) -> Derivatives,
     facet: FacetId,
 ) -> Vec<PairedFacets> {
     let own = configuration.side(Side::A);
@@ -158,6 +162,7 @@ fn of_facet(
     };
     if let Some((point, normal)) = configuration.plane() {
         let nothing = [point; 4];
+        let slopes = slopes(&[(Side::A, corners)]);
         let paired = plane_segment(&a, &normal, slopes).map(|segment| PairedFacets {
             facets: [Some(facet), None],
             corners: [corners, [SurfaceNode(0); 4]],
@@ -183,6 +188,7 @@ fn of_facet(
             scope.compliances[Side::A][facet.index()],
             scope.compliances[Side::B][opposite.index()],
         ];
+        let slopes = slopes(&[(Side::A, corners), (Side::B, corners_b)]);
         let Some(segment) = segment(&a, &b, weights, slopes) else {
             continue;
         };

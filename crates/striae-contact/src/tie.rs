@@ -85,7 +85,7 @@ pub fn join(configuration: &Configuration, within: Option<f64>) -> Joined {
         compliances: &compliances,
         depth: 0.0,
     };
-    let paired = paired_facets(configuration, scope, Derivatives::None, |_| true);
+    let paired = paired_facets(configuration, scope, &|_| Derivatives::None, |_| true);
     let areas = Side::BOTH.map(|side| areas(configuration.side(side)));
     let gap = |paired: &PairedFacets| paired.mean_gap(configuration).abs();
     let limit = |paired: &PairedFacets| within.unwrap_or(NEAR * paired.reach);

@@ -84,6 +84,19 @@ impl From<Warning> for WarningSummary {
     }
 }
 
+/// Where the time on the clock went.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SolverSeconds {
+    /// Residuals and matrices.
+    pub assembly: f64,
+    /// Factorisations, or preconditioners.
+    pub factorisation: f64,
+    /// Solutions with refinement.
+    pub solution: f64,
+    /// Contact on linearised bodies: residuals, matrices and corrections.
+    pub contact: f64,
+}
+
 /// What the linear systems took.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SolverSummary {
@@ -93,6 +106,10 @@ pub struct SolverSummary {
     pub factorisations: usize,
     /// Corrections of contact alone, on linearised bodies, in all accepted increments.
     pub contact_corrections: usize,
+    /// Iterations of GMRES in all accepted increments.
+    pub krylov_iterations: usize,
+    /// Time that accepted increments took on the clock.
+    pub seconds: SolverSeconds,
     /// Accepted increments in which another solver stood in for the one that was asked for.
     pub fall_backs: usize,
     /// Why it last did.
@@ -239,6 +256,13 @@ mod tests {
                 method: "condensed".into(),
                 factorisations: 80,
                 contact_corrections: 12,
+                krylov_iterations: 7,
+                seconds: SolverSeconds {
+                    assembly: 1.5,
+                    factorisation: 2.5,
+                    solution: 0.5,
+                    contact: 0.25,
+                },
                 fall_backs: 0,
                 reason: None,
             },
@@ -289,6 +313,10 @@ mod tests {
             "newton_total": 85, "newton_max": 7, "newton_median": 4.5, "unknowns": 1234,
             "solver": {
                 "method": "condensed", "factorisations": 80, "contact_corrections": 12,
+                "krylov_iterations": 7,
+                "seconds": {
+                    "assembly": 1.5, "factorisation": 2.5, "solution": 0.5, "contact": 0.25
+                },
                 "fall_backs": 0, "reason": null
             },
             "wall_s": 0.75, "peak_rss_mib": null,

@@ -88,6 +88,12 @@ impl Tally {
         self.solver.method = work.method.to_string();
         self.solver.factorisations += work.factorisations;
         self.solver.contact_corrections += work.contact_corrections;
+        self.solver.krylov_iterations += work.krylov_iterations;
+        let (seconds, times) = (&mut self.solver.seconds, &work.times);
+        seconds.assembly += times.assembly.as_secs_f64();
+        seconds.factorisation += times.factorisation.as_secs_f64();
+        seconds.solution += times.solution.as_secs_f64();
+        seconds.contact += times.contact.as_secs_f64();
         if let Some(reason) = work.fall_back {
             self.solver.fall_backs += 1;
             self.solver.reason = Some(reason.to_string());

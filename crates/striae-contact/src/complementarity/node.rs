@@ -38,7 +38,7 @@ pub struct Conditions<'a> {
     pub prescribed: &'a Prescribed,
     /// Which iteration it is.
     pub iteration: Iteration,
-    /// Nodes whose momentum rows are wanted with derivatives, by side; of all without.
+    /// Nodes whose rows are wanted with derivatives, by side; of all without.
     pub wanted: Option<&'a [Vec<bool>; 2]>,
 }
 

@@ -365,7 +365,7 @@ fn mean_gaps(configuration: &Configuration, scope: Scope) -> [Vec<Option<f64>>; 
         let count = configuration.sides[side].as_ref().map_or(0, |s| s.x.len());
         vec![[0.0; 2]; count]
     });
-    for paired in paired_facets(configuration, scope, Derivatives::None, |_| true) {
+    for paired in paired_facets(configuration, scope, &|_| Derivatives::None, |_| true) {
         let origin = paired.origin(configuration);
         for corner in 0..8 {
             if let Some((side, node)) = paired.node(configuration, corner) {

@@ -36,7 +36,7 @@ pub(super) struct Gathered {
 impl Gathered {
     /// What one configuration shows.
     pub(super) fn new(configuration: &Configuration, scope: Scope) -> Self {
-        let paired = paired_facets(configuration, scope, Derivatives::None, |_| true);
+        let paired = paired_facets(configuration, scope, &|_| Derivatives::None, |_| true);
         let paired = without_slivers(configuration, paired);
         let mut near = Side::BOTH.map(|side| {
             let count = configuration.sides[side].as_ref().map_or(0, |s| s.x.len());

@@ -216,7 +216,10 @@ impl Selection {
 
     /// Whether facets of the two sides overlap.
     pub fn overlaps(&self, configuration: &Configuration) -> bool {
-        !paired_facets(configuration, self.scope(), Derivatives::None, |_| true).is_empty()
+        !paired_facets(configuration, self.scope(), &|_| Derivatives::None, |_| {
+            true
+        })
+        .is_empty()
     }
 
     /// Corners of facets that overlap with others without a share in the traction field or
@@ -231,7 +234,7 @@ impl Selection {
             depth: self.depth.max(approach(start, configuration)),
             ..self.scope()
         };
-        let paired = paired_facets(configuration, scope, Derivatives::None, |_| true);
+        let paired = paired_facets(configuration, scope, &|_| Derivatives::None, |_| true);
         let mut left_out: Vec<(Side, SurfaceNode)> = Vec::new();
         for paired in &paired {
             let gap = paired.mean_gap(configuration);

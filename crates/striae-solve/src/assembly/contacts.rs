@@ -34,8 +34,8 @@ impl Contact {
     }
 }
 
-/// Contact of every pair; `wanted` has the nodes whose momentum rows are wanted with
-/// derivatives, where not those of all are.
+/// Contact of every pair; `wanted` has the nodes whose rows are wanted with derivatives,
+/// where not those of all are.
 pub(super) fn contacts(
     configurations: &[Configuration],
     setting: &Setting,
