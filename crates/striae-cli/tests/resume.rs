@@ -167,7 +167,7 @@ fn a_run_that_cannot_go_on_leaves_where_it_came_to() {
         let results = place.join("results/cube");
         assert!(results.join("checkpoint.bin").exists());
         let summary = fs::read_to_string(results.join("summary.json")).unwrap();
-        let own = |line: &&str| !line.contains("wall_s") && !line.contains("peak_rss_mib");
+        let own = |line: &&str| !line.contains("_s\":") && !line.contains("peak_rss_mib");
         let summary: String = summary.lines().filter(own).collect();
         (
             summary,

@@ -17,12 +17,12 @@ use crate::{
     frame::{Frame, Frames, frames},
     kinematics::{Kinematics, Report},
     pair::Enforcement,
-    pairing::{Corners, paired_facets, side_sign, topology},
-    patch::Patch,
+    pairing::{Corners, side_sign, topology},
+    patch::{Patch, patches, wanted},
     pointed::{self, PointedTerm},
     ramp::{self, Ramp},
     segment::Derivatives,
-    segment_rows::{Given, Slip, segment_rows},
+    segment_rows::Slip,
     selection::Selection,
     side::Side,
     slip_rate::{SlipRates, slip_rates},
@@ -146,64 +146,6 @@ pub fn evaluate(
     }
     evaluation.add_means(configuration);
     Ok(evaluation)
-}
-
-/// Whether derivatives of what facets with these corners add to rows are wanted.
-fn wanted(
-    selection: &Selection,
-    wanted: Option<&[Vec<bool>; 2]>,
-    corners: &[Corners],
-) -> Derivatives {
-    let Some(wanted) = wanted else {
-        return Derivatives::First;
-    };
-    let followed = |side: Side, node: SurfaceNode| {
-        let mut row = selection.row(side, node).iter();
-        row.any(|&(k, _)| {
-            let (side, node) = selection.kept()[k as usize].place();
-            wanted[side][node]
-        })
-    };
-    let nodes = corners
-        .iter()
-        .flat_map(|(side, nodes)| nodes.map(|node| (*side, node)));
-    let mut nodes = nodes.map(|(side, node)| wanted[side][node] || followed(side, node));
-    match nodes.any(|is_wanted| is_wanted) {
-        true => Derivatives::First,
-        false => Derivatives::None,
-    }
-}
-
-/// The segments between facets whose corners carry traction.
-fn patches(
-    configuration: &Configuration,
-    start: &Configuration,
-    selection: &Selection,
-    (slip, slopes): (Slip, &(impl Fn(&[Corners]) -> Derivatives + Sync)),
-) -> Vec<Patch> {
-    let own = configuration.side(Side::A);
-    let carries = |facet: FacetId| {
-        let corners = own.corners(facet);
-        corners.iter().any(|&node| selection.carries(Side::A, node))
-    };
-    let scope = selection.scope();
-    paired_facets(configuration, scope, slopes, carries)
-        .into_par_iter()
-        .with_min_len(4)
-        .map(|paired| {
-            let given = Given {
-                weights: scope.weights(&paired),
-                offsets: selection.offsets_at(configuration, &paired),
-                slip,
-            };
-            let rows = segment_rows(configuration, start, &paired, given);
-            Patch {
-                kept: Patch::kept_of(configuration, selection, &paired),
-                rows,
-                paired,
-            }
-        })
-        .collect()
 }
 
 /// All that the rows of a pair are made of.

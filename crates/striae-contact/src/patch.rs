@@ -1,8 +1,16 @@
 //! Common segments with the kept nodes whose basis functions live on them.
 
+use rayon::prelude::*;
+use striae_mesh::FacetId;
+use striae_surface::node::SurfaceNode;
+
 use crate::{
-    configuration::Configuration, pairing::PairedFacets, segment_rows::SegmentRows,
+    configuration::Configuration,
+    pairing::{Corners, PairedFacets, paired_facets},
+    segment::Derivatives,
+    segment_rows::{Given, SegmentRows, Slip, segment_rows},
     selection::Selection,
+    side::Side,
 };
 
 /// A segment with its rows and the kept nodes whose basis functions live on it.
@@ -46,4 +54,62 @@ impl Patch {
         }
         kept
     }
+}
+
+/// Whether derivatives of what facets with these corners add to rows are wanted.
+pub(crate) fn wanted(
+    selection: &Selection,
+    wanted: Option<&[Vec<bool>; 2]>,
+    corners: &[Corners],
+) -> Derivatives {
+    let Some(wanted) = wanted else {
+        return Derivatives::First;
+    };
+    let followed = |side: Side, node: SurfaceNode| {
+        let mut row = selection.row(side, node).iter();
+        row.any(|&(k, _)| {
+            let (side, node) = selection.kept()[k as usize].place();
+            wanted[side][node]
+        })
+    };
+    let nodes = corners
+        .iter()
+        .flat_map(|(side, nodes)| nodes.map(|node| (*side, node)));
+    let mut nodes = nodes.map(|(side, node)| wanted[side][node] || followed(side, node));
+    match nodes.any(|is_wanted| is_wanted) {
+        true => Derivatives::First,
+        false => Derivatives::None,
+    }
+}
+
+/// The segments between facets whose corners carry traction.
+pub(crate) fn patches(
+    configuration: &Configuration,
+    start: &Configuration,
+    selection: &Selection,
+    (slip, slopes): (Slip, &(impl Fn(&[Corners]) -> Derivatives + Sync)),
+) -> Vec<Patch> {
+    let own = configuration.side(Side::A);
+    let carries = |facet: FacetId| {
+        let corners = own.corners(facet);
+        corners.iter().any(|&node| selection.carries(Side::A, node))
+    };
+    let scope = selection.scope();
+    paired_facets(configuration, scope, slopes, carries)
+        .into_par_iter()
+        .with_min_len(4)
+        .map(|paired| {
+            let given = Given {
+                weights: scope.weights(&paired),
+                offsets: selection.offsets_at(configuration, &paired),
+                slip,
+            };
+            let rows = segment_rows(configuration, start, &paired, given);
+            Patch {
+                kept: Patch::kept_of(configuration, selection, &paired),
+                rows,
+                paired,
+            }
+        })
+        .collect()
 }

@@ -84,19 +84,6 @@ impl From<Warning> for WarningSummary {
     }
 }
 
-/// Where the time on the clock went.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct SolverSeconds {
-    /// Residuals and matrices.
-    pub assembly: f64,
-    /// Factorisations, or preconditioners.
-    pub factorisation: f64,
-    /// Solutions with refinement.
-    pub solution: f64,
-    /// Contact on linearised bodies: residuals, matrices and corrections.
-    pub contact: f64,
-}
-
 /// What the linear systems took.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SolverSummary {
@@ -108,8 +95,14 @@ pub struct SolverSummary {
     pub contact_corrections: usize,
     /// Iterations of GMRES in all accepted increments.
     pub krylov_iterations: usize,
-    /// Time that accepted increments took on the clock.
-    pub seconds: SolverSeconds,
+    /// Seconds on the clock for residuals and matrices in all accepted increments.
+    pub assembly_s: f64,
+    /// The same for factorisations and preconditioners.
+    pub factorisation_s: f64,
+    /// The same for solutions with refinement.
+    pub solution_s: f64,
+    /// The same for contact on linearised bodies.
+    pub contact_s: f64,
     /// Accepted increments in which another solver stood in for the one that was asked for.
     pub fall_backs: usize,
     /// Why it last did.
@@ -257,12 +250,10 @@ mod tests {
                 factorisations: 80,
                 contact_corrections: 12,
                 krylov_iterations: 7,
-                seconds: SolverSeconds {
-                    assembly: 1.5,
-                    factorisation: 2.5,
-                    solution: 0.5,
-                    contact: 0.25,
-                },
+                assembly_s: 1.5,
+                factorisation_s: 2.5,
+                solution_s: 0.5,
+                contact_s: 0.25,
                 fall_backs: 0,
                 reason: None,
             },
@@ -314,9 +305,7 @@ mod tests {
             "solver": {
                 "method": "condensed", "factorisations": 80, "contact_corrections": 12,
                 "krylov_iterations": 7,
-                "seconds": {
-                    "assembly": 1.5, "factorisation": 2.5, "solution": 0.5, "contact": 0.25
-                },
+                "assembly_s": 1.5, "factorisation_s": 2.5, "solution_s": 0.5, "contact_s": 0.25,
                 "fall_backs": 0, "reason": null
             },
             "wall_s": 0.75, "peak_rss_mib": null,

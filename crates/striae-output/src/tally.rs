@@ -89,11 +89,10 @@ impl Tally {
         self.solver.factorisations += work.factorisations;
         self.solver.contact_corrections += work.contact_corrections;
         self.solver.krylov_iterations += work.krylov_iterations;
-        let (seconds, times) = (&mut self.solver.seconds, &work.times);
-        seconds.assembly += times.assembly.as_secs_f64();
-        seconds.factorisation += times.factorisation.as_secs_f64();
-        seconds.solution += times.solution.as_secs_f64();
-        seconds.contact += times.contact.as_secs_f64();
+        self.solver.assembly_s += work.times.assembly.as_secs_f64();
+        self.solver.factorisation_s += work.times.factorisation.as_secs_f64();
+        self.solver.solution_s += work.times.solution.as_secs_f64();
+        self.solver.contact_s += work.times.contact.as_secs_f64();
         if let Some(reason) = work.fall_back {
             self.solver.fall_backs += 1;
             self.solver.reason = Some(reason.to_string());

@@ -8,8 +8,10 @@ use std::{
 
 use serde_json::Value;
 
-/// Entries of `summary.json` that are never the same twice.
-const OWN: [&str; 2] = ["wall_s", "peak_rss_mib"];
+/// Whether an entry of `summary.json` is never the same twice.
+fn is_own(name: &str) -> bool {
+    name.ends_with("_s") || name == "peak_rss_mib"
+}
 
 /// All files below a folder with their bytes.
 pub fn files(folder: &Path) -> io::Result<BTreeMap<PathBuf, Vec<u8>>> {
@@ -37,7 +39,10 @@ fn comparable(path: &Path, bytes: Vec<u8>) -> Vec<u8> {
     }
     match serde_json::from_slice::<Value>(&bytes) {
         Ok(Value::Object(mut summary)) => {
-            summary.retain(|name, _| !OWN.contains(&name.as_str()));
+            summary.retain(|name, _| !is_own(name));
+            if let Some(Value::Object(solver)) = summary.get_mut("solver") {
+                solver.retain(|name, _| !is_own(name));
+            }
             Value::Object(summary).to_string().into_bytes()
         }
         _ => bytes,

@@ -55,6 +55,8 @@ fn summary(folder: &Path) -> Value {
     let mut summary: Value = serde_json::from_str(&text).unwrap();
     let object = summary.as_object_mut().unwrap();
     assert!(object.remove("wall_s").is_some() && object.remove("peak_rss_mib").is_some());
+    let solver = object["solver"].as_object_mut().unwrap();
+    solver.retain(|key, _| !key.ends_with("_s"));
     summary
 }
 
