@@ -71,7 +71,8 @@ fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) if failure.is_told() || failure.is_broken_pipe() => failure.exit_code(),
         Err(failure) => {
-            let _ = writeln!(io::stderr(), "{failure}");
+            // At once, so that nothing of other ranks comes between.
+            let _ = io::stderr().write_all(format!("{failure}\n").as_bytes());
             failure.exit_code()
         }
     }

@@ -127,10 +127,10 @@ mod together {
             let (Err(failure), Some(ranks)) = (&result, &self.0) else {
                 return result;
             };
-            let said = format!("rank {}: {failure}", ranks.rank());
+            let said = format!("rank {}: {failure}\n", ranks.rank());
             thread::spawn(move || {
                 thread::sleep(PATIENCE);
-                let _ = writeln!(std::io::stderr(), "{said}");
+                let _ = std::io::stderr().write_all(said.as_bytes());
                 // MPI ends all ranks where one ends without leaving it.
                 process::abort();
             });

@@ -65,17 +65,19 @@ pub(crate) fn wanted(
     let Some(wanted) = wanted else {
         return Derivatives::First;
     };
+    // Points of a rigid side have numbers of their own.
+    let is_wanted = |(side, node): (Side, SurfaceNode)| {
+        let found = wanted[side].get(node.index());
+        found.is_none_or(|is_wanted| *is_wanted)
+    };
     let followed = |side: Side, node: SurfaceNode| {
         let mut row = selection.row(side, node).iter();
-        row.any(|&(k, _)| {
-            let (side, node) = selection.kept()[k as usize].place();
-            wanted[side][node]
-        })
+        row.any(|&(k, _)| is_wanted(selection.kept()[k as usize].place()))
     };
     let nodes = corners
         .iter()
         .flat_map(|(side, nodes)| nodes.map(|node| (*side, node)));
-    let mut nodes = nodes.map(|(side, node)| wanted[side][node] || followed(side, node));
+    let mut nodes = nodes.map(|(side, node)| is_wanted((side, node)) || followed(side, node));
     match nodes.any(|is_wanted| is_wanted) {
         true => Derivatives::First,
         false => Derivatives::None,

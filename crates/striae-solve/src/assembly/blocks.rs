@@ -77,7 +77,7 @@ impl System<'_> {
         self.ties.is_empty() && !moves && self.opposite_body(pair).is_none() && !follows()
     }
 
-    /// Which nodes on the sides of a pair this rank owns; `None` where rows of others' nodes,
+    /// Which nodes on the sides of a pair this rank owns, or nobody, as they are rigid; `None` where rows of others' nodes,
     /// too, become rows of this rank, or all are its own.
     pub(super) fn own_nodes(&self, pair: usize) -> Option<[Vec<bool>; 2]> {
         let problem = self.context.problem;
@@ -87,7 +87,7 @@ impl System<'_> {
         let own = |side: Side| {
             let surface = problem.pairs[pair].contact.sides[side].surface();
             let count = surface.map_or(0, |surface| surface.nodes().len());
-            let nodes = SurfaceNode::all(count).map(|node| problem.carrier(pair, side, node));
+            let nodes = SurfaceNode::all(count).map(|node| problem.surface_node(pair, side, node));
             let is_own = nodes.map(|node| node.is_none_or(|node| problem.share.owns(node)));
             is_own.collect()
         };
