@@ -19,6 +19,7 @@ pub fn all() -> Vec<(&'static str, Model)> {
         ("mixture", mixture()),
         ("glued", glued()),
         ("ridden", ridden()),
+        ("peaks", peaks()),
     ]
 }
 
@@ -190,6 +191,35 @@ pub fn glued() -> Model {
         LoadKind::DeadTraction(Vec3::new(0.02, 0.0, -0.01)),
         LoadExtent::Whole,
     )];
+    model.steps = vec![press];
+    model
+}
+
+/// A block on a rigid surface of hills, which has more nodes than the block's side, and which
+/// stays where it is.
+pub fn peaks() -> Model {
+    const CELLS: usize = 7;
+    let mesh = block([0.0; 3], [1.0; 3], [3, 3, 2]).mesh().unwrap();
+    let mut model = model(vec![heavy("block", mesh, rubber(1.0, 0.3))]);
+    let corner = |i: usize, j: usize| {
+        let [x, y] = [i, j].map(|k| 1.4 * k as f64 / CELLS as f64 - 0.2);
+        Vec3::new(x, y, if (i + j) % 2 == 0 { 0.0 } else { -0.1 })
+    };
+    let corners = (0..=CELLS).flat_map(|j| (0..=CELLS).map(move |i| corner(i, j)));
+    let number = |i: usize, j: usize| NodeId::new((CELLS + 1) * j + i);
+    let cells = (0..CELLS).flat_map(|j| (0..CELLS).map(move |i| (i, j)));
+    let triangles = cells.flat_map(|(i, j)| {
+        let ends = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
+        let [a, b, c, d] = ends.map(|(i, j)| number(i, j));
+        [[a, b, c, c], [a, c, d, d]]
+    });
+    let hills = RigidShape::Facets {
+        positions: corners.collect(),
+        facets: triangles.collect(),
+    };
+    model.touch_rigid(("block", "zmin"), hills, coulomb(0.4));
+    let mut press = step();
+    press.displacements = vec![model.hold("block", "zmax", [Some(0.01), None, Some(-0.02)])];
     model.steps = vec![press];
     model
 }

@@ -305,3 +305,40 @@ fn inverses<const N: usize>(matrix: &Blocks<N, N, f64>) -> Vec<f64> {
         });
     inverses
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{super::others::Nobody, *};
+
+    /// Rows with blocks in some columns, of numbers that are as good as random.
+    fn scattered<const C: usize>(rows: usize, columns: usize) -> Blocks<3, C, f64> {
+        Blocks::from_rows(rows, columns, |i, sum| {
+            for step in 0..4 {
+                let block = sum.block((i / 2 + step * step) % columns).iter_mut();
+                let number = |k: usize| ((i * 31 + step * 17 + k * 7) % 23) as f64 - 11.0;
+                block.enumerate().for_each(|(k, value)| *value += number(k));
+            }
+        })
+    }
+
+    #[test]
+    fn pieces_of_a_galerkin_product_are_those_of_the_whole() {
+        let (rows, coarse) = (40, 22);
+        let matrix = scattered::<3>(rows, rows + 5);
+        let (own, theirs) = (scattered::<MODES>(rows, coarse), scattered(5, coarse));
+        let mut level = Level::new(&matrix, rows + 5, (&mut Nobody, &|own| own));
+        level.mirror = Mirror::of(&own, coarse);
+        let piece = |range: Range<usize>| {
+            let piece = level.piece_of_galerkin(&matrix, (&own, &theirs), range);
+            let rows = (0..piece.rows()).map(|i| {
+                let row = piece.row(i).map(|(j, block)| (j, block.to_vec()));
+                row.collect::<Vec<_>>()
+            });
+            rows.collect::<Vec<_>>()
+        };
+        let pieces = (0..coarse)
+            .step_by(7)
+            .map(|first| first..coarse.min(first + 7));
+        assert_eq!(pieces.flat_map(piece).collect::<Vec<_>>(), piece(0..coarse));
+    }
+}

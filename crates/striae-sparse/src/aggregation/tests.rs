@@ -5,6 +5,7 @@ use crate::gmres;
 
 #[path = "../../tests/elastic/mod.rs"]
 mod elastic;
+mod parts;
 
 /// Cube of `n` elements an edge with its lowest nodes held, and its near-kernel.
 fn clamped(n: usize, poisson: f64) -> (Blocks<3, 3, f64>, Vec<f64>) {
