@@ -8,7 +8,9 @@
 //! even lead to another state. That is no fault of ranks if it does the same on one process: the
 //! scene is run there again and again with prescribed motions and loads that differ by `1e-12`
 //! of their size, until a run differs from the first one as much as ranks do. Such scenes are
-//! named with what was found; where no run does, ranks are wrong.
+//! named with what was found; where no run does, ranks are wrong. Before that the ranks are run
+//! again where nothing but iterations is over the bounds, as the last digits of MUMPS differ from
+//! run to run.
 
 use std::{
     fmt, fs,
@@ -141,7 +143,11 @@ impl Scene<'_> {
             Ok(found) => format!("exit codes {one} and {other}, {found}"),
             Err(words) => format!("exit codes {one} and {other}, {words}"),
         };
-        if let Some(again) = self.again(alone, one)? {
+        let are_iterations = found.as_ref().is_ok_and(|found| found.forces <= FORCES);
+        if are_iterations
+            && one == other
+            && let Some(again) = self.again(alone, one)?
+        {
             return Ok(Ok(format!(
                 "{said}; HANGS ON ROUND-OFF: the same ranks again: {again}"
             )));

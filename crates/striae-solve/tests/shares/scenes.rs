@@ -203,7 +203,7 @@ pub fn peaks() -> Model {
     let mut model = model(vec![heavy("block", mesh, rubber(1.0, 0.3))]);
     let corner = |i: usize, j: usize| {
         let [x, y] = [i, j].map(|k| 1.4 * k as f64 / CELLS as f64 - 0.2);
-        Vec3::new(x, y, if (i + j) % 2 == 0 { 0.0 } else { -0.1 })
+        Vec3::new(x, y, if (i + j).is_multiple_of(2) { 0.0 } else { -0.1 })
     };
     let corners = (0..=CELLS).flat_map(|j| (0..=CELLS).map(move |i| corner(i, j)));
     let number = |i: usize, j: usize| NodeId::new((CELLS + 1) * j + i);
