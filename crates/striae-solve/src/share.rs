@@ -57,6 +57,7 @@
 
 mod division;
 mod exchange;
+mod facing;
 mod reduced;
 
 use std::sync::Arc;
