@@ -2,7 +2,7 @@
 
 use super::{
     ffi,
-    library::{Library, index, text, world},
+    library::{Library, give_back, index, text, world},
     matrix::Matrix,
     vectors::Vector,
 };
@@ -111,6 +111,7 @@ impl Drop for Cycle {
         if !thread::panicking() {
             // SAFETY: created in `new`, not destroyed before.
             unsafe { ffi::PCDestroy(&mut self.raw) };
+            give_back();
         }
     }
 }

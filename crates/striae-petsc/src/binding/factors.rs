@@ -2,7 +2,7 @@
 
 use super::{
     ffi,
-    library::{text, world},
+    library::{give_back, text, world},
     matrix::Matrix,
     vectors::{Lay, Vector},
 };
@@ -128,6 +128,7 @@ impl Drop for Factors {
         if !thread::panicking() {
             // SAFETY: null or created in `make`, not destroyed before.
             unsafe { ffi::PCDestroy(&mut self.raw) };
+            give_back();
         }
     }
 }

@@ -56,6 +56,12 @@ pub(super) const COPY_VALUES: c_int = 0;
 pub(super) const FINAL_ASSEMBLY: c_int = 0;
 pub(super) const MATOP_MULT: c_int = 3;
 
+#[cfg(all(target_os = "linux", target_env = "gnu"))]
+unsafe extern "C" {
+    /// Of the GNU C library: gives free memory back to the system, all but so many bytes.
+    pub(super) fn malloc_trim(kept: usize) -> c_int;
+}
+
 unsafe extern "C" {
     pub(super) fn PetscInitialize(
         argc: *mut c_int,

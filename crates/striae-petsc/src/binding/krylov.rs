@@ -2,7 +2,7 @@
 
 use super::{
     ffi,
-    library::{Library, index, text, world},
+    library::{Library, give_back, index, text, world},
     vectors::{Lay, Vector},
 };
 use crate::error::Error;
@@ -138,6 +138,7 @@ impl Drop for Objects {
                 ffi::KSPDestroy(&mut self.ksp);
                 ffi::MatDestroy(&mut self.matrix);
             }
+            give_back();
         }
     }
 }

@@ -119,6 +119,16 @@ impl Drop for Library {
     }
 }
 
+/// Gives memory that PETSc has freed back to the system, so that others can have it. The GNU C
+/// library would keep it for what PETSc asks for next, vectors of megabytes included.
+pub(super) fn give_back() {
+    #[cfg(all(target_os = "linux", target_env = "gnu"))]
+    // SAFETY: may be called at any time.
+    unsafe {
+        ffi::malloc_trim(0);
+    }
+}
+
 /// All ranks.
 pub(super) fn world() -> MPI_Comm {
     SimpleCommunicator::world().as_raw()
