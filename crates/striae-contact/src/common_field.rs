@@ -45,12 +45,19 @@ pub struct CommonField<'a> {
     pub tau: &'a NodalTractions,
 }
 
-/// Momentum rows of every segment and the forces on its two facets.
-pub fn segment_terms(field: CommonField, patches: &[Patch]) -> Vec<(LocalTerm, [FacetForces; 2])> {
+/// Momentum rows of every segment, its two facets and the forces on them. Patches go one by one,
+/// as the derivatives of all of them and of all terms would take the most room of an assembly.
+pub fn segment_terms(
+    field: CommonField,
+    patches: Vec<Patch>,
+) -> Vec<(LocalTerm, [Option<FacetId>; 2], [FacetForces; 2])> {
     patches
-        .par_iter()
+        .into_par_iter()
         .with_min_len(4)
-        .map(|patch| field.term(patch))
+        .map(|patch| {
+            let (term, forces) = field.term(&patch);
+            (term, patch.paired.facets, forces)
+        })
         .collect()
 }
 

@@ -141,7 +141,7 @@ pub fn evaluate(
     evaluation.add_rows(&stage, conditions);
     evaluation.follow_status(selection);
     match configuration.pair.enforcement {
-        Enforcement::Weighted => evaluation.add_segments(&stage, &patches),
+        Enforcement::Weighted => evaluation.add_segments(&stage, patches),
         Enforcement::Collocated => evaluation.add_facets(&stage),
     }
     evaluation.add_means(configuration);
@@ -291,7 +291,7 @@ impl Evaluation {
         }
     }
 
-    fn add_segments(&mut self, stage: &Stage, patches: &[Patch]) {
+    fn add_segments(&mut self, stage: &Stage, patches: Vec<Patch>) {
         let field = CommonField {
             configuration: stage.configuration,
             selection: stage.selection,
@@ -300,10 +300,10 @@ impl Evaluation {
             tau: stage.tau,
         };
         let mut forces = [Vec::new(), Vec::new()];
-        for ((term, of_facets), patch) in segment_terms(field, patches).into_iter().zip(patches) {
+        for (term, facets, of_facets) in segment_terms(field, patches) {
             self.terms.push(term);
             for &side in stage.configuration.pair.deformable_sides() {
-                if let Some(facet) = patch.paired.facets[side] {
+                if let Some(facet) = facets[side] {
                     forces[side].push((facet, of_facets[side]));
                 }
             }
