@@ -24,11 +24,6 @@ impl Bounds {
         })
     }
 
-    /// The middle of the box.
-    pub fn middle(&self) -> Vec3 {
-        0.5 * (self.low + self.high)
-    }
-
     /// The box with all faces moved out by `margin`.
     pub fn inflated(&self, margin: f64) -> Self {
         Self {

@@ -57,7 +57,6 @@
 
 mod division;
 mod exchange;
-mod facing;
 mod reduced;
 
 use std::sync::Arc;

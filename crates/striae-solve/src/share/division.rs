@@ -5,18 +5,13 @@
 //! its elements: rows of the system go with nodes, and so do, in meshes of any kind of cell, the
 //! work and the memory that their elements take, as kinds of which more meet at a node are
 //! smaller. Elements with three nodes or more in common are neighbours, by a face or by an edge
-//! with a node in its middle, and it costs so many nodes to have them on two ranks.
-//!
-//! Elements that face each other across a contact pair or a tie, when the analysis begins, are
-//! neighbours, too. All ranks hold the contact surfaces, but derivatives of contact are only taken
-//! where a rank has a node of the facets that meet: a division along the surface between two
-//! bodies would have both ranks take all of them. So it costs more than a face in common. What
-//! contact of a facet takes is weighed as one more node.
+//! with a node in its middle, and it costs so many nodes to have them on two ranks. Elements on
+//! both sides of a contact pair are no neighbours: as all ranks hold the contact surfaces, nothing
+//! is saved by that.
 
 use striae_mesh::{CellBlock, NodeId};
 use striae_sparse::{Neighbourhood, SolveError, divided};
 
-use super::facing::Facing;
 use crate::{model::Model, node::GlobalNode, team::Team};
 
 /// Nodes in common from which on elements are neighbours.
@@ -138,13 +133,12 @@ fn counts(model: &Model) -> impl Iterator<Item = usize> {
 
 /// Elements of all bodies with their neighbours.
 fn graph(model: &Model) -> Neighbourhood {
-    let facing = Facing::new(model);
     let mut graph = Neighbourhood::default();
     let mut first = 0;
     for body in &model.bodies {
         let of_nodes = ElementsOfNodes::new(body.mesh.positions.len(), &body.mesh.blocks);
         let mut common = vec![0_u8; body.mesh.element_count()];
-        let (mut met, mut neighbours): (Vec<u32>, Vec<(u32, u32)>) = Default::default();
+        let mut met: Vec<u32> = Vec::new();
         for (at, corners) in body.mesh.elements().enumerate() {
             for node in corners {
                 for &other in of_nodes.of(*node) {
@@ -154,21 +148,14 @@ fn graph(model: &Model) -> Neighbourhood {
                     common[other as usize] += 1;
                 }
             }
-            let of_volume = met.drain(..).filter_map(|other| {
+            let neighbours = met.drain(..).filter_map(|other| {
                 let shared = std::mem::take(&mut common[other as usize]);
                 let is_one = shared >= LEAST_COMMON && other as usize != at;
                 is_one.then_some((first + other, u32::from(shared)))
             });
-            let own = first + at as u32;
-            neighbours.extend(of_volume.chain(facing.neighbours(own)));
-            neighbours.sort_unstable();
-            let merged = neighbours.chunk_by(|a, b| a.0 == b.0);
-            let merged = merged.map(|of_one| (of_one[0].0, of_one.iter().map(|one| one.1).sum()));
             let parts = corners.iter().map(|node| of_nodes.of(*node).len() as f64);
-            let volume: f64 = parts.map(|count| NODE / count).sum();
-            let contact = NODE * f64::from(facing.faces(own));
-            graph.add((volume + contact).round() as u32, merged);
-            neighbours.clear();
+            let weight: f64 = parts.map(|count| NODE / count).sum();
+            graph.add(weight.round() as u32, neighbours);
         }
         first += common.len() as u32;
     }
