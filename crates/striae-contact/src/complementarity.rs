@@ -33,6 +33,7 @@ pub use node::{Conditions, ContactNode, Iteration};
 
 use crate::{
     configuration::Configuration,
+    segment::Derivatives,
     term::{Field, LocalTerm},
     unknowns::NodeResult,
 };
@@ -107,9 +108,14 @@ pub fn rows(
         .numbering()
         .traction(node.side, node.node);
     let numbered = [0, 1, 2].map(|at| (first + at as u32, rows[at].0, rows[at].1));
-    let gradient: [[f64; 3]; N] =
-        std::array::from_fn(|lane| rows.each_ref().map(|row| row.2[lane]));
-    let term = LocalTerm::from_lanes(&state.lanes, &numbered, &gradient);
+    let term = match node.derivatives {
+        Derivatives::First => {
+            let gradient: [[f64; 3]; N] =
+                std::array::from_fn(|lane| rows.each_ref().map(|row| row.2[lane]));
+            LocalTerm::from_lanes(&state.lanes, &numbered, &gradient)
+        }
+        Derivatives::None => LocalTerm::from_columns::<0>(&numbered, &[], &[]),
+    };
     (term, result)
 }
 

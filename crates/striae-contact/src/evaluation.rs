@@ -90,7 +90,9 @@ pub fn evaluate(
     let (patches, mut kinematics) = match configuration.pair.enforcement {
         Enforcement::Weighted => {
             let slopes = |corners: &[Corners]| match derivatives {
-                Derivatives::First => wanted(selection, conditions.wanted, corners),
+                Derivatives::First => {
+                    wanted(configuration, selection, (conditions.wanted, corners))
+                }
                 Derivatives::None => Derivatives::None,
             };
             let patches = patches(configuration, start, selection, (slip, &slopes));
@@ -138,7 +140,7 @@ pub fn evaluate(
         tau: &tau,
     };
     let mut evaluation = stage.nodal(&patches);
-    evaluation.add_rows(&stage, conditions);
+    evaluation.add_rows(&stage, conditions, derivatives);
     evaluation.follow_status(selection);
     match configuration.pair.enforcement {
         Enforcement::Weighted => evaluation.add_segments(&stage, patches),
@@ -231,7 +233,7 @@ impl Evaluation {
         }
     }
 
-    fn add_rows(&mut self, stage: &Stage, conditions: Conditions) {
+    fn add_rows(&mut self, stage: &Stage, conditions: Conditions, derivatives: Derivatives) {
         let kept = stage.selection.kept();
         let found: Vec<Option<(LocalTerm, NodeResult)>> = (0..kept.len())
             .into_par_iter()
@@ -249,6 +251,10 @@ impl Evaluation {
                     before: stage.tractions.labels[side][node],
                     unknowns: stage.tractions.nodes[side][node],
                     tau: stage.tau[side][node].value,
+                    derivatives: match conditions.wanted {
+                        Some(wanted) if !wanted[side][node] => Derivatives::None,
+                        _ => derivatives,
+                    },
                     yields: stage.selection.yields && stage.selection.is_point(side, node),
                 };
                 Some(rows(stage.configuration, &contact_node, conditions))

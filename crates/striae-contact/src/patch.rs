@@ -58,25 +58,23 @@ impl Patch {
 
 /// Whether derivatives of what facets with these corners add to rows are wanted.
 pub(crate) fn wanted(
+    configuration: &Configuration,
     selection: &Selection,
-    wanted: Option<&[Vec<bool>; 2]>,
-    corners: &[Corners],
+    (wanted, corners): (Option<&[Vec<bool>; 2]>, &[Corners]),
 ) -> Derivatives {
     let Some(wanted) = wanted else {
         return Derivatives::First;
     };
-    // Points of a rigid side have numbers of their own.
-    let is_wanted = |(side, node): (Side, SurfaceNode)| {
-        let found = wanted[side].get(node.index());
-        found.is_none_or(|is_wanted| *is_wanted)
-    };
+    let is_wanted = |(side, node): (Side, SurfaceNode)| wanted[side][node];
     let followed = |side: Side, node: SurfaceNode| {
         let mut row = selection.row(side, node).iter();
         row.any(|&(k, _)| is_wanted(selection.kept()[k as usize].place()))
     };
-    let nodes = corners
+    // Corners of a rigid side have no rows.
+    let corners = corners
         .iter()
-        .flat_map(|(side, nodes)| nodes.map(|node| (*side, node)));
+        .filter(|(side, _)| configuration.pair.is_deformable(*side));
+    let nodes = corners.flat_map(|(side, nodes)| nodes.map(|node| (*side, node)));
     let mut nodes = nodes.map(|(side, node)| is_wanted((side, node)) || followed(side, node));
     match nodes.any(|is_wanted| is_wanted) {
         true => Derivatives::First,

@@ -151,17 +151,17 @@ fn in_phases(
     for (pair, configuration) in configurations.iter().enumerate() {
         system.find_triples(pair, configuration);
     }
-    let wanted: Vec<_> = (0..configurations.len())
-        .map(|pair| system.own_nodes(pair))
-        .collect();
+    system.share_out_contact(setting);
+    let added = std::mem::take(&mut system.added);
     // Bodies are added while contact is evaluated.
     let (evaluated, bodies) = rayon::scope(|_| {
         rayon::join(
-            || timed(|| contact.evaluated(&configurations, setting, trial, derivatives, &wanted)),
+            || timed(|| contact.evaluated(&configurations, setting, trial, derivatives, &added)),
             || system.bodies(&configurations, setting, trial, places),
         )
     });
     let (contacts, evaluation_time) = evaluated;
+    system.added = added;
     let found = contacts.and_then(|contacts| Ok((contacts, bodies?)));
     let (mut contacts, mut bodies) = agreed(setting.context.problem, found)?;
     if !share.is_alone() {
@@ -241,6 +241,9 @@ struct System<'a> {
     longest_push: Vec<f64>,
     /// Unknowns of every pair.
     triples: Vec<Vec<Option<Triple>>>,
+    /// Nodes of every pair whose rows of contact this rank adds to the tangent, by side; `None`
+    /// where it adds those that it owns.
+    added: Vec<Option<[Vec<bool>; 2]>>,
     scratch: Scratch,
 }
 
@@ -270,6 +273,7 @@ impl<'a> System<'a> {
             moving: Vec::new(),
             longest_push: vec![0.0; problem.model.rigid_surfaces.len()],
             triples: Vec::new(),
+            added: Vec::new(),
             scratch: Scratch::default(),
         };
         system.find_ties(trial, imposed);

@@ -33,7 +33,8 @@
 //! | where | what | how |
 //! | --- | --- | --- |
 //! | `assembly` | residuals, internal, inertia and applied forces at nodes of several ranks, as elements and loads leave them | sum |
-//! | `assembly` | rows of the tangent that all ranks know: what is held, contact, stabilisation, mass points, turning arms | owner |
+//! | `assembly` | rows of the tangent that all ranks know: what is held, stabilisation, mass points, turning arms, contact that ties or moving bodies change | owner |
+//! | `assembly/blocks` | rows of all other contact in the tangent | the rank that a place falls to, as owners may be anywhere |
 //! | `assembly/elements` | strain energy, dissipation, squares of forces; the first inverted element | sum; any |
 //! | `layout` | what the pattern of contact grows by | union |
 //! | `assembly/measure` | squares of residuals and of applied forces, over owned nodes; squares of round-off; largest distance from the origin | sum; largest |
@@ -55,6 +56,7 @@
 //! Resultants of pairs, reports of ties, interference, passages, roles and status of contact nodes,
 //! offsets and poses follow from what is replicated alone and need nothing.
 
+mod contact;
 mod division;
 mod exchange;
 mod reduced;
@@ -69,6 +71,7 @@ use crate::{
     team::{Alone, Team},
 };
 
+pub(crate) use contact::shared_out;
 pub use division::Division;
 
 /// What of a problem a rank holds.

@@ -5,8 +5,8 @@ use striae_mesh::Vec3;
 use striae_surface::node::SurfaceNode;
 
 use crate::{
-    frame::Frame, kinematics::Kinematics, side::Side, table_1::Corrector, texture::NodeTextures,
-    tracked::TrackedScalar, unknown::Prescribed, unknowns::Label,
+    frame::Frame, kinematics::Kinematics, segment::Derivatives, side::Side, table_1::Corrector,
+    texture::NodeTextures, tracked::TrackedScalar, unknown::Prescribed, unknowns::Label,
 };
 
 /// Which iteration of an increment is evaluated.
@@ -67,4 +67,6 @@ pub struct ContactNode<'a> {
     pub tau: Vec3,
     /// Whether its rows have a compliance in the tangent.
     pub yields: bool,
+    /// Whether derivatives of its rows are wanted.
+    pub derivatives: Derivatives,
 }

@@ -6,12 +6,12 @@
 
 use rayon::prelude::*;
 use striae_condensed::{Growth, Partition};
-use striae_contact::{evaluation::Evaluation, side::Side, term::LocalTerm};
+use striae_contact::{evaluation::Evaluation, segment::Derivatives, side::Side, term::LocalTerm};
 use striae_sparse::{CompressedRows, PlacedBlock};
 use striae_surface::node::SurfaceNode;
 
-use super::{System, terms::Answer};
-use crate::layout::united;
+use super::{Setting, System, terms::Answer};
+use crate::{layout::united, node::GlobalNode, share::shared_out};
 
 /// Terms for one thread at a time.
 const TERMS: usize = 16;
@@ -77,33 +77,70 @@ impl System<'_> {
         self.ties.is_empty() && !moves && self.opposite_body(pair).is_none() && !follows()
     }
 
-    /// Which nodes on the sides of a pair this rank owns, or nobody, as they are rigid; `None` where rows of others' nodes,
-    /// too, become rows of this rank, or all are its own.
-    pub(super) fn own_nodes(&self, pair: usize) -> Option<[Vec<bool>; 2]> {
-        let problem = self.context.problem;
-        if problem.share.is_alone() || !self.is_plain(pair) {
-            return None;
+    /// Finds which rows of contact this rank adds to the tangent: where unknowns are those of the
+    /// system as they are, those of [its nodes](shared_out), of all other pairs those that it owns.
+    pub(super) fn share_out_contact(&mut self, setting: &Setting) {
+        let (problem, pairs) = (self.context.problem, setting.selections.len());
+        self.added = vec![None; pairs];
+        if problem.share.is_alone() || self.derivatives == Derivatives::None {
+            return;
         }
-        let own = |side: Side| {
-            let surface = problem.pairs[pair].contact.sides[side].surface();
-            let count = surface.map_or(0, |surface| surface.nodes().len());
-            let nodes = SurfaceNode::all(count).map(|node| problem.surface_node(pair, side, node));
-            let is_own = nodes.map(|node| node.is_none_or(|node| problem.share.owns(node)));
-            is_own.collect()
-        };
-        Some(Side::BOTH.map(own))
+        let (mut nodes, mut places) = (Vec::new(), Vec::new());
+        for (pair, selection) in setting.selections.iter().enumerate() {
+            if !self.is_plain(pair) {
+                continue;
+            }
+            let owned = |side: Side| {
+                let all = SurfaceNode::all(selection.nodes(side));
+                let carriers = all.map(|node| problem.carrier(pair, side, node));
+                let is_owned = |node: GlobalNode| problem.share.owns(node);
+                carriers.map(|node| node.is_none_or(is_owned)).collect()
+            };
+            self.added[pair] = Some(Side::BOTH.map(owned));
+            for side in Side::BOTH {
+                let all = SurfaceNode::all(selection.nodes(side));
+                let bears = |node: &SurfaceNode| {
+                    selection.carries(side, *node) || selection.is_kept(side, *node)
+                };
+                for node in all.filter(bears) {
+                    if let Some(global) = problem.carrier(pair, side, node) {
+                        nodes.push((pair, side, node));
+                        places.push(setting.state.positions[global]);
+                    }
+                }
+            }
+        }
+        let team = problem.share.team();
+        let ranks = shared_out(&places, team.size());
+        for ((pair, side, node), rank) in nodes.into_iter().zip(ranks) {
+            if let Some(added) = &mut self.added[pair] {
+                added[side][node.index()] = rank as usize == team.rank();
+            }
+        }
     }
 
-    /// Where a term belongs, leaving out prescribed rows and those of other ranks.
+    /// Whether this rank adds a row of contact to the tangent.
+    fn adds(&self, pair: usize, row: u32) -> bool {
+        match self.added.get(pair) {
+            Some(Some(added)) => {
+                let (side, node) = self.triple(pair, row).place;
+                added[side][node.index()]
+            }
+            _ => self.owns(self.unknown(pair, row)),
+        }
+    }
+
+    /// Where a term belongs, leaving out prescribed rows and those that other ranks add.
     fn placed<'t>(&self, pair: usize, term: &'t LocalTerm) -> PlacedBlock<'t> {
         let is_free = |&(_, row): &(usize, &u32)| {
             let axis = *row as usize % 3;
             let node = self.triple(pair, *row).position;
             node.is_none_or(|node| !self.context.fixed[node.component(axis)])
         };
-        let is_own = |&(_, row): &(usize, &u32)| self.owns(self.unknown(pair, *row));
         let rows = term.rows.iter().enumerate();
-        let rows = rows.filter(is_free).filter(is_own);
+        let rows = rows
+            .filter(|(_, row)| self.adds(pair, **row))
+            .filter(is_free);
         let columns = term.columns.iter().step_by(3);
         PlacedBlock {
             rows: rows

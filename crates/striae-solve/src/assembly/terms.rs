@@ -17,10 +17,12 @@
 
 use nalgebra::Matrix3;
 use striae_contact::{
-    configuration::Configuration, segment::Derivatives, term::LocalTerm, unknown::Unknown,
+    configuration::Configuration, segment::Derivatives, side::Side, term::LocalTerm,
+    unknown::Unknown,
 };
 use striae_mesh::Vec3;
 use striae_sparse::Supervariable;
+use striae_surface::node::SurfaceNode;
 
 use super::{
     System,
@@ -55,6 +57,8 @@ impl Answer {
 pub(super) struct Triple {
     /// The first of its unknowns.
     pub(super) first: usize,
+    /// The node of the pair that it belongs to.
+    pub(super) place: (Side, SurfaceNode),
     /// The node whose position it is.
     pub(super) position: Option<GlobalNode>,
     /// Whether that node follows others.
@@ -73,12 +77,15 @@ impl System<'_> {
         let triple = |at: u32| {
             let unknown = numbering.unknown(3 * at);
             let (first, _) = self.layout.global(problem, pair, unknown)?;
-            let position = match unknown {
-                Unknown::Position { side, node, .. } => problem.surface_node(pair, side, node),
-                Unknown::Traction { .. } => None,
+            let (place, position) = match unknown {
+                Unknown::Position { side, node, .. } => {
+                    ((side, node), problem.surface_node(pair, side, node))
+                }
+                Unknown::Traction { side, node, .. } => ((side, node), None),
             };
             Some(Triple {
                 first,
+                place,
                 position,
                 follows: position.is_some_and(|node| problem.ties.follower(node).is_some()),
                 against: position.and(moving),
