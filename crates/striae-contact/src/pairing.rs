@@ -136,7 +136,10 @@ pub fn paired_facets(
             }
         })
         .collect();
-    found.into_iter().flatten().collect()
+    // A list that grows as it is filled would be touched twice.
+    let mut all = Vec::with_capacity(found.iter().map(Vec::len).sum());
+    all.extend(found.into_iter().flatten());
+    all
 }
 
 /// A side and the corners of a facet of it.

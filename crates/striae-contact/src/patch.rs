@@ -36,7 +36,7 @@ impl Patch {
         } else {
             0.5
         };
-        let mut kept: Vec<(u32, [f64; 8])> = Vec::with_capacity(16);
+        let mut kept: Vec<(u32, [f64; 8])> = Vec::with_capacity(8);
         for corner in 0..8 {
             let Some((side, node)) = paired.node(configuration, corner) else {
                 continue;

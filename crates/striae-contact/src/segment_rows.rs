@@ -36,8 +36,11 @@ pub const ROWS: usize = 4;
 pub struct SegmentRows {
     /// By corner.
     pub value: [[f64; ROWS]; 8],
-    /// By corner `c`, corner `e` moved, then `3 row + axis`.
-    pub slopes: Vec<[[f64; 3 * ROWS]; 8]>,
+    /// Of the gap by corner `c`, corner `e` moved and axis; empty without derivatives.
+    pub gap_slopes: Vec<[[f64; 3]; 8]>,
+    /// Of the slip by corner `c`, corner `e` moved, then `3 component + axis`; empty without
+    /// derivatives or friction.
+    pub slip_slopes: Vec<[[f64; 9]; 8]>,
 }
 
 /// Whether slip is asked for beside the gap.
@@ -77,11 +80,12 @@ pub fn segment_rows(
     let n = paired.segment.normal;
     let mut rows = SegmentRows {
         value: [[0.0; ROWS]; 8],
-        slopes: Vec::new(),
+        gap_slopes: Vec::new(),
+        slip_slopes: Vec::new(),
     };
     let slopes = paired.segment.slopes.as_deref();
     if slopes.is_some() {
-        rows.slopes = vec![[[0.0; 3 * ROWS]; 8]; 8];
+        rows.gap_slopes = vec![[[0.0; 3]; 8]; 8];
     }
     let along: [f64; 8] = std::array::from_fn(|d| n.dot(&(paired.x[d] - origin)));
     let along = AtCorners(std::array::from_fn(|d| SIGNS[d] * along[d] + offsets[d]));
@@ -95,7 +99,7 @@ pub fn segment_rows(
         for e in 0..8 {
             let direct = n * (SIGNS[e] * paired.segment.mass[c][e]);
             let gradient = direct + slopes.normal[e].tr_mul(&sum) + by_mass[e];
-            rows.slopes[c][e][..3].copy_from_slice(gradient.as_slice());
+            rows.gap_slopes[c][e] = gradient.into();
         }
     }
     if slip == Slip::Wanted {
@@ -189,6 +193,9 @@ impl Moved {
 
     fn add_slip(&self, paired: &PairedFacets, rows: &mut SegmentRows) {
         let slopes = paired.segment.slopes.as_deref();
+        if slopes.is_some() {
+            rows.slip_slopes = vec![[[0.0; 9]; 8]; 8];
+        }
         let turned = self.y.map(|y| self.turn * y);
         // On a plane `y` is the way of side `a` relative to it.
         let sign = |d: usize| if self.on_plane { 1.0 } else { SIGNS[d] };
@@ -215,7 +222,7 @@ impl Moved {
                 }
                 for row in 0..3 {
                     for axis in 0..3 {
-                        rows.slopes[c][e][3 * (row + 1) + axis] = block[(row, axis)];
+                        rows.slip_slopes[c][e][3 * row + axis] = block[(row, axis)];
                     }
                 }
             }

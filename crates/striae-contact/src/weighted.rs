@@ -103,11 +103,6 @@ impl<'a> Sum<'a> {
         let mut value = [0.0; ROWS];
         let mut slopes = [[0.0; 3 * ROWS]; 8];
         let by = patch.paired.segment.slopes.as_deref();
-        let width = match (by, slip) {
-            (None, _) => 0,
-            (Some(_), Slip::Left) => 3,
-            (Some(_), Slip::Wanted) => 3 * ROWS,
-        };
         for (c, &share) in shares
             .iter()
             .enumerate()
@@ -116,11 +111,16 @@ impl<'a> Sum<'a> {
             for (sum, part) in value.iter_mut().zip(&patch.rows.value[c]) {
                 *sum += share * part;
             }
-            let of_corner = patch.rows.slopes.get(c).into_iter().flatten();
-            for (sum, part) in slopes.iter_mut().zip(of_corner) {
-                for at in 0..width {
-                    sum[at] += share * part[at];
-                }
+            let of_gap = patch.rows.gap_slopes.get(c).into_iter().flatten();
+            for (sum, part) in slopes.iter_mut().zip(of_gap) {
+                sum.iter_mut().zip(part).for_each(|(s, p)| *s += share * p);
+            }
+            let of_slip = patch.rows.slip_slopes.get(c).into_iter().flatten();
+            for (sum, part) in slopes.iter_mut().zip(of_slip) {
+                sum[3..]
+                    .iter_mut()
+                    .zip(part)
+                    .for_each(|(s, p)| *s += share * p);
             }
         }
         self.gap += value[0];

@@ -23,6 +23,8 @@ pub struct Evaluated {
     pub assembled: Assembled,
     /// The tangent times [`vector`] of every unknown's number.
     pub product: Vec<f64>,
+    /// Entries of contact in the tangent.
+    pub contact_entries: usize,
 }
 
 /// Displacement of what is at `x`.
@@ -73,7 +75,10 @@ pub fn evaluated(problem: &Problem, number: impl Fn(&Layout) -> Vec<usize>) -> E
     let x: Vec<f64> = number(&layout).into_iter().map(vector).collect();
     let mut product = vec![0.0; x.len()];
     tangent.multiply(&x, &mut product);
+    let rows = 0..tangent.contact.unknowns();
+    let entries = rows.flat_map(|row| tangent.contact.row(row).filter(|entry| entry.1 != 0.0));
     Evaluated {
+        contact_entries: entries.count(),
         layout,
         assembled,
         product,

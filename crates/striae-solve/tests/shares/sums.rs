@@ -12,6 +12,7 @@ use striae_solve::{
 use crate::{
     evaluated::{Evaluated, evaluated},
     numbering::in_whole,
+    scene::{Places, block, body, coulomb, model, rubber, step},
     scenes::all,
 };
 
@@ -79,6 +80,34 @@ fn residuals_tangents_and_energies_are_those_of_the_whole() {
                 );
             }
         }
+    }
+}
+
+/// Each body on a rank of its own, or both on one of two.
+#[test]
+fn rows_of_contact_are_shared_evenly_wherever_the_volume_is_divided() {
+    let lower = block([0.0; 3], [1.0; 3], [6, 6, 2]).mesh().unwrap();
+    let upper = block([0.0, 0.0, 1.0], [1.0; 3], [5, 5, 2]).mesh().unwrap();
+    let mut model = model(vec![
+        body("lower", lower, rubber(1.0, 0.3)),
+        body("upper", upper, rubber(1.0, 0.3)),
+    ]);
+    model.touch(("lower", "zmax"), ("upper", "zmin"), coulomb(0.3));
+    model.steps = vec![step()];
+    let problem = Problem::new(model.clone()).unwrap();
+    let whole = whole(&problem);
+    for ranks_of_bodies in [[0, 1], [0, 0], [1, 1]] {
+        let bodies = model.bodies.iter().zip(ranks_of_bodies);
+        let elements = bodies.map(|(body, rank)| vec![rank; body.mesh.element_count()]);
+        let division = Division::given(&model, 2, elements.collect());
+        let entries = Together::run(2, |team| {
+            let problem = Problem::shared(model.clone(), &division, team).unwrap();
+            let number = |own: &Layout| in_whole(&problem, own, &whole.layout);
+            evaluated(&problem, number).contact_entries
+        });
+        assert_eq!(entries.iter().sum::<usize>(), whole.contact_entries);
+        let share = entries[0] as f64 / whole.contact_entries as f64;
+        assert!((0.4..0.6).contains(&share), "{share}");
     }
 }
 
