@@ -81,11 +81,6 @@ impl<'a> ChainedSum<'a> {
         Self { places, jacobian }
     }
 
-    /// Starts from what there is at known `places`.
-    pub fn at(places: Places, jacobian: &'a mut Jacobian) -> Self {
-        Self { places, jacobian }
-    }
-
     /// Adds `by v`, `v` an intermediate vector.
     pub fn add(&mut self, by: &Matrix3<f64>, inner: &Jacobian) {
         for (first, block) in inner {

@@ -78,7 +78,10 @@ struct Sum<'a> {
     slip_by_n: Matrix3<f64>,
     places: Places,
     triples: Vec<u32>,
-    blocks: Vec<[f64; 3 * ROWS]>,
+    /// Of the gap, by triple.
+    gap_blocks: Vec<[f64; 3]>,
+    /// Of the slip, by triple; only as long as the last one that has any.
+    slip_blocks: Vec<Matrix3<f64>>,
     /// `alpha_ck` of the same nodes.
     alphas: Vec<f64>,
 }
@@ -94,59 +97,49 @@ impl<'a> Sum<'a> {
             slip_by_n: Matrix3::zeros(),
             places: Places::none(),
             triples: Vec::with_capacity(48),
-            blocks: Vec::with_capacity(48),
+            gap_blocks: Vec::with_capacity(48),
+            slip_blocks: Vec::new(),
             alphas: Vec::with_capacity(48),
         }
     }
 
     fn add(&mut self, patch: &Patch, shares: &[f64; 8], slip: Slip) {
         let mut value = [0.0; ROWS];
-        let mut slopes = [[0.0; 3 * ROWS]; 8];
-        let by = patch.paired.segment.slopes.as_deref();
+        let mut by_gap = [[0.0; 3]; 8];
+        let mut by_slip = [[0.0; 9]; 8];
         for (c, &share) in shares
             .iter()
             .enumerate()
             .filter(|(_, share)| **share != 0.0)
         {
-            for (sum, part) in value.iter_mut().zip(&patch.rows.value[c]) {
-                *sum += share * part;
-            }
+            add_multiple(&mut value, share, &patch.rows.value[c]);
             let of_gap = patch.rows.gap_slopes.get(c).into_iter().flatten();
-            for (sum, part) in slopes.iter_mut().zip(of_gap) {
-                sum.iter_mut().zip(part).for_each(|(s, p)| *s += share * p);
-            }
+            let sums = by_gap.iter_mut().zip(of_gap);
+            sums.for_each(|(sum, part)| add_multiple(sum, share, part));
             let of_slip = patch.rows.slip_slopes.get(c).into_iter().flatten();
-            for (sum, part) in slopes.iter_mut().zip(of_slip) {
-                sum[3..]
-                    .iter_mut()
-                    .zip(part)
-                    .for_each(|(s, p)| *s += share * p);
-            }
+            let sums = by_slip.iter_mut().zip(of_slip);
+            sums.for_each(|(sum, part)| add_multiple(sum, share, part));
         }
         self.gap += value[0];
         let turned = (slip == Slip::Wanted).then(|| self.turned(patch, &value));
-        for (e, block) in slopes.iter_mut().enumerate() {
-            let Some((side, node)) = patch.paired.node(self.configuration, e) else {
+        let slopes = patch.paired.segment.slopes.as_deref();
+        for corner in 0..8 {
+            let Some((side, node)) = patch.paired.node(self.configuration, corner) else {
                 continue;
             };
-            if let (Some(turned), Some(by)) = (&turned, by) {
-                let of_slip = Matrix3::from_fn(|row, axis| block[3 * (row + 1) + axis]);
-                let whole = turned.by_vector * of_slip + turned.by_from * by.normal[e];
-                for row in 0..3 {
-                    for axis in 0..3 {
-                        block[3 * (row + 1) + axis] = whole[(row, axis)];
-                    }
-                }
+            let mass = &patch.paired.segment.mass[corner];
+            let alpha: f64 = mass.iter().zip(shares).map(|(m, share)| m * share).sum();
+            if slopes.is_none() {
+                // What the node itself and the one opposite do, which tells whether any is free.
+                by_gap[corner] = (patch.paired.segment.normal * (SIGNS[corner] * alpha)).into();
             }
             let first = self.configuration.pair.numbering().position(side, node);
-            let mass = &patch.paired.segment.mass[e];
-            let alpha: f64 = mass.iter().zip(shares).map(|(m, share)| m * share).sum();
-            if by.is_none() {
-                // What the node itself and the one opposite do, which tells whether any is free.
-                let direct = patch.paired.segment.normal * (SIGNS[e] * alpha);
-                block[..3].copy_from_slice(direct.as_slice());
+            let at = self.add_to_gap(first, &by_gap[corner], alpha);
+            if let (Some(turned), Some(slopes)) = (&turned, slopes) {
+                let own = Matrix3::from_row_slice(&by_slip[corner]);
+                let whole = turned.by_vector * own + turned.by_from * slopes.normal[corner];
+                self.add_to_slip(at, &whole);
             }
-            self.add_block(first, block, alpha);
         }
     }
 
@@ -164,36 +157,45 @@ impl<'a> Sum<'a> {
         turned
     }
 
-    fn add_block(&mut self, first: u32, block: &[f64; 3 * ROWS], alpha: f64) {
+    /// Place of the triple.
+    fn add_to_gap(&mut self, first: u32, block: &[f64; 3], alpha: f64) -> usize {
         let next = self.triples.len();
         let at = self.places.find(first, next);
         if at == next {
             self.triples.push(first);
-            self.blocks.push(*block);
+            self.gap_blocks.push(*block);
             self.alphas.push(alpha);
-            return;
+        } else {
+            add_multiple(&mut self.gap_blocks[at], 1.0, block);
+            self.alphas[at] += alpha;
         }
-        for (sum, part) in self.blocks[at].iter_mut().zip(block) {
-            *sum += part;
+        at
+    }
+
+    fn add_to_slip(&mut self, at: usize, block: &Matrix3<f64>) {
+        if at >= self.slip_blocks.len() {
+            self.slip_blocks.resize(at + 1, Matrix3::zeros());
         }
-        self.alphas[at] += alpha;
+        self.slip_blocks[at] += block;
     }
 
     /// The means over the weight of the node.
     fn over(self, weight: f64, stiffness: [f64; 2]) -> Kinematics {
         let share = 1.0 / weight;
-        let entries = || self.triples.iter().copied().zip(&self.blocks);
-        let gradient: Gradient = entries()
-            .map(|(first, block)| (first, Vec3::new(block[0], block[1], block[2]) * share))
+        let gradient = self.triples.iter().copied().zip(&self.gap_blocks);
+        let gradient: Gradient = gradient
+            .map(|(first, block)| (first, Vec3::from(*block) * share))
             .collect();
-        let mut jacobian: Jacobian = entries()
-            .map(|(first, block)| {
-                let block = Matrix3::from_fn(|row, axis| block[3 * (row + 1) + axis]);
-                (first, block * share)
-            })
+        let jacobian = self.triples.iter().copied().zip(&self.slip_blocks);
+        let mut jacobian: Jacobian = jacobian
+            .map(|(first, block)| (first, block * share))
             .collect();
-        if let Some(frame) = self.frame {
-            let mut sum = ChainedSum::at(self.places, &mut jacobian);
+        if let Some(frame) = self.frame
+            && !jacobian.is_empty()
+        {
+            // For the table to be the one of this thread again.
+            drop(self.places);
+            let mut sum = ChainedSum::onto(&mut jacobian);
             sum.add(&(self.slip_by_n * share), &frame.n.jacobian);
         }
         let alphas = self.alphas.iter().map(|alpha| alpha * share);
@@ -216,6 +218,13 @@ impl<'a> Sum<'a> {
             stiffness,
         }
     }
+}
+
+/// `sum := sum + factor part`.
+fn add_multiple<const N: usize>(sum: &mut [f64; N], factor: f64, part: &[f64; N]) {
+    sum.iter_mut()
+        .zip(part)
+        .for_each(|(sum, part)| *sum += factor * part);
 }
 
 /// What is reported of every node of both sides.
