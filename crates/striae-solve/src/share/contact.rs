@@ -9,8 +9,6 @@
 use std::ops::Range;
 use striae_mesh::Vec3;
 
-use crate::problem::extent;
-
 /// A rank for every place, of which each has about as many.
 pub(crate) fn shared_out(places: &[Vec3], ranks: usize) -> Vec<u32> {
     let mut of_places = vec![0; places.len()];
@@ -24,7 +22,10 @@ fn halve(places: &[Vec3], part: &mut [usize], ranks: Range<u32>, of_places: &mut
         part.iter().for_each(|&at| of_places[at] = ranks.start);
         return;
     }
-    let [least, most] = extent(part.iter().map(|&at| &places[at]));
+    let first = places[part[0]];
+    let (least, most) = part.iter().fold((first, first), |(least, most), &at| {
+        (least.inf(&places[at]), most.sup(&places[at]))
+    });
     let axis = (most - least).imax();
     let middle = ranks.start + ranks.len() as u32 / 2;
     let count = part.len() * (ranks.len() / 2) / ranks.len();
