@@ -90,6 +90,9 @@ pub fn evaluate(
     let (patches, mut kinematics) = match configuration.pair.enforcement {
         Enforcement::Weighted => {
             let slopes = |corners: &[Corners]| match derivatives {
+                // Where friction depends on the slip rate, forces at a node depend on all segments
+                // around its neighbours, not on its own alone.
+                Derivatives::First if friction.decays() => Derivatives::First,
                 Derivatives::First => {
                     wanted(configuration, selection, (conditions.wanted, corners))
                 }

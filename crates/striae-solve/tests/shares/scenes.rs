@@ -1,13 +1,14 @@
 //! Models with all that a rank may hold a part of.
 
 use striae_contact::pair::Enforcement;
-use striae_law::bulk::Material;
+use striae_law::{bulk::Material, friction::Friction};
 use striae_mesh::{CellBlock, CellKind, ElementId, Face, Mesh, NodeId, Vec3, generate::Block};
 use striae_solve::model::{
     Body, BodyId, BodySection, ContactMass, ContactSurface, Curve, Formulation, Freedom, Gravity,
     LoadExtent, LoadKind, Model, Procedure, RigidId, RigidInertia, RigidMotion, RigidShape,
     RigidSurface, Tie,
 };
+use striae_surface::texture::{Field, Lines, Paint};
 
 use crate::scene::{Places, block, body, coulomb, model, plane, rubber, step};
 
@@ -20,6 +21,7 @@ pub fn all() -> Vec<(&'static str, Model)> {
         ("glued", glued()),
         ("ridden", ridden()),
         ("peaks", peaks()),
+        ("napped", napped()),
     ]
 }
 
@@ -83,6 +85,35 @@ pub fn blocks(enforcement: Enforcement) -> Model {
     ];
     press.gravity = gravity();
     model.steps = vec![press];
+    model
+}
+
+/// A nap with friction that decays with the slip rate: forces at a node depend on all that the
+/// slips of its neighbours depend on. Nodes are far enough from each other not to be all wanted
+/// on one rank.
+pub fn napped() -> Model {
+    let mesh = |z: f64, count: usize| {
+        let mesh = block([0.0, 0.0, z], [1.0, 1.0, 0.5], [count, count, 1]).mesh();
+        mesh.unwrap()
+    };
+    let mut model = model(vec![
+        body("lower", mesh(0.0, 8), rubber(1.0, 0.3)),
+        body("upper", mesh(0.5, 7), rubber(2.0, 0.3)),
+    ]);
+    let nap = Friction::nap(0.1, 0.3, 0.2).expect("in range");
+    let friction = nap.with_decay(0.4, 0.15).expect("in range");
+    model.touch(("upper", "zmin"), ("lower", "zmax"), friction);
+    let along = Field {
+        lines: Lines::Uniform(Vec3::new(0.9, 0.4, 0.0)),
+        turn: 0.0,
+    };
+    model.pairs[0].textures = [Some(Paint::Field(along)), None];
+    let mut slide = step();
+    slide.displacements = vec![
+        model.hold("lower", "zmin", [Some(0.0); 3]),
+        model.hold("upper", "zmax", [Some(0.01), None, Some(-0.03)]),
+    ];
+    model.steps = vec![slide];
     model
 }
 
