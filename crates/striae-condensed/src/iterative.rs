@@ -133,8 +133,8 @@ impl Iterative {
         };
         let constraints = Constraint::all(&scaled, &self.nodes.multipliers);
         let bulk = scaled.stiffened(&constraints);
-        let compliance = Compliance::of(&scaled, &bulk);
-        let contact = Contact::factor(&scaled, &constraints, &compliance)?;
+        let compliance = Compliance::of(&scaled);
+        let contact = Contact::factor(&scaled, &constraints, compliance)?;
         let parts = &self.nodes.parts;
         let may_join = |i: usize, j: usize| parts[i] == parts[j];
         let hierarchy = Hierarchy::new(bulk, &scaled.near_kernel(), may_join);

@@ -1,9 +1,17 @@
 //! The multipliers' part of the preconditioner, sparse on the contact surfaces.
 //!
-//! The Schur complement `G_m - G_x A^-1 C` is taken with the inverse of the node-wise
-//! diagonal of the stiffened bulk in the place of `A^-1`. As `g A^-1 g^T` lies between
-//! the yielding of the bulk and that of the added stiffness, which are of one size, that
-//! is right up to factors near one, whatever the mesh and the stiffness of the bodies.
+//! The Schur complement is `S = G_m - G_x A^-1 C` with `A = K + g^T s g`. With a node-wise
+//! diagonal `D` in the place of `K` alone it need not be made: constraints have
+//! `g x = r_g` but for their small entries of multipliers, so that `K x = -C m - g^T s r_g`,
+//!
+//! ```text
+//! S m = r   =>   (G_m - G_x D^-1 C) m = r + G_x D^-1 g^T s r_g,
+//! ```
+//!
+//! where only the matrix on the left is factored. Where `C = g^T` this is
+//! `S^-1 = S_K^-1 - s`, `S_K` of `K` alone (Sherman, Morrison, Woodbury): smooth tractions
+//! are met by `s`, which is exact, and for rough ones `D` is of the size of `K`, whatever
+//! the mesh. To take the diagonal of `A` for `A` would be wrong by a factor in both.
 
 use super::{
     NONE,
@@ -26,6 +34,10 @@ pub(crate) struct Contact {
     rows: Vec<Row>,
     /// Rows of `C` with entries: `3 node + component` and `(multiplier, value)`.
     forces: Vec<(u32, Row)>,
+    /// `s` of the constraints by multiplier, zero for all others.
+    stiffness: Vec<f64>,
+    /// `D^-1`.
+    compliance: Compliance,
     solver: MultifrontalLu,
     entries: usize,
 }
@@ -35,7 +47,7 @@ impl Contact {
     pub(crate) fn factor(
         scaled: &Scaled<'_>,
         constraints: &[Constraint],
-        compliance: &Compliance,
+        compliance: Compliance,
     ) -> Result<Self, SolveError> {
         let structure = &scaled.nodes.partition;
         let multipliers = &scaled.nodes.multipliers;
@@ -44,9 +56,9 @@ impl Contact {
             place[u as usize] = k as u32;
         }
         let forces = forces(scaled, &place);
-        let mut is_constraint = vec![false; multipliers.len()];
+        let mut stiffness = vec![0.0; multipliers.len()];
         for constraint in constraints {
-            is_constraint[place[constraint.unknown as usize] as usize] = true;
+            stiffness[place[constraint.unknown as usize] as usize] = constraint.stiffness;
         }
         let force = |at: u32| -> &[(u32, f64)] {
             let found = forces.binary_search_by_key(&at, |f| f.0);
@@ -71,7 +83,7 @@ impl Contact {
                             row.for_each(|&(m, c)| sum.add(m, -moved * c));
                         }
                     }
-                    if is_constraint[k] {
+                    if stiffness[k] > 0.0 {
                         // Tractions may act on nothing but prescribed unknowns.
                         let is_positive = sum.get(k as u32) > 0.0;
                         sum.add(k as u32, if is_positive { SLIGHT } else { -SLIGHT });
@@ -90,6 +102,8 @@ impl Contact {
             rows,
             entries: entries + forces.iter().map(|f| f.1.len()).sum::<usize>(),
             forces,
+            stiffness,
+            compliance,
             solver,
         })
     }
@@ -103,7 +117,26 @@ impl Contact {
                 let known = row.iter().map(|&(at, g)| g * f64::from(x[at as usize]));
                 *m -= known.sum::<f64>();
             });
+        self.add_stiffened(m, x.len());
         self.solver.substitute(m);
+    }
+
+    /// `m := m + G_x D^-1 g^T s m`, with the constraints `g` of stiffness `s`.
+    fn add_stiffened(&self, m: &mut [f64], positions: usize) {
+        let mut moved = vec![0.0; positions];
+        let constraints = self.rows.iter().zip(&self.stiffness);
+        for ((row, stiffness), m) in constraints.zip(&*m).filter(|((_, s), _)| **s > 0.0) {
+            row.iter()
+                .for_each(|&(at, g)| moved[at as usize] += stiffness * m * g);
+        }
+        self.compliance.apply(&mut moved);
+        m.par_iter_mut()
+            .zip(&self.rows)
+            .with_min_len(256)
+            .for_each(|(m, row)| {
+                let moved = row.iter().map(|&(at, g)| g * moved[at as usize]);
+                *m += moved.sum::<f64>();
+            });
     }
 
     /// `b := b - C m`.

@@ -80,8 +80,8 @@ impl ContactFactors {
             prescribed,
         };
         let constraints = Constraint::all(&scaled, &nodes.multipliers);
-        let compliance = Compliance::of(&scaled, &scaled.stiffened(&constraints));
-        let contact = Contact::factor(&scaled, &constraints, &compliance)?;
+        let compliance = Compliance::of(&scaled);
+        let contact = Contact::factor(&scaled, &constraints, compliance)?;
         Ok(Self {
             scaling,
             constraints,
@@ -111,7 +111,7 @@ impl ContactFactors {
         }
     }
 
-    /// `m := S^-1 (m - G_x x)`, with scaled multipliers in their order and three unknowns of
+    /// `m := S^-1 (m - G_x x)` nearly, with scaled multipliers in their order and three unknowns of
     /// every node that has any.
     pub fn solve(&self, x: &[f32], m: &mut [f64]) {
         self.contact.solve(x, m);
