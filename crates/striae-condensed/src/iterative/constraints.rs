@@ -15,10 +15,7 @@ use striae_sparse::{
 };
 
 /// Stiffness that is added in the direction of a constraint, over that of the bulk there.
-const STIFFENING: f64 = 1.0;
-/// What a node of a surface yields over what its own block of the bulk says, as its
-/// neighbours move with it. Between 2 and 8 iterations change by a fifth at most.
-const YIELDING: f64 = 5.0;
+const STIFFENING: f64 = 2.0;
 /// Largest entry of a multiplier over the largest of positions in a constraint.
 const SMALL: f64 = 0.1;
 
@@ -103,7 +100,7 @@ impl Scaled<'_> {
 }
 
 /// Displacements of nodes with multipliers or constraints under forces on them: inverses of
-/// the diagonal blocks of the bulk, times [`YIELDING`].
+/// the diagonal blocks of the bulk.
 #[derive(Debug)]
 pub(crate) struct Compliance {
     /// Place of every node among the blocks.
@@ -130,7 +127,6 @@ impl Compliance {
                         invert::<3>(block, &mut inverse);
                     }
                 });
-                inverse.iter_mut().for_each(|a| *a *= YIELDING);
                 compliance.nodes.push(node as u32);
                 compliance.places[node] = compliance.blocks.len() as u32;
                 compliance.blocks.push(inverse);
