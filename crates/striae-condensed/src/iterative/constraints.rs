@@ -100,25 +100,15 @@ impl Scaled<'_> {
 }
 
 /// Displacements of nodes with multipliers or constraints under forces on them: inverses of
-/// the diagonal blocks of the bulk.
+/// the diagonal blocks of the bulk, by rising nodes.
 #[derive(Debug)]
-pub(crate) struct Compliance {
-    /// Place of every node among the blocks.
-    places: Vec<u32>,
-    /// Nodes of the blocks.
-    nodes: Vec<u32>,
-    blocks: Vec<[f64; 9]>,
-}
+pub(crate) struct Compliance(Vec<(u32, [f64; 9])>);
 
 impl Compliance {
     /// Of the bulk as it is without constraints.
     pub(crate) fn of(scaled: &Scaled<'_>) -> Self {
         let nodes = &scaled.nodes;
-        let mut compliance = Self {
-            places: vec![NONE; nodes.supervariables.len()],
-            nodes: Vec::new(),
-            blocks: Vec::new(),
-        };
+        let mut blocks = Vec::new();
         for (node, &i) in nodes.supervariables.iter().enumerate() {
             if nodes.partition.is_kept(Supervariable(i as usize)) {
                 let mut inverse = [0.0; 9];
@@ -127,30 +117,29 @@ impl Compliance {
                         invert::<3>(block, &mut inverse);
                     }
                 });
-                compliance.nodes.push(node as u32);
-                compliance.places[node] = compliance.blocks.len() as u32;
-                compliance.blocks.push(inverse);
+                blocks.push((node as u32, inverse));
             }
         }
-        compliance
+        Self(blocks)
     }
 
-    /// Component of the displacement of a node under a force.
-    pub(crate) fn along(&self, node: u32, component: usize, force: &[f64; 3]) -> f64 {
-        let block = self.blocks.get(self.places[node as usize] as usize);
-        block.map_or(0.0, |block| {
-            (0..3).map(|c| block[3 * component + c] * force[c]).sum()
-        })
+    /// Displacement of a node under a force, zero for a node without a block.
+    pub(crate) fn of_node(&self, node: u32, force: &[f64]) -> [f64; 3] {
+        let found = self.0.binary_search_by_key(&node, |entry| entry.0);
+        found.map_or([0.0; 3], |at| product(&self.0[at].1, force))
     }
 
-    /// Displacements of all nodes from forces on them.
+    /// Displacements of all nodes in the place of forces on them, which only nodes with a
+    /// block may have.
     pub(crate) fn apply(&self, values: &mut [f64]) {
-        for (&node, block) in self.nodes.iter().zip(&self.blocks) {
-            let own = &mut values[3 * node as usize..][..3];
-            let force = [own[0], own[1], own[2]];
-            for (r, value) in own.iter_mut().enumerate() {
-                *value = (0..3).map(|c| block[3 * r + c] * force[c]).sum();
-            }
+        for (node, block) in &self.0 {
+            let own = &mut values[3 * *node as usize..][..3];
+            let moved = product(block, own);
+            own.copy_from_slice(&moved);
         }
     }
+}
+
+fn product(block: &[f64; 9], force: &[f64]) -> [f64; 3] {
+    [0, 1, 2].map(|r| (0..3).map(|c| block[3 * r + c] * force[c]).sum())
 }

@@ -10,8 +10,8 @@
 //!
 //! where only the matrix on the left is factored. Where `C = g^T` this is
 //! `S^-1 = S_K^-1 - s`, `S_K` of `K` alone (Sherman, Morrison, Woodbury): smooth tractions
-//! are met by `s`, which is exact, and for rough ones `D` is of the size of `K`, whatever
-//! the mesh. To take the diagonal of `A` for `A` would be wrong by a factor in both.
+//! are met by `s`, which is exact, and for rough ones `D` is of the size of `K`. Where only
+//! constraints couple nodes, all of this is exact.
 
 use super::{
     NONE,
@@ -77,9 +77,8 @@ impl Contact {
                         let node = entries[0].0 / 3;
                         let mut g = [0.0; 3];
                         entries.iter().for_each(|&(at, a)| g[at as usize % 3] = a);
-                        for component in 0..3 {
-                            let moved = compliance.along(node, component, &g);
-                            let row = force(3 * node + component as u32).iter();
+                        for (component, moved) in (0..).zip(compliance.of_node(node, &g)) {
+                            let row = force(3 * node + component).iter();
                             row.for_each(|&(m, c)| sum.add(m, -moved * c));
                         }
                     }

@@ -155,3 +155,75 @@ fn tangent(partition: &Partition, entries: &[(u32, u32, f64)]) -> Tangent {
     let contact = CompressedRows::from_entries(partition.unknowns(), &between);
     Tangent { bodies, contact }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{DMatrix, DVector};
+
+    /// Three nodes that nothing couples but two constraints, forces that are not adjoint to
+    /// them, and a multiplier that follows the second constraint's.
+    fn entries() -> Vec<(u32, u32, f64)> {
+        let mut entries: Vec<(u32, u32, f64)> = (0..9).map(|u| (u, u, 1.0)).collect();
+        entries.extend([(0, 1, 0.2), (1, 0, 0.2), (7, 8, -0.3), (8, 7, -0.3)]);
+        let rows = [
+            [0.9, 0.1, 0.0, -0.4, 0.2, 0.1, 0.0, 0.0, -0.3],
+            [0.0, 0.3, 0.2, 0.5, 0.8, 0.0, -0.6, 0.1, 0.0],
+        ];
+        for (m, row) in (9..).zip(rows) {
+            for (u, g) in (0..).zip(row).filter(|entry| entry.1 != 0.0) {
+                entries.push((m, u, g));
+                entries.push((u, m, g + 0.05 * f64::from(u % 3)));
+            }
+        }
+        entries.extend([(11, 10, -0.4), (11, 11, 1.0), (4, 11, 0.3), (2, 11, -0.2)]);
+        entries.sort_by_key(|entry| (entry.0, entry.1));
+        entries
+    }
+
+    #[test]
+    fn the_inverse_is_exact_for_nodes_that_only_constraints_couple() {
+        let group = |bulk: usize, multipliers: usize| Group {
+            bulk,
+            multipliers,
+            tier: Tier(0),
+        };
+        let groups = [group(3, 0), group(3, 0), group(3, 0), group(0, 3)];
+        let entries = entries();
+        let factors = ContactFactors::new(&groups, &entries, vec![1.0; 12], &[false; 12]).unwrap();
+        assert_eq!(factors.constraints(), 2);
+        let scaling = factors.scaling();
+        let mut matrix = DMatrix::zeros(12, 12);
+        for (r, c, a) in entries {
+            let (r, c) = (r as usize, c as usize);
+            matrix[(r, c)] += scaling.rows[r] * a * scaling.columns[c];
+        }
+        for constraint in 0..2 {
+            let Stiffening { entries, stiffness } = factors.stiffening(constraint);
+            let mut g = DVector::zeros(9);
+            for (node, values) in entries {
+                (0..3).for_each(|c| g[3 * *node as usize + c] = values[c]);
+            }
+            let mut bulk = matrix.view_mut((0, 0), (9, 9));
+            bulk += stiffness * &g * g.transpose();
+        }
+        let (positions, given) = (
+            [0.5, -1.0, 0.25, 0.0, 2.0, 0.5, -0.5, 1.0, 0.0],
+            [1.0, -2.0, 0.7],
+        );
+        let view = |at: (usize, usize), size| matrix.view(at, size).into_owned();
+        let (a, c, g) = (
+            view((0, 0), (9, 9)),
+            view((0, 9), (9, 3)),
+            view((9, 0), (3, 9)),
+        );
+        let schur = view((9, 9), (3, 3)) - &g * a.try_inverse().unwrap() * c;
+        let rest = DVector::from(given.to_vec()) - &g * DVector::from(positions.to_vec());
+        let expected = schur.try_inverse().unwrap() * rest;
+        let mut found = given;
+        factors.solve(&positions.map(|x| x as f32), &mut found);
+        let error = (DVector::from(found.to_vec()) - &expected).norm() / expected.norm();
+        // What is added to the diagonals of constraints remains.
+        assert!(error < 10.0 * 1e-4, "{error:e} {found:?} {expected}");
+    }
+}
