@@ -23,8 +23,10 @@
 
 mod constraints;
 mod contact;
+mod patches;
 mod replicated;
 mod scaled;
+mod system;
 
 pub use replicated::{ContactFactors, Group, Stiffening};
 
@@ -39,6 +41,7 @@ use crate::{
 };
 use constraints::{Compliance, Constraint};
 use contact::Contact;
+use patches::Surface;
 use rayon::prelude::*;
 use scaled::Scaled;
 use striae_sparse::{
@@ -134,10 +137,8 @@ impl Iterative {
         let constraints = Constraint::all(&scaled, &self.nodes.multipliers);
         let bulk = scaled.stiffened(&constraints);
         let compliance = Compliance::of(&scaled);
-        let contact = Contact::factor(&scaled, &constraints, compliance)?;
-        let parts = &self.nodes.parts;
-        let may_join = |i: usize, j: usize| parts[i] == parts[j];
-        let hierarchy = Hierarchy::new(bulk, &scaled.near_kernel(), may_join);
+        let contact = Contact::factor(&scaled, &constraints, compliance, &Surface::of(&scaled))?;
+        let hierarchy = Hierarchy::new(bulk, &scaled.near_kernel(), &self.nodes.parts);
         let indefinite = SolveError::NotPositiveDefinite {
             unknown: 0,
             pivot: 0.0,

@@ -245,7 +245,7 @@ impl Partition {
     }
 
     /// Whether an edge belongs to the bulk.
-    pub(crate) fn is_bulk_edge(&self, edge: usize) -> bool {
+    pub fn is_bulk_edge(&self, edge: usize) -> bool {
         self.parts.bulk_edges[edge]
     }
 

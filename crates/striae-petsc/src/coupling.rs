@@ -84,7 +84,13 @@ impl Coupling {
         }
         let mut gathered = part.gathered(team);
         let (bulk, prescribed) = part.add_nodes(team, &mut gathered);
-        let factors = ContactFactors::new(&gathered.groups, &gathered.entries, bulk, &prescribed)?;
+        let factors = ContactFactors::new(
+            &gathered.groups,
+            &gathered.entries,
+            bulk,
+            &prescribed,
+            &part.neighbours(team, &gathered),
+        )?;
         let own = &part.numbering.own;
         let mut own_multipliers = Vec::new();
         for (at, &whole) in (0..).zip(&gathered.multipliers) {
@@ -248,6 +254,31 @@ impl Part<'_> {
         }
         gathered.add_bare_nodes(nodes);
         gathered
+    }
+
+    /// Pairs of gathered nodes that elements couple, by their places.
+    fn neighbours(&self, team: &dyn Team, gathered: &Gathered) -> Vec<(u32, u32)> {
+        let nodes = self.nodes;
+        let place: HashMap<u32, u32> = gathered.nodes.iter().copied().zip(0..).collect();
+        let mut pairs = Vec::new();
+        for (i, node) in nodes.of.iter().enumerate() {
+            let Some(at) = place.get(node) else {
+                continue;
+            };
+            let edges = self.partition.edges(i);
+            let bulk = edges.filter(|&edge| self.partition.is_bulk_edge(edge));
+            let others = bulk.map(|edge| nodes.of[self.partition.target(edge)]);
+            for other in others.filter_map(|other| place.get(&other)) {
+                pairs.extend(at.to_le_bytes());
+                pairs.extend(other.to_le_bytes());
+            }
+        }
+        let gathered = team.gather(&pairs).into_iter().flatten();
+        let gathered: Vec<u8> = gathered.collect();
+        let words = gathered.as_chunks::<4>().0.iter();
+        let words: Vec<u32> = words.map(|&word| u32::from_le_bytes(word)).collect();
+        let pairs = words.as_chunks::<2>().0.iter();
+        pairs.map(|&[a, b]| (a, b)).collect()
     }
 
     /// Adds the blocks of the bodies at nodes, and returns factors of their unknowns and

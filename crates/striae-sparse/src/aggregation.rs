@@ -36,6 +36,8 @@ const LEVELS: usize = 12;
 const SLOW: f64 = 0.7;
 /// Coupling above which nodes of the finest level may be in one aggregate.
 const STRONG: f64 = 0.06;
+/// The same of a level over that of the finer one.
+const LOOSER: f64 = 0.5;
 
 /// Levels of a symmetric positive definite matrix of 3 by 3 blocks.
 #[derive(Debug)]
@@ -46,13 +48,10 @@ pub struct Hierarchy {
 }
 
 impl Hierarchy {
-    /// Levels of a matrix with a near-kernel of 3 rows by six a node; only pairs for
-    /// which `may_join` holds come into one aggregate of the finest level.
-    pub fn new(
-        matrix: Blocks<3, 3, f64>,
-        near_kernel: &[f64],
-        may_join: impl Fn(usize, usize) -> bool + Sync,
-    ) -> Option<Self> {
+    /// Levels of a matrix with a near-kernel of 3 rows by six a node. An aggregate, of any
+    /// level, has nodes of one part: bodies that slide on each other keep motions of their
+    /// own, however coarse.
+    pub fn new(matrix: Blocks<3, 3, f64>, near_kernel: &[f64], parts: &[u32]) -> Option<Self> {
         let mut finest = Level::new(&matrix, matrix.rows(), (&mut Nobody, &|own| own));
         let (mut coarser, mut theta) = (Vec::new(), STRONG);
         if matrix.rows() * 3 <= COARSEST {
@@ -63,20 +62,18 @@ impl Hierarchy {
                 coarsest,
             });
         }
-        let (mut next, mut kernel) = finest.coarsen(matrix, near_kernel, theta, may_join);
-        while next.rows() * MODES > COARSEST && coarser.len() < LEVELS {
-            theta *= 0.5;
-            let mut level = Level::new(&next, next.rows(), (&mut Nobody, &|own| own));
-            let before = next.rows();
-            let all = |_: usize, _: usize| true;
-            let (product, modes) = level.coarsen(next, &kernel, theta, all);
-            (next, kernel) = (product, modes);
+        let mut next = finest.coarsen(matrix, near_kernel, theta, parts);
+        while next.matrix.rows() * MODES > COARSEST && coarser.len() < LEVELS {
+            theta *= LOOSER;
+            let before = next.matrix.rows();
+            let mut level = Level::new(&next.matrix, before, (&mut Nobody, &|own| own));
+            next = level.coarsen(next.matrix, &next.near_kernel, theta, &next.parts);
             coarser.push(level);
-            if next.rows() as f64 > SLOW * before as f64 {
+            if next.matrix.rows() as f64 > SLOW * before as f64 {
                 break;
             }
         }
-        let coarsest = Coarsest::new(&next)?;
+        let coarsest = Coarsest::new(&next.matrix)?;
         Some(Self {
             finest,
             coarser,

@@ -1,27 +1,37 @@
 //! The multipliers' part of the preconditioner, sparse on the contact surfaces.
 //!
-//! The Schur complement is `S = G_m - G_x A^-1 C` with `A = K + g^T s g`. With a node-wise
-//! diagonal `D` in the place of `K` alone it need not be made: constraints have
+//! The Schur complement is `S = G_m - G_x A^-1 C` with `A = K + g^T s g`. With something
+//! simple, `F`, in the place of `K^-1` alone it need not be made: constraints have
 //! `g x = r_g` but for their small entries of multipliers, so that `K x = -C m - g^T s r_g`,
 //!
 //! ```text
-//! S m = r   =>   (G_m - G_x D^-1 C) m = r + G_x D^-1 g^T s r_g,
+//! S m = r   =>   (G_m - G_x F C) m = r + G_x F g^T s r_g.
 //! ```
 //!
-//! where only the matrix on the left is factored. Where `C = g^T` this is
-//! `S^-1 = S_K^-1 - s`, `S_K` of `K` alone (Sherman, Morrison, Woodbury): smooth tractions
-//! are met by `s`, which is exact, and for rough ones `D` is of the size of `K`. Where only
-//! constraints couple nodes, all of this is exact.
+//! Where `C = g^T` this is `S^-1 = S_K^-1 - s`, `S_K` of `K` alone (Sherman, Morrison,
+//! Woodbury): smooth tractions are met by `s`, which is exact. For rough ones `F` has the
+//! node-wise diagonal `D` of `K` and motions `z` of [patches](super::patches),
+//! `F = D^-1 + sum z z^T / d`; with the sizes `v` of these motions as unknowns
+//!
+//! ```text
+//! [ G_m - G_x D^-1 C   G_x z ] [m]   [r + G_x D^-1 g^T s r_g]
+//! [ z^T C              d     ] [v] = [-z^T g^T s r_g        ]
+//! ```
+//!
+//! is factored. Where only constraints couple nodes, and without patches, all of this is
+//! exact.
 
 use super::{
     NONE,
     constraints::{Compliance, Constraint},
+    patches::{Patch, Surface},
     scaled::Scaled,
+    system::{RowSum, assembled},
 };
 use rayon::prelude::*;
+use std::collections::HashMap;
 use striae_sparse::{
-    LinearSolver, MultifrontalLu, SolveError, SparseMatrix, Structure, Supervariable, Tier,
-    sparse_elimination::Row,
+    LinearSolver, MultifrontalLu, SolveError, Supervariable, sparse_elimination::Row,
 };
 
 /// What is added to the diagonal in the row of a constraint.
@@ -38,6 +48,8 @@ pub(crate) struct Contact {
     stiffness: Vec<f64>,
     /// `D^-1`.
     compliance: Compliance,
+    /// Motions `z` of patches.
+    motions: Vec<Row>,
     solver: MultifrontalLu,
     entries: usize,
 }
@@ -48,6 +60,7 @@ impl Contact {
         scaled: &Scaled<'_>,
         constraints: &[Constraint],
         compliance: Compliance,
+        surface: &Surface,
     ) -> Result<Self, SolveError> {
         let structure = &scaled.nodes.partition;
         let multipliers = &scaled.nodes.multipliers;
@@ -64,12 +77,15 @@ impl Contact {
             let found = forces.binary_search_by_key(&at, |f| f.0);
             found.map_or(&[], |k| &forces[k].1)
         };
+        let patches = Patch::all(scaled, surface);
+        let unknowns = multipliers.len() + patches.iter().map(|p| p.motions.len()).sum::<usize>();
+        let moved = moved(&patches, multipliers.len());
         let split: Vec<(Row, Row)> = multipliers
             .par_iter()
             .enumerate()
             .with_min_len(64)
             .map_init(
-                || RowSum::new(multipliers.len()),
+                || RowSum::new(unknowns),
                 |sum, (k, &u)| {
                     let (positions, own) = parts(scaled, &place, u as usize);
                     own.iter().for_each(|&(m, a)| sum.add(m, a));
@@ -77,9 +93,9 @@ impl Contact {
                         let node = entries[0].0 / 3;
                         let mut g = [0.0; 3];
                         entries.iter().for_each(|&(at, a)| g[at as usize % 3] = a);
-                        for (component, moved) in (0..).zip(compliance.of_node(node, &g)) {
+                        for (component, yielded) in (0..).zip(compliance.of_node(node, &g)) {
                             let row = force(3 * node + component).iter();
-                            row.for_each(|&(m, c)| sum.add(m, -moved * c));
+                            row.for_each(|&(m, c)| sum.add(m, -yielded * c));
                         }
                     }
                     if stiffness[k] > 0.0 {
@@ -87,12 +103,27 @@ impl Contact {
                         let is_positive = sum.get(k as u32) > 0.0;
                         sum.add(k as u32, if is_positive { SLIGHT } else { -SLIGHT });
                     }
+                    for &(at, g) in &positions {
+                        let motions = moved.get(&at).into_iter().flatten();
+                        motions.for_each(|&(v, z)| sum.add(v, g * z));
+                    }
                     (positions, sum.take())
                 },
             )
             .collect();
-        let (rows, own): (Vec<Row>, Vec<Row>) = split.into_iter().unzip();
-        let matrix = assembled(scaled, &own)?;
+        let (rows, mut matrix): (Vec<Row>, Vec<Row>) = split.into_iter().unzip();
+        let mut sum = RowSum::new(unknowns);
+        for patch in &patches {
+            for motion in &patch.motions {
+                for &(at, z) in motion {
+                    force(at).iter().for_each(|&(m, c)| sum.add(m, z * c));
+                }
+                sum.add(matrix.len() as u32, patch.stiffness);
+                matrix.push(sum.take());
+            }
+        }
+        let sizes = patches.iter().map(|patch| patch.motions.len());
+        let matrix = assembled(scaled, sizes, &matrix)?;
         let mut solver = MultifrontalLu::new();
         solver.analyse(matrix.structure())?;
         let entries = solver.factor(&matrix)?.factor_entries;
@@ -103,6 +134,7 @@ impl Contact {
             forces,
             stiffness,
             compliance,
+            motions: patches.into_iter().flat_map(|p| p.motions).collect(),
             solver,
         })
     }
@@ -116,26 +148,33 @@ impl Contact {
                 let known = row.iter().map(|&(at, g)| g * f64::from(x[at as usize]));
                 *m -= known.sum::<f64>();
             });
-        self.add_stiffened(m, x.len());
-        self.solver.substitute(m);
-    }
-
-    /// `m := m + G_x D^-1 g^T s m`, with the constraints `g` of stiffness `s`.
-    fn add_stiffened(&self, m: &mut [f64], positions: usize) {
-        let mut moved = vec![0.0; positions];
-        let constraints = self.rows.iter().zip(&self.stiffness);
-        for ((row, stiffness), m) in constraints.zip(&*m).filter(|((_, s), _)| **s > 0.0) {
-            row.iter()
-                .for_each(|&(at, g)| moved[at as usize] += stiffness * m * g);
-        }
-        self.compliance.apply(&mut moved);
-        m.par_iter_mut()
+        let mut stiffened = self.stiffened(m, x.len());
+        let mut v = m.to_vec();
+        v.extend(self.motions.iter().map(|motion| {
+            let work = motion.iter().map(|&(at, z)| z * stiffened[at as usize]);
+            -work.sum::<f64>()
+        }));
+        self.compliance.apply(&mut stiffened);
+        v.par_iter_mut()
             .zip(&self.rows)
             .with_min_len(256)
             .for_each(|(m, row)| {
-                let moved = row.iter().map(|&(at, g)| g * moved[at as usize]);
+                let moved = row.iter().map(|&(at, g)| g * stiffened[at as usize]);
                 *m += moved.sum::<f64>();
             });
+        self.solver.substitute(&mut v);
+        m.copy_from_slice(&v[..m.len()]);
+    }
+
+    /// `g^T s m` by positions, with the constraints `g` of stiffness `s`.
+    fn stiffened(&self, m: &[f64], positions: usize) -> Vec<f64> {
+        let mut forces = vec![0.0; positions];
+        let constraints = self.rows.iter().zip(&self.stiffness);
+        for ((row, stiffness), m) in constraints.zip(m).filter(|((_, s), _)| **s > 0.0) {
+            row.iter()
+                .for_each(|&(at, g)| forces[at as usize] += stiffness * m * g);
+        }
+        forces
     }
 
     /// `b := b - C m`.
@@ -152,90 +191,16 @@ impl Contact {
     }
 }
 
-/// A row over all multipliers that is being added up.
-struct RowSum {
-    values: Vec<f64>,
-    is_there: Vec<bool>,
-    columns: Vec<u32>,
-}
-
-impl RowSum {
-    fn new(multipliers: usize) -> Self {
-        Self {
-            values: vec![0.0; multipliers],
-            is_there: vec![false; multipliers],
-            columns: Vec::new(),
+/// Motions of patches by the positions that they move: numbers after those of multipliers.
+fn moved(patches: &[Patch], multipliers: usize) -> HashMap<u32, Vec<(u32, f64)>> {
+    let mut moved: HashMap<u32, Vec<(u32, f64)>> = HashMap::new();
+    let motions = patches.iter().flat_map(|patch| &patch.motions);
+    for (v, motion) in (multipliers as u32..).zip(motions) {
+        for &(at, z) in motion {
+            moved.entry(at).or_default().push((v, z));
         }
     }
-
-    fn add(&mut self, multiplier: u32, value: f64) {
-        let at = multiplier as usize;
-        if !self.is_there[at] {
-            self.is_there[at] = true;
-            self.columns.push(multiplier);
-        }
-        self.values[at] += value;
-    }
-
-    fn get(&self, multiplier: u32) -> f64 {
-        self.values[multiplier as usize]
-    }
-
-    /// The row in rising order; the sum is empty again.
-    fn take(&mut self) -> Row {
-        self.columns.sort_unstable();
-        let row = self.columns.drain(..).map(|multiplier| {
-            let at = multiplier as usize;
-            self.is_there[at] = false;
-            (multiplier, std::mem::take(&mut self.values[at]))
-        });
-        row.collect()
-    }
-}
-
-/// A matrix of the multipliers by sorted rows, grouped as in the whole system.
-fn assembled(scaled: &Scaled<'_>, rows: &[Row]) -> Result<SparseMatrix, SolveError> {
-    let partition = &scaled.nodes.partition;
-    let (mut offsets, mut tiers, mut owners) = (vec![0], Vec::<Tier>::new(), Vec::new());
-    let mut before = None;
-    for (k, &u) in scaled.nodes.multipliers.iter().enumerate() {
-        let owner = partition.owner(u as usize);
-        if before != Some(owner) {
-            tiers.push(partition.tier(owner));
-            offsets.push(k);
-        }
-        before = Some(owner);
-        owners.push(tiers.len() - 1);
-        offsets[tiers.len()] = k + 1;
-    }
-    let mut pairs: Vec<[Supervariable; 2]> = Vec::new();
-    for (i, range) in offsets.windows(2).map(|ends| ends[0]..ends[1]).enumerate() {
-        let near = rows[range]
-            .iter()
-            .flatten()
-            .map(|&(m, _)| owners[m as usize]);
-        let mut near: Vec<usize> = near.filter(|&j| j != i).collect();
-        near.sort_unstable();
-        near.dedup();
-        pairs.extend(near.into_iter().map(|j| [i, j].map(Supervariable)));
-    }
-    let structure = Structure::from_cliques(offsets, &pairs)
-        .and_then(|structure| structure.with_tiers(tiers))
-        .map_err(|_| SolveError::NotAnalysed)?;
-    let mut matrix = SparseMatrix::zero(&structure);
-    for (k, row) in rows.iter().enumerate() {
-        let i = owners[k];
-        let start = structure.row(i, k - structure.group(i).start).start;
-        for entries in row.chunk_by(|a, b| owners[a.0 as usize] == owners[b.0 as usize]) {
-            let j = owners[entries[0].0 as usize];
-            let edge = structure.edge(i, j).ok_or(SolveError::NotAnalysed)?;
-            let first = start + structure.column(edge);
-            for &(m, a) in entries {
-                matrix.values_mut()[first + m as usize - structure.group(j).start] = a;
-            }
-        }
-    }
-    Ok(matrix)
+    moved
 }
 
 /// Rows of `C` with entries, by `3 node + component`.

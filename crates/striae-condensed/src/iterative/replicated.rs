@@ -9,6 +9,7 @@ use super::{
     Nodes,
     constraints::{Compliance, Constraint},
     contact::Contact,
+    patches::Surface,
     scaled::Scaled,
 };
 use crate::{entries::Kept, partition::Partition, scaling, tangent::Tangent};
@@ -48,7 +49,8 @@ impl ContactFactors {
     /// From groups and the entries between their unknowns, which are numbered group by
     /// group, `(row, column, value)` in rising order of rows and columns. Of those between
     /// bulk unknowns only the ones within a node count. `bulk` are factors that scale bulk
-    /// unknowns and their rows, 1 for multipliers.
+    /// unknowns and their rows, 1 for multipliers; `neighbours` are pairs of nodes that
+    /// elements couple, by their numbers among the groups with bulk unknowns.
     ///
     /// # Errors
     /// When the Schur complement has no factors.
@@ -60,6 +62,7 @@ impl ContactFactors {
         entries: &[(u32, u32, f64)],
         bulk: Vec<f64>,
         prescribed: &[bool],
+        neighbours: &[(u32, u32)],
     ) -> Result<Self, SolveError> {
         let partition = partition(groups).map_err(|_| SolveError::NotAnalysed)?;
         assert_eq!(bulk.len(), partition.unknowns(), "one factor an unknown");
@@ -81,7 +84,8 @@ impl ContactFactors {
         };
         let constraints = Constraint::all(&scaled, &nodes.multipliers);
         let compliance = Compliance::of(&scaled);
-        let contact = Contact::factor(&scaled, &constraints, compliance)?;
+        let contact =
+            Contact::factor(&scaled, &constraints, compliance, &Surface::new(neighbours))?;
         Ok(Self {
             scaling,
             constraints,
@@ -181,8 +185,9 @@ mod tests {
         entries
     }
 
-    #[test]
-    fn the_inverse_is_exact_for_nodes_that_only_constraints_couple() {
+    /// Solves as the preconditioner does and with dense matrices, in which the bodies yield
+    /// by `yielded` to forces; the difference over the size.
+    fn error(neighbours: &[(u32, u32)], yielded: impl Fn(DMatrix<f64>) -> DMatrix<f64>) -> f64 {
         let group = |bulk: usize, multipliers: usize| Group {
             bulk,
             multipliers,
@@ -190,7 +195,9 @@ mod tests {
         };
         let groups = [group(3, 0), group(3, 0), group(3, 0), group(0, 3)];
         let entries = entries();
-        let factors = ContactFactors::new(&groups, &entries, vec![1.0; 12], &[false; 12]).unwrap();
+        let (bulk, prescribed) = (vec![1.0; 12], [false; 12]);
+        let factors = ContactFactors::new(&groups, &entries, bulk, &prescribed, neighbours);
+        let factors = factors.unwrap();
         assert_eq!(factors.constraints(), 2);
         let scaling = factors.scaling();
         let mut matrix = DMatrix::zeros(12, 12);
@@ -198,32 +205,55 @@ mod tests {
             let (r, c) = (r as usize, c as usize);
             matrix[(r, c)] += scaling.rows[r] * a * scaling.columns[c];
         }
+        let view = |at: (usize, usize), size| matrix.view(at, size).into_owned();
+        let (c, g) = (view((0, 9), (9, 3)), view((9, 0), (3, 9)));
+        let bulk = view((0, 0), (9, 9)).try_inverse().unwrap();
+        let mut bulk = yielded(bulk).try_inverse().unwrap();
         for constraint in 0..2 {
             let Stiffening { entries, stiffness } = factors.stiffening(constraint);
             let mut g = DVector::zeros(9);
             for (node, values) in entries {
                 (0..3).for_each(|c| g[3 * *node as usize + c] = values[c]);
             }
-            let mut bulk = matrix.view_mut((0, 0), (9, 9));
             bulk += stiffness * &g * g.transpose();
         }
         let (positions, given) = (
             [0.5, -1.0, 0.25, 0.0, 2.0, 0.5, -0.5, 1.0, 0.0],
             [1.0, -2.0, 0.7],
         );
-        let view = |at: (usize, usize), size| matrix.view(at, size).into_owned();
-        let (a, c, g) = (
-            view((0, 0), (9, 9)),
-            view((0, 9), (9, 3)),
-            view((9, 0), (3, 9)),
-        );
-        let schur = view((9, 9), (3, 3)) - &g * a.try_inverse().unwrap() * c;
+        let schur = view((9, 9), (3, 3)) - &g * bulk.try_inverse().unwrap() * c;
         let rest = DVector::from(given.to_vec()) - &g * DVector::from(positions.to_vec());
         let expected = schur.try_inverse().unwrap() * rest;
         let mut found = given;
         factors.solve(&positions.map(|x| x as f32), &mut found);
-        let error = (DVector::from(found.to_vec()) - &expected).norm() / expected.norm();
-        // What is added to the diagonals of constraints remains.
-        assert!(error < 10.0 * 1e-4, "{error:e} {found:?} {expected}");
+        (DVector::from(found.to_vec()) - &expected).norm() / expected.norm()
+    }
+
+    /// What is added to the diagonals of constraints remains.
+    const REMAINS: f64 = 10.0 * 1e-4;
+
+    #[test]
+    fn the_inverse_is_exact_for_nodes_that_only_constraints_couple() {
+        let error = error(&[], |inverse| inverse);
+        assert!(error < REMAINS, "{error:e}");
+    }
+
+    #[test]
+    fn the_inverse_is_exact_for_a_patch_that_moves_as_one() {
+        // Three nodes, each of which moves by 1 / sqrt(3) in a unit vector, and a stiffness
+        // of 1 / sqrt(3).
+        let with_patch = |mut inverse: DMatrix<f64>| {
+            for (r, c) in (0..81)
+                .map(|k| (k / 9, k % 9))
+                .filter(|(r, c)| r % 3 == c % 3)
+            {
+                inverse[(r, c)] += 3.0_f64.sqrt() / 3.0;
+            }
+            inverse
+        };
+        let neighbours = [(0, 1), (2, 1), (1, 0)];
+        let found = error(&neighbours, with_patch);
+        assert!(found < REMAINS, "{found:e}");
+        assert!(error(&neighbours, |inverse| inverse) > 0.01);
     }
 }

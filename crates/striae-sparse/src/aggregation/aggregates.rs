@@ -20,13 +20,13 @@ pub(crate) struct Aggregates {
 }
 
 impl Aggregates {
-    /// Aggregates of the nodes of a matrix; only pairs for which `may_join` holds count as coupled.
+    /// Aggregates of the nodes of a matrix; only pairs of one part count as coupled.
     pub(crate) fn new<const N: usize>(
         matrix: &Blocks<N, N, f64>,
         theta: f64,
-        may_join: impl Fn(usize, usize) -> bool + Sync,
+        parts: &[u32],
     ) -> Self {
-        let graph = Graph::strong(matrix, theta, may_join);
+        let graph = Graph::strong(matrix, theta, parts);
         let nodes = matrix.rows();
         let mut of = vec![NONE; nodes];
         let mut count = 0;
@@ -64,6 +64,17 @@ impl Aggregates {
         }
     }
 
+    /// Part that the nodes of each aggregate are of.
+    pub(crate) fn parts(&self, of_nodes: &[u32]) -> Vec<u32> {
+        let mut parts = vec![NONE; self.count];
+        for (&aggregate, &part) in self.of.iter().zip(of_nodes) {
+            if aggregate != NONE {
+                parts[aggregate as usize] = part;
+            }
+        }
+        parts
+    }
+
     /// Nodes of every aggregate, rising.
     pub(crate) fn members(&self) -> Vec<Vec<u32>> {
         let mut members = vec![Vec::new(); self.count];
@@ -98,11 +109,7 @@ struct Graph {
 }
 
 impl Graph {
-    fn strong<const N: usize>(
-        matrix: &Blocks<N, N, f64>,
-        theta: f64,
-        may_join: impl Fn(usize, usize) -> bool + Sync,
-    ) -> Self {
+    fn strong<const N: usize>(matrix: &Blocks<N, N, f64>, theta: f64, parts: &[u32]) -> Self {
         let square = |block: &[f64]| block.iter().map(|a| a * a).sum::<f64>();
         let diagonal: Vec<f64> = (0..matrix.rows())
             .into_par_iter()
@@ -117,7 +124,7 @@ impl Graph {
             .map(|i| {
                 let strong = |&(j, block): &(usize, &[f64])| {
                     let bound = theta * theta * diagonal[i] * diagonal[j];
-                    j != i && may_join(i, j) && square(block) > bound
+                    j != i && parts[i] == parts[j] && square(block) > bound
                 };
                 let near = matrix.row(i).filter(strong);
                 near.map(|(j, _)| j as u32).collect()

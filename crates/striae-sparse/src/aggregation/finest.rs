@@ -29,7 +29,7 @@ pub struct Coarsening {
 impl Coarsening {
     /// Of a symmetric positive definite matrix with a near-kernel of 3 rows by six a node.
     pub fn new(matrix: &Blocks<3, 3, f64>, near_kernel: &[f64]) -> Self {
-        let aggregates = Aggregates::new(matrix, STRONG, |_, _| true);
+        let aggregates = Aggregates::new(matrix, STRONG, &vec![0; matrix.rows()]);
         let tentative = Tentative::new::<3>(&aggregates, near_kernel);
         Self {
             aggregates: aggregates.of,

@@ -22,6 +22,14 @@ const PIECE: usize = 2048;
 /// Degree of the smoothing polynomial.
 const DEGREE: usize = 2;
 
+/// What the next level is made of.
+pub(crate) struct Coarser {
+    pub(crate) matrix: Blocks<MODES, MODES, f64>,
+    pub(crate) near_kernel: Vec<f64>,
+    /// Part of the bodies that each aggregate is of.
+    pub(crate) parts: Vec<u32>,
+}
+
 /// A matrix of `N` by `N` blocks with all that a V-cycle needs.
 #[derive(Debug)]
 pub(crate) struct Level<const N: usize> {
@@ -65,21 +73,25 @@ impl<const N: usize> Level<N> {
         tentative.smoothed(aggregates, matrix, &inverses(matrix), omega)
     }
 
-    /// Interpolates from aggregates; the coarse matrix and its near-kernel.
+    /// Interpolates from aggregates, each of nodes of one part.
     pub(crate) fn coarsen(
         &mut self,
         matrix: Blocks<N, N, f64>,
         near_kernel: &[f64],
         theta: f64,
-        may_join: impl Fn(usize, usize) -> bool + Sync,
-    ) -> (Blocks<MODES, MODES, f64>, Vec<f64>) {
-        let aggregates = Aggregates::new(&matrix, theta, may_join);
+        parts: &[u32],
+    ) -> Coarser {
+        let aggregates = Aggregates::new(&matrix, theta, parts);
         let tentative = Tentative::new::<N>(&aggregates, near_kernel);
         let prolongator = self.interpolation(&matrix, &aggregates, &tentative);
         let none = Blocks::default();
         let mut product = self.galerkin(matrix, prolongator, &none, aggregates.count);
         without_zeros(&mut product);
-        (product, tentative.coarse)
+        Coarser {
+            matrix: product,
+            near_kernel: tentative.coarse,
+            parts: aggregates.parts(parts),
+        }
     }
 
     /// `P^T A P` of the rows of this level, with as many coarse blocks as are told, from its

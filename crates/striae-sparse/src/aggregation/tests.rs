@@ -1,6 +1,9 @@
 //! A clamped elastic block: what a V-cycle must be and how good it is.
 
-use super::{Hierarchy, MODES, aggregates::Aggregates, blocks::Blocks, prolongator::Tentative};
+use super::{
+    Hierarchy, MODES, NONE, aggregates::Aggregates, blocks::Blocks, level::Level, others::Nobody,
+    prolongator::Tentative,
+};
 use crate::gmres;
 
 #[path = "../../tests/elastic/mod.rs"]
@@ -63,6 +66,11 @@ fn apply(hierarchy: &Hierarchy, v: &[f64]) -> Vec<f64> {
     x.into_iter().map(f64::from).collect()
 }
 
+/// One part for all nodes of a near-kernel.
+fn one_part(kernel: &[f64]) -> Vec<u32> {
+    vec![0; kernel.len() / (3 * MODES)]
+}
+
 /// Iterations to reduce the residual by a million.
 fn iterations(n: usize, poisson: f64) -> usize {
     let (matrix, kernel) = clamped(n, poisson);
@@ -77,7 +85,7 @@ fn iterations(n: usize, poisson: f64) -> usize {
             y[3 * i..3 * i + 3].copy_from_slice(&sum);
         }
     };
-    let hierarchy = Hierarchy::new(matrix.clone(), &kernel, |_, _| true).unwrap();
+    let hierarchy = Hierarchy::new(matrix.clone(), &kernel, &one_part(&kernel)).unwrap();
     let precondition = |v: &mut [f64]| v.copy_from_slice(&apply(&hierarchy, v));
     let b = numbers(3 * matrix.rows(), 1);
     let ends = gmres::Ends {
@@ -99,10 +107,35 @@ fn a_nearly_incompressible_block_takes_more_but_not_many() {
     assert!(count <= 45, "{count}");
 }
 
+/// Whether no aggregate has nodes of two parts.
+fn are_of_one_part(aggregates: &Aggregates, parts: &[u32]) -> bool {
+    let own = aggregates.parts(parts);
+    let mut pairs = aggregates.of.iter().zip(parts);
+    pairs.all(|(&aggregate, part)| aggregate == NONE || own[aggregate as usize] == *part)
+}
+
+#[test]
+fn aggregates_are_of_one_part_on_every_level() {
+    let (matrix, kernel) = clamped(11, 0.3);
+    let layers = 12 * 12;
+    let parts: Vec<u32> = (0..matrix.rows())
+        .map(|k| (k / (4 * layers)) as u32)
+        .collect();
+    let aggregates = Aggregates::new(&matrix, 0.06, &parts);
+    assert!(are_of_one_part(&aggregates, &parts));
+    let mut level = Level::new(&matrix, matrix.rows(), (&mut Nobody, &|own| own));
+    let coarser = level.coarsen(matrix, &kernel, 0.06, &parts);
+    assert_eq!(coarser.parts, aggregates.parts(&parts));
+    let [with, without] = [coarser.parts.clone(), vec![0; coarser.parts.len()]]
+        .map(|parts| Aggregates::new(&coarser.matrix, 0.03, &parts));
+    assert!(are_of_one_part(&with, &coarser.parts));
+    assert!(!are_of_one_part(&without, &coarser.parts));
+}
+
 #[test]
 fn the_near_kernel_is_interpolated_exactly() {
     let (matrix, kernel) = clamped(7, 0.3);
-    let aggregates = Aggregates::new(&matrix, 0.05, |_, _| true);
+    let aggregates = Aggregates::new(&matrix, 0.05, &vec![0; matrix.rows()]);
     let tentative = Tentative::new::<3>(&aggregates, &kernel);
     for (i, &aggregate) in aggregates.of.iter().enumerate() {
         // Held nodes are in no aggregate.
@@ -129,7 +162,7 @@ fn the_near_kernel_is_interpolated_exactly() {
 fn a_v_cycle_is_symmetric_and_positive_definite() {
     let (matrix, kernel) = clamped(9, 0.3);
     let n = 3 * matrix.rows();
-    let hierarchy = Hierarchy::new(matrix, &kernel, |_, _| true).unwrap();
+    let hierarchy = Hierarchy::new(matrix, &kernel, &one_part(&kernel)).unwrap();
     let (u, v) = (numbers(n, 1), numbers(n, 2));
     let (mu, mv) = (apply(&hierarchy, &u), apply(&hierarchy, &v));
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
@@ -143,6 +176,6 @@ fn a_v_cycle_is_symmetric_and_positive_definite() {
 #[test]
 fn there_are_three_levels_of_a_block_of_some_size() {
     let (matrix, kernel) = clamped(24, 0.3);
-    let hierarchy = Hierarchy::new(matrix, &kernel, |_, _| true).unwrap();
+    let hierarchy = Hierarchy::new(matrix, &kernel, &one_part(&kernel)).unwrap();
     assert_eq!(hierarchy.levels(), 3);
 }
