@@ -24,7 +24,7 @@ pub(crate) struct Body {
 impl Body {
     /// All bodies of a structure.
     pub(crate) fn all(partition: &Partition) -> Result<Vec<Self>, SolveError> {
-        let parts = parts(partition);
+        let parts = partition.bodies();
         let mut local = vec![0; partition.supervariables()];
         let body = |members: Vec<u32>| Self::new(partition, members, &mut local);
         parts.into_iter().map(body).collect()
@@ -149,31 +149,4 @@ impl Body {
             }
         }
     }
-}
-
-/// Connected parts of the bulk, members rising; supervariables without bulk unknowns are in none.
-pub(crate) fn parts(structure: &Partition) -> Vec<Vec<u32>> {
-    let mut seen = vec![false; structure.supervariables()];
-    let mut parts = Vec::new();
-    for first in 0..seen.len() {
-        if seen[first] || structure.bulk_group(first).is_empty() {
-            continue;
-        }
-        seen[first] = true;
-        let mut members = vec![first as u32];
-        let mut next = 0;
-        while let Some(&i) = members.get(next) {
-            next += 1;
-            for edge in structure.edges(i as usize) {
-                let j = structure.target(edge);
-                if structure.is_bulk_edge(edge) && !seen[j] {
-                    seen[j] = true;
-                    members.push(j as u32);
-                }
-            }
-        }
-        members.sort_unstable();
-        parts.push(members);
-    }
-    parts
 }

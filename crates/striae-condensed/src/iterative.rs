@@ -31,7 +31,6 @@ mod system;
 pub use replicated::{ContactFactors, Group, Stiffening};
 
 use crate::{
-    bulk,
     condensed::prescribed,
     entries::Kept,
     partition::Partition,
@@ -91,7 +90,7 @@ impl Iterative {
     /// Plans the solution; `None` where the bulk does not have three unknowns a node.
     pub(crate) fn analyse(partition: &Partition) -> Option<Self> {
         let mut nodes = Nodes::new(partition)?;
-        for (part, members) in bulk::parts(partition).iter().enumerate() {
+        for (part, members) in partition.bodies().iter().enumerate() {
             for &i in members {
                 nodes.parts[nodes.of[i as usize] as usize] = part as u32;
             }

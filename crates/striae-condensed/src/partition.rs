@@ -249,6 +249,33 @@ impl Partition {
         self.parts.bulk_edges[edge]
     }
 
+    /// Connected parts of the bulk, members rising; supervariables without bulk unknowns are in none.
+    pub fn bodies(&self) -> Vec<Vec<u32>> {
+        let mut seen = vec![false; self.supervariables()];
+        let mut parts = Vec::new();
+        for first in 0..seen.len() {
+            if seen[first] || self.bulk_group(first).is_empty() {
+                continue;
+            }
+            seen[first] = true;
+            let mut members = vec![first as u32];
+            let mut next = 0;
+            while let Some(&i) = members.get(next) {
+                next += 1;
+                for edge in self.edges(i as usize) {
+                    let j = self.target(edge);
+                    if self.is_bulk_edge(edge) && !seen[j] {
+                        seen[j] = true;
+                        members.push(j as u32);
+                    }
+                }
+            }
+            members.sort_unstable();
+            parts.push(members);
+        }
+        parts
+    }
+
     /// Points of all supervariables.
     pub fn points(&self) -> Option<&[[f64; 3]]> {
         self.parts.points.as_deref()

@@ -4,15 +4,16 @@ use crate::{
     binding::{Cycle, Entry, Library, Matrix, Side},
     coupling::Coupling,
     error::Error,
-    finest::{Finest, Problem},
     foreign::{Foreign, exchange},
+    halo::{narrow, widen},
+    level::{Finest, Kernel, Problem},
     nodes::{NONE, Nodes},
     product::orthonormalise,
 };
 use std::sync::Arc;
 use striae_condensed::{Partition, Tangent};
 use striae_solve::team::Team;
-use striae_sparse::aggregation::{MODES, blocks::Blocks};
+use striae_sparse::aggregation::MODES;
 
 /// A part of the bulk, as it is scaled.
 pub(crate) struct Bulk<'a> {
@@ -30,8 +31,8 @@ pub(crate) struct Bulk<'a> {
 pub(crate) enum Inverse {
     /// What options say.
     Chosen(Cycle),
-    /// Own aggregates on the finest level.
-    Usual(Box<Finest>),
+    /// Own aggregates, with vectors of own unknowns.
+    Usual(Box<Finest>, [Vec<f32>; 2]),
 }
 
 impl Inverse {
@@ -39,7 +40,12 @@ impl Inverse {
     pub(crate) fn apply(&mut self, b: &[f64], x: &mut [f64]) -> Result<(), Error> {
         match self {
             Self::Chosen(cycle) => cycle.apply(b, x),
-            Self::Usual(finest) => finest.apply(b, x),
+            Self::Usual(finest, [right, left]) => {
+                narrow(b, right);
+                finest.apply(right, left)?;
+                widen(left, x);
+                Ok(())
+            }
         }
     }
 }
@@ -52,8 +58,8 @@ struct Rows<'a> {
 }
 
 impl Rows<'_> {
-    /// What the bodies have in the row of an own node.
-    fn add_bodies(&self, k: usize, entries: &mut Vec<Entry<9>>) {
+    /// What the bodies have in the row of an own node, with the stiffness of constraints.
+    fn add(&self, k: usize, entries: &mut Vec<Entry<9>>) {
         let Bulk {
             nodes, partition, ..
         } = *self.bulk;
@@ -67,27 +73,9 @@ impl Rows<'_> {
             diagonal[4 * component] = f64::from(self.bulk.prescribed[unknown]);
         }
         entries.push((node, diagonal));
-    }
-
-    /// The same with the stiffness of constraints.
-    fn add_stiffened(&self, k: usize, entries: &mut Vec<Entry<9>>) {
-        self.add_bodies(k, entries);
         if let Some(coupling) = self.coupling {
             coupling.add_stiffness(k, entries);
         }
-    }
-
-    /// What the bodies couple on this rank.
-    fn near(&self) -> Blocks<3, 3, f64> {
-        let nodes = self.bulk.nodes;
-        Blocks::from_rows(nodes.lay.own, nodes.lay.own, |k, row| {
-            let mut entries = Vec::new();
-            self.add_bodies(k, &mut entries);
-            for (column, block) in entries.iter().filter(|entry| nodes.is_own(entry.0)) {
-                let target = row.block(*column as usize - nodes.lay.first);
-                target.iter_mut().zip(block).for_each(|(t, b)| *t += b);
-            }
-        })
     }
 
     /// Number of an own node.
@@ -113,20 +101,40 @@ impl Bulk<'_> {
             blocks: self.nodes.lay,
             size: 3,
         };
-        let stiffened = |k: usize, entries: &mut Vec<Entry<9>>| rows.add_stiffened(k, entries);
+        let row = |k: usize, entries: &mut Vec<Entry<9>>| rows.add(k, entries);
         let mut kernel = self.near_kernel(team);
         if Cycle::is_chosen(library)? {
-            let matrix = Matrix::assembled(library, (side, side), stiffened)?;
+            let matrix = Matrix::assembled(library, (side, side), row)?;
             orthonormalise(team, &mut kernel);
             return Ok(Cycle::new(matrix, &kernel)?.map(Inverse::Chosen));
         }
+        let own = side.blocks.own;
+        let motions = (0..3 * own).flat_map(|k| kernel.iter().map(move |mode| mode[k]));
+        let motions: Vec<f64> = motions.collect();
+        let kernel = Kernel {
+            motions: &motions,
+            parts: &self.parts(),
+        };
         let problem = Problem {
             library,
             team,
             side,
+            depth: 0,
         };
-        let finest = Finest::new(&problem, (rows.near(), &kernel), stiffened)?;
-        Ok(finest.map(|finest| Inverse::Usual(Box::new(finest))))
+        let finest = Finest::new(problem, kernel, &row)?;
+        let unknowns = vec![0.0; side.unknowns().own];
+        let vectors = [unknowns.clone(), unknowns];
+        Ok(finest.map(|finest| Inverse::Usual(Box::new(finest), vectors)))
+    }
+
+    /// Connected part of this rank's elements that each own node is of.
+    fn parts(&self) -> Vec<u32> {
+        let mut of = vec![NONE; self.partition.supervariables()];
+        for (part, members) in (0..).zip(self.partition.bodies()) {
+            members.into_iter().for_each(|i| of[i as usize] = part);
+        }
+        let own = self.nodes.supervariables.iter();
+        own.map(|&i| of[i as usize]).collect()
     }
 
     /// What other ranks add to this rank's rows.

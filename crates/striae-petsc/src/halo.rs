@@ -49,6 +49,11 @@ impl Halo {
         &self.others
     }
 
+    /// Own unknowns.
+    pub(crate) fn own(&self) -> usize {
+        self.own.len()
+    }
+
     /// Blocks of a vector.
     pub(crate) fn blocks(&self) -> usize {
         self.side.blocks.own + self.others.len()

@@ -41,13 +41,13 @@ mod direct;
 #[cfg(feature = "petsc")]
 mod error;
 #[cfg(feature = "petsc")]
-mod finest;
 #[cfg(feature = "petsc")]
 mod foreign;
 #[cfg(feature = "petsc")]
 mod halo;
 #[cfg(feature = "petsc")]
 mod iterative;
+mod level;
 #[cfg(feature = "petsc")]
 mod nodes;
 #[cfg(feature = "petsc")]

@@ -12,14 +12,14 @@
 mod aggregates;
 pub mod blocks;
 mod coarsest;
-mod finest;
 mod level;
 mod others;
 mod packed;
 mod prolongator;
+mod shared;
 
-pub use finest::{Coarsening, Finest, NONE};
 pub use others::{Others, Sum};
+pub use shared::{Coarsening, NONE, SharedLevel};
 
 use blocks::Blocks;
 use coarsest::Coarsest;

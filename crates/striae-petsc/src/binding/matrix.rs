@@ -166,17 +166,6 @@ impl Matrix {
         self.library.check(code)
     }
 
-    /// Sets entries of the diagonal of this rank to one.
-    pub(crate) fn set_ones(&mut self, unknowns: impl Iterator<Item = usize>) -> Result<(), Error> {
-        for unknown in unknowns {
-            let (at, mode) = (index(unknown)?, ffi::INSERT_VALUES);
-            // SAFETY: one row, one column, one value, all copied.
-            let code = unsafe { ffi::MatSetValues(self.raw, 1, &at, 1, &at, &1.0, mode) };
-            self.library.check(code)?;
-        }
-        self.finish()
-    }
-
     fn finish(&mut self) -> Result<(), Error> {
         let library = &self.library;
         // SAFETY: a live matrix whose values are set.

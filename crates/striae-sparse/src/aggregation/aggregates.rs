@@ -20,7 +20,8 @@ pub(crate) struct Aggregates {
 }
 
 impl Aggregates {
-    /// Aggregates of the nodes of a matrix; only pairs of one part count as coupled.
+    /// Aggregates of the nodes of a matrix; only pairs of one part count as coupled. Nodes
+    /// without a row are in none.
     pub(crate) fn new<const N: usize>(
         matrix: &Blocks<N, N, f64>,
         theta: f64,
@@ -123,8 +124,8 @@ impl Graph {
             .with_min_len(64)
             .map(|i| {
                 let strong = |&(j, block): &(usize, &[f64])| {
-                    let bound = theta * theta * diagonal[i] * diagonal[j];
-                    j != i && parts[i] == parts[j] && square(block) > bound
+                    let may_join = j != i && j < parts.len() && parts[i] == parts[j];
+                    may_join && square(block) > theta * theta * diagonal[i] * diagonal[j]
                 };
                 let near = matrix.row(i).filter(strong);
                 near.map(|(j, _)| j as u32).collect()

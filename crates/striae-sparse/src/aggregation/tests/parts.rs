@@ -7,7 +7,7 @@ use std::{
 };
 
 use super::{super::others::Nobody, clamped, numbers};
-use crate::aggregation::{Coarsening, Finest, MODES, NONE, Others, blocks::Blocks};
+use crate::aggregation::{Coarsening, MODES, NONE, Others, SharedLevel, blocks::Blocks};
 
 const EDGE: usize = 7;
 const AREA: usize = 3 * MODES;
@@ -157,15 +157,18 @@ impl Halves {
         };
         let mut first = 0;
         for (at, own) in nodes.into_iter().enumerate() {
-            let near = Blocks::from_rows(own.len(), own.len(), |i, sum| {
+            // Columns of the other half come after the own ones.
+            let place = |j: usize| match own.contains(&j) {
+                true => j - own.start,
+                false => own.len() + if j < own.start { j } else { j - own.end },
+            };
+            let near = Blocks::<3, 3, f64>::from_rows(own.len(), halves.matrix.rows(), |i, sum| {
                 for (j, block) in halves.matrix.row(own.start + i) {
-                    if own.contains(&j) {
-                        sum.block(j - own.start).copy_from_slice(block);
-                    }
+                    sum.block(place(j)).copy_from_slice(block);
                 }
             });
             let kernel = &halves.kernel[AREA * own.start..AREA * own.end];
-            let found = Coarsening::new(&near, kernel);
+            let found = Coarsening::new(&near, kernel, 0, &vec![0; own.len()]);
             let numbers = found.aggregates.iter().map(|&a| match a {
                 NONE => NONE,
                 a => a + first,
@@ -212,11 +215,11 @@ impl Halves {
     }
 
     /// Level and interpolation of a half.
-    fn level(&self, part: &Part<'_>) -> (Finest, Blocks<3, 3, f64>, Blocks<3, MODES, f64>) {
+    fn level(&self, part: &Part<'_>) -> (SharedLevel<3>, Blocks<3, 3, f64>, Blocks<3, MODES, f64>) {
         let matrix = rows(&self.matrix, part);
         let count = part.nodes.len() + part.other_nodes.len();
         let sum = |own: f64| part.fine.sum(usize::from(part.nodes.start > 0), own);
-        let level = Finest::new(&matrix, count, (&mut &*part, &sum));
+        let level = SharedLevel::new(&matrix, count, (&mut &*part, &sum));
         let all = part.nodes.clone().chain(part.other_nodes.iter().copied());
         let all: Vec<usize> = all.collect();
         let of = all.iter().map(|&j| match self.of[j] {
@@ -288,7 +291,7 @@ fn parts_interpolate_rigid_motions_and_project_like_the_whole() {
     }
     let [mut first, second] = made;
     let mut sums = vec![0.0; count * count * MODES * MODES];
-    let mut add = |at: usize, level: &mut Finest, matrix, own: Blocks<3, MODES, f64>| {
+    let mut add = |at: usize, level: &mut SharedLevel<3>, matrix, own: Blocks<3, MODES, f64>| {
         let theirs = parts[at].other_nodes.iter();
         let theirs: Vec<usize> = theirs.copied().collect();
         let width = parts[at].aggregates.len() + parts[at].other_aggregates.len();
@@ -311,7 +314,7 @@ fn parts_interpolate_rigid_motions_and_project_like_the_whole() {
     let mut second = second;
     add(1, &mut second.0, second.1, second.2);
     let alone = (&mut Nobody as &mut dyn Others, &(|own| own) as _);
-    let mut level = Finest::new(&halves.matrix, halves.matrix.rows(), alone);
+    let mut level = SharedLevel::new(&halves.matrix, halves.matrix.rows(), alone);
     let none = Blocks::default();
     let expected = level.coarsen(halves.matrix.clone(), (whole, &none), count);
     let mut seen = vec![0.0; sums.len()];

@@ -1,8 +1,9 @@
-//! The finest level of the cycle on the bodies, with aggregates of its own.
+//! A level of the cycle on the bodies, with aggregates of its own.
 //!
 //! They do not reach over contact: bodies that slide on each other keep motions of their
 //! own. PETSc's aggregation would not know that, as what constraints couple is as strong as
-//! elements are. Aggregates do not reach over ranks either. The coarser levels are PETSc's.
+//! elements are. Aggregates do not reach over ranks either. When few unknowns are left the
+//! coarser levels are PETSc's.
 
 use crate::{
     binding::{Cycle, Entry, Lay, Library, Matrix, Side},
@@ -14,32 +15,57 @@ use crate::{
 use rayon::prelude::*;
 use std::sync::Arc;
 use striae_solve::team::Team;
-use striae_sparse::aggregation::{self, Coarsening, MODES, NONE, Others, blocks::Blocks};
+use striae_sparse::aggregation::{Coarsening, MODES, NONE, Others, SharedLevel, blocks::Blocks};
 
-/// Values of an interpolation from an aggregate to a node.
-const AREA: usize = 3 * MODES;
 /// Values of a block of the next level.
 const COARSE: usize = MODES * MODES;
+/// Unknowns of all ranks from which on a level is ours.
+const MANY: usize = 4000;
+/// A level that has more than this share of the nodes of the finer one is the last of ours.
+const SLOW: f64 = 0.7;
 
-/// A matrix of three unknowns a node with a cycle in the place of its inverse.
+/// The finest level: three unknowns a node.
+pub(crate) type Finest = Level<3, 9, { 3 * MODES }>;
+
+/// A matrix of `N` unknowns a node with a cycle in the place of its inverse. Blocks have
+/// `AREA` values, `N` by `N`, and those of the interpolation `WIDE`, `N` by [`MODES`].
 #[derive(Debug)]
-pub(crate) struct Finest {
-    level: aggregation::Finest,
+pub(crate) struct Level<const N: usize, const AREA: usize, const WIDE: usize> {
+    level: SharedLevel<N>,
     nodes: Halo,
     aggregates: Halo,
-    coarser: Cycle,
-    /// Vectors of this level and of the next.
-    b: Vec<f32>,
+    coarser: Coarser,
+    /// Vector with others' places.
     x: Vec<f32>,
-    restricted: Vec<f64>,
-    correction: Vec<f64>,
 }
 
+/// What takes the place of the inverse of the next level.
+#[derive(Debug)]
+enum Coarser {
+    Level(Box<Level<MODES, COARSE, COARSE>>),
+    /// With vectors of own unknowns.
+    Cycle(Cycle, [Vec<f64>; 2]),
+}
+
+/// Lists what is in one of this rank's rows, in any order, where blocks of one column add up.
+type Row<'a, const AREA: usize> = &'a (dyn Fn(usize, &mut Vec<Entry<AREA>>) + Sync);
+
 /// Where the rows of a level lie.
+#[derive(Clone, Copy)]
 pub(crate) struct Problem<'a> {
     pub(crate) library: &'a Arc<Library>,
     pub(crate) team: &'a dyn Team,
     pub(crate) side: Side,
+    /// Number of finer levels.
+    pub(crate) depth: usize,
+}
+
+/// What is known of own nodes: the near-kernel, as many rows as a node has unknowns by six,
+/// and the connected part that each is of.
+#[derive(Clone, Copy)]
+pub(crate) struct Kernel<'a> {
+    pub(crate) motions: &'a [f64],
+    pub(crate) parts: &'a [u32],
 }
 
 /// The ranks that hold the other rows, of the next level where there is one.
@@ -51,26 +77,22 @@ struct Neighbours<'a> {
 }
 
 /// Interpolation to own nodes and to others' that own rows name, by places of aggregates.
-struct Interpolation {
-    own: Blocks<3, MODES, f64>,
-    theirs: Blocks<3, MODES, f64>,
+struct Interpolation<const N: usize> {
+    own: Blocks<N, MODES, f64>,
+    theirs: Blocks<N, MODES, f64>,
     aggregates: Halo,
 }
 
-impl Finest {
-    /// From what the bodies couple on this rank, the near-kernel, column by column, and the
-    /// rows of this rank's nodes, where blocks of one column add up; `None` where the matrix is
-    /// not definite. Collective.
+impl<const N: usize, const AREA: usize, const WIDE: usize> Level<N, AREA, WIDE> {
+    /// From what is known of own nodes, and the rows of a matrix; `None` where it is not
+    /// definite. Collective.
     pub(crate) fn new(
-        problem: &Problem<'_>,
-        (near, kernel): (Blocks<3, 3, f64>, &[Vec<f64>]),
-        row: impl Fn(usize, &mut Vec<Entry<9>>) + Sync,
+        problem: Problem<'_>,
+        kernel: Kernel<'_>,
+        row: Row<'_, AREA>,
     ) -> Result<Option<Self>, Error> {
-        let own = problem.side.blocks.own;
-        let by_node = (0..3 * own).flat_map(|k| kernel.iter().map(move |mode| mode[k]));
-        let coarsening = Coarsening::new(&near, &by_node.collect::<Vec<f64>>());
-        drop(near);
-        let (mut nodes, matrix) = problem.rows(row)?;
+        let (mut nodes, matrix) = problem.rows::<N, AREA>(row)?;
+        let coarsening = Coarsening::new(&matrix, kernel.motions, problem.depth, kernel.parts);
         let sum = |own: f64| {
             let mut sum = [own];
             problem.team.sum(&mut sum);
@@ -81,40 +103,43 @@ impl Finest {
             aggregates: None,
             failure: Ok(()),
         };
-        let mut level =
-            aggregation::Finest::new(&matrix, neighbours.nodes.blocks(), (&mut neighbours, &sum));
+        let places = neighbours.nodes.blocks();
+        let mut level = SharedLevel::new(&matrix, places, (&mut neighbours, &sum));
         neighbours.failure?;
         let coarse = problem.coarse(coarsening.count);
-        let interpolation =
-            problem.interpolation((&level, &matrix), &nodes, (&coarsening, coarse))?;
+        let interpolation = problem.interpolation::<N, WIDE>(
+            (&level, &matrix),
+            &nodes,
+            (&coarsening, coarse.side),
+        )?;
         let Interpolation {
-            own: interpolated,
+            own,
             theirs,
             aggregates,
         } = interpolation;
-        let product = level.coarsen(matrix, (interpolated, &theirs), aggregates.blocks());
+        let product = level.coarsen(matrix, (own, &theirs), aggregates.blocks());
         drop(theirs);
-        let product = problem.summed(product, (&aggregates, coarse), &coarsening)?;
-        let kernel = coarse_kernel(problem.team, &coarsening);
-        let unknowns = coarse.unknowns().own;
-        Ok(Cycle::new(product, &kernel)?.map(|coarser| Self {
+        let coarser = coarse.solved(&product, &aggregates, &coarsening, problem.side)?;
+        Ok(coarser.map(|coarser| Self {
             level,
-            b: vec![0.0; 3 * own],
-            x: vec![0.0; 3 * nodes.blocks()],
+            x: vec![0.0; N * nodes.blocks()],
             nodes,
             aggregates,
             coarser,
-            restricted: vec![0.0; unknowns],
-            correction: vec![0.0; unknowns],
         }))
     }
 
-    /// `x = M^-1 b`: smoothing, a correction by the coarser levels, smoothing.
-    pub(crate) fn apply(&mut self, b: &[f64], x: &mut [f64]) -> Result<(), Error> {
+    /// Own unknowns.
+    fn own(&self) -> usize {
+        self.nodes.own()
+    }
+
+    /// `x = M^-1 b` for own unknowns: smoothing, a correction by the coarser levels,
+    /// smoothing.
+    pub(crate) fn apply(&mut self, b: &[f32], x: &mut [f32]) -> Result<(), Error> {
         let Self {
             nodes, aggregates, ..
         } = self;
-        narrow(b, &mut self.b);
         let mut neighbours = Neighbours {
             nodes,
             aggregates: Some(aggregates),
@@ -122,25 +147,40 @@ impl Finest {
         };
         let mut failure = Ok(());
         let mut coarser = |b: &[f32], x: &mut [f32]| {
-            widen(b, &mut self.restricted);
-            let applied = self.coarser.apply(&self.restricted, &mut self.correction);
-            keep_first(&mut failure, applied);
-            narrow(&self.correction, x);
+            keep_first(&mut failure, self.coarser.apply(b, x));
         };
         self.level
-            .cycle(&self.b, &mut self.x, &mut neighbours, &mut coarser);
+            .cycle(b, &mut self.x, &mut neighbours, &mut coarser);
         neighbours.failure.and(failure)?;
-        widen(&self.x[..b.len()], x);
+        x.copy_from_slice(&self.x[..x.len()]);
         Ok(())
+    }
+}
+
+impl Coarser {
+    /// The same, of vectors with others' places after the own ones.
+    fn apply(&mut self, b: &[f32], x: &mut [f32]) -> Result<(), Error> {
+        match self {
+            Self::Level(level) => {
+                let own = level.own();
+                level.apply(&b[..own], &mut x[..own])
+            }
+            Self::Cycle(cycle, [restricted, correction]) => {
+                widen(b, restricted);
+                cycle.apply(restricted, correction)?;
+                narrow(correction, x);
+                Ok(())
+            }
+        }
     }
 }
 
 impl Problem<'_> {
     /// This rank's rows, and the nodes of others that they name.
-    fn rows(
+    fn rows<const N: usize, const AREA: usize>(
         &self,
-        row: impl Fn(usize, &mut Vec<Entry<9>>) + Sync,
-    ) -> Result<(Halo, Blocks<3, 3, f64>), Error> {
+        row: Row<'_, AREA>,
+    ) -> Result<(Halo, Blocks<N, N, f64>), Error> {
         let side = self.side;
         let own = side.blocks.own;
         let named: Vec<Vec<u32>> = (0..own)
@@ -165,29 +205,34 @@ impl Problem<'_> {
         Ok((nodes, rows))
     }
 
-    /// Aggregates of all ranks, of which this one has so many.
-    fn coarse(&self, count: usize) -> Side {
+    /// The next level, of whose aggregates this rank has so many.
+    fn coarse(&self, count: usize) -> Self {
         let starts = starts(self.team, count);
-        Side {
+        let side = Side {
             blocks: Lay {
                 first: starts[self.team.rank()],
                 own: count,
                 total: starts[self.team.size()],
             },
             size: MODES,
+        };
+        Self {
+            side,
+            depth: self.depth + 1,
+            ..*self
         }
     }
 
-    fn interpolation(
+    fn interpolation<const N: usize, const WIDE: usize>(
         &self,
-        (level, matrix): (&aggregation::Finest, &Blocks<3, 3, f64>),
+        (level, matrix): (&SharedLevel<N>, &Blocks<N, N, f64>),
         nodes: &Halo,
         (coarsening, coarse): (&Coarsening, Side),
-    ) -> Result<Interpolation, Error> {
+    ) -> Result<Interpolation<N>, Error> {
         let starts = starts(self.team, self.side.blocks.own);
         let first = coarse.blocks.first as u32;
         let tentative = fetch(self.team, &starts, nodes.others(), |k| {
-            let values = coarsening.columns[k * AREA..].first_chunk::<AREA>();
+            let values = coarsening.columns[k * WIDE..].first_chunk::<WIDE>();
             let is_in = coarsening.aggregates[k] != NONE;
             let value = values.filter(|_| is_in);
             let entries = value.map(|values| (first + coarsening.aggregates[k], *values));
@@ -199,12 +244,12 @@ impl Problem<'_> {
         for node in nodes.others() {
             let entry = tentative.get(node).and_then(|entries| entries.first());
             of.push(entry.map_or(NONE, |entry| near.place(entry.0) as u32));
-            columns.extend(entry.map_or([0.0; AREA], |entry| entry.1));
+            columns.extend(entry.map_or([0.0; WIDE], |entry| entry.1));
         }
         let own = level.interpolation(matrix, (of, columns), near.blocks());
         let theirs = fetch(self.team, &starts, nodes.others(), |k| {
             let entries = own.row(k).map(|(place, values)| {
-                let mut copy = [0.0; AREA];
+                let mut copy = [0.0; WIDE];
                 copy.copy_from_slice(values);
                 (near.number(place), copy)
             });
@@ -234,14 +279,16 @@ impl Problem<'_> {
         })
     }
 
-    /// The matrix of the next level from what all ranks add to it.
-    fn summed(
+    /// What takes the place of the inverse of this level, from what all ranks add to its
+    /// matrix; `None` where that is not definite.
+    fn solved(
         &self,
-        part: Blocks<MODES, MODES, f64>,
-        (aggregates, coarse): (&Halo, Side),
+        part: &Blocks<MODES, MODES, f64>,
+        aggregates: &Halo,
         coarsening: &Coarsening,
-    ) -> Result<Matrix, Error> {
-        let own = coarse.blocks.own;
+        finer: Side,
+    ) -> Result<Option<Coarser>, Error> {
+        let own = self.side.blocks.own;
         let entries = |place: usize| -> Vec<Entry<COARSE>> {
             let row = part.row(place).map(|(other, values)| {
                 let mut copy = [0.0; COARSE];
@@ -254,15 +301,29 @@ impl Problem<'_> {
         let others = own..aggregates.blocks();
         let others = others.map(|place| (aggregates.number(place), entries(place)));
         let foreign = exchange(self.team, &starts, others);
+        let mut ones = vec![[0.0; COARSE]; own];
+        for unknown in coarsening.empty() {
+            ones[unknown / MODES][unknown % MODES * (MODES + 1)] = 1.0;
+        }
         let row = |k: usize, sum: &mut Vec<Entry<COARSE>>| {
             sum.extend(entries(k));
-            let number = (coarse.blocks.first + k) as u32;
+            let number = (self.side.blocks.first + k) as u32;
             sum.extend(foreign.get(&number).into_iter().flatten());
+            sum.push((number, ones[k]));
         };
-        let mut matrix = Matrix::assembled(self.library, (coarse, coarse), row)?;
-        let first = coarse.unknowns().first;
-        matrix.set_ones(coarsening.empty().map(|unknown| first + unknown))?;
-        Ok(matrix)
+        let kernel = Kernel {
+            motions: &coarsening.near_kernel,
+            parts: &coarsening.parts,
+        };
+        let total = self.side.blocks.total;
+        if MODES * total > MANY && (total as f64) < SLOW * finer.blocks.total as f64 {
+            let level = Level::new(*self, kernel, &row)?;
+            return Ok(level.map(|level| Coarser::Level(Box::new(level))));
+        }
+        let matrix = Matrix::assembled(self.library, (self.side, self.side), row)?;
+        let unknowns = vec![0.0; self.side.unknowns().own];
+        let cycle = Cycle::new(matrix, &coarse_kernel(self.team, coarsening))?;
+        Ok(cycle.map(|cycle| Coarser::Cycle(cycle, [unknowns.clone(), unknowns])))
     }
 }
 

@@ -1,8 +1,7 @@
-//! The finest level of a matrix whose rows several parts hold; the coarser levels are
-//! someone else's.
+//! A level of a matrix whose rows several parts hold; the next one is someone else's.
 
 use super::{
-    MODES, STRONG,
+    LOOSER, MODES, STRONG,
     aggregates::Aggregates,
     blocks::Blocks,
     level::Level,
@@ -19,19 +18,30 @@ pub struct Coarsening {
     pub aggregates: Vec<u32>,
     /// How many there are.
     pub count: usize,
-    /// Orthonormal columns on every aggregate, three rows by six a node.
+    /// Orthonormal columns on every aggregate, `N` rows by six a node.
     pub columns: Vec<f64>,
     /// The near-kernel in terms of those, six rows by six an aggregate. Rows of columns that
     /// depend on others are zero, and so are those columns.
     pub near_kernel: Vec<f64>,
+    /// Part of the bodies that each aggregate is of.
+    pub parts: Vec<u32>,
 }
 
 impl Coarsening {
-    /// Of a symmetric positive definite matrix with a near-kernel of 3 rows by six a node.
-    pub fn new(matrix: &Blocks<3, 3, f64>, near_kernel: &[f64]) -> Self {
-        let aggregates = Aggregates::new(matrix, STRONG, &vec![0; matrix.rows()]);
-        let tentative = Tentative::new::<3>(&aggregates, near_kernel);
+    /// Of some rows of a symmetric positive definite matrix with a near-kernel of `N` rows by
+    /// six a node, so many levels below the finest. Columns of others' nodes come after as
+    /// many as there are rows, and are in no aggregate; each aggregate is of one part.
+    pub fn new<const N: usize>(
+        matrix: &Blocks<N, N, f64>,
+        near_kernel: &[f64],
+        depth: usize,
+        parts: &[u32],
+    ) -> Self {
+        let strong = STRONG * LOOSER.powi(depth as i32);
+        let aggregates = Aggregates::new(matrix, strong, parts);
+        let tentative = Tentative::new::<N>(&aggregates, near_kernel);
         Self {
+            parts: aggregates.parts(parts),
             aggregates: aggregates.of,
             count: aggregates.count,
             columns: tentative.values,
@@ -47,14 +57,14 @@ impl Coarsening {
     }
 }
 
-/// Some rows of the finest level.
+/// Some rows of a level of `N` unknowns a node.
 #[derive(Debug)]
-pub struct Finest(Level<3>);
+pub struct SharedLevel<const N: usize>(Level<N>);
 
-impl Finest {
+impl<const N: usize> SharedLevel<N> {
     /// From rows with so many columns of blocks: one a row, then those that others have.
     pub fn new(
-        matrix: &Blocks<3, 3, f64>,
+        matrix: &Blocks<N, N, f64>,
         columns: usize,
         others: (&mut dyn Others, Sum<'_>),
     ) -> Self {
@@ -65,10 +75,10 @@ impl Finest {
     /// nodes of all columns of blocks. Numbers of aggregates are below `count`.
     pub fn interpolation(
         &self,
-        matrix: &Blocks<3, 3, f64>,
+        matrix: &Blocks<N, N, f64>,
         (aggregates, columns): (Vec<u32>, Vec<f64>),
         count: usize,
-    ) -> Blocks<3, MODES, f64> {
+    ) -> Blocks<N, MODES, f64> {
         let aggregates = Aggregates {
             of: aggregates,
             count,
@@ -84,8 +94,8 @@ impl Finest {
     /// nodes and at those that others have. Numbers of aggregates are below `count`.
     pub fn coarsen(
         &mut self,
-        matrix: Blocks<3, 3, f64>,
-        (own, theirs): (Blocks<3, MODES, f64>, &Blocks<3, MODES, f64>),
+        matrix: Blocks<N, N, f64>,
+        (own, theirs): (Blocks<N, MODES, f64>, &Blocks<N, MODES, f64>),
         count: usize,
     ) -> Blocks<MODES, MODES, f64> {
         self.0.galerkin(matrix, own, theirs, count)
