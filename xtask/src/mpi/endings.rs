@@ -17,6 +17,7 @@
 mod decks;
 
 use std::{
+    collections::HashMap,
     fs,
     io::Write,
     path::{Path, PathBuf},
@@ -28,7 +29,7 @@ use super::{
     started::{Ended, Started, broken_off, history, start},
 };
 use crate::{endurance::disk::SmallDisk, fault::Fault, scenes::output::History};
-use decks::{CRUSHED, PAD};
+use decks::{CRUSHED, LONG, PAD};
 
 /// Ranks of the runs that are disturbed.
 const RANKS: usize = 3;
@@ -41,8 +42,8 @@ const ROOM: u32 = 20_000;
 struct Trials<'a> {
     program: &'a Path,
     root: PathBuf,
-    /// Of the pad, left alone on three ranks.
-    whole: History,
+    /// Of decks, left alone on three ranks.
+    whole: HashMap<&'static str, History>,
 }
 
 /// Makes all trials.
@@ -68,9 +69,10 @@ pub fn check(program: &Path, extent: Extent) -> Result<(), Fault> {
     trials.crushed()?;
     trials.limited()?;
     trials.full()?;
-    trials.signalled("-TERM", To::Mpirun, "stopping after this increment", 2)?;
-    trials.signalled("-USR1", To::Mpirun, "interrupted at time", 1)?;
-    trials.signalled("-TERM", To::Ranks, "interrupted at time", after[1])?;
+    let late = ("-TERM", To::Mpirun, "stopping after this increment");
+    trials.signalled("long", late, 2)?;
+    trials.signalled("pad", ("-USR1", To::Mpirun, "interrupted at time"), 1)?;
+    trials.signalled("pad", ("-TERM", To::Ranks, "interrupted at time"), after[1])?;
     match extent {
         Extent::Short => Ok(()),
         Extent::All => trials.twice(),
@@ -96,30 +98,37 @@ impl To {
 
 impl<'a> Trials<'a> {
     fn new(program: &'a Path, root: PathBuf) -> Result<Self, Fault> {
-        for (name, deck) in [("pad", PAD.deck()), ("crushed", CRUSHED.to_owned())] {
-            fs::write(root.join(name).with_extension("toml"), deck).map_err(broken_off)?;
-        }
+        let decks = [("pad", PAD.deck()), ("long", LONG.deck())];
         let mut trials = Self {
             program,
             root,
-            whole: History::default(),
+            whole: HashMap::new(),
         };
-        let folder = trials.root.join("whole");
-        let ended = trials.begun("pad", &folder)?.ended()?;
-        expect("left alone", &ended, Some(0), &["all steps completed"])?;
-        trials.whole = history(&folder)?;
-        println!("left alone: {:.1} s", ended.seconds);
+        trials.write("crushed", CRUSHED)?;
+        for (name, deck) in decks {
+            trials.write(name, &deck)?;
+            let folder = trials.root.join(format!("{name}-whole"));
+            let ended = trials.begun(name, &folder)?.ended()?;
+            expect("left alone", &ended, Some(0), &["all steps completed"])?;
+            trials.whole.insert(name, history(&folder)?);
+            println!("{name}, left alone: {:.1} s", ended.seconds);
+        }
         Ok(trials)
+    }
+
+    fn write(&self, name: &str, deck: &str) -> Result<(), Fault> {
+        let path = self.root.join(name).with_extension("toml");
+        fs::write(path, deck).map_err(broken_off)
     }
 
     fn killed(&self, rank: usize, rows: usize, after: usize) -> Result<(), Fault> {
         let name = format!("rank {rank} killed after {rows} increments");
-        let (mut run, folder) = self.in_the_middle(&format!("killed-{rows}"), rows)?;
+        let (mut run, folder) = self.in_the_middle("pad", &format!("killed-{rows}"), rows)?;
         let id = rank_of(&run, rank)?;
         run.disturb("kill", &["-KILL".into(), id])?;
         let ended = run.ended()?;
         expect(&name, &ended, None, &["signal 9"])?;
-        self.resumed(&name, &ended, &folder, after)
+        self.resumed("pad", &name, (&ended, &folder), after)
     }
 
     /// All ranks cut back what one of them cannot do, and end where that does not help.
@@ -156,12 +165,12 @@ impl<'a> Trials<'a> {
     /// One rank may write small files only.
     fn limited(&self) -> Result<(), Fault> {
         let name = "no room for a rank";
-        let (mut run, folder) = self.in_the_middle("limited", ROWS)?;
+        let (mut run, folder) = self.in_the_middle("pad", "limited", ROWS)?;
         let id = rank_of(&run, 1)?;
         run.disturb("prlimit", &["--fsize=4096".into(), "--pid".into(), id])?;
         let ended = run.ended()?;
         expect(name, &ended, Some(1), &["rank 1", "File too large"])?;
-        self.resumed(name, &ended, &folder, 2)
+        self.resumed("pad", name, (&ended, &folder), 2)
     }
 
     /// The disk on which all write runs full.
@@ -184,41 +193,53 @@ impl<'a> Trials<'a> {
         drop(file);
         fs::remove_file(filler).map_err(broken_off)?;
         expect(name, &ended, Some(1), &["No space left"])?;
-        self.resumed(name, &ended, &folder, 1)
+        self.resumed("pad", name, (&ended, &folder), 1)
     }
 
-    fn signalled(&self, signal: &str, to: To, words: &str, after: usize) -> Result<(), Fault> {
+    /// A signal to someone, and what the run must say then.
+    fn signalled(
+        &self,
+        deck: &str,
+        (signal, to, words): (&str, To, &str),
+        after: usize,
+    ) -> Result<(), Fault> {
         let (whom, folder) = match to {
             To::Mpirun => ("mpirun", format!("mpirun{signal}")),
             To::Ranks => ("all ranks", format!("ranks{signal}")),
         };
         let name = format!("{} to {whom}", signal.replace('-', "SIG"));
-        let (mut run, folder) = self.in_the_middle(&folder, ROWS)?;
+        let (mut run, folder) = self.in_the_middle(deck, &folder, ROWS)?;
         let whom = to.of(&run);
         run.disturb("kill", &[vec![signal.into()], whom].concat())?;
         let ended = run.ended()?;
         expect(&name, &ended, None, &[words])?;
-        self.resumed(&name, &ended, &folder, after)
+        self.resumed(deck, &name, (&ended, &folder), after)
     }
 
     /// The second signal ends a run at once.
     fn twice(&self) -> Result<(), Fault> {
         let name = "SIGTERM to all ranks, twice";
-        let (mut run, folder) = self.in_the_middle("twice", ROWS)?;
+        let (mut run, folder) = self.in_the_middle("pad", "twice", ROWS)?;
         let whom = To::Ranks.of(&run).join(" ");
         let both = format!("kill -TERM {whom}; sleep 0.01; kill -TERM {whom} || true");
         run.disturb("sh", &["-c".into(), both])?;
         let ended = run.ended()?;
         expect(name, &ended, None, &["interrupt again to stop at once"])?;
-        self.resumed(name, &ended, &folder, 2)
+        self.resumed("pad", name, (&ended, &folder), 2)
     }
 
     /// Goes on after an ending, to the forces of the run that was left alone.
-    fn resumed(&self, name: &str, ended: &Ended, folder: &Path, ranks: usize) -> Result<(), Fault> {
+    fn resumed(
+        &self,
+        deck: &str,
+        name: &str,
+        (ended, folder): (&Ended, &Path),
+        ranks: usize,
+    ) -> Result<(), Fault> {
         let kept = history_so_far(folder)?;
         let again = self.taken_up(folder, ranks)?.ended()?;
         expect(name, &again, Some(0), &["all steps completed"])?;
-        let differences = alike(name, &self.whole, &history(folder)?)?;
+        let differences = alike(name, &self.whole[deck], &history(folder)?)?;
         println!(
             "{name}: {:.1} s, code {}, {kept} increments kept; on {ranks} ranks: {differences}",
             ended.seconds,
@@ -227,10 +248,15 @@ impl<'a> Trials<'a> {
         Ok(())
     }
 
-    /// The pad on three ranks, after so many increments.
-    fn in_the_middle(&self, name: &str, rows: usize) -> Result<(Started, PathBuf), Fault> {
+    /// A deck on three ranks, after so many increments.
+    fn in_the_middle(
+        &self,
+        deck: &str,
+        name: &str,
+        rows: usize,
+    ) -> Result<(Started, PathBuf), Fault> {
         let folder = self.root.join(name);
-        let mut run = self.begun("pad", &folder)?;
+        let mut run = self.begun(deck, &folder)?;
         run.reaches(rows)?;
         Ok((run, folder))
     }

@@ -11,6 +11,13 @@ pub const PAD: Pad = Pad {
     output: "checkpoint_every = 10",
 };
 
+/// The same in smaller increments: `mpirun` waits a second before it passes SIGTERM on, when
+/// steps must be left, however fast the machine is.
+pub const LONG: Pad = Pad {
+    increments: [10, 120],
+    ..PAD
+};
+
 /// A long block on a floor. Of the element in one of its corners one face is held and the other
 /// pushed through it: all its nodes are prescribed, so that it turns inside out whatever the rest
 /// does. Smaller increments come close to that.
