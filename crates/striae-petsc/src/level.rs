@@ -20,7 +20,7 @@ use striae_sparse::aggregation::{Coarsening, MODES, NONE, Others, SharedLevel, b
 /// Values of a block of the next level.
 const COARSE: usize = MODES * MODES;
 /// Unknowns of all ranks from which on a level is ours.
-const MANY: usize = 4000;
+const MANY: usize = 1200;
 /// A level that has more than this share of the nodes of the finer one is the last of ours.
 const SLOW: f64 = 0.7;
 

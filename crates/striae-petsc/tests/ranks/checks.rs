@@ -13,6 +13,7 @@ pub fn all(ranks: &Ranks) {
         ("long messages", long_messages),
         ("answers of the direct solver", direct),
         ("answers of the iterative solver", iterative),
+        ("several levels", several_levels),
         ("singular matrices", singular),
         ("what is not finite", not_finite),
         ("few unknowns", few_unknowns),
@@ -155,6 +156,27 @@ fn iterative(ranks: &Ranks) {
             assert!(error < bound, "{blocks:?} {error:e} {report:?}");
             check_same(ranks, &part, &x);
         }
+    }
+}
+
+/// Of blocks that have a coarser level of their own before the levels of PETSc.
+fn several_levels(ranks: &Ranks) {
+    for contact in [Contact::Stick, Contact::Slip] {
+        let blocks = Blocks {
+            side: 17,
+            height: 9,
+            stiffness: [1.0, 1.0],
+            contact,
+            top: Top::Free,
+        };
+        let part = blocks.part(Rank(ranks.rank(), ranks.size()));
+        let mut solver = PetscSolver::new(ranks, Choice::Iterative);
+        let (x, method, report) = solved(&mut solver, &part, 1e-9);
+        assert_eq!(method, Method::Iterative);
+        assert!(report.krylov_iterations <= 40, "{blocks:?} {report:?}");
+        let error = difference(&blocks, &part, &x);
+        assert!(error < 1e-7, "{blocks:?} {error:e} {report:?}");
+        check_same(ranks, &part, &x);
     }
 }
 

@@ -112,6 +112,38 @@ fn contact_over_whole_faces() {
     assert!(touching(&run) >= 16);
 }
 
+/// Iterations of GMRES for an iteration of Newton's method, with the lower of two stacked blocks
+/// divided into so many elements along an edge, and the upper one into one less.
+fn krylov(n: usize) -> f64 {
+    let soft = rubber(1.0, 0.4);
+    let lower = block([0.0; 3], [1.0, 1.0, 0.5], [n, n, n / 2]);
+    let upper = block([0.0, 0.0, 0.5], [1.0, 1.0, 0.5], [n - 1, n - 1, n / 2]);
+    let mut model = model(vec![
+        body("lower", lower.mesh().unwrap(), soft.clone()),
+        body("upper", upper.mesh().unwrap(), soft),
+    ]);
+    model.touch(("lower", "zmax"), ("upper", "zmin"), coulomb(0.0));
+    let mut step = step();
+    let down = [Some(0.0), Some(0.0), Some(-0.005)];
+    step.displacements = vec![
+        model.hold("lower", "zmin", [Some(0.0); 3]),
+        model.hold("upper", "zmax", down),
+    ];
+    model.steps = vec![step];
+    model.solver.backend = Backend::Iterative;
+    let run = Run::of(model);
+    is_iterative(&run);
+    let newton = run.iterations.iter().map(Vec::len).sum::<usize>();
+    let work = run.work.iter();
+    work.map(|work| work.krylov_iterations).sum::<usize>() as f64 / newton as f64
+}
+
+#[test]
+fn iterations_of_gmres_hardly_grow_where_meshes_do_not_match() {
+    let [coarse, fine] = [10, 22].map(krylov);
+    assert!(fine < 1.15 * coarse + 1.0, "{coarse} {fine}");
+}
+
 #[test]
 fn no_contact_at_all() {
     let soft = rubber(1.0, 0.3);
