@@ -141,7 +141,7 @@ fn krylov(n: usize) -> f64 {
 #[test]
 fn iterations_of_gmres_hardly_grow_where_meshes_do_not_match() {
     let [coarse, fine] = [10, 22].map(krylov);
-    assert!(fine < 1.15 * coarse + 1.0, "{coarse} {fine}");
+    assert!(fine < 1.15 * coarse && fine < 16.0, "{coarse} {fine}");
 }
 
 #[test]
