@@ -41,12 +41,12 @@ mod direct;
 #[cfg(feature = "petsc")]
 mod error;
 #[cfg(feature = "petsc")]
-#[cfg(feature = "petsc")]
 mod foreign;
 #[cfg(feature = "petsc")]
 mod halo;
 #[cfg(feature = "petsc")]
 mod iterative;
+#[cfg(feature = "petsc")]
 mod level;
 #[cfg(feature = "petsc")]
 mod nodes;
