@@ -4,12 +4,13 @@ use crate::{
     binding::{Entry, Library, Scatter},
     borders::lay,
     error::Error,
+    gathered::Gathered,
     nodes::{NONE, Nodes},
 };
 use std::{collections::HashMap, sync::Arc};
-use striae_condensed::{ContactFactors, Group, Numbering, Partition, Tangent};
+use striae_condensed::{ContactFactors, Numbering, Partition, Tangent};
 use striae_solve::team::Team;
-use striae_sparse::{Equilibration, SolveError, Supervariable, Tier};
+use striae_sparse::{Equilibration, SolveError, Supervariable};
 
 /// Numbers of a node that ranks add up: its block of the bodies, factors, flags.
 const SUMMED: usize = 15;
@@ -41,21 +42,6 @@ struct Incidence {
     constraint: u32,
     /// Number of the node's entry in it.
     entry: u32,
-}
-
-/// What all ranks know of the interface.
-struct Gathered {
-    groups: Vec<Group>,
-    entries: Vec<(u32, u32, f64)>,
-    /// Nodes of groups that have bulk unknowns.
-    nodes: Vec<u32>,
-    /// Number in the whole system of each multiplier.
-    multipliers: Vec<u32>,
-    /// Place of each group's unknowns.
-    node_places: HashMap<u32, u32>,
-    multiplier_places: HashMap<u32, u32>,
-    /// First unknown after all.
-    end: u32,
 }
 
 /// A part of a system whose interface is looked for.
@@ -320,97 +306,5 @@ impl Part<'_> {
         }
         gathered.sum();
         (bulk, prescribed)
-    }
-}
-
-impl Gathered {
-    /// From what ranks tell of groups: node, tier, multipliers with both their numbers.
-    fn new(words: impl Iterator<Item = u32>) -> Self {
-        let mut gathered = Self {
-            groups: Vec::new(),
-            entries: Vec::new(),
-            nodes: Vec::new(),
-            multipliers: Vec::new(),
-            node_places: HashMap::new(),
-            multiplier_places: HashMap::new(),
-            end: 0,
-        };
-        let words: Vec<u32> = words.collect();
-        let mut rest = words.as_slice();
-        while let [node, tier, count, others @ ..] = rest {
-            let (own, others) = others.split_at(2 * *count as usize);
-            gathered.add_group(*node, Tier(*tier), own);
-            rest = others;
-        }
-        gathered
-    }
-
-    /// A group with multipliers, each with its inner number and that in the whole system.
-    fn add_group(&mut self, node: u32, tier: Tier, multipliers: &[u32]) {
-        let bulk = if node == NONE { 0 } else { 3 };
-        if node != NONE {
-            self.node_places.insert(node, self.end);
-            self.nodes.push(node);
-        }
-        self.end += bulk;
-        for pair in multipliers.chunks_exact(2) {
-            self.multiplier_places.insert(pair[0], self.end);
-            self.multipliers.push(pair[1]);
-            self.end += 1;
-        }
-        self.groups.push(Group {
-            bulk: bulk as usize,
-            multipliers: multipliers.len() / 2,
-            tier,
-        });
-    }
-
-    /// Groups of nodes without multipliers that entries name, and the places of all entries.
-    fn add_bare_nodes(&mut self, nodes: &Nodes) {
-        let named = self
-            .entries
-            .iter()
-            .flat_map(|&(row, column, _)| [row, column]);
-        let mut bare: Vec<u32> = named
-            .filter(|&inner| !nodes.is_multiplier(inner))
-            .map(|inner| inner / 3)
-            .collect();
-        bare.sort_unstable();
-        bare.dedup();
-        bare.retain(|node| !self.node_places.contains_key(node));
-        for node in bare {
-            self.add_group(node, Tier(0), &[]);
-        }
-        let place = |inner: u32| match nodes.is_multiplier(inner) {
-            true => self.multiplier_places[&inner],
-            false => self.node_places[&(inner / 3)] + inner % 3,
-        };
-        for entry in &mut self.entries {
-            (entry.0, entry.1) = (place(entry.0), place(entry.1));
-        }
-    }
-
-    /// Adds up entries of one place, in the order of the ranks.
-    fn sum(&mut self) {
-        self.entries.sort_by_key(|&(row, column, _)| (row, column));
-        self.entries.dedup_by(|next, kept| {
-            let is_same = (next.0, next.1) == (kept.0, kept.1);
-            if is_same {
-                kept.2 += next.2;
-            }
-            is_same
-        });
-    }
-
-    /// Unknown of each multiplier.
-    fn multiplier_unknowns(&self) -> Vec<u32> {
-        let mut unknowns = Vec::with_capacity(self.multipliers.len());
-        let mut end = 0;
-        for group in &self.groups {
-            let first = end + group.bulk as u32;
-            end = first + group.multipliers as u32;
-            unknowns.extend(first..end);
-        }
-        unknowns
     }
 }

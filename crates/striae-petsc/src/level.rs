@@ -44,7 +44,7 @@ pub(crate) struct Level<const N: usize, const AREA: usize, const WIDE: usize> {
 enum Coarser {
     Level(Box<Level<MODES, COARSE, COARSE>>),
     /// With vectors of own unknowns.
-    Cycle(Cycle, [Vec<f64>; 2]),
+    Cycle(Box<Cycle>, [Vec<f64>; 2]),
 }
 
 /// Lists what is in one of this rank's rows, in any order, where blocks of one column add up.
@@ -323,7 +323,7 @@ impl Problem<'_> {
         let matrix = Matrix::assembled(self.library, (self.side, self.side), row)?;
         let unknowns = vec![0.0; self.side.unknowns().own];
         let cycle = Cycle::new(matrix, &coarse_kernel(self.team, coarsening))?;
-        Ok(cycle.map(|cycle| Coarser::Cycle(cycle, [unknowns.clone(), unknowns])))
+        Ok(cycle.map(|cycle| Coarser::Cycle(Box::new(cycle), [unknowns.clone(), unknowns])))
     }
 }
 

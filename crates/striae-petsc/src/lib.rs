@@ -43,6 +43,8 @@ mod error;
 #[cfg(feature = "petsc")]
 mod foreign;
 #[cfg(feature = "petsc")]
+mod gathered;
+#[cfg(feature = "petsc")]
 mod halo;
 #[cfg(feature = "petsc")]
 mod iterative;

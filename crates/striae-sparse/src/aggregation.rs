@@ -49,8 +49,7 @@ pub struct Hierarchy {
 
 impl Hierarchy {
     /// Levels of a matrix with a near-kernel of 3 rows by six a node. An aggregate, of any
-    /// level, has nodes of one part: bodies that slide on each other keep motions of their
-    /// own, however coarse.
+    /// level, has nodes of one part, so that parts keep motions of their own, however coarse.
     pub fn new(matrix: Blocks<3, 3, f64>, near_kernel: &[f64], parts: &[u32]) -> Option<Self> {
         let mut finest = Level::new(&matrix, matrix.rows(), (&mut Nobody, &|own| own));
         let (mut coarser, mut theta) = (Vec::new(), STRONG);

@@ -26,7 +26,7 @@ const DEGREE: usize = 2;
 pub(crate) struct Coarser {
     pub(crate) matrix: Blocks<MODES, MODES, f64>,
     pub(crate) near_kernel: Vec<f64>,
-    /// Part of the bodies that each aggregate is of.
+    /// Part that the nodes of each aggregate are of.
     pub(crate) parts: Vec<u32>,
 }
 

@@ -23,7 +23,7 @@ pub struct Coarsening {
     /// The near-kernel in terms of those, six rows by six an aggregate. Rows of columns that
     /// depend on others are zero, and so are those columns.
     pub near_kernel: Vec<f64>,
-    /// Part of the bodies that each aggregate is of.
+    /// Part that the nodes of each aggregate are of.
     pub parts: Vec<u32>,
 }
 
