@@ -15,14 +15,12 @@ use crate::{
 use rayon::prelude::*;
 use std::sync::Arc;
 use striae_solve::team::Team;
-use striae_sparse::aggregation::{Coarsening, MODES, NONE, Others, SharedLevel, blocks::Blocks};
+use striae_sparse::aggregation::{
+    COARSEST, Coarsening, MODES, NONE, Others, SLOW, SharedLevel, blocks::Blocks,
+};
 
 /// Values of a block of the next level.
 const COARSE: usize = MODES * MODES;
-/// Unknowns of all ranks from which on a level is ours.
-const MANY: usize = 1200;
-/// A level that has more than this share of the nodes of the finer one is the last of ours.
-const SLOW: f64 = 0.7;
 
 /// The finest level: three unknowns a node.
 pub(crate) type Finest = Level<3, 9, { 3 * MODES }>;
@@ -316,7 +314,7 @@ impl Problem<'_> {
             parts: &coarsening.parts,
         };
         let total = self.side.blocks.total;
-        if MODES * total > MANY && (total as f64) < SLOW * finer.blocks.total as f64 {
+        if MODES * total > COARSEST && (total as f64) < SLOW * finer.blocks.total as f64 {
             let level = Level::new(*self, kernel, &row)?;
             return Ok(level.map(|level| Coarser::Level(Box::new(level))));
         }

@@ -29,11 +29,11 @@ use others::Nobody;
 /// Columns of the near-kernel: rigid motions.
 pub const MODES: usize = 6;
 /// Unknowns of the coarsest level at most.
-const COARSEST: usize = 1200;
+pub const COARSEST: usize = 1200;
 /// Levels at most.
 const LEVELS: usize = 12;
 /// A level that has more than this share of the nodes of the finer one is not worth its work.
-const SLOW: f64 = 0.7;
+pub const SLOW: f64 = 0.7;
 /// Coupling above which nodes of the finest level may be in one aggregate.
 const STRONG: f64 = 0.06;
 /// The same of a level over that of the finer one.

@@ -24,7 +24,7 @@
 use super::{
     NONE,
     constraints::{Compliance, Constraint},
-    patches::{Patch, Surface},
+    patches::{Motion, Surface},
     scaled::Scaled,
     system::{RowSum, assembled},
 };
@@ -77,8 +77,8 @@ impl Contact {
             let found = forces.binary_search_by_key(&at, |f| f.0);
             found.map_or(&[], |k| &forces[k].1)
         };
-        let patches = Patch::all(scaled, surface);
-        let unknowns = multipliers.len() + patches.iter().map(|p| p.motions.len()).sum::<usize>();
+        let patches = Motion::all(scaled, surface);
+        let unknowns = multipliers.len() + patches.iter().map(Vec::len).sum::<usize>();
         let moved = moved(&patches, multipliers.len());
         let split: Vec<(Row, Row)> = multipliers
             .par_iter()
@@ -113,16 +113,14 @@ impl Contact {
             .collect();
         let (rows, mut matrix): (Vec<Row>, Vec<Row>) = split.into_iter().unzip();
         let mut sum = RowSum::new(unknowns);
-        for patch in &patches {
-            for motion in &patch.motions {
-                for &(at, z) in motion {
-                    force(at).iter().for_each(|&(m, c)| sum.add(m, z * c));
-                }
-                sum.add(matrix.len() as u32, patch.stiffness);
-                matrix.push(sum.take());
+        for motion in patches.iter().flatten() {
+            for &(at, z) in &motion.vector {
+                force(at).iter().for_each(|&(m, c)| sum.add(m, z * c));
             }
+            sum.add(matrix.len() as u32, motion.stiffness);
+            matrix.push(sum.take());
         }
-        let sizes = patches.iter().map(|patch| patch.motions.len());
+        let sizes = patches.iter().map(Vec::len);
         let matrix = assembled(scaled, sizes, &matrix)?;
         let mut solver = MultifrontalLu::new();
         solver.analyse(matrix.structure())?;
@@ -134,7 +132,7 @@ impl Contact {
             forces,
             stiffness,
             compliance,
-            motions: patches.into_iter().flat_map(|p| p.motions).collect(),
+            motions: patches.into_iter().flatten().map(|m| m.vector).collect(),
             solver,
         })
     }
@@ -192,11 +190,10 @@ impl Contact {
 }
 
 /// Motions of patches by the positions that they move: numbers after those of multipliers.
-fn moved(patches: &[Patch], multipliers: usize) -> HashMap<u32, Vec<(u32, f64)>> {
+fn moved(patches: &[Vec<Motion>], multipliers: usize) -> HashMap<u32, Vec<(u32, f64)>> {
     let mut moved: HashMap<u32, Vec<(u32, f64)>> = HashMap::new();
-    let motions = patches.iter().flat_map(|patch| &patch.motions);
-    for (v, motion) in (multipliers as u32..).zip(motions) {
-        for &(at, z) in motion {
+    for (v, motion) in (multipliers as u32..).zip(patches.iter().flatten()) {
+        for &(at, z) in &motion.vector {
             moved.entry(at).or_default().push((v, z));
         }
     }

@@ -11,7 +11,9 @@
 //! ```
 //!
 //! with unit vectors `z_a` of the translations of patches of two sizes, as in the
-//! preconditioner of Bramble, Pasciak and Xu (doi:10.1090/S0025-5718-1990-1023042-6).
+//! preconditioner of Bramble, Pasciak and Xu (doi:10.1090/S0025-5718-1990-1023042-6). The
+//! system is scaled, so that a node alone meets a stiffness of about one; `n_a` counts the
+//! nodes that are free to move along the axis.
 
 use super::scaled::Scaled;
 use std::collections::{BTreeMap, BTreeSet};
@@ -21,7 +23,7 @@ use striae_sparse::{Supervariable, sparse_elimination::Row};
 const STIFFNESS: [f64; 2] = [1.0, 3.0];
 
 /// Nodes that multipliers couple to, with those among them that elements couple to each.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Debug)]
 pub(super) struct Surface {
     /// Numbers of nodes, rising.
     nodes: Vec<u32>,
@@ -75,13 +77,17 @@ impl Surface {
             let others = others.iter().map(|&other| of[other as usize]);
             near[of[k] as usize].extend(others);
         }
-        let large = groups(&near).into_iter().map(|patches| {
+        // A patch alone has its motion already.
+        let large = groups(&near)
+            .into_iter()
+            .filter(|patches| patches.len() > 1);
+        let large = large.map(|patches| {
             let members = patches
                 .iter()
                 .map(|&patch| small[patch as usize].as_slice());
             members.collect::<Vec<_>>().concat()
         });
-        let large: Vec<Vec<u32>> = large.filter(|members| !small.contains(members)).collect();
+        let large = large.collect();
         [small, large].map(|patches| {
             let by_node = patches.into_iter().filter(|members| members.len() > 1);
             let node = |k: u32| self.nodes[k as usize];
@@ -92,47 +98,52 @@ impl Surface {
     }
 }
 
-/// Translations of a patch.
+/// A translation of a patch.
 #[derive(Debug)]
-pub(super) struct Patch {
-    /// Unit vectors, one an axis along which any node is free, by `3 node + component`.
-    pub(super) motions: Vec<Row>,
-    /// Stiffness `d` that each meets.
+pub(super) struct Motion {
+    /// Unit vector, by `3 node + component`.
+    pub(super) vector: Row,
+    /// Stiffness `d` that it meets.
     pub(super) stiffness: f64,
 }
 
-impl Patch {
-    /// Patches of a surface, the smaller ones first.
-    pub(super) fn all(scaled: &Scaled<'_>, surface: &Surface) -> Vec<Self> {
+impl Motion {
+    /// Translations of the patches of a surface, the smaller ones first: one for each axis
+    /// along which any node of a patch is free.
+    pub(super) fn all(scaled: &Scaled<'_>, surface: &Surface) -> Vec<Vec<Self>> {
         let sizes = surface.patches().into_iter().zip(STIFFNESS);
         let patches = sizes.flat_map(|(patches, gamma)| {
             let patches = patches.into_iter();
-            patches.map(move |nodes| Self::new(scaled, &nodes, gamma))
+            patches.map(move |nodes| {
+                let axes = (0..3).map(|axis| Self::along(scaled, &nodes, axis, gamma));
+                axes.filter(|motion| !motion.vector.is_empty()).collect()
+            })
         });
         patches.collect()
     }
 
-    fn new(scaled: &Scaled<'_>, nodes: &[u32], gamma: f64) -> Self {
-        let motion = |component: usize| {
-            let mut motion = Row::new();
-            for &node in nodes {
-                let i = scaled.nodes.supervariables[node as usize] as usize;
-                let unknown = scaled.nodes.partition.bulk_group(i).start + component;
-                if !scaled.prescribed[unknown] {
-                    let value = 1.0 / scaled.scaling.columns[unknown];
-                    motion.push((3 * node + component as u32, value));
-                }
+    fn along(scaled: &Scaled<'_>, nodes: &[u32], axis: usize, gamma: f64) -> Self {
+        let mut vector = Row::new();
+        for &node in nodes {
+            let i = scaled.nodes.supervariables[node as usize] as usize;
+            let unknown = scaled.nodes.partition.bulk_group(i).start + axis;
+            if !scaled.prescribed[unknown] {
+                let value = 1.0 / scaled.scaling.columns[unknown];
+                vector.push((3 * node + axis as u32, value));
             }
-            let length = motion.iter().map(|e| e.1 * e.1).sum::<f64>().sqrt();
-            motion.iter_mut().for_each(|entry| entry.1 /= length);
-            motion
-        };
-        let motions = (0..3).map(motion).filter(|motion| !motion.is_empty());
+        }
+        let length = vector.iter().map(|e| e.1 * e.1).sum::<f64>().sqrt();
+        vector.iter_mut().for_each(|entry| entry.1 /= length);
         Self {
-            motions: motions.collect(),
-            stiffness: gamma / (nodes.len() as f64).sqrt(),
+            stiffness: stiffness(gamma, vector.len()),
+            vector,
         }
     }
+}
+
+/// Stiffness `d` of so many nodes that move as one.
+fn stiffness(gamma: f64, nodes: usize) -> f64 {
+    gamma / (nodes as f64).sqrt()
 }
 
 /// Groups, each of one with all that are near it, where none of them is taken; what is left
@@ -186,6 +197,31 @@ mod tests {
             }
             assert!(small.len() > 2 * large.len(), "{nodes:?}");
         }
+    }
+
+    /// `f F f` of a unit force spread over some nodes, over what a node yields alone.
+    fn yielded(patches: &[Vec<Vec<u32>>; 2], nodes: &[u32]) -> f64 {
+        let motions = patches.iter().zip(STIFFNESS).flat_map(|(patches, gamma)| {
+            patches.iter().map(move |patch| {
+                let both = patch.iter().filter(|node| nodes.contains(node)).count() as f64;
+                let work = both / ((patch.len() * nodes.len()) as f64).sqrt();
+                work * work / stiffness(gamma, patch.len())
+            })
+        });
+        1.0 + motions.sum::<f64>()
+    }
+
+    #[test]
+    fn a_region_yields_by_its_width_as_a_half_space_does() {
+        let patches = Surface::new(&grid([45, 45])).patches();
+        // To a factor of two. Smaller ones are at the edge, where a node has fewer neighbours.
+        for patch in patches.iter().flatten().filter(|patch| patch.len() >= 9) {
+            let width = (patch.len() as f64).sqrt();
+            let ratio = yielded(&patches, patch) / width;
+            assert!(ratio > 0.5 && ratio < 2.0, "{width} {ratio}");
+        }
+        let node = yielded(&patches, &[1000]);
+        assert!(node > 1.0 && node < 1.8, "{node}");
     }
 
     #[test]

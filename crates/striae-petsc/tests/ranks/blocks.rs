@@ -35,6 +35,8 @@ pub struct Blocks {
     pub stiffness: [f64; 2],
     pub contact: Contact,
     pub top: Top,
+    /// Slices that each rank has of a block.
+    pub slices: usize,
 }
 
 /// What a rank holds.
@@ -71,7 +73,7 @@ impl Blocks {
         }
     }
 
-    /// Cells of a block, with the rank that has each: slices along the first axis.
+    /// Cells of a block, with the rank that has each: slices along the first axis, in turn.
     fn cells(&self, block: usize, ranks: usize) -> Vec<(usize, [usize; 8])> {
         let (side, height) = (self.side, self.height);
         let mut cells = Vec::new();
@@ -82,7 +84,7 @@ impl Blocks {
                         let (x, y, z) = (x + (k & 1), y + (k >> 1 & 1), z + (k >> 2));
                         x + side * (y + side * z)
                     });
-                    cells.push((x * ranks / (side - 1), cell));
+                    cells.push((x * ranks * self.slices / (side - 1) % ranks, cell));
                 }
             }
         }

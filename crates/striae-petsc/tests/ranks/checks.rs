@@ -74,6 +74,7 @@ fn cases() -> impl Iterator<Item = Blocks> {
         stiffness,
         contact,
         top,
+        slices: 1,
     })
 }
 
@@ -159,7 +160,8 @@ fn iterative(ranks: &Ranks) {
     }
 }
 
-/// Of blocks that have a coarser level of their own before the levels of PETSc.
+/// Of blocks that have a coarser level of their own before the levels of PETSc, with many
+/// borders between ranks.
 fn several_levels(ranks: &Ranks) {
     for contact in [Contact::Stick, Contact::Slip] {
         let blocks = Blocks {
@@ -168,12 +170,14 @@ fn several_levels(ranks: &Ranks) {
             stiffness: [1.0, 1.0],
             contact,
             top: Top::Free,
+            slices: 4,
         };
         let part = blocks.part(Rank(ranks.rank(), ranks.size()));
         let mut solver = PetscSolver::new(ranks, Choice::Iterative);
         let (x, method, report) = solved(&mut solver, &part, 1e-9);
         assert_eq!(method, Method::Iterative);
-        assert!(report.krylov_iterations <= 40, "{blocks:?} {report:?}");
+        let iterations = report.krylov_iterations;
+        assert!((1..=26).contains(&iterations), "{blocks:?} {report:?}");
         let error = difference(&blocks, &part, &x);
         assert!(error < 1e-7, "{blocks:?} {error:e} {report:?}");
         check_same(ranks, &part, &x);
@@ -199,6 +203,7 @@ fn blocks(top: Top) -> Blocks {
         stiffness: [1.0, 2.0],
         contact: Contact::Slip,
         top,
+        slices: 1,
     }
 }
 

@@ -20,6 +20,7 @@ pub fn report(ranks: &Ranks, sides: &[&str]) {
                 stiffness: [1.0, 2.0],
                 contact,
                 top: Top::Held,
+                slices: 1,
             };
             let part = blocks.part(Rank(ranks.rank(), ranks.size()));
             let unknowns = part.numbering.count;
