@@ -14,6 +14,7 @@
 mod cases;
 mod differences;
 mod endings;
+mod evidence;
 mod scenes;
 mod started;
 

@@ -5,12 +5,13 @@
 //! stops at, they must stop at.
 //!
 //! Where the state of a point hangs on round-off, iterations may take another way on ranks, and
-//! even lead to another state. That is no fault of ranks if it does the same on one process: the
-//! scene is run there again and again with prescribed motions and loads that differ by `1e-12`
-//! of their size, until a run differs from the first one as much as ranks do. Such scenes are
-//! named with what was found; where no run does, ranks are wrong. Before that the ranks are run
-//! again where increments are others, or nothing but iterations is over the bounds, as the last
-//! digits of MUMPS differ from run to run: that excuses them if a run agrees with one process.
+//! even lead to another of several states in balance: friction that weakens has more than one.
+//! That is no fault of ranks if it does the same on one process: the scene is run there again and
+//! again with prescribed motions and loads that differ by `1e-12` of their size, until that is
+//! [`Evidence`] enough. Such scenes are named with what was found; where there is none, ranks are
+//! wrong. Before that the ranks are run again where increments are others, or nothing but
+//! iterations is over the bounds, as the last digits of MUMPS differ from run to run: that excuses
+//! them if a run agrees with one process.
 
 use std::{
     fmt, fs,
@@ -19,7 +20,8 @@ use std::{
 
 use super::{
     cases::{Extent, by_multifrontal},
-    differences::{Differences, FORCES, ITERATIONS},
+    differences::{Differences, FORCES},
+    evidence::Evidence,
     started::{broken_off, history, start},
 };
 use crate::{
@@ -31,12 +33,12 @@ use crate::{
 const RANKS: usize = 3;
 /// The first seed of all, and how many there are.
 const SEEDS: std::ops::Range<u64> = 81_000..81_050;
-/// Seeds that take a second or two: one that is refused, one that hangs on round-off.
-const SHORT: [u64; 6] = [81_003, 81_004, 81_005, 81_031, 81_046, 81_048];
+/// Seeds that take a second or two: one that is refused, none that hangs on round-off.
+const SHORT: [u64; 6] = [81_003, 81_004, 81_005, 81_012, 81_046, 81_048];
 /// Change of loads and motions, over their size.
 const CHANGE: f64 = 1e-12;
-/// How many changed runs there are at most.
-const CHANGES: u64 = 40;
+/// How many changed runs there are at most: of scene 81031 one in twelve comes to another state.
+const CHANGES: u64 = 120;
 /// Runs on ranks that are made again first.
 const RUNS: usize = 4;
 
@@ -108,7 +110,7 @@ impl Scene<'_> {
                     Ok(found) if one == other && found.are_small() => {
                         Ok(format!("{codes}, {found}"))
                     }
-                    found => self.excused(alone, (*one, *other), found)?,
+                    found => self.excused((alone, together), (*one, *other), found)?,
                 }
             }
             _ => Err(format!("{alone} on one process, {together} on ranks")),
@@ -132,10 +134,10 @@ impl Scene<'_> {
         Ok(None)
     }
 
-    /// Whether the ranks differ from themselves, or one process from itself as much.
+    /// Whether the ranks differ from themselves, or one process from itself as they do.
     fn excused(
         &self,
-        alone: &History,
+        (alone, together): (&History, &History),
         (one, other): (i32, i32),
         found: Result<Differences, String>,
     ) -> Result<Result<String, String>, Fault> {
@@ -156,26 +158,16 @@ impl Scene<'_> {
                 "{said}; HANGS ON ROUND-OFF: the same ranks again: {again}"
             )));
         }
+        let mut evidence = Evidence::new(alone, together);
         for number in 0..CHANGES {
             let deck = changed(&self.deck, number);
             let Outcome::Ran(code, history) = self.alone("changed", &deck)? else {
                 continue;
             };
-            let changed = Differences::of(alone, &history);
-            let as_much = match (&found, &changed) {
-                (Ok(found), Ok(changed)) => one == other && found.is_within(changed),
-                // Other increments: what they come to cannot be held against each other.
-                (_, Err(_)) => code == other,
-                (Err(_), Ok(_)) => false,
-            };
-            if as_much {
-                let change = match changed {
-                    Ok(changed) => changed.to_string(),
-                    Err(words) => words,
-                };
+            if let Some(words) = evidence.with(&history, code == other) {
                 return Ok(Ok(format!(
                     "{said}; HANGS ON ROUND-OFF: one process with loads changed by {CHANGE:.0e}, \
-                     change {number}: {change}"
+                     change {number}: {words}"
                 )));
             }
         }
@@ -208,14 +200,6 @@ impl Scene<'_> {
                 ended.words
             ))),
         }
-    }
-}
-
-impl Differences {
-    /// Whether others are as large, but for those that are small.
-    fn is_within(&self, others: &Self) -> bool {
-        let forces = self.forces <= FORCES.max(others.forces);
-        forces && self.iterations <= ITERATIONS.max(others.iterations)
     }
 }
 
@@ -273,14 +257,5 @@ mod tests {
         assert_eq!(head, deck.split_once("x = ").unwrap().0);
         let value: f64 = rest.split_once(',').unwrap().0.parse().unwrap();
         assert!(value != -0.25 && (value + 0.25).abs() <= 0.25 * 1.01 * CHANGE);
-    }
-
-    #[test]
-    fn small_differences_need_no_others() {
-        let of = |forces, iterations| Differences { forces, iterations };
-        assert!(of(1e-9, 1.0).is_within(&of(0.0, 0.0)));
-        assert!(of(1e-9, 5.0).is_within(&of(0.0, 5.0)));
-        assert!(!of(1e-7, 5.0).is_within(&of(0.0, 5.0)));
-        assert!(!of(1e-9, 5.0).is_within(&of(1.0, 4.0)));
     }
 }
