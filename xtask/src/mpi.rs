@@ -2,6 +2,7 @@
 //!
 //! | part | what it does |
 //! | --- | --- |
+//! | `lints` | lints of what the feature adds |
 //! | `tests` | tests of the crate, see [`TESTS`] |
 //! | `cases` | published [`cases`] on ranks against one process |
 //! | `endings` | runs that are killed, cannot go on, have no room or get a signal, see [`endings`] |
@@ -34,6 +35,21 @@ struct Test {
     features: &'static str,
 }
 
+/// In the profile of `cargo xtask check`, whose types it finds built.
+const LINTS: [&str; 12] = [
+    "clippy",
+    "--release",
+    "-p",
+    "striae-petsc",
+    "-p",
+    "striae-cli",
+    "--all-targets",
+    "--features",
+    "striae-petsc/petsc,striae-cli/petsc",
+    "--",
+    "--deny",
+    "warnings",
+];
 const TESTS: [Test; 1] = [Test {
     package: "striae-petsc",
     target: "ranks",
@@ -56,6 +72,7 @@ const ENVIRONMENT: [(&str, &str); 4] = [
 /// What is run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Part {
+    Lints,
     Tests,
     Cases,
     Endings,
@@ -63,12 +80,18 @@ enum Part {
 }
 
 impl Part {
-    const ALL: [(&str, Self); 4] = [
+    const ALL: [(&str, Self); 5] = [
+        ("lints", Self::Lints),
         ("tests", Self::Tests),
         ("cases", Self::Cases),
         ("endings", Self::Endings),
         ("scenes", Self::Scenes),
     ];
+
+    /// Whether the program is run.
+    fn is_of_program(self) -> bool {
+        !matches!(self, Self::Lints | Self::Tests)
+    }
 }
 
 /// Builds the tests and the program and runs what is asked for, or all.
@@ -78,10 +101,13 @@ impl Part {
 pub fn check(options: &[String]) -> Result<(), Fault> {
     let (extent, parts) = asked(options)?;
     missing()?;
+    if parts.contains(&Part::Lints) {
+        cargo::cargo(&LINTS, &[])?;
+    }
     if parts.contains(&Part::Tests) {
         tests()?;
     }
-    if parts == [Part::Tests] {
+    if !parts.iter().any(|part| part.is_of_program()) {
         return Ok(());
     }
     let build = ["build", "--release", "-p", "striae-cli"];
@@ -90,7 +116,7 @@ pub fn check(options: &[String]) -> Result<(), Fault> {
     for part in parts {
         let started = Instant::now();
         match part {
-            Part::Tests => continue,
+            Part::Lints | Part::Tests => continue,
             Part::Cases => cases::check(&program, extent)?,
             Part::Endings => endings::check(&program, extent)?,
             Part::Scenes => scenes::check(&program, extent)?,
@@ -109,8 +135,10 @@ fn asked(options: &[String]) -> Result<(Extent, Vec<Part>), Fault> {
             Some((_, part)) => parts.push(part),
             None if option == "--all" => extent = Extent::All,
             None => {
-                let usage = "usage: cargo xtask mpi [--all] [tests] [cases] [endings] [scenes]";
-                return Err(Fault::Option(usage.into()));
+                let parts = Part::ALL.map(|(name, _)| format!("[{name}]")).join(" ");
+                return Err(Fault::Option(format!(
+                    "usage: cargo xtask mpi [--all] {parts}"
+                )));
             }
         }
     }

@@ -95,11 +95,6 @@ pub enum Failure {
     #[cfg(not(feature = "petsc"))]
     #[error("this program was built without PETSc; build it with `--features petsc`")]
     NoPetsc,
-    /// Something that several ranks cannot do.
-    #[error(
-        "`resume --with` works on one rank only; without `mpirun` it goes on from any checkpoint"
-    )]
-    Alone,
     /// Another rank tells it.
     #[cfg_attr(
         not(feature = "petsc"),
@@ -175,8 +170,7 @@ impl Failure {
             }
             #[cfg(not(feature = "petsc"))]
             Self::NoPetsc => ExitCode::from(2),
-            Self::Alone
-            | Self::Deck(_)
+            Self::Deck(_)
             | Self::Model(_)
             | Self::Exists(_)
             | Self::Checkpoint(_)

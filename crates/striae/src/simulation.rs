@@ -7,7 +7,7 @@
 //!           ::resume(folder)   a run that was stopped
 //!           ::after(run, steps) a run that has ended, with further steps
 //!           ::resume_with(folder, deck) a run with the steps of another deck
-//!           ::open_on(ranks, path), ::resume_on(ranks, folder)  the same on several ranks
+//!           ::open_on(ranks, path), ::resume_on, ::resume_with_on  the same on several ranks
 //!     .writing(output).recorded(folder, case).until(interrupt)
 //!     .run() or .run_with(observer) -> Finished
 //! ```

@@ -9,11 +9,13 @@
 //! | `mpirun` gets SIGTERM | "stopping after this increment" |
 //! | `mpirun` gets SIGUSR1, ranks get SIGTERM | "interrupted at time" |
 //! | ranks get SIGTERM twice, with `--all` | "interrupt again to stop at once" |
+//! | a run that was stopped, or has completed, takes other steps | "all steps completed" |
 //!
 //! All must end within a minute, with an exit code that is not 0, and with a checkpoint, from
 //! which another number of ranks comes to the forces of a run that was left alone. A full disk
 //! is passed over where nothing may be mounted.
 
+mod branches;
 mod decks;
 
 use std::{
@@ -73,6 +75,7 @@ pub fn check(program: &Path, extent: Extent) -> Result<(), Fault> {
     trials.signalled("long", late, 2)?;
     trials.signalled("pad", ("-USR1", To::Mpirun, "interrupted at time"), 1)?;
     trials.signalled("pad", ("-TERM", To::Ranks, "interrupted at time"), after[1])?;
+    trials.branched()?;
     match extent {
         Extent::Short => Ok(()),
         Extent::All => trials.twice(),

@@ -4,9 +4,10 @@
 use std::{
     io::Write,
     path::{Path, PathBuf},
+    sync::Arc,
 };
 
-use striae::{Simulation, case_name};
+use striae::{Ranks, Simulation, case_name};
 use striae_output::Existing;
 
 use super::run::{Common, Reported, finish};
@@ -50,8 +51,7 @@ fn resume_on(arguments: &Arguments, crew: &Crew, out: &mut dyn Write) -> Result<
     let (simulation, folder) = match (&arguments.with, crew.ranks()) {
         (None, None) => (Simulation::resume(&arguments.folder)?, own()),
         (None, Some(ranks)) => (Simulation::resume_on(ranks, &arguments.folder)?, own()),
-        (Some(deck), None) => branched(arguments, deck)?,
-        (Some(_), Some(_)) => return Err(Failure::Alone),
+        (Some(deck), ranks) => branched(arguments, deck, ranks)?,
     };
     let report = arguments.report.of(&folder);
     let common = (&arguments.common, crew.voice());
@@ -59,13 +59,21 @@ fn resume_on(arguments: &Arguments, crew: &Crew, out: &mut dyn Write) -> Result<
 }
 
 /// The run with other steps, and its folder.
-fn branched(arguments: &Arguments, deck: &Path) -> Result<(Simulation, PathBuf), Failure> {
+fn branched(
+    arguments: &Arguments,
+    deck: &Path,
+    ranks: Option<Arc<dyn Ranks>>,
+) -> Result<(Simulation, PathBuf), Failure> {
     let own = || Path::new("results").join(case_name(deck));
     let folder = arguments.out.clone().unwrap_or_else(own);
     let existing = match arguments.overwrite {
         true => Existing::Replace,
         false => Existing::Keep,
     };
-    let simulation = Simulation::resume_with(&arguments.folder, deck, &folder)?;
+    let old = &arguments.folder;
+    let simulation = match ranks {
+        None => Simulation::resume_with(old, deck, &folder)?,
+        Some(ranks) => Simulation::resume_with_on(ranks, old, deck, &folder)?,
+    };
     Ok((simulation.over(existing), folder))
 }

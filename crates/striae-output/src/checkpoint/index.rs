@@ -84,6 +84,12 @@ impl Index {
         &self.checkpoint.written
     }
 
+    /// The step that was under way, and the fraction of it that was done.
+    pub fn reached(&self) -> (usize, f64) {
+        let point = &self.checkpoint.point;
+        (point.step, point.fraction)
+    }
+
     /// On how many ranks it was written.
     pub fn ranks(&self) -> usize {
         self.pieces.len().max(1)

@@ -12,21 +12,33 @@
 //! and loads of that step stay as large as they were then. Where the new deck states it in
 //! the same way, the run finishes it first.
 
-use std::path::{Path, PathBuf};
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
-use striae_deck::Deck;
-use striae_output::checkpoint::{Checkpoint, CheckpointError, Source, step_fingerprint};
+use striae_output::checkpoint::{Checkpoint, CheckpointError, Index, step_fingerprint};
 use striae_solve::{
-    drive::Point,
     model::{Curve, Gravity, Load, Model, RigidMotion, Step},
     plan::{PlannedLoad, plans},
 };
 
-use super::{Begun, Simulation, case_name};
-use crate::error::Error;
+use super::{Begun, Simulation, case_name, source};
+use crate::{
+    error::Error,
+    ranks::{Ranks, agreed},
+};
 
 /// Fraction from which on a step is done.
 const DONE: f64 = 1.0;
+
+/// Where a run takes up the steps of another deck.
+enum TakenUp {
+    /// After so many steps.
+    After(usize),
+    /// Within a step that both decks have.
+    Within,
+}
 
 impl Simulation {
     /// Goes on from the checkpoint in a folder, of a run that was stopped or has
@@ -39,45 +51,75 @@ impl Simulation {
     /// When there is no checkpoint, by name what differs between the decks, or all
     /// faults of the new one.
     pub fn resume_with(folder: &Path, deck: &Path, out: impl Into<PathBuf>) -> Result<Self, Error> {
-        let Checkpoint { source, point, .. } = Checkpoint::read_last(folder)?;
-        let Deck { model, output, .. } = striae_deck::read(deck)?;
-        source.check_parts(&model)?;
-        let steps = model.steps.len();
-        let (model, begun) = continued(model, &source, point)?;
-        let is_of_deck = model.steps.len() == steps;
-        let mut simulation = Self::new(model)?.writing(output);
-        simulation.begun = begun;
-        Ok(match is_of_deck {
-            true => simulation.resumable(out, case_name(deck), deck),
-            false => simulation.recorded(out, case_name(deck)),
+        Self::branched(None, folder, deck, out.into())
+    }
+
+    /// The same on several ranks, however many wrote the checkpoint; collective.
+    ///
+    /// # Errors
+    /// As [`Self::resume_with`], on all ranks.
+    pub fn resume_with_on(
+        ranks: Arc<dyn Ranks>,
+        folder: &Path,
+        deck: &Path,
+        out: impl Into<PathBuf>,
+    ) -> Result<Self, Error> {
+        Self::branched(Some(ranks), folder, deck, out.into())
+    }
+
+    fn branched(
+        ranks: Option<Arc<dyn Ranks>>,
+        folder: &Path,
+        path: &Path,
+        out: PathBuf,
+    ) -> Result<Self, Error> {
+        let read = || -> Result<_, Error> {
+            let index = Index::read_last(folder)?;
+            let mut deck = striae_deck::read(path)?;
+            index.source().check_parts(&deck.model)?;
+            let own = source(case_name(path), path, &deck.model, &deck.output);
+            let steps = deck.model.steps.len();
+            let taken_up = continued(&mut deck.model, &index)?;
+            let is_of_deck = deck.model.steps.len() == steps;
+            Ok((index, deck, taken_up, is_of_deck.then_some(own)))
+        };
+        let (index, deck, taken_up, own) = agreed(ranks.as_ref(), read())?;
+        let simulation = Self::of_on(ranks, deck)?;
+        let Checkpoint { point, .. } = index.held(&simulation.problem)?;
+        let mut simulation = simulation.recorded(out, case_name(path));
+        simulation.begun = match taken_up {
+            TakenUp::Within => Begun::Within(Box::new(point)),
+            TakenUp::After(steps) => Begun::After(Box::new((steps, point.increments, point.state))),
+        };
+        Ok(match own {
+            Some(own) => simulation.with_source(own),
+            None => simulation,
         })
     }
 }
 
-/// The model with all steps, those done first, and where it begins.
-fn continued(mut model: Model, source: &Source, point: Point) -> Result<(Model, Begun), Error> {
-    let under_way = point.step;
-    let is_done = point.fraction >= DONE;
+/// Where a checkpoint takes up the steps of a model, which gets the part of a step that is done
+/// and that it states otherwise.
+fn continued(model: &mut Model, index: &Index) -> Result<TakenUp, Error> {
+    let (source, (under_way, fraction)) = (index.source(), index.reached());
+    let is_done = fraction >= DONE;
     let done = under_way + usize::from(is_done);
-    source.check_steps(&model, done)?;
+    source.check_steps(model, done)?;
     if model.steps.len() == done {
         return Err(CheckpointError::NothingLeft.into());
     }
-    let increments = point.increments;
     if is_done {
-        let begun = Begun::After(Box::new((done, increments, point.state)));
-        return Ok((model, begun));
+        return Ok(TakenUp::After(done));
     }
     let (_, known) = &source.steps[under_way];
     if step_fingerprint(&model.steps[under_way]) == *known {
-        return Ok((model, Begun::Within(Box::new(point))));
+        return Ok(TakenUp::Within);
     }
     let old = striae_deck::read(&source.path)?;
     source.check(&old.model, &old.output)?;
-    let part = ended(&old.model, under_way, point.fraction);
+    let part = ended(&old.model, under_way, fraction);
     model.steps.insert(under_way, part);
-    let begun = Begun::After(Box::new((under_way + 1, increments, point.state)));
-    Ok((model, begun))
+    Ok(TakenUp::After(under_way + 1))
 }
 
 /// A step that ends at a fraction of itself, with the loads it has there.
