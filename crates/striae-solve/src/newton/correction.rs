@@ -1,8 +1,11 @@
 //! Corrections applied to a trial state.
 
 use striae_contact::{
-    complementarity::Iteration, evaluation::Evaluation, segment::Derivatives, side::Side,
-    unknowns::Tractions,
+    complementarity::Iteration,
+    evaluation::Evaluation,
+    segment::Derivatives,
+    side::Side,
+    unknowns::{Status, Tractions},
 };
 use striae_mesh::Vec3;
 use striae_surface::node::SurfaceNode;
@@ -10,7 +13,6 @@ use striae_surface::node::SurfaceNode;
 use super::workspace::{SystemStorage, Workspace};
 use crate::{
     assembly::{Assembled, Setting, Trial},
-    layout::Layout,
     outcome::CutBack,
 };
 
@@ -52,7 +54,8 @@ pub(super) fn step(
     }
 }
 
-/// The trial state with a part of a correction.
+/// The trial state with a part of a correction. Nodes of a trial have the labels of the rows by
+/// which it is corrected.
 pub(super) fn corrected(
     setting: &Setting,
     system: &SystemStorage,
@@ -82,25 +85,84 @@ pub(super) fn corrected(
     }
     problem.ties.follow(&mut next.positions);
     for (pair, tractions) in next.tractions.iter_mut().enumerate() {
-        add_tractions(layout, pair, tractions, correction, factor);
+        let selection = &setting.selections[pair];
+        add_tractions(tractions, correction, factor, |side, node| {
+            let rows = match selection.is_kept(side, node) {
+                true => Rows::OfStatus,
+                false => Rows::Idle,
+            };
+            layout.traction(pair, side, node).map(|first| (first, rows))
+        });
     }
     next
 }
 
+/// What the rows of the tractions of a node state.
+#[derive(Clone, Copy, PartialEq)]
+enum Rows {
+    /// What the status of the node asks for.
+    OfStatus,
+    /// That they stay as they are.
+    Idle,
+}
+
+/// Adds a part of a correction to tractions; `place` finds their unknowns.
+///
+/// Rows of open nodes are `p = 0` and `z = 0`. What they ask for is known, and what a solver
+/// finds differs from it by round-off, or by what an iterative one leaves. That would decide
+/// the friction of a node that closes next, as the derivative of `varpi = mu max(p, 0)` jumps
+/// at zero, and with it how many iterations follow.
 fn add_tractions(
-    layout: &Layout,
-    pair: usize,
     tractions: &mut Tractions,
     correction: &[f64],
     factor: f64,
+    place: impl Fn(Side, SurfaceNode) -> Option<(usize, Rows)>,
 ) {
     for side in Side::BOTH {
-        for (node, unknowns) in tractions.nodes[side].iter_mut().enumerate() {
-            if let Some(first) = layout.traction(pair, side, SurfaceNode::new(node)) {
-                for (component, unknown) in unknowns.iter_mut().enumerate() {
-                    *unknown += factor * correction[first + component];
-                }
+        let nodes = tractions.nodes[side]
+            .iter_mut()
+            .zip(&tractions.labels[side]);
+        for (node, (unknowns, label)) in nodes.enumerate() {
+            let Some((first, rows)) = place(side, SurfaceNode::new(node)) else {
+                continue;
+            };
+            let is_open = rows == Rows::OfStatus && label.status == Status::Open;
+            for (component, unknown) in unknowns.iter_mut().enumerate() {
+                let change = match is_open {
+                    true => -*unknown,
+                    false => correction[first + component],
+                };
+                *unknown += factor * change;
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn open_nodes_keep_nothing_of_the_errors_of_solvers() {
+        let mut tractions = Tractions::zero([3, 0]);
+        tractions.nodes[Side::A] = vec![[4.0, 2.0, -2.0]; 3];
+        for (node, status) in [Status::Open, Status::Stick].into_iter().enumerate() {
+            tractions.labels[Side::A][node].status = status;
+        }
+        let correction = [-4.0 + 1e-13, -2.0, 2.0 + 1e-7];
+        let place = |_, node: SurfaceNode| {
+            let rows = [Rows::OfStatus, Rows::OfStatus, Rows::Idle];
+            Some((0, rows[node.index()]))
+        };
+        let mut half = tractions.clone();
+        add_tractions(&mut half, &correction, 0.5, place);
+        assert_eq!(half.nodes[Side::A][0], [2.0, 1.0, -1.0]);
+        add_tractions(&mut tractions, &correction, 1.0, place);
+        let [open, stick, idle] = &tractions.nodes[Side::A][..] else {
+            panic!("three nodes")
+        };
+        assert_eq!(open, &[0.0; 3]);
+        assert!(stick[0] > 0.0 && stick[2] > 0.0);
+        assert_eq!(stick, idle);
     }
 }
