@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import signal
+
 import matplotlib
 import pytest
 import striae as st
 
 matplotlib.use("Agg")
+# A shell's job in the background is started with interrupts ignored, and so are its programs.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture
