@@ -27,9 +27,9 @@ use crate::{
     pointed,
     segment_rows::{ROWS, Slip},
     selection::Selection,
-    side::Side,
     term::{Gradient, Jacobian},
     tracked::{Tracked, TrackedScalar},
+    traction_basis::KeptNode,
     transported::Transported,
 };
 
@@ -56,7 +56,7 @@ pub fn kinematics(
             if selection.is_pointed(kept.side, kept.node) {
                 return pointed::kinematics(configuration, selection, k, frame);
             }
-            let mut sum = Sum::new(configuration, kept.side, frame);
+            let mut sum = Sum::new(configuration, kept, frame);
             for &(at, entry) in &touching[k] {
                 let patch = &patches[at as usize];
                 sum.add(patch, &patch.kept[entry as usize].1, slip);
@@ -71,7 +71,7 @@ pub fn kinematics(
 /// Sum over the segments of a kept node.
 struct Sum<'a> {
     configuration: &'a Configuration<'a>,
-    side: Side,
+    kept: KeptNode,
     frame: Option<&'a Frame>,
     gap: f64,
     slip: Vec3,
@@ -87,10 +87,10 @@ struct Sum<'a> {
 }
 
 impl<'a> Sum<'a> {
-    fn new(configuration: &'a Configuration, side: Side, frame: Option<&'a Frame>) -> Self {
+    fn new(configuration: &'a Configuration, kept: KeptNode, frame: Option<&'a Frame>) -> Self {
         Self {
             configuration,
-            side,
+            kept,
             frame,
             gap: 0.0,
             slip: Vec3::zeros(),
@@ -123,14 +123,20 @@ impl<'a> Sum<'a> {
         self.gap += value[0];
         let turned = (slip == Slip::Wanted).then(|| self.turned(patch, &value));
         let slopes = patch.paired.segment.slopes.as_deref();
+        let is_rigid = self.configuration.pair.is_rigid();
         for corner in 0..8 {
             let Some((side, node)) = patch.paired.node(self.configuration, corner) else {
                 continue;
             };
+            // Without slopes a row tells only whether the node itself or one that is opposite is
+            // free.
+            let is_beside = side == self.kept.side && node != self.kept.node;
+            if slopes.is_none() && is_beside && !is_rigid {
+                continue;
+            }
             let mass = &patch.paired.segment.mass[corner];
             let alpha: f64 = mass.iter().zip(shares).map(|(m, share)| m * share).sum();
             if slopes.is_none() {
-                // What the node itself and the one opposite do, which tells whether any is free.
                 by_gap[corner] = (patch.paired.segment.normal * (SIGNS[corner] * alpha)).into();
             }
             let first = self.configuration.pair.numbering().position(side, node);
@@ -146,7 +152,7 @@ impl<'a> Sum<'a> {
     /// Adds the slip, turned to the node's own tangent plane and seen from its side.
     fn turned(&mut self, patch: &Patch, value: &[f64; ROWS]) -> Transported {
         let n = self.frame.map_or_else(Vec3::zeros, |frame| frame.n.value);
-        let sign = side_sign(self.side);
+        let sign = side_sign(self.kept.side);
         let slip = Vec3::new(value[1], value[2], value[3]);
         let mut turned = Transported::new(&slip, &patch.paired.segment.normal, &(n * sign));
         turned.by_vector *= sign;
