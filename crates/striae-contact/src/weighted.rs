@@ -129,7 +129,7 @@ impl<'a> Sum<'a> {
                 continue;
             };
             // Without slopes a row tells only whether the node itself or one that is opposite is
-            // free.
+            // free, and by any entry that it faces something: a rigid side has none.
             let is_beside = side == self.kept.side && node != self.kept.node;
             if slopes.is_none() && is_beside && !is_rigid {
                 continue;

@@ -22,9 +22,11 @@ impl Trials<'_> {
         run.disturb("kill", &[vec!["-TERM".into()], ranks].concat())?;
         expect("left", &run.ended()?, None, &["interrupted at time"])?;
         let deck = PAD.deck();
-        let turned = deck.replace("x = 0.6", "y = -0.2");
+        let drag = format!("x = {}", PAD.way);
+        let turned = deck.replace(&drag, "y = -0.2");
         self.goes_on("a step stated otherwise", "turned", &stopped, &turned)?;
         let lifted = deck + LIFT;
+        self.goes_on("a step after that under way", "further", &stopped, &lifted)?;
         let whole = self.root.join("pad-whole");
         self.goes_on("a step after the last", "lifted", &whole, &lifted)
     }
