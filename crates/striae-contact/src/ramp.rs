@@ -4,10 +4,13 @@
 //!
 //! ```text
 //! g_k  += 1/w_k sum_l E_kl p_l
-//! du_k += 1/w_k sum_l E_kl R(n_k, n_l) (tau_l - tau^n_l)
+//! du_k += 1/w_k sum_l R(n_k, n_l) (E_kl tau_l - E'_kl tau^n_l)
 //! ```
 //!
-//! Of the friction it takes the increment, so that sticking nodes do not creep.
+//! where `E'` is the part of `E` of the weak nodes that stuck at the last converged state.
+//! With the increment of friction these do not creep. Where a weak node slips the total counts:
+//! with the increment, `E` would hold friction at the rough pattern it had before, push the
+//! neighbours of weak nodes to the wrong sign in large slips, and let them stick there.
 
 use nalgebra::Matrix3;
 use rayon::prelude::*;
@@ -23,6 +26,7 @@ use crate::{
     selection::Selection,
     tracked::Tracked,
     traction::NodalTractions,
+    traction_basis::coupling,
     transported::Transported,
     unknowns::Tractions,
 };
@@ -74,11 +78,13 @@ pub struct Ramp<'a> {
     pub tau: &'a NodalTractions,
 }
 
-/// Friction that a kept node has gained in the increment.
-struct Gained<'a> {
+/// Friction of a kept node that the ramp acts on.
+struct Ramped<'a> {
     sign: f64,
     frame: &'a Frame,
-    friction: Tracked,
+    friction: &'a Tracked,
+    /// At the last converged state, turned along; none where no weak node around it stuck.
+    before: Option<Tracked>,
 }
 
 impl Ramp<'_> {
@@ -87,68 +93,95 @@ impl Ramp<'_> {
     /// # Errors
     /// Where the facets around a node had collapsed to a line.
     pub fn add_to_slips(&self, kinematics: &mut [Kinematics]) -> Result<(), CollapsedFacets> {
-        let coupling = self.selection.coupling();
-        let found: Vec<_> = (0..coupling.len())
+        let all = self.selection.coupling();
+        let stuck = self.coupling_of_stuck();
+        let found: Vec<_> = (0..all.len())
             .into_par_iter()
             .with_min_len(8)
-            .map(|k| self.gained(k))
+            .map(|k| self.ramped(k, &stuck))
             .collect();
-        let gained: Result<Vec<Option<Gained>>, _> =
+        let found: Result<Vec<Option<Ramped>>, _> =
             found.into_iter().map(Option::transpose).collect();
-        let gained = gained?;
-        kinematics[..coupling.len()]
+        let ramped = found?;
+        kinematics[..all.len()]
             .par_iter_mut()
             .enumerate()
             .with_min_len(8)
             .for_each(|(k, kinematics)| {
-                if let Some(own) = &gained[k] {
-                    self.add(k, own, &gained, &mut kinematics.slip);
+                if let Some(own) = &ramped[k] {
+                    self.add(k, own, (&ramped, &stuck[k]), &mut kinematics.slip);
                 }
             });
         Ok(())
     }
 
-    /// `tau - tau^n'` of a node that the ramp acts on.
-    fn gained(&self, k: usize) -> Option<Result<Gained<'_>, CollapsedFacets>> {
+    /// Rows of `E'`.
+    fn coupling_of_stuck(&self) -> Vec<Vec<(u32, f64)>> {
+        let kept = self.selection.kept();
+        let weak = self.selection.ramp().iter();
+        let stuck = weak.filter(|weak| {
+            let (side, node) = kept[weak.kept as usize].place();
+            self.tractions.stuck[side][node]
+        });
+        coupling(stuck, self.selection.coupling().len())
+    }
+
+    fn ramped(
+        &self,
+        k: usize,
+        stuck: &[Vec<(u32, f64)>],
+    ) -> Option<Result<Ramped<'_>, CollapsedFacets>> {
         if self.selection.coupling()[k].is_empty() {
             return None;
         }
         let (side, node) = self.selection.kept()[k].place();
         let frame = self.frames[side][node].as_ref()?;
-        let (configuration, start) = (self.configuration, self.start);
-        let old = self.tractions.tau_n[side][node];
-        let old = converged_friction(configuration, start, (side, node), frame, old);
-        Some(old.map(|old| {
-            let mut friction = self.tau[side][node].clone();
-            friction.value -= old.value;
-            let mut sum = ChainedSum::onto(&mut friction.jacobian);
-            sum.add(&-Matrix3::identity(), &old.jacobian);
-            Gained {
-                sign: side_sign(side),
-                frame,
-                friction,
-            }
+        let before = (!stuck[k].is_empty()).then(|| {
+            let components = self.tractions.tau_n[side][node];
+            let at = (side, node);
+            converged_friction(self.configuration, self.start, at, frame, components)
+        });
+        Some(before.transpose().map(|before| Ramped {
+            sign: side_sign(side),
+            frame,
+            friction: &self.tau[side][node],
+            before,
         }))
     }
 
-    fn add(&self, k: usize, own: &Gained, gained: &[Option<Gained>], slip: &mut Tracked) {
-        let n = own.frame.n.value;
+    fn add(
+        &self,
+        k: usize,
+        own: &Ramped,
+        (ramped, stuck): (&[Option<Ramped>], &[(u32, f64)]),
+        slip: &mut Tracked,
+    ) {
+        let weight = self.selection.weight(k);
         let mut sum = ChainedSum::onto(&mut slip.jacobian);
         let mut by_n = Matrix3::zeros();
-        for &(l, coupling) in &self.selection.coupling()[k] {
-            let Some(other) = &gained[l as usize] else {
-                continue;
-            };
+        let mut add = |other: &Ramped, friction: &Tracked, coupling: f64| {
             // Normals and frictions of nodes of different sides point against each other.
             let facing = other.sign * own.sign;
-            let factor = coupling / self.selection.weight(k) * facing;
+            let factor = coupling / weight * facing;
             let from = other.frame.n.value * facing;
-            let turned = Transported::new(&other.friction.value, &from, &n);
+            let turned = Transported::new(&friction.value, &from, &own.frame.n.value);
             slip.value += turned.value * factor;
             by_n += turned.by_n * factor;
-            sum.add(&(turned.by_vector * factor), &other.friction.jacobian);
+            sum.add(&(turned.by_vector * factor), &friction.jacobian);
             let by_from = turned.by_from * (factor * facing);
             sum.add(&by_from, &other.frame.n.jacobian);
+        };
+        for &(l, coupling) in &self.selection.coupling()[k] {
+            if let Some(other) = &ramped[l as usize] {
+                add(other, other.friction, coupling);
+            }
+        }
+        for &(l, coupling) in stuck {
+            if let Some(other) = &ramped[l as usize]
+                && let Some(before) = &other.before
+            {
+                add(other, before, -coupling);
+            }
         }
         sum.add(&by_n, &own.frame.n.jacobian);
     }

@@ -158,8 +158,11 @@ impl TractionBasis {
     }
 }
 
-/// Rows of `E` of so many kept nodes.
-fn coupling(ramp: &[Weak], kept: usize) -> Vec<Vec<(u32, f64)>> {
+/// Rows of `E` of so many kept nodes, by weak nodes.
+pub(crate) fn coupling<'a>(
+    ramp: impl IntoIterator<Item = &'a Weak>,
+    kept: usize,
+) -> Vec<Vec<(u32, f64)>> {
     let mut rows: Vec<Vec<(u32, f64)>> = vec![Vec::new(); kept];
     for weak in ramp {
         for &(k, weight) in &weak.row {

@@ -15,6 +15,8 @@ pub struct Tractions {
     pub tau_n: [Vec<[f64; 2]>; 2],
     /// Whether each node slipped in the last converged increment, by side.
     pub slipped: [Vec<bool>; 2],
+    /// Whether each node stuck in it, by side.
+    pub stuck: [Vec<bool>; 2],
     /// What the iterations so far made of each node, by side; before the first, slip where a
     /// node slipped in the last increment and else open.
     /// It counts with a corrector, and where friction decays with the slip rate.
@@ -27,6 +29,7 @@ impl Tractions {
         Self {
             nodes: nodes.map(|count| vec![[0.0; 3]; count]),
             slipped: nodes.map(|count| vec![false; count]),
+            stuck: nodes.map(|count| vec![false; count]),
             tau_n: nodes.map(|count| vec![[0.0; 2]; count]),
             labels: nodes.map(|count| vec![Label::default(); count]),
         }

@@ -57,10 +57,17 @@ pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected
                 .carried
                 .each_ref()
                 .map(|side| side.iter().map(|[_, t1, t2]| [-t1, -t2]).collect());
-            tractions.slipped = of_pair.nodes.each_ref().map(|side| {
-                let slipped = |status| semismooth && status == Status::Slip;
-                side.iter().map(|node| slipped(node.status)).collect()
-            });
+            let with = |status: Status| {
+                let of_side = |side: &Vec<NodeResult>| -> Vec<bool> {
+                    side.iter().map(|node| node.status == status).collect()
+                };
+                of_pair.nodes.each_ref().map(of_side)
+            };
+            tractions.stuck = with(Status::Stick);
+            tractions.slipped = match semismooth {
+                true => with(Status::Slip),
+                false => of_pair.nodes.each_ref().map(|side| vec![false; side.len()]),
+            };
             let labelled = |side: &Vec<bool>| side.iter().map(|slipped| label(*slipped)).collect();
             tractions.labels = tractions.slipped.each_ref().map(labelled);
             let mut pointed = of_pair.pointed.clone();

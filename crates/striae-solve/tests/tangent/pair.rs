@@ -136,6 +136,10 @@ impl<'a> PairFunction<'a> {
             }),
             tau_n: self.tau_n.clone(),
             slipped: self.counts.map(|count| vec![false; count]),
+            // Every other one, so that both terms of the ramp count.
+            stuck: self
+                .counts
+                .map(|count| (0..count).map(|node| node % 2 == 0).collect()),
             labels,
         }
     }
