@@ -27,7 +27,7 @@ use crate::{
     coverage::{Found, Place},
     edge::on_edge,
     frame::{Frame, Frames},
-    kinematics::{Kinematics, Presence},
+    kinematics::{Kinematics, Presence, Pressure},
     opposing::Opposing,
     pairing::side_sign,
     partner::Partner,
@@ -60,12 +60,14 @@ pub fn kinematics(
                 }
                 _ => Tracked::default(),
             };
+            let gap = frame.map_or_else(TrackedScalar::default, |frame| {
+                let mut gap = gap(configuration, side, node, frame);
+                gap.value += selection.offset(side, node);
+                gap
+            });
             Kinematics {
-                gap: frame.map_or_else(TrackedScalar::default, |frame| {
-                    let mut gap = gap(configuration, side, node, frame);
-                    gap.value += selection.offset(side, node);
-                    gap
-                }),
+                reaches: gap.gradient.clone(),
+                gap,
                 seen_slip: slip.value,
                 shares: shares(
                     configuration,
@@ -74,6 +76,7 @@ pub fn kinematics(
                 ),
                 slip,
                 presence: Presence::Facing,
+                pressure: Pressure::AtNode,
                 stiffness: selection.stiffness(k),
             }
         })

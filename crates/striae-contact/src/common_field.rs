@@ -3,9 +3,12 @@
 //! On a segment with the normal `n`
 //!
 //! ```text
-//! t = sum_k phi_k t_k,   t_k = -p_k n + R(n, n_k) tau_k
-//! f^a_c = integral N_c t da = sum_k alpha_ck t_k,   f^b_c = -f^a_c,   alpha_ck = sum_d D_cd share_kd
+//! t = -P n + sum_k phi_k R(n, n_k) tau_k,   P = sum_k phi_k max(0, p_k - r_k g)
+//! f^a_c = integral N_c t da = -F_c n + sum_k alpha_ck R(n, n_k) tau_k
+//! f^b_c = -f^a_c,   alpha_ck = sum_d D_cd share_kd
 //! ```
+//!
+//! with the integrals `F_c` of [`Pressed`](crate::segment::Pressed).
 //!
 //! where normals and tractions of the nodes of side `b` are seen from side `a`. The same
 //! integrals act on both sides, so the sum of all forces is zero to round-off.
@@ -21,6 +24,7 @@ use crate::{
     pairing::{SIGNS, side_sign},
     patch::Patch,
     places::{ChainedSum, Places},
+    segment::Slopes,
     segment_rows::AtCorners,
     selection::Selection,
     side::Side,
@@ -61,13 +65,13 @@ pub fn segment_terms(
         .collect()
 }
 
-/// The traction of a kept node on a segment.
+/// The friction of a kept node on a segment.
+#[derive(Default)]
 struct Traction {
     value: Vec3,
     /// Derivative by the segment's normal.
     by_n: Matrix3<f64>,
     jacobian: Jacobian,
-    pressure: f64,
     friction: f64,
 }
 
@@ -86,9 +90,10 @@ impl CommonField<'_> {
             }
         }
         let mass = &patch.paired.segment.mass;
+        let n = patch.paired.segment.normal;
         let forces: [Vec3; 8] = std::array::from_fn(|c| {
             let sum: Vec3 = (0..8).map(|d| q[d] * mass[c][d]).sum();
-            sum * -SIGNS[c]
+            (sum - n * patch.pressed.force[c]) * -SIGNS[c]
         });
         let term = self.momentum(patch, &q, &tractions, &forces);
         let of_facets = Side::BOTH.map(|side| {
@@ -100,9 +105,10 @@ impl CommonField<'_> {
             }
             for ((_, shares), traction) in patch.kept.iter().zip(&tractions) {
                 let area: f64 = (0..8).map(|d| shares[d] * patch.paired.area_of(d)).sum();
-                of_facet.pressure += area * traction.pressure;
                 of_facet.friction += area * traction.friction;
             }
+            let own = &patch.pressed.force[4 * side.index()..][..4];
+            of_facet.pressure = own.iter().sum();
             of_facet
         });
         (term, of_facets)
@@ -110,31 +116,20 @@ impl CommonField<'_> {
 
     fn traction(&self, patch: &Patch, k: u32) -> Traction {
         let (side, node) = self.selection.kept()[k as usize].place();
-        let numbering = self.configuration.pair.numbering();
         let n = patch.paired.segment.normal;
-        let first = numbering.traction(side, node);
-        let pressure = self.tractions.nodes[side][node][0];
-        let mut by_unknowns = Matrix3::zeros();
-        by_unknowns.set_column(0, &-n);
-        let mut traction = Traction {
-            value: n * -pressure,
-            by_n: Matrix3::from_diagonal_element(-pressure),
-            jacobian: vec![(first, by_unknowns)],
-            pressure,
-            friction: 0.0,
-        };
+        let mut traction = Traction::default();
         let tau = &self.tau[side][node];
         if let Some(frame) = &self.frames[side][node]
             && !tau.jacobian.is_empty()
         {
             let sign = side_sign(side);
             let turned = Transported::new(&tau.value, &(frame.n.value * sign), &n);
-            traction.value += turned.value * sign;
+            traction.value = turned.value * sign;
             traction.friction = tau.value.norm();
             if patch.paired.segment.slopes.is_none() {
                 return traction;
             }
-            traction.by_n += turned.by_n * sign;
+            traction.by_n = turned.by_n * sign;
             let most = tau.jacobian.len() + frame.n.jacobian.len();
             traction.jacobian.reserve(most);
             let mut sum = ChainedSum::onto(&mut traction.jacobian);
@@ -188,16 +183,50 @@ impl CommonField<'_> {
                 block.add_multiples(*first, &alphas, inner);
             }
         }
+        self.add_by_pressures(patch, &mut block);
+        let sticks = |traction: &Traction| !traction.jacobian.is_empty();
+        let has_friction = tractions.iter().any(sticks);
         let components = [0, 1, 2].map(|axis| AtCorners(q.map(|q| q[axis])));
         for &c in &corners {
-            let by_mass = components.each_ref().map(|q| q.of_mass(slopes, c));
+            let by_mass = has_friction.then(|| components.each_ref().map(|q| q.of_mass(slopes, c)));
             for (e, first) in owners.iter().enumerate() {
                 let Some(first) = first else { continue };
-                let direct = Matrix3::from_fn(|row, axis| SIGNS[c] * by_mass[row][e][axis]);
-                block.add(*first, c, &(direct + by_n[c] * slopes.normal[e]));
+                let mut by = self.by_position(patch, slopes, [c, e]);
+                if let Some(by_mass) = &by_mass {
+                    by += Matrix3::from_fn(|row, axis| SIGNS[c] * by_mass[row][e][axis]);
+                    by += by_n[c] * slopes.normal[e];
+                }
+                block.add(*first, c, &by);
             }
         }
         block.term(&rows, &corners)
+    }
+}
+
+impl CommonField<'_> {
+    /// Derivative of the pressure's part of the rows of corner `c`, `-s_c F_c n`, by corner `e`.
+    fn by_position(&self, patch: &Patch, slopes: &Slopes, [c, e]: [usize; 2]) -> Matrix3<f64> {
+        let Some(pressed) = &patch.pressed.slopes else {
+            return Matrix3::zeros();
+        };
+        let n = patch.paired.segment.normal;
+        let by_x = Vec3::from_column_slice(&pressed.force[c][3 * e..3 * e + 3]);
+        (n * by_x.transpose() + slopes.normal[e] * patch.pressed.force[c]) * -SIGNS[c]
+    }
+
+    /// Adds the derivatives of these rows by the pressures.
+    fn add_by_pressures(&self, patch: &Patch, block: &mut Columns) {
+        let Some(pressed) = &patch.pressed.slopes else {
+            return;
+        };
+        let mut by_unknowns = Matrix3::zeros();
+        by_unknowns.set_column(0, &patch.paired.segment.normal);
+        for ((k, _), by_pressure) in patch.kept.iter().zip(&pressed.force_by_pressure) {
+            let (side, node) = self.selection.kept()[*k as usize].place();
+            let first = self.configuration.pair.numbering().traction(side, node);
+            let factors = std::array::from_fn(|c| -SIGNS[c] * by_pressure[c]);
+            block.add_multiples(first, &factors, &by_unknowns);
+        }
     }
 }
 

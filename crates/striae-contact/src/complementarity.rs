@@ -5,9 +5,13 @@
 //! `varpi = varpi(max(p, 0), |du|/dt)` and `y = z + r_t K^-1 du`:
 //!
 //! ```text
-//! p - r_n g > 0 : g = 0    else p = 0, z = 0
+//! g = 0         : points decide    z = 0 where P^ <= 0
 //! |y| <= varpi  : du = 0   else z = varpi y/|y|
 //! ```
+//!
+//! `P^` is the mean pressure over the support, which bounds friction. Where the pressure is
+//! decided at the node, `p` takes its place, and the node is closed where `p - r_n g > 0`, else
+//! `p = 0`, `z = 0`. A node that has left the other side has `p = 0`, too.
 //!
 //! with `varpi rho(y)` for `varpi` where friction is tabulated, see
 //! [`striae_law::friction::Kernel::reach`].
@@ -33,6 +37,7 @@ pub use node::{Conditions, ContactNode, Iteration};
 
 use crate::{
     configuration::Configuration,
+    kinematics::{Presence, Pressure},
     segment::Derivatives,
     term::{Field, LocalTerm},
     unknowns::NodeResult,
@@ -83,25 +88,43 @@ pub fn rows(
     let size = configuration.size(node.side, node.node);
     let stiffness @ [r_n, r_t] = node.kinematics.stiffness;
     let g = state.gap.re;
-    let touching = iteration == Iteration::First && g <= TOUCHING * size;
-    let closed = (touching || p - r_n * g > 0.0) && state.is_free();
+    let is_free = state.is_free();
+    let first = iteration == Iteration::First;
+    let (stated, closed) = match &node.kinematics.pressure {
+        Pressure::AtNode => {
+            let touching = first && g <= TOUCHING * size;
+            let closed = is_free && (touching || p - r_n * g > 0.0);
+            (closed, closed)
+        }
+        Pressure::AtPoints(supported) => {
+            let stated = is_free && node.kinematics.presence == Presence::Facing;
+            let pressed = match first {
+                true => supported.closed > 0.0,
+                false => state.bounding_pressure() > 0.0,
+            };
+            (stated, stated && pressed)
+        }
+    };
     let held = |component: usize, value: f64| {
         let mut row = [0.0; N];
         row[TRACTION + component] = 1.0;
         (Field::Traction, value, row)
     };
     let mut result = state.result();
-    let rows = if !closed {
-        [held(0, p), held(1, z1), held(2, z2)]
-    } else {
-        let (status, [first, second]) =
-            tangential(&state, configuration, [p, z1, z2], r_t, iteration);
+    let normal = match stated {
+        true => (Field::Gap(size), g, state.gap.slope),
+        false => held(0, p),
+    };
+    let rows = if closed {
+        let (status, [first, second]) = tangential(&state, configuration, [z1, z2], r_t, iteration);
         result.status = status;
-        let rows = [(Field::Gap(size), g, state.gap.slope), first, second];
+        let rows = [normal, first, second];
         match node.yields {
             true => yielding(rows, stiffness),
             false => rows,
         }
+    } else {
+        [normal, held(1, z1), held(2, z2)]
     };
     let first = configuration
         .pair

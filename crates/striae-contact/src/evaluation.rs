@@ -18,10 +18,10 @@ use crate::{
     kinematics::{Kinematics, Report},
     pair::Enforcement,
     pairing::{Corners, side_sign, topology},
-    patch::{Patch, patches, wanted},
+    patch::{Patch, Pressures, patches, wanted},
     pointed::{self, PointedTerm},
     ramp::{self, Ramp},
-    segment::Derivatives,
+    segment::{Derivatives, SegmentDerivatives},
     segment_rows::Slip,
     selection::Selection,
     side::Side,
@@ -89,17 +89,27 @@ pub fn evaluate(
     let frames = frames(configuration, selection);
     let (patches, mut kinematics) = match configuration.pair.enforcement {
         Enforcement::Weighted => {
-            let slopes = |corners: &[Corners]| match derivatives {
+            let slopes = |corners: &[Corners]| {
                 // Where friction depends on the slip rate, forces at a node depend on all segments
                 // around its neighbours, not on its own alone.
-                Derivatives::First if friction.decays() => Derivatives::First,
-                Derivatives::First => {
-                    wanted(configuration, selection, (conditions.wanted, corners))
+                let asked = || wanted(configuration, selection, (conditions.wanted, corners));
+                match (derivatives, slip) {
+                    (Derivatives::First, _) if !friction.decays() && !asked() => {
+                        SegmentDerivatives::None
+                    }
+                    (Derivatives::First, Slip::Left) => SegmentDerivatives::OfPressure,
+                    (Derivatives::First, Slip::Wanted) => SegmentDerivatives::All,
+                    (Derivatives::None, _) => SegmentDerivatives::None,
                 }
-                Derivatives::None => Derivatives::None,
             };
-            let patches = patches(configuration, start, selection, (slip, &slopes));
-            let rows = weighted::kinematics(configuration, selection, &frames, &patches, slip);
+            let pressures = Pressures {
+                tractions,
+                iteration: conditions.iteration,
+            };
+            let asked = (slip, &slopes);
+            let patches = patches(configuration, start, selection, pressures, asked);
+            let of = (patches.as_slice(), slip);
+            let rows = weighted::kinematics(configuration, selection, &frames, tractions, of);
             (patches, rows)
         }
         Enforcement::Collocated => {
@@ -110,15 +120,18 @@ pub fn evaluate(
     let textures = textures(configuration, friction, selection, &frames, &kinematics)
         .map_err(Collapse::Texture)?;
     let rates = slip_rates(configuration, friction, selection, &kinematics);
+    if configuration.pair.enforcement == Enforcement::Weighted {
+        ramp::add_to_gaps(configuration, selection, tractions, &mut kinematics);
+    }
     let surroundings = Surroundings {
         friction,
         frames: &frames,
         textures: &textures,
         rates: &rates,
+        kinematics: &kinematics,
     };
     let tau = nodal_tractions(configuration, selection, &surroundings, tractions);
     if configuration.pair.enforcement == Enforcement::Weighted {
-        ramp::add_to_gaps(configuration, selection, tractions, &mut kinematics);
         if slip == Slip::Wanted {
             let ramp = Ramp {
                 configuration,
@@ -204,7 +217,9 @@ impl Stage<'_> {
         result.slip = report.slip - n * n.dot(&report.slip);
         for &(k, weight) in self.selection.row(side, node) {
             let (side_k, node_k) = self.selection.kept()[k as usize].place();
-            result.pressure += weight * self.tractions.nodes[side_k][node_k][0];
+            let p = self.tractions.nodes[side_k][node_k][0];
+            let pressure = self.kinematics[k as usize].bounding_pressure(p);
+            result.pressure += weight * pressure.max(0.0);
             if let Some(from) = &self.frames[side_k][node_k] {
                 let facing = side_sign(side) * side_sign(side_k);
                 let tau = &self.tau[side_k][node_k].value;

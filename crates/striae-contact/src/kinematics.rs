@@ -2,7 +2,10 @@
 
 use striae_mesh::Vec3;
 
-use crate::tracked::{Tracked, TrackedScalar};
+use crate::{
+    tracked::{Tracked, TrackedScalar},
+    unknown::Gradient,
+};
 
 /// What contact and friction at a kept node depend on.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -17,10 +20,49 @@ pub struct Kinematics {
     /// Shares of nodes in the friction of the node, by their first position unknown, over its
     /// weight: what its slip is adjoint to.
     pub shares: Vec<(u32, f64)>,
+    /// Derivative of the mean gap over the support by the positions of nodes, whether or not
+    /// points of it are open.
+    pub reaches: Gradient,
     /// Whether any segment of the present configuration bears on the node.
     pub presence: Presence,
+    /// How its pressure is decided.
+    pub pressure: Pressure,
     /// Pressure per gap and friction per slip, `[r_n, r_t]`, that scale the complementarity.
     pub stiffness: [f64; 2],
+}
+
+/// How the pressure of a node is decided.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Pressure {
+    /// By the sign of the augmented pressure `p - r_n g` at the node.
+    #[default]
+    AtNode,
+    /// At the points of its support.
+    AtPoints(Supported),
+}
+
+/// The support of a node whose pressure is decided at points.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Supported {
+    /// `w_k = integral phi_k`, of the present configuration.
+    pub weight: TrackedScalar,
+    /// Share of the support that is closed.
+    pub closed: f64,
+    /// `r_k`.
+    pub bedding: f64,
+    /// Mean pressure over the support, `P^_k = p_k + r_k (E p)_k/w_k`.
+    pub mean: TrackedScalar,
+}
+
+impl Kinematics {
+    /// The pressure that bounds friction at the node, which has the unknown `p`; negative where
+    /// it is open.
+    pub fn bounding_pressure(&self, p: f64) -> f64 {
+        match &self.pressure {
+            Pressure::AtNode => p,
+            Pressure::AtPoints(supported) => supported.mean.value,
+        }
+    }
 }
 
 /// Whether a node faces the other side.
@@ -29,6 +71,8 @@ pub enum Presence {
     /// It does.
     #[default]
     Facing,
+    /// It does, but no point of its support is closed, and nothing else gives it pressure.
+    Apart,
     /// It has left the other side in this increment.
     Gone,
 }

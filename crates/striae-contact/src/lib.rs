@@ -12,6 +12,7 @@
 //! 195 (2006), are the alternative.
 
 mod absorption;
+mod bedding;
 mod clip;
 mod collocated;
 mod common_field;

@@ -1,9 +1,9 @@
 //! Facets of the two sides that face each other, with the integrals over their segments.
 //!
 //! Two facets are paired where they face each other, have a common segment (see
-//! [`crate::segment`]) and are near: the mean gap over the segment is at most the larger
-//! reach of their corners, and they overlap by no more than that and the `depth` that the
-//! bodies move towards each other.
+//! [`crate::segment`]) and are near: the least gap on the segment is at most the larger
+//! reach of their corners, and they overlap in the mean by no more than that and the `depth`
+//! that the bodies move towards each other.
 
 use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
@@ -11,7 +11,7 @@ use striae_surface::{facet::Shape, node::SurfaceNode};
 
 use crate::{
     configuration::Configuration,
-    segment::{Derivatives, FIRST, Facet, Segment, mixed, plane_segment, segment},
+    segment::{FIRST, Facet, Segment, SegmentDerivatives, mixed, plane_segment, segment},
     side::Side,
 };
 
@@ -24,7 +24,7 @@ pub struct PairedFacets {
     pub corners: [[SurfaceNode; 4]; 2],
     /// Their current positions.
     pub x: [Vec3; 8],
-    /// Mean gap up to which they are paired.
+    /// Least gap up to which they are paired.
     pub reach: f64,
     /// Integrals over the segment.
     pub segment: Segment,
@@ -76,6 +76,23 @@ impl PairedFacets {
         }
     }
 
+    /// Heights of the corners along the normal, with the sign of their side in the gap.
+    pub fn heights(&self, configuration: &Configuration) -> [f64; 8] {
+        let origin = self.origin(configuration);
+        let n = &self.segment.normal;
+        std::array::from_fn(|d| SIGNS[d] * n.dot(&(self.x[d] - origin)))
+    }
+
+    /// Least gap at the vertices of the segment.
+    pub fn least_gap(&self, configuration: &Configuration) -> f64 {
+        let heights = self.heights(configuration);
+        let Some(vertices) = self.segment.at_vertices() else {
+            return heights[..4].iter().copied().fold(f64::INFINITY, f64::min);
+        };
+        let gap = |n: &[f64; 8]| -> f64 { n.iter().zip(&heights).map(|(n, h)| n * h).sum() };
+        vertices.iter().map(gap).fold(f64::INFINITY, f64::min)
+    }
+
     /// Mean gap over the segment.
     pub fn mean_gap(&self, configuration: &Configuration) -> f64 {
         let origin = self.origin(configuration);
@@ -120,7 +137,7 @@ pub fn side_sign(side: Side) -> f64 {
 pub fn paired_facets(
     configuration: &Configuration,
     scope: Scope,
-    slopes: &(impl Fn(&[Corners]) -> Derivatives + Sync),
+    slopes: &(impl Fn(&[Corners]) -> SegmentDerivatives + Sync),
     wanted: impl Fn(FacetId) -> bool + Sync,
 ) -> Vec<PairedFacets> {
     let own = configuration.side(Side::A);
@@ -148,7 +165,7 @@ pub type Corners = (Side, [SurfaceNode; 4]);
 fn of_facet(
     configuration: &Configuration,
     scope: Scope,
-    slopes: &impl Fn(&[Corners]) -> Derivatives,
+    slopes: &impl Fn(&[Corners]) -> SegmentDerivatives,
     facet: FacetId,
 ) -> Vec<PairedFacets> {
     let own = configuration.side(Side::A);
@@ -161,7 +178,8 @@ fn of_facet(
     let reach = reach(configuration, Side::A, &corners);
     let is_near = |paired: &PairedFacets| {
         let gap = paired.mean_gap(configuration);
-        gap <= paired.reach && -gap <= paired.reach + scope.depth
+        let near = || paired.least_gap(configuration) <= paired.reach;
+        -gap <= paired.reach + scope.depth && (gap <= paired.reach || near())
     };
     if let Some((point, normal)) = configuration.plane() {
         let nothing = [point; 4];

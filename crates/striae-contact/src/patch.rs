@@ -2,16 +2,22 @@
 
 use rayon::prelude::*;
 use striae_mesh::FacetId;
-use striae_surface::node::SurfaceNode;
+use striae_surface::{facet::Shape, node::SurfaceNode};
 
 use crate::{
+    complementarity::Iteration,
     configuration::Configuration,
     pairing::{Corners, PairedFacets, paired_facets},
-    segment::Derivatives,
+    segment::{Facet, Pressed, Pressing, SegmentDerivatives, Support, pressed_on_plane},
     segment_rows::{Given, SegmentRows, Slip, segment_rows},
     selection::Selection,
     side::Side,
+    unknowns::Tractions,
 };
+
+/// Gap up to which points count as closed in the first iteration of an increment, over the size
+/// of the facet.
+const TOUCHING: f64 = 1e-9;
 
 /// A segment with its rows and the kept nodes whose basis functions live on it.
 pub struct Patch {
@@ -22,6 +28,8 @@ pub struct Patch {
     /// Kept nodes, and the values of their basis functions at the corners: `phi_k = sum_c
     /// share_kc N_c`.
     pub kept: Vec<(u32, [f64; 8])>,
+    /// What pressure does, in the order of the kept nodes.
+    pub pressed: Pressed,
 }
 
 impl Patch {
@@ -61,9 +69,9 @@ pub(crate) fn wanted(
     configuration: &Configuration,
     selection: &Selection,
     (wanted, corners): (Option<&[Vec<bool>; 2]>, &[Corners]),
-) -> Derivatives {
+) -> bool {
     let Some(wanted) = wanted else {
-        return Derivatives::First;
+        return true;
     };
     let is_wanted = |(side, node): (Side, SurfaceNode)| wanted[side][node];
     let followed = |side: Side, node: SurfaceNode| {
@@ -76,9 +84,58 @@ pub(crate) fn wanted(
         .filter(|(side, _)| configuration.pair.is_deformable(*side));
     let nodes = corners.flat_map(|(side, nodes)| nodes.map(|node| (*side, node)));
     let mut nodes = nodes.map(|(side, node)| is_wanted((side, node)) || followed(side, node));
-    match nodes.any(|is_wanted| is_wanted) {
-        true => Derivatives::First,
-        false => Derivatives::None,
+    nodes.any(|is_wanted| is_wanted)
+}
+
+/// The pressure of kept nodes in an iteration.
+#[derive(Clone, Copy)]
+pub(crate) struct Pressures<'a> {
+    /// Unknowns and beddings.
+    pub tractions: &'a Tractions,
+    /// Which iteration it is.
+    pub iteration: Iteration,
+}
+
+impl Pressures<'_> {
+    /// What they do on a segment.
+    fn on(
+        &self,
+        configuration: &Configuration,
+        selection: &Selection,
+        paired: &PairedFacets,
+        kept: &[(u32, [f64; 8])],
+        offsets: &[f64; 8],
+    ) -> Pressed {
+        let supports: Vec<Support> = kept
+            .iter()
+            .map(|&(k, shares)| {
+                let (side, node) = selection.kept()[k as usize].place();
+                let closed = self.tractions.labels[side][node].bedded;
+                Support {
+                    shares,
+                    pressure: self.tractions.nodes[side][node][0],
+                    bedding: selection.bedding(k as usize, closed),
+                }
+            })
+            .collect();
+        let heights = paired.heights(configuration);
+        let segment = &paired.segment;
+        let heights = std::array::from_fn(|d| heights[d] + offsets[d]);
+        let touching = match self.iteration {
+            Iteration::First => TOUCHING * segment.area.sqrt(),
+            Iteration::Later { .. } | Iteration::Corrected(_) => 0.0,
+        };
+        let pressing = Pressing::new(supports, heights, touching);
+        let on_plane = || {
+            let x = &paired.x;
+            let facet = Facet {
+                corners: [x[0], x[1], x[2], x[3]],
+                shape: Shape::of(&paired.corners[0]),
+            };
+            let slopes = segment.slopes.as_deref();
+            pressed_on_plane(&facet, &segment.normal, &pressing, &segment.mass, slopes)
+        };
+        segment.pressed(&pressing).unwrap_or_else(on_plane)
     }
 }
 
@@ -87,7 +144,8 @@ pub(crate) fn patches(
     configuration: &Configuration,
     start: &Configuration,
     selection: &Selection,
-    (slip, slopes): (Slip, &(impl Fn(&[Corners]) -> Derivatives + Sync)),
+    pressures: Pressures,
+    (slip, slopes): (Slip, &(impl Fn(&[Corners]) -> SegmentDerivatives + Sync)),
 ) -> Vec<Patch> {
     let own = configuration.side(Side::A);
     let carries = |facet: FacetId| {
@@ -105,8 +163,11 @@ pub(crate) fn patches(
                 slip,
             };
             let rows = segment_rows(configuration, start, &paired, given);
+            let kept = Patch::kept_of(configuration, selection, &paired);
+            let offsets = &given.offsets;
             Patch {
-                kept: Patch::kept_of(configuration, selection, &paired),
+                pressed: pressures.on(configuration, selection, &paired, &kept, offsets),
+                kept,
                 rows,
                 paired,
             }

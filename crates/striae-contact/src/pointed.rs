@@ -68,6 +68,8 @@ pub fn kinematics(
         _ => Tracked::default(),
     };
     Kinematics {
+        reaches: Default::default(),
+        pressure: Default::default(),
         gap,
         shares: collocated::shares(configuration, tip, selection.partner(k)),
         seen_slip: slip.value,

@@ -20,18 +20,19 @@ use crate::{
     configuration::Configuration,
     converged_friction::{CollapsedFacets, converged_friction},
     frame::{Frame, Frames},
-    kinematics::Kinematics,
+    kinematics::{Kinematics, Presence, Pressure},
     pairing::side_sign,
     places::ChainedSum,
     selection::Selection,
-    tracked::Tracked,
+    tracked::{Tracked, TrackedScalar},
     traction::NodalTractions,
     traction_basis::coupling,
     transported::Transported,
     unknowns::Tractions,
 };
 
-/// Adds what the ramp does to the gaps, which depend on positions only before.
+/// Adds what the ramp does to the gaps, and decides the pressures that bound friction:
+/// `P^_k = p_k + r_k (E p)_k/w_k`.
 pub fn add_to_gaps(
     configuration: &Configuration,
     selection: &Selection,
@@ -39,25 +40,53 @@ pub fn add_to_gaps(
     kinematics: &mut [Kinematics],
 ) {
     let kept = selection.kept();
-    for weak in selection.ramp() {
-        let pressure = |&(l, weight): &(u32, f64)| {
-            let (side, node) = kept[l as usize].place();
-            weight * tractions.nodes[side][node][0]
-        };
-        let jump: f64 = weak.row.iter().map(pressure).sum();
-        for &(k, weight) in &weak.row {
-            let share = weak.coefficient * weight / selection.weight(k as usize);
-            kinematics[k as usize].gap.value += share * jump;
-        }
-    }
     let numbering = configuration.pair.numbering();
-    for (k, row) in selection.coupling().iter().enumerate() {
-        let slopes = row.iter().map(|&(l, coupling)| {
-            let l = kept[l as usize];
-            let slope = Vec3::x() * (coupling / selection.weight(k));
-            (numbering.traction(l.side, l.node), slope)
-        });
-        kinematics[k].gap.gradient.extend(slopes);
+    let pressure = |l: u32| {
+        let (side, node) = kept[l as usize].place();
+        tractions.nodes[side][node][0]
+    };
+    for (k, kinematics) in kinematics.iter_mut().enumerate() {
+        let row: &[(u32, f64)] = selection.coupling().get(k).map_or(&[], Vec::as_slice);
+        let sum: f64 = row
+            .iter()
+            .map(|&(l, coupling)| coupling * pressure(l))
+            .sum();
+        let by_pressures = |share: f64| {
+            row.iter().map(move |&(l, coupling)| {
+                let l = kept[l as usize];
+                (
+                    numbering.traction(l.side, l.node),
+                    Vec3::x() * (coupling * share),
+                )
+            })
+        };
+        let share = 1.0 / selection.weight(k);
+        kinematics.gap.value += share * sum;
+        kinematics.gap.gradient.extend(by_pressures(share));
+        let Pressure::AtPoints(supported) = &mut kinematics.pressure else {
+            continue;
+        };
+        if kinematics.presence == Presence::Gone {
+            continue;
+        }
+        let own = numbering.traction(kept[k].side, kept[k].node);
+        supported.mean = TrackedScalar {
+            value: pressure(k as u32),
+            gradient: vec![(own, Vec3::x())],
+        };
+        if row.is_empty() {
+            if supported.closed == 0.0 {
+                kinematics.presence = Presence::Apart;
+            }
+            continue;
+        }
+        let factor = supported.bedding / supported.weight.value;
+        supported.mean.value += factor * sum;
+        let by_weight = -factor * sum / supported.weight.value;
+        let weight = supported.weight.gradient.iter();
+        let by_weight = weight.map(|(first, slope)| (*first, slope * by_weight));
+        supported.mean.gradient.extend(by_weight);
+        supported.mean.gradient.extend(by_pressures(factor));
     }
 }
 
@@ -108,8 +137,12 @@ impl Ramp<'_> {
             .enumerate()
             .with_min_len(8)
             .for_each(|(k, kinematics)| {
-                if let Some(own) = &ramped[k] {
-                    self.add(k, own, (&ramped, &stuck[k]), &mut kinematics.slip);
+                if let Some(own) = &ramped[k]
+                    && let Pressure::AtPoints(supported) = &kinematics.pressure
+                    && kinematics.presence == Presence::Facing
+                {
+                    let weight = &supported.weight;
+                    self.add(k, own, (&ramped, &stuck[k]), weight, &mut kinematics.slip);
                 }
             });
         Ok(())
@@ -154,15 +187,16 @@ impl Ramp<'_> {
         k: usize,
         own: &Ramped,
         (ramped, stuck): (&[Option<Ramped>], &[(u32, f64)]),
+        weight: &TrackedScalar,
         slip: &mut Tracked,
     ) {
-        let weight = self.selection.weight(k);
+        let before = slip.value;
         let mut sum = ChainedSum::onto(&mut slip.jacobian);
         let mut by_n = Matrix3::zeros();
         let mut add = |other: &Ramped, friction: &Tracked, coupling: f64| {
             // Normals and frictions of nodes of different sides point against each other.
             let facing = other.sign * own.sign;
-            let factor = coupling / weight * facing;
+            let factor = coupling / weight.value * facing;
             let from = other.frame.n.value * facing;
             let turned = Transported::new(&friction.value, &from, &own.frame.n.value);
             slip.value += turned.value * factor;
@@ -184,5 +218,10 @@ impl Ramp<'_> {
             }
         }
         sum.add(&by_n, &own.frame.n.jacobian);
+        drop(sum);
+        let by_weight = (before - slip.value) / weight.value;
+        for (first, slope) in &weight.gradient {
+            slip.jacobian.push((*first, by_weight * slope.transpose()));
+        }
     }
 }

@@ -19,10 +19,13 @@
 //! 1e-6 of the size of the smaller facet count as on an opposing edge.
 
 mod chain;
+mod closed;
 mod fan;
 mod normal;
 mod plane_facet;
+mod points;
 mod polygon;
+mod pressed_plane;
 mod rigid_plane;
 mod rule;
 mod sums;
@@ -32,6 +35,8 @@ use pulp::{Simd, WithSimd};
 use striae_mesh::Vec3;
 use striae_surface::facet::Shape;
 
+pub use points::{Pressed, PressedSlopes, Pressing, Support};
+pub(crate) use pressed_plane::pressed_on_plane;
 pub use rigid_plane::plane_segment;
 
 use chain::{CornerSlopes, Plane};
@@ -72,6 +77,26 @@ pub enum Derivatives {
     First,
 }
 
+/// Which derivatives a segment is made with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SegmentDerivatives {
+    /// None.
+    None,
+    /// Those of the normal and of what pressure does, not of `D`, which friction alone asks for.
+    OfPressure,
+    /// All.
+    All,
+}
+
+impl From<Derivatives> for SegmentDerivatives {
+    fn from(derivatives: Derivatives) -> Self {
+        match derivatives {
+            Derivatives::None => Self::None,
+            Derivatives::First => Self::All,
+        }
+    }
+}
+
 /// The common polygon of two facets.
 #[derive(Clone, Debug)]
 pub struct Segment {
@@ -85,6 +110,31 @@ pub struct Segment {
     pub mass: [[f64; 8]; 8],
     /// Derivatives, if asked for.
     pub slopes: Option<Box<Slopes>>,
+    /// What it is made of; none against a plane, where it is the whole facet.
+    polygon: Option<Box<Polygon>>,
+}
+
+/// A common polygon and the facets that it is of.
+#[derive(Clone, Debug)]
+struct Polygon {
+    pair: PlanePair,
+    vertices: Vec<Vertex>,
+}
+
+impl Segment {
+    /// Integrals of pressure over the polygon; none against a plane.
+    pub(crate) fn pressed(&self, pressing: &Pressing) -> Option<Pressed> {
+        let polygon = self.polygon.as_ref()?;
+        Some(polygon.pressed(pressing, &self.mass, self.slopes.as_deref()))
+    }
+
+    /// Interpolation functions at the vertices of the polygon; none against a plane.
+    pub(crate) fn at_vertices(&self) -> Option<Vec<[f64; 8]>> {
+        let polygon = self.polygon.as_ref()?;
+        let vertices = polygon.vertices.iter();
+        let shares = |vertex: &Vertex| points::shares(&polygon.pair.facets, &vertex.place);
+        Some(vertices.map(shares).collect())
+    }
 }
 
 /// Derivatives of a segment by the corners of both facets.
@@ -92,8 +142,9 @@ pub struct Segment {
 pub struct Slopes {
     /// `dn/dx_c`.
     pub normal: [Matrix3<f64>; 8],
-    /// `dD_cd/dx`, row [`pair_index`]`(c, d)`, column `3 k + i` for `x_k . e_i`.
-    pub mass: [[f64; 24]; 36],
+    /// `dD_cd/dx`, row [`pair_index`]`(c, d)`, column `3 k + i` for `x_k . e_i`; empty unless all
+    /// derivatives are asked for.
+    pub mass: Vec<[f64; 24]>,
 }
 
 /// Row of `D_cd` in the upper triangle, packed row by row.
@@ -117,8 +168,9 @@ pub fn segment(
     a: &Facet,
     b: &Facet,
     compliance: [f64; 2],
-    derivatives: Derivatives,
+    derivatives: impl Into<SegmentDerivatives>,
 ) -> Option<Segment> {
+    let derivatives = derivatives.into();
     let (n_a, n_b) = (facet_normal(a)?, facet_normal(b)?);
     let facing = n_a.dot(&n_b) <= FACING;
     if !facing {
@@ -128,13 +180,18 @@ pub fn segment(
     let pair = PlanePair::new([a, b], normal)?;
     let polygon = pair.polygon()?;
     let (mass, plane_slopes) = pair.integrals(&polygon, derivatives);
-    let slopes = plane_slopes.map(|in_plane| {
-        let mut slopes = Box::new(Slopes {
-            normal: pair_slopes([a, b], [&n_a, &n_b], compliance),
-            mass: [[0.0; 24]; PAIRS],
+    let slopes = (derivatives != SegmentDerivatives::None).then(|| {
+        let normal = pair_slopes([a, b], [&n_a, &n_b], compliance);
+        let mass = plane_slopes.map_or_else(Vec::new, |in_plane| {
+            let by_pair = in_plane.in_space(&pair.plane, &pair.corners, &normal, None);
+            let mut mass = vec![[0.0; 24]; PAIRS];
+            for (pair, row) in by_pair.iter().enumerate() {
+                let (c, d) = functions(pair);
+                mass[pair_index(c, d)] = *row;
+            }
+            mass
         });
-        in_plane.in_space(&pair.plane, &pair.corners, &mut slopes);
-        slopes
+        Box::new(Slopes { normal, mass })
     });
     Some(Segment {
         normal,
@@ -142,6 +199,10 @@ pub fn segment(
         topology: topology(&polygon),
         mass: symmetric(&mass),
         slopes,
+        polygon: Some(Box::new(Polygon {
+            pair,
+            vertices: polygon,
+        })),
     })
 }
 
@@ -155,6 +216,7 @@ fn symmetric(packed: &[f64; PAIRS]) -> [[f64; 8]; 8] {
 }
 
 /// Two facets seen along their normal.
+#[derive(Clone, Debug)]
 struct PlanePair {
     plane: Plane,
     corners: [Vec3; 8],
@@ -210,11 +272,21 @@ impl PlanePair {
         (twice_area(&polygon) > 0.1 * self.tolerance * longest).then_some(polygon)
     }
 
+    /// Points and triangles that integrate pressure: exactly between parallelograms.
+    fn rule_of_pressure(&self) -> (&'static [rule::Point], Apex) {
+        let [a, b] = self.facets.each_ref().map(PlaneFacet::distortion);
+        match a.max(b) {
+            distortion if distortion <= AFFINE => (&rule::DEGREE_6, Apex::Corner),
+            distortion if distortion <= MILD => (&rule::DEGREE_6, Apex::Centre),
+            _ => (&rule::DEGREE_8, Apex::Centre),
+        }
+    }
+
     fn integrals(
         &self,
         polygon: &[Vertex],
-        derivatives: Derivatives,
-    ) -> ([f64; PAIRS], Option<CornerSlopes>) {
+        derivatives: SegmentDerivatives,
+    ) -> ([f64; PAIRS], Option<CornerSlopes<PAIRS>>) {
         let [a, b] = self.facets.each_ref().map(PlaneFacet::distortion);
         let distortion = a.max(b);
         let (rule, apex): (&[_], _) = if distortion <= AFFINE {
@@ -227,8 +299,8 @@ impl PlanePair {
         let fan = fan(polygon, apex);
         let mut mass = [0.0; PAIRS];
         let mut slopes = match derivatives {
-            Derivatives::None => None,
-            Derivatives::First => Some(PlaneSlopes::zero(fan.places.len())),
+            SegmentDerivatives::None | SegmentDerivatives::OfPressure => None,
+            SegmentDerivatives::All => Some(PlaneSlopes::zero(fan.places.len())),
         };
         let sums = Sums {
             facets: &self.facets,
@@ -238,7 +310,10 @@ impl PlanePair {
             slopes: slopes.as_mut(),
         };
         pulp::Arch::new().dispatch(sums);
-        let slopes = slopes.map(|own| CornerSlopes::new(own, polygon, &fan, &self.places));
+        let slopes = slopes.map(|own| {
+            let corners = own.by_corners();
+            CornerSlopes::new(corners, own.vertices, polygon, &fan, &self.places)
+        });
         (mass, slopes)
     }
 }

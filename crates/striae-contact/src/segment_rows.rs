@@ -4,6 +4,7 @@
 //! the positions `x_d` of its eight corners,
 //!
 //! ```text
+//! A_c  = integral N_c da
 //! G_c  = integral N_c g da  = n . sum_d s_d D_cd x_d
 //! du_c = integral N_c du da = R(n, n^n) (I - n^n n^n) sum_d s_d D_cd x^n_d
 //! ```
@@ -32,12 +33,15 @@ use crate::{
 /// Rows a corner: the gap, then the three components of the slip of side `a`.
 pub const ROWS: usize = 4;
 
-/// `G_c` and `du_c` of the corners, and their derivatives by the corners.
+/// `G_c`, `du_c` and `A_c` of the corners, and derivatives of the last two by the corners.
 pub struct SegmentRows {
     /// By corner.
     pub value: [[f64; ROWS]; 8],
-    /// Of the gap by corner `c`, corner `e` moved and axis; empty without derivatives.
-    pub gap_slopes: Vec<[[f64; 3]; 8]>,
+    /// Areas of the corners.
+    pub areas: [f64; 8],
+    /// Of the area by corner `c`, column `3 e + i` for `x_e . e_i`; empty without derivatives or
+    /// friction.
+    pub area_slopes: Vec<[f64; 24]>,
     /// Of the slip by corner `c`, corner `e` moved, then `3 component + axis`; empty without
     /// derivatives or friction.
     pub slip_slopes: Vec<[[f64; 9]; 8]>,
@@ -80,33 +84,44 @@ pub fn segment_rows(
     let n = paired.segment.normal;
     let mut rows = SegmentRows {
         value: [[0.0; ROWS]; 8],
-        gap_slopes: Vec::new(),
+        areas: std::array::from_fn(|c| paired.area_of(c)),
+        area_slopes: Vec::new(),
         slip_slopes: Vec::new(),
     };
-    let slopes = paired.segment.slopes.as_deref();
-    if slopes.is_some() {
-        rows.gap_slopes = vec![[[0.0; 3]; 8]; 8];
-    }
-    let along: [f64; 8] = std::array::from_fn(|d| n.dot(&(paired.x[d] - origin)));
-    let along = AtCorners(std::array::from_fn(|d| SIGNS[d] * along[d] + offsets[d]));
     for c in 0..8 {
         let sum = paired.difference(c, &paired.x, &origin);
         let left = paired.segment.mass[c].iter().zip(&offsets);
         let left: f64 = left.map(|(mass, offset)| mass * offset).sum();
         rows.value[c][0] = n.dot(&sum) + left;
-        let Some(slopes) = slopes else { continue };
-        let by_mass = along.of_mass(slopes, c);
-        for e in 0..8 {
-            let direct = n * (SIGNS[e] * paired.segment.mass[c][e]);
-            let gradient = direct + slopes.normal[e].tr_mul(&sum) + by_mass[e];
-            rows.gap_slopes[c][e] = gradient.into();
-        }
     }
     if slip == Slip::Wanted {
+        rows.add_area_slopes(paired);
         let moved = Moved::new(configuration, start, paired, weights);
         moved.add_slip(paired, &mut rows);
     }
     rows
+}
+
+impl SegmentRows {
+    /// Adds the derivatives of the areas: the functions of either side sum up to one.
+    fn add_area_slopes(&mut self, paired: &PairedFacets) {
+        let Some(slopes) = paired.segment.slopes.as_deref() else {
+            return;
+        };
+        let one = match paired.segment.mass[4][4] {
+            0.0 => 0..4,
+            _ => 4..8,
+        };
+        let of_corner = |c: usize| {
+            let mut sum = [0.0; 24];
+            for d in one.clone() {
+                let row = sum.iter_mut().zip(&slopes.mass[pair_index(c, d)]);
+                row.for_each(|(sum, slope)| *sum += slope);
+            }
+            sum
+        };
+        self.area_slopes = (0..8).map(of_corner).collect();
+    }
 }
 
 /// A value at each corner.

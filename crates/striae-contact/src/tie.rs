@@ -24,7 +24,7 @@ use striae_surface::{node::SurfaceNode, topology::distinct_corners};
 use crate::{
     configuration::{Configuration, Snapshot},
     pairing::{PairedFacets, Scope, paired_facets},
-    segment::Derivatives,
+    segment::SegmentDerivatives,
     side::Side,
 };
 
@@ -85,7 +85,9 @@ pub fn join(configuration: &Configuration, within: Option<f64>) -> Joined {
         compliances: &compliances,
         depth: 0.0,
     };
-    let paired = paired_facets(configuration, scope, &|_| Derivatives::None, |_| true);
+    let paired = paired_facets(configuration, scope, &|_| SegmentDerivatives::None, |_| {
+        true
+    });
     let areas = Side::BOTH.map(|side| areas(configuration.side(side)));
     let gap = |paired: &PairedFacets| paired.mean_gap(configuration).abs();
     let limit = |paired: &PairedFacets| within.unwrap_or(NEAR * paired.reach);

@@ -13,12 +13,13 @@ use striae_surface::{node::SurfaceNode, scalar::constant3};
 use crate::{
     configuration::Configuration,
     frame::{Frame, Frames},
+    kinematics::{Kinematics, Pressure},
     selection::Selection,
     side::Side,
     slip_rate::SlipRates,
     term::{Lanes, Source, add_block, gradient, parts, variable, variable3},
     texture::{NodeTextures, Textures},
-    tracked::{Tracked, TrackedScalar},
+    tracked::Tracked,
     unknowns::Tractions,
 };
 
@@ -37,6 +38,8 @@ pub struct Surroundings<'a> {
     pub textures: &'a Textures,
     /// Slip rates.
     pub rates: &'a SlipRates,
+    /// Kinematics of the kept nodes, for the pressures that bound friction.
+    pub kinematics: &'a [Kinematics],
 }
 
 /// Friction tractions of all kept nodes.
@@ -54,14 +57,19 @@ pub fn nodal_tractions(
             .with_min_len(16)
             .map(SurfaceNode::new)
             .map(|node| match &surroundings.frames[side][node] {
-                Some(frame) if selection.is_kept(side, node) && !frictionless => nodal_traction(
-                    friction,
-                    frame,
-                    &surroundings.textures[side][node],
-                    &surroundings.rates[side][node],
-                    configuration.pair.numbering().traction(side, node),
-                    tractions.nodes[side][node],
-                ),
+                Some(frame) if selection.is_kept(side, node) && !frictionless => {
+                    let first = configuration.pair.numbering().traction(side, node);
+                    let unknowns = tractions.nodes[side][node];
+                    let k = selection.basis.index[side][node].expect("the node is kept");
+                    let kinematics = &surroundings.kinematics[k as usize];
+                    nodal_traction(
+                        surroundings,
+                        frame,
+                        (side, node),
+                        (first, unknowns),
+                        kinematics,
+                    )
+                }
                 _ => Tracked::default(),
             })
             .collect()
@@ -69,34 +77,37 @@ pub fn nodal_tractions(
 }
 
 fn nodal_traction(
-    friction: &Friction,
+    surroundings: &Surroundings,
     frame: &Frame,
-    textures: &NodeTextures,
-    rate: &TrackedScalar,
-    first: u32,
-    unknowns: [f64; 3],
+    (side, node): (Side, SurfaceNode),
+    (first, unknowns): (u32, [f64; 3]),
+    kinematics: &Kinematics,
 ) -> Tracked {
+    let friction = surroundings.friction;
+    let textures = &surroundings.textures[side][node];
+    let rate = &surroundings.rates[side][node];
     let [t1, t2] = &frame.t;
-    let [pressure, z1, z2] = unknowns;
+    let [p, z1, z2] = unknowns;
     let vector = in_frame(frame, [z1, z2]);
-    let cap = Cap::new(friction, pressure, rate.value);
+    let cap = Cap::new(friction, kinematics.bounding_pressure(p), rate.value);
     let response = if *textures == NodeTextures::default() {
         Response::new::<4>(friction, frame, textures, cap, &vector)
     } else {
         Response::new::<13>(friction, frame, textures, cap, &vector)
     };
     let by_vector = response.by_vector;
-    let mut gradient = [[0.0; 3]; 19];
-    let by_unknowns = [
-        response.by_pressure,
-        by_vector * t1.value,
-        by_vector * t2.value,
-    ];
+    let mut gradient = [[0.0; 3]; 20];
+    let (by_own, by_mean) = match kinematics.pressure {
+        Pressure::AtNode => (response.by_pressure, Vec3::zeros()),
+        Pressure::AtPoints(_) => (Vec3::zeros(), response.by_pressure),
+    };
+    let by_unknowns = [by_own, by_vector * t1.value, by_vector * t2.value];
     add_block(&mut gradient, 0, &Matrix3::from_columns(&by_unknowns));
     add_block(&mut gradient, 3, &(by_vector * z1));
     add_block(&mut gradient, 6, &(by_vector * z2));
     gradient[9..18].copy_from_slice(&response.by_surroundings);
     gradient[18] = response.by_rate.into();
+    gradient[19] = by_mean.into();
     let mut lanes = Lanes::default();
     lanes.push(Source::Unknowns { first, count: 3 });
     lanes.push(Source::Vector(&t1.jacobian));
@@ -104,6 +115,10 @@ fn nodal_traction(
     lanes.push(Source::Vector(&frame.n.jacobian));
     push_textures(&mut lanes, textures);
     lanes.push(Source::Scalar(&rate.gradient));
+    lanes.push(match &kinematics.pressure {
+        Pressure::AtNode => Source::Constant(1),
+        Pressure::AtPoints(supported) => Source::Scalar(&supported.mean.gradient),
+    });
     Tracked {
         value: response.tau,
         jacobian: lanes.jacobian(&gradient),

@@ -3,7 +3,11 @@
 use serde::{Deserialize, Serialize};
 use striae_mesh::Vec3;
 
-use crate::{side::Side, tip::RigidPoints};
+use crate::{
+    bedding::{REFRESHED, level},
+    side::Side,
+    tip::RigidPoints,
+};
 
 /// Traction unknowns of a pair; the same shape whatever the roles.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -64,6 +68,12 @@ pub struct Label {
     pub fell: bool,
     /// How often `|du|` rose after a fall, since then.
     pub turns: u32,
+    /// Whether its pressure is known to be zero.
+    pub apart: bool,
+    /// Closed share of its support that its [bedding](crate::bedding) goes by.
+    pub bedded: f64,
+    /// How many iterations of the increment have refreshed that.
+    pub refreshed: u32,
 }
 
 impl Label {
@@ -84,6 +94,18 @@ impl Label {
             slip,
             fell: falls || self.fell && !rises,
             turns: self.turns + u32::from(self.fell && rises),
+            ..self.supported(node)
+        }
+    }
+
+    /// The label with what an iteration shows of the support.
+    fn supported(self, node: &NodeResult) -> Self {
+        let level = level(node.closed);
+        let refreshes = level != self.bedded && self.refreshed < REFRESHED;
+        Self {
+            apart: node.apart,
+            bedded: if refreshes { level } else { self.bedded },
+            refreshed: self.refreshed + u32::from(refreshes),
             ..self
         }
     }
@@ -95,7 +117,9 @@ impl Label {
             status: node.status,
             begun: self.begun + u32::from(begins),
             slip: node.slip.norm(),
-            ..Self::default()
+            fell: false,
+            turns: 0,
+            ..self.supported(node)
         }
     }
 
@@ -142,6 +166,10 @@ pub struct NodeResult {
     pub mean: Vec3,
     /// Status; of transferred nodes that of the kept node they follow most.
     pub status: Status,
+    /// Closed share of the support of a kept node.
+    pub closed: f64,
+    /// Whether nothing gives a kept node pressure.
+    pub apart: bool,
 }
 
 /// Results of all nodes of deformable sides and of the points of a rigid side.

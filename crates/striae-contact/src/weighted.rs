@@ -4,14 +4,16 @@
 //! the rows are adjoint to the forces of [`crate::common_field`]:
 //!
 //! ```text
-//! g_k  = 1/w_k integral phi_k g da  + 1/w_k sum_l E_kl p_l
+//! g_k  = 1/w^0_k integral phi_k min(g, p_k/r_k) da + 1/w^0_k sum_l E_kl p_l
 //! du_k = 1/w_k integral phi_k R(n_k, n) du da
-//!      + 1/w_k sum_l E_kl R(n_k, n_l) (tau_l - tau^n_l)
+//!      + 1/w_k sum_l R(n_k, n_l) (E_kl tau_l - E'_kl tau^n_l)
+//! w_k  = integral phi_k da
 //! ```
 //!
-//! `w_k = integral phi_k da` is frozen in an increment. Slip is seen from the node's own
-//! side. The terms with `E` are those of [`crate::ramp`]. Of a [lifted](crate::lift) row the
-//! gap is less by its constant `L_k`.
+//! `w^0_k` is `w_k` at the start of the increment, a constant; the row states `g_k = 0`. Where a
+//! support is closed at all points that is the mean gap, where it is open `p_k/r_k`; between, a
+//! bedding `r_k` (see [`crate::bedding`]) turns into a multiplier as the support fills. Slip is
+//! seen from the node's own side. The terms with `E` are those of [`crate::ramp`].
 
 use nalgebra::Matrix3;
 use rayon::prelude::*;
@@ -20,7 +22,7 @@ use striae_mesh::Vec3;
 use crate::{
     configuration::Configuration,
     frame::{Frame, Frames},
-    kinematics::{Kinematics, Presence, Report},
+    kinematics::{Kinematics, Presence, Pressure, Report, Supported},
     pairing::{SIGNS, side_sign},
     patch::Patch,
     places::{ChainedSum, Places},
@@ -31,15 +33,19 @@ use crate::{
     tracked::{Tracked, TrackedScalar},
     traction_basis::KeptNode,
     transported::Transported,
+    unknowns::Tractions,
 };
 
-/// Gaps and slips of all kept nodes without what depends on tractions.
+/// Weight below which a node has left the other side, over that at the start.
+const GONE: f64 = 1e-9;
+
+/// Gaps and slips of all kept nodes without what the ramp adds.
 pub fn kinematics(
     configuration: &Configuration,
     selection: &Selection,
     frames: &Frames,
-    patches: &[Patch],
-    slip: Slip,
+    tractions: &Tractions,
+    (patches, slip): (&[Patch], Slip),
 ) -> Vec<Kinematics> {
     let mut touching: Vec<Vec<(u32, u32)>> = vec![Vec::new(); selection.kept().len()];
     for (at, patch) in patches.iter().enumerate() {
@@ -58,12 +64,11 @@ pub fn kinematics(
             }
             let mut sum = Sum::new(configuration, kept, frame);
             for &(at, entry) in &touching[k] {
-                let patch = &patches[at as usize];
-                sum.add(patch, &patch.kept[entry as usize].1, slip);
+                sum.add(&patches[at as usize], entry as usize, slip);
             }
-            let mut mean = sum.over(selection.weight(k), selection.stiffness(k));
-            mean.gap.value -= selection.lift(kept.side, kept.node);
-            mean
+            let closed = tractions.labels[kept.side][kept.node].bedded;
+            let bedding = selection.bedding(k, closed);
+            sum.over(selection.weight(k), selection.stiffness(k), bedding)
         })
         .collect()
 }
@@ -74,16 +79,24 @@ struct Sum<'a> {
     kept: KeptNode,
     frame: Option<&'a Frame>,
     gap: f64,
+    /// Of the gap by the pressure of the node.
+    by_pressure: f64,
+    weight: f64,
+    open: f64,
     slip: Vec3,
     slip_by_n: Matrix3<f64>,
     places: Places,
     triples: Vec<u32>,
     /// Of the gap, by triple.
     gap_blocks: Vec<[f64; 3]>,
+    /// Of the weight, by triple.
+    weight_blocks: Vec<[f64; 3]>,
     /// Of the slip, by triple; only as long as the last one that has any.
     slip_blocks: Vec<Matrix3<f64>>,
     /// `alpha_ck` of the same nodes.
     alphas: Vec<f64>,
+    /// The same with the normals: how the mean gap over a closed support would change.
+    reaches: Vec<Vec3>,
 }
 
 impl<'a> Sum<'a> {
@@ -93,19 +106,27 @@ impl<'a> Sum<'a> {
             kept,
             frame,
             gap: 0.0,
+            by_pressure: 0.0,
+            weight: 0.0,
+            open: 0.0,
             slip: Vec3::zeros(),
             slip_by_n: Matrix3::zeros(),
             places: Places::none(),
             triples: Vec::with_capacity(48),
             gap_blocks: Vec::with_capacity(48),
+            weight_blocks: Vec::with_capacity(48),
             slip_blocks: Vec::new(),
             alphas: Vec::with_capacity(48),
+            reaches: Vec::with_capacity(48),
         }
     }
 
-    fn add(&mut self, patch: &Patch, shares: &[f64; 8], slip: Slip) {
+    fn add(&mut self, patch: &Patch, entry: usize, slip: Slip) {
+        let shares = &patch.kept[entry].1;
+        let pressed = &patch.pressed;
         let mut value = [0.0; ROWS];
-        let mut by_gap = [[0.0; 3]; 8];
+        let mut by_gap = [0.0; 24];
+        let mut by_weight = [0.0; 24];
         let mut by_slip = [[0.0; 9]; 8];
         for (c, &share) in shares
             .iter()
@@ -113,14 +134,20 @@ impl<'a> Sum<'a> {
             .filter(|(_, share)| **share != 0.0)
         {
             add_multiple(&mut value, share, &patch.rows.value[c]);
-            let of_gap = patch.rows.gap_slopes.get(c).into_iter().flatten();
-            let sums = by_gap.iter_mut().zip(of_gap);
-            sums.for_each(|(sum, part)| add_multiple(sum, share, part));
+            self.weight += share * patch.rows.areas[c];
+            if let Some(of_area) = patch.rows.area_slopes.get(c) {
+                add_multiple(&mut by_weight, share, of_area);
+            }
             let of_slip = patch.rows.slip_slopes.get(c).into_iter().flatten();
             let sums = by_slip.iter_mut().zip(of_slip);
             sums.for_each(|(sum, part)| add_multiple(sum, share, part));
         }
-        self.gap += value[0];
+        self.gap += pressed.rows[entry];
+        self.open += pressed.open[entry];
+        if let Some(slopes) = &pressed.slopes {
+            by_gap = slopes.rows[entry];
+            self.by_pressure += slopes.rows_by_pressure[entry];
+        }
         let turned = (slip == Slip::Wanted).then(|| self.turned(patch, &value));
         let slopes = patch.paired.segment.slopes.as_deref();
         let is_rigid = self.configuration.pair.is_rigid();
@@ -136,11 +163,11 @@ impl<'a> Sum<'a> {
             }
             let mass = &patch.paired.segment.mass[corner];
             let alpha: f64 = mass.iter().zip(shares).map(|(m, share)| m * share).sum();
-            if slopes.is_none() {
-                by_gap[corner] = (patch.paired.segment.normal * (SIGNS[corner] * alpha)).into();
-            }
+            let of_corner = |row: &[f64; 24]| std::array::from_fn(|i| row[3 * corner + i]);
             let first = self.configuration.pair.numbering().position(side, node);
-            let at = self.add_to_gap(first, &by_gap[corner], alpha);
+            let blocks = [of_corner(&by_gap), of_corner(&by_weight)];
+            let normal = patch.paired.segment.normal * (SIGNS[corner] * alpha);
+            let at = self.add_at(first, blocks, alpha, normal);
             if let (Some(turned), Some(slopes)) = (&turned, slopes) {
                 let own = Matrix3::from_row_slice(&by_slip[corner]);
                 let whole = turned.by_vector * own + turned.by_from * slopes.normal[corner];
@@ -163,17 +190,21 @@ impl<'a> Sum<'a> {
         turned
     }
 
-    /// Place of the triple.
-    fn add_to_gap(&mut self, first: u32, block: &[f64; 3], alpha: f64) -> usize {
+    /// Adds to what depends on a triple, and returns its place.
+    fn add_at(&mut self, first: u32, [gap, weight]: [[f64; 3]; 2], alpha: f64, n: Vec3) -> usize {
         let next = self.triples.len();
         let at = self.places.find(first, next);
         if at == next {
             self.triples.push(first);
-            self.gap_blocks.push(*block);
+            self.gap_blocks.push(gap);
+            self.weight_blocks.push(weight);
             self.alphas.push(alpha);
+            self.reaches.push(n);
         } else {
-            add_multiple(&mut self.gap_blocks[at], 1.0, block);
+            add_multiple(&mut self.gap_blocks[at], 1.0, &gap);
+            add_multiple(&mut self.weight_blocks[at], 1.0, &weight);
             self.alphas[at] += alpha;
+            self.reaches[at] += n;
         }
         at
     }
@@ -185,16 +216,33 @@ impl<'a> Sum<'a> {
         self.slip_blocks[at] += block;
     }
 
-    /// The means over the weight of the node.
-    fn over(self, weight: f64, stiffness: [f64; 2]) -> Kinematics {
-        let share = 1.0 / weight;
-        let gradient = self.triples.iter().copied().zip(&self.gap_blocks);
-        let gradient: Gradient = gradient
-            .map(|(first, block)| (first, Vec3::from(*block) * share))
-            .collect();
+    /// The means over the weight of the node: that at the start for the gap, the present one
+    /// for the slip.
+    fn over(self, start: f64, stiffness: [f64; 2], bedding: f64) -> Kinematics {
+        let share = 1.0 / start;
+        let by_triple = |blocks: &[[f64; 3]], share: f64| -> Gradient {
+            let blocks = self.triples.iter().copied().zip(blocks);
+            let scaled = |(first, block): (u32, &[f64; 3])| (first, Vec3::from(*block) * share);
+            blocks.map(scaled).collect()
+        };
+        let is_gone = self.weight <= GONE * start;
+        let mut gradient = by_triple(&self.gap_blocks, share);
+        let numbering = self.configuration.pair.numbering();
+        let own = numbering.traction(self.kept.side, self.kept.node);
+        gradient.push((own, Vec3::x() * (self.by_pressure * share)));
+        let weight = TrackedScalar {
+            value: self.weight,
+            gradient: by_triple(&self.weight_blocks, 1.0),
+        };
+        let present = if is_gone { start } else { self.weight };
+        let slip = self.slip / present;
+        let share = 1.0 / present;
         let jacobian = self.triples.iter().copied().zip(&self.slip_blocks);
         let mut jacobian: Jacobian = jacobian
-            .map(|(first, block)| (first, block * share))
+            .zip(&weight.gradient)
+            .map(|((first, block), (_, by_weight))| {
+                (first, block * share - slip * by_weight.transpose() * share)
+            })
             .collect();
         if let Some(frame) = self.frame
             && !jacobian.is_empty()
@@ -204,24 +252,37 @@ impl<'a> Sum<'a> {
             let mut sum = ChainedSum::onto(&mut jacobian);
             sum.add(&(self.slip_by_n * share), &frame.n.jacobian);
         }
-        let alphas = self.alphas.iter().map(|alpha| alpha * share);
+        let closed = if is_gone {
+            0.0
+        } else {
+            1.0 - self.open / self.weight
+        };
+        let alphas = self.alphas.iter().map(|alpha| alpha / start);
+        let reaches = self.reaches.iter().map(|reach| reach / start);
         Kinematics {
-            seen_slip: self.slip * share,
+            seen_slip: slip,
             shares: self.triples.iter().copied().zip(alphas).collect(),
-            presence: if gradient.is_empty() {
+            reaches: self.triples.iter().copied().zip(reaches).collect(),
+            presence: if is_gone {
                 Presence::Gone
             } else {
                 Presence::Facing
             },
             gap: TrackedScalar {
-                value: self.gap * share,
+                value: self.gap / start,
                 gradient,
             },
             slip: Tracked {
-                value: self.slip * share,
+                value: slip,
                 jacobian,
             },
             stiffness,
+            pressure: Pressure::AtPoints(Supported {
+                weight,
+                closed,
+                bedding,
+                mean: TrackedScalar::default(),
+            }),
         }
     }
 }

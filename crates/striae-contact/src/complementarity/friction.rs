@@ -31,12 +31,12 @@ use crate::{configuration::Configuration, table_1::Corrector, term::Field, unkno
 /// What a tangential row states, its residual and its gradient over the lanes.
 pub(super) type TangentialRow = (Field, f64, [f64; N]);
 
-/// Status and tangential rows of a closed node with the unknowns `[p, z1, z2]`; `r` is the
+/// Status and tangential rows of a closed node with the unknowns `[z1, z2]`; `r` is the
 /// default of `r_t`.
 pub(super) fn tangential(
     state: &NodeState,
     configuration: &Configuration,
-    [p, z1, z2]: [f64; 3],
+    [z1, z2]: [f64; 2],
     r: f64,
     iteration: Iteration,
 ) -> (Status, [TangentialRow; 2]) {
@@ -51,14 +51,14 @@ pub(super) fn tangential(
         }
         Iteration::First | Iteration::Corrected(_) => Rate::Present,
     };
-    let varpi = state.varpi(p, rate);
+    let varpi = state.varpi(rate);
     let node = Friction {
         state,
         mobility: Mobility::new(state),
         size: configuration.size(state.node.side, state.node.node),
         begun: match state.node.before.status {
             Status::Open | Status::Stick if state.node.before.begun % 2 == 1 => {
-                state.varpi(p, Rate::Endless)
+                state.varpi(Rate::Endless)
             }
             Status::Open | Status::Stick | Status::Slip => varpi,
         },
@@ -160,8 +160,7 @@ impl Friction<'_> {
 
     /// The radius of the slip surface at the highest slip rates.
     fn least_radius(&self) -> f64 {
-        let p = self.state.node.unknowns[0];
-        let kinetic = self.state.varpi(p, Rate::Endless);
+        let kinetic = self.state.varpi(Rate::Endless);
         self.reaching(&kinetic, &self.z).re
     }
 

@@ -9,7 +9,7 @@ use striae_surface::scalar::constant3;
 use super::{Prescribed, node::ContactNode};
 use crate::{
     configuration::Configuration,
-    kinematics::{Kinematics, Presence},
+    kinematics::{Kinematics, Presence, Pressure},
     quantity::Quantity,
     term::{Lanes, Source, gradient, parts, variable3},
     traction::{Cap, in_frame, on_lanes, push_textures},
@@ -18,7 +18,7 @@ use crate::{
 };
 
 /// Number of lanes.
-pub(super) const N: usize = 23;
+pub(super) const N: usize = 24;
 /// A scalar over the lanes.
 pub(super) type Q = Quantity<N>;
 /// Lane of the gap.
@@ -35,6 +35,8 @@ pub(super) const TRACTION: usize = 13;
 const TEXTURES: usize = 16;
 /// Lane of the slip rate.
 const RATE: usize = 22;
+/// Lane of the pressure that bounds friction.
+const PRESSURE: usize = 23;
 
 /// Derivative of the gap below which nothing can change it.
 const FIXED: f64 = 1e-9;
@@ -93,6 +95,10 @@ impl<'a> NodeState<'a> {
         });
         push_textures(&mut lanes, node.textures);
         lanes.push(Source::Scalar(&node.rate.gradient));
+        lanes.push(match &node.kinematics.pressure {
+            Pressure::AtNode => Source::Constant(1),
+            Pressure::AtPoints(supported) => Source::Scalar(&supported.mean.gradient),
+        });
         // Lanes of the law: normal and textures.
         let normal: Vector3<DualSVec64<9>> = variable3(&node.frame.n.value, 0);
         let textures = on_lanes(node.textures, 3);
@@ -146,24 +152,34 @@ impl<'a> NodeState<'a> {
     pub(super) fn result(&self) -> NodeResult {
         let ContactNode {
             frame,
-            unknowns,
             tau,
             kinematics,
             ..
         } = self.node;
         NodeResult {
             gap: match kinematics.presence {
-                Presence::Facing => kinematics.gap.value,
+                Presence::Facing | Presence::Apart => kinematics.gap.value,
                 Presence::Gone => 0.0,
             },
-            pressure: unknowns[0],
+            pressure: self.bounding_pressure().max(0.0),
             tau: *tau,
             slip: kinematics.seen_slip,
             normal: frame.n.value,
             texture: Vec3::zeros(),
             mean: Vec3::zeros(),
             status: Status::Open,
+            closed: match &kinematics.pressure {
+                Pressure::AtNode => 1.0,
+                Pressure::AtPoints(supported) => supported.closed,
+            },
+            apart: kinematics.presence != Presence::Facing,
         }
+    }
+
+    /// The pressure that bounds friction.
+    pub(super) fn bounding_pressure(&self) -> f64 {
+        let [p, ..] = self.node.unknowns;
+        self.node.kinematics.bounding_pressure(p)
     }
 
     /// Whether a triple is the position of the node itself or one of the other side.
@@ -190,14 +206,14 @@ impl<'a> NodeState<'a> {
 
     /// Whether a free position changes the gap.
     pub(super) fn is_free(&self) -> bool {
-        let gradient = &self.node.kinematics.gap.gradient;
-        gradient.iter().any(|(first, slope)| {
+        let reaches = &self.node.kinematics.reaches;
+        reaches.iter().any(|(first, slope)| {
             (0..3).any(|axis| slope[axis].abs() > FIXED && self.is_free_position(*first, axis))
         })
     }
 
-    /// `varpi` at the pressure `p` and a slip rate.
-    pub(super) fn varpi(&self, p: f64, rate: Rate) -> Q {
+    /// `varpi` at a slip rate.
+    pub(super) fn varpi(&self, rate: Rate) -> Q {
         let present = self.node.rate.value;
         let rate = match rate {
             Rate::Present => present,
@@ -207,9 +223,13 @@ impl<'a> NodeState<'a> {
             }
             Rate::Endless => f64::INFINITY,
         };
-        let cap = Cap::new(self.friction, p, rate);
+        let cap = Cap::new(self.friction, self.bounding_pressure(), rate);
         let mut varpi = Q::constant(cap.value);
-        varpi.slope[TRACTION] = cap.by_pressure;
+        let lane = match self.node.kinematics.pressure {
+            Pressure::AtNode => TRACTION,
+            Pressure::AtPoints(_) => PRESSURE,
+        };
+        varpi.slope[lane] = cap.by_pressure;
         if rate == present {
             varpi.slope[RATE] = cap.by_rate;
         }

@@ -34,7 +34,7 @@ use crate::{
     configuration::Configuration,
     pair::Enforcement,
     pairing::{Scope, paired_facets},
-    segment::Derivatives,
+    segment::SegmentDerivatives,
     selection::{Kept, Selection, compliances},
     side::Side,
     spot::faced,
@@ -365,7 +365,9 @@ fn mean_gaps(configuration: &Configuration, scope: Scope) -> [Vec<Option<f64>>; 
         let count = configuration.sides[side].as_ref().map_or(0, |s| s.x.len());
         vec![[0.0; 2]; count]
     });
-    for paired in paired_facets(configuration, scope, &|_| Derivatives::None, |_| true) {
+    for paired in paired_facets(configuration, scope, &|_| SegmentDerivatives::None, |_| {
+        true
+    }) {
         let origin = paired.origin(configuration);
         for corner in 0..8 {
             if let Some((side, node)) = paired.node(configuration, corner) {

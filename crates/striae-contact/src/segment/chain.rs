@@ -13,18 +13,21 @@
 //! ```text
 //! dy_i = e_i . dx - (n . r)(e_i . dn)
 //! ```
+//!
+//! and the height `h = n . r` over it moves by `dh = n . dx + sum_i y_i (e_i . dn)`.
 
+use nalgebra::Matrix3;
 use striae_mesh::Vec3;
 
 use super::{
-    Slopes,
     fan::Fan,
     plane_facet::Vec2,
     polygon::{CutEdge, Label, Vertex},
-    sums::{ByPair, PAIRS, PlaneSlopes, add, functions},
+    sums::add,
 };
 
 /// The plane of a pair.
+#[derive(Clone, Debug)]
 pub(super) struct Plane {
     /// Its normal.
     pub normal: Vec3,
@@ -52,19 +55,26 @@ impl Plane {
         Vec2::new(self.axes[0].dot(&r), self.axes[1].dot(&r))
     }
 
-    fn height(&self, x: &Vec3) -> f64 {
+    /// Height over the plane.
+    pub fn height(&self, x: &Vec3) -> f64 {
         self.normal.dot(&(x - self.origin))
     }
 }
 
-/// Derivatives of all pairs by the coordinates of each corner in the plane.
-pub(super) struct CornerSlopes([[ByPair; 2]; 8]);
+/// Derivatives of `M` integrals by the coordinates of each corner in the plane.
+pub(super) struct CornerSlopes<const M: usize>([[[f64; M]; 2]; 8]);
 
-impl CornerSlopes {
-    /// With the slopes by vertices, and by a centre, passed on to the corners.
-    pub fn new(slopes: PlaneSlopes, polygon: &[Vertex], fan: &Fan, places: &[Vec2; 8]) -> Self {
-        let mut corners = Self(slopes.by_corners());
-        let mut vertices = slopes.vertices;
+impl<const M: usize> CornerSlopes<M> {
+    /// From derivatives by the corners while the polygon rests, and by its vertices and the
+    /// centre of its fan, which are passed on to the corners.
+    pub fn new(
+        corners: [[[f64; M]; 2]; 8],
+        mut vertices: Vec<[[f64; M]; 2]>,
+        polygon: &[Vertex],
+        fan: &Fan,
+        places: &[Vec2; 8],
+    ) -> Self {
+        let mut corners = Self(corners);
         if let Some(centre) = vertices.get(polygon.len()).copied() {
             let share = 1.0 / fan.around.len() as f64;
             for at in &fan.around {
@@ -81,17 +91,22 @@ impl CornerSlopes {
         corners
     }
 
-    fn pass(&mut self, corner: usize, share: f64, by_place: &[ByPair; 2]) {
+    fn pass(&mut self, corner: usize, share: f64, by_place: &[[f64; M]; 2]) {
         for axis in 0..2 {
             add(&mut self.0[corner][axis], share, &by_place[axis]);
         }
     }
 
-    fn pass_crossing(&mut self, edges: &[CutEdge; 2], places: &[Vec2; 8], by_place: &[ByPair; 2]) {
+    fn pass_crossing(
+        &mut self,
+        edges: &[CutEdge; 2],
+        places: &[Vec2; 8],
+        by_place: &[[f64; M]; 2],
+    ) {
         let [u, w] = edges.map(|edge| places[edge.ends[1]] - places[edge.ends[0]]);
         let cross = u.perp(&w);
         for (edge, own, along) in [(&edges[0], u, w / cross), (&edges[1], w, -u / cross)] {
-            let mut moved = [0.0; PAIRS];
+            let mut moved = [0.0; M];
             add(&mut moved, along.x, &by_place[0]);
             add(&mut moved, along.y, &by_place[1]);
             for (end, share) in edge.ends.into_iter().zip([1.0 - edge.share, edge.share]) {
@@ -101,29 +116,42 @@ impl CornerSlopes {
         }
     }
 
-    /// Fills in the derivatives by the corners in space, where those of the normal are known.
-    pub fn in_space(&self, plane: &Plane, corners: &[Vec3; 8], slopes: &mut Slopes) {
-        let Slopes { normal, mass } = slopes;
-        let mut turn = [[0.0; PAIRS]; 2];
+    /// Derivatives by the corners in space, column `3 k + i` for `x_k . e_i`, from those of the
+    /// normal and, where integrals depend on heights over the plane, those by the heights.
+    pub fn in_space(
+        &self,
+        plane: &Plane,
+        corners: &[Vec3; 8],
+        normal: &[Matrix3<f64>; 8],
+        by_height: Option<&[[f64; M]; 8]>,
+    ) -> [[f64; 24]; M] {
+        let mut turn = [[0.0; M]; 2];
         let mut by_turn = [[0.0; 24]; 2];
         for axis in 0..2 {
             for corner in 0..8 {
                 let height = plane.height(&corners[corner]);
                 add(&mut turn[axis], -height, &self.0[corner][axis]);
+                if let Some(by_height) = by_height {
+                    let place = plane.place(&corners[corner])[axis];
+                    add(&mut turn[axis], place, &by_height[corner]);
+                }
                 let slope = normal[corner].tr_mul(&plane.axes[axis]);
                 by_turn[axis][3 * corner..3 * corner + 3].copy_from_slice(slope.as_slice());
             }
         }
-        for pair in 0..PAIRS {
-            let (c, d) = functions(pair);
-            let row = &mut mass[super::pair_index(c, d)];
+        let mut rows = [[0.0; 24]; M];
+        for (at, row) in rows.iter_mut().enumerate() {
             for corner in 0..8 {
-                let [first, second] = self.0[corner].each_ref().map(|by_pair| by_pair[pair]);
-                let by_x = plane.axes[0] * first + plane.axes[1] * second;
+                let [first, second] = self.0[corner].each_ref().map(|by| by[at]);
+                let mut by_x = plane.axes[0] * first + plane.axes[1] * second;
+                if let Some(by_height) = by_height {
+                    by_x += plane.normal * by_height[corner][at];
+                }
                 row[3 * corner..3 * corner + 3].copy_from_slice(by_x.as_slice());
             }
-            add(row, turn[0][pair], &by_turn[0]);
-            add(row, turn[1][pair], &by_turn[1]);
+            add(row, turn[0][at], &by_turn[0]);
+            add(row, turn[1][at], &by_turn[1]);
         }
+        rows
     }
 }

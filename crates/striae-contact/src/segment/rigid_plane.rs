@@ -17,7 +17,7 @@ use striae_surface::{
     scalar::combination,
 };
 
-use super::{Derivatives, FACING, Facet, Segment, Slopes, normal::facet_normal, pair_index};
+use super::{FACING, Facet, Segment, SegmentDerivatives, Slopes, normal::facet_normal, pair_index};
 use crate::quadrature::GAUSS_2;
 
 /// The segment of a facet and an unbounded rigid plane with the unit normal
@@ -29,7 +29,7 @@ use crate::quadrature::GAUSS_2;
 pub fn plane_segment(
     facet: &Facet,
     plane_normal: &Vec3,
-    derivatives: Derivatives,
+    derivatives: impl Into<SegmentDerivatives>,
 ) -> Option<Segment> {
     let facing = facet_normal(facet)?.dot(plane_normal) <= FACING;
     if !facing {
@@ -37,11 +37,11 @@ pub fn plane_segment(
     }
     let normal = -plane_normal;
     let mut mass = [[0.0; 8]; 8];
-    let mut slopes = match derivatives {
-        Derivatives::None => None,
-        Derivatives::First => Some(Box::new(Slopes {
+    let mut slopes = match derivatives.into() {
+        SegmentDerivatives::None => None,
+        SegmentDerivatives::OfPressure | SegmentDerivatives::All => Some(Box::new(Slopes {
             normal: [Matrix3::zeros(); 8],
-            mass: [[0.0; 24]; 36],
+            mass: vec![[0.0; 24]; 36],
         })),
     };
     let mut area = 0.0;
@@ -73,6 +73,7 @@ pub fn plane_segment(
         topology: 0,
         mass,
         slopes,
+        polygon: None,
     })
 }
 

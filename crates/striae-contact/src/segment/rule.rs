@@ -48,6 +48,17 @@ pub(super) static DEGREE_8: [Point; 16] = orbits(
     ]],
 );
 
+/// Exact to degree five, with points at the corners: Chin-Joe-Kong, Mulder & van Veldhuizen,
+/// J. Eng. Math. 35 (1999), doi:10.1023/A:1004420829610, solved anew to all digits.
+pub(super) static VERTEX_5: [Point; 12] = orbits(
+    &[],
+    &[
+        [0.0, 0.014_872_913_024_820_582],
+        [0.207_345_175_663_590_93, 0.220_777_057_840_410_74],
+    ],
+    &[[0.0, 0.293_469_555_909_040_2, 0.048_841_681_234_051_007]],
+);
+
 /// The points of a rule from the weight of the centre, points `(1 - 2a, a, a)` as
 /// `[a, weight]` and points `(a, b, 1 - a - b)` as `[a, b, weight]`, in all orders.
 const fn orbits<const N: usize>(
@@ -113,6 +124,7 @@ mod tests {
     #[test]
     fn rules_are_exact_to_their_degree() {
         assert_exact(&DEGREE_5, 5);
+        assert_exact(&VERTEX_5, 5);
         assert_exact(&DEGREE_6, 6);
         assert_exact(&DEGREE_8, 8);
     }

@@ -73,7 +73,7 @@ impl PlaneSlopes {
     }
 
     /// By the coordinates of each corner, while the polygon rests.
-    pub(crate) fn by_corners(&self) -> [[ByPair; 2]; 8] {
+    pub fn by_corners(&self) -> [[ByPair; 2]; 8] {
         let mut corners = [[[0.0; PAIRS]; 2]; 8];
         for side in 0..2 {
             for k in 0..4 {

@@ -14,13 +14,13 @@ use crate::{
     coverage::Place,
     interface::{ClampedProjection, Interface, Opponent, Overlap},
     pairing::{PairedFacets, Scope, paired_facets},
-    segment::Derivatives,
+    segment::SegmentDerivatives,
     side::Side,
     traction_basis::TractionBasis,
     unknown::Prescribed,
 };
 
-/// Common area below which a patch is dropped, over the square of the facet size.
+/// Common area below which a patch is dropped, over the square of the smaller facet size.
 const SLIVER: f64 = 1e-3;
 
 /// What a basis is chosen from, in one or two configurations.
@@ -36,7 +36,9 @@ pub(super) struct Gathered {
 impl Gathered {
     /// What one configuration shows.
     pub(super) fn new(configuration: &Configuration, scope: Scope) -> Self {
-        let paired = paired_facets(configuration, scope, &|_| Derivatives::None, |_| true);
+        let paired = paired_facets(configuration, scope, &|_| SegmentDerivatives::None, |_| {
+            true
+        });
         let paired = without_slivers(configuration, paired);
         let mut near = Side::BOTH.map(|side| {
             let count = configuration.sides[side].as_ref().map_or(0, |s| s.x.len());
@@ -139,12 +141,14 @@ impl Gathered {
 
 /// Paired facets without patches that share next to no area.
 fn without_slivers(configuration: &Configuration, paired: Vec<PairedFacets>) -> Vec<PairedFacets> {
+    let sides = configuration.pair.deformable_sides();
     let is_sliver = |paired: &PairedFacets| {
-        let size = |corners: &[SurfaceNode; 4], side: Side| {
+        let size = |&side: &Side| {
             let sizes = &configuration.side(side).sizes;
-            corners.iter().map(|&node| sizes[node]).fold(0.0, f64::max)
+            let corners = paired.corners[side].iter();
+            corners.map(|&node| sizes[node]).fold(0.0, f64::max)
         };
-        let size = size(&paired.corners[0], Side::A);
+        let size = sides.iter().map(size).fold(f64::INFINITY, f64::min);
         paired.segment.area < SLIVER * size * size
     };
     if paired.iter().all(is_sliver) {

@@ -10,10 +10,11 @@ use super::{
     before::{Kept, Lifts},
 };
 use crate::{
+    bedding::bedding,
     configuration::Configuration,
     pairing::{PairedFacets, Scope, paired_facets},
     partner::Partner,
-    segment::Derivatives,
+    segment::SegmentDerivatives,
     side::Side,
     tip::{RigidPoints, Tip},
     traction_basis::{KeptNode, TractionBasis, Weak},
@@ -157,6 +158,12 @@ impl Selection {
         }
     }
 
+    /// `r_k`, pressure per gap where the support of a kept node is open, at the share of it
+    /// that is closed.
+    pub fn bedding(&self, k: usize, closed: f64) -> f64 {
+        bedding(self.basis.flexibility[k], closed)
+    }
+
     /// Weakly independent kept nodes.
     pub fn ramp(&self) -> &[Weak] {
         &self.basis.ramp
@@ -216,9 +223,12 @@ impl Selection {
 
     /// Whether facets of the two sides overlap.
     pub fn overlaps(&self, configuration: &Configuration) -> bool {
-        !paired_facets(configuration, self.scope(), &|_| Derivatives::None, |_| {
-            true
-        })
+        !paired_facets(
+            configuration,
+            self.scope(),
+            &|_| SegmentDerivatives::None,
+            |_| true,
+        )
         .is_empty()
     }
 
@@ -234,11 +244,13 @@ impl Selection {
             depth: self.depth.max(approach(start, configuration)),
             ..self.scope()
         };
-        let paired = paired_facets(configuration, scope, &|_| Derivatives::None, |_| true);
+        let paired = paired_facets(configuration, scope, &|_| SegmentDerivatives::None, |_| {
+            true
+        });
         let mut left_out: Vec<(Side, SurfaceNode)> = Vec::new();
         for paired in &paired {
             let gap = paired.mean_gap(configuration);
-            let touching = gap < TOUCHING * paired.segment.area.sqrt();
+            let touching = paired.least_gap(configuration) < TOUCHING * paired.segment.area.sqrt();
             // Deeper than contact looks in this increment.
             let beyond = -gap > paired.reach + self.depth;
             let nodes = (0..8).filter_map(|corner| paired.node(configuration, corner));

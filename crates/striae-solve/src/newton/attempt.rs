@@ -180,7 +180,10 @@ impl Attempt<'_> {
             assembled = self.taken_up(found, workspace)?;
         }
         self.interferences = passage(&self.setting(), &self.trial, &assembled.contacts)?;
-        Ok(self.lifted(assembled, workspace, observer))
+        if false {
+            return Ok(self.lifted(assembled, workspace, observer));
+        }
+        Ok(assembled)
     }
 
     fn setting(&self) -> Setting<'_> {

@@ -108,7 +108,7 @@ enum Rows {
 
 /// Adds a part of a correction to tractions; `place` finds their unknowns.
 ///
-/// Rows of open nodes are `p = 0` and `z = 0`. What they ask for is known, and what a solver
+/// Rows of open nodes are `z = 0`, and `p = 0` too where they are apart. What they ask for is known, and what a solver
 /// finds differs from it by round-off, or by what an iterative one leaves. That would decide
 /// the friction of a node that closes next, as the derivative of `varpi = mu max(p, 0)` jumps
 /// at zero, and with it how many iterations follow.
@@ -128,7 +128,8 @@ fn add_tractions(
             };
             let is_open = rows == Rows::OfStatus && label.status == Status::Open;
             for (component, unknown) in unknowns.iter_mut().enumerate() {
-                let change = match is_open {
+                let is_known = is_open && (component > 0 || label.apart);
+                let change = match is_known {
                     true => -*unknown,
                     false => correction[first + component],
                 };
@@ -148,6 +149,7 @@ mod tests {
         tractions.nodes[Side::A] = vec![[4.0, 2.0, -2.0]; 3];
         for (node, status) in [Status::Open, Status::Stick].into_iter().enumerate() {
             tractions.labels[Side::A][node].status = status;
+            tractions.labels[Side::A][node].apart = status == Status::Open;
         }
         let correction = [-4.0 + 1e-13, -2.0, 2.0 + 1e-7];
         let place = |_, node: SurfaceNode| {

@@ -68,8 +68,13 @@ pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected
                 true => with(Status::Slip),
                 false => of_pair.nodes.each_ref().map(|side| vec![false; side.len()]),
             };
-            let labelled = |side: &Vec<bool>| side.iter().map(|slipped| label(*slipped)).collect();
-            tractions.labels = tractions.slipped.each_ref().map(labelled);
+            tractions.labels = Side::BOTH.map(|side| {
+                let slipped = tractions.slipped[side].iter();
+                let before = slipped.zip(&of_pair.tractions.labels[side]);
+                before
+                    .map(|(slipped, before)| label(*slipped, before))
+                    .collect()
+            });
             let mut pointed = of_pair.pointed.clone();
             for stay in &stays {
                 pointed[1][stay.to] = true;
@@ -88,14 +93,15 @@ pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected
     }
 }
 
-/// What a node starts with that has slipped in the converged state, or not.
-fn label(slipped: bool) -> Label {
+/// The label that a node starts with which has slipped in the converged state, or not.
+fn label(slipped: bool, before: &Label) -> Label {
     let status = match slipped {
         true => Status::Slip,
         false => Status::Open,
     };
     Label {
         status,
+        bedded: before.bedded,
         ..Label::default()
     }
 }
@@ -118,6 +124,9 @@ pub(super) fn pierced(
     contacts: &[Evaluation],
     progress: Progress,
 ) -> Vec<Pierced> {
+    if true {
+        return vec![Pierced::default(); selections.len()];
+    }
     let pairs = selections.iter().zip(contacts).enumerate();
     pairs
         .map(|(pair, (selection, contact))| {

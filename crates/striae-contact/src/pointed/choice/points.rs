@@ -36,7 +36,7 @@ use crate::{
     pairing::{Scope, paired_facets},
     pointed::ridge::{Bend, candidates},
     projection::Hit,
-    segment::Derivatives,
+    segment::SegmentDerivatives,
     selection::{Selection, compliances},
     side::Side,
     spot::{Spot, faced},
@@ -258,7 +258,9 @@ pub fn staying(
 /// Mean gap over the segments of every facet of side `a`.
 fn facet_gaps(configuration: &Configuration, scope: Scope) -> Vec<Option<f64>> {
     let mut sums = vec![[0.0; 2]; configuration.side(Side::A).surface.facets().len()];
-    for paired in paired_facets(configuration, scope, &|_| Derivatives::None, |_| true) {
+    for paired in paired_facets(configuration, scope, &|_| SegmentDerivatives::None, |_| {
+        true
+    }) {
         if let Some(facet) = paired.facets[0] {
             let [gap, area] = &mut sums[facet.index()];
             *gap += paired.mean_gap(configuration) * paired.segment.area;
