@@ -5,29 +5,19 @@
 //! ```
 //!
 //! with the flexibility `l_k` of the facets around the node and the open share `o_k` of its
-//! support. Below the size of a facet the bedding is the only compliance there is: an elastic
-//! half-space under a cap of .18 of a facet, or a flat punch of .35, has `r_k l_k = 5`; smaller
-//! contacts want more, larger ones less. Where a support is closed gaps are zero in the mean,
-//! and a bedding would only penalise what gaps non-matching meshes leave between nodes.
+//! support, where `g > p_k l_k/C_OPEN`. Below the size of a facet the bedding is the only
+//! compliance there is: an elastic half-space under a cap of .18 of a facet, or a flat punch of
+//! .35, has `r_k l_k = 5`; smaller contacts want more, larger ones less. Where a support is
+//! closed gaps are zero in the mean, and a bedding would only penalise what gaps non-matching
+//! meshes leave between nodes.
 //!
-//! `o_k` is that of the iteration before, rounded to a multiple of `1/`[`LEVELS`], without
-//! derivatives: Newton's method converges quadratically once it rests, and where nothing moves,
-//! nothing changes. A node whose share goes on changing keeps it from the [`REFRESHED`]th change
-//! of an increment on.
+//! `o_k` is that of the last converged state, one where there was no contact, and rests in an
+//! increment: of the present state it would have no derivative.
 
 /// `r_k l_k` of a support that is open.
 pub const C_OPEN: f64 = 5.0;
 /// `r_k l_k` of a support that is closed.
 pub const C_CLOSED: f64 = 0.1;
-/// How many levels of the open share are told apart.
-pub const LEVELS: f64 = 16.0;
-/// How often the open share of a node may change in an increment.
-pub const REFRESHED: u32 = 6;
-
-/// The level of a share.
-pub fn level(share: f64) -> f64 {
-    (share * LEVELS).round() / LEVELS
-}
 
 /// `r_k` of a node with the flexibility `l_k`, `closed = 1 - o_k`; zero where nothing yields.
 pub fn bedding(flexibility: f64, closed: f64) -> f64 {

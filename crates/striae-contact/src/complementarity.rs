@@ -99,7 +99,7 @@ pub fn rows(
         Pressure::AtPoints(supported) => {
             let stated = is_free && node.kinematics.presence == Presence::Facing;
             let pressed = match first {
-                true => supported.closed > 0.0,
+                true => supported.touches,
                 false => state.bounding_pressure() > 0.0,
             };
             (stated, stated && pressed)

@@ -15,7 +15,7 @@ use crate::{
     converged_friction::CollapsedFacets,
     field::{FacetForces, Fields, facet_terms},
     frame::{Frame, Frames, frames},
-    kinematics::{Kinematics, Report},
+    kinematics::{Kinematics, Pressure, Report},
     pair::Enforcement,
     pairing::{Corners, side_sign, topology},
     patch::{Patch, Pressures, patches, wanted},
@@ -220,6 +220,9 @@ impl Stage<'_> {
             let p = self.tractions.nodes[side_k][node_k][0];
             let pressure = self.kinematics[k as usize].bounding_pressure(p);
             result.pressure += weight * pressure.max(0.0);
+            if let Pressure::AtPoints(supported) = &self.kinematics[k as usize].pressure {
+                result.closed += weight * supported.closed;
+            }
             if let Some(from) = &self.frames[side_k][node_k] {
                 let facing = side_sign(side) * side_sign(side_k);
                 let tau = &self.tau[side_k][node_k].value;

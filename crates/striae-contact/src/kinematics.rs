@@ -46,8 +46,10 @@ pub enum Pressure {
 pub struct Supported {
     /// `w_k = integral phi_k`, of the present configuration.
     pub weight: TrackedScalar,
-    /// Share of the support that is closed.
+    /// Share of the support that is closed at the full bedding.
     pub closed: f64,
+    /// Whether any point is closed.
+    pub touches: bool,
     /// `r_k`.
     pub bedding: f64,
     /// Mean pressure over the support, `P^_k = p_k + r_k (E p)_k/w_k`.

@@ -110,11 +110,12 @@ impl Pressures<'_> {
             .iter()
             .map(|&(k, shares)| {
                 let (side, node) = selection.kept()[k as usize].place();
-                let closed = self.tractions.labels[side][node].bedded;
+                let closed = self.tractions.bedded[side][node];
                 Support {
                     shares,
                     pressure: self.tractions.nodes[side][node][0],
                     bedding: selection.bedding(k as usize, closed),
+                    full: selection.bedding(k as usize, 0.0),
                 }
             })
             .collect();

@@ -45,6 +45,7 @@ pub fn add_to_gaps(
         let (side, node) = kept[l as usize].place();
         tractions.nodes[side][node][0]
     };
+    let given = given_pressure(selection, kinematics);
     for (k, kinematics) in kinematics.iter_mut().enumerate() {
         let row: &[(u32, f64)] = selection.coupling().get(k).map_or(&[], Vec::as_slice);
         let sum: f64 = row
@@ -74,11 +75,8 @@ pub fn add_to_gaps(
             value: pressure(k as u32),
             gradient: vec![(own, Vec3::x())],
         };
-        if row.is_empty() {
-            if supported.closed == 0.0 {
-                kinematics.presence = Presence::Apart;
-            }
-            continue;
+        if !given[k] {
+            kinematics.presence = Presence::Apart;
         }
         let factor = supported.bedding / supported.weight.value;
         supported.mean.value += factor * sum;
@@ -88,6 +86,25 @@ pub fn add_to_gaps(
         supported.mean.gradient.extend(by_weight);
         supported.mean.gradient.extend(by_pressures(factor));
     }
+}
+
+/// Which kept nodes are given pressure: by points of their support, or by the ramp from others
+/// that are.
+fn given_pressure(selection: &Selection, kinematics: &[Kinematics]) -> Vec<bool> {
+    let touches = |kinematics: &Kinematics| match &kinematics.pressure {
+        Pressure::AtNode => true,
+        Pressure::AtPoints(supported) => supported.touches,
+    };
+    let mut given: Vec<bool> = kinematics.iter().map(touches).collect();
+    let mut found: Vec<usize> = (0..given.len()).filter(|&k| given[k]).collect();
+    while let Some(k) = found.pop() {
+        for &(l, _) in selection.coupling().get(k).into_iter().flatten() {
+            if !std::mem::replace(&mut given[l as usize], true) {
+                found.push(l as usize);
+            }
+        }
+    }
+    given
 }
 
 /// What the slips of the ramp depend on.

@@ -3,11 +3,7 @@
 use serde::{Deserialize, Serialize};
 use striae_mesh::Vec3;
 
-use crate::{
-    bedding::{REFRESHED, level},
-    side::Side,
-    tip::RigidPoints,
-};
+use crate::{side::Side, tip::RigidPoints};
 
 /// Traction unknowns of a pair; the same shape whatever the roles.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -21,6 +17,9 @@ pub struct Tractions {
     pub slipped: [Vec<bool>; 2],
     /// Whether each node stuck in it, by side.
     pub stuck: [Vec<bool>; 2],
+    /// Closed share of the support of each node at the last converged state, by side, which its
+    /// [bedding](crate::bedding) goes by.
+    pub bedded: [Vec<f64>; 2],
     /// What the iterations so far made of each node, by side; before the first, slip where a
     /// node slipped in the last increment and else open.
     /// It counts with a corrector, and where friction decays with the slip rate.
@@ -34,6 +33,7 @@ impl Tractions {
             nodes: nodes.map(|count| vec![[0.0; 3]; count]),
             slipped: nodes.map(|count| vec![false; count]),
             stuck: nodes.map(|count| vec![false; count]),
+            bedded: nodes.map(|count| vec![0.0; count]),
             tau_n: nodes.map(|count| vec![[0.0; 2]; count]),
             labels: nodes.map(|count| vec![Label::default(); count]),
         }
@@ -70,10 +70,6 @@ pub struct Label {
     pub turns: u32,
     /// Whether its pressure is known to be zero.
     pub apart: bool,
-    /// Closed share of its support that its [bedding](crate::bedding) goes by.
-    pub bedded: f64,
-    /// How many iterations of the increment have refreshed that.
-    pub refreshed: u32,
 }
 
 impl Label {
@@ -94,18 +90,7 @@ impl Label {
             slip,
             fell: falls || self.fell && !rises,
             turns: self.turns + u32::from(self.fell && rises),
-            ..self.supported(node)
-        }
-    }
-
-    /// The label with what an iteration shows of the support.
-    fn supported(self, node: &NodeResult) -> Self {
-        let level = level(node.closed);
-        let refreshes = level != self.bedded && self.refreshed < REFRESHED;
-        Self {
             apart: node.apart,
-            bedded: if refreshes { level } else { self.bedded },
-            refreshed: self.refreshed + u32::from(refreshes),
             ..self
         }
     }
@@ -117,9 +102,8 @@ impl Label {
             status: node.status,
             begun: self.begun + u32::from(begins),
             slip: node.slip.norm(),
-            fell: false,
-            turns: 0,
-            ..self.supported(node)
+            apart: node.apart,
+            ..Self::default()
         }
     }
 
@@ -166,7 +150,7 @@ pub struct NodeResult {
     pub mean: Vec3,
     /// Status; of transferred nodes that of the kept node they follow most.
     pub status: Status,
-    /// Closed share of the support of a kept node.
+    /// Closed share of the support, by the gap that opens a support at its full bedding.
     pub closed: f64,
     /// Whether nothing gives a kept node pressure.
     pub apart: bool,

@@ -66,7 +66,7 @@ pub fn kinematics(
             for &(at, entry) in &touching[k] {
                 sum.add(&patches[at as usize], entry as usize, slip);
             }
-            let closed = tractions.labels[kept.side][kept.node].bedded;
+            let closed = tractions.bedded[kept.side][kept.node];
             let bedding = selection.bedding(k, closed);
             sum.over(selection.weight(k), selection.stiffness(k), bedding)
         })
@@ -82,7 +82,8 @@ struct Sum<'a> {
     /// Of the gap by the pressure of the node.
     by_pressure: f64,
     weight: f64,
-    open: f64,
+    closed: f64,
+    touches: bool,
     slip: Vec3,
     slip_by_n: Matrix3<f64>,
     places: Places,
@@ -108,7 +109,8 @@ impl<'a> Sum<'a> {
             gap: 0.0,
             by_pressure: 0.0,
             weight: 0.0,
-            open: 0.0,
+            closed: 0.0,
+            touches: false,
             slip: Vec3::zeros(),
             slip_by_n: Matrix3::zeros(),
             places: Places::none(),
@@ -143,7 +145,8 @@ impl<'a> Sum<'a> {
             sums.for_each(|(sum, part)| add_multiple(sum, share, part));
         }
         self.gap += pressed.rows[entry];
-        self.open += pressed.open[entry];
+        self.closed += pressed.closed[entry];
+        self.touches |= pressed.touches[entry];
         if let Some(slopes) = &pressed.slopes {
             by_gap = slopes.rows[entry];
             self.by_pressure += slopes.rows_by_pressure[entry];
@@ -255,7 +258,7 @@ impl<'a> Sum<'a> {
         let closed = if is_gone {
             0.0
         } else {
-            1.0 - self.open / self.weight
+            self.closed / self.weight
         };
         let alphas = self.alphas.iter().map(|alpha| alpha / start);
         let reaches = self.reaches.iter().map(|reach| reach / start);
@@ -280,6 +283,7 @@ impl<'a> Sum<'a> {
             pressure: Pressure::AtPoints(Supported {
                 weight,
                 closed,
+                touches: self.touches && !is_gone,
                 bedding,
                 mean: TrackedScalar::default(),
             }),

@@ -125,6 +125,7 @@ pub(crate) fn forces_at_start(
     let Selected {
         selections,
         tractions,
+        ..
     } = selected(context, state, 0.0);
     workspace.prepare(context.problem, &selections);
     let trial = Trial {

@@ -96,6 +96,8 @@ impl Friction<'_> {
 
     /// In a later one: `y` decides.
     fn later(&self, r: f64) -> (Status, [TangentialRow; 2]) {
+        let before = &self.state.node.before;
+        let begins = before.status != Status::Slip && before.begun == 0;
         let slips = match &self.mobility {
             Mobility::Along(way) => {
                 let w = &way.of_friction;
@@ -103,14 +105,14 @@ impl Friction<'_> {
                 let way = w.map(|w| Q::combination([(y.re.signum(), &w)]));
                 let radius = self.reaching(&self.varpi, &way).re;
                 self.slips(y.re.abs(), radius, way.map(|way| way.re))
-                    .then(|| along(w, &self.z, &y, &self.reaching(&self.begun, &way)))
+                    .then(|| along(w, &self.z, &y, &self.reaching(&self.begun, &way), begins))
             }
             Mobility::Free | Mobility::Held => {
                 let y = self.y(r);
                 let length = y[0].re.hypot(y[1].re);
                 let radius = self.reaching(&self.varpi, &y).re;
                 self.slips(length, radius, y.map(|y| y.re))
-                    .then(|| slip(&self.z, &y, &self.reaching(&self.begun, &y)))
+                    .then(|| slip(&self.z, &y, &self.reaching(&self.begun, &y), begins))
             }
         };
         self.slip_or_stick(slips)
@@ -132,14 +134,14 @@ impl Friction<'_> {
                 slips([z, 0.0], [turned, 0.0]).then(|| {
                     let y = self.along(w, r);
                     let way = w.map(|w| Q::combination([(y.re.signum(), &w)]));
-                    along(w, &self.z, &y, &radius(&way))
+                    along(w, &self.z, &y, &radius(&way), false)
                 })
             }
             Mobility::Free | Mobility::Held => {
                 let [z, turned] = [&self.z, turned].map(|v| [v[0].re, v[1].re]);
                 slips(z, turned).then(|| {
                     let y = self.y(r);
-                    slip(&self.z, &y, &radius(&y))
+                    slip(&self.z, &y, &radius(&y), false)
                 })
             }
         };
@@ -256,19 +258,29 @@ fn across(w: &[Q; 2], z: &[Q; 2]) -> TangentialRow {
 
 /// `z = radius sign(y) w`: [`slip`] along the unit vector `w`, with its Jacobian that does not
 /// let a node whose slip turns around jump from one side of the slip surface to the other.
-fn along(w: &[Q; 2], z: &[Q; 2], y: &Q, limit: &Q) -> [TangentialRow; 2] {
+fn along(w: &[Q; 2], z: &[Q; 2], y: &Q, limit: &Q, begins: bool) -> [TangentialRow; 2] {
     let zw = part(w, z);
     let (sign, radius) = (y.re.signum(), limit.re);
-    let m = globalised(zw.re.abs(), zw.re * sign, radius) * radius / y.re.abs();
+    let m = (1.0 - reduction(zw.re.abs(), zw.re * sign, radius, begins)) * radius / y.re.abs();
     let row = Q::combination([(1.0, &zw), (-m, y), (-sign, limit)]);
     let residual = zw.re - radius * sign;
     [(Field::Traction, residual, row.slope), across(w, z)]
 }
 
-/// `1 - f beta` for `|z|` and its part along `y`.
-fn globalised(length: f64, along: f64, radius: f64) -> f64 {
+/// The smallest part of the tangent that a node keeps which begins to slip for the
+/// first time in an increment, over `varpi/|y|`: a
+/// body that friction alone holds would have no stiffness sideways when all its nodes begin at
+/// once.
+const BEGINNING: f64 = 0.3;
+
+/// `f beta` for `|z|` and its part along `y`, by which the tangent of a node is reduced along `y`.
+fn reduction(length: f64, along: f64, radius: f64, begins: bool) -> f64 {
     let f = along / radius.max(length).max(f64::MIN_POSITIVE);
-    1.0 - f * damping(length, along, radius)
+    let whole = f * damping(length, along, radius);
+    match begins {
+        true => whole.min(1.0 - BEGINNING),
+        false => whole,
+    }
 }
 
 /// `beta`, by which the Jacobian is damped where `z` points against `y`.
@@ -287,14 +299,19 @@ fn damping(length: f64, along: f64, radius: f64) -> f64 {
 }
 
 /// `z = radius y/|y|`.
-fn slip(z: &[Q; 2], y: &[Q; 2], limit: &Q) -> [TangentialRow; 2] {
+fn slip(z: &[Q; 2], y: &[Q; 2], limit: &Q, begins: bool) -> [TangentialRow; 2] {
     let zv = Vector2::new(z[0].re, z[1].re);
     let yv = Vector2::new(y[0].re, y[1].re);
     let (length, radius) = (yv.norm(), limit.re);
     let direction = yv / length;
-    let f = zv * direction.transpose() / radius.max(zv.norm()).max(f64::MIN_POSITIVE);
-    let beta = damping(zv.norm(), zv.dot(&direction), radius);
-    let m = (Matrix2::identity() - f * beta) * (radius / length);
+    // `F = z y/(..)` reduces the tangent along `z`; at the solution `z` is along `y`.
+    let reduced = reduction(zv.norm(), zv.dot(&direction), radius, begins);
+    let along = zv.dot(&direction);
+    let f = match along == 0.0 {
+        true => Matrix2::zeros(),
+        false => zv * direction.transpose() * (reduced / along),
+    };
+    let m = (Matrix2::identity() - f) * (radius / length);
     [0, 1].map(|at| {
         let row = Q::combination([
             (1.0, &z[at]),

@@ -51,13 +51,30 @@ impl<'a> Closed<'a> {
     /// Whether the points of the rule are closed, too.
     pub(super) fn holds(&self) -> bool {
         let limit = self.pressing.least_limit();
+        self.points().all(|(n, _)| self.pressing.gap(&n) < limit)
+    }
+
+    /// Interpolation functions and weights of the points.
+    fn points(&self) -> impl Iterator<Item = ([f64; 8], f64)> {
         let facets = &self.polygon.pair.facets;
-        self.fan.triangles.iter().all(|indices| {
+        self.fan.triangles.iter().flat_map(move |indices| {
             let v = indices.map(|at| self.fan.places[at]);
-            self.rule
-                .iter()
-                .all(|(at, _)| self.pressing.gap(&shares(facets, &place(&v, at))) < limit)
+            let area = 0.5 * (v[1] - v[0]).perp(&(v[2] - v[0]));
+            let rule = self.rule.iter();
+            rule.map(move |(at, weight)| (shares(facets, &place(&v, at)), weight * area))
         })
+    }
+
+    /// `int phi_k` over the points that are closed at the full bedding.
+    fn closed(&self, mass: &[[f64; 8]; 8]) -> Vec<f64> {
+        let limit = self.pressing.least_full_limit();
+        if self.points().all(|(n, _)| self.pressing.gap(&n) < limit) {
+            return self.pressing.weights(mass);
+        }
+        let mut closed = vec![0.0; self.pressing.count()];
+        self.points()
+            .for_each(|(n, weight)| self.pressing.add_closed(&mut closed, &n, weight));
+        closed
     }
 
     pub(super) fn pressed(&self, mass: &[[f64; 8]; 8], slopes: Option<&Slopes>) -> Pressed {
@@ -96,7 +113,8 @@ impl<'a> Closed<'a> {
             rows: supports()
                 .map(|support| dot(&gaps, &support.shares))
                 .collect(),
-            open: vec![0.0; self.pressing.count()],
+            closed: self.closed(mass),
+            touches: vec![true; self.pressing.count()],
             area: sums.area,
             slopes,
         }

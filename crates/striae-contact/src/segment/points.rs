@@ -43,6 +43,8 @@ pub struct Support {
     pub pressure: f64,
     /// `r_k`; zero where nothing yields, and nothing is pressed.
     pub bedding: f64,
+    /// `r_k` of an open support, which says what is open for the next increment.
+    pub full: f64,
 }
 
 /// What pressure is decided by, beside a segment.
@@ -52,6 +54,8 @@ pub struct Pressing {
     supports: Vec<Support>,
     /// Gaps below which they are closed.
     limits: Vec<f64>,
+    /// Gaps below which they count as closed for the next increment.
+    full_limits: Vec<f64>,
     /// `a_d`.
     heights: [f64; 8],
 }
@@ -63,8 +67,10 @@ pub struct Pressed {
     pub force: [f64; 8],
     /// `G_k`.
     pub rows: Vec<f64>,
-    /// `int phi_k` over the points at which `k` is open.
-    pub open: Vec<f64>,
+    /// `int phi_k` over the points that are closed at the full bedding.
+    pub closed: Vec<f64>,
+    /// Whether any point is closed, by support.
+    pub touches: Vec<bool>,
     /// Area under pressure.
     pub area: f64,
     /// Derivatives, if the segment has any.
@@ -92,7 +98,12 @@ impl Pressing {
             true => support.pressure / support.bedding + touching,
             false => f64::NEG_INFINITY,
         };
+        let full = |support: &Support| match support.full > 0.0 {
+            true => support.pressure / support.full + touching,
+            false => f64::NEG_INFINITY,
+        };
         Self {
+            full_limits: supports.iter().map(full).collect(),
             limits: supports.iter().map(limit).collect(),
             supports,
             heights,
@@ -141,19 +152,43 @@ impl Pressing {
         &self.heights
     }
 
+    /// Adds the weight of a point to the supports that are closed at it with the full bedding.
+    pub(super) fn add_closed(&self, sums: &mut [f64], n: &[f64; 8], weight: f64) {
+        let gap = self.gap(n);
+        let supports = self.supports.iter().zip(&self.full_limits);
+        for ((support, limit), sum) in supports.zip(sums) {
+            if gap < *limit {
+                *sum += weight * dot(&support.shares, n);
+            }
+        }
+    }
+
+    /// The smallest gap at which a support is open with the full bedding.
+    pub(super) fn least_full_limit(&self) -> f64 {
+        self.full_limits
+            .iter()
+            .copied()
+            .fold(f64::INFINITY, f64::min)
+    }
+
     /// The smallest gap at which a support is open.
     pub(super) fn least_limit(&self) -> f64 {
         self.limits.iter().copied().fold(f64::INFINITY, f64::min)
     }
 
-    /// The integrals where nothing presses and nothing is closed: `G_k = 0`.
-    pub(super) fn idle(&self, mass: &[[f64; 8]; 8], slopes: Option<&Slopes>) -> Pressed {
+    /// `int phi_k` over the segment.
+    pub(super) fn weights(&self, mass: &[[f64; 8]; 8]) -> Vec<f64> {
         let weight = |support: &Support| -> f64 {
             let own = mass.iter().map(|row| dot(row, &support.shares));
             // The functions of each side sum up to one.
             own.sum::<f64>() / sides(mass)
         };
-        let open: Vec<f64> = self.supports.iter().map(weight).collect();
+        self.supports.iter().map(weight).collect()
+    }
+
+    /// The integrals where nothing presses and nothing is closed: `G_k = 0`.
+    pub(super) fn idle(&self, mass: &[[f64; 8]; 8], slopes: Option<&Slopes>) -> Pressed {
+        let open = self.weights(mass).into_iter();
         let count = self.supports.len();
         Pressed {
             rows: vec![0.0; count],
@@ -162,14 +197,14 @@ impl Pressing {
                     rows: vec![[0.0; 24]; count],
                     force_by_pressure: vec![[0.0; 8]; count],
                     rows_by_pressure: open
-                        .iter()
                         .zip(&self.supports)
-                        .map(|(open, support)| over_bedding(*open, support))
+                        .map(|(open, support)| over_bedding(open, support))
                         .collect(),
                     ..PressedSlopes::default()
                 })
             }),
-            open,
+            closed: vec![0.0; count],
+            touches: vec![false; count],
             ..Pressed::default()
         }
     }
@@ -288,7 +323,8 @@ impl Polygon {
             .collect();
         let mut pressed = Pressed {
             rows: vec![0.0; pressing.count()],
-            open: vec![0.0; pressing.count()],
+            closed: vec![0.0; pressing.count()],
+            touches: vec![false; pressing.count()],
             slopes: slopes.map(|_| Box::new(PressedSlopes::default())),
             ..Pressed::default()
         };
@@ -537,6 +573,8 @@ struct Sums {
     /// `dF_c/dp_k`.
     by_pressure: [[f64; 8]; AT_ONCE],
     open: [f64; AT_ONCE],
+    closed: [f64; AT_ONCE],
+    touches: [bool; AT_ONCE],
     area: f64,
 }
 
@@ -547,6 +585,8 @@ impl Sums {
             moved: Moved::zero(vertices),
             by_pressure: [[0.0; 8]; AT_ONCE],
             open: [0.0; AT_ONCE],
+            closed: [0.0; AT_ONCE],
+            touches: [false; AT_ONCE],
             area: 0.0,
         }
     }
@@ -557,7 +597,8 @@ impl Pressed {
         self.force.copy_from_slice(&sums.value[..8]);
         self.area = sums.area;
         self.rows[first..first + count].copy_from_slice(&sums.value[8..8 + count]);
-        self.open[first..first + count].copy_from_slice(&sums.open[..count]);
+        self.closed[first..first + count].copy_from_slice(&sums.closed[..count]);
+        self.touches[first..first + count].copy_from_slice(&sums.touches[..count]);
     }
 }
 
@@ -626,6 +667,10 @@ impl Integrate<'_> {
             integrand.value[8 + k] = at.phi * at.held;
             integrand.by_gap[8 + k] = at.phi * at.closed;
             self.sums.open[k] += whole * at.phi * (1.0 - at.closed);
+            self.sums.touches[k] |= at.closed > 0.0;
+            if gap < self.pressing.full_limits[self.first + k] {
+                self.sums.closed[k] += whole * at.phi;
+            }
             let of_closed = whole * at.phi * at.closed;
             add(&mut self.sums.by_pressure[k], of_closed, &n);
         }

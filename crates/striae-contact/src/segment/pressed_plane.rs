@@ -62,7 +62,8 @@ pub(crate) fn pressed_on_plane(
     let supports = pressing.count();
     let mut pressed = Pressed {
         rows: vec![0.0; supports],
-        open: vec![0.0; supports],
+        closed: vec![0.0; supports],
+        touches: vec![false; supports],
         slopes: slopes.map(|_| {
             Box::new(PressedSlopes {
                 rows: vec![[0.0; 24]; supports],
@@ -108,6 +109,7 @@ impl Pressed {
                 (0..3).for_each(|axis| row[3 * k + axis] += slope[axis]);
             }
         };
+        pressing.add_closed(&mut self.closed, &functions, area);
         for c in 0..4 {
             let value = functions[c] * at.pressure;
             self.force[c] += area * value;
@@ -119,7 +121,7 @@ impl Pressed {
             let of = OfSupport::new((support, limit), &functions, gap);
             let open = area * of.phi * (1.0 - of.closed);
             self.rows[k] += area * of.phi * of.held;
-            self.open[k] += open;
+            self.touches[k] |= of.closed > 0.0;
             if let Some(slopes) = &mut self.slopes {
                 add_slopes(&mut slopes.rows[k], of.phi * of.held, of.phi * of.closed);
                 slopes.rows_by_pressure[k] += over_bedding(open, support);

@@ -23,17 +23,21 @@ use crate::{
 pub(super) struct Selected {
     pub(super) selections: Vec<Selection>,
     pub(super) tractions: Vec<Tractions>,
+    /// Size of the smallest facet of any deformable side.
+    pub(super) smallest_facet: f64,
 }
 
 /// The fields in the converged state. A node that was not kept starts with the old field.
 pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected {
     let semismooth = context.problem.model.solver.strategy == Strategy::Semismooth;
+    let mut smallest_facet = f64::INFINITY;
     let (selections, tractions) = state
         .pairs
         .iter()
         .enumerate()
         .map(|(pair, of_pair)| {
             let start = context.configuration(pair, &state.positions, &state.rigid);
+            smallest_facet = smallest(&start).min(smallest_facet);
             let stays = points::staying(&start, &of_pair.points, &of_pair.nodes, &of_pair.carried);
             let mut points: RigidPoints = vec![None; of_pair.points.len()];
             let mut tractions = of_pair.tractions.clone();
@@ -68,13 +72,12 @@ pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected
                 true => with(Status::Slip),
                 false => of_pair.nodes.each_ref().map(|side| vec![false; side.len()]),
             };
-            tractions.labels = Side::BOTH.map(|side| {
-                let slipped = tractions.slipped[side].iter();
-                let before = slipped.zip(&of_pair.tractions.labels[side]);
-                before
-                    .map(|(slipped, before)| label(*slipped, before))
-                    .collect()
-            });
+            let labelled = |side: &Vec<bool>| side.iter().map(|slipped| label(*slipped)).collect();
+            tractions.labels = tractions.slipped.each_ref().map(labelled);
+            tractions.bedded = of_pair
+                .nodes
+                .each_ref()
+                .map(|side| side.iter().map(|node| node.closed).collect());
             let mut pointed = of_pair.pointed.clone();
             for stay in &stays {
                 pointed[1][stay.to] = true;
@@ -90,18 +93,18 @@ pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected
     Selected {
         selections,
         tractions,
+        smallest_facet: -context.problem.share.largest(-smallest_facet),
     }
 }
 
 /// The label that a node starts with which has slipped in the converged state, or not.
-fn label(slipped: bool, before: &Label) -> Label {
+fn label(slipped: bool) -> Label {
     let status = match slipped {
         true => Status::Slip,
         false => Status::Open,
     };
     Label {
         status,
-        bedded: before.bedded,
         ..Label::default()
     }
 }
@@ -154,9 +157,11 @@ pub(super) fn reselected(
     contacts: &[Evaluation],
     pierced: &[Pierced],
 ) -> Selected {
+    let mut smallest_facet = f64::INFINITY;
     let (selections, tractions) = with_configurations(setting, trial)
         .enumerate()
         .map(|(pair, (start, latest))| {
+            smallest_facet = smallest(&start).min(smallest_facet);
             let offsets = setting.selections[pair].offsets.clone();
             let had = &setting.selections[pair];
             let (kept, had) = (had.kept_nodes(), had.pointed_nodes());
@@ -198,6 +203,7 @@ pub(super) fn reselected(
     Selected {
         selections,
         tractions,
+        smallest_facet: -setting.context.problem.share.largest(-smallest_facet),
     }
 }
 
@@ -212,6 +218,13 @@ fn with_configurations<'a>(
         let latest = context.configuration(pair, &trial.positions, &trial.rigid);
         (start, latest)
     })
+}
+
+/// Size of the smallest facet of the deformable sides of a pair.
+fn smallest(configuration: &Configuration) -> f64 {
+    let sides = configuration.pair.deformable_sides().iter();
+    let sizes = sides.flat_map(|&side| &configuration.side(side).sizes);
+    sizes.copied().fold(f64::INFINITY, f64::min)
 }
 
 /// Gives nodes that are newly kept what the field carried there, and others nothing.

@@ -136,6 +136,7 @@ impl<'a> PairFunction<'a> {
             }),
             tau_n: self.tau_n.clone(),
             slipped: self.counts.map(|count| vec![false; count]),
+            bedded: self.counts.map(|count| vec![0.5; count]),
             // Every other one, so that both terms of the ramp count.
             stuck: self
                 .counts
