@@ -18,6 +18,7 @@
 
 mod facing;
 mod nearest;
+mod overlap;
 mod passage;
 mod thickness;
 mod triangle;
@@ -31,6 +32,7 @@ use striae_surface::{
 
 pub use facing::{Facing, facing};
 pub use nearest::{Nearest, Standing};
+pub use overlap::{Overlap, PlacedSkins, Skins};
 pub use thickness::{Fibre, Thickness, fibres, lengths};
 
 use crate::{

@@ -30,6 +30,7 @@ mod restriction;
 pub mod rigid;
 pub mod section;
 pub mod share;
+pub mod skin;
 pub mod solid;
 pub mod stabilisation;
 pub mod state;

@@ -40,6 +40,7 @@ use crate::{
     norms::Norms,
     outcome::CutBack,
     problem::Problem,
+    skin::BodyOverlap,
     state::{NodalForces, State},
 };
 use acceptance::accepted;
@@ -64,6 +65,8 @@ pub struct Increment {
     /// What came inside or through in the increment, deeper than
     /// [`SHARE`](striae_contact::interference::SHARE) of the facet size, by pair.
     pub interferences: Vec<Vec<Interference>>,
+    /// What came inside bodies where no pair sees it, by that depth.
+    pub overlaps: Vec<BodyOverlap>,
 }
 
 /// Told of every iteration.
@@ -178,6 +181,7 @@ pub fn advance(
         mut given_up,
         iterations,
         interferences,
+        overlaps,
         ..
     } = attempt;
     given_up.extend(iterations);
@@ -192,6 +196,7 @@ pub fn advance(
         unknowns,
         peak_bytes,
         interferences,
+        overlaps,
         state: accepted(
             context,
             state,

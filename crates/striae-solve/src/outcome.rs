@@ -102,6 +102,20 @@ pub enum CutBack {
         /// How far one side has moved relative to the other.
         way: f64,
     },
+    /// A body has gone into itself or another one, where no pair lets them touch.
+    #[error("{}", overlap_text(body, *node, other, *depth))]
+    Overlap {
+        /// Name of the body that comes inside.
+        body: String,
+        /// The node, or one of the facet, that is in deepest.
+        node: striae_mesh::NodeId,
+        /// Name of the body that it is inside of.
+        other: String,
+        /// How deep it is.
+        depth: f64,
+        /// Where it was at the start of the increment.
+        start: Start,
+    },
     /// Nothing holds a body.
     #[error("{motion}; {}", free_text(stabilise))]
     Free {
@@ -172,6 +186,25 @@ pub enum CutBack {
     },
 }
 
+/// Where a point was at the start of an increment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Start {
+    /// Outside, or hardly inside.
+    Apart,
+    /// Inside already.
+    Inside,
+}
+
+fn overlap_text(body: &str, node: striae_mesh::NodeId, other: &str, depth: f64) -> String {
+    let through = match body == other {
+        true => format!("body `{body}` goes through itself: {node} is {depth:.3e} inside"),
+        false => format!("{node} of `{body}` is {depth:.3e} inside `{other}`"),
+    };
+    format!(
+        "{through}, and no pair lets the surfaces there touch; state a pair of them, or keep them apart"
+    )
+}
+
 fn all_nodes(sticking: usize) -> String {
     match sticking {
         0 => "all nodes".into(),
@@ -201,6 +234,7 @@ impl CutBack {
     pub fn remedy(&self) -> Remedy {
         match self {
             Self::Free { .. } => Remedy::None,
+            Self::Overlap { start, .. } if *start == Start::Inside => Remedy::None,
             Self::NotBridged { gap, .. } if *gap <= 0.0 => Remedy::None,
             _ => Remedy::SmallerIncrement,
         }

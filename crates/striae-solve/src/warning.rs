@@ -10,6 +10,7 @@
 //! | `tension` | tensile nodal pressure over the largest pressure of the pair so far | 1e-6 |
 //! | `penetration` | depth over the local facet size, see [`crate::interference`] | 0.1 |
 //! | `passage` | the same for what has passed through, see there | 0 |
+//! | `overlap` | the same for bodies inside themselves or others where no pair sees it, over the smaller facet | 0.1 |
 //! | `unfelt` | the same while the pair has no force at all | 0.02 |
 //! | `creation` | negative friction work over the largest energy | 1e-6 |
 //! | `imbalance` | energy found nowhere over the largest energy | 1e-3 |
@@ -41,6 +42,7 @@ use crate::{
     problem::Problem,
     report::{PairReport, pairs, ties},
     share::Whole,
+    skin::{BodyOverlap, overlaps},
     state::{Energies, State},
 };
 
@@ -74,6 +76,8 @@ pub enum Kind {
     Penetration,
     /// Bodies are inside each other and no contact feels it.
     Unfelt,
+    /// Bodies are inside themselves or others where no pair sees it.
+    Overlap,
     /// Bodies have passed through each other.
     Passage,
     /// Friction makes energy.
@@ -96,12 +100,13 @@ pub enum Kind {
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Mismatch,
         Self::Moment,
         Self::Tension,
         Self::Penetration,
         Self::Unfelt,
+        Self::Overlap,
         Self::Passage,
         Self::Creation,
         Self::Imbalance,
@@ -121,6 +126,7 @@ impl Kind {
             Self::Tension => "tension",
             Self::Penetration => "penetration",
             Self::Unfelt => "unfelt",
+            Self::Overlap => "overlap",
             Self::Passage => "passage",
             Self::Creation => "creation",
             Self::Imbalance => "imbalance",
@@ -138,7 +144,7 @@ impl Kind {
         match self {
             Self::Mismatch | Self::TieMismatch | Self::Tension | Self::Creation => 1e-6,
             Self::Moment | Self::TieMoment | Self::Stabilisation => 1e-2,
-            Self::Penetration => SHARE,
+            Self::Penetration | Self::Overlap => SHARE,
             Self::Unfelt => PIERCED,
             Self::Rotation => 0.1,
             Self::Imbalance => 1e-3,
@@ -167,7 +173,7 @@ pub struct Judgement {
 pub struct Worst {
     /// The kind.
     pub kind: Kind,
-    /// The pair, or the tie, if it is about one.
+    /// The pair, the tie or the body, if it is about one.
     pub pair: Option<usize>,
     /// The value, but for energies over the largest one.
     pub value: f64,
@@ -182,6 +188,7 @@ impl Judgement {
             problem,
             [before, &increment.state],
             &increment.interferences,
+            &increment.overlaps,
         );
     }
 
@@ -190,7 +197,9 @@ impl Judgement {
         let ends = [before, after].map(Positions::from);
         let pairs = 0..problem.pairs.len();
         let interferences = pairs.map(|pair| between(problem, pair, ends[0], ends[1], SHARE));
-        self.change(problem, [before, after], &interferences.collect::<Vec<_>>());
+        let overlaps = overlaps(problem, &before.positions, &after.positions);
+        let interferences = interferences.collect::<Vec<_>>();
+        self.change(problem, [before, after], &interferences, &overlaps);
     }
 
     fn change(
@@ -198,6 +207,7 @@ impl Judgement {
         problem: &Problem,
         [before, after]: [&State; 2],
         interferences: &[Vec<Interference>],
+        overlaps: &[BodyOverlap],
     ) {
         self.forces.resize(problem.pairs.len(), 0.0);
         self.pressures.resize(problem.pairs.len(), 0.0);
@@ -213,6 +223,10 @@ impl Judgement {
             self.pair(pair, report, [before, after]);
             self.passage(pair, &interferences[pair], after.time);
             self.penetration(problem, pair, after, report.max_pressure);
+        }
+        for overlap in overlaps {
+            let share = overlap.found.share();
+            self.note(Kind::Overlap, Some(overlap.body), share, after.time);
         }
         for (tie, report) in ties(problem, after).iter().enumerate() {
             self.note(Kind::TieMismatch, Some(tie), report.mismatch, after.time);
@@ -454,6 +468,7 @@ fn warning(problem: &Problem, worst: &Worst) -> Warning {
     } = worst;
     let name = match (kind, pair) {
         (Kind::TieMismatch | Kind::TieMoment, Some(tie)) => &model.ties[tie].name,
+        (Kind::Overlap, Some(body)) => &model.bodies[body].name,
         (_, Some(pair)) => &model.pairs[pair].name,
         (_, None) => "",
     };
@@ -473,6 +488,9 @@ fn warning(problem: &Problem, worst: &Worst) -> Warning {
         ),
         Kind::Unfelt => format!(
             "pair `{name}`: its sides are inside each other by {percent:.1} % of the facet size at time {time:.4}, and contact does not feel it; refine the coarser side there"
+        ),
+        Kind::Overlap => format!(
+            "body `{name}` is inside itself, or another body that it has no pair with, by {percent:.0} % of the facet size at time {time:.4}"
         ),
         Kind::Passage => {
             format!("pair `{name}`: its sides have passed through each other at time {time:.4}")
@@ -498,7 +516,7 @@ fn warning(problem: &Problem, worst: &Worst) -> Warning {
     };
     Warning {
         kind,
-        pair: pair.map(|_| name.to_owned()),
+        pair: (kind != Kind::Overlap && pair.is_some()).then(|| name.to_owned()),
         value,
         limit: kind.limit(),
         time,

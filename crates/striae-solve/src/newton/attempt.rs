@@ -21,7 +21,7 @@ use super::{
     departure::first_positions,
     failure::{linear_system, missed},
     flight::flown,
-    passage::passage,
+    passage::{overlap, passage},
     release::{closed, released},
     rest::contact_at_rest,
     rule::{is_final, later, part},
@@ -32,6 +32,7 @@ use crate::{
     assembly::{Assembled, Imposed, Setting, StepContext, Trial},
     norms::Norms,
     outcome::CutBack,
+    skin::BodyOverlap,
     state::State,
 };
 
@@ -57,6 +58,8 @@ pub(super) struct Attempt<'a> {
     limit: usize,
     /// What came inside or through, by pair; empty before the end.
     pub(super) interferences: Vec<Vec<Interference>>,
+    /// What came inside bodies where no pair sees it.
+    pub(super) overlaps: Vec<BodyOverlap>,
     /// Which pairs are closed in the latest state.
     closed: Vec<bool>,
     /// What the first iteration goes by.
@@ -98,6 +101,7 @@ impl<'a> Attempt<'a> {
             inflation: Inflation::default(),
             limit: context.problem.model.solver.largest_iterations,
             interferences: Vec::new(),
+            overlaps: Vec::new(),
             closed: vec![true; context.pairs.len()],
             first: Iteration::First,
             chord: Chord::default(),
@@ -180,7 +184,9 @@ impl Attempt<'_> {
             assembled = self.taken_up(found, workspace)?;
         }
         self.interferences = passage(&self.setting(), &self.trial, &assembled.contacts)?;
-        Ok(self.lifted(assembled, workspace, observer))
+        let assembled = self.lifted(assembled, workspace, observer);
+        self.overlaps = overlap(&self.setting(), &self.trial)?;
+        Ok(assembled)
     }
 
     fn setting(&self) -> Setting<'_> {
