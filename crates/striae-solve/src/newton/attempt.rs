@@ -270,7 +270,7 @@ impl Attempt<'_> {
         let at_rest = match iteration {
             Iteration::Later { .. } if derivatives == Derivatives::First => {
                 let at = (&self.trial, assembled);
-                contact_at_rest(workspace, &self.setting(), at, &correction, before)
+                contact_at_rest(workspace, &self.setting(), at, &correction, before)?
             }
             Iteration::First | Iteration::Later { .. } | Iteration::Corrected(_) => None,
         };
