@@ -24,7 +24,7 @@ use super::{
     passage::{overlap, passage},
     release::{closed, released},
     rest::contact_at_rest,
-    rule::{is_final, later, part},
+    rule::{Ladder, is_final, later, part},
     selected::{Selected, pierced, reselected, selected},
     workspace::Workspace,
 };
@@ -54,6 +54,8 @@ pub(super) struct Attempt<'a> {
     pub(super) iterations: Vec<Norms>,
     history: History,
     inflation: Inflation,
+    /// Iterations of the present problem.
+    ladder: Ladder,
     /// How many iterations there may be.
     limit: usize,
     /// What came inside or through, by pair; empty before the end.
@@ -99,6 +101,7 @@ impl<'a> Attempt<'a> {
             iterations: Vec::new(),
             history: History::default(),
             inflation: Inflation::default(),
+            ladder: Ladder::default(),
             limit: context.problem.model.solver.largest_iterations,
             interferences: Vec::new(),
             overlaps: Vec::new(),
@@ -211,7 +214,7 @@ impl Attempt<'_> {
             self.closed = closed(&assembled.contacts);
             let before = self.iterations.last().map(Norms::largest);
             let number = self.iterations.len() + 1;
-            let iteration = later(solver.strategy, self.inflation, number);
+            let iteration = self.next_iteration();
             if !self.has_tangent(&assembled) {
                 assembled = self.assembled(workspace, iteration)?;
             }
@@ -371,8 +374,14 @@ impl Attempt<'_> {
         self.selections = selected.selections;
         self.trial.tractions = selected.tractions;
         workspace.extend(self.context.problem, &self.selections);
+        self.ladder.restart(self.iterations.len());
+        self.assembled(workspace, self.next_iteration())
+    }
+
+    /// What the next iteration goes by, unless it is the first one.
+    fn next_iteration(&self) -> Iteration {
         let strategy = self.context.problem.model.solver.strategy;
-        let iteration = later(strategy, self.inflation, self.iterations.len() + 1);
-        self.assembled(workspace, iteration)
+        let number = self.ladder.next(self.iterations.len());
+        later(strategy, self.inflation, number)
     }
 }
