@@ -5,6 +5,7 @@ use std::path::Path;
 use striae_deck::parse;
 use striae_mesh::Vec3;
 use striae_solve::{
+    newton::{Acceptance, Increment, LinearWork},
     outcome::Ending,
     problem::Problem,
     state::State,
@@ -71,6 +72,43 @@ fn a_pair_that_never_touched_is_named() {
     assert_eq!(kinds(&warnings), [Kind::NeverTouched]);
     assert_eq!(warnings[0].pair.as_deref(), Some("interface"));
     assert!((warnings[0].value - 0.1).abs() < 1e-12);
+}
+
+/// A converged increment to a state.
+fn increment(state: State, acceptance: Acceptance) -> Increment {
+    Increment {
+        state,
+        iterations: Vec::new(),
+        unknowns: 0,
+        peak_bytes: 0,
+        work: LinearWork::default(),
+        interferences: vec![Vec::new()],
+        overlaps: Vec::new(),
+        acceptance,
+    }
+}
+
+#[test]
+fn an_increment_that_is_accepted_above_the_tolerance_is_told() {
+    let problem = problem();
+    let start = lowered(&problem, 0.0, 0.0);
+    let kinds_of = |acceptance: Acceptance| {
+        let mut judgement = Judgement::default();
+        let increment = increment(lowered(&problem, 1.0, 0.0), acceptance);
+        judgement.converged(&problem, &start, &increment);
+        judgement.warnings(&problem, &Ending::Completed)
+    };
+    assert_eq!(
+        kinds(&kinds_of(Acceptance::Converged)),
+        [Kind::NeverTouched]
+    );
+    let residual = 100.0 * problem.model.solver.tolerance;
+    let warnings = kinds_of(Acceptance::AtJump { residual });
+    assert_eq!(kinds(&warnings), [Kind::Residual, Kind::NeverTouched]);
+    assert_eq!(warnings[0].value, residual);
+    let residual = 0.5 * problem.model.solver.tolerance;
+    let below = kinds_of(Acceptance::AtJump { residual });
+    assert_eq!(kinds(&below), [Kind::NeverTouched]);
 }
 
 #[test]

@@ -25,6 +25,7 @@ mod selected;
 mod work;
 mod workspace;
 
+pub use attempt::Acceptance;
 pub use course::Course;
 pub use work::{LinearWork, Times};
 pub use workspace::{Memory, Workspace};
@@ -67,6 +68,8 @@ pub struct Increment {
     pub interferences: Vec<Vec<Interference>>,
     /// What came inside bodies where no pair sees it, by that depth.
     pub overlaps: Vec<BodyOverlap>,
+    /// What it was accepted for.
+    pub acceptance: Acceptance,
 }
 
 /// Told of every iteration.
@@ -182,6 +185,7 @@ pub fn advance(
         iterations,
         interferences,
         overlaps,
+        acceptance,
         ..
     } = attempt;
     given_up.extend(iterations);
@@ -197,6 +201,7 @@ pub fn advance(
         peak_bytes,
         interferences,
         overlaps,
+        acceptance,
         state: accepted(
             context,
             state,

@@ -14,6 +14,7 @@
 //! | `unfelt` | the same while the pair has no force at all | 0.02 |
 //! | `creation` | negative friction work over the largest energy | 1e-6 |
 //! | `imbalance` | energy found nowhere over the largest energy | 1e-3 |
+//! | `residual` | residual of an increment that was accepted above the tolerance, where the integrals of contact jump | - |
 //! | `stabilisation` | work lost to [stabilisation](crate::stabilisation) in a step over its external work or change of strain energy, whichever is larger | 0.01 |
 //! | `rotation` | largest angle, in radians, by which elements of linear elastic bodies turn | 0.1 |
 //! | `tie-mismatch` | sum of the forces on the sides of a tie over the sum of nodal forces | 1e-6 |
@@ -37,7 +38,7 @@ use crate::{
     initial::{fits, may_meet, other_name},
     interference::{Positions, between, within},
     model::{Initial, Model, PairId},
-    newton::Increment,
+    newton::{Acceptance, Increment},
     outcome::Ending,
     problem::Problem,
     report::{PairReport, pairs, ties},
@@ -84,6 +85,8 @@ pub enum Kind {
     Creation,
     /// Energy is found nowhere.
     Imbalance,
+    /// An increment was accepted above the tolerance.
+    Residual,
     /// Much of the work of a step is lost to stabilisation.
     Stabilisation,
     /// A body for small rotations turns by a large one.
@@ -100,7 +103,7 @@ pub enum Kind {
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 16] = [
         Self::Mismatch,
         Self::Moment,
         Self::Tension,
@@ -110,6 +113,7 @@ impl Kind {
         Self::Passage,
         Self::Creation,
         Self::Imbalance,
+        Self::Residual,
         Self::Stabilisation,
         Self::Rotation,
         Self::TieMismatch,
@@ -130,6 +134,7 @@ impl Kind {
             Self::Passage => "passage",
             Self::Creation => "creation",
             Self::Imbalance => "imbalance",
+            Self::Residual => "residual",
             Self::Stabilisation => "stabilisation",
             Self::Rotation => "rotation",
             Self::TieMismatch => "tie-mismatch",
@@ -148,7 +153,7 @@ impl Kind {
             Self::Unfelt => PIERCED,
             Self::Rotation => 0.1,
             Self::Imbalance => 1e-3,
-            Self::Passage | Self::NeverTouched | Self::NeverMeets => 0.0,
+            Self::Residual | Self::Passage | Self::NeverTouched | Self::NeverMeets => 0.0,
         }
     }
 }
@@ -184,6 +189,12 @@ pub struct Worst {
 impl Judgement {
     /// Judges a converged increment by what it came from; collective.
     pub fn converged(&mut self, problem: &Problem, before: &State, increment: &Increment) {
+        let tolerance = problem.model.solver.tolerance;
+        if let Acceptance::AtJump { residual } = increment.acceptance
+            && residual > tolerance
+        {
+            self.note(Kind::Residual, None, residual, increment.state.time);
+        }
         self.change(
             problem,
             [before, &increment.state],
@@ -501,6 +512,10 @@ fn warning(problem: &Problem, worst: &Worst) -> Warning {
         Kind::Imbalance => {
             format!("energy of {value:.1e} of the largest one is found nowhere at time {time:.4}")
         }
+        Kind::Residual => format!(
+            "the increment to time {time:.4} was accepted with a residual of {value:.1e}, above the tolerance of {:.1e}: corners of facets lie so close to opposing edges that what contact integrates jumps by as much",
+            problem.model.solver.tolerance
+        ),
         Kind::Stabilisation => format!(
             "stabilisation has taken {percent:.1} % of the work of the step that ends at time {time:.4}"
         ),

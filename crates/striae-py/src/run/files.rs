@@ -10,7 +10,7 @@ use striae::{
     Error,
     output::{Existing, FieldOutput, Output, OutputError, recorder::Recorder},
     solve::{
-        newton::{Increment, LinearWork},
+        newton::{Acceptance, Increment, LinearWork},
         norms::Norms,
         state::State,
     },
@@ -47,6 +47,8 @@ fn replayed(run: &Run, folder: &Path, case: &str, every: usize) -> Result<(), Ou
             peak_bytes: 0,
             work: LinearWork::default(),
             interferences: Vec::new(),
+            overlaps: Vec::new(),
+            acceptance: Acceptance::Converged,
         };
         recorder.increment(problem, kept.progress, &increment)?;
     }

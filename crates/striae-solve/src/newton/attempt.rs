@@ -3,6 +3,8 @@
 mod ending;
 mod lifting;
 
+pub use ending::Acceptance;
+
 use striae_contact::{
     complementarity::Iteration,
     interference::Interference,
@@ -62,6 +64,8 @@ pub(super) struct Attempt<'a> {
     pub(super) interferences: Vec<Vec<Interference>>,
     /// What came inside bodies where no pair sees it.
     pub(super) overlaps: Vec<BodyOverlap>,
+    /// What the latest state is accepted for, at the end.
+    pub(super) acceptance: Acceptance,
     /// Which pairs are closed in the latest state.
     closed: Vec<bool>,
     /// What the first iteration goes by.
@@ -105,6 +109,7 @@ impl<'a> Attempt<'a> {
             limit: context.problem.model.solver.largest_iterations,
             interferences: Vec::new(),
             overlaps: Vec::new(),
+            acceptance: Acceptance::default(),
             closed: vec![true; context.pairs.len()],
             first: Iteration::First,
             chord: Chord::default(),
@@ -238,11 +243,14 @@ impl Attempt<'_> {
                 && self.labels_rest(&assembled);
             if norms.largest() <= solver.tolerance && settled {
                 if further == 0 {
+                    self.acceptance = Acceptance::Converged;
                     return Ok(assembled);
                 }
                 further -= 1;
             }
             if settled && self.jumps() {
+                let residual = norms.largest();
+                self.acceptance = Acceptance::AtJump { residual };
                 return Ok(assembled);
             }
             self.inflation = self.inflation.after(norms.gap);
