@@ -5,7 +5,7 @@ use std::path::Path;
 use striae_deck::parse;
 use striae_mesh::Vec3;
 use striae_solve::{
-    newton::{Acceptance, Increment, LinearWork},
+    newton::{Acceptance, InStep, Increment, LinearWork},
     outcome::Ending,
     problem::Problem,
     state::State,
@@ -53,7 +53,7 @@ fn lowered(problem: &Problem, time: f64, way: f64) -> State {
 fn judged(problem: &Problem, states: &[State]) -> Vec<Warning> {
     let mut judgement = Judgement::default();
     for pair in states.windows(2) {
-        judgement.increment(problem, &pair[0], &pair[1]);
+        judgement.increment(problem, &pair[0], &pair[1], InStep::up_to(0, 0.5));
     }
     judgement.warnings(problem, &Ending::Completed)
 }
@@ -78,6 +78,7 @@ fn a_pair_that_never_touched_is_named() {
 fn increment(state: State, acceptance: Acceptance) -> Increment {
     Increment {
         state,
+        in_step: InStep::up_to(0, 0.5),
         iterations: Vec::new(),
         unknowns: 0,
         peak_bytes: 0,
@@ -109,6 +110,23 @@ fn an_increment_that_is_accepted_above_the_tolerance_is_told() {
     let residual = 0.5 * problem.model.solver.tolerance;
     let below = kinds_of(Acceptance::AtJump { residual });
     assert_eq!(kinds(&below), [Kind::NeverTouched]);
+}
+
+#[test]
+fn a_step_is_judged_for_stabilisation_by_the_increment_that_ends_it() {
+    let problem = problem();
+    let start = lowered(&problem, 0.0, 0.0);
+    // No time is that of an end: an increment says whether it is one.
+    let mut end = lowered(&problem, 0.7, 0.0);
+    end.energies.external = 1.0;
+    end.energies.stabilisation = 0.1;
+    let kinds_at = |s: f64| {
+        let mut judgement = Judgement::default();
+        judgement.increment(&problem, &start, &end, InStep::up_to(0, s));
+        kinds(&judgement.warnings(&problem, &Ending::Completed))
+    };
+    assert!(!kinds_at(1.0 - 1e-10).contains(&Kind::Stabilisation));
+    assert!(kinds_at(1.0).contains(&Kind::Stabilisation));
 }
 
 #[test]

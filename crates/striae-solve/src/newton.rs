@@ -55,6 +55,8 @@ use selected::{Selected, selected};
 pub struct Increment {
     /// The new state.
     pub state: State,
+    /// Its step, and whether it ends there.
+    pub in_step: InStep,
     /// Norms of every iteration; the last ones are converged.
     pub iterations: Vec<Norms>,
     /// Number of unknowns.
@@ -70,6 +72,35 @@ pub struct Increment {
     pub overlaps: Vec<BodyOverlap>,
     /// What it was accepted for.
     pub acceptance: Acceptance,
+}
+
+/// Which step an increment is of, and how far it goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct InStep {
+    /// Number of the step.
+    pub step: usize,
+    /// Where the increment ends.
+    pub reach: Reach,
+}
+
+/// Where an increment ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reach {
+    /// Within its step.
+    Within,
+    /// Where its step ends.
+    End,
+}
+
+impl InStep {
+    /// An increment up to the fraction `s` of a step, which is 1 at its end.
+    pub fn up_to(step: usize, s: f64) -> Self {
+        let reach = match s < 1.0 {
+            true => Reach::Within,
+            false => Reach::End,
+        };
+        Self { step, reach }
+    }
 }
 
 /// Told of every iteration.
@@ -202,6 +233,7 @@ pub fn advance(
         interferences,
         overlaps,
         acceptance,
+        in_step: InStep::up_to(context.index, s),
         state: accepted(
             context,
             state,

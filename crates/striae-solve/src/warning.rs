@@ -38,7 +38,7 @@ use crate::{
     initial::{fits, may_meet, other_name},
     interference::{Positions, between, within},
     model::{Initial, Model, PairId},
-    newton::{Acceptance, Increment},
+    newton::{Acceptance, InStep, Increment, Reach},
     outcome::Ending,
     problem::Problem,
     report::{PairReport, pairs, ties},
@@ -198,25 +198,27 @@ impl Judgement {
         self.change(
             problem,
             [before, &increment.state],
+            increment.in_step,
             &increment.interferences,
             &increment.overlaps,
         );
     }
 
     /// Judges an increment from `before` to `after`, however it came about; collective.
-    pub fn increment(&mut self, problem: &Problem, before: &State, after: &State) {
+    pub fn increment(&mut self, problem: &Problem, before: &State, after: &State, in_step: InStep) {
         let ends = [before, after].map(Positions::from);
         let pairs = 0..problem.pairs.len();
         let interferences = pairs.map(|pair| between(problem, pair, ends[0], ends[1], SHARE));
         let overlaps = overlaps(problem, &before.positions, &after.positions);
         let interferences = interferences.collect::<Vec<_>>();
-        self.change(problem, [before, after], &interferences, &overlaps);
+        self.change(problem, [before, after], in_step, &interferences, &overlaps);
     }
 
     fn change(
         &mut self,
         problem: &Problem,
         [before, after]: [&State; 2],
+        in_step: InStep,
         interferences: &[Vec<Interference>],
         overlaps: &[BodyOverlap],
     ) {
@@ -228,12 +230,14 @@ impl Judgement {
             .max(round_off(problem));
         let imbalance = after.energies.imbalance().abs();
         self.note(Kind::Imbalance, None, imbalance, after.time);
-        self.stabilisation(problem, after);
+        if in_step.reach == Reach::End {
+            self.stabilisation(after);
+        }
         self.note(Kind::Rotation, None, rotation(problem, after), after.time);
         for (pair, report) in pairs(problem, after).iter().enumerate() {
             self.pair(pair, report, [before, after]);
             self.passage(pair, &interferences[pair], after.time);
-            self.penetration(problem, pair, after, report.max_pressure);
+            self.penetration(problem, pair, (after, in_step), report.max_pressure);
         }
         for overlap in overlaps {
             let share = overlap.found.share();
@@ -251,16 +255,7 @@ impl Judgement {
     }
 
     /// Judges a step at its end.
-    fn stabilisation(&mut self, problem: &Problem, after: &State) {
-        let mut end = 0.0;
-        let ends = problem.model.steps.iter().map(|step| {
-            end += step.duration;
-            (end, step.duration)
-        });
-        let mut ends = ends.filter(|(end, duration)| (after.time - end).abs() < 1e-9 * duration);
-        if ends.next().is_none() {
-            return;
-        }
+    fn stabilisation(&mut self, after: &State) {
         let [from, to] = [&self.step, &after.energies];
         let work = (to.external - from.external).abs();
         let scale = work.max((to.strain - from.strain).abs());
@@ -299,13 +294,18 @@ impl Judgement {
         self.note(Kind::Passage, Some(pair), depths.fold(0.0, f64::max), time);
     }
 
-    fn penetration(&mut self, problem: &Problem, pair: usize, after: &State, pressure: f64) {
+    fn penetration(
+        &mut self,
+        problem: &Problem,
+        pair: usize,
+        (after, in_step): (&State, InStep),
+        pressure: f64,
+    ) {
         let time = after.time;
-        let first = problem.model.steps.first();
-        let duration = first.map_or(0.0, |step| step.duration);
         // Overlaps of meshes that are being pressed out are meant.
         let resolving = problem.model.pairs[pair].initial == Initial::Resolve;
-        if resolving && time < duration * (1.0 - 1e-9) {
+        let is_first = in_step.step == 0 && in_step.reach == Reach::Within;
+        if resolving && is_first {
             return;
         }
         // Contact that is narrower than the facets of a smooth surface has a positive mean

@@ -10,7 +10,7 @@ use striae::{
     Error,
     output::{Existing, FieldOutput, Output, OutputError, recorder::Recorder},
     solve::{
-        newton::{Acceptance, Increment, LinearWork},
+        newton::{Acceptance, InStep, Increment, LinearWork},
         norms::Norms,
         state::State,
     },
@@ -42,6 +42,7 @@ fn replayed(run: &Run, folder: &Path, case: &str, every: usize) -> Result<(), Ou
     for kept in &run.kept {
         let increment = Increment {
             state: kept.state.clone(),
+            in_step: InStep::up_to(kept.progress.step, kept.progress.fraction),
             iterations: vec![Norms::default(); kept.iterations],
             unknowns: summary.unknowns,
             peak_bytes: 0,

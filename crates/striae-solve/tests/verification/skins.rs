@@ -5,6 +5,7 @@ use striae_contact::interference::SHARE;
 use striae_mesh::{CellBlock, Mesh, NodeId, Vec3, generate::Block};
 use striae_solve::{
     model::Model,
+    newton::InStep,
     outcome::{CutBack, Ending, Remedy, Start},
     warning::{Judgement, Kind, Warning},
 };
@@ -67,8 +68,9 @@ fn closing(way: f64, size: f64) -> Model {
 
 fn warnings(run: &Run) -> Vec<Warning> {
     let mut judgement = Judgement::default();
-    for states in run.states.windows(2) {
-        judgement.increment(&run.problem, &states[0], &states[1]);
+    for (states, progress) in run.states.windows(2).zip(&run.progress) {
+        let in_step = InStep::up_to(progress.step, progress.fraction);
+        judgement.increment(&run.problem, &states[0], &states[1], in_step);
     }
     judgement.warnings(&run.problem, &run.ending)
 }
