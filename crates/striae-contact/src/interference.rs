@@ -30,7 +30,7 @@ use striae_surface::{
     topology::{Surface, distinct_corners},
 };
 
-pub use facing::{Facing, facing};
+pub use facing::{Facing, across, facing};
 pub use nearest::{Nearest, Standing};
 pub use overlap::{Overlap, PlacedSkins, Skins};
 pub use thickness::{Fibre, Thickness, fibres, lengths};

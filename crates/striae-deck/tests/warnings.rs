@@ -85,6 +85,7 @@ fn increment(state: State, acceptance: Acceptance) -> Increment {
         work: LinearWork::default(),
         interferences: vec![Vec::new()],
         overlaps: Vec::new(),
+        doubts: Vec::new(),
         acceptance,
     }
 }

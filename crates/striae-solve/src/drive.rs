@@ -10,6 +10,7 @@ use striae_contact::{
 
 use crate::{
     assembly::StepContext,
+    audit::doubts,
     begin::begin,
     freedom::{Bridged, Friction, free_motion, free_motion_in, slipping, worth_stabilising},
     model::Procedure,
@@ -74,6 +75,10 @@ pub struct Progress {
     pub time: f64,
 }
 
+/// How often in a step an increment that is doubted is tried again with a smaller one. Where that
+/// does not help, it is accepted with a warning.
+const DOUBTS: usize = 4;
+
 /// Iterations up to which an increment counts as easy.
 const EASY: usize = 6;
 const GROWTH: f64 = 1.5;
@@ -90,6 +95,8 @@ pub struct Point {
     pub fraction: f64,
     /// Size of the next increment.
     pub size: f64,
+    /// How often increments of the step have been tried again for doubts.
+    pub doubted: usize,
     /// Distance over which it looks for contact, by pair, at least; empty after an increment
     /// that has converged.
     pub search: Vec<f64>,
@@ -150,6 +157,7 @@ pub fn resume_in(
         count: point.increments,
         done: point.fraction,
         size: point.size,
+        doubted: point.doubted,
         search: point.search,
     };
     let mut state = point.state;
@@ -174,6 +182,8 @@ struct Division {
     count: usize,
     done: f64,
     size: f64,
+    /// How often increments have been tried again for doubts.
+    doubted: usize,
     /// Distance over which the next attempt looks for contact, by pair, at least.
     search: Vec<f64>,
 }
@@ -196,10 +206,35 @@ impl Division {
             increments: self.count,
             fraction: self.done,
             size: self.size,
+            doubted: self.doubted,
             search: self.search.clone(),
             start: context.start.clone(),
             state: state.clone(),
             memory: workspace.memory(),
+        }
+    }
+
+    /// An increment with what it is doubted for.
+    ///
+    /// # Errors
+    /// The first doubt, as long as a smaller increment is worth a try.
+    fn doubted(
+        &mut self,
+        context: &StepContext,
+        before: &State,
+        mut increment: Increment,
+        fraction: f64,
+    ) -> Result<Increment, CutBack> {
+        let problem = context.problem;
+        increment.doubts = doubts(problem, before, &increment.state);
+        let smaller = (fraction - self.done) * CUT;
+        let may_be_cut = smaller >= problem.model.steps[context.index].increments.smallest;
+        match increment.doubts.first() {
+            Some(doubt) if may_be_cut && self.doubted < DOUBTS => {
+                self.doubted += 1;
+                Err(doubt.cut_back(problem))
+            }
+            _ => Ok(increment),
         }
     }
 
@@ -242,6 +277,7 @@ fn run_steps(
             count,
             done: 0.0,
             size: first_increment(&problem.model, index),
+            doubted: 0,
             search: Vec::new(),
         };
         let ending = run_step(&context, &mut state, &mut division, workspace, observer);
@@ -270,6 +306,7 @@ fn run_step(
             time: context.start.time + fraction * step.duration,
         };
         let attempted = attempted(context, state, progress, division, (workspace, observer));
+        let attempted = attempted.and_then(|made| division.doubted(context, state, made, fraction));
         let next = match attempted {
             Ok(increment) => {
                 let next = observer.increment(progress, &increment);

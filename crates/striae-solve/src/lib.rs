@@ -1,6 +1,7 @@
 //! Elements, loads, the problem and its state, Newton's method and step control.
 
 pub mod assembly;
+pub mod audit;
 mod begin;
 mod body_mass;
 mod composition;

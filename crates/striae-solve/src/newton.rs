@@ -38,6 +38,7 @@ use striae_contact::{
 
 use crate::{
     assembly::{Setting, StepContext, Trial},
+    audit::Doubt,
     norms::Norms,
     outcome::CutBack,
     problem::Problem,
@@ -72,6 +73,8 @@ pub struct Increment {
     pub overlaps: Vec<BodyOverlap>,
     /// What it was accepted for.
     pub acceptance: Acceptance,
+    /// What it is doubted for, as far as it has been looked at from outside.
+    pub doubts: Vec<Doubt>,
 }
 
 /// Which step an increment is of, and how far it goes.
@@ -233,6 +236,7 @@ pub fn advance(
         interferences,
         overlaps,
         acceptance,
+        doubts: Vec::new(),
         in_step: InStep::up_to(context.index, s),
         state: accepted(
             context,

@@ -116,6 +116,23 @@ pub enum CutBack {
         /// Where it was at the start of the increment.
         start: Start,
     },
+    /// Friction pushes a node along its slip.
+    #[error(
+        "pair `{pair}`: friction pushes {node} of `{body}` along its slip, which gains {work:.1e}, {:.0} % of what friction works at the nodes around",
+        100.0 * share
+    )]
+    Gain {
+        /// Name of the pair.
+        pair: String,
+        /// Name of the body.
+        body: String,
+        /// The node.
+        node: striae_mesh::NodeId,
+        /// Work that it gains in the increment.
+        work: f64,
+        /// The same over the magnitudes of the work at all nodes of its side.
+        share: f64,
+    },
     /// Nothing holds a body.
     #[error("{motion}; {}", free_text(stabilise))]
     Free {

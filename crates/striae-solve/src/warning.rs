@@ -13,6 +13,7 @@
 //! | `overlap` | the same for bodies inside themselves or others where no pair sees it, over the smaller facet | 0.1 |
 //! | `unfelt` | the same while the pair has no force at all | 0.02 |
 //! | `creation` | negative friction work over the largest energy | 1e-6 |
+//! | `gain` | work that friction does at a node that slips over all that it does on its side in an increment, see [`crate::audit`] | 0.01 |
 //! | `imbalance` | energy found nowhere over the largest energy | 1e-3 |
 //! | `residual` | residual of an increment that was accepted above the tolerance, where the integrals of contact jump | - |
 //! | `stabilisation` | work lost to [stabilisation](crate::stabilisation) in a step over its external work or change of strain energy, whichever is larger | 0.01 |
@@ -32,9 +33,10 @@ use striae_contact::{
     side::Side,
 };
 use striae_law::bulk::Material;
-use striae_mesh::{ElementId, Vec3};
+use striae_mesh::{ElementId, NodeId, Vec3};
 
 use crate::{
+    audit::{Doubt, LEAST_SHARE, doubts},
     initial::{fits, may_meet, other_name},
     interference::{Positions, between, within},
     model::{Initial, Model, PairId},
@@ -83,6 +85,8 @@ pub enum Kind {
     Passage,
     /// Friction makes energy.
     Creation,
+    /// Friction pushes a node along its slip.
+    Gain,
     /// Energy is found nowhere.
     Imbalance,
     /// An increment was accepted above the tolerance.
@@ -103,7 +107,7 @@ pub enum Kind {
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
         Self::Mismatch,
         Self::Moment,
         Self::Tension,
@@ -112,6 +116,7 @@ impl Kind {
         Self::Overlap,
         Self::Passage,
         Self::Creation,
+        Self::Gain,
         Self::Imbalance,
         Self::Residual,
         Self::Stabilisation,
@@ -133,6 +138,7 @@ impl Kind {
             Self::Overlap => "overlap",
             Self::Passage => "passage",
             Self::Creation => "creation",
+            Self::Gain => "gain",
             Self::Imbalance => "imbalance",
             Self::Residual => "residual",
             Self::Stabilisation => "stabilisation",
@@ -151,6 +157,7 @@ impl Kind {
             Self::Moment | Self::TieMoment | Self::Stabilisation => 1e-2,
             Self::Penetration | Self::Overlap => SHARE,
             Self::Unfelt => PIERCED,
+            Self::Gain => LEAST_SHARE,
             Self::Rotation => 0.1,
             Self::Imbalance => 1e-3,
             Self::Residual | Self::Passage | Self::NeverTouched | Self::NeverMeets => 0.0,
@@ -180,6 +187,8 @@ pub struct Worst {
     pub kind: Kind,
     /// The pair, the tie or the body, if it is about one.
     pub pair: Option<usize>,
+    /// The body and the node of its mesh, if it is about one.
+    pub node: Option<(usize, NodeId)>,
     /// The value, but for energies over the largest one.
     pub value: f64,
     /// Its time.
@@ -189,6 +198,7 @@ pub struct Worst {
 impl Judgement {
     /// Judges a converged increment by what it came from; collective.
     pub fn converged(&mut self, problem: &Problem, before: &State, increment: &Increment) {
+        self.doubts(&increment.doubts, increment.state.time);
         let tolerance = problem.model.solver.tolerance;
         if let Acceptance::AtJump { residual } = increment.acceptance
             && residual > tolerance
@@ -209,6 +219,7 @@ impl Judgement {
         let ends = [before, after].map(Positions::from);
         let pairs = 0..problem.pairs.len();
         let interferences = pairs.map(|pair| between(problem, pair, ends[0], ends[1], SHARE));
+        self.doubts(&doubts(problem, before, after), after.time);
         let overlaps = overlaps(problem, &before.positions, &after.positions);
         let interferences = interferences.collect::<Vec<_>>();
         self.change(problem, [before, after], in_step, &interferences, &overlaps);
@@ -262,6 +273,20 @@ impl Judgement {
         let share = over(to.stabilisation - from.stabilisation, scale);
         self.note(Kind::Stabilisation, None, share, after.time);
         self.step = after.energies;
+    }
+
+    fn doubts(&mut self, doubts: &[Doubt], time: f64) {
+        for doubt in doubts {
+            self.note_at(match *doubt {
+                Doubt::Gain(gain) => Worst {
+                    kind: Kind::Gain,
+                    pair: Some(gain.pair),
+                    node: Some((gain.body, gain.node)),
+                    value: gain.share,
+                    time,
+                },
+            });
+        }
     }
 
     fn pair(&mut self, pair: usize, report: &PairReport, [before, after]: [&State; 2]) {
@@ -322,19 +347,24 @@ impl Judgement {
     }
 
     fn note(&mut self, kind: Kind, pair: Option<usize>, value: f64, time: f64) {
-        if value <= 0.0 {
+        self.note_at(Worst {
+            kind,
+            pair,
+            node: None,
+            value,
+            time,
+        });
+    }
+
+    fn note_at(&mut self, found: Worst) {
+        if found.value <= 0.0 {
             return;
         }
-        let same = |known: &&mut Worst| known.kind == kind && known.pair == pair;
+        let same = |known: &&mut Worst| known.kind == found.kind && known.pair == found.pair;
         match self.worst.iter_mut().find(same) {
-            Some(known) if known.value >= value => {}
-            Some(known) => (known.value, known.time) = (value, time),
-            None => self.worst.push(Worst {
-                kind,
-                pair,
-                value,
-                time,
-            }),
+            Some(known) if known.value >= found.value => {}
+            Some(known) => *known = found,
+            None => self.worst.push(found),
         }
     }
 
@@ -366,6 +396,7 @@ impl Judgement {
                     worst.push(Worst {
                         kind: Kind::NeverTouched,
                         pair: Some(pair),
+                        node: None,
                         value: fit.as_ref().map_or(0.0, |fit| fit.distance),
                         time: 0.0,
                     });
@@ -474,9 +505,13 @@ fn warning(problem: &Problem, worst: &Worst) -> Warning {
     let &Worst {
         kind,
         pair,
+        node,
         value,
         time,
     } = worst;
+    let place = node.map_or_else(String::new, |(body, node)| {
+        format!("{node} of `{}`", model.bodies[body].name)
+    });
     let name = match (kind, pair) {
         (Kind::TieMismatch | Kind::TieMoment, Some(tie)) => &model.ties[tie].name,
         (Kind::Overlap, Some(body)) => &model.bodies[body].name,
@@ -508,6 +543,9 @@ fn warning(problem: &Problem, worst: &Worst) -> Warning {
         }
         Kind::Creation => format!(
             "pair `{name}`: friction makes energy, {value:.1e} of the largest one in the increment to time {time:.4}"
+        ),
+        Kind::Gain => format!(
+            "pair `{name}`: friction pushes {place} along its slip in the increment to time {time:.4}, which gains {percent:.0} % of what friction works on its side"
         ),
         Kind::Imbalance => {
             format!("energy of {value:.1e} of the largest one is found nowhere at time {time:.4}")

@@ -49,6 +49,7 @@ fn replayed(run: &Run, folder: &Path, case: &str, every: usize) -> Result<(), Ou
             work: LinearWork::default(),
             interferences: Vec::new(),
             overlaps: Vec::new(),
+            doubts: Vec::new(),
             acceptance: Acceptance::Converged,
         };
         recorder.increment(problem, kept.progress, &increment)?;

@@ -1,0 +1,42 @@
+//! Converged increments looked at from outside, at nodes.
+//!
+//! Residuals say how well the rows are satisfied, not what they come to. What is looked at here
+//! follows from positions and nodal forces at both ends of an increment, whatever rows it was
+//! solved by.
+
+mod friction;
+
+use striae_mesh::NodeId;
+
+use crate::{outcome::CutBack, problem::Problem, state::State};
+
+pub use friction::{Gain, LEAST_SHARE};
+
+/// What an increment is doubted for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Doubt {
+    /// Friction pushes a node along its slip.
+    Gain(Gain),
+}
+
+/// What an increment from `before` to `after` is doubted for.
+pub fn doubts(problem: &Problem, before: &State, after: &State) -> Vec<Doubt> {
+    let pairs = 0..problem.pairs.len();
+    let gains = pairs.filter_map(|pair| friction::gain(problem, pair, [before, after]));
+    gains.map(Doubt::Gain).collect()
+}
+
+impl Doubt {
+    /// The doubt as a reason to try a smaller increment.
+    pub fn cut_back(&self, problem: &Problem) -> CutBack {
+        match self {
+            Self::Gain(gain) => CutBack::Gain {
+                pair: problem.model.pairs[gain.pair].name.clone(),
+                body: problem.model.bodies[gain.body].name.clone(),
+                node: gain.node,
+                work: gain.work,
+                share: gain.share,
+            },
+        }
+    }
+}
