@@ -131,6 +131,19 @@ fn a_step_is_judged_for_stabilisation_by_the_increment_that_ends_it() {
 }
 
 #[test]
+fn tractions_of_round_off_are_not_judged_by_each_other() {
+    let problem = problem();
+    let mut states = [0.0, 1.0].map(|time| lowered(&problem, time, 0.0));
+    // Of a modulus of 1000.
+    states[1].pairs[0].nodes[0][0].pressure = 1e-13;
+    states[1].pairs[0].nodes[0][3].pressure = -9e-13;
+    assert_eq!(kinds(&judged(&problem, &states)), [Kind::NeverTouched]);
+    states[1].pairs[0].nodes[0][3].pressure = -1e-6;
+    let warnings = judged(&problem, &states);
+    assert_eq!(kinds(&warnings), [Kind::Tension, Kind::NeverTouched]);
+}
+
+#[test]
 fn depth_is_judged_at_its_worst_and_passages_by_themselves() {
     let problem = problem();
     let ways = [0.0, 0.11, 0.15, 0.12];

@@ -3,6 +3,9 @@
 //! Each converged increment is judged, and the worst of every kind is kept for every
 //! pair:
 //!
+//! Forces and pressures are judged over the largest of the pair so far, or over those of strains of
+//! 4e-6 where these are larger: less is round-off.
+//!
 //! | kind | value | limit |
 //! | --- | --- | --- |
 //! | `mismatch` | sum of the resultants over the largest force of the pair so far | 1e-6 |
@@ -246,7 +249,7 @@ impl Judgement {
         }
         self.note(Kind::Rotation, None, rotation(problem, after), after.time);
         for (pair, report) in pairs(problem, after).iter().enumerate() {
-            self.pair(pair, report, [before, after]);
+            self.pair(problem, pair, report, [before, after]);
             self.passage(pair, &interferences[pair], after.time);
             self.penetration(problem, pair, (after, in_step), report.max_pressure);
         }
@@ -289,7 +292,13 @@ impl Judgement {
         }
     }
 
-    fn pair(&mut self, pair: usize, report: &PairReport, [before, after]: [&State; 2]) {
+    fn pair(
+        &mut self,
+        problem: &Problem,
+        pair: usize,
+        report: &PairReport,
+        [before, after]: [&State; 2],
+    ) {
         let force = report
             .sides
             .iter()
@@ -300,11 +309,14 @@ impl Judgement {
         let nodes = after.pairs[pair].nodes.iter().flatten();
         let tension = nodes.map(|node| -node.pressure).fold(0.0, f64::max);
         let created = before.pairs[pair].dissipated - after.pairs[pair].dissipated;
-        let share = over(force, self.forces[pair]);
+        let noise = pressure_of_round_off(problem, pair);
+        let pressures = self.pressures[pair].max(noise);
+        let area = report.sides[0].area.max(report.sides[1].area);
+        let share = over(force, self.forces[pair].max(noise * area));
         for (kind, value) in [
             (Kind::Mismatch, report.mismatch * share),
             (Kind::Moment, report.moment_mismatch * share),
-            (Kind::Tension, over(tension, self.pressures[pair])),
+            (Kind::Tension, over(tension, pressures)),
             (Kind::Creation, created),
         ] {
             self.note(kind, Some(pair), value, after.time);
@@ -419,10 +431,21 @@ impl Judgement {
     }
 }
 
+/// Square of strains that are round-off, or as good as that.
+const STRAIN_SQUARED: f64 = 2e-11;
+
+/// Pressure below which all is round-off: that of strains of 4e-6 or less in the stiffer one of the
+/// sides. What is judged at a millionth of it is 2e4 units in the last place of its modulus.
+fn pressure_of_round_off(problem: &Problem, pair: usize) -> f64 {
+    let contact = &problem.pairs[pair].contact;
+    let moduli = contact.deformable_sides().iter();
+    let moduli = moduli.map(|&side| contact.sides[side].stiffness);
+    STRAIN_SQUARED.sqrt() * moduli.fold(0.0, f64::max)
+}
+
 /// Energy below which all is round-off: that of strains of 4e-6 or less. Its balance is
 /// judged at a thousandth, which is a hundred units in the last place of `G V`. Collective.
 fn round_off(problem: &Problem) -> f64 {
-    const STRAIN_SQUARED: f64 = 2e-11;
     let bodies = problem.elements.iter().enumerate();
     let energies = bodies.map(|(body, elements)| {
         let energies = elements.iter().enumerate().map(|(at, element)| {
