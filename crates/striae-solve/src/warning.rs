@@ -11,7 +11,7 @@
 //! | `mismatch` | sum of the resultants over the largest force of the pair so far | 1e-6 |
 //! | `moment` | sum of the moments over the same and the size of the contact zone | 1e-2 |
 //! | `tension` | tensile nodal pressure over the largest pressure of the pair so far | 1e-6 |
-//! | `penetration` | depth over the local facet size, see [`crate::interference`] | 0.1 |
+//! | `penetration` | depth over the size of the smaller facets there, see [`crate::interference`] | 0.1 |
 //! | `passage` | the same for what has passed through, see there | 0 |
 //! | `overlap` | the same for bodies inside themselves or others where no pair sees it, over the smaller facet | 0.1 |
 //! | `unfelt` | the same while the pair has no force at all | 0.02 |
@@ -553,7 +553,7 @@ fn warning(problem: &Problem, worst: &Worst) -> Warning {
             "pair `{name}`: contact pulls with {value:.1e} of the largest pressure at time {time:.4}"
         ),
         Kind::Penetration => format!(
-            "pair `{name}`: its sides are inside each other by {percent:.0} % of the facet size at time {time:.4}"
+            "pair `{name}`: its sides are inside each other by {percent:.0} % of the smaller facet size at time {time:.4}"
         ),
         Kind::Unfelt => format!(
             "pair `{name}`: its sides are inside each other by {percent:.1} % of the facet size at time {time:.4}, and contact does not feel it; refine the coarser side there"
