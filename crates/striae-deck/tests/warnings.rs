@@ -2,9 +2,11 @@
 
 use std::path::Path;
 
+use striae_contact::field::FacetForces;
 use striae_deck::parse;
-use striae_mesh::Vec3;
+use striae_mesh::{FacetId, Vec3};
 use striae_solve::{
+    audit::{Doubt, coarse, doubts},
     newton::{Acceptance, InStep, Increment, LinearWork},
     outcome::Ending,
     problem::Problem,
@@ -141,6 +143,81 @@ fn tractions_of_round_off_are_not_judged_by_each_other() {
     states[1].pairs[0].nodes[0][3].pressure = -1e-6;
     let warnings = judged(&problem, &states);
     assert_eq!(kinds(&warnings), [Kind::Tension, Kind::NeverTouched]);
+}
+
+/// The upper block on the lower one, pressed at some nodes of its lower face.
+fn touching(problem: &Problem, time: f64, pressed: impl Fn(&Vec3) -> bool) -> State {
+    let mut state = lowered(problem, time, 0.1);
+    let surface = problem.pairs[0].contact.sides[1].surface().unwrap();
+    let area = 0.25 * (0.5_f64 / 3.0).powi(2);
+    let of_facet = FacetForces {
+        force: [Vec3::zeros(); 4],
+        area: [area; 4],
+        pressure: 0.0,
+        friction: 0.0,
+    };
+    let facets = (0..surface.facets().len()).map(|at| (FacetId::new(at), of_facet.clone()));
+    state.pairs[0].facets[1] = facets.collect();
+    for (at, node) in surface.nodes().iter().enumerate() {
+        let result = &mut state.pairs[0].nodes[1][at];
+        let x = state.positions[problem.node(1, *node)];
+        result.normal = -Vec3::z();
+        result.pressure = f64::from(u8::from(pressed(&x)));
+    }
+    state
+}
+
+#[test]
+fn a_node_that_friction_pushes_along_its_slip_is_named() {
+    let problem = problem();
+    let before = touching(&problem, 0.0, |_| true);
+    let mut after = touching(&problem, 1.0, |_| true);
+    for x in &mut after.positions[problem.first_node[1]..] {
+        x.x += 0.05;
+    }
+    let nodes = &mut after.pairs[0].nodes[1];
+    nodes
+        .iter_mut()
+        .for_each(|node| node.tau = -0.3 * Vec3::x());
+    assert_eq!(doubts(&problem, &before, &after), []);
+    // A corner, which has a quarter of one of nine facets.
+    after.pairs[0].nodes[1][0].tau = 0.15 * Vec3::x();
+    let found = doubts(&problem, &before, &after);
+    let [Doubt::Gain(gain)] = &found[..] else {
+        panic!("{found:?}");
+    };
+    let expected = 0.15 / (35.0 * 0.3 + 0.15);
+    assert!((gain.share - expected).abs() < 1e-12, "{gain:?}");
+    let surface = problem.pairs[0].contact.sides[1].surface().unwrap();
+    assert_eq!((gain.body, gain.node), (1, surface.nodes()[0]));
+    let warnings = judged(&problem, &[before.clone(), after.clone()]);
+    let gain = warnings.iter().find(|warning| warning.kind == Kind::Gain);
+    assert!(gain.is_some_and(|gain| gain.text.contains("of `upper` along its slip")));
+    // Less than a twentieth of a facet is what meshes cannot follow.
+    for x in &mut after.positions[problem.first_node[1]..] {
+        x.x -= 0.045;
+    }
+    assert_eq!(doubts(&problem, &before, &after), []);
+}
+
+#[test]
+fn facets_that_are_too_coarse_for_their_contact_are_named() {
+    let problem = problem();
+    let inner = |x: &Vec3| (x.xy() - striae_mesh::Vec3::new(0.45, 0.55, 0.0).xy()).amax() < 0.1;
+    let found = coarse(&problem, 0, &touching(&problem, 1.0, inner)).unwrap();
+    // Four nodes with a facet each, of which the lower ones are larger.
+    let width = 2.0 * 0.5 / 3.0;
+    assert!((found.enough - width / 3.0).abs() < 1e-12, "{found:?}");
+    assert_eq!((found.body, found.size), (0, 0.25));
+    // Contact that reaches to the edges is as wide as these are.
+    assert_eq!(
+        coarse(&problem, 0, &touching(&problem, 1.0, |_| true)),
+        None
+    );
+    assert_eq!(
+        coarse(&problem, 0, &touching(&problem, 1.0, |_| false)),
+        None
+    );
 }
 
 #[test]

@@ -13,6 +13,7 @@
 //! | `tension` | tensile nodal pressure over the largest pressure of the pair so far | 1e-6 |
 //! | `penetration` | depth over the size of the smaller facets there, see [`crate::interference`] | 0.1 |
 //! | `passage` | the same for what has passed through, see there | 0 |
+//! | `coarse` | facet size over that which would do for the zone of contact, where the force of the pair is largest, see [`crate::audit`] | 1 |
 //! | `overlap` | the same for bodies inside themselves or others where no pair sees it, over the smaller facet | 0.1 |
 //! | `unfelt` | the same while the pair has no force at all | 0.02 |
 //! | `creation` | negative friction work over the largest energy | 1e-6 |
@@ -39,7 +40,7 @@ use striae_law::bulk::Material;
 use striae_mesh::{ElementId, NodeId, Vec3};
 
 use crate::{
-    audit::{Doubt, LEAST_SHARE, doubts},
+    audit::{Doubt, LEAST_SHARE, coarse, doubts},
     initial::{fits, may_meet, other_name},
     interference::{Positions, between, within},
     model::{Initial, Model, PairId},
@@ -82,6 +83,8 @@ pub enum Kind {
     Penetration,
     /// Bodies are inside each other and no contact feels it.
     Unfelt,
+    /// Facets are too coarse for the zone of contact.
+    Coarse,
     /// Bodies are inside themselves or others where no pair sees it.
     Overlap,
     /// Bodies have passed through each other.
@@ -110,12 +113,13 @@ pub enum Kind {
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 18] = [
         Self::Mismatch,
         Self::Moment,
         Self::Tension,
         Self::Penetration,
         Self::Unfelt,
+        Self::Coarse,
         Self::Overlap,
         Self::Passage,
         Self::Creation,
@@ -138,6 +142,7 @@ impl Kind {
             Self::Tension => "tension",
             Self::Penetration => "penetration",
             Self::Unfelt => "unfelt",
+            Self::Coarse => "coarse",
             Self::Overlap => "overlap",
             Self::Passage => "passage",
             Self::Creation => "creation",
@@ -161,6 +166,7 @@ impl Kind {
             Self::Penetration | Self::Overlap => SHARE,
             Self::Unfelt => PIERCED,
             Self::Gain => LEAST_SHARE,
+            Self::Coarse => 1.0,
             Self::Rotation => 0.1,
             Self::Imbalance => 1e-3,
             Self::Residual | Self::Passage | Self::NeverTouched | Self::NeverMeets => 0.0,
@@ -194,6 +200,8 @@ pub struct Worst {
     pub node: Option<(usize, NodeId)>,
     /// The value, but for energies over the largest one.
     pub value: f64,
+    /// Facet size there, if it is about one.
+    pub size: f64,
     /// Its time.
     pub time: f64,
 }
@@ -238,11 +246,10 @@ impl Judgement {
     ) {
         self.forces.resize(problem.pairs.len(), 0.0);
         self.pressures.resize(problem.pairs.len(), 0.0);
-        self.energy = self
-            .energy
-            .max(largest(&after.energies))
-            .max(round_off(problem));
-        let imbalance = after.energies.imbalance().abs();
+        let least = round_off(problem);
+        let energies = &after.energies;
+        self.energy = self.energy.max(largest(energies)).max(least);
+        let imbalance = energies.imbalance().abs();
         self.note(Kind::Imbalance, None, imbalance, after.time);
         if in_step.reach == Reach::End {
             self.stabilisation(after);
@@ -286,6 +293,7 @@ impl Judgement {
                     pair: Some(gain.pair),
                     node: Some((gain.body, gain.node)),
                     value: gain.share,
+                    size: 0.0,
                     time,
                 },
             });
@@ -304,6 +312,9 @@ impl Judgement {
             .iter()
             .map(|side| side.force.norm())
             .fold(0.0, f64::max);
+        if force > self.forces[pair] {
+            self.coarse(problem, pair, after);
+        }
         self.forces[pair] = self.forces[pair].max(force);
         self.pressures[pair] = self.pressures[pair].max(report.max_pressure);
         let nodes = after.pairs[pair].nodes.iter().flatten();
@@ -320,6 +331,22 @@ impl Judgement {
             (Kind::Creation, created),
         ] {
             self.note(kind, Some(pair), value, after.time);
+        }
+    }
+
+    /// Judges the facets where the force of a pair is the largest so far, in place of earlier ones.
+    fn coarse(&mut self, problem: &Problem, pair: usize, after: &State) {
+        self.worst
+            .retain(|known| (known.kind, known.pair) != (Kind::Coarse, Some(pair)));
+        if let Some(found) = coarse(problem, pair, after) {
+            self.note_at(Worst {
+                kind: Kind::Coarse,
+                pair: Some(pair),
+                node: Some((found.body, found.node)),
+                value: found.size / found.enough,
+                size: found.size,
+                time: after.time,
+            });
         }
     }
 
@@ -364,6 +391,7 @@ impl Judgement {
             pair,
             node: None,
             value,
+            size: 0.0,
             time,
         });
     }
@@ -410,6 +438,7 @@ impl Judgement {
                         pair: Some(pair),
                         node: None,
                         value: fit.as_ref().map_or(0.0, |fit| fit.distance),
+                        size: 0.0,
                         time: 0.0,
                     });
                 }
@@ -530,6 +559,7 @@ fn warning(problem: &Problem, worst: &Worst) -> Warning {
         pair,
         node,
         value,
+        size,
         time,
     } = worst;
     let place = node.map_or_else(String::new, |(body, node)| {
@@ -560,6 +590,10 @@ fn warning(problem: &Problem, worst: &Worst) -> Warning {
         ),
         Kind::Overlap => format!(
             "body `{name}` is inside itself, or another body that it has no pair with, by {percent:.0} % of the facet size at time {time:.4}"
+        ),
+        Kind::Coarse => format!(
+            "pair `{name}`: facets of {size:.2e} at {place} are too coarse for the zone of contact at time {time:.4}, where its force is largest; {:.2e} would do",
+            size / value
         ),
         Kind::Passage => {
             format!("pair `{name}`: its sides have passed through each other at time {time:.4}")

@@ -57,7 +57,7 @@ pub(super) fn gain(problem: &Problem, pair: usize, states: [&State; 2]) -> Optio
 fn on_side(problem: &Problem, (pair, side): (usize, Side), states: [&State; 2]) -> Option<Gain> {
     let [before, after] = states;
     let at = configuration(problem, pair, Positions::from(after));
-    let areas = areas(problem, (pair, side), after);
+    let areas = super::areas(problem, (pair, side), after);
     let nodes = after.pairs[pair].nodes[side].iter().zip(areas).enumerate();
     let (mut all, mut worst) = (0.0, None::<(f64, SurfaceNode)>);
     for (node, (result, area)) in nodes.filter(|(_, (node, _))| node.tau != Vec3::zeros()) {
@@ -86,21 +86,6 @@ fn on_side(problem: &Problem, (pair, side): (usize, Side), states: [&State; 2]) 
         work,
         share: work / all,
     })
-}
-
-/// Areas that belong to the nodes of a side.
-fn areas(problem: &Problem, (pair, side): (usize, Side), state: &State) -> Vec<f64> {
-    let Some(surface) = problem.pairs[pair].contact.sides[side].surface() else {
-        return Vec::new();
-    };
-    let mut areas = vec![0.0; surface.nodes().len()];
-    for (facet, of_facet) in &state.pairs[pair].facets[side] {
-        let corners = surface.facets()[facet.index()];
-        for (corner, area) in corners.into_iter().zip(of_facet.area) {
-            areas[corner] += area;
-        }
-    }
-    areas
 }
 
 /// Way of the point of the other side that is opposite to a node at `x` at the end.
