@@ -18,6 +18,7 @@
 //! | `unfelt` | the same while the pair has no force at all | 0.02 |
 //! | `creation` | negative friction work over the largest energy | 1e-6 |
 //! | `gain` | work that friction does at a node that slips over all that it does on its side in an increment, see [`crate::audit`] | 0.01 |
+//! | `contact` | energy that contact has made, beyond friction, over the largest external work | 0.1 |
 //! | `imbalance` | energy found nowhere over the largest energy | 1e-3 |
 //! | `residual` | residual of an increment that was accepted above the tolerance, where the integrals of contact jump | - |
 //! | `stabilisation` | work lost to [stabilisation](crate::stabilisation) in a step over its external work or change of strain energy, whichever is larger | 0.01 |
@@ -93,6 +94,8 @@ pub enum Kind {
     Creation,
     /// Friction pushes a node along its slip.
     Gain,
+    /// Contact makes energy that friction does not explain.
+    Contact,
     /// Energy is found nowhere.
     Imbalance,
     /// An increment was accepted above the tolerance.
@@ -113,7 +116,7 @@ pub enum Kind {
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::Mismatch,
         Self::Moment,
         Self::Tension,
@@ -124,6 +127,7 @@ impl Kind {
         Self::Passage,
         Self::Creation,
         Self::Gain,
+        Self::Contact,
         Self::Imbalance,
         Self::Residual,
         Self::Stabilisation,
@@ -147,6 +151,7 @@ impl Kind {
             Self::Passage => "passage",
             Self::Creation => "creation",
             Self::Gain => "gain",
+            Self::Contact => "contact",
             Self::Imbalance => "imbalance",
             Self::Residual => "residual",
             Self::Stabilisation => "stabilisation",
@@ -167,7 +172,7 @@ impl Kind {
             Self::Unfelt => PIERCED,
             Self::Gain => LEAST_SHARE,
             Self::Coarse => 1.0,
-            Self::Rotation => 0.1,
+            Self::Rotation | Self::Contact => 0.1,
             Self::Imbalance => 1e-3,
             Self::Residual | Self::Passage | Self::NeverTouched | Self::NeverMeets => 0.0,
         }
@@ -185,6 +190,8 @@ pub struct Judgement {
     pub pressures: Vec<f64>,
     /// Largest energy.
     pub energy: f64,
+    /// Largest external work.
+    pub external: f64,
     /// Energies at the start of the step.
     pub step: Energies,
 }
@@ -249,6 +256,8 @@ impl Judgement {
         let least = round_off(problem);
         let energies = &after.energies;
         self.energy = self.energy.max(largest(energies)).max(least);
+        self.external = self.external.max(energies.external.abs()).max(least);
+        self.note(Kind::Contact, None, -energies.contact, after.time);
         let imbalance = energies.imbalance().abs();
         self.note(Kind::Imbalance, None, imbalance, after.time);
         if in_step.reach == Reach::End {
@@ -450,9 +459,10 @@ impl Judgement {
         warnings
     }
 
-    /// Energies over the largest one.
+    /// Energies over the largest one, or the largest external work.
     fn relative(&self, worst: &Worst) -> Worst {
         let value = match worst.kind {
+            Kind::Contact => over(worst.value, self.external),
             Kind::Creation | Kind::Imbalance => over(worst.value, self.energy),
             _ => worst.value,
         };
@@ -603,6 +613,9 @@ fn warning(problem: &Problem, worst: &Worst) -> Warning {
         ),
         Kind::Gain => format!(
             "pair `{name}`: friction pushes {place} along its slip in the increment to time {time:.4}, which gains {percent:.0} % of what friction works on its side"
+        ),
+        Kind::Contact => format!(
+            "contact has made energy until time {time:.4} that friction does not explain, {percent:.0} % of the largest external work"
         ),
         Kind::Imbalance => {
             format!("energy of {value:.1e} of the largest one is found nowhere at time {time:.4}")
