@@ -6,7 +6,8 @@ use striae_contact::field::FacetForces;
 use striae_deck::parse;
 use striae_mesh::{FacetId, Vec3};
 use striae_solve::{
-    audit::{Doubt, coarse, doubts},
+    assembly::StepContext,
+    audit::{Doubt, coarse, doubts, jump},
     newton::{Acceptance, InStep, Increment, LinearWork},
     outcome::Ending,
     problem::Problem,
@@ -218,6 +219,31 @@ fn facets_that_are_too_coarse_for_their_contact_are_named() {
         coarse(&problem, 0, &touching(&problem, 1.0, |_| false)),
         None
     );
+}
+
+#[test]
+fn a_body_that_moves_against_its_loads_at_the_cost_of_contact_jumps() {
+    let problem = problem();
+    let before = lowered(&problem, 0.0, 0.1);
+    let context = StepContext::new(&problem, 0, &before);
+    let jumps = |way: f64, load: f64, contact: f64| {
+        let (mut before, mut after) = (before.clone(), before.clone());
+        for node in problem.nodes_of(1) {
+            after.positions[node].x += way;
+            after.forces.applied[node].x = load;
+            before.forces.applied[node].x = load;
+        }
+        after.energies.contact = contact;
+        jump(&context, &before, &after)
+    };
+    let count = problem.nodes_of(1).count() as f64;
+    let paid = -0.2 * count;
+    let found = jumps(0.2, -1.0, paid).unwrap();
+    assert_eq!((found.body, found.driven), (1, 0.0));
+    assert!((found.way - 0.2).abs() < 1e-12);
+    assert_eq!(jumps(0.2, 1.0, paid), None, "with the load");
+    assert_eq!(jumps(0.2, -1.0, 0.4 * paid), None, "something else pays");
+    assert_eq!(jumps(0.05, -1.0, paid), None, "less than half a facet");
 }
 
 #[test]

@@ -6,6 +6,7 @@
 
 mod coarse;
 mod friction;
+mod motion;
 
 use striae_contact::side::Side;
 
@@ -13,6 +14,18 @@ use crate::{outcome::CutBack, problem::Problem, state::State};
 
 pub use coarse::{Coarse, coarse};
 pub use friction::{Gain, LEAST_SHARE};
+pub use motion::jump;
+
+/// A body that moves far against its loads, driven by nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Jump {
+    /// The body.
+    pub body: usize,
+    /// How far it moves.
+    pub way: f64,
+    /// The longest way that is prescribed.
+    pub driven: f64,
+}
 
 /// What an increment is doubted for.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,6 +39,17 @@ pub fn doubts(problem: &Problem, before: &State, after: &State) -> Vec<Doubt> {
     let pairs = 0..problem.pairs.len();
     let gains = pairs.filter_map(|pair| friction::gain(problem, pair, [before, after]));
     gains.map(Doubt::Gain).collect()
+}
+
+impl Jump {
+    /// The jump as a reason why an increment fails.
+    pub fn cut_back(&self, problem: &Problem) -> CutBack {
+        CutBack::Jump {
+            body: problem.model.bodies[self.body].name.clone(),
+            way: self.way,
+            driven: self.driven,
+        }
+    }
 }
 
 impl Doubt {

@@ -10,7 +10,7 @@ use striae_contact::{
 
 use crate::{
     assembly::StepContext,
-    audit::doubts,
+    audit::{doubts, jump},
     begin::begin,
     freedom::{Bridged, Friction, free_motion, free_motion_in, slipping, worth_stabilising},
     model::Procedure,
@@ -214,10 +214,10 @@ impl Division {
         }
     }
 
-    /// An increment with what it is doubted for.
+    /// An increment with what it is doubted for; collective.
     ///
     /// # Errors
-    /// The first doubt, as long as a smaller increment is worth a try.
+    /// A jump; and the first doubt, as long as a smaller increment is worth a try.
     fn doubted(
         &mut self,
         context: &StepContext,
@@ -226,6 +226,9 @@ impl Division {
         fraction: f64,
     ) -> Result<Increment, CutBack> {
         let problem = context.problem;
+        if let Some(jump) = jump(context, before, &increment.state) {
+            return Err(jump.cut_back(problem));
+        }
         increment.doubts = doubts(problem, before, &increment.state);
         let smaller = (fraction - self.done) * CUT;
         let may_be_cut = smaller >= problem.model.steps[context.index].increments.smallest;

@@ -133,6 +133,18 @@ pub enum CutBack {
         /// The same over the magnitudes of the work at all nodes of its side.
         share: f64,
     },
+    /// A body has jumped.
+    #[error(
+        "body `{body}` would jump by {way:.3e} against its loads, where nothing is moved by more than {driven:.3e}"
+    )]
+    Jump {
+        /// Name of the body.
+        body: String,
+        /// How far its middle would move.
+        way: f64,
+        /// The longest way that is prescribed.
+        driven: f64,
+    },
     /// Nothing holds a body.
     #[error("{motion}; {}", free_text(stabilise))]
     Free {
