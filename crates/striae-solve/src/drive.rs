@@ -5,6 +5,7 @@
 use serde::{Deserialize, Serialize};
 use striae_contact::{
     interference::facing,
+    side::Side,
     unknowns::{NodeResult, Status},
 };
 
@@ -13,13 +14,15 @@ use crate::{
     audit::{doubts, jump},
     begin::begin,
     freedom::{Bridged, Friction, free_motion, free_motion_in, slipping, worth_stabilising},
-    model::Procedure,
-    newton::{Increment, IterationObserver, Memory, Workspace, advance},
+    initial::other_name,
+    model::{PairId, Procedure},
+    newton::{Increment, IterationObserver, Memory, Workspace, advance, forces_at},
     outcome::{CutBack, Ending, Remedy},
     problem::Problem,
     share::Share,
     stabilisation::first_increment,
     state::State,
+    support::tipping,
 };
 
 /// Told of everything that happens in a run.
@@ -328,7 +331,8 @@ fn run_step(
                 }
                 let next = observer.cut_back(progress, &reason);
                 if ends {
-                    return Some(stopped(context, state, division.done, reason));
+                    let reached = [division.done, fraction];
+                    return Some(stopped(context, state, reached, workspace, reason));
                 }
                 division.look_farther(context, &reason);
                 division.size = size;
@@ -365,16 +369,62 @@ fn attempted(
     advance(&context, state, fraction, time, workspace, observer)
 }
 
-/// The end of a run in which no increment beyond `state` is possible.
-fn stopped(context: &StepContext, state: &State, reached: f64, reason: CutBack) -> Ending {
-    let is_named = matches!(reason, CutBack::NotBridged { .. });
-    let limit = || at_limit(context, state, reached);
-    let limit = if is_named { None } else { limit() };
+/// The end of a run in which no increment beyond `state` is possible, nor one to the fraction
+/// `wanted` of the step; collective.
+fn stopped(
+    context: &StepContext,
+    state: &State,
+    [reached, wanted]: [f64; 2],
+    workspace: &mut Workspace,
+    reason: CutBack,
+) -> Ending {
+    let is_named = matches!(
+        reason,
+        CutBack::NotBridged { .. }
+            | CutBack::Overlap { .. }
+            | CutBack::Free { .. }
+            | CutBack::Released { .. }
+    );
+    let limit = match is_named {
+        true => None,
+        false => tips(context, state, [reached, wanted], workspace)
+            .or_else(|| at_limit(context, state, reached)),
+    };
     Ending::Stopped {
         step: context.problem.model.steps[context.index].name.clone(),
         time: state.time,
         reason: limit.unwrap_or(reason),
     }
+}
+
+/// The body that tips, if that is why there is no equilibrium beyond `state`: with the loads that
+/// were wanted or those at the end of the step. Collective.
+fn tips(
+    context: &StepContext,
+    state: &State,
+    [reached, wanted]: [f64; 2],
+    workspace: &mut Workspace,
+) -> Option<CutBack> {
+    let model = &context.problem.model;
+    if model.steps[context.index].procedure != Procedure::QuasiStatic {
+        return None;
+    }
+    let found = [wanted, 1.0].into_iter().find_map(|s| {
+        let forces = forces_at(context, state, s, workspace).ok()?;
+        tipping(context, state, &forces.applied)
+    })?;
+    let pair = &context.problem.pairs[found.pair];
+    let own = if pair.bodies[0] == Some(found.body) {
+        Side::A
+    } else {
+        Side::B
+    };
+    Some(CutBack::Tips {
+        body: model.bodies[found.body].name.clone(),
+        other: other_name(model, PairId(found.pair), own).to_owned(),
+        pair: context.pairs[found.pair].name.clone(),
+        reached,
+    })
 }
 
 /// The motion that nothing holds, if that is why there is no equilibrium beyond `state`.

@@ -35,6 +35,7 @@ pub mod skin;
 pub mod solid;
 pub mod stabilisation;
 pub mod state;
+mod support;
 pub mod team;
 pub mod tie;
 pub mod warning;

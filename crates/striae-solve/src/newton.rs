@@ -162,17 +162,30 @@ pub(crate) fn forces_at_start(
     state: &State,
     workspace: &mut Workspace,
 ) -> Result<NodalForces, CutBack> {
+    forces_at(context, state, 0.0, workspace)
+}
+
+/// Forces in `state`, with the loads at the fraction `s` of the step.
+///
+/// # Errors
+/// Why the state cannot be evaluated.
+pub(crate) fn forces_at(
+    context: &StepContext,
+    state: &State,
+    s: f64,
+    workspace: &mut Workspace,
+) -> Result<NodalForces, CutBack> {
     let Selected {
         selections,
         tractions,
-    } = selected(context, state, 0.0);
+    } = selected(context, state, s);
     workspace.prepare(context.problem, &selections);
     let trial = Trial {
         positions: state.positions.clone(),
         tractions,
         rigid: state.rigid.clone(),
     };
-    let imposed = context.imposed(0.0);
+    let imposed = context.imposed(s);
     let setting = Setting {
         context,
         state,

@@ -191,6 +191,20 @@ pub enum CutBack {
         /// Fraction of the step that was reached.
         reached: f64,
     },
+    /// The loads on a body act beside what it stands on.
+    #[error(
+        "body `{body}` tips over the edge of what `{other}` supports: its loads act beside the surfaces of pair `{pair}` that touch, and nothing else holds it, with {reached:.4} of the step done"
+    )]
+    Tips {
+        /// Name of the body.
+        body: String,
+        /// Body or rigid surface that it stands on.
+        other: String,
+        /// Name of the pair.
+        pair: String,
+        /// Fraction of the step that was reached.
+        reached: f64,
+    },
     /// A body has flown off.
     #[error(
         "body `{body}` flies off: {node} would move by {way:.1e}, {times:.0e} times the size of the model. Nothing holds it, or loads are far beyond its stiffness: hold it by displacements or contact, give the step inertia with `dynamics = {{}}`, or compare loads per area with Young's modulus"
