@@ -378,22 +378,16 @@ fn stopped(
     workspace: &mut Workspace,
     reason: CutBack,
 ) -> Ending {
-    let is_named = matches!(
-        reason,
-        CutBack::NotBridged { .. }
-            | CutBack::Overlap { .. }
-            | CutBack::Free { .. }
-            | CutBack::Released { .. }
-    );
-    let limit = match is_named {
-        true => None,
-        false => tips(context, state, [reached, wanted], workspace)
-            .or_else(|| at_limit(context, state, reached)),
+    let limit = || at_limit(context, state, reached);
+    let found = match reason {
+        CutBack::NotBridged { .. } | CutBack::Overlap { .. } | CutBack::Free { .. } => None,
+        CutBack::Released { .. } => limit(),
+        _ => tips(context, state, [reached, wanted], workspace).or_else(limit),
     };
     Ending::Stopped {
         step: context.problem.model.steps[context.index].name.clone(),
         time: state.time,
-        reason: limit.unwrap_or(reason),
+        reason: found.unwrap_or(reason),
     }
 }
 
