@@ -103,7 +103,8 @@ fn a_jaw_overlaps_itself_from_where_its_lips_meet() {
 fn what_is_thin_folded_or_closed_does_not_overlap() {
     // A plate of a hundredth of its facets.
     let plate = block([0.0; 3], [4.0, 4.0, 0.01], [4, 4, 1]);
-    assert_eq!(moved(&[plate.clone()], |x| *x).1, []);
+    let plate = [plate];
+    assert_eq!(moved(&plate, |x| *x).1, []);
     // Folded to a hundredth of a turn around its middle.
     let folded = |x: &Vec3| {
         let angle = 0.99 * std::f64::consts::PI * f64::from(u8::from(x.x > 2.0));
@@ -111,7 +112,7 @@ fn what_is_thin_folded_or_closed_does_not_overlap() {
         let turned = Rotation3::from_axis_angle(&-Vec3::y_axis(), angle) * arm;
         Vec3::new(2.0, x.y, 0.01) + turned
     };
-    assert_eq!(moved(&[plate], folded).1, []);
+    assert_eq!(moved(&plate, folded).1, []);
     // Lips that just touch.
     let closed = |x: &Vec3| {
         Vec3::new(
@@ -134,7 +135,7 @@ fn what_is_thin_folded_or_closed_does_not_overlap() {
 #[test]
 fn a_body_inside_another_one_is_found_from_both_and_touching_ones_are_not() {
     let lower = || block([0.0; 3], [1.0; 3], [4, 4, 4]);
-    let upper = |z: f64| block([0.2, 0.3, z], [0.5; 3], [3, 3, 3]);
+    let upper = |z: f64| block([0.2, 0.3, z], [0.5; 3], [3, 3, 1]);
     assert!(
         moved(&[lower(), upper(1.0)], |x| *x)
             .1
@@ -145,7 +146,12 @@ fn a_body_inside_another_one_is_found_from_both_and_touching_ones_are_not() {
     let of = |body: usize| found.iter().filter(|o| skins.body(o.spot) == body).count();
     // All nodes and centres of the lowest face, none of the sides; what is under it of the other.
     assert_eq!([of(1), of(0)], [16 + 9, 4 + 4]);
-    assert!(found.iter().all(|o| (o.depth - 0.1).abs() < 1e-12));
+    for overlap in &found {
+        // Of the lower one some points are nearer to sides of the upper one.
+        let is_upper = skins.body(overlap.spot) == 1;
+        let least = if is_upper { 0.1 - 1e-12 } else { 0.05 - 1e-12 };
+        assert!(overlap.depth >= least && overlap.depth < 0.1 + 1e-12);
+    }
     let sizes = found.iter().map(|o| o.size);
     assert!(sizes.fold(0.0, f64::max) < 0.17, "that of the finer side");
     let none = |_: Spot, _| false;

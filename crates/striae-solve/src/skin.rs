@@ -12,7 +12,7 @@ use striae_contact::{
     side::Side,
 };
 use striae_mesh::{FacetId, NodeId, Vec3};
-use striae_surface::{node::SurfaceNode, topology::Surface};
+use striae_surface::topology::Surface;
 
 use crate::{
     model::{ContactSurface, Model, Pair},
@@ -99,15 +99,13 @@ impl Skin {
     fn is_judged(&self, spot: Spot, facet: FacetId) -> bool {
         let [body, other] = [self.skins.body(spot), self.skins.bodies[facet.index()]];
         let [own, others] = [spot, Spot::Centre(facet)].map(|spot| self.sides_of(spot));
-        let mut both = own
-            .iter()
-            .filter(|(pair, side)| others.contains(&(*pair, side.opposite())));
         if body == other {
-            return both.next().is_none();
+            let faces = |(pair, side): &(usize, Side)| others.contains(&(*pair, side.opposite()));
+            return !own.iter().any(faces);
         }
         let bodies = [body.min(other), body.max(other)];
-        let joins = |(pair, _): &&(usize, Side)| self.paired[*pair] == Some(bodies);
-        !self.tied.contains(&bodies) && own.iter().chain(&others).find(joins).is_none()
+        let joins = |(pair, _): &(usize, Side)| self.paired[*pair] == Some(bodies);
+        !self.tied.contains(&bodies) && !own.iter().chain(&others).any(joins)
     }
 
     /// Sides of pairs that a point belongs to.

@@ -108,7 +108,8 @@ fn a_body_that_touches_itself_hardly_or_by_a_pair_is_none_that_goes_through() {
     model.touch(("jaw", "lower"), ("jaw", "upper"), coulomb(0.2));
     let run = Run::of(model);
     assert_eq!(run.ending, Ending::Completed, "{}", run.ending);
-    assert_eq!(warnings(&run), []);
+    let overlaps = |warning: &Warning| warning.kind == Kind::Overlap;
+    assert!(!warnings(&run).iter().any(overlaps));
 }
 
 #[test]
