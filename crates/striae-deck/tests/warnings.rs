@@ -157,7 +157,7 @@ fn touching(problem: &Problem, time: f64, pressed: impl Fn(&Vec3) -> bool) -> St
         pressure: 0.0,
         friction: 0.0,
     };
-    let facets = (0..surface.facets().len()).map(|at| (FacetId::new(at), of_facet.clone()));
+    let facets = (0..surface.facets().len()).map(|at| (FacetId::new(at), of_facet));
     state.pairs[0].facets[1] = facets.collect();
     for (at, node) in surface.nodes().iter().enumerate() {
         let result = &mut state.pairs[0].nodes[1][at];

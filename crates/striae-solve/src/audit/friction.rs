@@ -5,7 +5,8 @@
 //! where both are at the end. Friction takes work at every node that slips: `tau . du <= 0`. The
 //! way is that of the two places, not of the rows, which weigh it with its neighbours'.
 //!
-//! A node that sticks moves by what the meshes cannot follow of each other. It counts as slipping
+//! Only nodes that are pressed at both ends are looked at: the way of others may lie before they
+//! touch. A node that sticks moves by what the meshes cannot follow of each other. It counts as slipping
 //! from [`LEAST_WAY`] of the facet size on; then the forces that friction needs to be wrong for are
 //! no round-off.
 
@@ -58,9 +59,14 @@ fn on_side(problem: &Problem, (pair, side): (usize, Side), states: [&State; 2]) 
     let [before, after] = states;
     let at = configuration(problem, pair, Positions::from(after));
     let areas = super::areas(problem, (pair, side), after);
-    let nodes = after.pairs[pair].nodes[side].iter().zip(areas).enumerate();
+    let results = [before, after].map(|state| &state.pairs[pair].nodes[side]);
+    let nodes = results[1].iter().zip(areas).enumerate();
     let (mut all, mut worst) = (0.0, None::<(f64, SurfaceNode)>);
-    for (node, (result, area)) in nodes.filter(|(_, (node, _))| node.tau != Vec3::zeros()) {
+    for (node, (result, area)) in nodes {
+        // A way before surfaces touch is none of friction.
+        if result.tau == Vec3::zeros() || results[0][node].pressure <= 0.0 {
+            continue;
+        }
         let node = SurfaceNode::new(node);
         let global = problem.surface_node(pair, side, node);
         let (Some(opposite), Some(global)) = (across(&at, side, node), global) else {
