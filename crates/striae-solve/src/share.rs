@@ -47,6 +47,8 @@
 //! | `freedom` | rows of prescribed nodes, middles and sizes of bodies | sum over owned nodes; largest |
 //! | `report` | reactions of node sets; middles of mass and velocities of bodies; which sets are held | sum over owned nodes; sum; any |
 //! | `section` | forces, moments, areas and centres of cuts | sum |
+//! | `audit/motion` | mean ways of bodies and loads on them; the longest way that is prescribed | sum over owned nodes; largest |
+//! | `support` | loads on bodies, what holds them, their middles and sizes | sum over owned nodes; largest |
 //! | `skin` | places of the nodes of all skins | sum over owned nodes |
 //! | `warning` | energy that is round-off, largest rotation | sum; largest |
 //!
