@@ -18,6 +18,7 @@
 
 mod facing;
 mod nearest;
+mod overlap;
 mod passage;
 mod thickness;
 mod triangle;
@@ -29,8 +30,9 @@ use striae_surface::{
     topology::{Surface, distinct_corners},
 };
 
-pub use facing::{Facing, facing};
+pub use facing::{Facing, across, facing};
 pub use nearest::{Nearest, Standing};
+pub use overlap::{Overlap, PlacedSkins, Skins};
 pub use thickness::{Fibre, Thickness, fibres, lengths};
 
 use crate::{
@@ -136,6 +138,20 @@ pub fn interferences(start: &Stage, end: &Stage, share: f64) -> Vec<Interference
 /// All points of both sides that are inside the other one by more than `share` of the
 /// facet size.
 pub fn inside(stage: &Stage, share: f64) -> Vec<Interference> {
+    inside_by(stage, share, judged_by)
+}
+
+/// All points of both sides that are inside the other one by more than `share` of the size of the
+/// smaller facets there.
+pub fn resolved_inside(stage: &Stage, share: f64) -> Vec<Interference> {
+    inside_by(stage, share, resolved_by)
+}
+
+fn inside_by(
+    stage: &Stage,
+    share: f64,
+    sized: impl Fn(&Stage, Side, Spot, FacetId) -> f64 + Sync,
+) -> Vec<Interference> {
     let configuration = stage.configuration;
     if let Some(plane) = configuration.plane() {
         let snapshot = configuration.side(Side::A);
@@ -155,7 +171,7 @@ pub fn inside(stage: &Stage, share: f64) -> Vec<Interference> {
             .with_min_len(16)
             .filter_map(|spot| {
                 let found = depth_inside(stage, side, spot)?;
-                let size = judged_by(stage, side, spot, found.facet);
+                let size = sized(stage, side, spot, found.facet);
                 let point = position(configuration.side(side), spot);
                 (found.distance > share * size)
                     .then(|| interference(stage, side, spot, (point, &found), size, Kind::Inside))
@@ -216,15 +232,37 @@ fn facet_size(snapshot: &Snapshot, facet: FacetId) -> f64 {
 /// side, the larger of two; less where the body is thin, so that a point that has come
 /// to its middle is inside.
 fn judged_by(stage: &Stage, side: Side, spot: Spot, facet: FacetId) -> f64 {
-    let configuration = stage.configuration;
-    let own = || size(configuration.side(side), spot);
-    let other = || facet_size(configuration.side(side.opposite()), facet);
-    let size = match (configuration.pair.is_rigid(), side) {
-        (false, _) => own().max(other()),
-        (true, Side::A) => own(),
-        (true, _) => other(),
+    let [own, other] = sizes(stage, side, spot, facet);
+    let size = match (stage.configuration.pair.is_rigid(), side) {
+        (false, _) => own.max(other),
+        (true, Side::A) => own,
+        (true, _) => other,
     };
-    size.min(THIN * stage.thickness.0[side.opposite()][facet.index()])
+    size.min(thin(stage, side, facet))
+}
+
+/// Size that results are judged by: that of the smaller facets, beside which depth is seen in them;
+/// less where the body is thin.
+fn resolved_by(stage: &Stage, side: Side, spot: Spot, facet: FacetId) -> f64 {
+    let [own, other] = sizes(stage, side, spot, facet);
+    let size = match (stage.configuration.pair.is_rigid(), side) {
+        (false, _) => own.min(other),
+        (true, Side::A) => own,
+        (true, _) => other,
+    };
+    size.min(thin(stage, side, facet))
+}
+
+/// Facet sizes at a point and behind it.
+fn sizes(stage: &Stage, side: Side, spot: Spot, facet: FacetId) -> [f64; 2] {
+    let configuration = stage.configuration;
+    let own = size(configuration.side(side), spot);
+    let other = facet_size(configuration.side(side.opposite()), facet);
+    [own, other]
+}
+
+fn thin(stage: &Stage, side: Side, facet: FacetId) -> f64 {
+    THIN * stage.thickness.0[side.opposite()][facet.index()]
 }
 
 /// Where a point is inside the other side.

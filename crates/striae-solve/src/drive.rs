@@ -5,20 +5,24 @@
 use serde::{Deserialize, Serialize};
 use striae_contact::{
     interference::facing,
+    side::Side,
     unknowns::{NodeResult, Status},
 };
 
 use crate::{
     assembly::StepContext,
+    audit::{doubts, jump},
     begin::begin,
     freedom::{Bridged, Friction, free_motion, free_motion_in, slipping, worth_stabilising},
-    model::Procedure,
-    newton::{Increment, IterationObserver, Memory, Workspace, advance},
+    initial::other_name,
+    model::{PairId, Procedure},
+    newton::{Increment, IterationObserver, Memory, Workspace, advance, forces_at},
     outcome::{CutBack, Ending, Remedy},
     problem::Problem,
     share::Share,
     stabilisation::first_increment,
     state::State,
+    support::tipping,
 };
 
 /// Told of everything that happens in a run.
@@ -74,6 +78,10 @@ pub struct Progress {
     pub time: f64,
 }
 
+/// How often in a step an increment that is doubted is tried again with a smaller one. Where that
+/// does not help, it is accepted with a warning.
+const DOUBTS: usize = 4;
+
 /// Iterations up to which an increment counts as easy.
 const EASY: usize = 6;
 const GROWTH: f64 = 1.5;
@@ -90,6 +98,8 @@ pub struct Point {
     pub fraction: f64,
     /// Size of the next increment.
     pub size: f64,
+    /// How often increments of the step have been tried again for doubts.
+    pub doubted: usize,
     /// Distance over which it looks for contact, by pair, at least; empty after an increment
     /// that has converged.
     pub search: Vec<f64>,
@@ -150,6 +160,7 @@ pub fn resume_in(
         count: point.increments,
         done: point.fraction,
         size: point.size,
+        doubted: point.doubted,
         search: point.search,
     };
     let mut state = point.state;
@@ -174,6 +185,8 @@ struct Division {
     count: usize,
     done: f64,
     size: f64,
+    /// How often increments have been tried again for doubts.
+    doubted: usize,
     /// Distance over which the next attempt looks for contact, by pair, at least.
     search: Vec<f64>,
 }
@@ -196,10 +209,38 @@ impl Division {
             increments: self.count,
             fraction: self.done,
             size: self.size,
+            doubted: self.doubted,
             search: self.search.clone(),
             start: context.start.clone(),
             state: state.clone(),
             memory: workspace.memory(),
+        }
+    }
+
+    /// An increment with what it is doubted for; collective.
+    ///
+    /// # Errors
+    /// A jump; and the first doubt, as long as a smaller increment is worth a try.
+    fn doubted(
+        &mut self,
+        context: &StepContext,
+        before: &State,
+        mut increment: Increment,
+        fraction: f64,
+    ) -> Result<Increment, CutBack> {
+        let problem = context.problem;
+        if let Some(jump) = jump(context, before, &increment.state) {
+            return Err(jump.cut_back(problem));
+        }
+        increment.doubts = doubts(problem, before, &increment.state);
+        let smaller = (fraction - self.done) * CUT;
+        let may_be_cut = smaller >= problem.model.steps[context.index].increments.smallest;
+        match increment.doubts.first() {
+            Some(doubt) if may_be_cut && self.doubted < DOUBTS => {
+                self.doubted += 1;
+                Err(doubt.cut_back(problem))
+            }
+            _ => Ok(increment),
         }
     }
 
@@ -242,6 +283,7 @@ fn run_steps(
             count,
             done: 0.0,
             size: first_increment(&problem.model, index),
+            doubted: 0,
             search: Vec::new(),
         };
         let ending = run_step(&context, &mut state, &mut division, workspace, observer);
@@ -270,6 +312,7 @@ fn run_step(
             time: context.start.time + fraction * step.duration,
         };
         let attempted = attempted(context, state, progress, division, (workspace, observer));
+        let attempted = attempted.and_then(|made| division.doubted(context, state, made, fraction));
         let next = match attempted {
             Ok(increment) => {
                 let next = observer.increment(progress, &increment);
@@ -288,7 +331,8 @@ fn run_step(
                 }
                 let next = observer.cut_back(progress, &reason);
                 if ends {
-                    return Some(stopped(context, state, division.done, reason));
+                    let reached = [division.done, fraction];
+                    return Some(stopped(context, state, reached, workspace, reason));
                 }
                 division.look_farther(context, &reason);
                 division.size = size;
@@ -325,16 +369,56 @@ fn attempted(
     advance(&context, state, fraction, time, workspace, observer)
 }
 
-/// The end of a run in which no increment beyond `state` is possible.
-fn stopped(context: &StepContext, state: &State, reached: f64, reason: CutBack) -> Ending {
-    let is_named = matches!(reason, CutBack::NotBridged { .. });
+/// The end of a run in which no increment beyond `state` is possible, nor one to the fraction
+/// `wanted` of the step; collective.
+fn stopped(
+    context: &StepContext,
+    state: &State,
+    [reached, wanted]: [f64; 2],
+    workspace: &mut Workspace,
+    reason: CutBack,
+) -> Ending {
     let limit = || at_limit(context, state, reached);
-    let limit = if is_named { None } else { limit() };
+    let found = match reason {
+        CutBack::NotBridged { .. } | CutBack::Overlap { .. } | CutBack::Free { .. } => None,
+        CutBack::Released { .. } => limit(),
+        _ => tips(context, state, [reached, wanted], workspace).or_else(limit),
+    };
     Ending::Stopped {
         step: context.problem.model.steps[context.index].name.clone(),
         time: state.time,
-        reason: limit.unwrap_or(reason),
+        reason: found.unwrap_or(reason),
     }
+}
+
+/// The body that tips, if that is why there is no equilibrium beyond `state`: with the loads that
+/// were wanted or those at the end of the step. Collective.
+fn tips(
+    context: &StepContext,
+    state: &State,
+    [reached, wanted]: [f64; 2],
+    workspace: &mut Workspace,
+) -> Option<CutBack> {
+    let model = &context.problem.model;
+    if model.steps[context.index].procedure != Procedure::QuasiStatic {
+        return None;
+    }
+    let found = [wanted, 1.0].into_iter().find_map(|s| {
+        let forces = forces_at(context, state, s, workspace).ok()?;
+        tipping(context, state, &forces.applied)
+    })?;
+    let pair = &context.problem.pairs[found.pair];
+    let own = if pair.bodies[0] == Some(found.body) {
+        Side::A
+    } else {
+        Side::B
+    };
+    Some(CutBack::Tips {
+        body: model.bodies[found.body].name.clone(),
+        other: other_name(model, PairId(found.pair), own).to_owned(),
+        pair: context.pairs[found.pair].name.clone(),
+        reached,
+    })
 }
 
 /// The motion that nothing holds, if that is why there is no equilibrium beyond `state`.

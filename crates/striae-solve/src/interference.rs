@@ -2,7 +2,7 @@
 
 use striae_contact::{
     configuration::Configuration,
-    interference::{Interference, Stage, Thickness, inside, interferences, lengths},
+    interference::{Interference, Stage, Thickness, interferences, lengths, resolved_inside},
     pair::ContactPair,
     placement::Placement,
     side::Side,
@@ -51,13 +51,13 @@ pub fn between(
     interferences(&start, &end, share)
 }
 
-/// All of a pair that is deeper than `share` of the facet size in one state.
+/// All of a pair that is deeper than `share` of the size of the smaller facets in one state.
 pub fn within(problem: &Problem, pair: usize, at: Positions, share: f64) -> Vec<Interference> {
     let stage = Stage {
         configuration: &configuration(problem, pair, at),
         thickness: &thickness(problem, pair, at.nodes),
     };
-    inside(&stage, share)
+    resolved_inside(&stage, share)
 }
 
 /// Where the sides of a pair are.

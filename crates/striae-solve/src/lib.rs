@@ -1,6 +1,7 @@
 //! Elements, loads, the problem and its state, Newton's method and step control.
 
 pub mod assembly;
+pub mod audit;
 mod begin;
 mod body_mass;
 mod composition;
@@ -30,9 +31,11 @@ mod restriction;
 pub mod rigid;
 pub mod section;
 pub mod share;
+pub mod skin;
 pub mod solid;
 pub mod stabilisation;
 pub mod state;
+mod support;
 pub mod team;
 pub mod tie;
 pub mod warning;

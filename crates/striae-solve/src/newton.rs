@@ -25,6 +25,7 @@ mod selected;
 mod work;
 mod workspace;
 
+pub use attempt::Acceptance;
 pub use course::Course;
 pub use work::{LinearWork, Times};
 pub use workspace::{Memory, Workspace};
@@ -37,9 +38,11 @@ use striae_contact::{
 
 use crate::{
     assembly::{Setting, StepContext, Trial},
+    audit::Doubt,
     norms::Norms,
     outcome::CutBack,
     problem::Problem,
+    skin::BodyOverlap,
     state::{NodalForces, State},
 };
 use acceptance::accepted;
@@ -53,6 +56,8 @@ use selected::{Selected, selected};
 pub struct Increment {
     /// The new state.
     pub state: State,
+    /// Its step, and whether it ends there.
+    pub in_step: InStep,
     /// Norms of every iteration; the last ones are converged.
     pub iterations: Vec<Norms>,
     /// Number of unknowns.
@@ -64,6 +69,41 @@ pub struct Increment {
     /// What came inside or through in the increment, deeper than
     /// [`SHARE`](striae_contact::interference::SHARE) of the facet size, by pair.
     pub interferences: Vec<Vec<Interference>>,
+    /// What came inside bodies where no pair sees it, by that depth.
+    pub overlaps: Vec<BodyOverlap>,
+    /// What it was accepted for.
+    pub acceptance: Acceptance,
+    /// What it is doubted for, as far as it has been looked at from outside.
+    pub doubts: Vec<Doubt>,
+}
+
+/// Which step an increment is of, and how far it goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct InStep {
+    /// Number of the step.
+    pub step: usize,
+    /// Where the increment ends.
+    pub reach: Reach,
+}
+
+/// Where an increment ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reach {
+    /// Within its step.
+    Within,
+    /// Where its step ends.
+    End,
+}
+
+impl InStep {
+    /// An increment up to the fraction `s` of a step, which is 1 at its end.
+    pub fn up_to(step: usize, s: f64) -> Self {
+        let reach = match s < 1.0 {
+            true => Reach::Within,
+            false => Reach::End,
+        };
+        Self { step, reach }
+    }
 }
 
 /// Told of every iteration.
@@ -122,18 +162,31 @@ pub(crate) fn forces_at_start(
     state: &State,
     workspace: &mut Workspace,
 ) -> Result<NodalForces, CutBack> {
+    forces_at(context, state, 0.0, workspace)
+}
+
+/// Forces in `state`, with the loads at the fraction `s` of the step.
+///
+/// # Errors
+/// Why the state cannot be evaluated.
+pub(crate) fn forces_at(
+    context: &StepContext,
+    state: &State,
+    s: f64,
+    workspace: &mut Workspace,
+) -> Result<NodalForces, CutBack> {
     let Selected {
         selections,
         tractions,
         ..
-    } = selected(context, state, 0.0);
+    } = selected(context, state, s);
     workspace.prepare(context.problem, &selections);
     let trial = Trial {
         positions: state.positions.clone(),
         tractions,
         rigid: state.rigid.clone(),
     };
-    let imposed = context.imposed(0.0);
+    let imposed = context.imposed(s);
     let setting = Setting {
         context,
         state,
@@ -179,6 +232,8 @@ pub fn advance(
         mut given_up,
         iterations,
         interferences,
+        overlaps,
+        acceptance,
         ..
     } = attempt;
     given_up.extend(iterations);
@@ -193,6 +248,10 @@ pub fn advance(
         unknowns,
         peak_bytes,
         interferences,
+        overlaps,
+        acceptance,
+        doubts: Vec::new(),
+        in_step: InStep::up_to(context.index, s),
         state: accepted(
             context,
             state,

@@ -102,6 +102,49 @@ pub enum CutBack {
         /// How far one side has moved relative to the other.
         way: f64,
     },
+    /// A body has gone into itself or another one, where no pair lets them touch.
+    #[error("{}", overlap_text(body, *node, other, *depth))]
+    Overlap {
+        /// Name of the body that comes inside.
+        body: String,
+        /// The node, or one of the facet, that is in deepest.
+        node: striae_mesh::NodeId,
+        /// Name of the body that it is inside of.
+        other: String,
+        /// How deep it is.
+        depth: f64,
+        /// Where it was at the start of the increment.
+        start: Start,
+    },
+    /// Friction pushes a node along its slip.
+    #[error(
+        "pair `{pair}`: friction pushes {node} of `{body}` along its slip, which gains {work:.1e}, {:.0} % of what friction works at the nodes around",
+        100.0 * share
+    )]
+    Gain {
+        /// Name of the pair.
+        pair: String,
+        /// Name of the body.
+        body: String,
+        /// The node.
+        node: striae_mesh::NodeId,
+        /// Work that it gains in the increment.
+        work: f64,
+        /// The same over the magnitudes of the work at all nodes of its side.
+        share: f64,
+    },
+    /// A body has jumped.
+    #[error(
+        "body `{body}` would jump by {way:.3e} against its loads, where nothing is moved by more than {driven:.3e}"
+    )]
+    Jump {
+        /// Name of the body.
+        body: String,
+        /// How far its middle would move.
+        way: f64,
+        /// The longest way that is prescribed.
+        driven: f64,
+    },
     /// Nothing holds a body.
     #[error("{motion}; {}", free_text(stabilise))]
     Free {
@@ -148,6 +191,20 @@ pub enum CutBack {
         /// Fraction of the step that was reached.
         reached: f64,
     },
+    /// The loads on a body act beside what it stands on.
+    #[error(
+        "body `{body}` tips over the edge of what `{other}` supports: its loads act beside the surfaces of pair `{pair}` that touch, and nothing else holds it, with {reached:.4} of the step done"
+    )]
+    Tips {
+        /// Name of the body.
+        body: String,
+        /// Body or rigid surface that it stands on.
+        other: String,
+        /// Name of the pair.
+        pair: String,
+        /// Fraction of the step that was reached.
+        reached: f64,
+    },
     /// A body has flown off.
     #[error(
         "body `{body}` flies off: {node} would move by {way:.1e}, {times:.0e} times the size of the model. Nothing holds it, or loads are far beyond its stiffness: hold it by displacements or contact, give the step inertia with `dynamics = {{}}`, or compare loads per area with Young's modulus"
@@ -170,6 +227,25 @@ pub enum CutBack {
         /// What went wrong.
         error: SolveError,
     },
+}
+
+/// Where a point was at the start of an increment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Start {
+    /// Outside, or hardly inside.
+    Apart,
+    /// Inside already.
+    Inside,
+}
+
+fn overlap_text(body: &str, node: striae_mesh::NodeId, other: &str, depth: f64) -> String {
+    let through = match body == other {
+        true => format!("body `{body}` goes through itself: {node} is {depth:.3e} inside"),
+        false => format!("{node} of `{body}` is {depth:.3e} inside `{other}`"),
+    };
+    format!(
+        "{through}, and no pair lets the surfaces there touch; state a pair of them, or keep them apart"
+    )
 }
 
 fn all_nodes(sticking: usize) -> String {
@@ -201,6 +277,7 @@ impl CutBack {
     pub fn remedy(&self) -> Remedy {
         match self {
             Self::Free { .. } => Remedy::None,
+            Self::Overlap { start, .. } if *start == Start::Inside => Remedy::None,
             Self::NotBridged { gap, .. } if *gap <= 0.0 => Remedy::None,
             _ => Remedy::SmallerIncrement,
         }

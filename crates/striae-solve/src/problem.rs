@@ -34,6 +34,7 @@ use crate::{
     node::GlobalNode,
     plan::{StepPlan, plans},
     share::Share,
+    skin::Skin,
     tie::{TieFault, Ties, first_nodes},
 };
 use contact_facet::contact_facets;
@@ -71,6 +72,8 @@ pub struct Problem {
     pub shadowed: Vec<[Vec<bool>; 2]>,
     /// Contact facets that each face of each body is.
     pub contact_facets: HashMap<(usize, Face), Vec<ContactFacet>>,
+    /// The skins of all bodies of the whole.
+    pub(crate) skin: Skin,
     /// What of the whole problem it is.
     pub share: Share,
 }
@@ -169,6 +172,7 @@ impl Problem {
             mut massless,
             shadowed,
             materials,
+            skin,
             share,
         } = frame;
         let (given, model) = match placed {
@@ -210,6 +214,7 @@ impl Problem {
             elements,
             compositions,
             model: given.unwrap_or(model),
+            skin,
             share,
         })
     }

@@ -73,6 +73,7 @@ fn restricted(whole: Frame, division: &Division, team: Arc<dyn Team>) -> Frame {
         massless: numbers.of_bodies(&whole.massless),
         shadowed: whole.shadowed,
         materials: whole.materials,
+        skin: whole.skin,
         share: Share::new(team, holding),
     }
 }

@@ -22,6 +22,7 @@
 //! | `compositions` | local elements, but stiffest shear modulus and used sections of the whole body |
 //! | `pairs` | all facets and surface nodes, with local mesh nodes; `faces` is `None` where another rank has the element |
 //! | `tied`, `mass_points`, `ties`, `shadowed` | all of them, in local nodes |
+//! | `skin` | all of it, in nodes of the whole |
 //! | [`Whole`] | counts, extent, fits of pairs |
 //!
 //! # What is partial
@@ -46,6 +47,9 @@
 //! | `freedom` | rows of prescribed nodes, middles and sizes of bodies | sum over owned nodes; largest |
 //! | `report` | reactions of node sets; middles of mass and velocities of bodies; which sets are held | sum over owned nodes; sum; any |
 //! | `section` | forces, moments, areas and centres of cuts | sum |
+//! | `audit/motion` | mean ways of bodies and loads on them; the longest way that is prescribed | sum over owned nodes; largest |
+//! | `support` | loads on bodies, what holds them, their middles and sizes | sum over owned nodes; largest |
+//! | `skin` | places of the nodes of all skins | sum over owned nodes |
 //! | `warning` | energy that is round-off, largest rotation | sum; largest |
 //!
 //! Once elements and loads are summed at nodes, all ranks that hold a node have the same bits of

@@ -3,16 +3,24 @@
 //! Each converged increment is judged, and the worst of every kind is kept for every
 //! pair:
 //!
+//! Forces and pressures are judged over the largest of the pair so far, or over those of strains of
+//! 4e-6 where these are larger: less is round-off.
+//!
 //! | kind | value | limit |
 //! | --- | --- | --- |
 //! | `mismatch` | sum of the resultants over the largest force of the pair so far | 1e-6 |
 //! | `moment` | sum of the moments over the same and the size of the contact zone | 1e-2 |
 //! | `tension` | tensile nodal pressure over the largest pressure of the pair so far | 1e-6 |
-//! | `penetration` | depth over the local facet size, see [`crate::interference`] | 0.1 |
+//! | `penetration` | depth over the size of the smaller facets there, see [`crate::interference`] | 0.1 |
 //! | `passage` | the same for what has passed through, see there | 0 |
+//! | `coarse` | facet size over that which would do for the zone of contact, where the force of the pair is largest, see [`crate::audit`] | 1 |
+//! | `overlap` | the same for bodies inside themselves or others where no pair sees it, over the smaller facet | 0.1 |
 //! | `unfelt` | the same while the pair has no force at all | 0.02 |
 //! | `creation` | negative friction work over the largest energy | 1e-6 |
+//! | `gain` | work that friction does at a node that slips over all that it does on its side in an increment, see [`crate::audit`] | 0.01 |
+//! | `contact` | energy that contact has made, beyond friction, over the largest external work | 0.1 |
 //! | `imbalance` | energy found nowhere over the largest energy | 1e-3 |
+//! | `residual` | residual of an increment that was accepted above the tolerance, where the integrals of contact jump | - |
 //! | `stabilisation` | work lost to [stabilisation](crate::stabilisation) in a step over its external work or change of strain energy, whichever is larger | 0.01 |
 //! | `rotation` | largest angle, in radians, by which elements of linear elastic bodies turn | 0.1 |
 //! | `tie-mismatch` | sum of the forces on the sides of a tie over the sum of nodal forces | 1e-6 |
@@ -30,17 +38,19 @@ use striae_contact::{
     side::Side,
 };
 use striae_law::bulk::Material;
-use striae_mesh::{ElementId, Vec3};
+use striae_mesh::{ElementId, NodeId, Vec3};
 
 use crate::{
+    audit::{Doubt, LEAST_SHARE, coarse, doubts},
     initial::{fits, may_meet, other_name},
     interference::{Positions, between, within},
     model::{Initial, Model, PairId},
-    newton::Increment,
+    newton::{Acceptance, InStep, Increment, Reach},
     outcome::Ending,
     problem::Problem,
     report::{PairReport, pairs, ties},
     share::Whole,
+    skin::{BodyOverlap, overlaps},
     state::{Energies, State},
 };
 
@@ -74,12 +84,22 @@ pub enum Kind {
     Penetration,
     /// Bodies are inside each other and no contact feels it.
     Unfelt,
+    /// Facets are too coarse for the zone of contact.
+    Coarse,
+    /// Bodies are inside themselves or others where no pair sees it.
+    Overlap,
     /// Bodies have passed through each other.
     Passage,
     /// Friction makes energy.
     Creation,
+    /// Friction pushes a node along its slip.
+    Gain,
+    /// Contact makes energy that friction does not explain.
+    Contact,
     /// Energy is found nowhere.
     Imbalance,
+    /// An increment was accepted above the tolerance.
+    Residual,
     /// Much of the work of a step is lost to stabilisation.
     Stabilisation,
     /// A body for small rotations turns by a large one.
@@ -96,15 +116,20 @@ pub enum Kind {
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 19] = [
         Self::Mismatch,
         Self::Moment,
         Self::Tension,
         Self::Penetration,
         Self::Unfelt,
+        Self::Coarse,
+        Self::Overlap,
         Self::Passage,
         Self::Creation,
+        Self::Gain,
+        Self::Contact,
         Self::Imbalance,
+        Self::Residual,
         Self::Stabilisation,
         Self::Rotation,
         Self::TieMismatch,
@@ -121,9 +146,14 @@ impl Kind {
             Self::Tension => "tension",
             Self::Penetration => "penetration",
             Self::Unfelt => "unfelt",
+            Self::Coarse => "coarse",
+            Self::Overlap => "overlap",
             Self::Passage => "passage",
             Self::Creation => "creation",
+            Self::Gain => "gain",
+            Self::Contact => "contact",
             Self::Imbalance => "imbalance",
+            Self::Residual => "residual",
             Self::Stabilisation => "stabilisation",
             Self::Rotation => "rotation",
             Self::TieMismatch => "tie-mismatch",
@@ -138,11 +168,13 @@ impl Kind {
         match self {
             Self::Mismatch | Self::TieMismatch | Self::Tension | Self::Creation => 1e-6,
             Self::Moment | Self::TieMoment | Self::Stabilisation => 1e-2,
-            Self::Penetration => SHARE,
+            Self::Penetration | Self::Overlap => SHARE,
             Self::Unfelt => PIERCED,
-            Self::Rotation => 0.1,
+            Self::Gain => LEAST_SHARE,
+            Self::Coarse => 1.0,
+            Self::Rotation | Self::Contact => 0.1,
             Self::Imbalance => 1e-3,
-            Self::Passage | Self::NeverTouched | Self::NeverMeets => 0.0,
+            Self::Residual | Self::Passage | Self::NeverTouched | Self::NeverMeets => 0.0,
         }
     }
 }
@@ -158,6 +190,8 @@ pub struct Judgement {
     pub pressures: Vec<f64>,
     /// Largest energy.
     pub energy: f64,
+    /// Largest external work.
+    pub external: f64,
     /// Energies at the start of the step.
     pub step: Energies,
 }
@@ -167,10 +201,14 @@ pub struct Judgement {
 pub struct Worst {
     /// The kind.
     pub kind: Kind,
-    /// The pair, or the tie, if it is about one.
+    /// The pair, the tie or the body, if it is about one.
     pub pair: Option<usize>,
+    /// The body and the node of its mesh, if it is about one.
+    pub node: Option<(usize, NodeId)>,
     /// The value, but for energies over the largest one.
     pub value: f64,
+    /// Facet size there, if it is about one.
+    pub size: f64,
     /// Its time.
     pub time: f64,
 }
@@ -178,41 +216,62 @@ pub struct Worst {
 impl Judgement {
     /// Judges a converged increment by what it came from; collective.
     pub fn converged(&mut self, problem: &Problem, before: &State, increment: &Increment) {
+        self.doubts(&increment.doubts, increment.state.time);
+        let tolerance = problem.model.solver.tolerance;
+        if let Acceptance::AtJump { residual } = increment.acceptance
+            && residual > tolerance
+        {
+            self.note(Kind::Residual, None, residual, increment.state.time);
+        }
         self.change(
             problem,
             [before, &increment.state],
+            increment.in_step,
             &increment.interferences,
+            &increment.overlaps,
         );
     }
 
     /// Judges an increment from `before` to `after`, however it came about; collective.
-    pub fn increment(&mut self, problem: &Problem, before: &State, after: &State) {
+    pub fn increment(&mut self, problem: &Problem, before: &State, after: &State, in_step: InStep) {
         let ends = [before, after].map(Positions::from);
         let pairs = 0..problem.pairs.len();
         let interferences = pairs.map(|pair| between(problem, pair, ends[0], ends[1], SHARE));
-        self.change(problem, [before, after], &interferences.collect::<Vec<_>>());
+        self.doubts(&doubts(problem, before, after), after.time);
+        let overlaps = overlaps(problem, &before.positions, &after.positions);
+        let interferences = interferences.collect::<Vec<_>>();
+        self.change(problem, [before, after], in_step, &interferences, &overlaps);
     }
 
     fn change(
         &mut self,
         problem: &Problem,
         [before, after]: [&State; 2],
+        in_step: InStep,
         interferences: &[Vec<Interference>],
+        overlaps: &[BodyOverlap],
     ) {
         self.forces.resize(problem.pairs.len(), 0.0);
         self.pressures.resize(problem.pairs.len(), 0.0);
-        self.energy = self
-            .energy
-            .max(largest(&after.energies))
-            .max(round_off(problem));
-        let imbalance = after.energies.imbalance().abs();
+        let least = round_off(problem);
+        let energies = &after.energies;
+        self.energy = self.energy.max(largest(energies)).max(least);
+        self.external = self.external.max(energies.external.abs()).max(least);
+        self.note(Kind::Contact, None, -energies.contact, after.time);
+        let imbalance = energies.imbalance().abs();
         self.note(Kind::Imbalance, None, imbalance, after.time);
-        self.stabilisation(problem, after);
+        if in_step.reach == Reach::End {
+            self.stabilisation(after);
+        }
         self.note(Kind::Rotation, None, rotation(problem, after), after.time);
         for (pair, report) in pairs(problem, after).iter().enumerate() {
-            self.pair(pair, report, [before, after]);
+            self.pair(problem, pair, report, [before, after]);
             self.passage(pair, &interferences[pair], after.time);
-            self.penetration(problem, pair, after, report.max_pressure);
+            self.penetration(problem, pair, (after, in_step), report.max_pressure);
+        }
+        for overlap in overlaps {
+            let share = overlap.found.share();
+            self.note(Kind::Overlap, Some(overlap.body), share, after.time);
         }
         for (tie, report) in ties(problem, after).iter().enumerate() {
             self.note(Kind::TieMismatch, Some(tie), report.mismatch, after.time);
@@ -226,16 +285,7 @@ impl Judgement {
     }
 
     /// Judges a step at its end.
-    fn stabilisation(&mut self, problem: &Problem, after: &State) {
-        let mut end = 0.0;
-        let ends = problem.model.steps.iter().map(|step| {
-            end += step.duration;
-            (end, step.duration)
-        });
-        let mut ends = ends.filter(|(end, duration)| (after.time - end).abs() < 1e-9 * duration);
-        if ends.next().is_none() {
-            return;
-        }
+    fn stabilisation(&mut self, after: &State) {
         let [from, to] = [&self.step, &after.energies];
         let work = (to.external - from.external).abs();
         let scale = work.max((to.strain - from.strain).abs());
@@ -244,25 +294,68 @@ impl Judgement {
         self.step = after.energies;
     }
 
-    fn pair(&mut self, pair: usize, report: &PairReport, [before, after]: [&State; 2]) {
+    fn doubts(&mut self, doubts: &[Doubt], time: f64) {
+        for doubt in doubts {
+            self.note_at(match *doubt {
+                Doubt::Gain(gain) => Worst {
+                    kind: Kind::Gain,
+                    pair: Some(gain.pair),
+                    node: Some((gain.body, gain.node)),
+                    value: gain.share,
+                    size: 0.0,
+                    time,
+                },
+            });
+        }
+    }
+
+    fn pair(
+        &mut self,
+        problem: &Problem,
+        pair: usize,
+        report: &PairReport,
+        [before, after]: [&State; 2],
+    ) {
         let force = report
             .sides
             .iter()
             .map(|side| side.force.norm())
             .fold(0.0, f64::max);
+        if force > self.forces[pair] {
+            self.coarse(problem, pair, after);
+        }
         self.forces[pair] = self.forces[pair].max(force);
         self.pressures[pair] = self.pressures[pair].max(report.max_pressure);
         let nodes = after.pairs[pair].nodes.iter().flatten();
         let tension = nodes.map(|node| -node.pressure).fold(0.0, f64::max);
         let created = before.pairs[pair].dissipated - after.pairs[pair].dissipated;
-        let share = over(force, self.forces[pair]);
+        let noise = pressure_of_round_off(problem, pair);
+        let pressures = self.pressures[pair].max(noise);
+        let area = report.sides[0].area.max(report.sides[1].area);
+        let share = over(force, self.forces[pair].max(noise * area));
         for (kind, value) in [
             (Kind::Mismatch, report.mismatch * share),
             (Kind::Moment, report.moment_mismatch * share),
-            (Kind::Tension, over(tension, self.pressures[pair])),
+            (Kind::Tension, over(tension, pressures)),
             (Kind::Creation, created),
         ] {
             self.note(kind, Some(pair), value, after.time);
+        }
+    }
+
+    /// Judges the facets where the force of a pair is the largest so far, in place of earlier ones.
+    fn coarse(&mut self, problem: &Problem, pair: usize, after: &State) {
+        self.worst
+            .retain(|known| (known.kind, known.pair) != (Kind::Coarse, Some(pair)));
+        if let Some(found) = coarse(problem, pair, after) {
+            self.note_at(Worst {
+                kind: Kind::Coarse,
+                pair: Some(pair),
+                node: Some((found.body, found.node)),
+                value: found.size / found.enough,
+                size: found.size,
+                time: after.time,
+            });
         }
     }
 
@@ -274,13 +367,18 @@ impl Judgement {
         self.note(Kind::Passage, Some(pair), depths.fold(0.0, f64::max), time);
     }
 
-    fn penetration(&mut self, problem: &Problem, pair: usize, after: &State, pressure: f64) {
+    fn penetration(
+        &mut self,
+        problem: &Problem,
+        pair: usize,
+        (after, in_step): (&State, InStep),
+        pressure: f64,
+    ) {
         let time = after.time;
-        let first = problem.model.steps.first();
-        let duration = first.map_or(0.0, |step| step.duration);
         // Overlaps of meshes that are being pressed out are meant.
         let resolving = problem.model.pairs[pair].initial == Initial::Resolve;
-        if resolving && time < duration * (1.0 - 1e-9) {
+        let is_first = in_step.step == 0 && in_step.reach == Reach::Within;
+        if resolving && is_first {
             return;
         }
         // Contact that is narrower than the facets of a smooth surface has a positive mean
@@ -297,19 +395,25 @@ impl Judgement {
     }
 
     fn note(&mut self, kind: Kind, pair: Option<usize>, value: f64, time: f64) {
-        if value <= 0.0 {
+        self.note_at(Worst {
+            kind,
+            pair,
+            node: None,
+            value,
+            size: 0.0,
+            time,
+        });
+    }
+
+    fn note_at(&mut self, found: Worst) {
+        if found.value <= 0.0 {
             return;
         }
-        let same = |known: &&mut Worst| known.kind == kind && known.pair == pair;
+        let same = |known: &&mut Worst| known.kind == found.kind && known.pair == found.pair;
         match self.worst.iter_mut().find(same) {
-            Some(known) if known.value >= value => {}
-            Some(known) => (known.value, known.time) = (value, time),
-            None => self.worst.push(Worst {
-                kind,
-                pair,
-                value,
-                time,
-            }),
+            Some(known) if known.value >= found.value => {}
+            Some(known) => *known = found,
+            None => self.worst.push(found),
         }
     }
 
@@ -341,7 +445,9 @@ impl Judgement {
                     worst.push(Worst {
                         kind: Kind::NeverTouched,
                         pair: Some(pair),
+                        node: None,
                         value: fit.as_ref().map_or(0.0, |fit| fit.distance),
+                        size: 0.0,
                         time: 0.0,
                     });
                 }
@@ -353,9 +459,10 @@ impl Judgement {
         warnings
     }
 
-    /// Energies over the largest one.
+    /// Energies over the largest one, or the largest external work.
     fn relative(&self, worst: &Worst) -> Worst {
         let value = match worst.kind {
+            Kind::Contact => over(worst.value, self.external),
             Kind::Creation | Kind::Imbalance => over(worst.value, self.energy),
             _ => worst.value,
         };
@@ -363,10 +470,21 @@ impl Judgement {
     }
 }
 
+/// Square of strains that are round-off, or as good as that.
+const STRAIN_SQUARED: f64 = 2e-11;
+
+/// Pressure below which all is round-off: that of strains of 4e-6 or less in the stiffer one of the
+/// sides. What is judged at a millionth of it is 2e4 units in the last place of its modulus.
+fn pressure_of_round_off(problem: &Problem, pair: usize) -> f64 {
+    let contact = &problem.pairs[pair].contact;
+    let moduli = contact.deformable_sides().iter();
+    let moduli = moduli.map(|&side| contact.sides[side].stiffness);
+    STRAIN_SQUARED.sqrt() * moduli.fold(0.0, f64::max)
+}
+
 /// Energy below which all is round-off: that of strains of 4e-6 or less. Its balance is
 /// judged at a thousandth, which is a hundred units in the last place of `G V`. Collective.
 fn round_off(problem: &Problem) -> f64 {
-    const STRAIN_SQUARED: f64 = 2e-11;
     let bodies = problem.elements.iter().enumerate();
     let energies = bodies.map(|(body, elements)| {
         let energies = elements.iter().enumerate().map(|(at, element)| {
@@ -449,11 +567,17 @@ fn warning(problem: &Problem, worst: &Worst) -> Warning {
     let &Worst {
         kind,
         pair,
+        node,
         value,
+        size,
         time,
     } = worst;
+    let place = node.map_or_else(String::new, |(body, node)| {
+        format!("{node} of `{}`", model.bodies[body].name)
+    });
     let name = match (kind, pair) {
         (Kind::TieMismatch | Kind::TieMoment, Some(tie)) => &model.ties[tie].name,
+        (Kind::Overlap, Some(body)) => &model.bodies[body].name,
         (_, Some(pair)) => &model.pairs[pair].name,
         (_, None) => "",
     };
@@ -469,10 +593,17 @@ fn warning(problem: &Problem, worst: &Worst) -> Warning {
             "pair `{name}`: contact pulls with {value:.1e} of the largest pressure at time {time:.4}"
         ),
         Kind::Penetration => format!(
-            "pair `{name}`: its sides are inside each other by {percent:.0} % of the facet size at time {time:.4}"
+            "pair `{name}`: its sides are inside each other by {percent:.0} % of the smaller facet size at time {time:.4}"
         ),
         Kind::Unfelt => format!(
             "pair `{name}`: its sides are inside each other by {percent:.1} % of the facet size at time {time:.4}, and contact does not feel it; refine the coarser side there"
+        ),
+        Kind::Overlap => format!(
+            "body `{name}` is inside itself, or another body that it has no pair with, by {percent:.0} % of the facet size at time {time:.4}"
+        ),
+        Kind::Coarse => format!(
+            "pair `{name}`: facets of {size:.2e} at {place} are too coarse for the zone of contact at time {time:.4}, where its force is largest; {:.2e} would do",
+            size / value
         ),
         Kind::Passage => {
             format!("pair `{name}`: its sides have passed through each other at time {time:.4}")
@@ -480,9 +611,19 @@ fn warning(problem: &Problem, worst: &Worst) -> Warning {
         Kind::Creation => format!(
             "pair `{name}`: friction makes energy, {value:.1e} of the largest one in the increment to time {time:.4}"
         ),
+        Kind::Gain => format!(
+            "pair `{name}`: friction pushes {place} along its slip in the increment to time {time:.4}, which gains {percent:.0} % of what friction works on its side"
+        ),
+        Kind::Contact => format!(
+            "contact has made energy until time {time:.4} that friction does not explain, {percent:.0} % of the largest external work"
+        ),
         Kind::Imbalance => {
             format!("energy of {value:.1e} of the largest one is found nowhere at time {time:.4}")
         }
+        Kind::Residual => format!(
+            "the increment to time {time:.4} was accepted with a residual of {value:.1e}, above the tolerance of {:.1e}: corners of facets lie so close to opposing edges that what contact integrates jumps by as much",
+            problem.model.solver.tolerance
+        ),
         Kind::Stabilisation => format!(
             "stabilisation has taken {percent:.1} % of the work of the step that ends at time {time:.4}"
         ),
@@ -498,7 +639,7 @@ fn warning(problem: &Problem, worst: &Worst) -> Warning {
     };
     Warning {
         kind,
-        pair: pair.map(|_| name.to_owned()),
+        pair: (kind != Kind::Overlap && pair.is_some()).then(|| name.to_owned()),
         value,
         limit: kind.limit(),
         time,

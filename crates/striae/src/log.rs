@@ -189,6 +189,7 @@ impl Log {
                 increments,
                 fraction: 1.0,
                 size: 1.0,
+                doubted: 0,
                 search: Vec::new(),
                 start: state.clone(),
                 state: state.clone(),

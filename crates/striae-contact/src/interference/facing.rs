@@ -44,14 +44,8 @@ pub fn facing(configuration: &Configuration) -> Vec<Facing> {
         let nodes = areas.into_iter().enumerate();
         let found: Vec<Facing> = nodes
             .filter_map(|(node, area)| {
-                let (gap, opposite) = across(configuration, side, SurfaceNode::new(node))?;
-                Some(Facing {
-                    side,
-                    node: SurfaceNode::new(node),
-                    area,
-                    gap,
-                    opposite,
-                })
+                let found = across(configuration, side, SurfaceNode::new(node))?;
+                Some(Facing { area, ..found })
             })
             .collect();
         found
@@ -60,9 +54,25 @@ pub fn facing(configuration: &Configuration) -> Vec<Facing> {
     sides.iter().flat_map(of_side).collect()
 }
 
+/// What a node faces, without its share in the area.
+pub fn across(configuration: &Configuration, side: Side, node: SurfaceNode) -> Option<Facing> {
+    let (gap, opposite) = nearest(configuration, side, node)?;
+    Some(Facing {
+        side,
+        node,
+        area: 0.0,
+        gap,
+        opposite,
+    })
+}
+
 type Opposite = Option<([SurfaceNode; 4], [f64; 4])>;
 
-fn across(configuration: &Configuration, side: Side, node: SurfaceNode) -> Option<(f64, Opposite)> {
+fn nearest(
+    configuration: &Configuration,
+    side: Side,
+    node: SurfaceNode,
+) -> Option<(f64, Opposite)> {
     let snapshot = configuration.side(side);
     let (x, normal) = (snapshot.x[node], snapshot.normals[node]);
     if let Some((point, n)) = configuration.plane() {

@@ -10,7 +10,7 @@ use striae::{
     Error,
     output::{Existing, FieldOutput, Output, OutputError, recorder::Recorder},
     solve::{
-        newton::{Increment, LinearWork},
+        newton::{Acceptance, InStep, Increment, LinearWork},
         norms::Norms,
         state::State,
     },
@@ -42,11 +42,15 @@ fn replayed(run: &Run, folder: &Path, case: &str, every: usize) -> Result<(), Ou
     for kept in &run.kept {
         let increment = Increment {
             state: kept.state.clone(),
+            in_step: InStep::up_to(kept.progress.step, kept.progress.fraction),
             iterations: vec![Norms::default(); kept.iterations],
             unknowns: summary.unknowns,
             peak_bytes: 0,
             work: LinearWork::default(),
             interferences: Vec::new(),
+            overlaps: Vec::new(),
+            doubts: Vec::new(),
+            acceptance: Acceptance::Converged,
         };
         recorder.increment(problem, kept.progress, &increment)?;
     }

@@ -70,6 +70,7 @@ fn checkpoint(kept: &Kept) -> Checkpoint {
             increments: increment,
             fraction,
             size: 0.0,
+            doubted: 0,
             search: Vec::new(),
             start: kept.state.clone(),
             state: kept.state.clone(),

@@ -3,6 +3,8 @@
 mod ending;
 mod lifting;
 
+pub use ending::Acceptance;
+
 use striae_contact::{
     complementarity::Iteration,
     interference::Interference,
@@ -21,10 +23,10 @@ use super::{
     departure::first_positions,
     failure::{linear_system, missed},
     flight::flown,
-    passage::passage,
+    passage::{overlap, passage},
     release::{closed, released},
     rest::contact_at_rest,
-    rule::{is_final, later, part},
+    rule::{Ladder, is_final, later, part},
     selected::{Selected, pierced, reselected, selected},
     workspace::Workspace,
 };
@@ -32,6 +34,7 @@ use crate::{
     assembly::{Assembled, Imposed, Setting, StepContext, Trial},
     norms::Norms,
     outcome::CutBack,
+    skin::BodyOverlap,
     state::State,
 };
 
@@ -57,10 +60,16 @@ pub(super) struct Attempt<'a> {
     pub(super) iterations: Vec<Norms>,
     history: History,
     inflation: Inflation,
+    /// Iterations of the present problem.
+    ladder: Ladder,
     /// How many iterations there may be.
     limit: usize,
     /// What came inside or through, by pair; empty before the end.
     pub(super) interferences: Vec<Vec<Interference>>,
+    /// What came inside bodies where no pair sees it.
+    pub(super) overlaps: Vec<BodyOverlap>,
+    /// What the latest state is accepted for, at the end.
+    pub(super) acceptance: Acceptance,
     /// Which pairs are closed in the latest state.
     closed: Vec<bool>,
     /// What the first iteration goes by.
@@ -103,8 +112,11 @@ impl<'a> Attempt<'a> {
             iterations: Vec::new(),
             history: History::default(),
             inflation: Inflation::default(),
+            ladder: Ladder::default(),
             limit: context.problem.model.solver.largest_iterations,
             interferences: Vec::new(),
+            overlaps: Vec::new(),
+            acceptance: Acceptance::default(),
             closed: vec![true; context.pairs.len()],
             first: Iteration::First,
             chord: Chord::default(),
@@ -188,9 +200,7 @@ impl Attempt<'_> {
             assembled = self.taken_up(found, workspace)?;
         }
         self.interferences = passage(&self.setting(), &self.trial, &assembled.contacts)?;
-        if false {
-            return Ok(self.lifted(assembled, workspace, observer));
-        }
+        self.overlaps = overlap(&self.setting(), &self.trial)?;
         Ok(assembled)
     }
 
@@ -216,7 +226,7 @@ impl Attempt<'_> {
             self.closed = closed(&assembled.contacts);
             let before = self.iterations.last().map(Norms::largest);
             let number = self.iterations.len() + 1;
-            let iteration = later(solver.strategy, self.inflation, number);
+            let iteration = self.next_iteration();
             if !self.has_tangent(&assembled) {
                 assembled = self.assembled(workspace, iteration)?;
             }
@@ -240,11 +250,14 @@ impl Attempt<'_> {
                 && self.labels_rest(&assembled);
             if norms.largest() <= solver.tolerance && settled {
                 if further == 0 {
+                    self.acceptance = Acceptance::Converged;
                     return Ok(assembled);
                 }
                 further -= 1;
             }
             if settled && self.jumps() {
+                let residual = norms.largest();
+                self.acceptance = Acceptance::AtJump { residual };
                 return Ok(assembled);
             }
             self.inflation = self.inflation.after(norms.gap);
@@ -275,7 +288,7 @@ impl Attempt<'_> {
         let at_rest = match iteration {
             Iteration::Later { .. } if derivatives == Derivatives::First => {
                 let at = (&self.trial, assembled);
-                contact_at_rest(workspace, &self.setting(), at, &correction, before)
+                contact_at_rest(workspace, &self.setting(), at, &correction, before)?
             }
             Iteration::First | Iteration::Later { .. } | Iteration::Corrected(_) => None,
         };
@@ -380,8 +393,14 @@ impl Attempt<'_> {
         self.selections = selected.selections;
         self.trial.tractions = selected.tractions;
         workspace.extend(self.context.problem, &self.selections);
+        self.ladder.restart(self.iterations.len());
+        self.assembled(workspace, self.next_iteration())
+    }
+
+    /// What the next iteration goes by, unless it is the first one.
+    fn next_iteration(&self) -> Iteration {
         let strategy = self.context.problem.model.solver.strategy;
-        let iteration = later(strategy, self.inflation, self.iterations.len() + 1);
-        self.assembled(workspace, iteration)
+        let number = self.ladder.next(self.iterations.len());
+        later(strategy, self.inflation, number)
     }
 }

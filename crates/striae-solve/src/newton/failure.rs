@@ -21,7 +21,8 @@ pub(super) fn missed(setting: &Setting, trial: &Trial) -> Option<CutBack> {
         let configuration = context.configuration(pair, &trial.positions, &trial.rigid);
         let missed = selection.left_out(&start, &configuration);
         if let Some(&(side, node)) = missed.first() {
-            let global = problem.surface_node(pair, side, node)?;
+            let global = problem.surface_node(pair, side, node);
+            let global = global.expect("nodes that are left out are those of bodies");
             let (body, node) = problem.named_node(global);
             return Some(CutBack::MissedContact {
                 pair: problem.model.pairs[pair].name.clone(),

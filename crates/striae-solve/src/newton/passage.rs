@@ -8,7 +8,8 @@
 //!   the surface, where no pressure acts, or
 //! - by more than all of the facet size, whatever acts.
 //!
-//! Less is what weighted contact leaves between nodes, and a matter of [`crate::warning`].
+//! Less is what weighted contact leaves between nodes, and a matter of [`crate::warning`]. Where no
+//! pair sees bodies inside themselves or others, half the facet size is the limit as well.
 
 use striae_contact::{
     evaluation::Evaluation,
@@ -25,7 +26,8 @@ use crate::{
     initial::other_name,
     interference::{Positions, between},
     model::PairId,
-    outcome::CutBack,
+    outcome::{CutBack, Start},
+    skin::{BodyOverlap, overlaps},
 };
 
 /// Depth over the facet size from which on points inside are missed where nothing acts.
@@ -95,6 +97,33 @@ fn missed(
         other: other_name(model, id, worst.side).to_owned(),
         depth: worst.depth,
         way: approach(&start, &end),
+    })
+}
+
+/// What has come inside bodies where no pair sees it on the way to a trial state; collective.
+///
+/// # Errors
+/// If some of it is deeper than half the facet size.
+pub(super) fn overlap(setting: &Setting, trial: &Trial) -> Result<Vec<BodyOverlap>, CutBack> {
+    let problem = setting.context.problem;
+    let overlaps = overlaps(problem, &setting.state.positions, &trial.positions);
+    let deep = overlaps
+        .iter()
+        .filter(|overlap| overlap.found.share() > UNSEEN);
+    let share = |overlap: &&BodyOverlap| overlap.found.share();
+    let Some(worst) = deep.max_by(|a, b| share(a).total_cmp(&share(b))) else {
+        return Ok(overlaps);
+    };
+    let name = |body: usize| problem.model.bodies[body].name.clone();
+    Err(CutBack::Overlap {
+        body: name(worst.body),
+        node: worst.node,
+        other: name(worst.other),
+        depth: worst.found.depth,
+        start: match worst.before > SHARE * worst.found.size {
+            true => Start::Inside,
+            false => Start::Apart,
+        },
     })
 }
 

@@ -11,7 +11,10 @@ use super::{
     correction::{corrected, labelled},
     workspace::Workspace,
 };
-use crate::assembly::{Assembled, Contact, Setting, Trial};
+use crate::{
+    assembly::{Assembled, Contact, Setting, Trial},
+    outcome::CutBack,
+};
 
 /// Most corrections of contact alone.
 const MOST: usize = 8;
@@ -24,16 +27,20 @@ const LEFT: f64 = 0.01;
 /// reached.
 ///
 /// `correction` leads to the first state that contact is evaluated at, `before` is the
-/// norm at `trial` if it is known. `None` where the true norm is not better for it.
+/// norm at `trial` if it is known. `None` where the true norm is not better for it, or the
+/// state cannot be evaluated: the correction alone leads to another one.
+///
+/// # Errors
+/// What is no fault of the state that is reached.
 pub(super) fn contact_at_rest(
     workspace: &mut Workspace,
     setting: &Setting,
     (trial, assembled): (&Trial, &Assembled),
     correction: &[f64],
     before: Option<f64>,
-) -> Option<(Trial, Assembled)> {
+) -> Result<Option<(Trial, Assembled)>, CutBack> {
     if !workspace.corrects_contact() {
-        return None;
+        return Ok(None);
     }
     let tolerance = setting.context.problem.model.solver.tolerance;
     let enough = before.map_or(AT_REST, |norm| (LEFT * norm * norm).max(0.1 * tolerance));
@@ -45,21 +52,62 @@ pub(super) fn contact_at_rest(
         let next = corrected(setting, workspace.system(), &from, &whole, 1.0);
         let moved = (&next, whole.as_slice());
         let found = workspace.assemble_contact(setting, background, moved, Iteration::LATER);
-        let found = found.ok()??;
+        let Some(found) = evaluated(found)?.flatten() else {
+            return Ok(None);
+        };
         if pass == MOST || found.norms.largest() <= enough {
             let contact = Contact::Known(found.contacts);
-            let assembled = workspace
-                .assemble_with(contact, setting, &next, Derivatives::First)
-                .ok()?;
-            let is_better = assembled.norms.largest() <= before.unwrap_or(1.0);
-            return is_better.then_some((next, assembled));
+            let assembled = workspace.assemble_with(contact, setting, &next, Derivatives::First);
+            let is_better = |found: &Assembled| found.norms.largest() <= before.unwrap_or(1.0);
+            let better = evaluated(assembled)?.filter(is_better);
+            return Ok(better.map(|assembled| (next, assembled)));
         }
-        let further = workspace.contact_correction(&found.residual)?;
+        let Some(further) = workspace.contact_correction(&found.residual) else {
+            return Ok(None);
+        };
         whole
             .iter_mut()
             .zip(&further)
             .for_each(|(sum, part)| *sum += part);
         labelled(&mut from, &found.contacts);
     }
-    None
+    Ok(None)
+}
+
+/// What was evaluated; `None` for a state at which there is nothing to evaluate.
+fn evaluated<T>(found: Result<T, CutBack>) -> Result<Option<T>, CutBack> {
+    match found {
+        Ok(found) => Ok(Some(found)),
+        Err(
+            CutBack::InvertedElement { .. }
+            | CutBack::Load { .. }
+            | CutBack::CollapsedTexture { .. }
+            | CutBack::CollapsedFacets { .. },
+        ) => Ok(None),
+        Err(reason) => Err(reason),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use striae_mesh::NodeId;
+
+    #[test]
+    fn only_faults_of_the_state_mean_that_nothing_was_reached() {
+        let at = |pair: &str| CutBack::CollapsedFacets {
+            pair: pair.to_owned(),
+            body: String::new(),
+            node: NodeId::new(3),
+        };
+        assert_eq!(evaluated::<()>(Err(at("one"))), Ok(None));
+        assert_eq!(evaluated(Ok(2)), Ok(Some(2)));
+        let missed = CutBack::MissedContact {
+            pair: "one".to_owned(),
+            body: String::new(),
+            node: NodeId::new(3),
+            count: 1,
+        };
+        assert_eq!(evaluated::<()>(Err(missed.clone())), Err(missed));
+    }
 }

@@ -8,7 +8,27 @@ use striae_contact::{
 
 use crate::model::Strategy;
 
-/// What an iteration after the first one goes by.
+/// Iterations of the present problem: the rows of contact that are solved for are others once
+/// nodes are chosen again, and what earlier ones did not come to says nothing of them.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Ladder {
+    /// Iterations made when it was posed.
+    since: usize,
+}
+
+impl Ladder {
+    /// Another problem is posed after so many iterations.
+    pub(super) fn restart(&mut self, made: usize) {
+        self.since = made;
+    }
+
+    /// Number of the iteration that follows so many in all.
+    pub(super) fn next(self, made: usize) -> usize {
+        made + 1 - self.since
+    }
+}
+
+/// What an iteration of a problem after the first one of the increment goes by.
 pub(super) fn later(strategy: Strategy, inflation: Inflation, number: usize) -> Iteration {
     match strategy {
         Strategy::Semismooth => Iteration::Later {
@@ -48,4 +68,24 @@ pub(super) fn part(norm: Option<f64>, tolerance: f64) -> f64 {
     norm.map_or(REDUCTION, |norm| {
         (0.01 * norm).max(0.1 * tolerance / norm).min(LARGEST_PART)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_problem_that_is_posed_late_starts_with_the_first_weight() {
+        let mut ladder = Ladder::default();
+        let weight = |ladder: Ladder, made: usize| slip_weight(ladder.next(made));
+        assert_eq!(
+            [0, 20, 40].map(|made| weight(ladder, made)),
+            [1.0, 0.03, 10.0]
+        );
+        ladder.restart(30);
+        assert_eq!(
+            [30, 42, 43].map(|made| weight(ladder, made)),
+            [1.0, 1.0, 0.03]
+        );
+    }
 }

@@ -6,6 +6,7 @@ use crate::{
     contact_mass::massless,
     model::Model,
     share::Share,
+    skin::Skin,
     tie::{Ties, first_nodes},
 };
 
@@ -25,6 +26,8 @@ pub(crate) struct Frame {
     pub(crate) shadowed: Vec<[Vec<bool>; 2]>,
     /// What every body is made of.
     pub(crate) materials: Vec<Materials>,
+    /// The skins of all bodies of the whole.
+    pub(crate) skin: Skin,
     /// What of the whole it is.
     pub(crate) share: Share,
 }
@@ -47,6 +50,7 @@ impl Frame {
             massless: massless(at, &first_node),
             shadowed: shadowed(&pairs, &first_node, &ties),
             materials: at.bodies.iter().map(Materials::of).collect(),
+            skin: Skin::new(at, &ties),
             pairs,
             ties,
             placed,

@@ -8,7 +8,7 @@ use striae_solve::{
     drive::{Continue, Observer, Progress, run, run_in},
     dynamics::momentum,
     model::{Backend, Model},
-    newton::{Increment, IterationObserver, Workspace},
+    newton::{InStep, Increment, IterationObserver, Workspace},
     norms::Norms,
     outcome::CutBack,
     problem::Problem,
@@ -43,6 +43,7 @@ struct Record {
     increments: Vec<(usize, f64)>,
     cuts: Vec<String>,
     states: Vec<State>,
+    in_steps: Vec<InStep>,
     iterations: usize,
 }
 
@@ -59,6 +60,7 @@ impl Observer for Record {
         self.increments
             .push((increment.iterations.len(), progress.fraction));
         self.states.push(increment.state.clone());
+        self.in_steps.push(increment.in_step);
         Continue::Yes
     }
 
@@ -98,8 +100,8 @@ fn told(problem: &Problem, team: Option<Arc<dyn Team>>) -> OfRank {
     };
     let mut judgement = Judgement::default();
     let mut before = &start;
-    for state in &record.states {
-        judgement.increment(problem, before, state);
+    for (state, in_step) in record.states.iter().zip(&record.in_steps) {
+        judgement.increment(problem, before, state, *in_step);
         before = state;
     }
     let warnings = judgement.warnings(problem, &ending);

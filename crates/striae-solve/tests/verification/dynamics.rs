@@ -7,7 +7,7 @@ use striae_mesh::Vec3;
 use striae_solve::report::pairs;
 use striae_solve::{
     drive::{Continue, Observer, Point, Progress, run},
-    newton::{Increment, IterationObserver},
+    newton::{InStep, Increment, IterationObserver},
     norms::Norms,
     outcome::{CutBack, Ending},
     problem::Problem,
@@ -334,7 +334,7 @@ fn a_linear_elastic_body_that_turns_is_warned_of() {
         let turn = nalgebra::Rotation3::new(Vec3::z() * angle);
         after.positions.iter_mut().for_each(|x| *x = turn * *x);
         let mut judgement = Judgement::default();
-        judgement.increment(problem, &before, &after);
+        judgement.increment(problem, &before, &after, InStep::up_to(0, 1.0));
         let warnings = judgement.warnings(problem, &run.ending);
         let found = warnings
             .iter()

@@ -263,3 +263,73 @@ fn a_block_that_is_pulled_off_is_let_go_by_name() {
     assert_eq!(motions, "`z`");
     assert!((reached - 0.5).abs() < 2e-3, "{reached}");
 }
+
+/// A block on a wider one, over whose edge it stands, pressed by its own dead load.
+fn overhanging(over: f64) -> Model {
+    let lower = block([0.0; 3], [1.2, 1.1, 0.5], [3, 3, 1]);
+    let upper = block([0.1, -over, 0.5], [0.75, 0.5, 0.3], [4, 6, 2]);
+    let mut model = model(vec![
+        body("lower", lower.mesh().unwrap(), rubber(100.0, 0.3)),
+        body("upper", upper.mesh().unwrap(), rubber(100.0, 0.3)),
+    ]);
+    model.touch(("lower", "zmax"), ("upper", "zmin"), coulomb(0.3));
+    let mut step = step();
+    step.increments = increments(0.2, 1e-3);
+    step.displacements = vec![model.hold("lower", "zmin", [Some(0.0); 3])];
+    let down = LoadKind::DeadTraction(Vec3::new(0.0, 0.0, -0.1));
+    step.loads = vec![model.load("upper", "zmax", down, LoadExtent::Whole)];
+    model.steps = vec![step];
+    model
+}
+
+#[test]
+fn a_block_with_its_load_beside_its_base_tips_by_name() {
+    assert_eq!(Run::of(overhanging(0.1)).ending, Ending::Completed);
+    let run = Run::of(overhanging(0.3));
+    let CutBack::Tips {
+        body, other, pair, ..
+    } = reason(&run)
+    else {
+        panic!("{}", run.ending);
+    };
+    let names = [body, other, pair].map(String::as_str);
+    assert_eq!(names, ["upper", "lower", "interface"]);
+}
+
+/// A block on another one, pressed by a traction and then pushed along by one.
+fn pushed(along: f64) -> Model {
+    let lower = block([0.0; 3], [2.0, 2.0, 0.5], [4, 4, 1]);
+    let upper = block([0.5, 0.5, 0.5], [1.0, 1.0, 0.5], [3, 5, 2]);
+    let mut model = model(vec![
+        body("lower", lower.mesh().unwrap(), rubber(100.0, 0.0)),
+        body("upper", upper.mesh().unwrap(), rubber(100.0, 0.3)),
+    ]);
+    model.touch(("lower", "zmax"), ("upper", "zmin"), coulomb(0.3));
+    let load = |model: &Model, vector: Vec3| {
+        model.load(
+            "upper",
+            "zmax",
+            LoadKind::DeadTraction(vector),
+            LoadExtent::Whole,
+        )
+    };
+    let (mut press, mut push) = (step(), step());
+    press.increments = increments(0.25, 1e-3);
+    press.displacements = vec![model.hold("lower", "zmin", [Some(0.0); 3])];
+    press.loads = vec![load(&model, Vec3::new(0.0, 0.0, -1.0))];
+    push.name = "push".to_owned();
+    push.increments = increments(0.2, 1e-3);
+    push.loads = vec![load(&model, Vec3::new(along, 0.0, -1.0))];
+    model.steps = vec![press, push];
+    model
+}
+
+#[test]
+fn a_traction_beyond_friction_ends_at_the_limit_of_friction() {
+    let run = Run::of(pushed(0.4));
+    let CutBack::FrictionLimit { pair, reached, .. } = reason(&run) else {
+        panic!("{}", run.ending);
+    };
+    assert_eq!(pair, "interface");
+    assert!((reached * 0.4 / 0.3 - 1.0).abs() < 0.02, "{reached}");
+}

@@ -5,6 +5,20 @@ use striae_contact::{segment::ON_EDGE, unknowns::Status};
 use super::Attempt;
 use crate::{assembly::Assembled, newton::cycling::WINDOW, norms::Norms, outcome::CutBack};
 
+/// What an increment was accepted for.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Acceptance {
+    /// Its residual is below the tolerance.
+    #[default]
+    Converged,
+    /// It goes back and forth over a jump of the integrals of contact, and no state is nearer to a
+    /// solution.
+    AtJump {
+        /// The residual that is left.
+        residual: f64,
+    },
+}
+
 impl Attempt<'_> {
     /// Whether the labels of all nodes are those of the iteration before, where friction
     /// decays with the slip rate: a node that begins to slip may have the row of another rate.

@@ -1,0 +1,83 @@
+//! Converged increments looked at from outside, at nodes.
+//!
+//! Residuals say how well the rows are satisfied, not what they come to. What is looked at here
+//! follows from positions and nodal forces at both ends of an increment, whatever rows it was
+//! solved by.
+
+mod coarse;
+mod friction;
+mod motion;
+
+use striae_contact::side::Side;
+
+use crate::{outcome::CutBack, problem::Problem, state::State};
+
+pub use coarse::{Coarse, coarse};
+pub use friction::{Gain, LEAST_SHARE};
+pub use motion::jump;
+
+/// A body that moves far against its loads, driven by nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Jump {
+    /// The body.
+    pub body: usize,
+    /// How far it moves.
+    pub way: f64,
+    /// The longest way that is prescribed.
+    pub driven: f64,
+}
+
+/// What an increment is doubted for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Doubt {
+    /// Friction pushes a node along its slip.
+    Gain(Gain),
+}
+
+/// What an increment from `before` to `after` is doubted for.
+pub fn doubts(problem: &Problem, before: &State, after: &State) -> Vec<Doubt> {
+    let pairs = 0..problem.pairs.len();
+    let gains = pairs.filter_map(|pair| friction::gain(problem, pair, [before, after]));
+    gains.map(Doubt::Gain).collect()
+}
+
+impl Jump {
+    /// The jump as a reason why an increment fails.
+    pub fn cut_back(&self, problem: &Problem) -> CutBack {
+        CutBack::Jump {
+            body: problem.model.bodies[self.body].name.clone(),
+            way: self.way,
+            driven: self.driven,
+        }
+    }
+}
+
+impl Doubt {
+    /// The doubt as a reason to try a smaller increment.
+    pub fn cut_back(&self, problem: &Problem) -> CutBack {
+        match self {
+            Self::Gain(gain) => CutBack::Gain {
+                pair: problem.model.pairs[gain.pair].name.clone(),
+                body: problem.model.bodies[gain.body].name.clone(),
+                node: gain.node,
+                work: gain.work,
+                share: gain.share,
+            },
+        }
+    }
+}
+
+/// Areas that belong to the nodes of a side.
+fn areas(problem: &Problem, (pair, side): (usize, Side), state: &State) -> Vec<f64> {
+    let Some(surface) = problem.pairs[pair].contact.sides[side].surface() else {
+        return Vec::new();
+    };
+    let mut areas = vec![0.0; surface.nodes().len()];
+    for (facet, of_facet) in &state.pairs[pair].facets[side] {
+        let corners = surface.facets()[facet.index()];
+        for (corner, area) in corners.into_iter().zip(of_facet.area) {
+            areas[corner] += area;
+        }
+    }
+    areas
+}
