@@ -115,9 +115,12 @@ fn nodal_traction(
     lanes.push(Source::Vector(&frame.n.jacobian));
     push_textures(&mut lanes, textures);
     lanes.push(Source::Scalar(&rate.gradient));
+    // Without an offset of the slip surface friction does not depend on the pressure but by `z`.
     lanes.push(match &kinematics.pressure {
-        Pressure::AtNode => Source::Constant(1),
-        Pressure::AtPoints(supported) => Source::Scalar(&supported.mean.gradient),
+        Pressure::AtPoints(supported) if by_mean != Vec3::zeros() => {
+            Source::Scalar(&supported.mean.gradient)
+        }
+        Pressure::AtNode | Pressure::AtPoints(_) => Source::Constant(1),
     });
     Tracked {
         value: response.tau,

@@ -62,13 +62,13 @@ impl Plane {
 }
 
 /// Derivatives of `M` integrals by the coordinates of each corner in the plane.
-pub(super) struct CornerSlopes<const M: usize>([[[f64; M]; 2]; 8]);
+pub(super) struct CornerSlopes<const M: usize>(Box<[[[f64; M]; 2]; 8]>);
 
 impl<const M: usize> CornerSlopes<M> {
     /// From derivatives by the corners while the polygon rests, and by its vertices and the
     /// centre of its fan, which are passed on to the corners.
     pub fn new(
-        corners: [[[f64; M]; 2]; 8],
+        corners: Box<[[[f64; M]; 2]; 8]>,
         mut vertices: Vec<[[f64; M]; 2]>,
         polygon: &[Vertex],
         fan: &Fan,

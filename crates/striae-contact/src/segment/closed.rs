@@ -91,7 +91,7 @@ impl<'a> Closed<'a> {
         force.copy_from_slice(&sums.value[..8]);
         gaps.copy_from_slice(&sums.value[8..]);
         let slopes = slopes.map(|known| {
-            let rows = self.polygon.in_space(&sums.moved, self.fan, known);
+            let rows = self.polygon.in_space(sums.moved, self.fan, known);
             let of_row = |shares: &[f64; 8]| {
                 let mut sum = [0.0; 24];
                 (0..8).for_each(|c| add(&mut sum, shares[c], &rows[8 + c]));

@@ -343,7 +343,7 @@ impl Polygon {
             });
             pressed.take(&sums, first, count);
             if let (Some(known), Some(found)) = (slopes, &mut pressed.slopes) {
-                let rows = self.in_space(&sums.moved, &fan, known);
+                let rows = self.in_space(sums.moved, &fan, known);
                 found.force.copy_from_slice(&rows[..8]);
                 found.rows.extend_from_slice(&rows[8..8 + count]);
                 let by_pressure = &sums.by_pressure[..count];
@@ -358,11 +358,15 @@ impl Polygon {
     }
 
     /// Derivatives by the corners in space.
-    pub(super) fn in_space(&self, moved: &Moved, fan: &Fan, known: &Slopes) -> [[f64; 24]; M] {
+    pub(super) fn in_space(&self, moved: Moved, fan: &Fan, known: &Slopes) -> [[f64; 24]; M] {
         let (pair, polygon) = (&self.pair, &self.vertices);
-        let vertices = moved.vertices.clone();
-        let own = CornerSlopes::new(*moved.corners, vertices, polygon, fan, &pair.places);
-        let by_height = Some(&*moved.heights);
+        let Moved {
+            corners,
+            heights,
+            vertices,
+        } = moved;
+        let own = CornerSlopes::new(corners, vertices, polygon, fan, &pair.places);
+        let by_height = Some(&*heights);
         own.in_space(&pair.plane, &pair.corners, &known.normal, by_height)
     }
 }

@@ -73,8 +73,8 @@ impl PlaneSlopes {
     }
 
     /// By the coordinates of each corner, while the polygon rests.
-    pub fn by_corners(&self) -> [[ByPair; 2]; 8] {
-        let mut corners = [[[0.0; PAIRS]; 2]; 8];
+    pub fn by_corners(&self) -> Box<[[ByPair; 2]; 8]> {
+        let mut corners = Box::new([[[0.0; PAIRS]; 2]; 8]);
         for side in 0..2 {
             for k in 0..4 {
                 for axis in 0..2 {
