@@ -1,19 +1,16 @@
 //! Friction work at contact nodes.
 //!
-//! The friction traction `tau` at a node with the area `A` does in an increment the work
-//! `A tau . du` on the way `du` that the node moves relative to the point opposite to it, seen
-//! where both are at the end. Friction takes work at every node that slips: `tau . du <= 0`. The
-//! way is that of the two places, not of the rows, which weigh it with its neighbours'.
+//! The friction traction `tau` at a kept node with the area `A` does in an increment the work
+//! `A tau . du`, `du` the slip of its support. Friction takes work at every node that slips:
+//! `tau . du <= 0`. The slip is the one that is seen, without what the ramp adds to the rows, by
+//! which a weak node could stick while all around it slides.
 //!
 //! Only nodes that are pressed at both ends are looked at: the way of others may lie before they
 //! touch. A node that sticks moves by what the meshes cannot follow of each other. It counts as slipping
 //! from [`LEAST_WAY`] of the facet size on; then the forces that friction needs to be wrong for are
 //! no round-off.
 
-use striae_contact::{
-    interference::{Facing, across},
-    side::Side,
-};
+use striae_contact::side::Side;
 use striae_mesh::{NodeId, Vec3};
 use striae_surface::node::SurfaceNode;
 
@@ -60,25 +57,18 @@ fn on_side(problem: &Problem, (pair, side): (usize, Side), states: [&State; 2]) 
     let at = configuration(problem, pair, Positions::from(after));
     let areas = super::areas(problem, (pair, side), after);
     let results = [before, after].map(|state| &state.pairs[pair].nodes[side]);
+    let kept = &after.pairs[pair].kept[side];
     let nodes = results[1].iter().zip(areas).enumerate();
     let (mut all, mut worst) = (0.0, None::<(f64, SurfaceNode)>);
     for (node, (result, area)) in nodes {
         // A way before surfaces touch is none of friction.
-        if result.tau == Vec3::zeros() || results[0][node].pressure <= 0.0 {
+        if !kept[node] || result.tau == Vec3::zeros() || results[0][node].pressure <= 0.0 {
             continue;
         }
         let node = SurfaceNode::new(node);
-        let global = problem.surface_node(pair, side, node);
-        let (Some(opposite), Some(global)) = (across(&at, side, node), global) else {
-            continue;
-        };
-        let x = after.positions[global];
-        let way =
-            x - before.positions[global] - way_of(problem, pair, side, (&x, &opposite), states);
-        let slip = way - result.normal * result.normal.dot(&way);
-        let work = area * result.tau.dot(&slip);
+        let work = area * result.tau.dot(&result.slip);
         all += work.abs();
-        let slips = slip.norm() > LEAST_WAY * at.side(side).sizes[node];
+        let slips = result.slip.norm() > LEAST_WAY * at.side(side).sizes[node];
         if slips && worst.is_none_or(|(most, _)| work > most) {
             worst = Some((work, node));
         }
@@ -92,30 +82,4 @@ fn on_side(problem: &Problem, (pair, side): (usize, Side), states: [&State; 2]) 
         work,
         share: work / all,
     })
-}
-
-/// Way of the point of the other side that is opposite to a node at `x` at the end.
-fn way_of(
-    problem: &Problem,
-    pair: usize,
-    side: Side,
-    (x, opposite): (&Vec3, &Facing),
-    [before, after]: [&State; 2],
-) -> Vec3 {
-    if let Some(rigid) = problem.pairs[pair].rigid {
-        let reference = &problem.model.rigid_surfaces[rigid].reference;
-        let placed = |state: &State| state.rigid[rigid].placement(reference);
-        return x - placed(before).point(&placed(after).back(x));
-    }
-    let Some((corners, weights)) = opposite.opposite else {
-        return Vec3::zeros();
-    };
-    let ways = corners
-        .into_iter()
-        .zip(weights)
-        .filter_map(|(corner, weight)| {
-            let node = problem.surface_node(pair, side.opposite(), corner)?;
-            Some((after.positions[node] - before.positions[node]) * weight)
-        });
-    ways.sum()
 }

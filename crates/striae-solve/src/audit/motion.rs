@@ -15,6 +15,10 @@ use crate::{assembly::StepContext, model::Procedure, state::State};
 /// motion is a jump.
 const LEAST: f64 = 0.5;
 
+/// Way over the longest one that is prescribed from which on a body goes by itself: strain that is
+/// released may add to what drives it.
+const FURTHER: f64 = 1.5;
+
 /// The body that jumps furthest in an increment, if one does; collective.
 pub fn jump(context: &StepContext, before: &State, after: &State) -> Option<Jump> {
     let problem = context.problem;
@@ -31,8 +35,9 @@ pub fn jump(context: &StepContext, before: &State, after: &State) -> Option<Jump
     let jumps = (0..bodies).filter_map(|body| {
         let way = ways[body].norm();
         let work = -ways[body].dot(&loads[body]);
-        let is_one =
-            way > driven && way > LEAST * facet_size(context, body)? && paid > LEAST * work;
+        let is_one = way > FURTHER * driven
+            && way > LEAST * facet_size(context, body)?
+            && paid > LEAST * work;
         (is_one && work > 0.0).then_some(Jump { body, way, driven })
     });
     jumps.max_by(|a, b| a.way.total_cmp(&b.way))
@@ -88,23 +93,25 @@ fn driven(context: &StepContext, before: &State, after: &State) -> f64 {
     let problem = context.problem;
     let nodes = problem.own_nodes().map(|node| {
         let way = after.positions[node] - before.positions[node];
-        let fixed = (0..3).filter(|axis| context.fixed[node.component(*axis)]);
-        fixed.map(|axis| way[axis].abs()).fold(0.0, f64::max)
+        length(way, |axis| context.fixed[node.component(axis)])
     });
     let rigid = after
         .rigid
         .iter()
         .zip(&before.rigid)
         .zip(&context.fixed_rigid);
-    let rigid = rigid.flat_map(|((after, before), fixed)| {
+    let rigid = rigid.map(|((after, before), fixed)| {
         let way = after.displacement - before.displacement;
-        (0..3)
-            .filter(|axis| fixed[*axis])
-            .map(move |axis| way[axis].abs())
+        length(way, |axis| fixed[axis])
     });
     problem
         .share
         .largest(nodes.chain(rigid).fold(0.0, f64::max))
+}
+
+/// Length of the part of a way that is prescribed.
+fn length(way: Vec3, fixed: impl Fn(usize) -> bool) -> f64 {
+    Vec3::from_fn(|axis, _| if fixed(axis) { way[axis] } else { 0.0 }).norm()
 }
 
 /// The largest facet size of the contact surfaces of a body at rest; `None` without any.
