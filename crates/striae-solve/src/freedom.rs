@@ -43,6 +43,9 @@ pub enum Friction {
 const STICKING: f64 = 0.2;
 /// Eigenvalue, over the largest one, of a motion that nothing stops.
 const SINGULAR: f64 = 1e-9;
+/// The same for a motion that friction alone stops: normals of deformed surfaces tilt by some
+/// hundredths, which holds no body that friction cannot.
+const TILTED: f64 = 1e-3;
 /// What a motion may be short of being free altogether.
 const SHORT: f64 = 1e-6;
 
@@ -189,7 +192,11 @@ pub fn free_motion(
         };
         rows.contact(context.problem, pair, nodes, at, holds);
     }
-    rows.free(context.problem)
+    let singular = match friction {
+        Friction::Any | Friction::Dashpots => SINGULAR,
+        Friction::Reserve => TILTED,
+    };
+    rows.free(context.problem, singular)
 }
 
 /// Bodies and rigid bodies that move as one.
@@ -346,12 +353,13 @@ impl Rows {
         }
     }
 
-    fn free(self, problem: &Problem) -> Option<FreeMotion> {
+    /// The motion with an eigenvalue below `singular` of the largest, if there is one.
+    fn free(self, problem: &Problem, singular: f64) -> Option<FreeMotion> {
         let eigen = SymmetricEigen::new(self.normal.clone());
         let largest = eigen.eigenvalues.iter().copied().fold(0.0, f64::max);
         let count = eigen.eigenvalues.len();
         let null: Vec<usize> = (0..count)
-            .filter(|&k| eigen.eigenvalues[k] <= SINGULAR * largest)
+            .filter(|&k| eigen.eigenvalues[k] <= singular * largest)
             .collect();
         if null.is_empty() {
             return None;
