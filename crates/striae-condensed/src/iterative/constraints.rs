@@ -111,12 +111,14 @@ impl Compliance {
         let mut blocks = Vec::new();
         for (node, &i) in nodes.supervariables.iter().enumerate() {
             if nodes.partition.is_kept(Supervariable(i as usize)) {
-                let mut inverse = [0.0; 9];
+                let mut own = [0.0; 9];
                 scaled.bulk_row(node, |other, block| {
                     if other == node {
-                        invert::<3>(block, &mut inverse);
+                        own.iter_mut().zip(block).for_each(|(own, b)| *own += b);
                     }
                 });
+                let mut inverse = [0.0; 9];
+                invert::<3>(&own, &mut inverse);
                 blocks.push((node as u32, inverse));
             }
         }

@@ -32,7 +32,8 @@ impl Scaled<'_> {
         }
     }
 
-    /// Symmetric part of a row of the bulk, block by block.
+    /// Symmetric part of a row of the bulk, in blocks that add up, with what contact adds between
+    /// positions: the bedding of supports that are not closed is as stiff as the bulk.
     pub(super) fn bulk_row(&self, node: usize, mut add: impl FnMut(usize, &[f64; 9])) {
         let structure = &self.nodes.partition;
         let i = self.nodes.supervariables[node] as usize;
@@ -57,6 +58,18 @@ impl Scaled<'_> {
                 }
             }
             add(other as usize, &block);
+        }
+        let contact = &self.tangent.contact;
+        for (r, u) in structure.bulk_group(i).enumerate() {
+            for (v, a) in contact.row(u) {
+                let (other, c) = self.node(v);
+                if other != NONE && !self.prescribed[u] && !self.prescribed[v] {
+                    let scale = self.scaling.rows[u] * self.scaling.columns[v];
+                    let mut block = [0.0; 9];
+                    block[3 * r + c] = 0.5 * scale * (a + contact.get(v, u));
+                    add(other as usize, &block);
+                }
+            }
         }
     }
 
