@@ -18,6 +18,11 @@ const DEEPEST: usize = 64;
 /// Names of functions, for messages.
 const FUNCTIONS: &str = "`sqrt`, `abs`, `exp`, `ln`, `log10`, `sin`, `cos`, `tan`, `asin`, `acos`, `atan`, `floor`, `ceil`, `round`, `min`, `max`";
 
+/// True for a text that is to be computed.
+pub(crate) fn is_expression(text: &str) -> bool {
+    text.trim_start().starts_with('=')
+}
+
 /// Value of a text, with the values of the names in it.
 ///
 /// # Errors

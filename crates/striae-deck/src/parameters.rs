@@ -9,7 +9,7 @@ use striae_model::nearest;
 use toml::de::{DeTable, DeValue};
 
 use crate::{
-    expression::evaluated,
+    expression::{evaluated, is_expression},
     fault::FaultKind,
     faults::{FaultList, Span},
     value::finite,
@@ -127,11 +127,6 @@ fn replace_value<'i>(value: &mut toml::Spanned<DeValue<'i>>, values: &'i [(Span,
         DeValue::Table(table) => replace(table, values),
         _ => {}
     }
-}
-
-/// True for a text that is to be computed.
-pub(crate) fn is_expression(text: &str) -> bool {
-    text.trim_start().starts_with('=')
 }
 
 fn compute(

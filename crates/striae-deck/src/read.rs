@@ -2,10 +2,10 @@
 //! going on after it.
 
 use super::{
+    expression::is_expression,
     fault::FaultKind,
     faults::{FaultList, Span},
     form::{Alternative, Form, Key, Need, ticked},
-    parameters::is_expression,
 };
 use striae_model::nearest;
 use toml::{
