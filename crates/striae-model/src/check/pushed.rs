@@ -15,7 +15,7 @@ use std::collections::BTreeSet;
 
 use striae_mesh::{Face, Mesh, Vec3};
 use striae_solve::model::{
-    BodyId, ContactSurface, Freedom, LoadKind, Pair, Procedure, RigidId, Step,
+    BodyId, ContactSurface, Freedom, LoadExtent, LoadKind, Pair, Procedure, RigidId, Step,
 };
 
 use super::{Draft, List, hold};
@@ -94,11 +94,15 @@ impl Contact<'_> {
 
 fn of_body(draft: &Draft<'_>, step: &Step, body: BodyId, faults: &mut List) {
     let of = &draft.bodies[body.0];
-    let follows = step
-        .loads
-        .iter()
-        .any(|load| load.body == body && matches!(load.kind, LoadKind::FollowerTraction(_)));
-    let Some(mesh) = of.mesh.filter(|_| !follows && !hold::is_tied(draft, body)) else {
+    // Loads that turn, or act on what is exposed, have no force that is known before a run.
+    let uncertain = step.loads.iter().any(|load| {
+        let turns = matches!(load.kind, LoadKind::FollowerTraction(_));
+        load.body == body && (turns || load.extent != LoadExtent::Whole)
+    });
+    let Some(mesh) = of
+        .mesh
+        .filter(|_| !uncertain && !hold::is_tied(draft, body))
+    else {
         return;
     };
     let mut prescribed = BTreeSet::new();

@@ -1,12 +1,14 @@
 //! Steps beside the bodies they act on: displacements beside sizes, waves beside durations,
 //! driving forces on coordinates that are held.
 
-use striae_model::{Body, BodyId, Freedom, Model, Procedure, RigidMotion, Step};
+use striae_model::{Body, BodyId, ContactSurface, Freedom, Model, Procedure, RigidMotion, Step};
 
 use super::{Advice, Topic, parts::Part, shape::extent};
 
 /// Displacement over the size of a body that is worth a note, and a warning.
 const LARGE: [f64; 2] = [2.0, 10.0];
+/// Component of a normal along an axis.
+const ALONG: f64 = 0.7;
 /// Names of the coordinates of a rigid body.
 const COORDINATES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
@@ -22,13 +24,14 @@ pub(super) fn look(model: &Model, advice: &mut Advice) {
 }
 
 fn displacements(model: &Model, id: BodyId, body: &Body, advice: &mut Advice) {
+    let crossing = crossing(model, id, body);
     let steps = model.steps.iter();
     let prescribed = steps.flat_map(|step| step.displacements.iter().map(move |of| (step, of)));
     let own = prescribed.filter(|(_, of)| of.body == id);
     let largest = own
         .flat_map(|(step, of)| {
-            let components = of.components.iter().flatten();
-            components.map(move |target| (step, target.abs()))
+            let components = (0..3).filter(move |axis| crossing[*axis]);
+            components.filter_map(move |axis| Some((step, of.components[axis]?.abs())))
         })
         .max_by(|(_, a), (_, b)| a.total_cmp(b));
     let [low, high] = extent(&body.mesh);
@@ -50,6 +53,23 @@ fn displacements(model: &Model, id: BodyId, body: &Body, advice: &mut Advice) {
         ),
         false => advice.note(Topic::Units, name, text),
     }
+}
+
+/// Axes along which a body is pressed or pulled; along contact surfaces it may slide far.
+fn crossing(model: &Model, id: BodyId, body: &Body) -> [bool; 3] {
+    let sides = model.pairs.iter().flat_map(|pair| [&pair.a, &pair.b]);
+    let faces = sides.filter_map(|side| match side {
+        ContactSurface::Deformable { body, faces } if *body == id => Some(faces),
+        _ => None,
+    });
+    let mut normals = faces
+        .flatten()
+        .map(|face| body.mesh.area_vector(*face).normalize())
+        .peekable();
+    let free = normals.peek().is_none();
+    normals.fold([free; 3], |crossing, normal| {
+        [0, 1, 2].map(|axis| crossing[axis] || normal[axis].abs() > ALONG)
+    })
 }
 
 /// Waves that do not get through one element in a whole step.

@@ -287,9 +287,11 @@ fn a_texture_along_the_normal() {
 
 #[test]
 fn displacements_beside_sizes() {
-    let by = |way: &str| PRESSED.replace("x = 0", &format!("x = {way}"));
-    assert_warned(&[[PRESSED, &by("50")]], Topic::Units, "50 times as much");
-    let noted = advice(&[[PRESSED, &by("3")]]);
+    let by = |way: &str| PRESSED.replace("-0.02", way);
+    assert_warned(&[[PRESSED, &by("-50")]], Topic::Units, "50 times as much");
+    let slides = PRESSED.replace("x = 0", "x = 50");
+    assert_eq!(advice(&[[PRESSED, &slides]]).warnings, []);
+    let noted = advice(&[[PRESSED, &by("-3")]]);
     assert_eq!(noted.warnings, []);
     let mut notes = noted.notes.iter();
     assert!(notes.any(|note| {
