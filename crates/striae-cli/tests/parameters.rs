@@ -118,7 +118,7 @@ fn a_sweep_of_a_faulty_deck_runs_nothing() {
 }
 
 #[test]
-fn a_run_with_settings_resumes_with_them() {
+fn a_run_takes_settings_of_its_own_parameters_only() {
     let place = place();
     let path = place.path();
     let run = |words: &[&str]| {
