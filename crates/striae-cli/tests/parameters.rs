@@ -213,3 +213,44 @@ fn what_is_said_comes_as_json() {
     let faulty = json(&["check", "deck.toml", "--json"]);
     assert_eq!(faulty["faults"][0]["line"], 22);
 }
+
+/// A run that is killed before its first increment goes on from its start, with the parameters
+/// that were set, to the results of one that was not.
+#[test]
+fn a_run_that_is_killed_at_once_resumes() {
+    let place = place();
+    let path = place.path();
+    let fine = DECK.replace("divisions = [2, 2, 2]", "divisions = [12, 12, 12]");
+    fs::write(path.join("deck.toml"), fine).unwrap();
+    let words = |folder| {
+        [
+            "run",
+            "deck.toml",
+            "--set",
+            "mu=0.4",
+            "--quiet",
+            "--out",
+            folder,
+        ]
+    };
+    let mut first = Command::new(env!("CARGO_BIN_EXE_striae"))
+        .args(words("killed"))
+        .current_dir(path)
+        .spawn()
+        .expect("the program starts");
+    while !path.join("killed/checkpoint.bin").exists() {
+        assert!(
+            first.try_wait().unwrap().is_none(),
+            "a checkpoint comes first"
+        );
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    first.kill().unwrap();
+    let resumed = striae(path, &["resume", "killed", "--quiet"]);
+    first.wait().unwrap();
+    assert!(resumed.status.success(), "{resumed:?}");
+    assert!(striae(path, &words("whole")).status.success());
+    let [killed, whole] = ["killed", "whole"]
+        .map(|folder| fs::read_to_string(path.join(folder).join("history.csv")).unwrap());
+    assert_eq!(killed, whole);
+}
