@@ -94,7 +94,7 @@ fn on_plane(model: &Model, pair: &Pair) -> Option<ProblemError> {
         side: 1,
         surface: format!("rigid surface `{}`", rigid.name),
         node: format!("{node} of body `{}`", body.name),
-        at,
+        at: Box::new(at),
         cause: Undirected::of(field, &at),
     })
 }

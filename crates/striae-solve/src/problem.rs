@@ -138,8 +138,8 @@ pub enum ProblemError {
         surface: String,
         /// The node.
         node: String,
-        /// Where it is.
-        at: Vec3,
+        /// Where it is; boxed, as errors should be small.
+        at: Box<Vec3>,
         /// Why.
         cause: Undirected,
     },

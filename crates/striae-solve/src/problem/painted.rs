@@ -91,7 +91,7 @@ pub(super) fn painted(
                     side,
                     surface: owner,
                     node: of_mesh.to_string(),
-                    at,
+                    at: Box::new(at),
                     cause: Undirected::of(field, &at),
                 }
             }
