@@ -52,9 +52,20 @@ pub enum Failure {
     /// The run did not reach its end.
     #[error("{0}")]
     Ended(Box<Ending>),
-    /// The run went to its end, but not without warnings.
+    /// The run completed with warnings.
     #[error("{}", warned(*.0))]
     Warned(usize),
+    /// Runs of a sweep that failed.
+    #[error("{0}")]
+    Sweep(String),
+    /// Two runs differ.
+    #[error("the runs differ by {worst:.1e}, more than {within:.1e}")]
+    Differ {
+        /// Largest difference.
+        worst: f64,
+        /// Difference that is allowed.
+        within: f64,
+    },
     /// There is no case of this name.
     #[error("there is no case `{name}`; known are {known}")]
     UnknownCase {
@@ -193,6 +204,8 @@ impl Failure {
             }
             Self::Unwritable { .. }
             | Self::Ended(_)
+            | Self::Sweep(_)
+            | Self::Differ { .. }
             | Self::Warned(_)
             | Self::Deviates(_)
             | Self::Results(_)

@@ -12,8 +12,9 @@ mod interrupt;
 mod progress;
 mod ranks;
 mod reporting;
+mod source;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use std::{
     io::{self, Write},
     process::ExitCode,
@@ -26,7 +27,7 @@ static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
 /// Finite-element contact with anisotropic friction.
 #[derive(Parser)]
-#[command(version)]
+#[command(name = "striae", version)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -47,6 +48,10 @@ enum Command {
     Mesh(command::mesh::Arguments),
     Schema(command::schema::Arguments),
     Texture(command::texture::Arguments),
+    Sweep(command::sweep::Arguments),
+    Compare(command::compare::Arguments),
+    Completions(command::completions::Arguments),
+    Man(command::man::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -66,6 +71,12 @@ fn main() -> ExitCode {
         Command::Mesh(arguments) => command::mesh::run(&arguments, out),
         Command::Schema(arguments) => command::schema::run(&arguments, out),
         Command::Texture(arguments) => command::texture::run(&arguments, out),
+        Command::Sweep(arguments) => command::sweep::run(&arguments, out),
+        Command::Compare(arguments) => command::compare::run(&arguments, out),
+        Command::Completions(arguments) => {
+            command::completions::run(&arguments, Arguments::command(), out)
+        }
+        Command::Man(arguments) => command::man::run(&arguments, Arguments::command(), out),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
@@ -75,5 +86,21 @@ fn main() -> ExitCode {
             let _ = io::stderr().write_all(format!("{failure}\n").as_bytes());
             failure.exit_code()
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_version_is_that_of_the_program() {
+        let version = Arguments::command().render_version();
+        assert_eq!(version, format!("striae {}\n", env!("CARGO_PKG_VERSION")));
+    }
+
+    #[test]
+    fn arguments_do_not_contradict_each_other() {
+        Arguments::command().debug_assert();
     }
 }

@@ -95,3 +95,31 @@ fn faults_have_places_and_exit_code_2() {
         assert!(told.contains(words), "{told}");
     }
 }
+
+/// Readings of a tester that names columns in its own way and counts from the grooves.
+#[test]
+fn files_of_testers_are_fitted_and_the_convention_is_said() {
+    let text = "rig 3\nno;alpha;Fn;Ft\n1;0;10;2,0\n2;90;10;4,0\n3;180;10;2,0\n4;270;10;4,0\n";
+    let columns = "angle=alpha,normal=Fn,tangential=Ft";
+    let words = [
+        "--law",
+        "orthotropic",
+        "--skip-lines",
+        "1",
+        "--columns",
+        columns,
+    ];
+    let (output, _) = fit(text, &words);
+    let told = String::from_utf8_lossy(&output.stdout);
+    for words in [
+        "mu_along = 0.4, mu_across = 0.2",
+        "angle 0 is slip across the grooves (against a nap); if yours is along them, add `--angle-from along`",
+        "columns that are not used: `no`",
+    ] {
+        assert!(told.contains(words), "{told}");
+    }
+    let (output, _) = fit(text, &[&words[..], &["--angle-from", "along"]].concat());
+    let told = String::from_utf8_lossy(&output.stdout);
+    assert!(told.contains("mu_along = 0.2, mu_across = 0.4"), "{told}");
+    assert!(told.contains("angle 0 is slip along the grooves"), "{told}");
+}

@@ -233,7 +233,7 @@ fn two_runs_do_not_share_a_folder() {
         assert_eq!(second.status.code(), Some(2));
         let text = stderr(&second);
         assert!(
-            text.contains("another run writes to results/cube"),
+            text.contains("results/cube is still being written by another run"),
             "{text}"
         );
     }

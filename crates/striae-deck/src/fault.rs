@@ -26,6 +26,56 @@ pub enum FaultKind {
         place: String,
         /// The most similar valid key.
         nearest: Option<String>,
+        /// All valid keys.
+        known: Vec<String>,
+    },
+    /// An expression that has no value.
+    #[error("this expression cannot be computed: {cause}")]
+    Expression {
+        /// Reason.
+        cause: String,
+    },
+    /// A parameter that no expression can name.
+    #[error(
+        "`{name}` is no name of a parameter; use letters, digits and `_`, beginning with a letter, and not `pi`"
+    )]
+    ParameterName {
+        /// The name.
+        name: String,
+    },
+    /// A parameter is set that the deck does not have.
+    #[error(
+        "`--set {name}=...` sets no parameter of this deck; {}",
+        parameters(known)
+    )]
+    UnknownParameter {
+        /// The name.
+        name: String,
+        /// Names of its parameters.
+        known: Vec<String>,
+    },
+    /// A file that cannot be included.
+    #[error("`{file}` cannot be included: {cause}")]
+    Include {
+        /// The file as written.
+        file: String,
+        /// Why.
+        cause: String,
+    },
+    /// A mesh that would take more memory than there is.
+    #[error(
+        "the mesh of body `{body}` would have {elements} elements, which take about {:.1} GB, and {:.1} GB are available; use fewer divisions or larger elements",
+        needed / 1e9, available / 1e9
+    )]
+    MeshMemory {
+        /// The body.
+        body: String,
+        /// Its elements.
+        elements: u128,
+        /// Bytes to make and check it.
+        needed: f64,
+        /// Bytes that there are.
+        available: f64,
     },
     /// A required key is absent.
     #[error("missing key `{key}` in {place}; expected {expected}")]
@@ -224,6 +274,23 @@ pub enum FaultKind {
 impl From<striae_model::FaultKind> for FaultKind {
     fn from(kind: striae_model::FaultKind) -> Self {
         Self::Model(Box::new(kind))
+    }
+}
+
+impl FaultKind {
+    /// More than the message says, for a line of its own.
+    pub(crate) fn hint(&self) -> Option<String> {
+        match self {
+            Self::UnknownKey { known, .. } => Some(format!("valid keys: {}", quoted(known))),
+            _ => None,
+        }
+    }
+}
+
+fn parameters(known: &[String]) -> String {
+    match known {
+        [] => "it has no [parameters]".to_owned(),
+        known => format!("its [parameters] are {}", quoted(known)),
     }
 }
 

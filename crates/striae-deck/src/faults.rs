@@ -12,7 +12,7 @@
 //! Lines and columns count from one; columns count characters.
 
 use super::fault::FaultKind;
-use std::{fmt, ops::Range};
+use std::{borrow::Cow, fmt, ops::Range};
 
 /// A range of bytes of the deck's text.
 pub type Span = Range<usize>;
@@ -76,6 +76,9 @@ impl fmt::Display for Faults {
                 let indent = " ".repeat(position.column - 1);
                 writeln!(f, "{:5} | {}", position.line, excerpt.text)?;
                 writeln!(f, "      | {indent}{}", "^".repeat(excerpt.length))?;
+                if let Some(hint) = fault.kind.hint() {
+                    writeln!(f, "      = {hint}")?;
+                }
             }
         }
         match self.0.len() {
@@ -100,18 +103,50 @@ impl fmt::Display for Fault {
 
 /// Faults found so far while a deck is read.
 pub(crate) struct FaultList<'s> {
-    file: &'s str,
-    text: &'s str,
+    /// The deck, and what it includes.
+    sources: Vec<Source<'s>>,
     found: Vec<(Span, FaultKind)>,
+}
+
+/// A text of the deck; spans count from the start of the first one.
+struct Source<'s> {
+    start: usize,
+    file: Cow<'s, str>,
+    text: Cow<'s, str>,
 }
 
 impl<'s> FaultList<'s> {
     pub(crate) fn new(file: &'s str, text: &'s str) -> Self {
         Self {
-            file,
-            text,
+            sources: vec![Source {
+                start: 0,
+                file: file.into(),
+                text: text.into(),
+            }],
             found: Vec::new(),
         }
+    }
+
+    /// Adds the text of an included file; returns where its spans start.
+    pub(crate) fn include(&mut self, file: String, text: String) -> usize {
+        let last = self.sources.last();
+        let start = last.map_or(0, |last| last.start + last.text.len() + 1);
+        self.sources.push(Source {
+            start,
+            file: file.into(),
+            text: text.into(),
+        });
+        start
+    }
+
+    /// The text that a span is in, with the span there.
+    fn source(&self, span: &Span) -> (&Source<'s>, Span) {
+        let after = self
+            .sources
+            .partition_point(|source| source.start <= span.start);
+        let source = &self.sources[after.saturating_sub(1)];
+        let end = span.end.saturating_sub(source.start);
+        (source, span.start - source.start..end)
     }
 
     pub(crate) fn push(&mut self, span: &Span, kind: impl Into<FaultKind>) {
@@ -133,18 +168,28 @@ impl<'s> FaultList<'s> {
     }
 
     pub(crate) fn line(&self, span: &Span) -> usize {
-        position(self.text, span.start).line
+        let (source, span) = self.source(span);
+        position(&source.text, span.start).line
     }
 
     /// A fault that is found later than others.
     pub(crate) fn only(&self, span: &Span, kind: FaultKind) -> Faults {
-        Faults(vec![locate(self.file, self.text, span, kind)])
+        Faults(vec![self.located(span, kind)])
     }
 
     pub(crate) fn into_faults(mut self) -> Faults {
         self.found.sort_by_key(|(span, _)| span.start);
-        let located = |(span, kind)| locate(self.file, self.text, &span, kind);
-        Faults(self.found.into_iter().map(located).collect())
+        let found = std::mem::take(&mut self.found).into_iter();
+        Faults(
+            found
+                .map(|(span, kind)| self.located(&span, kind))
+                .collect(),
+        )
+    }
+
+    fn located(&self, span: &Span, kind: FaultKind) -> Fault {
+        let (source, span) = self.source(span);
+        locate(&source.file, &source.text, &span, kind)
     }
 }
 

@@ -12,6 +12,8 @@ pub(crate) enum Form {
     Number(&'static [Bound]),
     /// A whole number not below a least one.
     Whole(usize),
+    /// A table of numbers or expressions with any names.
+    NamedNumbers,
     /// One of several words.
     Words(Vec<(&'static str, &'static str)>),
     /// A list, of a fixed length or any.
@@ -70,6 +72,7 @@ impl Form {
             Self::Truth => "true or false".into(),
             Self::Number(bounds) => format!("a number{}", bounded(bounds)),
             Self::Whole(least) => format!("a whole number of at least {least}"),
+            Self::NamedNumbers => "a table of numbers".into(),
             Self::Words(words) => format!("one of {}", ticked(words.iter().map(|(word, _)| *word))),
             Self::List(of, None) => format!("a list of {}", of.plural()),
             Self::List(of, Some(length)) => format!("a list of {length} {}", of.plural()),
@@ -87,6 +90,7 @@ impl Form {
             Self::Truth => "truths".into(),
             Self::Number(bounds) => format!("numbers{}", bounded(bounds)),
             Self::Whole(least) => format!("whole numbers of at least {least}"),
+            Self::NamedNumbers => "tables of numbers".into(),
             Self::Words(words) => {
                 format!("the words {}", ticked(words.iter().map(|(word, _)| *word)))
             }

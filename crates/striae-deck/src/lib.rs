@@ -10,11 +10,14 @@
 //! All quantities are in one consistent system of units chosen by the author.
 
 mod declare;
+mod expression;
 mod fault;
 mod faults;
 mod form;
+mod include;
 mod lower;
 mod names;
+mod parameters;
 mod raw;
 mod read;
 mod schema;
@@ -23,6 +26,7 @@ mod write;
 
 pub use fault::FaultKind;
 pub use faults::{Fault, Faults, Position};
+pub use parameters::Setting;
 pub use schema::{json_schema, reference};
 pub use write::{Unstated, write};
 
@@ -64,9 +68,18 @@ impl Deck {
 /// # Errors
 /// All faults of the deck; one without position if the file cannot be read.
 pub fn read(path: &Path) -> Result<Deck, Faults> {
+    read_with(path, &[])
+}
+
+/// Reads a deck from a file with parameters set from outside.
+///
+/// # Errors
+/// As [`read`], and where a setting is of no parameter of the deck.
+pub fn read_with(path: &Path, settings: &[Setting]) -> Result<Deck, Faults> {
     let file = path.display().to_string();
     let text = std::fs::read_to_string(path).map_err(|cause| Faults::unreadable(&file, &cause))?;
-    parse(&text, &file, path.parent().unwrap_or(Path::new("")))
+    let base = path.parent().unwrap_or(Path::new(""));
+    parse_with(&text, &file, base, settings)
 }
 
 /// Reads a deck from its text.
@@ -76,8 +89,23 @@ pub fn read(path: &Path) -> Result<Deck, Faults> {
 /// # Errors
 /// All faults of the deck.
 pub fn parse(text: &str, file: &str, base: &Path) -> Result<Deck, Faults> {
+    parse_with(text, file, base, &[])
+}
+
+/// Reads a deck from its text with parameters set from outside.
+///
+/// # Errors
+/// As [`parse`], and where a setting is of no parameter of the deck.
+pub fn parse_with(
+    text: &str,
+    file: &str,
+    base: &Path,
+    settings: &[Setting],
+) -> Result<Deck, Faults> {
     let mut faults = FaultList::new(file, text);
-    let deck = tables(text, &mut faults).and_then(|raw| lower::deck(&raw, base, &mut faults));
+    let included = include::texts(text, base, &mut faults);
+    let deck = simulation(text, &included, settings, &mut faults)
+        .and_then(|raw| lower::deck(&raw, base, &mut faults));
     match deck {
         Some(deck) if faults.is_empty() => Ok(deck),
         _ => Err(faults.into_faults()),
@@ -100,15 +128,34 @@ pub fn friction(text: &str, file: &str) -> Result<Friction, Faults> {
     }
 }
 
+/// The tables of a deck and of what it includes, with the values of expressions.
+fn simulation(
+    text: &str,
+    included: &[String],
+    settings: &[Setting],
+    faults: &mut FaultList<'_>,
+) -> Option<raw::Simulation> {
+    // They outlive the tree that they are put into.
+    let mut values = Vec::new();
+    let mut tree = tree(text, faults)?;
+    for text in included {
+        include::merge(&mut tree, self::tree(text, faults)?);
+    }
+    values.extend(parameters::computed(&tree, settings, faults));
+    parameters::replace(&mut tree, &values);
+    read::read_keys(&tree, 0..0, &read::Place::root(), faults)
+}
+
 /// The tables of a text.
 fn tables<T: read::Part>(text: &str, faults: &mut FaultList<'_>) -> Option<T> {
+    read::read_keys(&tree(text, faults)?, 0..0, &read::Place::root(), faults)
+}
+
+fn tree<'t>(text: &'t str, faults: &mut FaultList<'_>) -> Option<DeTable<'t>> {
     let (tree, errors) = DeTable::parse_recoverable(text);
     for error in &errors {
         let message = error.message().to_owned();
         faults.push(&error.span().unwrap_or(0..0), FaultKind::Syntax { message });
     }
-    if !errors.is_empty() {
-        return None;
-    }
-    read::read_keys(tree.get_ref(), 0..0, &read::Place::root(), faults)
+    errors.is_empty().then(|| tree.into_inner())
 }

@@ -2,6 +2,7 @@
 //! going on after it.
 
 use super::{
+    expression::is_expression,
     fault::FaultKind,
     faults::{FaultList, Span},
     form::{Alternative, Form, Key, Need, ticked},
@@ -137,6 +138,11 @@ pub(crate) fn unexpected<T>(
     faults: &mut FaultList<'_>,
     form: &Form,
 ) -> Option<T> {
+    // An expression without a value is a fault already.
+    let failed = matches!(value.get_ref(), DeValue::String(text) if is_expression(text));
+    if failed && faults.within(&value.span()) {
+        return None;
+    }
     let kind = FaultKind::Unexpected {
         place: place.to_string(),
         expected: form.expected(),
@@ -232,6 +238,9 @@ impl TableReader<'_, '_, '_> {
             .table
             .keys()
             .filter(|key| !self.known.contains(&key.get_ref().as_ref()));
+        let mut known: Vec<String> = self.known.iter().map(|key| (*key).to_owned()).collect();
+        known.sort_unstable();
+        known.dedup();
         for key in unknown {
             let nearest = nearest(key.get_ref(), self.known.iter().copied());
             self.missing
@@ -243,6 +252,7 @@ impl TableReader<'_, '_, '_> {
                     key: key_name,
                     place,
                     nearest,
+                    known: known.clone(),
                 },
             );
         }
@@ -320,7 +330,7 @@ fn remedy(value: &DeValue<'_>, place: &Place, form: &Form) -> String {
     }
 }
 
-fn described(value: &DeValue<'_>) -> String {
+pub(crate) fn described(value: &DeValue<'_>) -> String {
     match value {
         DeValue::String(text) if text.is_empty() => "an empty text".into(),
         DeValue::String(text) => format!("the text {text:?}"),

@@ -7,6 +7,9 @@ use super::{
 };
 use serde_json::{Map, Value, json};
 
+/// Texts that are expressions.
+const EXPRESSION: &str = r"^\s*=";
+
 /// The JSON schema (draft 2020-12) that editors complete and check decks with.
 pub fn json_schema() -> Value {
     let mut schema = form_schema(&Simulation::form());
@@ -112,7 +115,7 @@ fn form_schema(form: &Form) -> Value {
         Form::Text => json!({ "type": "string", "pattern": r"\S" }),
         Form::Truth => json!({ "type": "boolean" }),
         Form::Number(bounds) => {
-            let mut schema = json!({ "type": "number" });
+            let mut schema = json!({ "type": ["number", "string"], "pattern": EXPRESSION });
             for bound in *bounds {
                 let (word, limit) = match bound {
                     Bound::Above(limit) => ("exclusiveMinimum", limit),
@@ -124,7 +127,12 @@ fn form_schema(form: &Form) -> Value {
             }
             schema
         }
-        Form::Whole(least) => json!({ "type": "integer", "minimum": least }),
+        Form::Whole(least) => {
+            json!({ "type": ["integer", "string"], "pattern": EXPRESSION, "minimum": least })
+        }
+        Form::NamedNumbers => {
+            json!({ "type": "object", "additionalProperties": { "type": ["number", "string"] } })
+        }
         Form::Words(words) => {
             json!({ "enum": words.iter().map(|(word, _)| *word).collect::<Vec<_>>() })
         }

@@ -4,7 +4,7 @@ use super::{
     fault::FaultKind,
     faults::FaultList,
     form::{Bound, Form},
-    read::{At, Place, Read, Value, unexpected},
+    read::{At, Place, Read, Value, described, unexpected},
 };
 use std::slice;
 use striae_mesh::Vec3;
@@ -165,6 +165,66 @@ impl<T: Read> Read for Vec<At<T>> {
     }
 }
 
+/// Numbers by names of the author.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct NamedNumbers(pub(crate) Vec<(String, f64)>);
+
+impl Read for NamedNumbers {
+    fn read(value: &Value<'_>, place: &Place, faults: &mut FaultList<'_>) -> Option<Self> {
+        let DeValue::Table(table) = value.get_ref() else {
+            return unexpected(value, place, faults, &Self::form());
+        };
+        let mut numbers = Vec::new();
+        for (name, value) in table.iter() {
+            let letters = || name.get_ref().chars();
+            let is_name = letters().all(|c| c.is_alphanumeric() || c == '_')
+                && letters().next().is_some_and(|c| !c.is_numeric());
+            if !is_name || name.get_ref() == "pi" {
+                let name_is = name.get_ref().to_string();
+                faults.push(&name.span(), FaultKind::ParameterName { name: name_is });
+            }
+            match finite(value.get_ref()) {
+                Some(number) => numbers.push((name.get_ref().to_string(), number)),
+                // An expression without a value is a fault already.
+                None if faults.within(&value.span()) => {}
+                None => {
+                    let kind = FaultKind::Unexpected {
+                        place: format!("parameter `{}`", name.get_ref()),
+                        expected: "a number or an expression such as \"= 2*E\"".to_owned(),
+                        found: described(value.get_ref()),
+                    };
+                    faults.push(&value.span(), kind);
+                }
+            }
+        }
+        Some(Self(numbers))
+    }
+
+    fn form() -> Form {
+        Form::NamedNumbers
+    }
+}
+
+/// A text or a list of texts.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct OneOrMore(pub(crate) Vec<Text>);
+
+impl Read for OneOrMore {
+    fn read(value: &Value<'_>, place: &Place, faults: &mut FaultList<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::Array(_) => All::read(value, place, faults).map(|all| Self(all.0)),
+            DeValue::String(text) if !text.trim().is_empty() => {
+                Some(Self(vec![Text(text.to_string())]))
+            }
+            _ => unexpected(value, place, faults, &Self::form()),
+        }
+    }
+
+    fn form() -> Form {
+        Form::Any(vec![Text::form(), All::<Text>::form()])
+    }
+}
+
 /// A vector from its three components.
 pub(crate) fn vector(components: &[Number; 3]) -> Vec3 {
     Vec3::new(components[0].0, components[1].0, components[2].0)
@@ -207,7 +267,8 @@ fn elements<T: Read>(array: &[Value<'_>], place: &Place, faults: &mut FaultList<
         .collect()
 }
 
-fn finite(value: &DeValue<'_>) -> Option<f64> {
+/// The number that a value is, if it is a finite one.
+pub(crate) fn finite(value: &DeValue<'_>) -> Option<f64> {
     let number = match value {
         DeValue::Integer(integer) => {
             i128::from_str_radix(integer.as_str(), integer.radix()).ok()? as f64

@@ -37,7 +37,10 @@ a = { body = "lower", facets = "zmax" }
 b = { body = "upper", facets = "zmin" }
 [[step]]
 name = "press"
-displacement = [{ body = "upper", nodes = "zmax", z = -0.3 }]
+displacement = [
+    { body = "lower", nodes = "zmin", x = 0, y = 0, z = 0 },
+    { body = "upper", nodes = "zmax", z = -0.3 },
+]
 "#;
     Problem::new(parse(text, "deck.toml", Path::new("")).unwrap().model).unwrap()
 }

@@ -94,6 +94,16 @@ pub enum MeshError {
         /// What it has to be, as the end of a sentence.
         requirement: &'static str,
     },
+    /// A capped block that has no height left at its corners.
+    #[error(
+        "height is {height}, but must be more than {rise:.6}, the rise of the cap at the corners; make the block higher, smaller in plan, or the radius larger"
+    )]
+    CapRise {
+        /// Its height.
+        height: f64,
+        /// How far the cap rises there.
+        rise: f64,
+    },
     /// More elements than a generator makes.
     #[error("the mesh would have {elements} elements, {most} are the most that is made")]
     TooLarge {

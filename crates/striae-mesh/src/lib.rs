@@ -20,6 +20,7 @@ pub mod generate;
 mod id;
 mod locate;
 mod mesh;
+mod pieces;
 pub mod quality;
 mod random;
 mod region;

@@ -32,6 +32,8 @@ pub enum Place {
     Cell(usize),
     /// A point of a VTK file, from 0.
     Point(usize),
+    /// A triangle of a binary STL file, from 1.
+    Triangle(usize),
 }
 
 /// A section of a Gmsh file.
@@ -97,6 +99,7 @@ impl std::fmt::Display for Place {
             Self::Record { section, record } => write!(f, "{section}, record {record}"),
             Self::Cell(cell) => write!(f, "cell {cell}"),
             Self::Point(point) => write!(f, "point {point}"),
+            Self::Triangle(triangle) => write!(f, "triangle {triangle}"),
         }
     }
 }

@@ -7,14 +7,14 @@
 //! byte is ASCII.
 
 use super::lines::Lines;
-use super::{MeshFileFault, RigidSurfaceMesh};
+use super::{MeshFileFault, Place, RigidSurfaceMesh};
 use std::collections::HashMap;
 use striae_mesh::{NodeId, Vec3};
 
 /// The triangles of a rigid surface.
 pub(super) fn rigid_surface(bytes: &[u8]) -> Result<RigidSurfaceMesh, MeshFileFault> {
     let corners = match announced_length(bytes) {
-        Some(length) if length == bytes.len() as u64 => binary(bytes),
+        Some(length) if length == bytes.len() as u64 => binary(bytes)?,
         _ if is_ascii(bytes) => ascii(&String::from_utf8_lossy(bytes))?,
         announced => {
             return Err(MeshFileFault::Length {
@@ -46,16 +46,29 @@ fn is_ascii(bytes: &[u8]) -> bool {
     bytes.trim_ascii_start().starts_with(b"solid") && !bytes.contains(&0)
 }
 
-fn binary(bytes: &[u8]) -> Vec<[Vec3; 3]> {
+fn binary(bytes: &[u8]) -> Result<Vec<[Vec3; 3]>, MeshFileFault> {
     let (triangles, _) = bytes[HEADER..].as_chunks::<TRIANGLE>();
-    triangles
-        .iter()
-        .map(|triangle| {
-            let (numbers, _) = triangle[12..48].as_chunks::<4>();
-            let number = |index: usize| f64::from(f32::from_le_bytes(numbers[index]));
-            [0, 3, 6].map(|i| Vec3::new(number(i), number(i + 1), number(i + 2)))
-        })
-        .collect()
+    let mut corners = Vec::with_capacity(triangles.len());
+    for (index, triangle) in triangles.iter().enumerate() {
+        let (numbers, _) = triangle[12..48].as_chunks::<4>();
+        let number = |index: usize| f64::from(f32::from_le_bytes(numbers[index]));
+        let of_triangle = [0, 3, 6].map(|i| Vec3::new(number(i), number(i + 1), number(i + 2)));
+        for corner in &of_triangle {
+            finite(Place::Triangle(index + 1), corner)?;
+        }
+        corners.push(of_triangle);
+    }
+    Ok(corners)
+}
+
+/// Refuses a corner with a coordinate that is infinite or not a number.
+fn finite(place: Place, x: &Vec3) -> Result<(), MeshFileFault> {
+    if x.iter().all(|coordinate| coordinate.is_finite()) {
+        return Ok(());
+    }
+    let found = format!("a corner at ({}, {}, {})", x.x, x.y, x.z);
+    let fault = MeshFileFault::at(place, "finite coordinates", found);
+    Err(fault.with_remedy("export the surface again"))
 }
 
 fn ascii(text: &str) -> Result<Vec<[Vec3; 3]>, MeshFileFault> {
@@ -87,7 +100,9 @@ fn vertex(lines: &mut Lines<'_>) -> Result<Vec3, MeshFileFault> {
         return Err(line.fault("vertex x y z"));
     }
     let x: Vec<f64> = words.several(3, "a coordinate")?;
-    Ok(Vec3::new(x[0], x[1], x[2]))
+    let corner = Vec3::new(x[0], x[1], x[2]);
+    finite(Place::Line(line.number), &corner)?;
+    Ok(corner)
 }
 
 fn starts_with(lines: &mut Lines<'_>, words: &str) -> Result<(), MeshFileFault> {

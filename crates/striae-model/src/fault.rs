@@ -189,6 +189,12 @@ pub enum FaultKind {
         /// The earlier pair.
         other: String,
     },
+    /// A texture that cannot be painted.
+    #[error("{cause}")]
+    Unpainted {
+        /// Why.
+        cause: striae_solve::problem::ProblemError,
+    },
     /// A tie that does not hold.
     #[error("{fault}")]
     Tie {
@@ -414,6 +420,55 @@ pub enum FaultKind {
         /// How many of the six rigid motions are free.
         motions: usize,
     },
+    /// A piece of a body that is not joined to the rest and can move without resistance.
+    #[error(
+        "body `{body}` is made of {pieces} pieces that share no nodes, and for the piece of {nodes} nodes with {node} at ({:.6}, {:.6}, {:.6}) {} in step `{step}`{}", at.x, at.y, at.z, leaves(.motions), joining(*coincident)
+    )]
+    LoosePiece {
+        /// The body.
+        body: String,
+        /// How many pieces it has.
+        pieces: usize,
+        /// Nodes of the piece.
+        nodes: usize,
+        /// The first of them.
+        node: NodeId,
+        /// Where that is.
+        at: striae_mesh::Vec3,
+        /// The first step in which it is free.
+        step: String,
+        /// How many of the six rigid motions are free.
+        motions: usize,
+        /// Nodes of the piece that lie on nodes of other pieces.
+        coincident: usize,
+    },
+    /// A body that contact can only push away.
+    #[error(
+        "contact can only push {mover} along {direction} in step `{step}`, and {}",
+        unopposed(load, pairs)
+    )]
+    PushedAway {
+        /// Body or rigid body, as the object of a sentence.
+        mover: String,
+        /// Direction, such as `-z`.
+        direction: String,
+        /// The step.
+        step: String,
+        /// Force of the loads along that direction.
+        load: f64,
+        /// Names of the pairs.
+        pairs: Vec<String>,
+    },
+    /// Both sides of a pair are prescribed towards each other.
+    #[error(
+        "pair `{pair}`: in step `{step}` displacements prescribe all nodes of both contact surfaces along their normals, so nothing is left for contact to decide and its pressure is not determined; prescribe nodes away from the contact surface, such as those of the opposite face, and leave at least one side free"
+    )]
+    BothPrescribed {
+        /// The pair.
+        pair: String,
+        /// The step.
+        step: String,
+    },
 }
 
 fn did_you_mean(nearest: &Option<String>) -> String {
@@ -448,6 +503,27 @@ fn sharing(shared: &usize) -> String {
         String::new()
     } else {
         format!(" (the two sides share {shared} nodes)")
+    }
+}
+
+fn joining(coincident: usize) -> String {
+    match coincident {
+        0 => "; prescribe displacements that hold it, tie it to the rest, or make it a body of its own".into(),
+        count => format!(
+            "; {count} of its nodes lie on nodes of another piece: merge coincident nodes where the mesh is made, or tie the pieces"
+        ),
+    }
+}
+
+fn unopposed(load: &f64, pairs: &[String]) -> String {
+    let pairs = quoted(pairs);
+    match *load > 0.0 {
+        true => format!(
+            "its loads pull it the same way, away from the contact of {pairs}, with a force of {load:.3e}; turn the loads round (a positive pressure presses on a surface), or prescribe displacements that hold it"
+        ),
+        false => format!(
+            "nothing holds it against that: it would fly off, and the contact of {pairs} would have no force; prescribe displacements that hold it, or load it towards the contact"
+        ),
     }
 }
 

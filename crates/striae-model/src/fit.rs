@@ -1,9 +1,10 @@
-//! Gaps and overlaps of the meshes: closed where a pair asks for it, otherwise judged; nodes
-//! of ties put where they belong.
+//! Faults that only meshes in their places show: gaps and overlaps, closed where a pair asks
+//! for it, otherwise judged; textures without a direction; nodes of ties put where they belong.
 
 use striae_solve::{
-    initial::{InitialFault, close, fault, fits},
-    model::{Model, PairId},
+    initial::{InitialFault, away, close, fault, fits, turned},
+    model::{Initial, Model, PairId},
+    painting,
     tie::placed,
 };
 
@@ -16,7 +17,7 @@ use crate::{
 /// where they belong. The model must have no other faults.
 ///
 /// # Errors
-/// What is wrong with the meshes of each pair and each tie.
+/// Faults of the meshes and textures of each pair and of the meshes of each tie.
 pub fn fitted(model: Model) -> Result<Model, Vec<Fault>> {
     let names: Vec<String> = model.pairs.iter().map(|pair| pair.name.clone()).collect();
     let located = |fault: InitialFault| {
@@ -27,6 +28,14 @@ pub fn fitted(model: Model) -> Result<Model, Vec<Fault>> {
             kind: FaultKind::Initial { fault },
         }
     };
+    // Nodes are moved only towards surfaces that face them.
+    for (index, pair) in model.pairs.iter().enumerate() {
+        if matches!(pair.initial, Initial::Close(_))
+            && let Some(found) = turned(&model, PairId(index))
+        {
+            return Err(vec![located(away(&model, PairId(index), found))]);
+        }
+    }
     let model = close(model).map_err(|fault| vec![located(fault)])?;
     let fits = fits(&model);
     let found = fits.iter().enumerate().filter_map(|(pair, fit)| {
@@ -36,6 +45,10 @@ pub fn fitted(model: Model) -> Result<Model, Vec<Fault>> {
     let faults: Vec<Fault> = found.map(located).collect();
     if !faults.is_empty() {
         return Err(faults);
+    }
+    let unpainted = unpainted(&model);
+    if !unpainted.is_empty() {
+        return Err(unpainted);
     }
     let ties: Vec<String> = model.ties.iter().map(|tie| tie.name.clone()).collect();
     placed(model).map_err(|faults| {
@@ -48,4 +61,21 @@ pub fn fitted(model: Model) -> Result<Model, Vec<Fault>> {
         });
         faults.collect()
     })
+}
+
+/// Textures that cannot be painted on the meshes.
+fn unpainted(model: &Model) -> Vec<Fault> {
+    let faults = painting::faults(model).into_iter().map(|fault| {
+        let path = Path::part("pairs", fault.pair);
+        let path = match fault.side {
+            Some(side) => path.field("textures").index(side),
+            None => path,
+        };
+        let cause = fault.error;
+        Fault {
+            path,
+            kind: FaultKind::Unpainted { cause },
+        }
+    });
+    faults.collect()
 }

@@ -24,9 +24,14 @@ pub struct RigidMotions {
 impl RigidMotions {
     /// Those of a body that nothing stops.
     pub fn of(mesh: &Mesh) -> Self {
-        let count = mesh.positions.len() as f64;
-        let centre = mesh.positions.iter().sum::<Vec3>() / count;
-        let arms = mesh.positions.iter().map(|x| (x - centre).norm());
+        Self::around(mesh.positions.iter())
+    }
+
+    /// Motions of a part of a body with nodes at these places, of which there is at least one.
+    pub fn around<'x>(positions: impl Iterator<Item = &'x Vec3> + Clone) -> Self {
+        let count = positions.clone().count() as f64;
+        let centre = positions.clone().sum::<Vec3>() / count;
+        let arms = positions.map(|x| (x - centre).norm());
         Self {
             centre,
             size: arms.fold(f64::MIN_POSITIVE, f64::max),

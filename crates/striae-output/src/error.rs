@@ -33,7 +33,7 @@ pub enum OutputError {
     #[error("{} holds the results of an earlier run; choose another folder, or replace them with `--overwrite`", .0.display())]
     Occupied(PathBuf),
     /// Another run writes to the folder.
-    #[error("another run writes to {}", .0.display())]
+    #[error("{} is still being written by another run; wait for its end, or stop it", .0.display())]
     InUse(PathBuf),
     /// An array has not one value for every point or cell.
     #[error("{}: array `{array}` has {found} values where {expected} are needed", path.display())]

@@ -6,6 +6,8 @@
 use std::{
     fs::{self, File, TryLockError},
     path::Path,
+    thread,
+    time::{Duration, Instant},
 };
 
 use striae_files::FileError;
@@ -25,6 +27,9 @@ pub enum Existing {
     /// They are removed before the new run begins.
     Replace,
 }
+
+/// How long a run that goes on waits for the one before it to end.
+const PATIENCE: Duration = Duration::from_secs(3);
 
 /// Files by which results are known.
 const RESULTS: [&str; 10] = [
@@ -62,6 +67,19 @@ impl Claim {
             }
         }
         Ok(Self { _folder: file })
+    }
+
+    /// Claims a folder with results, and waits a while for a run that has just been killed.
+    pub(crate) fn awaited(folder: &Path) -> Result<Self, OutputError> {
+        let started = Instant::now();
+        loop {
+            match Self::of(folder) {
+                Err(OutputError::InUse(_)) if started.elapsed() < PATIENCE => {
+                    thread::sleep(Duration::from_millis(50));
+                }
+                claim => return claim,
+            }
+        }
     }
 
     /// A folder for a new run, made where there is none.
@@ -168,7 +186,11 @@ mod tests {
         ] {
             assert!(matches!(second, Err(OutputError::InUse(_))));
         }
-        drop(first);
-        Claim::of(folder.path()).unwrap();
+        let ends = thread::spawn(move || {
+            thread::sleep(Duration::from_millis(200));
+            drop(first);
+        });
+        Claim::awaited(folder.path()).unwrap();
+        ends.join().unwrap();
     }
 }

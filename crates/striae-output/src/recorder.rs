@@ -152,7 +152,7 @@ impl Recorder {
         output: Output,
         written: &Written,
     ) -> Result<Self, OutputError> {
-        let claim = on_first(share, || Claim::of(folder))?;
+        let claim = on_first(share, || Claim::awaited(folder))?;
         on_first(share, || check(folder, &written.sums))?;
         let fields = written.sums.iter();
         let fields = fields.filter(|(name, _)| !TABLES.contains(&name.as_str()));
@@ -163,7 +163,7 @@ impl Recorder {
         Ok(Self {
             share: share.clone(),
             _claim: claim,
-            history: on_first(share, || History::resume(folder.join("history.csv"), rows))?,
+            history: on_first(share, || History::after(folder.join("history.csv"), rows))?,
             fields: Collections::resumed(folder, &written.series, fields.cloned().collect()),
             folder: folder.to_owned(),
             case: case.to_owned(),
@@ -224,6 +224,11 @@ impl Recorder {
         let is_late = || self.kept.elapsed() >= KEPT;
         let every = self.output.checkpoint_every;
         every.is_some_and(|every| increment.is_multiple_of(every.get()) || is_late())
+    }
+
+    /// True where checkpoints are kept in the course of the run.
+    pub fn keeps_any(&self) -> bool {
+        self.output.checkpoint_every.is_some()
     }
 
     /// A checkpoint has been written.

@@ -208,7 +208,7 @@ pub fn resume(
 ) -> PyResult<Ended> {
     let simulation = py.detach(|| {
         let checkpoint = Checkpoint::read(&folder)?;
-        let mut deck = striae::deck::read(&checkpoint.source.path)?;
+        let mut deck = striae::read_again(&checkpoint.source)?;
         deck.output = writing(deck.output, fields_every);
         Simulation::resume_from(deck, checkpoint, &folder)
     });

@@ -6,6 +6,7 @@
 //! the first step.
 
 mod close;
+mod facing;
 mod reach;
 mod surfaces;
 mod translation;
@@ -28,6 +29,7 @@ use crate::{
 };
 
 pub use close::close;
+pub use facing::{Turned, turned};
 pub use reach::may_meet;
 pub use surfaces::surfaces;
 
@@ -74,6 +76,25 @@ pub enum InitialFault {
         /// The rigid surface.
         rigid: String,
     },
+    /// The sides look away from each other, as where facets are turned inside out.
+    #[error(
+        "pair `{pair}`: the surface of `{body}` looks away from that of `{other}`, so they cannot touch: at {node} of `{body}`, ({:.6}, {:.6}, {:.6}), both normals point the same way. {}",
+        at.x, at.y, at.z, turning(rigid)
+    )]
+    Away {
+        /// Name of the pair.
+        pair: String,
+        /// Body or rigid surface of the node.
+        body: String,
+        /// Name of the other one.
+        other: String,
+        /// The node.
+        node: NodeId,
+        /// Where it is.
+        at: Vec3,
+        /// Rigid surface that is a side, if one is.
+        rigid: Option<String>,
+    },
     /// Moving nodes would turn an element inside out.
     #[error(
         "pair `{pair}`: `initial = \"close\"` would turn {element} of body `{body}` inside out. Set `initial = \"resolve\"` to press overlaps out in the first step instead, close only gaps that are small beside the elements, such as `initial = {{ close = 0 }}` for none, or mend the mesh"
@@ -117,6 +138,7 @@ impl InitialFault {
         match self {
             Self::Overlap { pair, .. }
             | Self::Behind { pair, .. }
+            | Self::Away { pair, .. }
             | Self::Inverted { pair, .. } => pair,
         }
     }
@@ -143,6 +165,10 @@ pub fn fault(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
     let overlap = fit
         .overlap
         .filter(|overlap| overlap.share() > LARGEST_OVERLAP)?;
+    // Of surfaces that look away from each other, what is in front seems to be inside.
+    if let Some(turned) = turned(model, pair) {
+        return Some(away(model, pair, turned));
+    }
     if of_pair.initial == Initial::Resolve {
         return None;
     }
@@ -160,6 +186,33 @@ pub fn fault(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
             Initial::AsMeshed | Initial::Resolve => Closing::Open,
         },
     })
+}
+
+/// The fault that the sides of a pair look away from each other.
+pub fn away(model: &Model, pair: PairId, Turned { side, node, at }: Turned) -> InitialFault {
+    let of_pair = &model.pairs[pair.0];
+    let rigid = match &of_pair.b {
+        ContactSurface::Rigid(_) => Some(side_name(model, &of_pair.b).to_owned()),
+        ContactSurface::Deformable { .. } => None,
+    };
+    InitialFault::Away {
+        pair: of_pair.name.clone(),
+        body: other_name(model, pair, side.opposite()).to_owned(),
+        other: other_name(model, pair, side).to_owned(),
+        node,
+        at,
+        rigid,
+    }
+}
+
+/// Advice for surfaces that look away from each other.
+fn turning(rigid: &Option<String>) -> String {
+    match rigid {
+        Some(rigid) => format!(
+            "Turn the facets of `{rigid}` round (list their corners counter-clockwise as seen from where the body is), or name the facets of the body that face it"
+        ),
+        None => "Name the facets that face each other".to_owned(),
+    }
 }
 
 /// The node, of the mesh of its body or rigid surface, that a surface node is.

@@ -220,7 +220,7 @@ pub enum CutBack {
         times: f64,
     },
     /// The linear system could not be solved.
-    #[error("{place}: {error}")]
+    #[error("{place}{}", solving(place, error))]
     LinearSystem {
         /// Which unknown is involved.
         place: String,
@@ -246,6 +246,19 @@ fn overlap_text(body: &str, node: striae_mesh::NodeId, other: &str, depth: f64) 
     format!(
         "{through}, and no pair lets the surfaces there touch; state a pair of them, or keep them apart"
     )
+}
+
+/// Remedy for a linear system without a solution.
+fn solving(place: &str, error: &SolveError) -> String {
+    match error {
+        SolveError::Singular { .. } if place.contains("traction") => {
+            "; displacements, a tie or another pair prescribe how both surfaces move there: prescribe nodes away from the contact surface, or leave the facets around this node out of the pair".to_owned()
+        }
+        SolveError::Singular { .. } => {
+            "; prescribe displacements that hold it, load it towards what it touches, or set `stabilise = true` in its pair".to_owned()
+        }
+        error => format!(": {error}"),
+    }
 }
 
 fn all_nodes(sticking: usize) -> String {

@@ -6,24 +6,24 @@ mod contact_facet;
 mod fibres;
 mod frame;
 mod nodes;
+mod painted;
 mod shadow;
 
 pub use contact_facet::ContactFacet;
 pub(crate) use fibres::add_fibres;
 pub(crate) use frame::Frame;
 pub(crate) use nodes::extent;
+pub use painted::Undirected;
 
 use std::collections::HashMap;
 use striae_contact::{
     interference::Fibre,
     pair::{ContactPair, Geometry, PairedSurface},
-    texture::SideTexture,
 };
 use striae_element::{ElementFault, Elements};
 use striae_mesh::{Face, NodeId, Vec3};
 use striae_surface::{
-    normal::nodal_normals,
-    texture::{Conditioning, Paint, Texture, TextureError},
+    texture::{Conditioning, TextureError},
     topology::Surface,
 };
 
@@ -38,6 +38,7 @@ use crate::{
     tie::{TieFault, Ties, first_nodes},
 };
 use contact_facet::contact_facets;
+use painted::painted;
 
 /// A model with what follows from it.
 #[derive(Clone, Debug)]
@@ -117,12 +118,33 @@ pub enum ProblemError {
     Texture {
         /// Name of the pair.
         pair: String,
+        /// Side of the texture.
+        side: usize,
         /// Name of the body or rigid surface.
         surface: String,
         /// Node of its mesh.
         node: Option<NodeId>,
         /// What is wrong.
         error: TextureError,
+    },
+    /// A field has no tangential direction at a node.
+    #[error(
+        "pair `{pair}`: the texture of {surface} has no direction at {node}, ({:.6}, {:.6}, {:.6}): {}",
+        at.x, at.y, at.z, cause.words()
+    )]
+    Undirected {
+        /// Name of the pair.
+        pair: String,
+        /// Side of the texture.
+        side: usize,
+        /// Name of the body or rigid surface that is painted.
+        surface: String,
+        /// The node.
+        node: String,
+        /// Where it is; boxed, as errors should be small.
+        at: Box<Vec3>,
+        /// Why.
+        cause: Undirected,
     },
     /// A rigid plane has no nodes to paint.
     #[error("pair `{pair}`: a rigid plane takes a uniform, circumferential or radial texture")]
@@ -330,45 +352,6 @@ fn side_positions(
         (Geometry::Rigid(_), _) => rigid_reference.to_vec(),
         _ => Vec::new(),
     }
-}
-
-fn painted(
-    model: &Model,
-    pair: &Pair,
-    index: usize,
-    geometry: &Geometry,
-    positions: &[Vec3],
-    paint: &Paint,
-) -> Result<(SideTexture, Option<Conditioning>), ProblemError> {
-    let surface = match (geometry, paint) {
-        (Geometry::Plane { .. }, Paint::Field(field)) => {
-            return Ok((SideTexture::Plane(*field), None));
-        }
-        (Geometry::Plane { .. }, _) => {
-            return Err(ProblemError::PlaneTexture {
-                pair: pair.name.clone(),
-            });
-        }
-        (Geometry::Deformable(surface) | Geometry::Rigid(surface), _) => surface,
-    };
-    let normals = nodal_normals(surface, positions);
-    let painted = Texture::new(positions, surface.facets(), &normals, paint);
-    let (texture, conditioning) = painted.map_err(|error| ProblemError::Texture {
-        pair: pair.name.clone(),
-        surface: match [&pair.a, &pair.b][index] {
-            ContactSurface::Deformable { body, .. } => {
-                format!("body `{}`", model.bodies[body.0].name)
-            }
-            ContactSurface::Rigid(rigid) => {
-                format!("rigid surface `{}`", model.rigid_surfaces[rigid.0].name)
-            }
-        },
-        node: error
-            .node()
-            .and_then(|node| surface.nodes().get(node.index()).copied()),
-        error,
-    })?;
-    Ok((SideTexture::Nodal(texture), Some(conditioning)))
 }
 
 fn deformable(model: &Model, body: usize, faces: &[Face]) -> PairedSurface {

@@ -215,7 +215,7 @@ pub use num_dual;
 pub use observer::{Converged, Next, Observer};
 pub use ranks::Ranks;
 pub use results::{PairSide, Results};
-pub use simulation::{Finished, Simulation, case_name};
+pub use simulation::{Finished, Simulation, case_name, read_again};
 pub use striae_contact as contact;
 pub use striae_deck as deck;
 pub use striae_element as element;

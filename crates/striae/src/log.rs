@@ -104,6 +104,19 @@ impl Log {
         }
     }
 
+    /// Writes the checkpoint of the start, so that a run that is killed before its first
+    /// increment has one, where there are any.
+    pub(crate) fn begin(&mut self, problem: &Problem, point: Point) -> Result<(), OutputError> {
+        let keeps = match self {
+            Self::Memory(_) => false,
+            Self::Files(files) => files.recorder.keeps_any(),
+        };
+        match keeps {
+            true => self.point(problem, point),
+            false => Ok(()),
+        }
+    }
+
     /// Whether a checkpoint is due.
     pub(crate) fn keeps(&self, increment: usize) -> bool {
         match self {

@@ -1,7 +1,9 @@
 //! Measured friction in text files, for [`fit`](crate::law::fit).
 //!
-//! One reading a line, numbers separated by commas, under a line with the names of the
-//! columns; empty lines and what follows a `#` are passed over.
+//! One reading a line under a line with the names of the columns; empty lines and what follows
+//! a `#` are passed over. Fields are separated by semicolons or tabs, if the first line has
+//! one, otherwise by commas; beside semicolons and tabs a comma may be the decimal sign.
+//! Columns of other names are not used, and a note says so.
 //!
 //! | column | meaning |
 //! | --- | --- |
@@ -11,10 +13,18 @@
 //! | `direction` | direction of `-tau`, the force that drags the textured surface, counted as `angle` (degrees); optional |
 //! | `theta` | angle between the textures of two surfaces (degrees); optional, 0 |
 //! | `spread` | standard deviation in proportion to that of other readings (no unit); optional, 1 |
+//!
+//! Angles may also count from along the texture, see [`AngleFrom`].
 
-use std::fmt;
+mod header;
+mod lines;
+
+use std::{fmt, str::FromStr};
 
 use striae_law::fit::Reading;
+
+use header::Header;
+use lines::Separator;
 
 /// Names of columns.
 const COLUMNS: [&str; 7] = [
@@ -26,6 +36,68 @@ const COLUMNS: [&str; 7] = [
     "theta",
     "spread",
 ];
+
+/// Direction that angles count from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum AngleFrom {
+    /// The texture `a`: across the grooves, against a nap.
+    #[default]
+    Across,
+    /// The grooves, or the row of scales, `s`, a quarter turn before `a`.
+    Along,
+}
+
+/// How a file of measurements is laid out.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Form {
+    /// Direction that angles count from.
+    pub angle_from: AngleFrom,
+    /// Lines at the beginning that are passed over.
+    pub skipped: usize,
+    /// Columns that the file names otherwise.
+    pub columns: Vec<NamedColumn>,
+}
+
+/// A quantity and the column of a file that it is in: `normal=Fz`, `angle=1`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NamedColumn {
+    /// Name of the quantity, one of those of the [module](self).
+    quantity: &'static str,
+    /// Name of the column, or its number from 1.
+    column: String,
+}
+
+impl FromStr for NamedColumn {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let Some((quantity, column)) = text.split_once('=') else {
+            return Err(format!(
+                "expected QUANTITY=COLUMN, such as `normal=Fz`, found `{text}`"
+            ));
+        };
+        let quantity = quantity.trim();
+        match COLUMNS.into_iter().find(|known| *known == quantity) {
+            Some(quantity) => Ok(Self {
+                quantity,
+                column: column.trim().to_owned(),
+            }),
+            None => Err(format!(
+                "unknown quantity `{quantity}`; there are {}",
+                COLUMNS.join(", ")
+            )),
+        }
+    }
+}
+
+/// Readings of a file of measurements.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// The readings, with angles from across the texture.
+    pub readings: Vec<Reading>,
+    /// Notes on columns that were passed over.
+    pub notes: Vec<String>,
+}
 
 /// All that is wrong with a file of measurements.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -70,18 +142,27 @@ impl fmt::Display for MeasurementFaults {
     }
 }
 
-/// Readings of a text; `file` is what faults call it.
+/// Readings of a text in the usual form; `file` is what faults call it.
 ///
 /// # Errors
 /// All its faults.
 pub fn parse(text: &str, file: &str) -> Result<Vec<Reading>, MeasurementFaults> {
+    read(text, file, &Form::default()).map(|measured| measured.readings)
+}
+
+/// Readings and notes of a text in a form; `file` is what faults call it.
+///
+/// # Errors
+/// All its faults.
+pub fn read(text: &str, file: &str, form: &Form) -> Result<Measured, MeasurementFaults> {
     let mut faults = Vec::new();
-    let readings = readings(text, &mut faults);
-    if faults.is_empty() {
-        Ok(readings)
-    } else {
-        let file = file.to_owned();
-        Err(MeasurementFaults { file, faults })
+    let measured = measured(text, form, &mut faults);
+    match measured {
+        Some(measured) if faults.is_empty() => Ok(measured),
+        _ => Err(MeasurementFaults {
+            file: file.to_owned(),
+            faults,
+        }),
     }
 }
 
@@ -92,170 +173,41 @@ fn fault(place: Option<(usize, usize)>, message: impl Into<String>) -> Measureme
     }
 }
 
-fn readings(text: &str, faults: &mut Vec<MeasurementFault>) -> Vec<Reading> {
+fn measured(text: &str, form: &Form, faults: &mut Vec<MeasurementFault>) -> Option<Measured> {
     let lines = text.trim_start_matches('\u{feff}').lines().enumerate();
     let mut lines = lines
         .map(|(at, line)| (at + 1, line.split('#').next().unwrap_or("")))
-        .filter(|(_, line)| !line.trim().is_empty());
-    let Some((number, first)) = lines.next() else {
+        .skip(form.skipped)
+        .filter(|(_, line)| !line.trim().is_empty())
+        .peekable();
+    let Some(&(number, first)) = lines.peek() else {
         let message = "it is empty: a line with names of columns is needed, such as \
                        `angle, friction`, and a line for each reading";
         faults.push(fault(None, message));
-        return Vec::new();
+        return None;
     };
-    let Some(header) = Header::read(number, first, faults) else {
-        return Vec::new();
-    };
+    let separator = Separator::of(first);
+    let header = Header::read(separator, (number, first), form, faults)?;
+    if header.is_named() {
+        lines.next();
+    }
     let rows = lines.filter_map(|(number, line)| header.reading(number, line, faults));
-    let readings: Vec<Reading> = rows.collect();
+    let mut readings: Vec<Reading> = rows.collect();
     if readings.is_empty() && faults.is_empty() {
         faults.push(fault(None, "it has no readings below the names of columns"));
     }
-    readings
-}
-
-/// The fields of a line, with their columns in the text.
-fn fields(line: &str) -> impl Iterator<Item = (usize, &str)> {
-    let mut start = 0;
-    line.split(',').map(move |field| {
-        let blanks = field.chars().take_while(|c| c.is_whitespace()).count();
-        let column = start + blanks + 1;
-        start += field.chars().count() + 1;
-        (column, field.trim())
-    })
-}
-
-/// Which field of a line is which quantity.
-struct Header {
-    /// Index in [`COLUMNS`] of each field.
-    columns: Vec<usize>,
-}
-
-impl Header {
-    fn read(number: usize, line: &str, faults: &mut Vec<MeasurementFault>) -> Option<Self> {
-        let before = faults.len();
-        let mut columns = Vec::new();
-        for (column, name) in fields(line) {
-            let place = Some((number, column));
-            match COLUMNS.iter().position(|known| *known == name) {
-                Some(known) if columns.contains(&known) => {
-                    let message = format!("column `{name}` is there twice");
-                    faults.push(fault(place, message));
-                }
-                Some(known) => columns.push(known),
-                None => {
-                    let known = COLUMNS.map(|name| format!("`{name}`")).join(", ");
-                    let message = format!("`{name}` is no column; columns are {known}");
-                    faults.push(fault(place, message));
-                }
-            }
-        }
-        let header = Self { columns };
-        if faults.len() == before {
-            let ratio = [header.has("tangential"), header.has("normal")];
-            let message = match (header.has("friction"), ratio) {
-                _ if !header.has("angle") => "a column `angle` is needed: slip in degrees",
-                (true, [false, false]) | (false, [true, true]) => return Some(header),
-                (true, _) => "either `friction` is needed or `tangential` and `normal`, not both",
-                (false, _) => "a column `friction` is needed, or `tangential` and `normal`",
-            };
-            faults.push(fault(Some((number, 1)), message));
-        }
-        None
-    }
-
-    fn has(&self, name: &str) -> bool {
-        self.field(name).is_some()
-    }
-
-    fn field(&self, name: &str) -> Option<usize> {
-        let columns = self.columns.iter();
-        columns.copied().position(|known| COLUMNS[known] == name)
-    }
-
-    /// The reading of a line, or `None` after its faults have been noted.
-    fn reading(
-        &self,
-        number: usize,
-        line: &str,
-        faults: &mut Vec<MeasurementFault>,
-    ) -> Option<Reading> {
-        let before = faults.len();
-        let fields: Vec<(usize, &str)> = fields(line).collect();
-        if fields.len() != self.columns.len() {
-            let (found, needed) = (fields.len(), self.columns.len());
-            let message = format!("numbers: {found}, but columns: {needed}; each needs one");
-            faults.push(fault(Some((number, 1)), message));
-            return None;
-        }
-        let mut value = |name: &str, positive: Sign| {
-            let (column, text) = fields[self.field(name)?];
-            let found = text
-                .parse::<f64>()
-                .ok()
-                .filter(|value| positive.allows(*value));
-            if found.is_none() {
-                let message = format!("`{text}` is no {} for `{name}`", positive.words());
-                faults.push(fault(Some((number, column)), message));
-            }
-            found
-        };
-        let angle = value("angle", Sign::Any);
-        let friction = match self.has("friction") {
-            true => value("friction", Sign::Any),
-            false => {
-                let forces = [
-                    value("tangential", Sign::Any),
-                    value("normal", Sign::Positive),
-                ];
-                forces[0].zip(forces[1]).map(|(t, n)| t / n)
-            }
-        };
-        let direction = value("direction", Sign::Any);
-        let theta = value("theta", Sign::Any);
-        let spread = value("spread", Sign::Positive);
-        if faults.len() > before {
-            return None;
-        }
-        let (slip, friction) = (angle?.to_radians(), friction?);
-        let reading = match direction {
-            Some(direction) => Reading::directed(slip, friction, direction.to_radians()),
-            None => Reading::against(slip, friction),
-        };
-        Some(Reading {
-            theta: theta.unwrap_or(0.0).to_radians(),
-            spread: spread.unwrap_or(1.0),
-            ..reading
-        })
-    }
-}
-
-/// What a number has to be.
-#[derive(Clone, Copy)]
-enum Sign {
-    Any,
-    Positive,
-}
-
-impl Sign {
-    fn allows(self, value: f64) -> bool {
-        match self {
-            Self::Any => value.is_finite(),
-            Self::Positive => value.is_finite() && value > 0.0,
+    if form.angle_from == AngleFrom::Along {
+        for reading in &mut readings {
+            reading.slip -= 90f64.to_radians();
         }
     }
-
-    fn words(self) -> &'static str {
-        match self {
-            Self::Any => "finite number",
-            Self::Positive => "positive number",
-        }
-    }
+    let notes = header.note().into_iter().collect();
+    Some(Measured { readings, notes })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Reading, parse};
+    use super::{AngleFrom, Form, Reading, parse, read};
 
     #[test]
     fn readings_are_read() {
@@ -284,17 +236,21 @@ mod tests {
             parse(text, "m.csv").unwrap_err().to_string(),
             "m.csv:3:5: `much` is no finite number for `friction`\n\
              m.csv:3:11: `0` is no positive number for `spread`\n\
-             m.csv:4:1: numbers: 2, but columns: 3; each needs one\n\
+             m.csv:4:1: fields: 2, but columns: 3; each needs one\n\
              m.csv:5:5: `inf` is no finite number for `friction`"
         );
         for (text, message) in [
             ("", "it is empty"),
             ("angle,friction\n", "no readings"),
+            ("0,0.3\n", "m.csv:1:1: numbers, but no names of columns"),
             (
-                "0,0.3\n",
-                "m.csv:1:1: `0` is no column; columns are `angle`, `friction`",
+                "angle,mu\n0,1\n",
+                "m.csv:1:1: a column `friction` is needed, or `tangential` and `normal`; there are `angle`, `mu`",
             ),
-            ("angle,mu\n0,1\n", "m.csv:1:7: `mu` is no column"),
+            (
+                "angle,tangental,normal\n0,1,1\n",
+                "unknown column `tangental`; did you mean `tangential`?",
+            ),
             ("angle,angle,friction\n", "column `angle` is there twice"),
             ("friction\n1\n", "a column `angle` is needed"),
             ("angle,normal\n1,1\n", "a column `friction` is needed, or"),
@@ -307,5 +263,59 @@ mod tests {
             let told = parse(text, "m.csv").unwrap_err().to_string();
             assert!(told.contains(message), "{told}");
         }
+    }
+
+    #[test]
+    fn files_of_instruments_are_read() {
+        let text =
+            "Tribometer 7\nTest;Angle;Fz [N];Fx [N];Temp\n1;0;2,5;0,5;23,1\n2;90;2;0,8;warm\n";
+        let columns = ["angle=Angle", "normal=Fz [N]", "tangential=4"];
+        let form = Form {
+            skipped: 1,
+            columns: columns.map(|one| one.parse().unwrap()).to_vec(),
+            ..Form::default()
+        };
+        let measured = read(text, "m.csv", &form).unwrap();
+        let expected = [(0.0, 0.2), (90f64.to_radians(), 0.4)];
+        let expected = expected.map(|(slip, friction)| Reading::against(slip, friction));
+        assert_eq!(measured.readings, expected);
+        assert_eq!(
+            measured.notes,
+            ["columns that are not used: `Test`, `Temp`"]
+        );
+        let bare = read(
+            "0\t0.2\n90\t0.4\n",
+            "m.csv",
+            &Form {
+                columns: ["angle=1", "friction=2"]
+                    .map(|one| one.parse().unwrap())
+                    .to_vec(),
+                ..Form::default()
+            },
+        );
+        assert_eq!(bare.unwrap().readings, expected);
+        let missing = Form {
+            columns: vec!["normal=Fy".parse().unwrap()],
+            ..form
+        };
+        let told = read(text, "m.csv", &missing).unwrap_err().to_string();
+        assert!(
+            told.contains("m.csv:2:1: there is no column `Fy`; there are `Test`"),
+            "{told}"
+        );
+    }
+
+    #[test]
+    fn angles_from_the_grooves_are_turned_by_a_quarter() {
+        let form = Form {
+            angle_from: AngleFrom::Along,
+            ..Form::default()
+        };
+        let text = "angle,friction,direction\n90,0.4,100\n";
+        let along = read(text, "m.csv", &form).unwrap().readings[0];
+        let across = parse("angle,friction,direction\n0,0.4,10\n", "m.csv").unwrap()[0];
+        assert!((along.slip - across.slip).abs() < 1e-15);
+        assert!((along.against - across.against).abs() < 1e-15);
+        assert!((along.across.unwrap() - across.across.unwrap()).abs() < 1e-15);
     }
 }

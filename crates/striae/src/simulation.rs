@@ -3,7 +3,8 @@
 //! ```text
 //! Simulation::new(model)       a model built in Rust
 //!           ::of(deck)         a deck that has been read
-//!           ::open(path)       a deck in a file, whose run can be resumed
+//!           ::open(path)       a deck in a file, whose run can be resumed;
+//!           ::open_with(path, settings) with parameters set
 //!           ::resume(folder)   a run that was stopped
 //!           ::after(run, steps) a run that has ended, with further steps
 //!           ::resume_with(folder, deck) a run with the steps of another deck
@@ -22,7 +23,7 @@ use std::{
     sync::Arc,
 };
 
-use striae_deck::Deck;
+use striae_deck::{Deck, Faults, Setting};
 use striae_model::{Model, StepBuilder, Validate, extended};
 use striae_output::{
     Existing, Output, available_bytes,
@@ -36,10 +37,11 @@ use striae_output::{
 use striae_solve::{
     drive::{self, Point},
     model::Backend,
-    newton::Workspace,
+    newton::{Memory, Workspace},
     outcome::Ending,
     problem::Problem,
     share::Division,
+    stabilisation::first_increment,
     state::State,
 };
 
@@ -170,8 +172,33 @@ impl Simulation {
     /// # Errors
     /// All faults of the deck, or why its model cannot be solved.
     pub fn open(deck: &Path, folder: impl Into<PathBuf>) -> Result<Self, Error> {
-        let simulation = Self::of(striae_deck::read(deck)?)?;
-        Ok(simulation.resumable(folder, case_name(deck), deck))
+        Self::open_with(deck, &[], folder)
+    }
+
+    /// A run of a deck in a file, as [`Self::open`], with parameters set from outside.
+    ///
+    /// # Errors
+    /// As [`Self::open`], and where the deck has no such parameter.
+    pub fn open_with(
+        deck: &Path,
+        settings: &[Setting],
+        folder: impl Into<PathBuf>,
+    ) -> Result<Self, Error> {
+        let read = striae_deck::read_with(deck, settings)?;
+        Self::opened(None, (deck, settings), read, folder.into())
+    }
+
+    /// A run of a deck that has been read from a file, and is written to `folder`.
+    fn opened(
+        ranks: Option<Arc<dyn Ranks>>,
+        (path, settings): (&Path, &[Setting]),
+        deck: Deck,
+        folder: PathBuf,
+    ) -> Result<Self, Error> {
+        let source = source(case_name(path), (path, settings), &deck.model, &deck.output);
+        let case = source.case.clone();
+        let simulation = Self::of_on(ranks, deck)?;
+        Ok(simulation.recorded(folder, case).with_source(source))
     }
 
     /// The same on several ranks, each of which reads the deck; collective. Results of the
@@ -182,15 +209,12 @@ impl Simulation {
     pub fn open_on(
         ranks: Arc<dyn Ranks>,
         deck: &Path,
+        settings: &[Setting],
         folder: impl Into<PathBuf>,
     ) -> Result<Self, Error> {
-        let path = deck;
-        let read = striae_deck::read(path).map_err(Error::from);
-        let deck = agreed(Some(&ranks), read)?;
-        let source = source(case_name(path), path, &deck.model, &deck.output);
-        let simulation = Self::of_on(Some(ranks), deck)?;
-        let case = source.case.clone();
-        Ok(simulation.recorded(folder, case).with_source(source))
+        let read = striae_deck::read_with(deck, settings).map_err(Error::from);
+        let read = agreed(Some(&ranks), read)?;
+        Self::opened(Some(ranks), (deck, settings), read, folder.into())
     }
 
     /// Goes on on several ranks, however many wrote the checkpoint; collective.
@@ -200,7 +224,7 @@ impl Simulation {
     pub fn resume_on(ranks: Arc<dyn Ranks>, folder: &Path) -> Result<Self, Error> {
         let read = || -> Result<(Index, Deck), Error> {
             let index = Index::read(folder)?;
-            let deck = striae_deck::read(&index.source().path)?;
+            let deck = read_again(index.source())?;
             index.source().check(&deck.model, &deck.output)?;
             Ok((index, deck))
         };
@@ -217,7 +241,7 @@ impl Simulation {
     /// When there is no checkpoint, or when it does not fit the deck or the output.
     pub fn resume(folder: &Path) -> Result<Self, Error> {
         let checkpoint = Checkpoint::read(folder)?;
-        let deck = striae_deck::read(&checkpoint.source.path)?;
+        let deck = read_again(&checkpoint.source)?;
         Self::resume_from(deck, checkpoint, folder)
     }
 
@@ -295,7 +319,7 @@ impl Simulation {
         deck: &Path,
     ) -> Self {
         let case = case.into();
-        let source = source(case.clone(), deck, &self.problem.model, &self.output);
+        let source = source(case.clone(), (deck, &[]), &self.problem.model, &self.output);
         self.recorded(folder, case).with_source(source)
     }
 
@@ -357,6 +381,9 @@ impl Simulation {
         if !matches!(begun, Begun::Stopped(_)) {
             log.start(&problem, &start)?;
         }
+        if matches!(begun, Begun::Undeformed) {
+            log.begin(&problem, first_point(&problem, &start))?;
+        }
         let mut watch = Watch {
             problem: &problem,
             log,
@@ -379,6 +406,9 @@ impl Simulation {
                 drive::run_in(workspace, &problem, done, start, &mut watch)
             }
             Begun::Within(point) => drive::resume_in(workspace, &problem, *point, &mut watch),
+            Begun::Stopped(stopped) if is_first(&problem, &stopped.1) => {
+                drive::run_in(workspace, &problem, (0, 0), start, &mut watch)
+            }
             Begun::Stopped(stopped) => drive::resume_in(workspace, &problem, stopped.1, &mut watch),
         };
         let Watch {
@@ -407,6 +437,28 @@ impl Simulation {
     }
 }
 
+/// The point of a run before its first increment.
+fn first_point(problem: &Problem, start: &State) -> Point {
+    Point {
+        step: 0,
+        increments: 0,
+        fraction: 0.0,
+        size: first_increment(&problem.model, 0),
+        search: Vec::new(),
+        start: start.clone(),
+        state: start.clone(),
+        memory: Memory::default(),
+    }
+}
+
+/// True for the point of a run that has made no increment, nor tried one in vain.
+fn is_first(problem: &Problem, point: &Point) -> bool {
+    point.increments == 0
+        && point.fraction == 0.0
+        && point.search.is_empty()
+        && point.size == first_increment(&problem.model, 0)
+}
+
 /// The record of a run that begins or goes on.
 fn log(
     problem: &Problem,
@@ -429,14 +481,35 @@ fn log(
 }
 
 /// What a checkpoint knows of a deck.
-fn source(case: String, deck: &Path, model: &Model, output: &Output) -> Source {
+fn source(
+    case: String,
+    (deck, settings): (&Path, &[Setting]),
+    model: &Model,
+    output: &Output,
+) -> Source {
+    let settings = settings.iter();
     Source {
         case,
+        settings: settings
+            .map(|setting| (setting.name().to_owned(), setting.value()))
+            .collect(),
         path: std::path::absolute(deck).unwrap_or_else(|_| deck.to_owned()),
         fingerprint: fingerprint(model, output),
         parts: part_fingerprints(model),
         steps: step_fingerprints(model),
     }
+}
+
+/// The deck of a checkpoint as it was when the run began, with the parameters set then.
+///
+/// # Errors
+/// All faults of the deck.
+pub fn read_again(source: &Source) -> Result<Deck, Faults> {
+    let settings = source.settings.iter();
+    let settings: Vec<Setting> = settings
+        .map(|(name, value)| Setting::new(name, *value))
+        .collect();
+    striae_deck::read_with(&source.path, &settings)
 }
 
 /// Name of the case of a deck: the folder of a `deck.toml`, otherwise the name of the file.

@@ -80,7 +80,7 @@ pub fn make(program: &Path, results: &Path) -> Result<(), Fault> {
             picture.arg("picture").arg(folder.join(of));
             picture
                 .args(exhibit.options)
-                .args(["--width", "720", "--output"]);
+                .args(["--width", "720", "--out"]);
             run(picture.arg(kept(exhibit, "png")))?;
         }
     }

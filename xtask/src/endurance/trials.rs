@@ -190,7 +190,9 @@ impl Trials {
             let output = self.command(name, &folder).args(extra).output();
             let output = output.map_err(broken_off)?;
             let words = said(&output);
-            if output.status.code() != Some(2) || !words.contains("another run writes to") {
+            if output.status.code() != Some(2)
+                || !words.contains("is still being written by another run")
+            {
                 let wrong = format!("{name} {extra:?}: {:?}, {words}", output.status.code());
                 self.note(&folder, vec![wrong]);
             }

@@ -1,10 +1,11 @@
 //! `striae check DECK`: validation, a summary of what would be simulated, and advice; see
 //! [`striae::advice`].
 
-use crate::failure::Failure;
-use std::{collections::BTreeSet, io::Write, path::PathBuf};
+mod json;
+
+use crate::{failure::Failure, source::Source};
+use std::{collections::BTreeSet, io::Write};
 use striae::advice::Advice;
-use striae_deck as deck;
 use striae_law::bulk::{LameConstants, Material};
 use striae_mesh::NodeId;
 use striae_solve::{
@@ -17,15 +18,31 @@ use striae_solve::{
 /// Check a deck: its faults, or what it describes, with warnings and notes.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The deck.
-    pub deck: PathBuf,
+    #[command(flatten)]
+    pub source: Source,
+    /// Print the same as JSON.
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// Reads the deck and prints the summary and the advice.
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    let deck = deck::read(&arguments.deck)?;
+    let deck = match arguments.source.read() {
+        Err(faults) if arguments.json => {
+            writeln!(out, "{:#}", json::of_faults(&faults))?;
+            return Err(faults.into());
+        }
+        read => read?,
+    };
     let advice = Advice::of(&deck.model);
-    write!(out, "{}", summary(&deck.model, &deck.notes, &advice))?;
+    match arguments.json {
+        true => writeln!(
+            out,
+            "{:#}",
+            json::of_model(&deck.model, &deck.notes, &advice)
+        )?,
+        false => write!(out, "{}", summary(&deck.model, &deck.notes, &advice))?,
+    }
     match advice.faults.len() {
         0 => Ok(()),
         count => Err(Failure::Impossible(count)),
@@ -159,6 +176,7 @@ mod tests {
     use super::*;
     use std::path::Path;
     use striae_contact::selection::{Before, Selection};
+    use striae_deck as deck;
     use striae_solve::{assembly::StepContext, problem::Problem, state::State};
 
     #[test]

@@ -8,9 +8,10 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use serde_json::{Value, json};
 use striae::{
     figures,
-    measurements::{self, MeasurementFaults},
+    measurements::{self, AngleFrom, Form, Measured, MeasurementFaults, NamedColumn},
 };
 use striae_law::{
     fit::{ConstantName, Fit, Reading, Sought, Standing, fit},
@@ -22,13 +23,14 @@ use crate::failure::Failure;
 
 /// Find the constants of a friction law from measurements.
 ///
-/// MEASUREMENTS is a text file with commas between numbers, one reading a line, under a line
-/// with the names of columns: `angle`, the direction in which the textured surface slips, in
-/// degrees from its texture `a` (across the grooves, against a nap; of two textures from the
-/// bisector of both); `friction`, tangential over normal force, or `tangential` and `normal`;
-/// and where they are known `direction`, the angle of the force that drags the textured
-/// surface, `theta`, the angle between the textures of two surfaces, and `spread`, the standard
-/// deviation of a reading in proportion to others.
+/// MEASUREMENTS is a text file with commas, semicolons or tabs between numbers, one reading a
+/// line, under a line with the names of columns: `angle`, the direction in which the textured
+/// surface slips, in degrees from its texture `a` (across the grooves, against a nap; of two
+/// textures from the bisector of both; `--angle-from along` counts from the grooves);
+/// `friction`, tangential over normal force, or the forces `tangential` and `normal`; and where
+/// they are known `direction`, the angle of the force that drags the textured surface, `theta`,
+/// the angle between the textures of two surfaces, and `spread`, the standard deviation of a
+/// reading in proportion to others. Other columns are not used.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// The file of measurements.
@@ -39,12 +41,31 @@ pub struct Arguments {
     /// Direction of slip by the orthotropic law.
     #[arg(long, value_enum, default_value = "opposing")]
     slip_rule: RuleName,
+    /// Where the angle 0 is: slip across the grooves (against a nap), or along them.
+    #[arg(long, value_enum, default_value = "across")]
+    angle_from: FromName,
+    /// A quantity that the file names otherwise, with the name or number of its column.
+    #[arg(long, value_name = "QUANTITY=COLUMN", value_delimiter = ',')]
+    columns: Vec<NamedColumn>,
+    /// Lines at the beginning of the file to pass over.
+    #[arg(long, value_name = "COUNT", default_value_t = 0)]
+    skip_lines: usize,
     /// Probability with which a constant lies in its interval.
     #[arg(long, default_value_t = 0.95)]
     level: f64,
     /// Draws measurements and law; written as .svg, .png and .csv.
     #[arg(long, value_name = "NAME.svg")]
     plot: Option<PathBuf>,
+    /// Print the same as JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Directions that angles count from.
+#[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum FromName {
+    Across,
+    Along,
 }
 
 /// Laws that can be fitted, by their names in decks.
@@ -65,6 +86,31 @@ enum RuleName {
 }
 
 impl Arguments {
+    fn form(&self) -> Form {
+        Form {
+            angle_from: match self.angle_from {
+                FromName::Across => AngleFrom::Across,
+                FromName::Along => AngleFrom::Along,
+            },
+            skipped: self.skip_lines,
+            columns: self.columns.clone(),
+        }
+    }
+
+    /// Where the angle 0 is, for laws that depend on it.
+    fn convention(&self) -> Option<&'static str> {
+        match (self.law, self.angle_from) {
+            (LawName::Coulomb, _) => None,
+            (LawName::TwoTextures, FromName::Across) => Some(
+                "angle 0 is slip across the bisector of the two textures; if yours counts from along it, add `--angle-from along`",
+            ),
+            (_, FromName::Across) => Some(
+                "angle 0 is slip across the grooves (against a nap); if yours is along them, add `--angle-from along`",
+            ),
+            (_, FromName::Along) => Some("angle 0 is slip along the grooves"),
+        }
+    }
+
     fn sought(&self) -> Sought {
         match (self.law, self.slip_rule) {
             (LawName::Coulomb, _) => Sought::Coulomb,
@@ -84,26 +130,92 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let file = arguments.measurements.display().to_string();
     let text = std::fs::read_to_string(&arguments.measurements)
         .map_err(|cause| MeasurementFaults::unreadable(&file, &cause))?;
-    let readings = measurements::parse(&text, &file)?;
+    let Measured { readings, notes } = measurements::read(&text, &file, &arguments.form())?;
     let sought = arguments.sought();
     let found = fit(sought, &readings, arguments.level)?;
-    writeln!(out, "{}\n", snippet(sought, &found))?;
-    write!(out, "{}", intervals(&found))?;
-    writeln!(out, "{}", verdict(&found, &readings))?;
+    let said = Said {
+        deck: snippet(sought, &found),
+        convention: arguments.convention(),
+        notes,
+    };
+    match arguments.json {
+        true => writeln!(out, "{:#}", said.json(&found, &readings))?,
+        false => write!(out, "{}", said.text(&found, &readings))?,
+    }
     if let Some(plot) = &arguments.plot {
-        let folder = plot.parent().unwrap_or(Path::new(""));
-        let name = plot
-            .file_stem()
-            .unwrap_or(plot.as_os_str())
-            .to_string_lossy();
-        if folder != Path::new("") {
-            make_folder(folder)?;
-        }
-        figures::fit::figure(&found, &readings).write(folder, &name)?;
+        draw(plot, arguments.json, &found, &readings, out)?;
+    }
+    Ok(())
+}
+
+/// Draws measurements and law; says where, but in JSON.
+fn draw(
+    plot: &Path,
+    json: bool,
+    found: &Fit,
+    readings: &[Reading],
+    out: &mut dyn Write,
+) -> Result<(), Failure> {
+    let folder = plot.parent().unwrap_or(Path::new(""));
+    let name = plot
+        .file_stem()
+        .unwrap_or(plot.as_os_str())
+        .to_string_lossy();
+    if folder != Path::new("") {
+        make_folder(folder)?;
+    }
+    figures::fit::figure(found, readings).write(folder, &name)?;
+    if !json {
         let file = folder.join(&*name);
         writeln!(out, "wrote {}.svg, .png and .csv", file.display())?;
     }
     Ok(())
+}
+
+/// Words of an answer beside the numbers of its fit.
+struct Said {
+    deck: String,
+    convention: Option<&'static str>,
+    notes: Vec<String>,
+}
+
+impl Said {
+    fn text(&self, found: &Fit, readings: &[Reading]) -> String {
+        let mut text = format!(
+            "{}\n\n{}{}\n",
+            self.deck,
+            intervals(found),
+            verdict(found, readings)
+        );
+        for line in self
+            .convention
+            .into_iter()
+            .chain(self.notes.iter().map(String::as_str))
+        {
+            text += &format!("  {line}\n");
+        }
+        text
+    }
+
+    fn json(&self, found: &Fit, readings: &[Reading]) -> Value {
+        let constants = found.constants.iter().map(|one| {
+            let interval = one
+                .interval
+                .filter(|ends| ends.iter().all(|end| end.is_finite()));
+            json!({ "name": one.name.to_string(), "value": one.value, "interval": interval })
+        });
+        json!({
+            "deck": self.deck,
+            "constants": constants.collect::<Vec<_>>(),
+            "level": found.level,
+            "readings": readings.len(),
+            "degrees_of_freedom": found.degrees_of_freedom,
+            "deviation": found.deviation,
+            "at_bound": found.standing == Standing::AtBound,
+            "convention": self.convention,
+            "notes": self.notes,
+        })
+    }
 }
 
 /// The law as a deck states it.

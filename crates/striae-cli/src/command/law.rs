@@ -8,6 +8,8 @@
 //! `A`, `P` and offset `h` of the slip surface where it is an ellipse, its extremes and
 //! where friction dissipates least; see [`striae_law::friction`].
 
+mod json;
+
 use std::{
     io::Write,
     path::{Path, PathBuf},
@@ -21,7 +23,7 @@ use striae_deck as deck;
 use striae_law::friction::{Analysis, Friction, Law, RequiredTextures, SlipSurface};
 use striae_solve::model::Model;
 
-use crate::failure::Failure;
+use crate::{failure::Failure, source::Settings};
 
 /// Show the friction of a deck or of constants, as figures and numbers.
 #[derive(clap::Args)]
@@ -30,6 +32,8 @@ pub struct Arguments {
     #[arg(required_unless_present = "constants")]
     deck: Option<PathBuf>,
     #[command(flatten)]
+    settings: Settings,
+    #[command(flatten)]
     constants: Constants,
     /// Angles between the textures of the two sides, in degrees.
     #[arg(long, value_delimiter = ',', default_values_t = [0.0, 45.0, 90.0, 135.0, 180.0])]
@@ -37,6 +41,9 @@ pub struct Arguments {
     /// Folder for the figures; by default results/NAME, or results/law without a deck.
     #[arg(long)]
     out: Option<PathBuf>,
+    /// Print the numbers as JSON, and draw nothing.
+    #[arg(long)]
+    json: bool,
 }
 
 /// A friction in the words of a deck, without a deck.
@@ -72,7 +79,8 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let (frictions, folder) = match (&arguments.deck, arguments.constants.given()) {
         (Some(path), _) => {
             let folder = Path::new("results").join(case_name(path));
-            (of_model(&deck::read(path)?.model), folder)
+            let read = deck::read_with(path, &arguments.settings.set)?;
+            (of_model(&read.model), folder)
         }
         (None, Some((law, constants))) => {
             let friction = deck::friction(&in_deck_words(law, constants), &format!("--{law}"))?;
@@ -88,6 +96,13 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let folder = arguments.out.clone().unwrap_or(folder);
     if frictions.is_empty() {
         writeln!(out, "the deck has no pair, so it has no friction")?;
+        return Ok(());
+    }
+    if arguments.json {
+        let all = frictions.iter();
+        let all =
+            all.map(|named| json::of_friction(&named.title, &named.friction, &arguments.theta));
+        writeln!(out, "{:#}", serde_json::Value::from_iter(all))?;
         return Ok(());
     }
     make_folder(&folder)?;
@@ -162,21 +177,25 @@ fn show(named: &Named, theta: &[f64], folder: &Path, out: &mut dyn Write) -> Res
         return Ok(writeln!(out)?);
     }
     writeln!(out, ", {}", coefficient(friction))?;
-    let theta = if friction.required_textures() == RequiredTextures::Both {
-        theta
-    } else {
-        &[0.0]
-    };
-    let analyses: Vec<Analysis> = theta
-        .iter()
-        .map(|theta| Analysis::new(friction, theta.to_radians(), SAMPLES))
-        .collect();
+    let analyses = analysed(friction, theta);
     write!(out, "{}", table(friction, &analyses))?;
     writeln!(out, "{}", verdict(&analyses))?;
     figure(friction, &analyses).write(folder, &named.file)?;
     let file = folder.join(&named.file);
     writeln!(out, "wrote {}.svg, .png and .csv", file.display())?;
     Ok(())
+}
+
+/// Slip surfaces at all angles between the textures that matter to a friction.
+fn analysed(friction: &Friction, theta: &[f64]) -> Vec<Analysis> {
+    let theta = match friction.required_textures() {
+        RequiredTextures::Both => theta,
+        RequiredTextures::Any | RequiredTextures::One => &[0.0],
+    };
+    let analyses = theta.iter();
+    analyses
+        .map(|theta| Analysis::new(friction, theta.to_radians(), SAMPLES))
+        .collect()
 }
 
 /// `varpi(p)` in words.

@@ -10,18 +10,17 @@ use striae::{
     case_name,
     figures::material::{Test, figure},
 };
-use striae_deck as deck;
 use striae_law::bulk::{LameConstants, Material};
 use striae_solve::model::Body;
 
 use super::law::make_folder;
-use crate::failure::Failure;
+use crate::{failure::Failure, source::Source};
 
 /// Show the materials of a deck as figures and numbers.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The deck, of which the material of every body is shown.
-    deck: PathBuf,
+    #[command(flatten)]
+    source: Source,
     /// Smallest stretch, in compression.
     #[arg(long, default_value_t = 0.5, value_parser = compressed)]
     from: f64,
@@ -35,8 +34,8 @@ pub struct Arguments {
 
 /// Draws and prints every material once.
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    let model = deck::read(&arguments.deck)?.model;
-    let folder = Path::new("results").join(case_name(&arguments.deck));
+    let model = arguments.source.read()?.model;
+    let folder = Path::new("results").join(case_name(&arguments.source.deck));
     let folder = arguments.out.clone().unwrap_or(folder);
     if model.bodies.is_empty() {
         writeln!(out, "the deck has no body, so it has no material")?;

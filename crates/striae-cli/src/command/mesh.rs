@@ -26,7 +26,7 @@ pub struct Arguments {
     /// Direction of sight of the picture, from the eye to the mesh.
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = direction)]
     view: Option<[f64; 3]>,
-    /// Width of the picture in dots.
+    /// Width of the picture in pixels.
     #[arg(long, default_value_t = WIDTH, value_parser = width)]
     width: usize,
     /// Write the mesh with its sets, numbers and quality for ParaView.

@@ -1,8 +1,11 @@
 //! The subcommands, one module each.
 
 pub mod check;
+pub mod compare;
+pub mod completions;
 pub mod fit;
 pub mod law;
+pub mod man;
 pub mod material;
 pub mod mesh;
 pub mod new;
@@ -12,4 +15,5 @@ pub mod reproduce;
 pub mod resume;
 pub mod run;
 pub mod schema;
+pub mod sweep;
 pub mod texture;

@@ -8,6 +8,8 @@ use std::{
 };
 
 const TEMPLATE: &str = include_str!("template.toml");
+/// Schema by which editors complete and check the deck; its first line names it.
+const SCHEMA: &str = "deck.schema.json";
 
 /// Write NAME/deck.toml, a commented deck to start from.
 #[derive(clap::Args)]
@@ -32,6 +34,9 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     })?;
     let deck = folder.join("deck.toml");
     fs::write(&deck, TEMPLATE).map_err(|cause| unwritable(&deck, cause))?;
+    let schema = folder.join(SCHEMA);
+    let text = format!("{:#}\n", striae_deck::json_schema());
+    fs::write(&schema, text).map_err(|cause| unwritable(&schema, cause))?;
     let path = deck.display().to_string();
     let is_plain = |letter: char| letter.is_alphanumeric() || "/\\._-:".contains(letter);
     let argument = match path.chars().all(is_plain) {
@@ -55,7 +60,15 @@ mod tests {
         let mut out = Vec::new();
         run(&arguments, &mut out).unwrap();
         let deck = name.join("deck.toml");
-        check::run(&check::Arguments { deck: deck.clone() }, &mut out).unwrap();
+        let first = format!("#:schema ./{SCHEMA}");
+        let text = fs::read_to_string(&deck).unwrap();
+        assert_eq!(text.lines().next(), Some(first.as_str()));
+        assert!(name.join(SCHEMA).exists());
+        let checked = check::Arguments {
+            source: deck.clone().into(),
+            json: false,
+        };
+        check::run(&checked, &mut out).unwrap();
         let said = String::from_utf8(out).unwrap();
         assert!(said.contains("Two blocks, pressed and slid"), "{said}");
 

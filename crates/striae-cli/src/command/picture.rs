@@ -12,8 +12,8 @@ pub struct Arguments {
     /// Folder of the run, also of one under way.
     results: PathBuf,
     /// The file, a PNG; by default RESULTS/picture.png.
-    #[arg(long)]
-    output: Option<PathBuf>,
+    #[arg(long, alias = "output")]
+    out: Option<PathBuf>,
     /// Field by its name in the VTU files; by default the contact pressure.
     #[arg(long)]
     field: Option<String>,
@@ -32,7 +32,7 @@ pub struct Arguments {
     /// A body or a surface to leave out; may be given again.
     #[arg(long, value_name = "NAME")]
     hide: Vec<String>,
-    /// Width in dots.
+    /// Width in pixels.
     #[arg(long, default_value_t = WIDTH, value_parser = width)]
     width: usize,
 }
@@ -40,7 +40,7 @@ pub struct Arguments {
 /// Writes the picture and says where it is.
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let own = || arguments.results.join("picture.png");
-    let file = arguments.output.clone().unwrap_or_else(own);
+    let file = arguments.out.clone().unwrap_or_else(own);
     let usual = Picture::default();
     let picture = Picture {
         field: arguments.field.clone(),
@@ -63,7 +63,7 @@ pub fn direction(text: &str) -> Result<[f64; 3], String> {
     numbers.ok_or_else(|| "three numbers are needed, as 0.6,1,-0.65".to_owned())
 }
 
-/// A number of dots that a picture may be wide.
+/// A number of pixels that a picture may be wide.
 pub fn width(text: &str) -> Result<usize, String> {
     let width = text
         .parse()

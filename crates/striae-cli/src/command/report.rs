@@ -10,14 +10,14 @@ pub struct Arguments {
     /// Folder of the run, also of one under way.
     results: PathBuf,
     /// The file; by default RESULTS/report.html.
-    #[arg(long)]
-    output: Option<PathBuf>,
+    #[arg(long, alias = "output")]
+    out: Option<PathBuf>,
 }
 
 /// Writes the file and says where it is.
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let own = || arguments.results.join(striae_report::FILE);
-    let file = arguments.output.clone().unwrap_or_else(own);
+    let file = arguments.out.clone().unwrap_or_else(own);
     striae_report::write(&arguments.results, &file)?;
     writeln!(out, "wrote {}", file.display())?;
     Ok(())

@@ -15,13 +15,14 @@ use crate::{
     progress::{Progress, Verbosity},
     ranks::{Crew, Options, Voice, Voices},
     reporting::Reporting,
+    source::Source,
 };
 
 /// Run a deck.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The deck.
-    deck: PathBuf,
+    #[command(flatten)]
+    source: Source,
     /// Folder for the output; by default results/NAME.
     #[arg(long)]
     out: Option<PathBuf>,
@@ -122,15 +123,16 @@ fn run_on(arguments: &Arguments, crew: &Crew, out: &mut dyn Write) -> Result<(),
     let folder = arguments
         .out
         .clone()
-        .unwrap_or_else(|| Path::new("results").join(case_name(&arguments.deck)));
+        .unwrap_or_else(|| Path::new("results").join(case_name(&arguments.source.deck)));
     let existing = if arguments.overwrite {
         Existing::Replace
     } else {
         Existing::Keep
     };
+    let (deck, settings) = (&arguments.source.deck, &arguments.source.settings.set);
     let simulation = match crew.ranks() {
-        None => Simulation::open(&arguments.deck, &folder)?,
-        Some(ranks) => Simulation::open_on(ranks, &arguments.deck, &folder)?,
+        None => Simulation::open_with(deck, settings, &folder)?,
+        Some(ranks) => Simulation::open_on(ranks, deck, settings, &folder)?,
     };
     let common = (&arguments.common, crew.voice());
     let report = arguments.report.of(&folder);

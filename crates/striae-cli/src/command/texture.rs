@@ -17,18 +17,17 @@ use striae::{
     figures::{TexturedSurface, owner, texture},
 };
 use striae_contact::side::Side;
-use striae_deck as deck;
 use striae_output::vtk::{self, Array, Cells, Grid, Values};
 use striae_solve::problem::Problem;
 use striae_surface::texture::Conditioning;
 
-use crate::{command::law::make_folder, failure::Failure};
+use crate::{command::law::make_folder, failure::Failure, source::Source};
 
 /// Draw the textures painted by a deck.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The deck.
-    deck: PathBuf,
+    #[command(flatten)]
+    source: Source,
     /// Folder for the pictures; by default results/NAME.
     #[arg(long)]
     out: Option<PathBuf>,
@@ -36,11 +35,11 @@ pub struct Arguments {
 
 /// Paints the surfaces, draws them and prints what is known of them.
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    let deck = deck::read(&arguments.deck)?;
+    let deck = arguments.source.read()?;
     let folder = arguments
         .out
         .clone()
-        .unwrap_or_else(|| Path::new("results").join(case_name(&arguments.deck)));
+        .unwrap_or_else(|| Path::new("results").join(case_name(&arguments.source.deck)));
     let problem = Problem::new(deck.model)?;
     let mut surfaces = Vec::new();
     for pair in 0..problem.pairs.len() {

@@ -10,7 +10,7 @@ use striae_mesh::{
     CellKind, Mesh, MeshError, Vec3,
     generate::{
         Annulus, Block, CappedBlock, Cylinder, Grading, Half, HalfCylinder, Part, Pivot,
-        Refinement, Rotation, Sector, Torus,
+        Refinement, Rotation, Sector, Torus, refined_lengths,
     },
 };
 use striae_model::FaultKind as ModelFault;
@@ -38,6 +38,32 @@ impl Generator {
         }
     }
 
+    /// About how many elements the mesh will have, as far as that is known before it is made.
+    pub(super) fn elements(&self) -> Option<u128> {
+        let product = |counts: &[usize]| {
+            let counts = counts.iter().map(|count| *count as u128);
+            counts.fold(1, u128::saturating_mul)
+        };
+        match self {
+            Self::Block(block) => {
+                Some(product(&block.divisions).saturating_mul(parts(block.cells)))
+            }
+            Self::CappedBlock(block) => {
+                let [x, y] = block.plan_lengths().ok()?;
+                let [height, depth] = [block.height, block.fine_depth];
+                let z = refined_lengths(height, depth, block.element_size, block.growth).ok()?;
+                let hexahedra = product(&[x.len(), y.len(), z.len()]);
+                Some(hexahedra.saturating_mul(parts(block.cells)))
+            }
+            Self::Annulus(ring) => Some(product(&ring.divisions)),
+            Self::Cylinder(Cylinder { divisions, .. }) | Self::Torus(Torus { divisions, .. }) => {
+                let [core, band, layers] = *divisions;
+                Some(product(&[4, core, core.saturating_add(band), layers]))
+            }
+            Self::HalfCylinder(_) => None,
+        }
+    }
+
     /// The mesh.
     pub(super) fn mesh(&self) -> Result<Mesh, MeshError> {
         match self {
@@ -48,6 +74,15 @@ impl Generator {
             Self::Cylinder(cylinder) => cylinder.mesh(),
             Self::Torus(ring) => ring.mesh(),
         }
+    }
+}
+
+/// Cells that a hexahedron is divided into.
+fn parts(cells: CellKind) -> u128 {
+    match cells {
+        CellKind::Hexahedron => 1,
+        CellKind::Wedge => 2,
+        _ => 6,
     }
 }
 

@@ -12,6 +12,10 @@ use std::path::{Path, PathBuf};
 use striae_mesh::{CellBlock, CellKind, Mesh, NodeId, Vec3};
 use striae_meshfile::{self as mesh_file, Reading};
 use striae_model::FaultKind as ModelFault;
+use striae_output::available_bytes;
+
+/// Bytes that making and checking a mesh takes for each element, measured on blocks.
+const BYTES: f64 = 900.0;
 
 /// The mesh of a body, with what there is to say about its file; `None` after its faults have been noted.
 ///
@@ -32,10 +36,27 @@ pub(super) fn body_mesh(
         raw::Mesh::Inline(mesh) => inline_mesh(mesh, owner, &raw.span, faults),
         raw::Mesh::Generated(generator) => {
             let generator = generator::Generator::new(generator, faults)?;
+            if let Some(kind) = too_large(&generator, body) {
+                faults.push(&raw.span, kind);
+                return None;
+            }
             made(generator.mesh(), owner, &raw.span, faults)
         }
     };
     mesh.map(Reading::from)
+}
+
+/// The fault that a mesh would take more memory than there is, told before it is taken.
+fn too_large(generator: &generator::Generator, body: &str) -> Option<FaultKind> {
+    let elements = generator.elements()?;
+    let needed = BYTES * elements as f64;
+    let available = available_bytes().filter(|available| needed > *available)?;
+    Some(FaultKind::MeshMemory {
+        body: body.to_owned(),
+        elements,
+        needed,
+        available,
+    })
 }
 
 /// Positions and facets of a rigid surface; `None` after its faults have been noted.
@@ -88,7 +109,16 @@ fn inline_mesh(
     let positions = raw.positions.as_ref()?.value.iter();
     let positions: Vec<Vec3> = positions.map(|at| vector(&at.value)).collect();
     let mut cells: Vec<(CellKind, Vec<NodeId>)> = Vec::new();
-    for cell in &raw.cells.as_ref()?.value {
+    for (index, cell) in raw.cells.as_ref()?.value.iter().enumerate() {
+        let nodes = positions.len();
+        if let Some(node) = cell.value.0.iter().find(|node| node.0 >= nodes) {
+            let node = node.0;
+            let cause = format!(
+                "element {index} refers to node {node}, but the mesh has {nodes} nodes, counted from 0"
+            );
+            faults.push(&cell.span, ModelFault::Mesh { owner, cause });
+            return None;
+        }
         let corners = cell.value.0.iter().map(|node| NodeId::new(node.0));
         let corners: Vec<NodeId> = corners.collect();
         let mut kinds = CellKind::ALL.into_iter();

@@ -75,7 +75,7 @@ pub(super) fn deck(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_
     if !faults.is_empty() {
         return None;
     }
-    let notes = parts.bodies.notes();
+    let notes = stated(raw).chain(parts.bodies.notes()).collect();
     let model = parts.model(raw)?;
     let fitted = fitted(model).map_err(|found| note(found, raw, &spans, faults));
     Some(Deck {
@@ -84,6 +84,22 @@ pub(super) fn deck(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_
         notes,
         together: together(raw, faults),
     })
+}
+
+/// Notes on the parameters and on included files.
+fn stated(raw: &raw::Simulation) -> impl Iterator<Item = String> {
+    let listed = |what: &str, all: Vec<String>| {
+        (!all.is_empty()).then(|| format!("{what}: {}", all.join(", ")))
+    };
+    let numbers = raw.parameters.iter().flat_map(|at| &at.value.0);
+    let numbers = numbers.map(|(name, value)| format!("{name} = {value}"));
+    let files = raw.include.iter().flat_map(|at| &at.value.0);
+    let files = files.map(|file| format!("`{}`", file.0));
+    let notes = [
+        listed("parameters", numbers.collect()),
+        listed("included", files.collect()),
+    ];
+    notes.into_iter().flatten()
 }
 
 /// What is wrong with the deck where there are no ranks.

@@ -19,13 +19,17 @@ pub(crate) use {
     body::*, contact::*, fibres::*, material::*, mesh::*, sets::*, settings::*, step::*, texture::*,
 };
 
-use super::value::Text;
+use super::value::{NamedNumbers, OneOrMore, Text};
 
 table! {
     /// A whole simulation. All quantities are in one consistent system of units of your choice.
     Simulation {
         /// One line that says what is simulated.
         required title: Text,
+        /// Numbers with names of your own. Any number of the deck may be a text such as `"= 2*E/L^2"`, an expression of them, with `+ - * / ^`, parentheses, `pi`, `sqrt`, `abs`, `exp`, `ln`, `log10`, `min`, `max`, `round`, `floor`, `ceil` and, in degrees, `sin`, `cos`, `tan`, `asin`, `acos`, `atan`. `--set NAME=VALUE` on the command line sets one.
+        optional parameters: NamedNumbers,
+        /// Files whose contents count as if they stood here, relative to this one: their lists go first, and where both state the same key, this file counts. Paths within them are relative to the deck.
+        optional include: OneOrMore,
         /// Bulk materials.
         optional material: Vec<At<Material>>,
         /// Deformable bodies.

@@ -25,11 +25,17 @@ fn fits(value: &Value, schema: &Value) -> bool {
         .iter()
         .all(|(keyword, argument)| match keyword.as_str() {
             "$schema" | "title" | "description" => true,
-            "type" => has_type(value, argument.as_str().expect("one type")),
+            "type" => match argument.as_array() {
+                Some(types) => (types.iter()).any(|one| has_type(value, one.as_str().unwrap())),
+                None => has_type(value, argument.as_str().expect("one type")),
+            },
             "enum" => argument.as_array().expect("a list").contains(value),
             "pattern" if argument == r"\S" => {
                 value.as_str().is_none_or(|text| !text.trim().is_empty())
             }
+            "pattern" if argument == r"^\s*=" => value
+                .as_str()
+                .is_none_or(|text| text.trim_start().starts_with('=')),
             "minimum" => number(value, |value| value >= argument.as_f64().unwrap()),
             "maximum" => number(value, |value| value <= argument.as_f64().unwrap()),
             "exclusiveMinimum" => number(value, |value| value > argument.as_f64().unwrap()),
@@ -56,9 +62,10 @@ fn fits(value: &Value, schema: &Value) -> bool {
                     .all(|(key, value)| argument.get(key).is_none_or(|schema| fits(value, schema)))
             }),
             "additionalProperties" => value.as_object().is_none_or(|table| {
-                table
-                    .keys()
-                    .all(|key| schema["properties"].get(key).is_some())
+                let known = |key: &str| schema.get("properties").and_then(|of| of.get(key));
+                table.iter().all(|(key, value)| {
+                    known(key).is_some() || argument.is_object() && fits(value, argument)
+                })
             }),
             "oneOf" => {
                 argument

@@ -67,6 +67,9 @@ impl Default for CappedBlock {
     }
 }
 
+/// Height at the corners over the rise of the cap that is none.
+const FLAT: f64 = 1e-6;
+
 impl CappedBlock {
     /// The mesh.
     ///
@@ -139,12 +142,15 @@ impl CappedBlock {
             self.radius,
             "it must exceed half the diagonal of the plan",
         )?;
-        MeshError::require(
-            self.height > sagitta(self.radius, half_diagonal.powi(2)),
-            "height",
-            self.height,
-            "it must exceed the rise of the cap at the corners",
-        )
+        let rise = sagitta(self.radius, half_diagonal.powi(2));
+        // Elements of hardly any height would be degenerate by round-off.
+        if self.height > rise * (1.0 + FLAT) {
+            return Ok(());
+        }
+        Err(MeshError::CapRise {
+            height: self.height,
+            rise,
+        })
     }
 }
 

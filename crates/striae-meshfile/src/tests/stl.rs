@@ -43,3 +43,29 @@ fn broken_stl_files_are_explained() {
     let text = b"solid a\nendsolid a\n";
     assert_explained(rigid_surface(text).map(drop), ["triangles", "export"]);
 }
+
+/// Corners that are nowhere are named by their line, in binary files by their triangle.
+#[test]
+fn corners_that_are_not_finite_are_refused() {
+    let mut triangles = cube_triangles();
+    triangles[1][2].y = f64::NAN;
+    assert_explained(
+        rigid_surface(&written::stl_binary(&triangles)).map(drop),
+        [
+            "triangle 2: expected finite coordinates, found a corner at",
+            "NaN",
+        ],
+    );
+    for infinite in ["NaN", "-inf", "1e999"] {
+        let text = format!(
+            "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 {infinite} 0\n"
+        );
+        assert_explained(
+            rigid_surface(text.as_bytes()).map(drop),
+            [
+                "line 5: expected finite coordinates",
+                "export the surface again",
+            ],
+        );
+    }
+}

@@ -41,7 +41,7 @@ pub(super) fn check(draft: &Draft<'_>, faults: &mut List) {
     }
 }
 
-fn is_tied(draft: &Draft<'_>, body: BodyId) -> bool {
+pub(super) fn is_tied(draft: &Draft<'_>, body: BodyId) -> bool {
     let rigid = draft.rigid_surfaces.iter().filter_map(|rigid| rigid.part);
     let mut to_rigid = rigid.flat_map(|rigid| &rigid.ties);
     let mut ties = draft.ties.iter().filter_map(|tie| tie.part);
@@ -56,7 +56,7 @@ fn touches(draft: &Draft<'_>, body: BodyId) -> bool {
     pairs.any(|pair| is(&pair.a) || is(&pair.b))
 }
 
-fn prescribe(prescribed: &mut BTreeSet<(NodeId, usize)>, step: &Step, body: BodyId) {
+pub(super) fn prescribe(prescribed: &mut BTreeSet<(NodeId, usize)>, step: &Step, body: BodyId) {
     for release in step.releases.iter().filter(|release| release.body == body) {
         prescribed.retain(|(node, component)| {
             !(release.components[*component] && release.nodes.contains(node))

@@ -9,6 +9,9 @@ mod hold;
 mod inertia;
 mod numbers;
 mod pairs;
+mod pieces;
+mod prescribed;
+mod pushed;
 mod references;
 mod rigid;
 mod sections;
@@ -185,7 +188,10 @@ impl<'a> Draft<'a> {
         if self.known == Known::Whole {
             if impossible.is_empty() && partial.is_empty() {
                 hold::check(self, &mut faults);
+                pieces::check(self, &mut faults);
+                pushed::check(self, &mut faults);
             }
+            prescribed::check(self, &impossible, &partial, &mut faults);
             rigid::check(self, &impossible, &partial, &mut faults);
             inertia::check(self, &partial, &mut faults);
             pairs::check_stabilised(self, &impossible, &partial, &mut faults);

@@ -59,13 +59,15 @@ pub struct Checkpoint {
 }
 
 /// The deck of a run.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Source {
     /// Name of the case.
     pub case: String,
     /// Path of the deck.
     #[serde(serialize_with = "as_text")]
     pub path: PathBuf,
+    /// Parameters of the deck that were set from outside, with their values.
+    pub settings: Vec<(String, f64)>,
     /// What the deck means, see [`fingerprint`].
     pub fingerprint: u64,
     /// What each body, rigid surface and pair means, by its name.

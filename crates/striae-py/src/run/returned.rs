@@ -57,6 +57,7 @@ fn checkpoint(kept: &Kept) -> Checkpoint {
         source: Source {
             case: String::new(),
             path: PathBuf::new(),
+            settings: Vec::new(),
             fingerprint: 0,
             parts: Vec::new(),
             steps: Vec::new(),

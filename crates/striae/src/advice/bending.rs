@@ -223,13 +223,17 @@ fn supported_faces(
             else {
                 continue;
             };
+            // Faces of another body would not be found in this mesh.
+            if *of != body {
+                continue;
+            }
             let positions = || own.iter().flat_map(|&face| mesh.face_positions(face));
             let covers = frame.axes[1..].iter().all(|axis| {
                 let [low, high] = range(positions(), axis);
                 let [from, to] = side_range(model, other, axis);
                 high.min(to) - low.max(from) >= COVERED * (high - low)
             });
-            if *of == body && covers {
+            if covers {
                 faces.extend(own.iter().copied());
             }
         }

@@ -4,7 +4,7 @@ use striae_contact::{initial::Fit, interference::Spot, side::Side};
 use striae_mesh::Vec3;
 use striae_model::{ContactSurface, Model, Pair, PairId, RigidShape};
 use striae_solve::{
-    initial::{ROUND_OFF, other_name, surface_node},
+    initial::{ROUND_OFF, other_name, surface_node, turned},
     warning::warnings_at_start,
 };
 
@@ -21,7 +21,7 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
         let Some(fit) = fit else { continue };
         let text = format!("pair `{}`: {}", pair.name, words(model, PairId(index), fit));
         advice.note(Topic::Fit, &pair.name, text);
-        if looks_away(model, pair) {
+        if looks_away(model, pair) || turned(model, PairId(index)).is_some() {
             let [a, b] = [Side::B, Side::A].map(|side| other_name(model, PairId(index), side));
             let text = format!(
                 "pair `{}`: the surface of `{a}` looks away from that of `{b}`, so they cannot touch; name the facets that face each other, or turn the normal of a rigid side round",

@@ -11,6 +11,8 @@ use super::{Advice, Topic};
 const DIRECTIONS: usize = 360;
 /// Angles between two textures that are looked at.
 const ANGLES: usize = 37;
+/// Coefficient above which there is a warning.
+const LARGEST: f64 = 2.0;
 /// Smallest over largest coefficient that is as good as none.
 const NONE: f64 = 0.02;
 
@@ -28,6 +30,10 @@ pub(super) fn look(model: &Model, advice: &mut Advice) {
 }
 
 fn of_pair(name: &str, when: &str, friction: &Friction, advice: &mut Advice) {
+    if matches!(friction.law(), Law::Coulomb) && friction.coefficient().at_rest() > LARGEST {
+        let mu = friction.coefficient().at_rest();
+        large(name, when, mu, advice);
+    }
     if matches!(friction.law(), Law::Frictionless | Law::Coulomb) {
         return;
     }
@@ -39,6 +45,9 @@ fn of_pair(name: &str, when: &str, friction: &Friction, advice: &mut Advice) {
     let text = format!(
         "pair `{name}`: coefficients of friction{when} are {low:.4} to {high:.4} over {over}"
     );
+    if high > LARGEST {
+        large(name, when, high, advice);
+    }
     if low < NONE * high {
         advice.warn(
             Topic::Friction,
@@ -48,6 +57,16 @@ fn of_pair(name: &str, when: &str, friction: &Friction, advice: &mut Advice) {
     } else {
         advice.note(Topic::Friction, name, text);
     }
+}
+
+fn large(name: &str, when: &str, mu: f64, advice: &mut Advice) {
+    advice.warn(
+        Topic::Friction,
+        name,
+        format!(
+            "pair `{name}`: coefficients of friction{when} come to {mu:.4}; above {LARGEST} they are hardly meant. They are no percentages and no angles"
+        ),
+    );
 }
 
 /// Smallest and largest friction over pressure.

@@ -13,8 +13,9 @@ const NEARLY: f64 = 0.1;
 
 /// Notes textures that cannot be painted, and those nearly along the normal of a plane.
 pub(super) fn look(model: &Model, advice: &mut Advice) {
-    for error in painting::faults(model) {
-        advice.fault(Topic::Texture, "", error.to_string());
+    for fault in painting::faults(model) {
+        let name = &model.pairs[fault.pair].name;
+        advice.fault(Topic::Texture, name, fault.error.to_string());
     }
     for pair in &model.pairs {
         on_plane(model, pair, advice);
@@ -33,15 +34,7 @@ fn on_plane(model: &Model, pair: &Pair, advice: &mut Advice) {
     };
     let sine = direction.normalize().cross(&normal.normalize()).norm();
     let (name, plane) = (&pair.name, &rigid.name);
-    if sine < ALONG {
-        advice.fault(
-            Topic::Texture,
-            name,
-            format!(
-                "pair `{name}`: the texture of `{plane}` is along its normal, so it has no direction in the plane"
-            ),
-        );
-    } else if sine < NEARLY {
+    if (ALONG..NEARLY).contains(&sine) {
         advice.warn(
             Topic::Texture,
             name,

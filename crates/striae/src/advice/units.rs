@@ -19,6 +19,10 @@ const NO_STRAIN: f64 = 1e-8;
 const NO_STRAIN_BY_FORCE: f64 = 1e-11;
 /// Moduli between these are in pascals.
 const PASCALS: [f64; 2] = [2e8, 2e12];
+/// Smallest modulus of soft matter that is in pascals.
+const SOFT: f64 = 1e5;
+/// Moduli of metals in megapascals.
+const METALS: [f64; 2] = [3e4, 4.5e5];
 /// Extent from which on lengths beside such moduli look like millimetres.
 const LONG: f64 = 20.0;
 /// Speed of waves that no solid has in any usual system of units.
@@ -31,6 +35,7 @@ pub(super) fn look(model: &Model, advice: &mut Advice) {
         loads(model, BodyId(index), moduli, advice);
         forces(model, BodyId(index), moduli[0], advice);
         lengths(body, moduli[1], advice);
+        soft(body, moduli, advice);
         for part in Part::all(body) {
             waves(body, &part, advice);
         }
@@ -113,6 +118,24 @@ fn lengths(body: &Body, modulus: f64, advice: &mut Advice) {
             name,
             format!(
                 "body `{name}`: a Young's modulus of {modulus:.3e} must be in pascals, so lengths are in metres, and it would be {longest:.3e} m long; with lengths in mm, moduli and pressures are in MPa"
+            ),
+        );
+    }
+}
+
+/// Bodies of soft matter, whose modulus in pascals looks like one in megapascals.
+fn soft(body: &Body, [least, most]: [f64; 2], advice: &mut Advice) {
+    let [low, high] = extent(&body.mesh);
+    let longest = (high - low).max();
+    let name = &body.name;
+    // Metals in MPa lie between, and are long in mm.
+    let is_metal = METALS[0] <= least && most <= METALS[1];
+    if SOFT <= least && most < PASCALS[0] && longest > LONG && !is_metal {
+        advice.note(
+            Topic::Units,
+            name,
+            format!(
+                "body `{name}`: if its Young's modulus of {most:.3e} is in pascals, lengths are in metres, and it is {longest:.3e} m long; with lengths in mm, moduli and pressures are in MPa"
             ),
         );
     }

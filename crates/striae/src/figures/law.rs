@@ -138,7 +138,7 @@ fn opposing_panel(curves: &[Curve], mu: f64, unit: &str) -> Panel {
 
 /// Axis of the direction of slip, in degrees from `e`.
 pub fn slip_axis() -> Axis {
-    Axis::linear("direction of slip from e, across the texture", "°").within(-180.0, 180.0)
+    Axis::linear("direction of slip: 0 across, ±90 along", "°").within(-180.0, 180.0)
 }
 
 /// A value of samples over their direction of slip, as a line along [`slip_axis`].

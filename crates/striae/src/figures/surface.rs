@@ -165,6 +165,7 @@ fn texture_error(
 ) -> ProblemError {
     ProblemError::Texture {
         pair: problem.model.pairs[pair].name.clone(),
+        side: side as usize,
         surface: super::owner(&problem.model, pair, side),
         node: error
             .node()

@@ -23,7 +23,7 @@ use striae_solve::{
     plan::{PlannedLoad, plans},
 };
 
-use super::{Begun, Simulation, case_name, source};
+use super::{Begun, Simulation, case_name, read_again, source};
 use crate::{
     error::Error,
     ranks::{Ranks, agreed},
@@ -77,7 +77,7 @@ impl Simulation {
             let index = Index::read_last(folder)?;
             let mut deck = striae_deck::read(path)?;
             index.source().check_parts(&deck.model)?;
-            let own = source(case_name(path), path, &deck.model, &deck.output);
+            let own = source(case_name(path), (path, &[]), &deck.model, &deck.output);
             let steps = deck.model.steps.len();
             let taken_up = continued(&mut deck.model, &index)?;
             let is_of_deck = deck.model.steps.len() == steps;
@@ -115,7 +115,7 @@ fn continued(model: &mut Model, index: &Index) -> Result<TakenUp, Error> {
     if step_fingerprint(&model.steps[under_way]) == *known {
         return Ok(TakenUp::Within);
     }
-    let old = striae_deck::read(&source.path)?;
+    let old = read_again(source)?;
     source.check(&old.model, &old.output)?;
     let part = ended(&old.model, under_way, fraction);
     model.steps.insert(under_way, part);

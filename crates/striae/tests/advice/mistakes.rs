@@ -1,4 +1,6 @@
 //! Each physical mistake is found, and nothing else with it.
+//!
+//! Longer than other files, as it lists all mistakes that are looked for.
 
 use std::path::Path;
 
@@ -265,22 +267,162 @@ fn a_direction_without_friction() {
 #[test]
 fn a_texture_along_the_normal() {
     let law = r#"friction = { law = "orthotropic", mu_along = 0.2, mu_across = 0.4 }"#;
-    for (part, textured, words) in [
+    for (part, textured) in [
         (
             FLOOR,
             r#"b = { rigid = "floor", texture = { uniform = [0, 0, 1] } }"#,
-            "along its normal",
         ),
         (
             r#"a = { body = "pad", facets = "zmin" }"#,
             r#"a = { body = "pad", facets = "zmin", texture = { uniform = [0, 0, 1] } }"#,
-            "no tangential part",
         ),
     ] {
-        let advice = advice(&[[part, textured], [COULOMB, law]]);
-        assert_eq!(advice.faults.len(), 1);
-        assert_eq!(advice.faults[0].topic, Topic::Texture);
-        assert!(advice.faults[0].text.contains(words), "{:?}", advice.faults);
+        let refused = refusal(&[[part, textured], [COULOMB, law]]);
+        assert!(
+            refused.contains("along the normal of the surface"),
+            "{refused}"
+        );
+    }
+}
+
+#[test]
+fn displacements_beside_sizes() {
+    let by = |way: &str| PRESSED.replace("-0.02", way);
+    assert_warned(&[[PRESSED, &by("-50")]], Topic::Units, "50 times as much");
+    let slides = PRESSED.replace("x = 0", "x = 50");
+    assert_eq!(advice(&[[PRESSED, &slides]]).warnings, []);
+    let noted = advice(&[[PRESSED, &by("-3")]]);
+    assert_eq!(noted.warnings, []);
+    let mut notes = noted.notes.iter();
+    assert!(notes.any(|note| {
+        note.text
+            .contains("displaces nodes of it by 3.000e0, 3 times")
+    }));
+}
+
+#[test]
+fn waves_that_get_nowhere() {
+    let dense = ["youngs_modulus = 1e6", "youngs_modulus = 2\ndensity = 1100"];
+    let dynamic = PRESSED.to_owned() + "\ndynamics = {}\nduration = 0.1";
+    assert_warned(
+        &[dense, [PRESSED, &dynamic]],
+        Topic::Units,
+        "less than an element",
+    );
+}
+
+#[test]
+fn forces_on_what_is_held() {
+    let driven = |more: &str| {
+        format!("{PRESSED}\nrigid = [{{ surface = \"floor\"{more}, force = [0.1, 0, 0] }}]")
+    };
+    assert_warned(
+        &[[PRESSED, &driven("")]],
+        Topic::Hold,
+        "drives `floor` along x, where it is held, so this does nothing; add `free = [\"x\"]`",
+    );
+    let free = advice(&[[PRESSED, &driven(", free = [\"x\"]")]]);
+    assert_eq!(free.warnings, []);
+}
+
+#[test]
+fn soft_matter_in_pascals() {
+    let large = [PAD, "size = [40, 40, 20], divisions = [3, 3, 3]"];
+    let noted = advice(&[large]);
+    let mut notes = noted.notes.iter();
+    assert!(notes.any(|note| {
+        note.text
+            .contains("lengths are in metres, and it is 4.000e1 m long")
+    }));
+}
+
+#[test]
+fn coefficients_that_are_hardly_meant() {
+    let percent = [COULOMB, r#"friction = { law = "coulomb", mu = 30 }"#];
+    assert_warned(&[percent], Topic::Friction, "no percentages");
+}
+
+#[test]
+fn nodes_that_are_not_joined() {
+    let slit = "{ positions = [[0,0,0],[1,0,0],[0,1,0],[1,1,0],[0,0,1],[1,0,1],[0,1,1],[1,1,1],[0,0,1],[1,0,1],[0,1,1],[1,1,1],[0,0,2],[1,0,2],[0,1,2],[1,1,2]], cells = [[0,1,3,2,4,5,7,6],[8,9,11,10,12,13,15,14]] }
+facet_sets = [{ name = \"zmin\", sides = [[0, 0]] }]
+node_sets = [{ name = \"zmax\", numbers = [4, 5, 6, 7, 8, 9, 10, 11] }]";
+    let mesh = format!("{{ generator = \"block\", {PAD} }}");
+    let found = advice(&[[&mesh, slit]]);
+    let [warning] = &found.warnings[..] else {
+        panic!("{:?}", found.warnings);
+    };
+    let words = "not joined: 4, the first node 4 and node 8 at (0.000000, 0.000000, 1.000000)";
+    assert!(warning.text.contains(words), "{warning}");
+    let mut notes = found.notes.iter();
+    assert!(notes.any(|note| note.text.contains("2 pieces that share no nodes")));
+}
+
+#[test]
+fn bodies_that_touch_without_a_pair() {
+    let text = r#"name = "lid"
+material = "rubber"
+mesh = { generator = "block", origin = [0, 0, 1], size = [1, 1, 1], divisions = [2, 2, 2] }
+[[body]]
+name = "pad"
+material = "rubber""#;
+    let held = PRESSED.replace(
+        "]",
+        r#", { body = "lid", nodes = "zmax", x = 0, y = 0, z = 0 }]"#,
+    );
+    assert_warned(
+        &[
+            ["name = \"pad\"\nmaterial = \"rubber\"", text],
+            [PRESSED, &held],
+        ],
+        Topic::Fit,
+        "bodies `lid` and `pad` touch or overlap as meshed, but no pair and no tie joins them",
+    );
+}
+
+#[test]
+fn a_curved_contact_of_few_nodes() {
+    let cap = "generator = \"capped-block\", size = [10, 10], height = 5, radius = 10, element_size = 2.5";
+    let block = format!("generator = \"block\", {PAD}");
+    let noted = advice(&[
+        [&block, cap],
+        [r#"facets = "zmin""#, r#"facets = "cap""#],
+        [PRESSED, &PRESSED.replace("0.02", "0.1")],
+    ]);
+    let mut notes = noted.notes.iter();
+    let words = "about 1 of 25 nodes come to the plane";
+    assert!(
+        notes.any(|note| note.text.contains(words)),
+        "{:?}",
+        noted.notes
+    );
+}
+
+/// A thin plate on a block whose faces have other numbers, and a body in two pairs.
+#[test]
+fn thin_bodies_between_others_are_judged_by_their_own_meshes() {
+    for divisions in ["[2, 2, 1]", "[6, 6, 1]"] {
+        let plate = format!(
+            r#"name = "pad"
+material = "rubber"
+mesh = {{ generator = "block", origin = [0, 0, 1], size = [1, 1, 0.1], divisions = {divisions} }}
+[[body]]
+name = "base"
+material = "rubber""#
+        );
+        let pairs = r#"[[pair]]
+name = "upper"
+a = { body = "base", facets = "zmax" }
+b = { body = "pad", facets = "zmin" }
+[[pair]]
+name = "sole""#;
+        let sole = r#"a = { body = "base", facets = "zmin" }"#;
+        let found = advice(&[
+            ["name = \"pad\"\nmaterial = \"rubber\"", &plate],
+            ["[[pair]]\nname = \"sole\"", pairs],
+            [r#"a = { body = "pad", facets = "zmin" }"#, sole],
+        ]);
+        assert_eq!(found.faults, []);
     }
 }
 

@@ -146,6 +146,7 @@ impl Watch<'_> {
             source: Source {
                 case: "case".to_owned(),
                 path: PathBuf::from("deck.toml"),
+                settings: Vec::new(),
                 fingerprint: fingerprint(model, output),
                 parts: part_fingerprints(model),
                 steps: step_fingerprints(model),

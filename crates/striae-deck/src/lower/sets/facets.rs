@@ -126,10 +126,13 @@ fn listed_facets(
     let mut faces = Vec::new();
     for At { value, span } in &raw.sides.as_ref()?.value {
         let [element, side] = value.map(|number| number.0);
-        let face = u8::try_from(side).ok().map(|side| Face {
-            element: ElementId::new(element),
-            side,
-        });
+        let face = u8::try_from(side).ok().map(|side| (element, side));
+        let face = face
+            .filter(|(element, _)| *element < mesh.element_count())
+            .map(|(element, side)| Face {
+                element: ElementId::new(element),
+                side,
+            });
         match face.filter(|face| boundary.contains(face)) {
             Some(face) => faces.push(face),
             None => {

@@ -1,0 +1,35 @@
+//! `striae law --json`.
+
+use serde_json::{Value, json};
+use striae_law::friction::{Friction, Law, SlipSurface};
+
+use super::analysed;
+
+/// Numbers of a friction; angles in degrees.
+pub fn of_friction(title: &str, friction: &Friction, theta: &[f64]) -> Value {
+    if matches!(friction.law(), Law::Frictionless) {
+        return json!({ "title": title, "law": friction.law().name() });
+    }
+    let surfaces = analysed(friction, theta).into_iter().map(|analysis| {
+        let axes = match &analysis.surface {
+            SlipSurface::Ellipse(ellipse) => {
+                json!({ "A": ellipse.across, "P": ellipse.along, "h": ellipse.offset })
+            }
+            SlipSurface::Star(_) | SlipSurface::Oblique(_) => Value::Null,
+        };
+        json!({
+            "theta": analysis.theta.to_degrees(),
+            "axes": axes,
+            "largest": analysis.extremes.traction,
+            "largest_angle_to_slip": analysis.extremes.deviation.to_degrees(),
+            "least_dissipation": analysis.least.dissipation(),
+        })
+    });
+    json!({
+        "title": title,
+        "law": friction.law().name(),
+        "mu": friction.coefficient().at_rest(),
+        "shear_cap": friction.shear_cap(),
+        "slip_surfaces": surfaces.collect::<Vec<_>>(),
+    })
+}

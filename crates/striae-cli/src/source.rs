@@ -1,0 +1,37 @@
+//! The deck of a command, with the parameters that are set for it.
+
+use std::path::PathBuf;
+
+use striae_deck::{Deck, Faults, Setting, read_with};
+
+/// A deck and settings of its parameters.
+#[derive(clap::Args)]
+pub struct Source {
+    /// The deck.
+    pub deck: PathBuf,
+    #[command(flatten)]
+    pub settings: Settings,
+}
+
+/// Settings of parameters.
+#[derive(clap::Args)]
+pub struct Settings {
+    /// Set a parameter of the deck, such as `E=2e6`; may be given again.
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    pub set: Vec<Setting>,
+}
+
+impl Source {
+    /// Reads the deck.
+    pub fn read(&self) -> Result<Deck, Faults> {
+        read_with(&self.deck, &self.settings.set)
+    }
+}
+
+#[cfg(test)]
+impl From<PathBuf> for Source {
+    fn from(deck: PathBuf) -> Self {
+        let settings = Settings { set: Vec::new() };
+        Self { deck, settings }
+    }
+}

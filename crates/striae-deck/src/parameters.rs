@@ -1,0 +1,262 @@
+//! Numbers with names, `[parameters]`, and the texts `"= 2*E"` that are computed from them.
+//!
+//! Expressions are replaced by their values before the tables are read, so that any number
+//! of a deck may be one.
+
+use std::{collections::BTreeMap, fmt, str::FromStr};
+
+use striae_model::nearest;
+use toml::de::{DeTable, DeValue};
+
+use crate::{
+    expression::{evaluated, is_expression},
+    fault::FaultKind,
+    faults::{FaultList, Span},
+    value::finite,
+};
+
+/// Name of the table.
+pub(crate) const TABLE: &str = "parameters";
+/// Whole numbers up to which a value without fraction is one.
+const LARGEST_WHOLE: f64 = 9e15;
+/// Parameters that are computed over one another.
+const LONGEST: usize = 50;
+
+/// A parameter whose value is set from outside the deck: `E=2e6`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setting {
+    name: String,
+    value: f64,
+}
+
+impl Setting {
+    /// A parameter and its value.
+    pub fn new(name: impl Into<String>, value: f64) -> Self {
+        let name = name.into();
+        Self { name, value }
+    }
+
+    /// Name of the parameter.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Its value.
+    pub fn value(&self) -> f64 {
+        self.value
+    }
+}
+
+impl fmt::Display for Setting {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}={}", self.name, self.value)
+    }
+}
+
+impl FromStr for Setting {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let Some((name, value)) = text.split_once('=') else {
+            return Err(format!(
+                "expected NAME=VALUE, such as `E=2e6`, found `{text}`"
+            ));
+        };
+        let no_name = |name: &str| Err(format!("`{name}` stands for no number here"));
+        let found = evaluated(value, &mut |name| no_name(name))
+            .map_err(|cause| format!("`{value}` is no number: {cause}"))?;
+        Ok(Self::new(name.trim(), found))
+    }
+}
+
+/// How a parameter is given.
+enum Given {
+    Value(f64),
+    Expression(String),
+}
+
+/// Values of the expressions of a deck, by their places, as TOML writes them.
+pub(crate) fn computed(
+    tree: &DeTable<'_>,
+    settings: &[Setting],
+    faults: &mut FaultList<'_>,
+) -> Vec<(Span, String)> {
+    let mut parameters = Parameters::of(tree, settings, faults);
+    let mut found = Vec::new();
+    for (key, value) in tree.iter() {
+        if key.get_ref() != TABLE {
+            compute(value, &mut parameters, &mut found, faults);
+        }
+    }
+    let is_set = |name: &str| settings.iter().any(|setting| setting.name == name);
+    let given = parameters.given.iter();
+    let given: Vec<(String, Span)> = given
+        .filter(|(name, (_, given))| matches!(given, Given::Expression(_)) || is_set(name))
+        .map(|(name, (span, _))| (name.clone(), span.clone()))
+        .collect();
+    for (name, span) in given {
+        match parameters.value(&name) {
+            Ok(value) => found.push((span, written(value))),
+            Err(cause) => note(&span, cause, faults),
+        }
+    }
+    found
+}
+
+/// Puts values in the places of expressions.
+pub(crate) fn replace<'i>(tree: &mut DeTable<'i>, values: &'i [(Span, String)]) {
+    for (_, value) in tree.iter_mut() {
+        replace_value(value, values);
+    }
+}
+
+fn replace_value<'i>(value: &mut toml::Spanned<DeValue<'i>>, values: &'i [(Span, String)]) {
+    let span = value.span();
+    match value.get_mut() {
+        // Numbers too, as a parameter that is a number may have been set.
+        DeValue::String(_) | DeValue::Integer(_) | DeValue::Float(_) => {
+            let computed = values.iter().find(|(place, _)| *place == span);
+            let parsed = computed.and_then(|(_, text)| DeValue::parse(text).ok());
+            if let Some(parsed) = parsed {
+                *value.get_mut() = parsed.into_inner();
+            }
+        }
+        DeValue::Array(list) => list
+            .iter_mut()
+            .for_each(|value| replace_value(value, values)),
+        DeValue::Table(table) => replace(table, values),
+        _ => {}
+    }
+}
+
+fn compute(
+    value: &toml::Spanned<DeValue<'_>>,
+    parameters: &mut Parameters,
+    found: &mut Vec<(Span, String)>,
+    faults: &mut FaultList<'_>,
+) {
+    match value.get_ref() {
+        DeValue::String(text) if is_expression(text) => match parameters.expression(text) {
+            Ok(number) => found.push((value.span(), written(number))),
+            Err(cause) => note(&value.span(), cause, faults),
+        },
+        DeValue::Array(list) => {
+            for value in list.iter() {
+                compute(value, parameters, found, faults);
+            }
+        }
+        DeValue::Table(table) => {
+            for (_, value) in table.iter() {
+                compute(value, parameters, found, faults);
+            }
+        }
+        _ => {}
+    }
+}
+
+fn note(span: &Span, cause: String, faults: &mut FaultList<'_>) {
+    faults.push(span, FaultKind::Expression { cause });
+}
+
+/// A number as TOML writes it: whole ones as such, since they may count something.
+fn written(value: f64) -> String {
+    let whole = value.round();
+    let is_whole = (value - whole).abs() <= 1e-9 * whole.abs().max(1e-9);
+    match is_whole && whole.abs() < LARGEST_WHOLE {
+        true => format!("{}", whole as i64),
+        false => format!("{value:e}"),
+    }
+}
+
+/// The parameters of a deck.
+struct Parameters {
+    given: BTreeMap<String, (Span, Given)>,
+    /// Values so far, so that each is computed once.
+    known: BTreeMap<String, Result<f64, String>>,
+    /// Parameters that are being computed, each needed by the one before.
+    over: Vec<String>,
+}
+
+impl Parameters {
+    fn of(tree: &DeTable<'_>, settings: &[Setting], faults: &mut FaultList<'_>) -> Self {
+        let mut given = BTreeMap::new();
+        let table = tree.get(TABLE);
+        let place = table.map_or(0..0, toml::Spanned::span);
+        if let Some(DeValue::Table(table)) = table.map(toml::Spanned::get_ref) {
+            for (name, value) in table.iter() {
+                let of = match value.get_ref() {
+                    DeValue::String(text) if is_expression(text) => {
+                        Given::Expression(text.to_string())
+                    }
+                    // What is no number is told when the table is read.
+                    number => Given::Value(finite(number).unwrap_or(f64::NAN)),
+                };
+                given.insert(name.get_ref().to_string(), (value.span(), of));
+            }
+        }
+        for Setting { name, value } in settings {
+            match given.get_mut(name) {
+                Some((_, given)) => *given = Given::Value(*value),
+                None => {
+                    let kind = FaultKind::UnknownParameter {
+                        name: name.clone(),
+                        known: given.keys().cloned().collect(),
+                    };
+                    faults.push(&place, kind);
+                }
+            }
+        }
+        Self {
+            given,
+            known: BTreeMap::new(),
+            over: Vec::new(),
+        }
+    }
+
+    fn value(&mut self, name: &str) -> Result<f64, String> {
+        if let Some(known) = self.known.get(name) {
+            return known.clone();
+        }
+        let Some((_, given)) = self.given.get(name) else {
+            return Err(self.unknown(name));
+        };
+        if self.over.iter().any(|known| known == name) {
+            return Err(format!("`{name}` is computed from itself"));
+        }
+        if self.over.len() == LONGEST {
+            return Err(format!(
+                "`{name}` is computed over more than {LONGEST} others"
+            ));
+        }
+        let value = match given {
+            Given::Value(value) => Ok(*value),
+            Given::Expression(text) => {
+                let text = text.clone();
+                self.over.push(name.to_owned());
+                let value = self.expression(&text);
+                self.over.pop();
+                value
+            }
+        };
+        self.known.insert(name.to_owned(), value.clone());
+        value
+    }
+
+    fn expression(&mut self, text: &str) -> Result<f64, String> {
+        let text = text.trim_start().trim_start_matches('=');
+        evaluated(text, &mut |name| self.value(name))
+    }
+
+    fn unknown(&self, name: &str) -> String {
+        let known: Vec<String> = self.given.keys().map(|name| format!("`{name}`")).collect();
+        let there = match known.len() {
+            0 => "the deck has no [parameters]".to_owned(),
+            _ => format!("[parameters] has {}", known.join(", ")),
+        };
+        let hint = nearest(name, self.given.keys().map(String::as_str))
+            .map_or_else(String::new, |nearest| {
+                format!("; did you mean `{nearest}`?")
+            });
+        format!("there is no parameter `{name}`; {there}{hint}")
+    }
+}

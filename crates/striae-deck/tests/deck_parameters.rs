@@ -1,0 +1,204 @@
+//! Parameters, expressions, settings from outside, and files that a deck includes.
+
+use std::{fs, path::Path};
+
+use striae_deck::{Faults, Setting, parse, parse_with, read, read_with};
+use striae_solve::model::Model;
+
+const DECK: &str = r#"
+title = "A block on a floor"
+[parameters]
+L = 2
+E = 1e6
+n = "= 2*L"
+depth = "= L/100"
+[[material]]
+name = "rubber"
+law = "neo-hookean"
+youngs_modulus = "= 3*E"
+poissons_ratio = 0.3
+[[body]]
+name = "block"
+material = "rubber"
+mesh = { generator = "block", size = ["= L", "= L", 1], divisions = ["= n", 4, "= round(n/3)"] }
+[[rigid]]
+name = "floor"
+plane = { point = [0, 0, 0], normal = [0, 0, 1] }
+[[pair]]
+name = "sole"
+a = { body = "block", facets = "zmin" }
+b = { rigid = "floor" }
+[[step]]
+name = "press"
+displacement = [{ body = "block", nodes = "zmax", x = 0, y = 0, z = "= -depth" }]
+"#;
+
+fn told(result: Result<striae_deck::Deck, Faults>) -> String {
+    result.expect_err("a fault").to_string()
+}
+
+fn changed(from: &str, to: &str) -> String {
+    assert_eq!(DECK.matches(from).count(), 1, "{from}");
+    DECK.replace(from, to)
+}
+
+fn depth(model: &Model) -> f64 {
+    model.steps[0].displacements[0].components[2].expect("z")
+}
+
+#[test]
+fn numbers_may_be_expressions_of_parameters() {
+    let model = parse(DECK, "deck.toml", Path::new("")).unwrap().model;
+    let mesh = &model.bodies[0].mesh;
+    assert_eq!((mesh.element_count(), mesh.positions.len()), (16, 50));
+    assert!((mesh.volume() - 4.0).abs() < 1e-12);
+    let modulus = model.bodies[0].material.lame_constants().youngs_modulus();
+    assert!((modulus / 3e6 - 1.0).abs() < 1e-12);
+    assert_eq!(depth(&model), -0.02);
+}
+
+#[test]
+fn parameters_are_set_from_outside() {
+    let set = |words: &str| -> Vec<Setting> { vec![words.parse().unwrap()] };
+    let with = |words: &str| parse_with(DECK, "deck.toml", Path::new(""), &set(words));
+    assert_eq!(depth(&with("L=4").unwrap().model), -0.04);
+    let set = with("depth=2*0.25").unwrap();
+    assert_eq!(depth(&set.model), -0.5);
+    assert_eq!(
+        set.notes,
+        ["parameters: E = 1000000, L = 2, depth = 0.5, n = 4"]
+    );
+    assert_eq!(
+        told(with("l=4")).lines().next(),
+        Some(
+            "deck.toml:3:1: `--set l=...` sets no parameter of this deck; its [parameters] are `E`, `L`, `depth`, `n`"
+        ),
+    );
+    for (words, cause) in [
+        ("L", "expected NAME=VALUE, such as `E=2e6`, found `L`"),
+        (
+            "L=much",
+            "`much` is no number: `much` stands for no number here",
+        ),
+        ("L=", "`` is no number: expected a number"),
+    ] {
+        let found = words.parse::<Setting>().unwrap_err();
+        assert!(found.contains(cause), "{found}");
+    }
+}
+
+#[test]
+fn faults_of_expressions_have_their_places() {
+    for (from, to, message) in [
+        (
+            "\"= 3*E\"",
+            "\"= 3*G\"",
+            "deck.toml:11:18: this expression cannot be computed: there is no parameter `G`; [parameters] has `E`, `L`, `depth`, `n`",
+        ),
+        (
+            "\"= 3*E\"",
+            "\"= 3*(E\"",
+            "deck.toml:11:18: this expression cannot be computed: expected `)`, found the end",
+        ),
+        (
+            "\"= 2*L\"",
+            "\"= 2*depth*n\"",
+            "deck.toml:6:5: this expression cannot be computed: `n` is computed from itself",
+        ),
+        (
+            "\"= -depth\"",
+            "\"= depth/0\"",
+            "this expression cannot be computed: it comes to inf, which is no finite number",
+        ),
+        (
+            "\"= 3*E\"",
+            "\"= -E\"",
+            "deck.toml:11:18: `youngs_modulus` in [[material]] must be a number greater than 0, but is -1000000",
+        ),
+        (
+            "\"= n\"",
+            "\"= n/3\"",
+            "must be a whole number of at least 1, but is 1.3",
+        ),
+        (
+            "L = 2",
+            "L = [2]",
+            "deck.toml:4:5: parameter `L` must be a number or an expression such as \"= 2*E\", but is a list of 1",
+        ),
+        ("L = 2", "L = 2\n2nd = 1", "`2nd` is no name of a parameter"),
+        (
+            "[parameters]",
+            "[parameters]\npi = 3",
+            "`pi` is no name of a parameter",
+        ),
+    ] {
+        let found = told(parse(&changed(from, to), "deck.toml", Path::new("")));
+        assert!(found.contains(message), "{to}: {found}");
+    }
+}
+
+#[test]
+fn what_doubles_with_every_parameter_takes_no_time() {
+    let mut text = String::from("title = \"t\"\n[parameters]\np0 = 1\n");
+    for at in 1..45 {
+        let before = at - 1;
+        text += &format!("p{at} = \"= p{before} + p{before}\"\n");
+    }
+    let found = told(parse(&text, "deck.toml", Path::new("")));
+    assert!(found.contains("has no [[body]]"), "{found}");
+    assert!(!found.contains("expression"), "{found}");
+}
+
+#[test]
+fn included_files_count_as_if_they_stood_in_the_deck() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    let at = |text: &str| DECK.find(text).unwrap();
+    let (material, rest) = (at("[[material]]"), at("[[body]]"));
+    write(
+        "parts.toml",
+        &("E = 7\n".to_owned() + &DECK[material..rest]),
+    );
+    fs::create_dir(folder.path().join("more")).unwrap();
+    write(
+        "more/shared.toml",
+        "include = \"../parts.toml\"\n[parameters]\nE = 1\nspare = 3\n",
+    );
+    let deck = "include = [\"more/shared.toml\"]".to_owned() + &DECK[..material] + &DECK[rest..];
+    write("deck.toml", &deck);
+    let path = folder.path().join("deck.toml");
+    let found = told(read(&path));
+    assert!(
+        found.contains("parts.toml:1:1: unknown key `E` in the deck"),
+        "{found}"
+    );
+    write("parts.toml", &DECK[material..rest]);
+    let model = read(&path).unwrap().model;
+    let modulus = model.bodies[0].material.lame_constants().youngs_modulus();
+    assert!((modulus / 3e6 - 1.0).abs() < 1e-12, "the deck counts");
+    read_with(&path, &[Setting::new("spare", 1.0)]).unwrap();
+    write("parts.toml", &DECK[material..rest].replace("0.3", "0.7"));
+    let found = told(read(&path));
+    let words = "parts.toml:5:18: `poissons_ratio` in [[material]] must be";
+    assert!(found.contains(words), "{found}");
+    write("parts.toml", "include = \"more/shared.toml\"");
+    let found = told(read(&path));
+    assert!(found.contains("it is included already"), "{found}");
+    write("deck.toml", &deck.replace("more/shared", "none"));
+    let found = told(read(&path));
+    assert!(
+        found.contains("deck.toml:1:12: `none.toml` cannot be included"),
+        "{found}"
+    );
+}
+
+#[test]
+fn valid_keys_are_listed_with_an_unknown_one() {
+    let found = told(parse(
+        &changed("name = \"floor\"", "name = \"floor\"\ncolour = 1"),
+        "deck.toml",
+        Path::new(""),
+    ));
+    let list = "      = valid keys: `density`, `inertia`, `mass`, `name`, `plane`, `reference`";
+    assert!(found.contains(list), "{found}");
+}

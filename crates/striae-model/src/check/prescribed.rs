@@ -1,0 +1,66 @@
+//! Pairs both of whose surfaces are prescribed along their normals: nothing is left for
+//! contact to decide.
+
+use std::collections::BTreeSet;
+
+use striae_mesh::{Face, Mesh, NodeId};
+use striae_solve::model::{BodyId, ContactSurface, Pair};
+
+use super::{Draft, List, Positions, hold};
+use crate::{fault::FaultKind, path::Path};
+
+/// Component of a normal that is none.
+const ACROSS: f64 = 0.1;
+
+/// Notes such pairs of deformable bodies in the first step in which they are.
+pub(super) fn check(
+    draft: &Draft<'_>,
+    impossible: &Positions,
+    partial: &Positions,
+    faults: &mut List,
+) {
+    let mut prescribed: Vec<BTreeSet<(NodeId, usize)>> = vec![BTreeSet::new(); draft.bodies.len()];
+    let mut known = Positions::new();
+    for (index, of) in draft.steps.iter().enumerate() {
+        if partial.contains(&index) {
+            return;
+        }
+        for (body, prescribed) in prescribed.iter_mut().enumerate() {
+            hold::prescribe(prescribed, of.step, BodyId(body));
+        }
+        for (number, named) in draft.pairs.iter().enumerate() {
+            let pair = named.pair.filter(|_| !impossible.contains(&number));
+            let Some(pair) = pair.filter(|pair| both(draft, pair, &prescribed)) else {
+                continue;
+            };
+            if known.insert(number) {
+                let kind = FaultKind::BothPrescribed {
+                    pair: pair.name.clone(),
+                    step: of.step.name.clone(),
+                };
+                faults.push(Path::part("steps", index), kind);
+            }
+        }
+    }
+}
+
+fn both(draft: &Draft<'_>, pair: &Pair, prescribed: &[BTreeSet<(NodeId, usize)>]) -> bool {
+    [&pair.a, &pair.b].into_iter().all(|side| match side {
+        ContactSurface::Deformable { body, faces } => {
+            let mesh = draft.bodies[body.0].mesh;
+            mesh.is_some_and(|mesh| all(mesh, faces, &prescribed[body.0]))
+        }
+        ContactSurface::Rigid(_) => false,
+    })
+}
+
+/// True where all nodes of all faces are prescribed along the normals of the faces.
+fn all(mesh: &Mesh, faces: &[Face], prescribed: &BTreeSet<(NodeId, usize)>) -> bool {
+    faces.iter().all(|face| {
+        let normal = mesh.area_vector(*face).normalize();
+        let axes: Vec<usize> = (0..3).filter(|axis| normal[*axis].abs() > ACROSS).collect();
+        let nodes = mesh.face_nodes(*face);
+        let held = |node: &NodeId| axes.iter().all(|axis| prescribed.contains(&(*node, *axis)));
+        nodes.iter().all(held)
+    })
+}

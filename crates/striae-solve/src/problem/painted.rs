@@ -1,0 +1,108 @@
+//! Painting of the textures of a pair on its sides, and why it may fail.
+
+use striae_contact::{pair::Geometry, texture::SideTexture};
+use striae_mesh::Vec3;
+use striae_surface::{
+    normal::nodal_normals,
+    texture::{Conditioning, Field, Lines, Paint, Texture, TextureError},
+};
+
+use super::ProblemError;
+use crate::model::{ContactSurface, Model, Pair};
+
+/// Why a texture has no direction at a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Undirected {
+    /// The axis of the field passes through the node.
+    OnAxis,
+    /// The direction is along the normal of the surface.
+    AlongNormal,
+}
+
+impl Undirected {
+    /// Why a field has no direction at a point.
+    pub(crate) fn of(field: &Field, x: &Vec3) -> Self {
+        match &field.lines {
+            Lines::Circumferential(axis) | Lines::Radial(axis) => {
+                let arm = x - axis.point;
+                let along = axis.direction.normalize();
+                let off = (arm - along * along.dot(&arm)).norm();
+                match off <= 1e-6 * arm.norm().max(f64::MIN_POSITIVE) || arm.norm() == 0.0 {
+                    true => Self::OnAxis,
+                    false => Self::AlongNormal,
+                }
+            }
+            Lines::Uniform(_) | Lines::Axial(_) => Self::AlongNormal,
+        }
+    }
+
+    /// Cause and remedy, as the end of a sentence.
+    pub(crate) fn words(self) -> &'static str {
+        match self {
+            Self::OnAxis => {
+                "its axis passes through that node, where circles and rays have no direction; move the axis or the mesh so that no node lies on it, or leave the facets around the node out of the pair"
+            }
+            Self::AlongNormal => {
+                "it is along the normal of the surface there; choose a direction that lies in the surface"
+            }
+        }
+    }
+}
+
+/// The texture of a side with nodes at `positions`.
+pub(super) fn painted(
+    model: &Model,
+    pair: &Pair,
+    index: usize,
+    geometry: &Geometry,
+    positions: &[Vec3],
+    paint: &Paint,
+) -> Result<(SideTexture, Option<Conditioning>), ProblemError> {
+    let surface = match (geometry, paint) {
+        (Geometry::Plane { .. }, Paint::Field(field)) => {
+            return Ok((SideTexture::Plane(*field), None));
+        }
+        (Geometry::Plane { .. }, _) => {
+            return Err(ProblemError::PlaneTexture {
+                pair: pair.name.clone(),
+            });
+        }
+        (Geometry::Deformable(surface) | Geometry::Rigid(surface), _) => surface,
+    };
+    let normals = nodal_normals(surface, positions);
+    let painted = Texture::new(positions, surface.facets(), &normals, paint);
+    let (texture, conditioning) = painted.map_err(|error| {
+        let node = error.node();
+        let of_mesh = node.and_then(|node| surface.nodes().get(node.index()).copied());
+        let (pair_name, side) = (pair.name.clone(), index);
+        let owner = match [&pair.a, &pair.b][index] {
+            ContactSurface::Deformable { body, .. } => {
+                format!("body `{}`", model.bodies[body.0].name)
+            }
+            ContactSurface::Rigid(rigid) => {
+                format!("rigid surface `{}`", model.rigid_surfaces[rigid.0].name)
+            }
+        };
+        match (&error, paint, node, of_mesh) {
+            (TextureError::Vanishing { .. }, Paint::Field(field), Some(node), Some(of_mesh)) => {
+                let at = positions[node.index()];
+                ProblemError::Undirected {
+                    pair: pair_name,
+                    side,
+                    surface: owner,
+                    node: of_mesh.to_string(),
+                    at: Box::new(at),
+                    cause: Undirected::of(field, &at),
+                }
+            }
+            _ => ProblemError::Texture {
+                pair: pair_name,
+                side,
+                surface: owner,
+                node: of_mesh,
+                error,
+            },
+        }
+    })?;
+    Ok((SideTexture::Nodal(texture), Some(conditioning)))
+}

@@ -1,0 +1,82 @@
+//! Curved surfaces that meet a plane with few nodes.
+//!
+//! In the first step a body comes closer to a rigid plane by what is prescribed along the
+//! normal `n`. Nodes of its side that are no farther than that can touch:
+//!
+//! ```text
+//! (x - p) . n <= way
+//! ```
+//!
+//! Of a flat side these are all nodes or none; of a curved one they span the contact, over
+//! whose radius pressures need about five elements.
+
+use std::collections::BTreeSet;
+
+use striae_mesh::{NodeId, Vec3};
+use striae_model::{BodyId, ContactSurface, Freedom, Model, Pair, RigidId, RigidShape, Step};
+
+use super::{Advice, Topic};
+
+/// Nodes of a circle with five elements over its diameter.
+const FEW: usize = 20;
+
+/// Notes contact of curved surfaces with planes that few nodes resolve.
+pub(super) fn look(model: &Model, advice: &mut Advice) {
+    let Some(step) = model.steps.first() else {
+        return;
+    };
+    for pair in &model.pairs {
+        if let Some((touching, all)) = nodes(model, pair, step)
+            && touching < FEW
+            && 2 * touching < all
+        {
+            let name = &pair.name;
+            advice.note(
+                Topic::Fit,
+                name,
+                format!(
+                    "pair `{name}`: in step `{}` about {touching} of {all} nodes come to the plane; pressures of a curved contact need about five elements over its radius, forces three",
+                    step.name
+                ),
+            );
+        }
+    }
+}
+
+/// How many nodes of a side can touch a plane, and how many it has.
+fn nodes(model: &Model, pair: &Pair, step: &Step) -> Option<(usize, usize)> {
+    let (ContactSurface::Deformable { body, faces }, ContactSurface::Rigid(rigid)) =
+        (&pair.a, &pair.b)
+    else {
+        return None;
+    };
+    let RigidShape::Plane { point, normal } = &model.rigid_surfaces[rigid.0].shape else {
+        return None;
+    };
+    let n = normal.normalize();
+    let way = approach(step, *body, *rigid, &n);
+    let mesh = &model.bodies[body.0].mesh;
+    let nodes = faces.iter().flat_map(|face| mesh.face_nodes(*face));
+    let nodes: BTreeSet<NodeId> = nodes.collect();
+    let near = |node: &&NodeId| (mesh.positions[node.index()] - point).dot(&n) <= way;
+    (way > 0.0).then(|| (nodes.iter().filter(near).count(), nodes.len()))
+}
+
+/// How far a body is moved towards a plane of normal `n` that moves itself.
+fn approach(step: &Step, body: BodyId, rigid: RigidId, n: &Vec3) -> f64 {
+    let own = step.displacements.iter().filter(|of| of.body == body);
+    let own = own.map(|of| {
+        let target = of.components.map(|component| component.unwrap_or(0.0));
+        -Vec3::from(target).dot(n)
+    });
+    let motions = step.rigid_motions.iter();
+    let motions = motions.filter(|motion| motion.surface == rigid);
+    let its = motions.map(|motion| {
+        let along = |axis: usize| match motion.coordinates[axis] {
+            Freedom::To(target) => target,
+            Freedom::AsBefore | Freedom::Free => 0.0,
+        };
+        Vec3::new(along(0), along(1), along(2)).dot(n)
+    });
+    own.fold(0.0, f64::max) + its.fold(0.0, f64::max)
+}

@@ -1,0 +1,143 @@
+//! Steps beside the bodies they act on: displacements beside sizes, waves beside durations,
+//! driving forces on coordinates that are held.
+
+use striae_model::{Body, BodyId, ContactSurface, Freedom, Model, Procedure, RigidMotion, Step};
+
+use super::{Advice, Topic, parts::Part, shape::extent};
+
+/// Displacement over the size of a body that is worth a note, and a warning.
+const LARGE: [f64; 2] = [2.0, 10.0];
+/// Component of a normal along an axis.
+const ALONG: f64 = 0.7;
+/// Names of the coordinates of a rigid body.
+const COORDINATES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+
+/// Notes what steps ask for that their bodies can hardly do.
+pub(super) fn look(model: &Model, advice: &mut Advice) {
+    for (index, body) in model.bodies.iter().enumerate() {
+        displacements(model, BodyId(index), body, advice);
+        for step in &model.steps {
+            waves(body, step, advice);
+        }
+    }
+    held(model, advice);
+}
+
+fn displacements(model: &Model, id: BodyId, body: &Body, advice: &mut Advice) {
+    let crossing = crossing(model, id, body);
+    let steps = model.steps.iter();
+    let prescribed = steps.flat_map(|step| step.displacements.iter().map(move |of| (step, of)));
+    let own = prescribed.filter(|(_, of)| of.body == id);
+    let largest = own
+        .flat_map(|(step, of)| {
+            let components = (0..3).filter(move |axis| crossing[*axis]);
+            components.filter_map(move |axis| Some((step, of.components[axis]?.abs())))
+        })
+        .max_by(|(_, a), (_, b)| a.total_cmp(b));
+    let [low, high] = extent(&body.mesh);
+    let size = (high - low).max();
+    let Some((step, displacement)) = largest.filter(|(_, way)| *way > LARGE[0] * size) else {
+        return;
+    };
+    let name = &body.name;
+    let text = format!(
+        "body `{name}` is {size:.3e} long, and step `{}` displaces nodes of it by {displacement:.3e}, {:.0} times as much",
+        step.name,
+        displacement / size
+    );
+    match displacement > LARGE[1] * size {
+        true => advice.warn(
+            Topic::Units,
+            name,
+            format!("{text}; are the mesh and the displacements in one unit of length?"),
+        ),
+        false => advice.note(Topic::Units, name, text),
+    }
+}
+
+/// Axes along which a body is pressed or pulled; along contact surfaces it may slide far.
+fn crossing(model: &Model, id: BodyId, body: &Body) -> [bool; 3] {
+    let sides = model.pairs.iter().flat_map(|pair| [&pair.a, &pair.b]);
+    let faces = sides.filter_map(|side| match side {
+        ContactSurface::Deformable { body, faces } if *body == id => Some(faces),
+        _ => None,
+    });
+    let mut normals = faces
+        .flatten()
+        .map(|face| body.mesh.area_vector(*face).normalize())
+        .peekable();
+    let free = normals.peek().is_none();
+    normals.fold([free; 3], |crossing, normal| {
+        [0, 1, 2].map(|axis| crossing[axis] || normal[axis].abs() > ALONG)
+    })
+}
+
+/// Waves that do not get through one element in a whole step.
+fn waves(body: &Body, step: &Step, advice: &mut Advice) {
+    if step.procedure == Procedure::QuasiStatic {
+        return;
+    }
+    let longest = body.mesh.quality().longest_edge;
+    for part in Part::all(body) {
+        let speed = (part.youngs_modulus() / part.density).sqrt();
+        let way = speed * step.duration;
+        if part.density > 0.0 && way < longest {
+            advice.warn(
+                Topic::Units,
+                &body.name,
+                format!(
+                    "{}: with Young's modulus {:.3e} and density {:.3e} waves run at {speed:.1e}, and in the {} of step `{}` get by {way:.1e}, less than an element of {longest:.1e}; are densities, moduli and times in one system of units, such as t/mm^3, MPa and s?",
+                    part.name,
+                    part.youngs_modulus(),
+                    part.density,
+                    step.duration,
+                    step.name
+                ),
+            );
+        }
+    }
+}
+
+/// Forces and torques on coordinates of rigid bodies that are not free.
+fn held(model: &Model, advice: &mut Advice) {
+    let mut free = vec![[false; 6]; model.rigid_surfaces.len()];
+    for step in &model.steps {
+        for motion in &step.rigid_motions {
+            let free = &mut free[motion.surface.0];
+            for (coordinate, free) in motion.coordinates.iter().zip(free.iter_mut()) {
+                match coordinate {
+                    Freedom::Free => *free = true,
+                    Freedom::To(_) => *free = false,
+                    Freedom::AsBefore => {}
+                }
+            }
+            let idle: Vec<&str> = (0..6)
+                .filter(|&at| !free[at] && driving(motion, at) != 0.0)
+                .map(|at| COORDINATES[at])
+                .collect();
+            if !idle.is_empty() {
+                let name = &model.rigid_surfaces[motion.surface.0].name;
+                let listed: Vec<String> = idle.iter().map(|word| format!("\"{word}\"")).collect();
+                advice.warn(
+                    Topic::Hold,
+                    name,
+                    format!(
+                        "step `{}` drives `{name}` along {}, where it is held, so this does nothing; add `free = [{}]`",
+                        step.name,
+                        idle.join(" and "),
+                        listed.join(", ")
+                    ),
+                );
+            }
+        }
+    }
+}
+
+/// Force or torque along a coordinate.
+fn driving(motion: &RigidMotion, coordinate: usize) -> f64 {
+    let of = match coordinate {
+        0..3 => motion.force,
+        _ => motion.torque,
+    };
+    of.map_or(0.0, |of| of[coordinate % 3])
+}

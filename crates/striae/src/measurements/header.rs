@@ -1,0 +1,230 @@
+//! Names of the columns of a file, and the reading of a line by them.
+
+use striae_law::fit::Reading;
+use striae_model::nearest;
+
+use super::{COLUMNS, Form, MeasurementFault, NamedColumn, fault, lines::Separator};
+
+/// Which field of a line is which quantity.
+pub(super) struct Header {
+    separator: Separator,
+    /// Names of the fields, or their numbers where no line names them.
+    names: Vec<String>,
+    /// Quantities with their fields.
+    fields: Vec<(&'static str, usize)>,
+    /// How the fields are named.
+    naming: Naming,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Naming {
+    Names,
+    Numbers,
+}
+
+impl Header {
+    /// The header of a file with this first line, or `None` after its faults have been noted.
+    pub(super) fn read(
+        separator: Separator,
+        (number, line): (usize, &str),
+        form: &Form,
+        faults: &mut Vec<MeasurementFault>,
+    ) -> Option<Self> {
+        let before = faults.len();
+        let written: Vec<(usize, &str)> = separator.fields(line).collect();
+        let is_number = |(_, text): &(usize, &str)| separator.number(text).is_some();
+        let naming = match written.iter().all(is_number) {
+            true => Naming::Numbers,
+            false => Naming::Names,
+        };
+        let mut header = Self {
+            separator,
+            names: match naming {
+                Naming::Names => written.iter().map(|(_, name)| (*name).to_owned()).collect(),
+                Naming::Numbers => (1..=written.len()).map(|at| at.to_string()).collect(),
+            },
+            fields: Vec::new(),
+            naming,
+        };
+        for named in &form.columns {
+            match header.column(named) {
+                Some(field) => header.fields.push((named.quantity, field)),
+                None => {
+                    let (column, there) = (&named.column, header.there());
+                    let message = format!("there is no column `{column}`; {there}");
+                    faults.push(fault(Some((number, 1)), message));
+                }
+            }
+        }
+        for (at, (column, name)) in written.iter().enumerate() {
+            let place = Some((number, *column));
+            let Some(known) = COLUMNS.into_iter().find(|known| known == name) else {
+                continue;
+            };
+            match header.field(known) {
+                Some(_) if form.columns.iter().any(|named| named.quantity == known) => {}
+                Some(_) => faults.push(fault(place, format!("column `{name}` is there twice"))),
+                None => header.fields.push((known, at)),
+            }
+        }
+        if faults.len() == before
+            && let Some(message) = header.missing()
+        {
+            faults.push(fault(Some((number, 1)), message));
+        }
+        (faults.len() == before).then_some(header)
+    }
+
+    /// True where the first line has names.
+    pub(super) fn is_named(&self) -> bool {
+        self.naming == Naming::Names
+    }
+
+    /// Columns that are not used, in a sentence.
+    pub(super) fn note(&self) -> Option<String> {
+        let names = self.foreign().map(|name| format!("`{name}`"));
+        let names: Vec<String> = names.collect();
+        (!names.is_empty()).then(|| format!("columns that are not used: {}", names.join(", ")))
+    }
+
+    fn foreign(&self) -> impl Iterator<Item = &str> {
+        let names = self.names.iter().enumerate();
+        let is_used = |at: usize| self.fields.iter().any(|(_, field)| *field == at);
+        names
+            .filter(move |(at, _)| !is_used(*at))
+            .map(|(_, name)| name.as_str())
+    }
+
+    /// The field that a named column is.
+    fn column(&self, named: &NamedColumn) -> Option<usize> {
+        let by_name = self.names.iter().position(|name| *name == named.column);
+        let by_number = || {
+            let number: usize = named.column.parse().ok()?;
+            let at = number.checked_sub(1)?;
+            (at < self.names.len()).then_some(at)
+        };
+        by_name.or_else(by_number)
+    }
+
+    fn there(&self) -> String {
+        let names: Vec<String> = self.names.iter().map(|name| format!("`{name}`")).collect();
+        format!("there are {}", names.join(", "))
+    }
+
+    /// The quantity that is missing, in a sentence.
+    fn missing(&self) -> Option<String> {
+        let ratio = [self.has("tangential"), self.has("normal")];
+        let needed = match (self.has("friction"), ratio) {
+            _ if self.naming == Naming::Numbers && self.fields.is_empty() => {
+                return Some(
+                    "numbers, but no names of columns; begin with a line such as \
+                     `angle,friction`, or name the columns: `--columns angle=1,friction=2`"
+                        .to_owned(),
+                );
+            }
+            _ if !self.has("angle") => "a column `angle` is needed: slip in degrees",
+            (true, [false, false]) | (false, [true, true]) => return None,
+            (true, _) => {
+                return Some(
+                    "either `friction` is needed or `tangential` and `normal`, not both".to_owned(),
+                );
+            }
+            (false, _) => "a column `friction` is needed, or `tangential` and `normal`",
+        };
+        let similar = self.foreign().find_map(|name| {
+            let known = COLUMNS.into_iter().filter(|known| !self.has(known));
+            Some((name, nearest(name, known)?))
+        });
+        let hint = match similar {
+            Some((name, known)) => format!("unknown column `{name}`; did you mean `{known}`?"),
+            None => "name yours by `--columns`, such as `--columns friction=COF`".to_owned(),
+        };
+        Some(format!("{needed}; {}; {hint}", self.there()))
+    }
+
+    fn has(&self, name: &str) -> bool {
+        self.field(name).is_some()
+    }
+
+    fn field(&self, name: &str) -> Option<usize> {
+        let mut fields = self.fields.iter();
+        fields.find(|(known, _)| *known == name).map(|(_, at)| *at)
+    }
+
+    /// The reading of a line, or `None` after its faults have been noted.
+    pub(super) fn reading(
+        &self,
+        number: usize,
+        line: &str,
+        faults: &mut Vec<MeasurementFault>,
+    ) -> Option<Reading> {
+        let before = faults.len();
+        let fields: Vec<(usize, &str)> = self.separator.fields(line).collect();
+        if fields.len() != self.names.len() {
+            let (found, needed) = (fields.len(), self.names.len());
+            let message = format!("fields: {found}, but columns: {needed}; each needs one");
+            faults.push(fault(Some((number, 1)), message));
+            return None;
+        }
+        let mut value = |name: &str, positive: Sign| {
+            let (column, text) = fields[self.field(name)?];
+            let found = self.separator.number(text);
+            let found = found.filter(|value| positive.allows(*value));
+            if found.is_none() {
+                let message = format!("`{text}` is no {} for `{name}`", positive.words());
+                faults.push(fault(Some((number, column)), message));
+            }
+            found
+        };
+        let angle = value("angle", Sign::Any);
+        let friction = match self.has("friction") {
+            true => value("friction", Sign::Any),
+            false => {
+                let forces = [
+                    value("tangential", Sign::Any),
+                    value("normal", Sign::Positive),
+                ];
+                forces[0].zip(forces[1]).map(|(t, n)| t / n)
+            }
+        };
+        let direction = value("direction", Sign::Any);
+        let theta = value("theta", Sign::Any);
+        let spread = value("spread", Sign::Positive);
+        if faults.len() > before {
+            return None;
+        }
+        let (slip, friction) = (angle?.to_radians(), friction?);
+        let reading = match direction {
+            Some(direction) => Reading::directed(slip, friction, direction.to_radians()),
+            None => Reading::against(slip, friction),
+        };
+        Some(Reading {
+            theta: theta.unwrap_or(0.0).to_radians(),
+            spread: spread.unwrap_or(1.0),
+            ..reading
+        })
+    }
+}
+
+/// Bound of a number.
+#[derive(Clone, Copy)]
+enum Sign {
+    Any,
+    Positive,
+}
+
+impl Sign {
+    fn allows(self, value: f64) -> bool {
+        match self {
+            Self::Any => value.is_finite(),
+            Self::Positive => value.is_finite() && value > 0.0,
+        }
+    }
+
+    fn words(self) -> &'static str {
+        match self {
+            Self::Any => "finite number",
+            Self::Positive => "positive number",
+        }
+    }
+}
