@@ -11,8 +11,8 @@ use super::kinds;
 pub struct Options {
     /// Seeds.
     pub seeds: Range<u64>,
-    /// The only kind to run.
-    pub kind: Option<String>,
+    /// The only kinds to run; all where there are none.
+    pub kinds: Vec<String>,
     /// Scenes at a time.
     pub jobs: usize,
     /// Folder for the decks that fail.
@@ -34,7 +34,7 @@ impl Options {
     pub fn read(arguments: &[String]) -> Result<Self, Fault> {
         let mut options = Self {
             seeds: 0..90,
-            kind: None,
+            kinds: Vec::new(),
             jobs: 2,
             keep: PathBuf::from("target/scenes"),
             binary: None,
@@ -46,8 +46,12 @@ impl Options {
             let value = rest.next().ok_or_else(wrong)?;
             match name.as_str() {
                 "--seeds" => options.seeds = range(value).ok_or_else(wrong)?,
-                "--kind" if kinds::names().any(|kind| kind == value) => {
-                    options.kind = Some(value.clone());
+                "--kind"
+                    if value
+                        .split(',')
+                        .all(|kind| kinds::names().any(|k| k == kind)) =>
+                {
+                    options.kinds = value.split(',').map(str::to_owned).collect();
                 }
                 "--jobs" => {
                     let jobs = value.parse().ok().filter(|&jobs| jobs > 0);
@@ -90,7 +94,7 @@ mod tests {
         };
         let options = read("--seeds 3..9 --kind press --jobs 1").unwrap();
         assert_eq!((options.seeds, options.jobs), (3..9, 1));
-        assert_eq!(options.kind.as_deref(), Some("press"));
+        assert_eq!(options.kinds, ["press"]);
         assert_eq!(read("--seeds 7").unwrap().seeds, 7..8);
         for wrong in [
             "--seeds",

@@ -1,8 +1,10 @@
 //! Checks of the history: balances of forces and energies.
 
+use std::collections::BTreeMap;
+
 use crate::scenes::{
     output::History,
-    scene::{End, Scene},
+    scene::{End, Scene, Tie},
     vector::{Vector, length, plus, times},
 };
 
@@ -151,8 +153,9 @@ fn dissipation(findings: &mut Findings, scene: &Scene, column: &str, history: &H
     }
 }
 
-const ENERGIES: [&str; 7] = [
+const ENERGIES: [&str; 8] = [
     "kinetic",
+    "inelastic",
     "strain",
     "friction",
     "contact",
@@ -179,11 +182,12 @@ fn energy(findings: &mut Findings, scene: &Scene, history: &History) {
     }
     for row in 0..history.len() {
         let of = |name: &str| {
+            let none = if name == "inelastic" { 0.0 } else { f64::NAN };
             history
                 .number(row, &format!("energy.{name}"))
-                .unwrap_or(f64::NAN)
+                .unwrap_or(none)
         };
-        let spent: f64 = ENERGIES[..6].iter().map(|name| of(name)).sum();
+        let spent: f64 = ENERGIES[..7].iter().map(|name| of(name)).sum();
         let off = of("external") - spent;
         findings.note("energy", off.abs() / bound, || {
             format!("increment {}: {off:.2e} of {scale:.2e}", row + 1)
@@ -195,17 +199,19 @@ fn energy(findings: &mut Findings, scene: &Scene, history: &History) {
 /// Forces on a body: reactions of its held sets, contact, loads.
 fn balance(findings: &mut Findings, scene: &Scene, body: &str, history: &History) {
     let held = scene.held(body);
-    let mut loads = [0.0; 3];
+    let mut loads: BTreeMap<&str, Vector> = BTreeMap::new();
+    let sum = |loads: &BTreeMap<&str, Vector>| loads.values().copied().fold([0.0; 3], plus);
     let mut load_steps = Vec::new();
     let mut start = 0.0;
     for step in &scene.steps {
         let duration = step.duration.unwrap_or(1.0);
-        let mut to = loads;
-        for (_, _, traction, area) in step.tractions.iter().filter(|t| t.0 == body) {
-            to = scene.placement.direction(times(*area, *traction));
+        let from = sum(&loads);
+        for (_, facets, traction, area) in step.tractions.iter().filter(|t| t.0 == body) {
+            let force = scene.placement.direction(times(*area, *traction));
+            loads.insert(*facets, force);
         }
-        load_steps.push((start, duration, loads, to));
-        (loads, start) = (to, start + duration);
+        load_steps.push((start, duration, from, sum(&loads)));
+        start += duration;
     }
     let load = |time: f64| {
         let reached = load_steps.iter().rev().find(|step| time > step.0 - 1e-12);
@@ -215,14 +221,29 @@ fn balance(findings: &mut Findings, scene: &Scene, body: &str, history: &History
         })
     };
     let forces = |row: usize| {
-        let sets = held.iter().map(|set| format!("reaction.{body}.{set}"));
+        let sets = held.iter().map(|(set, components)| {
+            let force = history.vector(row, &format!("reaction.{body}.{set}"));
+            let force = force.unwrap_or([f64::NAN; 3]);
+            [0, 1, 2].map(|i| if components[i] { force[i] } else { 0.0 })
+        });
         let contact = scene.pairs.iter().flat_map(|pair| {
             let sides = pair.sides.iter().zip(["a", "b"]);
             let own = sides.filter(|(side, _)| side.owner == body);
             own.map(|(_, letter)| format!("pair.{}.resultant_{letter}", pair.name))
         });
-        let found = sets.chain(contact).map(|name| history.vector(row, &name));
+        let ties = scene.ties.iter();
+        let of_tie = |tie: &Tie| {
+            let force = history.vector(row, &format!("tie.{}.force_a", tie.name));
+            let force = force.unwrap_or([f64::NAN; 3]);
+            let sides = tie.sides.iter().zip([1.0, -1.0]);
+            let own = sides.filter(|(side, _)| side.0 == body);
+            own.map(|(_, sign)| times(sign, force)).fold([0.0; 3], plus)
+        };
+        let tied: Vec<Vector> = ties.map(of_tie).collect();
+        let found = contact.map(|name| history.vector(row, &name));
         let mut all: Vec<Vector> = found.map(|force| force.unwrap_or([f64::NAN; 3])).collect();
+        all.extend(sets);
+        all.extend(tied);
         all.push(load(history.number(row, "time").unwrap_or(0.0)));
         all
     };

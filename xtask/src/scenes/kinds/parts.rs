@@ -1,9 +1,12 @@
 //! Parts that scenes are made of: materials, meshes, friction, textures, places.
 
 use crate::scenes::{
+    grid::Grid,
     law::Law,
     random::Random,
-    scene::{Block, Body, Material, Pair, Placement, Scene, Shape, Side, Start, Texture},
+    scene::{
+        Beside, Block, Body, Ending, Material, Pair, Placement, Scene, Shape, Side, Start, Texture,
+    },
     vector::Vector,
 };
 
@@ -101,6 +104,7 @@ impl Strains {
             modulus,
             poisson,
             density: None,
+            beside: Beside::Nothing,
         }
     }
 }
@@ -169,6 +173,20 @@ pub fn body(name: &'static str, material: Material, block: Block) -> Body {
         material,
         shape: Shape::Block(Box::new(block)),
         union: None,
+        nearest: Vec::new(),
+        formulation: None,
+    }
+}
+
+/// A body of a mesh in the deck.
+pub fn gridded(name: &'static str, material: Material, grid: Grid) -> Body {
+    Body {
+        name,
+        material,
+        shape: Shape::Grid(Box::new(grid)),
+        union: None,
+        nearest: Vec::new(),
+        formulation: None,
     }
 }
 
@@ -258,6 +276,45 @@ fn law(random: &mut Random) -> Law {
     }
 }
 
+/// A law with friction.
+pub fn rubbing(random: &mut Random) -> Law {
+    loop {
+        let law = law(random);
+        if law != Law::Frictionless {
+            return law;
+        }
+    }
+}
+
+/// A material of linear elasticity.
+pub fn elastic(modulus: f64, poisson: f64) -> Material {
+    Material {
+        law: "linear-elastic",
+        modulus,
+        poisson,
+        density: None,
+        beside: Beside::Nothing,
+    }
+}
+
+/// A material for large strains.
+pub fn rubbery(modulus: f64, poisson: f64) -> Material {
+    Material {
+        law: "neo-hookean",
+        ..elastic(modulus, poisson)
+    }
+}
+
+/// A block of equal elements.
+pub fn plain_block(origin: Vector, size: Vector, divisions: [usize; 3]) -> Block {
+    Block {
+        origin,
+        size,
+        divisions,
+        ..Block::default()
+    }
+}
+
 /// Coulomb's law with a coefficient of a range.
 pub fn coulomb(random: &mut Random, low: f64, high: f64) -> Law {
     Law::Coulomb(random.between(low, high))
@@ -299,5 +356,9 @@ pub fn scene(
         steps: Vec::new(),
         start: Start::Apart,
         enforcement: None,
+        ties: Vec::new(),
+        ending: Ending::Open,
+        claims: Vec::new(),
+        reference: None,
     }
 }
