@@ -1,14 +1,19 @@
 //! Random scenes by kind.
 //!
 //! The seed modulo the number of kinds picks the kind, the sequence of the seed all
-//! else. Lengths are in a random unit, about the width of the larger body; moduli too.
+//! else. Seeds below [`FIRST_OF_ALL`] are of the first [`OLDEST`] kinds, so that seeds which
+//! notes and other tasks name stay what they were. Lengths are in a random unit, about the width of the larger body; moduli too.
 
+mod columns;
+mod curved;
 mod dynamic;
 mod free;
 mod parts;
 mod plain;
 mod rigid;
 mod shapes;
+mod sliding;
+mod thin;
 
 use super::{random::Random, scene::Scene};
 
@@ -35,7 +40,7 @@ pub enum Choice {
 type Make = fn(&mut Random, Dialect) -> Scene;
 
 /// Names of the kinds and what makes them.
-pub const KINDS: [(&str, Make); 19] = [
+pub const KINDS: [(&str, Make); 34] = [
     ("press", plain::press),
     ("slide", plain::slide),
     ("turn", plain::turn),
@@ -55,6 +60,21 @@ pub const KINDS: [(&str, Make); 19] = [
     ("drop", dynamic::drop),
     ("launch", dynamic::launch),
     ("load", plain::load),
+    ("pile", columns::pile),
+    ("trilith", columns::trilith),
+    ("patch", columns::patch),
+    ("dense", columns::dense),
+    ("tied", columns::tied),
+    ("tool", sliding::tool),
+    ("reversals", sliding::reversals),
+    ("far-slip", sliding::far_slip),
+    ("decay", sliding::decay),
+    ("socket", curved::socket),
+    ("groove", curved::groove),
+    ("rings", curved::rings),
+    ("journal", curved::journal),
+    ("bend", thin::bend),
+    ("sheet", thin::sheet),
 ];
 
 /// Names of the kinds, in their order.
@@ -62,14 +82,28 @@ pub fn names() -> impl Iterator<Item = &'static str> {
     KINDS.iter().map(|kind| kind.0)
 }
 
+/// The seed from which on all kinds take turns.
+pub const FIRST_OF_ALL: u64 = 100_000;
+/// Number of kinds that take turns below.
+const OLDEST: u64 = 19;
+
+fn entry(seed: u64) -> (&'static str, Make) {
+    let count = if seed < FIRST_OF_ALL {
+        OLDEST
+    } else {
+        KINDS.len() as u64
+    };
+    KINDS[(seed % count) as usize]
+}
+
 /// Name of the kind of a seed.
 pub fn kind_of(seed: u64) -> &'static str {
-    KINDS[(seed % KINDS.len() as u64) as usize].0
+    entry(seed).0
 }
 
 /// The scene of a seed.
 pub fn scene(seed: u64, dialect: Dialect) -> Scene {
-    let (kind, make) = KINDS[(seed % KINDS.len() as u64) as usize];
+    let (kind, make) = entry(seed);
     let mut random = Random::new(seed);
     Scene {
         seed,
@@ -104,6 +138,7 @@ mod tests {
             let count = |shape: &Shape| match shape {
                 Shape::Block(block) => block.divisions.iter().product::<usize>(),
                 Shape::Cap(_) => 0,
+                Shape::Grid(grid) => grid.cells.len(),
             };
             let total: usize = scene.bodies.iter().map(|body| count(&body.shape)).sum();
             assert!(total <= 1500, "{seed}: {total} elements");
