@@ -5,14 +5,20 @@
 //! notes and other tasks name stay what they were. Lengths are in a random unit, about the width of the larger body; moduli too.
 
 mod columns;
+mod corner;
 mod curved;
 mod dynamic;
 mod free;
+mod loads;
+mod matter;
 mod parts;
 mod plain;
 mod rigid;
 mod shapes;
 mod sliding;
+mod solids;
+mod speck;
+mod symmetry;
 mod thin;
 
 use super::{random::Random, scene::Scene};
@@ -40,7 +46,7 @@ pub enum Choice {
 type Make = fn(&mut Random, Dialect) -> Scene;
 
 /// Names of the kinds and what makes them.
-pub const KINDS: [(&str, Make); 34] = [
+pub const KINDS: [(&str, Make); 43] = [
     ("press", plain::press),
     ("slide", plain::slide),
     ("turn", plain::turn),
@@ -75,6 +81,15 @@ pub const KINDS: [(&str, Make); 34] = [
     ("journal", curved::journal),
     ("bend", thin::bend),
     ("sheet", thin::sheet),
+    ("corner", corner::corner),
+    ("shared-edge", corner::shared_edge),
+    ("half", symmetry::half),
+    ("forces", loads::forces),
+    ("dead-load", loads::dead_load),
+    ("matter", matter::matter),
+    ("solids", solids::solids),
+    ("speck", speck::speck),
+    ("cells", plain::cells),
 ];
 
 /// Names of the kinds, in their order.
