@@ -4,11 +4,13 @@ use super::{
     Dialect,
     columns::EXACT,
     parts::{
-        Stance, Units, body, elastic, increments, pair_with, placement, plain_block, rubbery, scene,
+        Stance, Units, body, elastic, gridded, increments, pair_with, placement, plain_block,
+        rubbery, scene,
     },
 };
 use crate::scenes::{
     claim::{Claim, Quantity, about},
+    grid::{Cells, Course, Grid},
     law::Law,
     random::Random,
     scene::{Body, End, Ending, Pair, Rigid, RigidShape, Scene, Step},
@@ -34,7 +36,14 @@ fn wedged(random: &mut Random, law: &Law, poisson: f64) -> Wedged {
         random.whole(2..=4),
         random.whole(2..=4),
     ];
-    let block = plain_block([0.0, -0.5 * size[1], 0.0], size, divisions);
+    let mut block = Grid::mapped(divisions, Course::Open, Cells::Hexahedra, |[x, y, z]| {
+        [size[0] * x, size[1] * (y - 0.5), size[2] * z]
+    });
+    // What of the wall's side does not move with the top.
+    let below_top = |x: &Vector| x[0] == 0.0 && x[2] < 0.99 * size[2];
+    let back = (0..block.positions.len()).filter(|&i| below_top(&block.positions[i]));
+    let back = back.collect();
+    block.sides.push(("back", back));
     let material = if poisson == 0.0 {
         elastic(units.modulus, poisson)
     } else {
@@ -53,7 +62,7 @@ fn wedged(random: &mut Random, law: &Law, poisson: f64) -> Wedged {
     Wedged {
         units,
         size,
-        block: body("block", material, block),
+        block: gridded("block", material, block),
         pairs,
     }
 }
@@ -151,7 +160,10 @@ fn random_poisson(random: &mut Random) -> f64 {
 fn dragged(random: &mut Random) -> Scene {
     let mu = random.between(0.05, 0.5);
     let poisson = random_poisson(random);
-    let wedged = wedged(random, &Law::Coulomb(mu), poisson);
+    let mut wedged = wedged(random, &Law::Coulomb(mu), poisson);
+    for side in &mut wedged.pairs[1].sides {
+        side.facets = side.facets.map(|_| "back");
+    }
     let size = wedged.size;
     let mut scene = wedged.on_planes(random, Stance::Any);
     let strains = [0; 2].map(|_| random.between(0.005, 0.03));

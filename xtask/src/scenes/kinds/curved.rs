@@ -77,7 +77,12 @@ fn nest(random: &mut Random, fine: usize, along: usize, map: Sector, across: usi
         [radius + clearance, radius * (1.0 + wider + thick[1])],
     ];
     let names = ["inner", "outer"];
-    let cells = random.one_of(&[Cells::Hexahedra, Cells::Hexahedra, Cells::Wedges]);
+    let cells = random.one_of(&[
+        Cells::Hexahedra,
+        Cells::Hexahedra,
+        Cells::Wedges,
+        Cells::Tetrahedra,
+    ]);
     let poisson = random.between(0.0, 0.4);
     let bodies = (0..2).map(|i| {
         let divisions = [counts[i] * fine, across.min(counts[i]) * fine, 2 * fine];

@@ -72,7 +72,6 @@ fn roller(radius: f64, long: f64, sides: usize) -> Solid {
 /// A free solid above a base.
 struct Ground {
     scene: Scene,
-    unit: f64,
     gravity: f64,
     mass: f64,
 }
@@ -108,7 +107,6 @@ fn ground(random: &mut Random, units: Units, solid: Solid, gap: f64, law: Law) -
     });
     Ground {
         scene,
-        unit,
         gravity,
         mass,
     }
