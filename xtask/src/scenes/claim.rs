@@ -1,4 +1,4 @@
-//! What must come of a scene beside what always must: a number between two others.
+//! Claims of a scene about its results, beside what always holds: a number between two others.
 
 use super::vector::Vector;
 
@@ -39,7 +39,7 @@ pub enum Quantity {
     Lever(Vec<usize>, &'static str, Vector),
     /// Vector in the columns of a name, along a direction.
     Column(String, Vector),
-    /// What such a vector has changed by since the first increment.
+    /// Change of such a vector since the first increment.
     Drift(String, Vector),
 }
 

@@ -22,7 +22,7 @@ pub struct Grid {
     pub volume: f64,
 }
 
-/// Whether the first axis closes.
+/// Course of the first axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Course {
     /// It has two ends.
@@ -31,7 +31,7 @@ pub enum Course {
     Ring,
 }
 
-/// What hexahedra are divided into.
+/// Elements that hexahedra are divided into.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cells {
     /// Nothing.

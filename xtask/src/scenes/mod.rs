@@ -26,6 +26,7 @@ mod pieces;
 pub mod random;
 mod run;
 mod scene;
+mod step;
 mod summary;
 pub mod vector;
 mod verdict;

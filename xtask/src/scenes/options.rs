@@ -33,7 +33,7 @@ impl Options {
     /// An option that is not known or has no good value.
     pub fn read(arguments: &[String]) -> Result<Self, Fault> {
         let mut options = Self {
-            seeds: 0..90,
+            seeds: kinds::FIRST_OF_ALL..kinds::FIRST_OF_ALL + 90,
             kinds: Vec::new(),
             jobs: 2,
             keep: PathBuf::from("target/scenes"),
@@ -70,6 +70,13 @@ impl Options {
                 _ => return Err(Fault::Option(format!("there is no option `{name}`"))),
             }
         }
+        let new = options.kinds.iter().find(|kind| kinds::is_new(kind));
+        if let Some(kind) = new.filter(|_| options.seeds.end <= kinds::FIRST_OF_ALL) {
+            let first = kinds::FIRST_OF_ALL;
+            return Err(Fault::Option(format!(
+                "scenes of the kind `{kind}` have seeds from {first} on"
+            )));
+        }
         Ok(options)
     }
 }
@@ -101,6 +108,7 @@ mod tests {
             "--seeds x",
             "--jobs 0",
             "--kind none",
+            "--seeds 0..90 --kind pile",
             "--fast 1",
         ] {
             assert!(read(wrong).is_err(), "{wrong}");

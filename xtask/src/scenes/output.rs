@@ -131,7 +131,7 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Whether the run reached its end.
+    /// True if the run reached its end.
     pub fn is_completed(&self) -> bool {
         self.status == "completed"
     }

@@ -73,7 +73,7 @@ pub fn tetrahedra(cell: &[usize]) -> Vec<[usize; 4]> {
     parts.iter().map(|part| part.map(|i| cell[i])).collect()
 }
 
-/// Whether a point is inside a tetrahedron of either sense of turning.
+/// True if a point is inside a tetrahedron of either sense of turning.
 pub fn is_inside([a, b, c, d]: &[Vector; 4], point: Vector) -> bool {
     const SLACK: f64 = -1e-12;
     let volume = |a: Vector, b: Vector, c: Vector, d: Vector| {

@@ -1,4 +1,4 @@
-//! What a kind of scene claims of its results, see [`crate::scenes::claim`].
+//! Claims of a kind of scene about its results, see [`crate::scenes::claim`].
 //!
 //! A force that is none where the claim is one above zero is contact that was missed: it is
 //! noted as `contact`.

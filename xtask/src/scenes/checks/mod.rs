@@ -24,6 +24,7 @@
 //!
 //! A measure is a value over its bound: at most 1 is well.
 
+mod balance;
 mod claims;
 pub mod depth;
 mod fields;

@@ -5,15 +5,16 @@
 
 use super::{
     Dialect,
+    elements::CELLS,
     parts::{
-        Stance, Units, body, coulomb, elastic, increments, pair_with, placement, plain_block,
-        ratio, rubbing, scene,
+        Stance, Units, body, coulomb, increments, pair_with, placement, ratio, rubbing, scene,
     },
+    simple::{elastic, plain_block},
 };
 use crate::scenes::{
     claim::{Claim, Quantity, about},
     random::Random,
-    scene::{Block, Body, End, Ending, Pair, Scene, Step, Tie},
+    scene::{Body, End, Ending, Pair, Scene, Shape, Step, Tie},
 };
 
 /// Relative error of forces that have a closed form.
@@ -80,9 +81,8 @@ impl Column {
     /// The step that presses, and what it claims.
     fn press(&mut self, random: &mut Random) -> Step {
         let top = LAYERS[self.scene.bodies.len() - 1];
-        for (index, pair) in self.scene.pairs.iter().enumerate() {
+        for index in 0..self.scene.pairs.len() {
             let upper = LAYERS[index + 1];
-            debug_assert!(pair.sides.iter().any(|side| side.owner == upper));
             let quantity = Quantity::Force(index, upper, [0.0, 0.0, 1.0]);
             let bounds = about(self.force, EXACT);
             self.scene
@@ -121,22 +121,13 @@ pub fn patch(random: &mut Random, _: Dialect) -> Scene {
     let moduli = [1.0, ratio(random)];
     let mut column = column(random, &divisions, &moduli);
     for body in &mut column.scene.bodies {
-        if let crate::scenes::scene::Shape::Block(block) = &mut body.shape {
+        if let Shape::Block(block) = &mut body.shape {
             block.cells = Some(random.one_of(&CELLS));
         }
     }
     column.scene.steps = vec![column.press(random)];
     column.scene
 }
-
-/// Words of the deck for elements.
-pub const CELLS: [&str; 5] = [
-    "wedges",
-    "pyramids",
-    "tetrahedra",
-    "composite-tetrahedra",
-    "hexahedra",
-];
 
 /// Two blocks with twenty facets of one beside each of the other, slid by some of the small ones.
 pub fn dense(random: &mut Random, _: Dialect) -> Scene {
@@ -197,80 +188,4 @@ pub fn tied(random: &mut Random, _: Dialect) -> Scene {
         .ending(End::Apart);
     column.scene.steps = vec![press, lift];
     column.scene
-}
-
-/// A beam over two blocks on a base, under a dead load.
-pub fn trilith(random: &mut Random, _: Dialect) -> Scene {
-    let units = Units::random(random);
-    let unit = units.length;
-    let widths = [random.between(0.25, 0.4), random.between(0.25, 0.4)];
-    let high = random.between(0.2, 0.3);
-    let deep = random.between(0.3, 0.6);
-    let blocks: [([f64; 3], [f64; 3], [usize; 3]); 4] = [
-        ([-0.7, -0.4, -0.3], [1.4, 0.8, 0.3], [7, 4, 2]),
-        ([-0.5, -0.5 * deep, 0.0], [widths[0], deep, high], [3, 3, 2]),
-        (
-            [0.5 - widths[1], -0.5 * deep, 0.0],
-            [widths[1], deep, high],
-            [2, 3, 2],
-        ),
-        (
-            [random.between(-0.6, -0.5), -0.5 * deep, high],
-            [1.1, deep, random.between(0.25, 0.4)],
-            [6, 2, 2],
-        ),
-    ];
-    let names = ["base", "left", "right", "beam"];
-    let modulus = random.decade(1e-1, 1e2);
-    let moduli = [1.0, modulus, modulus, random.decade(1.0, 1e2)];
-    let poisson = random.between(0.0, 0.3);
-    let scaled = |x: [f64; 3]| x.map(|x| x * unit);
-    let bodies: Vec<Body> = (0..4)
-        .map(|i| {
-            let (origin, size, divisions) = blocks[i];
-            let block: Block = plain_block(scaled(origin), scaled(size), divisions);
-            body(names[i], elastic(units.modulus * moduli[i], poisson), block)
-        })
-        .collect();
-    let joints = [
-        ("foot-left", 0, 1),
-        ("foot-right", 0, 2),
-        ("head-left", 1, 3),
-        ("head-right", 2, 3),
-    ];
-    let softest = units.modulus * moduli.into_iter().fold(f64::INFINITY, f64::min);
-    let pressure = random.between(0.0005, 0.003) * softest;
-    let pairs: Vec<Pair> = joints
-        .iter()
-        .map(|&(name, low, high)| {
-            let sides = [(names[low], Some("zmax")), (names[high], Some("zmin"))];
-            let law = coulomb(random, 0.3, 0.8);
-            let mut pair = pair_with(random, name, sides, unit, pressure, law);
-            (pair.cap, pair.decay) = (None, None);
-            pair
-        })
-        .collect();
-    let (origin, size) = (blocks[3].0, blocks[3].1);
-    let middle = (origin[0] + 0.5 * size[0]) * unit;
-    let placement = placement(random, units, Stance::Any);
-    let mut scene = scene(placement, Some(modulus), bodies, pairs);
-    let mut load = Step::new("load")
-        .moving("base", "zmin", [0.0; 3])
-        .within(increments(random))
-        .ending(End::Touching);
-    let area = size[0] * size[1] * unit * unit;
-    load.tractions
-        .push(("beam", "zmax", [0.0, 0.0, -pressure], area));
-    let band = 0.01 * unit;
-    for (pairs, owner) in [(vec![2, 3], "beam"), (vec![0, 1], "base")] {
-        scene.claims.push(Claim::at_end(
-            "stands",
-            0,
-            Quantity::Lever(pairs, owner, [1.0, 0.0, 0.0]),
-            [middle - band, middle + band],
-        ));
-    }
-    scene.steps = vec![load];
-    scene.ending = Ending::Completes;
-    scene
 }

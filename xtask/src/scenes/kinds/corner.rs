@@ -3,10 +3,8 @@
 use super::{
     Dialect,
     columns::EXACT,
-    parts::{
-        Stance, Units, body, elastic, gridded, increments, pair_with, placement, plain_block,
-        rubbery, scene,
-    },
+    parts::{Stance, Units, increments, pair_with, placement, scene},
+    simple::{elastic, gridded, rubbery},
 };
 use crate::scenes::{
     claim::{Claim, Quantity, about},
@@ -17,18 +15,18 @@ use crate::scenes::{
     vector::Vector,
 };
 
-const UP: Vector = [0.0, 0.0, 1.0];
-const ASIDE: Vector = [1.0, 0.0, 0.0];
+pub const UP: Vector = [0.0, 0.0, 1.0];
+pub const ASIDE: Vector = [1.0, 0.0, 0.0];
 
 /// A block whose sides `zmin` and `xmin` meet in the axis `y`.
-struct Wedged {
-    units: Units,
-    size: Vector,
-    block: Body,
-    pairs: Vec<Pair>,
+pub struct Wedged {
+    pub units: Units,
+    pub size: Vector,
+    pub block: Body,
+    pub pairs: Vec<Pair>,
 }
 
-fn wedged(random: &mut Random, law: &Law, poisson: f64) -> Wedged {
+pub fn wedged(random: &mut Random, law: &Law, poisson: f64) -> Wedged {
     let units = Units::random(random);
     let size = [0; 3].map(|_| random.between(0.5, 1.0) * units.length);
     let divisions = [
@@ -84,7 +82,7 @@ impl Wedged {
 }
 
 /// A step that presses two sides of the block, each along its normal alone.
-fn pressed(random: &mut Random, depths: [f64; 2]) -> Step {
+pub fn pressed(random: &mut Random, depths: [f64; 2]) -> Step {
     Step::new("press")
         .holding("block", "zmax", [None, None, Some(-depths[0])])
         .holding("block", "xmax", [Some(-depths[1]), None, None])
@@ -93,7 +91,7 @@ fn pressed(random: &mut Random, depths: [f64; 2]) -> Step {
         .ending(End::Touching)
 }
 
-fn claimed(scene: &mut Scene, pair: usize, along: Vector, force: f64, share: f64) {
+pub fn claimed(scene: &mut Scene, pair: usize, along: Vector, force: f64, share: f64) {
     let quantity = Quantity::Force(pair, "block", along);
     let claim = Claim::at_end("closed form", 0, quantity, about(force, share));
     scene.claims.push(claim);
@@ -152,7 +150,7 @@ fn loaded(random: &mut Random) -> Scene {
     scene
 }
 
-fn random_poisson(random: &mut Random) -> f64 {
+pub fn random_poisson(random: &mut Random) -> f64 {
     random.between(0.1, 0.4)
 }
 
@@ -184,72 +182,6 @@ fn dragged(random: &mut Random) -> Scene {
         scene
             .claims
             .push(Claim::at_end("sliding", 1, quantity, about(mu, 0.01)));
-    }
-    scene
-}
-
-/// A block between a deformable floor and a deformable wall.
-///
-/// Without friction and Poisson's ratio each direction is a column of two; the faces move past
-/// each other by the approach of the other direction, some thousandths of them.
-pub fn shared_edge(random: &mut Random, _: Dialect) -> Scene {
-    let plain = random.chance(0.5);
-    let law = if plain {
-        Law::Frictionless
-    } else {
-        Law::Coulomb(random.between(0.05, 0.5))
-    };
-    let poisson = if plain { 0.0 } else { random_poisson(random) };
-    let mut wedged = wedged(random, &law, poisson);
-    for pair in &mut wedged.pairs {
-        let facets = if pair.name == "below" { "zmax" } else { "xmax" };
-        pair.sides[1].facets = Some(facets);
-    }
-    let (size, modulus) = (wedged.size, wedged.units.modulus);
-    let moduli = [0; 2].map(|_| modulus * random.decade(1e-1, 1e2));
-    let thick = [0; 2].map(|_| random.between(0.3, 0.6) * wedged.units.length);
-    let strain = random.between(0.001, 0.004);
-    let mut mesh = || {
-        [
-            random.whole(1..=4),
-            random.whole(1..=4),
-            random.whole(1..=3),
-        ]
-    };
-    let floor = plain_block(
-        [0.0, -0.5 * size[1], -thick[0]],
-        [size[0], size[1], thick[0]],
-        mesh(),
-    );
-    let wall = plain_block(
-        [-thick[1], -0.5 * size[1], 0.0],
-        [thick[1], size[1], size[2]],
-        mesh(),
-    );
-    let material = wedged.block.material;
-    let of = |modulus| crate::scenes::scene::Material {
-        modulus,
-        ..material
-    };
-    let bodies = vec![
-        wedged.block,
-        body("floor", of(moduli[0]), floor),
-        body("wall", of(moduli[1]), wall),
-    ];
-    let placement = placement(random, wedged.units, Stance::Upright);
-    let mut scene = scene(placement, Some(modulus / moduli[0]), bodies, wedged.pairs);
-    scene.ending = Ending::Completes;
-    let heights = [size[2], size[0]];
-    let pressures = [0, 1].map(|i| strain * modulus.min(moduli[i]));
-    let depths = [0, 1].map(|i| pressures[i] * (heights[i] / modulus + thick[i] / moduli[i]));
-    let press = pressed(random, depths)
-        .moving("floor", "zmin", [0.0; 3])
-        .moving("wall", "xmin", [0.0; 3]);
-    scene.steps = vec![press];
-    if plain {
-        let areas = [size[0] * size[1], size[1] * size[2]];
-        claimed(&mut scene, 0, UP, pressures[0] * areas[0], 0.03);
-        claimed(&mut scene, 1, ASIDE, pressures[1] * areas[1], 0.03);
     }
     scene
 }

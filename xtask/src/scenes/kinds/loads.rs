@@ -2,9 +2,8 @@
 
 use super::{
     Dialect,
-    parts::{
-        Stance, Units, body, coulomb, increments, pair_with, placement, plain_block, rubbery, scene,
-    },
+    parts::{Stance, Units, body, coulomb, increments, pair_with, placement, scene},
+    simple::{plain_block, rubbery},
 };
 use crate::scenes::{
     claim::{Claim, Quantity, about},

@@ -10,8 +10,9 @@
 
 use super::{
     Dialect,
-    columns::CELLS,
-    parts::{Stance, Units, body, elastic, pair_with, placement, plain_block, scene},
+    elements::CELLS,
+    parts::{Stance, Units, body, pair_with, placement, scene},
+    simple::{elastic, plain_block},
 };
 use crate::scenes::{
     claim::{Claim, Quantity, about},

@@ -4,22 +4,30 @@
 //! else. Seeds below [`FIRST_OF_ALL`] are of the first [`OLDEST`] kinds, so that seeds which
 //! notes and other tasks name stay what they were. Lengths are in a random unit, about the width of the larger body; moduli too.
 
+mod blade;
 mod columns;
+mod convex;
 mod corner;
 mod curved;
 mod dynamic;
+mod edges;
+mod elements;
 mod free;
 mod loads;
 mod matter;
 mod parts;
 mod plain;
 mod rigid;
+mod rings;
 mod shapes;
+mod simple;
+mod slab;
 mod sliding;
 mod solids;
 mod speck;
 mod symmetry;
 mod thin;
+mod trilith;
 
 use super::{random::Random, scene::Scene};
 
@@ -67,7 +75,7 @@ pub const KINDS: [(&str, Make); 43] = [
     ("launch", dynamic::launch),
     ("load", plain::load),
     ("pile", columns::pile),
-    ("trilith", columns::trilith),
+    ("trilith", trilith::trilith),
     ("patch", columns::patch),
     ("dense", columns::dense),
     ("tied", columns::tied),
@@ -77,19 +85,19 @@ pub const KINDS: [(&str, Make); 43] = [
     ("decay", sliding::decay),
     ("socket", curved::socket),
     ("groove", curved::groove),
-    ("rings", curved::rings),
-    ("journal", curved::journal),
+    ("rings", rings::rings),
+    ("journal", rings::journal),
     ("bend", thin::bend),
     ("sheet", thin::sheet),
     ("corner", corner::corner),
-    ("shared-edge", corner::shared_edge),
+    ("shared-edge", edges::shared_edge),
     ("half", symmetry::half),
     ("forces", loads::forces),
     ("dead-load", loads::dead_load),
     ("matter", matter::matter),
     ("solids", solids::solids),
     ("speck", speck::speck),
-    ("cells", plain::cells),
+    ("cells", elements::cells),
 ];
 
 /// Names of the kinds, in their order.
@@ -109,6 +117,11 @@ fn entry(seed: u64) -> (&'static str, Make) {
         KINDS.len() as u64
     };
     KINDS[(seed % count) as usize]
+}
+
+/// True if a kind takes turns from [`FIRST_OF_ALL`] on only.
+pub fn is_new(name: &str) -> bool {
+    names().skip(OLDEST as usize).any(|kind| kind == name)
 }
 
 /// Name of the kind of a seed.

@@ -1,7 +1,6 @@
 //! Parts that scenes are made of: materials, meshes, friction, textures, places.
 
 use crate::scenes::{
-    grid::Grid,
     law::Law,
     random::Random,
     scene::{
@@ -178,18 +177,6 @@ pub fn body(name: &'static str, material: Material, block: Block) -> Body {
     }
 }
 
-/// A body of a mesh in the deck.
-pub fn gridded(name: &'static str, material: Material, grid: Grid) -> Body {
-    Body {
-        name,
-        material,
-        shape: Shape::Grid(Box::new(grid)),
-        union: None,
-        nearest: Vec::new(),
-        formulation: None,
-    }
-}
-
 /// A friction law with textures for two sides about the middle of the contact.
 ///
 /// `share` is a pressure to expect, for a cap of the shear stress.
@@ -283,35 +270,6 @@ pub fn rubbing(random: &mut Random) -> Law {
         if law != Law::Frictionless {
             return law;
         }
-    }
-}
-
-/// A material of linear elasticity.
-pub fn elastic(modulus: f64, poisson: f64) -> Material {
-    Material {
-        law: "linear-elastic",
-        modulus,
-        poisson,
-        density: None,
-        beside: Beside::Nothing,
-    }
-}
-
-/// A material for large strains.
-pub fn rubbery(modulus: f64, poisson: f64) -> Material {
-    Material {
-        law: "neo-hookean",
-        ..elastic(modulus, poisson)
-    }
-}
-
-/// A block of equal elements.
-pub fn plain_block(origin: Vector, size: Vector, divisions: [usize; 3]) -> Block {
-    Block {
-        origin,
-        size,
-        divisions,
-        ..Block::default()
     }
 }
 

@@ -6,7 +6,8 @@
 
 use super::{
     Dialect,
-    parts::{Stance, Units, coulomb, gridded, pair_with, placement, rubbery, scene},
+    parts::{Stance, Units, coulomb, pair_with, placement, scene},
+    simple::{gridded, rubbery},
 };
 use crate::scenes::{
     claim::{Claim, Quantity},

@@ -2,8 +2,9 @@
 
 use super::{
     Dialect,
-    parts::{Stance, Units, body, pair_with, placement, plain_block, ratio, rubbery, scene},
+    parts::{Stance, Units, body, pair_with, placement, ratio, scene},
     plain::Press,
+    simple::{plain_block, rubbery},
 };
 use crate::scenes::{
     claim::{Claim, Quantity, about},
@@ -16,9 +17,9 @@ use crate::scenes::{
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Part {
     Whole,
-    /// What is beyond `y = 0`.
+    /// All beyond `y = 0`.
     Half,
-    /// What is beyond `x = 0` and `y = 0`.
+    /// All beyond `x = 0` and `y = 0`.
     Quarter,
 }
 

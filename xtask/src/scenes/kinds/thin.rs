@@ -3,7 +3,8 @@
 use super::{
     Dialect,
     curved::with_finer,
-    parts::{Stance, Units, body, coulomb, pair_with, placement, plain_block, rubbery, scene},
+    parts::{Stance, Units, body, coulomb, pair_with, placement, scene},
+    simple::{plain_block, rubbery},
 };
 use crate::scenes::{
     claim::{Claim, Quantity},
