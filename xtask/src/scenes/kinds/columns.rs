@@ -132,7 +132,7 @@ pub fn patch(random: &mut Random, _: Dialect) -> Scene {
 /// Two blocks with twenty facets of one beside each of the other, slid by some of the small ones.
 pub fn dense(random: &mut Random, _: Dialect) -> Scene {
     let coarse = [random.whole(1..=2), 1, 1];
-    let across = random.one_of(&[2, 4, 10]);
+    let across = random.one_of(&[1, 2, 4]);
     let fine = [20 * coarse[0], across, 1];
     let (divisions, moduli) = if random.chance(0.5) {
         ([coarse, fine], [1.0, ratio(random)])

@@ -78,12 +78,12 @@ fn nest(random: &mut Random, fine: usize, along: usize, map: Sector, across: usi
         [radius + clearance, radius * (1.0 + wider + thick[1])],
     ];
     let names = ["inner", "outer"];
-    let cells = random.one_of(&[
-        Cells::Hexahedra,
-        Cells::Hexahedra,
-        Cells::Wedges,
-        Cells::Tetrahedra,
-    ]);
+    // Many tetrahedra fill a sphere twice as fine.
+    let cells = match random.whole(0..=3) {
+        0 => Cells::Wedges,
+        1 if across <= 2 => Cells::Tetrahedra,
+        _ => Cells::Hexahedra,
+    };
     let poisson = random.between(0.0, 0.4);
     let bodies = (0..2).map(|i| {
         let divisions = [counts[i] * fine, across.min(counts[i]) * fine, 2 * fine];
@@ -145,7 +145,7 @@ pub fn socket(random: &mut Random, _: Dialect) -> Scene {
         let slid = fine == 1 && random.chance(0.5);
         nest.pressed(random, slid)
     }
-    with_finer(random, build, 2, [0.65, 1.5])
+    with_finer(random, build, 2, [0.6, 1.8])
 }
 
 /// A cylinder in a groove.
@@ -159,5 +159,5 @@ pub fn groove(random: &mut Random, _: Dialect) -> Scene {
         let slid = fine == 1 && random.chance(0.5);
         nest.pressed(random, slid)
     }
-    with_finer(random, build, 2, [0.65, 1.5])
+    with_finer(random, build, 2, [0.6, 1.8])
 }

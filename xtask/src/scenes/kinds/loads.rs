@@ -177,3 +177,25 @@ pub fn dead_load(random: &mut Random, _: Dialect) -> Scene {
     laid.stays(0, 0.25);
     laid.scene
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenes::scene::Shape;
+
+    #[test]
+    fn dead_loads_are_inside_by_a_tenth_of_the_width() {
+        for seed in 0..200 {
+            let scene = dead_load(&mut Random::new(seed), Dialect::default());
+            let [base, block] = [0, 1].map(|i| match &scene.bodies[i].shape {
+                Shape::Block(block) => block.clone(),
+                _ => unreachable!("both are blocks"),
+            });
+            for axis in 0..2 {
+                let middle = block.origin[axis] + 0.5 * block.size[axis];
+                let room = 0.5 * base.size[axis] - middle.abs();
+                assert!(room >= 0.0999 * base.size[axis], "{seed}: {room}");
+            }
+        }
+    }
+}

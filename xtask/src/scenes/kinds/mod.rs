@@ -144,11 +144,11 @@ pub fn scene(seed: u64, dialect: Dialect) -> Scene {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenes::{deck, scene::Shape};
+    use crate::scenes::{claim::Quantity, deck, scene::Shape};
 
     #[test]
     fn the_same_seed_gives_the_same_deck() {
-        for seed in 0..90 {
+        for seed in (0..90).chain(FIRST_OF_ALL..FIRST_OF_ALL + 90) {
             let [one, two] = [0, 1].map(|_| deck::text(&scene(seed, Dialect::default())));
             assert_eq!(one, two);
         }
@@ -158,7 +158,7 @@ mod tests {
 
     #[test]
     fn decks_are_toml_and_meshes_small() {
-        for seed in 0..380 {
+        for seed in (0..380).chain(FIRST_OF_ALL..FIRST_OF_ALL + 430) {
             let scene = scene(seed, Dialect::default());
             let text = deck::text(&scene);
             let parsed: Result<toml::Table, _> = text.parse();
@@ -171,5 +171,44 @@ mod tests {
             let total: usize = scene.bodies.iter().map(|body| count(&body.shape)).sum();
             assert!(total <= 1500, "{seed}: {total} elements");
         }
+    }
+
+    #[test]
+    fn claims_are_about_steps_pairs_and_bodies_of_their_scene() {
+        for seed in FIRST_OF_ALL..FIRST_OF_ALL + 430 {
+            let scene = scene(seed, Dialect::default());
+            let names: Vec<&str> = scene.bodies.iter().map(|body| body.name).collect();
+            for claim in &scene.claims {
+                let about = |pair: usize, owner: &str| {
+                    let sides = &scene.pairs[pair].sides;
+                    assert!(sides.iter().any(|side| side.owner == owner), "{seed}");
+                    assert!(names.contains(&owner), "{seed}: {owner}");
+                };
+                assert!(claim.step < scene.steps.len(), "{seed}");
+                assert!(claim.low < claim.high, "{seed}: {claim:?}");
+                match &claim.quantity {
+                    Quantity::Force(pair, owner, _)
+                    | Quantity::Beside(pair, owner, _)
+                    | Quantity::Since(pair, owner, ..) => about(*pair, owner),
+                    Quantity::Lever(pairs, owner, _) => {
+                        pairs.iter().for_each(|&pair| about(pair, owner));
+                    }
+                    _ => {}
+                }
+                let beside = matches!(claim.quantity, Quantity::Beside(..));
+                assert!(!beside || scene.reference.is_some(), "{seed}");
+            }
+        }
+    }
+
+    #[test]
+    fn seeds_of_the_oldest_kinds_stay_what_they_were() {
+        assert_eq!([17, 18, 19].map(kind_of), ["launch", "load", "press"]);
+        assert!(is_new("pile") && !is_new("load"));
+        let all: std::collections::BTreeSet<&str> = (FIRST_OF_ALL
+            ..FIRST_OF_ALL + KINDS.len() as u64)
+            .map(kind_of)
+            .collect();
+        assert_eq!(all.len(), KINDS.len());
     }
 }
