@@ -152,5 +152,5 @@ pub fn journal(random: &mut Random, _: Dialect) -> Scene {
         }
         scene
     }
-    with_finer(random, build, 2, [0.65, 1.5])
+    with_finer(random, build, 2, [0.6, 1.8])
 }
