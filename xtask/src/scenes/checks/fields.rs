@@ -5,11 +5,11 @@ use crate::scenes::{
     law::Point,
     output::Fields,
     scene::{Pair, Scene},
-    vector::{dot, length},
+    vector::length,
     vtu::Grid,
 };
 
-use super::Findings;
+use super::{Findings, work};
 
 /// Friction beyond the law, relative.
 const LAW: f64 = 1e-6;
@@ -22,9 +22,6 @@ const NOTHING: f64 = 1e-9;
 /// Pressures below this share of the softest modulus are none: contact that has opened leaves
 /// residuals of the solver's tolerance over 1e-4 of that modulus.
 const RESIDUAL: f64 = 1e-13;
-/// Work per area that friction may give to a node in an increment, over the largest pressure times
-/// the size of a facet.
-const WORK: f64 = 1e-4;
 /// Code of nodes that have an own row.
 const KEPT: f64 = 1.0;
 
@@ -101,34 +98,7 @@ fn surface(
         }
     }
     friction(findings, pair, grid, &kept, largest, place);
-    work(findings, grid, &kept, largest, place);
-}
-
-/// Friction against slip at nodes with an own row.
-///
-/// The fields have the slip without what the ramp of weak nodes adds, by which such a node slips to
-/// and fro like a spring while it sticks: by some hundred-thousandths of a facet.
-fn work(
-    findings: &mut Findings,
-    grid: &Grid,
-    kept: &dyn Fn(usize) -> bool,
-    largest: f64,
-    place: &dyn Fn(usize, String) -> String,
-) {
-    let (Some(friction), Some(slip)) = (grid.vectors("friction_traction"), grid.vectors("slip"))
-    else {
-        return;
-    };
-    let size = sizes(grid);
-    for node in (0..grid.points.len()).filter(|&node| kept(node)) {
-        let gained = dot(friction[node], slip[node]) / (largest * size[node]);
-        findings.note("work", gained / WORK, || {
-            place(
-                node,
-                format!("friction gives {gained:.2e} of pressure times facet"),
-            )
-        });
-    }
+    work::check(findings, grid, &kept, largest, place);
 }
 
 fn friction(

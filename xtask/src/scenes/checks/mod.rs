@@ -13,7 +13,7 @@
 //! | `depth` | no node, and no corner of a rigid facet, deeper inside than a tenth of a facet |
 //! | `ending` | a completed run reached the end of all steps |
 //! | `contact` | pairs carry force at the end of steps that press, none where they are apart |
-//! | `work` | friction gives no node with an own row work: `tau . du <= 1e-4 p h`, `p` the largest pressure |
+//! | `work` | friction gives no node with an own row work: `tau . du <= 1e-4 p h`, see [`work`] |
 //! | `closed form` | forces and places that a kind of scene has a formula for, see [`claims`] |
 //! | `sliding` | friction over pressure where all slides is that of the law to 1 % |
 //! | `refined` | forces are those of a finer mesh, of what the scene is a half of, or of other cells |
@@ -30,6 +30,7 @@ pub mod depth;
 mod fields;
 mod round_off;
 mod table;
+mod work;
 
 use std::{collections::BTreeMap, path::Path};
 
