@@ -1,11 +1,14 @@
-//! Points in deformed hexahedra, and how deep.
+//! Points in deformed elements, and how deep.
 //!
 //! A point is in a hexahedron if Newton's method finds it at local coordinates in
-//! `[-1, 1]^3` of the trilinear map. Its depth is its distance to the nearest facet of
+//! `[-1, 1]^3` of the trilinear map; other elements are taken for [`pieces`], tetrahedra. Its depth is its distance to the nearest facet of
 //! the surface, facets being four triangles about their middle.
 
-use super::vector::{
-    Matrix, Vector, applied, cross, dot, length, mean, minus, plus, solved, times, transposed,
+use super::{
+    pieces,
+    vector::{
+        Matrix, Vector, applied, cross, dot, length, mean, minus, plus, solved, times, transposed,
+    },
 };
 
 /// Local coordinates of the corners of a hexahedron, in the order of VTK.
@@ -18,16 +21,6 @@ const CORNERS: [Vector; 8] = [
     [1.0, -1.0, 1.0],
     [1.0, 1.0, 1.0],
     [-1.0, 1.0, 1.0],
-];
-
-/// Corners of the sides of a hexahedron, outward by the right-hand rule.
-const SIDES: [[usize; 4]; 6] = [
-    [0, 3, 2, 1],
-    [4, 5, 6, 7],
-    [0, 1, 5, 4],
-    [2, 3, 7, 6],
-    [0, 4, 7, 3],
-    [1, 2, 6, 5],
 ];
 
 /// A box along the axes.
@@ -186,22 +179,31 @@ impl Surface {
 /// A deformed body.
 pub struct Solid {
     hexahedra: Vec<(Extent, [Vector; 8])>,
+    tetrahedra: Vec<(Extent, [Vector; 4])>,
     extent: Extent,
     surface: Surface,
 }
 
 impl Solid {
-    /// The body with these points and hexahedra.
+    /// The body with these points and elements.
     pub fn new(points: &[Vector], cells: &[Vec<usize>]) -> Self {
         let hexahedra = cells.iter().filter_map(|cell| {
             let corners = <[usize; 8]>::try_from(&cell[..]).ok()?.map(|i| points[i]);
             Some((Extent::of(&corners), corners))
         });
-        let facets = boundary(cells).into_iter();
+        let tetrahedra = cells.iter().flat_map(|cell| pieces::tetrahedra(cell));
+        let tetrahedra = tetrahedra.map(|cell| {
+            let corners = cell.map(|i| points[i]);
+            (Extent::of(&corners), corners)
+        });
+        let facets = pieces::boundary(cells).into_iter();
         Self {
             hexahedra: hexahedra.collect(),
+            tetrahedra: tetrahedra.collect(),
             extent: Extent::of(points),
-            surface: Surface::new(facets.map(|facet| facet.map(|i| points[i]).to_vec())),
+            surface: Surface::new(
+                facets.map(|facet| facet.into_iter().map(|i| points[i]).collect()),
+            ),
         }
     }
 
@@ -210,28 +212,12 @@ impl Solid {
         let holds = |(extent, corners): &(Extent, [Vector; 8])| {
             extent.holds(point) && is_inside(corners, point)
         };
-        (self.extent.holds(point) && self.hexahedra.iter().any(holds))
-            .then(|| self.surface.distance(point))
+        let in_piece = |(extent, corners): &(Extent, [Vector; 4])| {
+            extent.holds(point) && pieces::is_inside(corners, point)
+        };
+        let inside = || self.hexahedra.iter().any(holds) || self.tetrahedra.iter().any(in_piece);
+        (self.extent.holds(point) && inside()).then(|| self.surface.distance(point))
     }
-}
-
-/// Sides of hexahedra that no two of them share.
-pub fn boundary(cells: &[Vec<usize>]) -> Vec<[usize; 4]> {
-    let mut sides: Vec<([usize; 4], [usize; 4])> = Vec::new();
-    for cell in cells.iter().filter(|cell| cell.len() == 8) {
-        for side in SIDES {
-            let side = side.map(|corner| cell[corner]);
-            let mut key = side;
-            key.sort_unstable();
-            sides.push((key, side));
-        }
-    }
-    sides.sort_unstable();
-    let alone = |group: &[([usize; 4], [usize; 4])]| (group.len() == 1).then(|| group[0].1);
-    sides
-        .chunk_by(|a, b| a.0 == b.0)
-        .filter_map(alone)
-        .collect()
 }
 
 /// Height of a surface of triangles above a place in the plane `z = 0`, and the
@@ -312,7 +298,7 @@ mod tests {
         }
         assert_eq!(points[shared[0]], points[shared[1]]);
         let cells = [(0..8).collect(), second.to_vec()];
-        assert_eq!(boundary(&cells).len(), 10);
+        assert_eq!(pieces::boundary(&cells).len(), 10);
         let solid = Solid::new(&points, &cells);
         let depth = solid.depth([1.0, 0.5, 0.9]).unwrap();
         assert!((depth - 0.1).abs() < 1e-12, "{depth}");

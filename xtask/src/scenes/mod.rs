@@ -2,7 +2,7 @@
 //! the files it writes.
 //!
 //! ```text
-//! cargo xtask scenes [--seeds A..B] [--kind K] [--jobs N] [--keep FOLDER] [--binary PATH]
+//! cargo xtask scenes [--seeds A..B] [--kind K,...] [--jobs N] [--keep FOLDER] [--binary PATH]
 //!                    [--enforcement weighted|collocated]
 //! ```
 //!
@@ -14,15 +14,19 @@
 //! and output that is silent or wrong make the task fail.
 
 mod checks;
+mod claim;
 mod deck;
 mod geometry;
+mod grid;
 mod kinds;
 mod law;
 mod options;
 pub mod output;
+mod pieces;
 pub mod random;
 mod run;
 mod scene;
+mod step;
 mod summary;
 pub mod vector;
 mod verdict;
@@ -41,8 +45,9 @@ use std::{
 use crate::{cargo, fault::Fault};
 use kinds::{Choice, Dialect};
 use options::Options;
-use output::Summary;
+use output::{History, Summary};
 use run::Run;
+use scene::Scene;
 use summary::Judged;
 use verdict::{Class, Verdict};
 
@@ -71,7 +76,7 @@ pub fn scenes(arguments: &[String]) -> Result<(), Fault> {
     };
     let wanted = |seed: &u64| {
         let kind = kinds::kind_of(*seed);
-        options.kind.as_deref().is_none_or(|wanted| wanted == kind)
+        options.kinds.is_empty() || options.kinds.iter().any(|wanted| wanted == kind)
     };
     let seeds: Vec<u64> = options.seeds.clone().filter(wanted).collect();
     let judged = all(&options, &binary, &seeds, dialect)?;
@@ -130,20 +135,19 @@ fn one(keep: &Path, binary: &Path, seed: u64, dialect: Dialect) -> Result<Judged
         fs::remove_dir_all(&folder).map_err(failed(&folder))?;
     }
     fs::create_dir_all(&folder).map_err(failed(&folder))?;
-    let text = deck::text(&scene);
-    fs::write(folder.join("deck.toml"), text).map_err(failed(&folder))?;
-    let run = run::run(binary, &folder).map_err(|cause| Fault::Start {
-        command: binary.display().to_string(),
-        cause,
-    })?;
-    let run = Run {
-        // The folder's name says more than the program.
-        log: run.log.replace(&folder.display().to_string(), ""),
-        ..run
-    };
+    let run = started(binary, &folder, &scene)?;
     let out = folder.join("out");
     let summary = Summary::read(&out.join("summary.json"));
-    let findings = checks::check(&out, &scene);
+    let reference = match (&scene.reference, &summary) {
+        (Some(reference), Ok(summary)) if summary.is_completed() => {
+            let folder = folder.join("reference");
+            fs::create_dir_all(&folder).map_err(failed(&folder))?;
+            started(binary, &folder, reference)?;
+            Some(History::read(&folder.join("out/history.csv")))
+        }
+        _ => None,
+    };
+    let findings = checks::check(&out, &scene, reference);
     let verdict = verdict::judge(&scene, &run, summary, findings);
     told(&scene, &verdict);
     match verdict.class {
@@ -159,6 +163,21 @@ fn one(keep: &Path, binary: &Path, seed: u64, dialect: Dialect) -> Result<Judged
     Ok(Judged { scene, verdict })
 }
 
+/// Runs the deck of a scene in a folder.
+fn started(binary: &Path, folder: &Path, scene: &Scene) -> Result<Run, Fault> {
+    let deck = folder.join("deck.toml");
+    fs::write(&deck, deck::text(scene)).map_err(|cause| Fault::Unreadable { path: deck, cause })?;
+    let run = run::run(binary, folder).map_err(|cause| Fault::Start {
+        command: binary.display().to_string(),
+        cause,
+    })?;
+    Ok(Run {
+        // The folder's name says more than the program.
+        log: run.log.replace(&folder.display().to_string(), ""),
+        ..run
+    })
+}
+
 /// Kind of a seed's scene, and its deck.
 pub fn deck_of(seed: u64) -> (&'static str, String) {
     let dialect = Dialect {
@@ -169,7 +188,7 @@ pub fn deck_of(seed: u64) -> (&'static str, String) {
     (scene.kind, deck::text(&scene))
 }
 
-fn told(scene: &scene::Scene, verdict: &Verdict) {
+fn told(scene: &Scene, verdict: &Verdict) {
     let ratio = scene
         .ratio
         .map_or("rigid".to_owned(), |ratio| format!("{ratio:.1e}"));

@@ -11,8 +11,8 @@ use super::kinds;
 pub struct Options {
     /// Seeds.
     pub seeds: Range<u64>,
-    /// The only kind to run.
-    pub kind: Option<String>,
+    /// The only kinds to run; all where there are none.
+    pub kinds: Vec<String>,
     /// Scenes at a time.
     pub jobs: usize,
     /// Folder for the decks that fail.
@@ -33,8 +33,8 @@ impl Options {
     /// An option that is not known or has no good value.
     pub fn read(arguments: &[String]) -> Result<Self, Fault> {
         let mut options = Self {
-            seeds: 0..90,
-            kind: None,
+            seeds: kinds::FIRST_OF_ALL..kinds::FIRST_OF_ALL + 90,
+            kinds: Vec::new(),
             jobs: 2,
             keep: PathBuf::from("target/scenes"),
             binary: None,
@@ -46,8 +46,12 @@ impl Options {
             let value = rest.next().ok_or_else(wrong)?;
             match name.as_str() {
                 "--seeds" => options.seeds = range(value).ok_or_else(wrong)?,
-                "--kind" if kinds::names().any(|kind| kind == value) => {
-                    options.kind = Some(value.clone());
+                "--kind"
+                    if value
+                        .split(',')
+                        .all(|kind| kinds::names().any(|k| k == kind)) =>
+                {
+                    options.kinds = value.split(',').map(str::to_owned).collect();
                 }
                 "--jobs" => {
                     let jobs = value.parse().ok().filter(|&jobs| jobs > 0);
@@ -65,6 +69,13 @@ impl Options {
                 }
                 _ => return Err(Fault::Option(format!("there is no option `{name}`"))),
             }
+        }
+        let new = options.kinds.iter().find(|kind| kinds::is_new(kind));
+        if let Some(kind) = new.filter(|_| options.seeds.end <= kinds::FIRST_OF_ALL) {
+            let first = kinds::FIRST_OF_ALL;
+            return Err(Fault::Option(format!(
+                "scenes of the kind `{kind}` have seeds from {first} on"
+            )));
         }
         Ok(options)
     }
@@ -90,13 +101,14 @@ mod tests {
         };
         let options = read("--seeds 3..9 --kind press --jobs 1").unwrap();
         assert_eq!((options.seeds, options.jobs), (3..9, 1));
-        assert_eq!(options.kind.as_deref(), Some("press"));
+        assert_eq!(options.kinds, ["press"]);
         assert_eq!(read("--seeds 7").unwrap().seeds, 7..8);
         for wrong in [
             "--seeds",
             "--seeds x",
             "--jobs 0",
             "--kind none",
+            "--seeds 0..90 --kind pile",
             "--fast 1",
         ] {
             assert!(read(wrong).is_err(), "{wrong}");

@@ -131,6 +131,11 @@ pub struct Summary {
 }
 
 impl Summary {
+    /// True if the run reached its end.
+    pub fn is_completed(&self) -> bool {
+        self.status == "completed"
+    }
+
     /// Reads a summary.
     ///
     /// # Errors

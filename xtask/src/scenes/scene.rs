@@ -3,7 +3,11 @@
 //! All lengths stand in a local frame in which the upper body presses down along
 //! `-z`; [`super::deck`] brings them to their place in space.
 
-use super::{law::Law, vector::Vector};
+use std::collections::BTreeMap;
+
+use super::{claim::Claim, grid::Grid, law::Law, vector::Vector};
+
+pub use super::step::{Drive, End, Step};
 
 /// A random scene.
 #[derive(Clone, Debug)]
@@ -28,6 +32,25 @@ pub struct Scene {
     pub start: Start,
     /// Method of contact to ask for.
     pub enforcement: Option<&'static str>,
+    /// Ties.
+    pub ties: Vec<Tie>,
+    /// How it may end.
+    pub ending: Ending,
+    /// Numbers that must come of it, beside what always holds.
+    pub claims: Vec<Claim>,
+    /// A scene that is run beside it, to be held against.
+    pub reference: Option<Box<Scene>>,
+}
+
+/// How a scene may end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// Well, or for a reason that physics has.
+    Open,
+    /// Well: there is a state in balance at any time.
+    Completes,
+    /// For a reason with one of these words.
+    Stops(&'static [&'static str]),
 }
 
 /// How the bodies stand at the start.
@@ -61,6 +84,10 @@ pub struct Body {
     pub shape: Shape,
     /// Name and members of a set of facets made of several.
     pub union: Option<(&'static str, [&'static str; 2])>,
+    /// Names of sets of one node, and the places that it is nearest to.
+    pub nearest: Vec<(&'static str, Vector)>,
+    /// How elements take up strain, if not by default.
+    pub formulation: Option<&'static str>,
 }
 
 /// A bulk material.
@@ -74,6 +101,22 @@ pub struct Material {
     pub poisson: f64,
     /// Density where there is inertia.
     pub density: Option<f64>,
+    /// Beside elasticity.
+    pub beside: Beside,
+}
+
+/// A property of a material beside its elasticity.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Beside {
+    /// None.
+    #[default]
+    Nothing,
+    /// Yield stress and hardening modulus.
+    Yield(f64, f64),
+    /// Modulus of a branch over that of the law, and its relaxation time.
+    Relaxation(f64, f64),
+    /// Modulus and direction of linear fibres.
+    Fibres(f64, Vector),
 }
 
 /// A shape with its mesh.
@@ -83,9 +126,11 @@ pub enum Shape {
     Block(Box<Block>),
     /// A block with a spherical cap below.
     Cap(Cap),
+    /// Elements in rows along three curved axes.
+    Grid(Box<Grid>),
 }
 
-/// A block of hexahedra.
+/// A block of hexahedra, or what they are divided into.
 #[derive(Clone, Debug, Default)]
 pub struct Block {
     /// Lowest corner.
@@ -106,6 +151,8 @@ pub struct Block {
     pub irregularity: Option<(f64, u64)>,
     /// Axis, degrees and pivot by which it is tilted.
     pub tilt: Option<(Vector, f64, Vector)>,
+    /// Elements that hexahedra are divided into, if they are.
+    pub cells: Option<&'static str>,
 }
 
 /// A block with a spherical cap below.
@@ -135,12 +182,24 @@ pub struct Rigid {
 /// What is rigid.
 #[derive(Clone, Debug)]
 pub enum RigidShape {
-    /// The plane through a point, facing up or down.
-    Plane(Vector, f64),
+    /// The plane through a point, with its normal.
+    Plane(Vector, Vector),
     /// Facets over the plane `z = 0`, facing up.
     Sheet(Vec<Vector>, Vec<[usize; 4]>),
     /// Nodes of a body that move as one, and the point about which they turn.
     Head(&'static str, &'static str, Vector),
+    /// A convex solid around the origin of the local frame moved to a point: corners about
+    /// that point, facets, the point, density.
+    Solid(Vec<Vector>, Vec<[usize; 4]>, Vector, f64),
+}
+
+/// Two surfaces of bodies that are glued.
+#[derive(Clone, Debug)]
+pub struct Tie {
+    /// Name.
+    pub name: &'static str,
+    /// Bodies and facets.
+    pub sides: [(&'static str, &'static str); 2],
 }
 
 /// Two surfaces that may touch.
@@ -178,77 +237,6 @@ pub enum Texture {
     About(&'static str, Vector, f64),
 }
 
-/// A step.
-#[derive(Clone, Debug, Default)]
-pub struct Step {
-    /// Name.
-    pub name: &'static str,
-    /// Duration.
-    pub duration: Option<f64>,
-    /// Number of increments.
-    pub increments: Option<usize>,
-    /// Body, node set and displacement; components that are absent need a scene
-    /// that is not rotated.
-    pub displacements: Vec<(&'static str, &'static str, [Option<f64>; 3])>,
-    /// Body and node set that become free.
-    pub releases: Vec<(&'static str, &'static str)>,
-    /// Body, facets, traction and the area it acts on.
-    pub tractions: Vec<(&'static str, &'static str, Vector, f64)>,
-    /// Rigid surface, displacement and angle about the vertical in degrees.
-    pub rigid: Vec<(&'static str, Vector, Option<f64>)>,
-    /// Body and velocity; makes the step dynamic.
-    pub velocities: Vec<(&'static str, Vector)>,
-    /// Acceleration of gravity; makes the step dynamic.
-    pub gravity: Option<Vector>,
-    /// Whether the first pair must touch at the end.
-    pub end: End,
-}
-
-/// What must be at the end of a step.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum End {
-    /// Either.
-    #[default]
-    Open,
-    /// The pairs carry force.
-    Touching,
-    /// The pairs have carried force at some time.
-    Met,
-    /// The pairs carry none.
-    Apart,
-}
-
-impl Step {
-    /// A step of a name.
-    pub fn new(name: &'static str) -> Self {
-        Self {
-            name,
-            ..Self::default()
-        }
-    }
-
-    /// Prescribes all components.
-    pub fn moving(mut self, body: &'static str, nodes: &'static str, to: Vector) -> Self {
-        self.displacements.push((body, nodes, to.map(Some)));
-        self
-    }
-
-    /// States what must be at its end.
-    pub fn ending(self, end: End) -> Self {
-        Self { end, ..self }
-    }
-
-    /// Sets the number of increments.
-    pub fn within(self, increments: Option<usize>) -> Self {
-        Self { increments, ..self }
-    }
-
-    /// Whether inertia acts.
-    pub fn is_dynamic(&self) -> bool {
-        !self.velocities.is_empty() || self.gravity.is_some()
-    }
-}
-
 impl Scene {
     /// Whether any step has inertia.
     pub fn is_dynamic(&self) -> bool {
@@ -263,17 +251,24 @@ impl Scene {
             .sum()
     }
 
-    /// Node sets of a body whose displacement is prescribed or tied at some time.
-    pub fn held(&self, body: &str) -> Vec<&'static str> {
+    /// Node sets of a body whose displacement is prescribed or tied at some time, with the
+    /// components that are. No two sets with common nodes hold the same component.
+    pub fn held(&self, body: &str) -> BTreeMap<&'static str, [bool; 3]> {
+        let mut all: BTreeMap<&str, [bool; 3]> = BTreeMap::new();
         let prescribed = self.steps.iter().flat_map(|step| &step.displacements);
-        let prescribed = prescribed.filter(|held| held.0 == body).map(|held| held.1);
-        let tied = self.rigid.iter().filter_map(|rigid| match rigid.shape {
-            RigidShape::Head(tied, nodes, _) if tied == body => Some(nodes),
-            _ => None,
-        });
-        let mut all: Vec<&str> = prescribed.chain(tied).collect();
-        all.sort_unstable();
-        all.dedup();
+        for (_, nodes, to) in prescribed.filter(|held| held.0 == body) {
+            let components = all.entry(*nodes).or_default();
+            for (component, to) in components.iter_mut().zip(to) {
+                *component |= to.is_some();
+            }
+        }
+        for rigid in &self.rigid {
+            if let RigidShape::Head(tied, nodes, _) = rigid.shape
+                && tied == body
+            {
+                all.insert(nodes, [true; 3]);
+            }
+        }
         all
     }
 

@@ -4,7 +4,7 @@ use super::{
     checks::{Findings, depth::DEPTH},
     output::Summary,
     run::Run,
-    scene::{Scene, Start},
+    scene::{Ending, Scene, Start},
 };
 
 /// Classes of outcomes, the best first.
@@ -123,7 +123,12 @@ pub fn judge(
             let Ok(summary) = summary else {
                 return verdict(Class::Refused, run.log.clone(), Findings::default(), 0);
             };
-            let physical = PHYSICAL.iter().any(|word| summary.reason.contains(word));
+            let of_words = |words: &[&str]| words.iter().any(|word| summary.reason.contains(word));
+            let physical = match scene.ending {
+                Ending::Open => of_words(&PHYSICAL),
+                Ending::Completes => false,
+                Ending::Stops(words) => of_words(words),
+            };
             let class = if physical {
                 Class::Named
             } else {
@@ -140,6 +145,10 @@ pub fn judge(
             return verdict(Class::Silent, wrong, Findings::default(), 0);
         }
     };
+    if let Ending::Stops(words) = scene.ending {
+        let reason = format!("was to end with one of {words:?}");
+        return verdict(Class::Wrong, reason, findings, summary.cutbacks);
+    }
     let class = completed(&findings, &summary, &run.log);
     let failed = findings.failed();
     let failures: Vec<String> = failed

@@ -1,6 +1,6 @@
-//! No surface inside another body: positions against hexahedra and rigid surfaces.
+//! No surface inside another body: positions against elements and rigid surfaces.
 //!
-//! Between two bodies, each node of a pair's side is sought in the hexahedra of the
+//! Between two bodies, each node of a pair's side is sought in the elements of the
 //! other body; its depth is that below the pair's surface of that body, unless another
 //! face is at less than half the distance: no pair speaks of what comes through there.
 //! Depths are over the larger facets of the two sides, as that is how fine a weighted
@@ -10,7 +10,9 @@ use crate::scenes::{
     geometry::{Solid, Surface, height, triangles, turned_back},
     output::{Fields, History},
     scene::{Pair, RigidShape, Scene},
-    vector::{Vector, applied, length, minus, rotation, transposed, unit},
+    vector::{
+        Matrix, Vector, applied, cross, dot, length, minus, plus, rotation, transposed, unit,
+    },
     vtu::Grid,
 };
 
@@ -107,17 +109,33 @@ fn rigid(
     };
     let moved = history.vector(increment - 1, &format!("displacement.{}", surface.name));
     let moved = moved.unwrap_or([0.0; 3]);
-    let still = rotation([0.0, 0.0, 1.0], 0.0);
     let place = &scene.placement;
+    let (turned, about) = match surface.shape {
+        RigidShape::Solid(_, _, at, _) => (turn(history, increment, surface.name), place.point(at)),
+        _ => (rotation([0.0, 0.0, 1.0], 0.0), [0.0; 3]),
+    };
     // Into the local frame of the surface.
     let local = |x: Vector| {
-        let x = turned_back(&still, [0.0; 3], moved, x);
+        let x = turned_back(&turned, about, moved, x);
         applied(&transposed(&place.matrix()), minus(x, place.shift))
     };
     let below: Box<dyn Fn(Vector) -> f64> = match &surface.shape {
-        RigidShape::Plane(point, up) => {
-            let (z, up) = (point[2], unit([0.0, 0.0, *up])[2]);
-            Box::new(move |x| (z - x[2]) * up)
+        RigidShape::Plane(point, normal) => {
+            let (point, normal) = (*point, unit(*normal));
+            Box::new(move |x| dot(minus(point, x), normal))
+        }
+        RigidShape::Solid(positions, facets, at, _) => {
+            let planes: Vec<(Vector, Vector)> = facets
+                .iter()
+                .map(|[a, b, c, _]| {
+                    let [a, b, c] = [a, b, c].map(|&i| plus(positions[i], *at));
+                    (a, unit(cross(minus(b, a), minus(c, a))))
+                })
+                .collect();
+            Box::new(move |x| {
+                let depths = planes.iter().map(|&(point, n)| dot(minus(point, x), n));
+                depths.fold(f64::INFINITY, f64::min)
+            })
         }
         RigidShape::Sheet(positions, facets) => {
             let pieces: Vec<[Vector; 3]> = facets
@@ -161,6 +179,17 @@ fn rigid(
                 format!("pair {}, increment {increment}, rigid corner {corner}: {depth:.2e} of {size:.2e}", pair.name)
             });
         }
+    }
+}
+
+/// The rotation of a rigid body, by the angles about the fixed axes: exact about one of them, and
+/// little off where turns about others are small.
+fn turn(history: &History, increment: usize, name: &str) -> Matrix {
+    let angles = history.vector(increment - 1, &format!("angle.{name}"));
+    let angles = angles.unwrap_or([0.0; 3]).map(f64::to_radians);
+    match length(angles) {
+        0.0 => rotation([0.0, 0.0, 1.0], 0.0),
+        angle => rotation(unit(angles), angle),
     }
 }
 

@@ -9,7 +9,7 @@ use crate::scenes::{
     vtu::Grid,
 };
 
-use super::Findings;
+use super::{Findings, work};
 
 /// Friction beyond the law, relative.
 const LAW: f64 = 1e-6;
@@ -98,6 +98,7 @@ fn surface(
         }
     }
     friction(findings, pair, grid, &kept, largest, place);
+    work::check(findings, grid, &kept, largest, place);
 }
 
 fn friction(

@@ -13,16 +13,24 @@
 //! | `depth` | no node, and no corner of a rigid facet, deeper inside than a tenth of a facet |
 //! | `ending` | a completed run reached the end of all steps |
 //! | `contact` | pairs carry force at the end of steps that press, none where they are apart |
+//! | `work` | friction gives no node with an own row work: `tau . du <= 1e-4 p h`, see [`work`] |
+//! | `closed form` | forces and places that a kind of scene has a formula for, see [`claims`] |
+//! | `sliding` | friction over pressure where all slides is that of the law to 1 % |
+//! | `refined` | forces are those of a finer mesh, of what the scene is a half of, or of other cells |
+//! | `stands` | what has to stay where it is stays, and what is pushed gets there |
 //!
 //! Forces and energies below [`round_off`] are none: where nothing is pressed, roundings would be
 //! held against each other.
 //!
 //! A measure is a value over its bound: at most 1 is well.
 
+mod balance;
+mod claims;
 pub mod depth;
 mod fields;
 mod round_off;
 mod table;
+mod work;
 
 use std::{collections::BTreeMap, path::Path};
 
@@ -32,7 +40,7 @@ use super::{
 };
 
 /// Names of the checks, in the order of the table.
-pub const NAMES: [&str; 11] = [
+pub const NAMES: [&str; 16] = [
     "ending",
     "contact",
     "resultants",
@@ -44,6 +52,11 @@ pub const NAMES: [&str; 11] = [
     "dissipation",
     "energy",
     "depth",
+    "work",
+    "closed form",
+    "sliding",
+    "refined",
+    "stands",
 ];
 
 /// What a check found at its worst.
@@ -103,7 +116,11 @@ impl Findings {
 ///
 /// # Errors
 /// What is wrong with a file, in words.
-pub fn check(folder: &Path, scene: &Scene) -> Result<Findings, String> {
+pub fn check(
+    folder: &Path,
+    scene: &Scene,
+    reference: Option<Result<History, String>>,
+) -> Result<Findings, String> {
     let history = History::read(&folder.join("history.csv"))?;
     let mut findings = Findings::default();
     table::check(&mut findings, scene, &history);
@@ -122,6 +139,15 @@ pub fn check(folder: &Path, scene: &Scene) -> Result<Findings, String> {
             depth::check(&mut findings, scene, &history, &fields, increment);
         }
     }
+    let reference = reference.transpose();
+    let reference = reference.map_err(|wrong| format!("of the reference: {wrong}"))?;
+    let output = claims::Output {
+        folder,
+        scene,
+        history: &history,
+        reference: reference.as_ref(),
+    };
+    claims::check(&mut findings, &output);
     if read == 0 && history.len() > 0 {
         return Err("there are no fields".into());
     }

@@ -42,6 +42,7 @@ pub fn of_element(body: &Body) -> f64 {
             edges.fold(f64::INFINITY, f64::min)
         }
         Shape::Cap(cap) => cap.element,
+        Shape::Grid(grid) => grid.edge,
     };
     body.material.modulus * size * size
 }
@@ -51,6 +52,7 @@ fn of_volume(body: &Body) -> f64 {
     let volume: f64 = match &body.shape {
         Shape::Block(block) => block.size.iter().product(),
         Shape::Cap(cap) => cap.size[0] * cap.size[1] * cap.height,
+        Shape::Grid(grid) => grid.volume,
     };
     body.material.modulus * volume
 }

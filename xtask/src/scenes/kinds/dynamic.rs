@@ -72,7 +72,7 @@ fn flight(random: &mut Random, gap: f64, coulomb_only: Option<f64>) -> Flight {
     if on_plane {
         scene.rigid.push(Rigid {
             name: "floor",
-            shape: RigidShape::Plane([0.0; 3], 1.0),
+            shape: RigidShape::Plane([0.0; 3], [0.0, 0.0, 1.0]),
         });
     }
     Flight {

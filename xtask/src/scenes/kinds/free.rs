@@ -152,7 +152,7 @@ pub fn sandwich(random: &mut Random, _: Dialect) -> Scene {
             Some(Shape::Block(block)) => block.size[2],
             _ => 0.0,
         };
-        let plane = RigidShape::Plane([0.0, 0.0, top], -1.0);
+        let plane = RigidShape::Plane([0.0, 0.0, top], [0.0, 0.0, -1.0]);
         layers.scene.rigid.push(Rigid {
             name: "plane",
             shape: plane,

@@ -1,14 +1,33 @@
 //! Random scenes by kind.
 //!
 //! The seed modulo the number of kinds picks the kind, the sequence of the seed all
-//! else. Lengths are in a random unit, about the width of the larger body; moduli too.
+//! else. Seeds below [`FIRST_OF_ALL`] are of the first [`OLDEST`] kinds, so that seeds which
+//! notes and other tasks name stay what they were. Lengths are in a random unit, about the width of the larger body; moduli too.
 
+mod blade;
+mod columns;
+mod convex;
+mod corner;
+mod curved;
 mod dynamic;
+mod edges;
+mod elements;
 mod free;
+mod loads;
+mod matter;
 mod parts;
 mod plain;
 mod rigid;
+mod rings;
 mod shapes;
+mod simple;
+mod slab;
+mod sliding;
+mod solids;
+mod speck;
+mod symmetry;
+mod thin;
+mod trilith;
 
 use super::{random::Random, scene::Scene};
 
@@ -35,7 +54,7 @@ pub enum Choice {
 type Make = fn(&mut Random, Dialect) -> Scene;
 
 /// Names of the kinds and what makes them.
-pub const KINDS: [(&str, Make); 19] = [
+pub const KINDS: [(&str, Make); 43] = [
     ("press", plain::press),
     ("slide", plain::slide),
     ("turn", plain::turn),
@@ -55,6 +74,30 @@ pub const KINDS: [(&str, Make); 19] = [
     ("drop", dynamic::drop),
     ("launch", dynamic::launch),
     ("load", plain::load),
+    ("pile", columns::pile),
+    ("trilith", trilith::trilith),
+    ("patch", columns::patch),
+    ("dense", columns::dense),
+    ("tied", columns::tied),
+    ("tool", sliding::tool),
+    ("reversals", sliding::reversals),
+    ("far-slip", sliding::far_slip),
+    ("decay", sliding::decay),
+    ("socket", curved::socket),
+    ("groove", curved::groove),
+    ("rings", rings::rings),
+    ("journal", rings::journal),
+    ("bend", thin::bend),
+    ("sheet", thin::sheet),
+    ("corner", corner::corner),
+    ("shared-edge", edges::shared_edge),
+    ("half", symmetry::half),
+    ("forces", loads::forces),
+    ("dead-load", loads::dead_load),
+    ("matter", matter::matter),
+    ("solids", solids::solids),
+    ("speck", speck::speck),
+    ("cells", elements::cells),
 ];
 
 /// Names of the kinds, in their order.
@@ -62,14 +105,33 @@ pub fn names() -> impl Iterator<Item = &'static str> {
     KINDS.iter().map(|kind| kind.0)
 }
 
+/// The seed from which on all kinds take turns.
+pub const FIRST_OF_ALL: u64 = 100_000;
+/// Number of kinds that take turns below.
+const OLDEST: u64 = 19;
+
+fn entry(seed: u64) -> (&'static str, Make) {
+    let count = if seed < FIRST_OF_ALL {
+        OLDEST
+    } else {
+        KINDS.len() as u64
+    };
+    KINDS[(seed % count) as usize]
+}
+
+/// True if a kind takes turns from [`FIRST_OF_ALL`] on only.
+pub fn is_new(name: &str) -> bool {
+    names().skip(OLDEST as usize).any(|kind| kind == name)
+}
+
 /// Name of the kind of a seed.
 pub fn kind_of(seed: u64) -> &'static str {
-    KINDS[(seed % KINDS.len() as u64) as usize].0
+    entry(seed).0
 }
 
 /// The scene of a seed.
 pub fn scene(seed: u64, dialect: Dialect) -> Scene {
-    let (kind, make) = KINDS[(seed % KINDS.len() as u64) as usize];
+    let (kind, make) = entry(seed);
     let mut random = Random::new(seed);
     Scene {
         seed,
@@ -82,11 +144,11 @@ pub fn scene(seed: u64, dialect: Dialect) -> Scene {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenes::{deck, scene::Shape};
+    use crate::scenes::{claim::Quantity, deck, scene::Shape};
 
     #[test]
     fn the_same_seed_gives_the_same_deck() {
-        for seed in 0..90 {
+        for seed in (0..90).chain(FIRST_OF_ALL..FIRST_OF_ALL + 90) {
             let [one, two] = [0, 1].map(|_| deck::text(&scene(seed, Dialect::default())));
             assert_eq!(one, two);
         }
@@ -96,7 +158,7 @@ mod tests {
 
     #[test]
     fn decks_are_toml_and_meshes_small() {
-        for seed in 0..380 {
+        for seed in (0..380).chain(FIRST_OF_ALL..FIRST_OF_ALL + 430) {
             let scene = scene(seed, Dialect::default());
             let text = deck::text(&scene);
             let parsed: Result<toml::Table, _> = text.parse();
@@ -104,9 +166,49 @@ mod tests {
             let count = |shape: &Shape| match shape {
                 Shape::Block(block) => block.divisions.iter().product::<usize>(),
                 Shape::Cap(_) => 0,
+                Shape::Grid(grid) => grid.cells.len(),
             };
             let total: usize = scene.bodies.iter().map(|body| count(&body.shape)).sum();
             assert!(total <= 1500, "{seed}: {total} elements");
         }
+    }
+
+    #[test]
+    fn claims_are_about_steps_pairs_and_bodies_of_their_scene() {
+        for seed in FIRST_OF_ALL..FIRST_OF_ALL + 430 {
+            let scene = scene(seed, Dialect::default());
+            let names: Vec<&str> = scene.bodies.iter().map(|body| body.name).collect();
+            for claim in &scene.claims {
+                let about = |pair: usize, owner: &str| {
+                    let sides = &scene.pairs[pair].sides;
+                    assert!(sides.iter().any(|side| side.owner == owner), "{seed}");
+                    assert!(names.contains(&owner), "{seed}: {owner}");
+                };
+                assert!(claim.step < scene.steps.len(), "{seed}");
+                assert!(claim.low < claim.high, "{seed}: {claim:?}");
+                match &claim.quantity {
+                    Quantity::Force(pair, owner, _)
+                    | Quantity::Beside(pair, owner, _)
+                    | Quantity::Since(pair, owner, ..) => about(*pair, owner),
+                    Quantity::Lever(pairs, owner, _) => {
+                        pairs.iter().for_each(|&pair| about(pair, owner));
+                    }
+                    _ => {}
+                }
+                let beside = matches!(claim.quantity, Quantity::Beside(..));
+                assert!(!beside || scene.reference.is_some(), "{seed}");
+            }
+        }
+    }
+
+    #[test]
+    fn seeds_of_the_oldest_kinds_stay_what_they_were() {
+        assert_eq!([17, 18, 19].map(kind_of), ["launch", "load", "press"]);
+        assert!(is_new("pile") && !is_new("load"));
+        let all: std::collections::BTreeSet<&str> = (FIRST_OF_ALL
+            ..FIRST_OF_ALL + KINDS.len() as u64)
+            .map(kind_of)
+            .collect();
+        assert_eq!(all.len(), KINDS.len());
     }
 }

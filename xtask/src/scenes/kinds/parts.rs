@@ -3,7 +3,9 @@
 use crate::scenes::{
     law::Law,
     random::Random,
-    scene::{Block, Body, Material, Pair, Placement, Scene, Shape, Side, Start, Texture},
+    scene::{
+        Beside, Block, Body, Ending, Material, Pair, Placement, Scene, Shape, Side, Start, Texture,
+    },
     vector::Vector,
 };
 
@@ -101,6 +103,7 @@ impl Strains {
             modulus,
             poisson,
             density: None,
+            beside: Beside::Nothing,
         }
     }
 }
@@ -169,6 +172,8 @@ pub fn body(name: &'static str, material: Material, block: Block) -> Body {
         material,
         shape: Shape::Block(Box::new(block)),
         union: None,
+        nearest: Vec::new(),
+        formulation: None,
     }
 }
 
@@ -258,6 +263,16 @@ fn law(random: &mut Random) -> Law {
     }
 }
 
+/// A law with friction.
+pub fn rubbing(random: &mut Random) -> Law {
+    loop {
+        let law = law(random);
+        if law != Law::Frictionless {
+            return law;
+        }
+    }
+}
+
 /// Coulomb's law with a coefficient of a range.
 pub fn coulomb(random: &mut Random, low: f64, high: f64) -> Law {
     Law::Coulomb(random.between(low, high))
@@ -299,5 +314,9 @@ pub fn scene(
         steps: Vec::new(),
         start: Start::Apart,
         enforcement: None,
+        ties: Vec::new(),
+        ending: Ending::Open,
+        claims: Vec::new(),
+        reference: None,
     }
 }

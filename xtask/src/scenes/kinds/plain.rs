@@ -178,7 +178,8 @@ fn touching(random: &mut Random) -> Stack {
     Stack::new(random, &Wanted::touching(strains))
 }
 
-fn moderate(random: &mut Random) -> Stack {
+/// Two blocks that are to be pressed moderately.
+pub fn moderate(random: &mut Random) -> Stack {
     Stack::new(random, &Wanted::touching(Strains::Moderate))
 }
 

@@ -117,7 +117,7 @@ impl Footing {
 pub fn plane(random: &mut Random, _: Dialect) -> Scene {
     let strains = strains(random);
     let mut footing = footing(random, strains);
-    let plane = RigidShape::Plane([0.0; 3], 1.0);
+    let plane = RigidShape::Plane([0.0; 3], [0.0, 0.0, 1.0]);
     footing.scene.rigid.push(Rigid {
         name: "floor",
         shape: plane,

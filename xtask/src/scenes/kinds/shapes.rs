@@ -38,6 +38,8 @@ pub fn cap(random: &mut Random, _: Dialect) -> Scene {
         material: Strains::Moderate.material(random, units.modulus * ratio),
         shape: Shape::Cap(cap.clone()),
         union: None,
+        nearest: Vec::new(),
+        formulation: None,
     }];
     let below = if against_rigid {
         ("plane", None)
@@ -76,7 +78,7 @@ pub fn cap(random: &mut Random, _: Dialect) -> Scene {
     if against_rigid {
         scene.rigid.push(Rigid {
             name: "plane",
-            shape: RigidShape::Plane([0.0; 3], 1.0),
+            shape: RigidShape::Plane([0.0; 3], [0.0, 0.0, 1.0]),
         });
     } else {
         press = press.moving("base", "zmin", [0.0; 3]);
@@ -191,6 +193,7 @@ pub fn oblique(random: &mut Random, _: Dialect) -> Scene {
     let heights = [0, 1].map(|i| match &stack.scene.bodies[i].shape {
         Shape::Block(block) => block.size[2].min(block.size[0]).min(block.size[1]),
         Shape::Cap(cap) => cap.height,
+        Shape::Grid(grid) => grid.edge,
     });
     let press = Press {
         moduli: [1.0, ratio],
