@@ -54,7 +54,6 @@ pub mod frame;
 pub mod initial;
 pub mod interface;
 pub mod interference;
-pub mod lift;
 pub mod pair;
 pub mod placement;
 pub mod pointed;

@@ -14,7 +14,7 @@ mod traction_field;
 
 pub use approach::approach;
 pub(crate) use approach::compliances;
-pub use before::{Before, Kept, Lifts};
+pub use before::{Before, Kept};
 pub use traction_field::Selection;
 
 use striae_surface::node::SurfaceNode;
@@ -69,7 +69,6 @@ impl Selection {
             partners,
             homes: Vec::new(),
             offsets: [Vec::new(), Vec::new()],
-            lifts: [Vec::new(), Vec::new()],
             required: before.required.clone(),
             points,
             yields: false,

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use striae_contact::{
     field::FacetForces,
-    selection::{Kept, Lifts},
+    selection::Kept,
     tip::RigidPoints,
     unknowns::{NodeResult, Tractions},
 };
@@ -50,8 +50,6 @@ pub struct PairState {
     pub required: Kept,
     /// Which nodes were pointed in it.
     pub pointed: Kept,
-    /// Lengths by which rows were [lifted](striae_contact::lift) in it.
-    pub lifts: Lifts,
     /// Points of a rigid side that were so, by the node of side `a` that they lodge with.
     pub points: RigidPoints,
     /// Pressure and components of `-tau` along the nodal tangents of all nodes, by side.
@@ -186,7 +184,6 @@ impl PairState {
             kept: counts.map(|count| vec![false; count]),
             required: counts.map(|count| vec![false; count]),
             pointed: counts.map(|count| vec![false; count]),
-            lifts: [Vec::new(), Vec::new()],
             points: vec![None; lodged],
             carried: counts.map(|count| vec![[0.0; 3]; count]),
             nodes: counts.map(|count| vec![NodeResult::default(); count]),

@@ -5,9 +5,6 @@ use crate::tip::RigidPoints;
 /// Nodes that were kept, by side.
 pub type Kept = [Vec<bool>; 2];
 
-/// Lengths by which rows of nodes are [lifted](crate::lift), by side; empty where none is.
-pub type Lifts = [Vec<f64>; 2];
-
 /// What nodes are before the roles of an increment are chosen.
 #[derive(Clone, Copy, Debug)]
 pub struct Before<'a> {

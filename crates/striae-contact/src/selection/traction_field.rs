@@ -5,10 +5,7 @@ use std::ops::Range;
 use striae_mesh::FacetId;
 use striae_surface::node::SurfaceNode;
 
-use super::{
-    approach::approach,
-    before::{Kept, Lifts},
-};
+use super::{approach::approach, before::Kept};
 use crate::{
     bedding::bedding,
     configuration::Configuration,
@@ -41,8 +38,6 @@ pub struct Selection {
     /// Overlap of the meshes at the nodes that is not pressed out yet, by side; empty where
     /// there is none.
     pub offsets: [Vec<f64>; 2],
-    /// Lengths by which rows are [lifted](crate::lift), by side; empty where none is.
-    pub lifts: Lifts,
     /// Nodes that are kept whatever their pivots, by side.
     pub required: Kept,
     /// Points of a rigid side that are pointed.
@@ -205,12 +200,6 @@ impl Selection {
     pub fn offset(&self, side: Side, node: SurfaceNode) -> f64 {
         let offset = self.offsets[side].get(node.index());
         offset.copied().unwrap_or(0.0)
-    }
-
-    /// Length by which the row of a node is lifted.
-    pub fn lift(&self, side: Side, node: SurfaceNode) -> f64 {
-        let lift = self.lifts[side].get(node.index());
-        lift.copied().unwrap_or(0.0)
     }
 
     /// Which facets are paired.

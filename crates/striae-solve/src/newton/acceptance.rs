@@ -55,7 +55,6 @@ pub(super) fn accepted(
             kept: selection.kept_nodes(),
             pointed: selection.pointed_nodes(),
             required: selection.required,
-            lifts: selection.lifts,
             points: selection.points,
             tractions,
             carried: evaluation.carried,

@@ -1,7 +1,6 @@
 //! An increment under way: corrections until the residual is small.
 
 mod ending;
-mod lifting;
 
 use striae_contact::{
     complementarity::Iteration,
@@ -53,8 +52,6 @@ pub(super) struct Attempt<'a> {
     pub(super) iterations: Vec<Norms>,
     history: History,
     inflation: Inflation,
-    /// How many iterations there may be.
-    limit: usize,
     /// What came inside or through, by pair; empty before the end.
     pub(super) interferences: Vec<Vec<Interference>>,
     /// Which pairs are closed in the latest state.
@@ -96,7 +93,6 @@ impl<'a> Attempt<'a> {
             iterations: Vec::new(),
             history: History::default(),
             inflation: Inflation::default(),
-            limit: context.problem.model.solver.largest_iterations,
             interferences: Vec::new(),
             closed: vec![true; context.pairs.len()],
             first: Iteration::First,
@@ -180,9 +176,6 @@ impl Attempt<'_> {
             assembled = self.taken_up(found, workspace)?;
         }
         self.interferences = passage(&self.setting(), &self.trial, &assembled.contacts)?;
-        if false {
-            return Ok(self.lifted(assembled, workspace, observer));
-        }
         Ok(assembled)
     }
 

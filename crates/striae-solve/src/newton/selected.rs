@@ -4,7 +4,6 @@
 use striae_contact::{
     configuration::Configuration,
     evaluation::Evaluation,
-    lift,
     pointed::{self, Bend, Pierced, Progress, choice::points, staying},
     selection::{Before, Kept, Selection},
     side::Side,
@@ -50,7 +49,6 @@ pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected
             };
             let selection = Selection {
                 offsets: context.offsets_left(pair, s),
-                lifts: lift::following(&start, &of_pair.lifts),
                 ..Selection::new(&start, None, before, &context.fixed_on_pair[pair])
             };
             tractions.tau_n = of_pair
@@ -181,7 +179,6 @@ pub(super) fn reselected(
             let prescribed = &setting.context.fixed_on_pair[pair];
             let selection = Selection {
                 offsets,
-                lifts: setting.selections[pair].lifts.clone(),
                 yields: setting.selections[pair].yields,
                 ..Selection::new(&start, Some(&latest), before(&pointed), prescribed)
             };

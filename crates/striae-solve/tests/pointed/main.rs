@@ -2,7 +2,6 @@
 
 mod edge;
 mod home;
-mod lift;
 mod ridge;
 mod scene;
 mod tangent;
