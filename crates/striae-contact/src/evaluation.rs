@@ -273,7 +273,6 @@ impl Evaluation {
                         Some(wanted) if !wanted[side][node] => Derivatives::None,
                         _ => derivatives,
                     },
-                    yields: stage.selection.yields && stage.selection.is_point(side, node),
                 };
                 Some(rows(stage.configuration, &contact_node, conditions))
             })

@@ -71,7 +71,6 @@ impl Selection {
             offsets: [Vec::new(), Vec::new()],
             required: before.required.clone(),
             points,
-            yields: false,
         };
         for &side in start.pair.deformable_sides() {
             let nodes = before.pointed[side].iter().enumerate();

@@ -42,8 +42,6 @@ pub struct Selection {
     pub required: Kept,
     /// Points of a rigid side that are pointed.
     pub points: RigidPoints,
-    /// Whether the rows of these points [yield](crate::complementarity::rows) in the tangent.
-    pub yields: bool,
 }
 
 impl Selection {
@@ -58,11 +56,6 @@ impl Selection {
                 home: self.home(side, node),
             },
         }
-    }
-
-    /// Whether a node stands for a point of a rigid surface.
-    pub fn is_point(&self, side: Side, node: SurfaceNode) -> bool {
-        matches!(self.tip(side, node), Tip::Rigid(_))
     }
 
     /// The facet that a pointed node was in at the start.

@@ -108,20 +108,6 @@ impl<'a> Attempt<'a> {
         }
     }
 
-    /// Whether points of rigid surfaces are in contact.
-    pub(super) fn has_points(&self) -> bool {
-        let mut selections = self.selections.iter();
-        selections.any(|selection| selection.points.iter().any(Option::is_some))
-    }
-
-    /// The same with points that yield in the tangent.
-    pub(super) fn yielding(mut self) -> Self {
-        for selection in &mut self.selections {
-            selection.yields = true;
-        }
-        self
-    }
-
     /// Whether it has started where the increment before leads to.
     pub(super) fn follows(&self) -> bool {
         self.first != Iteration::First

@@ -179,7 +179,6 @@ pub(super) fn reselected(
             let prescribed = &setting.context.fixed_on_pair[pair];
             let selection = Selection {
                 offsets,
-                yields: setting.selections[pair].yields,
                 ..Selection::new(&start, Some(&latest), before(&pointed), prescribed)
             };
             let mut tractions = trial.tractions[pair].clone();
