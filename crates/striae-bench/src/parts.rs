@@ -110,8 +110,6 @@ fn of_scene(group: &str, size: usize) -> Results {
     let before = Before {
         kept: &pair.kept,
         required: &pair.required,
-        pointed: &pair.pointed,
-        points: &pair.points,
     };
     let selection = Selection::new(&configuration, None, before, &context.fixed_on_pair[0]);
     let nodes: usize = Side::BOTH

@@ -87,16 +87,6 @@ impl<'a> Configuration<'a> {
         self.pair.search_distance.unwrap_or(0.0).max(least)
     }
 
-    /// Local facet size at a node; at a point of a rigid side that of the node it lodges with.
-    pub fn size(&self, side: Side, node: SurfaceNode) -> f64 {
-        let side = if self.pair.is_deformable(side) {
-            side
-        } else {
-            Side::A
-        };
-        self.side(side).sizes[node]
-    }
-
     /// Point and unit normal of the plane that is side `b`, if it is one.
     pub fn plane(&self) -> Option<(Vec3, Vec3)> {
         match self.pair.sides[Side::B].geometry {

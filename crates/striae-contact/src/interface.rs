@@ -17,8 +17,6 @@ pub enum LastIncrement {
     NotKept,
     /// It is kept whatever its pivot: what it would follow did not feel what is there.
     Required,
-    /// It is pointed and no candidate, see [`crate::pointed`].
-    Pointed,
 }
 
 /// A node of a surface.

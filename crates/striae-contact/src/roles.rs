@@ -214,10 +214,7 @@ impl Ord for Bid {
 impl<'a> Contest<'a> {
     fn new(interface: &Interface, mass: &'a CommonMass) -> Self {
         let count = mass.nodes.len() as u32;
-        let competes = |&k: &u32| {
-            let pointed = mass.node(interface, k).last == LastIncrement::Pointed;
-            mass.weighted[k as usize] && !pointed
-        };
+        let competes = |&k: &u32| mass.weighted[k as usize];
         let candidates = (0..count).filter(competes).collect();
         let candidates = from_the_middle(interface, mass, candidates);
         let mut rank = vec![0; count as usize];
@@ -228,7 +225,7 @@ impl<'a> Contest<'a> {
         let (required, candidates) = candidates.into_iter().partition(is_required);
         let factor = |k| match mass.node(interface, k).last {
             LastIncrement::Kept => STAY,
-            LastIncrement::NotKept | LastIncrement::Required | LastIncrement::Pointed => 1.0,
+            LastIncrement::NotKept | LastIncrement::Required => 1.0,
         };
         Self {
             mass,

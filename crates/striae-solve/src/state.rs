@@ -4,7 +4,6 @@ use serde::{Deserialize, Serialize};
 use striae_contact::{
     field::FacetForces,
     selection::Kept,
-    tip::RigidPoints,
     unknowns::{NodeResult, Tractions},
 };
 use striae_mesh::{FacetId, Vec3};
@@ -48,10 +47,6 @@ pub struct PairState {
     pub kept: Kept,
     /// Which of them were so whatever their pivots.
     pub required: Kept,
-    /// Which nodes were pointed in it.
-    pub pointed: Kept,
-    /// Points of a rigid side that were so, by the node of side `a` that they lodge with.
-    pub points: RigidPoints,
     /// Pressure and components of `-tau` along the nodal tangents of all nodes, by side.
     pub carried: [Vec<[f64; 3]>; 2],
     /// What is known of every surface node, by side.
@@ -178,13 +173,10 @@ impl State {
 impl PairState {
     fn untouched(pair: &striae_contact::pair::ContactPair) -> Self {
         let counts = pair.carriers();
-        let lodged = if pair.is_rigid() { counts[1] } else { 0 };
         Self {
             tractions: Tractions::zero(counts),
             kept: counts.map(|count| vec![false; count]),
             required: counts.map(|count| vec![false; count]),
-            pointed: counts.map(|count| vec![false; count]),
-            points: vec![None; lodged],
             carried: counts.map(|count| vec![[0.0; 3]; count]),
             nodes: counts.map(|count| vec![NodeResult::default(); count]),
             facets: [Vec::new(), Vec::new()],

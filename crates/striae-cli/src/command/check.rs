@@ -198,8 +198,6 @@ mod tests {
         let before = Before {
             kept: &of_pair.kept,
             required: &of_pair.required,
-            pointed: &of_pair.pointed,
-            points: &of_pair.points,
         };
         let configuration = context.configuration(0, &state.positions, &state.rigid);
         let selection = Selection::new(&configuration, None, before, &context.fixed_on_pair[0]);

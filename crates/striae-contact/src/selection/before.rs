@@ -1,7 +1,5 @@
 //! What nodes are before the roles of an increment are chosen.
 
-use crate::tip::RigidPoints;
-
 /// Nodes that were kept, by side.
 pub type Kept = [Vec<bool>; 2];
 
@@ -12,8 +10,4 @@ pub struct Before<'a> {
     pub kept: &'a Kept,
     /// Nodes that are kept in this one whatever their pivots.
     pub required: &'a Kept,
-    /// Nodes that are [pointed](crate::pointed) in this one.
-    pub pointed: &'a Kept,
-    /// The same of points of a rigid side; may be empty.
-    pub points: &'a RigidPoints,
 }

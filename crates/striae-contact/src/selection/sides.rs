@@ -35,9 +35,7 @@ pub(super) fn surface_nodes(
                 position: *position,
                 flexibility: share * size / modulus,
                 compliance: share / (modulus * size),
-                last: if before.pointed[side].get(node) == Some(&true) {
-                    LastIncrement::Pointed
-                } else if before.required[side].get(node) == Some(&true) {
+                last: if before.required[side].get(node) == Some(&true) {
                     LastIncrement::Required
                 } else if before.kept[side].get(node) == Some(&true) {
                     LastIncrement::Kept

@@ -53,9 +53,7 @@ pub(super) fn accepted(
         .map(|(((tractions, selection), evaluation), before)| PairState {
             dissipated: before.dissipated + evaluation.dissipated,
             kept: selection.kept_nodes(),
-            pointed: selection.pointed_nodes(),
             required: selection.required,
-            points: selection.points,
             tractions,
             carried: evaluation.carried,
             nodes: evaluation.nodes,

@@ -3,12 +3,8 @@
 mod ending;
 
 use striae_contact::{
-    complementarity::Iteration,
-    interference::Interference,
-    pointed::{Pierced, Progress},
-    segment::Derivatives,
-    selection::Selection,
-    table_1::Inflation,
+    complementarity::Iteration, interference::Interference, segment::Derivatives,
+    selection::Selection, table_1::Inflation,
 };
 
 use super::{
@@ -24,7 +20,7 @@ use super::{
     release::{closed, released},
     rest::contact_at_rest,
     rule::{is_final, later, part},
-    selected::{Selected, pierced, reselected, selected},
+    selected::{Selected, reselected, selected},
     workspace::Workspace,
 };
 use crate::{
@@ -149,16 +145,13 @@ impl Attempt<'_> {
             assembled = self.converge(assembled, workspace, observer)?;
             flown(&self.setting(), &self.trial).map_or(Ok(()), Err)?;
             let missed = missed(&self.setting(), &self.trial);
-            let pierced = self.pierced(&assembled, Progress::Converged);
+            let Some(reason) = missed else {
+                break;
+            };
             if repetition == REPETITIONS {
-                missed.map_or(Ok(()), Err)?;
-                break;
+                return Err(reason);
             }
-            if missed.is_none() && pierced.iter().all(Pierced::is_empty) {
-                break;
-            }
-            let (setting, trial) = (self.setting(), &self.trial);
-            let found = reselected(&setting, trial, &assembled.contacts, &pierced);
+            let found = reselected(&self.setting(), &self.trial, &assembled.contacts);
             assembled = self.taken_up(found, workspace)?;
         }
         self.interferences = passage(&self.setting(), &self.trial, &assembled.contacts)?;
@@ -318,24 +311,9 @@ impl Attempt<'_> {
         if number > 1 {
             return None;
         }
-        let pierced = self.pierced(assembled, Progress::Iterating);
-        let comes = missed(&self.setting(), &self.trial).is_some();
-        (comes || !pierced.iter().all(Pierced::is_empty)).then(|| {
-            let setting = self.setting();
-            reselected(&setting, &self.trial, &assembled.contacts, &pierced)
-        })
-    }
-
-    /// What pierces the other side, by pair.
-    fn pierced(&self, assembled: &Assembled, progress: Progress) -> Vec<Pierced> {
-        let contacts = &assembled.contacts;
-        pierced(
-            self.context,
-            &self.selections,
-            &self.trial,
-            contacts,
-            progress,
-        )
+        let setting = self.setting();
+        let comes = missed(&setting, &self.trial).is_some();
+        comes.then(|| reselected(&setting, &self.trial, &assembled.contacts))
     }
 
     /// Goes on with another traction field.

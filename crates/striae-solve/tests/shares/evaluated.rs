@@ -104,8 +104,6 @@ fn selections(context: &StepContext, state: &State) -> Vec<Selection> {
             let before = Before {
                 kept: &of_pair.kept,
                 required: &of_pair.required,
-                pointed: &of_pair.pointed,
-                points: &of_pair.points,
             };
             Selection::new(&start, None, before, &context.fixed_on_pair[pair])
         })

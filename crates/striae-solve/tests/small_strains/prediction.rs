@@ -17,8 +17,6 @@ fn a_prediction_without_motion_changes_nothing() {
         let before = Before {
             kept: &of_pair.kept,
             required: &of_pair.required,
-            pointed: &of_pair.pointed,
-            points: &of_pair.points,
         };
         let prescribed = &context.fixed_on_pair[0];
         let chosen = |predicted| Selection::new(&start, predicted, before, prescribed).basis;

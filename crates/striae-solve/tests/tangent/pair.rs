@@ -77,8 +77,6 @@ impl<'a> PairFunction<'a> {
             let before = Before {
                 kept: &kept,
                 required: &kept,
-                pointed: &kept,
-                points: &Vec::new(),
             };
             Selection::new(&from, Some(&to), before, &free)
         };

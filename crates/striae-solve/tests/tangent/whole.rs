@@ -255,8 +255,6 @@ fn selections(context: &StepContext, before: &State, state: &State) -> Vec<Selec
             let had = Before {
                 kept: &of_pair.kept,
                 required: &state.pairs[pair].required,
-                pointed: &state.pairs[pair].pointed,
-                points: &state.pairs[pair].points,
             };
             let fixed = &context.fixed_on_pair[pair];
             let first = Selection::new(&at(before), None, had, fixed);

@@ -88,15 +88,10 @@ fn contact_within_a_facet_of_both_sides_is_felt() {
     // The mean gap over the facets of the cap closes at h^2/(3.4 R), .029 of their size here.
     let size = 0.1;
     let run = pressed_cap(size, 1.0 / RATIO, 0.025 * size);
-    let pointed = &run.last().pairs[0].pointed;
-    assert_eq!(pointed.iter().flatten().filter(|node| **node).count(), 1);
     assert_eq!(required(&run), 0);
     assert!(force(&run) > 0.0);
     assert!(depth(&run) < 1e-3 * size, "{}", depth(&run));
-    // It is an ordinary node again once the field feels the cap.
     let pressed = pressed_cap(size, 1.0 / RATIO, 0.08 * size);
-    let pointed = &pressed.last().pairs[0].pointed;
-    assert!(!pointed.iter().flatten().any(|node| *node));
     assert!(force(&pressed) > force(&run));
 }
 
