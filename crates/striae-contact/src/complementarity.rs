@@ -62,7 +62,7 @@ pub fn rows(
     } = conditions;
     let state = NodeState::new(configuration, node, friction, prescribed);
     let [p, z1, z2] = node.unknowns;
-    let size = configuration.side(node.side).sizes[node.node];
+    let size = configuration.size(node.side, node.node);
     let [r_n, r_t] = node.kinematics.stiffness;
     let g = state.gap.re;
     let is_free = state.is_free();

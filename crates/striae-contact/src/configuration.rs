@@ -87,6 +87,11 @@ impl<'a> Configuration<'a> {
         self.pair.search_distance.unwrap_or(0.0).max(least)
     }
 
+    /// Local facet size at a node of a deformable side.
+    pub fn size(&self, side: Side, node: SurfaceNode) -> f64 {
+        self.side(side).sizes[node]
+    }
+
     /// Point and unit normal of the plane that is side `b`, if it is one.
     pub fn plane(&self) -> Option<(Vec3, Vec3)> {
         match self.pair.sides[Side::B].geometry {

@@ -311,7 +311,6 @@ impl Evaluation {
             configuration: stage.configuration,
             selection: stage.selection,
             frames: stage.frames,
-            tractions: stage.tractions,
             tau: stage.tau,
         };
         let mut forces = [Vec::new(), Vec::new()];

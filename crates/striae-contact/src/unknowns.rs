@@ -3,10 +3,7 @@
 use serde::{Deserialize, Serialize};
 use striae_mesh::Vec3;
 
-use crate::{
-    bedding::{REFRESHED, level},
-    side::Side,
-};
+use crate::bedding::{REFRESHED, level};
 
 /// Traction unknowns of a pair; the same shape whatever the roles.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
