@@ -7,14 +7,12 @@
 //! overlap counts.
 
 mod approach;
-mod before;
 mod gathered;
 mod sides;
 mod traction_field;
 
 pub use approach::approach;
-pub(crate) use approach::compliances;
-pub use before::{Before, Kept};
+use approach::compliances;
 pub use traction_field::Selection;
 
 use crate::{
@@ -23,13 +21,17 @@ use crate::{
 };
 use gathered::Gathered;
 
+/// Nodes that are kept, by side.
+pub type Kept = [Vec<bool>; 2];
+
 impl Selection {
     /// Chooses the kept nodes from the configuration that an increment starts from and, if
-    /// it is known, the one that it is predicted to lead to.
+    /// it is known, the one that it is predicted to lead to; `before` are those of the last
+    /// increment.
     pub fn new(
         start: &Configuration,
         predicted: Option<&Configuration>,
-        before: Before,
+        before: &Kept,
         prescribed: &Prescribed,
     ) -> Self {
         let compliances = compliances(start);
@@ -54,7 +56,6 @@ impl Selection {
             depth,
             partners,
             offsets: [Vec::new(), Vec::new()],
-            required: before.required.clone(),
         }
     }
 }

@@ -45,8 +45,6 @@ pub struct PairState {
     pub tractions: Tractions,
     /// Which nodes were kept in the increment that led here.
     pub kept: Kept,
-    /// Which of them were so whatever their pivots.
-    pub required: Kept,
     /// Pressure and components of `-tau` along the nodal tangents of all nodes, by side.
     pub carried: [Vec<[f64; 3]>; 2],
     /// What is known of every surface node, by side.
@@ -176,7 +174,6 @@ impl PairState {
         Self {
             tractions: Tractions::zero(counts),
             kept: counts.map(|count| vec![false; count]),
-            required: counts.map(|count| vec![false; count]),
             carried: counts.map(|count| vec![[0.0; 3]; count]),
             nodes: counts.map(|count| vec![NodeResult::default(); count]),
             facets: [Vec::new(), Vec::new()],

@@ -2,7 +2,7 @@
 
 use striae_surface::node::SurfaceNode;
 
-use super::{approach::approach, before::Kept};
+use super::{Kept, approach::approach};
 use crate::{
     bedding::bedding,
     configuration::Configuration,
@@ -30,8 +30,6 @@ pub struct Selection {
     /// Overlap of the meshes at the nodes that is not pressed out yet, by side; empty where
     /// there is none.
     pub offsets: [Vec<f64>; 2],
-    /// Nodes that are kept whatever their pivots, by side.
-    pub required: Kept,
 }
 
 impl Selection {

@@ -53,7 +53,6 @@ pub(super) fn accepted(
         .map(|(((tractions, selection), evaluation), before)| PairState {
             dissipated: before.dissipated + evaluation.dissipated,
             kept: selection.kept_nodes(),
-            required: selection.required,
             tractions,
             carried: evaluation.carried,
             nodes: evaluation.nodes,

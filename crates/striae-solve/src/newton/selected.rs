@@ -4,7 +4,7 @@
 use striae_contact::{
     configuration::Configuration,
     evaluation::Evaluation,
-    selection::{Before, Kept, Selection},
+    selection::{Kept, Selection},
     side::Side,
     unknowns::{Label, NodeResult, Status, Tractions},
 };
@@ -32,13 +32,9 @@ pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected
         .map(|(pair, of_pair)| {
             let start = context.configuration(pair, &state.positions, &state.rigid);
             let mut tractions = of_pair.tractions.clone();
-            let before = Before {
-                kept: &of_pair.kept,
-                required: &pressed(&of_pair.required, &of_pair.nodes),
-            };
             let selection = Selection {
                 offsets: context.offsets_left(pair, s),
-                ..Selection::new(&start, None, before, &context.fixed_on_pair[pair])
+                ..Selection::new(&start, None, &of_pair.kept, &context.fixed_on_pair[pair])
             };
             tractions.tau_n = of_pair
                 .carried
@@ -62,7 +58,7 @@ pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected
                     .map(|(slipped, before)| label(*slipped, before))
                     .collect()
             });
-            fit(&selection, before.kept, &of_pair.carried, &mut tractions);
+            fit(&selection, &of_pair.kept, &of_pair.carried, &mut tractions);
             (selection, tractions)
         })
         .unzip();
@@ -85,16 +81,6 @@ fn label(slipped: bool, before: &Label) -> Label {
     }
 }
 
-/// Those of some nodes that are pressed.
-fn pressed(nodes: &Kept, results: &[Vec<NodeResult>; 2]) -> Kept {
-    Side::BOTH.map(|side| {
-        let nodes = nodes[side].iter().zip(&results[side]);
-        nodes
-            .map(|(is_one, result)| *is_one && result.pressure > 0.0)
-            .collect()
-    })
-}
-
 /// The fields chosen anew with what a trial state shows.
 pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluation]) -> Selected {
     let (selections, tractions) = with_configurations(setting, trial)
@@ -102,14 +88,10 @@ pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluatio
         .map(|(pair, (start, latest))| {
             let had = &setting.selections[pair];
             let kept = had.kept_nodes();
-            let before = Before {
-                kept: &kept,
-                required: &had.required,
-            };
             let prescribed = &setting.context.fixed_on_pair[pair];
             let selection = Selection {
                 offsets: had.offsets.clone(),
-                ..Selection::new(&start, Some(&latest), before, prescribed)
+                ..Selection::new(&start, Some(&latest), &kept, prescribed)
             };
             let mut tractions = trial.tractions[pair].clone();
             fit(&selection, &kept, &contacts[pair].carried, &mut tractions);
