@@ -9,7 +9,7 @@ use striae_contact::{
     complementarity::{Conditions, Iteration},
     evaluation::evaluate,
     segment::Derivatives,
-    selection::{Before, Selection},
+    selection::Selection,
     side::Side,
     unknowns::Tractions,
 };
@@ -107,13 +107,7 @@ fn of_scene(group: &str, size: usize) -> Results {
     let context = StepContext::new(&problem, 0, &state);
     let configuration = context.configuration(0, &state.positions, &state.rigid);
     let pair = &state.pairs[0];
-    let before = Before {
-        kept: &pair.kept,
-        required: &pair.required,
-        pointed: &pair.pointed,
-        points: &pair.points,
-    };
-    let selection = Selection::new(&configuration, None, before, &context.fixed_on_pair[0]);
+    let selection = Selection::new(&configuration, None, &pair.kept, &context.fixed_on_pair[0]);
     let nodes: usize = Side::BOTH
         .into_iter()
         .map(|side| selection.nodes(side))
@@ -130,7 +124,7 @@ fn of_scene(group: &str, size: usize) -> Results {
                 black_box(Selection::new(
                     &configuration,
                     None,
-                    before,
+                    &pair.kept,
                     &context.fixed_on_pair[0],
                 ));
             });

@@ -6,10 +6,7 @@ use std::io::{IsTerminal, Write};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use striae::{Converged, Next, Observer};
-use striae_contact::{
-    evaluation::Evaluation,
-    unknowns::{Status, counted},
-};
+use striae_contact::{evaluation::Evaluation, unknowns::Status};
 use striae_solve::{drive::Progress as Position, model::Model, norms::Norms, outcome::CutBack};
 
 use crate::forecast::{Forecast, clock};
@@ -81,7 +78,7 @@ impl Observer for Progress {
         let nodes = || {
             contacts
                 .iter()
-                .flat_map(|contact| counted(&contact.nodes, &contact.points))
+                .flat_map(|contact| contact.nodes.iter().flatten())
         };
         let count = |status| nodes().filter(|node| node.status == status).count();
         self.counts = [

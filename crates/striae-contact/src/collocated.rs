@@ -35,7 +35,6 @@ use crate::{
     selection::Selection,
     side::Side,
     term::{Gradient, Jacobian, Lanes, Source, add_block, gradient},
-    tip::Tip,
     tracked::{Tracked, TrackedScalar, add_chained, add_slope},
     traction::NodalTractions,
     transported::Transported,
@@ -55,9 +54,7 @@ pub fn kinematics(
             let (side, node) = selection.kept()[k].place();
             let frame = frames[side][node].as_ref();
             let slip = match (selection.partner(k), frame) {
-                (Some(partner), Some(frame)) => {
-                    slip(configuration, selection.tip(side, node), partner, frame)
-                }
+                (Some(partner), Some(frame)) => slip(configuration, (side, node), partner, frame),
                 _ => Tracked::default(),
             };
             let gap = frame.map_or_else(TrackedScalar::default, |frame| {
@@ -69,11 +66,7 @@ pub fn kinematics(
                 reaches: gap.gradient.clone(),
                 gap,
                 seen_slip: slip.value,
-                shares: shares(
-                    configuration,
-                    selection.tip(side, node),
-                    selection.partner(k),
-                ),
+                shares: shares(configuration, (side, node), selection.partner(k)),
                 slip,
                 presence: Presence::Facing,
                 pressure: Pressure::AtNode,
@@ -138,14 +131,21 @@ fn gap(
 }
 
 /// Slip of a node relative to the material point that was opposite to it.
-pub fn slip(configuration: &Configuration, tip: Tip, partner: Partner, frame: &Frame) -> Tracked {
+fn slip(
+    configuration: &Configuration,
+    (side, node): (Side, SurfaceNode),
+    partner: Partner,
+    frame: &Frame,
+) -> Tracked {
     let numbering = configuration.pair.numbering();
-    let side = tip.side();
-    let (x, n) = (tip.position(configuration), frame.n.value);
+    let (x, n) = (configuration.side(side).x[node], frame.n.value);
     let tangential = Matrix3::identity() - n * n.transpose();
     let mut lanes = Lanes::default();
     let mut slopes = [[0.0; 3]; 18];
-    lanes.push(tip.lanes(configuration));
+    lanes.push(Source::Unknowns {
+        first: numbering.position(side, node),
+        count: 3,
+    });
     lanes.push(Source::Vector(&frame.n.jacobian));
     if let Partner::Corners(corners, weights) = partner {
         for (at, corner) in corners.into_iter().enumerate() {
@@ -167,15 +167,13 @@ pub fn slip(configuration: &Configuration, tip: Tip, partner: Partner, frame: &F
 }
 
 /// Shares of the node and of what is opposite to it in its friction.
-pub fn shares(
+fn shares(
     configuration: &Configuration,
-    tip: Tip,
+    (side, node): (Side, SurfaceNode),
     partner: Option<Partner>,
 ) -> Vec<(u32, f64)> {
     let numbering = configuration.pair.numbering();
-    let side = tip.side();
-    let mut shares: Vec<(u32, f64)> = Vec::new();
-    shares.extend(tip.unknown(configuration).map(|first| (first, 1.0)));
+    let mut shares = vec![(numbering.position(side, node), 1.0)];
     if let Some(Partner::Corners(corners, weights)) = partner {
         let opposite = corners.map(|corner| numbering.position(side.opposite(), corner));
         shares.extend(opposite.into_iter().zip(weights));

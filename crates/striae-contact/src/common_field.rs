@@ -31,7 +31,6 @@ use crate::{
     term::{Field, Jacobian, LocalTerm, Row},
     traction::NodalTractions,
     transported::Transported,
-    unknowns::Tractions,
 };
 
 /// What the common field depends on.
@@ -43,8 +42,6 @@ pub struct CommonField<'a> {
     pub selection: &'a Selection,
     /// Nodal frames.
     pub frames: &'a Frames,
-    /// Unknowns.
-    pub tractions: &'a Tractions,
     /// Friction tractions of the kept nodes.
     pub tau: &'a NodalTractions,
 }

@@ -42,36 +42,13 @@ use crate::{
     term::{Field, LocalTerm},
     unknowns::NodeResult,
 };
-use friction::{TangentialRow, tangential};
+use friction::tangential;
 use state::{N, NodeState, TRACTION};
 
 /// Gap below which a node counts as touching at the start of an increment, over the local size.
 const TOUCHING: f64 = 1e-6;
 
-/// Compliance of a closed point that yields, over that of the facets around it.
-const YIELD: f64 = 1e-6;
-
-/// The rows of a closed node with a tangent that is never singular.
-///
-/// Points of a rigid surface whose places depend on each other, or on nodes in contact, state
-/// the same position again, and how they share the force is not determined. With a small
-/// compliance in the tangent, `dg + c_n dp` and `d(du) - c_t dz` in place of `dg` and `d(du)`,
-/// they share it. Residuals stay exact, and with them what is converged to.
-fn yielding(rows: [TangentialRow; 3], [r_n, r_t]: [f64; 2]) -> [TangentialRow; 3] {
-    let mut at = TRACTION;
-    rows.map(|(field, residual, mut slope)| {
-        slope[at] += match field {
-            Field::Gap(_) => YIELD / r_n,
-            Field::Stick(_) => -YIELD / r_t,
-            _ => YIELD,
-        };
-        at += 1;
-        (field, residual, slope)
-    })
-}
-
-/// The three rows of a kept node. Where it yields, closed rows have a compliance in the tangent,
-/// so that rows of places that depend on each other do not make it singular.
+/// The three rows of a kept node.
 pub fn rows(
     configuration: &Configuration,
     node: &ContactNode,
@@ -86,7 +63,7 @@ pub fn rows(
     let state = NodeState::new(configuration, node, friction, prescribed);
     let [p, z1, z2] = node.unknowns;
     let size = configuration.size(node.side, node.node);
-    let stiffness @ [r_n, r_t] = node.kinematics.stiffness;
+    let [r_n, r_t] = node.kinematics.stiffness;
     let g = state.gap.re;
     let is_free = state.is_free();
     let first = iteration == Iteration::First;
@@ -118,11 +95,7 @@ pub fn rows(
     let rows = if closed {
         let (status, [first, second]) = tangential(&state, configuration, [z1, z2], r_t, iteration);
         result.status = status;
-        let rows = [normal, first, second];
-        match node.yields {
-            true => yielding(rows, stiffness),
-            false => rows,
-        }
+        [normal, first, second]
     } else {
         [normal, held(1, z1), held(2, z2)]
     };
@@ -140,39 +113,4 @@ pub fn rows(
         Derivatives::None => LocalTerm::from_columns::<0>(&numbered, &[], &[]),
     };
     (term, result)
-}
-
-#[cfg(test)]
-mod tests {
-    use nalgebra::{Matrix3, Vector3};
-
-    use super::*;
-
-    /// A spring that two points hold at the same place, `k u + p1 + p2 = 0` with `g = -u`: their
-    /// rows are the same, and the tangent is singular unless they yield.
-    #[test]
-    fn points_at_one_place_share_the_force() {
-        let (stiffness, r_n, gap) = (3.0, 2.0, 0.25);
-        let mut slope = [0.0; N];
-        slope[0] = -1.0;
-        let rows = [Field::Gap(1.0), Field::Stick(1.0), Field::Traction];
-        let rows = rows.map(|field| (field, gap, slope));
-        let [row, ..] = yielding(rows, [r_n, 1.0]);
-        let (by_u, by_p) = (row.2[0], row.2[TRACTION]);
-        let tangent = Matrix3::new(stiffness, 1.0, 1.0, by_u, by_p, 0.0, by_u, 0.0, by_p);
-        let found = tangent.lu().solve(&Vector3::new(0.0, -gap, -gap)).unwrap();
-        assert!((found[1] - found[2]).abs() < 1e-9);
-        let both = -stiffness * gap / 2.0;
-        assert!((found[1] / both - 1.0).abs() < 10.0 * YIELD);
-        assert_eq!(row.1, gap);
-    }
-
-    /// Normal rows give way towards the other side, those of stick along the friction on it.
-    #[test]
-    fn yielding_rows_are_those_of_springs() {
-        let rows = [Field::Gap(1.0), Field::Stick(1.0), Field::Traction];
-        let rows = yielding(rows.map(|field| (field, 0.0, [0.0; N])), [4.0, 2.0]);
-        let slopes = [0, 1, 2].map(|at| rows[at].2[TRACTION + at]);
-        assert_eq!(slopes, [YIELD / 4.0, -YIELD / 2.0, YIELD]);
-    }
 }

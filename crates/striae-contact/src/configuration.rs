@@ -87,13 +87,8 @@ impl<'a> Configuration<'a> {
         self.pair.search_distance.unwrap_or(0.0).max(least)
     }
 
-    /// Local facet size at a node; at a point of a rigid side that of the node it lodges with.
+    /// Local facet size at a node of a deformable side.
     pub fn size(&self, side: Side, node: SurfaceNode) -> f64 {
-        let side = if self.pair.is_deformable(side) {
-            side
-        } else {
-            Side::A
-        };
         self.side(side).sizes[node]
     }
 

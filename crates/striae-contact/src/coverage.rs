@@ -6,7 +6,7 @@ use striae_surface::node::SurfaceNode;
 
 use crate::{
     configuration::Configuration,
-    projection::{Hit, Margin, Ray, nearest_edge, project},
+    projection::{Hit, Ray, nearest_edge, project},
     side::Side,
 };
 
@@ -57,26 +57,13 @@ const FOLLOW: f64 = 6.0;
 
 impl Configuration<'_> {
     /// The point opposite to a node of a deformable side within `reach`.
-    pub fn contact(
-        &self,
-        side: Side,
-        node: SurfaceNode,
-        reach: f64,
-        margin: Margin,
-    ) -> Option<Contact> {
+    pub fn contact(&self, side: Side, node: SurfaceNode, reach: f64) -> Option<Contact> {
         let own = self.side(side);
-        self.contact_at(side, own.x[node], own.normals[node], reach, margin)
+        self.contact_at(side, own.x[node], own.normals[node], reach)
     }
 
     /// The point opposite to the point `x` with the normal `n` of a deformable side.
-    pub fn contact_at(
-        &self,
-        side: Side,
-        x: Vec3,
-        n: Vec3,
-        reach: f64,
-        margin: Margin,
-    ) -> Option<Contact> {
+    pub fn contact_at(&self, side: Side, x: Vec3, n: Vec3, reach: f64) -> Option<Contact> {
         if let Some((point, normal)) = self.plane() {
             let gap = (x - point).dot(&normal);
             return (gap.abs() <= reach).then(|| Contact {
@@ -89,7 +76,7 @@ impl Configuration<'_> {
         } else {
             Ray::Own(n)
         };
-        let hit = project(self.side(side.opposite()), &x, ray, reach, margin)?;
+        let hit = project(self.side(side.opposite()), &x, ray, reach)?;
         Some(Contact {
             gap: hit.gap,
             place: Place::Facet(hit),
@@ -105,10 +92,10 @@ impl Configuration<'_> {
         };
         let reach = far * self.reach(side, node);
         if self.plane().is_some() {
-            let contact = self.contact(side, node, f64::INFINITY, Margin::Inside);
+            let contact = self.contact(side, node, f64::INFINITY);
             return contact.map(|contact| (contact, Found::Inside));
         }
-        if let Some(contact) = self.contact(side, node, reach, Margin::Inside) {
+        if let Some(contact) = self.contact(side, node, reach) {
             return Some((contact, Found::Inside));
         }
         let own = self.side(side);
@@ -124,7 +111,7 @@ impl Configuration<'_> {
     /// What a node of a deformable side sees.
     pub fn coverage(&self, side: Side, node: SurfaceNode) -> Coverage {
         let reach = self.reach(side, node);
-        match self.contact(side, node, HORIZON * reach, Margin::Inside) {
+        match self.contact(side, node, HORIZON * reach) {
             Some(contact) if contact.gap.abs() <= reach => Coverage::Near(contact),
             Some(_) => Coverage::Far,
             None if self.plane().is_some() => Coverage::Far,

@@ -19,7 +19,6 @@ use crate::{
     pair::Enforcement,
     pairing::{Corners, side_sign, topology},
     patch::{Patch, Pressures, patches, wanted},
-    pointed::{self, PointedTerm},
     ramp::{self, Ramp},
     segment::{Derivatives, SegmentDerivatives},
     segment_rows::Slip,
@@ -28,7 +27,6 @@ use crate::{
     slip_rate::{SlipRates, slip_rates},
     term::LocalTerm,
     texture::{CollapsedTexture, Textures, own, textures},
-    tip::{RigidPoints, Tip},
     traction::{NodalTractions, Surroundings, nodal_tractions},
     transported::Transported,
     unknowns::{NodeResult, Status, Tractions},
@@ -47,8 +45,6 @@ pub struct Evaluation {
     pub carried: [Vec<[f64; 3]>; 2],
     /// Forces on the facets of each side.
     pub facets: [Vec<(FacetId, FacetForces)>; 2],
-    /// Points of a rigid side that are pointed.
-    pub points: RigidPoints,
     /// Which facets are paired, and which corners and edges bound their polygons, as a number.
     /// Integrals of contact jump a little where it changes.
     pub topology: u64,
@@ -189,7 +185,6 @@ impl Stage<'_> {
             nodes: counts.map(|count| vec![NodeResult::default(); count]),
             carried: counts.map(|count| vec![[0.0; 3]; count]),
             facets: [Vec::new(), Vec::new()],
-            points: selection.points.clone(),
             topology: topology(patches.iter().map(|patch| &patch.paired)),
             dissipated: 0.0,
         };
@@ -235,9 +230,6 @@ impl Stage<'_> {
 
     /// Direction `s = a x n` of the node's own texture, zero without one.
     fn own_texture(&self, side: Side, node: SurfaceNode, frame: &Frame) -> Vec3 {
-        if let Tip::Rigid(_) = self.selection.tip(side, node) {
-            return Vec3::zeros();
-        }
         match own(self.configuration, side, node, &frame.n) {
             Ok(Some(a)) => a.value.cross(&frame.n.value),
             Ok(None) | Err(_) => Vec3::zeros(),
@@ -276,7 +268,6 @@ impl Evaluation {
                         Some(wanted) if !wanted[side][node] => Derivatives::None,
                         _ => derivatives,
                     },
-                    yields: stage.selection.yields && stage.selection.is_point(side, node),
                 };
                 Some(rows(stage.configuration, &contact_node, conditions))
             })
@@ -323,7 +314,6 @@ impl Evaluation {
             configuration: stage.configuration,
             selection: stage.selection,
             frames: stage.frames,
-            tractions: stage.tractions,
             tau: stage.tau,
         };
         let mut forces = [Vec::new(), Vec::new()];
@@ -333,12 +323,6 @@ impl Evaluation {
                 if let Some(facet) = facets[side] {
                     forces[side].push((facet, of_facets[side]));
                 }
-            }
-        }
-        for PointedTerm { term, facets } in pointed::terms(field) {
-            self.terms.push(term);
-            for &side in stage.configuration.pair.deformable_sides() {
-                forces[side].extend(facets[side]);
             }
         }
         self.facets = forces.map(|forces| by_facet(forces.into_iter()));

@@ -7,7 +7,7 @@ use striae_surface::{
     topology::distinct_corners,
 };
 
-use crate::{configuration::Configuration, projection::Margin, search::Bounds, side::Side};
+use crate::{configuration::Configuration, search::Bounds, side::Side};
 
 /// How much of a facet the other side covers.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -43,7 +43,7 @@ impl Configuration<'_> {
         if self.plane().is_none() && self.is_near_edge(side.opposite(), &middle, radius + reach) {
             return self.cut(side, &bounds, &middle, &m, 2.0 * reach);
         }
-        match self.contact_at(side, middle, m, 2.0 * reach, Margin::Inside) {
+        match self.contact_at(side, middle, m, 2.0 * reach) {
             Some(_) => FacetCoverage::Whole,
             None => FacetCoverage::Bare,
         }

@@ -20,9 +20,7 @@ use crate::{
     projection::{Hit, differentiated_rigid},
     selection::Selection,
     side::Side,
-    spot::Spot,
-    term::{Jacobian, Lanes, Source, add_block, parts, variable3},
-    tip::Tip,
+    term::{Lanes, Source, add_block, parts, variable3},
     tracked::Tracked,
 };
 
@@ -49,15 +47,8 @@ pub fn frames(configuration: &Configuration, selection: &Selection) -> Frames {
             .with_min_len(16)
             .map(SurfaceNode::new)
             .map(|node| {
-                let pointed = selection.is_pointed(side, node);
-                (pointed || selection.carries(side, node)).then(|| {
-                    let n = if pointed {
-                        pointed_normal(configuration, selection, side, node)
-                    } else {
-                        normal(configuration, side, node)
-                    };
-                    frame(configuration, selection.tip(side, node), n)
-                })
+                let carries = selection.carries(side, node);
+                carries.then(|| frame_of(configuration, side, node))
             })
             .collect()
     })
@@ -66,12 +57,7 @@ pub fn frames(configuration: &Configuration, selection: &Selection) -> Frames {
 /// The frame of a node.
 pub(crate) fn frame_of(configuration: &Configuration, side: Side, node: SurfaceNode) -> Frame {
     let n = normal(configuration, side, node);
-    let tip = Tip::Node {
-        side,
-        node,
-        home: None,
-    };
-    frame(configuration, tip, n)
+    frame(configuration, side, node, n)
 }
 
 /// The normal of a node: of its surface or, against a rigid one, of that.
@@ -79,25 +65,6 @@ fn normal(configuration: &Configuration, side: Side, node: SurfaceNode) -> Track
     let rigid = configuration.pair.is_rigid();
     let of_rigid = rigid.then(|| rigid_normal(configuration, node)).flatten();
     of_rigid.unwrap_or_else(|| own_normal(configuration, side, node))
-}
-
-/// The normal of a pointed node, against that of what it pierces.
-fn pointed_normal(
-    configuration: &Configuration,
-    selection: &Selection,
-    side: Side,
-    node: SurfaceNode,
-) -> Tracked {
-    let tip = selection.tip(side, node);
-    let spot = Spot::new(configuration, tip);
-    let alone = || match tip {
-        Tip::Node { .. } => normal(configuration, side, node),
-        Tip::Rigid(point) => Tracked {
-            value: point.normal(configuration),
-            jacobian: Jacobian::new(),
-        },
-    };
-    spot.map_or_else(alone, |spot| spot.n)
 }
 
 /// The opposite of the rigid normal at the projection; `None` far away from the surface.
@@ -170,12 +137,8 @@ fn neighbour(own: &Snapshot, node: SurfaceNode, n: &Vec3) -> SurfaceNode {
         .unwrap_or(first)
 }
 
-/// The frame with this normal; the tangents of a rigid point are those of a vertex of its edge.
-fn frame(configuration: &Configuration, tip: Tip, n: Tracked) -> Frame {
-    let (side, node) = match tip {
-        Tip::Node { side, node, .. } => (side, node),
-        Tip::Rigid(point) => (Side::B, point.ends[0]),
-    };
+/// The frame with this normal.
+fn frame(configuration: &Configuration, side: Side, node: SurfaceNode, n: Tracked) -> Frame {
     let own = configuration.side(side);
     let numbering = configuration.pair.numbering();
     let neighbour = neighbour(own, node, &n.value);
@@ -190,12 +153,9 @@ fn frame(configuration: &Configuration, tip: Tip, n: Tracked) -> Frame {
     let turn = n.value.cross_matrix();
     let mut lanes = Lanes::default();
     for other in [node, neighbour] {
-        lanes.push(match tip {
-            Tip::Rigid(_) => Source::Constant(3),
-            Tip::Node { .. } => Source::Unknowns {
-                first: numbering.position(side, other),
-                count: 3,
-            },
+        lanes.push(Source::Unknowns {
+            first: numbering.position(side, other),
+            count: 3,
         });
     }
     lanes.push(Source::Vector(&n.jacobian));

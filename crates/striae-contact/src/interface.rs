@@ -8,17 +8,13 @@ use crate::side::Side;
 use striae_mesh::Vec3;
 use striae_surface::node::SurfaceNode;
 
-/// Whether a node carried traction unknowns in the last increment, and what is known of it.
+/// Whether a node carried traction unknowns in the last increment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LastIncrement {
     /// It was kept: it competes with twice its pivot.
     Kept,
     /// It was not.
     NotKept,
-    /// It is kept whatever its pivot: what it would follow did not feel what is there.
-    Required,
-    /// It is pointed and no candidate, see [`crate::pointed`].
-    Pointed,
 }
 
 /// A node of a surface.

@@ -26,8 +26,6 @@ pub struct Opposing {
     pub weights_by_r: [Vec3; 4],
     /// `dg/dr`.
     pub gap_by_r: Vec3,
-    /// `dg/dn`.
-    pub gap_by_n: Vec3,
 }
 
 /// Lanes of the node's position and normal and of the four corners.
@@ -58,7 +56,6 @@ impl Opposing {
                 xi * weights.d_xi[corner] + eta * weights.d_eta[corner]
             }),
             gap_by_r: gap,
-            gap_by_n: gap * -hit.gap,
         }
     }
 
@@ -69,7 +66,6 @@ impl Opposing {
             weights,
             weights_by_r: [Vec3::zeros(); 4],
             gap_by_r: Vec3::zeros(),
-            gap_by_n: Vec3::zeros(),
         }
     }
 

@@ -72,24 +72,15 @@ pub enum Enforcement {
 impl ContactPair {
     /// Numbers of the pair's unknowns.
     pub fn numbering(&self) -> Numbering {
-        let positions = Side::BOTH.map(|side| match &self.sides[side].geometry {
-            Geometry::Deformable(surface) => surface.nodes().len(),
-            Geometry::Rigid(_) | Geometry::Plane { .. } => 0,
-        });
-        Numbering::new(positions, self.carriers())
+        Numbering::new(self.carriers())
     }
 
-    /// How many nodes may bear traction by side: those of deformable sides. Points of rigid
-    /// facets that pierce side `a` count as side `b` and lodge with the nodes of `a`, one with
-    /// a node, see [`crate::pointed`].
+    /// How many nodes may bear traction by side: those of deformable sides.
     pub fn carriers(&self) -> [usize; 2] {
-        let nodes = |side: Side| self.sides[side].surface().map_or(0, |s| s.nodes().len());
-        let of_b = match self.sides[Side::B].geometry {
-            Geometry::Deformable(_) => nodes(Side::B),
-            Geometry::Rigid(_) if self.enforcement == Enforcement::Weighted => nodes(Side::A),
+        Side::BOTH.map(|side| match &self.sides[side].geometry {
+            Geometry::Deformable(surface) => surface.nodes().len(),
             Geometry::Rigid(_) | Geometry::Plane { .. } => 0,
-        };
-        [nodes(Side::A), of_b]
+        })
     }
 
     /// Whether the nodes of a side are deformable.

@@ -243,7 +243,7 @@ fn reach(configuration: &Configuration, side: Side, corners: &[SurfaceNode; 4]) 
 }
 
 /// Largest reach of any facet.
-pub fn farthest(configuration: &Configuration) -> f64 {
+fn farthest(configuration: &Configuration) -> f64 {
     let sides = configuration.pair.deformable_sides().iter();
     let largest = sides.map(|&side| configuration.side(side).largest_size);
     let largest = largest.fold(0.0, f64::max);

@@ -14,7 +14,7 @@
 use nalgebra::{Matrix3, Vector3};
 use striae_mesh::{FacetId, Vec3};
 use striae_surface::{
-    facet::{Shape, area_vector, facet_normal},
+    facet::{Shape, area_vector},
     node::SurfaceNode,
     scalar::{Real, combination, constant3, normalised},
 };
@@ -41,60 +41,40 @@ pub enum Ray {
     Own(Vec3),
     /// Along the interpolated normal of the surface projected onto.
     Opposite,
-    /// Along the normal of each facet, of those that face this unit normal.
-    Facet(Vec3),
 }
 
 /// How far outside a facet a hit may lie, in facet coordinates.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Margin {
-    /// Round-off only.
-    Inside,
-    /// Half a facet beyond the edge of the surface, where nothing is hit inside.
-    Extrapolated,
-    /// A little beyond the edges of facets, where nothing is hit inside: normals of
-    /// neighbours leave wedges.
-    Seam,
-}
-
 const ROUND_OFF: f64 = 1e-8;
-const EXTRAPOLATION: f64 = 0.5;
-const SEAM: f64 = 0.05;
-/// Cosine of the angle between normals from which facets face each other.
-pub const FACING: f64 = 0.2;
 
 /// Projects the point `x` onto `target` within the distance `reach`.
-pub fn project(target: &Snapshot, x: &Vec3, ray: Ray, reach: f64, margin: Margin) -> Option<Hit> {
+pub fn project(target: &Snapshot, x: &Vec3, ray: Ray, reach: f64) -> Option<Hit> {
     let bounds = match ray {
         Ray::Own(n) => Bounds::around([x - n * reach, x + n * reach]).inflated(1e-6 * reach),
-        Ray::Opposite | Ray::Facet(_) => Bounds::around([*x]).inflated(reach),
+        Ray::Opposite => Bounds::around([*x]).inflated(reach),
     };
-    let inside = nearest(target, x, ray, reach, &bounds, ROUND_OFF);
-    let beyond = |margin: f64| {
-        inside.or_else(|| {
-            let wide = bounds.inflated(margin * target.largest_size);
-            nearest(target, x, ray, reach, &wide, margin)
-        })
-    };
-    match margin {
-        Margin::Inside => inside,
-        Margin::Extrapolated => beyond(EXTRAPOLATION),
-        Margin::Seam => beyond(SEAM),
+    let mut best: Option<(f64, Hit)> = None;
+    for item in target.tree.meeting(&bounds) {
+        let facet = FacetId(item);
+        let Some(hit) = on_facet(target, facet, x, ray) else {
+            continue;
+        };
+        let excess = Shape::of(&target.corners(facet)).excess(hit.xi, hit.eta);
+        if excess > ROUND_OFF || hit.gap.abs() > reach {
+            continue;
+        }
+        let slack = 1e-9 * reach;
+        let better = match &best {
+            None => true,
+            Some((known, other)) => {
+                let difference = hit.gap.abs() - other.gap.abs();
+                difference < -slack || (difference < slack && excess < *known)
+            }
+        };
+        if better {
+            best = Some((excess, hit));
+        }
     }
-}
-
-/// Projects the point `x` onto one facet and up to `margin` beyond its edges, in facet
-/// coordinates.
-pub fn project_on(
-    target: &Snapshot,
-    facet: FacetId,
-    x: &Vec3,
-    ray: Ray,
-    margin: f64,
-) -> Option<Hit> {
-    let hit = on_facet(target, facet, x, ray)?;
-    let shape = Shape::of(&target.corners(facet));
-    (shape.excess(hit.xi, hit.eta) <= margin).then_some(hit)
+    best.map(|(_, hit)| hit)
 }
 
 /// The point on the edge of a surface that is nearest to the line through `x` along `n`,
@@ -153,55 +133,11 @@ pub fn share_of_edge(r: &Vec3, d: &Vec3, n: &Vec3) -> f64 {
     (-r.dot(&along) / d.dot(&along).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0)
 }
 
-fn nearest(
-    target: &Snapshot,
-    x: &Vec3,
-    ray: Ray,
-    reach: f64,
-    bounds: &Bounds,
-    tolerance: f64,
-) -> Option<Hit> {
-    let mut best: Option<(f64, f64, Hit)> = None;
-    for item in target.tree.meeting(bounds) {
-        let facet = FacetId(item);
-        let Some(hit) = on_facet(target, facet, x, ray) else {
-            continue;
-        };
-        let excess = Shape::of(&target.corners(facet)).excess(hit.xi, hit.eta);
-        if excess > tolerance || hit.gap.abs() > reach {
-            continue;
-        }
-        let slack = 1e-9 * reach;
-        let better = match &best {
-            None => true,
-            Some((known, _, _)) if tolerance > ROUND_OFF => excess < *known,
-            Some((known, _, other)) => {
-                let difference = hit.gap.abs() - other.gap.abs();
-                difference < -slack || (difference < slack && excess < *known)
-            }
-        };
-        if better {
-            best = Some((excess, hit.gap, hit));
-        }
-    }
-    best.map(|(_, _, hit)| hit)
-}
-
 fn on_facet(target: &Snapshot, facet: FacetId, x: &Vec3, ray: Ray) -> Option<Hit> {
     let corners = target.corners(facet);
     let shape = Shape::of(&corners);
     let positions = target.corner_positions(facet);
     let normals = corners.map(|node| target.normals[node]);
-    let ray = match ray {
-        Ray::Facet(faced) => {
-            let normal = facet_normal(&positions);
-            if normal.dot(&faced) > -FACING {
-                return None;
-            }
-            Ray::Own(-normal)
-        }
-        Ray::Own(_) | Ray::Opposite => ray,
-    };
     let [mut xi, mut eta] = shape.centre();
     let mut gap = 0.0;
     let scale = target.facet_size(facet);
@@ -222,7 +158,7 @@ fn on_facet(target: &Snapshot, facet: FacetId, x: &Vec3, ray: Ray) -> Option<Hit
     let m = area_vector(&weights, &positions);
     let facing = match ray {
         Ray::Own(n) => m.dot(&n) < 0.0,
-        Ray::Opposite | Ray::Facet(_) => m.dot(&combination(&weights.value, &normals)) > 0.0,
+        Ray::Opposite => m.dot(&combination(&weights.value, &normals)) > 0.0,
     };
     facing.then_some(Hit {
         facet,
@@ -250,7 +186,7 @@ fn system(
             point - x - n * gap,
             Matrix3::from_columns(&[d_xi, d_eta, -n]),
         ),
-        Ray::Opposite | Ray::Facet(_) => {
+        Ray::Opposite => {
             let sum = combination(&weights.value, normals);
             let length = sum.norm();
             let n = sum / length;

@@ -12,8 +12,7 @@
 //! with `J` over the nodes of both sides. The largest pivot is kept next while it is
 //! at least [`THETA_0`]. A node kept in the last increment competes with twice its
 //! pivot: equals would flip otherwise, and a node that leaves would not have faded yet.
-//! Every patch keeps at least one node. Required nodes are kept in addition, as if they
-//! were independent.
+//! Every patch keeps at least one node.
 //!
 //! Pivots within [`TIE`] of the largest are ties and kept from the middle of all
 //! candidates (weighted by `w_k`) outwards: a regular pattern then grows from one
@@ -79,9 +78,7 @@ impl Choice {
             Opponent::Deformable => {
                 let surrogate = surrogate(interface, mass, &flexibility);
                 let chosen = contest.greedy(Pivots::new(surrogate.clone()));
-                let mut chosen = independence(surrogate, chosen);
-                chosen.extend(contest.required.iter().map(|&k| (k, INTERIOR)));
-                chosen
+                independence(surrogate, chosen)
             }
             Opponent::Rigid { .. } => contest.all(&covered(mass)),
         };
@@ -178,8 +175,6 @@ fn covered(mass: &CommonMass) -> Vec<f64> {
 /// Who competes, and the order among equals.
 struct Contest<'a> {
     mass: &'a CommonMass,
-    /// Nodes that are kept whatever their pivots.
-    required: Vec<u32>,
     /// Candidates, the first to win a tie first.
     candidates: Vec<u32>,
     /// Place among them.
@@ -214,28 +209,22 @@ impl Ord for Bid {
 impl<'a> Contest<'a> {
     fn new(interface: &Interface, mass: &'a CommonMass) -> Self {
         let count = mass.nodes.len() as u32;
-        let competes = |&k: &u32| {
-            let pointed = mass.node(interface, k).last == LastIncrement::Pointed;
-            mass.weighted[k as usize] && !pointed
-        };
+        let competes = |&k: &u32| mass.weighted[k as usize];
         let candidates = (0..count).filter(competes).collect();
         let candidates = from_the_middle(interface, mass, candidates);
         let mut rank = vec![0; count as usize];
         for (at, &k) in candidates.iter().enumerate() {
             rank[k as usize] = at as u32;
         }
-        let is_required = |&k: &u32| mass.node(interface, k).last == LastIncrement::Required;
-        let (required, candidates) = candidates.into_iter().partition(is_required);
         let factor = |k| match mass.node(interface, k).last {
             LastIncrement::Kept => STAY,
-            LastIncrement::NotKept | LastIncrement::Required | LastIncrement::Pointed => 1.0,
+            LastIncrement::NotKept => 1.0,
         };
         Self {
             mass,
             candidates,
             rank,
             factor: (0..count).map(factor).collect(),
-            required,
         }
     }
 

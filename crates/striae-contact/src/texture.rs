@@ -27,10 +27,9 @@ use crate::{
     selection::Selection,
     side::Side,
     term::{Jacobian, Lanes, Source, parts, variable3},
-    tip::Tip,
     tracked::Tracked,
 };
-use opposite::{faced, of_point, opposite};
+use opposite::opposite;
 
 /// Textures at a node: its own and the opposing one, seen from its side.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -74,20 +73,11 @@ pub fn textures(
             .map(SurfaceNode::new)
             .map(|node| match &frames[side][node] {
                 Some(frame) if selection.is_kept(side, node) => Ok(NodeTextures {
-                    own: match selection.tip(side, node) {
-                        Tip::Node { .. } => own(configuration, side, node, &frame.n)?,
-                        Tip::Rigid(point) => of_point(configuration, node, point, frame)?,
-                    },
+                    own: own(configuration, side, node, &frame.n)?,
                     opposite: if is_beside(selection, kinematics, side, node) {
                         any_direction(configuration, side, frame)
                     } else {
-                        opposite(
-                            configuration,
-                            (side, node),
-                            selection.tip(side, node),
-                            (frame, frames),
-                            faced(configuration, selection, side, node),
-                        )?
+                        opposite(configuration, (side, node), (frame, frames))?
                     },
                 }),
                 _ => Ok(NodeTextures::default()),

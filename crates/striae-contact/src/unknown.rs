@@ -5,9 +5,7 @@
 //! 3 a node            | 3 a node            | (p, z1, z2)    | (p, z1, z2)
 //! ```
 //!
-//! A rigid side `b` has no positions. If it has facets, its tractions are those of the
-//! [points](crate::tip::RigidPoint) that pierce side `a`, numbered by the nodes of `a`
-//! that lodge them.
+//! A rigid side `b` has no unknowns.
 
 use crate::side::Side;
 use nalgebra::Matrix3;
@@ -27,8 +25,6 @@ pub type Gradient = Vec<(u32, Vec3)>;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Numbering {
     nodes: [u32; 2],
-    /// Triples of tractions by side.
-    tractions: [u32; 2],
 }
 
 /// What a pair-local unknown is.
@@ -55,12 +51,10 @@ pub enum Unknown {
 }
 
 impl Numbering {
-    /// Numbers for sides with so many surface nodes that move and so many that may bear
-    /// traction.
-    pub fn new(nodes: [usize; 2], tractions: [usize; 2]) -> Self {
+    /// Numbers for sides with so many nodes that move and may bear traction.
+    pub fn new(nodes: [usize; 2]) -> Self {
         Self {
             nodes: nodes.map(|count| count as u32),
-            tractions: tractions.map(|count| count as u32),
         }
     }
 
@@ -84,8 +78,7 @@ impl Numbering {
 
     /// Number of all unknowns.
     pub fn count(&self) -> u32 {
-        let triples = self.nodes.iter().chain(&self.tractions);
-        3 * triples.sum::<u32>()
+        6 * (self.nodes[0] + self.nodes[1])
     }
 
     /// What the unknown `number` is.
@@ -122,7 +115,7 @@ mod tests {
 
     #[test]
     fn numbers_and_meanings_agree() {
-        let numbering = Numbering::new([4, 3], [4, 3]);
+        let numbering = Numbering::new([4, 3]);
         assert_eq!(
             numbering.unknown(numbering.position(Side::B, SurfaceNode(2)) + 1),
             Unknown::Position {

@@ -3,8 +3,6 @@
 use serde::{Deserialize, Serialize};
 use striae_mesh::Vec3;
 
-use crate::{side::Side, tip::RigidPoints};
-
 /// Traction unknowns of a pair; the same shape whatever the roles.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tractions {
@@ -154,16 +152,6 @@ pub struct NodeResult {
     pub closed: f64,
     /// Whether nothing gives a kept node pressure.
     pub apart: bool,
-}
-
-/// Results of all nodes of deformable sides and of the points of a rigid side.
-pub fn counted<'a>(
-    nodes: &'a [Vec<NodeResult>; 2],
-    points: &'a RigidPoints,
-) -> impl Iterator<Item = &'a NodeResult> {
-    let of_b = nodes[Side::B].iter().enumerate();
-    let of_b = of_b.filter(|(node, _)| points.is_empty() || points[*node].is_some());
-    nodes[Side::A].iter().chain(of_b.map(|(_, result)| result))
 }
 
 impl NodeResult {

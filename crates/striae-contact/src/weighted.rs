@@ -26,7 +26,6 @@ use crate::{
     pairing::{SIGNS, side_sign},
     patch::Patch,
     places::{ChainedSum, Places},
-    pointed,
     segment_rows::{ROWS, Slip},
     selection::Selection,
     term::{Gradient, Jacobian},
@@ -59,9 +58,6 @@ pub fn kinematics(
         .map(|k| {
             let kept = selection.kept()[k];
             let frame = frames[kept.side][kept.node].as_ref();
-            if selection.is_pointed(kept.side, kept.node) {
-                return pointed::kinematics(configuration, selection, k, frame);
-            }
             let mut sum = Sum::new(configuration, kept, frame);
             for &(at, entry) in &touching[k] {
                 sum.add(&patches[at as usize], entry as usize, slip);

@@ -123,7 +123,7 @@ pub enum ContactField {
     Texture,
     /// Open, stick or slip.
     Status,
-    /// Nodes with unknowns, and pointed ones.
+    /// Nodes with unknowns.
     Roles,
 }
 

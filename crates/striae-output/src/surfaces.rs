@@ -129,19 +129,10 @@ fn arrays(
     }
 }
 
-/// Which nodes are kept and which are pointed. Points of a rigid side lodge with nodes of
-/// side `a`.
+/// Which nodes are kept.
 fn roles(state: &State, (pair, side): (usize, Side)) -> Vec<(&'static str, Values)> {
-    let of_pair = &state.pairs[pair];
-    let lodges =
-        |node: usize| side == Side::A && of_pair.points.get(node).is_some_and(Option::is_some);
-    let own = of_pair.pointed[side].iter().enumerate();
-    let pointed = own.map(|(node, own)| u8::from(*own) + 2 * u8::from(lodges(node)));
-    let kept = of_pair.kept[side].iter().copied().map(u8::from);
-    vec![
-        ("kept", Values::Codes(kept.collect())),
-        ("pointed", Values::Codes(pointed.collect())),
-    ]
+    let kept = state.pairs[pair].kept[side].iter().copied().map(u8::from);
+    vec![("kept", Values::Codes(kept.collect()))]
 }
 
 /// A sum at all nodes, times a factor.

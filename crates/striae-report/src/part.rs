@@ -21,7 +21,7 @@ use crate::{
 };
 
 /// Arrays that say what others say, or what few ask for.
-const LEFT_OUT: [&str; 4] = ["structural_vector", "mean_traction", "pointed", "normal"];
+const LEFT_OUT: [&str; 3] = ["structural_vector", "mean_traction", "normal"];
 
 /// How far points have gone, in files without `displacement`.
 const MOTION: &str = "motion";

@@ -111,8 +111,7 @@ pub fn free_motion_in(
     let pairs = state.pairs.iter().zip(&touching).enumerate();
     let contacts: Vec<_> = pairs
         .map(|(pair, (of_pair, touching))| {
-            let mut looked_at = of_pair.kept.iter().chain(&of_pair.pointed).flatten();
-            let looked_at = looked_at.any(|known| *known);
+            let looked_at = of_pair.kept.iter().flatten().any(|known| *known);
             if looked_at && !is_bridged(pair) {
                 &of_pair.nodes
             } else {
@@ -330,7 +329,7 @@ impl Rows {
         });
         for side in Side::BOTH {
             for (node, result) in nodes[side].iter().enumerate() {
-                let global = problem.carrier(pair, side, SurfaceNode::new(node));
+                let global = problem.surface_node(pair, side, SurfaceNode::new(node));
                 let (Some(global), false) = (global, result.status == Status::Open) else {
                     continue;
                 };

@@ -1,8 +1,7 @@
 //! Global numbering of the unknowns.
 //!
 //! A node with its three position components and three traction unknowns for
-//! every contact surface it is active on, and for a rigid point that lodges with it, is one
-//! supervariable, so that the
+//! every contact surface it is active on is one supervariable, so that the
 //! factorisation meets gap rows and their multipliers together. The six coordinates of a
 //! rigid body that nodes are tied to or that contact may move are another one, kept for last.
 //! What the unknowns of a share are in the whole system is in `layout/shared.rs`.
@@ -66,7 +65,7 @@ impl Layout {
                 let active = sides[side].iter().enumerate();
                 active
                     .map(|(node, active)| {
-                        let node = problem.carrier(pair, side, SurfaceNode::new(node))?;
+                        let node = problem.surface_node(pair, side, SurfaceNode::new(node))?;
                         active.then(|| {
                             sizes[node] += 3;
                             (node, sizes[node] - 3)
@@ -211,7 +210,7 @@ impl Layout {
                 component,
             } => {
                 let first = self.traction(pair, side, node)?;
-                let node = problem.carrier(pair, side, node)?;
+                let node = problem.surface_node(pair, side, node)?;
                 Some((first + component, Supervariable(node.0)))
             }
         }

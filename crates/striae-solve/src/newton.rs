@@ -47,7 +47,7 @@ use crate::{
 };
 use acceptance::accepted;
 use attempt::Attempt;
-use failure::{is_singular, linear_system};
+use failure::linear_system;
 use linear::automatic;
 use selected::{Selected, selected};
 
@@ -219,10 +219,6 @@ pub fn advance(
     let mut assembled = attempt.solved(workspace, observer);
     if assembled.is_err() && attempt.follows() {
         attempt = attempt.anew(s, workspace);
-        assembled = attempt.solved(workspace, observer);
-    }
-    if assembled.as_ref().is_err_and(is_singular) && attempt.has_points() {
-        attempt = attempt.anew(s, workspace).yielding();
         assembled = attempt.solved(workspace, observer);
     }
     let assembled = assembled?;

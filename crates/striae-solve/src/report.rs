@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 use striae_contact::{
     field::FacetForces,
     side::Side,
-    unknowns::{NodeResult, Status, counted},
+    unknowns::{NodeResult, Status},
 };
 use striae_mesh::{FacetId, NodeId, Vec3};
 use striae_surface::node::SurfaceNode;
@@ -212,7 +212,7 @@ fn report(problem: &Problem, state: &State, pair: usize) -> PairReport {
     let largest = a.force.norm().max(b.force.norm());
     let arm = a.area.max(b.area).sqrt();
     let over = |value: f64, scale: f64| if scale > 0.0 { value / scale } else { 0.0 };
-    let nodes: Vec<&NodeResult> = counted(&of_pair.nodes, &of_pair.points).collect();
+    let nodes: Vec<&NodeResult> = of_pair.nodes.iter().flatten().collect();
     let count = |status| nodes.iter().filter(|node| node.status == status).count();
     PairReport {
         name: problem.model.pairs[pair].name.clone(),

@@ -3,8 +3,7 @@
 use serde::{Deserialize, Serialize};
 use striae_contact::{
     field::FacetForces,
-    selection::{Kept, Lifts},
-    tip::RigidPoints,
+    selection::Kept,
     unknowns::{NodeResult, Tractions},
 };
 use striae_mesh::{FacetId, Vec3};
@@ -46,14 +45,6 @@ pub struct PairState {
     pub tractions: Tractions,
     /// Which nodes were kept in the increment that led here.
     pub kept: Kept,
-    /// Which of them were so whatever their pivots.
-    pub required: Kept,
-    /// Which nodes were pointed in it.
-    pub pointed: Kept,
-    /// Lengths by which rows were [lifted](striae_contact::lift) in it.
-    pub lifts: Lifts,
-    /// Points of a rigid side that were so, by the node of side `a` that they lodge with.
-    pub points: RigidPoints,
     /// Pressure and components of `-tau` along the nodal tangents of all nodes, by side.
     pub carried: [Vec<[f64; 3]>; 2],
     /// What is known of every surface node, by side.
@@ -180,14 +171,9 @@ impl State {
 impl PairState {
     fn untouched(pair: &striae_contact::pair::ContactPair) -> Self {
         let counts = pair.carriers();
-        let lodged = if pair.is_rigid() { counts[1] } else { 0 };
         Self {
             tractions: Tractions::zero(counts),
             kept: counts.map(|count| vec![false; count]),
-            required: counts.map(|count| vec![false; count]),
-            pointed: counts.map(|count| vec![false; count]),
-            lifts: [Vec::new(), Vec::new()],
-            points: vec![None; lodged],
             carried: counts.map(|count| vec![[0.0; 3]; count]),
             nodes: counts.map(|count| vec![NodeResult::default(); count]),
             facets: [Vec::new(), Vec::new()],

@@ -34,7 +34,6 @@ use serde::{Deserialize, Serialize};
 use striae_contact::{
     initial::Fit,
     interference::{Interference, Kind as Interfering, SHARE},
-    pointed::choice::PIERCED,
     side::Side,
 };
 use striae_law::bulk::Material;
@@ -53,6 +52,9 @@ use crate::{
     skin::{BodyOverlap, overlaps},
     state::{Energies, State},
 };
+
+/// Depth over the facet size from which nodes that nothing presses on are unfelt.
+const UNFELT: f64 = 0.02;
 
 /// Something that makes results doubtful, with the number it is judged by.
 #[derive(Clone, Debug, PartialEq)]
@@ -169,7 +171,7 @@ impl Kind {
             Self::Mismatch | Self::TieMismatch | Self::Tension | Self::Creation => 1e-6,
             Self::Moment | Self::TieMoment | Self::Stabilisation => 1e-2,
             Self::Penetration | Self::Overlap => SHARE,
-            Self::Unfelt => PIERCED,
+            Self::Unfelt => UNFELT,
             Self::Gain => LEAST_SHARE,
             Self::Coarse => 1.0,
             Self::Rotation | Self::Contact => 0.1,
@@ -384,7 +386,7 @@ impl Judgement {
         // Contact that is narrower than the facets of a smooth surface has a positive mean
         // gap, so nothing feels it.
         let unfelt = pressure == 0.0;
-        let bound = if unfelt { PIERCED } else { SHARE };
+        let bound = if unfelt { UNFELT } else { SHARE };
         let inside = within(problem, pair, after.into(), bound);
         let depths = inside.iter().map(|found| found.share());
         let deepest = depths.fold(0.0, f64::max);

@@ -445,6 +445,7 @@ fn first_point(problem: &Problem, start: &State) -> Point {
         fraction: 0.0,
         size: first_increment(&problem.model, 0),
         search: Vec::new(),
+        doubted: 0,
         start: start.clone(),
         state: start.clone(),
         memory: Memory::default(),

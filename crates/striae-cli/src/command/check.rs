@@ -175,7 +175,7 @@ fn side_nodes(side: &ContactSurface, model: &Model) -> BTreeSet<NodeId> {
 mod tests {
     use super::*;
     use std::path::Path;
-    use striae_contact::selection::{Before, Selection};
+    use striae_contact::selection::Selection;
     use striae_deck as deck;
     use striae_solve::{assembly::StepContext, problem::Problem, state::State};
 
@@ -213,14 +213,13 @@ mod tests {
         let state = State::undeformed(&problem);
         let context = StepContext::new(&problem, 0, &state);
         let of_pair = &state.pairs[0];
-        let before = Before {
-            kept: &of_pair.kept,
-            required: &of_pair.required,
-            pointed: &of_pair.pointed,
-            points: &of_pair.points,
-        };
         let configuration = context.configuration(0, &state.positions, &state.rigid);
-        let selection = Selection::new(&configuration, None, before, &context.fixed_on_pair[0]);
+        let selection = Selection::new(
+            &configuration,
+            None,
+            &of_pair.kept,
+            &context.fixed_on_pair[0],
+        );
         selection.kept().len()
     }
 }

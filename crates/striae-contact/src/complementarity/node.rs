@@ -65,8 +65,6 @@ pub struct ContactNode<'a> {
     pub unknowns: [f64; 3],
     /// Friction traction `tau`.
     pub tau: Vec3,
-    /// Whether its rows have a compliance in the tangent.
-    pub yields: bool,
     /// Whether derivatives of its rows are wanted.
     pub derivatives: Derivatives,
 }

@@ -6,7 +6,7 @@ use striae_mesh::{FacetId, Vec3};
 use striae_surface::{facet::Shape, node::SurfaceNode};
 
 use super::{
-    before::Before,
+    Kept,
     sides::{surface_nodes, whole_facets},
 };
 use crate::{
@@ -116,7 +116,7 @@ impl Gathered {
     pub(super) fn basis(
         &self,
         configuration: &Configuration,
-        before: Before,
+        before: &Kept,
         prescribed: &Prescribed,
     ) -> TractionBasis {
         let nodes =

@@ -3,7 +3,7 @@
 use striae_mesh::{FacetId, Vec3};
 use striae_surface::{facet::Shape, node::SurfaceNode};
 
-use super::before::Before;
+use super::Kept;
 use crate::{
     configuration::Configuration,
     interface::{FacetMass, InterfaceNode, LastIncrement},
@@ -15,7 +15,7 @@ use crate::{
 pub(super) fn surface_nodes(
     configuration: &Configuration,
     side: Side,
-    before: Before,
+    before: &Kept,
     prescribed: &[bool],
 ) -> Vec<InterfaceNode> {
     let Some(snapshot) = &configuration.sides[side] else {
@@ -35,11 +35,7 @@ pub(super) fn surface_nodes(
                 position: *position,
                 flexibility: share * size / modulus,
                 compliance: share / (modulus * size),
-                last: if before.pointed[side].get(node) == Some(&true) {
-                    LastIncrement::Pointed
-                } else if before.required[side].get(node) == Some(&true) {
-                    LastIncrement::Required
-                } else if before.kept[side].get(node) == Some(&true) {
+                last: if before[side].get(node) == Some(&true) {
                     LastIncrement::Kept
                 } else {
                     LastIncrement::NotKept

@@ -1,14 +1,8 @@
 //! The traction field of a pair in an increment, as it was chosen.
 
-use std::ops::Range;
-
-use striae_mesh::FacetId;
 use striae_surface::node::SurfaceNode;
 
-use super::{
-    approach::approach,
-    before::{Kept, Lifts},
-};
+use super::{Kept, approach::approach};
 use crate::{
     bedding::bedding,
     configuration::Configuration,
@@ -16,7 +10,6 @@ use crate::{
     partner::Partner,
     segment::SegmentDerivatives,
     side::Side,
-    tip::{RigidPoints, Tip},
     traction_basis::{KeptNode, TractionBasis, Weak},
 };
 
@@ -32,86 +25,26 @@ pub struct Selection {
     pub compliances: [Vec<f64>; 2],
     /// How far the two sides move towards each other in the increment, at most.
     pub depth: f64,
-    /// What is opposite to the kept nodes at the start, for collocated rows and pointed nodes.
+    /// What is opposite to the kept nodes at the start, for collocated rows.
     pub partners: Vec<Option<Partner>>,
-    /// The facets that the pointed nodes are in at the start.
-    pub homes: Vec<Option<FacetId>>,
-    /// Number of kept nodes of the field; those after them are pointed.
-    pub of_field: usize,
     /// Overlap of the meshes at the nodes that is not pressed out yet, by side; empty where
     /// there is none.
     pub offsets: [Vec<f64>; 2],
-    /// Lengths by which rows are [lifted](crate::lift), by side; empty where none is.
-    pub lifts: Lifts,
-    /// Nodes that are kept whatever their pivots, by side.
-    pub required: Kept,
-    /// Points of a rigid side that are pointed.
-    pub points: RigidPoints,
-    /// Whether the rows of these points [yield](crate::complementarity::rows) in the tangent.
-    pub yields: bool,
 }
 
 impl Selection {
-    /// What a node with unknowns stands for.
-    pub fn tip(&self, side: Side, node: SurfaceNode) -> Tip {
-        let point = self.points.get(node.index()).copied().flatten();
-        match (side, point) {
-            (Side::B, Some(point)) => Tip::Rigid(point),
-            _ => Tip::Node {
-                side,
-                node,
-                home: self.home(side, node),
-            },
-        }
-    }
-
-    /// Whether a node stands for a point of a rigid surface.
-    pub fn is_point(&self, side: Side, node: SurfaceNode) -> bool {
-        matches!(self.tip(side, node), Tip::Rigid(_))
-    }
-
-    /// The facet that a pointed node was in at the start.
-    fn home(&self, side: Side, node: SurfaceNode) -> Option<FacetId> {
-        let k = self.basis.index[side].get(node.index()).copied()??;
-        let pointed = (k as usize).checked_sub(self.of_field)?;
-        self.homes.get(pointed).copied()?
-    }
-
-    /// Nodes with unknowns: those kept in the field, then the pointed ones.
+    /// Nodes with unknowns.
     pub fn kept(&self) -> &[KeptNode] {
         &self.basis.kept
     }
 
-    /// Which nodes of the field are kept.
+    /// Which nodes are kept.
     pub fn kept_nodes(&self) -> Kept {
-        self.nodes_at(0..self.of_field)
+        let index = self.basis.index.each_ref();
+        index.map(|side| side.iter().map(Option::is_some).collect())
     }
 
-    /// Which nodes are pointed.
-    pub fn pointed_nodes(&self) -> Kept {
-        self.nodes_at(self.pointed_places())
-    }
-
-    fn nodes_at(&self, places: Range<usize>) -> Kept {
-        let within = |k: &Option<u32>| k.is_some_and(|k| places.contains(&(k as usize)));
-        self.basis
-            .index
-            .each_ref()
-            .map(|side| side.iter().map(within).collect())
-    }
-
-    /// Places of the pointed nodes among those with unknowns.
-    pub fn pointed_places(&self) -> Range<usize> {
-        self.of_field..self.basis.kept.len()
-    }
-
-    /// Whether the node is pointed.
-    pub fn is_pointed(&self, side: Side, node: SurfaceNode) -> bool {
-        let index = self.basis.index[side].get(node.index()).copied();
-        index.flatten().is_some_and(|k| k as usize >= self.of_field)
-    }
-
-    /// Whether the node has unknowns: it is kept, or pointed.
+    /// Whether the node has unknowns.
     pub fn is_kept(&self, side: Side, node: SurfaceNode) -> bool {
         let index = self.basis.index[side].get(node.index());
         index.is_some_and(Option::is_some)
@@ -169,7 +102,7 @@ impl Selection {
         &self.basis.ramp
     }
 
-    /// Rows of `E` by place among the kept nodes of the field.
+    /// Rows of `E` by place among the kept nodes.
     pub fn coupling(&self) -> &[Vec<(u32, f64)>] {
         &self.basis.coupling
     }
@@ -207,12 +140,6 @@ impl Selection {
         offset.copied().unwrap_or(0.0)
     }
 
-    /// Length by which the row of a node is lifted.
-    pub fn lift(&self, side: Side, node: SurfaceNode) -> f64 {
-        let lift = self.lifts[side].get(node.index());
-        lift.copied().unwrap_or(0.0)
-    }
-
     /// Which facets are paired.
     pub fn scope(&self) -> Scope<'_> {
         Scope {
@@ -232,9 +159,8 @@ impl Selection {
         .is_empty()
     }
 
-    /// Corners of facets that overlap with others without a share in the traction field or
-    /// unknowns of their own,
-    /// as side and node, in a configuration that was reached from `start`.
+    /// Corners of facets that overlap with others without a share in the traction field, as side
+    /// and node, in a configuration that was reached from `start`.
     pub fn left_out(
         &self,
         start: &Configuration,
@@ -254,8 +180,8 @@ impl Selection {
             // Deeper than contact looks in this increment.
             let beyond = -gap > paired.reach + self.depth;
             let nodes = (0..8).filter_map(|corner| paired.node(configuration, corner));
-            let is_without = |side, node| !self.carries(side, node) && !self.is_pointed(side, node);
-            let found = nodes.filter(|&(side, node)| beyond || touching && is_without(side, node));
+            let found =
+                nodes.filter(|&(side, node)| beyond || touching && !self.carries(side, node));
             left_out.extend(found);
         }
         left_out.sort_unstable();

@@ -13,70 +13,41 @@ use striae_surface::{
 use super::{CollapsedTexture, SideTexture, own, tracked};
 use crate::{
     configuration::Configuration,
-    coverage::{Contact, Found, Place},
+    coverage::{Found, Place},
     edge::on_edge,
     frame::{Frame, Frames},
     nodal_normal::own_normal,
     opposing::{Opposing, PlaceLanes},
     projection::{Hit, differentiated_rigid},
-    selection::Selection,
     side::Side,
-    spot::Spot,
     term::{Jacobian, Lanes, Source, variable, variable3},
-    tip::{RigidPoint, Tip},
     tracked::Tracked,
     transported::Transported,
 };
-
-/// The point opposite to a node: along its normal or, if it is pointed, that of the
-/// deformable facet that it presses on.
-pub(super) fn faced(
-    configuration: &Configuration,
-    selection: &Selection,
-    side: Side,
-    node: SurfaceNode,
-) -> Option<(Contact, Found)> {
-    let tip = selection.tip(side, node);
-    if selection.is_pointed(side, node)
-        && tip.presses_on_deformable(configuration)
-        && let Some(hit) = Spot::new(configuration, tip).and_then(|spot| spot.hit)
-    {
-        let contact = Contact {
-            gap: hit.gap,
-            place: Place::Facet(hit),
-        };
-        return Some((contact, Found::Inside));
-    }
-    match tip {
-        Tip::Node { side, node, .. } => configuration.opposite(side, node),
-        Tip::Rigid(_) => None,
-    }
-}
 
 /// The opposing `a_b'` at a node.
 pub(super) fn opposite(
     configuration: &Configuration,
     (side, node): (Side, SurfaceNode),
-    tip: Tip,
     (frame, frames): (&Frame, &Frames),
-    faced: Option<(Contact, Found)>,
 ) -> Result<Option<Tracked>, CollapsedTexture> {
     let collapsed = CollapsedTexture { side, node };
     let Some(texture) = &configuration.pair.sides[side.opposite()].texture else {
         return Ok(None);
     };
-    let Some((contact, found)) = faced else {
+    let Some((contact, found)) = configuration.opposite(side, node) else {
         return Err(collapsed);
     };
     match (texture, contact.place) {
         (SideTexture::Plane(field), Place::Plane(_)) => on_plane(configuration, side, node, field)
             .ok_or(collapsed)
             .map(Some),
-        (SideTexture::Nodal(_), Place::Facet(hit)) if !tip.presses_on_deformable(configuration) => {
+        (SideTexture::Nodal(_), Place::Facet(hit)) if configuration.pair.is_rigid() => {
             on_rigid(configuration, node, &hit, found).map(Some)
         }
         (SideTexture::Nodal(_), Place::Facet(hit)) => {
-            on_deformable(configuration, tip, frame, frames, (&hit, found)).map(Some)
+            let at = (side, node);
+            on_deformable(configuration, at, (frame, frames), (&hit, found)).map(Some)
         }
         _ => Err(collapsed),
     }
@@ -150,34 +121,6 @@ fn on_rigid(
     Ok(tracked(&lanes, &normalised(&sum)))
 }
 
-/// `a` of a rigid surface at a point that lodges with `node`: between the ends of its edge.
-pub(super) fn of_point(
-    configuration: &Configuration,
-    node: SurfaceNode,
-    point: RigidPoint,
-    frame: &Frame,
-) -> Result<Option<Tracked>, CollapsedTexture> {
-    let n: Vector3<DualSVec64<3>> = variable3(&frame.n.value, 0);
-    let mut sum: Vector3<DualSVec64<3>> = Vector3::zeros();
-    for (end, weight) in point.ends.into_iter().zip([1.0 - point.share, point.share]) {
-        let normal = fixed_normal(configuration, end);
-        let Some(a) = own(configuration, Side::B, end, &normal)? else {
-            return Ok(None);
-        };
-        let turned = transported(&constant3(&a.value), &constant3(&normal.value), &n);
-        sum += scaled(&turned, DualSVec64::from(weight));
-    }
-    if sum.map(|component| component.re).norm() < f64::EPSILON {
-        return Err(CollapsedTexture {
-            side: Side::B,
-            node,
-        });
-    }
-    let mut lanes = Lanes::default();
-    lanes.push(Source::Vector(&frame.n.jacobian));
-    Ok(Some(tracked(&lanes, &normalised(&sum))))
-}
-
 fn fixed_normal(configuration: &Configuration, node: SurfaceNode) -> Tracked {
     Tracked {
         value: configuration.side(Side::B).normals[node],
@@ -187,12 +130,10 @@ fn fixed_normal(configuration: &Configuration, node: SurfaceNode) -> Tracked {
 
 fn on_deformable(
     configuration: &Configuration,
-    tip: Tip,
-    frame: &Frame,
-    frames: &Frames,
+    (side, node): (Side, SurfaceNode),
+    (frame, frames): (&Frame, &Frames),
     (hit, found): (&Hit, Found),
 ) -> Result<Tracked, CollapsedTexture> {
-    let side = tip.side();
     let other = configuration.side(side.opposite());
     let corners = other.corners(hit.facet);
     let normals = corners.map(|corner| match &frames[side.opposite()][corner] {
@@ -203,7 +144,7 @@ fn on_deformable(
     for (corner, n) in corners.iter().zip(&normals) {
         a.push(own(configuration, side.opposite(), *corner, n)?.unwrap_or_default());
     }
-    let mut lanes = lanes_of(configuration, tip, frame, &corners);
+    let mut lanes = lanes_of(configuration, (side, node), frame, &corners);
     for n in &normals {
         lanes.push(Source::Vector(&n.jacobian));
     }
@@ -212,22 +153,13 @@ fn on_deformable(
     }
     let shape = Shape::of(&corners);
     let n = frame.n.value;
-    let on_edge = match (found, tip) {
-        (Found::Edge(nodes), Tip::Node { side, node, .. }) => {
-            Some(on_edge(configuration, side, node, hit, nodes))
-        }
-        _ => None,
+    let on_edge = match found {
+        Found::Inside => None,
+        Found::Edge(nodes) => Some(on_edge(configuration, side, node, hit, nodes)),
     };
-    // A rigid point is not found along its own normal.
-    let spot = match tip {
-        Tip::Rigid(_) => Spot::new(configuration, tip),
-        Tip::Node { .. } => None,
-    };
-    let (ray, of_spot) = spot.map(|spot| (spot.ray, spot.opposing)).unzip();
-    let opposing = match (&on_edge, of_spot.flatten()) {
-        (None, Some(opposing)) => opposing,
-        (None, None) => Opposing::new(shape, hit, &n, &other.corner_positions(hit.facet)),
-        (Some(place), _) => Opposing::at(place.weights()),
+    let opposing = match &on_edge {
+        None => Opposing::new(shape, hit, &n, &other.corner_positions(hit.facet)),
+        Some(place) => Opposing::at(place.weights()),
     };
     let turned: [Transported; 4] = std::array::from_fn(|corner| {
         Transported::new(&a[corner].value, &-normals[corner].value, &n)
@@ -236,16 +168,13 @@ fn on_deformable(
     let length = sum.norm();
     let value = sum / length;
     let across = (Matrix3::identity() - value * value.transpose()) / length;
-    let mut gradient = [[0.0; 3]; 45];
+    let mut gradient = [[0.0; 3]; 43];
     let by_r = opposing.spread_sum(&across, &turned, [3, 18, 30], &mut gradient);
     let places = PlaceLanes {
         x: 0,
-        n: if ray.is_some() { 42 } else { 3 },
+        n: 3,
         corners: 6,
     };
-    if let Some(ray) = &ray {
-        lanes.push(Source::Vector(&ray.jacobian));
-    }
     match &on_edge {
         None => opposing.spread(&by_r, places, &mut gradient),
         Some(place) => {
@@ -260,20 +189,23 @@ fn on_deformable(
     })
 }
 
-/// Lanes of the tip, its normal and the corners that it faces.
+/// Lanes of the node, its normal and the corners that it faces.
 fn lanes_of<'a>(
     configuration: &Configuration,
-    tip: Tip,
+    (side, node): (Side, SurfaceNode),
     frame: &'a Frame,
     corners: &[SurfaceNode; 4],
 ) -> Lanes<'a> {
     let numbering = configuration.pair.numbering();
     let mut lanes = Lanes::default();
-    lanes.push(tip.lanes(configuration));
+    lanes.push(Source::Unknowns {
+        first: numbering.position(side, node),
+        count: 3,
+    });
     lanes.push(Source::Vector(&frame.n.jacobian));
     for &corner in corners {
         lanes.push(Source::Unknowns {
-            first: numbering.position(tip.side().opposite(), corner),
+            first: numbering.position(side.opposite(), corner),
             count: 3,
         });
     }

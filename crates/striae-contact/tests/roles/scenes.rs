@@ -169,31 +169,6 @@ fn of_equals_those_that_were_kept_are_kept_again() {
 }
 
 #[test]
-fn a_required_node_is_kept_whatever_its_pivot() {
-    // Within one facet of a soft face no node of a stiff one is worth unknowns.
-    let soft = square(3, 1.0, 0.0, 1.0);
-    let stiff = square(4, 0.2, 0.4, 1e3);
-    let mut pair = Pair::new([&soft, &stiff]);
-    let middle = KeptNode {
-        side: Side::B,
-        node: SurfaceNode(12),
-    };
-    let before = TractionBasis::new(&pair.interface());
-    assert!(!before.kept.contains(&middle));
-    pair.nodes[1][12].last = LastIncrement::Required;
-    let basis = TractionBasis::new(&pair.interface());
-    let place = basis.kept.iter().position(|kept| *kept == middle);
-    let place = place.expect("the node is kept") as u32;
-    assert!(basis.ramp.iter().all(|weak| weak.kept != place));
-    assert!(basis.kept.iter().any(|kept| kept.side == Side::A));
-    let is_sum_one = |row: &Vec<(u32, f64)>| {
-        let sum: f64 = row.iter().map(|(_, value)| value).sum();
-        (sum - 1.0).abs() < 1e-14
-    };
-    assert!(basis.rows.iter().flatten().all(is_sum_one));
-}
-
-#[test]
 fn faces_with_nothing_in_common_keep_nothing() {
     let pair = Pair::new([&square(2, 1.0, 0.0, 1.0), &square(2, 1.0, 3.0, 1.0)]);
     let basis = TractionBasis::new(&pair.interface());

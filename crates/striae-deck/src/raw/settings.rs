@@ -85,7 +85,7 @@ words! {
         Texture = "texture",
         /// Open, stick or slip.
         Status = "status",
-        /// Nodes with traction unknowns, and pointed ones.
+        /// Nodes with traction unknowns.
         Roles = "roles",
     }
 }

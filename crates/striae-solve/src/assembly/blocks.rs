@@ -92,9 +92,9 @@ impl System<'_> {
             }
             let owned = |side: Side| {
                 let all = SurfaceNode::all(selection.nodes(side));
-                let carriers = all.map(|node| problem.carrier(pair, side, node));
+                let nodes = all.map(|node| problem.surface_node(pair, side, node));
                 let is_owned = |node: GlobalNode| problem.share.owns(node);
-                carriers.map(|node| node.is_none_or(is_owned)).collect()
+                nodes.map(|node| node.is_none_or(is_owned)).collect()
             };
             self.added[pair] = Some(Side::BOTH.map(owned));
             for side in Side::BOTH {
@@ -103,7 +103,7 @@ impl System<'_> {
                     selection.carries(side, *node) || selection.is_kept(side, *node)
                 };
                 for node in all.filter(bears) {
-                    if let Some(global) = problem.carrier(pair, side, node) {
+                    if let Some(global) = problem.surface_node(pair, side, node) {
                         nodes.push((pair, side, node));
                         places.push(setting.state.positions[global]);
                     }

@@ -68,7 +68,9 @@ pub(super) fn contacts(
 fn not_evaluated(problem: &Problem, pair: usize, collapse: Collapse) -> CutBack {
     let (Collapse::Texture(CollapsedTexture { side, node })
     | Collapse::Facets(CollapsedFacets { side, node })) = collapse;
-    let global = problem.carrier(pair, side, node).unwrap_or(GlobalNode(0));
+    let global = problem
+        .surface_node(pair, side, node)
+        .unwrap_or(GlobalNode(0));
     let (body, node) = problem.named_node(global);
     let pair = problem.model.pairs[pair].name.clone();
     let body = problem.model.bodies[body].name.clone();

@@ -53,10 +53,6 @@ pub(super) fn accepted(
         .map(|(((tractions, selection), evaluation), before)| PairState {
             dissipated: before.dissipated + evaluation.dissipated,
             kept: selection.kept_nodes(),
-            pointed: selection.pointed_nodes(),
-            required: selection.required,
-            lifts: selection.lifts,
-            points: selection.points,
             tractions,
             carried: evaluation.carried,
             nodes: evaluation.nodes,

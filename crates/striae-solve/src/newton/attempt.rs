@@ -1,17 +1,12 @@
 //! An increment under way: corrections until the residual is small.
 
 mod ending;
-mod lifting;
 
 pub use ending::Acceptance;
 
 use striae_contact::{
-    complementarity::Iteration,
-    interference::Interference,
-    pointed::{Pierced, Progress},
-    segment::Derivatives,
-    selection::Selection,
-    table_1::Inflation,
+    complementarity::Iteration, interference::Interference, segment::Derivatives,
+    selection::Selection, table_1::Inflation,
 };
 
 use super::{
@@ -27,7 +22,7 @@ use super::{
     release::{closed, released},
     rest::contact_at_rest,
     rule::{Ladder, is_final, later, part},
-    selected::{Selected, pierced, reselected, selected},
+    selected::{Selected, reselected, selected},
     workspace::Workspace,
 };
 use crate::{
@@ -62,8 +57,6 @@ pub(super) struct Attempt<'a> {
     inflation: Inflation,
     /// Iterations of the present problem.
     ladder: Ladder,
-    /// How many iterations there may be.
-    limit: usize,
     /// What came inside or through, by pair; empty before the end.
     pub(super) interferences: Vec<Vec<Interference>>,
     /// What came inside bodies where no pair sees it.
@@ -113,7 +106,6 @@ impl<'a> Attempt<'a> {
             history: History::default(),
             inflation: Inflation::default(),
             ladder: Ladder::default(),
-            limit: context.problem.model.solver.largest_iterations,
             interferences: Vec::new(),
             overlaps: Vec::new(),
             acceptance: Acceptance::default(),
@@ -130,20 +122,6 @@ impl<'a> Attempt<'a> {
             given_up: [self.given_up, self.iterations].concat(),
             ..Self::new(self.context, self.state, self.imposed, s, workspace)
         }
-    }
-
-    /// Whether points of rigid surfaces are in contact.
-    pub(super) fn has_points(&self) -> bool {
-        let mut selections = self.selections.iter();
-        selections.any(|selection| selection.points.iter().any(Option::is_some))
-    }
-
-    /// The same with points that yield in the tangent.
-    pub(super) fn yielding(mut self) -> Self {
-        for selection in &mut self.selections {
-            selection.yields = true;
-        }
-        self
     }
 
     /// Whether it has started where the increment before leads to.
@@ -187,16 +165,13 @@ impl Attempt<'_> {
             assembled = self.converge(assembled, workspace, observer)?;
             flown(&self.setting(), &self.trial).map_or(Ok(()), Err)?;
             let missed = missed(&self.setting(), &self.trial);
-            let pierced = self.pierced(&assembled, Progress::Converged);
+            let Some(reason) = missed else {
+                break;
+            };
             if repetition == REPETITIONS {
-                missed.map_or(Ok(()), Err)?;
-                break;
+                return Err(reason);
             }
-            if missed.is_none() && pierced.iter().all(Pierced::is_empty) {
-                break;
-            }
-            let (setting, trial) = (self.setting(), &self.trial);
-            let found = reselected(&setting, trial, &assembled.contacts, &pierced);
+            let found = reselected(&self.setting(), &self.trial, &assembled.contacts);
             assembled = self.taken_up(found, workspace)?;
         }
         self.interferences = passage(&self.setting(), &self.trial, &assembled.contacts)?;
@@ -364,24 +339,9 @@ impl Attempt<'_> {
         if number > 1 {
             return None;
         }
-        let pierced = self.pierced(assembled, Progress::Iterating);
-        let comes = missed(&self.setting(), &self.trial).is_some();
-        (comes || !pierced.iter().all(Pierced::is_empty)).then(|| {
-            let setting = self.setting();
-            reselected(&setting, &self.trial, &assembled.contacts, &pierced)
-        })
-    }
-
-    /// What pierces the other side, by pair.
-    fn pierced(&self, assembled: &Assembled, progress: Progress) -> Vec<Pierced> {
-        let contacts = &assembled.contacts;
-        pierced(
-            self.context,
-            &self.selections,
-            &self.trial,
-            contacts,
-            progress,
-        )
+        let setting = self.setting();
+        let comes = missed(&setting, &self.trial).is_some();
+        comes.then(|| reselected(&setting, &self.trial, &assembled.contacts))
     }
 
     /// Goes on with another traction field.

@@ -53,7 +53,7 @@ impl History {
                         .collect();
                     let changes = statuses.windows(2).any(|pair| pair[0] != pair[1]);
                     let kept = selection.is_kept(side, node);
-                    if let Some(global) = problem.carrier(pair, side, node)
+                    if let Some(global) = problem.surface_node(pair, side, node)
                         && kept
                         && changes
                     {

@@ -56,17 +56,6 @@ pub(super) fn linear_system(
     CutBack::LinearSystem { place, error }
 }
 
-/// Whether an unknown was not determined.
-pub(super) fn is_singular(reason: &CutBack) -> bool {
-    matches!(
-        reason,
-        CutBack::LinearSystem {
-            error: SolveError::Singular { .. },
-            ..
-        }
-    )
-}
-
 /// The words of the one rank that has any; collective.
 fn told(problem: &Problem, own: &str) -> String {
     let all = problem.share.team().gather(own.as_bytes());

@@ -61,13 +61,6 @@ impl Problem {
         let body = geometry.bodies[side]?;
         Some(self.node(body, surface.nodes()[node]))
     }
-
-    /// Global node that the traction unknowns of a node of a pair lodge with: itself, or
-    /// that of side `a` at a point of a rigid side.
-    pub(crate) fn carrier(&self, pair: usize, side: Side, node: SurfaceNode) -> Option<GlobalNode> {
-        let own = self.surface_node(pair, side, node);
-        own.or_else(|| self.surface_node(pair, Side::A, node))
-    }
 }
 
 /// Ends of the box around some places.

@@ -2,10 +2,7 @@
 
 use striae_condensed::{Growth, Partition, Tangent};
 use striae_contact::{
-    complementarity::Iteration,
-    segment::Derivatives,
-    selection::{Before, Selection},
-    side::Side,
+    complementarity::Iteration, segment::Derivatives, selection::Selection, side::Side,
 };
 use striae_mesh::Vec3;
 use striae_solve::{
@@ -101,13 +98,7 @@ fn selections(context: &StepContext, state: &State) -> Vec<Selection> {
     pairs
         .map(|(pair, of_pair)| {
             let start = context.configuration(pair, &state.positions, &state.rigid);
-            let before = Before {
-                kept: &of_pair.kept,
-                required: &of_pair.required,
-                pointed: &of_pair.pointed,
-                points: &of_pair.points,
-            };
-            Selection::new(&start, None, before, &context.fixed_on_pair[pair])
+            Selection::new(&start, None, &of_pair.kept, &context.fixed_on_pair[pair])
         })
         .collect()
 }

@@ -1,6 +1,6 @@
 //! Roles from two configurations.
 
-use striae_contact::selection::{Before, Selection};
+use striae_contact::selection::Selection;
 use striae_solve::{assembly::StepContext, problem::Problem, state::State};
 
 use crate::{blocks::model, reference::cases};
@@ -14,14 +14,8 @@ fn a_prediction_without_motion_changes_nothing() {
         let context = StepContext::new(&problem, 0, &state);
         let start = context.configuration(0, &state.positions, &state.rigid);
         let of_pair = &state.pairs[0];
-        let before = Before {
-            kept: &of_pair.kept,
-            required: &of_pair.required,
-            pointed: &of_pair.pointed,
-            points: &of_pair.points,
-        };
         let prescribed = &context.fixed_on_pair[0];
-        let chosen = |predicted| Selection::new(&start, predicted, before, prescribed).basis;
+        let chosen = |predicted| Selection::new(&start, predicted, &of_pair.kept, prescribed).basis;
         let (alone, with) = (chosen(None), chosen(Some(&start)));
         assert_eq!(with.kept, alone.kept, "{}", case.name);
         let values = [

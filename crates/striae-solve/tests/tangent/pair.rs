@@ -7,7 +7,7 @@ use striae_contact::{
     evaluation::{Evaluation, evaluate},
     placement::Placement,
     segment::Derivatives,
-    selection::{Before, Selection},
+    selection::Selection,
     side::Side,
     unknown::Unknown,
     unknowns::{Label, Status, Tractions},
@@ -74,13 +74,7 @@ impl<'a> PairFunction<'a> {
             let [from, to] = [&start, &now].map(|places| configuration(context, places));
             let kept = counts.map(|count| vec![false; count]);
             let free = counts.map(|count| vec![false; 3 * count]);
-            let before = Before {
-                kept: &kept,
-                required: &kept,
-                pointed: &kept,
-                points: &Vec::new(),
-            };
-            Selection::new(&from, Some(&to), before, &free)
+            Selection::new(&from, Some(&to), &kept, &free)
         };
         let mut random = Random::new(3);
         let tau_n = counts.map(|count| {

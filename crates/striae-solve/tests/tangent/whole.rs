@@ -3,10 +3,7 @@
 use nalgebra::DVector;
 use striae_condensed::{Growth, Partition, Tangent};
 use striae_contact::{
-    complementarity::Iteration,
-    segment::Derivatives,
-    selection::{Before, Selection},
-    side::Side,
+    complementarity::Iteration, segment::Derivatives, selection::Selection, side::Side,
     unknowns::Status,
 };
 use striae_solve::{
@@ -251,13 +248,7 @@ fn selections(context: &StepContext, before: &State, state: &State) -> Vec<Selec
     (0..state.pairs.len())
         .map(|pair| {
             let at = |state: &State| context.configuration(pair, &state.positions, &state.rigid);
-            let of_pair = &before.pairs[pair];
-            let had = Before {
-                kept: &of_pair.kept,
-                required: &state.pairs[pair].required,
-                pointed: &state.pairs[pair].pointed,
-                points: &state.pairs[pair].points,
-            };
+            let had = &before.pairs[pair].kept;
             let fixed = &context.fixed_on_pair[pair];
             let first = Selection::new(&at(before), None, had, fixed);
             if first.kept_nodes() == state.pairs[pair].kept {

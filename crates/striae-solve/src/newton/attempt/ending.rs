@@ -81,7 +81,7 @@ impl Attempt<'_> {
                 norms: *norms,
             });
         }
-        if number >= self.limit {
+        if number >= self.context.problem.model.solver.largest_iterations {
             return Err(CutBack::NoConvergence {
                 iterations: number,
                 norms: *norms,

@@ -1,9 +1,0 @@
-//! Edges and corners that pierce a face between its nodes.
-
-mod edge;
-mod home;
-mod lift;
-mod ridge;
-mod scene;
-mod tangent;
-mod valley;
