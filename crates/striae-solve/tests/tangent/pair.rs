@@ -36,8 +36,8 @@ pub enum Wanted {
 /// Pressure under which nodes stick whatever their slip.
 const STICKING: f64 = 20.0;
 
-/// Tension that opens nodes whatever the pressure that the ramp brings them from others.
-const OPENING: f64 = 2.0 * STICKING;
+/// Tension that opens the supports of nodes where surfaces overlap by some hundredths.
+const OPENING: f64 = 1.0;
 
 /// Pressures of nodes that may slip, over the usual ones: weak nodes are opened or held by
 /// what the ramp brings from others, and the first pressure under which some slip is taken.

@@ -82,7 +82,7 @@ fn of_a_rigid_body_that_contact_pushes_under_loads() {
         first.displacements = vec![model.hold("block", "zmax", [Some(0.0); 3])];
         let mut motion = RigidMotion {
             surface: RigidId(0),
-            coordinates: [0.02, 0.01, 0.06, 0.03, -0.04, 0.2].map(Freedom::To),
+            coordinates: [0.02, 0.01, 0.061, 0.03, -0.04, 0.2].map(Freedom::To),
             force: None,
             torque: None,
             curve: Curve::Ramp,

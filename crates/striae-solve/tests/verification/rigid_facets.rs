@@ -54,7 +54,7 @@ fn pressed_and_slid(shape: RigidShape, start: f64) -> Model {
         vec![model.hold("block", "zmax", [Some(0.0), Some(0.0), Some(-0.05 - start)])];
     press.increments = increments(0.5, 0.01);
     let mut slide = step();
-    slide.displacements = vec![model.hold("block", "zmax", [Some(0.2), Some(0.1), None])];
+    slide.displacements = vec![model.hold("block", "zmax", [Some(0.02), Some(0.01), None])];
     slide.increments = increments(0.25, 0.01);
     model.steps = vec![press, slide];
     model
