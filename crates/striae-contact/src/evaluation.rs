@@ -127,19 +127,17 @@ pub fn evaluate(
         kinematics: &kinematics,
     };
     let tau = nodal_tractions(configuration, selection, &surroundings, tractions);
-    if configuration.pair.enforcement == Enforcement::Weighted {
-        if slip == Slip::Wanted {
-            let ramp = Ramp {
-                configuration,
-                start,
-                selection,
-                frames: &frames,
-                tractions,
-                tau: &tau,
-            };
-            let added = ramp.add_to_slips(&mut kinematics);
-            added.map_err(Collapse::Facets)?;
-        }
+    if configuration.pair.enforcement == Enforcement::Weighted && slip == Slip::Wanted {
+        let ramp = Ramp {
+            configuration,
+            start,
+            selection,
+            frames: &frames,
+            tractions,
+            tau: &tau,
+        };
+        let added = ramp.add_to_slips(&mut kinematics);
+        added.map_err(Collapse::Facets)?;
     }
     let stage = Stage {
         configuration,

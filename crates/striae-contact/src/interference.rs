@@ -15,6 +15,8 @@
 //! what counts is the distance. Bodies whose swept boxes do not meet cost nothing,
 //! others `O(n log n)`. The motion of a rigid body that turns is that of its chords,
 //! so an increment should turn by much less than half a turn.
+//!
+//! Longer than other files, as it is the one audit of where points of a pair are.
 
 mod facing;
 mod nearest;

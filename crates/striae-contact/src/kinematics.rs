@@ -57,12 +57,13 @@ pub struct Supported {
 }
 
 impl Kinematics {
-    /// The pressure that bounds friction at the node, which has the unknown `p`; negative where
-    /// it is open.
+    /// The pressure that bounds friction at the node, which has the unknown `p`; not positive
+    /// where it is open. Where no point is closed the mean is zero up to round-off.
     pub fn bounding_pressure(&self, p: f64) -> f64 {
         match &self.pressure {
             Pressure::AtNode => p,
-            Pressure::AtPoints(supported) => supported.mean.value,
+            Pressure::AtPoints(supported) if supported.touches => supported.mean.value,
+            Pressure::AtPoints(supported) => supported.mean.value.min(0.0),
         }
     }
 }

@@ -6,13 +6,12 @@
 //! residual and its tangent. Nothing here knows of sparse matrices or iterates globally.
 //!
 //! The method is unbiased: neither side is master or slave. By default both sides share one
-//! traction field on their common segments and contact holds in the mean weighted with it;
+//! traction field on their common segments, and every point of them decides whether it touches;
 //! the collocated fields of Jones & Papadopoulos, "Simulating anisotropic frictional
 //! response using smoothly interpolated traction fields", Comput. Methods Appl. Mech. Engrg.
 //! 195 (2006), are the alternative.
 
 mod absorption;
-mod bedding;
 mod clip;
 mod collocated;
 mod common_field;
@@ -42,6 +41,7 @@ mod transfer;
 mod transported;
 mod weighted;
 
+pub mod bedding;
 pub mod complementarity;
 pub mod configuration;
 pub mod converged_friction;

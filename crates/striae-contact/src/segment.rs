@@ -20,7 +20,9 @@
 
 mod chain;
 mod closed;
+mod divided;
 mod fan;
+mod moved;
 mod normal;
 mod plane_facet;
 mod points;
@@ -29,15 +31,16 @@ mod pressed_plane;
 mod rigid_plane;
 mod rule;
 mod sums;
+mod support;
 
 use nalgebra::Matrix3;
 use pulp::{Simd, WithSimd};
 use striae_mesh::Vec3;
 use striae_surface::facet::Shape;
 
-pub use points::{Pressed, PressedSlopes, Pressing, Support};
 pub(crate) use pressed_plane::pressed_on_plane;
 pub use rigid_plane::plane_segment;
+pub use support::{Pressed, PressedSlopes, Pressing, Support};
 
 use chain::{CornerSlopes, Plane};
 use fan::{Apex, Fan, fan};
@@ -132,7 +135,7 @@ impl Segment {
     pub(crate) fn at_vertices(&self) -> Option<Vec<[f64; 8]>> {
         let polygon = self.polygon.as_ref()?;
         let vertices = polygon.vertices.iter();
-        let shares = |vertex: &Vertex| points::shares(&polygon.pair.facets, &vertex.place);
+        let shares = |vertex: &Vertex| support::shares(&polygon.pair.facets, &vertex.place);
         Some(vertices.map(shares).collect())
     }
 }

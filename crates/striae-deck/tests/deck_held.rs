@@ -229,13 +229,11 @@ fn node_numbers_beyond_all_bounds_are_faults() {
 
 #[test]
 fn meshes_beyond_memory_are_refused_before_they_are_made() {
+    let largest = "the mesh of body `upper` cannot be made: the mesh would have";
     for divisions in ["[999999, 999999, 999999]", "[4000, 4000, 1000]"] {
         let started = std::time::Instant::now();
         let large = UPPER_MESH.replace("[3, 3, 2]", divisions);
-        refused(
-            &[[UPPER_MESH, &large]],
-            &["deck.toml:14:8: the mesh of body `upper` would have"],
-        );
+        refused(&[[UPPER_MESH, &large]], &["deck.toml:14:8:", largest]);
         assert!(started.elapsed().as_secs() < 5);
     }
 }

@@ -59,7 +59,7 @@ fn deck(a: &str, b: &str) -> String {
         r#"title = "Textures from files"
 material = [{{ name = "rubber", law = "neo-hookean", youngs_modulus = 1, poissons_ratio = 0.3 }}]
 body = [
-    {{ name = "cube", material = "rubber", mesh = {{ file = "cube.msh" }} }},
+    {{ name = "cube", material = "rubber", mesh = {{ file = "cube.msh" }}, node_sets = [{{ name = "foot", sphere = {{ centre = [0, 0, 0], radius = 0.1 }} }}] }},
     {{ name = "block", material = "rubber", mesh = {{ generator = "block", origin = [0, 0, 1], size = [1, 1, 1], divisions = [1, 1, 1] }} }},
 ]
 rigid = [{{ name = "floor", plane = {{ point = [0, 0, 2], normal = [0, 0, -1] }} }}]
@@ -69,7 +69,8 @@ pair = [
 [[step]]
 name = "rest"
 displacement = [
-    {{ body = "cube", nodes = "all", x = 0, y = 0, z = 0 }},
+    {{ body = "cube", nodes = "all", x = 0, y = 0 }},
+    {{ body = "cube", nodes = "foot", z = 0 }},
     {{ body = "block", nodes = "all", x = 0, y = 0, z = 0 }},
 ]
 "#
@@ -200,8 +201,10 @@ fn broken_nodal_textures_are_explained() {
 #[test]
 fn a_direction_along_the_normal_is_refused_with_its_node() {
     let folder = folder();
-    let model = model(&deck(r#"{ nodal = "zero.csv" }"#, BLOCK), folder.path());
-    let error = Problem::new(model).unwrap_err().to_string();
+    let deck = deck(r#"{ nodal = "zero.csv" }"#, BLOCK);
+    let error = parse(&deck, "deck.toml", folder.path())
+        .unwrap_err()
+        .to_string();
     assert!(error.contains("body `cube`, node 1"), "{error}");
     assert!(error.contains("no tangential part"), "{error}");
 }

@@ -162,10 +162,12 @@ fn touching(problem: &Problem, time: f64, pressed: impl Fn(&Vec3) -> bool) -> St
     };
     let facets = (0..surface.facets().len()).map(|at| (FacetId::new(at), of_facet));
     state.pairs[0].facets[1] = facets.collect();
+    state.pairs[0].kept[1].fill(true);
     for (at, node) in surface.nodes().iter().enumerate() {
         let result = &mut state.pairs[0].nodes[1][at];
         let x = state.positions[problem.node(1, *node)];
         result.normal = -Vec3::z();
+        result.slip = Vec3::x() * 0.05;
         result.pressure = f64::from(u8::from(pressed(&x)));
     }
     state
@@ -198,9 +200,8 @@ fn a_node_that_friction_pushes_along_its_slip_is_named() {
     let gain = warnings.iter().find(|warning| warning.kind == Kind::Gain);
     assert!(gain.is_some_and(|gain| gain.text.contains("of `upper` along its slip")));
     // Less than a twentieth of a facet is what meshes cannot follow.
-    for x in &mut after.positions[problem.first_node[1]..] {
-        x.x -= 0.045;
-    }
+    let nodes = after.pairs[0].nodes[1].iter_mut();
+    nodes.for_each(|node| node.slip *= 0.1);
     assert_eq!(doubts(&problem, &before, &after), []);
 }
 

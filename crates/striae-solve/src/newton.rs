@@ -178,7 +178,6 @@ pub(crate) fn forces_at(
     let Selected {
         selections,
         tractions,
-        ..
     } = selected(context, state, s);
     workspace.prepare(context.problem, &selections);
     let trial = Trial {

@@ -1,4 +1,6 @@
 //! How increments and runs can end.
+//!
+//! Longer than other files, as it lists every ending with its words.
 
 use striae_sparse::SolveError;
 

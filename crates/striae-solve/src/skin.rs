@@ -17,7 +17,7 @@ use striae_surface::topology::Surface;
 use crate::{
     model::{ContactSurface, Model, Pair},
     node::GlobalNode,
-    problem::Problem,
+    share::Share,
     tie::{Ties, first_nodes},
 };
 
@@ -83,8 +83,7 @@ impl Skin {
     }
 
     /// Where the nodes of the skins are; collective.
-    fn places(&self, problem: &Problem, positions: &[Vec3]) -> Vec<Vec3> {
-        let share = &problem.share;
+    fn places(&self, share: &Share, positions: &[Vec3]) -> Vec<Vec3> {
         let own = self.skins.surface.nodes().iter().map(|node| {
             let local = share.local_node(GlobalNode(node.index()));
             let own = local.filter(|local| share.owns(*local));
@@ -156,15 +155,14 @@ fn bodies_of(pair: &Pair) -> Option<[usize; 2]> {
 
 /// Overlaps that no pair sees and that are deeper than [`SHARE`] of the facet size at the end of
 /// an increment and were less at its start; those as meshed are meant. Collective.
-pub(crate) fn overlaps(problem: &Problem, start: &[Vec3], end: &[Vec3]) -> Vec<BodyOverlap> {
-    let skin = &problem.skin;
-    let at = skin.places(problem, end);
+pub(crate) fn overlaps(skin: &Skin, share: &Share, [start, end]: [&[Vec3]; 2]) -> Vec<BodyOverlap> {
+    let at = skin.places(share, end);
     let judged = |spot: Spot, facet: FacetId| skin.is_judged(spot, facet);
     let mut found = PlacedSkins::new(&skin.skins, &at).overlaps(judged);
     found.retain(|found| found.share() > SHARE);
     let is_any = !found.is_empty();
     let was = match is_any {
-        true => skin.places(problem, start),
+        true => skin.places(share, start),
         false => return Vec::new(),
     };
     let before = PlacedSkins::new(&skin.skins, &was);

@@ -240,7 +240,11 @@ impl Judgement {
         let pairs = 0..problem.pairs.len();
         let interferences = pairs.map(|pair| between(problem, pair, ends[0], ends[1], SHARE));
         self.doubts(&doubts(problem, before, after), after.time);
-        let overlaps = overlaps(problem, &before.positions, &after.positions);
+        let overlaps = overlaps(
+            &problem.skin,
+            &problem.share,
+            [&before.positions, &after.positions],
+        );
         let interferences = interferences.collect::<Vec<_>>();
         self.change(problem, [before, after], in_step, &interferences, &overlaps);
     }

@@ -62,6 +62,15 @@ pub struct WrongDerivative {
     pub errors: Vec<(f64, f64)>,
 }
 
+impl WrongDerivative {
+    /// True where the smallest step shows no error: larger ones cross kinks. A derivative that is
+    /// wrong by 1e-8 is seen.
+    pub fn is_of_kinks(&self) -> bool {
+        let smallest = self.errors.last();
+        smallest.is_some_and(|(_, error)| *error <= 1e-8 * self.derivative_norm)
+    }
+}
+
 impl fmt::Display for WrongDerivative {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(

@@ -12,11 +12,12 @@ use pulp::{Simd, WithSimd};
 
 use super::{
     Polygon, Slopes,
-    fan::Fan,
+    fan::{Apex, Fan, fan},
+    moved::{Integrand, M, Moved, OnTriangle},
     plane_facet::Vec2,
-    points::{Integrand, M, Moved, OnTriangle, Pressed, PressedSlopes, Pressing, dot, shares},
     rule,
     sums::add,
+    support::{Pressed, PressedSlopes, Pressing, dot, shares},
 };
 
 /// A segment whose vertices are all closed.
@@ -51,28 +52,33 @@ impl<'a> Closed<'a> {
     /// Whether the points of the rule are closed, too.
     pub(super) fn holds(&self) -> bool {
         let limit = self.pressing.least_limit();
-        self.points().all(|(n, _)| self.pressing.gap(&n) < limit)
+        self.points(self.fan)
+            .all(|(n, _)| self.pressing.gap(&n) < limit)
     }
 
-    /// Interpolation functions and weights of the points.
-    fn points(&self) -> impl Iterator<Item = ([f64; 8], f64)> {
+    /// Interpolation functions and weights of the points in the triangles of a fan.
+    fn points(&self, fan: &Fan) -> impl Iterator<Item = ([f64; 8], f64)> {
         let facets = &self.polygon.pair.facets;
-        self.fan.triangles.iter().flat_map(move |indices| {
-            let v = indices.map(|at| self.fan.places[at]);
+        fan.triangles.iter().flat_map(move |indices| {
+            let v = indices.map(|at| fan.places[at]);
             let area = 0.5 * (v[1] - v[0]).perp(&(v[2] - v[0]));
             let rule = self.rule.iter();
             rule.map(move |(at, weight)| (shares(facets, &place(&v, at)), weight * area))
         })
     }
 
-    /// `int phi_k` over the points that are closed at the full bedding.
+    /// `int phi_k` over the points that are closed at the full bedding, in triangles about the
+    /// centre where there are others, so that it does not matter where the vertices begin.
     fn closed(&self, mass: &[[f64; 8]; 8]) -> Vec<f64> {
         let limit = self.pressing.least_full_limit();
-        if self.points().all(|(n, _)| self.pressing.gap(&n) < limit) {
+        let facets = &self.polygon.pair.facets;
+        let mut vertices = self.polygon.vertices.iter();
+        if vertices.all(|vertex| self.pressing.gap(&shares(facets, &vertex.place)) < limit) {
             return self.pressing.weights(mass);
         }
         let mut closed = vec![0.0; self.pressing.count()];
-        self.points()
+        let fan = fan(&self.polygon.vertices, Apex::Centre);
+        self.points(&fan)
             .for_each(|(n, weight)| self.pressing.add_closed(&mut closed, &n, weight));
         closed
     }

@@ -11,8 +11,10 @@ use striae_surface::{facet::Shape, scalar::combination};
 
 use super::{
     Facet, Slopes,
-    points::{DIVISIONS, OfSupport, Point, Pressed, PressedSlopes, Pressing, over_bedding},
+    divided::{DIVISIONS, divided},
+    plane_facet::Vec2,
     rule,
+    support::{OfSupport, Point, Pressed, PressedSlopes, Pressing, over_bedding},
 };
 
 /// `(point, weight)` on `[-1, 1]`, exact to degree five.
@@ -24,8 +26,8 @@ const GAUSS_3: [(f64, f64); 3] = [
 /// The same with points at the ends.
 const LOBATTO_4: [(f64, f64); 4] = [
     (-1.0, 1.0 / 6.0),
-    (-0.447_213_595_499_957_93, 5.0 / 6.0),
-    (0.447_213_595_499_957_93, 5.0 / 6.0),
+    (-0.447_213_595_499_957_9, 5.0 / 6.0),
+    (0.447_213_595_499_957_9, 5.0 / 6.0),
     (1.0, 1.0 / 6.0),
 ];
 
@@ -134,9 +136,9 @@ impl Pressed {
 }
 
 fn on_triangle(state: &impl Fn([f64; 2]) -> usize) -> Vec<FacetPoint> {
-    let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(super::plane_facet::Vec2::from);
-    let at = |place: &super::plane_facet::Vec2| state([place.x, place.y]);
-    let points = super::points::divided(&corners, &rule::DEGREE_5, &at);
+    let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(Vec2::from);
+    let at = |place: &Vec2| state([place.x, place.y]);
+    let points = divided(&corners, &rule::DEGREE_5, &at);
     let place = |(shares, weight): rule::Point| ([shares[1], shares[2]], 0.5 * weight);
     points.into_iter().map(place).collect()
 }

@@ -9,6 +9,7 @@ use crate::{
     value::{Text, vector},
 };
 use std::path::{Path, PathBuf};
+use striae_mesh::generate::MOST_ELEMENTS;
 use striae_mesh::{CellBlock, CellKind, Mesh, NodeId, Vec3};
 use striae_meshfile::{self as mesh_file, Reading};
 use striae_model::FaultKind as ModelFault;
@@ -48,7 +49,10 @@ pub(super) fn body_mesh(
 
 /// The fault that a mesh would take more memory than there is, told before it is taken.
 fn too_large(generator: &generator::Generator, body: &str) -> Option<FaultKind> {
-    let elements = generator.elements()?;
+    // More than a generator makes is a fault of its own.
+    let elements = generator
+        .elements()
+        .filter(|count| *count <= MOST_ELEMENTS)?;
     let needed = BYTES * elements as f64;
     let available = available_bytes().filter(|available| needed > *available)?;
     Some(FaultKind::MeshMemory {

@@ -124,19 +124,21 @@ pub(super) fn goes_around(count: usize) -> Result<(), MeshError> {
     )
 }
 
+/// The most elements that a generator makes.
+pub const MOST_ELEMENTS: u128 = 20_000_000;
+
 /// Checks that a product of divisions is not beyond all that can be solved for.
 pub(super) fn check_element_count(
     divisions: impl IntoIterator<Item = usize>,
 ) -> Result<(), MeshError> {
-    const MOST: u128 = 20_000_000;
     let divisions = divisions.into_iter().map(|count| count as u128);
     let elements = divisions.fold(1, u128::saturating_mul);
-    if elements <= MOST {
+    if elements <= MOST_ELEMENTS {
         return Ok(());
     }
     Err(MeshError::TooLarge {
         elements,
-        most: MOST,
+        most: MOST_ELEMENTS,
     })
 }
 

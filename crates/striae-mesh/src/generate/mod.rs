@@ -47,5 +47,6 @@ pub use capped_block::{CappedBlock, Part};
 pub use cylinder::Cylinder;
 pub use disc::Sector;
 pub use grading::{Grading, refined_lengths};
+pub use grid::MOST_ELEMENTS;
 pub use half_cylinder::{Half, HalfCylinder};
 pub use torus::Torus;

@@ -36,10 +36,6 @@ use crate::{
 /// How often an increment is solved again with nodes that it turned out to need.
 const REPETITIONS: usize = 3;
 
-/// How far a node goes in an iteration at most, over the smallest facet, while nodes change their
-/// status: a body that friction or a few nodes hold would be thrown off.
-const FARTHEST: f64 = 0.1;
-
 /// An increment under way.
 pub(super) struct Attempt<'a> {
     context: &'a StepContext<'a>,
@@ -69,8 +65,6 @@ pub(super) struct Attempt<'a> {
     first: Iteration,
     /// The tangent there is.
     chord: Chord,
-    /// Size of the smallest facet in contact.
-    smallest_facet: f64,
 }
 
 impl<'a> Attempt<'a> {
@@ -85,7 +79,6 @@ impl<'a> Attempt<'a> {
         let Selected {
             selections,
             tractions,
-            smallest_facet,
         } = selected(context, state, s);
         workspace.prepare(context.problem, &selections);
         workspace.take_work();
@@ -112,7 +105,6 @@ impl<'a> Attempt<'a> {
             closed: vec![true; context.pairs.len()],
             first: Iteration::First,
             chord: Chord::default(),
-            smallest_facet,
         }
     }
 
@@ -271,17 +263,13 @@ impl Attempt<'_> {
             self.trial = trial;
             return Ok((assembled, Taken::Whole));
         }
-        let farthest = match self.iterations.is_empty() || self.statuses_rest(assembled) {
-            true => f64::INFINITY,
-            false => FARTHEST * self.smallest_facet,
-        };
         labelled(&mut self.trial, &assembled.contacts);
         let (trial, assembled, taken) = step(
             workspace,
             &self.setting(),
             &self.trial,
             (iteration, derivatives),
-            (&correction, farthest),
+            &correction,
         )?;
         self.trial = trial;
         Ok((assembled, taken))

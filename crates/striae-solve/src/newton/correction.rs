@@ -33,44 +33,25 @@ pub(super) enum Taken {
     Part,
 }
 
-/// Applies a correction, halved while it turns elements inside out; no node moves farther than
-/// `farthest`.
+/// Applies a correction, halved while it turns elements inside out.
 pub(super) fn step(
     workspace: &mut Workspace,
     setting: &Setting,
     trial: &Trial,
     (iteration, derivatives): (Iteration, Derivatives),
-    (correction, farthest): (&[f64], f64),
+    correction: &[f64],
 ) -> Result<(Trial, Assembled, Taken), CutBack> {
-    let longest = largest_motion(setting, workspace.system(), correction);
-    let (mut factor, mut taken) = match longest > farthest {
-        true => (farthest / longest, Taken::Part),
-        false => (1.0, Taken::Whole),
-    };
-    let smallest = SMALLEST_PART * factor;
+    let (mut factor, mut taken) = (1.0, Taken::Whole);
     loop {
         let next = corrected(setting, workspace.system(), trial, correction, factor);
         match workspace.assemble(setting, &next, iteration, derivatives) {
             Ok(assembled) => return Ok((next, assembled, taken)),
-            Err(CutBack::InvertedElement { .. }) if factor > smallest => {
+            Err(CutBack::InvertedElement { .. }) if factor > SMALLEST_PART => {
                 (factor, taken) = (0.5 * factor, Taken::Part);
             }
             Err(other) => return Err(other),
         }
     }
-}
-
-/// Largest motion of a node that is not tied; collective.
-fn largest_motion(setting: &Setting, system: &SystemStorage, correction: &[f64]) -> f64 {
-    let problem = setting.context.problem;
-    let of_node = |node| {
-        let first = system.layout.position(node);
-        Vec3::from_column_slice(&correction[first..first + 3]).norm()
-    };
-    let free = problem
-        .global_nodes()
-        .filter(|node| problem.tie_of[*node].is_none());
-    problem.share.largest(free.map(of_node).fold(0.0, f64::max))
 }
 
 /// The trial state with a part of a correction. Nodes of a trial have the labels of the rows by

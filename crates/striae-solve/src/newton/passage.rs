@@ -106,7 +106,11 @@ fn missed(
 /// If some of it is deeper than half the facet size.
 pub(super) fn overlap(setting: &Setting, trial: &Trial) -> Result<Vec<BodyOverlap>, CutBack> {
     let problem = setting.context.problem;
-    let overlaps = overlaps(problem, &setting.state.positions, &trial.positions);
+    let overlaps = overlaps(
+        &problem.skin,
+        &problem.share,
+        [&setting.state.positions, &trial.positions],
+    );
     let deep = overlaps
         .iter()
         .filter(|overlap| overlap.found.share() > UNSEEN);

@@ -20,21 +20,17 @@ use crate::{
 pub(super) struct Selected {
     pub(super) selections: Vec<Selection>,
     pub(super) tractions: Vec<Tractions>,
-    /// Size of the smallest facet of any deformable side.
-    pub(super) smallest_facet: f64,
 }
 
 /// The fields in the converged state. A node that was not kept starts with the old field.
 pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected {
     let semismooth = context.problem.model.solver.strategy == Strategy::Semismooth;
-    let mut smallest_facet = f64::INFINITY;
     let (selections, tractions) = state
         .pairs
         .iter()
         .enumerate()
         .map(|(pair, of_pair)| {
             let start = context.configuration(pair, &state.positions, &state.rigid);
-            smallest_facet = smallest(&start).min(smallest_facet);
             let mut tractions = of_pair.tractions.clone();
             let selection = Selection {
                 offsets: context.offsets_left(pair, s),
@@ -68,7 +64,6 @@ pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected
     Selected {
         selections,
         tractions,
-        smallest_facet: -context.problem.share.largest(-smallest_facet),
     }
 }
 
@@ -86,11 +81,9 @@ fn label(slipped: bool) -> Label {
 
 /// The fields chosen anew with what a trial state shows.
 pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluation]) -> Selected {
-    let mut smallest_facet = f64::INFINITY;
     let (selections, tractions) = with_configurations(setting, trial)
         .enumerate()
         .map(|(pair, (start, latest))| {
-            smallest_facet = smallest(&start).min(smallest_facet);
             let had = &setting.selections[pair];
             let kept = had.kept_nodes();
             let prescribed = &setting.context.fixed_on_pair[pair];
@@ -106,7 +99,6 @@ pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluatio
     Selected {
         selections,
         tractions,
-        smallest_facet: -setting.context.problem.share.largest(-smallest_facet),
     }
 }
 
@@ -121,13 +113,6 @@ fn with_configurations<'a>(
         let latest = context.configuration(pair, &trial.positions, &trial.rigid);
         (start, latest)
     })
-}
-
-/// Size of the smallest facet of the deformable sides of a pair.
-fn smallest(configuration: &Configuration) -> f64 {
-    let sides = configuration.pair.deformable_sides().iter();
-    let sizes = sides.flat_map(|&side| &configuration.side(side).sizes);
-    sizes.copied().fold(f64::INFINITY, f64::min)
 }
 
 /// Gives nodes that are newly kept what the field carried there, and others nothing.

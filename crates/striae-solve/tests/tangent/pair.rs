@@ -187,13 +187,18 @@ impl<'a> PairFunction<'a> {
     /// Unknowns away from the kinks; slip rows are satisfied, since only there is their
     /// Jacobian exact. Slip depends on friction where nodes are weak.
     pub fn state(&self, wanted: Wanted) -> DVector<f64> {
+        self.found(wanted).expect("some node slips")
+    }
+
+    /// The same; `None` where no node can be made to slip.
+    pub fn found(&self, wanted: Wanted) -> Option<DVector<f64>> {
         let mut placed = PRESSURES.iter().map(|&pressure| {
             let mut u = self.placed(wanted, pressure);
             self.project(&mut u);
             u
         });
         let found = placed.find(|u| self.statuses(u).contains(&Status::Slip));
-        self.settled(found.expect("some node slips"))
+        self.settled(found?)
     }
 
     /// Positions, and tractions with pressures of nodes that may slip about `pressure`.
@@ -242,20 +247,20 @@ impl<'a> PairFunction<'a> {
     }
 
     /// With the slip rows satisfied.
-    fn settled(&self, mut u: DVector<f64>) -> DVector<f64> {
+    fn settled(&self, mut u: DVector<f64>) -> Option<DVector<f64>> {
         for _ in 0..20 {
             let rows = self.slip_rows(&u);
             let off = self.residual(&u).select_rows(&rows);
             if rows.is_empty() || off.amax() < 1e-13 {
-                return u;
+                return Some(u);
             }
             let slope = self.tangent(&u).select_rows(&rows).select_columns(&rows);
-            let step = slope.lu().solve(&off).expect("a regular law");
+            let step = slope.lu().solve(&off)?;
             for (row, step) in rows.iter().zip(step.iter()) {
                 u[*row] -= step;
             }
         }
-        panic!("friction does not settle");
+        None
     }
 
     /// Repeats `z <- y` within the cap and `z <- varpi y/|y|` beyond it, which leads to the
@@ -318,6 +323,8 @@ impl<'a> PairFunction<'a> {
             let residual = |u: &DVector<f64>| self.residual(u);
             match directional(Difference::Central, residual, &claimed, u, &direction) {
                 Ok(order) => assert!(order.is_some(), "{name}: no order"),
+                // Points of supports open and close within larger steps.
+                Err(wrong) if wrong.is_of_kinks() => {}
                 Err(wrong) => panic!("{name}: {wrong}{}", self.worst(u, &tangent)),
             }
         }

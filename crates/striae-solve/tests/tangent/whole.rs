@@ -124,7 +124,9 @@ impl<'a> Whole<'a> {
                 &u,
                 &direction,
             );
-            if let Err(wrong) = order {
+            if let Err(wrong) = order
+                && !wrong.is_of_kinks()
+            {
                 panic!("{wrong}");
             }
         }
@@ -174,7 +176,9 @@ impl<'a> Whole<'a> {
         let difference = here - DVector::from_vec(assembled.residual.clone());
         assert!(difference.amax() <= 1e-13, "{:e}", difference.amax());
         let order = directional(Difference::Central, contact, &claimed, &u, &direction);
-        if let Err(wrong) = order {
+        if let Err(wrong) = order
+            && !wrong.is_of_kinks()
+        {
             panic!("{wrong}");
         }
     }

@@ -137,19 +137,27 @@ impl Output<'_> {
     }
 
     /// Use of the law by the resultant on the side with the texture, or on the first one.
+    ///
+    /// Normals of a pair are nearer to those of the stiffer side, whose mean is taken.
     fn law(&self, row: usize, index: usize) -> Option<f64> {
         let pair = &self.scene.pairs[index];
         let fields = Fields::read(self.folder, self.scene, row + 1).ok()??;
         let textured = pair.sides.iter().position(|side| side.texture.is_some());
         let side = textured.unwrap_or(0);
         let sides = &fields.pairs[index];
-        // Of a rigid side there are no fields: the other one's, seen from it.
-        let (normal, sign) = match (&sides[side], &sides[1 - side]) {
-            (Some(grid), _) => (mean_normal(grid)?, 1.0),
-            (None, Some(grid)) => (mean_normal(grid)?, -1.0),
-            (None, None) => return None,
+        let modulus = |side: usize| {
+            let owner = pair.sides[side].owner;
+            let body = self.scene.bodies.iter().find(|body| body.name == owner);
+            // Of a rigid side there are no fields.
+            body.map_or(0.0, |body| body.material.modulus)
         };
-        let normal = times(sign, normal);
+        let seen = if modulus(side) >= modulus(1 - side) {
+            side
+        } else {
+            1 - side
+        };
+        let sign = if seen == side { 1.0 } else { -1.0 };
+        let normal = times(sign, mean_normal(sides[seen].as_ref()?)?);
         let owner = pair.sides[side].owner;
         let force = on_body(self.scene, self.history, row, index, owner)?;
         let pressure = -dot(force, normal);

@@ -16,7 +16,7 @@ use crate::scenes::{
     vtu::Grid,
 };
 
-use super::{Findings, fields::sizes};
+use super::{Findings, sizes::sizes};
 
 /// Largest depth over the size of a facet.
 pub const DEPTH: f64 = 0.1;

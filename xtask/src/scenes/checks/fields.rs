@@ -1,7 +1,6 @@
 //! Checks of the fields on the contact surfaces: law, tension, gaps.
 
 use crate::scenes::{
-    geometry::area,
     law::Point,
     output::Fields,
     scene::{Pair, Scene},
@@ -9,7 +8,7 @@ use crate::scenes::{
     vtu::Grid,
 };
 
-use super::{Findings, work};
+use super::{Findings, sizes::sizes, work};
 
 /// Friction beyond the law, relative.
 const LAW: f64 = 1e-6;
@@ -143,21 +142,6 @@ fn friction(
             )
         });
     }
-}
-
-/// Size of the facets at every node: the root of their mean area.
-pub fn sizes(grid: &Grid) -> Vec<f64> {
-    let mut sums = vec![(0.0, 0.0); grid.points.len()];
-    for (index, cell) in grid.cells.iter().enumerate() {
-        let area = area(&grid.corners(index));
-        for &node in cell {
-            sums[node].0 += area;
-            sums[node].1 += 1.0;
-        }
-    }
-    sums.into_iter()
-        .map(|(area, count)| (area / count).sqrt())
-        .collect()
 }
 
 #[cfg(test)]

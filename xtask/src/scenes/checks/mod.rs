@@ -29,6 +29,7 @@ mod claims;
 pub mod depth;
 mod fields;
 mod round_off;
+mod sizes;
 mod table;
 mod work;
 

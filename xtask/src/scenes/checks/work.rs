@@ -6,7 +6,7 @@
 
 use crate::scenes::{vector::dot, vtu::Grid};
 
-use super::{Findings, fields::sizes};
+use super::{Findings, sizes::sizes};
 
 /// Work per area that friction may give to a node in an increment, over the largest pressure times
 /// the size of a facet: at one that slips, and at one that sticks.

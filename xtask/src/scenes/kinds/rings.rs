@@ -68,7 +68,9 @@ pub fn rings(random: &mut Random, _: Dialect) -> Scene {
             / counts[0].min(counts[1]) as f64;
         let round = radii[0] * radii[1] / (radii[0] + radii[1]);
         let wide = random.between(0.6, 1.5) * facet;
-        let local = 0.5 * wide * wide / round;
+        // No deeper than a tenth of the thinner ring.
+        let thinner = thin * radii[0].min(radii[1]);
+        let local = (0.5 * wide * wide / round).min(0.1 * thinner);
         let depth = if bends {
             random.between(0.02, 0.1) * unit
         } else {

@@ -38,17 +38,6 @@ impl Attempt<'_> {
             })
     }
 
-    /// Whether the status of no node is another than in the iteration before; collective.
-    pub(super) fn statuses_rest(&self, assembled: &Assembled) -> bool {
-        let contacts = self.trial.tractions.iter().zip(&assembled.contacts);
-        let mut nodes = contacts.flat_map(|(before, now)| {
-            let labels = before.labels.iter().flatten();
-            labels.zip(now.nodes.iter().flatten())
-        });
-        let change = nodes.any(|(before, now)| before.status != now.status);
-        !self.context.problem.share.any(change)
-    }
-
     /// Whether the last iterations go back and forth over a jump of the integrals of contact.
     ///
     /// A corner closer to an opposing edge than [`ON_EDGE`] of the facet counts as on it. What
