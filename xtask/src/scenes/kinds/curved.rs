@@ -145,7 +145,7 @@ pub fn socket(random: &mut Random, _: Dialect) -> Scene {
         let slid = fine == 1 && random.chance(0.5);
         nest.pressed(random, slid)
     }
-    with_finer(random, build, 2, [0.55, 2.0])
+    with_finer(random, build, 2, [0.6, 1.8])
 }
 
 /// A cylinder in a groove.
@@ -159,5 +159,5 @@ pub fn groove(random: &mut Random, _: Dialect) -> Scene {
         let slid = fine == 1 && random.chance(0.5);
         nest.pressed(random, slid)
     }
-    with_finer(random, build, 2, [0.55, 2.0])
+    with_finer(random, build, 2, [0.6, 1.8])
 }
