@@ -44,7 +44,7 @@ def test_textures_of_all_kinds_are_written(rubber: st.NeoHookean) -> None:
     pad = st.Body("pad", st.block(divisions=(2, 2, 2)), rubber)
     floor = st.Plane("floor", normal=(0.1, 0.2, 1))
     directions = np.tile([1.0, 0.5, 0.0], (9, 1))
-    for texture in [st.Nodal(directions), st.Circumferential((0, 0, 1), turn=33.3)]:
+    for texture in [st.Nodal(directions), st.Circumferential((0, 0, 1), point=(0.3, 0.2, 0), turn=33.3)]:
         side = pad["zmin"].textured(texture)
         model = st.Model([pad], [floor], [st.Pair(side, floor, st.Nap(0.2, 0.3, 0.25))])
         model.step("press", pad["zmax"].displace(x=0, y=0, z=-0.01))

@@ -135,7 +135,7 @@ def test_published_measurements_of_a_spider_have_two_coefficients() -> None:
 def test_faults_of_measurements_have_places(tmp_path: Path) -> None:
     file = tmp_path / "m.csv"
     file.write_text("angle, friction\n0, 0.1\n90\n")
-    with pytest.raises(st.ModelError, match=r"m.csv:3:1: numbers: 1, but columns: 2"):
+    with pytest.raises(st.ModelError, match=r"m.csv:3:1: fields: 1, but columns: 2"):
         st.read_measurements(file)
     file.write_text("angle, friction, direction\n0, 0.5, 30\n90, 0.2, 90\n")
     forces = st.read_measurements(file).forces
