@@ -259,6 +259,7 @@ impl Evaluation {
                     textures: &stage.textures[side][node],
                     rate: &stage.rates[side][node],
                     slipped: stage.tractions.slipped[side][node],
+                    freedom: stage.selection.slip_freedom(k),
                     before: stage.tractions.labels[side][node],
                     unknowns: stage.tractions.nodes[side][node],
                     tau: stage.tau[side][node].value,

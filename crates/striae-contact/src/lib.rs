@@ -45,6 +45,7 @@ pub mod bedding;
 pub mod complementarity;
 pub mod configuration;
 pub mod converged_friction;
+pub mod directions;
 pub mod evaluation;
 pub mod exposed;
 pub mod facet_coverage;

@@ -15,15 +15,18 @@
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     configuration::Configuration,
     converged_friction::{CollapsedFacets, converged_friction},
+    directions::SlipFreedom,
     frame::{Frame, Frames},
     kinematics::{Kinematics, Presence, Pressure},
     pairing::side_sign,
     places::ChainedSum,
     selection::Selection,
+    side::Side,
     tracked::{Tracked, TrackedScalar},
     traction::NodalTractions,
     traction_basis::coupling,
@@ -139,12 +142,12 @@ impl Ramp<'_> {
     /// # Errors
     /// Where the facets around a node had collapsed to a line.
     pub fn add_to_slips(&self, kinematics: &mut [Kinematics]) -> Result<(), CollapsedFacets> {
-        let all = self.selection.coupling();
-        let stuck = self.coupling_of_stuck();
+        let all = self.coupling_of(|_| true);
+        let stuck = self.coupling_of(|(side, node)| self.tractions.stuck[side][node]);
         let found: Vec<_> = (0..all.len())
             .into_par_iter()
             .with_min_len(8)
-            .map(|k| self.ramped(k, &stuck))
+            .map(|k| self.ramped(k, &all[k], &stuck[k]))
             .collect();
         let found: Result<Vec<Option<Ramped>>, _> =
             found.into_iter().map(Option::transpose).collect();
@@ -159,34 +162,36 @@ impl Ramp<'_> {
                     && kinematics.presence == Presence::Facing
                 {
                     let weight = &supported.weight;
-                    self.add(k, own, (&ramped, &stuck[k]), weight, &mut kinematics.slip);
+                    let coupling = [all[k].as_slice(), stuck[k].as_slice()];
+                    self.add(own, &ramped, coupling, weight, &mut kinematics.slip);
                 }
             });
         Ok(())
     }
 
-    /// Rows of `E'`.
-    fn coupling_of_stuck(&self) -> Vec<Vec<(u32, f64)>> {
+    /// Rows of `E` by those weak nodes at these places of which friction is determined in all
+    /// directions: one that lacks a direction has no ramp.
+    fn coupling_of(&self, counts: impl Fn((Side, SurfaceNode)) -> bool) -> Vec<Vec<(u32, f64)>> {
         let kept = self.selection.kept();
-        let weak = self.selection.ramp().iter();
-        let stuck = weak.filter(|weak| {
-            let (side, node) = kept[weak.kept as usize].place();
-            self.tractions.stuck[side][node]
+        let weak = self.selection.ramp().iter().filter(|weak| {
+            let k = weak.kept as usize;
+            self.selection.slip_freedom(k) == SlipFreedom::Plane && counts(kept[k].place())
         });
-        coupling(stuck, self.selection.coupling().len())
+        coupling(weak, self.selection.coupling().len())
     }
 
     fn ramped(
         &self,
         k: usize,
-        stuck: &[Vec<(u32, f64)>],
+        all: &[(u32, f64)],
+        stuck: &[(u32, f64)],
     ) -> Option<Result<Ramped<'_>, CollapsedFacets>> {
-        if self.selection.coupling()[k].is_empty() {
+        if all.is_empty() {
             return None;
         }
         let (side, node) = self.selection.kept()[k].place();
         let frame = self.frames[side][node].as_ref()?;
-        let before = (!stuck[k].is_empty()).then(|| {
+        let before = (!stuck.is_empty()).then(|| {
             let components = self.tractions.tau_n[side][node];
             let at = (side, node);
             converged_friction(self.configuration, self.start, at, frame, components)
@@ -201,9 +206,9 @@ impl Ramp<'_> {
 
     fn add(
         &self,
-        k: usize,
         own: &Ramped,
-        (ramped, stuck): (&[Option<Ramped>], &[(u32, f64)]),
+        ramped: &[Option<Ramped>],
+        [all, stuck]: [&[(u32, f64)]; 2],
         weight: &TrackedScalar,
         slip: &mut Tracked,
     ) {
@@ -222,7 +227,7 @@ impl Ramp<'_> {
             let by_from = turned.by_from * (factor * facing);
             sum.add(&by_from, &other.frame.n.jacobian);
         };
-        for &(l, coupling) in &self.selection.coupling()[k] {
+        for &(l, coupling) in all {
             if let Some(other) = &ramped[l as usize] {
                 add(other, other.friction, coupling);
             }

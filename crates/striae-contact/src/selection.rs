@@ -56,6 +56,7 @@ impl Selection {
             depth,
             partners,
             offsets: [Vec::new(), Vec::new()],
+            slip_freedoms: Vec::new(),
         }
     }
 }

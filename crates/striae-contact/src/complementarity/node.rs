@@ -5,8 +5,9 @@ use striae_mesh::Vec3;
 use striae_surface::node::SurfaceNode;
 
 use crate::{
-    frame::Frame, kinematics::Kinematics, segment::Derivatives, side::Side, table_1::Corrector,
-    texture::NodeTextures, tracked::TrackedScalar, unknown::Prescribed, unknowns::Label,
+    directions::SlipFreedom, frame::Frame, kinematics::Kinematics, segment::Derivatives,
+    side::Side, table_1::Corrector, texture::NodeTextures, tracked::TrackedScalar,
+    unknown::Prescribed, unknowns::Label,
 };
 
 /// Which iteration of an increment is evaluated.
@@ -59,6 +60,8 @@ pub struct ContactNode<'a> {
     pub rate: &'a TrackedScalar,
     /// Whether it slipped in the last converged increment.
     pub slipped: bool,
+    /// In which directions its friction is determined.
+    pub freedom: SlipFreedom,
     /// What the iterations before made of it.
     pub before: Label,
     /// `p`, `z1`, `z2`.

@@ -6,6 +6,7 @@ use super::{Kept, approach::approach};
 use crate::{
     bedding::bedding,
     configuration::Configuration,
+    directions::SlipFreedom,
     pairing::{PairedFacets, Scope, paired_facets},
     partner::Partner,
     segment::SegmentDerivatives,
@@ -30,6 +31,8 @@ pub struct Selection {
     /// Overlap of the meshes at the nodes that is not pressed out yet, by side; empty where
     /// there is none.
     pub offsets: [Vec<f64>; 2],
+    /// In which directions friction of the kept nodes is determined; empty where it is in all.
+    pub slip_freedoms: Vec<SlipFreedom>,
 }
 
 impl Selection {
@@ -95,6 +98,11 @@ impl Selection {
     /// that is closed.
     pub fn bedding(&self, k: usize, closed: f64) -> f64 {
         bedding(self.basis.flexibility[k], closed)
+    }
+
+    /// In which directions friction of a kept node is determined.
+    pub fn slip_freedom(&self, k: usize) -> SlipFreedom {
+        self.slip_freedoms.get(k).copied().unwrap_or_default()
     }
 
     /// Weakly independent kept nodes.

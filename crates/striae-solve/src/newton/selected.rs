@@ -3,6 +3,7 @@
 
 use striae_contact::{
     configuration::Configuration,
+    directions::{Mover, Party, slip_freedoms},
     evaluation::Evaluation,
     selection::{Kept, Selection},
     side::Side,
@@ -24,6 +25,15 @@ pub(super) struct Selected {
 
 /// The fields in the converged state. A node that was not kept starts with the old field.
 pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected {
+    let mut selected = without_freedoms(context, state, s);
+    let start = |pair| context.configuration(pair, &state.positions, &state.rigid);
+    let nodes: Vec<_> = state.pairs.iter().map(|pair| &pair.nodes).collect();
+    restrict(context, &mut selected.selections, start, &nodes);
+    selected
+}
+
+/// The same where friction of all kept nodes is determined in all directions.
+fn without_freedoms(context: &StepContext, state: &State, s: f64) -> Selected {
     let semismooth = context.problem.model.solver.strategy == Strategy::Semismooth;
     let (selections, tractions) = state
         .pairs
@@ -81,7 +91,7 @@ fn label(slipped: bool) -> Label {
 
 /// The fields chosen anew with what a trial state shows.
 pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluation]) -> Selected {
-    let (selections, tractions) = with_configurations(setting, trial)
+    let (mut selections, tractions): (Vec<_>, Vec<_>) = with_configurations(setting, trial)
         .enumerate()
         .map(|(pair, (start, latest))| {
             let had = &setting.selections[pair];
@@ -96,10 +106,65 @@ pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluatio
             (selection, tractions)
         })
         .unzip();
+    let context = setting.context;
+    let latest = |pair| context.configuration(pair, &trial.positions, &trial.rigid);
+    let nodes: Vec<_> = contacts.iter().map(|contact| &contact.nodes).collect();
+    restrict(context, &mut selections, latest, &nodes);
     Selected {
         selections,
         tractions,
     }
+}
+
+/// Restricts friction of the kept nodes to the directions in which it is determined, in these
+/// configurations, where contact is as in `nodes`.
+fn restrict<'a>(
+    context: &'a StepContext,
+    selections: &mut [Selection],
+    configuration: impl Fn(usize) -> Configuration<'a>,
+    nodes: &[&[Vec<NodeResult>; 2]],
+) {
+    let has_friction = |pair: usize| context.plan.frictions[pair].cap(1.0, 0.0) != 0.0;
+    let pairs = 0..selections.len();
+    let prescribed = || context.fixed_on_pair.iter().flatten().flatten();
+    if !pairs.clone().any(has_friction)
+        || selections.len() == 1 && !prescribed().any(|prescribed| *prescribed)
+    {
+        return;
+    }
+    let configurations: Vec<_> = pairs.clone().map(configuration).collect();
+    let party = |pair: usize| Party {
+        configuration: &configurations[pair],
+        selection: &selections[pair],
+        movers: Side::BOTH.map(|side| movers(context, pair, side)),
+        closed: {
+            let kept = selections[pair].kept().iter();
+            kept.map(|kept| nodes[pair][kept.side][kept.node].status != Status::Open)
+                .collect()
+        },
+        has_friction: has_friction(pair),
+    };
+    let parties: Vec<Party> = pairs.map(party).collect();
+    let Some(freedoms) = slip_freedoms(&parties) else {
+        return;
+    };
+    for (selection, freedoms) in selections.iter_mut().zip(freedoms) {
+        selection.slip_freedoms = freedoms;
+    }
+}
+
+/// The nodes of a side; none of a rigid one.
+fn movers(context: &StepContext, pair: usize, side: Side) -> Vec<Mover> {
+    let prescribed = context.fixed_on_pair[pair][side].chunks(3).enumerate();
+    let mover = |(node, prescribed): (usize, &[bool])| {
+        let node = SurfaceNode::new(node);
+        let global = context.problem.surface_node(pair, side, node)?;
+        Some(Mover {
+            number: global.0 as u32,
+            prescribed: [prescribed[0], prescribed[1], prescribed[2]],
+        })
+    };
+    prescribed.filter_map(mover).collect()
 }
 
 /// Configurations of all pairs at the start and in a trial state.

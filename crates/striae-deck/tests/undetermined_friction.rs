@@ -1,0 +1,212 @@
+//! Friction where displacements or other pairs hold nodes in tangential directions: planes of
+//! symmetry and corners.
+
+use std::path::Path;
+
+use striae_contact::{evaluation::Evaluation, side::Side};
+use striae_deck::parse;
+use striae_mesh::Vec3;
+use striae_solve::{
+    drive::{Continue, Observer, Progress, run},
+    newton::{Increment, IterationObserver},
+    norms::Norms,
+    outcome::{CutBack, Ending},
+    problem::Problem,
+    report::pairs,
+    state::State,
+};
+
+/// Forces on the sides `a` of all pairs in every converged state.
+struct Forces<'a>(&'a Problem, Vec<Vec<Vec3>>);
+
+impl IterationObserver for Forces<'_> {
+    fn iteration(&mut self, _: usize, _: &Norms, _: &[Evaluation]) {}
+}
+
+impl Observer for Forces<'_> {
+    fn step(&mut self, _: usize, _: &str) {}
+
+    fn increment(&mut self, _: Progress, increment: &Increment) -> Continue {
+        let pairs = pairs(self.0, &increment.state);
+        let force = |pair: &striae_solve::report::PairReport| pair.sides[Side::A].force;
+        self.1.push(pairs.iter().map(force).collect());
+        Continue::Yes
+    }
+
+    fn cut_back(&mut self, _: Progress, _: &CutBack) -> Continue {
+        panic!("an increment was cut")
+    }
+}
+
+fn forces(deck: &str) -> Vec<Vec<Vec3>> {
+    let model = parse(deck, "deck.toml", Path::new("")).unwrap().model;
+    let problem = Problem::new(model).unwrap();
+    let mut forces = Forces(&problem, Vec::new());
+    let (_, ending) = run(&problem, State::undeformed(&problem), &mut forces);
+    assert_eq!(ending, Ending::Completed);
+    forces.1
+}
+
+/// A block on another one; of a half model the part `y > 0` with its plane of symmetry.
+fn blocks(is_half: bool, law: &str) -> String {
+    let (origin, width, divisions) = match is_half {
+        true => (0.0, 0.5, 2),
+        false => (-0.5, 1.0, 4),
+    };
+    let symmetry = match is_half {
+        true => {
+            r#", { body = "lower", nodes = "ymin", y = 0 }, { body = "upper", nodes = "ymin", y = 0 }"#
+        }
+        false => "",
+    };
+    format!(
+        r#"
+title = "block on block"
+[[material]]
+name = "rubber"
+law = "neo-hookean"
+youngs_modulus = 1e6
+poissons_ratio = 0.3
+[[body]]
+name = "lower"
+material = "rubber"
+mesh = {{ generator = "block", origin = [0, {origin}, 0], size = [1, {width}, 0.5], divisions = [4, {divisions}, 1] }}
+[[body]]
+name = "upper"
+material = "rubber"
+mesh = {{ generator = "block", origin = [0.25, {origin}, 0.5], size = [0.5, {width}, 0.5], divisions = [3, {divisions}, 1] }}
+[[pair]]
+name = "contact"
+a = {{ body = "lower", facets = "zmax" }}
+b = {{ body = "upper", facets = "zmin" }}
+friction = {law}
+[[step]]
+name = "press"
+increments = 1
+displacement = [
+    {{ body = "lower", nodes = "zmin", x = 0, y = 0, z = 0 }},
+    {{ body = "upper", nodes = "zmax", x = 0, y = 0, z = -0.02 }}{symmetry}
+]
+[[step]]
+name = "slide"
+increments = 4
+displacement = [{{ body = "upper", nodes = "zmax", x = 0.1 }}]
+"#
+    )
+}
+
+/// Half of a symmetric model, with the grid lines of both sides in the plane of symmetry, has
+/// half of the forces, for laws that are symmetric to that plane.
+#[test]
+fn half_a_model_has_half_the_force() {
+    for law in [
+        r#"{ law = "coulomb", mu = 0.3 }"#,
+        r#"{ law = "coulomb", mu = 0.3, shear_cap = 1e3 }"#,
+        r#"{ law = "frictionless" }"#,
+    ] {
+        let (whole, half) = (forces(&blocks(false, law)), forces(&blocks(true, law)));
+        assert_eq!(whole.len(), half.len());
+        let scale = whole[4][0].norm();
+        for (whole, half) in whole.iter().zip(&half) {
+            let difference = half[0] * 2.0 - whole[0];
+            let off = difference.x.hypot(difference.z) / scale;
+            assert!(off < 2e-3, "{law}: {off:e}");
+        }
+    }
+}
+
+/// A block in the corner of two rigid planes, or of one rigid surface of two facets, that is
+/// pressed into it and drawn along it.
+fn corner(is_one_surface: bool, y_held: &str) -> String {
+    let (rigid, pairs) = match is_one_surface {
+        true => (
+            r#"
+[[rigid]]
+name = "ell"
+mesh = { positions = [[0,-1,0],[3,-1,0],[3,3,0],[0,3,0],[0,-1,3],[0,3,3]], facets = [[0,1,2,3],[0,3,5,4]] }
+"#,
+            r#"
+[[pair]]
+name = "both"
+a = { body = "block", facets = "both" }
+b = { rigid = "ell" }
+friction = { law = "coulomb", mu = 0.3 }
+"#,
+        ),
+        false => (
+            r#"
+[[rigid]]
+name = "floor"
+plane = { point = [0, 0, 0], normal = [0, 0, 1] }
+[[rigid]]
+name = "wall"
+plane = { point = [0, 0, 0], normal = [1, 0, 0] }
+"#,
+            r#"
+[[pair]]
+name = "down"
+a = { body = "block", facets = "zmin" }
+b = { rigid = "floor" }
+friction = { law = "coulomb", mu = 0.3 }
+[[pair]]
+name = "aside"
+a = { body = "block", facets = "xmin" }
+b = { rigid = "wall" }
+friction = { law = "coulomb", mu = 0.3 }
+"#,
+        ),
+    };
+    format!(
+        r#"
+title = "corner"
+[[material]]
+name = "rubber"
+law = "neo-hookean"
+youngs_modulus = 1000
+poissons_ratio = 0.3
+[[body]]
+name = "block"
+material = "rubber"
+mesh = {{ generator = "block", size = [1, 1, 1], divisions = [2, 2, 2] }}
+facet_sets = [{{ name = "both", union = ["zmin", "xmin"] }}]
+{rigid}{pairs}
+[[step]]
+name = "press"
+increments = 5
+displacement = [
+    {{ body = "block", nodes = "zmax", z = -0.02 }},
+    {{ body = "block", nodes = "xmax", x = -0.01 }},
+    {{ body = "block", nodes = "{y_held}", y = 0 }},
+]
+[[step]]
+name = "draw"
+increments = 5
+displacement = [
+    {{ body = "block", nodes = "zmax", y = 0.5 }},
+    {{ body = "block", nodes = "xmax", y = 0.5 }},
+]
+"#
+    )
+}
+
+/// Friction along the edge of a corner is determined at the nodes of the edge, too: drawn along
+/// it, the block feels `mu` times the pressure of both walls.
+#[test]
+fn a_block_in_a_corner_has_the_friction_of_both_walls() {
+    for is_one_surface in [false, true] {
+        let all = forces(&corner(is_one_surface, "zmax"));
+        let last: Vec3 = all[9].iter().sum();
+        let ratio = last.y.abs() / (last.x + last.z);
+        assert!((ratio - 0.3).abs() < 0.003, "{is_one_surface}: {ratio}");
+    }
+}
+
+/// Planes of symmetry that meet the corner leave no direction at the node where they do.
+#[test]
+fn corners_can_be_pressed_with_a_face_held() {
+    for is_one_surface in [false, true] {
+        let all = forces(&corner(is_one_surface, "ymin"));
+        let pressed: Vec3 = all[4].iter().sum();
+        assert!(pressed.x > 10.0 && pressed.z > 10.0, "{pressed}");
+    }
+}
