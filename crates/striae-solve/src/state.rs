@@ -36,6 +36,8 @@ pub struct State {
     pub forces: NodalForces,
     /// Energies since the start.
     pub energies: Energies,
+    /// Energy that contact has made beyond what friction takes, at least.
+    pub gained: f64,
 }
 
 /// State of a contact pair.
@@ -164,6 +166,7 @@ impl State {
                 .collect(),
             forces: NodalForces::zero(problem.reference.len(), problem.model.rigid_surfaces.len()),
             energies: Energies::default(),
+            gained: 0.0,
         }
     }
 }

@@ -263,7 +263,7 @@ impl Judgement {
         let energies = &after.energies;
         self.energy = self.energy.max(largest(energies)).max(least);
         self.external = self.external.max(energies.external.abs()).max(least);
-        self.note(Kind::Contact, None, -energies.contact, after.time);
+        self.note(Kind::Contact, None, after.gained, after.time);
         let imbalance = energies.imbalance().abs();
         self.note(Kind::Imbalance, None, imbalance, after.time);
         if in_step.reach == Reach::End {

@@ -37,13 +37,13 @@ pub(super) fn accepted(
         velocities: &velocities,
         accelerations: &accelerations,
     };
-    let energies = ends.energies(
-        assembled
-            .contacts
-            .iter()
-            .map(|of_pair| of_pair.dissipated)
-            .sum(),
-    );
+    let friction = assembled
+        .contacts
+        .iter()
+        .map(|of_pair| of_pair.dissipated)
+        .sum();
+    let energies = ends.energies(friction);
+    let gained = ends.gained(friction);
     let pairs = trial
         .tractions
         .into_iter()
@@ -69,5 +69,6 @@ pub(super) fn accepted(
         pairs,
         forces: assembled.forces,
         energies,
+        gained,
     }
 }

@@ -282,6 +282,22 @@ impl Ends<'_> {
         self.of_surfaces_with(weight, |_| true, Way::Whole) - on_nodes
     }
 
+    /// What contact has made beyond friction, at least. Only the forces at the ends of an
+    /// increment are known: it counts by that end at which it is less, and not at all where
+    /// contact takes energy by one end and makes it by the other, as friction does that has begun
+    /// in it. Overlaps of the meshes that are pressed out give what they hold.
+    pub(super) fn gained(&self, friction: f64) -> f64 {
+        let mut offsets = self.context.offsets.iter().flat_map(|pair| &pair.sides);
+        if offsets.any(|side| side.iter().any(|overlap| *overlap > 0.0)) {
+            return self.state.gained;
+        }
+        let others = friction + self.stabilisation() + self.work_of_stabilisation();
+        let others = others - self.resisted(|_| true);
+        let ends = [0.0, 1.0].map(|weight| others - self.contact(weight));
+        let least = f64::max(ends[0].min(ends[1]), 0.0) + f64::min(ends[0].max(ends[1]), 0.0);
+        self.state.gained + least
+    }
+
     /// Work of inertia forces beyond the change of kinetic energy, from the jumps.
     fn inertia(&self) -> f64 {
         let Some(scheme) = self.scheme() else {
