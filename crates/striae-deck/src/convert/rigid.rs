@@ -1,4 +1,6 @@
 //! Rigid bodies: discrete surfaces, planes, solids made rigid, and nodes coupled to a point.
+//!
+//! Longer than other files, as the many ways in which Abaqus names a rigid body stand together.
 
 use super::bodies::Body;
 use super::points::Point;
