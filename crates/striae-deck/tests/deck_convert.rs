@@ -371,7 +371,7 @@ fn pieces_of_a_file_without_parts_are_bodies_by_their_element_sets() {
 *SURFACE, NAME=low\nBelow, S2\n*SURFACE, NAME=high\nAbove, S1
 ";
     text += FOAM;
-    text += "*CONTACT PAIR\nhigh, low\n*BOUNDARY\n1, 1, 3\n*STEP\n*STATIC\n*END STEP\n";
+    text += "*CONTACT PAIR\nhigh, low\n*BOUNDARY\n1, 1, 3\n13, 1, 3\n*STEP\n*STATIC\n*END STEP\n";
     let (_, listed, deck) = converted(&text);
     assert_eq!(listed, Vec::<String>::new());
     let names = deck.model.bodies.iter().map(|body| body.name.as_str());

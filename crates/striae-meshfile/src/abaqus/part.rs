@@ -1,5 +1,7 @@
 //! A part of an Abaqus file: nodes, elements, sets and surfaces under its own numbers; or the
 //! whole in which parts have been placed.
+//!
+//! Longer than other files, as one type collects all that a part can hold.
 
 use super::super::collected::{Collected, FileElement, FileFace, missing, position};
 use super::super::lines::parsed;
