@@ -565,9 +565,7 @@ def torus(
     )
 
 
-def read_mesh(
-    path: Union[str, os.PathLike[str]], *, elements: Optional[str] = None
-) -> Mesh:
+def read_mesh(path: Union[str, os.PathLike[str]], *, elements: Optional[str] = None) -> Mesh:
     """Reads the mesh of a Gmsh, Abaqus or VTK file with its sets.
 
     path: the file.
