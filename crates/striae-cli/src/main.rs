@@ -37,6 +37,7 @@ struct Arguments {
 enum Command {
     New(command::new::Arguments),
     Check(command::check::Arguments),
+    Convert(command::convert::Arguments),
     Run(command::run::Arguments),
     Resume(command::resume::Arguments),
     Report(command::report::Arguments),
@@ -60,6 +61,7 @@ fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::New(arguments) => command::new::run(&arguments, out),
         Command::Check(arguments) => command::check::run(&arguments, out),
+        Command::Convert(arguments) => command::convert::run(&arguments, out),
         Command::Run(arguments) => command::run::run(&arguments, out),
         Command::Resume(arguments) => command::resume::run(&arguments, out),
         Command::Picture(arguments) => command::picture::run(&arguments, out),

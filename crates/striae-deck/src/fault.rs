@@ -62,6 +62,18 @@ pub enum FaultKind {
         /// Why.
         cause: String,
     },
+    /// A part that a mesh file does not have.
+    #[error("`{file}` has no element set or instance `{name}`; it has {}{}", or_none(known), did_you_mean(.nearest))]
+    NoPart {
+        /// The file as written.
+        file: String,
+        /// The name.
+        name: String,
+        /// Names of its element sets and instances.
+        known: Vec<String>,
+        /// The most similar of them.
+        nearest: Option<String>,
+    },
     /// A mesh that would take more memory than there is.
     #[error(
         "the mesh of body `{body}` would have {elements} elements, which take about {:.1} GB, and {:.1} GB are available; use fewer divisions or larger elements",
@@ -303,6 +315,13 @@ fn did_you_mean(nearest: &Option<String>) -> String {
 fn quoted(words: &[String]) -> String {
     let words: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
     words.join(", ")
+}
+
+fn or_none(words: &[String]) -> String {
+    match words {
+        [] => "none".to_owned(),
+        _ => quoted(words),
+    }
 }
 
 fn article(kind: &str) -> String {

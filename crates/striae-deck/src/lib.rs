@@ -5,10 +5,12 @@
 //! [`Model`], in which every name has become an id and every set its members.
 //! Both stages go on after a fault, so that [`Faults`] lists all there are.
 //!
-//! [`write()`] goes the other way, from a model to a text that reads back to it.
+//! [`write()`] goes the other way, from a model to a text that reads back to it, and
+//! [`convert()`] makes a deck of an Abaqus model.
 //!
 //! All quantities are in one consistent system of units chosen by the author.
 
+mod convert;
 mod declare;
 mod expression;
 mod fault;
@@ -24,6 +26,7 @@ mod schema;
 mod value;
 mod write;
 
+pub use convert::{Converted, convert};
 pub use fault::FaultKind;
 pub use faults::{Fault, Faults, Position};
 pub use parameters::Setting;

@@ -19,6 +19,7 @@
 //! (reference points, connectors) are passed over.
 
 mod include;
+mod input;
 mod instance;
 mod keywords;
 mod lower;
@@ -26,57 +27,84 @@ mod material;
 mod names;
 mod part;
 mod sets;
+mod unused;
 
 use super::collected::Collected;
 use super::numbers::NUMBER_BITS;
-use super::{MeshFileError, MeshFileFault, Reading};
+use super::{MeshFileError, MeshFileFault, Reading, RigidSurfaceMesh};
 use include::Text;
+pub use input::{InputFile, Points, finite};
 use instance::{Motion, Placement};
-use keywords::{Keyword, keywords};
+use keywords::keywords;
+pub use keywords::{Keyword, Row};
+pub use material::material_lines;
 use names::Names;
-use part::Part;
-use std::collections::BTreeMap;
+use part::{Part, Use};
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// The mesh of a body from a file.
-pub(super) fn read(path: &Path) -> Result<Reading, MeshFileError> {
+/// The mesh of a body, or of a part of it, from a file.
+pub(super) fn read(path: &Path, part: Option<&str>) -> Result<Reading, MeshFileError> {
     let text = Text::read(path)?;
-    let explain = |fault| text.placed(fault).to_string();
-    let collected = collected(&text.lines, explain).and_then(Collected::mesh);
-    collected.map_err(|fault| text.placed(fault))
+    let collected = of_text(&text);
+    let reading = collected.and_then(|collected| collected.of_part(part)?.mesh());
+    reading.map_err(|fault| text.placed(fault))
 }
 
 /// What a file says of the mesh of a body.
 pub(super) fn read_collected(path: &Path) -> Result<Collected, MeshFileError> {
     let text = Text::read(path)?;
+    of_text(&text).map_err(|fault| text.placed(fault))
+}
+
+/// The facets of a rigid surface, or of a part of it, and the number of every node in the file.
+pub(super) fn rigid_surface(
+    path: &Path,
+    part: Option<&str>,
+) -> Result<(RigidSurfaceMesh, Vec<u64>), MeshFileError> {
+    let text = Text::read(path)?;
+    let found = || {
+        let keywords = keywords(&text.lines)?;
+        let mut reader = Reader::of(&keywords)?;
+        reader.place_all()?;
+        let chosen = part.map(|part| (part, reader.names.instance(part)));
+        reader.whole.rigid_surface(chosen)
+    };
+    found().map_err(|fault| text.placed(fault))
+}
+
+fn of_text(text: &Text) -> Result<Collected, MeshFileFault> {
     let explain = |fault| text.placed(fault).to_string();
-    collected(&text.lines, explain).map_err(|fault| text.placed(fault))
+    collected(&text.lines, explain, |line| text.place(line))
 }
 
 /// The mesh of a body.
 #[cfg(test)]
 pub(super) fn body(text: &str) -> Result<Reading, MeshFileFault> {
-    collected(text, |fault| fault.to_string())?.mesh()
+    part(text, None)
+}
+
+/// The mesh of a part of a body.
+#[cfg(test)]
+pub(super) fn part(text: &str, part: Option<&str>) -> Result<Reading, MeshFileFault> {
+    let place = |line| format!("line {line}");
+    let collected = collected(text, |fault| fault.to_string(), place)?;
+    collected.of_part(part)?.mesh()
 }
 
 /// What the text says of the mesh of a body; `explain` puts into words why a material cannot be
-/// used.
+/// used, and `place` where a line is.
 pub(super) fn collected(
     text: &str,
     explain: impl Fn(MeshFileFault) -> String,
+    place: impl Fn(usize) -> String,
 ) -> Result<Collected, MeshFileFault> {
     let keywords = keywords(text)?;
-    let instances = keywords.iter();
-    let instances = instances.filter(|keyword| keyword.name == "INSTANCE");
-    let mut reader = Reader {
-        names: Names::of(instances.count()),
-        ..Reader::default()
-    };
-    for keyword in &keywords {
-        reader.read(keyword)?;
-    }
+    let mut reader = Reader::of(&keywords)?;
+    let unused = unused::unused(&keywords, &std::mem::take(&mut reader.unused), place);
     let mut collected = reader.finish()?;
     collected.materials = material::materials(&keywords, explain)?;
+    collected.unused = unused;
     Ok(collected)
 }
 
@@ -90,6 +118,8 @@ struct Reader<'a> {
     names: Names,
     /// What is outside of parts, and all that has been placed.
     whole: Part,
+    /// Lines of keywords that are passed over.
+    unused: BTreeSet<usize>,
 }
 
 /// Where in the hierarchy of the file a keyword stands.
@@ -111,6 +141,20 @@ struct Known<'a> {
 }
 
 impl<'a> Reader<'a> {
+    /// What has read all keywords of a file.
+    fn of(keywords: &'a [Keyword<'a>]) -> Result<Self, MeshFileFault> {
+        let instances = keywords.iter();
+        let instances = instances.filter(|keyword| keyword.name == "INSTANCE");
+        let mut reader = Self {
+            names: Names::of(instances.count()),
+            ..Self::default()
+        };
+        for keyword in keywords {
+            reader.read(keyword)?;
+        }
+        Ok(reader)
+    }
+
     fn read(&mut self, keyword: &'a Keyword<'a>) -> Result<(), MeshFileFault> {
         match keyword.name.as_str() {
             "PART" => {
@@ -142,7 +186,10 @@ impl<'a> Reader<'a> {
                 let fault = keyword.fault("nodes and elements written out one by one");
                 Err(fault.with_remedy("write the mesh out flat with its preprocessor"))
             }
-            _ => Ok(()),
+            _ => {
+                self.unused.insert(keyword.line);
+                Ok(())
+            }
         }
     }
 
@@ -231,11 +278,24 @@ impl<'a> Reader<'a> {
         match keyword.name.as_str() {
             "NSET" => part.read_node_set(keyword, &names),
             "ELSET" => part.read_element_set(keyword, &names),
-            _ => part.read_surface(keyword, &names),
+            _ => {
+                if part.read_surface(keyword, &names)? == Use::Nothing {
+                    self.unused.insert(keyword.line);
+                }
+                Ok(())
+            }
         }
     }
 
     fn finish(mut self) -> Result<Collected, MeshFileFault> {
+        self.place_all()?;
+        let whole = self.names.only().map(str::to_owned);
+        let collected = self.whole.collected(self.names.needed())?;
+        Ok(Collected { whole, ..collected })
+    }
+
+    /// Puts all that has been read into the whole.
+    fn place_all(&mut self) -> Result<(), MeshFileFault> {
         self.close()?;
         if self.names.is_empty() {
             self.place_lone_part()?;
@@ -246,7 +306,7 @@ impl<'a> Reader<'a> {
                 self.whole.note(note);
             }
         }
-        self.whole.collected(self.names.needed())
+        Ok(())
     }
 
     /// Places the part of a file without an assembly.

@@ -3,7 +3,9 @@
 use super::division::{self, Middles};
 use super::ids::Ids;
 use super::loose::Loose;
-use super::{Asked, MaterialCard, MeshFileFault, Numbers, Place, Reading, SectionCard, numbers};
+use super::{
+    Asked, MaterialCard, MeshFileFault, Numbers, Place, Reading, SectionCard, Unused, numbers,
+};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use striae_mesh::{CellBlock, CellKind, ElementId, Mesh, MeshError, NodeId, Vec3};
 
@@ -32,6 +34,10 @@ pub(super) struct Collected {
     pub(super) materials: Vec<MaterialCard>,
     /// Materials of element sets.
     pub(super) sections: Vec<SectionCard>,
+    /// Keywords that no mesh is made of.
+    pub(super) unused: Vec<Unused>,
+    /// The name of the only instance, which stands for all elements.
+    pub(super) whole: Option<String>,
 }
 
 /// An element of the file, or a part of one.
@@ -114,6 +120,7 @@ impl Collected {
             },
             materials: self.materials,
             sections,
+            unused: self.unused,
         })
     }
 

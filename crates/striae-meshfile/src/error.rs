@@ -144,6 +144,14 @@ pub enum MeshFileFault {
         /// What to do about it.
         remedy: &'static str,
     },
+    /// A part that the file does not have.
+    #[error("{}", no_part(name, known))]
+    NoPart {
+        /// The name asked for.
+        name: String,
+        /// Names of its element sets and instances.
+        known: Vec<String>,
+    },
     /// Node data that are not there, or one of several that are.
     #[error("{}", node_data(name, known))]
     NodeData {
@@ -206,6 +214,17 @@ fn node_data(name: &Option<String>, known: &[String]) -> String {
         Some(name) => format!("expected node data `{name}` once; {known}"),
         None if named.is_empty() => format!("expected node data; {known}"),
         None => format!("expected the name of one of the node data; {known}"),
+    }
+}
+
+fn no_part(name: &str, known: &[String]) -> String {
+    let named: Vec<String> = known.iter().map(|name| format!("`{name}`")).collect();
+    match named.len() {
+        0 => format!("it has no element set or instance `{name}`, nor any other"),
+        _ => format!(
+            "it has no element set or instance `{name}`; it has {}",
+            named.join(", ")
+        ),
     }
 }
 

@@ -32,17 +32,22 @@ mod loose;
 mod lower;
 mod node_vectors;
 mod numbers;
+mod restrict;
 mod sets;
 mod stl;
 #[cfg(test)]
 mod tests;
+mod unused;
 mod vtk;
 
+pub use abaqus::{InputFile, Keyword, Points, Row, finite, material_lines};
 pub use cards::{Card, Elasticity, MaterialCard, Moduli, SectionCard};
 pub use error::{MeshFileError, MeshFileFault, Place, Section};
 pub use node_vectors::NodeVectors;
 pub use numbers::Numbers;
+pub use unused::{Unused, unused_note};
 
+use collected::Collected;
 use std::path::Path;
 use striae_mesh::{Mesh, NodeId, Vec3};
 
@@ -71,6 +76,8 @@ pub struct Reading {
     pub materials: Vec<MaterialCard>,
     /// Materials that the file gives to element sets of the mesh.
     pub sections: Vec<SectionCard>,
+    /// Keywords of the file that no mesh is made of.
+    pub unused: Vec<Unused>,
 }
 
 impl From<Mesh> for Reading {
@@ -88,6 +95,7 @@ impl From<Mesh> for Reading {
             numbers,
             materials: Vec::new(),
             sections: Vec::new(),
+            unused: Vec::new(),
         }
     }
 }
@@ -115,33 +123,65 @@ pub fn read(path: impl AsRef<Path>) -> Result<Mesh, MeshFileError> {
 /// # Errors
 /// Those of [`read`].
 pub fn read_with_notes(path: impl AsRef<Path>) -> Result<Reading, MeshFileError> {
-    let path = path.as_ref();
-    match ending(path).as_str() {
-        "msh" => bytes(path).and_then(|bytes| gmsh::body(&bytes)),
-        "inp" => return abaqus::read(path),
-        "vtu" => bytes(path).and_then(|bytes| vtk::xml_body(&bytes)),
-        "vtk" => bytes(path).and_then(|bytes| vtk::legacy_body(&bytes)),
-        _ => Err(MeshFileFault::UnknownEnding { expected: BODY }),
-    }
-    .map_err(|fault| fault.of(path))
+    read_part(path, None)
 }
 
-/// Reads the triangles and quadrangles of a rigid surface from a `.msh` or
-/// `.stl` file.
+/// As [`read_with_notes`], but for a part of the file: an element set, a physical volume, or an
+/// instance of a part. Sets are restricted to it; those of which nothing is on it vanish.
 ///
-/// Points, curves and volumes of a Gmsh file are passed over. Triangles of an
-/// STL file share corners at equal positions; triangles with two corners at
-/// the same position have no area and are left out.
+/// # Errors
+/// Those of [`read`], and [`MeshFileFault::NoPart`] where the file has no part of that name.
+pub fn read_part(path: impl AsRef<Path>, part: Option<&str>) -> Result<Reading, MeshFileError> {
+    let path = path.as_ref();
+    if ending(path) == "inp" {
+        return abaqus::read(path, part);
+    }
+    let reading = collected(path).and_then(|collected| collected.of_part(part)?.mesh());
+    reading.map_err(|fault| fault.of(path))
+}
+
+/// What a file of another format than Abaqus's says of the mesh of a body.
+fn collected(path: &Path) -> Result<Collected, MeshFileFault> {
+    match ending(path).as_str() {
+        "msh" => gmsh::collected(&bytes(path)?),
+        "vtu" => vtk::xml_collected(&bytes(path)?),
+        "vtk" => vtk::legacy_collected(&bytes(path)?),
+        _ => Err(MeshFileFault::UnknownEnding { expected: BODY }),
+    }
+}
+
+/// Reads the triangles and quadrangles of a rigid surface from a `.msh`, `.inp` or `.stl` file.
+///
+/// Points, curves and volumes of a Gmsh file are passed over, and so are solids and lines of an
+/// Abaqus file. Triangles of an STL file share corners at equal positions; triangles with two
+/// corners at the same position have no area and are left out.
 ///
 /// # Errors
 /// [`MeshFileError`] names the file and, where there is one, the line.
 pub fn read_rigid_surface(path: impl AsRef<Path>) -> Result<RigidSurfaceMesh, MeshFileError> {
+    read_rigid_part(path, None)
+}
+
+/// As [`read_rigid_surface`], but for a part of an Abaqus file: an element set, or an instance.
+///
+/// # Errors
+/// Those of [`read_rigid_surface`], and [`MeshFileFault::NoPart`] where the file has no part of
+/// that name.
+pub fn read_rigid_part(
+    path: impl AsRef<Path>,
+    part: Option<&str>,
+) -> Result<RigidSurfaceMesh, MeshFileError> {
     let path = path.as_ref();
-    match ending(path).as_str() {
-        "msh" => bytes(path).and_then(|bytes| gmsh::rigid_surface(&bytes)),
-        "stl" => bytes(path).and_then(|bytes| stl::rigid_surface(&bytes)),
+    match (ending(path).as_str(), part) {
+        ("inp", _) => return abaqus::rigid_surface(path, part).map(|(surface, _)| surface),
+        ("msh" | "stl", Some(part)) => Err(MeshFileFault::NoPart {
+            name: part.to_owned(),
+            known: Vec::new(),
+        }),
+        ("msh", None) => bytes(path).and_then(|bytes| gmsh::rigid_surface(&bytes)),
+        ("stl", None) => bytes(path).and_then(|bytes| stl::rigid_surface(&bytes)),
         _ => Err(MeshFileFault::UnknownEnding {
-            expected: ".msh (Gmsh) or .stl",
+            expected: ".msh (Gmsh), .inp (Abaqus) or .stl",
         }),
     }
     .map_err(|fault| fault.of(path))
@@ -170,39 +210,37 @@ pub fn read_node_vectors(
     .map_err(|fault| fault.of(path))
 }
 
-/// Numbers in the file of the nodes of what [`read`] returns, in the order of their ids.
+/// Numbers in the file of the nodes of what [`read_part`] returns, in the order of their ids.
 ///
 /// # Errors
-/// As [`read`].
-pub fn node_numbers(path: impl AsRef<Path>) -> Result<Vec<u64>, MeshFileError> {
+/// As [`read_part`].
+pub fn node_numbers(path: impl AsRef<Path>, part: Option<&str>) -> Result<Vec<u64>, MeshFileError> {
     let path = path.as_ref();
     let collected = match ending(path).as_str() {
-        "msh" => bytes(path).and_then(|bytes| gmsh::collected(&bytes)),
-        "inp" => {
-            let collected = abaqus::read_collected(path)?;
-            return collected.node_numbers().map_err(|fault| fault.of(path));
-        }
-        "vtu" => bytes(path).and_then(|bytes| vtk::xml_collected(&bytes)),
-        "vtk" => bytes(path).and_then(|bytes| vtk::legacy_collected(&bytes)),
-        _ => Err(MeshFileFault::UnknownEnding { expected: BODY }),
+        "inp" => Ok(abaqus::read_collected(path)?),
+        _ => collected(path),
     };
     collected
-        .and_then(|collected| collected.node_numbers())
+        .and_then(|collected| collected.of_part(part)?.node_numbers())
         .map_err(|fault| fault.of(path))
 }
 
-/// Numbers in the file of the nodes of what [`read_rigid_surface`] returns, in the
+/// Numbers in the file of the nodes of what [`read_rigid_part`] returns, in the
 /// order of their ids; the nodes of an STL file have none and are counted from 0.
 ///
 /// # Errors
-/// As [`read_rigid_surface`].
-pub fn rigid_node_numbers(path: impl AsRef<Path>) -> Result<Vec<u64>, MeshFileError> {
+/// As [`read_rigid_part`].
+pub fn rigid_node_numbers(
+    path: impl AsRef<Path>,
+    part: Option<&str>,
+) -> Result<Vec<u64>, MeshFileError> {
     let path = path.as_ref();
     match ending(path).as_str() {
         "msh" => bytes(path)
             .and_then(|bytes| gmsh::numbered_rigid_surface(&bytes))
             .map(|(_, numbers)| numbers)
             .map_err(|fault| fault.of(path)),
+        "inp" => abaqus::rigid_surface(path, part).map(|(_, numbers)| numbers),
         _ => read_rigid_surface(path).map(|surface| (0..surface.positions.len() as u64).collect()),
     }
 }

@@ -214,10 +214,11 @@ fn checked(mesh: mesh::Mesh) -> PyResult<Mesh> {
     made(found.map(|()| mesh))
 }
 
-/// Reads the mesh of a body.
+/// Reads the mesh of a body, or of a part of it.
 #[pyfunction]
-pub fn read_mesh(path: PathBuf) -> PyResult<Mesh> {
-    made(mesh_file::read(path))
+pub fn read_mesh(path: PathBuf, elements: Option<String>) -> PyResult<Mesh> {
+    let reading = mesh_file::read_part(path, elements.as_deref());
+    made(reading.map(|reading| reading.mesh))
 }
 
 /// Reads the facets of a rigid surface.

@@ -3,6 +3,7 @@
 pub mod check;
 pub mod compare;
 pub mod completions;
+pub mod convert;
 pub mod fit;
 pub mod law;
 pub mod man;

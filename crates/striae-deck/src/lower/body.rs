@@ -5,7 +5,7 @@ use crate::{faults::FaultList, names::Names, raw, read::At, value::Text};
 use std::path::Path;
 use striae_law::bulk::Material;
 use striae_mesh::{Face, Mesh, NodeId};
-use striae_meshfile::{Asked, Reading};
+use striae_meshfile::{Asked, Reading, unused_note};
 use striae_model::DraftBody;
 use striae_solve::model::{Body, BodyId, BodySection, ContactMass, Formulation};
 
@@ -18,7 +18,9 @@ pub(super) struct Bodies {
 struct RawBody {
     name: String,
     mesh: Option<Mesh>,
-    /// What is made of the file of its mesh.
+    /// The file of its mesh, as the deck states it.
+    file: Option<String>,
+    /// What is made of this file.
     notes: Vec<String>,
     material: Option<Material>,
     density: Option<f64>,
@@ -110,12 +112,25 @@ impl Bodies {
 
     /// What is made of mesh files that they do not say.
     pub(super) fn notes(&self) -> Vec<String> {
-        let of_body = |body: &RawBody| {
-            let notes = body.notes.iter();
-            let notes = notes.map(|note| format!("body `{}`: {note}", body.name));
-            notes.collect::<Vec<_>>()
+        // Bodies that are parts of one file have notes of it in common.
+        let mut notes: Vec<(&RawBody, &String, Vec<String>)> = Vec::new();
+        let all = self.bodies.iter();
+        let all = all.flat_map(|body| body.notes.iter().map(move |note| (body, note)));
+        for (body, note) in all {
+            let known = notes.iter_mut().find(|(first, known, _)| {
+                body.file.is_some() && first.file == body.file && *known == note
+            });
+            let name = format!("`{}`", body.name);
+            match known {
+                Some((_, _, names)) if !names.contains(&name) => names.push(name),
+                _ => notes.push((body, note, vec![name])),
+            }
+        }
+        let words = |(_, note, names): (&RawBody, &String, Vec<String>)| match &names[..] {
+            [name] => format!("body {name}: {note}"),
+            names => format!("bodies {}: {note}", names.join(", ")),
         };
-        self.bodies.iter().flat_map(of_body).collect()
+        notes.into_iter().map(words).collect()
     }
 
     /// The bodies of the model, if none is faulty.
@@ -172,7 +187,9 @@ fn lower_body(
     let (mut mesh, notes, asked, cards) = match reading {
         Some(reading) => {
             let cards = cards(&reading, raw);
-            (Some(reading.mesh), reading.notes, reading.asked, cards)
+            let mut notes = reading.notes;
+            notes.extend(unused_note(&reading.unused, cards.is_some()));
+            (Some(reading.mesh), notes, reading.asked, cards)
         }
         None => (None, Vec::new(), None, None),
     };
@@ -197,6 +214,7 @@ fn lower_body(
         sections,
         name,
         mesh,
+        file: file(raw).and_then(|file| Some(file.file.as_ref()?.value.0.clone())),
         notes,
         material,
         density,
@@ -208,13 +226,17 @@ fn lower_body(
     }
 }
 
+/// The file of the mesh of a body.
+fn file(raw: &raw::Body) -> Option<&raw::BodyFile> {
+    match &raw.mesh.as_ref()?.value {
+        raw::Mesh::File(file) => Some(file),
+        raw::Mesh::Generated(_) | raw::Mesh::Inline(_) => None,
+    }
+}
+
 /// What the mesh file says of materials, if the deck wants it.
 fn cards(reading: &Reading, raw: &raw::Body) -> Option<Cards> {
-    let mesh = raw.mesh.as_ref().map(|mesh| &mesh.value);
-    let Some(raw::Mesh::File(file)) = mesh else {
-        return None;
-    };
-    let wanted = file.materials.as_ref()?.value.0;
+    let wanted = file(raw)?.materials.as_ref()?.value.0;
     wanted.then(|| Cards {
         materials: reading.materials.clone(),
         sections: reading.sections.clone(),

@@ -74,7 +74,7 @@ impl Cards {
 }
 
 /// The law that a card states.
-fn material(card: &Card) -> Result<Material, String> {
+pub(crate) fn material(card: &Card) -> Result<Material, String> {
     let relaxing: f64 = card.relaxation.iter().map(|[g, _]| g).sum();
     let slow = match card.moduli {
         Moduli::LongTerm => 1.0,

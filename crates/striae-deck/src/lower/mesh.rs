@@ -11,8 +11,8 @@ use crate::{
 use std::path::{Path, PathBuf};
 use striae_mesh::generate::MOST_ELEMENTS;
 use striae_mesh::{CellBlock, CellKind, Mesh, NodeId, Vec3};
-use striae_meshfile::{self as mesh_file, Reading};
-use striae_model::FaultKind as ModelFault;
+use striae_meshfile::{self as mesh_file, MeshFileError, MeshFileFault, Reading};
+use striae_model::{FaultKind as ModelFault, nearest};
 use striae_output::available_bytes;
 
 /// Bytes that making and checking a mesh takes for each element, measured on blocks.
@@ -31,8 +31,10 @@ pub(super) fn body_mesh(
     let owner = format!("body `{body}`");
     let mesh = match &raw.value {
         raw::Mesh::File(file) => {
-            let read = mesh_file::read_with_notes(path(&file.file, base)?);
-            return made(read, owner, &raw.span, faults);
+            let part = file.elements.as_ref();
+            let name = part.map(|part| part.value.0.as_str());
+            let read = mesh_file::read_part(path(&file.file, base)?, name);
+            return made_of_part(read, (&file.file, part), owner, &raw.span, faults);
         }
         raw::Mesh::Inline(mesh) => inline_mesh(mesh, owner, &raw.span, faults),
         raw::Mesh::Generated(generator) => {
@@ -73,10 +75,43 @@ pub(super) fn surface(
     match &raw.value {
         raw::SurfaceMesh::File(file) => {
             let owner = format!("rigid surface `{name}`");
-            let read = mesh_file::read_rigid_surface(path(&file.file, base)?);
-            made(read, owner, &raw.span, faults).map(|surface| (surface.positions, surface.facets))
+            let part = file.elements.as_ref();
+            let name = part.map(|part| part.value.0.as_str());
+            let read = mesh_file::read_rigid_part(path(&file.file, base)?, name);
+            let read = made_of_part(read, (&file.file, part), owner, &raw.span, faults);
+            read.map(|surface| (surface.positions, surface.facets))
         }
         raw::SurfaceMesh::Inline(surface) => inline_surface(surface, name, faults),
+    }
+}
+
+/// What is made of a part of a file, which may not be there.
+fn made_of_part<T>(
+    read: Result<T, MeshFileError>,
+    (file, part): (&Option<At<Text>>, Option<&At<Text>>),
+    owner: String,
+    span: &Span,
+    faults: &mut FaultList<'_>,
+) -> Option<T> {
+    match (read, part) {
+        (
+            Err(MeshFileError {
+                fault: MeshFileFault::NoPart { name, known },
+                ..
+            }),
+            Some(part),
+        ) => {
+            let file = file.as_ref().map(|file| file.value.0.clone());
+            let kind = FaultKind::NoPart {
+                file: file.unwrap_or_default(),
+                nearest: nearest(&name, known.iter().map(String::as_str)),
+                name,
+                known,
+            };
+            faults.push(&part.span, kind);
+            None
+        }
+        (read, _) => made(read, owner, span, faults),
     }
 }
 

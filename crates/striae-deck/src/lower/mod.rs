@@ -4,7 +4,7 @@
 mod admissible;
 mod axis;
 mod body;
-mod cards;
+pub(crate) mod cards;
 mod condition;
 mod contact;
 mod curve;

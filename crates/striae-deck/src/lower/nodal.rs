@@ -64,33 +64,37 @@ fn nodes(side: &ContactSurface, surfaces: &Surfaces<'_>) -> Option<Vec<NodeId>> 
     Some(Surface::new(&facets).nodes().to_vec())
 }
 
+/// A file of a mesh, and the part of it that the mesh is.
+type MeshFile<'r> = (PathBuf, Option<&'r str>);
+
 /// The file of the mesh, if it was read from one.
-fn mesh_file_of(side: &ContactSurface, surfaces: &Surfaces<'_>) -> Option<PathBuf> {
+fn mesh_file_of<'r>(side: &ContactSurface, surfaces: &Surfaces<'r>) -> Option<MeshFile<'r>> {
     let written = surfaces.written;
-    let file = match side {
+    let (file, part) = match side {
         ContactSurface::Deformable { body, .. } => {
             let body = &list(&written.body)[body.0].value;
             match &body.mesh.as_ref()?.value {
-                raw::Mesh::File(file) => &file.file,
+                raw::Mesh::File(file) => (&file.file, file.elements.as_ref()),
                 raw::Mesh::Generated(_) | raw::Mesh::Inline(_) => return None,
             }
         }
         ContactSurface::Rigid(rigid) => match list(&written.rigid)[rigid.0].value.shape.as_ref()? {
             raw::RigidShape::Mesh(surface) => match &surface.mesh.as_ref()?.value {
-                raw::SurfaceMesh::File(file) => &file.file,
+                raw::SurfaceMesh::File(file) => (&file.file, file.elements.as_ref()),
                 raw::SurfaceMesh::Inline(_) => return None,
             },
             raw::RigidShape::Plane(_) | raw::RigidShape::Tied(_) => return None,
         },
     };
-    Some(surfaces.base.join(&file.as_ref()?.value.0))
+    let path = surfaces.base.join(&file.as_ref()?.value.0);
+    Some((path, part.map(|part| part.value.0.as_str())))
 }
 
 /// Numbers of the nodes in the file of their mesh, by id.
-fn numbers(side: &ContactSurface, mesh: PathBuf) -> Result<Vec<u64>, MeshFileError> {
+fn numbers(side: &ContactSurface, (mesh, part): MeshFile<'_>) -> Result<Vec<u64>, MeshFileError> {
     match side {
-        ContactSurface::Deformable { .. } => mesh_file::node_numbers(mesh),
-        ContactSurface::Rigid(_) => mesh_file::rigid_node_numbers(mesh),
+        ContactSurface::Deformable { .. } => mesh_file::node_numbers(mesh, part),
+        ContactSurface::Rigid(_) => mesh_file::rigid_node_numbers(mesh, part),
     }
 }
 

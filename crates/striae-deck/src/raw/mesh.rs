@@ -20,6 +20,8 @@ table! {
     BodyFile {
         /// Path relative to the deck.
         required file: Text,
+        /// The part of the file that the body is: an element set, a physical volume of Gmsh, or an instance of Abaqus. Its sets are restricted to it. Default: all of it.
+        optional elements: Text,
         /// Whether elements are of the materials that the file gives them, by `*SOLID SECTION` of Abaqus. Default: `false`.
         optional materials: Truth,
     }
@@ -30,6 +32,8 @@ table! {
     MeshFile {
         /// Path relative to the deck.
         required file: Text,
+        /// The part of an Abaqus file that the surface is: an element set or an instance. Default: all its facets.
+        optional elements: Text,
     }
 }
 

@@ -66,7 +66,7 @@ pub(super) fn friction_keys(friction: &Friction) -> Option<String> {
 
 /// Lines of a material but for its name; `None` for a law that decks have no table for, as of
 /// one's own.
-pub(super) fn material(of: &Material) -> Option<String> {
+pub(crate) fn material(of: &Material) -> Option<String> {
     match of {
         Material::NeoHookean {
             lambda,

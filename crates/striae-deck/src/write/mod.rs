@@ -9,13 +9,13 @@
 //! of any length, coefficients for their shares in the largest), the number that is written
 //! is the one that gives the same bits when it is read, see `value`.
 
-mod law;
+pub(crate) mod law;
 mod mesh;
 mod output;
 mod pair;
 mod rigid;
 mod step;
-mod value;
+pub(crate) mod value;
 
 use std::fmt;
 

@@ -7,40 +7,40 @@ use striae_mesh::Vec3;
 const REACH: i64 = 16;
 
 /// A number.
-pub(super) fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     format!("{value:?}")
 }
 
 /// A text in quotes.
-pub(super) fn text(value: &str) -> String {
+pub(crate) fn text(value: &str) -> String {
     toml::Value::String(value.to_owned()).to_string()
 }
 
 /// A list of what is text already.
-pub(super) fn list(items: impl IntoIterator<Item = String>) -> String {
+pub(crate) fn list(items: impl IntoIterator<Item = String>) -> String {
     let items: Vec<String> = items.into_iter().collect();
     format!("[{}]", items.join(", "))
 }
 
 /// The components of a vector.
-pub(super) fn vector(value: &Vec3) -> String {
+pub(crate) fn vector(value: &Vec3) -> String {
     list([value.x, value.y, value.z].map(number))
 }
 
 /// The number near `about` that `read` turns into `value`; `about` if there is none.
-pub(super) fn read_as(value: f64, about: f64, read: impl Fn(f64) -> f64) -> f64 {
+pub(crate) fn read_as(value: f64, about: f64, read: impl Fn(f64) -> f64) -> f64 {
     let steps = (0..=REACH).flat_map(|far| [far, -far]);
     let mut near = steps.map(|far| f64::from_bits(about.to_bits().wrapping_add_signed(far)));
     near.find(|near| read(*near) == value).unwrap_or(about)
 }
 
 /// Degrees of an angle in radians.
-pub(super) fn degrees(angle: f64) -> f64 {
+pub(crate) fn degrees(angle: f64) -> f64 {
     read_as(angle, angle.to_degrees(), f64::to_radians)
 }
 
 /// A vector of which the unit vector is `unit`.
-pub(super) fn direction(unit: &Vec3) -> Vec3 {
+pub(crate) fn direction(unit: &Vec3) -> Vec3 {
     let mut multiples = (0..100_000).map(|i| unit * (1.0 + 1e-3 * f64::from(i)));
     multiples
         .find(|multiple| multiple.normalize() == *unit)

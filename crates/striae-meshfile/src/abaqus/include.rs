@@ -47,12 +47,27 @@ impl Text {
             ..
         } = &mut fault
         {
-            let after = self.pieces.partition_point(|piece| piece.first <= *line);
-            let piece = &self.pieces[after.saturating_sub(1)];
-            file = piece.file;
-            *line = piece.line + line.saturating_sub(piece.first);
+            (file, *line) = self.origin(*line);
         }
         fault.of(&self.files[file])
+    }
+
+    /// Where a line of the text is, in words; with the name of the file if it is an included one.
+    pub(in super::super) fn place(&self, line: usize) -> String {
+        match self.origin(line) {
+            (0, line) => format!("line {line}"),
+            (file, line) => {
+                let name = self.files[file].file_name().unwrap_or_default();
+                format!("{} line {line}", name.to_string_lossy())
+            }
+        }
+    }
+
+    /// The file of a line of the text, and its number there.
+    fn origin(&self, line: usize) -> (usize, usize) {
+        let after = self.pieces.partition_point(|piece| piece.first <= line);
+        let piece = &self.pieces[after.saturating_sub(1)];
+        (piece.file, piece.line + line.saturating_sub(piece.first))
     }
 
     /// Adds the lines of a file; `within` are the files that are being read.

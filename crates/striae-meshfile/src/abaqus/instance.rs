@@ -38,6 +38,13 @@ struct Turn {
     radians: f64,
 }
 
+impl Keyword<'_> {
+    /// Where an `*INSTANCE` puts a point of its part; `None` where its rows are faulty.
+    pub fn placed(&self, x: Vec3) -> Option<Vec3> {
+        Motion::read(self).ok().map(|motion| motion.moved(x))
+    }
+}
+
 impl Motion {
     /// The motion that the first rows of `*INSTANCE` state.
     pub(super) fn read(keyword: &Keyword<'_>) -> Result<Self, MeshFileFault> {

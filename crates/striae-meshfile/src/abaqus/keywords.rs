@@ -4,21 +4,25 @@ use super::super::MeshFileFault;
 use super::super::lines::{Line, Lines};
 
 /// `*NAME, PARAMETER=value, ...` and the rows that follow.
-pub(super) struct Keyword<'a> {
-    pub(super) line: usize,
+pub struct Keyword<'a> {
+    /// Line of the text in which it stands, see [`InputFile::place`](super::InputFile::place).
+    pub line: usize,
     text: &'a str,
     /// In capitals, words parted by one space.
-    pub(super) name: String,
+    pub name: String,
     /// In capitals with the value, empty without one.
     parameters: Vec<(String, &'a str)>,
-    pub(super) rows: Vec<Row<'a>>,
+    /// The rows below it.
+    pub rows: Vec<Row<'a>>,
 }
 
 /// A row of words that were parted by commas, never empty.
 #[derive(Clone)]
-pub(super) struct Row<'a> {
-    pub(super) line: usize,
-    pub(super) words: Vec<&'a str>,
+pub struct Row<'a> {
+    /// Line of the text in which it stands.
+    pub line: usize,
+    /// The words, without white space around them.
+    pub words: Vec<&'a str>,
     /// Whether a comma ends the row, so that the next one continues it.
     continued: Continued,
 }
@@ -80,9 +84,15 @@ impl<'a> Keyword<'a> {
     }
 
     /// The value of a parameter, empty where it has none.
-    pub(super) fn parameter(&self, name: &str) -> Option<&'a str> {
+    pub fn parameter(&self, name: &str) -> Option<&'a str> {
         let found = self.parameters.iter().find(|(key, _)| key == name);
         found.map(|&(_, value)| value)
+    }
+
+    /// All parameters in capitals with their values.
+    pub fn parameters(&self) -> impl Iterator<Item = (&str, &'a str)> {
+        let all = self.parameters.iter();
+        all.map(|(name, value)| (name.as_str(), *value))
     }
 
     /// The value of a parameter that has to be there.

@@ -84,6 +84,13 @@ impl Lower {
         Ok(())
     }
 
+    /// Numbers and lines of the elements that are facets.
+    pub(super) fn facets(&self) -> impl Iterator<Item = (u64, usize)> {
+        let all = self.elements.iter();
+        let facets = all.filter(|(_, element)| element.dimension == 2);
+        facets.map(|(number, element)| (*number, element.line))
+    }
+
     /// The faces that an element is, none where it is no facet.
     pub(super) fn faces(&self, number: u64) -> Vec<FileFace> {
         let element = self.elements.get(&number);

@@ -8,6 +8,7 @@ use super::super::MeshFileFault;
 use super::super::cards::{Card, Elasticity, MaterialCard, Moduli};
 use super::keywords::{Keyword, Row};
 use super::number;
+use std::collections::BTreeSet;
 
 /// Keywords that belong to no material; so do those that end in `SECTION` or begin with `END`,
 /// `CONTACT` or `CONNECTOR`.
@@ -76,6 +77,29 @@ pub(super) fn materials(
         found.push(MaterialCard { name, card });
     }
     Ok(found)
+}
+
+/// Lines of the keywords that state materials.
+pub(super) fn lines(keywords: &[Keyword<'_>]) -> BTreeSet<usize> {
+    let mut lines = BTreeSet::new();
+    let mut is_within = false;
+    for keyword in keywords {
+        is_within = keyword.name == "MATERIAL" || is_within && is_option(keyword);
+        if is_within {
+            lines.insert(keyword.line);
+        }
+    }
+    lines
+}
+
+/// Lines of the material in a line and of its options.
+pub fn material_lines(keywords: &[Keyword<'_>], line: usize) -> Vec<usize> {
+    let from = keywords.iter().skip_while(|keyword| keyword.line != line);
+    let mut all = from.enumerate();
+    let all = all
+        .by_ref()
+        .take_while(|(at, keyword)| *at == 0 || is_option(keyword));
+    all.map(|(_, keyword)| keyword.line).collect()
 }
 
 fn is_option(keyword: &Keyword<'_>) -> bool {

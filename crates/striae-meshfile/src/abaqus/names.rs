@@ -42,6 +42,19 @@ impl Names {
         }
     }
 
+    /// The place among several instances of one with this name, 0 of a single one.
+    pub(super) fn instance(&self, name: &str) -> Option<u64> {
+        self.place(name).map(|at| at as u64)
+    }
+
+    /// The name of the only instance.
+    pub(super) fn only(&self) -> Option<&str> {
+        match &self.instances[..] {
+            [only] => Some(only),
+            _ => None,
+        }
+    }
+
     /// Whether there is an instance.
     pub(super) fn is_empty(&self) -> bool {
         self.instances.is_empty()

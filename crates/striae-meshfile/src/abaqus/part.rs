@@ -1,10 +1,12 @@
 //! A part of an Abaqus file: nodes, elements, sets and surfaces under its own numbers; or the
 //! whole in which parts have been placed.
+//!
+//! Longer than other files, as one type collects all that a part can hold.
 
-use super::super::collected::{Collected, FileElement, FileFace, position};
+use super::super::collected::{Collected, FileElement, FileFace, missing, position};
 use super::super::lines::parsed;
 use super::super::numbers::NUMBER_BITS;
-use super::super::{Asked, MeshFileFault, Place, SectionCard};
+use super::super::{Asked, MeshFileFault, Place, RigidSurfaceMesh, SectionCard};
 use super::instance::Placement;
 use super::keywords::{Keyword, Row};
 use super::lower::{self, Lower};
@@ -12,7 +14,7 @@ use super::names::Names;
 use super::number;
 use super::sets::{LabelSets, Member};
 use std::collections::{BTreeMap, HashSet};
-use striae_mesh::{CellKind, Vec3};
+use striae_mesh::{CellKind, NodeId, Vec3};
 
 /// What a part is made of.
 #[derive(Clone)]
@@ -27,6 +29,13 @@ pub(super) struct Part {
     sections: Vec<(String, String)>,
     notes: Vec<String>,
     asked: Option<Asked>,
+}
+
+/// What a keyword is used for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Use {
+    Mesh,
+    Nothing,
 }
 
 /// Faces by the label of their surface in capitals, with the label as it was first spelled.
@@ -175,15 +184,29 @@ impl Part {
         names.extend(&mut self.element_sets, name, keyword)
     }
 
-    /// Rows `element or element set, S1..S6`, or `SPOS`, `SNEG` of shells on the body.
+    /// Rows `element or element set, S1..S6`, or `SPOS`, `SNEG` of shells on the body; or, for a
+    /// surface of nodes, `node or node set`.
     pub(super) fn read_surface(
         &mut self,
         keyword: &Keyword<'_>,
         names: &Names,
-    ) -> Result<(), MeshFileFault> {
+    ) -> Result<Use, MeshFileFault> {
         let kind = keyword.parameter("TYPE").unwrap_or("ELEMENT");
+        if kind.eq_ignore_ascii_case("NODE") {
+            let name = keyword.required("NAME")?;
+            if self.node_sets.get(name).is_some() {
+                return Ok(Use::Nothing);
+            }
+            self.node_sets.name(name);
+            for row in &keyword.rows {
+                for node in names.members(&self.node_sets, row, row.words[0])? {
+                    self.node_sets.push(name, row.line, node);
+                }
+            }
+            return Ok(Use::Mesh);
+        }
         if !kind.eq_ignore_ascii_case("ELEMENT") {
-            return Ok(());
+            return Ok(Use::Nothing);
         }
         let mut faces = Vec::new();
         for row in &keyword.rows {
@@ -202,7 +225,7 @@ impl Part {
         }
         let name = keyword.required("NAME")?;
         self.surface(name).extend(faces);
-        Ok(())
+        Ok(Use::Mesh)
     }
 
     /// The material of an element set; layers have several.
@@ -280,6 +303,61 @@ impl Part {
         let elements = self.elements.iter().map(|element| element.number);
         let mut numbers = nodes.chain(elements);
         numbers.all(|number| number < 1 << NUMBER_BITS)
+    }
+
+    /// Facets of elements that are no solids; of a part those in the set of its name, or in the
+    /// instance at a place.
+    pub(super) fn rigid_surface(
+        &self,
+        part: Option<(&str, Option<u64>)>,
+    ) -> Result<(RigidSurfaceMesh, Vec<u64>), MeshFileFault> {
+        let in_set: Option<HashSet<u64>> = match part {
+            Some((name, None)) => {
+                let known = || self.element_sets.labels();
+                let members = self
+                    .element_sets
+                    .get(name)
+                    .ok_or_else(|| MeshFileFault::NoPart {
+                        name: name.to_owned(),
+                        known: known(),
+                    })?;
+                Some(members.iter().map(|(_, number)| *number).collect())
+            }
+            _ => None,
+        };
+        let is_chosen = |number: u64| match part {
+            Some((_, Some(instance))) => number >> NUMBER_BITS == instance,
+            _ => in_set.as_ref().is_none_or(|set| set.contains(&number)),
+        };
+        let mut ids: BTreeMap<u64, NodeId> = BTreeMap::new();
+        let (mut positions, mut numbers, mut facets) = (Vec::new(), Vec::new(), Vec::new());
+        for (number, line) in self.lower.facets() {
+            let faces = self.lower.faces(number).into_iter();
+            for face in faces.filter(|_| is_chosen(number)) {
+                let (FileFace::Corners(corners) | FileFace::Eight(corners, _)) = face else {
+                    continue;
+                };
+                let mut facet = [NodeId(0); 4];
+                for (node, corner) in facet.iter_mut().zip(corners) {
+                    let x = self.nodes.get(&corner);
+                    let x =
+                        x.ok_or_else(|| missing(Place::Line(line), "node", &corner.to_string()))?;
+                    *node = *ids.entry(corner).or_insert_with(|| {
+                        positions.push(*x);
+                        numbers.push(corner);
+                        NodeId::new(positions.len() - 1)
+                    });
+                }
+                facets.push(facet);
+            }
+        }
+        if facets.is_empty() {
+            return Err(MeshFileFault::Empty {
+                expected: "elements such as R3D3, R3D4 or S4",
+                remedy: "mesh the rigid surface with them",
+            });
+        }
+        Ok((RigidSurfaceMesh { positions, facets }, numbers))
     }
 
     /// The mesh, with the names of instances that numbers need.

@@ -42,6 +42,11 @@ impl LabelSets {
         set.map(|set| set.members.as_slice())
     }
 
+    /// All labels as they were first spelled.
+    pub(super) fn labels(&self) -> Vec<String> {
+        self.sets.values().map(|set| set.label.clone()).collect()
+    }
+
     pub(super) fn push(&mut self, label: &str, line: usize, member: u64) {
         self.set(label).members.push((line, member));
     }

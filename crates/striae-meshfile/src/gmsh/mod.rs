@@ -14,7 +14,7 @@ mod version4;
 
 use super::collected::{Collected, FileElement, position};
 use super::lines::quoted;
-use super::{MeshFileFault, Place, Reading, RigidSurfaceMesh, division};
+use super::{MeshFileFault, Place, RigidSurfaceMesh, division};
 use input::{Input, readable};
 use kind::Kind;
 pub(super) use node_data::node_data;
@@ -22,7 +22,8 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use striae_mesh::{NodeId, Vec3};
 
 /// The mesh of a body.
-pub(super) fn body(bytes: &[u8]) -> Result<Reading, MeshFileFault> {
+#[cfg(test)]
+pub(super) fn body(bytes: &[u8]) -> Result<super::Reading, MeshFileFault> {
     collected(bytes)?.mesh()
 }
 

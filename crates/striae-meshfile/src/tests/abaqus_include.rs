@@ -48,7 +48,10 @@ fn included_files_stand_in_their_places() {
     write("parts/tail.txt", tail.join("\n"));
     let path = folder.path().join("whole.inp");
     assert_eq!(read_with_notes(&path).unwrap().mesh, mesh);
-    assert_eq!(node_numbers(&path).unwrap().len(), mesh.positions.len());
+    assert_eq!(
+        node_numbers(&path, None).unwrap().len(),
+        mesh.positions.len()
+    );
 }
 
 #[test]

@@ -7,6 +7,7 @@ mod abaqus_material;
 mod gmsh;
 mod gmsh_binary;
 mod node_vectors;
+mod parts;
 mod stl;
 mod vtk;
 mod written;

@@ -129,7 +129,7 @@ fn numbers_of_nodes_are_those_of_the_file() {
         assert_eq!(numbers, expected);
     }
     let text = written::abaqus(&mesh);
-    let numbers = abaqus::collected(&text, |fault| fault.to_string())
+    let numbers = abaqus::collected(&text, |fault| fault.to_string(), |line| line.to_string())
         .unwrap()
         .node_numbers()
         .unwrap();
@@ -158,14 +158,14 @@ fn the_ending_chooses_the_reader() {
         "ground.msh",
         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 9 9 9\n5 0 0 0\n3 1 0 0\n4 1 1 0\n$EndNodes\n$Elements\n1\n2 2 0 4 5 3\n$EndElements\n",
     );
-    assert_eq!(rigid_node_numbers(&ground).unwrap(), [4, 5, 3]);
+    assert_eq!(rigid_node_numbers(&ground, None).unwrap(), [4, 5, 3]);
     let cube = write(
         "cube.msh",
         &written::gmsh4(&block(striae_mesh::CellKind::Hexahedron)),
     );
-    assert_eq!(node_numbers(&cube).unwrap()[..3], [7, 17, 27]);
+    assert_eq!(node_numbers(&cube, None).unwrap()[..3], [7, 17, 27]);
     assert!(
-        node_numbers(&csv)
+        node_numbers(&csv, None)
             .unwrap_err()
             .to_string()
             .contains(".inp (Abaqus)")

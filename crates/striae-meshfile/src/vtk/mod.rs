@@ -13,7 +13,7 @@ mod number;
 mod xml;
 
 use super::collected::{Collected, FileElement, position};
-use super::{MeshFileFault, Place, Reading};
+use super::{MeshFileFault, Place};
 use cells::{Cell, cell};
 use std::collections::BTreeSet;
 use striae_mesh::Vec3;
@@ -22,12 +22,14 @@ use striae_mesh::Vec3;
 const MOST_SETS: usize = 256;
 
 /// The mesh of a body from an XML file.
-pub(super) fn xml_body(bytes: &[u8]) -> Result<Reading, MeshFileFault> {
+#[cfg(test)]
+pub(super) fn xml_body(bytes: &[u8]) -> Result<super::Reading, MeshFileFault> {
     xml_collected(bytes)?.mesh()
 }
 
 /// The mesh of a body from a legacy file.
-pub(super) fn legacy_body(bytes: &[u8]) -> Result<Reading, MeshFileFault> {
+#[cfg(test)]
+pub(super) fn legacy_body(bytes: &[u8]) -> Result<super::Reading, MeshFileFault> {
     legacy_collected(bytes)?.mesh()
 }
 

@@ -565,9 +565,13 @@ def torus(
     )
 
 
-def read_mesh(path: Union[str, os.PathLike[str]]) -> Mesh:
+def read_mesh(path: Union[str, os.PathLike[str]], *, elements: Optional[str] = None) -> Mesh:
     """Reads the mesh of a Gmsh, Abaqus or VTK file with its sets.
 
     path: the file.
+    elements: the part that is read, an element set, a physical volume of Gmsh or an instance
+        of Abaqus, with what is on it of all sets; the whole file by default.
     """
-    return Mesh._of(native.read_mesh(os.fspath(path)))
+    if elements is not None and not isinstance(elements, str):
+        raise TypeError(f"elements: a name is needed, not {type(elements).__name__}")
+    return Mesh._of(native.read_mesh(os.fspath(path), elements))

@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeMap, fmt::Write, path::Path};
 
-use striae::mesh_file::{MaterialCard, Reading, RigidSurfaceMesh};
+use striae::mesh_file::{MaterialCard, Reading, RigidSurfaceMesh, unused_note};
 use striae_mesh::{CellKind, Mesh, Quality, Vec3, quality::SMALL_SCALED_JACOBIAN};
 
 /// Lines about the mesh of a body.
@@ -27,6 +27,8 @@ pub fn of_body(file: &Path, reading: &Reading) -> String {
     lines.extend(node_sets(mesh));
     lines.extend(reading.materials.iter().map(|card| material(card, reading)));
     lines.extend(reading.notes.iter().map(|note| format!("note: {note}")));
+    let unused = unused_note(&reading.unused, true);
+    lines.extend(unused.map(|note| format!("note: {note}")));
     lines.join("\n") + "\n"
 }
 

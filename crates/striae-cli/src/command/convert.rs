@@ -1,0 +1,64 @@
+//! `striae convert MODEL.inp`: a deck made of an Abaqus model.
+
+use std::{
+    fs,
+    io::Write,
+    path::{Path, PathBuf},
+};
+
+use crate::failure::Failure;
+
+/// Make a deck of an Abaqus model; what has no counterpart is listed with its line.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The model: an .inp file of Abaqus. Its meshes stay there.
+    model: PathBuf,
+    /// The deck to be written; it must not exist. Default: the name of the model with .toml.
+    #[arg(long, value_name = "DECK.toml")]
+    out: Option<PathBuf>,
+}
+
+/// Writes the deck, prints what is not converted, and checks the deck.
+pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    let model = &arguments.model;
+    let deck = arguments.out.clone();
+    let deck = deck.unwrap_or_else(|| model.with_extension("toml"));
+    if deck.exists() {
+        return Err(Failure::Exists(deck));
+    }
+    let converted = striae_deck::convert(model, &reference(model, &deck))?;
+    fs::write(&deck, &converted.deck).map_err(|cause| Failure::Unwritable {
+        path: deck.clone(),
+        cause,
+    })?;
+    if !converted.listed.is_empty() {
+        writeln!(out, "not converted:")?;
+    }
+    for line in &converted.listed {
+        writeln!(out, "  {line}")?;
+    }
+    writeln!(out, "wrote {}", deck.display())?;
+    striae_deck::read(&deck)?;
+    writeln!(out, "next: striae check {}", deck.display())?;
+    Ok(())
+}
+
+/// The path of the model from the folder of the deck; from the root where they lie apart.
+fn reference(model: &Path, deck: &Path) -> String {
+    let folder = |path: &Path| {
+        let parent = path.parent().unwrap_or(Path::new(""));
+        let parent = if parent == Path::new("") {
+            Path::new(".")
+        } else {
+            parent
+        };
+        parent.canonicalize().unwrap_or_else(|_| parent.to_owned())
+    };
+    let (of_model, of_deck) = (folder(model), folder(deck));
+    let name = model.file_name().unwrap_or_default();
+    let path = match of_model.strip_prefix(&of_deck) {
+        Ok(within) => within.join(name),
+        Err(_) => of_model.join(name),
+    };
+    path.to_string_lossy().replace('\\', "/")
+}

@@ -1,0 +1,457 @@
+//! Rigid bodies: discrete surfaces, planes, solids made rigid, and nodes coupled to a point.
+//!
+//! Longer than other files, as the many ways in which Abaqus names a rigid body stand together.
+
+use super::bodies::Body;
+use super::points::Point;
+use super::{Model, numbers};
+use crate::write::value::{list, text, vector};
+use std::collections::BTreeSet;
+use striae_mesh::Vec3;
+use striae_meshfile::Keyword;
+
+/// A rigid body of the deck.
+pub(super) struct Rigid {
+    pub(super) name: String,
+    /// Line of its keyword.
+    line: usize,
+    shape: Shape,
+    /// The node that its conditions name.
+    pub(super) reference: Option<Point>,
+    /// The instance whose surfaces it has.
+    instance: Option<String>,
+    /// Surfaces that are on it, in capitals.
+    surfaces: BTreeSet<String>,
+    /// Components with a condition so far.
+    pub(super) held: [bool; 6],
+    /// Targets so far; angles in radians.
+    pub(super) targets: [f64; 6],
+}
+
+enum Shape {
+    /// Elements of the file, all of them where there is no name.
+    Mesh(Option<String>),
+    Plane {
+        point: Vec3,
+        normal: Vec3,
+    },
+    /// Bodies by place, with their node sets.
+    Tied(Vec<(usize, String)>),
+}
+
+impl Rigid {
+    fn new(line: usize, name: String, shape: Shape, reference: Option<Point>) -> Self {
+        Self {
+            name,
+            line,
+            shape,
+            reference,
+            instance: None,
+            surfaces: BTreeSet::new(),
+            held: [false; 6],
+            targets: [0.0; 6],
+        }
+    }
+
+    /// Its table in the deck.
+    pub(super) fn table(&self, written: &str, bodies: &[Body]) -> String {
+        let shape = match &self.shape {
+            Shape::Mesh(part) => {
+                let part = part.as_ref();
+                let part =
+                    part.map_or(String::new(), |part| format!(", elements = {}", text(part)));
+                format!("mesh = {{ file = {}{part} }}", text(written))
+            }
+            Shape::Plane { point, normal } => {
+                let (point, normal) = (vector(point), vector(normal));
+                format!("plane = {{ point = {point}, normal = {normal} }}")
+            }
+            Shape::Tied(sets) => {
+                let sets = sets.iter().map(|(body, set)| {
+                    let body = text(&bodies[*body].name);
+                    format!("{{ body = {body}, nodes = {} }}", text(set))
+                });
+                format!("tied = {}", list(sets))
+            }
+        };
+        let reference = self
+            .reference
+            .map(|(_, x)| format!("reference = {}\n", vector(&x)));
+        format!(
+            "\n[[rigid]]\nname = {}\n{shape}\n{}",
+            text(&self.name),
+            reference.unwrap_or_default()
+        )
+    }
+}
+
+impl<'a> Model<'a> {
+    /// Reads rigid bodies and couplings.
+    pub(super) fn read_rigid(&mut self) {
+        let keywords = self.keywords;
+        for keyword in keywords {
+            match keyword.name.as_str() {
+                "RIGID BODY" => self.rigid_body(keyword),
+                "COUPLING" => self.coupling(keyword),
+                _ => {}
+            }
+        }
+        self.leave_out_held_twice();
+        for at in 0..self.instances.len() {
+            let instance = &self.instances[at];
+            let mut known = self.rigid.iter();
+            let is_known = known.any(|rigid| rigid.instance.as_deref() == Some(instance.name));
+            if instance.is_rigid() && !is_known {
+                let (line, name) = (instance.keyword.line, instance.name.to_owned());
+                self.list(
+                    line,
+                    format!("instance `{name}` of rigid elements without *RIGID BODY"),
+                );
+            }
+        }
+    }
+
+    /// Leaves out a coupling whose nodes have conditions while its point has none: it would hold
+    /// the nodes twice.
+    fn leave_out_held_twice(&mut self) {
+        let keywords = self.keywords;
+        let conditions = keywords
+            .iter()
+            .filter(|keyword| ["BOUNDARY", "CLOAD"].contains(&keyword.name.as_str()));
+        let rows = conditions.flat_map(|keyword| &keyword.rows);
+        let words: BTreeSet<&str> = rows.map(|row| row.words[0]).collect();
+        let moved: BTreeSet<usize> = words
+            .iter()
+            .filter_map(|word| self.rigid_of_point(word))
+            .collect();
+        let mut held: Vec<(usize, String)> = Vec::new();
+        for word in words {
+            if self.rigid_of_point(word).is_none() {
+                held.extend(self.nodes(word));
+            }
+        }
+        let bodies = &self.bodies;
+        let nodes = |(body, set): &(usize, String)| {
+            let sets = &bodies[*body].reading.mesh.node_sets;
+            sets.get(set).unwrap_or_default().to_vec()
+        };
+        let meets = |tied: &(usize, String)| {
+            let own = nodes(tied);
+            let others = held.iter().filter(|(body, _)| *body == tied.0);
+            others.flat_map(nodes).any(|node| own.contains(&node))
+        };
+        let (mut kept, mut left_out) = (Vec::new(), Vec::new());
+        for (at, rigid) in std::mem::take(&mut self.rigid).into_iter().enumerate() {
+            match &rigid.shape {
+                Shape::Tied(sets) if !moved.contains(&at) && sets.iter().any(meets) => {
+                    left_out.push(rigid);
+                }
+                _ => kept.push(rigid),
+            }
+        }
+        self.rigid = kept;
+        for Rigid { line, name, .. } in left_out {
+            let what = "its nodes have conditions of their own and its point has none; left out";
+            self.list(line, format!("`{name}`: {what}"));
+        }
+    }
+
+    /// The rigid body that a surface is on.
+    pub(super) fn rigid_of_surface(&self, word: &str) -> Option<usize> {
+        let upper = word.to_uppercase();
+        self.rigid.iter().position(|rigid| {
+            let instance = rigid.instance.as_ref().map(|name| name.to_uppercase());
+            let is_within = instance.is_some_and(|name| upper.starts_with(&format!("{name}.")));
+            is_within || rigid.surfaces.contains(&upper)
+        })
+    }
+
+    /// The rigid body whose reference point a word stands for.
+    pub(super) fn rigid_of_point(&self, word: &str) -> Option<usize> {
+        let (id, _) = self.points.find(word)?;
+        let mut all = self.rigid.iter();
+        all.position(|rigid| rigid.reference.is_some_and(|(own, _)| own == id))
+    }
+
+    fn rigid_body(&mut self, keyword: &'a Keyword<'a>) {
+        self.used.insert(keyword.line);
+        let known = [
+            "REF NODE",
+            "ELSET",
+            "ANALYTICAL SURFACE",
+            "TIE NSET",
+            "PIN NSET",
+            "POSITION",
+        ];
+        self.list_parameters(keyword, &known);
+        let reference = keyword
+            .parameter("REF NODE")
+            .and_then(|word| self.point(keyword, word));
+        let name = self.rigid_name("rigid");
+        if let Some(surface) = keyword.parameter("ANALYTICAL SURFACE") {
+            match self.plane(surface) {
+                Ok((point, normal, line)) => {
+                    let shape = Shape::Plane { point, normal };
+                    let mut rigid = Rigid::new(keyword.line, name, shape, reference);
+                    rigid.surfaces.insert(surface.to_uppercase());
+                    self.used.insert(line);
+                    self.listed.remove(&line);
+                    self.rigid.push(rigid);
+                }
+                Err(what) => self.list(keyword.line, format!("*RIGID BODY `{surface}`: {what}")),
+            }
+            return;
+        }
+        if let Some(set) = keyword.parameter("ELSET") {
+            if let Some(at) = self.rigid_instance(keyword, set) {
+                let instance = self.instances[at].name.to_owned();
+                let several = self.instances.len() > 1;
+                let shape = Shape::Mesh(several.then(|| instance.clone()));
+                let mut rigid = Rigid::new(keyword.line, instance.clone(), shape, reference);
+                rigid.surfaces = self.surfaces_of(&instance);
+                rigid.instance = Some(instance);
+                self.rigid.push(rigid);
+                return;
+            }
+            let bodies = self.bodies.iter().enumerate();
+            let whole = bodies.filter(|(_, body)| {
+                let sets = body.reading.mesh.element_sets.iter();
+                let mut sets = sets.filter(|(_, of)| of.len() == body.reading.mesh.element_count());
+                let bare = set.rsplit('.').next().unwrap_or(set);
+                sets.any(|(name, _)| {
+                    name.eq_ignore_ascii_case(set) || name.eq_ignore_ascii_case(bare)
+                })
+            });
+            let tied: Vec<(usize, String)> = whole.map(|(at, _)| (at, "all".to_owned())).collect();
+            match (self.instances.is_empty(), tied.is_empty()) {
+                (_, false) => {
+                    self.rigid
+                        .push(Rigid::new(keyword.line, name, Shape::Tied(tied), reference))
+                }
+                (true, true) => {
+                    let shape = Shape::Mesh(Some(set.to_owned()));
+                    let mut rigid = Rigid::new(keyword.line, set.to_owned(), shape, reference);
+                    rigid.surfaces = self.surfaces_of_set(set);
+                    self.rigid.push(rigid);
+                }
+                (false, true) => {
+                    self.list(
+                        keyword.line,
+                        format!("*RIGID BODY of `{set}`, which is no whole body"),
+                    );
+                }
+            }
+            return;
+        }
+        let sets = ["TIE NSET", "PIN NSET"].into_iter();
+        let sets: Vec<&str> = sets.filter_map(|key| keyword.parameter(key)).collect();
+        let tied: Vec<(usize, String)> = sets.iter().flat_map(|set| self.nodes(set)).collect();
+        match tied.is_empty() {
+            true => self.list(keyword.line, "*RIGID BODY of no nodes of a body"),
+            false => self
+                .rigid
+                .push(Rigid::new(keyword.line, name, Shape::Tied(tied), reference)),
+        }
+    }
+
+    /// A kinematic coupling of all displacements.
+    fn coupling(&mut self, keyword: &'a Keyword<'a>) {
+        self.used.insert(keyword.line);
+        let known = ["CONSTRAINT NAME", "REF NODE", "SURFACE"];
+        self.list_parameters(keyword, &known);
+        let after = self
+            .keywords
+            .iter()
+            .skip_while(|other| other.line != keyword.line);
+        let Some(kind) = after.into_iter().nth(1) else {
+            return;
+        };
+        let name = keyword.parameter("CONSTRAINT NAME").unwrap_or("coupling");
+        if kind.name != "KINEMATIC" {
+            let what = format!("*COUPLING `{name}` with *{}", kind.name);
+            self.list(keyword.line, what);
+            return;
+        }
+        self.used.insert(kind.line);
+        let rows = kind.rows.iter().filter_map(|row| numbers(&row.words));
+        let held: BTreeSet<u64> = rows
+            .flat_map(|row| {
+                let first = row.first().map_or(1, |first| *first as u64);
+                let last = row.get(1).map_or(first, |last| *last as u64);
+                first..=last.min(6)
+            })
+            .collect();
+        if !kind.rows.is_empty() && !(1..=3).all(|of| held.contains(&of)) {
+            self.list(
+                kind.line,
+                format!("*KINEMATIC `{name}` of some displacements only"),
+            );
+            return;
+        }
+        let surface = keyword.parameter("SURFACE").unwrap_or_default();
+        let tied = self.nodes(surface);
+        let reference = keyword
+            .parameter("REF NODE")
+            .and_then(|word| self.point(keyword, word));
+        if tied.is_empty() {
+            self.list(
+                keyword.line,
+                format!("*COUPLING `{name}`: no body has nodes of `{surface}`"),
+            );
+            return;
+        }
+        let name = self.rigid_name(name);
+        self.rigid
+            .push(Rigid::new(keyword.line, name, Shape::Tied(tied), reference));
+    }
+
+    /// Bodies by place with the node set that a word stands for.
+    pub(super) fn nodes(&mut self, word: &str) -> Vec<(usize, String)> {
+        let instance = word.rsplit_once('.').map(|(instance, _)| instance);
+        let exact = self.bodies.iter().position(|body| {
+            instance.is_some_and(|instance| body.name.eq_ignore_ascii_case(instance))
+        });
+        let bodies = self.bodies.iter_mut().enumerate();
+        let bodies = bodies.filter(|(at, _)| exact.is_none_or(|exact| exact == *at));
+        bodies
+            .filter_map(|(at, body)| Some((at, body.node_set(word)?)))
+            .collect()
+    }
+
+    fn point(&mut self, keyword: &Keyword<'_>, word: &str) -> Option<Point> {
+        let own = self.instances.iter().find(|instance| {
+            let mut own = instance.own.iter();
+            own.any(|own| own.line == keyword.line)
+        });
+        let within = own.map(|instance| format!("{}.{word}", instance.name));
+        let found = within.and_then(|word| self.points.find(&word));
+        let found = found.or_else(|| self.points.find(word));
+        if found.is_none() {
+            self.list(
+                keyword.line,
+                format!("reference node `{word}` is not known"),
+            );
+        }
+        found
+    }
+
+    fn rigid_name(&self, base: &str) -> String {
+        let names = (1..).map(|count| match count {
+            1 => base.to_owned(),
+            _ => format!("{base}-{count}"),
+        });
+        let is_free = |name: &String| self.rigid.iter().all(|rigid| rigid.name != *name);
+        names
+            .into_iter()
+            .find(is_free)
+            .expect("there are more numbers than bodies")
+    }
+
+    /// The instance of rigid elements that an element set is of.
+    fn rigid_instance(&self, keyword: &Keyword<'_>, set: &str) -> Option<usize> {
+        let of_set = self.instance_of_set(set);
+        self.instances.iter().position(|instance| {
+            let mut own = instance.own.iter();
+            let is_own = own.any(|own| own.line == keyword.line);
+            let prefix = set.rsplit_once('.').map_or("", |(prefix, _)| prefix);
+            let named = prefix.eq_ignore_ascii_case(instance.name)
+                || of_set.is_some_and(|name| name.eq_ignore_ascii_case(instance.name));
+            instance.is_rigid() && (is_own || named)
+        })
+    }
+
+    /// The instance that a set of the assembly is of.
+    fn instance_of_set(&self, set: &str) -> Option<&'a str> {
+        let mut sets = self.keywords.iter();
+        let found = sets.find(|keyword| {
+            keyword.name == "ELSET"
+                && keyword.parameter("INSTANCE").is_some()
+                && super::has(keyword, "ELSET", set)
+        });
+        found.and_then(|keyword| keyword.parameter("INSTANCE"))
+    }
+
+    /// Surfaces of the assembly whose element sets are of an instance.
+    fn surfaces_of(&self, instance: &str) -> BTreeSet<String> {
+        let all = self
+            .keywords
+            .iter()
+            .filter(|keyword| keyword.name == "SURFACE");
+        let of_instance = all.filter(|keyword| {
+            keyword.rows.iter().any(|row| {
+                let word = row.words[0];
+                let prefix = word.rsplit_once('.').map_or("", |(prefix, _)| prefix);
+                let set = self.instance_of_set(word);
+                prefix.eq_ignore_ascii_case(instance)
+                    || set.is_some_and(|of| of.eq_ignore_ascii_case(instance))
+            })
+        });
+        of_instance
+            .filter_map(|keyword| Some(keyword.parameter("NAME")?.to_uppercase()))
+            .collect()
+    }
+
+    /// Surfaces of an element set.
+    fn surfaces_of_set(&self, set: &str) -> BTreeSet<String> {
+        let all = self
+            .keywords
+            .iter()
+            .filter(|keyword| keyword.name == "SURFACE");
+        let of_set = all.filter(|keyword| {
+            let mut rows = keyword.rows.iter();
+            rows.any(|row| row.words[0].eq_ignore_ascii_case(set))
+        });
+        of_set
+            .filter_map(|keyword| Some(keyword.parameter("NAME")?.to_uppercase()))
+            .collect()
+    }
+
+    /// The plane that an analytical surface is, its normal towards the bodies.
+    ///
+    /// In a part the profile of `TYPE=CYLINDER` is in the plane of x and y, its generator is z.
+    fn plane(&self, surface: &str) -> Result<(Vec3, Vec3, usize), String> {
+        let (prefix, bare) = surface.rsplit_once('.').unwrap_or(("", surface));
+        let named = |keyword: &&&Keyword<'_>| {
+            keyword.name == "SURFACE" && super::has(keyword, "NAME", bare)
+        };
+        let mut instances = self.instances.iter();
+        let instance = instances.find(|instance| instance.name.eq_ignore_ascii_case(prefix));
+        let instance = instance.ok_or("an analytical surface outside of an instance")?;
+        let keyword = instance
+            .own
+            .iter()
+            .find(named)
+            .ok_or("there is no such *SURFACE")?;
+        let rows: Vec<&[&str]> = keyword.rows.iter().map(|row| &row.words[..]).collect();
+        let is_word =
+            |row: &[&str], word: &str| row.first().is_some_and(|w| w.eq_ignore_ascii_case(word));
+        let start = rows.iter().position(|row| is_word(row, "START"));
+        let profile = start.map_or(&[][..], |start| &rows[start..]);
+        let is_blank = |row: &&[&str]| row.iter().all(|word| word.is_empty());
+        let is_plain = rows[..start.unwrap_or(0)].iter().all(is_blank);
+        match profile {
+            [from, to]
+                if is_word(to, "LINE") && super::has(keyword, "TYPE", "CYLINDER") && is_plain =>
+            {
+                let at = |row: &[&str]| {
+                    let row = numbers(&row[1..]).filter(|row| row.len() >= 2)?;
+                    instance.keyword.placed(Vec3::new(row[0], row[1], 0.0))
+                };
+                let along = |x: Vec3| instance.keyword.placed(x);
+                let faulty = "no numbers";
+                let (from, to) = (at(from).ok_or(faulty)?, at(to).ok_or(faulty)?);
+                let origin = along(Vec3::zeros()).ok_or(faulty)?;
+                let generator = along(Vec3::z()).ok_or(faulty)? - origin;
+                let normal = (to - from).cross(&generator);
+                let middle: Vec3 = self.bodies.iter().map(Body::middle).sum();
+                let middle = middle / self.bodies.len().max(1) as f64;
+                let side = normal.dot(&(middle - from)).signum();
+                let normal = normal
+                    .try_normalize(0.0)
+                    .ok_or("a profile without length")?;
+                Ok((from, normal * side, keyword.line))
+            }
+            _ => Err("an analytical surface that is no plane; mesh it with R3D4".to_owned()),
+        }
+    }
+}
