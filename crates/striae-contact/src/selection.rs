@@ -12,7 +12,7 @@ mod sides;
 mod traction_field;
 
 pub use approach::approach;
-use approach::compliances;
+pub(crate) use approach::compliances;
 pub use traction_field::Selection;
 
 use crate::{
@@ -56,6 +56,7 @@ impl Selection {
             depth,
             partners,
             offsets: [Vec::new(), Vec::new()],
+            fitted: None,
         }
     }
 }
