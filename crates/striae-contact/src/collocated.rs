@@ -59,7 +59,7 @@ pub fn kinematics(
             };
             let gap = frame.map_or_else(TrackedScalar::default, |frame| {
                 let mut gap = gap(configuration, side, node, frame);
-                gap.value += selection.offset(side, node);
+                gap.value += selection.offset_along_normal(side, node);
                 gap
             });
             Kinematics {

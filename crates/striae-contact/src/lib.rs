@@ -57,6 +57,7 @@ pub mod interference;
 pub mod pair;
 pub mod placement;
 pub mod roles;
+pub mod seating;
 pub mod segment;
 pub mod selection;
 pub mod side;

@@ -44,7 +44,8 @@ pub use support::{Pressed, PressedSlopes, Pressing, Support};
 
 use chain::{CornerSlopes, Plane};
 use fan::{Apex, Fan, fan};
-use normal::{facet_normal, pair_normal, pair_slopes};
+pub(crate) use normal::facet_normal;
+use normal::{pair_normal, pair_slopes};
 use plane_facet::{PlaneFacet, Vec2};
 pub(crate) use polygon::{FIRST, mixed};
 use polygon::{Outline, Vertex, common, topology, twice_area};

@@ -61,8 +61,8 @@ pub enum Slip {
 pub struct Given {
     /// Weights of the facets' normals.
     pub weights: [f64; 2],
-    /// Overlap of the meshes at the corners that is not pressed out yet, in shares that sum
-    /// up to the one at a point: it counts as an open gap.
+    /// What is added to the gap at the corners, in shares that sum up to the one at a point: the
+    /// overlap of the meshes that is not pressed out yet, or an interference.
     pub offsets: [f64; 8],
     /// Whether slip is asked for.
     pub slip: Slip,

@@ -12,7 +12,7 @@ mod sides;
 mod traction_field;
 
 pub use approach::approach;
-use approach::compliances;
+pub(crate) use approach::compliances;
 pub use traction_field::Selection;
 
 use crate::{
@@ -57,6 +57,7 @@ impl Selection {
             partners,
             offsets: [Vec::new(), Vec::new()],
             slip_freedoms: Vec::new(),
+            fitted: None,
         }
     }
 }

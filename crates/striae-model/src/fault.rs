@@ -227,6 +227,14 @@ pub enum FaultKind {
         /// The pair.
         pair: String,
     },
+    /// A pair states an interference and presses the overlap of its meshes out, too.
+    #[error(
+        "pair `{pair}` states an interference and `initial = \"resolve\"`: the interference is measured from faces that touch, whatever their meshes overlap by. Leave one of them out"
+    )]
+    InterferenceResolved {
+        /// The pair.
+        pair: String,
+    },
     /// The meshes of a pair do not fit.
     #[error("{fault}")]
     Initial {

@@ -6,7 +6,7 @@ use striae::{
     solve::model::{ClosedGaps, Enforcement},
 };
 
-use crate::{friction::Friction, texture::Texture};
+use crate::{friction::Friction, step::Along, texture::Texture};
 
 /// Names of a body and its facet set, or of a rigid body alone.
 type Surface = (String, Option<String>);
@@ -45,6 +45,10 @@ impl Pair {
 
     fn stabilised(&self) -> Self {
         Self(self.0.clone().stabilised())
+    }
+
+    fn interfering(&self, value: f64, along: Along) -> PyResult<Self> {
+        Ok(Self(self.0.clone().interference(value, along.curve()?)))
     }
 
     fn resolved(&self) -> Self {

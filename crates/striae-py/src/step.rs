@@ -31,7 +31,8 @@ pub enum Along {
 }
 
 impl Along {
-    fn curve(self) -> PyResult<Curve> {
+    /// The curve.
+    pub fn curve(self) -> PyResult<Curve> {
         match self {
             Self::Points(points) => Ok(Curve::Table(points)),
             Self::Word(word) => match word.as_str() {

@@ -97,6 +97,7 @@ fn model(count: usize) -> Model {
             enforcement: Enforcement::Weighted,
             search_distance: None,
             initial: Initial::AsMeshed,
+            interference: None,
             stabilised: false,
         }],
         ties: Vec::new(),

@@ -2,34 +2,36 @@
 //!
 //! Overlaps of more than two hundredths of the local facet size are a [`fault`] unless
 //! the pair says what to make of them: [`close`] moves the nodes of the smaller side to
-//! the other one, without strain, as it is the reference mesh that changes; [`Offsets`] let overlaps fade over
-//! the first step.
+//! the other one, without strain, as it is the reference mesh that changes; [`Offsets`] let
+//! overlaps fade over the first step.
 
 mod close;
 mod facing;
+mod offsets;
 mod reach;
 mod surfaces;
 mod translation;
 
 use striae_contact::{
     configuration::Configuration,
-    initial::{Fit, Lies, fit, overlaps},
+    initial::{Fit, Lies, fit},
     interference::{Stage, Standing, nearest_of},
     placement::Placement,
+    seating::Seating,
     side::Side,
 };
 use striae_mesh::{ElementId, NodeId, Vec3};
 use striae_surface::node::SurfaceNode;
 
 use crate::{
-    interference::{Positions, configuration, thickness, thickness_with},
+    interference::thickness_with,
     model::{ContactSurface, Initial, Model, PairId},
-    problem::{PairGeometry, Problem, add_fibres, pair_geometry},
-    state::State,
+    problem::{PairGeometry, add_fibres, pair_geometry},
 };
 
 pub use close::close;
 pub use facing::{Turned, turned};
+pub use offsets::{Offsets, meant_depth};
 pub use reach::may_meet;
 pub use surfaces::surfaces;
 
@@ -63,6 +65,39 @@ pub enum InitialFault {
         share: f64,
         /// Whether nodes have been moved against it.
         closing: Closing,
+    },
+    /// Bodies overlap by so much that their other side is nearer.
+    #[error(
+        "pair `{pair}`: `{body}` is {depth:.3e} inside `{other}` at ({:.6}, {:.6}, {:.6}), next to its {node}, which is {:.0} % of the thickness of `{other}` there, {thickness:.3e}, and {:.0} % of the local facet size {size:.3e}. Overlaps are pressed out up to half the thickness; beyond, the other side of `{other}` is nearer. Move the bodies apart in the mesh, or bring them together in a step",
+        at.x, at.y, at.z, 100.0 * depth / thickness, 100.0 * depth / size
+    )]
+    Deep {
+        /// Name of the pair.
+        pair: String,
+        /// Body or rigid surface of the node.
+        body: String,
+        /// The node.
+        node: NodeId,
+        /// What it is inside of.
+        other: String,
+        /// Where it is.
+        at: Vec3,
+        /// How deep.
+        depth: f64,
+        /// How thick the other one is there.
+        thickness: f64,
+        /// The local facet size.
+        size: f64,
+    },
+    /// No faces are near enough to be taken as touching.
+    #[error(
+        "pair `{pair}`: `interference` is measured from faces that touch, but none of the two sides face each other within the search distance of the pair, half a facet unless it is stated; the smallest gap is {gap:.3e}. Set `search_distance` to more than the gap between the faces that fit, or move them together in the mesh"
+    )]
+    Unseated {
+        /// Name of the pair.
+        pair: String,
+        /// The smallest gap.
+        gap: f64,
     },
     /// A body is on the wrong side of a rigid surface.
     #[error(
@@ -137,6 +172,8 @@ impl InitialFault {
     pub fn pair(&self) -> &str {
         match self {
             Self::Overlap { pair, .. }
+            | Self::Deep { pair, .. }
+            | Self::Unseated { pair, .. }
             | Self::Behind { pair, .. }
             | Self::Away { pair, .. }
             | Self::Inverted { pair, .. } => pair,
@@ -162,6 +199,11 @@ pub fn fault(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
             rigid: side_name(model, &of_pair.b).to_owned(),
         });
     }
+    if of_pair.interference.is_some()
+        && let Some(fault) = unseated(model, pair, fit)
+    {
+        return Some(fault);
+    }
     let overlap = fit
         .overlap
         .filter(|overlap| overlap.share() > LARGEST_OVERLAP)?;
@@ -169,8 +211,8 @@ pub fn fault(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
     if let Some(turned) = turned(model, pair) {
         return Some(away(model, pair, turned));
     }
-    if of_pair.initial == Initial::Resolve {
-        return None;
+    if of_pair.initial == Initial::Resolve || of_pair.interference.is_some() {
+        return too_deep(model, pair);
     }
     let node = surface_node(model, pair, overlap.side, overlap.node)?;
     Some(InitialFault::Overlap {
@@ -185,6 +227,31 @@ pub fn fault(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
             Initial::Close(_) => Closing::Made,
             Initial::AsMeshed | Initial::Resolve => Closing::Open,
         },
+    })
+}
+
+/// The fault that no faces of a pair with an interference are near enough to touch.
+fn unseated(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
+    let seating = Reference::new(model, pair)?.at(model, Seating::new);
+    seating.is_empty().then(|| InitialFault::Unseated {
+        pair: model.pairs[pair.0].name.clone(),
+        gap: fit.gap.map_or(fit.distance, |gap| gap.gap),
+    })
+}
+
+/// The fault that an overlap is too deep to be pressed out.
+fn too_deep(model: &Model, pair: PairId) -> Option<InitialFault> {
+    let reference = Reference::new(model, pair)?;
+    let (found, thickness, size) = reference.at(model, offsets::beyond_middle)?;
+    Some(InitialFault::Deep {
+        pair: model.pairs[pair.0].name.clone(),
+        body: other_name(model, pair, found.side.opposite()).to_owned(),
+        node: surface_node(model, pair, found.side, found.node)?,
+        other: other_name(model, pair, found.side).to_owned(),
+        at: found.point,
+        depth: found.depth,
+        thickness,
+        size,
     })
 }
 
@@ -300,41 +367,4 @@ fn is_wholly_behind(model: &Model, pair: PairId) -> bool {
             nearest.is_some_and(|nearest| nearest.standing == Standing::Behind)
         }),
     })
-}
-
-/// Overlaps that are pressed out in the course of the first step.
-///
-/// Contact adds to the gap at a point, before it asks for `g >= 0`,
-///
-/// ```text
-/// left(step, s) o(x),   o = 1/2 (sum N_I^A o_I^A + sum N_J^B o_J^B),   left = 1 - s in the first step
-/// ```
-///
-/// with the interpolation functions of both sides at the pair of points; against a rigid
-/// side, `o = sum N_I^A o_I^A`. So the pair starts without pressure, and from the second
-/// step on nothing of this is left.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Offsets {
-    /// `o_I` of the surface nodes, by side; empty where nothing is resolved.
-    pub sides: [Vec<f64>; 2],
-}
-
-impl Offsets {
-    /// Those of a pair in a step; none after the first one, or unless the pair says that its
-    /// overlaps are resolved.
-    pub fn new(problem: &Problem, step: usize, pair: usize) -> Self {
-        if step > 0 || problem.model.pairs[pair].initial != Initial::Resolve {
-            return Self::default();
-        }
-        let start = State::undeformed(problem);
-        let configuration = configuration(problem, pair, Positions::from(&start));
-        let thickness = thickness(problem, pair, &start.positions);
-        let stage = Stage {
-            configuration: &configuration,
-            thickness: &thickness,
-        };
-        Self {
-            sides: overlaps(&stage),
-        }
-    }
 }

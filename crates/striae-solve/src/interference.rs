@@ -2,7 +2,7 @@
 
 use striae_contact::{
     configuration::Configuration,
-    interference::{Interference, Stage, Thickness, interferences, lengths, resolved_inside},
+    interference::{Interference, Kind, Stage, Thickness, interferences, lengths, resolved_inside},
     pair::ContactPair,
     placement::Placement,
     side::Side,
@@ -49,6 +49,19 @@ pub fn between(
         thickness: &thickness[end],
     });
     interferences(&start, &end, share)
+}
+
+/// What is deeper inside than it is `meant` to be by more than `share` of the facet size, with
+/// the depth beyond that; what has passed through as it is.
+pub fn beyond(found: Vec<Interference>, meant: f64, share: f64) -> Vec<Interference> {
+    let of_one = |found: Interference| {
+        if found.kind != Kind::Inside {
+            return Some(found);
+        }
+        let depth = found.depth - meant;
+        (depth > share * found.size).then_some(Interference { depth, ..found })
+    };
+    found.into_iter().filter_map(of_one).collect()
 }
 
 /// All of a pair that is deeper than `share` of the size of the smaller facets in one state.

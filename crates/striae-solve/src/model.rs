@@ -195,6 +195,8 @@ pub struct Pair {
     pub search_distance: Option<f64>,
     /// What is made of gaps and overlaps of the meshes.
     pub initial: Initial,
+    /// By how much the sides interfere, measured from faces that touch.
+    pub interference: Option<InterferenceFit>,
     /// Whether viscous forces carry bodies that nothing else holds across the gap, see
     /// [`crate::stabilisation`].
     pub stabilised: bool,
@@ -235,6 +237,33 @@ pub enum Initial {
     Close(ClosedGaps),
     /// Overlaps are pressed out in the course of the first step.
     Resolve,
+}
+
+/// An interference between faces that are taken as touching at the start, see
+/// [`striae_contact::seating`].
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct InterferenceFit {
+    /// Overlap of the undeformed bodies at the end of the first step, kept from there on; negative
+    /// for a clearance.
+    pub value: f64,
+    /// How it is approached in the first step.
+    pub curve: Curve,
+}
+
+impl InterferenceFit {
+    /// Interference at the fraction `s` of a step.
+    pub fn at(&self, step: usize, s: f64) -> f64 {
+        self.value * self.curve.at(if step == 0 { s } else { 1.0 })
+    }
+
+    /// The largest overlap on the way.
+    pub fn largest(&self) -> f64 {
+        let most = match &self.curve {
+            Curve::Ramp | Curve::Constant | Curve::Smooth => 1.0,
+            Curve::Table(points) => points.iter().map(|point| point.1).fold(1.0, f64::max),
+        };
+        (most * self.value).max(0.0)
+    }
 }
 
 /// Gaps that are closed.

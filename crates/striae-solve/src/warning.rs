@@ -41,8 +41,8 @@ use striae_mesh::{ElementId, NodeId, Vec3};
 
 use crate::{
     audit::{Doubt, LEAST_SHARE, coarse, doubts},
-    initial::{fits, may_meet, other_name},
-    interference::{Positions, between, within},
+    initial::{fits, may_meet, meant_depth, other_name},
+    interference::{Positions, between, beyond, within},
     model::{Initial, Model, PairId},
     newton::{Acceptance, InStep, Increment, Reach},
     outcome::Ending,
@@ -391,7 +391,10 @@ impl Judgement {
         // gap, so nothing feels it.
         let unfelt = pressure == 0.0;
         let bound = if unfelt { UNFELT } else { SHARE };
-        let inside = within(problem, pair, after.into(), bound);
+        let mut inside = within(problem, pair, after.into(), bound);
+        if !inside.is_empty() {
+            inside = beyond(inside, meant_depth(problem, pair), bound);
+        }
         let depths = inside.iter().map(|found| found.share());
         let deepest = depths.fold(0.0, f64::max);
         self.note(Kind::Penetration, Some(pair), deepest, time);

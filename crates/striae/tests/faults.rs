@@ -103,6 +103,7 @@ fn joined(name: &str, a: ContactSurface, b: ContactSurface, friction: Friction) 
         enforcement: striae::model::Enforcement::Weighted,
         search_distance: None,
         initial: Initial::AsMeshed,
+        interference: None,
         stabilised: false,
     }
 }

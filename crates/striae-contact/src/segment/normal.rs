@@ -15,7 +15,7 @@ use striae_surface::facet::Shape;
 use super::Facet;
 
 /// Unit normal of a facet; `None` if it has no area.
-pub(super) fn facet_normal(facet: &Facet) -> Option<Vec3> {
+pub(crate) fn facet_normal(facet: &Facet) -> Option<Vec3> {
     let [p, q] = spans(facet);
     p.cross(&q).try_normalize(0.0)
 }

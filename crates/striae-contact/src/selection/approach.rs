@@ -5,7 +5,7 @@ use striae_mesh::Vec3;
 use crate::{configuration::Configuration, side::Side};
 
 /// `h/E` of the facets of deformable sides.
-pub(super) fn compliances(configuration: &Configuration) -> [Vec<f64>; 2] {
+pub(crate) fn compliances(configuration: &Configuration) -> [Vec<f64>; 2] {
     Side::BOTH.map(|side| {
         let of_side = &configuration.pair.sides[side];
         let Some(surface) = of_side.surface() else {

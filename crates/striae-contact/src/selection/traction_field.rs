@@ -9,6 +9,7 @@ use crate::{
     directions::SlipFreedom,
     pairing::{PairedFacets, Scope, paired_facets},
     partner::Partner,
+    seating::Fitted,
     segment::SegmentDerivatives,
     side::Side,
     traction_basis::{KeptNode, TractionBasis, Weak},
@@ -33,6 +34,8 @@ pub struct Selection {
     pub offsets: [Vec<f64>; 2],
     /// In which directions friction of the kept nodes is determined; empty where it is in all.
     pub slip_freedoms: Vec<SlipFreedom>,
+    /// Faces that are taken as touching, and how much they interfere.
+    pub fitted: Option<Fitted>,
 }
 
 impl Selection {
@@ -120,12 +123,16 @@ impl Selection {
         self.partners[k]
     }
 
-    /// Shares of the corners of paired facets in what is left of the overlap of the meshes.
+    /// Shares of the corners of paired facets in what is added to their gap: what is left of the
+    /// overlap of the meshes, or an interference.
     pub(crate) fn offsets_at(
         &self,
         configuration: &Configuration,
         paired: &PairedFacets,
     ) -> [f64; 8] {
+        if let Some(fitted) = &self.fitted {
+            return fitted.at_corners(paired);
+        }
         let share = if configuration.pair.is_rigid() {
             1.0
         } else {
@@ -142,8 +149,17 @@ impl Selection {
         self.offsets.iter().flatten().any(|offset| *offset > 0.0)
     }
 
+    /// What is added to the gap at a node along its own normal.
+    pub fn offset_along_normal(&self, side: Side, node: SurfaceNode) -> f64 {
+        let fitted = self.fitted.as_ref();
+        fitted.map_or_else(
+            || self.offset(side, node),
+            |fitted| fitted.at_node(side, node),
+        )
+    }
+
     /// What is left of the overlap of the meshes at a node.
-    pub fn offset(&self, side: Side, node: SurfaceNode) -> f64 {
+    fn offset(&self, side: Side, node: SurfaceNode) -> f64 {
         let offset = self.offsets[side].get(node.index());
         offset.copied().unwrap_or(0.0)
     }

@@ -1,10 +1,12 @@
 //! Contact pairs and friction, ties.
 
-use super::{friction::friction, surfaces::Surfaces, texture};
+use super::{curve::Curves, friction::friction, surfaces::Surfaces, texture};
 use crate::{faults::FaultList, raw, read::At};
 use striae_law::friction::Friction;
 use striae_model::Known;
-use striae_solve::model::{ClosedGaps, ContactSurface, Enforcement, Initial, Pair, RigidId, Tie};
+use striae_solve::model::{
+    ClosedGaps, ContactSurface, Curve, Enforcement, Initial, InterferenceFit, Pair, RigidId, Tie,
+};
 use striae_surface::texture::Paint;
 
 /// A pair as far as it is known.
@@ -19,6 +21,7 @@ pub(super) struct LoweredPair {
 pub(super) fn pairs(
     raw: &[At<raw::Pair>],
     surfaces: &Surfaces<'_>,
+    curves: &Curves,
     faults: &mut FaultList<'_>,
 ) -> Vec<LoweredPair> {
     let lower = |pair: &At<raw::Pair>| {
@@ -32,7 +35,7 @@ pub(super) fn pairs(
         };
         let friction = friction.unwrap_or_else(Friction::frictionless);
         LoweredPair {
-            pair: lower_pair(pair, friction, surfaces, faults),
+            pair: lower_pair(pair, friction, (surfaces, curves), faults),
             known,
         }
     };
@@ -42,10 +45,14 @@ pub(super) fn pairs(
 fn lower_pair(
     raw: &At<raw::Pair>,
     friction: Friction,
-    surfaces: &Surfaces<'_>,
+    (surfaces, curves): (&Surfaces<'_>, &Curves),
     faults: &mut FaultList<'_>,
 ) -> Option<Pair> {
     let pair = &raw.value;
+    let interference = match &pair.interference {
+        Some(stated) => Some(lower_interference(&stated.value, curves, faults)),
+        None => None,
+    };
     let name = pair
         .name
         .as_ref()
@@ -64,6 +71,10 @@ fn lower_pair(
         sides => sides,
     };
     let textures = [texture_a, texture_b];
+    let interference = match interference {
+        Some(stated) => Some(stated?),
+        None => None,
+    };
     Some(Pair {
         name,
         a,
@@ -86,7 +97,28 @@ fn lower_pair(
             .initial
             .as_ref()
             .map_or(Initial::AsMeshed, |initial| lower_initial(&initial.value)),
+        interference,
         stabilised: pair.stabilise.as_ref().is_some_and(|truth| truth.value.0),
+    })
+}
+
+fn lower_interference(
+    raw: &raw::Interference,
+    curves: &Curves,
+    faults: &mut FaultList<'_>,
+) -> Option<InterferenceFit> {
+    Some(match raw {
+        raw::Interference::Value(value) => InterferenceFit {
+            value: value.0,
+            curve: Curve::Ramp,
+        },
+        raw::Interference::Along(along) => {
+            let curve = curves.find(along.curve.as_ref(), faults);
+            InterferenceFit {
+                value: along.value.as_ref()?.value.0,
+                curve: curve?,
+            }
+        }
     })
 }
 

@@ -135,11 +135,11 @@ fn parts(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_>) -> Part
         written: raw,
         base,
     };
-    let pairs = contact::pairs(list(&raw.pair), &surfaces, faults);
+    let curves = curve::Curves::new(list(&raw.curve), faults);
+    let pairs = contact::pairs(list(&raw.pair), &surfaces, &curves, faults);
     let names = list(&raw.tie).iter().map(|at| at.value.name.as_ref());
     Names::new("tie", names, faults);
     let ties = contact::ties(list(&raw.tie), &surfaces, faults);
-    let curves = curve::Curves::new(list(&raw.curve), faults);
     let scope = Scope {
         bodies: &bodies,
         rigid: &rigid_names,

@@ -99,6 +99,7 @@ fn of_pair(pair: &At<raw::Pair>, rest: &[Segment]) -> Span {
     let found = match rest {
         [Field("friction"), ..] => raw.friction.as_ref().map(|at| &at.span),
         [Field("stabilised"), ..] => raw.stabilise.as_ref().map(|at| &at.span),
+        [Field("interference"), ..] => raw.interference.as_ref().map(|at| &at.span),
         [Field("initial"), ..] => raw.name.as_ref().map(|at| &at.span),
         [Field("a"), ..] => rigid_name(raw, 0).map(|at| &at.span),
         [Field("b"), ..] => rigid_name(raw, 1).map(|at| &at.span),

@@ -28,6 +28,8 @@ table! {
         optional search_distance: Positive,
         /// What is made of gaps and overlaps of the meshes before anything has moved: `as-meshed` takes gaps as they are and refuses overlaps of more than 2 % of the local facet size; `close` moves nodes without strain until overlaps are gone, and gaps of up to a tenth of the local facet size or up to the one that is given; `resolve` presses overlaps out in the course of the first step. Default: `as-meshed`.
         optional initial: Initial,
+        /// Interference of a press fit, a length: the two sides are taken as touching at the start where they face each other within the search distance or overlap, whatever the gap between their facets is, and are then pressed apart by this much in the course of the first step. Negative for a clearance. Default: none, gaps are those of the meshes.
+        optional interference: Interference,
         /// Whether viscous forces between the sides carry bodies that nothing else holds across a gap, in steps without inertia. They fall to zero in the course of each step. Default: false.
         optional stabilise: Truth,
     }
@@ -44,6 +46,38 @@ table! {
         required b: DeformableSide,
         /// Distance up to which facets that face each other are tied; others are free. Default: a tenth of the facet size, and facets from there up to half of it apart are a fault.
         optional within: Positive,
+    }
+}
+
+/// The interference of a press fit.
+#[derive(Clone, Debug)]
+pub(crate) enum Interference {
+    /// Reached along a ramp.
+    Value(Number),
+    /// Reached along a curve.
+    Along(InterferenceAlong),
+}
+
+table! {
+    /// An interference along a curve.
+    InterferenceAlong {
+        /// Interference at the end of the first step, kept from there on.
+        required value: Number,
+        /// How it is approached in the first step: `ramp`, `constant`, `smooth` or the name of a curve. Default: `ramp`.
+        optional curve: Text,
+    }
+}
+
+impl Read for Interference {
+    fn read(value: &Value<'_>, place: &Place, faults: &mut FaultList<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::Table(_) => read_table(value, place, faults).map(Self::Along),
+            _ => Number::read(value, place, faults).map(Self::Value),
+        }
+    }
+
+    fn form() -> Form {
+        Form::Any(vec![Number::form(), InterferenceAlong::form()])
     }
 }
 

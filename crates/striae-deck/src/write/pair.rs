@@ -26,12 +26,20 @@ impl Writer<'_> {
             Initial::AsMeshed | Initial::Close(_) => "as-meshed",
             Initial::Resolve => "resolve",
         };
+        let interference = pair
+            .interference
+            .as_ref()
+            .map_or_else(String::new, |stated| {
+                let curve = self.curve(&stated.curve);
+                let value = number(stated.value);
+                format!("interference = {{ value = {value}{curve} }}\n")
+            });
         let search = pair.search_distance.map_or_else(String::new, |distance| {
             format!("search_distance = {}\n", number(distance))
         });
         format!(
             "\n[[pair]]\nname = {}\na = {a}\nb = {b}\nfriction = {friction}\n\
-             enforcement = \"{enforcement}\"\n{search}initial = \"{initial}\"\nstabilise = {}\n",
+             enforcement = \"{enforcement}\"\n{search}initial = \"{initial}\"\n{interference}stabilise = {}\n",
             text(&pair.name),
             pair.stabilised
         )

@@ -1,7 +1,7 @@
 //! Contact pairs.
 
 use striae_law::friction::Friction;
-use striae_solve::model::{ContactSurface, Enforcement, Initial, Pair};
+use striae_solve::model::{ContactSurface, Curve, Enforcement, Initial, InterferenceFit, Pair};
 use striae_surface::texture::Paint;
 
 use super::lookup::Names;
@@ -83,6 +83,7 @@ pub struct PairBuilder {
     enforcement: Enforcement,
     search_distance: Option<f64>,
     initial: Initial,
+    interference: Option<InterferenceFit>,
     stabilised: bool,
 }
 
@@ -95,6 +96,7 @@ pub fn pair(name: impl Into<String>, a: SideBuilder, b: SideBuilder) -> PairBuil
         enforcement: Enforcement::Weighted,
         search_distance: None,
         initial: Initial::AsMeshed,
+        interference: None,
         stabilised: false,
     }
 }
@@ -121,6 +123,13 @@ impl PairBuilder {
     /// What is made of gaps and overlaps of the meshes.
     pub fn initial(mut self, initial: Initial) -> Self {
         self.initial = initial;
+        self
+    }
+
+    /// Interference between faces that are taken as touching at the start, along a curve over the
+    /// first step; negative for a clearance.
+    pub fn interference(mut self, value: f64, curve: Curve) -> Self {
+        self.interference = Some(InterferenceFit { value, curve });
         self
     }
 
@@ -156,6 +165,7 @@ impl PairBuilder {
             enforcement: self.enforcement,
             search_distance: self.search_distance,
             initial: self.initial,
+            interference: self.interference.clone(),
             stabilised: self.stabilised,
         })
     }

@@ -14,6 +14,7 @@ use crate::{
 };
 
 const POSITIVE: &str = "a positive number";
+const FINITE: &str = "a finite number";
 const NOT_NEGATIVE: &str = "a number of at least 0";
 
 /// Every number of a model that is out of its range.
@@ -38,6 +39,7 @@ impl List {
         let holds = found.is_finite()
             && match expected {
                 POSITIVE => found > 0.0,
+                FINITE => true,
                 _ => found >= 0.0,
             };
         if !holds {
@@ -131,6 +133,16 @@ fn of_pair(pair: &Pair, path: &Path, faults: &mut List) {
     if let Initial::Close(ClosedGaps::Share(gap) | ClosedGaps::UpTo(gap)) = pair.initial {
         let what = format!("the gap that pair `{name}` closes");
         faults.range(path.clone().field("initial"), &what, gap, NOT_NEGATIVE);
+    }
+    if let Some(interference) = &pair.interference {
+        let path = path.clone().field("interference");
+        let what = format!("the interference of pair `{name}`");
+        faults.range(path.clone(), &what, interference.value, FINITE);
+        curve(&interference.curve, path.clone(), faults);
+        if pair.initial == Initial::Resolve {
+            let pair = name.clone();
+            faults.push(path, FaultKind::InterferenceResolved { pair });
+        }
     }
     for (side, paint) in pair.textures.iter().enumerate() {
         let path = || path.clone().field("textures").index(side);

@@ -7,6 +7,7 @@ from typing import Literal, Optional, Union
 from . import _check as check
 from . import _striae as native
 from ._body import BodySet
+from ._check import Curve
 from ._errors import refuse
 from ._friction import Friction
 from ._made import Made
@@ -28,6 +29,8 @@ class Pair(Made):
         *,
         name: Optional[str] = None,
         initial: Union[Literal["as-meshed", "close", "resolve"], float] = "as-meshed",
+        interference: Optional[float] = None,
+        curve: Curve = "ramp",
         stabilise: bool = False,
         enforcement: Literal["weighted", "collocated"] = "weighted",
         search_distance: Optional[float] = None,
@@ -40,6 +43,11 @@ class Pair(Made):
         initial: what is made of gaps and overlaps of the meshes: ``as-meshed`` takes gaps as
             they are and refuses overlaps, ``close`` moves nodes without strain, ``resolve``
             presses overlaps out in the first step; a number closes gaps up to it (length).
+        interference: of a press fit (length): the sides are taken as touching at the start
+            where they face each other within the search distance or overlap, whatever the gap
+            between their facets is, and are pressed apart by this much in the first step;
+            negative for a clearance. By default gaps are those of the meshes.
+        curve: how the interference is approached in the first step.
         stabilise: whether viscous forces carry bodies that nothing else holds across a gap,
             in steps without inertia; they fall to zero within the step.
         enforcement: ``weighted``, or ``collocated`` as in the paper, for comparison.
@@ -75,6 +83,9 @@ class Pair(Made):
                 made = made.resolved()
         else:
             made = made.closed(check.positive(initial, "initial"))
+        if interference is not None:
+            value, along = check.number(interference, "interference"), check.curve(curve, "curve")
+            made = made.interfering(value, along)
         if check.word(enforcement, ("weighted", "collocated"), "enforcement") == "collocated":
             made = made.collocated()
         if search_distance is not None:

@@ -3,7 +3,8 @@
 mod dashpots;
 
 use striae_contact::{
-    complementarity::Prescribed, configuration::Configuration, pair::ContactPair, side::Side,
+    complementarity::Prescribed, configuration::Configuration, pair::ContactPair, seating::Fitted,
+    side::Side,
 };
 use striae_mesh::{NodeId, Vec3};
 use striae_surface::node::SurfaceNode;
@@ -42,7 +43,8 @@ pub struct StepContext<'a> {
     /// `fixed` by pair, side and surface node, with nodes that follow only such nodes, or nodes
     /// that touch the same opponent.
     pub fixed_on_pair: Vec<Prescribed>,
-    /// Overlaps of the meshes of every pair that are pressed out in the step.
+    /// What is added to the gaps of every pair: overlaps of the meshes that are pressed out in the
+    /// step, interferences.
     pub offsets: Vec<Offsets>,
     /// Coefficient of stabilisation of every pair, see [`crate::stabilisation`].
     pub stabilisation: Vec<f64>,
@@ -131,6 +133,14 @@ impl<'a> StepContext<'a> {
                 .collect(),
             fixed,
         };
+        let stated = problem
+            .model
+            .pairs
+            .iter()
+            .map(|of| of.interference.as_ref());
+        let offsets = context.offsets.iter().zip(stated);
+        let depths: Vec<f64> = offsets.map(|(of, stated)| of.search(stated)).collect();
+        context = context.looking(&depths);
         let pairs = 0..problem.pairs.len();
         context.stabilisation = pairs.map(|pair| coefficient(&context, pair)).collect();
         context
@@ -152,6 +162,12 @@ impl<'a> StepContext<'a> {
     pub fn offsets_left(&self, pair: usize, s: f64) -> [Vec<f64>; 2] {
         let sides = self.offsets[pair].sides.each_ref();
         sides.map(|side| side.iter().map(|overlap| (1.0 - s) * overlap).collect())
+    }
+
+    /// The faces of a pair that interfere, at the fraction `s` of the step.
+    pub fn fitted(&self, pair: usize, s: f64) -> Option<Fitted> {
+        let stated = self.problem.model.pairs[pair].interference.as_ref()?;
+        self.offsets[pair].fitted(stated.at(self.index, s))
     }
 
     /// What is imposed at the fraction `s` of the step, at `time`, after `state`.

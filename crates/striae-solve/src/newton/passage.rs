@@ -23,8 +23,8 @@ use striae_surface::{node::SurfaceNode, topology::distinct_corners};
 
 use crate::{
     assembly::{Setting, Trial},
-    initial::other_name,
-    interference::{Positions, between},
+    initial::{meant_depth, other_name},
+    interference::{Positions, between, beyond},
     model::PairId,
     outcome::{CutBack, Start},
     skin::{BodyOverlap, overlaps},
@@ -56,7 +56,12 @@ pub(super) fn passage(
 
 fn found(setting: &Setting, trial: &Trial, pair: usize) -> Vec<Interference> {
     let [start, end] = ends(setting, trial);
-    between(setting.context.problem, pair, start, end, SHARE)
+    let problem = setting.context.problem;
+    let found = between(problem, pair, start, end, SHARE);
+    if found.is_empty() {
+        return found;
+    }
+    beyond(found, meant_depth(problem, pair), SHARE)
 }
 
 /// Where everything is at the start of the increment and in the trial state.

@@ -44,6 +44,7 @@ fn without_freedoms(context: &StepContext, state: &State, s: f64) -> Selected {
             let mut tractions = of_pair.tractions.clone();
             let selection = Selection {
                 offsets: context.offsets_left(pair, s),
+                fitted: context.fitted(pair, s),
                 ..Selection::new(&start, None, &of_pair.kept, &context.fixed_on_pair[pair])
             };
             tractions.tau_n = of_pair
@@ -99,6 +100,7 @@ pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluatio
             let prescribed = &setting.context.fixed_on_pair[pair];
             let selection = Selection {
                 offsets: had.offsets.clone(),
+                fitted: had.fitted.clone(),
                 ..Selection::new(&start, Some(&latest), &kept, prescribed)
             };
             let mut tractions = trial.tractions[pair].clone();

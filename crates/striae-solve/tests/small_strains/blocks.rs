@@ -145,6 +145,7 @@ pub fn model(case: &Case, depth: f64) -> Model {
         enforcement: Enforcement::Weighted,
         search_distance: None,
         initial: Initial::AsMeshed,
+        interference: None,
         stabilised: false,
     };
     let hold = |body: usize, set: &str, target: Vec3| Displacement {

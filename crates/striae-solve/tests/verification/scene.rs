@@ -349,6 +349,7 @@ fn pair(name: &str, a: ContactSurface, b: ContactSurface, friction: Friction) ->
         enforcement: Enforcement::Weighted,
         search_distance: None,
         initial: Initial::AsMeshed,
+        interference: None,
         stabilised: false,
     }
 }

@@ -103,6 +103,7 @@ fn whole(bodies: [&Body; 2]) -> Pair {
         enforcement: Enforcement::default(),
         search_distance: None,
         initial: Initial::AsMeshed,
+        interference: None,
         stabilised: false,
     }
 }

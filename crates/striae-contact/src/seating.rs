@@ -1,0 +1,265 @@
+//! Faces that are taken as touching at the start, whatever the gap between their facets is.
+//!
+//! Facets are chords of a curved surface, so that the gap between two of them changes along them
+//! by the sagitta `h^2/(8R)`, which may be larger than the interference of a press fit. A *seating*
+//! knows the gap `g_0` of the meshes at the points of facets that face each other at the start,
+//! and contact sees
+//!
+//! ```text
+//! g - g_0 - i,   g_0 = n_0 . (X_b - X_a)
+//! ```
+//!
+//! with the interference `i`, the positions `X` at the start of the two points that face each
+//! other now, and the normal `n_0` of their two facets at the start. At the start that is `-i` at
+//! every point, whatever facets cover each other. It is linear in the corners, so that in an
+//! increment it is a constant at each of them.
+//!
+//! Facets are seated if the other side faces them at the start, at a gap up to the reach of the
+//! pair or at any overlap. Where two facets meet that were further apart along the surface than
+//! their size, the mean gaps of both at the start count instead, as `n_0` knows nothing of the
+//! surface between them. Facets beside the edge of the other side take the value of what they
+//! meet; others keep their gaps, and know no interference.
+
+use std::sync::Arc;
+
+use striae_mesh::{FacetId, Vec3};
+use striae_surface::{facet::Shape, node::SurfaceNode};
+
+use crate::{
+    configuration::Configuration,
+    initial::overlaps,
+    interference::{Stage, Standing, nearest_of},
+    pairing::{PairedFacets, SIGNS, Scope, paired_facets},
+    segment::{FACING, Facet, SegmentDerivatives, facet_normal, normal_between},
+    selection::compliances,
+    side::Side,
+};
+
+/// Depth in which facets are paired over the deepest overlap of nodes: along the normal of two
+/// facets overlaps are longer than the nearest distances that are measured.
+pub const AHEAD: f64 = 1.25;
+
+/// What a facet met at the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Met {
+    /// The other side, at this mean gap.
+    Facing(f64),
+    /// Nothing, as it lies beside the edge of the other side.
+    Beside,
+    /// Nothing that is near enough.
+    Apart,
+}
+
+/// The faces of a pair that are taken as touching.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Seating {
+    /// Positions of the surface nodes at the start, by side; empty for a plane.
+    x: [Vec<Vec3>; 2],
+    /// The plane at the start that side `b` is, if it is one.
+    plane: Option<(Vec3, Vec3)>,
+    compliances: [Vec<f64>; 2],
+    met: [Vec<Met>; 2],
+    /// Gaps at the nodes along their own normals, for collocated rows.
+    gaps: [Vec<Option<f64>>; 2],
+    /// The largest gap or overlap of facets that are seated.
+    largest: f64,
+}
+
+/// A seating and how much the faces interfere.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fitted {
+    /// What touches.
+    pub seating: Arc<Seating>,
+    /// Interference `i`; negative for a clearance.
+    pub interference: f64,
+}
+
+impl Seating {
+    /// That of the configuration at the start.
+    pub fn new(stage: &Stage) -> Self {
+        let start = stage.configuration;
+        let compliances = compliances(start);
+        let deepest = overlaps(stage)
+            .iter()
+            .flatten()
+            .copied()
+            .fold(0.0, f64::max);
+        let scope = Scope {
+            compliances: &compliances,
+            depth: AHEAD * deepest,
+        };
+        let none = |_: &[_]| SegmentDerivatives::None;
+        let paired = paired_facets(start, scope, &none, |_| true);
+        let mut sums = start.sides.each_ref().map(|side| {
+            let count = side.as_ref().map_or(0, |side| side.surface.facets().len());
+            vec![[0.0; 2]; count]
+        });
+        let mut largest = 0.0_f64;
+        for paired in &paired {
+            let gap = paired.mean_gap(start);
+            if gap > paired.reach {
+                continue;
+            }
+            largest = largest.max(gap.abs());
+            for (sums, facet) in sums.iter_mut().zip(paired.facets) {
+                if let Some(facet) = facet {
+                    let [area, sum] = &mut sums[facet.index()];
+                    *area += paired.segment.area;
+                    *sum += paired.segment.area * gap;
+                }
+            }
+        }
+        let met = Side::BOTH.map(|side| {
+            let facets = sums[side].iter().enumerate();
+            let met = facets.map(|(facet, [area, sum])| match *area > 0.0 {
+                true => Met::Facing(sum / area),
+                false => unmet(start, side, FacetId::new(facet)),
+            });
+            met.collect()
+        });
+        let gaps = Side::BOTH.map(|side| match start.pair.is_deformable(side) {
+            true => nodal_gaps(start, side, AHEAD * deepest),
+            false => Vec::new(),
+        });
+        Self {
+            x: start.sides.each_ref().map(|side| {
+                let x = side.as_ref().map(|side| side.x.clone());
+                x.unwrap_or_default()
+            }),
+            plane: start.plane(),
+            compliances,
+            met,
+            gaps,
+            largest,
+        }
+    }
+
+    /// Whether any facets are seated.
+    pub fn is_empty(&self) -> bool {
+        let mut all = self.met.iter().flatten();
+        !all.any(|met| matches!(met, Met::Facing(_)))
+    }
+
+    /// The largest gap or overlap of the meshes where facets are seated.
+    pub fn largest(&self) -> f64 {
+        self.largest
+    }
+
+    /// `g_0` of two facets in shares of their corners that sum up to the one at a point; `None`
+    /// where they are not seated.
+    fn gap_of(&self, paired: &PairedFacets) -> Option<[f64; 8]> {
+        let met = |side: Side| {
+            let facet = paired.facets[side]?;
+            Some(self.met[side][facet.index()])
+        };
+        let mean = match (met(Side::A)?, met(Side::B)) {
+            (Met::Facing(gap), None | Some(Met::Beside))
+            | (Met::Beside, Some(Met::Facing(gap))) => gap,
+            (Met::Facing(a), Some(Met::Facing(b))) => 0.5 * (a + b),
+            _ => return None,
+        };
+        let constant = || std::array::from_fn(|d| if d < 4 { mean } else { 0.0 });
+        Some(self.heights(paired).unwrap_or_else(constant))
+    }
+
+    /// Heights of the corners at the start along the normal of two facets, with the sign of their
+    /// side in the gap; `None` where the facets did not face each other or were far apart.
+    fn heights(&self, paired: &PairedFacets) -> Option<[f64; 8]> {
+        let facet = |side: Side| Facet {
+            corners: paired.corners[side].map(|node| self.x[side][node]),
+            shape: Shape::of(&paired.corners[side]),
+        };
+        let a = facet(Side::A);
+        let (n, origin, b) = match self.plane {
+            Some((point, normal)) => (-normal, point, None),
+            None => {
+                let b = facet(Side::B);
+                if facet_normal(&a)?.dot(&facet_normal(&b)?) > FACING {
+                    return None;
+                }
+                let weights = Side::BOTH.map(|side| {
+                    let facet = paired.facets[side];
+                    facet.map_or(0.0, |facet| self.compliances[side][facet.index()])
+                });
+                let n = normal_between(&a, &b, weights)?;
+                let way = middle(&b) - middle(&a);
+                let along = (way - n * n.dot(&way)).norm();
+                if along > size(&a) + size(&b) {
+                    return None;
+                }
+                (n, a.corners[0], Some(b))
+            }
+        };
+        Some(std::array::from_fn(|d| match (&b, d) {
+            (_, 0..4) => SIGNS[d] * n.dot(&(a.corners[d] - origin)),
+            (Some(b), _) => SIGNS[d] * n.dot(&(b.corners[d - 4] - origin)),
+            (None, _) => 0.0,
+        }))
+    }
+}
+
+impl Fitted {
+    /// What is added to the gap, in shares of the corners of two facets that sum up to the one at
+    /// a point.
+    pub(crate) fn at_corners(&self, paired: &PairedFacets) -> [f64; 8] {
+        let Some(gap) = self.seating.gap_of(paired) else {
+            return [0.0; 8];
+        };
+        std::array::from_fn(|d| match d {
+            0..4 => -gap[d] - self.interference,
+            _ => -gap[d],
+        })
+    }
+
+    /// What is added to the gap at a node along its own normal.
+    pub(crate) fn at_node(&self, side: Side, node: SurfaceNode) -> f64 {
+        let gap = self.seating.gaps[side].get(node.index()).copied().flatten();
+        gap.map_or(0.0, |gap| -gap - self.interference)
+    }
+}
+
+/// What a facet that faces nothing near lies at.
+fn unmet(start: &Configuration, side: Side, facet: FacetId) -> Met {
+    if start.plane().is_some() {
+        return Met::Apart;
+    }
+    let snapshot = start.side(side);
+    let corners = snapshot.corners(facet);
+    let centre = middle(&Facet {
+        corners: snapshot.corner_positions(facet),
+        shape: Shape::of(&corners),
+    });
+    let nearest = nearest_of(start.side(side.opposite()), &centre);
+    match nearest.map(|nearest| nearest.standing) {
+        Some(Standing::Beside) => Met::Beside,
+        _ => Met::Apart,
+    }
+}
+
+/// Gaps at nodes that are at most their reach open.
+fn nodal_gaps(start: &Configuration, side: Side, depth: f64) -> Vec<Option<f64>> {
+    let snapshot = start.side(side);
+    let nodes = SurfaceNode::all(snapshot.x.len());
+    nodes
+        .map(|node| {
+            let reach = start.reach(side, node);
+            let (contact, _) = start.opposite(side, node)?;
+            (contact.gap <= reach && contact.gap >= -reach - depth).then_some(contact.gap)
+        })
+        .collect()
+}
+
+fn middle(facet: &Facet) -> Vec3 {
+    let count = match facet.shape {
+        Shape::Triangle => 3,
+        Shape::Quadrilateral => 4,
+    };
+    facet.corners[..count].iter().sum::<Vec3>() / count as f64
+}
+
+/// Distance between the corners of a facet that are farthest apart, about.
+fn size(facet: &Facet) -> f64 {
+    let middle = middle(facet);
+    let distances = facet.corners.iter().map(|x| (x - middle).norm());
+    2.0 * distances.fold(0.0, f64::max)
+}

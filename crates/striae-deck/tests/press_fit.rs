@@ -1,0 +1,158 @@
+//! Interferences measured from faces that touch.
+
+mod driven;
+
+use std::{f64::consts::PI, path::Path};
+
+use driven::last;
+use striae_contact::side::Side;
+use striae_deck::parse;
+use striae_solve::report::pairs;
+
+/// A solid shaft of radius 0.5 drawn with a radius of its own in a hub of twice the radius, in
+/// plane stress. `around` are the facets of the shaft, over 8, and those of the hub.
+fn shaft_in_hub(radius: f64, around: [usize; 2], keys: &str) -> String {
+    let [shaft, hub] = around;
+    let rings = shaft;
+    format!(
+        r#"
+title = "Shaft in a hub"
+[[material]]
+name = "steel"
+law = "neo-hookean"
+youngs_modulus = 2e5
+poissons_ratio = 0.3
+[[body]]
+name = "shaft"
+material = "steel"
+mesh = {{ generator = "cylinder", radius = {radius}, height = 0.2, divisions = [{shaft}, {rings}, 1] }}
+node_sets = [{{ name = "y0", from = [-9, -1e-6, -9], to = [9, 1e-6, 9] }}, {{ name = "x0", from = [-1e-6, -9, -9], to = [1e-6, 9, 9] }}]
+[[body]]
+name = "hub"
+material = "steel"
+mesh = {{ generator = "annulus", centre = [0, 0, 0.1], axis = [0, 0, 1], inner_radius = 0.5, outer_radius = 1, width = 0.2, divisions = [5, {hub}, 1] }}
+node_sets = [{{ name = "y0", from = [-9, -1e-6, -9], to = [9, 1e-6, 9] }}, {{ name = "x0", from = [-1e-6, -9, -9], to = [1e-6, 9, 9] }}]
+[[pair]]
+name = "fit"
+a = {{ body = "hub", facets = "rim" }}
+b = {{ body = "shaft", facets = "side" }}
+{keys}
+[[curve]]
+name = "beyond"
+points = [[0, 0], [0.5, 1.2], [1, 1]]
+[[step]]
+name = "fit"
+increments = 2
+displacement = [
+    {{ body = "shaft", nodes = "y0", y = 0 }},
+    {{ body = "shaft", nodes = "x0", x = 0 }},
+    {{ body = "shaft", nodes = "zmin", z = 0 }},
+    {{ body = "hub", nodes = "y0", y = 0 }},
+    {{ body = "hub", nodes = "x0", x = 0 }},
+    {{ body = "hub", nodes = "ymin", z = 0 }},
+]
+[[step]]
+name = "rest"
+increments = 1
+"#
+    )
+}
+
+const INTERFERENCE: f64 = 0.000_666_67;
+
+/// Lame: with the radii `r` and `2r` and `E`, `nu` of both, the pressure of an interference `i`
+/// is `p = E i/r / (1 - nu + 5/3 + nu)`.
+fn lame() -> f64 {
+    2e5 * INTERFERENCE / 0.5 / (1.0 + 5.0 / 3.0)
+}
+
+fn pressure(text: &str) -> f64 {
+    let (problem, state) = last(text);
+    pairs(&problem, &state)[0].sides[Side::A].pressure / (2.0 * PI * 0.5 * 0.2)
+}
+
+/// Within 2 %, whether nodes face nodes or not, and whether the shaft is drawn with a gap, as
+/// touching or with its interference; facets turn by a quarter of a facet at the most.
+#[test]
+fn pressure_is_that_of_lame_whatever_the_meshes() {
+    for enforcement in ["weighted", "collocated"] {
+        let keys = format!("interference = {INTERFERENCE}\nenforcement = \"{enforcement}\"");
+        for around in [[4, 32], [4, 40], [8, 64]] {
+            for radius in [0.499, 0.5, 0.5 + INTERFERENCE] {
+                let found = pressure(&shaft_in_hub(radius, around, &keys));
+                let error = found / lame() - 1.0;
+                assert!(
+                    error.abs() < 0.02,
+                    "{enforcement} {around:?} {radius} {error}"
+                );
+            }
+        }
+    }
+}
+
+/// What counts after the first step is the end of the curve, not its way.
+#[test]
+fn interference_follows_its_curve_and_stays() {
+    let straight = format!("interference = {INTERFERENCE}");
+    let curved = format!("interference = {{ value = {INTERFERENCE}, curve = \"beyond\" }}");
+    let [straight, curved] =
+        [straight, curved].map(|keys| pressure(&shaft_in_hub(0.5, [4, 40], &keys)));
+    assert!(
+        (curved / straight - 1.0).abs() < 1e-6,
+        "{straight} {curved}"
+    );
+}
+
+/// A clearance leaves the sides apart, even where their meshes overlap.
+#[test]
+fn clearance_is_felt_as_one() {
+    let keys = "interference = -1e-4";
+    assert!(pressure(&shaft_in_hub(0.5 + INTERFERENCE, [4, 40], keys)).abs() < 1e-9);
+}
+
+/// One block on a plane, drawn with a gap that is within the search distance, or beyond it.
+#[test]
+fn gaps_within_the_search_distance_count_as_closed() {
+    let deck = |gap: f64, keys: &str| {
+        format!(
+            r#"
+title = "Block on a plane"
+[[material]]
+name = "m"
+law = "linear-elastic"
+youngs_modulus = 1e6
+poissons_ratio = 0
+[[body]]
+name = "block"
+material = "m"
+mesh = {{ generator = "block", origin = [0, 0, {gap}], size = [1, 1, 1], divisions = [2, 2, 2] }}
+[[rigid]]
+name = "floor"
+plane = {{ point = [0, 0, 0], normal = [0, 0, 1] }}
+[[pair]]
+name = "c"
+a = {{ body = "block", facets = "zmin" }}
+b = {{ rigid = "floor" }}
+{keys}
+[[step]]
+name = "press"
+increments = 2
+displacement = [{{ body = "block", nodes = "zmax", x = 0, y = 0, z = 0 }}]
+"#
+        )
+    };
+    for (gap, search) in [(0.2, ""), (0.4, "search_distance = 0.5"), (-0.3, "")] {
+        let (problem, state) = last(&deck(gap, &format!("interference = 0.01\n{search}")));
+        let force = pairs(&problem, &state)[0].sides[Side::A].force.z;
+        assert!((force / 1e4 - 1.0).abs() < 1e-6, "{gap} {force}");
+    }
+    let refused = |gap: f64, keys: &str| {
+        let faults = parse(&deck(gap, keys), "deck.toml", Path::new(""));
+        faults.unwrap_err().to_string()
+    };
+    let said = refused(0.4, "interference = 0.01");
+    assert!(said.contains("smallest gap is 4.000e-1"), "{said}");
+    assert!(said.contains("Set `search_distance`"), "{said}");
+    let said = refused(-0.1, "interference = 0.01\ninitial = \"resolve\"");
+    assert!(said.contains("Leave one of them out"), "{said}");
+}

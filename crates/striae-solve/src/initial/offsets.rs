@@ -1,0 +1,130 @@
+//! Overlaps that are pressed out in the course of the first step.
+//!
+//! Contact adds to the gap at a point, before it asks for `g >= 0`,
+//!
+//! ```text
+//! left(step, s) o(x),   o = 1/2 (sum N_I^A o_I^A + sum N_J^B o_J^B),   left = 1 - s in the first step
+//! ```
+//!
+//! with the interpolation functions of both sides at the pair of points; against a rigid
+//! side, `o = sum N_I^A o_I^A`. So the pair starts without pressure, and from the second
+//! step on nothing of this is left.
+//!
+//! An interference is added to the gap as long as the run lasts, see
+//! [`striae_contact::seating`].
+//!
+//! Facets are paired up to a distance only, so in the first step contact is looked for as
+//! deep as the deepest overlap at least. An overlap of more than half the thickness of the body
+//! is refused: its other side is nearer, so that it would be pressed out there as well.
+
+use std::sync::Arc;
+
+use striae_contact::{
+    initial::overlaps,
+    interference::{Interference, Place, Stage, inside},
+    seating::{AHEAD, Fitted, Seating},
+};
+
+use super::LARGEST_OVERLAP;
+use crate::{
+    interference::{Positions, configuration, thickness},
+    model::{Initial, InterferenceFit},
+    problem::Problem,
+    state::State,
+};
+
+/// Overlap over the thickness of the body beyond which its other side is nearer.
+const HALF: f64 = 0.5;
+
+/// What is added to the gaps of a pair in a step.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Offsets {
+    /// `o_I` of the surface nodes, by side; empty where nothing is resolved.
+    pub sides: [Vec<f64>; 2],
+    seating: Option<Arc<Seating>>,
+    /// Half the largest facet size.
+    reach: f64,
+}
+
+impl Offsets {
+    /// Those of a pair in a step; none after the first one, or unless the pair says that its
+    /// overlaps are resolved.
+    pub fn new(problem: &Problem, step: usize, pair: usize) -> Self {
+        let of_pair = &problem.model.pairs[pair];
+        let resolves = step == 0 && of_pair.initial == Initial::Resolve;
+        if !resolves && of_pair.interference.is_none() {
+            return Self::default();
+        }
+        let start = State::undeformed(problem);
+        let configuration = configuration(problem, pair, Positions::from(&start));
+        let thickness = thickness(problem, pair, &start.positions);
+        let stage = Stage {
+            configuration: &configuration,
+            thickness: &thickness,
+        };
+        if of_pair.interference.is_some() {
+            let sides = configuration.sides.iter().flatten();
+            let sizes = sides.map(|side| side.largest_size);
+            return Self {
+                seating: Some(Arc::new(Seating::new(&stage))),
+                reach: 0.5 * sizes.fold(0.0, f64::max),
+                ..Self::default()
+            };
+        }
+        Self {
+            sides: overlaps(&stage),
+            ..Self::default()
+        }
+    }
+
+    /// Distance in which contact has to be looked for to see all of them.
+    pub fn search(&self, interference: Option<&InterferenceFit>) -> f64 {
+        if let (Some(seating), Some(interference)) = (&self.seating, interference) {
+            let beyond = seating.largest() + interference.largest();
+            return AHEAD * beyond + self.reach;
+        }
+        let all = self.sides.iter().flatten().copied();
+        AHEAD * all.fold(0.0, f64::max)
+    }
+
+    /// The faces that touch at the start with an interference.
+    pub fn fitted(&self, interference: f64) -> Option<Fitted> {
+        let seating = self.seating.clone()?;
+        Some(Fitted {
+            seating,
+            interference,
+        })
+    }
+}
+
+/// Depth in which faces of a pair are that interfere as they are meant to: the deepest overlap of
+/// their meshes and the interference; zero for other pairs.
+pub fn meant_depth(problem: &Problem, pair: usize) -> f64 {
+    let Some(interference) = &problem.model.pairs[pair].interference else {
+        return 0.0;
+    };
+    let start = State::undeformed(problem);
+    let stage = Stage {
+        configuration: &configuration(problem, pair, Positions::from(&start)),
+        thickness: &thickness(problem, pair, &start.positions),
+    };
+    let drawn = inside(&stage, 0.0).into_iter().map(|found| found.depth);
+    drawn.fold(0.0, f64::max) + interference.largest()
+}
+
+/// The deepest overlap over the thickness of the body, if it is more than half of it, with that
+/// thickness and the local facet size.
+pub(super) fn beyond_middle(stage: &Stage) -> Option<(Interference, f64, f64)> {
+    let found = inside(stage, LARGEST_OVERLAP).into_iter();
+    let thick = found.filter_map(|found| {
+        let Place::Facet(facet) = found.place else {
+            return None;
+        };
+        let thickness = stage.thickness.0[found.side.opposite()][facet.index()];
+        (found.depth > HALF * thickness).then_some((found, thickness))
+    });
+    let share = |(found, thickness): &(Interference, f64)| found.depth / thickness;
+    let (found, thickness) = thick.max_by(|a, b| share(a).total_cmp(&share(b)))?;
+    let size = stage.configuration.side(found.side).sizes[found.node];
+    Some((found, thickness, size))
+}
