@@ -25,9 +25,11 @@
 //! Null vectors of a mass matrix fade by .27 from node to node: columns further than
 //! [`REACH`] couplings from a contested one bear on nothing.
 
-use std::collections::{BTreeMap, BTreeSet};
+mod gram;
 
-use nalgebra::{DMatrix, DVector, Matrix2, SymmetricEigen, Vector2};
+use std::collections::BTreeMap;
+
+use nalgebra::{Matrix2, SymmetricEigen, Vector2};
 use striae_mesh::Vec3;
 use striae_surface::node::SurfaceNode;
 
@@ -38,36 +40,17 @@ use crate::{
     segment::SegmentDerivatives,
     selection::Selection,
     side::Side,
+    slip_freedom::SlipFreedom,
     transported::Transported,
 };
+use gram::{Column, Gram, Node, combination, product};
 
 /// Eigenvalue from which a direction is determined, in the scale of pivots.
 const DETERMINED: f64 = 1e-4;
 /// Part of its free eigenvalue that a direction has where nothing disturbs it.
 const UNDISTURBED: f64 = 1.0 - 1e-6;
-/// Difference of eigenvalues below which the first of two nodes goes first, over them.
-const EQUAL: f64 = 1e-9;
 /// Gap up to which a node touches, over the size of its segments.
 const TOUCHING: f64 = 1e-6;
-/// Couplings from contested columns to the last ones that count.
-const REACH: usize = 2;
-/// Coupling below which two columns are at right angles, over their lengths.
-const APART: f64 = 1e-12;
-/// What is added to the diagonal of what is eliminated first, where pressures depend on each
-/// other, over its largest entry.
-const DEPENDENT: f64 = 1e-10;
-
-/// In which directions friction of a kept node is determined.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum SlipFreedom {
-    /// In all.
-    #[default]
-    Plane,
-    /// Along a unit vector, by its components along the tangents, and back.
-    Line([f64; 2]),
-    /// In none.
-    Held,
-}
 
 /// A position that contact moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -135,9 +118,6 @@ fn disturbed(parties: &[Party]) -> Option<BTreeMap<u32, bool>> {
     let has_friction = parties.iter().any(|party| party.has_friction);
     (has_friction && !disturbed.is_empty()).then_some(disturbed)
 }
-
-/// How an unknown moves nodes, by their numbers.
-type Column = BTreeMap<u32, Vec3>;
 
 /// What the unknowns of a kept node do: pressure, then friction along both tangents.
 #[derive(Clone, Default)]
@@ -223,15 +203,6 @@ fn kappa(configuration: &Configuration, side: Side, node: SurfaceNode) -> f64 {
     (configuration.pair.sides[side].stiffness * configuration.size(side, node)).recip()
 }
 
-/// A kept node in the contest.
-struct Node {
-    is_closed: bool,
-    /// Directions that are kept.
-    kept: Vec<Vector2<f64>>,
-    /// Directions that are contested, and their columns.
-    contested: Vec<(Vector2<f64>, u32)>,
-}
-
 impl Node {
     fn new(
         actions: &Actions,
@@ -292,169 +263,4 @@ impl Node {
         }
         node
     }
-
-    fn freedom(&self) -> SlipFreedom {
-        match self.kept.as_slice() {
-            [] => SlipFreedom::Held,
-            [direction] => SlipFreedom::Line([direction.x, direction.y]),
-            _ => SlipFreedom::Plane,
-        }
-    }
-}
-
-fn product(a: &Column, b: &Column) -> f64 {
-    let common = a
-        .iter()
-        .filter_map(|(number, a)| Some(a.dot(b.get(number)?)));
-    common.sum()
-}
-
-fn combination(columns: &[Column; 2], by: &Vector2<f64>) -> Column {
-    let mut sum = Column::new();
-    for (column, by) in columns.iter().zip(by.iter()) {
-        for (number, value) in column {
-            *sum.entry(*number).or_insert_with(Vec3::zeros) += value * *by;
-        }
-    }
-    sum
-}
-
-/// Columns and their products.
-#[derive(Default)]
-struct Gram {
-    columns: Vec<Column>,
-    /// Whether a column is eliminated before the contest.
-    first: Vec<bool>,
-}
-
-impl Gram {
-    fn push(&mut self, column: Column, first: bool) {
-        self.columns.push(column);
-        self.first.push(first);
-    }
-
-    /// Decides which contested directions are kept.
-    fn contest(&self, nodes: &mut [Node]) {
-        let contested: Vec<u32> = nodes
-            .iter()
-            .flat_map(|node| node.contested.iter().map(|(_, column)| *column))
-            .collect();
-        if contested.is_empty() {
-            return;
-        }
-        let mut remainder = self.remainder(&contested);
-        let place: BTreeMap<u32, usize> = contested.iter().copied().zip(0..).collect();
-        for closed in [true, false] {
-            let of_part = |node: &&mut Node| node.is_closed == closed && !node.contested.is_empty();
-            let mut left: Vec<&mut Node> = nodes.iter_mut().filter(of_part).collect();
-            while let Some((at, direction)) = largest(&left, &remainder, &place) {
-                let node = &mut left[at];
-                eliminate(&mut remainder, node, &direction, &place);
-                let kept = node
-                    .contested
-                    .iter()
-                    .zip(direction.iter())
-                    .map(|((along, _), by)| along * *by)
-                    .sum();
-                node.kept.push(kept);
-            }
-        }
-    }
-
-    /// Products of the contested columns after elimination of the first ones near them.
-    fn remainder(&self, contested: &[u32]) -> DMatrix<f64> {
-        let mut users: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
-        for (at, column) in self
-            .columns
-            .iter()
-            .enumerate()
-            .filter(|(at, _)| self.first[*at])
-        {
-            for number in column.keys() {
-                users.entry(*number).or_default().push(at as u32);
-            }
-        }
-        let mut near = BTreeSet::new();
-        let mut rim: Vec<u32> = contested.to_vec();
-        for _ in 0..REACH {
-            let mut found = BTreeSet::new();
-            for &at in &rim {
-                let of = |number: &u32| users.get(number).into_iter().flatten().copied();
-                let candidates: BTreeSet<u32> =
-                    self.columns[at as usize].keys().flat_map(of).collect();
-                found.extend(candidates.into_iter().filter(|&other| {
-                    !near.contains(&other) && self.product(at, other).abs() > APART
-                }));
-            }
-            near.extend(found.iter().copied());
-            rim = found.into_iter().collect();
-        }
-        let near: Vec<u32> = near.into_iter().collect();
-        let between = |rows: &[u32], columns: &[u32]| {
-            DMatrix::from_fn(rows.len(), columns.len(), |i, j| {
-                self.product(rows[i], columns[j])
-            })
-        };
-        let own = between(contested, contested);
-        let mut eliminated = between(&near, &near);
-        let shift = DEPENDENT * eliminated.diagonal().iter().copied().fold(0.0, f64::max);
-        (0..near.len()).for_each(|at| eliminated[(at, at)] += shift);
-        match eliminated.cholesky() {
-            Some(factor) if !near.is_empty() => {
-                let solved = factor
-                    .l_dirty()
-                    .solve_lower_triangular(&between(&near, contested))
-                    .unwrap_or_else(|| DMatrix::zeros(near.len(), contested.len()));
-                own - solved.tr_mul(&solved)
-            }
-            Some(_) | None => own,
-        }
-    }
-
-    fn product(&self, a: u32, b: u32) -> f64 {
-        product(&self.columns[a as usize], &self.columns[b as usize])
-    }
-}
-
-/// The node with the largest eigenvalue of its remainder, if that determines anything, and the
-/// eigenvector by its contested directions.
-fn largest(
-    nodes: &[&mut Node],
-    remainder: &DMatrix<f64>,
-    place: &BTreeMap<u32, usize>,
-) -> Option<(usize, DVector<f64>)> {
-    let mut best: Option<(f64, usize, DVector<f64>)> = None;
-    for (at, node) in nodes.iter().enumerate() {
-        let rows: Vec<usize> = node
-            .contested
-            .iter()
-            .map(|(_, column)| place[column])
-            .collect();
-        let block = DMatrix::from_fn(rows.len(), rows.len(), |i, j| remainder[(rows[i], rows[j])]);
-        let eigen = SymmetricEigen::new(block);
-        let (most, value) = eigen.eigenvalues.argmax();
-        let threshold = best
-            .as_ref()
-            .map_or(DETERMINED, |best| best.0 * (1.0 + EQUAL));
-        if value >= threshold {
-            best = Some((value, at, eigen.eigenvectors.column(most).into()));
-        }
-    }
-    best.map(|(_, at, direction)| (at, direction))
-}
-
-/// Takes a direction of a node out of the remainder.
-fn eliminate(
-    remainder: &mut DMatrix<f64>,
-    node: &Node,
-    direction: &DVector<f64>,
-    place: &BTreeMap<u32, usize>,
-) {
-    let mut column = DVector::zeros(remainder.nrows());
-    for ((_, at), by) in node.contested.iter().zip(direction.iter()) {
-        column += remainder.column(place[at]) * *by;
-    }
-    let rows = node.contested.iter().zip(direction.iter());
-    let pivot: f64 = rows.map(|((_, at), by)| by * column[place[at]]).sum();
-    remainder.ger(-1.0 / pivot, &column, &column, 1.0);
 }

@@ -61,6 +61,7 @@ pub mod seating;
 pub mod segment;
 pub mod selection;
 pub mod side;
+pub mod slip_freedom;
 pub mod table_1;
 pub mod term;
 pub mod texture;

@@ -115,6 +115,27 @@ impl PairedFacets {
     }
 }
 
+/// `h/E` of the facets of deformable sides.
+pub(crate) fn compliances(configuration: &Configuration) -> [Vec<f64>; 2] {
+    Side::BOTH.map(|side| {
+        let of_side = &configuration.pair.sides[side];
+        let Some(surface) = of_side.surface() else {
+            return Vec::new();
+        };
+        let rigid = side == Side::B && configuration.pair.is_rigid();
+        let facets = surface.facets().iter();
+        facets
+            .map(|corners| {
+                if rigid {
+                    return 0.0;
+                }
+                let sizes = corners.map(|node| configuration.side(side).sizes[node]);
+                0.25 * sizes.iter().sum::<f64>() / of_side.stiffness
+            })
+            .collect()
+    })
+}
+
 /// Facets that are paired and the topologies of their segments, as one number.
 pub fn topology<'a>(paired: impl Iterator<Item = &'a PairedFacets>) -> u64 {
     let number = |facet: Option<FacetId>| facet.map_or(u64::MAX, |facet| facet.index() as u64);

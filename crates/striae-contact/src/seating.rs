@@ -29,9 +29,8 @@ use crate::{
     configuration::Configuration,
     initial::overlaps,
     interference::{Stage, Standing, nearest_of},
-    pairing::{PairedFacets, SIGNS, Scope, paired_facets},
+    pairing::{PairedFacets, SIGNS, Scope, compliances, paired_facets},
     segment::{FACING, Facet, SegmentDerivatives, facet_normal, normal_between},
-    selection::compliances,
     side::Side,
 };
 

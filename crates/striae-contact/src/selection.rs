@@ -12,11 +12,13 @@ mod sides;
 mod traction_field;
 
 pub use approach::approach;
-pub(crate) use approach::compliances;
 pub use traction_field::Selection;
 
 use crate::{
-    configuration::Configuration, pairing::Scope, partner::partners, side::Side,
+    configuration::Configuration,
+    pairing::{Scope, compliances},
+    partner::partners,
+    side::Side,
     unknown::Prescribed,
 };
 use gathered::Gathered;

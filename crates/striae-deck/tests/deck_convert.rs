@@ -223,7 +223,7 @@ Pad-1.Top, TRVEC, 2., 3., 0., 4.
         _ => None,
     });
     assert!((traction.unwrap() - striae_mesh::Vec3::new(1.2, 0.0, 1.6)).norm() < 1e-14);
-    assert_eq!(step.gravity.as_ref().unwrap().target.z, -9810.0);
+    assert_eq!(step.gravity.as_ref().unwrap().acceleration.z, -9810.0);
 }
 
 #[test]

@@ -19,6 +19,7 @@ mod hold;
 mod joins;
 mod parts;
 mod resolution;
+mod sagitta;
 mod setup;
 mod shape;
 mod textures;
@@ -117,6 +118,7 @@ impl Advice {
         bending::look(model, &fits, &mut advice);
         hold::look(model, &fits, &mut advice);
         fit::look(model, &fits, &mut advice);
+        sagitta::look(model, &fits, &mut advice);
         resolution::look(model, &mut advice);
         ties::look(model, &mut advice);
         friction::look(model, &mut advice);

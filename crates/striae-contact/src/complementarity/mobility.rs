@@ -4,7 +4,7 @@
 //! slips along it, and `z` points along `w = unit(K^-1 q)`.
 
 use super::state::{NodeState, Q};
-use crate::directions::SlipFreedom;
+use crate::slip_freedom::SlipFreedom;
 
 /// In which directions a node can slip.
 pub(super) enum Mobility {

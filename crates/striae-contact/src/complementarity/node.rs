@@ -5,8 +5,8 @@ use striae_mesh::Vec3;
 use striae_surface::node::SurfaceNode;
 
 use crate::{
-    directions::SlipFreedom, frame::Frame, kinematics::Kinematics, segment::Derivatives,
-    side::Side, table_1::Corrector, texture::NodeTextures, tracked::TrackedScalar,
+    frame::Frame, kinematics::Kinematics, segment::Derivatives, side::Side,
+    slip_freedom::SlipFreedom, table_1::Corrector, texture::NodeTextures, tracked::TrackedScalar,
     unknown::Prescribed, unknowns::Label,
 };
 

@@ -1,29 +1,8 @@
-//! Compliance of facets, and how far two sides move towards each other.
+//! Motion of two sides towards each other.
 
 use striae_mesh::Vec3;
 
 use crate::{configuration::Configuration, side::Side};
-
-/// `h/E` of the facets of deformable sides.
-pub(crate) fn compliances(configuration: &Configuration) -> [Vec<f64>; 2] {
-    Side::BOTH.map(|side| {
-        let of_side = &configuration.pair.sides[side];
-        let Some(surface) = of_side.surface() else {
-            return Vec::new();
-        };
-        let rigid = side == Side::B && configuration.pair.is_rigid();
-        let facets = surface.facets().iter();
-        facets
-            .map(|corners| {
-                if rigid {
-                    return 0.0;
-                }
-                let sizes = corners.map(|node| configuration.side(side).sizes[node]);
-                0.25 * sizes.iter().sum::<f64>() / of_side.stiffness
-            })
-            .collect()
-    })
-}
 
 /// Largest motion of one side relative to the other.
 pub fn approach(start: &Configuration, end: &Configuration) -> f64 {

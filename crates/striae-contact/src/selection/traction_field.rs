@@ -6,12 +6,12 @@ use super::{Kept, approach::approach};
 use crate::{
     bedding::bedding,
     configuration::Configuration,
-    directions::SlipFreedom,
     pairing::{PairedFacets, Scope, paired_facets},
     partner::Partner,
     seating::Fitted,
     segment::SegmentDerivatives,
     side::Side,
+    slip_freedom::SlipFreedom,
     traction_basis::{KeptNode, TractionBasis, Weak},
 };
 

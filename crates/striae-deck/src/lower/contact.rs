@@ -49,10 +49,8 @@ fn lower_pair(
     faults: &mut FaultList<'_>,
 ) -> Option<Pair> {
     let pair = &raw.value;
-    let interference = match &pair.interference {
-        Some(stated) => Some(lower_interference(&stated.value, curves, faults)),
-        None => None,
-    };
+    let interference = pair.interference.as_ref();
+    let interference = interference.map(|stated| lower_interference(&stated.value, curves, faults));
     let name = pair
         .name
         .as_ref()

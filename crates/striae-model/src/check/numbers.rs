@@ -138,11 +138,7 @@ fn of_pair(pair: &Pair, path: &Path, faults: &mut List) {
         let path = path.clone().field("interference");
         let what = format!("the interference of pair `{name}`");
         faults.range(path.clone(), &what, interference.value, FINITE);
-        curve(&interference.curve, path.clone(), faults);
-        if pair.initial == Initial::Resolve {
-            let pair = name.clone();
-            faults.push(path, FaultKind::InterferenceResolved { pair });
-        }
+        curve(&interference.curve, path, faults);
     }
     for (side, paint) in pair.textures.iter().enumerate() {
         let path = || path.clone().field("textures").index(side);

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use striae_law::friction::{Friction, RequiredTextures};
 use striae_mesh::{Face, Mesh, NodeId};
-use striae_solve::model::{ContactSurface, Pair, Procedure, RigidShape};
+use striae_solve::model::{ContactSurface, Initial, Pair, Procedure, RigidShape};
 use striae_surface::texture::Paint;
 
 use super::{Draft, Known, List, Positions};
@@ -39,6 +39,12 @@ pub(super) fn check(draft: &Draft<'_>, faults: &mut List) -> Positions {
             && let Some(kind) = textures(&pair.name, &pair.friction, &pair.textures)
         {
             faults.push(path.clone().field("friction"), kind);
+        }
+        if pair.interference.is_some() && pair.initial == Initial::Resolve {
+            let kind = FaultKind::InterferenceResolved {
+                pair: pair.name.clone(),
+            };
+            faults.push(path.clone().field("interference"), kind);
         }
         if let Some(other) = sound.iter().find(|other| same_sides(other, pair)) {
             let kind = FaultKind::SamePair {

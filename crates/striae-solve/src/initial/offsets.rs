@@ -77,6 +77,12 @@ impl Offsets {
         }
     }
 
+    /// Whether anything is added to a gap.
+    pub fn are_any(&self) -> bool {
+        let mut all = self.sides.iter().flatten();
+        self.seating.is_some() || all.any(|overlap| *overlap > 0.0)
+    }
+
     /// Distance in which contact has to be looked for to see all of them.
     pub fn search(&self, interference: Option<&InterferenceFit>) -> f64 {
         if let (Some(seating), Some(interference)) = (&self.seating, interference) {

@@ -18,10 +18,10 @@ const DEFORMATION: f64 = 2.0;
 
 /// Whether a pair that fits like this may meet in some step.
 pub fn may_meet(model: &Model, pair: PairId, fit: &Fit) -> bool {
-    if fit.overlap.is_some() {
+    let of_pair = &model.pairs[pair.0];
+    if fit.overlap.is_some() || of_pair.interference.is_some() {
         return true;
     }
-    let of_pair = &model.pairs[pair.0];
     let reach = |side: &ContactSurface| match side {
         ContactSurface::Deformable { body, .. } => body_reach(model, *body),
         ContactSurface::Rigid(rigid) => rigid_reach(model, *rigid),

@@ -17,12 +17,12 @@
 //!            - sum (dr - dt x r) . f_con over the nodes that push a moving body
 //! ```
 //!
-//! `f_con` are the contact forces that balance the others: those at the end with
-//! inertia, else the mean. With inertia, `(1/2 - a_f) d . (f_con,1 - f_con,0)` goes from
-//! `numerical` to `contact`: by so much the shifted accelerations see jumps of contact too
-//! late or too early, so that else `numerical` would fall in each impact. The second line of `numerical` is what the work of inertia
-//! forces exceeds the change of kinetic energy by, written by the mean `v` of the
-//! velocities and the jumps that time integration makes,
+//! `f_con` are the contact forces that balance the others: those at the end with inertia, else the
+//! mean. With inertia, `(1/2 - a_f) d . (f_con,1 - f_con,0)` goes from `numerical` to `contact`: by
+//! so much the shifted accelerations see jumps of contact too late or too early, so that else
+//! `numerical` would fall in each impact. The second line of `numerical` is what the work of inertia
+//! forces exceeds the change of kinetic energy by, written by the mean `v` of the velocities and
+//! the jumps that time integration makes,
 //!
 //! ```text
 //! e  = a_alpha - (v_1 - v_0)/dt = (1/2 - a_f) (a_1 - a_0)
@@ -36,6 +36,8 @@
 //! the residual that Newton's method leaves only if mass, inertia, contact and tie forces are
 //! those of the equations that were solved. No node can dissipate less than nothing, as the law
 //! of friction holds there at the end.
+
+mod gained;
 
 use std::ops::{Add, Mul};
 
@@ -280,22 +282,6 @@ impl Ends<'_> {
         let (before, after) = (&self.state.forces, &self.assembled.forces);
         let on_nodes = self.work(|node| mean(weight, before.contact[node], after.contact[node]));
         self.of_surfaces_with(weight, |_| true, Way::Whole) - on_nodes
-    }
-
-    /// What contact has made beyond friction, at least. Only the forces at the ends of an
-    /// increment are known: it counts by that end at which it is less, and not at all where
-    /// contact takes energy by one end and makes it by the other, as friction does that has begun
-    /// in it. Overlaps of the meshes that are pressed out give what they hold.
-    pub(super) fn gained(&self, friction: f64) -> f64 {
-        let mut offsets = self.context.offsets.iter().flat_map(|pair| &pair.sides);
-        if offsets.any(|side| side.iter().any(|overlap| *overlap > 0.0)) {
-            return self.state.gained;
-        }
-        let others = friction + self.stabilisation() + self.work_of_stabilisation();
-        let others = others - self.resisted(|_| true);
-        let ends = [0.0, 1.0].map(|weight| others - self.contact(weight));
-        let least = f64::max(ends[0].min(ends[1]), 0.0) + f64::min(ends[0].max(ends[1]), 0.0);
-        self.state.gained + least
     }
 
     /// Work of inertia forces beyond the change of kinetic energy, from the jumps.
