@@ -87,7 +87,6 @@ impl Ends<'_> {
         let (fully, contact) = (self.contact(held), self.contact(shifted));
         let stored = strain - before.strain;
         let lost = self.internal() - (stored + inelastic) + self.inertia() - self.arcs();
-        let lost = lost + (fully - contact);
         Energies {
             kinetic: kinetic_energy(self.context.problem, self.velocities),
             strain,
@@ -96,7 +95,7 @@ impl Ends<'_> {
             friction: before.friction + friction,
             contact: before.contact + contact - friction + (resisted - stabilisation),
             stabilisation: before.stabilisation + stabilisation,
-            numerical: before.numerical + lost,
+            numerical: before.numerical + (lost + (fully - contact)),
         }
     }
 
