@@ -339,7 +339,10 @@ Pad-1.High, 20.
     let said = listed.join("\n");
     for (line, what) in [
         ("line 40", "*INITIAL CONDITIONS"),
-        ("line 43", "PRESSURE-OVERCLOSURE=EXPONENTIAL"),
+        (
+            "line 43",
+            "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=EXPONENTIAL",
+        ),
         ("line 53", "*CLOAD `Pad-1.High, 3, -1.`"),
         ("line 55", "*DLOAD `Pad-1.All, P1, 2.`"),
         ("line 56", "*OUTPUT"),
