@@ -16,14 +16,14 @@
 //! those of the roles. Pressures of closed nodes go first; then the directions that nothing
 //! disturbs; what is left is *contested*. Of the contested nodes that one is taken next whose
 //! 2x2 remainder after elimination has the largest eigenvalue, and the direction of that
-//! eigenvector is kept, while the eigenvalue is at least [`DETERMINED`]. Axis by axis would
+//! eigenvector is kept, while the eigenvalue is at least 1e-4. Axis by axis would
 //! depend on the frame.
 //!
 //! In a direction that is not kept the row of friction is `z = 0`, and slip there does not
 //! count. Directions are components along the nodal tangents and constant in an increment.
 //!
 //! Null vectors of a mass matrix fade by .27 from node to node: columns further than
-//! [`REACH`] couplings from a contested one bear on nothing.
+//! two couplings from a contested one bear on nothing.
 
 mod gram;
 
