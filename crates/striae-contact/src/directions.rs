@@ -16,8 +16,9 @@
 //! those of the roles. Pressures of closed nodes go first; then the directions that nothing
 //! disturbs; what is left is *contested*. Of the contested nodes that one is taken next whose
 //! 2x2 remainder after elimination has the largest eigenvalue, and the direction of that
-//! eigenvector is kept, while the eigenvalue is at least 1e-4. Axis by axis would
-//! depend on the frame.
+//! eigenvector is kept, while the eigenvalue is at least 1e-4. Axis by axis would depend on the
+//! frame. Positions of which all components are prescribed have `kappa_J = 0`, as rigid ones have:
+//! what is left acts on all directions alike, so they disturb none.
 //!
 //! In a direction that is not kept the row of friction is `z = 0`, and slip there does not
 //! count. Directions are components along the nodal tangents and constant in an increment.
@@ -55,10 +56,17 @@ const TOUCHING: f64 = 1e-6;
 /// A position that contact moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mover {
-    /// The same number for the same node in all pairs.
+    /// Number of the node, equal in all pairs.
     pub number: u32,
-    /// Which components are prescribed.
+    /// Components that are prescribed.
     pub prescribed: [bool; 3],
+}
+
+impl Mover {
+    /// Returns whether nothing moves it but displacements.
+    fn is_rigid(&self) -> bool {
+        self.prescribed == [true; 3]
+    }
 }
 
 /// A pair as it takes part in the choice.
@@ -69,9 +77,9 @@ pub struct Party<'a> {
     pub selection: &'a Selection,
     /// The nodes of the deformable sides.
     pub movers: [Vec<Mover>; 2],
-    /// Which kept nodes are known to be closed; those that touch are closed, too.
+    /// Kept nodes that are known to be closed; those that touch are closed, too.
     pub closed: Vec<bool>,
-    /// Whether there is friction.
+    /// Has friction in this step.
     pub has_friction: bool,
 }
 
@@ -108,6 +116,9 @@ fn disturbed(parties: &[Party]) -> Option<BTreeMap<u32, bool>> {
                 if !party.selection.carries(side, SurfaceNode::new(node)) {
                     continue;
                 }
+                if mover.is_rigid() {
+                    continue;
+                }
                 let shared = *pair_of.entry(mover.number).or_insert(at) != at;
                 if shared || mover.prescribed.contains(&true) {
                     *disturbed.entry(mover.number).or_insert(false) |= shared;
@@ -119,12 +130,12 @@ fn disturbed(parties: &[Party]) -> Option<BTreeMap<u32, bool>> {
     (has_friction && !disturbed.is_empty()).then_some(disturbed)
 }
 
-/// What the unknowns of a kept node do: pressure, then friction along both tangents.
+/// Actions of the unknowns of a kept node: pressure, then friction along both tangents.
 #[derive(Clone, Default)]
 struct Actions {
     /// By number of the mover, with prescribed components.
     whole: BTreeMap<u32, [Vec3; 3]>,
-    /// Which components of the movers are free.
+    /// Components of the movers that are free.
     free: BTreeMap<u32, Vec3>,
     is_closed: bool,
 }
@@ -183,7 +194,7 @@ fn actions(party: &Party) -> Vec<Actions> {
                 let mover = &party.movers[side][node];
                 let kappa = kappa(configuration, side, node);
                 let by = SIGNS[corner] * shares[corner] * (kappa / scale).sqrt();
-                if scale == 0.0 || by == 0.0 {
+                if scale == 0.0 || by == 0.0 || mover.is_rigid() {
                     continue;
                 }
                 let whole = actions[k as usize].whole.entry(mover.number).or_default();

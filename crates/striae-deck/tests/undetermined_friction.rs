@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use striae_contact::{evaluation::Evaluation, side::Side};
+use striae_contact::{evaluation::Evaluation, side::Side, unknowns::Status};
 use striae_deck::parse;
 use striae_mesh::Vec3;
 use striae_solve::{
@@ -16,8 +16,8 @@ use striae_solve::{
     state::State,
 };
 
-/// Forces on the sides `a` of all pairs in every converged state.
-struct Forces<'a>(&'a Problem, Vec<Vec<Vec3>>);
+/// Forces on the sides `a` of all pairs in every converged state, and the last state.
+struct Forces<'a>(&'a Problem, Vec<Vec<Vec3>>, Option<State>);
 
 impl IterationObserver for Forces<'_> {
     fn iteration(&mut self, _: usize, _: &Norms, _: &[Evaluation]) {}
@@ -30,6 +30,7 @@ impl Observer for Forces<'_> {
         let pairs = pairs(self.0, &increment.state);
         let force = |pair: &striae_solve::report::PairReport| pair.sides[Side::A].force;
         self.1.push(pairs.iter().map(force).collect());
+        self.2 = Some(increment.state.clone());
         Continue::Yes
     }
 
@@ -39,12 +40,17 @@ impl Observer for Forces<'_> {
 }
 
 fn forces(deck: &str) -> Vec<Vec<Vec3>> {
+    solved(deck).0
+}
+
+/// Forces in every converged state, and the last one.
+fn solved(deck: &str) -> (Vec<Vec<Vec3>>, State) {
     let model = parse(deck, "deck.toml", Path::new("")).unwrap().model;
     let problem = Problem::new(model).unwrap();
-    let mut forces = Forces(&problem, Vec::new());
+    let mut forces = Forces(&problem, Vec::new(), None);
     let (_, ending) = run(&problem, State::undeformed(&problem), &mut forces);
     assert_eq!(ending, Ending::Completed);
-    forces.1
+    (forces.1, forces.2.unwrap())
 }
 
 /// A block on another one; of a half model the part `y > 0` with its plane of symmetry.
@@ -75,6 +81,7 @@ mesh = {{ generator = "block", origin = [0, {origin}, 0], size = [1, {width}, 0.
 name = "upper"
 material = "rubber"
 mesh = {{ generator = "block", origin = [0.25, {origin}, 0.5], size = [0.5, {width}, 0.5], divisions = [3, {divisions}, 1] }}
+node_sets = [{{ name = "every", from = [-9, -9, -9], to = [9, 9, 9] }}]
 [[pair]]
 name = "contact"
 a = {{ body = "lower", facets = "zmax" }}
@@ -209,4 +216,28 @@ fn corners_can_be_pressed_with_a_face_held() {
         let pressed: Vec3 = all[4].iter().sum();
         assert!(pressed.x > 10.0 && pressed.z > 10.0, "{pressed}");
     }
+}
+
+/// A side that is prescribed wholly is as good as rigid and takes no direction from the other one:
+/// in full slip friction is `mu P` at every kept node.
+#[test]
+fn a_side_that_is_prescribed_wholly_leaves_all_directions() {
+    let deck = blocks(false, r#"{ law = "coulomb", mu = 0.3 }"#).replace(
+        r#"{ body = "upper", nodes = "zmax""#,
+        r#"{ body = "upper", nodes = "every""#,
+    );
+    let state = solved(&deck).1;
+    let pair = &state.pairs[0];
+    let mut slipping = 0;
+    for side in Side::BOTH {
+        for (node, kept) in pair.nodes[side].iter().zip(&pair.kept[side]) {
+            if *kept && node.pressure > 0.0 {
+                assert_eq!(node.status, Status::Slip);
+                let off = node.tau.norm() / (0.3 * node.pressure) - 1.0;
+                assert!(off.abs() < 1e-6, "{off:e}");
+                slipping += 1;
+            }
+        }
+    }
+    assert!(slipping >= 12, "{slipping}");
 }

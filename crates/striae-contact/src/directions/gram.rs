@@ -14,11 +14,11 @@ const EQUAL: f64 = 1e-9;
 const REACH: usize = 2;
 /// Coupling below which two columns are at right angles, over their lengths.
 const APART: f64 = 1e-12;
-/// What is added to the diagonal of what is eliminated first, where pressures depend on each
-/// other, over its largest entry.
+/// Addition to the diagonal of what is eliminated first, over its largest entry, for pressures
+/// that depend on each other.
 const DEPENDENT: f64 = 1e-10;
 
-/// How an unknown moves nodes, by their numbers.
+/// Action of an unknown on nodes, by their numbers.
 pub(super) type Column = BTreeMap<u32, Vec3>;
 
 /// A kept node in the contest.
@@ -64,7 +64,7 @@ pub(super) fn combination(columns: &[Column; 2], by: &Vector2<f64>) -> Column {
 #[derive(Default)]
 pub(super) struct Gram {
     pub(super) columns: Vec<Column>,
-    /// Whether a column is eliminated before the contest.
+    /// Columns that are eliminated before the contest.
     first: Vec<bool>,
 }
 

@@ -77,7 +77,7 @@ impl Offsets {
         }
     }
 
-    /// Whether anything is added to a gap.
+    /// Returns whether anything is added to a gap.
     pub fn are_any(&self) -> bool {
         let mut all = self.sides.iter().flatten();
         self.seating.is_some() || all.any(|overlap| *overlap > 0.0)

@@ -7,10 +7,10 @@ impl Ends<'_> {
     /// Energy that contact has made beyond friction, at least. Only the forces at the ends of an
     /// increment are known: it counts by that end at which it is less, and not at all where
     /// contact takes energy by one end and makes it by the other, as friction does that has begun
-    /// in it. Overlaps of the meshes that
-    /// are pressed out, and interferences, give what they hold.
+    /// in it. In the first step overlaps of the meshes that are pressed out, and interferences,
+    /// give what they hold.
     pub(in crate::newton) fn gained(&self, friction: f64) -> f64 {
-        if self.context.offsets.iter().any(Offsets::are_any) {
+        if self.context.index == 0 && self.context.offsets.iter().any(Offsets::are_any) {
             return self.state.gained;
         }
         let others = friction + self.stabilisation() + self.work_of_stabilisation();
