@@ -174,6 +174,8 @@ pub enum ContactSurface {
     },
     /// A rigid surface.
     Rigid(RigidId),
+    /// The first side once more, as side `b`: the faces of a body that may touch each other.
+    Itself,
 }
 
 /// Two surfaces that may touch; side `a` is always deformable.
@@ -200,6 +202,9 @@ pub struct Pair {
     /// Whether viscous forces carry bodies that nothing else holds across the gap, see
     /// [`crate::stabilisation`].
     pub stabilised: bool,
+    /// Dihedral angle in degrees from which on facets that share an edge belong to different
+    /// faces: nodes on such an edge have a normal and a traction for each. `None`: one for all.
+    pub feature_angle: Option<f64>,
 }
 
 /// Two surfaces of bodies that are glued from the start, see [`crate::tie`].
