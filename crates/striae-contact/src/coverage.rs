@@ -1,7 +1,7 @@
 //! Which nodes of a side see the other side, and at what distance.
 
 use nalgebra::Vector3;
-use striae_mesh::Vec3;
+use striae_mesh::{FacetId, Vec3};
 use striae_surface::node::SurfaceNode;
 
 use crate::{
@@ -59,11 +59,21 @@ impl Configuration<'_> {
     /// The point opposite to a node of a deformable side within `reach`.
     pub fn contact(&self, side: Side, node: SurfaceNode, reach: f64) -> Option<Contact> {
         let own = self.side(side);
-        self.contact_at(side, own.x[node], own.normals[node], reach)
+        let (x, n) = (own.x[node], own.normals[node]);
+        self.contact_of(side, x, n, reach, |facet, gap| {
+            self.may_face(side, node, facet, gap)
+        })
     }
 
-    /// The point opposite to the point `x` with the normal `n` of a deformable side.
-    pub fn contact_at(&self, side: Side, x: Vec3, n: Vec3, reach: f64) -> Option<Contact> {
+    /// The point opposite to the point `x` on those facets that are admitted at the gap to them.
+    pub(crate) fn contact_of(
+        &self,
+        side: Side,
+        x: Vec3,
+        n: Vec3,
+        reach: f64,
+        admits: impl Fn(FacetId, f64) -> bool,
+    ) -> Option<Contact> {
         if let Some((point, normal)) = self.plane() {
             let gap = (x - point).dot(&normal);
             return (gap.abs() <= reach).then(|| Contact {
@@ -76,7 +86,7 @@ impl Configuration<'_> {
         } else {
             Ray::Own(n)
         };
-        let hit = project(self.side(side.opposite()), &x, ray, reach)?;
+        let hit = project(self.facing(side), &x, ray, reach, admits)?;
         Some(Contact {
             gap: hit.gap,
             place: Place::Facet(hit),
@@ -100,12 +110,44 @@ impl Configuration<'_> {
         }
         let own = self.side(side);
         let (x, n) = (&own.x[node], &own.normals[node]);
-        let (hit, nodes) = nearest_edge(self.side(side.opposite()), x, n, reach)?;
+        let admits = |facet: FacetId, gap: f64| self.may_face(side, node, facet, gap);
+        let (hit, nodes) = nearest_edge(self.facing(side), x, n, reach, admits)?;
         let contact = Contact {
             gap: hit.gap,
             place: Place::Facet(hit),
         };
         Some((contact, Found::Edge(nodes)))
+    }
+
+    /// Returns whether a node may face a facet at this gap. In self-contact that is not one of
+    /// its own, nor one behind the body.
+    fn may_face(&self, side: Side, node: SurfaceNode, facet: FacetId, gap: f64) -> bool {
+        if !self.pair.is_self_contact() {
+            return true;
+        }
+        let around = self.side(side).surface.corners(node).iter();
+        let depths = around.map(|corner| self.pair.sides[side].depth(corner.facet));
+        !self.is_corner(side, node, facet)
+            && -gap <= depths.fold(self.pair.sides[side].depth(facet), f64::min)
+    }
+
+    /// The same for the middle of the first facet.
+    pub(crate) fn facets_may_face(&self, side: Side, facets: [FacetId; 2], gap: f64) -> bool {
+        if !self.pair.is_self_contact() {
+            return true;
+        }
+        let mut corners = self.side(side).corners(facets[0]).into_iter();
+        let depths = facets.map(|facet| self.pair.sides[side].depth(facet));
+        !corners.any(|corner| self.is_corner(side, corner, facets[1]))
+            && -gap <= depths[0].min(depths[1])
+    }
+
+    /// Returns whether a node is one node of the mesh with a corner of a facet of its side.
+    fn is_corner(&self, side: Side, node: SurfaceNode, facet: FacetId) -> bool {
+        let own = self.side(side);
+        let mesh = own.surface.nodes();
+        let mut corners = own.corners(facet).into_iter();
+        corners.any(|corner| mesh[corner.index()] == mesh[node.index()])
     }
 
     /// What a node of a deformable side sees.
@@ -129,7 +171,7 @@ impl Place {
     ) -> Option<([SurfaceNode; 4], [f64; 4])> {
         match self {
             Place::Facet(hit) => {
-                let corners = configuration.side(side.opposite()).corners(hit.facet);
+                let corners = configuration.facing(side).corners(hit.facet);
                 let shape = striae_surface::facet::Shape::of(&corners);
                 Some((corners, shape.weights(hit.xi, hit.eta).value))
             }
@@ -144,7 +186,7 @@ impl Place {
             Place::Facet(_) => self.weights(configuration, side).map_or_else(
                 Vector3::zeros,
                 |(corners, weights)| {
-                    let x = &configuration.side(side.opposite()).x;
+                    let x = &configuration.facing(side).x;
                     (0..4).map(|c| x[corners[c]] * weights[c]).sum()
                 },
             ),

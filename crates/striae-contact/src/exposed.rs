@@ -37,7 +37,7 @@ pub fn covered_load<L: SurfaceLoad>(
     let numbering = configuration.pair.numbering();
     let (own, other) = (
         configuration.side(side),
-        configuration.side(side.opposite()),
+        configuration.facing(side),
     );
     let first = own
         .corners(facet)
@@ -56,7 +56,7 @@ pub fn covered_load<L: SurfaceLoad>(
                 Source::Constant(3)
             } else {
                 Source::Unknowns {
-                    first: numbering.position(side.opposite(), corner),
+                    first: numbering.position(configuration.pair.opposing(side), corner),
                     count: 3,
                 }
             });

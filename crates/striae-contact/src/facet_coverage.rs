@@ -40,10 +40,12 @@ impl Configuration<'_> {
             .map(|x| (x - middle).norm())
             .into_iter()
             .fold(0.0, f64::max);
-        if self.plane().is_none() && self.is_near_edge(side.opposite(), &middle, radius + reach) {
-            return self.cut(side, &bounds, &middle, &m, 2.0 * reach);
+        let opposing = self.pair.opposing(side);
+        if self.plane().is_none() && self.is_near_edge(opposing, &middle, radius + reach) {
+            return self.cut((side, facet), &bounds, &middle, &m, 2.0 * reach);
         }
-        match self.contact_at(side, middle, m, 2.0 * reach) {
+        let admits = |other: FacetId, gap: f64| self.facets_may_face(side, [facet, other], gap);
+        match self.contact_of(side, middle, m, 2.0 * reach, admits) {
             Some(_) => FacetCoverage::Whole,
             None => FacetCoverage::Bare,
         }
@@ -65,23 +67,25 @@ impl Configuration<'_> {
 
     fn cut(
         &self,
-        side: Side,
+        (side, facet): (Side, FacetId),
         bounds: &Bounds,
         middle: &Vec3,
         m: &Vec3,
         distance: f64,
     ) -> FacetCoverage {
-        let other = self.side(side.opposite());
-        let faces = |facet: &FacetId| {
-            let positions = other.corner_positions(*facet);
-            let corners = distinct_corners(&other.surface.facets()[facet.index()]).len();
+        let other = self.facing(side);
+        let faces = |covering: &FacetId| {
+            let positions = other.corner_positions(*covering);
+            let corners = distinct_corners(&other.surface.facets()[covering.index()]).len();
             let normal = if corners == 3 {
                 (positions[1] - positions[0]).cross(&(positions[2] - positions[0]))
             } else {
                 (positions[2] - positions[0]).cross(&(positions[3] - positions[1]))
             };
-            let away = (positions[0] - middle).dot(m).abs();
-            normal.dot(m) < 0.0 && away <= distance + 0.5 * other.facet_size(*facet)
+            let away = (positions[0] - middle).dot(m);
+            normal.dot(m) < 0.0
+                && away.abs() <= distance + 0.5 * other.facet_size(*covering)
+                && self.facets_may_face(side, [facet, *covering], away)
         };
         let facets: Vec<FacetId> = other
             .tree

@@ -93,6 +93,9 @@ pub fn fit(stage: &Stage) -> Fit {
 /// Gap of a node and the point of the other side that it would have to go to, if it faces
 /// that or is inside.
 pub fn signed_gap(stage: &Stage, side: Side, node: SurfaceNode) -> Option<(f64, Vec3)> {
+    if stage.configuration.pair.is_self_contact() {
+        return None;
+    }
     let seen = seen(stage, side, Spot::Node(node))?;
     let gap = match seen.standing {
         Standing::Front => seen.faces.then_some(seen.opening.gap),
@@ -138,8 +141,12 @@ struct Seen {
 }
 
 fn sides(stage: &Stage) -> impl Iterator<Item = Side> {
-    let sides = stage.configuration.sides.each_ref().map(Option::is_some);
-    Side::BOTH.into_iter().filter(move |&side| sides[side])
+    let configuration = stage.configuration;
+    let sides = configuration.sides.each_ref().map(Option::is_some);
+    let has_opponent = !configuration.pair.is_self_contact();
+    Side::BOTH
+        .into_iter()
+        .filter(move |&side| has_opponent && sides[side])
 }
 
 fn seen(stage: &Stage, side: Side, spot: Spot) -> Option<Seen> {

@@ -120,7 +120,12 @@ pub enum Kind {
 
 /// Interference that is deeper than `share` of the facet size at the end and was less at
 /// the start, side by side.
+///
+/// Self-contact has no sides; see [`Skins`].
 pub fn interferences(start: &Stage, end: &Stage, share: f64) -> Vec<Interference> {
+    if end.configuration.pair.is_self_contact() {
+        return Vec::new();
+    }
     if let Some(plane) = end.configuration.plane() {
         return behind_plane(start.configuration, end.configuration, plane, share);
     }
@@ -155,6 +160,9 @@ fn inside_by(
     sized: impl Fn(&Stage, Side, Spot, FacetId) -> f64 + Sync,
 ) -> Vec<Interference> {
     let configuration = stage.configuration;
+    if configuration.pair.is_self_contact() {
+        return Vec::new();
+    }
     if let Some(plane) = configuration.plane() {
         let snapshot = configuration.side(Side::A);
         let spots = spots(snapshot.surface);

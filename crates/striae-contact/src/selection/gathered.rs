@@ -12,6 +12,7 @@ use super::{
 use crate::{
     configuration::Configuration,
     coverage::Place,
+    pair::Geometry,
     interface::{ClampedProjection, Interface, Opponent, Overlap},
     pairing::{PairedFacets, Scope, paired_facets},
     segment::SegmentDerivatives,
@@ -25,6 +26,7 @@ const SLIVER: f64 = 1e-3;
 
 /// What a basis is chosen from, in one or two configurations.
 pub(super) struct Gathered {
+    is_self_contact: bool,
     /// Facets of every overlap.
     facets: Vec<[Option<FacetId>; 2]>,
     overlaps: Vec<Overlap>,
@@ -63,6 +65,7 @@ impl Gathered {
         let overlaps = paired.iter().map(|paired| Overlap {
             corners: paired.corners,
             mass: paired.segment.mass,
+            normal: paired.segment.normal,
         });
         let mut facing = vec![Vec3::zeros(); near[0].len()];
         for paired in &paired {
@@ -71,6 +74,7 @@ impl Gathered {
             }
         }
         Self {
+            is_self_contact: configuration.pair.is_self_contact(),
             facets: paired.iter().map(|paired| paired.facets).collect(),
             overlaps: overlaps.collect(),
             opposing,
@@ -98,7 +102,14 @@ impl Gathered {
 
     /// Facets that are paired, by side.
     fn paired(&self) -> [BTreeSet<FacetId>; 2] {
-        Side::BOTH.map(|side| self.facets.iter().filter_map(|pair| pair[side]).collect())
+        let of_side = [0, 1].map(|at| self.facets.iter().filter_map(move |pair| pair[at]));
+        match self.is_self_contact {
+            true => {
+                let both: BTreeSet<FacetId> = of_side.into_iter().flatten().collect();
+                [both.clone(), both]
+            }
+            false => of_side.map(Iterator::collect),
+        }
     }
 
     /// Halves the overlaps of facets that are paired in another configuration too.
@@ -121,34 +132,42 @@ impl Gathered {
     ) -> TractionBasis {
         let nodes =
             Side::BOTH.map(|side| surface_nodes(configuration, side, before, &prescribed[side]));
-        let whole = if configuration.pair.is_rigid() {
-            whole_facets(configuration, &self.facing)
-        } else {
-            Vec::new()
+        let (whole, mesh);
+        let opponent = match &configuration.pair.sides[Side::B].geometry {
+            Geometry::Deformable(_) => Opponent::Deformable,
+            Geometry::Rigid(_) | Geometry::Plane { .. } => {
+                whole = whole_facets(configuration, &self.facing);
+                Opponent::Rigid { whole: &whole }
+            }
+            Geometry::Itself => {
+                let own = configuration.side(Side::A);
+                mesh = own.surface.nodes().iter().map(|node| node.0).collect::<Vec<u32>>();
+                Opponent::Itself {
+                    mesh: &mesh,
+                    normals: &own.normals,
+                }
+            }
         };
         TractionBasis::new(&Interface {
             nodes: [&nodes[0], &nodes[1]],
             overlaps: &self.overlaps,
             opposing: [&self.opposing[0], &self.opposing[1]],
-            opponent: if configuration.pair.is_rigid() {
-                Opponent::Rigid { whole: &whole }
-            } else {
-                Opponent::Deformable
-            },
+            opponent,
         })
     }
 }
 
 /// Paired facets without patches that share next to no area.
 fn without_slivers(configuration: &Configuration, paired: Vec<PairedFacets>) -> Vec<PairedFacets> {
-    let sides = configuration.pair.deformable_sides();
     let is_sliver = |paired: &PairedFacets| {
-        let size = |&side: &Side| {
-            let sizes = &configuration.side(side).sizes;
-            let corners = paired.corners[side].iter();
+        let facets = paired.sides.iter().zip(&paired.corners);
+        let deformable = facets.filter(|(side, _)| configuration.pair.is_deformable(**side));
+        let size = |(side, corners): (&Side, &[SurfaceNode; 4])| {
+            let sizes = &configuration.side(*side).sizes;
+            let corners = corners.iter();
             corners.map(|&node| sizes[node]).fold(0.0, f64::max)
         };
-        let size = sides.iter().map(size).fold(f64::INFINITY, f64::min);
+        let size = deformable.map(size).fold(f64::INFINITY, f64::min);
         paired.segment.area < SLIVER * size * size
     };
     if paired.iter().all(is_sliver) {
@@ -167,7 +186,7 @@ fn clamped(
     let (contact, _) = configuration.opposite(side, node)?;
     match contact.place {
         Place::Facet(hit) if !configuration.pair.is_rigid() => {
-            let corners = configuration.side(side.opposite()).corners(hit.facet);
+            let corners = configuration.facing(side).corners(hit.facet);
             let weights = Shape::of(&corners).weights(hit.xi, hit.eta).value;
             let weights = weights.map(|weight| weight.max(0.0));
             let sum: f64 = weights.iter().sum();

@@ -1,14 +1,14 @@
 //! Fibres through what is behind the facets of pairs.
 
 use striae_contact::{
-    interference::{Fibre, fibres},
+    interference::{Fibre, Thickness, fibres},
     side::Side,
 };
-use striae_mesh::Vec3;
+use striae_mesh::{NodeId, Vec3};
 use striae_surface::topology::Surface;
 
 use super::PairGeometry;
-use crate::model::Model;
+use crate::{interference::thickness_with, model::Model};
 
 /// Fibres through what is behind the facets of all pairs. They end at nodes of the
 /// body, or of the rigid surface.
@@ -31,6 +31,11 @@ pub(crate) fn add_fibres(model: &Model, pairs: &mut [PairGeometry]) {
             let skin = skins[body].get_or_insert_with(|| skin(body));
             of_body(&model.bodies[body].mesh.positions, surface, skin)
         });
+        if pair.contact.is_self_contact() {
+            let at = |body: usize, node: NodeId| model.bodies[body].mesh.positions[node.index()];
+            let Thickness([of_a, _]) = thickness_with(pair, at);
+            pair.contact.sides[Side::A].thickness = of_a;
+        }
     }
 }
 

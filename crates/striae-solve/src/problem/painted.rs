@@ -68,6 +68,11 @@ pub(super) fn painted(
             });
         }
         (Geometry::Deformable(surface) | Geometry::Rigid(surface), _) => surface,
+        (Geometry::Itself, _) => {
+            return Err(ProblemError::TextureOfItself {
+                pair: pair.name.clone(),
+            });
+        }
     };
     let normals = nodal_normals(surface, positions);
     let painted = Texture::new(positions, surface.facets(), &normals, paint);
@@ -82,6 +87,7 @@ pub(super) fn painted(
             ContactSurface::Rigid(rigid) => {
                 format!("rigid surface `{}`", model.rigid_surfaces[rigid.0].name)
             }
+            ContactSurface::Itself => "side `a` itself".to_owned(),
         };
         match (&error, paint, node, of_mesh) {
             (TextureError::Vanishing { .. }, Paint::Field(field), Some(node), Some(of_mesh)) => {

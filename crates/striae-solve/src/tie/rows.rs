@@ -324,6 +324,7 @@ fn contact_pair(
         let facets: Vec<_> = faces.iter().map(|face| mesh.face_nodes(*face)).collect();
         PairedSurface {
             geometry: Geometry::Deformable(Surface::new(&facets)),
+            thickness: Vec::new(),
             stiffness: 1.0,
             texture: None,
         }

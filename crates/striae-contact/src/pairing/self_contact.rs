@@ -1,0 +1,100 @@
+//! Pairs of facets of one surface that are contact of the body with itself.
+//!
+//! Two facets of a body may face each other because the body lies between them, or another layer
+//! of it does. With `t` the thickness of the body behind a facet, `g` the mean gap of a segment
+//! and `i`, `j`, `k` facets, a pair is left out
+//!
+//! ```text
+//! back to back   -g_ij > min(t_i, t_j)/2
+//! hidden         {i, k} or {j, k} covers the middle of {i, j}, and is nearer by more than t_k/2
+//! around a node  i and j share one, and n_i . n_j >= -.71
+//! ```
+//!
+//! Facets that share a node are folded onto each other once they stand at more than 135 degrees;
+//! leaving all of them out would leave the root of a slit without pressure.
+
+use std::collections::BTreeMap;
+
+use striae_mesh::{FacetId, Vec3};
+use striae_surface::node::SurfaceNode;
+
+use super::PairedFacets;
+use crate::{
+    configuration::{Configuration, Snapshot},
+    segment::{Facet, facet_normal},
+    side::Side,
+};
+
+/// Cosine between the normals of facets that share a node from which on they are folded.
+const FOLDED: f64 = -0.71;
+
+/// Returns whether two facets do not share a node of the mesh, or are folded there.
+pub(super) fn may_touch(
+    own: &Snapshot,
+    facets: [&Facet; 2],
+    corners: [&[SurfaceNode; 4]; 2],
+) -> bool {
+    let mesh = |node: &SurfaceNode| own.surface.nodes()[node.index()];
+    let shares = |node: &SurfaceNode| corners[1].iter().any(|other| mesh(other) == mesh(node));
+    let is_folded = || {
+        let [n_i, n_j] = facets.map(facet_normal);
+        n_i.zip(n_j).is_some_and(|(n_i, n_j)| n_i.dot(&n_j) < FOLDED)
+    };
+    !corners[0].iter().any(shares) || is_folded()
+}
+
+/// Returns whether the body does not lie between two facets.
+pub(super) fn is_outside(configuration: &Configuration, paired: &PairedFacets) -> bool {
+    let side = &configuration.pair.sides[Side::A];
+    let depths = paired.facets.iter().flatten().map(|&facet| side.depth(facet));
+    -paired.mean_gap(configuration) <= depths.fold(f64::INFINITY, f64::min)
+}
+
+/// Leaves out facets that face each other through another layer.
+pub(super) fn drop_hidden(configuration: &Configuration, all: &mut Vec<PairedFacets>) {
+    let mut of_facet: BTreeMap<FacetId, Vec<usize>> = BTreeMap::new();
+    for (at, paired) in all.iter().enumerate() {
+        for facet in paired.facets.into_iter().flatten() {
+            of_facet.entry(facet).or_default().push(at);
+        }
+    }
+    let gaps: Vec<f64> = all.iter().map(|paired| paired.mean_gap(configuration)).collect();
+    let side = &configuration.pair.sides[Side::A];
+    let hides = |at: usize, facet: FacetId, by: usize| {
+        let between = all[by].facets.into_iter().flatten().find(|other| *other != facet);
+        by != at
+            && between.is_some_and(|k| gaps[at] - gaps[by] > side.depth(k))
+            && covers(&all[by], &all[at])
+    };
+    let is_hidden = |at: usize| {
+        let mut facets = all[at].facets.into_iter().flatten();
+        facets.any(|facet| of_facet[&facet].iter().any(|&by| hides(at, facet, by)))
+    };
+    let hidden: Vec<bool> = (0..all.len()).map(is_hidden).collect();
+    let mut hidden = hidden.into_iter();
+    all.retain(|_| !hidden.next().unwrap_or(false));
+}
+
+/// Returns whether a segment covers the middle of another one, seen along its own normal.
+fn covers(segment: &PairedFacets, other: &PairedFacets) -> bool {
+    let (Some(outline), Some(others)) = (places(segment), places(other)) else {
+        return false;
+    };
+    let middle = others.iter().sum::<Vec3>() / others.len() as f64;
+    let n = segment.segment.normal;
+    let sides = (0..outline.len()).map(|at| {
+        let (from, to) = (outline[at], outline[(at + 1) % outline.len()]);
+        (to - from).cross(&(middle - from)).dot(&n)
+    });
+    let [low, high] = sides.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], side| {
+        [low.min(side), high.max(side)]
+    });
+    low >= 0.0 || high <= 0.0
+}
+
+/// Places of the vertices of a segment on its first facet.
+fn places(paired: &PairedFacets) -> Option<Vec<Vec3>> {
+    let vertices = paired.segment.at_vertices()?;
+    let place = |n: &[f64; 8]| (0..4).map(|c| paired.x[c] * n[c]).sum();
+    Some(vertices.iter().map(place).collect())
+}
