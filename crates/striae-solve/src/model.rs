@@ -207,6 +207,21 @@ pub struct Pair {
     pub feature_angle: Option<f64>,
 }
 
+impl Pair {
+    /// The surfaces of both sides, the first one twice where it may touch itself.
+    pub fn surfaces(&self) -> [&ContactSurface; 2] {
+        match self.b {
+            ContactSurface::Itself => [&self.a, &self.a],
+            _ => [&self.a, &self.b],
+        }
+    }
+
+    /// True where the first side may touch itself.
+    pub fn is_on_itself(&self) -> bool {
+        matches!(self.b, ContactSurface::Itself)
+    }
+}
+
 /// Two surfaces of bodies that are glued from the start, see [`crate::tie`].
 #[derive(Clone, Debug, Serialize)]
 pub struct Tie {
