@@ -2,11 +2,12 @@
 
 use nalgebra::Vector3;
 use striae_mesh::{FacetId, Vec3};
-use striae_surface::node::SurfaceNode;
+use striae_surface::{facet::Shape, node::SurfaceNode};
 
 use crate::{
     configuration::Configuration,
     projection::{Hit, Ray, nearest_edge, project},
+    segment::{FACING, Facet, facet_normal},
     side::Side,
 };
 
@@ -95,6 +96,16 @@ impl Configuration<'_> {
 
     /// The point opposite to a node of a deformable side, clamped to the other surface.
     pub fn opposite(&self, side: Side, node: SurfaceNode) -> Option<(Contact, Found)> {
+        self.opposite_on(side, node, |_| true)
+    }
+
+    /// The same on some facets of the other surface, if that is not a plane.
+    pub(crate) fn opposite_on(
+        &self,
+        side: Side,
+        node: SurfaceNode,
+        on: impl Fn(FacetId) -> bool,
+    ) -> Option<(Contact, Found)> {
         let far = if self.pair.is_rigid() {
             FOLLOW
         } else {
@@ -105,12 +116,12 @@ impl Configuration<'_> {
             let contact = self.contact(side, node, f64::INFINITY);
             return contact.map(|contact| (contact, Found::Inside));
         }
-        if let Some(contact) = self.contact(side, node, reach) {
-            return Some((contact, Found::Inside));
-        }
         let own = self.side(side);
         let (x, n) = (&own.x[node], &own.normals[node]);
-        let admits = |facet: FacetId, gap: f64| self.may_face(side, node, facet, gap);
+        let admits = |facet: FacetId, gap: f64| on(facet) && self.may_face(side, node, facet, gap);
+        if let Some(contact) = self.contact_of(side, *x, *n, reach, admits) {
+            return Some((contact, Found::Inside));
+        }
         let (hit, nodes) = nearest_edge(self.facing(side), x, n, reach, admits)?;
         let contact = Contact {
             gap: hit.gap,
@@ -125,9 +136,17 @@ impl Configuration<'_> {
         if !self.pair.is_self_contact() {
             return true;
         }
-        let around = self.side(side).surface.corners(node).iter();
+        let own = self.side(side);
+        let corners = own.corners(facet);
+        let normal = facet_normal(&Facet {
+            corners: own.corner_positions(facet),
+            shape: Shape::of(&corners),
+        });
+        let faces = |normal: Vec3| normal.dot(&own.normals[node]) <= FACING;
+        let around = own.surface.corners(node).iter();
         let depths = around.map(|corner| self.pair.sides[side].depth(corner.facet));
-        !self.is_corner(side, node, facet)
+        normal.is_some_and(faces)
+            && !self.is_corner(side, node, facet)
             && -gap <= depths.fold(self.pair.sides[side].depth(facet), f64::min)
     }
 
@@ -172,7 +191,7 @@ impl Place {
         match self {
             Place::Facet(hit) => {
                 let corners = configuration.facing(side).corners(hit.facet);
-                let shape = striae_surface::facet::Shape::of(&corners);
+                let shape = Shape::of(&corners);
                 Some((corners, shape.weights(hit.xi, hit.eta).value))
             }
             Place::Plane(_) => None,

@@ -188,7 +188,11 @@ fn actions(party: &Party) -> Vec<Actions> {
                 let by = SIGNS[corner] * (kappa / scale).sqrt();
                 let mass = &paired.segment.mass[corner];
                 let share = |shares: &[f64; 8]| -> f64 {
-                    by * shares.iter().zip(mass).map(|(share, m)| share * m).sum::<f64>()
+                    by * shares
+                        .iter()
+                        .zip(mass)
+                        .map(|(share, m)| share * m)
+                        .sum::<f64>()
                 };
                 let [pressure, friction] = [&on_segment.shares, &on_segment.slips].map(share);
                 if scale == 0.0 || pressure == 0.0 || mover.is_rigid() {

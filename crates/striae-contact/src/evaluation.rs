@@ -319,7 +319,9 @@ impl Evaluation {
         let pair = stage.configuration.pair;
         for (term, facets, of_facets) in segment_terms(field, patches) {
             self.terms.push(term);
-            for ((side, facet), of_facet) in pair.facing_sides().into_iter().zip(facets).zip(of_facets) {
+            for ((side, facet), of_facet) in
+                pair.facing_sides().into_iter().zip(facets).zip(of_facets)
+            {
                 if let Some(facet) = facet
                     && pair.is_deformable(side)
                 {

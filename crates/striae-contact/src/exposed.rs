@@ -35,10 +35,7 @@ pub fn covered_load<L: SurfaceLoad>(
 ) -> Vec<LocalTerm> {
     const N: usize = 24;
     let numbering = configuration.pair.numbering();
-    let (own, other) = (
-        configuration.side(side),
-        configuration.facing(side),
-    );
+    let (own, other) = (configuration.side(side), configuration.facing(side));
     let first = own
         .corners(facet)
         .map(|corner| numbering.position(side, corner));

@@ -125,7 +125,9 @@ impl Interface<'_> {
     pub(crate) fn sign(&self, nodes: [(Side, SurfaceNode); 2]) -> f64 {
         let [(side, node), (other_side, other)] = nodes;
         match self.opponent {
-            Opponent::Itself { normals, .. } => normals[node.index()].dot(&normals[other.index()]).signum(),
+            Opponent::Itself { normals, .. } => {
+                normals[node.index()].dot(&normals[other.index()]).signum()
+            }
             _ if side == other_side => 1.0,
             _ => -1.0,
         }

@@ -273,9 +273,7 @@ fn of_facet(
             reach,
             segment,
         };
-        if is_near(&paired)
-            && (!itself || self_contact::is_outside(configuration, &paired))
-        {
+        if is_near(&paired) && (!itself || self_contact::is_outside(configuration, &paired)) {
             found.push(paired);
         }
     }

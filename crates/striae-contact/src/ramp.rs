@@ -187,8 +187,14 @@ impl Ramp<'_> {
             self.selection.slip_freedom(k) == SlipFreedom::Plane && counts(kept[k].place())
         });
         let count = self.selection.coupling().len();
-        let pressures = coupling(weak.clone().map(|weak| (weak.coefficient, &weak.row)), count);
-        let frictions = coupling(weak.map(|weak| (weak.coefficient, &weak.friction_row)), count);
+        let pressures = coupling(
+            weak.clone().map(|weak| (weak.coefficient, &weak.row)),
+            count,
+        );
+        let frictions = coupling(
+            weak.map(|weak| (weak.coefficient, &weak.friction_row)),
+            count,
+        );
         let coupled = |(pressure, friction): (&(u32, f64), (u32, f64))| Coupled {
             l: friction.0,
             value: friction.1,

@@ -201,8 +201,7 @@ impl Actions {
         let place = |node: SurfaceNode| mass.index[Side::A][node];
         let mut of_pressure = vec![BTreeMap::new(); count];
         for overlap in interface.overlaps {
-            let corners: [SurfaceNode; 8] =
-                std::array::from_fn(|c| overlap.corners[c / 4][c % 4]);
+            let corners: [SurfaceNode; 8] = std::array::from_fn(|c| overlap.corners[c / 4][c % 4]);
             for (c, of_c) in overlap.mass.iter().enumerate() {
                 let Some(k) = place(corners[c]) else { continue };
                 for (d, value) in of_c.iter().enumerate().filter(|(_, value)| **value != 0.0) {

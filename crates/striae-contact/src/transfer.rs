@@ -98,7 +98,11 @@ impl Transfer {
                 };
                 Self {
                     rows: (0..).zip(&rows).map(|(t, row)| signed(t, row)).collect(),
-                    released: kept.iter().zip(&released).map(|(&k, row)| signed(k, row)).collect(),
+                    released: kept
+                        .iter()
+                        .zip(&released)
+                        .map(|(&k, row)| signed(k, row))
+                        .collect(),
                 }
             }
             Opponent::Itself { .. } => {

@@ -38,7 +38,8 @@ pub(super) fn may_touch(
     let shares = |node: &SurfaceNode| corners[1].iter().any(|other| mesh(other) == mesh(node));
     let is_folded = || {
         let [n_i, n_j] = facets.map(facet_normal);
-        n_i.zip(n_j).is_some_and(|(n_i, n_j)| n_i.dot(&n_j) < FOLDED)
+        n_i.zip(n_j)
+            .is_some_and(|(n_i, n_j)| n_i.dot(&n_j) < FOLDED)
     };
     !corners[0].iter().any(shares) || is_folded()
 }
@@ -46,7 +47,11 @@ pub(super) fn may_touch(
 /// Returns whether the body does not lie between two facets.
 pub(super) fn is_outside(configuration: &Configuration, paired: &PairedFacets) -> bool {
     let side = &configuration.pair.sides[Side::A];
-    let depths = paired.facets.iter().flatten().map(|&facet| side.depth(facet));
+    let depths = paired
+        .facets
+        .iter()
+        .flatten()
+        .map(|&facet| side.depth(facet));
     -paired.mean_gap(configuration) <= depths.fold(f64::INFINITY, f64::min)
 }
 
@@ -58,10 +63,17 @@ pub(super) fn drop_hidden(configuration: &Configuration, all: &mut Vec<PairedFac
             of_facet.entry(facet).or_default().push(at);
         }
     }
-    let gaps: Vec<f64> = all.iter().map(|paired| paired.mean_gap(configuration)).collect();
+    let gaps: Vec<f64> = all
+        .iter()
+        .map(|paired| paired.mean_gap(configuration))
+        .collect();
     let side = &configuration.pair.sides[Side::A];
     let hides = |at: usize, facet: FacetId, by: usize| {
-        let between = all[by].facets.into_iter().flatten().find(|other| *other != facet);
+        let between = all[by]
+            .facets
+            .into_iter()
+            .flatten()
+            .find(|other| *other != facet);
         by != at
             && between.is_some_and(|k| gaps[at] - gaps[by] > side.depth(k))
             && covers(&all[by], &all[at])

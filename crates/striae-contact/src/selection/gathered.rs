@@ -12,8 +12,8 @@ use super::{
 use crate::{
     configuration::Configuration,
     coverage::Place,
-    pair::Geometry,
     interface::{ClampedProjection, Interface, Opponent, Overlap},
+    pair::Geometry,
     pairing::{PairedFacets, Scope, paired_facets},
     segment::SegmentDerivatives,
     side::Side,
@@ -53,11 +53,12 @@ impl Gathered {
                 }
             }
         }
+        let met = Met::new(configuration, &paired);
         let opposing = Side::BOTH.map(|side| {
             let nodes = near[side].iter().enumerate();
             nodes
                 .map(|(node, near)| {
-                    near.then(|| clamped(configuration, side, SurfaceNode::new(node)))
+                    near.then(|| clamped(configuration, side, SurfaceNode::new(node), &met))
                         .flatten()
                 })
                 .collect()
@@ -141,7 +142,12 @@ impl Gathered {
             }
             Geometry::Itself => {
                 let own = configuration.side(Side::A);
-                mesh = own.surface.nodes().iter().map(|node| node.0).collect::<Vec<u32>>();
+                mesh = own
+                    .surface
+                    .nodes()
+                    .iter()
+                    .map(|node| node.0)
+                    .collect::<Vec<u32>>();
                 Opponent::Itself {
                     mesh: &mesh,
                     normals: &own.normals,
@@ -154,6 +160,36 @@ impl Gathered {
             opposing: [&self.opposing[0], &self.opposing[1]],
             opponent,
         })
+    }
+}
+
+/// Facets that those around each node are paired with, in self-contact; what faces a node there
+/// beside them belongs to another wall.
+struct Met(Option<Vec<BTreeSet<FacetId>>>);
+
+impl Met {
+    fn new(configuration: &Configuration, paired: &[PairedFacets]) -> Self {
+        if !configuration.pair.is_self_contact() {
+            return Self(None);
+        }
+        let mut met = vec![BTreeSet::new(); configuration.side(Side::A).x.len()];
+        for paired in paired {
+            for (corners, other) in paired
+                .corners
+                .iter()
+                .zip([paired.facets[1], paired.facets[0]])
+            {
+                for node in corners {
+                    met[node.index()].extend(other);
+                }
+            }
+        }
+        Self(Some(met))
+    }
+
+    fn holds(&self, node: SurfaceNode, facet: FacetId) -> bool {
+        let met = self.0.as_ref();
+        met.is_none_or(|met| met[node.index()].contains(&facet))
     }
 }
 
@@ -182,8 +218,10 @@ fn clamped(
     configuration: &Configuration,
     side: Side,
     node: SurfaceNode,
+    met: &Met,
 ) -> Option<ClampedProjection> {
-    let (contact, _) = configuration.opposite(side, node)?;
+    let on = |facet: FacetId| met.holds(node, facet);
+    let (contact, _) = configuration.opposite_on(side, node, on)?;
     match contact.place {
         Place::Facet(hit) if !configuration.pair.is_rigid() => {
             let corners = configuration.facing(side).corners(hit.facet);

@@ -11,7 +11,7 @@ use striae_solve::{assembly::StepContext, problem::Problem, state::State};
 
 use crate::{
     pair::{PairFunction, Wanted},
-    placed::{dome, of_bodies, of_rigid, on_rigid, two_blocks},
+    placed::{dome, of_bodies, of_pieces, of_rigid, on_rigid, two_blocks, two_pieces},
     scene::{coulomb, plane},
 };
 
@@ -81,6 +81,32 @@ fn of_two_curved_surfaces_that_stick_slip_and_open() {
     assert!(corrected > 10, "{corrected} with a corrector");
     assert!(weak > 5, "{weak} weak nodes");
     assert!(kept[0] > 20 && kept[1] > 20, "kept: {kept:?}");
+}
+
+#[test]
+fn of_a_surface_that_touches_itself() {
+    let mut kept = 0;
+    for divisions in [[3, 3], [3, 2], [2, 4], [4, 2]] {
+        for friction in laws() {
+            let problem = Problem::new(two_pieces(divisions, friction)).unwrap();
+            let first = 2 * (divisions[0] + 1).pow(2);
+            let state = State::undeformed(&problem);
+            let context = StepContext::new(&problem, 0, &state);
+            let every = [Status::Open, Status::Stick, Status::Slip];
+            let found = (7..40).find_map(|seed| {
+                let [start, now] = of_pieces(&problem, first, seed);
+                let pair = PairFunction::new(&context, start, now, 0.5);
+                let u = pair.found(Wanted::Mixed)?;
+                let statuses = pair.statuses(&u);
+                let has_all = every.iter().all(|status| statuses.contains(status));
+                has_all.then_some((pair, u))
+            });
+            let (pair, u) = found.expect("nodes of every status");
+            kept += pair.selection.kept().len();
+            pair.assert_order(&u, &format!("{divisions:?}"));
+        }
+    }
+    assert!(kept > 40, "kept: {kept}");
 }
 
 #[test]

@@ -22,6 +22,7 @@ mod rigid;
 mod rigid_facets;
 mod round_off;
 mod sections;
+mod self_contact;
 mod skins;
 mod sliding;
 mod stabilised;
