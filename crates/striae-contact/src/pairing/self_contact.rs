@@ -110,3 +110,98 @@ fn places(paired: &PairedFacets) -> Option<Vec<Vec3>> {
     let place = |n: &[f64; 8]| (0..4).map(|c| paired.x[c] * n[c]).sum();
     Some(vertices.iter().map(place).collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use striae_mesh::NodeId;
+    use striae_surface::topology::Surface;
+
+    use super::*;
+    use crate::{
+        pair::{ContactPair, Enforcement, Geometry, PairedSurface},
+        pairing::{Corners, Scope, compliances, paired_facets},
+        placement::Placement,
+        segment::SegmentDerivatives,
+    };
+
+    /// Upper and lower faces of sheets on top of each other.
+    fn sheets(count: usize, thickness: f64, gap: f64) -> (Vec<[NodeId; 4]>, Vec<Vec3>) {
+        const CELLS: usize = 4;
+        let (mut facets, mut x) = (Vec::new(), Vec::new());
+        for sheet in 0..count {
+            let z = (thickness + gap) * sheet as f64;
+            // Unlike meshes of the two faces, so that no facets match.
+            for (height, shift, up) in [(z, 0.0, false), (z + thickness, 0.07, true)] {
+                let first = x.len();
+                let node = |i: usize, j: usize| NodeId::new(first + i + (CELLS + 1) * j);
+                for j in 0..=CELLS {
+                    for i in 0..=CELLS {
+                        let at = [i, j].map(|k| 0.2 * k as f64 + shift);
+                        x.push(Vec3::new(at[0], at[1], height));
+                    }
+                }
+                for j in 0..CELLS {
+                    for i in 0..CELLS {
+                        let ring = [
+                            node(i, j),
+                            node(i + 1, j),
+                            node(i + 1, j + 1),
+                            node(i, j + 1),
+                        ];
+                        let [a, b, c, d] = ring;
+                        facets.push(if up { [a, b, c, d] } else { [a, d, c, b] });
+                    }
+                }
+            }
+        }
+        (facets, x)
+    }
+
+    fn gaps(count: usize, thickness: f64, gap: f64, known: bool) -> Vec<f64> {
+        let (facets, x) = sheets(count, thickness, gap);
+        let side = |geometry: Geometry, thickness: Vec<f64>| PairedSurface {
+            geometry,
+            stiffness: 1.0,
+            texture: None,
+            thickness,
+        };
+        let of_facets = if known {
+            vec![thickness; facets.len()]
+        } else {
+            Vec::new()
+        };
+        let pair = ContactPair {
+            name: "sheets".to_owned(),
+            sides: [
+                side(Geometry::Deformable(Surface::new(&facets)), of_facets),
+                side(Geometry::Itself, Vec::new()),
+            ],
+            enforcement: Enforcement::Weighted,
+            search_distance: Some(0.2),
+        };
+        let at = Configuration::new(&pair, [x, Vec::new()], Placement::at_rest());
+        let compliances = compliances(&at);
+        let scope = Scope {
+            compliances: &compliances,
+            depth: 0.0,
+        };
+        let none = |_: &[Corners]| SegmentDerivatives::None;
+        let paired = paired_facets(&at, scope, &none, |_| true);
+        paired.iter().map(|paired| paired.mean_gap(&at)).collect()
+    }
+
+    #[test]
+    fn a_sheet_has_no_contact_through_itself_or_others() {
+        let (thickness, gap) = (0.06, 0.02);
+        for count in [1, 2, 3, 4] {
+            let found = gaps(count, thickness, gap, true);
+            assert!(
+                found.iter().all(|found| (found - gap).abs() < 1e-12),
+                "{found:?}"
+            );
+            assert!(found.len() >= 16 * (count - 1), "{count}: {}", found.len());
+            let all = gaps(count, thickness, gap, false);
+            assert!(all.len() > found.len(), "{count}: {}", all.len());
+        }
+    }
+}

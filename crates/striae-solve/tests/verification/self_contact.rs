@@ -201,3 +201,120 @@ fn forces_on_a_body_that_touches_itself_cancel() {
     assert!(total > 0.1, "{total}");
     assert!(sum.norm() < 1e-14 * total, "{sum} of {total}");
 }
+
+/// A strip of elements one wide along a line, `across` elements thick.
+fn strip(line: &[[f64; 2]], thickness: f64, across: usize, wide: f64) -> Mesh {
+    let count = line.len();
+    let at = |k: usize| Vec3::new(line[k][0], 0.0, line[k][1]);
+    let normal = |k: usize| {
+        let along = at((k + 1).min(count - 1)) - at(k.saturating_sub(1));
+        Vec3::new(-along.z, 0.0, along.x).normalize()
+    };
+    let mut positions = Vec::new();
+    for k in 0..count {
+        for layer in 0..=across {
+            let share = layer as f64 / across as f64 - 0.5;
+            let place = at(k) + normal(k) * (share * thickness);
+            positions.extend([place, place + Vec3::y() * wide]);
+        }
+    }
+    let node = |k: usize, layer: usize, y: usize| NodeId::new(2 * (k * (across + 1) + layer) + y);
+    let cells = (0..count - 1).flat_map(|k| (0..across).map(move |layer| (k, layer)));
+    let cells = cells.map(|(k, layer)| {
+        let face = |k: usize| {
+            [
+                node(k, layer, 0),
+                node(k, layer, 1),
+                node(k, layer + 1, 1),
+                node(k, layer + 1, 0),
+            ]
+        };
+        let ([a, b, c, d], [e, f, g, h]) = (face(k), face(k + 1));
+        [a, b, c, d, e, f, g, h]
+    });
+    with_skin(Mesh::new(positions, vec![CellBlock::hexahedra(cells)]).unwrap())
+}
+
+/// Lines of a strip that is folded `turns` times, with flat parts of a length and turns of a
+/// diameter.
+fn folded(turns: usize, length: f64, diameter: f64, size: f64) -> Vec<[f64; 2]> {
+    let flat = (length / size).round() as usize;
+    let round = 6;
+    let mut line = Vec::new();
+    for turn in 0..=turns {
+        let z = diameter * turn as f64;
+        let forth = turn % 2 == 0;
+        for k in 0..=flat {
+            let x = length * k as f64 / flat as f64;
+            line.push([if forth { x } else { length - x }, z]);
+        }
+        if turn < turns {
+            for k in 1..round {
+                let angle = std::f64::consts::PI * k as f64 / round as f64;
+                let way = 0.5 * diameter * angle.sin();
+                let x = if forth { length + way } else { -way };
+                line.push([x, z + 0.5 * diameter * (1.0 - angle.cos())]);
+            }
+        }
+    }
+    line
+}
+
+/// A strip that is folded once, its ends pressed together and then moved apart sideways.
+fn closing_fold(size: f64, friction: f64) -> Model {
+    let line = folded(1, 1.0, 0.32, size);
+    let mut mesh = strip(&line, 0.12, 1, 0.2);
+    let all = |wanted: &dyn Fn(&Vec3) -> bool| -> Vec<NodeId> {
+        let nodes = mesh.positions.iter().enumerate();
+        let nodes = nodes.filter(|(_, x)| wanted(x));
+        nodes.map(|(node, _)| NodeId::new(node)).collect()
+    };
+    let sets = [
+        ("lower", all(&|x| x.z < -0.05 && x.x < 0.3)),
+        ("upper", all(&|x| x.z > 0.37 && x.x < 0.3)),
+        ("whole", all(&|_| true)),
+    ];
+    for (name, nodes) in sets {
+        mesh.node_sets.insert(name, nodes);
+    }
+    let mut model = model(vec![body("strip", mesh, rubber(1.0, 0.3))]);
+    model.touch_itself("strip", &["skin"], coulomb(friction));
+    let moved = |x: f64, z: f64| {
+        let mut step = step();
+        step.increments = increments(0.125, 1e-3);
+        step.displacements = vec![
+            model.hold("strip", "whole", [None, Some(0.0), None]),
+            model.hold("strip", "lower", [Some(0.0), Some(0.0), Some(0.0)]),
+            model.hold("strip", "upper", [Some(x), Some(0.0), Some(z)]),
+        ];
+        step
+    };
+    model.steps = vec![moved(0.0, -0.26), moved(-0.25, -0.26)];
+    model
+}
+
+#[test]
+fn a_strip_that_is_folded_closes_and_slides_on_itself() {
+    for (size, most) in [(1.0 / 6.0, 25), (1.0 / 12.0, 10)] {
+        let run = completed(closing_fold(size, 0.3));
+        let iterations: Vec<usize> = run.iterations.iter().map(Vec::len).collect();
+        assert!(
+            iterations.iter().all(|count| *count <= most),
+            "{iterations:?}"
+        );
+        let mut slipping = 0;
+        for state in &run.states {
+            let pair = &state.pairs[0];
+            let nodes = pair.nodes[Side::A].iter().zip(&pair.kept[Side::A]);
+            let slip = nodes.filter(|(node, kept)| **kept && node.status == Status::Slip);
+            for (node, _) in slip {
+                slipping += 1;
+                assert!((node.tau.norm() - 0.3 * node.pressure).abs() < 1e-9 * node.pressure);
+                assert!(node.tau.dot(&node.slip) < 0.0, "{node:?}");
+            }
+            let forces = pair.facets[Side::A].iter().flat_map(|(_, of)| of.force);
+            assert!(forces.sum::<Vec3>().norm() < 1e-16);
+        }
+        assert!(slipping > 40, "{slipping}");
+    }
+}
