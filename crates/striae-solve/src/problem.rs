@@ -274,8 +274,10 @@ pub(crate) fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, 
                 texture: None,
             })
         }
+        ContactSurface::Itself => unreachable!("the surface is that of the first side"),
     };
-    let mut sides = [side(0, &pair.a)?, side(1, &pair.b)?];
+    let [a, b] = pair.surfaces();
+    let mut sides = [side(0, a)?, side(1, b)?];
     let mut conditionings = [None, None];
     for (index, paint) in pair.textures.iter().enumerate() {
         let Some(paint) = paint else { continue };

@@ -82,6 +82,7 @@ pub(super) fn painted(
             ContactSurface::Rigid(rigid) => {
                 format!("rigid surface `{}`", model.rigid_surfaces[rigid.0].name)
             }
+            ContactSurface::Itself => "itself".to_owned(),
         };
         match (&error, paint, node, of_mesh) {
             (TextureError::Vanishing { .. }, Paint::Field(field), Some(node), Some(of_mesh)) => {
