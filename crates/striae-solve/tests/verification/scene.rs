@@ -351,6 +351,7 @@ fn pair(name: &str, a: ContactSurface, b: ContactSurface, friction: Friction) ->
         initial: Initial::AsMeshed,
         interference: None,
         stabilised: false,
+        feature_angle: None,
     }
 }
 
