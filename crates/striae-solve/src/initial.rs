@@ -292,10 +292,8 @@ pub fn surface_node(model: &Model, pair: PairId, side: Side, node: SurfaceNode) 
 /// Name of the body or rigid surface opposite to a side.
 pub fn other_name(model: &Model, pair: PairId, side: Side) -> &str {
     let of_pair = &model.pairs[pair.0];
-    match [&of_pair.b, &of_pair.a][side] {
-        ContactSurface::Itself => side_name(model, &of_pair.a),
-        side => side_name(model, side),
-    }
+    let [a, b] = of_pair.surfaces();
+    side_name(model, [b, a][side])
 }
 
 fn side_name<'m>(model: &'m Model, side: &ContactSurface) -> &'m str {
