@@ -130,23 +130,25 @@ impl Configuration<'_> {
         Some((contact, Found::Edge(nodes)))
     }
 
-    /// Returns whether a node may face a facet at this gap. In self-contact that is not one of
-    /// its own, nor one behind the body.
+    /// Returns whether a node may face a facet at this gap: where surfaces consist of faces, one
+    /// that looks towards it; in self-contact not one of its own, nor one behind the body.
     fn may_face(&self, side: Side, node: SurfaceNode, facet: FacetId, gap: f64) -> bool {
-        if !self.pair.is_self_contact() {
+        if !self.pair.is_by_faces() || self.pair.is_rigid() {
             return true;
         }
-        let own = self.side(side);
-        let corners = own.corners(facet);
+        let (own, other) = (self.side(side), self.facing(side));
+        let corners = other.corners(facet);
         let normal = facet_normal(&Facet {
-            corners: own.corner_positions(facet),
+            corners: other.corner_positions(facet),
             shape: Shape::of(&corners),
         });
         let faces = |normal: Vec3| normal.dot(&own.normals[node]) <= FACING;
+        if !normal.is_some_and(faces) || !self.pair.is_self_contact() {
+            return normal.is_some_and(faces);
+        }
         let around = own.surface.corners(node).iter();
         let depths = around.map(|corner| self.pair.sides[side].depth(corner.facet));
-        normal.is_some_and(faces)
-            && !self.is_corner(side, node, facet)
+        !self.is_corner(side, node, facet)
             && -gap <= depths.fold(self.pair.sides[side].depth(facet), f64::min)
     }
 

@@ -21,6 +21,9 @@ pub struct ContactPair {
     pub enforcement: Enforcement,
     /// Distance over which contact is looked for ahead; `None`: half the local facet size.
     pub search_distance: Option<f64>,
+    /// Surfaces consist of faces, each with nodes of its own on the edges between them, so a node
+    /// looks only at facets that face its own.
+    pub has_faces: bool,
 }
 
 /// One side of a pair.
@@ -136,6 +139,11 @@ impl ContactPair {
         } else {
             side.opposite()
         }
+    }
+
+    /// Returns whether what a node may face is known from the facets around it.
+    pub(crate) fn is_by_faces(&self) -> bool {
+        self.has_faces || self.is_self_contact()
     }
 
     /// Part of the traction field that each of two facets contributes: half of it, or all against

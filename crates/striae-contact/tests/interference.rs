@@ -73,6 +73,7 @@ fn pair(a: Geometry, b: Geometry) -> ContactPair {
         sides: [side(a), side(b)],
         enforcement: Enforcement::Weighted,
         search_distance: None,
+        has_faces: false,
     }
 }
 

@@ -178,6 +178,7 @@ mod tests {
             ],
             enforcement: Enforcement::Weighted,
             search_distance: Some(0.2),
+            has_faces: true,
         };
         let at = Configuration::new(&pair, [x, Vec::new()], Placement::at_rest());
         let compliances = compliances(&at);

@@ -163,33 +163,36 @@ impl Gathered {
     }
 }
 
-/// Facets that those around each node are paired with, in self-contact; what faces a node there
-/// beside them belongs to another wall.
-struct Met(Option<Vec<BTreeSet<FacetId>>>);
+/// Facets that those around each node are paired with, by side, where surfaces consist of faces;
+/// what faces a node there beside them belongs to another wall.
+struct Met(Option<[Vec<BTreeSet<FacetId>>; 2]>);
 
 impl Met {
     fn new(configuration: &Configuration, paired: &[PairedFacets]) -> Self {
-        if !configuration.pair.is_self_contact() {
+        if !configuration.pair.is_by_faces() || configuration.pair.is_rigid() {
             return Self(None);
         }
-        let mut met = vec![BTreeSet::new(); configuration.side(Side::A).x.len()];
+        let mut met = configuration.sides.each_ref().map(|side| {
+            let count = side.as_ref().map_or(0, |side| side.x.len());
+            vec![BTreeSet::new(); count]
+        });
         for paired in paired {
-            for (corners, other) in paired
-                .corners
-                .iter()
+            let sides = paired.sides.iter();
+            for ((side, corners), other) in sides
+                .zip(&paired.corners)
                 .zip([paired.facets[1], paired.facets[0]])
             {
                 for node in corners {
-                    met[node.index()].extend(other);
+                    met[*side][node.index()].extend(other);
                 }
             }
         }
         Self(Some(met))
     }
 
-    fn holds(&self, node: SurfaceNode, facet: FacetId) -> bool {
+    fn holds(&self, side: Side, node: SurfaceNode, facet: FacetId) -> bool {
         let met = self.0.as_ref();
-        met.is_none_or(|met| met[node.index()].contains(&facet))
+        met.is_none_or(|met| met[side][node.index()].contains(&facet))
     }
 }
 
@@ -220,7 +223,7 @@ fn clamped(
     node: SurfaceNode,
     met: &Met,
 ) -> Option<ClampedProjection> {
-    let on = |facet: FacetId| met.holds(node, facet);
+    let on = |facet: FacetId| met.holds(side, node, facet);
     let (contact, _) = configuration.opposite_on(side, node, on)?;
     match contact.place {
         Place::Facet(hit) if !configuration.pair.is_rigid() => {

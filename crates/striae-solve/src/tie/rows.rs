@@ -331,6 +331,7 @@ pub(super) fn contact_pair(sides: [(&Mesh, &[Face]); 2], within: Option<f64>) ->
         sides,
         enforcement: Enforcement::Weighted,
         search_distance: within,
+        has_faces: false,
     }
 }
 

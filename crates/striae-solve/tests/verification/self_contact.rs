@@ -37,8 +37,7 @@ fn completed(model: Model) -> Run {
     run
 }
 
-/// Largest distance of nodes of the jaw from where they are with its walls as a pair, after every
-/// increment.
+/// Largest distance of nodes of two runs after every increment.
 fn apart(found: &Run, named: &Run) -> Vec<f64> {
     let states = found.states.iter().zip(&named.states);
     states
@@ -114,6 +113,46 @@ fn two_pieces_of_one_body_touch_as_two_bodies_do() {
     for wanted in [Status::Stick, Status::Slip] {
         assert_eq!(status(&one, wanted), status(&pair, wanted), "{wanted:?}");
     }
+}
+
+/// Two blocks that are pressed on each other and dragged, touching with these faces.
+fn dragged(faces: [&str; 2], feature_angle: Option<f64>) -> Model {
+    let [lower, upper] = [
+        block([0.0; 3], [1.0, 1.0, 0.5], [4, 4, 2]),
+        block([0.2, 0.2, 0.5], [0.6, 0.6, 0.5], [3, 3, 2]),
+    ]
+    .map(|block| with_skin(block.mesh().unwrap()));
+    let mut model = model(vec![
+        body("lower", lower, rubber(3.0, 0.3)),
+        body("upper", upper, rubber(1.0, 0.3)),
+    ]);
+    let [a, b] = faces;
+    model.touch(("lower", a), ("upper", b), coulomb(0.3));
+    model.pairs[0].feature_angle = feature_angle;
+    let moved = |x: f64, y: f64, z: f64| {
+        let mut step = step();
+        step.increments = increments(0.25, 1e-3);
+        step.displacements = vec![
+            model.hold("lower", "zmin", [Some(0.0); 3]),
+            model.hold("upper", "zmax", [Some(x), Some(y), Some(z)]),
+        ];
+        step
+    };
+    model.steps = vec![moved(0.0, 0.0, -0.02), moved(0.1, 0.03, -0.02)];
+    model
+}
+
+/// Whole skins find the faces that touch; edges do not smear normals, and nothing else touches.
+#[test]
+fn skins_with_faces_are_the_faces_that_touch() {
+    let named = completed(dragged(["zmax", "zmin"], None));
+    let found = completed(dragged(["skin", "skin"], Some(45.0)));
+    let apart = apart(&found, &named);
+    println!("{apart:?}");
+    assert!(apart.iter().all(|apart| *apart < 1e-12), "{apart:?}");
+    let smeared = completed(dragged(["skin", "skin"], None));
+    let smeared = self::apart(&smeared, &named);
+    println!("{smeared:?}");
 }
 
 /// A block with a slit of no width, whose walls are two faces: compressed, it is as one piece.
