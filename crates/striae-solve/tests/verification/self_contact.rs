@@ -1,8 +1,10 @@
 //! Bodies that touch themselves, held against pairs of their walls and closed forms.
 
 use striae_contact::{side::Side, unknowns::Status};
+use striae_law::friction::Friction;
 use striae_mesh::{CellBlock, Mesh, NodeId, Vec3};
 use striae_solve::{model::Model, outcome::Ending};
+use striae_surface::texture::{Field, Lines, Paint};
 
 use crate::{
     scene::{
@@ -68,6 +70,30 @@ fn walls_found_by_themselves_are_those_named() {
             assert_eq!(iterations(&found), iterations(&named));
         }
     }
+}
+
+/// Both walls have the texture of the one surface that they belong to.
+#[test]
+fn textures_of_walls_that_touch_are_those_of_both() {
+    let friction = || Friction::two_textures(0.2, 0.1, 0.1, 0.5).unwrap();
+    let paint = || {
+        Some(Paint::Field(Field {
+            lines: Lines::Uniform(Vec3::new(1.0, 0.4, 0.0)),
+            turn: 0.0,
+        }))
+    };
+    let mut named = sheared();
+    named.touch(("jaw", "lower"), ("jaw", "upper"), friction());
+    named.pairs[0].textures = [paint(), paint()];
+    let named = completed(named);
+    let mut found = sheared();
+    found.touch_itself("jaw", &["lower", "upper"], friction());
+    found.pairs[0].textures[0] = paint();
+    let found = completed(found);
+    let apart = apart(&found, &named);
+    assert!(apart.iter().all(|apart| *apart < 1e-5), "{apart:?}");
+    let slips = found.last().pairs[0].nodes[Side::A].iter();
+    assert!(slips.filter(|node| node.status == Status::Slip).count() > 10);
 }
 
 #[test]
