@@ -216,6 +216,11 @@ impl Pair {
         }
     }
 
+    /// Returns whether its sides are stated because they touch, not because they may.
+    pub fn is_expected_to_touch(&self) -> bool {
+        self.feature_angle.is_none() && !self.is_on_itself()
+    }
+
     /// True where the first side may touch itself.
     pub fn is_on_itself(&self) -> bool {
         matches!(self.b, ContactSurface::Itself)

@@ -23,6 +23,7 @@ mod rigid_facets;
 mod round_off;
 mod sections;
 mod self_contact;
+mod self_contact_at_random;
 mod skins;
 mod sliding;
 mod stabilised;

@@ -15,7 +15,7 @@ use crate::{
 };
 
 /// All outer faces of a mesh as a set.
-fn with_skin(mut mesh: Mesh) -> Mesh {
+pub fn with_skin(mut mesh: Mesh) -> Mesh {
     let skin = mesh.boundary_faces();
     mesh.facet_sets.insert("skin", skin);
     mesh
@@ -268,7 +268,7 @@ fn forces_on_a_body_that_touches_itself_cancel() {
 }
 
 /// A strip of elements one wide along a line, `across` elements thick.
-fn strip(line: &[[f64; 2]], thickness: f64, across: usize, wide: f64) -> Mesh {
+pub fn strip(line: &[[f64; 2]], thickness: f64, across: usize, wide: f64) -> Mesh {
     let count = line.len();
     let at = |k: usize| Vec3::new(line[k][0], 0.0, line[k][1]);
     let normal = |k: usize| {
@@ -302,7 +302,7 @@ fn strip(line: &[[f64; 2]], thickness: f64, across: usize, wide: f64) -> Mesh {
 
 /// Lines of a strip that is folded `turns` times, with flat parts of a length and turns of a
 /// diameter.
-fn folded(turns: usize, length: f64, diameter: f64, size: f64) -> Vec<[f64; 2]> {
+pub fn folded(turns: usize, length: f64, diameter: f64, size: f64) -> Vec<[f64; 2]> {
     let flat = (length / size).round() as usize;
     let round = 6;
     let mut line = Vec::new();
