@@ -105,6 +105,7 @@ fn joined(name: &str, a: ContactSurface, b: ContactSurface, friction: Friction) 
         initial: Initial::AsMeshed,
         interference: None,
         stabilised: false,
+        feature_angle: None,
     }
 }
 

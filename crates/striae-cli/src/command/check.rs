@@ -143,9 +143,13 @@ fn pair_line(pair: &Pair, model: &Model) -> String {
             )
         }
         ContactSurface::Rigid(rigid) => format!("rigid `{}`", model.rigid_surfaces[rigid.0].name),
+        ContactSurface::Itself => "itself".to_owned(),
     });
     let stabilised = if pair.stabilised { ", stabilised" } else { "" };
-    format!("  pair `{}`: {a} and {b}{stabilised}", pair.name)
+    let features = pair.feature_angle.map_or_else(String::new, |angle| {
+        format!(", faces part at edges of {angle} degrees")
+    });
+    format!("  pair `{}`: {a} and {b}{stabilised}{features}", pair.name)
 }
 
 fn step_line(model: &Model, index: usize) -> String {
@@ -167,7 +171,7 @@ fn side_nodes(side: &ContactSurface, model: &Model) -> BTreeSet<NodeId> {
                 .flat_map(|face| mesh.face_nodes(*face))
                 .collect()
         }
-        ContactSurface::Rigid(_) => BTreeSet::new(),
+        ContactSurface::Rigid(_) | ContactSurface::Itself => BTreeSet::new(),
     }
 }
 

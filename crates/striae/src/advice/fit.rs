@@ -89,6 +89,8 @@ fn looks_away(model: &Model, pair: &Pair) -> bool {
             _ => area_vectors(model, &pair.b),
         },
         ContactSurface::Deformable { .. } => area_vectors(model, &pair.b),
+        // Facets of a body that face each other now are no condition.
+        ContactSurface::Itself => return false,
     };
     match (plane(&a), plane(&b)) {
         (Some(a), Some(b)) => a.dot(&b) > FACING,
@@ -112,6 +114,7 @@ fn area_vectors(model: &Model, side: &ContactSurface) -> Vec<Vec3> {
             }
             RigidShape::Plane { .. } | RigidShape::Bare => Vec::new(),
         },
+        ContactSurface::Itself => Vec::new(),
     }
 }
 
