@@ -18,7 +18,9 @@ const PLANE: f64 = 0.95;
 /// Notes how every pair fits.
 pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
     for (index, (pair, fit)) in model.pairs.iter().zip(fits).enumerate() {
-        let Some(fit) = fit else { continue };
+        let Some(fit) = fit.as_ref().filter(|_| !pair.is_on_itself()) else {
+            continue;
+        };
         let text = format!("pair `{}`: {}", pair.name, words(model, PairId(index), fit));
         advice.note(Topic::Fit, &pair.name, text);
         if looks_away(model, pair) || turned(model, PairId(index)).is_some() {
