@@ -132,7 +132,7 @@ pub(crate) enum SecondSide {
     /// The first one once more.
     Itself,
     /// Another one.
-    Other(Side),
+    Other(Box<Side>),
 }
 
 words! {
@@ -157,7 +157,9 @@ impl Read for SecondSide {
     fn read(value: &Value<'_>, place: &Place, faults: &mut FaultList<'_>) -> Option<Self> {
         match value.get_ref() {
             DeValue::String(_) => SameSide::read(value, place, faults).map(|_| Self::Itself),
-            DeValue::Table(_) => read_table(value, place, faults).map(Self::Other),
+            DeValue::Table(_) => {
+                read_table(value, place, faults).map(|side| Self::Other(Box::new(side)))
+            }
             _ => unexpected(value, place, faults, &Self::form()),
         }
     }

@@ -61,7 +61,7 @@ impl<'a> Scene<'a> {
     /// Whether a couple may meet at all, and is in no named pair.
     pub(super) fn is_open(&self, (x, y): Couple) -> bool {
         let [x, y] = [&self.atoms[x], &self.atoms[y]];
-        !(x.is_rigid() && y.is_rigid()) && !self.taken.has([x, y])
+        !(self.taken.has([x, y]) || x.is_rigid() && y.is_rigid())
     }
 
     /// The texture of each atom: the narrowest statement counts.

@@ -1,14 +1,14 @@
 //! Fibres through what is behind the facets of pairs.
 
 use striae_contact::{
-    interference::{Fibre, Thickness, fibres},
+    interference::{Fibre, fibres, lengths},
     side::Side,
 };
 use striae_mesh::{NodeId, Vec3};
 use striae_surface::topology::Surface;
 
 use super::PairGeometry;
-use crate::{interference::thickness_with, model::Model};
+use crate::model::Model;
 
 /// Fibres through what is behind the facets of all pairs. They end at nodes of the
 /// body, or of the rigid surface.
@@ -32,9 +32,14 @@ pub(crate) fn add_fibres(model: &Model, pairs: &mut [PairGeometry]) {
             of_body(&model.bodies[body].mesh.positions, surface, skin)
         });
         if pair.contact.is_self_contact() {
-            let at = |body: usize, node: NodeId| model.bodies[body].mesh.positions[node.index()];
-            let Thickness([of_a, _]) = thickness_with(pair, at);
-            pair.contact.sides[Side::A].thickness = of_a;
+            let own = pair.bodies[Side::A].zip(pair.contact.sides[Side::A].surface());
+            if let Some((body, surface)) = own {
+                let positions = &model.bodies[body].mesh.positions;
+                let at = |node: NodeId| positions[node.index()];
+                let x: Vec<Vec3> = surface.nodes().iter().map(|node| at(*node)).collect();
+                let thickness = lengths(surface, &x, &pair.fibres[Side::A], at);
+                pair.contact.sides[Side::A].thickness = thickness;
+            }
         }
     }
 }

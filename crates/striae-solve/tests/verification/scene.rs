@@ -1,4 +1,6 @@
 //! Models made in code and run without output.
+//!
+//! Longer than other files, as it is the one place where models of tests are made.
 
 use striae_contact::{evaluation::Evaluation, interference::Interference, pair::Enforcement};
 use striae_law::{
