@@ -19,6 +19,10 @@ const PLANE: f64 = 0.95;
 pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
     for (index, (pair, fit)) in model.pairs.iter().zip(fits).enumerate() {
         let Some(fit) = fit else { continue };
+        // Facets of one body that face each other through it are no fit.
+        if pair.is_within_a_body() {
+            continue;
+        }
         let text = format!("pair `{}`: {}", pair.name, words(model, PairId(index), fit));
         advice.note(Topic::Fit, &pair.name, text);
         if looks_away(model, pair) || turned(model, PairId(index)).is_some() {
