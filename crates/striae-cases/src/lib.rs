@@ -42,6 +42,7 @@ mod patch_stick;
 mod plate_on_rigid_plane;
 mod slip_surface;
 mod snake_scale;
+mod stack;
 mod stick_tolerance;
 mod stiff_punch;
 mod strip_draw;
@@ -100,6 +101,11 @@ pub const CASES: &[Case] = &[
         "Two blocks, pressed and slid, beside two other codes",
         two_blocks::run,
         quick: "the meshes of the decks, without the one of elements of a quarter of the size"
+    ),
+    case!(
+        "stack",
+        "Blocks in a T and in a pile, everything in contact, beside named pairs",
+        stack::run
     ),
     case!(
         "stiff-punch",
