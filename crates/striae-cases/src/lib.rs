@@ -40,6 +40,7 @@ mod patch_frictionless;
 mod patch_slip;
 mod patch_stick;
 mod plate_on_rigid_plane;
+mod sipes;
 mod slip_surface;
 mod snake_scale;
 mod stack;
@@ -106,6 +107,11 @@ pub const CASES: &[Case] = &[
         "stack",
         "Blocks in a T and in a pile, everything in contact, beside named pairs",
         stack::run
+    ),
+    case!(
+        "sipes",
+        "A tread block with two slits that close, everything in contact, beside named walls",
+        sipes::run
     ),
     case!(
         "stiff-punch",

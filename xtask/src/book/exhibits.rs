@@ -15,7 +15,7 @@ pub struct Exhibit {
 }
 
 /// All cases.
-pub const EXHIBITS: [Exhibit; 29] = [
+pub const EXHIBITS: [Exhibit; 30] = [
     Exhibit {
         case: "two-blocks",
         run: Some("deck"),
@@ -29,6 +29,20 @@ pub const EXHIBITS: [Exhibit; 29] = [
         options: &["--field", "cauchy_stress", "--component", "von Mises"],
         figure: Some("forces"),
         caption: "Blocks in a T and in a pile, everything in contact, with the forces of named pairs.",
+    },
+    Exhibit {
+        case: "sipes",
+        run: Some("tread"),
+        options: &[
+            "--field",
+            "cauchy_stress",
+            "--component",
+            "von Mises",
+            "--view",
+            "0,1,0",
+        ],
+        figure: Some("forces"),
+        caption: "A tread block of one piece, pressed onto a road and dragged until the walls of its slits meet, with the forces of named walls.",
     },
     Exhibit {
         case: "stiff-punch",
