@@ -1,4 +1,6 @@
 //! `[contact]`: what it comes down to, and what is wrong with it.
+//!
+//! Longer than other files, as it goes through all that the table can say.
 
 mod deck;
 
