@@ -1,6 +1,6 @@
 //! Decks made of Abaqus models: keyword by keyword, and what has no counterpart.
 //!
-//! Longer than other files, as it goes through all keywords that have a counterpart.
+//! Longer than other files, as each keyword has a test.
 
 use std::path::PathBuf;
 use striae_deck::{Deck, convert, parse};

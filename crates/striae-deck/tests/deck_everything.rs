@@ -1,6 +1,6 @@
 //! `[contact]`: what it comes down to, and what is wrong with it.
 //!
-//! Longer than other files, as it goes through all that the table can say.
+//! Longer than other files, as each key and each fault has a test.
 
 mod deck;
 
@@ -282,11 +282,12 @@ b = { body = "carcass", facets = "all" }
 within = 0.11
 "#;
     let model = model(glued);
-    let [zmax, zmin] = [(0, "zmax"), (1, "zmin")]
+    let sets = [(0, "zmax"), (1, "zmin")]
         .map(|(body, set): (usize, &str)| model.bodies[body].mesh.facet_sets.get(set).unwrap());
+    let [_, zmin] = sets;
     for (x, y, pair) in couples(&model) {
         for (body, face) in [x, y] {
-            let glued = [zmax, zmin].get(body);
+            let glued = sets.get(body);
             assert!(
                 !glued
                     .zip(face)

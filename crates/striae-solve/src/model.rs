@@ -216,6 +216,11 @@ impl Pair {
         }
     }
 
+    /// True where the first side may touch itself.
+    pub fn is_on_itself(&self) -> bool {
+        matches!(self.b, ContactSurface::Itself)
+    }
+
     /// True where both sides are of one body.
     pub fn is_within_a_body(&self) -> bool {
         let [a, b] = self.surfaces().map(|side| match side {
@@ -223,11 +228,6 @@ impl Pair {
             ContactSurface::Rigid(_) | ContactSurface::Itself => None,
         });
         a.is_some() && a == b
-    }
-
-    /// True where the first side may touch itself.
-    pub fn is_on_itself(&self) -> bool {
-        matches!(self.b, ContactSurface::Itself)
     }
 }
 
