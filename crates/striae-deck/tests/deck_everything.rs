@@ -304,24 +304,6 @@ within = 0.11
 }
 
 #[test]
-fn what_follows_a_rigid_surface_does_not_touch_it() {
-    let rigid = "[[rigid]]\nname = \"plate\"\nmesh = { positions = [[0, 0, 1.2], [1, 0, 1.2], [1, 1, 1.2], [0, 1, 1.2]], facets = [[0, 3, 2, 1]] }\ntied = [{ body = \"carcass\", nodes = \"zmax\" }]\n";
-    let text = SCENE.replace("nodes = \"all\"", "nodes = \"zmax\"");
-    let text = text.replace(
-        ", { body = \"carcass\", nodes = \"zmax\", x = 0, y = 0, z = -0.2 }",
-        "",
-    );
-    let text = format!("{text}\n[contact]\nall = true\n{rigid}");
-    let Ok(deck) = parse(&text, "deck.toml", Path::new("")) else {
-        // The reader may not let a surface have both facets and ties.
-        return;
-    };
-    let zmax = deck.model.bodies[1].mesh.facet_sets.get("zmax").unwrap();
-    let with_plate = faces(&pair(&deck.model, "carcass.rest-plate").a).1;
-    assert!(with_plate.iter().all(|face| !zmax.contains(face)));
-}
-
-#[test]
 fn textures_divide_surfaces_where_a_law_needs_them() {
     let text = r#"
 [contact]

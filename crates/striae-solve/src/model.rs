@@ -225,6 +225,15 @@ impl Pair {
     pub fn is_on_itself(&self) -> bool {
         matches!(self.b, ContactSurface::Itself)
     }
+
+    /// True where both sides are of one body.
+    pub fn is_within_a_body(&self) -> bool {
+        let [a, b] = self.surfaces().map(|side| match side {
+            ContactSurface::Deformable { body, .. } => Some(*body),
+            ContactSurface::Rigid(_) | ContactSurface::Itself => None,
+        });
+        a.is_some() && a == b
+    }
 }
 
 /// Two surfaces of bodies that are glued from the start, see [`crate::tie`].

@@ -8,7 +8,7 @@ use striae::{
     model::Faults,
     prelude::*,
 };
-use striae_model::ModelBuilder;
+use striae_model::{ModelBuilder, rigid_surface};
 
 const DECK: &str = r#"
 title = "A tread on a road"
@@ -99,6 +99,25 @@ fn decks_and_rust_say_the_same() -> Result<(), Error> {
     let [one, other] = [&from_rust, &from_deck.model]
         .map(|model| format!("{:?} {:?}", model.pairs, model.steps[0].frictions));
     assert_eq!(one, other);
+    Ok(())
+}
+
+#[test]
+fn what_follows_a_rigid_surface_does_not_touch_it() -> Result<(), Error> {
+    let corners = [[0.0, 0.0], [3.0, 0.0], [3.0, 3.0], [0.0, 3.0]];
+    let corners = corners.map(|[x, y]| Vec3::new(x, y, 4.0)).to_vec();
+    let facet = [0, 3, 2, 1].map(NodeId::new);
+    let plate = rigid_surface("plate", corners, vec![facet]).and_tied("carcass", "zmax");
+    let hold = step("hold").hold("tread", "zmax");
+    let model = builder()?
+        .rigid(plate)
+        .contact(everything())
+        .step(hold)
+        .build();
+    let model = model.unwrap_or_else(|faults| panic!("{faults}"));
+    let names: Vec<&str> = model.pairs.iter().map(|pair| pair.name.as_str()).collect();
+    assert!(names.contains(&"carcass.rest-plate"), "{names:?}");
+    assert!(names.contains(&"tread-plate"), "{names:?}");
     Ok(())
 }
 

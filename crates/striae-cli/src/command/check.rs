@@ -193,7 +193,7 @@ mod tests {
             "{said}"
         );
         assert!(said.contains(
-            "pair `interface`: `lower` (16 facets, 25 nodes) and `upper` (9 facets, 16 nodes)"
+            "pair `lower-upper`: `lower` (64 facets, 66 nodes) and `upper` (42 facets, 44 nodes)"
         ));
         // 3 (75 + 48) displacements and three tractions of every node that is kept.
         let displacements = 3 * (75 + 48);
@@ -211,19 +211,21 @@ mod tests {
         }
     }
 
-    /// Nodes of the first pair that bear unknowns in the undeformed state.
+    /// Nodes of all pairs that bear unknowns in the undeformed state.
     fn kept_at_the_start(model: &Model) -> usize {
         let problem = Problem::new(model.clone()).unwrap();
         let state = State::undeformed(&problem);
         let context = StepContext::new(&problem, 0, &state);
-        let of_pair = &state.pairs[0];
-        let configuration = context.configuration(0, &state.positions, &state.rigid);
-        let selection = Selection::new(
-            &configuration,
-            None,
-            &of_pair.kept,
-            &context.fixed_on_pair[0],
-        );
-        selection.kept().len()
+        let kept = (0..problem.pairs.len()).map(|pair| {
+            let configuration = context.configuration(pair, &state.positions, &state.rigid);
+            let selection = Selection::new(
+                &configuration,
+                None,
+                &state.pairs[pair].kept,
+                &context.fixed_on_pair[pair],
+            );
+            selection.kept().len()
+        });
+        kept.sum()
     }
 }

@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 
 use striae_mesh::{Mesh, NodeId, Vec3};
-use striae_solve::model::{BodyId, ContactSurface, Pair, Procedure, Step};
+use striae_solve::model::{BodyId, ContactSurface, Procedure, Step};
 
 use super::{Draft, List};
 use crate::{fault::FaultKind, motions::RigidMotions, path::Path};
@@ -53,9 +53,8 @@ pub(super) fn is_tied(draft: &Draft<'_>, body: BodyId) -> bool {
 fn touches(draft: &Draft<'_>, body: BodyId) -> bool {
     let is = |side: &ContactSurface| matches!(side, ContactSurface::Deformable { body: other, .. } if *other == body);
     let mut pairs = draft.pairs.iter().filter_map(|pair| pair.pair);
-    let within = |pair: &Pair| pair.is_on_itself() || is(&pair.a) && is(&pair.b);
     // Contact of a body with itself holds it nowhere.
-    pairs.any(|pair| !within(pair) && (is(&pair.a) || is(&pair.b)))
+    pairs.any(|pair| !pair.is_within_a_body() && (is(&pair.a) || is(&pair.b)))
 }
 
 pub(super) fn prescribe(prescribed: &mut BTreeSet<(NodeId, usize)>, step: &Step, body: BodyId) {

@@ -81,6 +81,10 @@ fn words(model: &Model, pair: PairId, fit: &Fit) -> String {
 
 /// Whether no facets of the sides face each other, as far as their normals tell.
 fn looks_away(model: &Model, pair: &Pair) -> bool {
+    // Parts of one body may face each other only once it is bent.
+    if pair.is_within_a_body() {
+        return false;
+    }
     let a = area_vectors(model, &pair.a);
     let b = match &pair.b {
         ContactSurface::Rigid(rigid) => match &model.rigid_surfaces[rigid.0].shape {

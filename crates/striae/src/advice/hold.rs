@@ -9,9 +9,7 @@ use std::collections::BTreeSet;
 use striae_contact::initial::Fit;
 use striae_law::friction::Law;
 use striae_mesh::{Mesh, NodeId, Vec3};
-use striae_model::{
-    Body, BodyId, ContactSurface, Model, Pair, PairId, Procedure, RigidMotions, Step,
-};
+use striae_model::{Body, BodyId, ContactSurface, Model, PairId, Procedure, RigidMotions, Step};
 
 use super::{Advice, Topic};
 
@@ -79,8 +77,7 @@ fn by_contact(
     let is = |side: &ContactSurface| matches!(side, ContactSurface::Deformable { body: of, .. } if *of == id);
     let pairs = model.pairs.iter().enumerate();
     // Contact of a body with itself holds it nowhere.
-    let within = |pair: &Pair| pair.is_on_itself() || is(&pair.a) && is(&pair.b);
-    let pairs = pairs.filter(|(_, pair)| (is(&pair.a) || is(&pair.b)) && !within(pair));
+    let pairs = pairs.filter(|(_, pair)| (is(&pair.a) || is(&pair.b)) && !pair.is_within_a_body());
     let pairs: Vec<usize> = pairs.map(|(index, _)| index).collect();
     let list = |pairs: &[usize]| {
         let names = pairs
