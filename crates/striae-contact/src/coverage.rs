@@ -143,32 +143,33 @@ impl Configuration<'_> {
             shape: Shape::of(&corners),
         });
         let faces = |normal: Vec3| normal.dot(&own.normals[node]) <= FACING;
-        if !normal.is_some_and(faces) || !self.pair.is_self_contact() {
+        if !normal.is_some_and(faces) || !self.pair.is_in_one_body() {
             return normal.is_some_and(faces);
         }
         let around = own.surface.corners(node).iter();
         let depths = around.map(|corner| self.pair.sides[side].depth(corner.facet));
-        !self.is_corner(side, node, facet)
-            && -gap <= depths.fold(self.pair.sides[side].depth(facet), f64::min)
+        let opposing = &self.pair.sides[self.pair.opposing(side)];
+        !self.is_corner(side, node, facet) && -gap <= depths.fold(opposing.depth(facet), f64::min)
     }
 
     /// The same for the middle of the first facet.
     pub(crate) fn facets_may_face(&self, side: Side, facets: [FacetId; 2], gap: f64) -> bool {
-        if !self.pair.is_self_contact() {
+        if !self.pair.is_in_one_body() {
             return true;
         }
         let mut corners = self.side(side).corners(facets[0]).into_iter();
-        let depths = facets.map(|facet| self.pair.sides[side].depth(facet));
+        let sides = [side, self.pair.opposing(side)].map(|side| &self.pair.sides[side]);
+        let depths = [0, 1].map(|at| sides[at].depth(facets[at]));
         !corners.any(|corner| self.is_corner(side, corner, facets[1]))
             && -gap <= depths[0].min(depths[1])
     }
 
-    /// Returns whether a node is one node of the mesh with a corner of a facet of its side.
+    /// Returns whether a node is one node of the mesh with a corner of a facet that faces its side.
     fn is_corner(&self, side: Side, node: SurfaceNode, facet: FacetId) -> bool {
-        let own = self.side(side);
-        let mesh = own.surface.nodes();
-        let mut corners = own.corners(facet).into_iter();
-        corners.any(|corner| mesh[corner.index()] == mesh[node.index()])
+        let (own, other) = (self.side(side), self.facing(side));
+        let node = own.surface.nodes()[node.index()];
+        let mut corners = other.corners(facet).into_iter();
+        corners.any(|corner| other.surface.nodes()[corner.index()] == node)
     }
 
     /// What a node of a deformable side sees.

@@ -93,7 +93,7 @@ pub fn fit(stage: &Stage) -> Fit {
 /// Gap of a node and the point of the other side that it would have to go to, if it faces
 /// that or is inside.
 pub fn signed_gap(stage: &Stage, side: Side, node: SurfaceNode) -> Option<(f64, Vec3)> {
-    if stage.configuration.pair.is_self_contact() {
+    if stage.configuration.pair.is_in_one_body() {
         return None;
     }
     let seen = seen(stage, side, Spot::Node(node))?;
@@ -143,7 +143,7 @@ struct Seen {
 fn sides(stage: &Stage) -> impl Iterator<Item = Side> {
     let configuration = stage.configuration;
     let sides = configuration.sides.each_ref().map(Option::is_some);
-    let has_opponent = !configuration.pair.is_self_contact();
+    let has_opponent = !configuration.pair.is_in_one_body();
     Side::BOTH
         .into_iter()
         .filter(move |&side| has_opponent && sides[side])

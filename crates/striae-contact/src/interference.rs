@@ -121,9 +121,9 @@ pub enum Kind {
 /// Interference that is deeper than `share` of the facet size at the end and was less at
 /// the start, side by side.
 ///
-/// Self-contact has no sides; see [`Skins`].
+/// None within one body; see [`Skins`].
 pub fn interferences(start: &Stage, end: &Stage, share: f64) -> Vec<Interference> {
-    if end.configuration.pair.is_self_contact() {
+    if end.configuration.pair.is_in_one_body() {
         return Vec::new();
     }
     if let Some(plane) = end.configuration.plane() {
@@ -160,7 +160,7 @@ fn inside_by(
     sized: impl Fn(&Stage, Side, Spot, FacetId) -> f64 + Sync,
 ) -> Vec<Interference> {
     let configuration = stage.configuration;
-    if configuration.pair.is_self_contact() {
+    if configuration.pair.is_in_one_body() {
         return Vec::new();
     }
     if let Some(plane) = configuration.plane() {

@@ -24,6 +24,8 @@ pub struct ContactPair {
     /// Surfaces consist of faces, each with nodes of its own on the edges between them, so a node
     /// looks only at facets that face its own.
     pub has_faces: bool,
+    /// Both sides are faces of one body, which may lie between them.
+    pub one_body: bool,
 }
 
 /// One side of a pair.
@@ -35,9 +37,9 @@ pub struct PairedSurface {
     pub stiffness: f64,
     /// Texture, if the side has one.
     pub texture: Option<SideTexture>,
-    /// Thickness of the body behind each facet in the reference configuration, for self-contact:
-    /// what is further behind a facet than half of it belongs to another one. Empty where no bound
-    /// is known.
+    /// Thickness of the body behind each facet in the reference configuration, for contact within
+    /// one body: what is further behind a facet than half of it belongs to another one. Empty
+    /// where no bound is known.
     pub thickness: Vec<f64>,
 }
 
@@ -114,6 +116,12 @@ impl ContactPair {
     /// Whether facets of side `a` touch each other.
     pub fn is_self_contact(&self) -> bool {
         matches!(self.sides[Side::B].geometry, Geometry::Itself)
+    }
+
+    /// Returns whether what lies between facets that face each other may be their own body. Its
+    /// skin, not the pair, then tells what is inside.
+    pub fn is_in_one_body(&self) -> bool {
+        self.one_body || self.is_self_contact()
     }
 
     /// Sides that carry traction unknowns.

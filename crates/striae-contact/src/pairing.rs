@@ -190,7 +190,7 @@ pub fn paired_facets(
     // A list that grows as it is filled would be touched twice.
     let mut all = Vec::with_capacity(found.iter().map(Vec::len).sum());
     all.extend(found.into_iter().flatten());
-    if itself {
+    if configuration.pair.is_in_one_body() {
         self_contact::drop_hidden(configuration, &mut all);
     }
     all
@@ -235,6 +235,7 @@ fn of_facet(
     let sides = configuration.pair.facing_sides();
     let other = configuration.side(sides[1]);
     let itself = configuration.pair.is_self_contact();
+    let one_body = configuration.pair.is_in_one_body();
     let farthest = farthest(configuration);
     let bounds = own.bounds(facet).inflated(farthest + scope.depth);
     let mut found = Vec::new();
@@ -249,7 +250,7 @@ fn of_facet(
             corners: positions_b,
             shape: Shape::of(&corners_b),
         };
-        if itself && !self_contact::may_touch(own, [&a, &b], [&corners, &corners_b]) {
+        if one_body && !self_contact::may_touch([own, other], [&a, &b], [&corners, &corners_b]) {
             continue;
         }
         let weights = [
@@ -273,7 +274,7 @@ fn of_facet(
             reach,
             segment,
         };
-        if is_near(&paired) && (!itself || self_contact::is_outside(configuration, &paired)) {
+        if is_near(&paired) && (!one_body || self_contact::is_outside(configuration, &paired)) {
             found.push(paired);
         }
     }

@@ -74,6 +74,7 @@ fn pair(a: Geometry, b: Geometry) -> ContactPair {
         enforcement: Enforcement::Weighted,
         search_distance: None,
         has_faces: false,
+        one_body: false,
     }
 }
 

@@ -155,7 +155,7 @@ impl Frame {
         let at = configuration(problem, pair, Positions::from(state));
         let sides = at.pair.deformable_sides().iter();
         let own = sides.filter(|side| {
-            !at.pair.is_self_contact() && problem.pairs[pair].bodies[**side] == Some(body)
+            !at.pair.is_in_one_body() && problem.pairs[pair].bodies[**side] == Some(body)
         });
         let points = own.flat_map(|&side| supports(&at, side));
         let edges = points.flat_map(|(x, push)| {

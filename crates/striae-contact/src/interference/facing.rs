@@ -50,7 +50,7 @@ pub fn facing(configuration: &Configuration) -> Vec<Facing> {
             .collect();
         found
     };
-    match configuration.pair.is_self_contact() {
+    match configuration.pair.is_in_one_body() {
         true => Vec::new(),
         false => {
             let sides = configuration.pair.deformable_sides();

@@ -30,12 +30,15 @@ const FOLDED: f64 = -0.71;
 
 /// Returns whether two facets do not share a node of the mesh, or are folded there.
 pub(super) fn may_touch(
-    own: &Snapshot,
+    snapshots: [&Snapshot; 2],
     facets: [&Facet; 2],
     corners: [&[SurfaceNode; 4]; 2],
 ) -> bool {
-    let mesh = |node: &SurfaceNode| own.surface.nodes()[node.index()];
-    let shares = |node: &SurfaceNode| corners[1].iter().any(|other| mesh(other) == mesh(node));
+    let mesh = |at: usize, node: &SurfaceNode| snapshots[at].surface.nodes()[node.index()];
+    let shares = |node: &SurfaceNode| {
+        let mut others = corners[1].iter();
+        others.any(|other| mesh(1, other) == mesh(0, node))
+    };
     let is_folded = || {
         let [n_i, n_j] = facets.map(facet_normal);
         n_i.zip(n_j)
@@ -46,20 +49,16 @@ pub(super) fn may_touch(
 
 /// Returns whether the body does not lie between two facets.
 pub(super) fn is_outside(configuration: &Configuration, paired: &PairedFacets) -> bool {
-    let side = &configuration.pair.sides[Side::A];
-    let depths = paired
-        .facets
-        .iter()
-        .flatten()
-        .map(|&facet| side.depth(facet));
+    let facets = places_of(paired);
+    let depths = facets.map(|(side, facet)| configuration.pair.sides[side].depth(facet));
     -paired.mean_gap(configuration) <= depths.fold(f64::INFINITY, f64::min)
 }
 
 /// Leaves out facets that face each other through another layer.
 pub(super) fn drop_hidden(configuration: &Configuration, all: &mut Vec<PairedFacets>) {
-    let mut of_facet: BTreeMap<FacetId, Vec<usize>> = BTreeMap::new();
+    let mut of_facet: BTreeMap<(Side, FacetId), Vec<usize>> = BTreeMap::new();
     for (at, paired) in all.iter().enumerate() {
-        for facet in paired.facets.into_iter().flatten() {
+        for facet in places_of(paired) {
             of_facet.entry(facet).or_default().push(at);
         }
     }
@@ -67,24 +66,25 @@ pub(super) fn drop_hidden(configuration: &Configuration, all: &mut Vec<PairedFac
         .iter()
         .map(|paired| paired.mean_gap(configuration))
         .collect();
-    let side = &configuration.pair.sides[Side::A];
-    let hides = |at: usize, facet: FacetId, by: usize| {
-        let between = all[by]
-            .facets
-            .into_iter()
-            .flatten()
-            .find(|other| *other != facet);
+    let depth = |(side, facet): (Side, FacetId)| configuration.pair.sides[side].depth(facet);
+    let hides = |at: usize, facet: (Side, FacetId), by: usize| {
+        let between = places_of(&all[by]).find(|other| *other != facet);
         by != at
-            && between.is_some_and(|k| gaps[at] - gaps[by] > side.depth(k))
+            && between.is_some_and(|k| gaps[at] - gaps[by] > depth(k))
             && covers(&all[by], &all[at])
     };
     let is_hidden = |at: usize| {
-        let mut facets = all[at].facets.into_iter().flatten();
-        facets.any(|facet| of_facet[&facet].iter().any(|&by| hides(at, facet, by)))
+        places_of(&all[at]).any(|facet| of_facet[&facet].iter().any(|&by| hides(at, facet, by)))
     };
     let hidden: Vec<bool> = (0..all.len()).map(is_hidden).collect();
     let mut hidden = hidden.into_iter();
     all.retain(|_| !hidden.next().unwrap_or(false));
+}
+
+/// Sides and facets of a pair.
+fn places_of(paired: &PairedFacets) -> impl Iterator<Item = (Side, FacetId)> + use<> {
+    let facets = paired.sides.into_iter().zip(paired.facets);
+    facets.filter_map(|(side, facet)| Some((side, facet?)))
 }
 
 /// Returns whether a segment covers the middle of another one, seen along its own normal.
@@ -179,6 +179,7 @@ mod tests {
             enforcement: Enforcement::Weighted,
             search_distance: Some(0.2),
             has_faces: true,
+            one_body: false,
         };
         let at = Configuration::new(&pair, [x, Vec::new()], Placement::at_rest());
         let compliances = compliances(&at);

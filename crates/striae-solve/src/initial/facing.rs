@@ -75,7 +75,7 @@ struct Seen {
 }
 
 fn of_side(stage: &Stage, side: Side) -> Vec<Seen> {
-    if stage.configuration.pair.is_self_contact() {
+    if stage.configuration.pair.is_in_one_body() {
         return Vec::new();
     }
     let own = stage.configuration.side(side);

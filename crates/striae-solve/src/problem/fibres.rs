@@ -31,14 +31,15 @@ pub(crate) fn add_fibres(model: &Model, pairs: &mut [PairGeometry]) {
             let skin = skins[body].get_or_insert_with(|| skin(body));
             of_body(&model.bodies[body].mesh.positions, surface, skin)
         });
-        if pair.contact.is_self_contact() {
-            let own = pair.bodies[Side::A].zip(pair.contact.sides[Side::A].surface());
-            if let Some((body, surface)) = own {
+        if pair.contact.is_in_one_body() {
+            for side in Side::BOTH {
+                let own = pair.bodies[side].zip(pair.contact.sides[side].surface());
+                let Some((body, surface)) = own else { continue };
                 let positions = &model.bodies[body].mesh.positions;
                 let at = |node: NodeId| positions[node.index()];
                 let x: Vec<Vec3> = surface.nodes().iter().map(|node| at(*node)).collect();
-                let thickness = lengths(surface, &x, &pair.fibres[Side::A], at);
-                pair.contact.sides[Side::A].thickness = thickness;
+                let thickness = lengths(surface, &x, &pair.fibres[side], at);
+                pair.contact.sides[side].thickness = thickness;
             }
         }
     }

@@ -332,6 +332,7 @@ pub(super) fn contact_pair(sides: [(&Mesh, &[Face]); 2], within: Option<f64>) ->
         enforcement: Enforcement::Weighted,
         search_distance: within,
         has_faces: false,
+        one_body: false,
     }
 }
 

@@ -96,6 +96,24 @@ fn textures_of_walls_that_touch_are_those_of_both() {
     assert!(slips.filter(|node| node.status == Status::Slip).count() > 10);
 }
 
+/// One wall, and all other faces of the body: what is behind a wall is no contact with it.
+#[test]
+fn a_wall_touches_the_rest_of_its_body_as_the_other_wall() {
+    let mut named = sheared();
+    named.touch(("jaw", "lower"), ("jaw", "upper"), coulomb(0.3));
+    let named = completed(named);
+    let mut found = sheared();
+    let lower = found.faces("jaw", "lower");
+    let mut rest = found.faces("jaw", "skin");
+    rest.retain(|face| !lower.contains(face));
+    found.bodies[0].mesh.facet_sets.insert("rest", rest);
+    found.touch(("jaw", "lower"), ("jaw", "rest"), coulomb(0.3));
+    found.pairs[0].feature_angle = Some(45.0);
+    let found = completed(found);
+    let apart = apart(&found, &named);
+    assert!(apart.iter().all(|apart| *apart < 1e-12), "{apart:?}");
+}
+
 #[test]
 fn two_pieces_of_one_body_touch_as_two_bodies_do() {
     let blocks = [
