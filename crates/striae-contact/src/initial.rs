@@ -14,13 +14,12 @@ use striae_surface::node::SurfaceNode;
 use crate::{
     configuration::Snapshot,
     interference::{
-        Interference, Nearest, Spot, Stage, Standing, inside, nearest_of, position, spots,
+        Interference, Nearest, Spot, Stage, Standing, inside, nearest_of, normal_at, position,
+        spots,
     },
+    segment::FACING,
     side::Side,
 };
-
-/// Cosine between the normals of points that face each other.
-const FACING: f64 = -0.2;
 
 /// How two sides fit.
 #[derive(Clone, Debug, PartialEq)]
@@ -162,7 +161,7 @@ fn seen(stage: &Stage, side: Side, spot: Spot) -> Option<Seen> {
             )
         }
     };
-    let cosine = normal(own, spot).dot(&nearest.normal);
+    let cosine = normal_at(own, spot).dot(&nearest.normal);
     Some(Seen {
         opening: Opening {
             side,
@@ -190,15 +189,5 @@ fn on_plane(x: &Vec3, (point, normal): &(Vec3, Vec3)) -> Nearest {
         } else {
             Standing::Front
         },
-    }
-}
-
-fn normal(snapshot: &Snapshot, spot: Spot) -> Vec3 {
-    match spot {
-        Spot::Node(node) => snapshot.normals[node],
-        Spot::Centre(facet) => {
-            let [a, b, c, d] = snapshot.corner_positions(facet);
-            (c - a).cross(&(d - b)).normalize()
-        }
     }
 }

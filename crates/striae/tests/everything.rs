@@ -116,7 +116,7 @@ fn what_follows_a_rigid_surface_does_not_touch_it() -> Result<(), Error> {
         .build();
     let model = model.unwrap_or_else(|faults| panic!("{faults}"));
     let names: Vec<&str> = model.pairs.iter().map(|pair| pair.name.as_str()).collect();
-    assert!(names.contains(&"carcass.rest-plate"), "{names:?}");
+    assert!(names.contains(&"carcass.rest-2-plate"), "{names:?}");
     assert!(names.contains(&"tread-plate"), "{names:?}");
     Ok(())
 }

@@ -154,7 +154,7 @@ fn of_label<'r>([a, b]: [&'r Option<At<Text>>; 2], rest: &[Segment]) -> Option<&
 /// A pair that contact of everything comes down to.
 fn of_lowered(at: &At<raw::Contact>, origin: Origin, rest: &[Segment]) -> Span {
     match (rest, origin) {
-        ([Segment::Field("friction"), ..], origin) => {
+        ([] | [Segment::Field("friction"), ..], origin) => {
             of_contact(at, &origin.path().segments()[1..])
         }
         (rest, _) => of_contact(at, rest),

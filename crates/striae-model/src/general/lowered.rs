@@ -43,7 +43,10 @@ impl Origin {
     pub fn path(self) -> Path {
         match self {
             Self::All => Path::of("contact").field("friction"),
-            Self::Between(at) => Path::of("contact").field("between").index(at),
+            Self::Between(at) => {
+                let statement = Path::of("contact").field("between").index(at);
+                statement.field("friction")
+            }
         }
     }
 }
