@@ -6,6 +6,7 @@
 
 mod body;
 mod contact;
+mod dependence;
 mod fibres;
 mod material;
 mod mesh;
@@ -16,7 +17,8 @@ mod texture;
 
 use super::{declare::table, read::At};
 pub(crate) use {
-    body::*, contact::*, fibres::*, material::*, mesh::*, sets::*, settings::*, step::*, texture::*,
+    body::*, contact::*, dependence::*, fibres::*, material::*, mesh::*, sets::*, settings::*,
+    step::*, texture::*,
 };
 
 use super::value::{NamedNumbers, OneOrMore, Text};
