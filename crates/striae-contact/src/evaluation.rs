@@ -77,7 +77,7 @@ pub fn evaluate(
     derivatives: Derivatives,
 ) -> Result<Evaluation, Collapse> {
     let friction = conditions.friction;
-    let slip = if friction.cap(1.0, 0.0) == 0.0 {
+    let slip = if friction.is_frictionless() {
         Slip::Left
     } else {
         Slip::Wanted
@@ -90,7 +90,7 @@ pub fn evaluate(
                 // around its neighbours, not on its own alone.
                 let asked = || wanted(configuration, selection, (conditions.wanted, corners));
                 match (derivatives, slip) {
-                    (Derivatives::First, _) if !friction.decays() && !asked() => {
+                    (Derivatives::First, _) if !friction.depends_on_rate() && !asked() => {
                         SegmentDerivatives::None
                     }
                     (Derivatives::First, Slip::Left) => SegmentDerivatives::OfPressure,
@@ -259,6 +259,7 @@ impl Evaluation {
                     textures: &stage.textures[side][node],
                     rate: &stage.rates[side][node],
                     slipped: stage.tractions.slipped[side][node],
+                    accumulated: stage.tractions.accumulated[side][node],
                     freedom: stage.selection.slip_freedom(k),
                     before: stage.tractions.labels[side][node],
                     unknowns: stage.tractions.nodes[side][node],

@@ -12,7 +12,6 @@ use striae_mesh::Vec3;
 use striae_surface::node::SurfaceNode;
 
 use crate::{
-    configuration::Snapshot,
     interference::{
         Interference, Nearest, Spot, Stage, Standing, inside, nearest_of, normal_at, position,
         spots,

@@ -87,6 +87,8 @@ number! {
     Angle [Bound::Above(0.0), Bound::AtMost(180.0)]
     /// A ratio by which something grows.
     Growth [Bound::AtLeast(1.0)]
+    /// An exponent of a power with a finite slope at zero.
+    Steepness [Bound::AtLeast(1.0)]
     /// A ratio of lateral contraction of a compressible material.
     PoissonsRatio [Bound::Above(-1.0), Bound::Below(0.5)]
 }

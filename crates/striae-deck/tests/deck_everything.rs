@@ -69,8 +69,11 @@ fn faces(surface: &ContactSurface) -> (BodyId, Vec<Face>) {
     }
 }
 
+/// Body and face; a rigid surface comes after all bodies and has none.
+type Part = (usize, Option<Face>);
+
 /// All couples of facets and rigid surfaces that pairs let touch, how often, and by which pair.
-fn couples(model: &Model) -> Vec<((usize, Option<Face>), (usize, Option<Face>), String)> {
+fn couples(model: &Model) -> Vec<(Part, Part, String)> {
     let members = |surface: &ContactSurface| -> Vec<(usize, Option<Face>)> {
         match surface {
             ContactSurface::Deformable { body, faces } => {

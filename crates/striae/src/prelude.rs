@@ -6,7 +6,9 @@ pub use crate::{
 pub use striae_contact::unknowns::{NodeResult, Status};
 pub use striae_law::{
     bulk::{Hyperelastic, Isochoric, LameConstants, Material, OgdenTerm, Volumetric},
-    friction::{Friction, SlipRule},
+    friction::{
+        Decay, Friction, Logarithm, PressureDependence, RateDependence, SlipDependence, SlipRule,
+    },
 };
 pub use striae_mesh::{Mesh, NodeId, Region, Vec3, generate::Block};
 pub use striae_model::{

@@ -1,6 +1,6 @@
 //! `[[pair]]` and its friction, `[[tie]]`.
 
-use super::Texture;
+use super::{ByAccumulatedSlip, ByPressure, BySlipRate, Decay, Texture};
 use crate::{
     declare::{choice, either, table, words},
     faults::FaultList,
@@ -224,16 +224,12 @@ table! {
         optional shear_cap: Positive,
         /// Decay of all coefficients with the rate of slip. Default: none.
         optional decay: Decay,
-    }
-}
-
-table! {
-    /// Decay of friction from rest to fast slip, `kinetic + (static - kinetic) exp(-rate/slip_rate)`.
-    Decay {
-        /// Coefficients in fast slip over those at rest, which the law states.
-        required kinetic_over_static: NonNegative,
-        /// Rate of slip, length per time, at which the difference has fallen to 1/e.
-        required slip_rate: Positive,
+        /// How all coefficients depend on the pressure. Default: they do not.
+        optional by_pressure: ByPressure,
+        /// How all coefficients depend on the rate of slip; in place of `decay`. Default: they do not.
+        optional by_slip_rate: BySlipRate,
+        /// How all coefficients depend on the slip that a point of a surface has accumulated since the start of the run. Default: they do not.
+        optional by_accumulated_slip: ByAccumulatedSlip,
     }
 }
 

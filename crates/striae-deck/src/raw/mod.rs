@@ -6,6 +6,7 @@
 
 mod body;
 mod contact;
+mod dependence;
 mod everything;
 mod fibres;
 mod material;
@@ -17,8 +18,8 @@ mod texture;
 
 use super::{declare::table, read::At};
 pub(crate) use {
-    body::*, contact::*, everything::*, fibres::*, material::*, mesh::*, sets::*, settings::*,
-    step::*, texture::*,
+    body::*, contact::*, dependence::*, everything::*, fibres::*, material::*, mesh::*, sets::*,
+    settings::*, step::*, texture::*,
 };
 
 use super::value::{NamedNumbers, OneOrMore, Text};

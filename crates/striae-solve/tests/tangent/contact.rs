@@ -11,16 +11,17 @@ use striae_solve::{assembly::StepContext, problem::Problem, state::State};
 
 use crate::{
     pair::{PairFunction, Wanted},
-    placed::{dome, of_bodies, of_pieces, of_rigid, on_rigid, two_blocks, two_pieces},
+    placed::{dependent, dome, of_bodies, of_pieces, of_rigid, on_rigid, two_blocks, two_pieces},
     scene::{coulomb, plane},
 };
 
 const BOTH: [Enforcement; 2] = [Enforcement::Weighted, Enforcement::Collocated];
 
-fn laws() -> [Friction; 2] {
+fn laws() -> [Friction; 3] {
     [
         coulomb(0.5),
         coulomb(0.5).with_decay(0.4, 0.15).expect("in range"),
+        dependent(coulomb(0.5)),
     ]
 }
 
@@ -57,8 +58,8 @@ fn of_two_curved_surfaces_that_stick_slip_and_open() {
                     has_all.then_some((pair, u))
                 });
                 let (mut pair, u) = found.expect("nodes of every status");
-                let decays = context.plan.frictions[0].decays();
-                let name = format!("{enforcement:?} {moduli:?} {divisions:?}, decays: {decays}");
+                let law = context.plan.frictions[0].coefficient();
+                let name = format!("{enforcement:?} {moduli:?} {divisions:?}, {law:?}");
                 weak += pair.selection.ramp().len();
                 for of_pair in pair.selection.kept() {
                     kept[of_pair.side] += 1;
@@ -128,8 +129,8 @@ fn on_rigid_surfaces() {
                 let context = StepContext::new(&problem, 0, &state);
                 let [start, now] = of_rigid(&problem, bump, 11);
                 let pair = PairFunction::new(&context, start, now, 0.5);
-                let decays = context.plan.frictions[0].decays();
-                let name = format!("{enforcement:?} on {on}, decays: {decays}");
+                let law = context.plan.frictions[0].coefficient();
+                let name = format!("{enforcement:?} on {on}, {law:?}");
                 let u = pair.state(Wanted::Mixed);
                 let statuses = pair.statuses(&u);
                 for status in [Status::Open, Status::Stick, Status::Slip] {

@@ -2,7 +2,7 @@
 
 use nalgebra::Rotation3;
 use striae_contact::placement::Placement;
-use striae_law::friction::Friction;
+use striae_law::friction::{Decay, Friction, PressureDependence, RateDependence, SlipDependence};
 use striae_mesh::{CellKind, NodeId, Vec3};
 use striae_solve::{
     model::{Model, RigidShape},
@@ -15,6 +15,21 @@ use crate::{
     pair::Places,
     scene::{Places as _, block, body, coulomb, model, pieces, rubber, step},
 };
+
+/// The law with coefficients that depend on pressure, slip rate and accumulated slip.
+pub fn dependent(friction: Friction) -> Friction {
+    let power = PressureDependence::power_law(0.8, 0.5, None);
+    let stribeck = RateDependence::decay(Decay {
+        kinetic_over_static: 0.4,
+        slip_rate: 0.3,
+        exponent: 2.0,
+        viscous: 0.2,
+    });
+    let friction = friction.with_pressure(power.expect("in range"));
+    let run_in = SlipDependence::exponential(1.5, 0.2);
+    let friction = friction.with_rate(stribeck.expect("in range"));
+    friction.with_slip(run_in.expect("in range"))
+}
 
 /// Raises a point by a smooth bump.
 pub fn bumpy(x: &Vec3, height: f64) -> Vec3 {
