@@ -27,5 +27,6 @@ mod self_contact_at_random;
 mod skins;
 mod sliding;
 mod stabilised;
+mod strip;
 mod table_1;
 mod thick_sphere;

@@ -12,6 +12,7 @@ use crate::{
         step,
     },
     skins::{closing, jaw},
+    strip::{folded, strip},
 };
 
 /// All outer faces of a mesh as a set.
@@ -94,6 +95,27 @@ fn textures_of_walls_that_touch_are_those_of_both() {
     assert!(apart.iter().all(|apart| *apart < 1e-5), "{apart:?}");
     let slips = found.last().pairs[0].nodes[Side::A].iter();
     assert!(slips.filter(|node| node.status == Status::Slip).count() > 10);
+}
+
+/// Directions at nodes of the mesh are those of all faces that meet there.
+#[test]
+fn nodes_on_edges_are_painted_on_all_their_faces() {
+    let direction = Vec3::new(1.0, 0.4, 0.3);
+    let textured = |paint: Paint| {
+        let mut model = sheared();
+        let friction = Friction::two_textures(0.2, 0.1, 0.1, 0.5).unwrap();
+        model.touch_itself("jaw", &["skin"], friction);
+        model.pairs[0].textures[0] = Some(paint);
+        completed(model)
+    };
+    let field = textured(Paint::Field(Field {
+        lines: Lines::Uniform(direction),
+        turn: 0.0,
+    }));
+    let mesh = &field.problem.model.bodies[0].mesh;
+    let nodes = mesh.nodes_of_faces(&mesh.boundary_faces());
+    let nodal = textured(Paint::Nodal(vec![direction; nodes.len()]));
+    assert!(apart(&nodal, &field).iter().all(|apart| *apart < 1e-12));
 }
 
 /// One wall, and all other faces of the body: what is behind a wall is no contact with it.
@@ -283,64 +305,6 @@ fn forces_on_a_body_that_touches_itself_cancel() {
     let total: f64 = forces.iter().map(Vec3::norm).sum();
     assert!(total > 0.1, "{total}");
     assert!(sum.norm() < 1e-14 * total, "{sum} of {total}");
-}
-
-/// A strip of elements one wide along a line, `across` elements thick.
-pub fn strip(line: &[[f64; 2]], thickness: f64, across: usize, wide: f64) -> Mesh {
-    let count = line.len();
-    let at = |k: usize| Vec3::new(line[k][0], 0.0, line[k][1]);
-    let normal = |k: usize| {
-        let along = at((k + 1).min(count - 1)) - at(k.saturating_sub(1));
-        Vec3::new(-along.z, 0.0, along.x).normalize()
-    };
-    let mut positions = Vec::new();
-    for k in 0..count {
-        for layer in 0..=across {
-            let share = layer as f64 / across as f64 - 0.5;
-            let place = at(k) + normal(k) * (share * thickness);
-            positions.extend([place, place + Vec3::y() * wide]);
-        }
-    }
-    let node = |k: usize, layer: usize, y: usize| NodeId::new(2 * (k * (across + 1) + layer) + y);
-    let cells = (0..count - 1).flat_map(|k| (0..across).map(move |layer| (k, layer)));
-    let cells = cells.map(|(k, layer)| {
-        let face = |k: usize| {
-            [
-                node(k, layer, 0),
-                node(k, layer, 1),
-                node(k, layer + 1, 1),
-                node(k, layer + 1, 0),
-            ]
-        };
-        let ([a, b, c, d], [e, f, g, h]) = (face(k), face(k + 1));
-        [a, b, c, d, e, f, g, h]
-    });
-    with_skin(Mesh::new(positions, vec![CellBlock::hexahedra(cells)]).unwrap())
-}
-
-/// Lines of a strip that is folded `turns` times, with flat parts of a length and turns of a
-/// diameter.
-pub fn folded(turns: usize, length: f64, diameter: f64, size: f64) -> Vec<[f64; 2]> {
-    let flat = (length / size).round() as usize;
-    let round = 6;
-    let mut line = Vec::new();
-    for turn in 0..=turns {
-        let z = diameter * turn as f64;
-        let forth = turn % 2 == 0;
-        for k in 0..=flat {
-            let x = length * k as f64 / flat as f64;
-            line.push([if forth { x } else { length - x }, z]);
-        }
-        if turn < turns {
-            for k in 1..round {
-                let angle = std::f64::consts::PI * k as f64 / round as f64;
-                let way = 0.5 * diameter * angle.sin();
-                let x = if forth { length + way } else { -way };
-                line.push([x, z + 0.5 * diameter * (1.0 - angle.cos())]);
-            }
-        }
-    }
-    line
 }
 
 /// A strip that is folded once, its ends pressed together and then moved apart sideways.

@@ -16,7 +16,8 @@ use striae_verify::Random;
 
 use crate::{
     scene::{Places, Run, block, body, coulomb, increments, model, plane, rubber, step},
-    self_contact::{folded, strip, with_skin},
+    self_contact::with_skin,
+    strip::{folded, strip},
 };
 
 /// Nodes of a mesh at places that are wanted.
