@@ -7,7 +7,7 @@
 //! ```
 //!
 //! on the facets `i` and `j` of a segment, with `Z` for pressure and `Y` for friction seen from `i`,
-//! see [`crate::transfer`].
+//! see `transfer`.
 //!
 //! `phi_k >= 0` and `sum_k phi_k = 1` on every common polygon.
 //!

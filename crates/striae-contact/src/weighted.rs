@@ -1,7 +1,7 @@
 //! Gap and slip of the kept nodes, weighted with the traction field.
 //!
 //! With the basis `phi_k = 1/2 (N^i Z + N^j Z)_k` on the facets `i` and `j` of a segment, against
-//! a rigid surface `(N^i Z)_k`, and `psi_k = 1/2 (N^i Y - N^j Y)_k` of [`crate::transfer`], the
+//! a rigid surface `(N^i Z)_k`, and `psi_k = 1/2 (N^i Y - N^j Y)_k` of `transfer`, the
 //! rows are adjoint to the forces of [`crate::common_field`]:
 //!
 //! ```text
