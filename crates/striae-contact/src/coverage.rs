@@ -99,7 +99,7 @@ impl Configuration<'_> {
         self.opposite_on(side, node, |_| true)
     }
 
-    /// The same on some facets of the other surface, if that is not a plane.
+    /// The opposite point on some facets of the other surface, if that is not a plane.
     pub(crate) fn opposite_on(
         &self,
         side: Side,
@@ -152,7 +152,7 @@ impl Configuration<'_> {
         !self.is_corner(side, node, facet) && -gap <= depths.fold(opposing.depth(facet), f64::min)
     }
 
-    /// The same for the middle of the first facet.
+    /// Returns whether the middle of the first facet may face the second one at this gap.
     pub(crate) fn facets_may_face(&self, side: Side, facets: [FacetId; 2], gap: f64) -> bool {
         if !self.pair.is_in_one_body() {
             return true;

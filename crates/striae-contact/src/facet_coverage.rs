@@ -7,7 +7,7 @@ use striae_surface::{
     topology::distinct_corners,
 };
 
-use crate::{configuration::Configuration, search::Bounds, side::Side};
+use crate::{configuration::Configuration, search::Bounds, segment::FACING, side::Side};
 
 /// How much of a facet the other side covers.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -83,7 +83,9 @@ impl Configuration<'_> {
                 (positions[2] - positions[0]).cross(&(positions[3] - positions[1]))
             };
             let away = (positions[0] - middle).dot(m);
-            normal.dot(m) < 0.0
+            // A wall beside what covers a facet does not cover it, too.
+            let least = if self.pair.is_by_faces() { FACING } else { 0.0 };
+            normal.dot(m) < least * normal.norm()
                 && away.abs() <= distance + 0.5 * other.facet_size(*covering)
                 && self.facets_may_face(side, [facet, *covering], away)
         };

@@ -113,7 +113,7 @@ impl ContactPair {
         matches!(geometry, Geometry::Rigid(_) | Geometry::Plane { .. })
     }
 
-    /// Whether facets of side `a` touch each other.
+    /// Returns whether facets of side `a` touch each other.
     pub fn is_self_contact(&self) -> bool {
         matches!(self.sides[Side::B].geometry, Geometry::Itself)
     }

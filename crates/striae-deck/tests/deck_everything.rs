@@ -43,7 +43,7 @@ fn model(more: &str) -> Model {
     deck.model
 }
 
-/// What is wrong with a deck, without the places.
+/// Faults of a deck, without their places.
 fn faults(more: &str) -> Vec<String> {
     let text = SCENE.replace("nodes = \"all\"", "nodes = \"zmax\"") + more;
     let faults = parse(&text, "deck.toml", Path::new("")).unwrap_err();

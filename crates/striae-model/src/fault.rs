@@ -205,7 +205,7 @@ pub enum FaultKind {
         statements: String,
         /// A surface that both name.
         a: String,
-        /// What it meets.
+        /// Surfaces that it meets.
         b: String,
     },
     /// Two textures on one surface, neither of which is that of a narrower one.
@@ -217,7 +217,7 @@ pub enum FaultKind {
         first: usize,
         /// Number of the later statement.
         second: usize,
-        /// What they name.
+        /// Surfaces that they name.
         labels: [String; 2],
     },
     /// A statement about what meets that nothing does.
@@ -233,7 +233,7 @@ pub enum FaultKind {
     NotItself {
         /// The pair.
         pair: String,
-        /// What is there.
+        /// Names that exist.
         found: &'static str,
     },
     /// A pair of a body with itself that asks for what needs two sides.
@@ -241,7 +241,7 @@ pub enum FaultKind {
     OnItself {
         /// The pair.
         pair: String,
-        /// What it asks for.
+        /// The request.
         what: &'static str,
     },
     /// Faces of their own in a pair that has one normal at a node.

@@ -74,7 +74,7 @@ pub enum Topic {
     Facing,
     /// A pair that can never meet.
     NeverMeets,
-    /// What may touch what, and thin bodies that may touch themselves.
+    /// Surfaces that may touch, and thin bodies that may touch themselves.
     Contact,
     /// Coefficients of friction over all directions.
     Friction,

@@ -40,7 +40,7 @@ pub(super) fn lowered(
     lowered
 }
 
-/// What the table says; `None` after faults.
+/// Statements of the table; `None` after faults.
 fn stated(
     raw: &raw::Contact,
     draft: &Draft<'_>,

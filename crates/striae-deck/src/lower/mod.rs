@@ -177,7 +177,7 @@ fn parts(raw: &raw::Simulation, base: &Path, known: Known, faults: &mut FaultLis
     }
 }
 
-/// What is known besides the steps and contact of everything.
+/// Parts that are known besides the steps and contact of everything.
 fn drafted<'a>(
     raw: &'a raw::Simulation,
     bodies: &'a Bodies,

@@ -18,7 +18,7 @@ pub(super) struct StepSpans {
     pub(super) conditions: ConditionSpans,
 }
 
-/// What is known of the places of parts that have none of their own in a deck.
+/// Known places of parts that have none of their own in a deck.
 pub(super) struct Places {
     pub(super) steps: Vec<StepSpans>,
     /// Of pairs that contact of everything comes down to.

@@ -14,7 +14,7 @@ table! {
         required all: Truth,
         /// Friction where `between` says nothing; steps may change it, by names of pairs that are made of labels, such as `tread-road` and `tread-tread`. Default: frictionless.
         optional friction: Friction,
-        /// What does not touch.
+        /// Surfaces that do not touch.
         optional exclude: Vec<At<Excluded>>,
         /// Friction of two surfaces. Of several statements about the same facets, here and in `exclude`, the narrowest counts.
         optional between: Vec<At<Between>>,

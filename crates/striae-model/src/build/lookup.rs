@@ -15,7 +15,7 @@ pub(super) struct Names<'a> {
     bodies: &'a [Body],
     rigid: Vec<&'a str>,
     pairs: Vec<&'a str>,
-    /// Whether there are no other pairs.
+    /// Returns whether there are no other pairs.
     pairs_known: Known,
 }
 
@@ -29,7 +29,7 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// The same where other pairs may have other names.
+    /// Returns the names where there may be other pairs, whose names are not known here.
     pub(super) fn with_other_pairs(self) -> Self {
         Self {
             pairs_known: Known::InPart,

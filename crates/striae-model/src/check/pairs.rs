@@ -157,7 +157,7 @@ fn wrong_together(draft: &Draft<'_>, pair: &Pair) -> Option<FaultKind> {
     }
 }
 
-/// What a pair asks for that its kind does not have, with the field.
+/// Requests of a pair that its kind does not have, with the field.
 fn unsuited(pair: &Pair) -> Option<(&'static str, FaultKind)> {
     let name = || pair.name.clone();
     let collocated = pair.enforcement == Enforcement::Collocated;

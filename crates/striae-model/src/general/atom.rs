@@ -9,14 +9,14 @@ use super::label::{Owner, Part};
 /// Facets of a body that no statement tells apart, or a rigid surface.
 #[derive(Clone, Debug)]
 pub(super) struct Atom {
-    /// What they belong to.
+    /// Their owner.
     pub(super) owner: Owner,
     /// The facets, ascending; none of a rigid surface.
     pub(super) faces: Vec<Face>,
 }
 
 impl Atom {
-    /// Whether all of it is in a part, which it is if any of it is.
+    /// Returns whether all of it is in a part, which it is if any of it is.
     pub(super) fn is_in(&self, part: &Part) -> bool {
         self.owner == part.owner
             && match (&part.faces, self.faces.first()) {
@@ -26,7 +26,7 @@ impl Atom {
             }
     }
 
-    /// Whether it is of a rigid surface.
+    /// Returns whether it is of a rigid surface.
     pub(super) fn is_rigid(&self) -> bool {
         matches!(self.owner, Owner::Rigid(_))
     }

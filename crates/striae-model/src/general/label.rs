@@ -10,7 +10,7 @@ use crate::{
     path::Path,
 };
 
-/// What a surface belongs to, by position.
+/// Owner of a surface, by position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Owner {
     /// A deformable body.
@@ -19,7 +19,7 @@ pub(super) enum Owner {
     Rigid(usize),
 }
 
-/// What a label stands for.
+/// Meaning of a label.
 #[derive(Clone, Debug)]
 pub(super) struct Part {
     /// The label.
@@ -46,7 +46,7 @@ impl Draft<'_> {
     }
 }
 
-/// What a label at a path stands for; a fault where that is nothing or not one thing.
+/// Looks up what a label at a path stands for; a fault where that is nothing or not one thing.
 pub(super) fn part(
     draft: &Draft<'_>,
     label: &str,

@@ -104,7 +104,7 @@ impl Everything {
     }
 }
 
-/// What couples of a pair have in common: where their friction is stated, and the textures of both
+/// Common traits of the couples of a pair: where their friction is stated, and the textures of both
 /// owners, by statement.
 type Law = (Origin, [Option<usize>; 2]);
 /// Couples by owners and law.

@@ -112,7 +112,7 @@ impl Everything {
         self
     }
 
-    /// What is made of gaps and overlaps of the meshes of different bodies.
+    /// Treatment of gaps and overlaps of the meshes of different bodies.
     pub fn initial(mut self, initial: Initial) -> Self {
         self.initial = initial;
         self

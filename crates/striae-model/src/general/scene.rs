@@ -19,7 +19,7 @@ use crate::{
     path::Path,
 };
 
-/// What is there and what is said of it.
+/// Surfaces and the statements about them.
 pub(super) struct Scene<'a> {
     pub(super) draft: &'a Draft<'a>,
     pub(super) atoms: Vec<Atom>,
@@ -58,7 +58,7 @@ impl<'a> Scene<'a> {
         })
     }
 
-    /// Whether a couple may meet at all, and is in no named pair.
+    /// Returns whether a couple may meet at all, and is in no named pair.
     pub(super) fn is_open(&self, (x, y): Couple) -> bool {
         let [x, y] = [&self.atoms[x], &self.atoms[y]];
         !(self.taken.has([x, y]) || x.is_rigid() && y.is_rigid())

@@ -1,4 +1,4 @@
-//! What is not left to contact of everything: named pairs, ties, what follows rigid bodies.
+//! Couples that are not left to contact of everything: named pairs, ties, facets that follow rigid bodies.
 
 use std::collections::BTreeSet;
 
@@ -68,12 +68,12 @@ impl Taken {
         self.couples.iter().flatten()
     }
 
-    /// Whether a facet is glued.
+    /// Returns whether a facet is glued.
     pub(super) fn is_glued(&self, body: usize, face: &Face) -> bool {
         self.glued[body].contains(face)
     }
 
-    /// Whether two atoms are a couple of something else.
+    /// Returns whether two atoms are a couple of something else.
     pub(super) fn has(&self, [x, y]: [&Atom; 2]) -> bool {
         let both = |[a, b]: &[Part; 2]| x.is_in(a) && y.is_in(b) || x.is_in(b) && y.is_in(a);
         self.couples.iter().any(both)

@@ -129,7 +129,7 @@ pub fn of_bodies(problem: &Problem, seed: u64) -> [Places; 2] {
     of_pieces(problem, problem.first_node[1], seed)
 }
 
-/// The same of two pieces of one body, the second one from a node on.
+/// Two pieces of one body in the same way, the second one from a node on.
 pub fn of_pieces(problem: &Problem, first_of_second: usize, seed: u64) -> [Places; 2] {
     let mut random = Random::new(seed);
     let twisted = |x: &Vec3| bumpy(x, 0.08) + Vec3::z() * (0.1 * x.x * x.y);

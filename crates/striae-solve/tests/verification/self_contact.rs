@@ -3,7 +3,10 @@
 use striae_contact::{side::Side, unknowns::Status};
 use striae_law::friction::Friction;
 use striae_mesh::{CellBlock, Mesh, NodeId, Vec3};
-use striae_solve::{model::Model, outcome::Ending};
+use striae_solve::{
+    model::{LoadExtent, LoadKind, Model},
+    outcome::Ending,
+};
 use striae_surface::texture::{Field, Lines, Paint};
 
 use crate::{
@@ -143,7 +146,8 @@ fn two_pieces_of_one_body_touch_as_two_bodies_do() {
         block([0.2, 0.2, 0.5], [0.6, 0.6, 0.5], [3, 3, 2]),
     ];
     let meshes = blocks.map(|block| block.mesh().unwrap());
-    let pressed = |mut model: Model, [base, top]: [(&str, &str); 2]| {
+    // The load is on what the upper block leaves uncovered.
+    let pressed = |mut model: Model, [base, top, face]: [(&str, &str); 3]| {
         let mut press = step();
         press.increments = increments(0.25, 1e-3);
         press.displacements = vec![
@@ -153,6 +157,8 @@ fn two_pieces_of_one_body_touch_as_two_bodies_do() {
         let mut drag = step();
         drag.increments = increments(0.25, 1e-3);
         drag.displacements = vec![model.hold(top.0, top.1, [Some(0.1), Some(0.03), Some(-0.02)])];
+        let pressure = LoadKind::Pressure(0.03);
+        drag.loads = vec![model.load(face.0, face.1, pressure, LoadExtent::Exposed)];
         model.steps = vec![press, drag];
         completed(model)
     };
@@ -162,14 +168,20 @@ fn two_pieces_of_one_body_touch_as_two_bodies_do() {
         body("upper", upper, rubber(1.0, 0.3)),
     ]);
     pair.touch(("lower", "zmax"), ("upper", "zmin"), coulomb(0.3));
-    let pair = pressed(pair, [("lower", "zmin"), ("upper", "zmax")]);
+    let pair = pressed(
+        pair,
+        [("lower", "zmin"), ("upper", "zmax"), ("lower", "zmax")],
+    );
     let mut one = model(vec![body(
         "both",
         with_skin(pieces(&meshes)),
         rubber(1.0, 0.3),
     )]);
     one.touch_itself("both", &["skin"], coulomb(0.3));
-    let one = pressed(one, [("both", "0.zmin"), ("both", "1.zmax")]);
+    let one = pressed(
+        one,
+        [("both", "0.zmin"), ("both", "1.zmax"), ("both", "0.zmax")],
+    );
     let apart = apart(&one, &pair);
     assert!(apart.iter().all(|apart| *apart < 1e-7), "{apart:?}");
     let status = |run: &Run, wanted: Status| {
@@ -205,6 +217,8 @@ fn dragged(faces: [&str; 2], feature_angle: Option<f64>) -> Model {
         step
     };
     model.steps = vec![moved(0.0, 0.0, -0.02), moved(0.1, 0.03, -0.02)];
+    let pressure = LoadKind::Pressure(0.03);
+    model.steps[1].loads = vec![model.load("lower", "zmax", pressure, LoadExtent::Exposed)];
     model
 }
 

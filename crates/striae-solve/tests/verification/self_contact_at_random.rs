@@ -17,7 +17,7 @@ use striae_verify::Random;
 use crate::{
     scene::{Places, Run, block, body, coulomb, increments, model, plane, rubber, step},
     self_contact::with_skin,
-    strip::{folded, strip},
+    strip::{folded, strip, swept},
 };
 
 /// Nodes of a mesh at places that are wanted.
@@ -162,33 +162,16 @@ fn ring(random: &mut Random) -> Model {
     let around = 4 * whole(random, 5, 10);
     let thickness = random.uniform(0.08, 0.25);
     let layers = whole(random, 1, 2);
-    let node = |k: usize, layer: usize, y: usize| {
-        NodeId::new(2 * ((k % around) * (layers + 1) + layer) + y)
-    };
-    let mut positions = Vec::new();
-    for k in 0..around {
+    let section = |k: usize| {
         // A node at the top and at the bottom.
         let angle = 2.0 * std::f64::consts::PI * k as f64 / around as f64;
-        for layer in 0..=layers {
-            let radius = 1.0 + thickness * (layer as f64 / layers as f64 - 1.0);
-            let place = Vec3::new(radius * angle.sin(), 0.0, radius * angle.cos());
-            positions.extend([place, place + Vec3::y() * 0.3]);
-        }
-    }
-    let cells = (0..around).flat_map(|k| (0..layers).map(move |layer| (k, layer)));
-    let cells = cells.map(|(k, layer)| {
-        let face = |k: usize| {
-            [
-                node(k, layer, 0),
-                node(k, layer, 1),
-                node(k, layer + 1, 1),
-                node(k, layer + 1, 0),
-            ]
-        };
-        let ([a, b, c, d], [e, f, g, h]) = (face(k), face(k + 1));
-        [a, b, c, d, e, f, g, h]
-    });
-    let mut mesh = with_skin(Mesh::new(positions, vec![CellBlock::hexahedra(cells)]).unwrap());
+        let radius = |layer: usize| 1.0 + thickness * (layer as f64 / layers as f64 - 1.0);
+        let direction = Vec3::new(angle.sin(), 0.0, angle.cos());
+        (0..=layers)
+            .map(|layer| direction * radius(layer))
+            .collect()
+    };
+    let mut mesh = swept(&(0..around).map(section).collect::<Vec<_>>(), true, 0.3);
     let outer = nodes(&mesh, |x| Vec3::new(x.x, 0.0, x.z).norm() > 1.0 - 1e-9);
     let faces = mesh.faces_of_nodes(&outer);
     mesh.facet_sets.insert("outer", faces);
@@ -233,7 +216,7 @@ fn ring(random: &mut Random) -> Model {
     model
 }
 
-/// What came of a scene.
+/// Result of a scene.
 struct Verdict {
     completed: bool,
     said: String,

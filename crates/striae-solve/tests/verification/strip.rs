@@ -4,37 +4,40 @@ use striae_mesh::{CellBlock, Mesh, NodeId, Vec3};
 
 use crate::self_contact::with_skin;
 
-/// A strip of elements one wide along a line, `across` elements thick.
+/// Elements between neighbouring sections, lines of points from one face of a strip to the other,
+/// one element wide along `y`; a closed strip leads from the last section to the first one.
+pub fn swept(sections: &[Vec<Vec3>], is_closed: bool, wide: f64) -> Mesh {
+    let (count, points) = (sections.len(), sections[0].len());
+    let pairs = sections
+        .iter()
+        .flatten()
+        .map(|place| [*place, place + Vec3::y() * wide]);
+    let node = |k: usize, layer: usize, y: usize| NodeId::new(2 * (k % count * points + layer) + y);
+    let steps = if is_closed { count } else { count - 1 };
+    let cells = (0..steps).flat_map(|k| (0..points - 1).map(move |layer| (k, layer)));
+    let cells = cells.map(|(k, layer)| {
+        let [a, b] = [k, k + 1].map(|k| {
+            [(layer, 0), (layer, 1), (layer + 1, 1), (layer + 1, 0)].map(|(at, y)| node(k, at, y))
+        });
+        [a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]]
+    });
+    let cells = CellBlock::hexahedra(cells);
+    with_skin(Mesh::new(pairs.flatten().collect(), vec![cells]).unwrap())
+}
+
+/// A strip along a line in the plane of `x` and `z`, `across` elements thick.
 pub fn strip(line: &[[f64; 2]], thickness: f64, across: usize, wide: f64) -> Mesh {
     let count = line.len();
     let at = |k: usize| Vec3::new(line[k][0], 0.0, line[k][1]);
-    let normal = |k: usize| {
+    let section = |k: usize| {
         let along = at((k + 1).min(count - 1)) - at(k.saturating_sub(1));
-        Vec3::new(-along.z, 0.0, along.x).normalize()
+        let normal = Vec3::new(-along.z, 0.0, along.x).normalize();
+        let share = |layer: usize| layer as f64 / across as f64 - 0.5;
+        (0..=across)
+            .map(|layer| at(k) + normal * (share(layer) * thickness))
+            .collect()
     };
-    let mut positions = Vec::new();
-    for k in 0..count {
-        for layer in 0..=across {
-            let share = layer as f64 / across as f64 - 0.5;
-            let place = at(k) + normal(k) * (share * thickness);
-            positions.extend([place, place + Vec3::y() * wide]);
-        }
-    }
-    let node = |k: usize, layer: usize, y: usize| NodeId::new(2 * (k * (across + 1) + layer) + y);
-    let cells = (0..count - 1).flat_map(|k| (0..across).map(move |layer| (k, layer)));
-    let cells = cells.map(|(k, layer)| {
-        let face = |k: usize| {
-            [
-                node(k, layer, 0),
-                node(k, layer, 1),
-                node(k, layer + 1, 1),
-                node(k, layer + 1, 0),
-            ]
-        };
-        let ([a, b, c, d], [e, f, g, h]) = (face(k), face(k + 1));
-        [a, b, c, d, e, f, g, h]
-    });
-    with_skin(Mesh::new(positions, vec![CellBlock::hexahedra(cells)]).unwrap())
+    swept(&(0..count).map(section).collect::<Vec<_>>(), false, wide)
 }
 
 /// Lines of a strip that is folded `turns` times, with flat parts of a length and turns of a

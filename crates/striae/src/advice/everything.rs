@@ -206,7 +206,7 @@ fn earlier<'m>(model: &'m Model, step: &Step) -> impl Iterator<Item = &'m Step> 
         .take_while(move |other| other.name != name)
 }
 
-/// What earlier steps have taken nodes to.
+/// Places that earlier steps have taken nodes to.
 fn previous(model: &Model, step: &Step, body: BodyId, nodes: &[NodeId]) -> [f64; 3] {
     let of: BTreeSet<&NodeId> = nodes.iter().collect();
     let mut reached = [0.0; 3];
