@@ -53,7 +53,7 @@ pub(crate) use polygon::{FIRST, mixed};
 use polygon::{Outline, Vertex, common, topology, twice_area};
 use sums::{PAIRS, PlaneSlopes, Triangle, add_triangle, functions};
 
-/// Facets face each other where `n_a . n_b` is not above this; about it segments fade.
+/// Facets face each other where `n_a . n_b` is below this, to which segments fade.
 pub const FACING: f64 = -0.2;
 /// Distance of a corner from an opposing edge, over the size of the smaller facet, up to
 /// which it counts as on it.
@@ -194,7 +194,7 @@ pub fn segment(
     segment_facing([a, b], FACING, compliance, derivatives)
 }
 
-/// The segment of two facets that oppose each other up to a cosine of their normals, about which
+/// The segment of two facets that oppose each other up to a cosine of their normals, to which
 /// it fades.
 ///
 /// `None` where they do not face each other, have no common area (thinner

@@ -15,7 +15,7 @@ pub struct Exhibit {
 }
 
 /// All cases.
-pub const EXHIBITS: [Exhibit; 30] = [
+pub const EXHIBITS: [Exhibit; 31] = [
     Exhibit {
         case: "two-blocks",
         run: Some("deck"),
@@ -43,6 +43,20 @@ pub const EXHIBITS: [Exhibit; 30] = [
         ],
         figure: Some("forces"),
         caption: "A tread block of one piece, pressed onto a road and dragged until the walls of its slits meet, with the forces of named walls.",
+    },
+    Exhibit {
+        case: "crushed-ring",
+        run: Some("jaws-2"),
+        options: &[
+            "--field",
+            "cauchy_stress",
+            "--component",
+            "von Mises",
+            "--view",
+            "0,1,0",
+        ],
+        figure: Some("force-over-way"),
+        caption: "A ring of rubber pinched until its inner walls touch, and its force between jaws and between planes.",
     },
     Exhibit {
         case: "stiff-punch",

@@ -4,8 +4,8 @@
 //! is integrated over a segment counts by a share:
 //!
 //! ```text
-//! t = (l + w - c)/(2 w), kept in [0, 1]        s = t^2 (3 - 2 t)        w = RAMP
-//! ds = -3 t (1 - t)/w dc,   dc = n_b . dn_a + n_a . dn_b
+//! t = (l - c)/w, kept in [0, 1]        s = t^2 (3 - 2 t)        w = RAMP
+//! ds = -6 t (1 - t)/w dc,   dc = n_b . dn_a + n_a . dn_b
 //! ```
 //!
 //! A facet that turns away while it is pressed would otherwise lose a seventh of its area at once,
@@ -20,8 +20,8 @@ use super::{
     support::{Pressed, PressedSlopes},
 };
 
-/// Half the range of the cosine over which segments fade.
-const RAMP: f64 = 0.1;
+/// Range of the cosine over which segments fade.
+const RAMP: f64 = 0.2;
 
 /// How much of a segment counts, where it is less than all of it.
 #[derive(Clone, Debug)]
@@ -45,11 +45,11 @@ pub(super) enum Facing {
 impl Facing {
     /// `None` where facets do not face each other.
     pub fn of(cosine: f64, limit: f64) -> Option<Self> {
-        let t = (limit + RAMP - cosine) / (2.0 * RAMP);
+        let t = (limit - cosine) / RAMP;
         let share = t * t * (3.0 - 2.0 * t);
         match t {
             t if t >= 1.0 => Some(Self::Whole),
-            t if t > 0.0 && share > 0.0 => Some(Self::Part(share, -3.0 * t * (1.0 - t) / RAMP)),
+            t if t > 0.0 && share > 0.0 => Some(Self::Part(share, -6.0 * t * (1.0 - t) / RAMP)),
             _ => None,
         }
     }
@@ -193,7 +193,7 @@ mod tests {
 
     #[test]
     fn pressure_on_fading_segments_has_the_right_derivatives() {
-        for cosine in [-0.27, -0.2, -0.14] {
+        for cosine in [-0.37, -0.3, -0.24] {
             let origin = pair(cosine);
             assert!((self::cosine(&origin) - cosine).abs() < 1e-12);
             // Differences stay within the range that fades.
@@ -215,8 +215,8 @@ mod tests {
 
     #[test]
     fn pressure_against_planes_fades_with_the_right_derivatives() {
-        let origin = pair(-0.2);
-        for cosine in [-0.27f64, -0.2, -0.14] {
+        let origin = pair(-0.3);
+        for cosine in [-0.37f64, -0.3, -0.24] {
             let sine = (1.0 - cosine * cosine).sqrt();
             let normal = Vec3::new(0.0, sine, cosine);
             let at = |x: &DVector<f64>, derivatives| {
@@ -239,7 +239,7 @@ mod tests {
             Some(Facing::Part(share, _)) => share,
             None => 0.0,
         };
-        let shares = [-0.301, -0.299, -0.2, -0.101, -0.099].map(share);
+        let shares = [-0.401, -0.399, -0.3, -0.201, -0.199].map(share);
         assert_eq!([shares[0], shares[4]], [1.0, 0.0]);
         assert!(shares[1] > 0.999 && shares[3] < 1e-3, "{shares:?}");
         assert!((shares[2] - 0.5).abs() < 1e-12);
