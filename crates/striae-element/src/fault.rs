@@ -47,6 +47,15 @@ pub enum ElementError {
         /// The limit of the law.
         limit: f64,
     },
+    /// In the configuration without stress: the actuation is at fault.
+    #[error(
+        "shrunk to nothing by its actuation: the stress-free deformation has determinant \
+         {determinant:.6e}"
+    )]
+    Shrunk {
+        /// Determinant of the stress-free deformation.
+        determinant: f64,
+    },
     /// In the current configuration, of an element that is enhanced.
     #[error("the strain it assumes is not to be found")]
     Unsettled,
