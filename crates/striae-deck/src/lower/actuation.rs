@@ -117,7 +117,13 @@ fn lines(raw: &At<raw::Lines>, faults: &mut FaultList<'_>) -> Option<Option<Vec3
     let raw::Lines::Direction(direction) = &raw.value else {
         return Some(None);
     };
-    let unit = vector(direction).try_normalize(0.0);
+    let along = vector(direction);
+    // What has been made a unit vector before keeps its bits.
+    let is_unit = (along.norm_squared() - 1.0).abs() < 8.0 * f64::EPSILON;
+    let unit = match is_unit {
+        true => Some(along),
+        false => along.try_normalize(0.0),
+    };
     if unit.is_none() {
         let place = "`along` of an actuation".to_owned();
         faults.push(&raw.span, ModelFault::ZeroVector { place });
