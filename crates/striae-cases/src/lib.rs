@@ -25,6 +25,7 @@ mod bonded_pad;
 mod comparison;
 mod contact_face;
 mod cooks_membrane;
+mod crawler;
 mod edge_contact;
 mod edge_release;
 mod failure;
@@ -112,6 +113,11 @@ pub const CASES: &[Case] = &[
         "sipes",
         "A tread block with two slits that close, everything in contact, beside named walls",
         sipes::run
+    ),
+    case!(
+        "crawler",
+        "A worm that crawls by its own strain against its nap, beside a stiff bar",
+        crawler::run
     ),
     case!(
         "stiff-punch",

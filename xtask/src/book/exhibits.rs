@@ -15,7 +15,7 @@ pub struct Exhibit {
 }
 
 /// All cases.
-pub const EXHIBITS: [Exhibit; 30] = [
+pub const EXHIBITS: [Exhibit; 31] = [
     Exhibit {
         case: "two-blocks",
         run: Some("deck"),
@@ -43,6 +43,13 @@ pub const EXHIBITS: [Exhibit; 30] = [
         ],
         figure: Some("forces"),
         caption: "A tread block of one piece, pressed onto a road and dragged until the walls of its slits meet, with the forces of named walls.",
+    },
+    Exhibit {
+        case: "crawler",
+        run: Some("forward"),
+        options: &["--field", "displacement"],
+        figure: Some("way"),
+        caption: "A worm that shortens and lengthens of itself crawls with the nap of its belly; with the nap the other way round it crawls back, and without it stays.",
     },
     Exhibit {
         case: "stiff-punch",
