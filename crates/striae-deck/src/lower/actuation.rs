@@ -72,8 +72,8 @@ fn lowered(raw: &raw::ActuationKind, faults: &mut FaultList<'_>) -> Option<Actua
             };
             Some(match along {
                 None => ActuationKind::isotropic(strain?),
-                Some(Some(direction)) => ActuationKind::along(strain?, &direction),
-                Some(None) => ActuationKind::FibreStrain(strain?),
+                Some(Line::Direction(direction)) => ActuationKind::along(strain?, &direction),
+                Some(Line::Fibres) => ActuationKind::FibreStrain(strain?),
             })
         }
         raw::ActuationKind::Strain(raw) => {
@@ -104,18 +104,24 @@ fn lowered(raw: &raw::ActuationKind, faults: &mut FaultList<'_>) -> Option<Actua
             let along = lines(raw.along.as_ref()?, faults)?;
             let value = value?;
             Some(match along {
-                Some(along) => ActuationKind::Tension { along, value },
-                None => ActuationKind::FibreTension(value),
+                Line::Direction(along) => ActuationKind::Tension { along, value },
+                Line::Fibres => ActuationKind::FibreTension(value),
             })
         }
     }
 }
 
-/// A unit vector, or `Some(None)` for fibres.
-#[allow(clippy::option_option)]
-fn lines(raw: &At<raw::Lines>, faults: &mut FaultList<'_>) -> Option<Option<Vec3>> {
+/// Lines that are actuated.
+enum Line {
+    /// Along a unit vector.
+    Direction(Vec3),
+    /// Those of the material.
+    Fibres,
+}
+
+fn lines(raw: &At<raw::Lines>, faults: &mut FaultList<'_>) -> Option<Line> {
     let raw::Lines::Direction(direction) = &raw.value else {
-        return Some(None);
+        return Some(Line::Fibres);
     };
     let along = vector(direction);
     // What has been made a unit vector before keeps its bits.
@@ -128,5 +134,5 @@ fn lines(raw: &At<raw::Lines>, faults: &mut FaultList<'_>) -> Option<Option<Vec3
         let place = "`along` of an actuation".to_owned();
         faults.push(&raw.span, ModelFault::ZeroVector { place });
     }
-    unit.map(Some)
+    unit.map(Line::Direction)
 }

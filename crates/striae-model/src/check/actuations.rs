@@ -2,6 +2,7 @@
 
 use std::mem::discriminant;
 
+use striae_mesh::Vec3;
 use striae_solve::model::{Actuation, ActuationKind, Curve, Step};
 
 use super::{Draft, List};
@@ -76,32 +77,40 @@ fn unsound<'a>(
     }) {
         return Some("this kind of actuation is stated twice; leave one of them out".to_owned());
     }
-    let [most, expected] = match stated.kind {
-        ActuationKind::FibreTension(_) | ActuationKind::Tension { .. } => [f64::MAX, f64::INFINITY],
-        _ => [LARGEST, LARGEST],
-    };
-    let numbers = stated.kind.numbers();
     let factor = range(&stated.curve)
         .iter()
         .fold(1.0, |most: f64, c| most.max(c.abs()));
-    if let Some(wrong) = numbers
-        .iter()
-        .find(|number| !(number.abs() * factor <= most))
-    {
-        return Some(match expected.is_finite() {
-            true => format!("its strain must be a number up to {LARGEST:e}, but is {wrong}"),
-            false => format!("its tension must be a finite number, but is {wrong}"),
-        });
+    let is_within = |number: &f64, most: f64| (number * factor).abs() <= most;
+    let numbers = stated.kind.numbers();
+    let wrong = match stated.kind {
+        ActuationKind::FibreTension(_) | ActuationKind::Tension { .. } => {
+            let wrong = numbers.iter().find(|number| !is_within(number, f64::MAX));
+            wrong.map(|wrong| format!("its tension must be a finite number, but is {wrong}"))
+        }
+        _ => {
+            let wrong = numbers.iter().find(|number| !is_within(number, LARGEST));
+            wrong.map(|wrong| {
+                format!("its strain must be a number up to {LARGEST:e}, but is {wrong}")
+            })
+        }
+    };
+    if wrong.is_some() {
+        return wrong;
     }
     match &stated.kind {
         ActuationKind::Strain(strain) if *strain != strain.transpose() => {
             Some("its strain must be symmetric".to_owned())
         }
-        ActuationKind::Tension { along, .. } if !((along.norm() - 1.0).abs() < 1e-6) => {
+        ActuationKind::Tension { along, .. } if !is_unit(along) => {
             Some("the direction of its tension must be a unit vector".to_owned())
         }
         kind => without_fibres(draft, stated, kind),
     }
+}
+
+/// Returns whether a vector has the length 1 to round-off.
+fn is_unit(vector: &Vec3) -> bool {
+    (vector.norm() - 1.0).abs() < 1e-6
 }
 
 /// Why fibres that are not there cannot be actuated.
@@ -166,7 +175,7 @@ fn follow(draft: &Draft<'_>, stated: &Actuation, reached: &mut Reached) -> Optio
         let sum = own.map(|of| of.least.min(0.0)).sum::<f64>();
         worst = Some(worst.map_or(sum, |worst| worst.min(sum)));
     }
-    let worst = worst.filter(|sum| !(*sum > -1.0))?;
+    let worst = worst.filter(|sum| sum.is_nan() || *sum <= -1.0)?;
     Some(format!(
         "its lengths at rest would change by the factor {:.4}, and nothing would be left of them; strains, all kinds together and with the values of their curves, must stay above -1",
         1.0 + worst
