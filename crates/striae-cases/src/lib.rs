@@ -26,6 +26,7 @@ mod comparison;
 mod contact_face;
 mod cooks_membrane;
 mod crawler;
+mod crushed_ring;
 mod edge_contact;
 mod edge_release;
 mod failure;
@@ -113,6 +114,12 @@ pub const CASES: &[Case] = &[
         "sipes",
         "A tread block with two slits that close, everything in contact, beside named walls",
         sipes::run
+    ),
+    case!(
+        "crushed-ring",
+        "A ring crushed between planes and between jaws until its inner walls touch",
+        crushed_ring::run,
+        quick: "one of two meshes each"
     ),
     case!(
         "crawler",
