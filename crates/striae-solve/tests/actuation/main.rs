@@ -9,7 +9,7 @@ mod bilayer;
 mod energies;
 
 use nalgebra::Matrix3;
-use scene::{Places, block, body, increments, model, rubber, step};
+use scene::{Places, block, body, increments, model, step};
 use striae_law::bulk::Material;
 use striae_solve::model::{
     Actuation, ActuationKind, BodyId, Curve, Formulation, Model, Procedure, Step,
