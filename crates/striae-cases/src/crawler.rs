@@ -29,7 +29,7 @@ pub fn run(study: &mut Study) -> Result<(), Failure> {
     let ways: Vec<f64> = runs.iter().map(way).collect();
     let [forward, mirrored, smooth] = [ways[0], ways[1], ways[2]];
     let [easy, hard] = COEFFICIENTS;
-    let closed_form = -STRAIN * LENGTH * (hard - easy) / (hard + easy);
+    let closed_form = STRAIN * LENGTH * (hard - easy) / (hard + easy);
     study.measured("forward.over_closed_form", forward / closed_form);
     study.measured("mirrored.off", ((forward + mirrored) / forward).abs());
     study.measured("smooth.off", (smooth / forward).abs());
