@@ -156,7 +156,7 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
             let response = driven
                 .material
                 .respond(f, past.of_point(g, Q), &mut present);
-            let response = response.map_err(super::response::error_at(g))?;
+            let response = response.map_err(super::fault::error_at(g))?;
             let stored = response.energy * rate.trace();
             let done = response.first_piola.dot(&(f * rate));
             let pulled = change.tensions.iter().map(|tension| {

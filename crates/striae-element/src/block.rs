@@ -11,9 +11,9 @@
 use super::{
     Actuation, Driven, ElementError, ElementResponse, Formulation, Mass, Stiffness, composite,
     enhanced::Fields,
+    fault::error_at,
     inertia::Inertia,
     reference::Reference,
-    response::error_at,
     rule::{Recovery, Rule},
 };
 use nalgebra::Matrix3;

@@ -31,8 +31,9 @@ use super::{
     actuation::Law,
     compact::Compact,
     deformation::{Deformation, by_components},
+    fault::error_at,
     reference::{Matrices, Reference},
-    response::{Answer, error_at},
+    response::Answer,
     tangent::Tangents,
 };
 use nalgebra::Matrix3;

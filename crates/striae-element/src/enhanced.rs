@@ -33,8 +33,8 @@
 //! change are taken up better than by the standard element, not as well as with mean dilatation.
 
 use super::{
-    ElementError, ElementResponse, Stiffness, actuation::Law, reference::Reference,
-    response::error_at, stiffness::COMPONENTS,
+    ElementError, ElementResponse, Stiffness, actuation::Law, fault::error_at,
+    reference::Reference, stiffness::COMPONENTS,
 };
 use nalgebra::{Matrix3, SMatrix, SVector};
 use striae_law::bulk::{Past, Present, Response, Tangent};

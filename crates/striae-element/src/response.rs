@@ -2,7 +2,7 @@
 
 use super::{
     ElementError, Stiffness, actuation::Law, compact::Compact, deformation::by_components,
-    reference::Reference, tangent::Tangents,
+    fault::error_at, reference::Reference, tangent::Tangents,
 };
 use nalgebra::Matrix3;
 use pulp::{Arch, Simd, WithSimd};
@@ -144,25 +144,5 @@ impl<T: Tangents<Q>, const N: usize, const Q: usize> WithSimd for Sum<'_, T, N, 
         let none = |_, _| ([], []);
         let blocks = self.element.stiffness.blocks_mut();
         self.tangents.stiffness(self.reference, none, blocks);
-    }
-}
-
-/// The error of the material as an error of the element at quadrature point `g`.
-pub(super) fn error_at(g: usize) -> impl Fn(ResponseError) -> ElementError {
-    move |error| match error {
-        ResponseError::Inverted { determinant } => ElementError::Inverted {
-            point: g,
-            determinant,
-        },
-        ResponseError::Overstretched { strain, limit } => ElementError::Overstretched {
-            point: g,
-            strain,
-            limit,
-        },
-        ResponseError::OverstretchedFibres { strain, limit } => ElementError::OverstretchedFibres {
-            point: g,
-            strain,
-            limit,
-        },
     }
 }

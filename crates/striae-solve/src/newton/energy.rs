@@ -39,6 +39,8 @@
 //! the residual that Newton's method leaves only if mass, inertia, contact and tie forces are
 //! those of the equations that were solved. No node can dissipate less than nothing, as the law
 //! of friction holds there at the end.
+//!
+//! Longer than other files, as it is the one account of all energies of an increment.
 
 mod actuated;
 mod gained;
