@@ -3,7 +3,7 @@
 use crate::clock::timed;
 use serde_json::Value;
 use std::{error::Error, hint::black_box, ops::Range, time::Instant};
-use striae_element::{ElementBlock, ElementResponse, Elements, Formulation};
+use striae_element::{Driven, ElementBlock, ElementResponse, Elements, Formulation};
 use striae_law::bulk::{LameConstants, Material, Past};
 use striae_mesh::{CellKind, Mesh, Vec3, generate::Block};
 
@@ -85,7 +85,13 @@ impl Stretched {
                 *x = self.current[node.index()];
             }
             let x = &x[..corners.len()];
-            let result = block.respond(at, x, &self.rubber, Past::default(), response);
+            let result = block.respond(
+                at,
+                x,
+                &Driven::from(&self.rubber),
+                Past::default(),
+                response,
+            );
             black_box((result.is_ok(), response.energy));
         }
     }

@@ -25,6 +25,7 @@ mod bonded_pad;
 mod comparison;
 mod contact_face;
 mod cooks_membrane;
+mod crawler;
 mod crushed_ring;
 mod edge_contact;
 mod edge_release;
@@ -119,6 +120,11 @@ pub const CASES: &[Case] = &[
         "A ring crushed between planes and between jaws until its inner walls touch",
         crushed_ring::run,
         quick: "one of two meshes each"
+    ),
+    case!(
+        "crawler",
+        "A worm that crawls by its own strain against its nap, beside a stiff bar",
+        crawler::run
     ),
     case!(
         "stiff-punch",

@@ -85,8 +85,8 @@ pub fn stress_error(run: &Run, expected: &Matrix3<f64>) -> f64 {
         for (at, (corners, element)) in elements.enumerate() {
             let nodes = problem.nodes(body, corners).into_iter();
             let current: Vec<Vec3> = nodes.map(|node| state.positions[node]).collect();
-            let (material, variables) = problem.made_of(state, body, ElementId::new(at));
-            let Ok(stresses) = element.stress(&current, material, variables) else {
+            let (driven, variables) = problem.made_of(state, body, ElementId::new(at));
+            let Ok(stresses) = element.stress(&current, driven, variables) else {
                 return f64::NAN;
             };
             for stress in stresses {

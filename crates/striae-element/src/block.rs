@@ -9,11 +9,11 @@
 //! | composite tetrahedron | 10 | 4 |
 
 use super::{
-    ElementError, ElementResponse, Formulation, Mass, Stiffness, composite,
+    Actuation, Driven, ElementError, ElementResponse, Formulation, Mass, Stiffness, composite,
     enhanced::Fields,
+    fault::error_at,
     inertia::Inertia,
     reference::Reference,
-    response::error_at,
     rule::{Recovery, Rule},
 };
 use nalgebra::Matrix3;
@@ -48,10 +48,25 @@ pub trait ElementBlock: Debug + Send + Sync {
         &self,
         at: usize,
         x: &[Vec3],
-        material: &Material,
+        driven: &Driven,
         past: Past,
         response: &mut ElementResponse,
     ) -> Result<(), ElementError>;
+
+    /// Rate of the stored energy of an element at given positions by a change of its actuation,
+    /// times that change; its points have come to the variables given.
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError::Inverted`] where the material is turned inside out.
+    fn work(
+        &self,
+        at: usize,
+        x: &[Vec3],
+        driven: &Driven,
+        variables: &[f64],
+        change: &Actuation,
+    ) -> Result<f64, ElementError>;
 
     /// Mass matrix of an element; `density` is mass per reference volume.
     fn mass(&self, at: usize, density: f64) -> Mass;
@@ -75,7 +90,7 @@ pub trait ElementBlock: Debug + Send + Sync {
         &self,
         at: usize,
         x: &[Vec3],
-        material: &Material,
+        driven: &Driven,
         variables: &[f64],
     ) -> Result<Vec<Matrix3<f64>>, ElementError>;
 
@@ -88,7 +103,7 @@ pub trait ElementBlock: Debug + Send + Sync {
         &self,
         at: usize,
         x: &[Vec3],
-        material: &Material,
+        driven: &Driven,
         variables: &[f64],
     ) -> Result<Vec<Matrix3<f64>>, ElementError>;
 }
@@ -219,23 +234,47 @@ impl<const N: usize, const Q: usize> ElementBlock for Cells<N, Q> {
         &self,
         at: usize,
         x: &[Vec3],
-        material: &Material,
+        driven: &Driven,
         past: Past,
         response: &mut ElementResponse,
     ) -> Result<(), ElementError> {
-        let element = &self.elements[at];
+        let (element, law) = (self.elements[at].driven(driven)?, driven.law());
         match (self.formulations[at], self.fields.get(at)) {
             (Formulation::AssumedStrain, Some(fields)) => {
-                element.respond_enhanced(fields, all(x), material, past, response)
+                element.respond_enhanced(fields, all(x), &law, past, response)
             }
             (Formulation::Standard | Formulation::AssumedStrain, _) => {
-                element.respond(all(x), material, past, response)
+                element.respond(all(x), &law, past, response)
             }
             (Formulation::MeanDilatation, _) => {
-                let share = self.share(material);
-                element.respond_with_mean_dilatation(all(x), material, past, response, share)
+                let share = self.share(driven.material);
+                element.respond_with_mean_dilatation(all(x), &law, past, response, share)
             }
         }
+    }
+
+    fn work(
+        &self,
+        at: usize,
+        x: &[Vec3],
+        driven: &Driven,
+        variables: &[f64],
+        change: &Actuation,
+    ) -> Result<f64, ElementError> {
+        let (element, law) = (self.elements[at].driven(driven)?, driven.law());
+        let elastic = match (self.formulations[at], self.fields.get(at)) {
+            (Formulation::AssumedStrain, Some(fields)) => {
+                element.enhanced_gradients(fields, all(x), &law, variables)?
+            }
+            (Formulation::Standard | Formulation::AssumedStrain, _) => {
+                element.deformation_gradients(all(x))
+            }
+            (Formulation::MeanDilatation, _) => {
+                let share = self.share(driven.material);
+                element.deformation(all(x), share)?.scaled
+            }
+        };
+        element.work(&elastic, driven, variables, change)
     }
 
     fn mass(&self, at: usize, density: f64) -> Mass {
@@ -258,17 +297,17 @@ impl<const N: usize, const Q: usize> ElementBlock for Cells<N, Q> {
         &self,
         at: usize,
         x: &[Vec3],
-        material: &Material,
+        driven: &Driven,
         variables: &[f64],
     ) -> Result<Vec<Matrix3<f64>>, ElementError> {
-        let element = &self.elements[at];
+        let (element, law) = (self.elements[at].driven(driven)?, driven.law());
         match (self.formulations[at], self.fields.get(at)) {
             (Formulation::MeanDilatation, _) => {
-                let share = self.share(material);
-                return element.stress_with_mean_dilatation(all(x), material, variables, share);
+                let share = self.share(driven.material);
+                return element.stress_with_mean_dilatation(all(x), &law, variables, share);
             }
             (Formulation::AssumedStrain, Some(fields)) => {
-                return element.enhanced_stress(fields, all(x), material, variables);
+                return element.enhanced_stress(fields, all(x), &law, variables);
             }
             (Formulation::Standard | Formulation::AssumedStrain, _) => {}
         }
@@ -278,7 +317,7 @@ impl<const N: usize, const Q: usize> ElementBlock for Cells<N, Q> {
             .map(|g| {
                 let f = gradients[g];
                 let variables = &variables[g * each..(g + 1) * each];
-                let stress = material.cauchy_stress_after(&f, variables);
+                let stress = law.cauchy_stress_after(&f, variables);
                 stress.map_err(error_at(g))
             })
             .collect()
@@ -288,10 +327,10 @@ impl<const N: usize, const Q: usize> ElementBlock for Cells<N, Q> {
         &self,
         at: usize,
         x: &[Vec3],
-        material: &Material,
+        driven: &Driven,
         variables: &[f64],
     ) -> Result<Vec<Matrix3<f64>>, ElementError> {
-        let stress = self.stress(at, x, material, variables)?;
+        let stress = self.stress(at, x, driven, variables)?;
         let corners = self.recovery.iter();
         let at_corner = |weights: &[f64; Q]| (0..Q).map(|g| stress[g] * weights[g]).sum();
         Ok(corners.map(at_corner).collect())

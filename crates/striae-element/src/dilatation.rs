@@ -28,15 +28,17 @@
 
 use super::{
     ElementError, ElementResponse,
+    actuation::Law,
     compact::Compact,
     deformation::{Deformation, by_components},
+    fault::error_at,
     reference::{Matrices, Reference},
-    response::{Answer, error_at},
+    response::Answer,
     tangent::Tangents,
 };
 use nalgebra::Matrix3;
 use pulp::{Arch, Simd, WithSimd};
-use striae_law::bulk::{Material, Past, Present, Tangent};
+use striae_law::bulk::{Past, Present, Tangent};
 use striae_mesh::Vec3;
 
 impl<const N: usize, const Q: usize> Reference<N, Q> {
@@ -48,16 +50,16 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
     pub(super) fn respond_with_mean_dilatation(
         &self,
         current: &[Vec3; N],
-        material: &Material,
+        law: &Law,
         past: Past,
         element: &mut ElementResponse,
         share: f64,
     ) -> Result<(), ElementError> {
         let at = self.deformation(current, share)?;
-        match material.compact_response() {
+        match law.compact_response() {
             Some(law) => self.dilate_by::<Compact<Q>>(&at, share, element, |_, f, _| law(f)),
             None => self.dilate_by::<[Tangent; Q]>(&at, share, element, |g, f, present| {
-                material.respond(f, past.of_point(g, Q), present)
+                law.respond(f, past.of_point(g, Q), present)
             }),
         }
     }
@@ -93,7 +95,7 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
     pub(super) fn stress_with_mean_dilatation(
         &self,
         current: &[Vec3; N],
-        material: &Material,
+        law: &Law,
         variables: &[f64],
         share: f64,
     ) -> Result<Vec<Matrix3<f64>>, ElementError> {
@@ -105,7 +107,7 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
         let scaled = at.ratios.map(|j| theta * (j / theta).powf(1.0 - share));
         for (g, gradient) in at.scaled.iter().enumerate() {
             let variables = &variables[g * each..(g + 1) * each];
-            let found = material.cauchy_stress_after(gradient, variables);
+            let found = law.cauchy_stress_after(gradient, variables);
             stress.push(found.map_err(error_at(g))?);
         }
         let at_point = |g: usize| stress[g].trace() / 3.0 * (scaled[g] / theta);

@@ -1,8 +1,8 @@
 //! A single element of a mesh: what its block answers for it.
 
-use super::{ElementBlock, ElementError, ElementResponse, Mass};
+use super::{Actuation, Driven, ElementBlock, ElementError, ElementResponse, Mass};
 use nalgebra::Matrix3;
-use striae_law::bulk::{Material, Past};
+use striae_law::bulk::Past;
 use striae_mesh::{CellKind, Vec3};
 
 /// One element.
@@ -18,15 +18,16 @@ impl Element<'_> {
     /// # Errors
     ///
     /// [`ElementError::Inverted`] where the material is turned inside out.
-    pub fn response(
+    pub fn response<'d>(
         &self,
         x: &[Vec3],
-        material: &Material,
+        driven: impl Into<Driven<'d>>,
         past: Past,
     ) -> Result<ElementResponse, ElementError> {
-        let mut response = ElementResponse::zero(self.block, material);
+        let driven = driven.into();
+        let mut response = ElementResponse::zero(self.block, driven.material);
         let block = self.block;
-        block.respond(self.at, x, material, past, &mut response)?;
+        block.respond(self.at, x, &driven, past, &mut response)?;
         Ok(response)
     }
 
@@ -35,15 +36,31 @@ impl Element<'_> {
     /// # Errors
     ///
     /// [`ElementError::Inverted`] where the material is turned inside out.
-    pub fn stored_energy(
+    pub fn stored_energy<'d>(
         &self,
         x: &[Vec3],
-        material: &Material,
+        driven: impl Into<Driven<'d>>,
         variables: &[f64],
     ) -> Result<f64, ElementError> {
         let elapsed = 0.0;
         let past = Past { variables, elapsed };
-        Ok(self.response(x, material, past)?.energy)
+        Ok(self.response(x, driven, past)?.energy)
+    }
+
+    /// See [`ElementBlock::work`].
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError::Inverted`] where the material is turned inside out.
+    pub fn work<'d>(
+        &self,
+        x: &[Vec3],
+        driven: impl Into<Driven<'d>>,
+        variables: &[f64],
+        change: &Actuation,
+    ) -> Result<f64, ElementError> {
+        let driven = driven.into();
+        self.block.work(self.at, x, &driven, variables, change)
     }
 
     /// How many quadrature points it has.
@@ -88,13 +105,13 @@ impl Element<'_> {
     /// # Errors
     ///
     /// [`ElementError::Inverted`] where the material is turned inside out.
-    pub fn stress(
+    pub fn stress<'d>(
         &self,
         x: &[Vec3],
-        material: &Material,
+        driven: impl Into<Driven<'d>>,
         variables: &[f64],
     ) -> Result<Vec<Matrix3<f64>>, ElementError> {
-        self.block.stress(self.at, x, material, variables)
+        self.block.stress(self.at, x, &driven.into(), variables)
     }
 
     /// See [`ElementBlock::corner_stress`].
@@ -102,13 +119,14 @@ impl Element<'_> {
     /// # Errors
     ///
     /// [`ElementError::Inverted`] where the material is turned inside out.
-    pub fn corner_stress(
+    pub fn corner_stress<'d>(
         &self,
         x: &[Vec3],
-        material: &Material,
+        driven: impl Into<Driven<'d>>,
         variables: &[f64],
     ) -> Result<Vec<Matrix3<f64>>, ElementError> {
-        self.block.corner_stress(self.at, x, material, variables)
+        let driven = driven.into();
+        self.block.corner_stress(self.at, x, &driven, variables)
     }
 
     /// Kind of the element.

@@ -33,11 +33,11 @@
 //! change are taken up better than by the standard element, not as well as with mean dilatation.
 
 use super::{
-    ElementError, ElementResponse, Stiffness, reference::Reference, response::error_at,
-    stiffness::COMPONENTS,
+    ElementError, ElementResponse, Stiffness, actuation::Law, fault::error_at,
+    reference::Reference, stiffness::COMPONENTS,
 };
 use nalgebra::{Matrix3, SMatrix, SVector};
-use striae_law::bulk::{Material, Past, Present, Response, Tangent};
+use striae_law::bulk::{Past, Present, Response, Tangent};
 use striae_mesh::{CellKind, Vec3};
 
 /// Inner parameters: component `J` of `b_I` is number `3 I + J`.
@@ -100,13 +100,13 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
         &self,
         fields: &Fields<Q>,
         current: &[Vec3; N],
-        material: &Material,
+        law: &Law,
         past: Past,
         element: &mut ElementResponse,
     ) -> Result<(), ElementError> {
         let settled = self.settled(fields, current, |g, f| {
             let mut present = element.present(g, Q);
-            let response = material.respond(f, past.of_point(g, Q), &mut present);
+            let response = law.respond(f, past.of_point(g, Q), &mut present);
             Ok((response.map_err(error_at(g))?, present.dissipated))
         })?;
         (element.energy, element.dissipated) = (0.0, 0.0);
@@ -137,9 +137,27 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
         &self,
         fields: &Fields<Q>,
         current: &[Vec3; N],
-        material: &Material,
+        law: &Law,
         variables: &[f64],
     ) -> Result<Vec<Matrix3<f64>>, ElementError> {
+        let gradients = self.enhanced_gradients(fields, current, law, variables)?;
+        let each = variables.len() / Q;
+        let stress = |g: usize| {
+            let f = gradients[g];
+            let variables = &variables[g * each..(g + 1) * each];
+            law.cauchy_stress_after(&f, variables).map_err(error_at(g))
+        };
+        (0..Q).map(stress).collect()
+    }
+
+    /// Enhanced deformation gradients of points that have come to the variables given.
+    pub(super) fn enhanced_gradients(
+        &self,
+        fields: &Fields<Q>,
+        current: &[Vec3; N],
+        law: &Law,
+        variables: &[f64],
+    ) -> Result<[Matrix3<f64>; Q], ElementError> {
         let (elapsed, mut room) = (0.0, vec![0.0; variables.len() / Q]);
         let past = Past { variables, elapsed };
         let settled = self.settled(fields, current, |g, f| {
@@ -147,20 +165,11 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
                 variables: &mut room,
                 dissipated: 0.0,
             };
-            let response = material.respond(f, past.of_point(g, Q), &mut present);
+            let response = law.respond(f, past.of_point(g, Q), &mut present);
             Ok((response.map_err(error_at(g))?, 0.0))
         })?;
         let modified = self.modified(fields, &settled.covectors);
-        let gradients = modified.deformation_gradients(current);
-        let each = variables.len() / Q;
-        let stress = |g: usize| {
-            let f = gradients[g];
-            let variables = &variables[g * each..(g + 1) * each];
-            material
-                .cauchy_stress_after(&f, variables)
-                .map_err(error_at(g))
-        };
-        (0..Q).map(stress).collect()
+        Ok(modified.deformation_gradients(current))
     }
 
     /// The inner parameters at which the energy is least; `law` answers at a point, with what

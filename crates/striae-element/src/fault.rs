@@ -1,5 +1,6 @@
 //! What can be wrong with an element.
 
+use striae_law::bulk::ResponseError;
 use striae_mesh::ElementId;
 
 /// An element that is turned inside out at a quadrature point.
@@ -47,6 +48,15 @@ pub enum ElementError {
         /// The limit of the law.
         limit: f64,
     },
+    /// In the configuration without stress: the actuation is at fault.
+    #[error(
+        "shrunk to nothing by its actuation: the stress-free deformation has determinant \
+         {determinant:.6e}"
+    )]
+    Shrunk {
+        /// Determinant of the stress-free deformation.
+        determinant: f64,
+    },
     /// In the current configuration, of an element that is enhanced.
     #[error("the strain it assumes is not to be found")]
     Unsettled,
@@ -60,4 +70,24 @@ pub struct ElementFault {
     pub element: ElementId,
     /// What is wrong with it.
     pub error: ElementError,
+}
+
+/// The error of the material as an error of the element at quadrature point `g`.
+pub(super) fn error_at(g: usize) -> impl Fn(ResponseError) -> ElementError {
+    move |error| match error {
+        ResponseError::Inverted { determinant } => ElementError::Inverted {
+            point: g,
+            determinant,
+        },
+        ResponseError::Overstretched { strain, limit } => ElementError::Overstretched {
+            point: g,
+            strain,
+            limit,
+        },
+        ResponseError::OverstretchedFibres { strain, limit } => ElementError::OverstretchedFibres {
+            point: g,
+            strain,
+            limit,
+        },
+    }
 }

@@ -18,6 +18,9 @@
 //! `A` by all components (`tangent.rs`), or half the work where it takes a few numbers only
 //! (`compact.rs`).
 //!
+//! Stress-free strain and active tension make an element of a grown reference configuration
+//! (`actuation.rs`).
+//!
 //! [`Elements`] keeps what depends on the reference configuration alone; nothing of it
 //! is found again while iterating. An [`ElementBlock`] knows the numbers of corners and
 //! points of its elements when it is compiled: what is asked of it is dispatched once,
@@ -26,6 +29,7 @@
 //! A new kind is a file of `striae-mesh/src/cell/`, a line in its table and one in the
 //! table of `block.rs`.
 
+mod actuation;
 mod block;
 mod compact;
 mod composite;
@@ -48,6 +52,7 @@ mod tangent;
 #[cfg(test)]
 mod tests;
 
+pub use actuation::{Actuation, Driven, Tension};
 pub use block::ElementBlock;
 pub use element::Element;
 pub use elements::Elements;

@@ -1,12 +1,12 @@
 //! Stored energy, internal force and consistent stiffness of an element.
 
 use super::{
-    ElementError, Stiffness, compact::Compact, deformation::by_components, reference::Reference,
-    tangent::Tangents,
+    ElementError, Stiffness, actuation::Law, compact::Compact, deformation::by_components,
+    fault::error_at, reference::Reference, tangent::Tangents,
 };
 use nalgebra::Matrix3;
 use pulp::{Arch, Simd, WithSimd};
-use striae_law::bulk::{Material, Past, Present, Response, ResponseError, Tangent};
+use striae_law::bulk::{Past, Present, Response, ResponseError, Tangent};
 use striae_mesh::Vec3;
 
 /// Energy of an element with its first and second derivatives.
@@ -55,14 +55,14 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
     pub(super) fn respond(
         &self,
         current: &[Vec3; N],
-        material: &Material,
+        law: &Law,
         past: Past,
         element: &mut ElementResponse,
     ) -> Result<(), ElementError> {
-        match material.compact_response() {
+        match law.compact_response() {
             Some(law) => self.respond_by::<Compact<Q>>(current, element, |_, f, _| law(f)),
             None => self.respond_by::<[Tangent; Q]>(current, element, |g, f, present| {
-                material.respond(f, past.of_point(g, Q), present)
+                law.respond(f, past.of_point(g, Q), present)
             }),
         }
     }
@@ -144,25 +144,5 @@ impl<T: Tangents<Q>, const N: usize, const Q: usize> WithSimd for Sum<'_, T, N, 
         let none = |_, _| ([], []);
         let blocks = self.element.stiffness.blocks_mut();
         self.tangents.stiffness(self.reference, none, blocks);
-    }
-}
-
-/// The error of the material as an error of the element at quadrature point `g`.
-pub(super) fn error_at(g: usize) -> impl Fn(ResponseError) -> ElementError {
-    move |error| match error {
-        ResponseError::Inverted { determinant } => ElementError::Inverted {
-            point: g,
-            determinant,
-        },
-        ResponseError::Overstretched { strain, limit } => ElementError::Overstretched {
-            point: g,
-            strain,
-            limit,
-        },
-        ResponseError::OverstretchedFibres { strain, limit } => ElementError::OverstretchedFibres {
-            point: g,
-            strain,
-            limit,
-        },
     }
 }

@@ -11,9 +11,8 @@
 //! volumes of the elements as weights (Hinton & Campbell 1974,
 //! doi:10.1002/nme.1620080303). Uniform stress is reproduced exactly.
 
-use super::{ElementFault, Elements};
+use super::{Driven, ElementFault, Elements};
 use nalgebra::Matrix3;
-use striae_law::bulk::Material;
 use striae_mesh::{ElementId, Mesh, Vec3};
 
 /// Cauchy stress at every node of a mesh, whose reference elements are
@@ -24,11 +23,11 @@ use striae_mesh::{ElementId, Mesh, Vec3};
 /// # Errors
 ///
 /// The first element that is turned inside out.
-pub fn nodal_cauchy_stress<'a>(
+pub fn nodal_cauchy_stress<'a, D: Into<Driven<'a>>>(
     mesh: &Mesh,
     reference: &Elements,
     positions: &[Vec3],
-    made_of: impl Fn(ElementId) -> (&'a Material, &'a [f64]),
+    made_of: impl Fn(ElementId) -> (D, &'a [f64]),
 ) -> Result<Vec<Matrix3<f64>>, ElementFault> {
     let (mut stress, volume) = nodal_stress_sums(mesh, reference, positions, made_of)?;
     for (sigma, volume) in stress.iter_mut().zip(volume) {
@@ -45,19 +44,19 @@ pub fn nodal_cauchy_stress<'a>(
 /// # Errors
 ///
 /// The first element that is turned inside out.
-pub fn nodal_stress_sums<'a>(
+pub fn nodal_stress_sums<'a, D: Into<Driven<'a>>>(
     mesh: &Mesh,
     reference: &Elements,
     positions: &[Vec3],
-    made_of: impl Fn(ElementId) -> (&'a Material, &'a [f64]),
+    made_of: impl Fn(ElementId) -> (D, &'a [f64]),
 ) -> Result<(Vec<Matrix3<f64>>, Vec<f64>), ElementFault> {
     let mut stress = vec![Matrix3::zeros(); positions.len()];
     let mut volume = vec![0.0; positions.len()];
     for (index, (corners, element)) in mesh.elements().zip(reference.iter()).enumerate() {
         let current: Vec<Vec3> = corners.iter().map(|node| positions[node.index()]).collect();
         let id = ElementId::new(index);
-        let (material, variables) = made_of(id);
-        let at_corners = element.corner_stress(&current, material, variables);
+        let (driven, variables) = made_of(id);
+        let at_corners = element.corner_stress(&current, driven, variables);
         let at_corners = at_corners.map_err(|error| ElementFault { element: id, error })?;
         for (node, sigma) in corners.iter().zip(at_corners) {
             stress[node.index()] += sigma * element.volume();

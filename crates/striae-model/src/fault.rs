@@ -487,6 +487,16 @@ pub enum FaultKind {
         /// The key and its table.
         place: String,
     },
+    /// An actuation that a body cannot follow.
+    #[error("step `{step}` actuates {of}: {cause}")]
+    Actuation {
+        /// The step.
+        step: String,
+        /// The body or section.
+        of: String,
+        /// Why, and what is needed.
+        cause: String,
+    },
     /// A body that can move without resistance.
     #[error(
         "body `{body}` is in no contact pair and {} in step `{step}`; prescribe displacements that hold it", leaves(.motions)

@@ -202,8 +202,8 @@ fn energy_sums(problem: &Problem, state: &State, body: usize) -> Option<Sums<f64
     for (at, (corners, element)) in elements.enumerate() {
         let nodes = problem.nodes(body, corners).into_iter();
         let x: Vec<Vec3> = nodes.map(|node| state.positions[node]).collect();
-        let (material, variables) = problem.made_of(state, body, ElementId::new(at));
-        let energy = element.stored_energy(&x, material, variables).ok()?;
+        let (driven, variables) = problem.made_of(state, body, ElementId::new(at));
+        let energy = element.stored_energy(&x, driven, variables).ok()?;
         for corner in corners {
             energies[corner.index()] += energy;
             volumes[corner.index()] += element.volume();

@@ -24,13 +24,13 @@ pub(crate) fn fibres(problem: &Problem, state: &State, body: usize) -> Vec<Array
     }
     for (at, corners) in model.mesh.elements().enumerate() {
         let id = ElementId::new(at);
-        let (material, variables) = problem.made_of(state, body, id);
+        let (driven, variables) = problem.made_of(state, body, id);
         let nodes = problem.nodes(body, corners);
         let [rest, now] = [&problem.reference, &state.positions]
             .map(|x| nodes.iter().map(|node| x[*node]).collect::<Vec<Vec3>>());
         let gradient = mean_gradient(model.mesh.kind(id), &rest, &now);
         for (family, array) in arrays.iter_mut().enumerate() {
-            array.push(match material.fibres().get(family) {
+            array.push(match driven.material.fibres().get(family) {
                 None => Vec3::zeros(),
                 Some(_) => {
                     let rest = &variables[3 * family..3 * family + 3];

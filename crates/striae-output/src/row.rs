@@ -30,6 +30,7 @@ pub fn row(
     add("energy.kinetic", state.energies.kinetic);
     add("energy.strain", state.energies.strain);
     add("energy.external", state.energies.external);
+    add("energy.actuation", state.energies.actuation);
     add("energy.inelastic", state.energies.inelastic);
     add("energy.friction", state.energies.friction);
     add("energy.contact", state.energies.contact);

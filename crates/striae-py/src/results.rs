@@ -71,6 +71,7 @@ impl Results {
         all.set_item("kinetic", energies.kinetic)?;
         all.set_item("strain", energies.strain)?;
         all.set_item("external", energies.external)?;
+        all.set_item("actuation", energies.actuation)?;
         all.set_item("inelastic", energies.inelastic)?;
         all.set_item("friction", energies.friction)?;
         all.set_item("contact", energies.contact)?;

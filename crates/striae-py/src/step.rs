@@ -2,9 +2,10 @@
 
 use pyo3::{exceptions::PyValueError, prelude::*};
 use striae::model::{
-    Component, Curve, Freedom, Increments, LoadExtent, LoadKind, StepBuilder, equal_increments,
-    step,
+    ActuationKind, Component, Curve, Freedom, Increments, LoadExtent, LoadKind, StepBuilder,
+    equal_increments, step,
 };
+use striae::solve::actuation::strain_in_axes;
 
 use crate::friction::Friction;
 
@@ -159,6 +160,64 @@ impl Step {
         self.load(body, facets, kind, exposed, along)
     }
 
+    /// A strain without stress by its components `xx`, `yy`, `zz`, `xy`, `yz`, `zx`.
+    fn strain(
+        &mut self,
+        body: &str,
+        section: Option<&str>,
+        components: [f64; 6],
+        axes: [[f64; 3]; 2],
+        along: Along,
+    ) -> PyResult<()> {
+        let strain = strain_in_axes(components, axes.map(Into::into));
+        let strain = strain.ok_or_else(|| PyValueError::new_err("the axes span no plane"))?;
+        self.actuate(body, section, ActuationKind::Strain(strain), along)
+    }
+
+    fn fibre_strain(
+        &mut self,
+        body: &str,
+        section: Option<&str>,
+        strain: f64,
+        along: Along,
+    ) -> PyResult<()> {
+        self.actuate(body, section, ActuationKind::FibreStrain(strain), along)
+    }
+
+    fn warm(
+        &mut self,
+        body: &str,
+        section: Option<&str>,
+        expansion: f64,
+        temperature: f64,
+        along: Along,
+    ) -> PyResult<()> {
+        let kind = ActuationKind::Thermal {
+            expansion,
+            temperature,
+        };
+        self.actuate(body, section, kind, along)
+    }
+
+    /// A tension along a unit vector, or along fibres.
+    fn pull(
+        &mut self,
+        body: &str,
+        section: Option<&str>,
+        tension: f64,
+        line: Option<[f64; 3]>,
+        along: Along,
+    ) -> PyResult<()> {
+        let kind = match line {
+            Some(line) => ActuationKind::Tension {
+                along: line.into(),
+                value: tension,
+            },
+            None => ActuationKind::FibreTension(tension),
+        };
+        self.actuate(body, section, kind, along)
+    }
+
     fn gravity(&mut self, acceleration: [f64; 3], along: Along) -> PyResult<()> {
         let curve = along.curve()?;
         self.build(|step| step.gravity(acceleration).along(curve));
@@ -204,6 +263,24 @@ impl Step {
 }
 
 impl Step {
+    fn actuate(
+        &mut self,
+        body: &str,
+        section: Option<&str>,
+        kind: ActuationKind,
+        along: Along,
+    ) -> PyResult<()> {
+        let curve = along.curve()?;
+        self.build(|step| {
+            let actuated = match section {
+                Some(section) => step.actuate_section(body, section, kind),
+                None => step.actuate(body, kind),
+            };
+            actuated.along(curve)
+        });
+        Ok(())
+    }
+
     fn load(
         &mut self,
         body: &str,

@@ -298,7 +298,7 @@ impl System<'_> {
         places: &ElementPlaces,
     ) -> Result<OfBodies, CutBack> {
         let imposed = setting.imposed;
-        let bodies = self.elements(places, trial, setting.state, imposed.flowing())?;
+        let bodies = self.elements(places, trial, setting.state, imposed)?;
         self.loads(configurations, trial, imposed)?;
         if self.context.problem.share.is_alone() {
             self.beside_elements(imposed);

@@ -7,7 +7,7 @@ use crate::{
     dynamics::{scheme, wrenches},
     mass::kinetic_energy,
     model::Mover,
-    newton::{Workspace, forces_at_start},
+    newton::{Workspace, assembled_at_start},
     node::GlobalNode,
     outcome::CutBack,
     problem::Problem,
@@ -17,7 +17,8 @@ use crate::{
 
 /// The state a step starts from: velocities as it states them, and the
 /// accelerations that `M a = f_ext - f_int + f_con` asks for; at rest where the
-/// step has no inertia. Work of what changes velocities at once is external.
+/// step has no inertia. Work of what changes velocities at once is external, and actuation that
+/// changes at once does work at the positions there are.
 ///
 /// # Errors
 /// When the mass is singular, as for a body without density.
@@ -49,7 +50,8 @@ pub fn begin(
             velocities[rate.node][rate.axis] = rate.velocity;
         }
         problem.ties.follow(&mut velocities);
-        let mut forces = forces_at_start(&context, state, workspace)?;
+        let assembled = assembled_at_start(&context, state, workspace)?;
+        let mut forces = assembled.forces;
         let holding;
         (accelerations, holding) =
             workspace.accelerations(&context, state, &imposed, &velocities, &forces)?;
@@ -66,6 +68,13 @@ pub fn begin(
         begun.forces.pushed = forces.pushed;
         begun.forces.reaction = forces.reaction;
         begun.forces.applied = forces.applied;
+        if imposed.actuations != state.actuations {
+            begun.forces.internal = forces.internal;
+            let stored = assembled.bodies.strain;
+            begun.energies.actuation += stored - state.energies.strain;
+            begun.energies.strain = stored;
+            begun.actuations = imposed.actuations;
+        }
     } else {
         accelerations.resize(nodes, Vec3::zeros());
     }

@@ -1,10 +1,10 @@
 //! What every element of a problem is made of, and what its points remember.
 
-use striae_element::Element;
+use striae_element::{Driven, Element};
 use striae_law::bulk::Material;
 use striae_mesh::{ElementId, Vec3};
 
-use crate::{problem::Problem, state::State};
+use crate::{actuation::SectionActuation, problem::Problem, state::State};
 
 impl Problem {
     /// Material of an element of a body.
@@ -66,17 +66,21 @@ impl Problem {
         elements.map(mean).collect()
     }
 
-    /// Material of an element of a body, and the variables that its points have come to.
+    /// Material of an element of a body with its actuation, and the variables that its points
+    /// have come to.
     pub fn made_of<'a>(
         &'a self,
         state: &'a State,
         body: usize,
         element: ElementId,
-    ) -> (&'a Material, &'a [f64]) {
-        let variables = self.compositions[body].variables(element);
+    ) -> (Driven<'a>, &'a [f64]) {
+        let composition = &self.compositions[body];
+        let variables = &state.histories[body][composition.variables(element)];
+        let actuation = state.actuations.of(body, composition.section(element));
+        let material = self.material(body, element);
         (
-            self.material(body, element),
-            &state.histories[body][variables],
+            SectionActuation::drive(actuation, material, variables),
+            variables,
         )
     }
 }

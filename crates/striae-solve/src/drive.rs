@@ -16,7 +16,7 @@ use crate::{
     freedom::{Bridged, Friction, free_motion, free_motion_in, slipping, worth_stabilising},
     initial::other_name,
     model::{PairId, Procedure},
-    newton::{Increment, IterationObserver, Memory, Workspace, advance, forces_at},
+    newton::{Increment, IterationObserver, Memory, Workspace, advance, assembled_at},
     outcome::{CutBack, Ending, Remedy},
     problem::Problem,
     share::Share,
@@ -404,8 +404,8 @@ fn tips(
         return None;
     }
     let found = [wanted, 1.0].into_iter().find_map(|s| {
-        let forces = forces_at(context, state, s, workspace).ok()?;
-        tipping(context, state, &forces.applied)
+        let found = assembled_at(context, state, s, workspace).ok()?;
+        tipping(context, state, &found.forces.applied)
     })?;
     let pair = &context.problem.pairs[found.pair];
     let own = if pair.bodies[0] == Some(found.body) {

@@ -1,5 +1,6 @@
 //! Elements, loads, the problem and its state, Newton's method and step control.
 
+pub mod actuation;
 pub mod assembly;
 pub mod audit;
 mod begin;

@@ -340,6 +340,8 @@ pub struct Step {
     pub releases: Vec<Release>,
     /// Loads on faces.
     pub loads: Vec<Load>,
+    /// Actuation of bodies and their sections.
+    pub actuations: Vec<Actuation>,
     /// Displacements of rigid surfaces.
     pub rigid_motions: Vec<RigidMotion>,
     /// Changes of friction at the start of the step.
@@ -452,6 +454,44 @@ pub enum LoadKind {
     FollowerTraction(Vec3),
     /// Force per current area against the current normal.
     Pressure(f64),
+}
+
+/// Strain or tension that a body takes on of itself, see [`crate::actuation`].
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Actuation {
+    /// The body.
+    pub body: BodyId,
+    /// Number of the section, counted from 1; `None` for all of the body, with all sections.
+    pub section: Option<usize>,
+    /// What it takes on.
+    pub kind: ActuationKind,
+    /// How the target is approached.
+    pub curve: Curve,
+}
+
+/// Kinds of actuation with their targets; a section has the sum of all kinds.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub enum ActuationKind {
+    /// Symmetric stress-free strain `G - I`.
+    Strain(Matrix3<f64>),
+    /// Stress-free strain along each family of fibres.
+    FibreStrain(f64),
+    /// Stress-free strain of a change of temperature, the same in all directions.
+    Thermal {
+        /// Coefficient of thermal expansion.
+        expansion: f64,
+        /// Change of temperature since the start.
+        temperature: f64,
+    },
+    /// Tension along each family of fibres, a force per reference area.
+    FibreTension(f64),
+    /// Tension along a line; those along other lines add to it.
+    Tension {
+        /// Unit vector in the reference configuration.
+        along: Vec3,
+        /// Force per reference area.
+        value: f64,
+    },
 }
 
 /// Part of the faces that carries a load.

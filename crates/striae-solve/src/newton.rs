@@ -37,13 +37,13 @@ use striae_contact::{
 };
 
 use crate::{
-    assembly::{Setting, StepContext, Trial},
+    assembly::{Assembled, Setting, StepContext, Trial},
     audit::Doubt,
     norms::Norms,
     outcome::CutBack,
     problem::Problem,
     skin::BodyOverlap,
-    state::{NodalForces, State},
+    state::State,
 };
 use acceptance::accepted;
 use attempt::Attempt;
@@ -136,7 +136,7 @@ pub fn estimate(problem: &Problem) -> Result<Estimate, CutBack> {
     let state = State::undeformed(problem);
     let context = StepContext::new(problem, 0, &state);
     let mut workspace = Workspace::new(problem.model.solver.backend);
-    forces_at_start(&context, &state, &mut workspace)?;
+    assembled_at_start(&context, &state, &mut workspace)?;
     let system = workspace.system();
     let mut solver = automatic(problem.model.solver.backend);
     let partition = &system.partition;
@@ -153,28 +153,28 @@ pub fn estimate(problem: &Problem) -> Result<Estimate, CutBack> {
     })
 }
 
-/// Forces in `state`, with the loads at the start of the step.
+/// Forces and energies in `state`, with the loads at the start of the step.
 ///
 /// # Errors
 /// Why the state cannot be evaluated.
-pub(crate) fn forces_at_start(
+pub(crate) fn assembled_at_start(
     context: &StepContext,
     state: &State,
     workspace: &mut Workspace,
-) -> Result<NodalForces, CutBack> {
-    forces_at(context, state, 0.0, workspace)
+) -> Result<Assembled, CutBack> {
+    assembled_at(context, state, 0.0, workspace)
 }
 
-/// Forces in `state`, with the loads at the fraction `s` of the step.
+/// Forces and energies in `state`, with the loads at the fraction `s` of the step.
 ///
 /// # Errors
 /// Why the state cannot be evaluated.
-pub(crate) fn forces_at(
+pub(crate) fn assembled_at(
     context: &StepContext,
     state: &State,
     s: f64,
     workspace: &mut Workspace,
-) -> Result<NodalForces, CutBack> {
+) -> Result<Assembled, CutBack> {
     let Selected {
         selections,
         tractions,
@@ -192,8 +192,7 @@ pub(crate) fn forces_at(
         selections: &selections,
         imposed: &imposed,
     };
-    let assembled = workspace.assemble(&setting, &trial, Iteration::First, Derivatives::First)?;
-    Ok(assembled.forces)
+    workspace.assemble(&setting, &trial, Iteration::First, Derivatives::First)
 }
 
 /// Advances from `state` to the fraction `s` of the step.

@@ -5,7 +5,10 @@ use std::collections::BTreeMap;
 use striae_law::friction::Friction;
 use striae_mesh::{Face, Vec3};
 
-use crate::model::{BodyId, Curve, Freedom, LoadExtent, LoadKind, Model, Step};
+use crate::{
+    actuation::{Actuations, SectionActuation},
+    model::{ActuationKind, Body, BodyId, Curve, Freedom, LoadExtent, LoadKind, Model, Step},
+};
 
 /// All that holds in one step.
 #[derive(Clone, Debug)]
@@ -14,6 +17,8 @@ pub struct StepPlan {
     pub displacements: BTreeMap<(usize, usize, usize), Prescription>,
     /// Loads.
     pub loads: Vec<PlannedLoad>,
+    /// Actuation of sections.
+    pub actuations: Vec<PlannedActuation>,
     /// Coordinates of every rigid body; `None` where they are free.
     pub rigid: Vec<[Option<Prescription>; 6]>,
     /// Driving force and torque of every rigid body.
@@ -57,6 +62,21 @@ pub struct PlannedLoad {
     pub curve: Curve,
 }
 
+/// An actuation of a section in a step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlannedActuation {
+    /// Number of the body.
+    pub body: usize,
+    /// Number of the section, 0 being the body's own material.
+    pub section: usize,
+    /// Value at the start of the step.
+    pub from: Option<ActuationKind>,
+    /// Target.
+    pub to: ActuationKind,
+    /// How the target is approached.
+    pub curve: Curve,
+}
+
 /// A vector in a step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VectorPlan {
@@ -96,6 +116,28 @@ impl PlannedLoad {
     }
 }
 
+impl PlannedActuation {
+    /// The value at the fraction `s` of the step.
+    pub fn at(&self, s: f64) -> ActuationKind {
+        self.to.between(self.from.as_ref(), self.curve.at(s))
+    }
+}
+
+impl StepPlan {
+    /// Actuation of some bodies at the fraction `s` of the step.
+    pub fn actuations(&self, bodies: &[Body], s: f64) -> Actuations {
+        if self.actuations.is_empty() {
+            return Actuations::default();
+        }
+        let none = |body: &Body| vec![SectionActuation::default(); body.sections.len() + 1];
+        let mut all: Vec<Vec<SectionActuation>> = bodies.iter().map(none).collect();
+        for planned in &self.actuations {
+            all[planned.body][planned.section].add(&planned.at(s));
+        }
+        Actuations { bodies: all }
+    }
+}
+
 impl VectorPlan {
     /// The vector at the fraction `s` of the step.
     pub fn at(&self, s: f64) -> Vec3 {
@@ -125,6 +167,7 @@ pub fn plans(model: &Model) -> Vec<StepPlan> {
     let mut plan = StepPlan {
         displacements: BTreeMap::new(),
         loads: Vec::new(),
+        actuations: Vec::new(),
         rigid: vec![[const { Some(Prescription::Hold) }; 6]; model.rigid_surfaces.len()],
         driving: vec![[VectorPlan::zero(), VectorPlan::zero()]; model.rigid_surfaces.len()],
         gravity: VectorPlan::zero(),
@@ -136,16 +179,17 @@ pub fn plans(model: &Model) -> Vec<StepPlan> {
     };
     let mut plans = Vec::with_capacity(model.steps.len());
     for step in &model.steps {
-        plan = next(&plan, step);
+        plan = next(&plan, step, &model.bodies);
         plans.push(plan.clone());
     }
     plans
 }
 
-fn next(before: &StepPlan, step: &Step) -> StepPlan {
+fn next(before: &StepPlan, step: &Step, bodies: &[Body]) -> StepPlan {
     StepPlan {
         displacements: displacements(before, step),
         loads: loads(before, step),
+        actuations: actuations(before, step, bodies),
         rigid: rigid(before, step),
         driving: driving(before, step),
         gravity: gravity(before, step),
@@ -211,6 +255,43 @@ fn held_load(load: &PlannedLoad) -> PlannedLoad {
         curve: Curve::Constant,
         ..load.clone()
     }
+}
+
+fn actuations(before: &StepPlan, step: &Step, bodies: &[Body]) -> Vec<PlannedActuation> {
+    let held = |known: &PlannedActuation| {
+        let reached = known.at(1.0);
+        PlannedActuation {
+            from: Some(reached),
+            to: reached,
+            curve: Curve::Constant,
+            ..known.clone()
+        }
+    };
+    let mut all: Vec<PlannedActuation> = before.actuations.iter().map(held).collect();
+    for stated in &step.actuations {
+        let body = stated.body.0;
+        let sections = match stated.section {
+            Some(section) => section..section + 1,
+            None => 0..bodies[body].sections.len() + 1,
+        };
+        for section in sections {
+            let same = all.iter().position(|known| {
+                (known.body, known.section) == (body, section) && known.to.is_like(&stated.kind)
+            });
+            let planned = PlannedActuation {
+                body,
+                section,
+                from: same.map(|at| all[at].to),
+                to: stated.kind,
+                curve: stated.curve.clone(),
+            };
+            match same {
+                Some(at) => all[at] = planned,
+                None => all.push(planned),
+            }
+        }
+    }
+    all
 }
 
 fn gravity(before: &StepPlan, step: &Step) -> VectorPlan {

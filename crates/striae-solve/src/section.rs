@@ -234,10 +234,10 @@ fn internal_forces(problem: &Problem, state: &State, body: usize, element: Eleme
         .map(|node| state.positions[node])
         .collect();
     let solid = problem.elements[body].get(element);
-    let (material, variables) = problem.made_of(state, body, element);
+    let (driven, variables) = problem.made_of(state, body, element);
     let elapsed = 0.0;
     let past = Past { variables, elapsed };
-    match solid.response(&x, material, past) {
+    match solid.response(&x, driven, past) {
         Ok(response) => response.force.into_iter().map(Vec3::from).collect(),
         Err(_) => vec![Vec3::zeros(); corners.len()],
     }

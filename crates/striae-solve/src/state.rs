@@ -9,6 +9,7 @@ use striae_contact::{
 use striae_mesh::{FacetId, Vec3};
 
 use crate::{
+    actuation::Actuations,
     composition::Composition,
     problem::Problem,
     rigid::{Pose, Wrench},
@@ -30,6 +31,8 @@ pub struct State {
     /// What the quadrature points of every body have been through: the variables of their
     /// materials by block, element and point. Empty for materials without a memory.
     pub histories: Vec<Vec<f64>>,
+    /// Actuation of the bodies.
+    pub actuations: Actuations,
     /// State of every pair.
     pub pairs: Vec<PairState>,
     /// Nodal forces.
@@ -94,6 +97,9 @@ pub struct Energies {
     /// Work of reactions, loads and moving rigid surfaces, and of what changes
     /// velocities at once at the start of a step.
     pub external: f64,
+    /// Work of actuation: what changes of stress-free strains and tensions of the bodies add to
+    /// their stored energy.
+    pub actuation: f64,
     /// Work dissipated by viscous and plastic flow in all bodies.
     pub inelastic: f64,
     /// Work dissipated by friction in all pairs.
@@ -109,12 +115,12 @@ pub struct Energies {
 }
 
 impl Energies {
-    /// External work that is found nowhere: the work of the residual forces that
+    /// Work of what is outside and of actuation that is found nowhere: the work of the residual forces that
     /// Newton's method leaves, if all forces are right.
     pub fn imbalance(&self) -> f64 {
         let dissipated = self.inelastic + self.friction;
         let lost = dissipated + self.contact + self.stabilisation + self.numerical;
-        self.external - (self.kinetic + self.strain + lost)
+        self.external + self.actuation - (self.kinetic + self.strain + lost)
     }
 }
 
@@ -159,6 +165,7 @@ impl State {
             histories: (0..problem.elements.len())
                 .map(|body| problem.rest(body))
                 .collect(),
+            actuations: Actuations::default(),
             pairs: problem
                 .pairs
                 .iter()

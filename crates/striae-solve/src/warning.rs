@@ -18,10 +18,10 @@
 //! | `unfelt` | the same while the pair has no force at all | 0.02 |
 //! | `creation` | negative friction work over the largest energy | 1e-6 |
 //! | `gain` | work that friction does at a node that slips over all that it does on its side in an increment, see [`crate::audit`] | 0.01 |
-//! | `contact` | energy that contact has made, beyond friction, over the largest external work | 0.1 |
+//! | `contact` | energy that contact has made, beyond friction, over the largest external work or work of actuation | 0.1 |
 //! | `imbalance` | energy found nowhere over the largest energy | 1e-3 |
 //! | `residual` | residual of an increment that was accepted above the tolerance, where the integrals of contact jump | - |
-//! | `stabilisation` | work lost to [stabilisation](crate::stabilisation) in a step over its external work or change of strain energy, whichever is larger | 0.01 |
+//! | `stabilisation` | work lost to [stabilisation](crate::stabilisation) in a step over its external work, work of actuation or change of strain energy, whichever is largest | 0.01 |
 //! | `rotation` | largest angle, in radians, by which elements of linear elastic bodies turn | 0.1 |
 //! | `tie-mismatch` | sum of the forces on the sides of a tie over the sum of nodal forces | 1e-6 |
 //! | `tie-moment` | sum of the moments over the same and the root of the tied area | 1e-2 |
@@ -192,7 +192,7 @@ pub struct Judgement {
     pub pressures: Vec<f64>,
     /// Largest energy.
     pub energy: f64,
-    /// Largest external work.
+    /// Largest external work, or work of actuation.
     pub external: f64,
     /// Energies at the start of the step.
     pub step: Energies,
@@ -262,7 +262,9 @@ impl Judgement {
         let least = round_off(problem);
         let energies = &after.energies;
         self.energy = self.energy.max(largest(energies)).max(least);
-        self.external = self.external.max(energies.external.abs()).max(least);
+        self.external = (self.external.max(energies.external.abs()))
+            .max(energies.actuation.abs())
+            .max(least);
         self.note(Kind::Contact, None, after.gained, after.time);
         let imbalance = energies.imbalance().abs();
         self.note(Kind::Imbalance, None, imbalance, after.time);
@@ -294,6 +296,7 @@ impl Judgement {
     fn stabilisation(&mut self, after: &State) {
         let [from, to] = [&self.step, &after.energies];
         let work = (to.external - from.external).abs();
+        let work = work.max((to.actuation - from.actuation).abs());
         let scale = work.max((to.strain - from.strain).abs());
         let share = over(to.stabilisation - from.stabilisation, scale);
         self.note(Kind::Stabilisation, None, share, after.time);
@@ -553,6 +556,7 @@ fn largest(energies: &Energies) -> f64 {
         kinetic,
         strain,
         external,
+        actuation,
         inelastic,
         friction,
         contact,
@@ -563,6 +567,7 @@ fn largest(energies: &Energies) -> f64 {
         kinetic,
         strain,
         external,
+        actuation,
         inelastic,
         friction,
         contact,
@@ -626,7 +631,7 @@ fn warning(problem: &Problem, worst: &Worst) -> Warning {
             "pair `{name}`: friction pushes {place} along its slip in the increment to time {time:.4}, which gains {percent:.0} % of what friction works on its side"
         ),
         Kind::Contact => format!(
-            "contact has made energy until time {time:.4} that friction does not explain, {percent:.0} % of the largest external work"
+            "contact has made energy until time {time:.4} that friction does not explain, {percent:.0} % of the largest external work or work of actuation"
         ),
         Kind::Imbalance => {
             format!("energy of {value:.1e} of the largest one is found nowhere at time {time:.4}")

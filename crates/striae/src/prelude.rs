@@ -12,7 +12,7 @@ pub use striae_law::{
 };
 pub use striae_mesh::{Mesh, NodeId, Region, Vec3, generate::Block};
 pub use striae_model::{
-    Component, Curve, Freedom, Initial, LoadExtent, LoadKind, Model, Validate, body,
+    ActuationKind, Component, Curve, Freedom, Initial, LoadExtent, LoadKind, Model, Validate, body,
     circumferential, composite, everything, itself, model, pair, plane, rigid, section, step,
     surface, tie, tied, uniform,
 };

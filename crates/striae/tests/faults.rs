@@ -209,6 +209,7 @@ fn press(bodies: &[striae::model::Body]) -> Step {
             components: [false; 3],
         }],
         loads: vec![pressed(1.0), pressed(2.0)],
+        actuations: Vec::new(),
         rigid_motions: vec![RigidMotion {
             surface: RigidId(1),
             coordinates: free,

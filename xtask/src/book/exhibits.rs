@@ -15,7 +15,7 @@ pub struct Exhibit {
 }
 
 /// All cases.
-pub const EXHIBITS: [Exhibit; 31] = [
+pub const EXHIBITS: [Exhibit; 32] = [
     Exhibit {
         case: "two-blocks",
         run: Some("deck"),
@@ -57,6 +57,13 @@ pub const EXHIBITS: [Exhibit; 31] = [
         ],
         figure: Some("force-over-way"),
         caption: "A ring of rubber pinched until its inner walls touch, and its force between jaws and between planes.",
+    },
+    Exhibit {
+        case: "crawler",
+        run: Some("forward"),
+        options: &["--field", "displacement"],
+        figure: Some("way"),
+        caption: "A worm that shortens and lengthens of itself crawls with the nap of its belly; with the nap the other way round it crawls back, and without it stays.",
     },
     Exhibit {
         case: "stiff-punch",

@@ -62,6 +62,11 @@ impl Bodies {
         &self.bodies[body.0].name
     }
 
+    /// Sections of a body, as far as they are known.
+    pub(super) fn sections(&self, body: BodyId) -> &[BodySection] {
+        &self.bodies[body.0].sections
+    }
+
     /// Mesh of a body, if it could be made.
     pub(super) fn mesh(&self, body: BodyId) -> Option<&Mesh> {
         self.bodies[body.0].mesh.as_ref()
@@ -72,6 +77,7 @@ impl Bodies {
         let bodies = self.bodies.iter().map(|body| DraftBody {
             name: &body.name,
             mesh: body.mesh.as_ref(),
+            material: body.material.as_ref(),
             sections: &body.sections,
             density: body.own_density(),
         });

@@ -1,6 +1,7 @@
 //! From the tables of a deck to the model: names become ids, sets their
 //! members, defaults their values; what contradicts itself is refused.
 
+mod actuation;
 mod admissible;
 mod axis;
 mod body;

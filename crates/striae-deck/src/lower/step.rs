@@ -1,7 +1,7 @@
 //! Steps: increments and what each step states.
 
 use super::{
-    Listed, Scope, condition, friction, inertia, list,
+    Listed, Scope, actuation, condition, friction, inertia, list,
     place::{ConditionSpans, StepSpans},
     rigid,
 };
@@ -50,6 +50,7 @@ fn lower_step(
     let releases = condition::releases(list(&raw.release), scope, history, faults);
     let displacements = condition::displacements(list(&raw.displacement), scope, history, faults);
     let loads = condition::loads(raw, scope, faults);
+    let actuations = actuation::actuations(raw, scope, faults);
     let velocities = inertia::velocities(raw, name, scope, faults);
     let gravity = inertia::gravity(raw, scope, faults);
     let rigid_motions = rigid::motions(list(&raw.rigid), scope, faults);
@@ -57,6 +58,7 @@ fn lower_step(
     let whole = releases.whole()
         && displacements.whole()
         && loads.whole()
+        && actuations.whole()
         && velocities.whole()
         && gravity.is_some()
         && rigid_motions.whole()
@@ -72,6 +74,7 @@ fn lower_step(
                 ("releases", releases.spans),
                 ("displacements", displacements.spans),
                 ("loads", loads.spans),
+                ("actuations", actuations.spans),
                 ("velocities", velocities.spans),
                 ("rigid_motions", rigid_motions.spans),
                 ("frictions", frictions.spans),
@@ -90,6 +93,7 @@ fn lower_step(
             displacements: displacements.items,
             releases: releases.items,
             loads: loads.items,
+            actuations: actuations.items,
             rigid_motions: rigid_motions.items,
             frictions: frictions.items,
         },

@@ -4,6 +4,7 @@
 //! The first line of a table's documentation and the documentation of its keys
 //! are what the JSON schema and the reference show.
 
+mod actuation;
 mod body;
 mod contact;
 mod dependence;
@@ -18,8 +19,8 @@ mod texture;
 
 use super::{declare::table, read::At};
 pub(crate) use {
-    body::*, contact::*, dependence::*, everything::*, fibres::*, material::*, mesh::*, sets::*,
-    settings::*, step::*, texture::*,
+    actuation::*, body::*, contact::*, dependence::*, everything::*, fibres::*, material::*,
+    mesh::*, sets::*, settings::*, step::*, texture::*,
 };
 
 use super::value::{NamedNumbers, OneOrMore, Text};

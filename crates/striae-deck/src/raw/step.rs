@@ -1,6 +1,6 @@
 //! `[[curve]]` and `[[step]]` with its conditions.
 
-use super::Friction;
+use super::{Actuation, Friction};
 use crate::{
     declare::{either, table, words},
     faults::FaultList,
@@ -43,6 +43,8 @@ table! {
         optional traction: Vec<At<Traction>>,
         /// Pressures on facets.
         optional pressure: Vec<At<Pressure>>,
+        /// Strains without stress and tensions that bodies take on of themselves.
+        optional actuation: Vec<At<Actuation>>,
         /// What rigid bodies do.
         optional rigid: Vec<At<RigidMotion>>,
         /// Changes of friction at the start of the step.

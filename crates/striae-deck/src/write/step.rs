@@ -75,6 +75,13 @@ impl<'m> Writer<'m> {
                 pressures.into_iter().map(|one| self.load(one)).collect(),
             ),
             (
+                "actuation",
+                step.actuations
+                    .iter()
+                    .map(|one| self.actuation(one))
+                    .collect(),
+            ),
+            (
                 "rigid",
                 step.rigid_motions
                     .iter()

@@ -1,5 +1,6 @@
 //! Checks of single elements of every kind.
 
+mod actuation;
 mod mass;
 mod memory;
 mod single;

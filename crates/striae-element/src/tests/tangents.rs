@@ -47,7 +47,7 @@ fn fibrous(ground: Material, stiffness: [FibreStiffness; 2]) -> Material {
 }
 
 /// Laws whose stress comes from an energy.
-fn elastic() -> Vec<Material> {
+pub(super) fn elastic() -> Vec<Material> {
     let constants = LameConstants::from_youngs_modulus(1.0, 0.3).unwrap();
     let linear = FibreStiffness::Linear { modulus: 1.5 };
     let exponential = |k2, dispersion| FibreStiffness::Exponential {
@@ -76,7 +76,7 @@ fn elastic() -> Vec<Material> {
 }
 
 /// Laws whose stress depends on what a point has been through.
-fn remembering() -> Vec<Material> {
+pub(super) fn remembering() -> Vec<Material> {
     let branches = [1.5, 0.3].map(|time| Branch { ratio: 0.7, time });
     let slow = isochoric().map(|law| rubber(law, Volumetric::Logarithmic));
     let relaxing = slow.map(|law| Viscoelastic::new(law, &branches).unwrap());
@@ -111,7 +111,7 @@ impl BulkLaw for Foreign {
 }
 
 /// A distorted element, what its points have been through, and where it is now.
-fn led(
+pub(super) fn led(
     kind: CellKind,
     formulation: Formulation,
     material: &Material,

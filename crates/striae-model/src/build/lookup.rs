@@ -42,6 +42,19 @@ impl<'a> Names<'a> {
         find("body", name, &known, path, faults).map(BodyId)
     }
 
+    /// Number of a section of a body by its element set.
+    pub(super) fn section(
+        &self,
+        body: BodyId,
+        set: &str,
+        path: &Path,
+        faults: &mut Vec<Fault>,
+    ) -> Option<usize> {
+        let sections = self.bodies[body.0].sections.iter();
+        let known: Vec<&str> = sections.map(|section| section.set.as_str()).collect();
+        find("section", set, &known, path, faults).map(|at| at + 1)
+    }
+
     pub(super) fn rigid(
         &self,
         name: &str,

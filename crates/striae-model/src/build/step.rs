@@ -7,8 +7,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use striae_law::friction::Friction;
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::model::{
-    BodyId, Curve, Displacement, Freedom, Gravity, Increments, Load, LoadExtent, LoadKind, Mover,
-    Procedure, Release, RigidMotion, Step, Velocity,
+    Actuation, ActuationKind, BodyId, Curve, Displacement, Freedom, Gravity, Increments, Load,
+    LoadExtent, LoadKind, Mover, Procedure, Release, RigidMotion, Step, Velocity,
 };
 
 use super::lookup::Names;
@@ -64,6 +64,7 @@ pub struct StepBuilder {
     displacements: Vec<(Place, Components, Curve)>,
     releases: Vec<(Place, Released)>,
     loads: Vec<(Place, LoadKind, LoadExtent, Curve)>,
+    actuations: Vec<(String, Option<String>, ActuationKind, Curve)>,
     motions: Vec<(String, RigidMotion)>,
     velocities: Vec<(Owner, Velocity)>,
     frictions: Vec<(String, Friction)>,
@@ -91,6 +92,7 @@ enum Last {
     Nothing,
     Displacement,
     Load,
+    Actuation,
     Motion,
     Velocity,
     Gravity,
@@ -109,12 +111,14 @@ pub fn step(name: impl Into<String>) -> StepBuilder {
             displacements: Vec::new(),
             releases: Vec::new(),
             loads: Vec::new(),
+            actuations: Vec::new(),
             rigid_motions: Vec::new(),
             frictions: Vec::new(),
         },
         displacements: Vec::new(),
         releases: Vec::new(),
         loads: Vec::new(),
+        actuations: Vec::new(),
         motions: Vec::new(),
         velocities: Vec::new(),
         frictions: Vec::new(),
@@ -222,6 +226,32 @@ impl StepBuilder {
         self.load(body, facets, kind, LoadExtent::Whole)
     }
 
+    /// Takes a strain without stress, or a tension, of all of a body to a target.
+    pub fn actuate(self, body: impl Into<String>, kind: ActuationKind) -> Self {
+        self.with_actuation(body.into(), None, kind)
+    }
+
+    /// The same of one of its sections, by the name of the element set.
+    pub fn actuate_section(
+        self,
+        body: impl Into<String>,
+        section: impl Into<String>,
+        kind: ActuationKind,
+    ) -> Self {
+        self.with_actuation(body.into(), Some(section.into()), kind)
+    }
+
+    fn with_actuation(
+        mut self,
+        body: String,
+        section: Option<String>,
+        kind: ActuationKind,
+    ) -> Self {
+        self.actuations.push((body, section, kind, Curve::Ramp));
+        self.last = Last::Actuation;
+        self
+    }
+
     /// Takes gravity to an acceleration.
     pub fn gravity(mut self, acceleration: impl Into<Vec3>) -> Self {
         self.step.gravity = Some(Gravity {
@@ -302,6 +332,7 @@ impl StepBuilder {
             Last::Nothing | Last::Velocity => None,
             Last::Displacement => self.displacements.last_mut().map(|(_, _, curve)| curve),
             Last::Load => self.loads.last_mut().map(|(_, _, _, curve)| curve),
+            Last::Actuation => self.actuations.last_mut().map(|(_, _, _, curve)| curve),
             Last::Motion => self.motions.last_mut().map(|(_, motion)| &mut motion.curve),
             Last::Gravity => self.step.gravity.as_mut().map(|gravity| &mut gravity.curve),
         };
@@ -374,6 +405,21 @@ impl StepBuilder {
                 faces,
                 kind: *kind,
                 extent: *extent,
+                curve: curve.clone(),
+            })
+        });
+        resolved.step.actuations = resolved.all("actuations", &self.actuations, |index, of| {
+            let (body, section, kind, curve) = of;
+            let path = at("actuations", index);
+            let body = names.body(body, &path, faults)?;
+            let section = match section {
+                Some(set) => Some(names.section(body, set, &path, faults)?),
+                None => None,
+            };
+            Some(Actuation {
+                body,
+                section,
+                kind: *kind,
                 curve: curve.clone(),
             })
         });

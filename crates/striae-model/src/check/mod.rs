@@ -4,6 +4,7 @@
 //! its tables are faulty: what is known is checked all the same, and what can only be
 //! judged as a whole is left out. A whole model is checked by [`Validate::faults`].
 
+mod actuations;
 mod conditions;
 mod hold;
 mod inertia;
@@ -24,6 +25,7 @@ pub(crate) use numbers::of_everything;
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use striae_law::bulk::Material;
 use striae_mesh::Mesh;
 use striae_solve::model::{Body, BodySection, Model, Pair, RigidSurface, Step, Tie};
 
@@ -57,6 +59,8 @@ pub struct DraftBody<'a> {
     pub name: &'a str,
     /// Its mesh.
     pub mesh: Option<&'a Mesh>,
+    /// Its own material, if it is known.
+    pub material: Option<&'a Material>,
     /// Its sections, as far as they are known.
     pub sections: &'a [BodySection],
     /// Density of its own material; zero if there is none, `None` where no element is of it.
@@ -167,6 +171,7 @@ impl<'a> Draft<'a> {
         let bodies = bodies.iter().map(|body| DraftBody {
             name: &body.name,
             mesh: Some(&body.mesh),
+            material: Some(&body.material),
             sections: &body.sections,
             density: body.used_sections().contains(&0).then_some(body.density),
         });

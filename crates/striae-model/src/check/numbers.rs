@@ -209,6 +209,8 @@ fn of_step(step: &Step, path: &Path, faults: &mut List) {
     let displacements = step.displacements.iter().map(|of| &of.curve);
     curves("displacements", displacements, path, faults);
     curves("loads", step.loads.iter().map(|of| &of.curve), path, faults);
+    let actuations = step.actuations.iter().map(|of| &of.curve);
+    curves("actuations", actuations, path, faults);
     let motions = step.rigid_motions.iter().map(|of| &of.curve);
     curves("rigid_motions", motions, path, faults);
     if let Some(gravity) = &step.gravity {

@@ -78,6 +78,13 @@ impl Check<'_> {
         for (index, load) in step.loads.iter().enumerate() {
             self.faces(load.body, &load.faces, at("loads", index));
         }
+        for (index, actuation) in step.actuations.iter().enumerate() {
+            let path = at("actuations", index);
+            if self.body(actuation.body, &path).is_some() {
+                let count = model.bodies[actuation.body.0].sections.len() + 1;
+                self.within("section", actuation.section, count, &path);
+            }
+        }
         for (index, velocity) in step.velocities.iter().enumerate() {
             match velocity.body {
                 Mover::Deformable(body) => _ = self.body(body, &at("velocities", index)),

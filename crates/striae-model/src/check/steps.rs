@@ -4,19 +4,21 @@ use std::mem::discriminant;
 
 use striae_solve::model::{Load, LoadKind, Mover, Procedure, Step};
 
-use super::{Draft, Known, List, Positions, conditions, pairs};
+use super::{Draft, Known, List, Positions, actuations, conditions, pairs};
 use crate::{fault::FaultKind, path::Path};
 
 /// Notes faults within steps; returns those that are not whole.
 pub(super) fn check(draft: &Draft<'_>, impossible: &Positions, faults: &mut List) -> Positions {
     let mut partial = Positions::new();
     let mut history = conditions::History::new(draft.known);
+    let mut reached = actuations::Reached::default();
     for (index, of) in draft.steps.iter().enumerate() {
         let (step, path) = (of.step, Path::part("steps", index));
         increments(step, &path, faults);
         conditions::releases(draft, step, &path, &mut history, faults);
         let known = conditions::displacements(draft, of, &path, &mut history, faults);
         loads(draft, step, &path, faults);
+        actuations::check(draft, step, &path, &mut reached, faults);
         velocities(draft, step, &path, faults);
         rigid_motions(draft, step, &path, faults);
         frictions(draft, step, impossible, &path, faults);

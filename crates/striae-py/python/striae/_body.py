@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any, Literal, Optional, Union
 
@@ -249,6 +250,129 @@ class Body:
         v, w = check.vector(value, "value"), check.vector(spin, "spin")
         point, name = check.vector(about, "about"), self.name
         return Condition(f"velocity of {name}", lambda step: step.velocity(name, v, w, point))
+
+    def stretch(
+        self,
+        strain: float,
+        *,
+        along: Union[Literal["fibres"], Vector, None] = None,
+        section: Optional[str] = None,
+        curve: Curve = "ramp",
+    ) -> Condition:
+        """Lets lines of the body grow without stress, until a later step states it again.
+
+        strain: target ``s`` above -1: lengths at rest grow by the factor ``1 + s`` (no unit).
+        along: lines that grow: a direction at rest of any length, or ``fibres`` of the
+            material; all in all directions by default.
+        section: element set of the section that grows; all of the body by default.
+        curve: how the target is approached.
+        """
+        s, told = check.number(strain, "strain"), f"stretch of {self.name}"
+        name, at, by = self.name, self._section(section), check.curve(curve, "curve")
+        if along is None:
+            return self._strained(told, [s, s, s, 0.0, 0.0, 0.0], None, at, by)
+        line = self._line(along)
+        if line is None:
+            return Condition(told, lambda step: step.fibre_strain(name, at, s, by))
+        x, y, z = line
+        components = [x * x, y * y, z * z, x * y, y * z, z * x]
+        return self._strained(told, [s * one for one in components], None, at, by)
+
+    def strain(
+        self,
+        components: Vector,
+        *,
+        axes: Optional[Sequence[Vector]] = None,
+        section: Optional[str] = None,
+        curve: Curve = "ramp",
+    ) -> Condition:
+        """Gives the body a strain without stress, until a later step states it or
+        :meth:`stretch` again.
+
+        components: target of ``xx``, ``yy``, ``zz``, ``xy``, ``yz``, ``zx``, with principal
+            values above -1 (no unit).
+        axes: first axis of the components, and a vector that gives the second one with it; those
+            of the model by default.
+        section: element set of the section; all of the body by default.
+        curve: how the target is approached.
+        """
+        target = check.vector(components, "components", 6)
+        along, at = check.curve(curve, "curve"), self._section(section)
+        return self._strained(f"strain of {self.name}", target, axes, at, along)
+
+    def warm(
+        self,
+        temperature: float,
+        thermal_expansion: float,
+        *,
+        section: Optional[str] = None,
+        curve: Curve = "ramp",
+    ) -> Condition:
+        """Changes the temperature of the body, which expands, until a later step states it again.
+
+        temperature: target of the change since the start (temperature).
+        thermal_expansion: strain per change of temperature (one over temperature).
+        section: element set of the section; all of the body by default.
+        curve: how the target is approached.
+        """
+        change = check.number(temperature, "temperature")
+        alpha = check.number(thermal_expansion, "thermal_expansion")
+        name, at, along = self.name, self._section(section), check.curve(curve, "curve")
+        told = f"temperature of {name}"
+        return Condition(told, lambda step: step.warm(name, at, alpha, change, along))
+
+    def pull(
+        self,
+        tension: float,
+        along: Union[Literal["fibres"], Vector],
+        *,
+        section: Optional[str] = None,
+        curve: Curve = "ramp",
+    ) -> Condition:
+        """Lets lines of the body pull, as muscles do, until a later step states it again.
+
+        tension: target of the force per area at rest (force per area).
+        along: lines that pull: a direction at rest of any length, or ``fibres`` of the
+            material.
+        section: element set of the section; all of the body by default.
+        curve: how the target is approached.
+        """
+        target, line = check.number(tension, "tension"), self._line(along)
+        name, at, by = self.name, self._section(section), check.curve(curve, "curve")
+        return Condition(
+            f"tension of {name}", lambda step: step.pull(name, at, target, line, by)
+        )
+
+    def _section(self, name: Optional[str]) -> Optional[str]:
+        return None if name is None else check.name(name, "section")
+
+    def _line(self, along: Union[str, Vector]) -> Optional[list[float]]:
+        """A unit vector, or nothing for fibres."""
+        if isinstance(along, str):
+            check.word(along, ("fibres",), "along")
+            return None
+        line = check.vector(along, "along")
+        length = math.hypot(*line)
+        if not length > 0.0:
+            raise refuse("along", "it must not be the zero vector")
+        return [one / length for one in line]
+
+    def _strained(
+        self,
+        told: str,
+        components: list[float],
+        axes: Optional[Sequence[Vector]],
+        section: Optional[str],
+        along: Union[str, list[tuple[float, float]]],
+    ) -> Condition:
+        name, vectors = self.name, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+        if axes is not None:
+            if len(axes) != 2:
+                raise refuse("axes", f"two vectors are needed, but there are {len(axes)}")
+            vectors = [check.vector(axis, "axes") for axis in axes]
+        return Condition(
+            told, lambda step: step.strain(name, section, components, vectors, along)
+        )
 
     def _part(
         self,

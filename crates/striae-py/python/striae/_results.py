@@ -44,6 +44,8 @@ class Energies(NamedTuple):
     """Stored elastic energy."""
     external: float
     """Work of reactions, loads and moving rigid bodies."""
+    actuation: float
+    """Work of changes of stress-free strains and tensions of the bodies."""
     inelastic: float
     """Work dissipated by viscous and plastic flow in the bodies."""
     friction: float
@@ -55,7 +57,7 @@ class Energies(NamedTuple):
     numerical: float
     """Work lost to time integration."""
     imbalance: float
-    """External work that is found nowhere."""
+    """Work of what is outside and of actuation that is found nowhere."""
 
 
 class BodyResults:

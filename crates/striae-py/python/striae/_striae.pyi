@@ -266,6 +266,33 @@ class Step:
         exposed: bool,
         along: _Along,
     ) -> None: ...
+    def strain(
+        self,
+        body: str,
+        section: Optional[str],
+        components: list[float],
+        axes: list[list[float]],
+        along: _Along,
+    ) -> None: ...
+    def fibre_strain(
+        self, body: str, section: Optional[str], strain: float, along: _Along
+    ) -> None: ...
+    def warm(
+        self,
+        body: str,
+        section: Optional[str],
+        expansion: float,
+        temperature: float,
+        along: _Along,
+    ) -> None: ...
+    def pull(
+        self,
+        body: str,
+        section: Optional[str],
+        tension: float,
+        line: Optional[list[float]],
+        along: _Along,
+    ) -> None: ...
     def gravity(self, acceleration: list[float], along: _Along) -> None: ...
     def move_rigid(
         self,

@@ -122,6 +122,7 @@ fn parts(error: &ElementError) -> (usize, usize, [f64; 2]) {
             limit,
         } => (3, point, [strain, limit]),
         ElementError::Unsettled => (4, 0, [0.0; 2]),
+        ElementError::Shrunk { determinant } => (5, 0, [determinant, 0.0]),
     }
 }
 
@@ -184,6 +185,7 @@ impl<'a> Words<'a> {
                 strain: value,
                 limit,
             }),
+            5 => Some(ElementError::Shrunk { determinant: value }),
             _ => Some(ElementError::Unsettled),
         }
     }

@@ -10,6 +10,7 @@ use striae_mesh::{NodeId, Vec3};
 use striae_surface::node::SurfaceNode;
 
 use crate::{
+    actuation::Actuations,
     dynamics::{ImposedRate, Motion},
     initial::Offsets,
     interference::{Positions, placed},
@@ -57,6 +58,8 @@ pub struct Imposed {
     pub positions: Vec<(GlobalNode, usize, f64)>,
     /// Loads with their kinds at this point.
     pub loads: Vec<LoadKind>,
+    /// Actuation of the bodies.
+    pub actuations: Actuations,
     /// Coordinates of the rigid bodies; `None` where they are free.
     pub rigid: Vec<[Option<f64>; 6]>,
     /// Force and torque that drive each rigid body.
@@ -228,6 +231,7 @@ impl<'a> StepContext<'a> {
         Imposed {
             positions: positions.collect(),
             loads: self.plan.loads.iter().map(|load| load.at(s)).collect(),
+            actuations: self.plan.actuations(&self.problem.model.bodies, s),
             rigid: self.coordinates(s),
             driving: self.driving(s),
             before: self.start.rigid.clone(),

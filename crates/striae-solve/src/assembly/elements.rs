@@ -11,11 +11,17 @@ use striae_mesh::{ElementId, MAX_CORNERS, NodeId, Vec3};
 use striae_sparse::{CliquePlaces, Member, MemberRows, Supervariable};
 
 use super::{
-    ElementPlaces, StepContext, System, Trial,
+    ElementPlaces, Imposed, StepContext, System, Trial,
     inertia::{Inertia, Share},
     scatter::{Part, Slot},
 };
-use crate::{node::GlobalNode, outcome::CutBack, problem::Problem, state::State};
+use crate::{
+    actuation::{Actuations, SectionActuation},
+    node::GlobalNode,
+    outcome::CutBack,
+    problem::Problem,
+    state::State,
+};
 
 /// What elements add up to at a supervariable.
 #[derive(Clone, Copy, Default)]
@@ -53,7 +59,7 @@ impl System<'_> {
         places: &ElementPlaces,
         trial: &Trial,
         state: &State,
-        elapsed: f64,
+        imposed: &Imposed,
     ) -> Result<OfBodies, CutBack> {
         let problem = self.context.problem;
         let mut sums = Sums::default();
@@ -73,7 +79,8 @@ impl System<'_> {
                     block,
                     places: places.of_block(body, number),
                     variables,
-                    elapsed,
+                    elapsed: imposed.flowing(),
+                    actuations: &imposed.actuations,
                 };
                 self.block(&place, trial, &mut at_nodes, &mut sums)?;
             }
@@ -282,6 +289,7 @@ struct Place<'a> {
     variables: &'a [f64],
     /// Time since then.
     elapsed: f64,
+    actuations: &'a Actuations,
 }
 
 /// What some elements of a block add, written over older ones.
@@ -316,7 +324,9 @@ fn shares_of(
             }
             let response = &mut share.response;
             response.make_room(block, material);
-            block.respond(at, &x[..nodes.len()], material, past, response)?;
+            let actuation = place.actuations.of(body, composition.section(element));
+            let driven = SectionActuation::drive(actuation, material, past.variables);
+            block.respond(at, &x[..nodes.len()], &driven, past, response)?;
             let mass = problem.masses[body].of_element(element);
             inertia.weigh(nodes, mass, &context.fixed, share);
             Ok(())

@@ -56,7 +56,9 @@ fn body_reach(model: &Model, body: BodyId) -> Option<f64> {
     let mut farthest: Option<f64> = None;
     for step in &model.steps {
         let loaded = step.loads.iter().any(|load| load.body == body);
-        if loaded || step.gravity.is_some() || step.procedure != Procedure::QuasiStatic {
+        let actuated = step.actuations.iter().any(|of| of.body == body);
+        if loaded || actuated || step.gravity.is_some() || step.procedure != Procedure::QuasiStatic
+        {
             return None;
         }
         for condition in step.displacements.iter().filter(|d| d.body == body) {

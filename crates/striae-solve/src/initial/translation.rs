@@ -122,6 +122,7 @@ fn is_moved_otherwise(step: &Step, body: BodyId) -> bool {
     step.procedure != Procedure::QuasiStatic
         || step.gravity.is_some()
         || step.loads.iter().any(|load| load.body == body)
+        || step.actuations.iter().any(|of| of.body == body)
         || step.releases.iter().any(|release| release.body == body)
 }
 

@@ -69,6 +69,7 @@ pub(super) fn accepted(
         accelerations,
         rigid: trial.rigid,
         histories: assembled.bodies.histories,
+        actuations: imposed.actuations,
         pairs,
         forces: assembled.forces,
         energies,

@@ -7,11 +7,13 @@
 //! ```text
 //! external  += d . (a f_ext,0 + (1 - a) f_ext,1) + work of reactions and of moving surfaces
 //!            + work of the forces and torques on rigid bodies, du . F + dt . M
+//! actuation += dG . (a dW/dG,0 + (1 - a) dW/dG,1), the rates at given positions
 //! inelastic += what viscous and plastic flow dissipate by the laws of the materials
 //! friction  += sum A (-tau_1 . du) over the nodes at which friction is collocated
 //! stabilisation += k |relative displacement|^2 over the dashpots
 //! contact   += -d . (f_con + f_sta) on all sides - friction - stabilisation
-//! numerical += d . (a f_int,0 + (1 - a) f_int,1) - change of strain energy - inelastic
+//! numerical += d . (a f_int,0 + (1 - a) f_int,1) + actuation - change of strain energy
+//!            - inelastic
 //!            + dt v . M e + d' . M a_alpha
 //!            - sum (1 - a) (dr - dt x r_1) . h_1 + a (dr - dt x r_0) . h_0 at tied nodes
 //!            - sum (dr - dt x r) . f_con over the nodes that push a moving body
@@ -32,11 +34,15 @@
 //! the right hand sides by Chung & Hulbert's formulas, see [`crate::dynamics`]; for
 //! prescribed components, the left ones; what follows in ties has its own from these. The last
 //! lines are how far the chords `dr` of the arms `r` are from arcs. Neither looks at the
-//! assembled inertia forces or at the residual. So external work equals all other energy up to
+//! assembled inertia forces or at the residual. `G` stands for stress-free strains and tensions, see
+//! [`crate::actuation`]. So external work and that of actuation equal all other energy up to
 //! the residual that Newton's method leaves only if mass, inertia, contact and tie forces are
 //! those of the equations that were solved. No node can dissipate less than nothing, as the law
 //! of friction holds there at the end.
+//!
+//! Longer than other files, as it is the one account of all energies of an increment.
 
+mod actuated;
 mod gained;
 
 use std::ops::{Add, Mul};
@@ -86,11 +92,14 @@ impl Ends<'_> {
         );
         let (fully, contact) = (self.contact(held), self.contact(shifted));
         let stored = strain - before.strain;
+        let actuated = self.actuated();
         let lost = self.internal() - (stored + inelastic) + self.inertia() - self.arcs();
+        let lost = lost + actuated;
         Energies {
             kinetic: kinetic_energy(self.context.problem, self.velocities),
             strain,
             external: before.external + self.external(),
+            actuation: before.actuation + actuated,
             inelastic: before.inelastic + inelastic,
             friction: before.friction + friction,
             contact: before.contact + contact - friction + (resisted - stabilisation),

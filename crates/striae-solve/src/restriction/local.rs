@@ -155,6 +155,7 @@ fn local_step(step: &Step, numbers: &Numbers) -> Step {
         increments: step.increments,
         velocities: step.velocities.clone(),
         gravity: step.gravity.clone(),
+        actuations: step.actuations.clone(),
         rigid_motions: step.rigid_motions.clone(),
         frictions: step.frictions.clone(),
     }

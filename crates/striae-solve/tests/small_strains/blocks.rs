@@ -220,6 +220,7 @@ fn step(displacements: Vec<Displacement>) -> Step {
         displacements,
         releases: Vec::new(),
         loads: Vec::new(),
+        actuations: Vec::new(),
         rigid_motions: Vec::new(),
         frictions: Vec::new(),
     }

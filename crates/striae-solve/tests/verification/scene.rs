@@ -258,6 +258,7 @@ pub fn step() -> Step {
         displacements: Vec::new(),
         releases: Vec::new(),
         loads: Vec::new(),
+        actuations: Vec::new(),
         rigid_motions: Vec::new(),
         frictions: Vec::new(),
     }

@@ -19,8 +19,8 @@ use std::{
 
 use striae_output::checkpoint::{Checkpoint, CheckpointError, Index, step_fingerprint};
 use striae_solve::{
-    model::{Curve, Gravity, Load, Model, RigidMotion, Step},
-    plan::{PlannedLoad, plans},
+    model::{Actuation, BodyId, Curve, Gravity, Load, Model, RigidMotion, Step},
+    plan::{PlannedActuation, PlannedLoad, plans},
 };
 
 use super::{Begun, Simulation, case_name, read_again, source};
@@ -122,7 +122,7 @@ fn continued(model: &mut Model, index: &Index) -> Result<TakenUp, Error> {
     Ok(TakenUp::After(under_way + 1))
 }
 
-/// A step that ends at a fraction of itself, with the loads it has there.
+/// A step that ends at a fraction of itself, with the loads and the actuation it has there.
 fn ended(model: &Model, index: usize, fraction: f64) -> Step {
     let step = &model.steps[index];
     let plan = &plans(model)[index];
@@ -132,6 +132,12 @@ fn ended(model: &Model, index: usize, fraction: f64) -> Step {
         faces: load.faces.clone(),
         kind: load.at(fraction),
         extent: load.extent,
+        curve: Curve::Ramp,
+    };
+    let actuation = |planned: &PlannedActuation| Actuation {
+        body: BodyId(planned.body),
+        section: Some(planned.section),
+        kind: planned.at(fraction),
         curve: Curve::Ramp,
     };
     let motion = |motion: &RigidMotion| {
@@ -150,6 +156,7 @@ fn ended(model: &Model, index: usize, fraction: f64) -> Step {
             curve: Curve::Ramp,
         }),
         loads: plan.loads.iter().map(load).collect(),
+        actuations: plan.actuations.iter().map(actuation).collect(),
         rigid_motions: step.rigid_motions.iter().map(motion).collect(),
         ..step.clone()
     }

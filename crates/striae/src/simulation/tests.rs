@@ -139,6 +139,17 @@ fn a_dynamic_run_is_the_same_in_pieces() {
 }
 
 #[test]
+fn a_run_of_bodies_that_move_themselves_is_the_same_in_pieces() {
+    let pull = "actuation = [{ body = \"lower\", tension = 1e4, along = [1, 0, 0] }]\n";
+    let swell = "actuation = [{ body = \"upper\", stretch = 0.05, curve = \"smooth\" }]\n";
+    let press = "increments = 2\n";
+    let slide = "increments = 10\n";
+    let text = DYNAMIC.replace(press, &format!("{press}{pull}"));
+    let text = text.replace(slide, &format!("{slide}{swell}"));
+    assert_same_in_pieces(&text, 10);
+}
+
+#[test]
 fn a_run_with_a_pushed_body_is_the_same_in_pieces() {
     assert_same_in_pieces(PUSHED, 20);
 }

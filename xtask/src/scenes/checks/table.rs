@@ -149,7 +149,7 @@ fn dissipation(findings: &mut Findings, scene: &Scene, column: &str, history: &H
     }
 }
 
-const ENERGIES: [&str; 8] = [
+const ENERGIES: [&str; 9] = [
     "kinetic",
     "inelastic",
     "strain",
@@ -158,6 +158,7 @@ const ENERGIES: [&str; 8] = [
     "stabilisation",
     "numerical",
     "external",
+    "actuation",
 ];
 
 /// The largest energy of the run.
@@ -178,13 +179,14 @@ fn energy(findings: &mut Findings, scene: &Scene, history: &History) {
     }
     for row in 0..history.len() {
         let of = |name: &str| {
-            let none = if name == "inelastic" { 0.0 } else { f64::NAN };
+            let later = ["inelastic", "actuation"].contains(&name);
+            let none = if later { 0.0 } else { f64::NAN };
             history
                 .number(row, &format!("energy.{name}"))
                 .unwrap_or(none)
         };
         let spent: f64 = ENERGIES[..7].iter().map(|name| of(name)).sum();
-        let off = of("external") - spent;
+        let off = of("external") + of("actuation") - spent;
         findings.note("energy", off.abs() / bound, || {
             format!("increment {}: {off:.2e} of {scale:.2e}", row + 1)
         });
