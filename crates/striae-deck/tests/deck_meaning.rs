@@ -390,23 +390,13 @@ b = { rigid = "floor" }"#,
         &["18:1: pair `interface` joins two rigid surfaces; at least one side must be a body"],
     );
     misstated(
-        "body against itself",
+        "facets on both sides",
         &[(
             r#"b = { body = "upper", facets = "zmin" }"#,
-            r#"b = { body = "lower", facets = "zmin" }"#,
+            r#"b = { body = "lower", facets = "all" }"#,
         )],
         &[
-            "18:1: pair `interface` joins body `lower` to itself; contact of a body with itself is not supported: mesh its two parts as two bodies",
-        ],
-    );
-    misstated(
-        "body against itself with shared nodes",
-        &[(
-            r#"b = { body = "upper", facets = "zmin" }"#,
-            r#"b = { body = "lower", facets = "xmin" }"#,
-        )],
-        &[
-            "18:1: pair `interface` joins body `lower` to itself (the two sides share 5 nodes); contact of a body with itself is not supported: mesh its two parts as two bodies",
+            "18:1: pair `interface` has 16 facets of body `lower` on both sides; give its sides facets of their own, or say `b = \"itself\"` where facets of `a` may touch each other",
         ],
     );
     misstated(

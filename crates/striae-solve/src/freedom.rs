@@ -321,6 +321,9 @@ impl Rows {
         holds: impl Fn(Status) -> bool,
     ) {
         let geometry = &problem.pairs[pair];
+        if geometry.contact.is_self_contact() {
+            return;
+        }
         let bodies = problem.model.bodies.len();
         let of_side = Side::BOTH.map(|side| match (geometry.bodies[side], geometry.rigid) {
             (Some(body), _) => self.of[body],

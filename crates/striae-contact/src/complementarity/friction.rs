@@ -78,7 +78,7 @@ struct Friction<'a> {
     mobility: Mobility,
     size: f64,
     varpi: Q,
-    /// The same for the row of slip: of the weakest friction where the node begins to slip again.
+    /// Radius for the row of slip: of the weakest friction where the node begins to slip again.
     begun: Q,
     z: [Q; 2],
 }

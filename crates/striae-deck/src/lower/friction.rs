@@ -51,7 +51,7 @@ pub(crate) fn friction(
     Some(law)
 }
 
-/// What is accepted, or `None` after its fault has been noted.
+/// The accepted value, or `None` after its fault has been noted.
 fn accepted<T>(
     found: Result<T, FrictionError>,
     span: &Span,

@@ -112,7 +112,7 @@ const VANISHING: f64 = 1e-90;
 impl PressureDependence {
     /// Coefficients that are the stated ones at the pressure `p0` and go with
     /// `(p/p0)^(m-1)`; below `floor`, by default [`FLOOR_OF_POWER_LAW`] times `p0`, as the
-    /// [module](self) tells.
+    /// module tells.
     ///
     /// # Errors
     /// When a constant is not positive.
@@ -130,7 +130,7 @@ impl PressureDependence {
     }
 
     /// Friction that adhesion adds to, `varpi = mu (p + p_ad)`; below `floor`, by default
-    /// [`FLOOR_OF_ADHESION`] times `p_ad`, as the [module](self) tells.
+    /// [`FLOOR_OF_ADHESION`] times `p_ad`, as the module tells.
     ///
     /// # Errors
     /// When a constant is not positive.

@@ -144,7 +144,7 @@ impl RateDependence {
         }
     }
 
-    /// Whether there is any.
+    /// Returns whether there is any.
     pub fn is_some(&self) -> bool {
         self.0 != Form::None
     }

@@ -26,7 +26,7 @@ pub struct Coefficient {
 }
 
 impl Coefficient {
-    /// The same coefficient at every pressure and slip rate.
+    /// A coefficient that is equal at every pressure and slip rate.
     ///
     /// # Errors
     /// When `mu` is negative or not finite.

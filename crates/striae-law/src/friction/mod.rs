@@ -263,7 +263,7 @@ impl Friction {
         matches!(self.law, Law::Tabulated(_))
     }
 
-    /// Whether there is none, at any pressure and slip rate.
+    /// Returns whether there is none, at any pressure and slip rate.
     pub fn is_frictionless(&self) -> bool {
         self.coefficient.at_rest() == 0.0
     }
@@ -273,7 +273,7 @@ impl Friction {
         self.coefficient.by_rate().is_some()
     }
 
-    /// Whether `varpi` falls with the slip rate anywhere.
+    /// Returns whether `varpi` falls with the slip rate anywhere.
     pub fn weakens(&self) -> bool {
         self.weakest_rate().is_some()
     }
@@ -308,7 +308,7 @@ impl Friction {
         self.cap_after(0.0, pressure, slip_rate)
     }
 
-    /// The same after an accumulated slip `s >= 0`: `varpi = mu R(v) W(s) P(p)`.
+    /// The bound after an accumulated slip `s >= 0`: `varpi = mu R(v) W(s) P(p)`.
     pub fn cap_after<D: DualNum<Primitive = f64> + Copy>(
         &self,
         slip: f64,

@@ -155,6 +155,8 @@ fn contact_of<'a>(
         }
     };
     let pairs = draft.pairs.iter().filter_map(|pair| pair.pair);
+    // A body does not push itself anywhere.
+    let pairs = pairs.filter(|pair| !pair.is_within_a_body());
     let pairs = pairs.map(|pair| (pair, [areas(&pair.a), areas(&pair.b)].concat()));
     Contact {
         pairs: pairs.filter(|(_, areas)| !areas.is_empty()).collect(),

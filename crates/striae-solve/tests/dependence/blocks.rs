@@ -22,7 +22,7 @@ fn forces(run: &Run) -> [f64; 2] {
     force(run, run.last())
 }
 
-/// The same in a state.
+/// Friction and normal force in a state.
 fn force(run: &Run, state: &State) -> [f64; 2] {
     let force = pairs(&run.problem, state)[0].sides[0].force;
     [force.xy().norm(), force.z]

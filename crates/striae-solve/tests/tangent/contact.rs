@@ -11,7 +11,7 @@ use striae_solve::{assembly::StepContext, problem::Problem, state::State};
 
 use crate::{
     pair::{PairFunction, Wanted},
-    placed::{dependent, dome, of_bodies, of_rigid, on_rigid, two_blocks},
+    placed::{dependent, dome, of_bodies, of_pieces, of_rigid, on_rigid, two_blocks, two_pieces},
     scene::{coulomb, plane},
 };
 
@@ -82,6 +82,33 @@ fn of_two_curved_surfaces_that_stick_slip_and_open() {
     assert!(corrected > 10, "{corrected} with a corrector");
     assert!(weak > 5, "{weak} weak nodes");
     assert!(kept[0] > 20 && kept[1] > 20, "kept: {kept:?}");
+}
+
+#[test]
+fn of_a_surface_that_touches_itself() {
+    let every = [Status::Open, Status::Stick, Status::Slip];
+    for (divisions, wanted, statuses) in [
+        ([3, 3], Wanted::Mixed, &every[..]),
+        ([4, 3], Wanted::Slip, &every[2..]),
+        ([2, 4], Wanted::Slip, &every[2..]),
+    ] {
+        for friction in laws() {
+            let problem = Problem::new(two_pieces(divisions, friction)).unwrap();
+            let state = State::undeformed(&problem);
+            let context = StepContext::new(&problem, 0, &state);
+            let first_of_second = 2 * (divisions[0] + 1).pow(2);
+            let found = (7..40).find_map(|seed| {
+                let [start, now] = of_pieces(&problem, first_of_second, seed);
+                let pair = PairFunction::new(&context, start, now, 0.5);
+                let u = pair.found(wanted)?;
+                let found = pair.statuses(&u);
+                let has_all = statuses.iter().all(|status| found.contains(status));
+                has_all.then_some((pair, u))
+            });
+            let (pair, u) = found.expect("nodes of every status");
+            pair.assert_order(&u, &format!("{divisions:?}"));
+        }
+    }
 }
 
 #[test]
