@@ -42,7 +42,7 @@ pub struct Arguments {
     #[arg(long, value_delimiter = ',', default_values_t = [0.0, 45.0, 90.0, 135.0, 180.0])]
     theta: Vec<f64>,
     /// Folder for the figures; by default results/NAME, or results/law without a deck.
-    #[arg(long)]
+    #[arg(short, long, alias = "output")]
     out: Option<PathBuf>,
     /// Print the numbers as JSON, and draw nothing.
     #[arg(long)]
