@@ -6,7 +6,7 @@ the row of scales, ``a = n x s`` across; for scales ``a`` points from root to fr
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union
 
 import numpy as np
@@ -223,7 +223,7 @@ class Friction(Made):
         bounds = self._native.bound(pressures.ravel().tolist(), given[0], given[1])
         return bounds.reshape(pressures.shape)
 
-    def _with(self, method: str, constants: dict[str, Optional[float]]) -> Friction:
+    def _with(self, method: str, constants: Mapping[str, Optional[float]]) -> Friction:
         """The law with one more dependence, by the name of its method."""
         numbers = {
             name: None if value is None and name in ("floor", "limit") else check.number(value, name)
