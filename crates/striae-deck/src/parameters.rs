@@ -12,12 +12,10 @@ use crate::{
     expression::{evaluated, is_expression},
     fault::FaultKind,
     faults::{FaultList, Span},
-    settings::{Setting, placed},
+    settings::{Setting, TABLE, placed},
     value::finite,
 };
 
-/// Name of the table.
-pub(crate) const TABLE: &str = "parameters";
 /// Whole numbers up to which a value without fraction is one.
 const LARGEST_WHOLE: f64 = 9e15;
 /// Difference from a whole number, over it, that is round-off of an expression: `0.3/0.1`.
@@ -100,10 +98,14 @@ fn compute(
     match value.get_ref() {
         // What an expression comes to does not matter where another number is set.
         DeValue::String(_) if found.iter().any(|(place, _)| *place == value.span()) => {}
-        DeValue::String(text) if is_expression(text) => match parameters.expression(text) {
-            Ok(number) => found.push((value.span(), written(number))),
-            Err(cause) => note(&value.span(), cause, faults),
-        },
+        DeValue::String(text) if is_expression(text) => {
+            parameters.blamed = false;
+            match parameters.expression(text) {
+                Ok(number) => found.push((value.span(), written(number))),
+                Err(_) if parameters.blamed => faults.excuse(value.span()),
+                Err(cause) => note(&value.span(), cause, faults),
+            }
+        }
         DeValue::Array(list) => {
             for value in list.iter() {
                 compute(value, parameters, found, faults);
@@ -139,6 +141,8 @@ struct Parameters {
     known: BTreeMap<String, Result<f64, String>>,
     /// Parameters that are being computed, each needed by the one before.
     over: Vec<String>,
+    /// A parameter without a value has been needed, which is a fault of its own.
+    blamed: bool,
 }
 
 impl Parameters {
@@ -176,10 +180,17 @@ impl Parameters {
             given,
             known: BTreeMap::new(),
             over: Vec::new(),
+            blamed: false,
         }
     }
 
     fn value(&mut self, name: &str) -> Result<f64, String> {
+        let value = self.found(name);
+        self.blamed |= value.is_err() && self.given.contains_key(name);
+        value
+    }
+
+    fn found(&mut self, name: &str) -> Result<f64, String> {
         if let Some(known) = self.known.get(name) {
             return known.clone();
         }

@@ -14,12 +14,13 @@ use crate::{
     expression::{evaluated, is_expression},
     fault::FaultKind,
     faults::{FaultList, Span},
-    parameters::TABLE,
     read::{Value, described},
     value::finite,
 };
 
-/// Largest number of decimals without exponent.
+/// Name of the table of parameters.
+pub(crate) const TABLE: &str = "parameters";
+/// Magnitudes that are written without an exponent.
 const PLAIN: std::ops::Range<f64> = 1e-5..1e15;
 
 /// A number of a deck that is set from outside: `E=2e6`.

@@ -251,6 +251,21 @@ fn faults_of_expressions_have_their_places() {
     }
 }
 
+/// Expressions that need a parameter without a value are no faults of their own.
+#[test]
+fn faults_of_parameters_are_told_once() {
+    let found = told(with(&changed("L = 2", "L = \"= n\""), &[]));
+    let lines = found.lines().filter(|line| line.starts_with("deck.toml:"));
+    let places: Vec<&str> = lines.map(|line| &line[..13]).collect();
+    assert_eq!(
+        places,
+        ["deck.toml:4:5", "deck.toml:6:5", "deck.toml:7:9"],
+        "{found}"
+    );
+    let found = told(with(&changed("L = 2", "L = true"), &[]));
+    assert!(found.ends_with("3 faults"), "{found}");
+}
+
 #[test]
 fn what_doubles_with_every_parameter_takes_no_time() {
     let mut text = String::from("title = \"t\"\n[parameters]\np0 = 1\n");
