@@ -11,6 +11,8 @@ use striae_solve::{outcome::Ending, problem::ProblemError};
 
 /// Exit code of an interrupted program: 128 and the number of the signal, as shells have it.
 pub const INTERRUPTED: u8 = 130;
+/// Exit code of a request that is not possible.
+pub const IMPOSSIBLE: u8 = 2;
 
 /// Why the program did not do what it was asked for.
 #[derive(Debug, thiserror::Error)]
@@ -58,14 +60,15 @@ pub enum Failure {
     /// Runs of a sweep that failed.
     #[error("{0}")]
     Sweep(String),
+    /// A sweep that was interrupted.
+    #[error("{0}")]
+    Halted(String),
+    /// Numbers cannot vary as asked for.
+    #[error("{0}")]
+    Variation(String),
     /// Two runs differ.
-    #[error("the runs differ by {worst:.1e}, more than {within:.1e}")]
-    Differ {
-        /// Largest difference.
-        worst: f64,
-        /// Difference that is allowed.
-        within: f64,
-    },
+    #[error("the runs differ: {0}")]
+    Differ(String),
     /// There is no case of this name.
     #[error("there is no case `{name}`; known are {known}")]
     UnknownCase {
@@ -180,7 +183,7 @@ impl Failure {
                 ExitCode::from(1)
             }
             #[cfg(not(feature = "petsc"))]
-            Self::NoPetsc => ExitCode::from(2),
+            Self::NoPetsc => ExitCode::from(IMPOSSIBLE),
             Self::Deck(_)
             | Self::Model(_)
             | Self::Exists(_)
@@ -197,15 +200,16 @@ impl Failure {
             )
             | Self::Results(OutputError::Occupied(_) | OutputError::InUse(_))
             | Self::Impossible(_)
-            | Self::UnknownCase { .. } => ExitCode::from(2),
-            Self::Interrupted { .. } => ExitCode::from(INTERRUPTED),
+            | Self::Variation(_)
+            | Self::UnknownCase { .. } => ExitCode::from(IMPOSSIBLE),
+            Self::Interrupted { .. } | Self::Halted(_) => ExitCode::from(INTERRUPTED),
             Self::Ended(ending) if matches!(**ending, Ending::Interrupted { .. }) => {
                 ExitCode::from(INTERRUPTED)
             }
             Self::Unwritable { .. }
             | Self::Ended(_)
             | Self::Sweep(_)
-            | Self::Differ { .. }
+            | Self::Differ(_)
             | Self::Warned(_)
             | Self::Deviates(_)
             | Self::Results(_)

@@ -1,10 +1,10 @@
-//! The deck of a command, with the parameters that are set for it.
+//! The deck of a command, with the numbers that are set for it.
 
 use std::path::PathBuf;
 
 use striae_deck::{Deck, Faults, Setting, read_with};
 
-/// A deck and settings of its parameters.
+/// A deck and settings of its numbers.
 #[derive(clap::Args)]
 pub struct Source {
     /// The deck.
@@ -13,10 +13,11 @@ pub struct Source {
     pub settings: Settings,
 }
 
-/// Settings of parameters.
+/// Settings of parameters and other numbers.
 #[derive(clap::Args)]
 pub struct Settings {
-    /// Set a parameter of the deck, such as `E=2e6`; may be given again.
+    /// Set a parameter of the deck, such as `E=2e6`, or another number by its path, such as
+    /// `material.rubber.youngs_modulus=2e6`; may be given again.
     #[arg(long = "set", value_name = "NAME=VALUE")]
     pub set: Vec<Setting>,
 }

@@ -11,6 +11,7 @@ title = "A block on a floor"
 [parameters]
 mu = 0.3
 way = 0.1
+depth = 0.02
 [[material]]
 name = "rubber"
 law = "neo-hookean"
@@ -31,7 +32,7 @@ friction = { law = "coulomb", mu = "= mu" }
 [[step]]
 name = "press"
 increments = 1
-displacement = [{ body = "block", nodes = "zmax", x = 0, y = 0, z = -0.02 }]
+displacement = [{ body = "block", nodes = "zmax", x = 0, y = 0, z = "= -depth" }]
 [[step]]
 name = "drag"
 increments = 2
@@ -93,17 +94,143 @@ fn a_sweep_makes_a_table() {
     }
     let compared = striae(
         place.path(),
-        &["compare", "s/mu=0.1", "s/mu=0.2", "--within", "0.1"],
+        &["compare", "s/mu=0.1", "s/mu=0.2", "--tolerance", "0.1"],
     );
     assert_eq!(compared.status.code(), Some(1));
     assert!(
         stdout(&compared).contains("pair.sole.resultant_a.x"),
         "{compared:?}"
     );
-    let same = striae(
-        place.path(),
-        &["compare", "s/mu=0.1", "s/mu=0.1", "--within", "0"],
+    assert!(stderr(&compared).starts_with("the runs differ: `"));
+    for (words, code) in [
+        (&["compare", "s/mu=0.1", "s/mu=0.1", "--within", "0"][..], 0),
+        (&["compare", "s/mu=0.1", "s/mu=0.2"], 1),
+        (&["compare", "s/mu=0.1", "s/mu=0.2", "--tolerance", "2"], 0),
+        (&["compare", "s/mu=0.1", "s/mu=0.2", "--tolerance", "-1"], 2),
+    ] {
+        let compared = striae(place.path(), words);
+        assert_eq!(compared.status.code(), Some(code), "{compared:?}");
+    }
+}
+
+/// Cells of a table of a sweep by the names of their columns.
+fn rows(file: &Path) -> Vec<std::collections::BTreeMap<String, String>> {
+    let text = fs::read_to_string(file).expect("a table");
+    let mut lines = text.lines();
+    let names: Vec<&str> = lines.next().expect("a header").split(',').collect();
+    let row = |line: &str| {
+        let cells = line.splitn(names.len(), ',').map(str::to_owned);
+        names
+            .iter()
+            .map(|name| (*name).to_owned())
+            .zip(cells)
+            .collect()
+    };
+    lines.map(row).collect()
+}
+
+#[test]
+fn a_run_that_fails_is_a_row_with_its_reason() {
+    let place = place();
+    let words = [
+        "sweep",
+        "deck.toml",
+        "--vary",
+        "step.press.displacement.0.z=-0.01,-1.5",
+        "--set",
+        "mu=0.2",
+        "-o",
+        "s",
+    ];
+    let output = striae(place.path(), &words);
+    assert_eq!(output.status.code(), Some(1), "{output:?}");
+    let said = stderr(&output);
+    assert!(said.contains("1 of 2 runs failed:\n  step.press"), "{said}");
+    let rows = rows(&place.path().join("s/sweep.csv"));
+    let statuses: Vec<&str> = rows.iter().map(|row| row["status"].as_str()).collect();
+    assert_eq!(statuses, ["completed", "stopped"]);
+    assert_eq!(rows[0]["increments"], "3");
+    assert_eq!(rows[0]["reason"], "");
+    assert!(rows[1]["reason"].len() > 10, "{rows:?}");
+    // The results that are there are not those of this sweep.
+    let again = striae(place.path(), &words);
+    assert_eq!(again.status.code(), Some(1), "{again:?}");
+    let rows = self::rows(&place.path().join("s/sweep.csv"));
+    assert!(
+        rows.iter().all(|row| row["status"] == "refused"),
+        "{rows:?}"
     );
+    let twice = [&words[..], &["--vary", "mu=1,2"]].concat();
+    let twice = striae(place.path(), &twice);
+    assert_eq!(twice.status.code(), Some(2));
+    assert!(stderr(&twice).contains("`mu` is set or varied twice"));
+}
+
+/// Ctrl-C stops all runs after their increment, and the table tells what is there.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_sweep_keeps_what_is_there() {
+    let place = place();
+    let path = place.path();
+    let long = DECK.replace("increments = 2\n", "increments = 4000\n");
+    fs::write(path.join("deck.toml"), long).unwrap();
+    let mut sweep = Command::new(env!("CARGO_BIN_EXE_striae"))
+        .args(["sweep", "deck.toml", "--vary", "mu=0.1,0.2,0.3"])
+        .args(["--workers", "2", "--out", "s"])
+        .current_dir(path)
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    let begun = |mu: &str| {
+        let history = fs::read_to_string(path.join(format!("s/mu={mu}/history.csv")));
+        history.is_ok_and(|text| text.lines().count() > 3)
+    };
+    while !(begun("0.1") && begun("0.2")) {
+        assert!(sweep.try_wait().unwrap().is_none(), "it takes longer");
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    let id = sweep.id().to_string();
+    assert!(
+        Command::new("kill")
+            .args(["-INT", &id])
+            .status()
+            .unwrap()
+            .success()
+    );
+    let ended = sweep.wait_with_output().unwrap();
+    assert_eq!(ended.status.code(), Some(130), "{ended:?}");
+    assert!(stderr(&ended).contains("interrupted with 0 of 3 runs completed"));
+    let rows = rows(&path.join("s/sweep.csv"));
+    let statuses: Vec<&str> = rows.iter().map(|row| row["status"].as_str()).collect();
+    assert_eq!(statuses, ["interrupted", "interrupted", "not run"]);
+    assert!(path.join("s/mu=0.1/checkpoint.bin").exists());
+    assert!(!path.join("s/mu=0.3").exists());
+}
+
+/// A number that was set by its path is set again when a run goes on with other steps.
+#[test]
+fn numbers_set_by_paths_go_on() {
+    let place = place();
+    let path = place.path();
+    let further = DECK.to_owned()
+        + "[[step]]\nname = \"rest\"\nincrements = 1\ndisplacement = [{ body = \"block\", nodes = \"zmax\", x = 0.2 }]\n";
+    fs::write(path.join("further.toml"), further).unwrap();
+    let set = ["--set", "pair.sole.friction.mu=0.15", "--set", "way=0.05"];
+    let run = |words: &[&str]| striae(path, words);
+    let first = run(&[&["run", "deck.toml", "--quiet", "--output", "a"][..], &set].concat());
+    assert!(first.status.success(), "{first:?}");
+    let with = [
+        "resume",
+        "a",
+        "--with",
+        "further.toml",
+        "--quiet",
+        "-o",
+        "b",
+    ];
+    let other = run(&with);
+    assert_eq!(other.status.code(), Some(2), "{other:?}");
+    let same = run(&[&with[..], &set].concat());
     assert!(same.status.success(), "{same:?}");
 }
 
@@ -137,7 +264,7 @@ fn a_run_takes_settings_of_its_own_parameters_only() {
     let unknown = striae(path, &["run", "deck.toml", "--set", "nu=1", "--out", "b"]);
     assert_eq!(unknown.status.code(), Some(2));
     assert!(
-        stderr(&unknown).contains("its [parameters] are `mu`, `way`"),
+        stderr(&unknown).contains("its [parameters] are `depth`, `mu`, `way`"),
         "{unknown:?}"
     );
     assert!(!path.join("b").exists());
@@ -157,7 +284,7 @@ fn run_refuses_what_check_refuses() {
             r#"{ law = "orthotropic", mu_along = 0.1, mu_across = 0.2 }"#,
         );
     let loose = DECK.replace(
-        r#"zmax", x = 0, y = 0, z = -0.02"#,
+        r#"zmax", x = 0, y = 0, z = "= -depth""#,
         r#"zmax", x = 0, y = 0"#,
     );
     for deck in [textured, loose] {
@@ -211,7 +338,7 @@ fn what_is_said_comes_as_json() {
     )
     .unwrap();
     let faulty = json(&["check", "deck.toml", "--json"]);
-    assert_eq!(faulty["faults"][0]["line"], 22);
+    assert_eq!(faulty["faults"][0]["line"], 23);
 }
 
 /// A run that is killed before its first increment goes on from its start, with the parameters

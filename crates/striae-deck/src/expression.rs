@@ -38,12 +38,9 @@ pub(crate) fn evaluated(
         depth: 0,
     };
     let value = reader.sum()?;
-    if let Some(found) = reader.next_letter() {
-        return Err(reader.expected("an operator", Some(found)));
-    }
-    match value.is_finite() {
-        true => Ok(value),
-        false => Err(format!("it comes to {value}, which is no finite number")),
+    match reader.next_letter() {
+        None => Ok(value),
+        found => Err(reader.expected("an operator", found)),
     }
 }
 
@@ -61,7 +58,7 @@ impl<'t> Reader<'t, '_> {
             match self.next_letter() {
                 Some('+') => value += self.after(Self::term)?,
                 Some('-') => value -= self.after(Self::term)?,
-                _ => return Ok(value),
+                _ => return finite(value),
             }
         }
     }
@@ -71,8 +68,11 @@ impl<'t> Reader<'t, '_> {
         loop {
             match self.next_letter() {
                 Some('*') => value *= self.after(Self::signed)?,
-                Some('/') => value /= self.after(Self::signed)?,
-                _ => return Ok(value),
+                Some('/') => match self.after(Self::signed)? {
+                    0.0 => return Err("it divides by zero".to_owned()),
+                    divisor => value /= divisor,
+                },
+                _ => return finite(value),
             }
         }
     }
@@ -88,7 +88,10 @@ impl<'t> Reader<'t, '_> {
     fn power(&mut self) -> Result<f64, String> {
         let base = self.atom()?;
         match self.next_letter() {
-            Some('^') => Ok(base.powf(self.deeper(Self::signed)?)),
+            Some('^') => {
+                let exponent = self.deeper(Self::signed)?;
+                defined(base.powf(exponent), || format!("({base})^({exponent})"))
+            }
             _ => Ok(base),
         }
     }
@@ -115,7 +118,10 @@ impl<'t> Reader<'t, '_> {
             is_part
         });
         let plain = word.replace('_', "");
-        plain.parse().map_err(|_| format!("`{word}` is no number"))
+        let value = plain
+            .parse()
+            .map_err(|_| format!("`{word}` is no number"))?;
+        defined(value, || word.to_owned())
     }
 
     fn named(&mut self) -> Result<f64, String> {
@@ -192,6 +198,22 @@ impl<'t> Reader<'t, '_> {
     }
 }
 
+/// A value so far, before it vanishes in what is made of it, as in `1/(1e300*1e300)`.
+fn finite(value: f64) -> Result<f64, String> {
+    match value.is_finite() {
+        true => Ok(value),
+        false => Err(format!("it comes to {value}, which is no finite number")),
+    }
+}
+
+/// The value of something that may have none.
+fn defined(value: f64, words: impl FnOnce() -> String) -> Result<f64, String> {
+    match value.is_finite() {
+        true => Ok(value),
+        false => Err(format!("`{}` is no finite number", words())),
+    }
+}
+
 fn is_name(letter: char) -> bool {
     letter.is_alphabetic() || letter == '_'
 }
@@ -221,7 +243,10 @@ fn called(name: &str, arguments: &[f64]) -> Result<f64, String> {
             ));
         }
     };
-    Ok(value)
+    defined(value, || {
+        let arguments: Vec<String> = arguments.iter().map(f64::to_string).collect();
+        format!("{name}({})", arguments.join(", "))
+    })
 }
 
 #[cfg(test)]
@@ -276,8 +301,14 @@ mod tests {
                 "there is no function `sine` of 1 numbers; there are `sqrt`",
             ),
             ("sqrt(1, 2)", "no function `sqrt` of 2 numbers"),
-            ("1/0", "it comes to inf"),
-            ("sqrt(-1)", "it comes to NaN"),
+            ("1/0", "it divides by zero"),
+            ("1/(1/0)", "it divides by zero"),
+            ("1/(1e200*1e200)", "it comes to inf"),
+            ("1/1e999", "`1e999` is no finite number"),
+            ("sqrt(-1)", "`sqrt(-1)` is no finite number"),
+            ("max(1, ln(0))", "`ln(0)` is no finite number"),
+            ("(-8)^(1/3)", "`(-8)^("),
+            ("1/0^-1", "`(0)^(-1)` is no finite number"),
             (&"(".repeat(100_000), "nested too deeply"),
             (&"-".repeat(100_000), "nested too deeply"),
             ("2;", "found `;`"),

@@ -54,6 +54,33 @@ pub enum FaultKind {
         /// Names of its parameters.
         known: Vec<String>,
     },
+    /// A path by which a number is set leads nowhere.
+    #[error(
+        "`--set {path}=...` sets no number that stands in the deck; {place} has {}{}", or_none(known), did_you_mean(.nearest)
+    )]
+    UnknownPath {
+        /// The path.
+        path: String,
+        /// What of it is there.
+        place: String,
+        /// What that has.
+        known: Vec<String>,
+        /// The most similar of them.
+        nearest: Option<String>,
+    },
+    /// A path by which a number is set leads to something else.
+    #[error(
+        "`--set {path}=...` can only set a number, and `{path}` is {found}{}",
+        with(known)
+    )]
+    NoNumber {
+        /// The path.
+        path: String,
+        /// What is there.
+        found: String,
+        /// What that has.
+        known: Vec<String>,
+    },
     /// A file that cannot be included.
     #[error("`{file}` cannot be included: {cause}")]
     Include {
@@ -321,6 +348,13 @@ fn or_none(words: &[String]) -> String {
     match words {
         [] => "none".to_owned(),
         _ => quoted(words),
+    }
+}
+
+fn with(words: &[String]) -> String {
+    match words {
+        [] => String::new(),
+        _ => format!("; it has {}", quoted(words)),
     }
 }
 

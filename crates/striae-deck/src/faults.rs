@@ -106,6 +106,8 @@ pub(crate) struct FaultList<'s> {
     /// The deck, and what it includes.
     sources: Vec<Source<'s>>,
     found: Vec<(Span, FaultKind)>,
+    /// Places whose values are missing by a fault elsewhere.
+    excused: Vec<Span>,
 }
 
 /// A text of the deck; spans count from the start of the first one.
@@ -124,6 +126,7 @@ impl<'s> FaultList<'s> {
                 text: text.into(),
             }],
             found: Vec::new(),
+            excused: Vec::new(),
         }
     }
 
@@ -156,11 +159,17 @@ impl<'s> FaultList<'s> {
         }
     }
 
-    /// Whether a fault has been found inside the range.
+    /// Takes the value at a place as missing by a fault elsewhere.
+    pub(crate) fn excuse(&mut self, span: Span) {
+        self.excused.push(span);
+    }
+
+    /// True where a fault has been found inside the range, or the value is missing by another.
     pub(crate) fn within(&self, range: &Span) -> bool {
-        self.found
-            .iter()
-            .any(|(span, _)| range.start <= span.start && span.end <= range.end)
+        let found = self.found.iter().map(|(span, _)| span);
+        found
+            .chain(&self.excused)
+            .any(|span| range.start <= span.start && span.end <= range.end)
     }
 
     pub(crate) fn is_empty(&self) -> bool {

@@ -23,14 +23,15 @@ mod parameters;
 mod raw;
 mod read;
 mod schema;
+mod settings;
 mod value;
 mod write;
 
 pub use convert::{Converted, convert};
 pub use fault::FaultKind;
 pub use faults::{Fault, Faults, Position};
-pub use parameters::Setting;
 pub use schema::{json_schema, reference};
+pub use settings::Setting;
 pub use write::{Unstated, write};
 
 use faults::FaultList;
@@ -74,10 +75,10 @@ pub fn read(path: &Path) -> Result<Deck, Faults> {
     read_with(path, &[])
 }
 
-/// Reads a deck from a file with parameters set from outside.
+/// Reads a deck from a file with parameters and other numbers set from outside.
 ///
 /// # Errors
-/// As [`read`], and where a setting is of no parameter of the deck.
+/// As [`read`], and where a setting is of no number of the deck.
 pub fn read_with(path: &Path, settings: &[Setting]) -> Result<Deck, Faults> {
     let file = path.display().to_string();
     let text = std::fs::read_to_string(path).map_err(|cause| Faults::unreadable(&file, &cause))?;
@@ -95,10 +96,10 @@ pub fn parse(text: &str, file: &str, base: &Path) -> Result<Deck, Faults> {
     parse_with(text, file, base, &[])
 }
 
-/// Reads a deck from its text with parameters set from outside.
+/// Reads a deck from its text with parameters and other numbers set from outside.
 ///
 /// # Errors
-/// As [`parse`], and where a setting is of no parameter of the deck.
+/// As [`parse`], and where a setting is of no number of the deck.
 pub fn parse_with(
     text: &str,
     file: &str,
@@ -110,7 +111,10 @@ pub fn parse_with(
     let deck = simulation(text, &included, settings, &mut faults)
         .and_then(|raw| lower::deck(&raw, base, &mut faults));
     match deck {
-        Some(deck) if faults.is_empty() => Ok(deck),
+        Some(mut deck) if faults.is_empty() => {
+            deck.notes.extend(settings::note(settings));
+            Ok(deck)
+        }
         _ => Err(faults.into_faults()),
     }
 }

@@ -3,7 +3,7 @@
 //! Expressions are replaced by their values before the tables are read, so that any number
 //! of a deck may be one.
 
-use std::{collections::BTreeMap, fmt, str::FromStr};
+use std::collections::BTreeMap;
 
 use striae_model::nearest;
 use toml::de::{DeTable, DeValue};
@@ -12,83 +12,43 @@ use crate::{
     expression::{evaluated, is_expression},
     fault::FaultKind,
     faults::{FaultList, Span},
+    settings::{Setting, TABLE, placed},
     value::finite,
 };
 
-/// Name of the table.
-pub(crate) const TABLE: &str = "parameters";
 /// Whole numbers up to which a value without fraction is one.
 const LARGEST_WHOLE: f64 = 9e15;
+/// Difference from a whole number, over it, that is round-off of an expression: `0.3/0.1`.
+const ROUND_OFF: f64 = 1e-13;
 /// Parameters that are computed over one another.
 const LONGEST: usize = 50;
-
-/// A parameter whose value is set from outside the deck: `E=2e6`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Setting {
-    name: String,
-    value: f64,
-}
-
-impl Setting {
-    /// A parameter and its value.
-    pub fn new(name: impl Into<String>, value: f64) -> Self {
-        let name = name.into();
-        Self { name, value }
-    }
-
-    /// Name of the parameter.
-    pub fn name(&self) -> &str {
-        &self.name
-    }
-
-    /// Its value.
-    pub fn value(&self) -> f64 {
-        self.value
-    }
-}
-
-impl fmt::Display for Setting {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}={}", self.name, self.value)
-    }
-}
-
-impl FromStr for Setting {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let Some((name, value)) = text.split_once('=') else {
-            return Err(format!(
-                "expected NAME=VALUE, such as `E=2e6`, found `{text}`"
-            ));
-        };
-        let no_name = |name: &str| Err(format!("`{name}` stands for no number here"));
-        let found = evaluated(value, &mut |name| no_name(name))
-            .map_err(|cause| format!("`{value}` is no number: {cause}"))?;
-        Ok(Self::new(name.trim(), found))
-    }
-}
 
 /// How a parameter is given.
 enum Given {
     Value(f64),
     Expression(String),
+    /// As something else, which is a fault of its own.
+    Nothing,
 }
 
-/// Values of the expressions of a deck, by their places, as TOML writes them.
+/// Values of the expressions of a deck and of what is set, by their places, as TOML writes them.
 pub(crate) fn computed(
     tree: &DeTable<'_>,
     settings: &[Setting],
     faults: &mut FaultList<'_>,
 ) -> Vec<(Span, String)> {
     let mut parameters = Parameters::of(tree, settings, faults);
-    let mut found = Vec::new();
+    let set = placed(tree, settings, faults).into_iter();
+    let mut found: Vec<(Span, String)> = set.map(|(span, value)| (span, written(value))).collect();
     for (key, value) in tree.iter() {
         if key.get_ref() != TABLE {
             compute(value, &mut parameters, &mut found, faults);
         }
     }
-    let is_set = |name: &str| settings.iter().any(|setting| setting.name == name);
+    let is_set = |name: &str| {
+        let mut settings = settings.iter();
+        settings.any(|setting| setting.parameter() == Some(name))
+    };
     let given = parameters.given.iter();
     let given: Vec<(String, Span)> = given
         .filter(|(name, (_, given))| matches!(given, Given::Expression(_)) || is_set(name))
@@ -136,10 +96,16 @@ fn compute(
     faults: &mut FaultList<'_>,
 ) {
     match value.get_ref() {
-        DeValue::String(text) if is_expression(text) => match parameters.expression(text) {
-            Ok(number) => found.push((value.span(), written(number))),
-            Err(cause) => note(&value.span(), cause, faults),
-        },
+        // What an expression comes to does not matter where another number is set.
+        DeValue::String(_) if found.iter().any(|(place, _)| *place == value.span()) => {}
+        DeValue::String(text) if is_expression(text) => {
+            parameters.blamed = false;
+            match parameters.expression(text) {
+                Ok(number) => found.push((value.span(), written(number))),
+                Err(_) if parameters.blamed => faults.excuse(value.span()),
+                Err(cause) => note(&value.span(), cause, faults),
+            }
+        }
         DeValue::Array(list) => {
             for value in list.iter() {
                 compute(value, parameters, found, faults);
@@ -161,7 +127,7 @@ fn note(span: &Span, cause: String, faults: &mut FaultList<'_>) {
 /// A number as TOML writes it: whole ones as such, since they may count something.
 fn written(value: f64) -> String {
     let whole = value.round();
-    let is_whole = (value - whole).abs() <= 1e-9 * whole.abs().max(1e-9);
+    let is_whole = (value - whole).abs() <= ROUND_OFF * whole.abs();
     match is_whole && whole.abs() < LARGEST_WHOLE {
         true => format!("{}", whole as i64),
         false => format!("{value:e}"),
@@ -175,6 +141,8 @@ struct Parameters {
     known: BTreeMap<String, Result<f64, String>>,
     /// Parameters that are being computed, each needed by the one before.
     over: Vec<String>,
+    /// A parameter without a value has been needed, which is a fault of its own.
+    blamed: bool,
 }
 
 impl Parameters {
@@ -188,18 +156,20 @@ impl Parameters {
                     DeValue::String(text) if is_expression(text) => {
                         Given::Expression(text.to_string())
                     }
-                    // What is no number is told when the table is read.
-                    number => Given::Value(finite(number).unwrap_or(f64::NAN)),
+                    number => finite(number).map_or(Given::Nothing, Given::Value),
                 };
                 given.insert(name.get_ref().to_string(), (value.span(), of));
             }
         }
-        for Setting { name, value } in settings {
+        for setting in settings {
+            let Some(name) = setting.parameter() else {
+                continue;
+            };
             match given.get_mut(name) {
-                Some((_, given)) => *given = Given::Value(*value),
+                Some((_, given)) => *given = Given::Value(setting.value()),
                 None => {
                     let kind = FaultKind::UnknownParameter {
-                        name: name.clone(),
+                        name: name.to_owned(),
                         known: given.keys().cloned().collect(),
                     };
                     faults.push(&place, kind);
@@ -210,18 +180,25 @@ impl Parameters {
             given,
             known: BTreeMap::new(),
             over: Vec::new(),
+            blamed: false,
         }
     }
 
     fn value(&mut self, name: &str) -> Result<f64, String> {
+        let value = self.found(name);
+        self.blamed |= value.is_err() && self.given.contains_key(name);
+        value
+    }
+
+    fn found(&mut self, name: &str) -> Result<f64, String> {
         if let Some(known) = self.known.get(name) {
             return known.clone();
         }
         let Some((_, given)) = self.given.get(name) else {
             return Err(self.unknown(name));
         };
-        if self.over.iter().any(|known| known == name) {
-            return Err(format!("`{name}` is computed from itself"));
+        if let Some(first) = self.over.iter().position(|known| known == name) {
+            return Err(circular(name, &self.over[first + 1..]));
         }
         if self.over.len() == LONGEST {
             return Err(format!(
@@ -230,6 +207,7 @@ impl Parameters {
         }
         let value = match given {
             Given::Value(value) => Ok(*value),
+            Given::Nothing => Err(format!("parameter `{name}` is no number")),
             Given::Expression(text) => {
                 let text = text.clone();
                 self.over.push(name.to_owned());
@@ -259,4 +237,20 @@ impl Parameters {
             });
         format!("there is no parameter `{name}`; {there}{hint}")
     }
+}
+
+/// The circle in which a parameter needs itself, over parameters that each need the next.
+fn circular(name: &str, over: &[String]) -> String {
+    let by_way = match over {
+        [] => String::new(),
+        over => {
+            let over: Vec<String> = over.iter().map(|name| format!("`{name}`")).collect();
+            format!(" over {}", over.join(", "))
+        }
+    };
+    let remedy = match over {
+        [] => "give it as a number",
+        _ => "give one of them as a number",
+    };
+    format!("`{name}` is computed from itself{by_way}; {remedy}")
 }

@@ -87,6 +87,110 @@ fn parameters_are_set_from_outside() {
     }
 }
 
+fn with(deck: &str, settings: &[&str]) -> Result<striae_deck::Deck, Faults> {
+    let settings: Vec<Setting> = settings.iter().map(|one| one.parse().unwrap()).collect();
+    parse_with(deck, "deck.toml", Path::new(""), &settings)
+}
+
+#[test]
+fn any_number_of_the_deck_is_set_by_its_path() {
+    let set = |settings: &[&str]| with(DECK, settings).unwrap();
+    assert_eq!(
+        depth(&set(&["step.press.displacement.0.z=-0.5"]).model),
+        -0.5
+    );
+    let wide = set(&["body.block.mesh.size.1=8", "body.block.mesh.divisions.0=3"]);
+    let mesh = &wide.model.bodies[0].mesh;
+    assert_eq!(mesh.element_count(), 12);
+    assert!((mesh.volume() - 16.0).abs() < 1e-12);
+    assert!(wide.notes[1].starts_with("set: body.block.mesh.size.1 = 8, "));
+    let modulus = |deck: &striae_deck::Deck| {
+        let material = &deck.model.bodies[0].material;
+        material.lame_constants().youngs_modulus()
+    };
+    let path = "material.rubber.youngs_modulus";
+    let last = set(&[&format!("{path}=2"), &format!("{path}=7")]);
+    assert!((modulus(&last) - 7.0).abs() < 1e-12, "the last one counts");
+    let parameter = set(&["parameters.E=1"]);
+    assert!((modulus(&parameter) - 3.0).abs() < 1e-12);
+    // A name may have dots, and what an expression came to does not matter any more.
+    let dotted = DECK
+        .replace("\"rubber\"", "\"no. 1\"")
+        .replace("\"= 3*E\"", "\"= 1/0\"");
+    assert!(with(&dotted, &[]).is_err());
+    let dotted = with(&dotted, &["material.no. 1.youngs_modulus=5"]).unwrap();
+    assert!((modulus(&dotted) - 5.0).abs() < 1e-12);
+}
+
+#[test]
+fn paths_that_lead_to_no_number_are_refused_with_what_is_there() {
+    for (setting, message) in [
+        (
+            "material.ruber.youngs_modulus=1",
+            "`--set material.ruber.youngs_modulus=...` sets no number that stands in the deck; `material` has `rubber`; did you mean `rubber`?",
+        ),
+        (
+            "material.rubber.density=1",
+            "`material.rubber` has `law`, `name`, `poissons_ratio`, `youngs_modulus`",
+        ),
+        ("sptep.x=1", "the deck has `body`, `material`, `pair`,"),
+        (
+            "body.block.mesh.size.3=1",
+            "`body.block.mesh.size` has `0`, `1`, `2`",
+        ),
+        (
+            "body.block.mesh.size.0.x=1",
+            "`body.block.mesh.size.0` has none",
+        ),
+        (
+            "material.rubber.law=1",
+            "deck.toml:10:7: `--set material.rubber.law=...` can only set a number, and `material.rubber.law` is the text \"neo-hookean\"",
+        ),
+        (
+            "pair.sole.a=1",
+            "`pair.sole.a` is a table; it has `body`, `facets`",
+        ),
+        ("parameters.l=1", "its [parameters] are `E`, `L`"),
+        (".=1", "the deck has"),
+        ("material.=1", "`material.` is a list of 1; it has `rubber`"),
+        (
+            "material.rubber.poissons_ratio=0.7",
+            "deck.toml:12:18: `poissons_ratio` in [[material]] must be",
+        ),
+    ] {
+        let found = told(with(DECK, &[setting]));
+        assert!(found.contains(message), "{setting}: {found}");
+    }
+}
+
+#[test]
+fn settings_are_written_as_they_are_read() {
+    for (text, written) in [
+        ("E=2e6", "E=2000000"),
+        ("E=2e20", "E=2e20"),
+        ("a.b=-1/1e7", "a.b=-1e-7"),
+        ("mu=0.1+0.2", "mu=0.30000000000000004"),
+        ("mu=0", "mu=0"),
+    ] {
+        let setting: Setting = text.parse().unwrap();
+        assert_eq!(setting.to_string(), written);
+        assert_eq!(written.parse::<Setting>().unwrap(), setting);
+    }
+}
+
+#[test]
+fn expressions_are_rounded_by_no_more_than_their_round_off() {
+    for (expression, value) in [
+        ("123456789.1", 123_456_789.1),
+        ("1e-19", 1e-19),
+        ("0.3/0.1", 3.0),
+    ] {
+        let deck = changed("\"= -depth\"", &format!("\"= {expression}\""));
+        let model = parse(&deck, "deck.toml", Path::new("")).unwrap().model;
+        assert_eq!(depth(&model), value);
+    }
+}
+
 #[test]
 fn faults_of_expressions_have_their_places() {
     for (from, to, message) in [
@@ -103,12 +207,17 @@ fn faults_of_expressions_have_their_places() {
         (
             "\"= 2*L\"",
             "\"= 2*depth*n\"",
-            "deck.toml:6:5: this expression cannot be computed: `n` is computed from itself",
+            "deck.toml:6:5: this expression cannot be computed: `n` is computed from itself; give it as a number",
+        ),
+        (
+            "L = 2",
+            "L = \"= depth\"",
+            "`L` is computed from itself over `depth`; give one of them as a number",
         ),
         (
             "\"= -depth\"",
             "\"= depth/0\"",
-            "this expression cannot be computed: it comes to inf, which is no finite number",
+            "this expression cannot be computed: it divides by zero",
         ),
         (
             "\"= 3*E\"",
@@ -125,6 +234,11 @@ fn faults_of_expressions_have_their_places() {
             "L = [2]",
             "deck.toml:4:5: parameter `L` must be a number or an expression such as \"= 2*E\", but is a list of 1",
         ),
+        (
+            "L = 2",
+            "L = true",
+            "deck.toml:6:5: this expression cannot be computed: parameter `L` is no number",
+        ),
         ("L = 2", "L = 2\n2nd = 1", "`2nd` is no name of a parameter"),
         (
             "[parameters]",
@@ -135,6 +249,21 @@ fn faults_of_expressions_have_their_places() {
         let found = told(parse(&changed(from, to), "deck.toml", Path::new("")));
         assert!(found.contains(message), "{to}: {found}");
     }
+}
+
+/// Expressions that need a parameter without a value are no faults of their own.
+#[test]
+fn faults_of_parameters_are_told_once() {
+    let found = told(with(&changed("L = 2", "L = \"= n\""), &[]));
+    let lines = found.lines().filter(|line| line.starts_with("deck.toml:"));
+    let places: Vec<&str> = lines.map(|line| &line[..13]).collect();
+    assert_eq!(
+        places,
+        ["deck.toml:4:5", "deck.toml:6:5", "deck.toml:7:9"],
+        "{found}"
+    );
+    let found = told(with(&changed("L = 2", "L = true"), &[]));
+    assert!(found.ends_with("3 faults"), "{found}");
 }
 
 #[test]

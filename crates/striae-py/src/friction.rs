@@ -2,7 +2,10 @@
 
 use numpy::PyArray1;
 use pyo3::prelude::*;
-use striae::law::friction::{self, FrictionError, SlipRule};
+use striae::law::friction::{
+    self, Decay, FrictionError, Logarithm, PressureDependence, RateDependence, SlipDependence,
+    SlipRule,
+};
 
 use crate::{
     array::Array1,
@@ -75,6 +78,82 @@ impl Friction {
         made("decay", law)
     }
 
+    #[pyo3(signature = (exponent, pressure, floor))]
+    fn with_power_law(&self, exponent: f64, pressure: f64, floor: Option<f64>) -> PyResult<Self> {
+        let law = PressureDependence::power_law(exponent, pressure, floor);
+        self.by_pressure("power law", law)
+    }
+
+    #[pyo3(signature = (pressure, floor))]
+    fn with_adhesion(&self, pressure: f64, floor: Option<f64>) -> PyResult<Self> {
+        self.by_pressure("adhesion", PressureDependence::adhesion(pressure, floor))
+    }
+
+    fn with_saturation(&self, shear_stress: f64) -> PyResult<Self> {
+        let law = PressureDependence::saturation(shear_stress);
+        self.by_pressure("saturation", law)
+    }
+
+    fn with_pressure_table(&self, pressures: Vec<f64>, factors: Vec<f64>) -> PyResult<Self> {
+        let law = PressureDependence::table(&pressures, &factors);
+        self.by_pressure("pressure table", law)
+    }
+
+    fn with_stribeck(
+        &self,
+        kinetic_over_static: f64,
+        slip_rate: f64,
+        exponent: f64,
+        viscous: f64,
+    ) -> PyResult<Self> {
+        let law = RateDependence::decay(Decay {
+            kinetic_over_static,
+            slip_rate,
+            exponent,
+            viscous,
+        });
+        self.by_rate("Stribeck curve", law)
+    }
+
+    #[pyo3(signature = (factor, slip_rate, limit))]
+    fn with_logarithm(&self, factor: f64, slip_rate: f64, limit: Option<f64>) -> PyResult<Self> {
+        let law = RateDependence::logarithm(Logarithm {
+            factor,
+            slip_rate,
+            limit,
+        });
+        self.by_rate("logarithm", law)
+    }
+
+    fn with_slip_rate_table(&self, slip_rates: Vec<f64>, factors: Vec<f64>) -> PyResult<Self> {
+        let law = RateDependence::table(&slip_rates, &factors);
+        self.by_rate("slip rate table", law)
+    }
+
+    fn with_running_in(&self, final_over_initial: f64, slip: f64) -> PyResult<Self> {
+        let law = SlipDependence::exponential(final_over_initial, slip);
+        self.by_slip("running in", law)
+    }
+
+    fn with_accumulated_slip_table(&self, slips: Vec<f64>, factors: Vec<f64>) -> PyResult<Self> {
+        let law = SlipDependence::table(&slips, &factors);
+        self.by_slip("accumulated slip table", law)
+    }
+
+    /// The radius `varpi` of the slip surface at pressures, slip rates and accumulated slips, all
+    /// of one length.
+    fn bound<'py>(
+        &self,
+        py: Python<'py>,
+        pressures: Vec<f64>,
+        slip_rates: Vec<f64>,
+        slips: Vec<f64>,
+    ) -> Array1<'py, f64> {
+        let places = pressures.into_iter().zip(slip_rates).zip(slips);
+        let found = places.map(|((pressure, rate), slip)| self.0.cap_after(slip, pressure, rate));
+        PyArray1::from_vec(py, found.collect())
+    }
+
     fn with_shear_cap(&self, shear_cap: f64) -> PyResult<Self> {
         made("shear_cap", self.0.clone().with_shear_cap(shear_cap))
     }
@@ -98,6 +177,24 @@ impl Friction {
             column(&|sample| sample.traction.y.atan2(sample.traction.x)),
             column(&friction::SlipSample::dissipation),
         ]
+    }
+}
+
+impl Friction {
+    fn by_pressure(
+        &self,
+        what: &str,
+        law: Result<PressureDependence, FrictionError>,
+    ) -> PyResult<Self> {
+        made(what, law.map(|law| self.0.clone().with_pressure(law)))
+    }
+
+    fn by_slip(&self, what: &str, law: Result<SlipDependence, FrictionError>) -> PyResult<Self> {
+        made(what, law.map(|law| self.0.clone().with_slip(law)))
+    }
+
+    fn by_rate(&self, what: &str, law: Result<RateDependence, FrictionError>) -> PyResult<Self> {
+        made(what, law.map(|law| self.0.clone().with_rate(law)))
     }
 }
 

@@ -200,6 +200,7 @@ const LADDER: &[Row] = &[
             "striae-contact",
             "striae-deck",
             "striae-figure",
+            "striae-files",
             "striae-law",
             "striae-mesh",
             "striae-output",

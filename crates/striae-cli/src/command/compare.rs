@@ -1,4 +1,7 @@
 //! `striae compare A B`: how the results of two runs differ.
+//!
+//! Histories are compared at the times that both have, so that runs with other increments can be
+//! compared too. A difference counts beside the largest value of its column in either run.
 
 use std::{
     io::Write,
@@ -12,16 +15,16 @@ use crate::failure::Failure;
 /// Times over the last one that are the same.
 const SAME: f64 = 1e-9;
 
-/// Compare two runs: their endings, and their histories at the times that both have.
+/// Compare two runs: their endings and warnings, and their histories at the times that both have.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// Folder of the first run.
     a: PathBuf,
     /// Folder of the second run.
     b: PathBuf,
-    /// End with exit code 1 if a column differs by more than this part of its largest value.
-    #[arg(long, value_name = "PART")]
-    within: Option<f64>,
+    /// Part of the largest value of a column by which it may differ; beyond, the exit code is 1.
+    #[arg(long, alias = "within", value_name = "PART", default_value = "1e-6", value_parser = part)]
+    tolerance: f64,
 }
 
 /// How a column of the histories differs.
@@ -29,8 +32,10 @@ struct Difference {
     column: String,
     /// Values at the last common time.
     last: [f64; 2],
-    /// Largest difference over the largest value of the column.
-    largest: f64,
+    /// Largest difference.
+    absolute: f64,
+    /// The same over the largest value of the column.
+    relative: f64,
     /// When that is.
     time: f64,
 }
@@ -55,6 +60,11 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
             summary.warnings.len()
         )?;
     }
+    for (name, warnings) in [("A", warned(&one, &other)), ("B", warned(&other, &one))] {
+        for warning in warnings {
+            writeln!(out, "only {name} warns: {warning}")?;
+        }
+    }
     let (times, mut differences) = compared(&first, &second);
     writeln!(out, "times that both have: {times}")?;
     for (name, only) in [
@@ -65,34 +75,63 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
             writeln!(out, "only {name} has {}", only.join(", "))?;
         }
     }
-    differences.sort_by(|a, b| b.largest.total_cmp(&a.largest));
+    differences.sort_by(|a, b| b.relative.total_cmp(&a.relative));
+    write!(out, "{}", listed(&differences))?;
+    let verdict = match differences.first() {
+        _ if one.status != other.status => Some("only one of them completed".to_owned()),
+        _ if times == 0 => Some("they have no time in common".to_owned()),
+        // What is no number does not agree either.
+        Some(worst) if worst.relative > arguments.tolerance || worst.relative.is_nan() => {
+            Some(format!(
+                "`{}` by {:.1e} of its largest value, and {:e} is allowed",
+                worst.column, worst.relative, arguments.tolerance
+            ))
+        }
+        _ => None,
+    };
+    match verdict {
+        Some(words) => Err(Failure::Differ(words)),
+        None => Ok(()),
+    }
+}
+
+/// Warnings of a run that another one has not, of the same kind about the same pair.
+fn warned<'s>(summary: &'s Summary, other: &Summary) -> Vec<&'s str> {
+    let warnings = summary.warnings.iter();
+    let only = warnings.filter(|warning| {
+        let mut others = other.warnings.iter();
+        !others.any(|other| (&other.kind, &other.pair) == (&warning.kind, &warning.pair))
+    });
+    only.map(|warning| warning.text.as_str()).collect()
+}
+
+fn listed(differences: &[Difference]) -> String {
     let width = differences.iter().map(|one| one.column.len()).max();
     let width = width.unwrap_or(0).max(6);
-    writeln!(
-        out,
-        "{:<width$}  {:>13}  {:>13}  {:>10}  at time",
-        "column", "last of A", "last of B", "difference"
-    )?;
-    for one in &differences {
+    let mut text = format!(
+        "{:<width$}  {:>13}  {:>13}  {:>10}  {:>10}  at time\n",
+        "column", "last of A", "last of B", "largest", "relative"
+    );
+    for one in differences {
         let Difference {
             column,
             last: [a, b],
-            largest,
+            absolute,
+            relative,
             time,
         } = one;
-        writeln!(
-            out,
-            "{column:<width$}  {a:>13.6e}  {b:>13.6e}  {largest:>10.1e}  {time:.6}"
-        )?;
+        text += &format!(
+            "{column:<width$}  {a:>13.6e}  {b:>13.6e}  {absolute:>10.1e}  {relative:>10.1e}  {time:.6}\n"
+        );
     }
-    let worst = differences.first().map_or(0.0, |one| one.largest);
-    match arguments
-        .within
-        .filter(|within| worst > *within || times == 0)
-    {
-        Some(within) => Err(Failure::Differ { worst, within }),
-        None => Ok(()),
-    }
+    text
+}
+
+/// A part of a whole, or none of it.
+fn part(text: &str) -> Result<f64, String> {
+    let number = text.parse::<f64>().ok();
+    let number = number.filter(|number| *number >= 0.0);
+    number.ok_or_else(|| "a number of at least 0 is needed, such as 1e-6".to_owned())
 }
 
 /// Columns that only the first table has.
@@ -126,16 +165,20 @@ fn compared(first: &Table, second: &Table) -> (usize, Vec<Difference>) {
     let differences = columns.filter_map(|name| {
         let [a, b] = [first.column(name)?, second.column(name)?];
         let scale = scale(group(name));
-        let part = |(i, j): &(usize, usize)| match scale > 0.0 {
-            true => (a[*i] - b[*j]).abs() / scale,
-            false => 0.0,
-        };
-        let worst = rows.iter().max_by(|x, y| part(x).total_cmp(&part(y)))?;
+        let difference = |(i, j): &(usize, usize)| (a[*i] - b[*j]).abs();
+        let worst = rows
+            .iter()
+            .max_by(|x, y| difference(x).total_cmp(&difference(y)))?;
         let (i, j) = *rows.last()?;
+        let absolute = difference(worst);
         Some(Difference {
             column: name.clone(),
             last: [a[i], b[j]],
-            largest: part(worst),
+            absolute,
+            relative: match absolute == 0.0 {
+                true => 0.0,
+                false => absolute / scale,
+            },
             time: times[0][worst.0],
         })
     });
@@ -169,7 +212,7 @@ mod tests {
         let a = table(&columns, &[&[1.0, 1e-16, 2.0]]);
         let b = table(&columns, &[&[1.0, -3e-15, 2.0]]);
         let (_, differences) = compared(&a, &b);
-        assert!(differences.iter().all(|one| one.largest < 1e-14));
+        assert!(differences.iter().all(|one| one.relative < 1e-14));
     }
 
     #[test]
@@ -182,7 +225,17 @@ mod tests {
             panic!("one common column");
         };
         assert_eq!((f.column.as_str(), f.last, f.time), ("f", [2.0, 2.0], 0.5));
-        assert!((f.largest - 0.5 / 9.0).abs() < 1e-15);
+        assert!((f.relative - 0.5 / 9.0).abs() < 1e-15);
+        assert_eq!(f.absolute, 0.5);
         assert_eq!(missing(&a, &b), ["`g`"]);
+    }
+
+    #[test]
+    fn what_is_no_number_differs() {
+        let a = table(&["time", "f"], &[&[0.5, 1.0], &[1.0, f64::NAN]]);
+        let b = table(&["time", "f"], &[&[0.5, 1.0], &[1.0, 2.0]]);
+        let (_, differences) = compared(&a, &b);
+        assert!(differences[0].relative.is_nan());
+        assert!(part("nan").is_err() && part("-1").is_err() && part("0") == Ok(0.0));
     }
 }

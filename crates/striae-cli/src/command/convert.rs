@@ -14,7 +14,7 @@ pub struct Arguments {
     /// The model: an .inp file of Abaqus. Its meshes stay there.
     model: PathBuf,
     /// The deck to be written; it must not exist. Default: the name of the model with .toml.
-    #[arg(long, value_name = "DECK.toml")]
+    #[arg(short, long, alias = "output", value_name = "DECK.toml")]
     out: Option<PathBuf>,
 }
 

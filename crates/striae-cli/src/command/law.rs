@@ -6,8 +6,10 @@
 //! itself where it opposes slip, over the direction of slip, both directions from `e`
 //! (along `a_ba`, or the texture `a` of the only textured side), and prints the axes
 //! `A`, `P` and offset `h` of the slip surface where it is an ellipse, its extremes and
-//! where friction dissipates least; see [`striae_law::friction`].
+//! where friction dissipates least; see [`striae_law::friction`]. Where coefficients depend on
+//! pressure, slip rate or accumulated slip, it draws them over these, too.
 
+mod coefficient;
 mod json;
 
 use std::{
@@ -17,13 +19,14 @@ use std::{
 
 use striae::{
     case_name,
-    figures::law::{SAMPLES, degrees, figure, frictions},
+    figures::law::{SAMPLES, degrees, dependence, figure, frictions},
 };
 use striae_deck as deck;
 use striae_law::friction::{Analysis, Friction, Law, RequiredTextures, SlipSurface};
 use striae_solve::model::Model;
 
 use crate::{failure::Failure, source::Settings};
+use coefficient::coefficient;
 
 /// Show the friction of a deck or of constants, as figures and numbers.
 #[derive(clap::Args)]
@@ -39,7 +42,7 @@ pub struct Arguments {
     #[arg(long, value_delimiter = ',', default_values_t = [0.0, 45.0, 90.0, 135.0, 180.0])]
     theta: Vec<f64>,
     /// Folder for the figures; by default results/NAME, or results/law without a deck.
-    #[arg(long)]
+    #[arg(short, long, alias = "output")]
     out: Option<PathBuf>,
     /// Print the numbers as JSON, and draw nothing.
     #[arg(long)]
@@ -136,23 +139,23 @@ impl Constants {
 }
 
 /// `key=value,..` as keys of a `friction` table, numbers and words as TOML wants them;
-/// a value in brackets is a list and stays as it is.
+/// a value in brackets or braces is a list or a table and stays as it is.
 fn in_deck_words(law: &str, constants: &str) -> String {
-    let mut inside = false;
+    let mut inside = 0;
     let between = |character: char| {
-        inside = match character {
-            '[' => true,
-            ']' => false,
-            _ => inside,
+        inside += match character {
+            '[' | '{' => 1,
+            ']' | '}' => -1,
+            _ => 0,
         };
-        character == ',' && !inside
+        character == ',' && inside == 0
     };
     let constants = constants.split(between);
     let constants = constants.filter(|one| !one.trim().is_empty());
     let line = |one: &str| match one.split_once('=') {
         Some((key, value)) => match (key.trim(), value.trim(), value.trim().parse::<f64>()) {
             (key, _, Ok(number)) => format!("{key} = {number:?}\n"),
-            (key, list, _) if list.starts_with('[') => format!("{key} = {list}\n"),
+            (key, list, _) if list.starts_with(['[', '{']) => format!("{key} = {list}\n"),
             (key, word, _) => format!("{key} = {word:?}\n"),
         },
         None => format!("{one}\n"),
@@ -180,9 +183,16 @@ fn show(named: &Named, theta: &[f64], folder: &Path, out: &mut dyn Write) -> Res
     let analyses = analysed(friction, theta);
     write!(out, "{}", table(friction, &analyses))?;
     writeln!(out, "{}", verdict(&analyses))?;
-    figure(friction, &analyses).write(folder, &named.file)?;
-    let file = folder.join(&named.file);
-    writeln!(out, "wrote {}.svg, .png and .csv", file.display())?;
+    let figures = [
+        (named.file.clone(), Some(figure(friction, &analyses))),
+        (format!("{}-coefficient", named.file), dependence(friction)),
+    ];
+    for (name, figure) in figures {
+        let Some(figure) = figure else { continue };
+        figure.write(folder, &name)?;
+        let file = folder.join(&name);
+        writeln!(out, "wrote {}.svg, .png and .csv", file.display())?;
+    }
     Ok(())
 }
 
@@ -196,21 +206,6 @@ fn analysed(friction: &Friction, theta: &[f64]) -> Vec<Analysis> {
     analyses
         .map(|theta| Analysis::new(friction, theta.to_radians(), SAMPLES))
         .collect()
-}
-
-/// `varpi(p)` in words.
-fn coefficient(friction: &Friction) -> String {
-    let mu = friction.coefficient();
-    let mut words = format!("mu = {}", mu.at_rest());
-    let fast = mu.at_slip_rate(f64::MAX);
-    if fast != mu.at_rest() {
-        words += &format!(" at rest and {fast} in fast slip");
-    }
-    words += ", varpi = mu p";
-    if let Some(cap) = friction.shear_cap() {
-        words += &format!(" but at most {cap}");
-    }
-    words
 }
 
 /// Axes and extremes of the slip surfaces, a row an angle.
@@ -334,6 +329,29 @@ mod tests {
             let text = said(&[law, constants], scratch.path()).unwrap();
             assert!(text.contains(row), "{text}");
         }
+    }
+
+    #[test]
+    fn dependences_on_pressure_and_slip_rate_are_told_and_drawn() {
+        let scratch = tempfile::tempdir().unwrap();
+        let constants = r#"mu=0.3,by_pressure={form="power-law",exponent=0.5,pressure=4},by_slip_rate={form="stribeck",kinetic_over_static=0.6,slip_rate=2,viscous=0.1},by_accumulated_slip={form="exponential",final_over_initial=1.4,slip=3}"#;
+        let text = said(&["--coulomb", constants], scratch.path()).unwrap();
+        for line in [
+            "coulomb, mu = 0.3, varpi = mu R(v) W(s) P(p)\n",
+            "  pressure: P(p) = 4 (p/4)^0.5, a parabola below p = 0.004\n",
+            "  accumulated slip: W(s) = 1.4 + (1 - 1.4) exp(-s/3)\n",
+            "  slip rate: R(v) = 0.6 + (1 - 0.6) exp(-(v/2)^2) + 0.1 v\n",
+        ] {
+            assert!(text.contains(line), "{text}");
+        }
+        let drawn = scratch.path().join("coulomb-coefficient.csv");
+        assert!(drawn.metadata().unwrap().len() > 1000);
+        let json = said(&["--coulomb", constants, "--json"], scratch.path()).unwrap();
+        let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+        assert_eq!(
+            json[0]["by_pressure"],
+            "4 (p/4)^0.5, a parabola below p = 0.004"
+        );
     }
 
     #[test]

@@ -11,7 +11,7 @@ use crate::failure::Failure;
 #[derive(clap::Args)]
 pub struct Arguments {
     /// Folder for the pages, such as ~/.local/share/man/man1.
-    #[arg(long)]
+    #[arg(short, long, alias = "output")]
     out: Option<PathBuf>,
 }
 

@@ -28,7 +28,7 @@ pub struct Arguments {
     #[arg(long, default_value_t = 3.0, value_parser = stretched)]
     to: f64,
     /// Folder for the figures; by default results/NAME.
-    #[arg(long)]
+    #[arg(short, long, alias = "output")]
     out: Option<PathBuf>,
 }
 

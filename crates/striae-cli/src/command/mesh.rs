@@ -30,7 +30,7 @@ pub struct Arguments {
     #[arg(long, default_value_t = WIDTH, value_parser = width)]
     width: usize,
     /// Write the mesh with its sets, numbers and quality for ParaView.
-    #[arg(long, value_name = "FILE.vtu", value_parser = vtu)]
+    #[arg(short, long, alias = "output", value_name = "FILE.vtu", value_parser = vtu)]
     out: Option<PathBuf>,
 }
 

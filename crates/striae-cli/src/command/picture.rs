@@ -12,7 +12,7 @@ pub struct Arguments {
     /// Folder of the run, also of one under way.
     results: PathBuf,
     /// The file, a PNG; by default RESULTS/picture.png.
-    #[arg(long, alias = "output")]
+    #[arg(short, long, alias = "output")]
     out: Option<PathBuf>,
     /// Field by its name in the VTU files; by default the contact pressure.
     #[arg(long)]

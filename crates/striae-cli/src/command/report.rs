@@ -10,7 +10,7 @@ pub struct Arguments {
     /// Folder of the run, also of one under way.
     results: PathBuf,
     /// The file; by default RESULTS/report.html.
-    #[arg(long, alias = "output")]
+    #[arg(short, long, alias = "output")]
     out: Option<PathBuf>,
 }
 

@@ -45,7 +45,7 @@ pub struct Arguments {
     #[arg(long)]
     enforcement: Option<Enforcement>,
     /// Folder for the output, with a folder for each case.
-    #[arg(long, default_value = "results")]
+    #[arg(short, long, alias = "output", default_value = "results")]
     out: PathBuf,
     #[command(flatten)]
     common: Common,

@@ -8,6 +8,7 @@ use std::{
 };
 
 use striae::{Ranks, Simulation, case_name};
+use striae_deck::Setting;
 use striae_output::Existing;
 
 use super::run::{Common, Reported, finish};
@@ -24,8 +25,11 @@ pub struct Arguments {
     /// A deck with the same bodies and pairs, which begins with the steps that are done.
     #[arg(long, value_name = "DECK")]
     with: Option<PathBuf>,
+    /// Set a number of that deck, as for `run`; may be given again.
+    #[arg(long, value_name = "NAME=VALUE", requires = "with")]
+    set: Vec<Setting>,
     /// Folder for the output of the other steps; by default results/NAME of that deck.
-    #[arg(long, requires = "with")]
+    #[arg(short, long, alias = "output", requires = "with")]
     out: Option<PathBuf>,
     /// Remove the results of an earlier run from that folder first.
     #[arg(long, requires = "with")]
@@ -70,10 +74,10 @@ fn branched(
         true => Existing::Replace,
         false => Existing::Keep,
     };
-    let old = &arguments.folder;
+    let (old, set) = (&arguments.folder, &arguments.set);
     let simulation = match ranks {
-        None => Simulation::resume_with(old, deck, &folder)?,
-        Some(ranks) => Simulation::resume_with_on(ranks, old, deck, &folder)?,
+        None => Simulation::resume_with_set(old, deck, set, &folder)?,
+        Some(ranks) => Simulation::resume_with_on(ranks, old, deck, set, &folder)?,
     };
     Ok((simulation.over(existing), folder))
 }

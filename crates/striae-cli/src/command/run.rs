@@ -24,7 +24,7 @@ pub struct Arguments {
     #[command(flatten)]
     source: Source,
     /// Folder for the output; by default results/NAME.
-    #[arg(long)]
+    #[arg(short, long, alias = "output")]
     out: Option<PathBuf>,
     /// Remove the results of an earlier run from that folder first.
     #[arg(long)]

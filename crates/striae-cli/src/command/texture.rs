@@ -29,7 +29,7 @@ pub struct Arguments {
     #[command(flatten)]
     source: Source,
     /// Folder for the pictures; by default results/NAME.
-    #[arg(long)]
+    #[arg(short, long, alias = "output")]
     out: Option<PathBuf>,
 }
 

@@ -30,7 +30,7 @@ table! {
     Simulation {
         /// One line that says what is simulated.
         required title: Text,
-        /// Numbers with names of your own. Any number of the deck may be a text such as `"= 2*E/L^2"`, an expression of them, with `+ - * / ^`, parentheses, `pi`, `sqrt`, `abs`, `exp`, `ln`, `log10`, `min`, `max`, `round`, `floor`, `ceil` and, in degrees, `sin`, `cos`, `tan`, `asin`, `acos`, `atan`. `--set NAME=VALUE` on the command line sets one.
+        /// Numbers with names of your own. Any number of the deck may be a text such as `"= 2*E/L^2"`, an expression of them, with `+ - * / ^`, parentheses, `pi`, `sqrt`, `abs`, `exp`, `ln`, `log10`, `min`, `max`, `round`, `floor`, `ceil` and, in degrees, `sin`, `cos`, `tan`, `asin`, `acos`, `atan`. `--set NAME=VALUE` on the command line sets one, or another number of the deck by its path, `--set material.rubber.youngs_modulus=2e6`.
         optional parameters: NamedNumbers,
         /// Files whose contents count as if they stood here, relative to this one: their lists go first, and where both state the same key, this file counts. Paths within them are relative to the deck.
         optional include: OneOrMore,

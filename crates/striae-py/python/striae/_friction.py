@@ -6,7 +6,7 @@ the row of scales, ``a = n x s`` across; for scales ``a`` points from root to fr
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union
 
 import numpy as np
@@ -73,6 +73,177 @@ class Friction(Made):
         told = f"{self._told}.with_decay({ratio}, {rate})"
         recipe: Recipe = (Friction.with_decay, (self, ratio, rate), {})
         return Friction._of(self._native.with_decay(ratio, rate), told, recipe)
+
+    def with_power_law(
+        self, exponent: float, pressure: float, floor: Optional[float] = None
+    ) -> Friction:
+        """The law with coefficients that go with a power of the pressure,
+        ``mu (p/pressure)**(exponent - 1)``, in place of another dependence on it.
+
+        exponent: below 1 for coefficients that fall; 2/3 for one elastic contact (no unit).
+        pressure: at which the coefficients are those of the law (force per area).
+        floor: pressure below which, for exponents below 1, friction goes to zero along a parabola
+            with a finite slope (force per area); a thousandth of ``pressure`` by default.
+        """
+        constants = {"exponent": exponent, "pressure": pressure, "floor": floor}
+        return self._with("with_power_law", constants)
+
+    def with_adhesion(self, pressure: float, floor: Optional[float] = None) -> Friction:
+        """The law with friction ``mu (p + pressure)``, to which adhesion adds (Derjaguin), in
+        place of another dependence on the pressure.
+
+        pressure: by adhesion (force per area).
+        floor: pressure below which friction goes to zero along a parabola with a finite slope
+            (force per area); a twentieth of ``pressure`` by default.
+        """
+        return self._with("with_adhesion", {"pressure": pressure, "floor": floor})
+
+    def with_saturation(self, shear_stress: float) -> Friction:
+        """The law with friction ``shear_stress tanh(mu p/shear_stress)``, which comes to a shear
+        stress smoothly, in place of another dependence on the pressure.
+
+        shear_stress: at high pressure (force per area).
+        """
+        return self._with("with_saturation", {"shear_stress": shear_stress})
+
+    def with_pressure_table(
+        self,
+        pressures: Union[Sequence[float], Floats],
+        factors: Union[Sequence[float], Floats],
+    ) -> Friction:
+        """The law with coefficients times a factor by the pressure, monotone and smooth between
+        the points and constant beyond, in place of another dependence on the pressure.
+
+        pressures: ascending (force per area).
+        factors: at each of them (no unit).
+        """
+        return self._with_table("with_pressure_table", "pressures", pressures, factors)
+
+    def with_stribeck(
+        self,
+        kinetic_over_static: float,
+        slip_rate: float,
+        exponent: float = 2.0,
+        viscous: float = 0.0,
+    ) -> Friction:
+        """The law with coefficients along Stribeck's curve, those at rest times
+        ``c + (1 - c) exp(-(v/slip_rate)**exponent) + viscous v`` with
+        ``c = kinetic_over_static``, in place of another dependence on the slip rate ``v``.
+
+        kinetic_over_static: coefficients in fast slip, without the viscous part, over those at
+            rest (no unit).
+        slip_rate: by which slip is fast (length per time).
+        exponent: at least 1 (no unit).
+        viscous: rise over the coefficients at rest (time per length).
+        """
+        constants = {
+            "kinetic_over_static": kinetic_over_static,
+            "slip_rate": slip_rate,
+            "exponent": exponent,
+            "viscous": viscous,
+        }
+        return self._with("with_stribeck", constants)
+
+    def with_logarithm(
+        self, factor: float, slip_rate: float, limit: Optional[float] = None
+    ) -> Friction:
+        """The law with coefficients times ``1 + factor ln(1 + v/slip_rate)``, in place of another
+        dependence on the slip rate ``v``.
+
+        factor: positive for friction that rises with the rate, negative for friction that falls
+            (no unit).
+        slip_rate: up to which coefficients hardly change (length per time).
+        limit: slip rate from which on coefficients are constant, needed where they fall (length
+            per time).
+        """
+        constants = {"factor": factor, "slip_rate": slip_rate, "limit": limit}
+        return self._with("with_logarithm", constants)
+
+    def with_slip_rate_table(
+        self,
+        slip_rates: Union[Sequence[float], Floats],
+        factors: Union[Sequence[float], Floats],
+    ) -> Friction:
+        """The law with coefficients times a factor by the slip rate, monotone and smooth between
+        the points and constant beyond, in place of another dependence on the slip rate.
+
+        slip_rates: ascending (length per time).
+        factors: at each of them (no unit).
+        """
+        return self._with_table("with_slip_rate_table", "slip_rates", slip_rates, factors)
+
+    def with_running_in(self, final_over_initial: float, slip: float) -> Friction:
+        """The law with coefficients that change as the surface that carries a point slips, those
+        stated times ``w + (1 - w) exp(-s/slip)`` with ``w = final_over_initial`` and the slip
+        ``s`` that has accumulated up to the last increment.
+
+        final_over_initial: coefficients after long slip over those at the start (no unit).
+        slip: after which the difference has fallen to 1/e (length).
+        """
+        constants = {"final_over_initial": final_over_initial, "slip": slip}
+        return self._with("with_running_in", constants)
+
+    def with_accumulated_slip_table(
+        self,
+        slips: Union[Sequence[float], Floats],
+        factors: Union[Sequence[float], Floats],
+    ) -> Friction:
+        """The law with coefficients times a factor by the accumulated slip, monotone and smooth
+        between the points and constant beyond, in place of another dependence on it.
+
+        slips: accumulated, ascending (length).
+        factors: at each of them (no unit).
+        """
+        return self._with_table("with_accumulated_slip_table", "slips", slips, factors)
+
+    def bound(
+        self,
+        pressure: Union[float, Sequence[float], Floats],
+        slip_rate: Union[float, Sequence[float], Floats] = 0.0,
+        accumulated_slip: Union[float, Sequence[float], Floats] = 0.0,
+    ) -> Floats:
+        """Largest friction at pressures, slip rates and accumulated slips (force per area): the
+        coefficient times the pressure, with all dependences and the shear cap. In laws with a
+        direction it is scaled with their slip surface, see :meth:`slip_surface`.
+
+        pressure: one or many (force per area).
+        slip_rate: one, or as many (length per time).
+        accumulated_slip: one, or as many (length).
+        """
+        pressures = np.atleast_1d(check.finite(check.array(pressure, "pressure"), "pressure"))
+        given = []
+        for value, name in [(slip_rate, "slip_rate"), (accumulated_slip, "accumulated_slip")]:
+            found = check.finite(check.array(value, name), name)
+            if (found < 0.0).any():
+                raise refuse(name, "it must not be negative")
+            try:
+                given.append(np.broadcast_to(found, pressures.shape).ravel().tolist())
+            except ValueError:
+                raise refuse(name, "one is needed, or as many as pressures") from None
+        bounds = self._native.bound(pressures.ravel().tolist(), given[0], given[1])
+        return bounds.reshape(pressures.shape)
+
+    def _with(self, method: str, constants: Mapping[str, Optional[float]]) -> Friction:
+        """The law with one more dependence, by the name of its method."""
+        numbers = {
+            name: None if value is None and name in ("floor", "limit") else check.number(value, name)
+            for name, value in constants.items()
+        }
+        stated = {name: value for name, value in numbers.items() if value is not None}
+        told = ", ".join(f"{name}={value}" for name, value in stated.items())
+        recipe: Recipe = (getattr(Friction, method), (self, *numbers.values()), {})
+        found = getattr(self._native, method)(*numbers.values())
+        return Friction._of(found, f"{self._told}.{method}({told})", recipe)
+
+    def _with_table(self, method: str, name: str, places: Any, factors: Any) -> Friction:
+        given = [check.array(places, name), check.array(factors, "factors")]
+        for found, what in zip(given, [name, "factors"]):
+            if found.ndim != 1:
+                raise refuse(what, f"an array of one dimension is needed, not of {found.ndim}")
+        lists = [found.astype(np.float64).tolist() for found in given]
+        recipe: Recipe = (getattr(Friction, method), (self, *lists), {})
+        told = f"{self._told}.{method}({name}={lists[0]}, factors={lists[1]})"
+        return Friction._of(getattr(self._native, method)(*lists), told, recipe)
 
     def with_shear_cap(self, shear_cap: float) -> Friction:
         """The law with a bound on friction.

@@ -17,6 +17,7 @@ use std::{
     sync::Arc,
 };
 
+use striae_deck::Setting;
 use striae_output::checkpoint::{Checkpoint, CheckpointError, Index, step_fingerprint};
 use striae_solve::{
     model::{Actuation, BodyId, Curve, Gravity, Load, Model, RigidMotion, Step},
@@ -51,33 +52,47 @@ impl Simulation {
     /// When there is no checkpoint, by name what differs between the decks, or all
     /// faults of the new one.
     pub fn resume_with(folder: &Path, deck: &Path, out: impl Into<PathBuf>) -> Result<Self, Error> {
-        Self::branched(None, folder, deck, out.into())
+        Self::resume_with_set(folder, deck, &[], out)
+    }
+
+    /// Goes on as [`Self::resume_with`], with numbers of the new deck set from outside.
+    ///
+    /// # Errors
+    /// As [`Self::resume_with`], and where a setting is of no number of the deck.
+    pub fn resume_with_set(
+        folder: &Path,
+        deck: &Path,
+        settings: &[Setting],
+        out: impl Into<PathBuf>,
+    ) -> Result<Self, Error> {
+        Self::branched(None, folder, (deck, settings), out.into())
     }
 
     /// The same on several ranks, however many wrote the checkpoint; collective.
     ///
     /// # Errors
-    /// As [`Self::resume_with`], on all ranks.
+    /// As [`Self::resume_with_set`], on all ranks.
     pub fn resume_with_on(
         ranks: Arc<dyn Ranks>,
         folder: &Path,
         deck: &Path,
+        settings: &[Setting],
         out: impl Into<PathBuf>,
     ) -> Result<Self, Error> {
-        Self::branched(Some(ranks), folder, deck, out.into())
+        Self::branched(Some(ranks), folder, (deck, settings), out.into())
     }
 
     fn branched(
         ranks: Option<Arc<dyn Ranks>>,
         folder: &Path,
-        path: &Path,
+        (path, settings): (&Path, &[Setting]),
         out: PathBuf,
     ) -> Result<Self, Error> {
         let read = || -> Result<_, Error> {
             let index = Index::read_last(folder)?;
-            let mut deck = striae_deck::read(path)?;
+            let mut deck = striae_deck::read_with(path, settings)?;
             index.source().check_parts(&deck.model)?;
-            let own = source(case_name(path), (path, &[]), &deck.model, &deck.output);
+            let own = source(case_name(path), (path, settings), &deck.model, &deck.output);
             let steps = deck.model.steps.len();
             let taken_up = continued(&mut deck.model, &index)?;
             let is_of_deck = deck.model.steps.len() == steps;

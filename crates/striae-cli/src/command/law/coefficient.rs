@@ -1,0 +1,37 @@
+//! The coefficient of friction in words.
+
+use striae_law::friction::{Friction, PressureConstants, RateConstants, SlipConstants};
+
+/// `varpi` and what it depends on in words.
+pub(super) fn coefficient(friction: &Friction) -> String {
+    let mu = friction.coefficient();
+    let mut words = format!("mu = {}", mu.at_rest());
+    let decay = match mu.by_rate().constants() {
+        RateConstants::Decay(decay) => decay.exponent == 1.0 && decay.viscous == 0.0,
+        _ => false,
+    };
+    let fast = mu.at_slip_rate(f64::MAX);
+    if decay && fast != mu.at_rest() {
+        words += &format!(" at rest and {fast} in fast slip");
+    }
+    let by_pressure = mu.by_pressure().constants() != PressureConstants::None;
+    let by_rate = mu.by_rate().is_some() && !decay;
+    let by_slip = mu.by_slip().constants() != SlipConstants::None;
+    words += ", varpi = mu";
+    words += if by_rate { " R(v)" } else { "" };
+    words += if by_slip { " W(s)" } else { "" };
+    words += if by_pressure { " P(p)" } else { " p" };
+    if let Some(cap) = friction.shear_cap() {
+        words += &format!(" but at most {cap}");
+    }
+    if by_rate {
+        words += &format!("\n  slip rate: R(v) = {}", mu.by_rate());
+    }
+    if by_slip {
+        words += &format!("\n  accumulated slip: W(s) = {}", mu.by_slip());
+    }
+    if by_pressure {
+        words += &format!("\n  pressure: P(p) = {}", mu.by_pressure());
+    }
+    words
+}

@@ -1,0 +1,209 @@
+//! Numbers that are set from outside the deck: parameters, `E=2e6`, and any number that the
+//! deck states, by its path, `material.rubber.youngs_modulus=2e6`.
+//!
+//! A path has keys of tables, names of what lists hold, and positions, from 0, where what they
+//! hold has no names: `step.press.displacement.0.z`. Only numbers that the deck states can be
+//! set, so that a misspelt path is a fault and no new key.
+
+use std::{fmt, str::FromStr};
+
+use striae_model::nearest;
+use toml::de::{DeTable, DeValue};
+
+use crate::{
+    expression::{evaluated, is_expression},
+    fault::FaultKind,
+    faults::{FaultList, Span},
+    read::{Value, described},
+    value::finite,
+};
+
+/// Name of the table of parameters.
+pub(crate) const TABLE: &str = "parameters";
+/// Magnitudes that are written without an exponent.
+const PLAIN: std::ops::Range<f64> = 1e-5..1e15;
+
+/// A number of a deck that is set from outside: `E=2e6`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setting {
+    name: String,
+    value: f64,
+}
+
+impl Setting {
+    /// A parameter, or the path of a number, and its value.
+    pub fn new(name: impl Into<String>, value: f64) -> Self {
+        let name = name.into();
+        Self { name, value }
+    }
+
+    /// Name of the parameter, or path of the number.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Its value.
+    pub fn value(&self) -> f64 {
+        self.value
+    }
+
+    /// The parameter that is set, unless it is another number.
+    pub(crate) fn parameter(&self) -> Option<&str> {
+        let table = self.name.strip_prefix(TABLE);
+        match table.and_then(|rest| rest.strip_prefix('.')) {
+            Some(name) => Some(name),
+            None => (!self.name.contains('.')).then_some(&self.name),
+        }
+    }
+}
+
+impl fmt::Display for Setting {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { name, value } = self;
+        match *value == 0.0 || PLAIN.contains(&value.abs()) {
+            true => write!(f, "{name}={value}"),
+            false => write!(f, "{name}={value:e}"),
+        }
+    }
+}
+
+impl FromStr for Setting {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let Some((name, value)) = text.split_once('=') else {
+            return Err(format!(
+                "expected NAME=VALUE, such as `E=2e6`, found `{text}`"
+            ));
+        };
+        let no_name = |name: &str| Err(format!("`{name}` stands for no number here"));
+        let found = evaluated(value, &mut |name| no_name(name))
+            .map_err(|cause| format!("`{value}` is no number: {cause}"))?;
+        Ok(Self::new(name.trim(), found))
+    }
+}
+
+/// Places of the numbers that are set by their paths, and their values; the last setting of a
+/// number counts.
+pub(crate) fn placed(
+    tree: &DeTable<'_>,
+    settings: &[Setting],
+    faults: &mut FaultList<'_>,
+) -> Vec<(Span, f64)> {
+    let mut found: Vec<(Span, f64)> = Vec::new();
+    for setting in settings {
+        if setting.parameter().is_some() {
+            continue;
+        }
+        if let Some(span) = at(tree, &setting.name, faults) {
+            found.retain(|(place, _)| *place != span);
+            found.push((span, setting.value));
+        }
+    }
+    found
+}
+
+/// What is set by paths, as a note; none where nothing is.
+pub(crate) fn note(settings: &[Setting]) -> Option<String> {
+    let paths = settings.iter();
+    let paths: Vec<String> = paths
+        .filter(|setting| setting.parameter().is_none())
+        .map(|Setting { name, value }| format!("{name} = {value}"))
+        .collect();
+    (!paths.is_empty()).then(|| format!("set: {}", paths.join(", ")))
+}
+
+/// Where the number of a path stands; what is not there is a fault.
+fn at(tree: &DeTable<'_>, path: &str, faults: &mut FaultList<'_>) -> Option<Span> {
+    let mut parts = keys(tree);
+    let mut span = 0..0;
+    let mut rest = path;
+    loop {
+        // A name may have dots itself, so the longest one that fits counts.
+        let fitting = parts.iter().filter_map(|(name, value)| {
+            let after = rest.strip_prefix(name.as_str())?;
+            let after = match after {
+                "" => after,
+                _ => after.strip_prefix('.')?,
+            };
+            Some((*value, after))
+        });
+        let Some((value, after)) = fitting.min_by_key(|(_, after)| after.len()) else {
+            let known: Vec<String> = parts.into_iter().map(|(name, _)| name).collect();
+            faults.push(&span, unknown(path, rest, known));
+            return None;
+        };
+        span = value.span();
+        if after.is_empty() {
+            if is_number(value.get_ref()) {
+                return Some(span);
+            }
+            faults.push(&span, no_number(path, value));
+            return None;
+        }
+        parts = held(value);
+        rest = after;
+    }
+}
+
+fn is_number(value: &DeValue<'_>) -> bool {
+    match value {
+        DeValue::String(text) => is_expression(text),
+        value => finite(value).is_some(),
+    }
+}
+
+fn unknown(path: &str, rest: &str, known: Vec<String>) -> FaultKind {
+    let done = &path[..path.len() - rest.len()];
+    let word = rest.split('.').next().unwrap_or(rest);
+    FaultKind::UnknownPath {
+        path: path.to_owned(),
+        place: match done.trim_end_matches('.') {
+            "" => "the deck".to_owned(),
+            place => format!("`{place}`"),
+        },
+        nearest: nearest(word, known.iter().map(String::as_str)),
+        known,
+    }
+}
+
+fn no_number(path: &str, value: &Value<'_>) -> FaultKind {
+    let known = held(value).into_iter().map(|(name, _)| name);
+    FaultKind::NoNumber {
+        path: path.to_owned(),
+        found: described(value.get_ref()),
+        known: known.collect(),
+    }
+}
+
+fn keys<'t, 'i>(table: &'t DeTable<'i>) -> Vec<(String, &'t Value<'i>)> {
+    let keys = table.iter();
+    keys.map(|(key, value)| (key.get_ref().to_string(), value))
+        .collect()
+}
+
+/// What a table or a list holds: by keys, by names, or by positions where there are no names.
+fn held<'t, 'i>(value: &'t Value<'i>) -> Vec<(String, &'t Value<'i>)> {
+    match value.get_ref() {
+        DeValue::Table(table) => keys(table),
+        DeValue::Array(list) => {
+            let all = list.iter().enumerate();
+            all.map(|(position, value)| {
+                let name = named(value).unwrap_or_else(|| position.to_string());
+                (name, value)
+            })
+            .collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+fn named(value: &Value<'_>) -> Option<String> {
+    let DeValue::Table(table) = value.get_ref() else {
+        return None;
+    };
+    match table.get("name")?.get_ref() {
+        DeValue::String(name) => Some(name.to_string()),
+        _ => None,
+    }
+}
