@@ -5,6 +5,8 @@
 //! judged as a whole is left out. A whole model is checked by [`Validate::faults`].
 
 mod conditions;
+mod extents;
+mod facets;
 mod hold;
 mod inertia;
 mod numbers;
@@ -184,6 +186,10 @@ impl<'a> Draft<'a> {
         ties::check(self, &mut faults);
         let partial = steps::check(self, &impossible, &mut faults);
         triangles::check(self, &mut faults);
+        extents::check(self, &mut faults);
+        if faults.0.is_empty() {
+            facets::check(self, &mut faults);
+        }
         sections::check(self, &mut faults);
         if self.known == Known::Whole {
             if impossible.is_empty() && partial.is_empty() {
