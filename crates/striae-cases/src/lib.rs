@@ -40,8 +40,10 @@ mod patch_frictionless;
 mod patch_slip;
 mod patch_stick;
 mod plate_on_rigid_plane;
+mod sipes;
 mod slip_surface;
 mod snake_scale;
+mod stack;
 mod stick_tolerance;
 mod stiff_punch;
 mod strip_draw;
@@ -100,6 +102,16 @@ pub const CASES: &[Case] = &[
         "Two blocks, pressed and slid, beside two other codes",
         two_blocks::run,
         quick: "the meshes of the decks, without the one of elements of a quarter of the size"
+    ),
+    case!(
+        "stack",
+        "Blocks in a T and in a pile, everything in contact, beside named pairs",
+        stack::run
+    ),
+    case!(
+        "sipes",
+        "A tread block with two slits that close, everything in contact, beside named walls",
+        sipes::run
     ),
     case!(
         "stiff-punch",

@@ -50,6 +50,10 @@ plane = { point = [0, 0, 0], normal = [0, 0, 1] }
 name = "sole"
 a = { body = "block", facets = "sole" }
 b = { rigid = "floor" }
+friction = { law = "coulomb", mu = 0.2, by_accumulated_slip = { form = "exponential", final_over_initial = 0.5, slip = 0.5 } }
+
+[contact]
+all = true
 friction = { law = "coulomb", mu = 0.2 }
 
 [[step]]

@@ -3,15 +3,15 @@
 //! On a segment with the normal `n`
 //!
 //! ```text
-//! t = -P n + sum_k phi_k R(n, n_k) tau_k,   P = sum_k phi_k max(0, p_k - r_k g)
-//! f^a_c = integral N_c t da = -F_c n + sum_k alpha_ck R(n, n_k) tau_k
-//! f^b_c = -f^a_c,   alpha_ck = sum_d D_cd share_kd
+//! t = -P n + sum_k psi_k R(n, s_k n_k) tau_k,   P = sum_k phi_k max(0, p_k - r_k g)
+//! f_c = +-integral N_c t da = +-(-F_c n + sum_k alpha_ck R(n, s_k n_k) tau_k)
+//! alpha_ck = sum_d D_cd slip_kd
 //! ```
 //!
-//! with the integrals `F_c` of [`Pressed`](crate::segment::Pressed).
-//!
-//! where normals and tractions of the nodes of side `b` are seen from side `a`. The same
-//! integrals act on both sides, so the sum of all forces is zero to round-off.
+//! at the corners of the first facet with `+`, of the second one with `-`, and with the integrals
+//! `F_c` of [`Pressed`](crate::segment::Pressed). Friction acts on the surface of its own node;
+//! `psi_k` has the sign with which the first facet sees it, `s_k`, where `phi_k` is positive. Both
+//! facets see the same integrals, so the sum of all forces is zero to round-off.
 
 use nalgebra::Matrix3;
 use rayon::prelude::*;
@@ -21,13 +21,12 @@ use crate::{
     configuration::Configuration,
     field::FacetForces,
     frame::Frames,
-    pairing::{SIGNS, side_sign},
-    patch::Patch,
+    pairing::SIGNS,
+    patch::{OnSegment, Patch},
     places::{ChainedSum, Places},
     segment::Slopes,
     segment_rows::AtCorners,
     selection::Selection,
-    side::Side,
     term::{Field, Jacobian, LocalTerm, Row},
     traction::NodalTractions,
     transported::Transported,
@@ -77,13 +76,13 @@ impl CommonField<'_> {
         let tractions: Vec<Traction> = patch
             .kept
             .iter()
-            .map(|(k, _)| self.traction(patch, *k))
+            .map(|kept| self.traction(patch, kept))
             .collect();
-        // `q_d = sum_k share_kd t_k`, so that `f_c = sum_d D_cd q_d`.
+        // `q_d = sum_k slip_kd t_k`, so that `f_c = sum_d D_cd q_d`.
         let mut q = [Vec3::zeros(); 8];
-        for ((_, shares), traction) in patch.kept.iter().zip(&tractions) {
+        for (kept, traction) in patch.kept.iter().zip(&tractions) {
             for d in 0..8 {
-                q[d] += traction.value * shares[d];
+                q[d] += traction.value * kept.slips[d];
             }
         }
         let mass = &patch.paired.segment.mass;
@@ -93,46 +92,45 @@ impl CommonField<'_> {
             (sum - n * patch.pressed.force[c]) * -SIGNS[c]
         });
         let term = self.momentum(patch, &q, &tractions, &forces);
-        let of_facets = Side::BOTH.map(|side| {
+        let of_facets = [0, 1].map(|facet| {
             let mut of_facet = FacetForces::default();
             for at in 0..4 {
-                let corner = 4 * side.index() + at;
+                let corner = 4 * facet + at;
                 of_facet.force[at] = forces[corner];
                 of_facet.area[at] = patch.paired.area_of(corner);
             }
-            for ((_, shares), traction) in patch.kept.iter().zip(&tractions) {
-                let area: f64 = (0..8).map(|d| shares[d] * patch.paired.area_of(d)).sum();
+            for (kept, traction) in patch.kept.iter().zip(&tractions) {
+                let area = |d: usize| kept.shares[d] * patch.paired.area_of(d);
+                let area: f64 = (0..8).map(area).sum();
                 of_facet.friction += area * traction.friction;
             }
-            let own = &patch.pressed.force[4 * side.index()..][..4];
+            let own = &patch.pressed.force[4 * facet..][..4];
             of_facet.pressure = own.iter().sum();
             of_facet
         });
         (term, of_facets)
     }
 
-    fn traction(&self, patch: &Patch, k: u32) -> Traction {
-        let (side, node) = self.selection.kept()[k as usize].place();
+    fn traction(&self, patch: &Patch, kept: &OnSegment) -> Traction {
+        let (side, node) = self.selection.kept()[kept.k as usize].place();
         let n = patch.paired.segment.normal;
         let mut traction = Traction::default();
         let tau = &self.tau[side][node];
         if let Some(frame) = &self.frames[side][node]
             && !tau.jacobian.is_empty()
         {
-            let sign = side_sign(side);
-            let turned = Transported::new(&tau.value, &(frame.n.value * sign), &n);
-            traction.value = turned.value * sign;
+            let turned = Transported::new(&tau.value, &(frame.n.value * kept.sign), &n);
+            traction.value = turned.value;
             traction.friction = tau.value.norm();
             if patch.paired.segment.slopes.is_none() {
                 return traction;
             }
-            traction.by_n = turned.by_n * sign;
+            traction.by_n = turned.by_n;
             let most = tau.jacobian.len() + frame.n.jacobian.len();
             traction.jacobian.reserve(most);
             let mut sum = ChainedSum::onto(&mut traction.jacobian);
-            sum.add(&(turned.by_vector * sign), &tau.jacobian);
-            // The sign of the normal cancels that of the friction.
-            sum.add(&turned.by_from, &frame.n.jacobian);
+            sum.add(&turned.by_vector, &tau.jacobian);
+            sum.add(&(turned.by_from * kept.sign), &frame.n.jacobian);
         }
         traction
     }
@@ -171,8 +169,8 @@ impl CommonField<'_> {
             SIGNS[c] * sum
         };
         let mut by_n = [Matrix3::zeros(); 8];
-        for ((_, shares), traction) in patch.kept.iter().zip(tractions) {
-            let alphas: [f64; 8] = std::array::from_fn(|c| share(c, shares));
+        for (kept, traction) in patch.kept.iter().zip(tractions) {
+            let alphas: [f64; 8] = std::array::from_fn(|c| share(c, &kept.slips));
             for (by_n, alpha) in by_n.iter_mut().zip(alphas) {
                 *by_n += traction.by_n * alpha;
             }
@@ -218,8 +216,8 @@ impl CommonField<'_> {
         };
         let mut by_unknowns = Matrix3::zeros();
         by_unknowns.set_column(0, &patch.paired.segment.normal);
-        for ((k, _), by_pressure) in patch.kept.iter().zip(&pressed.force_by_pressure) {
-            let (side, node) = self.selection.kept()[*k as usize].place();
+        for (kept, by_pressure) in patch.kept.iter().zip(&pressed.force_by_pressure) {
+            let (side, node) = self.selection.kept()[kept.k as usize].place();
             let first = self.configuration.pair.numbering().traction(side, node);
             let factors = std::array::from_fn(|c| -SIGNS[c] * by_pressure[c]);
             block.add_multiples(first, &factors, &by_unknowns);

@@ -52,7 +52,7 @@ pub(crate) struct CommonMass {
 impl CommonMass {
     /// Sums the overlaps up.
     pub fn new(interface: &Interface) -> Self {
-        let sides = interface.sides();
+        let sides = interface.facets();
         let carried = carriers(interface);
         let wanted = with_neighbours(interface, &carried);
         let (nodes, first) = ordered(interface, &wanted);
@@ -64,16 +64,16 @@ impl CommonMass {
             |side: Side, node: SurfaceNode| index[side][node].expect("corners are in the order");
         let corners = |overlap: usize| {
             let of = interface.overlaps[overlap].corners;
-            sides
-                .iter()
-                .flat_map(|&side| of[side].map(|node| place(side, node)))
+            let facets = sides.iter().zip(of);
+            facets
+                .flat_map(|(&side, corners)| corners.map(|node| place(side, node)))
                 .collect()
         };
         let common = |source: usize, c: usize, d: usize| interface.overlaps[source].mass[c][d];
         let polygons = blocks(interface.overlaps.len(), corners, common);
         let rows = sums(nodes.len(), &polygons, common);
         let whole = match interface.opponent {
-            Opponent::Deformable => Vec::new(),
+            Opponent::Deformable | Opponent::Itself { .. } => Vec::new(),
             Opponent::Rigid { whole } => {
                 let near: Vec<_> = whole
                     .iter()
@@ -85,8 +85,13 @@ impl CommonMass {
                 sums(nodes.len(), &blocks(near.len(), corners, mass), mass)
             }
         };
+        let is_itself = matches!(interface.opponent, Opponent::Itself { .. });
         let weights: Vec<f64> = (0..nodes.len())
             .map(|k| {
+                if is_itself {
+                    // The functions of both facets sum up to one.
+                    return 0.5 * rows[k].iter().map(|(_, mass)| mass).sum::<f64>();
+                }
                 let own = |&&(l, _): &&(u32, f64)| nodes[l as usize].0 == nodes[k].0;
                 rows[k].iter().filter(own).map(|(_, mass)| mass).sum()
             })
@@ -125,12 +130,14 @@ impl CommonMass {
 /// Nodes that carry traction: corners of overlaps and all within reach.
 fn carriers(interface: &Interface) -> [Vec<bool>; 2] {
     let mut carried = Side::BOTH.map(|side| vec![false; interface.nodes[side].len()]);
-    for &side in interface.sides() {
-        for overlap in interface.overlaps {
-            for node in overlap.corners[side] {
+    for overlap in interface.overlaps {
+        for (&side, corners) in interface.facets().iter().zip(overlap.corners) {
+            for node in corners {
                 carried[side][node] = true;
             }
         }
+    }
+    for &side in interface.sides() {
         for (node, opposing) in interface.opposing[side].iter().enumerate() {
             carried[side][node] |= opposing.is_some();
         }
@@ -263,8 +270,7 @@ fn sums(
 fn largest_facets(interface: &Interface, index: &[Vec<Option<u32>>; 2], count: usize) -> Vec<f64> {
     let mut areas = vec![0.0_f64; count];
     for overlap in interface.overlaps {
-        for &side in interface.sides() {
-            let corners = overlap.corners[side];
+        for (&side, corners) in interface.facets().iter().zip(overlap.corners) {
             let x: [Vec3; 4] = corners.map(|node| interface.nodes[side][node].position);
             let area = 0.5 * (x[2] - x[0]).cross(&(x[3] - x[1])).norm();
             for node in corners {

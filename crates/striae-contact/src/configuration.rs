@@ -19,7 +19,7 @@ use crate::{
 pub struct Configuration<'a> {
     /// The pair.
     pub pair: &'a ContactPair,
-    /// Snapshots of the sides; a plane has none.
+    /// Snapshots of the sides; a plane has none, nor has side `b` of self-contact.
     pub sides: [Option<Snapshot<'a>>; 2],
     /// Where a rigid side `b` is.
     pub placement: Placement,
@@ -75,9 +75,17 @@ impl<'a> Configuration<'a> {
     /// The snapshot of a side that has facets.
     ///
     /// # Panics
-    /// For a rigid plane.
+    /// For a side without facets.
     pub fn side(&self, side: Side) -> &Snapshot<'a> {
-        self.sides[side].as_ref().expect("a plane has no facets")
+        self.sides[side].as_ref().expect("the side has facets")
+    }
+
+    /// The snapshot of the surface that a side faces.
+    ///
+    /// # Panics
+    /// For a rigid plane.
+    pub fn facing(&self, side: Side) -> &Snapshot<'a> {
+        self.side(self.pair.opposing(side))
     }
 
     /// Distance within which the node looks for the other side: half the local facet size
@@ -99,7 +107,7 @@ impl<'a> Configuration<'a> {
                 self.placement.point(&point),
                 self.placement.direction(&normal),
             )),
-            Geometry::Deformable(_) | Geometry::Rigid(_) => None,
+            Geometry::Deformable(_) | Geometry::Rigid(_) | Geometry::Itself => None,
         }
     }
 }

@@ -1,12 +1,13 @@
 //! Which nodes of a side see the other side, and at what distance.
 
 use nalgebra::Vector3;
-use striae_mesh::Vec3;
-use striae_surface::node::SurfaceNode;
+use striae_mesh::{FacetId, Vec3};
+use striae_surface::{facet::Shape, node::SurfaceNode};
 
 use crate::{
     configuration::Configuration,
     projection::{Hit, Ray, nearest_edge, project},
+    segment::{FACING, Facet, facet_normal},
     side::Side,
 };
 
@@ -59,11 +60,21 @@ impl Configuration<'_> {
     /// The point opposite to a node of a deformable side within `reach`.
     pub fn contact(&self, side: Side, node: SurfaceNode, reach: f64) -> Option<Contact> {
         let own = self.side(side);
-        self.contact_at(side, own.x[node], own.normals[node], reach)
+        let (x, n) = (own.x[node], own.normals[node]);
+        self.contact_of(side, x, n, reach, |facet, gap| {
+            self.may_face(side, node, facet, gap)
+        })
     }
 
-    /// The point opposite to the point `x` with the normal `n` of a deformable side.
-    pub fn contact_at(&self, side: Side, x: Vec3, n: Vec3, reach: f64) -> Option<Contact> {
+    /// The point opposite to the point `x` on those facets that are admitted at the gap to them.
+    pub(crate) fn contact_of(
+        &self,
+        side: Side,
+        x: Vec3,
+        n: Vec3,
+        reach: f64,
+        admits: impl Fn(FacetId, f64) -> bool,
+    ) -> Option<Contact> {
         if let Some((point, normal)) = self.plane() {
             let gap = (x - point).dot(&normal);
             return (gap.abs() <= reach).then(|| Contact {
@@ -76,7 +87,7 @@ impl Configuration<'_> {
         } else {
             Ray::Own(n)
         };
-        let hit = project(self.side(side.opposite()), &x, ray, reach)?;
+        let hit = project(self.facing(side), &x, ray, reach, admits)?;
         Some(Contact {
             gap: hit.gap,
             place: Place::Facet(hit),
@@ -85,6 +96,16 @@ impl Configuration<'_> {
 
     /// The point opposite to a node of a deformable side, clamped to the other surface.
     pub fn opposite(&self, side: Side, node: SurfaceNode) -> Option<(Contact, Found)> {
+        self.opposite_on(side, node, |_| true)
+    }
+
+    /// The opposite point on some facets of the other surface, if that is not a plane.
+    pub(crate) fn opposite_on(
+        &self,
+        side: Side,
+        node: SurfaceNode,
+        on: impl Fn(FacetId) -> bool,
+    ) -> Option<(Contact, Found)> {
         let far = if self.pair.is_rigid() {
             FOLLOW
         } else {
@@ -95,17 +116,60 @@ impl Configuration<'_> {
             let contact = self.contact(side, node, f64::INFINITY);
             return contact.map(|contact| (contact, Found::Inside));
         }
-        if let Some(contact) = self.contact(side, node, reach) {
-            return Some((contact, Found::Inside));
-        }
         let own = self.side(side);
         let (x, n) = (&own.x[node], &own.normals[node]);
-        let (hit, nodes) = nearest_edge(self.side(side.opposite()), x, n, reach)?;
+        let admits = |facet: FacetId, gap: f64| on(facet) && self.may_face(side, node, facet, gap);
+        if let Some(contact) = self.contact_of(side, *x, *n, reach, admits) {
+            return Some((contact, Found::Inside));
+        }
+        let (hit, nodes) = nearest_edge(self.facing(side), x, n, reach, admits)?;
         let contact = Contact {
             gap: hit.gap,
             place: Place::Facet(hit),
         };
         Some((contact, Found::Edge(nodes)))
+    }
+
+    /// Returns whether a node may face a facet at this gap: where surfaces consist of faces, one
+    /// that looks towards it; in self-contact not one of its own, nor one behind the body.
+    fn may_face(&self, side: Side, node: SurfaceNode, facet: FacetId, gap: f64) -> bool {
+        if !self.pair.is_by_faces() || self.pair.is_rigid() {
+            return true;
+        }
+        let (own, other) = (self.side(side), self.facing(side));
+        let corners = other.corners(facet);
+        let normal = facet_normal(&Facet {
+            corners: other.corner_positions(facet),
+            shape: Shape::of(&corners),
+        });
+        let faces = |normal: Vec3| normal.dot(&own.normals[node]) <= FACING;
+        if !normal.is_some_and(faces) || !self.pair.is_in_one_body() {
+            return normal.is_some_and(faces);
+        }
+        let around = own.surface.corners(node).iter();
+        let depths = around.map(|corner| self.pair.sides[side].depth(corner.facet));
+        let opposing = &self.pair.sides[self.pair.opposing(side)];
+        !self.is_corner(side, node, facet) && -gap <= depths.fold(opposing.depth(facet), f64::min)
+    }
+
+    /// Returns whether the middle of the first facet may face the second one at this gap.
+    pub(crate) fn facets_may_face(&self, side: Side, facets: [FacetId; 2], gap: f64) -> bool {
+        if !self.pair.is_in_one_body() {
+            return true;
+        }
+        let mut corners = self.side(side).corners(facets[0]).into_iter();
+        let sides = [side, self.pair.opposing(side)].map(|side| &self.pair.sides[side]);
+        let depths = [0, 1].map(|at| sides[at].depth(facets[at]));
+        !corners.any(|corner| self.is_corner(side, corner, facets[1]))
+            && -gap <= depths[0].min(depths[1])
+    }
+
+    /// Returns whether a node is one node of the mesh with a corner of a facet that faces its side.
+    fn is_corner(&self, side: Side, node: SurfaceNode, facet: FacetId) -> bool {
+        let (own, other) = (self.side(side), self.facing(side));
+        let node = own.surface.nodes()[node.index()];
+        let mut corners = other.corners(facet).into_iter();
+        corners.any(|corner| other.surface.nodes()[corner.index()] == node)
     }
 
     /// What a node of a deformable side sees.
@@ -129,8 +193,8 @@ impl Place {
     ) -> Option<([SurfaceNode; 4], [f64; 4])> {
         match self {
             Place::Facet(hit) => {
-                let corners = configuration.side(side.opposite()).corners(hit.facet);
-                let shape = striae_surface::facet::Shape::of(&corners);
+                let corners = configuration.facing(side).corners(hit.facet);
+                let shape = Shape::of(&corners);
                 Some((corners, shape.weights(hit.xi, hit.eta).value))
             }
             Place::Plane(_) => None,
@@ -144,7 +208,7 @@ impl Place {
             Place::Facet(_) => self.weights(configuration, side).map_or_else(
                 Vector3::zeros,
                 |(corners, weights)| {
-                    let x = &configuration.side(side.opposite()).x;
+                    let x = &configuration.facing(side).x;
                     (0..4).map(|c| x[corners[c]] * weights[c]).sum()
                 },
             ),

@@ -37,7 +37,8 @@ use striae_surface::node::SurfaceNode;
 use crate::{
     configuration::Configuration,
     frame::frame_of,
-    pairing::{Corners, SIGNS, paired_facets, side_sign},
+    pairing::{Corners, SIGNS, paired_facets},
+    patch::kept_on,
     segment::SegmentDerivatives,
     selection::Selection,
     side::Side,
@@ -105,10 +106,10 @@ pub fn slip_freedoms(parties: &[Party]) -> Option<Vec<Vec<SlipFreedom>>> {
     Some(parties.iter().map(of_party).collect())
 }
 
-/// Numbers of movers that displacements hold in part or that several pairs move, and whether
-/// pairs do; none if there are none, or no friction.
+/// Numbers of movers that displacements hold in part or that several pairs or faces move, and
+/// whether these do; none if there are none, or no friction.
 fn disturbed(parties: &[Party]) -> Option<BTreeMap<u32, bool>> {
-    let mut pair_of = BTreeMap::new();
+    let mut seat_of = BTreeMap::new();
     let mut disturbed = BTreeMap::new();
     for (at, party) in parties.iter().enumerate() {
         for &side in party.configuration.pair.deformable_sides() {
@@ -119,7 +120,8 @@ fn disturbed(parties: &[Party]) -> Option<BTreeMap<u32, bool>> {
                 if mover.is_rigid() {
                     continue;
                 }
-                let shared = *pair_of.entry(mover.number).or_insert(at) != at;
+                let own = (at, side, node);
+                let shared = *seat_of.entry(mover.number).or_insert(own) != own;
                 if shared || mover.prescribed.contains(&true) {
                     *disturbed.entry(mover.number).or_insert(false) |= shared;
                 }
@@ -169,40 +171,40 @@ fn actions(party: &Party) -> Vec<Actions> {
         let corners: Vec<_> = (0..8)
             .filter_map(|corner| Some((corner, paired.node(configuration, corner)?)))
             .collect();
-        let share = 1.0 / configuration.pair.deformable_sides().len() as f64;
-        let mut shares: BTreeMap<u32, [f64; 8]> = BTreeMap::new();
-        for &(corner, (side, node)) in &corners {
-            for &(k, weight) in selection.row(side, node) {
-                let of_kept = shares.entry(k).or_default();
-                for (sum, mass) in of_kept.iter_mut().zip(&paired.segment.mass[corner]) {
-                    *sum += share * weight * mass;
-                }
-            }
-        }
         let touches = paired.least_gap(configuration) <= TOUCHING * paired.segment.area.sqrt();
-        for (k, shares) in shares {
-            actions[k as usize].is_closed |= touches;
-            let (kept, frame) = (kept[k as usize], &normals[k as usize]);
-            let seen = n * side_sign(kept.side);
+        for on_segment in kept_on(configuration, selection, &paired) {
+            let k = on_segment.k as usize;
+            actions[k].is_closed |= touches;
+            let frame = &normals[k];
             let turned = |axis: usize| {
                 let t = &frame.t[axis].value;
-                Transported::new(t, &frame.n.value, &seen).value
+                Transported::new(t, &(frame.n.value * on_segment.sign), &n).value
             };
-            let directions = [n, turned(0), turned(1)];
-            let scale = selection.weight(k as usize) * selection.basis.flexibility[k as usize];
+            let directions = [turned(0), turned(1)];
+            let scale = selection.weight(k) * selection.basis.flexibility[k];
             for &(corner, (side, node)) in &corners {
                 let mover = &party.movers[side][node];
                 let kappa = kappa(configuration, side, node);
-                let by = SIGNS[corner] * shares[corner] * (kappa / scale).sqrt();
-                if scale == 0.0 || by == 0.0 || mover.is_rigid() {
+                let by = SIGNS[corner] * (kappa / scale).sqrt();
+                let mass = &paired.segment.mass[corner];
+                let share = |shares: &[f64; 8]| -> f64 {
+                    by * shares
+                        .iter()
+                        .zip(mass)
+                        .map(|(share, m)| share * m)
+                        .sum::<f64>()
+                };
+                let [pressure, friction] = [&on_segment.shares, &on_segment.slips].map(share);
+                if scale == 0.0 || pressure == 0.0 || mover.is_rigid() {
                     continue;
                 }
-                let whole = actions[k as usize].whole.entry(mover.number).or_default();
-                for (sum, direction) in whole.iter_mut().zip(&directions) {
-                    *sum += direction * by;
+                let whole = actions[k].whole.entry(mover.number).or_default();
+                whole[0] += n * pressure;
+                for (sum, direction) in whole[1..].iter_mut().zip(&directions) {
+                    *sum += direction * friction;
                 }
                 let free = mover.prescribed.map(|held| f64::from(u8::from(!held)));
-                actions[k as usize].free.insert(mover.number, free.into());
+                actions[k].free.insert(mover.number, free.into());
             }
         }
     }

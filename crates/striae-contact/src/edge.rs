@@ -45,7 +45,7 @@ pub fn on_edge(
     nodes: [SurfaceNode; 2],
 ) -> OnEdge {
     let own = configuration.side(side);
-    let other = configuration.side(side.opposite());
+    let other = configuration.facing(side);
     let corners = other.corners(hit.facet);
     let ends = nodes.map(|end| {
         let found = corners.iter().position(|corner| *corner == end);
@@ -70,7 +70,8 @@ pub fn on_edge(
         let numbering = configuration.pair.numbering();
         let mut gradient = vec![(numbering.position(side, node), -by_r)];
         if !configuration.pair.is_rigid() {
-            let [start, end] = nodes.map(|node| numbering.position(side.opposite(), node));
+            let opposing = configuration.pair.opposing(side);
+            let [start, end] = nodes.map(|node| numbering.position(opposing, node));
             gradient.extend([(start, by_r - by_d), (end, by_d)]);
         }
         for (first, block) in &n.jacobian {

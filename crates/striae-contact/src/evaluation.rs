@@ -17,7 +17,7 @@ use crate::{
     frame::{Frame, Frames, frames},
     kinematics::{Kinematics, Pressure, Report},
     pair::Enforcement,
-    pairing::{Corners, side_sign, topology},
+    pairing::{Corners, topology},
     patch::{Patch, Pressures, patches, wanted},
     ramp::{self, Ramp},
     segment::{Derivatives, SegmentDerivatives},
@@ -77,7 +77,7 @@ pub fn evaluate(
     derivatives: Derivatives,
 ) -> Result<Evaluation, Collapse> {
     let friction = conditions.friction;
-    let slip = if friction.cap(1.0, 0.0) == 0.0 {
+    let slip = if friction.is_frictionless() {
         Slip::Left
     } else {
         Slip::Wanted
@@ -90,7 +90,7 @@ pub fn evaluate(
                 // around its neighbours, not on its own alone.
                 let asked = || wanted(configuration, selection, (conditions.wanted, corners));
                 match (derivatives, slip) {
-                    (Derivatives::First, _) if !friction.decays() && !asked() => {
+                    (Derivatives::First, _) if !friction.depends_on_rate() && !asked() => {
                         SegmentDerivatives::None
                     }
                     (Derivatives::First, Slip::Left) => SegmentDerivatives::OfPressure,
@@ -208,7 +208,8 @@ impl Stage<'_> {
         };
         let n = frame.n.value;
         result.slip = report.slip - n * n.dot(&report.slip);
-        for &(k, weight) in self.selection.row(side, node) {
+        let row = self.selection.row(side, node).iter();
+        for (&(k, weight), &friction) in row.zip(self.selection.friction_row(side, node)) {
             let (side_k, node_k) = self.selection.kept()[k as usize].place();
             let p = self.tractions.nodes[side_k][node_k][0];
             let pressure = self.kinematics[k as usize].bounding_pressure(p);
@@ -217,10 +218,9 @@ impl Stage<'_> {
                 result.closed += weight * supported.closed;
             }
             if let Some(from) = &self.frames[side_k][node_k] {
-                let facing = side_sign(side) * side_sign(side_k);
                 let tau = &self.tau[side_k][node_k].value;
-                let turned = Transported::new(tau, &(from.n.value * facing), &n);
-                result.tau += turned.value * (weight * facing);
+                let turned = Transported::new(tau, &(from.n.value * friction.signum()), &n);
+                result.tau += turned.value * friction;
             }
         }
         result
@@ -259,6 +259,7 @@ impl Evaluation {
                     textures: &stage.textures[side][node],
                     rate: &stage.rates[side][node],
                     slipped: stage.tractions.slipped[side][node],
+                    accumulated: stage.tractions.accumulated[side][node],
                     freedom: stage.selection.slip_freedom(k),
                     before: stage.tractions.labels[side][node],
                     unknowns: stage.tractions.nodes[side][node],
@@ -316,11 +317,16 @@ impl Evaluation {
             tau: stage.tau,
         };
         let mut forces = [Vec::new(), Vec::new()];
+        let pair = stage.configuration.pair;
         for (term, facets, of_facets) in segment_terms(field, patches) {
             self.terms.push(term);
-            for &side in stage.configuration.pair.deformable_sides() {
-                if let Some(facet) = facets[side] {
-                    forces[side].push((facet, of_facets[side]));
+            for ((side, facet), of_facet) in
+                pair.facing_sides().into_iter().zip(facets).zip(of_facets)
+            {
+                if let Some(facet) = facet
+                    && pair.is_deformable(side)
+                {
+                    forces[side].push((facet, of_facet));
                 }
             }
         }

@@ -35,10 +35,7 @@ pub fn covered_load<L: SurfaceLoad>(
 ) -> Vec<LocalTerm> {
     const N: usize = 24;
     let numbering = configuration.pair.numbering();
-    let (own, other) = (
-        configuration.side(side),
-        configuration.side(side.opposite()),
-    );
+    let (own, other) = (configuration.side(side), configuration.facing(side));
     let first = own
         .corners(facet)
         .map(|corner| numbering.position(side, corner));
@@ -56,7 +53,7 @@ pub fn covered_load<L: SurfaceLoad>(
                 Source::Constant(3)
             } else {
                 Source::Unknowns {
-                    first: numbering.position(side.opposite(), corner),
+                    first: numbering.position(configuration.pair.opposing(side), corner),
                     count: 3,
                 }
             });

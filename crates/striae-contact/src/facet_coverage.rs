@@ -7,7 +7,7 @@ use striae_surface::{
     topology::distinct_corners,
 };
 
-use crate::{configuration::Configuration, search::Bounds, side::Side};
+use crate::{configuration::Configuration, search::Bounds, segment::FACING, side::Side};
 
 /// How much of a facet the other side covers.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -40,10 +40,12 @@ impl Configuration<'_> {
             .map(|x| (x - middle).norm())
             .into_iter()
             .fold(0.0, f64::max);
-        if self.plane().is_none() && self.is_near_edge(side.opposite(), &middle, radius + reach) {
-            return self.cut(side, &bounds, &middle, &m, 2.0 * reach);
+        let opposing = self.pair.opposing(side);
+        if self.plane().is_none() && self.is_near_edge(opposing, &middle, radius + reach) {
+            return self.cut((side, facet), &bounds, &middle, &m, 2.0 * reach);
         }
-        match self.contact_at(side, middle, m, 2.0 * reach) {
+        let admits = |other: FacetId, gap: f64| self.facets_may_face(side, [facet, other], gap);
+        match self.contact_of(side, middle, m, 2.0 * reach, admits) {
             Some(_) => FacetCoverage::Whole,
             None => FacetCoverage::Bare,
         }
@@ -65,23 +67,27 @@ impl Configuration<'_> {
 
     fn cut(
         &self,
-        side: Side,
+        (side, facet): (Side, FacetId),
         bounds: &Bounds,
         middle: &Vec3,
         m: &Vec3,
         distance: f64,
     ) -> FacetCoverage {
-        let other = self.side(side.opposite());
-        let faces = |facet: &FacetId| {
-            let positions = other.corner_positions(*facet);
-            let corners = distinct_corners(&other.surface.facets()[facet.index()]).len();
+        let other = self.facing(side);
+        let faces = |covering: &FacetId| {
+            let positions = other.corner_positions(*covering);
+            let corners = distinct_corners(&other.surface.facets()[covering.index()]).len();
             let normal = if corners == 3 {
                 (positions[1] - positions[0]).cross(&(positions[2] - positions[0]))
             } else {
                 (positions[2] - positions[0]).cross(&(positions[3] - positions[1]))
             };
-            let away = (positions[0] - middle).dot(m).abs();
-            normal.dot(m) < 0.0 && away <= distance + 0.5 * other.facet_size(*facet)
+            let away = (positions[0] - middle).dot(m);
+            // A wall beside what covers a facet does not cover it, too.
+            let least = if self.pair.is_by_faces() { FACING } else { 0.0 };
+            normal.dot(m) < least * normal.norm()
+                && away.abs() <= distance + 0.5 * other.facet_size(*covering)
+                && self.facets_may_face(side, [facet, *covering], away)
         };
         let facets: Vec<FacetId> = other
             .tree

@@ -12,15 +12,13 @@ use striae_mesh::Vec3;
 use striae_surface::node::SurfaceNode;
 
 use crate::{
-    configuration::Snapshot,
     interference::{
-        Interference, Nearest, Spot, Stage, Standing, inside, nearest_of, position, spots,
+        Interference, Nearest, Spot, Stage, Standing, inside, nearest_of, normal_at, position,
+        spots,
     },
+    segment::FACING,
     side::Side,
 };
-
-/// Cosine between the normals of points that face each other.
-const FACING: f64 = -0.2;
 
 /// How two sides fit.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,6 +91,9 @@ pub fn fit(stage: &Stage) -> Fit {
 /// Gap of a node and the point of the other side that it would have to go to, if it faces
 /// that or is inside.
 pub fn signed_gap(stage: &Stage, side: Side, node: SurfaceNode) -> Option<(f64, Vec3)> {
+    if stage.configuration.pair.is_in_one_body() {
+        return None;
+    }
     let seen = seen(stage, side, Spot::Node(node))?;
     let gap = match seen.standing {
         Standing::Front => seen.faces.then_some(seen.opening.gap),
@@ -138,8 +139,12 @@ struct Seen {
 }
 
 fn sides(stage: &Stage) -> impl Iterator<Item = Side> {
-    let sides = stage.configuration.sides.each_ref().map(Option::is_some);
-    Side::BOTH.into_iter().filter(move |&side| sides[side])
+    let configuration = stage.configuration;
+    let sides = configuration.sides.each_ref().map(Option::is_some);
+    let has_opponent = !configuration.pair.is_in_one_body();
+    Side::BOTH
+        .into_iter()
+        .filter(move |&side| has_opponent && sides[side])
 }
 
 fn seen(stage: &Stage, side: Side, spot: Spot) -> Option<Seen> {
@@ -155,7 +160,7 @@ fn seen(stage: &Stage, side: Side, spot: Spot) -> Option<Seen> {
             )
         }
     };
-    let cosine = normal(own, spot).dot(&nearest.normal);
+    let cosine = normal_at(own, spot).dot(&nearest.normal);
     Some(Seen {
         opening: Opening {
             side,
@@ -183,15 +188,5 @@ fn on_plane(x: &Vec3, (point, normal): &(Vec3, Vec3)) -> Nearest {
         } else {
             Standing::Front
         },
-    }
-}
-
-fn normal(snapshot: &Snapshot, spot: Spot) -> Vec3 {
-    match spot {
-        Spot::Node(node) => snapshot.normals[node],
-        Spot::Centre(facet) => {
-            let [a, b, c, d] = snapshot.corner_positions(facet);
-            (c - a).cross(&(d - b)).normalize()
-        }
     }
 }

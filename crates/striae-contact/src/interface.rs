@@ -30,14 +30,16 @@ pub struct InterfaceNode {
     pub last: LastIncrement,
 }
 
-/// Common polygon of a facet of each side.
+/// Common polygon of two facets.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Overlap {
     /// Corners of both facets; a triangle repeats its last one.
     pub corners: [[SurfaceNode; 4]; 2],
-    /// `integral N_c N_d` over the polygon, first the corners of side 0, then those
-    /// of side 1. A repeated corner has no mass.
+    /// `integral N_c N_d` over the polygon, first the corners of the first facet, then those
+    /// of the second one. A repeated corner has no mass.
     pub mass: [[f64; 8]; 8],
+    /// Unit normal, outward of the first facet.
+    pub normal: Vec3,
 }
 
 /// A facet of the deformable surface as if it were covered wholly.
@@ -64,6 +66,14 @@ pub enum Opponent<'a> {
         /// projection.
         whole: &'a [FacetMass],
     },
+    /// Side 0 itself: facets of it overlap with each other, and side 1 has no nodes.
+    Itself {
+        /// Numbers of the nodes of the mesh that the nodes of side 0 are; on an edge between
+        /// faces several nodes are one.
+        mesh: &'a [u32],
+        /// Unit normals at the nodes of side 0.
+        normals: &'a [Vec3],
+    },
 }
 
 /// Two surfaces and what they have in common.
@@ -84,7 +94,42 @@ impl Interface<'_> {
     pub(crate) fn sides(&self) -> &'static [Side] {
         match self.opponent {
             Opponent::Deformable => &Side::BOTH,
+            Opponent::Rigid { .. } | Opponent::Itself { .. } => &[Side::A],
+        }
+    }
+
+    /// Sides of the facets of an overlap whose nodes carry the field.
+    pub(crate) fn facets(&self) -> &'static [Side] {
+        match self.opponent {
+            Opponent::Deformable => &Side::BOTH,
             Opponent::Rigid { .. } => &[Side::A],
+            Opponent::Itself { .. } => &[Side::A; 2],
+        }
+    }
+
+    /// Part of the field that each of the facets of an overlap contributes.
+    pub(crate) fn share(&self) -> f64 {
+        1.0 / self.facets().len() as f64
+    }
+
+    /// The side that the nodes of a side face.
+    pub(crate) fn opposing_side(&self, side: Side) -> Side {
+        match self.opponent {
+            Opponent::Itself { .. } => side,
+            Opponent::Deformable | Opponent::Rigid { .. } => side.opposite(),
+        }
+    }
+
+    /// Sign of friction that one node hands on to another one without an overlap: by their sides
+    /// or, on one side, by their normals.
+    pub(crate) fn sign(&self, nodes: [(Side, SurfaceNode); 2]) -> f64 {
+        let [(side, node), (other_side, other)] = nodes;
+        match self.opponent {
+            Opponent::Itself { normals, .. } => {
+                normals[node.index()].dot(&normals[other.index()]).signum()
+            }
+            _ if side == other_side => 1.0,
+            _ => -1.0,
         }
     }
 }

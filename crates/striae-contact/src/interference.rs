@@ -40,6 +40,7 @@ pub use thickness::{Fibre, Thickness, fibres, lengths};
 use crate::{
     configuration::{Configuration, Snapshot},
     search::{Bounds, Tree},
+    segment::FACING,
     side::Side,
 };
 use nearest::Placed;
@@ -120,7 +121,12 @@ pub enum Kind {
 
 /// Interference that is deeper than `share` of the facet size at the end and was less at
 /// the start, side by side.
+///
+/// None within one body; see [`Skins`].
 pub fn interferences(start: &Stage, end: &Stage, share: f64) -> Vec<Interference> {
+    if end.configuration.pair.is_in_one_body() {
+        return Vec::new();
+    }
     if let Some(plane) = end.configuration.plane() {
         return behind_plane(start.configuration, end.configuration, plane, share);
     }
@@ -155,6 +161,9 @@ fn inside_by(
     sized: impl Fn(&Stage, Side, Spot, FacetId) -> f64 + Sync,
 ) -> Vec<Interference> {
     let configuration = stage.configuration;
+    if configuration.pair.is_in_one_body() {
+        return Vec::new();
+    }
     if let Some(plane) = configuration.plane() {
         let snapshot = configuration.side(Side::A);
         let spots = spots(snapshot.surface);
@@ -199,6 +208,17 @@ pub(crate) fn spots(surface: &Surface) -> Vec<Spot> {
 /// Where a point of a surface is.
 pub fn position(snapshot: &Snapshot, spot: Spot) -> Vec3 {
     located(snapshot.surface, spot, |node| snapshot.x[node])
+}
+
+/// Unit normal at a point of a surface.
+pub(crate) fn normal_at(snapshot: &Snapshot, spot: Spot) -> Vec3 {
+    match spot {
+        Spot::Node(node) => snapshot.normals[node],
+        Spot::Centre(facet) => {
+            let [a, b, c, d] = snapshot.corner_positions(facet);
+            (c - a).cross(&(d - b)).normalize()
+        }
+    }
 }
 
 fn located(surface: &Surface, spot: Spot, x: impl Fn(SurfaceNode) -> Vec3) -> Vec3 {
@@ -275,8 +295,15 @@ fn depth_inside(stage: &Stage, side: Side, spot: Spot) -> Option<Nearest> {
     let most = stage.thickness.largest(side.opposite());
     let near = other.tree.bounds()?.squared_distance(&x) <= most * most;
     let nearest = near.then(|| placed(other).nearest(&x))??;
-    let inside =
-        nearest.standing == Standing::Behind && nearest.distance < thickness[nearest.facet.index()];
+    // Behind a part of a skin is its own body; only what faces a facet has come through it.
+    let faces = || {
+        let cosine =
+            normal_at(stage.configuration.side(side), spot).dot(&nearest.normal.normalize());
+        !stage.configuration.pair.has_faces || cosine <= FACING
+    };
+    let inside = nearest.standing == Standing::Behind
+        && nearest.distance < thickness[nearest.facet.index()]
+        && faces();
     inside.then_some(nearest)
 }
 

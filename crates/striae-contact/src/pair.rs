@@ -1,7 +1,7 @@
 //! A contact pair: what does not change during a run.
 
 use serde::Serialize;
-use striae_mesh::Vec3;
+use striae_mesh::{FacetId, Vec3};
 use striae_surface::{
     node::SurfaceNode,
     texture::{Field, Texture},
@@ -21,6 +21,11 @@ pub struct ContactPair {
     pub enforcement: Enforcement,
     /// Distance over which contact is looked for ahead; `None`: half the local facet size.
     pub search_distance: Option<f64>,
+    /// Surfaces consist of faces, each with nodes of its own on the edges between them, so a node
+    /// looks only at facets that face its own.
+    pub has_faces: bool,
+    /// Both sides are faces of one body, which may lie between them.
+    pub one_body: bool,
 }
 
 /// One side of a pair.
@@ -32,6 +37,18 @@ pub struct PairedSurface {
     pub stiffness: f64,
     /// Texture, if the side has one.
     pub texture: Option<SideTexture>,
+    /// Thickness of the body behind each facet in the reference configuration, for contact within
+    /// one body: what is further behind a facet than half of it belongs to another one. Empty
+    /// where no bound is known.
+    pub thickness: Vec<f64>,
+}
+
+impl PairedSurface {
+    /// Depth behind a facet up to which the body there is its own.
+    pub(crate) fn depth(&self, facet: FacetId) -> f64 {
+        let thickness = self.thickness.get(facet.index());
+        0.5 * thickness.copied().unwrap_or(f64::INFINITY)
+    }
 }
 
 /// Texture of one side of a pair.
@@ -50,6 +67,8 @@ pub enum Geometry {
     Deformable(Surface),
     /// Rigid facets.
     Rigid(Surface),
+    /// Side `a` once more: its facets may touch each other. It has no nodes of its own.
+    Itself,
     /// Unbounded rigid plane.
     Plane {
         /// A point of the plane in the reference configuration.
@@ -79,7 +98,7 @@ impl ContactPair {
     pub fn carriers(&self) -> [usize; 2] {
         Side::BOTH.map(|side| match &self.sides[side].geometry {
             Geometry::Deformable(surface) => surface.nodes().len(),
-            Geometry::Rigid(_) | Geometry::Plane { .. } => 0,
+            Geometry::Rigid(_) | Geometry::Itself | Geometry::Plane { .. } => 0,
         })
     }
 
@@ -90,25 +109,64 @@ impl ContactPair {
 
     /// Whether side `b` is rigid.
     pub fn is_rigid(&self) -> bool {
-        !matches!(self.sides[Side::B].geometry, Geometry::Deformable(_))
+        let geometry = &self.sides[Side::B].geometry;
+        matches!(geometry, Geometry::Rigid(_) | Geometry::Plane { .. })
+    }
+
+    /// Returns whether facets of side `a` touch each other.
+    pub fn is_self_contact(&self) -> bool {
+        matches!(self.sides[Side::B].geometry, Geometry::Itself)
+    }
+
+    /// Returns whether what lies between facets that face each other may be their own body. Its
+    /// skin, not the pair, then tells what is inside.
+    pub fn is_in_one_body(&self) -> bool {
+        self.one_body || self.is_self_contact()
     }
 
     /// Sides that carry traction unknowns.
     pub fn deformable_sides(&self) -> &'static [Side] {
-        if self.is_rigid() {
-            &[Side::A]
-        } else {
-            &Side::BOTH
+        match self.sides[Side::B].geometry {
+            Geometry::Deformable(_) => &Side::BOTH,
+            Geometry::Rigid(_) | Geometry::Itself | Geometry::Plane { .. } => &[Side::A],
         }
+    }
+
+    /// Sides of the two facets of a segment.
+    pub fn facing_sides(&self) -> [Side; 2] {
+        match self.sides[Side::B].geometry {
+            Geometry::Itself => [Side::A; 2],
+            Geometry::Deformable(_) | Geometry::Rigid(_) | Geometry::Plane { .. } => Side::BOTH,
+        }
+    }
+
+    /// The side that a side faces: the other one or, in self-contact, itself.
+    pub fn opposing(&self, side: Side) -> Side {
+        if self.is_self_contact() {
+            side
+        } else {
+            side.opposite()
+        }
+    }
+
+    /// Returns whether what a node may face is known from the facets around it.
+    pub(crate) fn is_by_faces(&self) -> bool {
+        self.has_faces || self.is_self_contact()
+    }
+
+    /// Part of the traction field that each of two facets contributes: half of it, or all against
+    /// a rigid surface.
+    pub fn share(&self) -> f64 {
+        if self.is_rigid() { 1.0 } else { 0.5 }
     }
 }
 
 impl PairedSurface {
-    /// Facets of the side; `None` for a plane.
+    /// Facets of the side; `None` for a plane, and for side `b` of self-contact.
     pub fn surface(&self) -> Option<&Surface> {
         match &self.geometry {
             Geometry::Deformable(surface) | Geometry::Rigid(surface) => Some(surface),
-            Geometry::Plane { .. } => None,
+            Geometry::Itself | Geometry::Plane { .. } => None,
         }
     }
 }

@@ -5,6 +5,8 @@
 //! reach of their corners, and they overlap in the mean by no more than that and the `depth`
 //! that the bodies move towards each other.
 
+mod self_contact;
+
 use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
 use striae_surface::{facet::Shape, node::SurfaceNode};
@@ -18,9 +20,11 @@ use crate::{
 /// Two facets and their segment.
 #[derive(Clone, Debug)]
 pub struct PairedFacets {
-    /// Facets of the sides `a` and `b`; a plane has none.
+    /// Sides of the two facets: `a` and `b` or, in self-contact, twice `a`.
+    pub sides: [Side; 2],
+    /// The two facets; a plane has none.
     pub facets: [Option<FacetId>; 2],
-    /// Corners of side `a`, then of side `b`, as surface-local nodes.
+    /// Corners of the first facet, then of the second one, as surface-local nodes.
     pub corners: [[SurfaceNode; 4]; 2],
     /// Their current positions.
     pub x: [Vec3; 8],
@@ -42,16 +46,16 @@ pub struct Scope<'a> {
 impl Scope<'_> {
     /// Weights of the normals of two paired facets.
     pub fn weights(&self, paired: &PairedFacets) -> [f64; 2] {
-        Side::BOTH.map(|side| match paired.facets[side] {
-            Some(facet) => self.compliances[side][facet.index()],
+        std::array::from_fn(|at| match paired.facets[at] {
+            Some(facet) => self.compliances[paired.sides[at]][facet.index()],
             None => 0.0,
         })
     }
 }
 
 impl PairedFacets {
-    /// `sum_d s_d D_cd (x_d - o)` for the points `x` at the corners, with `s = -1` on side
-    /// `a` and `1` on side `b`.
+    /// `sum_d s_d D_cd (x_d - o)` for the points `x` at the corners, with `s = -1` on the first
+    /// facet and `1` on the second one.
     pub fn difference(&self, corner: usize, x: &[Vec3; 8], origin: &Vec3) -> Vec3 {
         let row = &self.segment.mass[corner];
         (0..8).map(|d| (x[d] - origin) * (SIGNS[d] * row[d])).sum()
@@ -107,8 +111,8 @@ impl PairedFacets {
         configuration: &Configuration,
         corner: usize,
     ) -> Option<(Side, SurfaceNode)> {
-        let (side, at) = (Side::BOTH[corner / 4], corner % 4);
-        let corners = &self.corners[side];
+        let (side, at) = (self.sides[corner / 4], corner % 4);
+        let corners = &self.corners[corner / 4];
         let repeated = at == 3 && Shape::of(corners) == Shape::Triangle;
         let rigid = side == Side::B && configuration.pair.is_rigid();
         (!rigid && !repeated).then(|| (side, corners[at]))
@@ -145,7 +149,7 @@ pub fn topology<'a>(paired: impl Iterator<Item = &'a PairedFacets>) -> u64 {
     })
 }
 
-/// Sign of the corners in the gap: `b` minus `a`.
+/// Sign of the corners in the gap: second facet minus first one.
 pub const SIGNS: [f64; 8] = [-1.0, -1.0, -1.0, -1.0, 1.0, 1.0, 1.0, 1.0];
 
 /// 1 on side `a`, -1 on side `b`: how normal and friction of a node are seen from side `a`.
@@ -153,8 +157,13 @@ pub fn side_sign(side: Side) -> f64 {
     if side == Side::A { 1.0 } else { -1.0 }
 }
 
-/// All paired facets whose facet of side `a` is `wanted`, in the order of their facets;
-/// `slopes` says by the corners of both whether derivatives are.
+/// Sign of normal and friction of what belongs to a corner, seen from the first facet.
+pub fn corner_sign(corner: usize) -> f64 {
+    -SIGNS[corner]
+}
+
+/// All paired facets whose facet of side `a` is `wanted`, in self-contact one of both, in the
+/// order of their facets; `slopes` says by the corners of both whether derivatives are.
 pub fn paired_facets(
     configuration: &Configuration,
     scope: Scope,
@@ -162,13 +171,17 @@ pub fn paired_facets(
     wanted: impl Fn(FacetId) -> bool + Sync,
 ) -> Vec<PairedFacets> {
     let own = configuration.side(Side::A);
+    let itself = configuration.pair.is_self_contact();
     let found: Vec<Vec<PairedFacets>> = (0..own.surface.facets().len())
         .into_par_iter()
         .with_min_len(4)
         .map(|facet| {
             let facet = FacetId::new(facet);
-            if wanted(facet) {
-                of_facet(configuration, scope, slopes, facet)
+            if itself {
+                let is_wanted = |other: FacetId| wanted(facet) || wanted(other);
+                of_facet(configuration, scope, slopes, facet, is_wanted)
+            } else if wanted(facet) {
+                of_facet(configuration, scope, slopes, facet, |_| true)
             } else {
                 Vec::new()
             }
@@ -177,6 +190,9 @@ pub fn paired_facets(
     // A list that grows as it is filled would be touched twice.
     let mut all = Vec::with_capacity(found.iter().map(Vec::len).sum());
     all.extend(found.into_iter().flatten());
+    if configuration.pair.is_in_one_body() {
+        self_contact::drop_hidden(configuration, &mut all);
+    }
     all
 }
 
@@ -188,6 +204,7 @@ fn of_facet(
     scope: Scope,
     slopes: &impl Fn(&[Corners]) -> SegmentDerivatives,
     facet: FacetId,
+    is_wanted: impl Fn(FacetId) -> bool,
 ) -> Vec<PairedFacets> {
     let own = configuration.side(Side::A);
     let corners = own.corners(facet);
@@ -206,6 +223,7 @@ fn of_facet(
         let nothing = [point; 4];
         let slopes = slopes(&[(Side::A, corners)]);
         let paired = plane_segment(&a, &normal, slopes).map(|segment| PairedFacets {
+            sides: Side::BOTH,
             facets: [Some(facet), None],
             corners: [corners, [SurfaceNode(0); 4]],
             x: joined(&positions, &nothing),
@@ -214,39 +232,49 @@ fn of_facet(
         });
         return paired.into_iter().filter(is_near).collect();
     }
-    let other = configuration.side(Side::B);
+    let sides = configuration.pair.facing_sides();
+    let other = configuration.side(sides[1]);
+    let itself = configuration.pair.is_self_contact();
+    let one_body = configuration.pair.is_in_one_body();
     let farthest = farthest(configuration);
     let bounds = own.bounds(facet).inflated(farthest + scope.depth);
     let mut found = Vec::new();
     for item in other.tree.meeting(&bounds) {
         let opposite = FacetId(item);
+        if itself && (opposite <= facet || !is_wanted(opposite)) {
+            continue;
+        }
         let corners_b = other.corners(opposite);
         let positions_b = other.corner_positions(opposite);
         let b = Facet {
             corners: positions_b,
             shape: Shape::of(&corners_b),
         };
+        if one_body && !self_contact::may_touch([own, other], [&a, &b], [&corners, &corners_b]) {
+            continue;
+        }
         let weights = [
-            scope.compliances[Side::A][facet.index()],
-            scope.compliances[Side::B][opposite.index()],
+            scope.compliances[sides[0]][facet.index()],
+            scope.compliances[sides[1]][opposite.index()],
         ];
-        let slopes = slopes(&[(Side::A, corners), (Side::B, corners_b)]);
+        let slopes = slopes(&[(sides[0], corners), (sides[1], corners_b)]);
         let Some(segment) = segment(&a, &b, weights, slopes) else {
             continue;
         };
         let reach = if configuration.pair.is_rigid() {
             reach
         } else {
-            reach.max(self::reach(configuration, Side::B, &corners_b))
+            reach.max(self::reach(configuration, sides[1], &corners_b))
         };
         let paired = PairedFacets {
+            sides,
             facets: [Some(facet), Some(opposite)],
             corners: [corners, corners_b],
             x: joined(&positions, &positions_b),
             reach,
             segment,
         };
-        if is_near(&paired) {
+        if is_near(&paired) && (!one_body || self_contact::is_outside(configuration, &paired)) {
             found.push(paired);
         }
     }

@@ -7,7 +7,7 @@ use striae_surface::{facet::Shape, node::SurfaceNode};
 use crate::{
     complementarity::Iteration,
     configuration::Configuration,
-    pairing::{Corners, PairedFacets, paired_facets},
+    pairing::{Corners, PairedFacets, corner_sign, paired_facets},
     segment::{Facet, Pressed, Pressing, SegmentDerivatives, Support, pressed_on_plane},
     segment_rows::{Given, SegmentRows, Slip, segment_rows},
     selection::Selection,
@@ -25,43 +25,63 @@ pub struct Patch {
     pub paired: PairedFacets,
     /// Gap and slip.
     pub rows: SegmentRows,
-    /// Kept nodes, and the values of their basis functions at the corners: `phi_k = sum_c
-    /// share_kc N_c`.
-    pub kept: Vec<(u32, [f64; 8])>,
+    /// Kept nodes, in their order.
+    pub kept: Vec<OnSegment>,
     /// What pressure does, in the order of the kept nodes.
     pub pressed: Pressed,
 }
 
-impl Patch {
-    /// The kept nodes at the corners of paired facets.
-    pub fn kept_of(
-        configuration: &Configuration,
-        selection: &Selection,
-        paired: &PairedFacets,
-    ) -> Vec<(u32, [f64; 8])> {
-        let share = if configuration.pair.is_rigid() {
-            1.0
-        } else {
-            0.5
+/// A kept node on a segment.
+#[derive(Clone, Debug)]
+pub struct OnSegment {
+    /// Its place among the kept nodes.
+    pub k: u32,
+    /// Its basis function for pressure at the corners: `phi_k = sum_c share_kc N_c`.
+    pub shares: [f64; 8],
+    /// That for friction as the first facet sees it, `psi_k`: the same with the sign of what is
+    /// handed on from the node to the corner, and from there to the first facet.
+    pub slips: [f64; 8],
+    /// 1 where the node is seen from the side of the first facet, -1 from that of the second.
+    pub sign: f64,
+}
+
+/// The kept nodes whose basis functions live on a segment.
+pub(crate) fn kept_on(
+    configuration: &Configuration,
+    selection: &Selection,
+    paired: &PairedFacets,
+) -> Vec<OnSegment> {
+    let share = configuration.pair.share();
+    let mut kept: Vec<OnSegment> = Vec::with_capacity(8);
+    for corner in 0..8 {
+        let Some((side, node)) = paired.node(configuration, corner) else {
+            continue;
         };
-        let mut kept: Vec<(u32, [f64; 8])> = Vec::with_capacity(8);
-        for corner in 0..8 {
-            let Some((side, node)) = paired.node(configuration, corner) else {
-                continue;
+        let row = selection.row(side, node).iter();
+        for (&(k, weight), friction) in row.zip(selection.friction_row(side, node)) {
+            let at = match kept.binary_search_by_key(&k, |entry| entry.k) {
+                Ok(at) => at,
+                Err(at) => {
+                    let none = OnSegment {
+                        k,
+                        shares: [0.0; 8],
+                        slips: [0.0; 8],
+                        sign: 0.0,
+                    };
+                    kept.insert(at, none);
+                    at
+                }
             };
-            for &(k, weight) in selection.row(side, node) {
-                let at = match kept.binary_search_by_key(&k, |entry| entry.0) {
-                    Ok(at) => at,
-                    Err(at) => {
-                        kept.insert(at, (k, [0.0; 8]));
-                        at
-                    }
-                };
-                kept[at].1[corner] = share * weight;
-            }
+            let kept = &mut kept[at];
+            kept.shares[corner] = share * weight;
+            kept.slips[corner] = share * friction * corner_sign(corner);
+            kept.sign += kept.slips[corner];
         }
-        kept
     }
+    for kept in &mut kept {
+        kept.sign = if kept.sign < 0.0 { -1.0 } else { 1.0 };
+    }
+    kept
 }
 
 /// Whether derivatives of what facets with these corners add to rows are wanted.
@@ -103,12 +123,12 @@ impl Pressures<'_> {
         configuration: &Configuration,
         selection: &Selection,
         paired: &PairedFacets,
-        kept: &[(u32, [f64; 8])],
+        kept: &[OnSegment],
         offsets: &[f64; 8],
     ) -> Pressed {
         let supports: Vec<Support> = kept
             .iter()
-            .map(|&(k, shares)| {
+            .map(|&OnSegment { k, shares, .. }| {
                 let (side, node) = selection.kept()[k as usize].place();
                 let closed = self.tractions.bedded[side][node];
                 Support {
@@ -164,7 +184,7 @@ pub(crate) fn patches(
                 slip,
             };
             let rows = segment_rows(configuration, start, &paired, given);
-            let kept = Patch::kept_of(configuration, selection, &paired);
+            let kept = kept_on(configuration, selection, &paired);
             let offsets = &given.offsets;
             Patch {
                 pressed: pressures.on(configuration, selection, &paired, &kept, offsets),

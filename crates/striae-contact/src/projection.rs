@@ -46,8 +46,15 @@ pub enum Ray {
 /// How far outside a facet a hit may lie, in facet coordinates.
 const ROUND_OFF: f64 = 1e-8;
 
-/// Projects the point `x` onto `target` within the distance `reach`.
-pub fn project(target: &Snapshot, x: &Vec3, ray: Ray, reach: f64) -> Option<Hit> {
+/// Projects the point `x` onto those facets of `target` within the distance `reach` that are
+/// admitted at the gap to them.
+pub fn project(
+    target: &Snapshot,
+    x: &Vec3,
+    ray: Ray,
+    reach: f64,
+    admits: impl Fn(FacetId, f64) -> bool,
+) -> Option<Hit> {
     let bounds = match ray {
         Ray::Own(n) => Bounds::around([x - n * reach, x + n * reach]).inflated(1e-6 * reach),
         Ray::Opposite => Bounds::around([*x]).inflated(reach),
@@ -59,7 +66,7 @@ pub fn project(target: &Snapshot, x: &Vec3, ray: Ray, reach: f64) -> Option<Hit>
             continue;
         };
         let excess = Shape::of(&target.corners(facet)).excess(hit.xi, hit.eta);
-        if excess > ROUND_OFF || hit.gap.abs() > reach {
+        if excess > ROUND_OFF || hit.gap.abs() > reach || !admits(facet, hit.gap) {
             continue;
         }
         let slack = 1e-9 * reach;
@@ -78,12 +85,14 @@ pub fn project(target: &Snapshot, x: &Vec3, ray: Ray, reach: f64) -> Option<Hit>
 }
 
 /// The point on the edge of a surface that is nearest to the line through `x` along `n`,
-/// within the distance `reach` of `x`, and the nodes of that edge.
+/// within the distance `reach` of `x`, and the nodes of that edge; of edges of facets that are
+/// admitted at the gap to them.
 pub fn nearest_edge(
     target: &Snapshot,
     x: &Vec3,
     n: &Vec3,
     reach: f64,
+    admits: impl Fn(FacetId, f64) -> bool,
 ) -> Option<(Hit, [SurfaceNode; 2])> {
     let bounds = Bounds::around([*x]).inflated(reach);
     let edges = target.surface.boundary_edges();
@@ -100,7 +109,8 @@ pub fn nearest_edge(
             &Shape::of(&corners).weights(0.25, 0.25),
             &target.corner_positions(edge.facet),
         );
-        if point.norm() > reach || facing.dot(n) >= 0.0 {
+        let is_near = point.norm() <= reach && admits(edge.facet, n.dot(&point));
+        if !is_near || facing.dot(n) >= 0.0 {
             continue;
         }
         if best.is_none_or(|(known, ..)| distance < known) {

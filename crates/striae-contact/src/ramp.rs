@@ -4,10 +4,11 @@
 //!
 //! ```text
 //! g_k  += 1/w_k sum_l E_kl p_l
-//! du_k += 1/w_k sum_l R(n_k, n_l) (E_kl tau_l - E'_kl tau^n_l)
+//! du_k += 1/w_k sum_l R(n_k, s_kl n_l) (F_kl tau_l - F'_kl tau^n_l)
 //! ```
 //!
-//! where `E'` is the part of `E` of the weak nodes that stuck at the last converged state.
+//! where `F` is `E` with the signs `s_kl` of friction that is handed on, -1 between nodes that face
+//! each other, and `F'` is the part of `E` of the weak nodes that stuck at the last converged state.
 //! With the increment of friction these do not creep. Where a weak node slips the total counts:
 //! with the increment, `E` would hold friction at the rough pattern it had before, push the
 //! neighbours of weak nodes to the wrong sign in large slips, and let them stick there.
@@ -22,7 +23,6 @@ use crate::{
     converged_friction::{CollapsedFacets, converged_friction},
     frame::{Frame, Frames},
     kinematics::{Kinematics, Presence, Pressure},
-    pairing::side_sign,
     places::ChainedSum,
     selection::Selection,
     side::Side,
@@ -127,9 +127,18 @@ pub struct Ramp<'a> {
     pub tau: &'a NodalTractions,
 }
 
+/// Entry of a row of `F`.
+#[derive(Clone, Copy)]
+struct Coupled {
+    l: u32,
+    /// `F_kl`.
+    value: f64,
+    /// `s_kl`.
+    facing: f64,
+}
+
 /// Friction of a kept node that the ramp acts on.
 struct Ramped<'a> {
-    sign: f64,
     frame: &'a Frame,
     friction: &'a Tracked,
     /// At the last converged state, turned along; none where no weak node around it stuck.
@@ -169,22 +178,41 @@ impl Ramp<'_> {
         Ok(())
     }
 
-    /// Rows of `E` by those weak nodes at these places of which friction is determined in all
+    /// Rows of `F` by those weak nodes at these places of which friction is determined in all
     /// directions: one that lacks a direction has no ramp.
-    fn coupling_of(&self, counts: impl Fn((Side, SurfaceNode)) -> bool) -> Vec<Vec<(u32, f64)>> {
+    fn coupling_of(&self, counts: impl Fn((Side, SurfaceNode)) -> bool) -> Vec<Vec<Coupled>> {
         let kept = self.selection.kept();
         let weak = self.selection.ramp().iter().filter(|weak| {
             let k = weak.kept as usize;
             self.selection.slip_freedom(k) == SlipFreedom::Plane && counts(kept[k].place())
         });
-        coupling(weak, self.selection.coupling().len())
+        let count = self.selection.coupling().len();
+        let pressures = coupling(
+            weak.clone().map(|weak| (weak.coefficient, &weak.row)),
+            count,
+        );
+        let frictions = coupling(
+            weak.map(|weak| (weak.coefficient, &weak.friction_row)),
+            count,
+        );
+        let coupled = |(pressure, friction): (&(u32, f64), (u32, f64))| Coupled {
+            l: friction.0,
+            value: friction.1,
+            facing: match pressure.1 * friction.1 < 0.0 {
+                true => -1.0,
+                false => 1.0,
+            },
+        };
+        let rows = pressures.iter().zip(frictions);
+        rows.map(|(pressures, frictions)| pressures.iter().zip(frictions).map(coupled).collect())
+            .collect()
     }
 
     fn ramped(
         &self,
         k: usize,
-        all: &[(u32, f64)],
-        stuck: &[(u32, f64)],
+        all: &[Coupled],
+        stuck: &[Coupled],
     ) -> Option<Result<Ramped<'_>, CollapsedFacets>> {
         if all.is_empty() {
             return None;
@@ -197,7 +225,6 @@ impl Ramp<'_> {
             converged_friction(self.configuration, self.start, at, frame, components)
         });
         Some(before.transpose().map(|before| Ramped {
-            sign: side_sign(side),
             frame,
             friction: &self.tau[side][node],
             before,
@@ -208,17 +235,15 @@ impl Ramp<'_> {
         &self,
         own: &Ramped,
         ramped: &[Option<Ramped>],
-        [all, stuck]: [&[(u32, f64)]; 2],
+        [all, stuck]: [&[Coupled]; 2],
         weight: &TrackedScalar,
         slip: &mut Tracked,
     ) {
         let before = slip.value;
         let mut sum = ChainedSum::onto(&mut slip.jacobian);
         let mut by_n = Matrix3::zeros();
-        let mut add = |other: &Ramped, friction: &Tracked, coupling: f64| {
-            // Normals and frictions of nodes of different sides point against each other.
-            let facing = other.sign * own.sign;
-            let factor = coupling / weight.value * facing;
+        let mut add = |other: &Ramped, friction: &Tracked, value: f64, facing: f64| {
+            let factor = value / weight.value;
             let from = other.frame.n.value * facing;
             let turned = Transported::new(&friction.value, &from, &own.frame.n.value);
             slip.value += turned.value * factor;
@@ -227,16 +252,16 @@ impl Ramp<'_> {
             let by_from = turned.by_from * (factor * facing);
             sum.add(&by_from, &other.frame.n.jacobian);
         };
-        for &(l, coupling) in all {
-            if let Some(other) = &ramped[l as usize] {
-                add(other, other.friction, coupling);
+        for coupled in all {
+            if let Some(other) = &ramped[coupled.l as usize] {
+                add(other, other.friction, coupled.value, coupled.facing);
             }
         }
-        for &(l, coupling) in stuck {
-            if let Some(other) = &ramped[l as usize]
+        for coupled in stuck {
+            if let Some(other) = &ramped[coupled.l as usize]
                 && let Some(before) = &other.before
             {
-                add(other, before, -coupling);
+                add(other, before, -coupled.value, coupled.facing);
             }
         }
         sum.add(&by_n, &own.frame.n.jacobian);

@@ -30,9 +30,20 @@
 //! d_k = S_kk - S_kn (S_nn + BLUR I)^-1 S_nk
 //! ```
 //!
+//! In self-contact a node of the mesh may be pressed from both of its faces, which scalars do not
+//! see. There the forces of unit pressures are vectors,
+//!
+//! ```text
+//! f_Jk = sum_segments (+-) D_kJ n,   S_kl = sum_J kappa_J f_Jk . f_Jl / sqrt(w_k l_k w_l l_l)
+//! ```
+//!
+//! with `J` over the nodes of the mesh and `kappa_J` the mean over their faces.
+//!
 //! Against a rigid surface unknowns of one side do not compete. There
 //! `d_k = 1/4 sum_i D_ki^2 / sum_i (D_ki of whole facets)^2`: 1/4 as that of an
 //! interior node above, and falling to zero as a sliver does.
+
+mod actions;
 
 use std::{cmp::Ordering, collections::BinaryHeap};
 
@@ -42,6 +53,7 @@ use crate::{
     common_mass::{CommonMass, SparseRow, SparseSum, ranks},
     interface::{Interface, LastIncrement, Opponent},
     pivots::Pivots,
+    roles::actions::Actions,
 };
 
 /// Pivot from which a node is kept.
@@ -75,7 +87,7 @@ impl Choice {
         let flexibility = flexibility(interface, mass);
         let contest = Contest::new(interface, mass);
         let mut chosen = match interface.opponent {
-            Opponent::Deformable => {
+            Opponent::Deformable | Opponent::Itself { .. } => {
                 let surrogate = surrogate(interface, mass, &flexibility);
                 let chosen = contest.greedy(Pivots::new(surrogate.clone()));
                 independence(surrogate, chosen)
@@ -135,16 +147,28 @@ fn surrogate(interface: &Interface, mass: &CommonMass, flexibility: &[f64]) -> V
             }
         })
         .collect();
+    let actions = match interface.opponent {
+        Opponent::Itself { mesh, .. } => Some(Actions::new(interface, mass, mesh)),
+        Opponent::Deformable | Opponent::Rigid { .. } => None,
+    };
     let mut sum = SparseSum::new(count);
     let row = |k: usize| {
         if scale[k] == 0.0 {
             return SparseRow::new();
         }
-        for &(j, by_k) in &mass.rows[k] {
-            let compliance = mass.node(interface, j).compliance;
-            for &(l, by_l) in &mass.rows[j as usize] {
+        if let Some(actions) = &actions {
+            for &(l, value) in &actions.row(k) {
                 if scale[l as usize] > 0.0 {
-                    sum.add(l, compliance * (by_k * by_l));
+                    sum.add(l, value);
+                }
+            }
+        } else {
+            for &(j, by_k) in &mass.rows[k] {
+                let compliance = mass.node(interface, j).compliance;
+                for &(l, by_l) in &mass.rows[j as usize] {
+                    if scale[l as usize] > 0.0 {
+                        sum.add(l, compliance * (by_k * by_l));
+                    }
                 }
             }
         }

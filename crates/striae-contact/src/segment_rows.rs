@@ -1,6 +1,7 @@
 //! Gap and slip integrals over one segment, with their derivatives.
 //!
-//! With the integrals `D_cd` of a segment, the sign `s = -1` on side `a` and `1` on `b`, and
+//! With the integrals `D_cd` of a segment, the sign `s = -1` on the first facet and `1` on the
+//! second one, and
 //! the positions `x_d` of its eight corners,
 //!
 //! ```text
@@ -186,7 +187,7 @@ impl Moved {
         let origin = old(0);
         let x: [Vec3; 8] = std::array::from_fn(|d| match d {
             0..4 => old(d),
-            _ => start.side(Side::B).x[paired.corners[1][d - 4]],
+            _ => start.side(paired.sides[1]).x[paired.corners[1][d - 4]],
         });
         let facet = |first: usize| {
             let shape = striae_surface::facet::Shape::of(&paired.corners[first / 4]);

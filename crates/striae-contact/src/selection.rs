@@ -50,6 +50,7 @@ impl Selection {
         for (side, count) in Side::BOTH.into_iter().zip(start.pair.carriers()) {
             basis.index[side].resize(count, None);
             basis.rows[side].resize(count, Vec::new());
+            basis.friction_rows[side].resize(count, Vec::new());
         }
         let partners = partners(start, &basis);
         Self {

@@ -1,7 +1,7 @@
 //! Slip rates of the kept nodes, with their derivatives.
 //!
 //! `|v| = |du|/dt` over the time `dt` since the last converged configuration, with the slip
-//! that is seen, without what the ramp adds. Only friction that decays with the slip rate asks
+//! that is seen, without what the ramp adds. Only friction that depends on the slip rate asks
 //! for it: the friction of a node and the row that it obeys ask at the same rate.
 
 use striae_law::friction::Friction;
@@ -22,7 +22,7 @@ pub fn slip_rates(
     kinematics: &[Kinematics],
 ) -> SlipRates {
     let mut rates = Side::BOTH.map(|side| vec![TrackedScalar::default(); selection.nodes(side)]);
-    if friction.decays() && configuration.elapsed.is_finite() {
+    if friction.depends_on_rate() && configuration.elapsed.is_finite() {
         for (kept, kinematics) in selection.kept().iter().zip(kinematics) {
             let (side, node) = kept.place();
             rates[side][node] = slip_rate(kinematics, configuration.elapsed);

@@ -137,7 +137,9 @@ fn is_beside(
 
 /// A tangent in place of the opposing texture, for nodes that friction does not act on.
 fn any_direction(configuration: &Configuration, side: Side, frame: &Frame) -> Option<Tracked> {
-    let textured = configuration.pair.sides[side.opposite()].texture.is_some();
+    let textured = configuration.pair.sides[configuration.pair.opposing(side)]
+        .texture
+        .is_some();
     textured.then(|| Tracked {
         value: frame.t[0].value,
         jacobian: Jacobian::new(),

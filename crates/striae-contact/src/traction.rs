@@ -50,7 +50,7 @@ pub fn nodal_tractions(
     tractions: &Tractions,
 ) -> NodalTractions {
     let friction = surroundings.friction;
-    let frictionless = friction.cap(1.0, 0.0) == 0.0;
+    let frictionless = friction.is_frictionless();
     Side::BOTH.map(|side| {
         (0..selection.nodes(side))
             .into_par_iter()
@@ -66,7 +66,7 @@ pub fn nodal_tractions(
                         surroundings,
                         frame,
                         (side, node),
-                        (first, unknowns),
+                        (first, unknowns, tractions.accumulated[side][node]),
                         kinematics,
                     )
                 }
@@ -80,7 +80,7 @@ fn nodal_traction(
     surroundings: &Surroundings,
     frame: &Frame,
     (side, node): (Side, SurfaceNode),
-    (first, unknowns): (u32, [f64; 3]),
+    (first, unknowns, accumulated): (u32, [f64; 3], f64),
     kinematics: &Kinematics,
 ) -> Tracked {
     let friction = surroundings.friction;
@@ -89,7 +89,8 @@ fn nodal_traction(
     let [t1, t2] = &frame.t;
     let [p, z1, z2] = unknowns;
     let vector = in_frame(frame, [z1, z2]);
-    let cap = Cap::new(friction, kinematics.bounding_pressure(p), rate.value);
+    let pressure = kinematics.bounding_pressure(p);
+    let cap = Cap::new(friction, accumulated, pressure, rate.value);
     let response = if *textures == NodeTextures::default() {
         Response::new::<4>(friction, frame, textures, cap, &vector)
     } else {
@@ -140,9 +141,10 @@ pub struct Cap {
 }
 
 impl Cap {
-    /// At a pressure and a slip rate.
-    pub fn new(friction: &Friction, pressure: f64, rate: f64) -> Self {
-        let varpi: DualSVec64<2> = friction.cap(variable(pressure, 0), variable(rate, 1));
+    /// After an accumulated slip, at a pressure and a slip rate.
+    pub fn new(friction: &Friction, accumulated: f64, pressure: f64, rate: f64) -> Self {
+        let (pressure, rate) = (variable(pressure, 0), variable(rate, 1));
+        let varpi: DualSVec64<2> = friction.cap_after(accumulated, pressure, rate);
         let [by_pressure, by_rate] = gradient(&varpi);
         Self {
             value: varpi.re,

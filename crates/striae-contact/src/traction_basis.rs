@@ -1,9 +1,13 @@
 //! The traction field of a pair: its unknowns and how nodes take part in it.
 //!
 //! ```text
-//! phi_k = 1/2 (N^0 Z^0 + N^1 Z^1)_k,   against a rigid surface (N^0 Z^0)_k
+//! phi_k = 1/2 (N^i Z + N^j Z)_k,   against a rigid surface (N^i Z)_k
+//! psi_k = 1/2 (N^i Y - N^j Y)_k,   against a rigid surface (N^i Y)_k
 //! w_k   = integral phi_k
 //! ```
+//!
+//! on the facets `i` and `j` of a segment, with `Z` for pressure and `Y` for friction seen from `i`,
+//! see `transfer`.
 //!
 //! `phi_k >= 0` and `sum_k phi_k = 1` on every common polygon.
 //!
@@ -11,18 +15,18 @@
 //! not kept, the more so the less independent it is:
 //!
 //! ```text
-//! E = sum over weak k of eps_k w_k R_k^T R_k,   R_k = e_k - M_k Z
+//! E = sum over weak k of eps_k w_k R_k^T R_k,   R_k = e_k - M_k Z,   for friction e_k - M'_k Y
 //! eps_k = c (h_a/E_a + h_b/E_b) (theta_1 - d_k)/(d_k - theta_0)
 //! ```
 
 use striae_surface::node::SurfaceNode;
 
 use crate::{
-    common_mass::{CommonMass, SparseRow},
+    common_mass::CommonMass,
     interface::{Interface, Opponent},
     roles::{Choice, THETA_0},
     side::Side,
-    transfer::Transfer,
+    transfer::{Share, Transfer},
 };
 
 /// Pivot below which a kept node is weak.
@@ -57,6 +61,8 @@ pub struct Weak {
     pub coefficient: f64,
     /// `R_k` by place among the kept nodes, of sum zero.
     pub row: Vec<(u32, f64)>,
+    /// That for friction, of the same places.
+    pub friction_row: Vec<(u32, f64)>,
 }
 
 /// Unknowns of a pair and their basis.
@@ -77,6 +83,8 @@ pub struct TractionBasis {
     /// Rows of `Z` of all nodes by place among the kept ones: `(k, 1)` for a kept
     /// node, empty for one that carries nothing.
     pub rows: [Vec<Vec<(u32, f64)>>; 2],
+    /// Entries of `Y`, in the order of those rows.
+    pub friction_rows: [Vec<Vec<f64>>; 2],
     /// Weak kept nodes.
     pub ramp: Vec<Weak>,
     /// Rows of `E` by place among the kept nodes, ascending.
@@ -101,6 +109,7 @@ impl TractionBasis {
             index: Side::BOTH.map(|side| vec![None; interface.nodes[side].len()]),
             node_weights: Side::BOTH.map(|side| vec![0.0; interface.nodes[side].len()]),
             rows: Side::BOTH.map(|side| vec![Vec::new(); interface.nodes[side].len()]),
+            friction_rows: Side::BOTH.map(|side| vec![Vec::new(); interface.nodes[side].len()]),
             weights: weights(interface, &mass, &transfer, &choice.kept),
             pivots: choice.pivots.clone(),
             flexibility: choice.flexibility.clone(),
@@ -114,16 +123,18 @@ impl TractionBasis {
         for (t, &(side, node)) in mass.nodes.iter().enumerate() {
             basis.node_weights[side][node] = mass.weights[t];
             let row = basis.numbered(&mass, &transfer.rows[t]);
-            basis.rows[side][node] = row;
+            basis.rows[side][node] = row.iter().map(|&(k, [z, _])| (k, z)).collect();
+            basis.friction_rows[side][node] = row.iter().map(|&(_, [_, y])| y).collect();
         }
         basis.ramp = basis.ramp(interface, &mass, &transfer.released);
-        basis.coupling = coupling(&basis.ramp, basis.kept.len());
+        let pressures = basis.ramp.iter().map(|weak| (weak.coefficient, &weak.row));
+        basis.coupling = coupling(pressures, basis.kept.len());
         basis
     }
 
     /// A row by place among the kept nodes.
-    fn numbered(&self, mass: &CommonMass, row: &SparseRow) -> Vec<(u32, f64)> {
-        let kept = |&(k, value): &(u32, f64)| {
+    fn numbered(&self, mass: &CommonMass, row: &[Share]) -> Vec<Share> {
+        let kept = |&(k, value): &Share| {
             let (side, node) = mass.nodes[k as usize];
             let k = self.index[side][node].expect("rows lead to kept nodes");
             (k, value)
@@ -133,7 +144,7 @@ impl TractionBasis {
         row
     }
 
-    fn ramp(&self, interface: &Interface, mass: &CommonMass, released: &[SparseRow]) -> Vec<Weak> {
+    fn ramp(&self, interface: &Interface, mass: &CommonMass, released: &[Vec<Share>]) -> Vec<Weak> {
         let place = |k: usize| {
             let KeptNode { side, node } = self.kept[k];
             mass.index[side][node]
@@ -151,23 +162,24 @@ impl TractionBasis {
             Some(Weak {
                 kept: k as u32,
                 coefficient: eps * self.weights[k],
-                row,
+                friction_row: row.iter().map(|&(k, [_, y])| (k, y)).collect(),
+                row: row.iter().map(|&(k, [z, _])| (k, z)).collect(),
             })
         });
         weak.collect()
     }
 }
 
-/// Rows of `E` of so many kept nodes, by weak nodes.
+/// Rows of `E` of so many kept nodes, by coefficients and rows of weak nodes.
 pub(crate) fn coupling<'a>(
-    ramp: impl IntoIterator<Item = &'a Weak>,
+    ramp: impl IntoIterator<Item = (f64, &'a Vec<(u32, f64)>)>,
     kept: usize,
 ) -> Vec<Vec<(u32, f64)>> {
     let mut rows: Vec<Vec<(u32, f64)>> = vec![Vec::new(); kept];
-    for weak in ramp {
-        for &(k, weight) in &weak.row {
-            let part = |&(l, other): &(u32, f64)| (l, weak.coefficient * weight * other);
-            rows[k as usize].extend(weak.row.iter().map(part));
+    for (coefficient, row) in ramp {
+        for &(k, weight) in row {
+            let part = |&(l, other): &(u32, f64)| (l, coefficient * weight * other);
+            rows[k as usize].extend(row.iter().map(part));
         }
     }
     for row in &mut rows {
@@ -186,18 +198,18 @@ pub(crate) fn coupling<'a>(
 
 /// `e_k` minus a row of sum one; its own entry is the sum of the others, which is zero
 /// on constants and loses no digits. Empty if the row is `e_k`.
-fn departure(k: u32, released: &SparseRow) -> SparseRow {
-    let mut row: SparseRow = released
+fn departure(k: u32, released: &[Share]) -> Vec<Share> {
+    let mut row: Vec<Share> = released
         .iter()
         .filter(|&&(l, _)| l != k)
-        .map(|&(l, value)| (l, -value))
+        .map(|&(l, [z, y])| (l, [-z, -y]))
         .collect();
-    let others: f64 = row.iter().map(|(_, value)| value).sum();
+    let others: f64 = row.iter().map(|(_, [z, _])| z).sum();
     if row.is_empty() {
         return row;
     }
     let at = row.partition_point(|&(l, _)| l < k);
-    row.insert(at, (k, -others));
+    row.insert(at, (k, [-others; 2]));
     row
 }
 
@@ -206,8 +218,9 @@ fn facing(interface: &Interface, kept: KeptNode) -> f64 {
     let KeptNode { side, node } = kept;
     let own = interface.nodes[side][node].flexibility;
     let other = match (interface.opponent, interface.opposing[side][node]) {
-        (Opponent::Deformable, Some((corners, weights))) => {
-            let at = |c: usize| interface.nodes[side.opposite()][corners[c]].flexibility;
+        (Opponent::Deformable | Opponent::Itself { .. }, Some((corners, weights))) => {
+            let opposing = interface.opposing_side(side);
+            let at = |c: usize| interface.nodes[opposing][corners[c]].flexibility;
             let mut parts = [0, 1, 2, 3].map(|c| at(c) * weights[c]);
             // In an order that does not depend on the facet's first corner.
             parts.sort_by(f64::total_cmp);
@@ -225,11 +238,11 @@ fn weights(
     transfer: &Transfer,
     kept: &[u32],
 ) -> Vec<f64> {
-    let share = 1.0 / interface.sides().len() as f64;
+    let share = interface.share();
     let mut weights = vec![0.0; mass.nodes.len()];
     for (row, weight) in transfer.rows.iter().zip(&mass.weights) {
-        for &(k, value) in row {
-            weights[k as usize] += share * weight * value;
+        for &(k, [z, _]) in row {
+            weights[k as usize] += share * weight * z;
         }
     }
     kept.iter().map(|&k| weights[k as usize]).collect()

@@ -1,7 +1,7 @@
 //! Where nodes that are not kept take their traction from.
 //!
 //! ```text
-//! (I - M_TT) Z_T = M_TK
+//! (I - M_TT) Z_T = M_TK,   (I - S_TT) Y_T = S_TK,   S_tj = +-M_tj
 //! ```
 //!
 //! Row `t` of `M` holds the weights of the opposing nodes at the clamped projection of
@@ -9,6 +9,12 @@
 //! is the mean of the own neighbours, `M_tk = D_tk / sum over k != t`, over whole facets
 //! for a node without weight. A node whose row leads to no kept node takes the mean of
 //! the nearest ones of its patch. `Z >= 0` and `Z 1 = 1`, see `absorption.rs`.
+//!
+//! Pressure has no side, friction acts on the surface of its node: what is handed on from one
+//! surface to the one that it faces changes its sign, so `S` has `-` there and `+` among
+//! neighbours. Between two sides `Y = +-Z`. In self-contact both follow from one chain on two
+//! sheets, with a node on each, that every change of sign changes: with `Z+` and `Z-` what leads
+//! from the first sheet to each of them, `Z = Z+ + Z-`, `Y = Z+ - Z-`, so `|Y| <= Z`.
 
 use striae_surface::node::SurfaceNode;
 
@@ -26,12 +32,15 @@ const TIED: f64 = 1e-2;
 /// Kept nodes whose distances differ less, relative to the smallest, are equally near.
 const EQUALLY_NEAR: f64 = 1e-6;
 
-/// Rows of `Z` and what they follow from, by place in the order of the common mass.
+/// Place of a kept node, and its shares in pressure and friction: entries of `Z` and `Y`.
+pub(crate) type Share = (u32, [f64; 2]);
+
+/// Rows of `Z` and `Y`, and what they follow from, by place in the order of the common mass.
 pub(crate) struct Transfer {
-    /// `Z`, empty for nodes that carry nothing.
-    pub rows: Vec<SparseRow>,
+    /// Empty for nodes that carry nothing.
+    pub rows: Vec<Vec<Share>>,
     /// For every kept node what it would take if it were not: a combination of kept nodes.
-    pub released: Vec<SparseRow>,
+    pub released: Vec<Vec<Share>>,
 }
 
 impl Transfer {
@@ -50,14 +59,16 @@ impl Transfer {
             })
             .collect();
         let tied = tied(mass, &taken, &is_kept);
+        let mut is_nearest = vec![false; count];
         for t in 0..count {
             let alone = if mass.weighted[t] {
                 !tied[t]
             } else {
                 taken[t].is_empty()
             };
-            if mass.carries[t] && !is_kept[t] && alone {
+            if mass.carries[t] && (is_kept[t] && taken[t].is_empty() || !is_kept[t] && alone) {
                 taken[t] = nearest(interface, mass, t as u32, kept);
+                is_nearest[t] = true;
             }
         }
         let state = |t: usize| match (is_kept[t], mass.carries[t]) {
@@ -65,19 +76,99 @@ impl Transfer {
             (false, true) => State::Transient(taken[t].clone()),
             (false, false) => State::Outside,
         };
-        let rows = absorption((0..count).map(state).collect());
-        let mut sum = SparseSum::new(count);
-        let released = kept.iter().map(|&k| {
-            if taken[k as usize].is_empty() {
-                nearest(interface, mass, k, kept)
-            } else {
-                combined(&taken[k as usize], &rows, &mut sum)
+        match interface.opponent {
+            Opponent::Deformable | Opponent::Rigid { .. } => {
+                let rows = absorption((0..count).map(state).collect());
+                let mut sum = SparseSum::new(count);
+                let released = kept.iter().map(|&k| {
+                    let taken = &taken[k as usize];
+                    match is_nearest[k as usize] {
+                        true => taken.clone(),
+                        false => combined(taken, &rows, &mut sum),
+                    }
+                });
+                let released: Vec<SparseRow> = released.collect();
+                let signed = |t: u32, row: &SparseRow| -> Vec<Share> {
+                    let (side, _) = mass.nodes[t as usize];
+                    let sign = |k: u32| match mass.nodes[k as usize].0 == side {
+                        true => 1.0,
+                        false => -1.0,
+                    };
+                    row.iter().map(|&(k, z)| (k, [z, z * sign(k)])).collect()
+                };
+                Self {
+                    rows: (0..).zip(&rows).map(|(t, row)| signed(t, row)).collect(),
+                    released: kept
+                        .iter()
+                        .zip(&released)
+                        .map(|(&k, row)| signed(k, row))
+                        .collect(),
+                }
             }
-        });
-        Self {
-            released: released.collect(),
-            rows,
+            Opponent::Itself { .. } => {
+                let sign = |t: u32, j: u32| match is_nearest[t as usize] {
+                    true => interface.sign([t, j].map(|k| mass.nodes[k as usize])),
+                    false => -1.0,
+                };
+                on_two_sheets((0..count).map(state).collect(), &taken, kept, sign)
+            }
         }
+    }
+}
+
+/// Solves for the rows of `Z` and `Y` on two sheets, where what node `t` takes from `j` has the
+/// sign `sign(t, j)`.
+fn on_two_sheets(
+    states: Vec<State>,
+    taken: &[SparseRow],
+    kept: &[u32],
+    sign: impl Fn(u32, u32) -> f64,
+) -> Transfer {
+    let count = states.len() as u32;
+    let row_of = |t: u32, sheet: u32| -> SparseRow {
+        let entry = |&(j, value): &(u32, f64)| {
+            let sheet = if sign(t, j) < 0.0 { 1 - sheet } else { sheet };
+            (j + sheet * count, value)
+        };
+        let mut row: SparseRow = taken[t as usize].iter().map(entry).collect();
+        row.sort_by_key(|&(j, _)| j);
+        row
+    };
+    let on_sheet = |sheet: u32| {
+        let states = (0..).zip(&states);
+        states.map(move |(t, state)| match state {
+            State::Transient(_) => State::Transient(row_of(t, sheet)),
+            State::Absorbing => State::Absorbing,
+            State::Outside => State::Outside,
+        })
+    };
+    let rows = absorption(on_sheet(0).chain(on_sheet(1)).collect());
+    let joined = |row: &SparseRow| -> Vec<Share> {
+        let mut joined: Vec<Share> = Vec::with_capacity(row.len());
+        let sheets = row.iter().map(|&(k, z)| match k < count {
+            true => (k, [z, z]),
+            false => (k - count, [z, -z]),
+        });
+        let mut entries: Vec<Share> = sheets.collect();
+        entries.sort_by_key(|&(k, _)| k);
+        for (k, [z, y]) in entries {
+            match joined.last_mut() {
+                Some((last, sum)) if *last == k => {
+                    sum[0] += z;
+                    sum[1] += y;
+                }
+                _ => joined.push((k, [z, y])),
+            }
+        }
+        joined
+    };
+    let mut sum = SparseSum::new(2 * count as usize);
+    let released = kept
+        .iter()
+        .map(|&k| joined(&combined(&row_of(k, 0), &rows, &mut sum)));
+    Transfer {
+        released: released.collect(),
+        rows: rows[..count as usize].iter().map(joined).collect(),
     }
 }
 
@@ -85,14 +176,16 @@ impl Transfer {
 fn taken(interface: &Interface, mass: &CommonMass, t: u32) -> SparseRow {
     let (side, node) = mass.nodes[t as usize];
     let mut row = match interface.opponent {
-        Opponent::Deformable => opposing(interface, mass, side, node),
+        Opponent::Deformable | Opponent::Itself { .. } => opposing(interface, mass, side, node),
         Opponent::Rigid { .. } if mass.weighted[t as usize] => mass.rows[t as usize].clone(),
         Opponent::Rigid { .. } => mass.whole[t as usize].clone(),
     };
-    row.retain(|&(j, value)| j != t && mass.weighted[j as usize] && value > 0.0);
+    row.retain(|&(j, value)| {
+        !is_same(interface, mass, t, j) && mass.weighted[j as usize] && value > 0.0
+    });
     let total: f64 = row.iter().map(|(_, value)| value).sum();
     let enough = match interface.opponent {
-        Opponent::Deformable => UNSEEN,
+        Opponent::Deformable | Opponent::Itself { .. } => UNSEEN,
         Opponent::Rigid { .. } => 0.0,
     };
     if total > enough {
@@ -102,13 +195,24 @@ fn taken(interface: &Interface, mass: &CommonMass, t: u32) -> SparseRow {
     }
 }
 
+/// Returns whether two nodes are one node of the mesh.
+fn is_same(interface: &Interface, mass: &CommonMass, t: u32, j: u32) -> bool {
+    match interface.opponent {
+        Opponent::Itself { mesh, .. } => {
+            let [t, j] = [t, j].map(|k| mesh[mass.nodes[k as usize].1.index()]);
+            t == j
+        }
+        Opponent::Deformable | Opponent::Rigid { .. } => t == j,
+    }
+}
+
 fn opposing(interface: &Interface, mass: &CommonMass, side: Side, node: SurfaceNode) -> SparseRow {
     let Some((corners, weights)) = interface.opposing[side][node] else {
         return SparseRow::new();
     };
     let mut row: SparseRow = Vec::with_capacity(4);
     for (corner, weight) in corners.into_iter().zip(weights) {
-        if let Some(j) = mass.index[side.opposite()][corner] {
+        if let Some(j) = mass.index[interface.opposing_side(side)][corner] {
             match row.iter_mut().find(|entry| entry.0 == j) {
                 Some(entry) => entry.1 += weight,
                 None => row.push((j, weight)),

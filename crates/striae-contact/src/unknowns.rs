@@ -18,6 +18,8 @@ pub struct Tractions {
     /// Closed share of the support of each node at the last converged state, by side, which its
     /// [bedding](crate::bedding) goes by.
     pub bedded: [Vec<f64>; 2],
+    /// Slip `sum |du|` of each node up to the last converged state, by side.
+    pub accumulated: [Vec<f64>; 2],
     /// What the iterations so far made of each node, by side; before the first, slip where a
     /// node slipped in the last increment and else open.
     /// It counts with a corrector, and where friction decays with the slip rate.
@@ -32,8 +34,19 @@ impl Tractions {
             slipped: nodes.map(|count| vec![false; count]),
             stuck: nodes.map(|count| vec![false; count]),
             bedded: nodes.map(|count| vec![0.0; count]),
+            accumulated: nodes.map(|count| vec![0.0; count]),
             tau_n: nodes.map(|count| vec![[0.0; 2]; count]),
             labels: nodes.map(|count| vec![Label::default(); count]),
+        }
+    }
+
+    /// Adds the slip of an increment that has converged; open nodes do not slip.
+    pub fn accumulate(&mut self, nodes: &[Vec<NodeResult>; 2]) {
+        let sums = self.accumulated.iter_mut().flatten();
+        for (sum, node) in sums.zip(nodes.iter().flatten()) {
+            if node.status != Status::Open {
+                *sum += node.slip.norm();
+            }
         }
     }
 

@@ -1,19 +1,20 @@
 //! Gap and slip of the kept nodes, weighted with the traction field.
 //!
-//! With the basis `phi_k = 1/2 (N^a Z^a + N^b Z^b)_k`, on one side alone `(N^a Z^a)_k`,
-//! the rows are adjoint to the forces of [`crate::common_field`]:
+//! With the basis `phi_k = 1/2 (N^i Z + N^j Z)_k` on the facets `i` and `j` of a segment, against
+//! a rigid surface `(N^i Z)_k`, and `psi_k = 1/2 (N^i Y - N^j Y)_k` of `transfer`, the
+//! rows are adjoint to the forces of [`crate::common_field`]:
 //!
 //! ```text
 //! g_k  = 1/w^0_k integral phi_k min(g, p_k/r_k) da + 1/w^0_k sum_l E_kl p_l
-//! du_k = 1/w_k integral phi_k R(n_k, n) du da
+//! du_k = 1/w_k integral psi_k R(n_k, s_k n) du da
 //!      + 1/w_k sum_l R(n_k, n_l) (E_kl tau_l - E'_kl tau^n_l)
 //! w_k  = integral phi_k da
 //! ```
 //!
 //! `w^0_k` is `w_k` at the start of the increment, a constant; the row states `g_k = 0`. Where a
 //! support is closed at all points that is the mean gap, where it is open `p_k/r_k`; between, a
-//! bedding `r_k` (see [`crate::bedding`]) turns into a multiplier as the support fills. Slip is
-//! seen from the node's own side. The terms with `E` are those of [`crate::ramp`].
+//! bedding `r_k` (see [`crate::bedding`]) turns into a multiplier as the support fills. `du`
+//! is how the first facet slips, `du_k` how the node does. The terms with `E` are those of [`crate::ramp`].
 
 use nalgebra::Matrix3;
 use rayon::prelude::*;
@@ -23,10 +24,10 @@ use crate::{
     configuration::Configuration,
     frame::{Frame, Frames},
     kinematics::{Kinematics, Presence, Pressure, Report, Supported},
-    pairing::{SIGNS, side_sign},
-    patch::Patch,
+    pairing::{SIGNS, corner_sign},
+    patch::{OnSegment, Patch},
     places::{ChainedSum, Places},
-    segment_rows::{ROWS, Slip},
+    segment_rows::Slip,
     selection::Selection,
     term::{Gradient, Jacobian},
     tracked::{Tracked, TrackedScalar},
@@ -48,8 +49,8 @@ pub fn kinematics(
 ) -> Vec<Kinematics> {
     let mut touching: Vec<Vec<(u32, u32)>> = vec![Vec::new(); selection.kept().len()];
     for (at, patch) in patches.iter().enumerate() {
-        for (entry, (k, _)) in patch.kept.iter().enumerate() {
-            touching[*k as usize].push((at as u32, entry as u32));
+        for (entry, kept) in patch.kept.iter().enumerate() {
+            touching[kept.k as usize].push((at as u32, entry as u32));
         }
     }
     (0..touching.len())
@@ -120,9 +121,14 @@ impl<'a> Sum<'a> {
     }
 
     fn add(&mut self, patch: &Patch, entry: usize, slip: Slip) {
-        let shares = &patch.kept[entry].1;
+        let OnSegment {
+            shares,
+            slips,
+            sign,
+            ..
+        } = &patch.kept[entry];
         let pressed = &patch.pressed;
-        let mut value = [0.0; ROWS];
+        let mut moved = Vec3::zeros();
         let mut by_gap = [0.0; 24];
         let mut by_weight = [0.0; 24];
         let mut by_slip = [[0.0; 9]; 8];
@@ -131,14 +137,15 @@ impl<'a> Sum<'a> {
             .enumerate()
             .filter(|(_, share)| **share != 0.0)
         {
-            add_multiple(&mut value, share, &patch.rows.value[c]);
+            let [_, x, y, z] = patch.rows.value[c];
+            moved += Vec3::new(x, y, z) * slips[c];
             self.weight += share * patch.rows.areas[c];
             if let Some(of_area) = patch.rows.area_slopes.get(c) {
                 add_multiple(&mut by_weight, share, of_area);
             }
             let of_slip = patch.rows.slip_slopes.get(c).into_iter().flatten();
             let sums = by_slip.iter_mut().zip(of_slip);
-            sums.for_each(|(sum, part)| add_multiple(sum, share, part));
+            sums.for_each(|(sum, part)| add_multiple(sum, slips[c], part));
         }
         self.gap += pressed.rows[entry];
         self.closed += pressed.closed[entry];
@@ -147,7 +154,7 @@ impl<'a> Sum<'a> {
             by_gap = slopes.rows[entry];
             self.by_pressure += slopes.rows_by_pressure[entry];
         }
-        let turned = (slip == Slip::Wanted).then(|| self.turned(patch, &value));
+        let turned = (slip == Slip::Wanted).then(|| self.turned(patch, &moved, *sign));
         let slopes = patch.paired.segment.slopes.as_deref();
         let is_rigid = self.configuration.pair.is_rigid();
         for corner in 0..8 {
@@ -156,7 +163,7 @@ impl<'a> Sum<'a> {
             };
             // Without slopes a row tells only whether the node itself or one that is opposite is
             // free, and by any entry that it faces something: a rigid side has none.
-            let is_beside = side == self.kept.side && node != self.kept.node;
+            let is_beside = self.is_beside(patch, corner) && node != self.kept.node;
             if slopes.is_none() && is_beside && !is_rigid {
                 continue;
             }
@@ -175,17 +182,21 @@ impl<'a> Sum<'a> {
         }
     }
 
-    /// Adds the slip, turned to the node's own tangent plane and seen from its side.
-    fn turned(&mut self, patch: &Patch, value: &[f64; ROWS]) -> Transported {
+    /// Returns whether a corner lies on the side of the node, or of the facet around it.
+    fn is_beside(&self, patch: &Patch, corner: usize) -> bool {
+        let paired = &patch.paired;
+        match self.configuration.pair.is_self_contact() {
+            true => paired.corners[corner / 4].contains(&self.kept.node),
+            false => paired.sides[corner / 4] == self.kept.side,
+        }
+    }
+
+    /// Adds the slip, turned to the node's own tangent plane.
+    fn turned(&mut self, patch: &Patch, slip: &Vec3, sign: f64) -> Transported {
         let n = self.frame.map_or_else(Vec3::zeros, |frame| frame.n.value);
-        let sign = side_sign(self.kept.side);
-        let slip = Vec3::new(value[1], value[2], value[3]);
-        let mut turned = Transported::new(&slip, &patch.paired.segment.normal, &(n * sign));
-        turned.by_vector *= sign;
-        turned.by_from *= sign;
-        self.slip += turned.value * sign;
-        // The sign of the normal cancels that of the slip.
-        self.slip_by_n += turned.by_n;
+        let turned = Transported::new(slip, &patch.paired.segment.normal, &(n * sign));
+        self.slip += turned.value;
+        self.slip_by_n += turned.by_n * sign;
         turned
     }
 
@@ -307,7 +318,7 @@ pub fn reports(
                 let report = &mut reports[side][node];
                 let [gap, x, y, z] = patch.rows.value[corner];
                 report.gap += gap;
-                report.slip += Vec3::new(x, y, z) * side_sign(side);
+                report.slip += Vec3::new(x, y, z) * corner_sign(corner);
                 report.area += patch.paired.area_of(corner);
             }
         }

@@ -63,6 +63,7 @@ fn side(geometry: Geometry) -> PairedSurface {
         geometry,
         stiffness: 1.0,
         texture: None,
+        thickness: Vec::new(),
     }
 }
 
@@ -72,6 +73,8 @@ fn pair(a: Geometry, b: Geometry) -> ContactPair {
         sides: [side(a), side(b)],
         enforcement: Enforcement::Weighted,
         search_distance: None,
+        has_faces: false,
+        one_body: false,
     }
 }
 

@@ -53,6 +53,11 @@ impl Names {
         Self { kind, names: all }
     }
 
+    /// Adds names that stand in no deck; `None`: some that are not known.
+    pub(crate) fn extend(&mut self, names: impl IntoIterator<Item = Option<String>>) {
+        self.names.extend(names);
+    }
+
     /// Position of the thing of that name; an unknown name is a fault.
     pub(crate) fn find(&self, name: &At<Text>, faults: &mut FaultList<'_>) -> Option<usize> {
         let position = self.position(&name.value.0);

@@ -83,8 +83,12 @@ number! {
     BelowHalf [Bound::AtLeast(0.0), Bound::Below(0.5)]
     /// An angle in degrees up to that of a half turn.
     HalfTurn [Bound::AtLeast(0.0), Bound::AtMost(180.0)]
+    /// An angle in degrees above zero, up to that of a half turn.
+    Angle [Bound::Above(0.0), Bound::AtMost(180.0)]
     /// A ratio by which something grows.
     Growth [Bound::AtLeast(1.0)]
+    /// An exponent of a power with a finite slope at zero.
+    Steepness [Bound::AtLeast(1.0)]
     /// A ratio of lateral contraction of a compressible material.
     PoissonsRatio [Bound::Above(-1.0), Bound::Below(0.5)]
 }

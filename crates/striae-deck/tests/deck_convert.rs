@@ -1,8 +1,10 @@
 //! Decks made of Abaqus models: keyword by keyword, and what has no counterpart.
+//!
+//! Longer than other files, as each keyword has a test.
 
 use std::path::PathBuf;
 use striae_deck::{Deck, convert, parse};
-use striae_law::friction::Law;
+use striae_law::friction::{Decay, Law, RateConstants};
 use striae_solve::model::{Curve, LoadKind, Procedure, RigidShape};
 
 /// A part of one cube with its sides as sets and surfaces.
@@ -111,7 +113,14 @@ Pad-1.Bottom, Base-1.Top
     assert!(matches!(pair.friction.law(), Law::Coulomb));
     assert_eq!(pair.friction.shear_cap(), Some(5.0));
     assert_eq!(pair.friction.coefficient().at_rest(), 0.4);
-    assert_eq!(pair.friction.coefficient().decay(), Some([0.25, 0.5]));
+    let decay = Decay {
+        kinetic_over_static: 0.25,
+        slip_rate: 0.5,
+        exponent: 1.0,
+        viscous: 0.0,
+    };
+    let by_rate = pair.friction.coefficient().by_rate();
+    assert_eq!(by_rate.constants(), RateConstants::Decay(decay));
     let tie = "*TIE, NAME=glue, POSITION TOLERANCE=0.2\nPad-1.Bottom, Base-1.Top\n";
     let (_, listed, deck) = converted(&model(tie, &STEP.replace("Pad-1.Low, 1, 2\n", "")));
     assert_eq!(listed, Vec::<String>::new());
@@ -132,11 +141,44 @@ Pad-1.Bottom, Base-1.Top
     let (_, listed, deck) = converted(&model("", &format!("{contact}{STEP}")));
     assert_eq!(listed, Vec::<String>::new());
     assert_eq!(deck.model.pairs[0].friction.coefficient().at_rest(), 0.3);
-    let all = "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n";
-    let (text, listed, deck) = converted(&model("", &format!("{all}{STEP}")));
+    let own = contact.replace("Pad-1.Bottom, Base-1.Top", "Pad-1.Bottom,");
+    let (text, listed, deck) = converted(&model("", &format!("{own}{STEP}")));
     assert!(deck.model.pairs.is_empty());
-    assert!(listed[0].contains("ALL EXTERIOR"), "{listed:?}");
+    assert!(
+        listed
+            .iter()
+            .any(|line| line.contains("contact of a surface with itself")),
+        "{listed:?}"
+    );
     assert!(text.contains(&format!("#   {}", listed[0])), "{text}");
+}
+
+#[test]
+fn general_contact_of_everything() {
+    let contact = "*SURFACE INTERACTION, NAME=Fric
+*FRICTION
+0.3,
+*SURFACE INTERACTION, NAME=Smooth
+*CONTACT
+*CONTACT INCLUSIONS, ALL EXTERIOR
+*CONTACT PROPERTY ASSIGNMENT
+, , Fric
+Pad-1.Bottom, Base-1.Top, Smooth
+";
+    let (text, listed, deck) = converted(&model("", &format!("{contact}{STEP}")));
+    assert!(
+        text.contains("[contact]\nall = true\nfriction = "),
+        "{text}"
+    );
+    assert!(deck.model.pairs.iter().any(|pair| pair.is_on_itself()));
+    for pair in &deck.model.pairs {
+        assert_eq!(pair.friction.coefficient().at_rest(), 0.3, "{}", pair.name);
+    }
+    assert_eq!(listed.len(), 1);
+    assert!(
+        listed[0].contains("state it in `[[contact.between]]`"),
+        "{listed:?}"
+    );
 }
 
 #[test]

@@ -86,6 +86,36 @@ fn constants() {
             "22:12: this friction is not possible: the angle 90.000 degrees after 180.000 degrees is refused: the angles of a table must ascend",
         ],
     );
+    let dependences = [
+        (
+            "a logarithm that lets friction vanish",
+            r#"by_slip_rate = { form = "logarithm", factor = -0.5, slip_rate = 1 }"#,
+            "22:56: this friction is not possible: factor = -0.5 lets friction vanish at the slip rate 6.389056: a factor below zero needs a limit below that rate, from which on friction is constant",
+        ),
+        (
+            "a table by pressure that does not ascend",
+            r#"by_pressure = { form = "table", pressures = [0, 2, 2], factors = [1, 1, 1] }"#,
+            "22:55: this friction is not possible: pressures: 2 after 2 is refused: they must ascend",
+        ),
+        (
+            "a table by slip rate with a factor too few",
+            r#"by_slip_rate = { form = "table", slip_rates = [0, 2], factors = [1] }"#,
+            "22:56: this friction is not possible: the table has slip_rates: 2, but factors: 1; as many of both are needed, at least two",
+        ),
+        (
+            "a decay in two places",
+            r#"decay = { kinetic_over_static = 0.5, slip_rate = 1 }, by_slip_rate = { form = "stribeck", kinetic_over_static = 0.5, slip_rate = 1 }"#,
+            "22:110: this friction is not possible: it has both `decay` and `by_slip_rate`; give either, a decay with more constants is `by_slip_rate = { form = \"stribeck\", .. }`",
+        ),
+    ];
+    for (what, keys, expected) in dependences {
+        let friction = format!(r#"law = "coulomb", mu = 0.3, {keys}"#);
+        misstated(
+            what,
+            &[(r#"law = "coulomb", mu = 0.3"#, &friction)],
+            &[expected],
+        );
+    }
     misstated(
         "normal of no length",
         &[("normal = [0, 0, 1]", "normal = [0, 0, 0]")],
@@ -360,23 +390,13 @@ b = { rigid = "floor" }"#,
         &["18:1: pair `interface` joins two rigid surfaces; at least one side must be a body"],
     );
     misstated(
-        "body against itself",
+        "facets on both sides",
         &[(
             r#"b = { body = "upper", facets = "zmin" }"#,
-            r#"b = { body = "lower", facets = "zmin" }"#,
+            r#"b = { body = "lower", facets = "all" }"#,
         )],
         &[
-            "18:1: pair `interface` joins body `lower` to itself; contact of a body with itself is not supported: mesh its two parts as two bodies",
-        ],
-    );
-    misstated(
-        "body against itself with shared nodes",
-        &[(
-            r#"b = { body = "upper", facets = "zmin" }"#,
-            r#"b = { body = "lower", facets = "xmin" }"#,
-        )],
-        &[
-            "18:1: pair `interface` joins body `lower` to itself (the two sides share 5 nodes); contact of a body with itself is not supported: mesh its two parts as two bodies",
+            "18:1: pair `interface` has 16 facets of body `lower` on both sides; give its sides facets of their own, or say `b = \"itself\"` where facets of `a` may touch each other",
         ],
     );
     misstated(

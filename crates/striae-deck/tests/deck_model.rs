@@ -593,6 +593,68 @@ fn inertia_gravity_and_decaying_friction() {
 }
 
 #[test]
+fn friction_that_depends_on_pressure_and_slip_rate() {
+    let read = |keys: &str| {
+        let friction = format!(r#"{{ law = "coulomb", mu = 0.3, {keys} }}"#);
+        let text = BASE.replace(r#"{ law = "coulomb", mu = 0.3 }"#, &friction);
+        let text = text.replace(
+            r#"{ pair = "interface", law = "frictionless" }"#,
+            &format!(r#"{{ pair = "interface", law = "coulomb", mu = 0.3, {keys} }}"#),
+        );
+        let model = parse(&text, "deck.toml", Path::new("")).unwrap().model;
+        let friction = model.pairs[0].friction.clone();
+        assert_eq!(model.steps[1].frictions[0].1, friction);
+        friction
+    };
+    let close = |friction: &Friction, [p, v]: [f64; 2], expected: f64| {
+        let found = friction.cap(p, v);
+        assert!(
+            (found - expected).abs() < 1e-13 * expected,
+            "{found} {expected}"
+        );
+    };
+    let power = read(r#"by_pressure = { form = "power-law", exponent = 0.5, pressure = 4 }"#);
+    close(&power, [9.0, 0.0], 0.3 * 6.0);
+    let floor =
+        read(r#"by_pressure = { form = "power-law", exponent = 0.5, pressure = 4, floor = 100 }"#);
+    // `V = 20`, `S = 0.1` and half of the floor.
+    close(&floor, [50.0, 0.0], 0.3 * (15.0 - 2.5));
+    let adhesion = read(r#"by_pressure = { form = "adhesion", pressure = 2 }"#);
+    close(&adhesion, [5.0, 0.0], 0.3 * 7.0);
+    let saturation = read(r#"by_pressure = { form = "saturation", shear_stress = 0.2 }"#);
+    close(&saturation, [5.0, 0.0], 0.2 * 7.5_f64.tanh());
+    let table =
+        r#"by_pressure = { form = "table", pressures = [1, 2, 4], factors = [1, 0.9, 0.5] }"#;
+    close(&read(table), [2.0, 0.0], 0.3 * 1.8);
+    let stribeck =
+        r#"by_slip_rate = { form = "stribeck", kinetic_over_static = 0.5, slip_rate = 2 }"#;
+    close(
+        &read(stribeck),
+        [1.0, 3.0],
+        0.15 * (1.0 + (-2.25_f64).exp()),
+    );
+    let viscous = r#"by_slip_rate = { form = "stribeck", kinetic_over_static = 0.5, slip_rate = 2, exponent = 1, viscous = 0.1 }"#;
+    let expected = 0.15 * (1.0 + (-1.5_f64).exp()) + 0.09;
+    close(&read(viscous), [1.0, 3.0], expected);
+    let logarithm =
+        r#"by_slip_rate = { form = "logarithm", factor = -0.1, slip_rate = 1, limit = 2 }"#;
+    close(
+        &read(logarithm),
+        [1.0, 3.0],
+        0.3 * (1.0 - 0.1 * 3.0_f64.ln()),
+    );
+    let run_in =
+        r#"by_accumulated_slip = { form = "exponential", final_over_initial = 1.5, slip = 0.2 }"#;
+    let after = read(run_in).cap_after(0.1, 2.0, 0.0);
+    let expected = 0.6 * (1.5 - 0.5 * (-0.5_f64).exp());
+    assert!((after - expected).abs() < 1e-14, "{after} {expected}");
+    let both = format!(
+        "by_slip_rate = {{ form = \"table\", slip_rates = [0, 3], factors = [1, 2] }}, {table}"
+    );
+    close(&read(&both), [4.0, 3.0], 0.3 * 2.0 * 0.5 * 4.0);
+}
+
+#[test]
 fn a_density_gives_mass_centre_and_inertia() {
     let text = BASE.replace(
         "plane = { point = [0, 0, 0], normal = [0, 0, 1] }",

@@ -216,6 +216,30 @@ fn types() {
             "22:75: an element of `mu` in [[pair]] friction must be a number greater than 0, but is 0",
         ],
     );
+    for (what, keys, expected) in [
+        (
+            "power law that friction falls by",
+            r#"by_pressure = { form = "power-law", exponent = 0, pressure = 1 }"#,
+            "22:88: `exponent` in [[pair]] friction by_pressure must be a number greater than 0, but is 0",
+        ),
+        (
+            "Stribeck's curve with an infinite slope",
+            r#"by_slip_rate = { form = "stribeck", kinetic_over_static = 0.5, slip_rate = 1, exponent = 0.5 }"#,
+            "22:130: `exponent` in [[pair]] friction by_slip_rate must be a number of at least 1, but is 0.5",
+        ),
+        (
+            "unknown dependence on the pressure",
+            r#"by_pressure = { form = "power law", exponent = 1, pressure = 1 }"#,
+            "22:64: `form` in [[pair]] friction by_pressure cannot be `power law`; expected one of `power-law`, `adhesion`, `saturation`, `table`; did you mean `power-law`?",
+        ),
+    ] {
+        let friction = format!(r#"law = "coulomb", mu = 0.3, {keys}"#);
+        misread(
+            what,
+            &[(r#"law = "coulomb", mu = 0.3"#, &friction)],
+            &[expected],
+        );
+    }
     misread(
         "divisions that are not whole",
         &[("divisions = [4, 4, 2]", "divisions = [4, 4.5, 2]")],

@@ -86,6 +86,30 @@ fn all_that_a_deck_can_say_is_written() {
 }
 
 #[test]
+fn all_dependences_of_friction_are_written() {
+    let decay = "decay = { kinetic_over_static = 0.7, slip_rate = 0.3 }";
+    for keys in [
+        r#"by_pressure = { form = "power-law", exponent = 0.67, pressure = 1e5 }"#,
+        r#"by_pressure = { form = "power-law", exponent = 1.2, pressure = 1e5, floor = 7 }"#,
+        r#"by_pressure = { form = "adhesion", pressure = 3e3, floor = 11.3 }"#,
+        r#"by_pressure = { form = "saturation", shear_stress = 7e4 }, decay = { kinetic_over_static = 0.3, slip_rate = 0.1 }"#,
+        r#"by_pressure = { form = "table", pressures = [0, 1e3, 1e5], factors = [1.3, 1.1, 0.7] }"#,
+        r#"by_slip_rate = { form = "stribeck", kinetic_over_static = 0.7, slip_rate = 0.3 }"#,
+        r#"by_slip_rate = { form = "stribeck", kinetic_over_static = 0.7, slip_rate = 0.3, exponent = 1.3, viscous = 0.1 }"#,
+        r#"by_slip_rate = { form = "logarithm", factor = 0.1, slip_rate = 1e-3 }"#,
+        r#"by_slip_rate = { form = "logarithm", factor = -0.1, slip_rate = 1e-3, limit = 1 }"#,
+        r#"by_accumulated_slip = { form = "exponential", final_over_initial = 1.7, slip = 0.3 }"#,
+        r#"by_accumulated_slip = { form = "table", slips = [0, 0.1, 1], factors = [1, 1.4, 0.9] }"#,
+        r#"by_slip_rate = { form = "table", slip_rates = [0, 0.1, 1], factors = [1, 0.8, 0.9] }"#,
+    ] {
+        let text = EVERYTHING.replacen(decay, keys, 1);
+        assert_ne!(text, EVERYTHING);
+        let deck = parse(&text, keys, Path::new("")).unwrap_or_else(|faults| panic!("{faults}"));
+        assert_round_trip(&deck, keys);
+    }
+}
+
+#[test]
 fn members_by_number_are_judged() {
     let faulty = |from: &str, to: &str| {
         let text = write(

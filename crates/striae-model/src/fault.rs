@@ -168,18 +168,89 @@ pub enum FaultKind {
         /// The pair.
         pair: String,
     },
-    /// A pair joins a body to itself.
+    /// A facet is on both sides of a pair.
     #[error(
-        "pair `{pair}` joins body `{body}` to itself{}; contact of a body with itself is not supported: \
-         mesh its two parts as two bodies", sharing(.shared)
+        "pair `{pair}` has {shared} facets of body `{body}` on both sides; give its sides facets of their own, or say `b = \"itself\"` where facets of `a` may touch each other"
     )]
-    SelfContact {
+    SharedFacets {
         /// The pair.
         pair: String,
         /// The body.
         body: String,
-        /// Nodes on both sides.
+        /// How many facets.
         shared: usize,
+    },
+    /// A surface that is a body's and a rigid one's.
+    #[error("`{label}` is the name of a body and of a rigid surface; rename one of them")]
+    TwoMeanings {
+        /// The name.
+        label: String,
+    },
+    /// A part of a rigid surface.
+    #[error(
+        "`{label}` is a part of rigid surface `{rigid}`, which has no sets; name all of it, `{rigid}`"
+    )]
+    PartOfRigid {
+        /// The label.
+        label: String,
+        /// The rigid surface.
+        rigid: String,
+    },
+    /// Two statements about what meets, of which neither is narrower.
+    #[error(
+        "{statements} both name {a} and {b}, and neither is narrower; leave one of them out, or give it facet sets, such as `body.set`"
+    )]
+    BothName {
+        /// The two statements.
+        statements: String,
+        /// A surface that both name.
+        a: String,
+        /// Surfaces that it meets.
+        b: String,
+    },
+    /// Two textures on one surface, neither of which is that of a narrower one.
+    #[error(
+        "`surface` {first} and {second} paint the same facets, of {} and {}, and neither is narrower; leave one of them out, or give it another facet set", labels[0], labels[1]
+    )]
+    BothPaint {
+        /// Number of the earlier statement.
+        first: usize,
+        /// Number of the later statement.
+        second: usize,
+        /// Surfaces that they name.
+        labels: [String; 2],
+    },
+    /// A statement about what meets that nothing does.
+    #[error(
+        "{statement} names nothing that can touch: named pairs and ties keep their facets, and rigid surfaces do not touch each other; leave it out, or name other surfaces"
+    )]
+    NothingToTouch {
+        /// The statement.
+        statement: String,
+    },
+    /// A side that stands for the other one, where it cannot.
+    #[error("pair `{pair}`: {found}; only side `b` can be `itself`, of a body on side `a`")]
+    NotItself {
+        /// The pair.
+        pair: String,
+        /// Names that exist.
+        found: &'static str,
+    },
+    /// A pair of a body with itself that asks for what needs two sides.
+    #[error("pair `{pair}` is one of a surface with itself, which {what}; leave that out")]
+    OnItself {
+        /// The pair.
+        pair: String,
+        /// The request.
+        what: &'static str,
+    },
+    /// Faces of their own in a pair that has one normal at a node.
+    #[error(
+        "pair `{pair}` is collocated and states `feature_angle`: its nodes have one normal each; leave one of them out"
+    )]
+    CollocatedFeatures {
+        /// The pair.
+        pair: String,
     },
     /// Two pairs join the same surfaces.
     #[error("pair `{pair}` joins the same two surfaces as pair `{other}`")]
@@ -540,14 +611,6 @@ fn it_has(known: &[String]) -> String {
         "it has none".into()
     } else {
         format!("it has {}", quoted(known))
-    }
-}
-
-fn sharing(shared: &usize) -> String {
-    if *shared == 0 {
-        String::new()
-    } else {
-        format!(" (the two sides share {shared} nodes)")
     }
 }
 

@@ -39,7 +39,10 @@ pub fn fitted(model: Model) -> Result<Model, Vec<Fault>> {
     let model = close(model).map_err(|fault| vec![located(fault)])?;
     let fits = fits(&model);
     let found = fits.iter().enumerate().filter_map(|(pair, fit)| {
-        let fit = fit.as_ref()?;
+        // Two parts of one body have the body between them.
+        let fit = fit
+            .as_ref()
+            .filter(|_| !model.pairs[pair].is_within_a_body())?;
         fault(&model, PairId(pair), fit)
     });
     let faults: Vec<Fault> = found.map(located).collect();

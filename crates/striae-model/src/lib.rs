@@ -13,6 +13,7 @@ mod build;
 mod check;
 mod fault;
 mod fit;
+mod general;
 mod motions;
 mod names;
 mod path;
@@ -20,12 +21,13 @@ mod path;
 pub use build::{
     BodyBuilder, Component, Components, ModelBuilder, PairBuilder, RigidBuilder, SectionBuilder,
     SideBuilder, StepBuilder, TieBuilder, axial, body, circumferential, composite,
-    equal_increments, extended, model, nodal, painted, pair, plane, radial, rigid, rigid_solid,
-    rigid_surface, section, solver, step, surface, tie, tied, turned, uniform,
+    equal_increments, extended, itself, model, nodal, painted, pair, plane, radial, rigid,
+    rigid_solid, rigid_surface, section, solver, step, surface, tie, tied, turned, uniform,
 };
 pub use check::{Draft, DraftBody, DraftPair, DraftStep, Known, Named, Validate, misshapen};
 pub use fault::{Fault, FaultKind, Faults};
 pub use fit::fitted;
+pub use general::{Everything, FEATURE_ANGLE, Lowered, Origin, everything};
 pub use motions::RigidMotions;
 pub use names::nearest;
 pub use path::{Path, Segment};

@@ -128,7 +128,10 @@ pub struct PairSummary {
     pub resultant_a: [f64; 3],
     /// Resultant of the contact tractions on surface `b`.
     pub resultant_b: [f64; 3],
-    /// Length of the sum of both resultants over that of the larger.
+    /// Integral of the pressure over surface `a`; in self-contact over one of the walls.
+    pub pressure_integral: f64,
+    /// Length of the sum of both resultants over that of the larger; in self-contact of the sum
+    /// of all forces over the integral of the pressure.
     pub mismatch: f64,
     /// Sticking nodes.
     pub stick: usize,
@@ -263,6 +266,7 @@ mod tests {
                 name: "interface".into(),
                 resultant_a: [0.1, 0.0, 15_712.0],
                 resultant_b: [-0.1, 0.0, -15_712.0],
+                pressure_integral: 15_720.0,
                 mismatch: 1e-13,
                 stick: 3,
                 slip: 2,
@@ -311,7 +315,8 @@ mod tests {
             "wall_s": 0.75, "peak_rss_mib": null,
             "pairs": [{
                 "name": "interface", "resultant_a": [0.1, 0.0, 15_712.0],
-                "resultant_b": [-0.1, 0.0, -15_712.0], "mismatch": 1e-13, "stick": 3,
+                "resultant_b": [-0.1, 0.0, -15_712.0], "pressure_integral": 15_720.0,
+                "mismatch": 1e-13, "stick": 3,
                 "slip": 2, "open": 1, "max_pressure": 4e5, "dissipated": 12.5
             }],
             "ties": [{

@@ -121,6 +121,7 @@ fn pair_summary(report: &PairReport) -> PairSummary {
         name: report.name.clone(),
         resultant_a: report.sides[0].force.into(),
         resultant_b: report.sides[1].force.into(),
+        pressure_integral: report.sides[0].pressure,
         mismatch: report.mismatch,
         stick: report.stick,
         slip: report.slip,

@@ -7,6 +7,7 @@
 
 mod array;
 mod cells;
+mod everything;
 mod fault;
 mod fit;
 mod friction;
@@ -34,6 +35,7 @@ use pyo3::prelude::*;
 mod _striae {
     #[pymodule_export]
     use super::{
+        everything::Everything,
         fit::{fit_friction, measurements_of},
         friction::Friction,
         generate::{annulus, block, capped_block, cylinder, half_cylinder, torus},

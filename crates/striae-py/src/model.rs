@@ -22,6 +22,7 @@ use striae::{
 };
 
 use crate::{
+    everything::Everything,
     fault::{model_error, model_faults, raised, refused},
     friction::Friction,
     material::Material,
@@ -80,6 +81,7 @@ impl Model {
         bodies: Vec<Body<'_>>,
         rigid: Vec<PyRef<'_, Rigid>>,
         pairs: Vec<PyRef<'_, Pair>>,
+        everything: Option<PyRef<'_, Everything>>,
         ties: Vec<PyRef<'_, Tie>>,
         steps: Vec<PyRef<'_, Step>>,
         solver: Solver,
@@ -117,6 +119,9 @@ impl Model {
         }
         for pair in pairs {
             built = built.pair(pair.0.clone());
+        }
+        if let Some(everything) = everything {
+            built = built.contact(everything.0.clone());
         }
         for tie in ties {
             built = built.tie(tie.0.clone());

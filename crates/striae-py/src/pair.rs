@@ -20,14 +20,15 @@ impl Pair {
     #[new]
     fn new(
         name: &str,
-        sides: [Surface; 2],
+        sides: (Surface, Option<Surface>),
         textures: (Option<PyRef<'_, Texture>>, Option<PyRef<'_, Texture>>),
         friction: Option<PyRef<'_, Friction>>,
     ) -> Self {
-        let [a, b] = sides.map(|(owner, facets)| match facets {
+        let side = |(owner, facets): Surface| match facets {
             Some(facets) => model::surface(owner, facets),
             None => model::rigid(owner),
-        });
+        };
+        let (a, b) = (side(sides.0), sides.1.map_or_else(model::itself, side));
         let pair = model::pair(name, textured(a, textures.0), textured(b, textures.1));
         Self(match friction {
             Some(friction) => pair.friction(friction.0.clone()),
@@ -41,6 +42,10 @@ impl Pair {
 
     fn searching(&self, distance: f64) -> Self {
         Self(self.0.clone().search_distance(distance))
+    }
+
+    fn divided(&self, feature_angle: f64) -> Self {
+        Self(self.0.clone().feature_angle(feature_angle))
     }
 
     fn stabilised(&self) -> Self {

@@ -99,6 +99,7 @@ fn model(count: usize) -> Model {
             initial: Initial::AsMeshed,
             interference: None,
             stabilised: false,
+            feature_angle: None,
         }],
         ties: Vec::new(),
         steps: Vec::new(),

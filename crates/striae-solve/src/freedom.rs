@@ -183,7 +183,7 @@ pub fn free_motion(
     rows.prescribed_coordinates(context, at);
     let slipping = slipping(contacts.iter().copied());
     for (pair, nodes) in contacts.iter().enumerate() {
-        let is_rough = context.plan.frictions[pair].cap(1.0, 0.0) > 0.0;
+        let is_rough = !context.plan.frictions[pair].is_frictionless();
         let holds = |status: Status| match friction {
             Friction::Any => is_rough,
             Friction::Dashpots => is_rough || context.stabilisation[pair] > 0.0,
@@ -321,6 +321,9 @@ impl Rows {
         holds: impl Fn(Status) -> bool,
     ) {
         let geometry = &problem.pairs[pair];
+        if geometry.contact.is_self_contact() {
+            return;
+        }
         let bodies = problem.model.bodies.len();
         let of_side = Side::BOTH.map(|side| match (geometry.bodies[side], geometry.rigid) {
             (Some(body), _) => self.of[body],

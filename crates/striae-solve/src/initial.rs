@@ -260,7 +260,7 @@ pub fn away(model: &Model, pair: PairId, Turned { side, node, at }: Turned) -> I
     let of_pair = &model.pairs[pair.0];
     let rigid = match &of_pair.b {
         ContactSurface::Rigid(_) => Some(side_name(model, &of_pair.b).to_owned()),
-        ContactSurface::Deformable { .. } => None,
+        ContactSurface::Deformable { .. } | ContactSurface::Itself => None,
     };
     InitialFault::Away {
         pair: of_pair.name.clone(),
@@ -292,13 +292,15 @@ pub fn surface_node(model: &Model, pair: PairId, side: Side, node: SurfaceNode) 
 /// Name of the body or rigid surface opposite to a side.
 pub fn other_name(model: &Model, pair: PairId, side: Side) -> &str {
     let of_pair = &model.pairs[pair.0];
-    side_name(model, [&of_pair.b, &of_pair.a][side])
+    let [a, b] = of_pair.surfaces();
+    side_name(model, [b, a][side])
 }
 
 fn side_name<'m>(model: &'m Model, side: &ContactSurface) -> &'m str {
     match side {
         ContactSurface::Deformable { body, .. } => &model.bodies[body.0].name,
         ContactSurface::Rigid(rigid) => &model.rigid_surfaces[rigid.0].name,
+        ContactSurface::Itself => "itself",
     }
 }
 

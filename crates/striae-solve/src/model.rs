@@ -174,6 +174,8 @@ pub enum ContactSurface {
     },
     /// A rigid surface.
     Rigid(RigidId),
+    /// The first side once more, as side `b`: the faces of a body that may touch each other.
+    Itself,
 }
 
 /// Two surfaces that may touch; side `a` is always deformable.
@@ -200,6 +202,38 @@ pub struct Pair {
     /// Whether viscous forces carry bodies that nothing else holds across the gap, see
     /// [`crate::stabilisation`].
     pub stabilised: bool,
+    /// Dihedral angle in degrees from which on facets that share an edge belong to different
+    /// faces: nodes on such an edge have a normal and a traction for each. `None`: one for all.
+    pub feature_angle: Option<f64>,
+}
+
+impl Pair {
+    /// The surfaces of both sides, the first one twice where it may touch itself.
+    pub fn surfaces(&self) -> [&ContactSurface; 2] {
+        match self.b {
+            ContactSurface::Itself => [&self.a, &self.a],
+            _ => [&self.a, &self.b],
+        }
+    }
+
+    /// Returns whether its sides are stated because they touch, not because they may.
+    pub fn is_expected_to_touch(&self) -> bool {
+        self.feature_angle.is_none() && !self.is_on_itself()
+    }
+
+    /// True where the first side may touch itself.
+    pub fn is_on_itself(&self) -> bool {
+        matches!(self.b, ContactSurface::Itself)
+    }
+
+    /// True where both sides are of one body.
+    pub fn is_within_a_body(&self) -> bool {
+        let [a, b] = self.surfaces().map(|side| match side {
+            ContactSurface::Deformable { body, .. } => Some(*body),
+            ContactSurface::Rigid(_) | ContactSurface::Itself => None,
+        });
+        a.is_some() && a == b
+    }
 }
 
 /// Two surfaces of bodies that are glued from the start, see [`crate::tie`].

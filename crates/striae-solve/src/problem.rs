@@ -127,6 +127,12 @@ pub enum ProblemError {
         /// What is wrong.
         error: TextureError,
     },
+    /// A texture on the second side of self-contact.
+    #[error("pair `{pair}`: a surface that touches itself has one texture, that of side `a`")]
+    TextureOfItself {
+        /// Name of the pair.
+        pair: String,
+    },
     /// A field has no tangential direction at a node.
     #[error(
         "pair `{pair}`: the texture of {surface} has no direction at {node}, ({:.6}, {:.6}, {:.6}): {}",
@@ -262,8 +268,14 @@ pub(crate) fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, 
         } => {
             bodies[index] = Some(body.0);
             faces[index] = of_side.iter().copied().map(Some).collect();
-            Ok(deformable(model, body.0, of_side))
+            Ok(deformable(model, body.0, of_side, pair.feature_angle))
         }
+        ContactSurface::Itself => Ok(PairedSurface {
+            geometry: Geometry::Itself,
+            stiffness: f64::INFINITY,
+            texture: None,
+            thickness: Vec::new(),
+        }),
         ContactSurface::Rigid(surface) => {
             rigid = Some(surface.0);
             let (geometry, reference) = rigid_geometry(model, pair, surface.0)?;
@@ -272,6 +284,7 @@ pub(crate) fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, 
                 geometry,
                 stiffness: f64::INFINITY,
                 texture: None,
+                thickness: Vec::new(),
             })
         }
     };
@@ -296,6 +309,8 @@ pub(crate) fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, 
             sides,
             enforcement: pair.enforcement,
             search_distance: pair.search_distance,
+            has_faces: pair.feature_angle.is_some(),
+            one_body: pair.feature_angle.is_some() && bodies[0] == bodies[1],
         },
         bodies,
         rigid_reference,
@@ -354,15 +369,32 @@ fn side_positions(
     }
 }
 
-fn deformable(model: &Model, body: usize, faces: &[Face]) -> PairedSurface {
+fn deformable(
+    model: &Model,
+    body: usize,
+    faces: &[Face],
+    feature_angle: Option<f64>,
+) -> PairedSurface {
     let body_model = &model.bodies[body];
     let facets: Vec<[NodeId; 4]> = faces
         .iter()
         .map(|&f| body_model.mesh.face_nodes(f))
         .collect();
+    let surface = match feature_angle {
+        None => Surface::new(&facets),
+        Some(angle) => {
+            let normals = facets.iter().map(|corners| {
+                let [a, b, c, d] = corners.map(|node| body_model.mesh.positions[node.index()]);
+                (c - a).cross(&(d - b)).normalize()
+            });
+            let cosine = angle.to_radians().cos();
+            Surface::with_faces(&facets, &normals.collect::<Vec<_>>(), cosine)
+        }
+    };
     PairedSurface {
-        geometry: Geometry::Deformable(Surface::new(&facets)),
+        geometry: Geometry::Deformable(surface),
         stiffness: body_model.modulus_at(faces),
         texture: None,
+        thickness: Vec::new(),
     }
 }

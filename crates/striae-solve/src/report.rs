@@ -40,7 +40,8 @@ pub struct PairReport {
     pub dissipated: f64,
 }
 
-/// Integrals over one side of a pair.
+/// Integrals over one side of a pair. In self-contact side `a` has the forces on both walls, which
+/// cancel, and what one of them adds up to of all that has no sign.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SideReport {
     /// Force of the contact tractions on the side.
@@ -199,7 +200,8 @@ fn wrench(problem: &Problem, state: &State, index: usize) -> Wrench {
 
 fn report(problem: &Problem, state: &State, pair: usize) -> PairReport {
     let of_pair = &state.pairs[pair];
-    let a = side(problem, state, pair, Side::A);
+    let is_self_contact = problem.pairs[pair].contact.is_self_contact();
+    let mut a = side(problem, state, pair, Side::A);
     let b = if problem.pairs[pair].rigid.is_some() {
         SideReport {
             force: -a.force,
@@ -209,7 +211,19 @@ fn report(problem: &Problem, state: &State, pair: usize) -> PairReport {
     } else {
         side(problem, state, pair, Side::B)
     };
-    let largest = a.force.norm().max(b.force.norm());
+    let mut largest = a.force.norm().max(b.force.norm());
+    if is_self_contact {
+        // Both walls are on side `a`, and their forces cancel: what one of them transmits.
+        for sum in [
+            &mut a.pressure,
+            &mut a.friction,
+            &mut a.area,
+            &mut a.pressed,
+        ] {
+            *sum *= 0.5;
+        }
+        largest = a.pressure;
+    }
     let arm = a.area.max(b.area).sqrt();
     let over = |value: f64, scale: f64| if scale > 0.0 { value / scale } else { 0.0 };
     let nodes: Vec<&NodeResult> = of_pair.nodes.iter().flatten().collect();

@@ -124,6 +124,11 @@ impl Skin {
 fn sides(model: &Model, surface: &Surface, first: &[usize]) -> Vec<Vec<(usize, Side)>> {
     let mut sides = vec![Vec::new(); surface.nodes().len()];
     for (at, pair) in model.pairs.iter().enumerate() {
+        // Within one body faces look for each other wherever they are, and only here is seen which
+        // of them is inside.
+        if pair.feature_angle.is_some() && bodies_of(pair).is_some_and(|[a, b]| a == b) {
+            continue;
+        }
         for (side, of_side) in [(Side::A, &pair.a), (Side::B, &pair.b)] {
             let ContactSurface::Deformable { body, faces } = of_side else {
                 continue;

@@ -154,7 +154,9 @@ impl Frame {
     ) -> Vec<Vector6<f64>> {
         let at = configuration(problem, pair, Positions::from(state));
         let sides = at.pair.deformable_sides().iter();
-        let own = sides.filter(|side| problem.pairs[pair].bodies[**side] == Some(body));
+        let own = sides.filter(|side| {
+            !at.pair.is_in_one_body() && problem.pairs[pair].bodies[**side] == Some(body)
+        });
         let points = own.flat_map(|&side| supports(&at, side));
         let edges = points.flat_map(|(x, push)| {
             let t = push.cross(&Vec3::ith(push.iamin(), 1.0)).normalize() * ROUGH;

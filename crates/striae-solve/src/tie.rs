@@ -21,6 +21,7 @@
 //! one. What a node follows may follow another tie in turn; rows that follow each other in
 //! a circle are solved together, and are a [`TieFault`] where they say the same.
 
+mod cover;
 mod fault;
 mod order;
 mod patch;
@@ -29,6 +30,7 @@ mod rows;
 mod side;
 mod start;
 
+pub use cover::covered;
 pub use fault::TieFault;
 pub use patch::NodalAreas;
 pub use start::placed;

@@ -450,7 +450,9 @@ impl Judgement {
                 let named = warnings
                     .iter()
                     .any(|w| w.pair.as_ref() == Some(&model.pairs[pair].name));
-                if self.forces.get(pair).is_none_or(|force| *force == 0.0) && !named {
+                let is_expected = model.pairs[pair].is_expected_to_touch();
+                let is_unloaded = self.forces.get(pair).is_none_or(|force| *force == 0.0);
+                if is_expected && is_unloaded && !named {
                     worst.push(Worst {
                         kind: Kind::NeverTouched,
                         pair: Some(pair),
@@ -686,7 +688,8 @@ pub fn warnings_at_start(model: &Model, fits: &[Option<Fit>]) -> Vec<Warning> {
 fn never(model: &Model, fits: &[Option<Fit>], may_meet: impl Fn(usize) -> bool) -> Vec<Warning> {
     let mut warnings = Vec::new();
     for (pair, fit) in fits.iter().enumerate() {
-        let fit = fit.as_ref().filter(|_| !may_meet(pair));
+        let is_expected = model.pairs[pair].is_expected_to_touch();
+        let fit = fit.as_ref().filter(|_| is_expected && !may_meet(pair));
         let pair = PairId(pair);
         if let Some(fit) = fit {
             let name = &model.pairs[pair.0].name;

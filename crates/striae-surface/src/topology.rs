@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::node::SurfaceNode;
-use striae_mesh::{FacetId, NodeId};
+use striae_mesh::{FacetId, NodeId, Vec3};
 
 /// A surface of facets with three or four corners, in local numbering.
 ///
@@ -47,6 +47,33 @@ impl Surface {
         let local = |node: &NodeId| SurfaceNode::new(nodes.partition_point(|other| other < node));
         let facets: Vec<[SurfaceNode; 4]> =
             facets.iter().map(|f| f.each_ref().map(local)).collect();
+        Self::of_parts(nodes, facets)
+    }
+
+    /// A surface whose nodes belong to smooth faces: a node of the mesh becomes as many nodes of
+    /// the surface as faces meet there. Facets with a common edge belong to one face where the
+    /// angle between their unit normals has at least this cosine.
+    pub fn with_faces(facets: &[[NodeId; 4]], normals: &[Vec3], cosine: f64) -> Self {
+        let faces = Faces::new(facets, normals, cosine);
+        let mut seats: Vec<(NodeId, usize)> = facets
+            .iter()
+            .enumerate()
+            .flat_map(|(facet, nodes)| (0..4).map(move |at| (nodes[at], facet, at)))
+            .map(|(node, facet, at)| (node, faces.root(facet, at)))
+            .collect();
+        seats.sort_unstable();
+        seats.dedup();
+        let local = |facet: usize, at: usize| {
+            let seat = (facets[facet][at], faces.root(facet, at));
+            SurfaceNode::new(seats.partition_point(|other| *other < seat))
+        };
+        let of_facet = |facet: usize| std::array::from_fn(|at| local(facet, at));
+        let local_facets = (0..facets.len()).map(of_facet).collect();
+        let nodes = seats.into_iter().map(|(node, _)| node).collect();
+        Self::of_parts(nodes, local_facets)
+    }
+
+    fn of_parts(nodes: Vec<NodeId>, facets: Vec<[SurfaceNode; 4]>) -> Self {
         let corners_of_node = corners_of_node(nodes.len(), &facets);
         let boundary_edges = boundary_edges(&facets);
         let mut on_boundary = vec![false; nodes.len()];
@@ -74,12 +101,13 @@ impl Surface {
         self
     }
 
-    /// Mesh node of every surface node, ascending.
+    /// Mesh node of every surface node, ascending; on an edge between faces more than once.
     pub fn nodes(&self) -> &[NodeId] {
         &self.nodes
     }
 
-    /// The surface node that a mesh node is, if it lies on the surface.
+    /// The surface node that a mesh node is, if it lies on the surface; on an edge between faces
+    /// one of them.
     pub fn node(&self, node: NodeId) -> Option<SurfaceNode> {
         let place = self.nodes.binary_search(&node).ok();
         place.map(SurfaceNode::new)
@@ -103,6 +131,64 @@ impl Surface {
     /// Whether the surface node lies on an edge of the surface.
     pub fn is_on_boundary(&self, node: SurfaceNode) -> bool {
         self.on_boundary[node]
+    }
+}
+
+/// Smooth faces: which corners at a node belong together.
+struct Faces {
+    /// A corner of the same face, by `4 facet + corner`; the first one stands for all.
+    parent: Vec<usize>,
+}
+
+impl Faces {
+    fn new(facets: &[[NodeId; 4]], normals: &[Vec3], cosine: f64) -> Self {
+        let mut faces = Self {
+            parent: (0..4 * facets.len()).collect(),
+        };
+        let mut edges: BTreeMap<[NodeId; 2], Vec<(usize, [usize; 2])>> = BTreeMap::new();
+        for (facet, nodes) in facets.iter().enumerate() {
+            let count = if nodes[2] == nodes[3] { 3 } else { 4 };
+            if count == 3 {
+                faces.join(4 * facet + 2, 4 * facet + 3);
+            }
+            for at in 0..count {
+                let next = (at + 1) % count;
+                let ends = match nodes[at] < nodes[next] {
+                    true => [at, next],
+                    false => [next, at],
+                };
+                let edge = edges.entry(ends.map(|at| nodes[at])).or_default();
+                edge.push((facet, ends));
+            }
+        }
+        for around in edges.values() {
+            for (at, &(first, ends)) in around.iter().enumerate() {
+                for &(second, others) in &around[at + 1..] {
+                    if normals[first].dot(&normals[second]) >= cosine {
+                        for (end, other) in ends.into_iter().zip(others) {
+                            faces.join(4 * first + end, 4 * second + other);
+                        }
+                    }
+                }
+            }
+        }
+        faces
+    }
+
+    fn root(&self, facet: usize, at: usize) -> usize {
+        self.root_of(4 * facet + at)
+    }
+
+    fn root_of(&self, mut corner: usize) -> usize {
+        while self.parent[corner] != corner {
+            corner = self.parent[corner];
+        }
+        corner
+    }
+
+    fn join(&mut self, a: usize, b: usize) {
+        let [a, b] = [self.root_of(a), self.root_of(b)];
+        self.parent[a.max(b)] = a.min(b);
     }
 }
 
@@ -153,6 +239,28 @@ fn boundary_edges(facets: &[[SurfaceNode; 4]]) -> Vec<BoundaryEdge> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn nodes_on_an_edge_between_faces_belong_to_both() {
+        let n = NodeId::new;
+        // A strip of three facets: two in a plane, the third one at a right angle.
+        let facets = [
+            [n(0), n(1), n(5), n(4)],
+            [n(1), n(2), n(6), n(5)],
+            [n(2), n(3), n(7), n(6)],
+        ];
+        let normals = [Vec3::z(), Vec3::z(), Vec3::x()];
+        let surface = Surface::with_faces(&facets, &normals, 0.7);
+        let nodes = [0, 1, 2, 2, 3, 4, 5, 6, 6, 7].map(n);
+        assert_eq!(surface.nodes(), nodes);
+        assert_eq!(surface.boundary_edges().len(), 6 + 4);
+        let [first, second] = [1, 2].map(|facet| surface.facets()[facet]);
+        assert!(first.iter().all(|node| !second.contains(node)));
+        assert_eq!(surface.corners(surface.facets()[0][1]).len(), 2);
+        let whole = Surface::with_faces(&facets, &normals, -1.0);
+        assert_eq!(whole.nodes(), Surface::new(&facets).nodes());
+        assert_eq!(whole.facets(), Surface::new(&facets).facets());
+    }
 
     #[test]
     fn two_facets_share_an_edge() {

@@ -13,6 +13,7 @@
 
 mod bending;
 mod cost;
+mod everything;
 mod fit;
 mod friction;
 mod hold;
@@ -76,6 +77,8 @@ pub enum Topic {
     Facing,
     /// A pair that can never meet.
     NeverMeets,
+    /// Surfaces that may touch, and thin bodies that may touch themselves.
+    Contact,
     /// Coefficients of friction over all directions.
     Friction,
     /// Textures without a direction.
@@ -96,6 +99,7 @@ impl Topic {
             Self::Fit => "fit",
             Self::Facing => "facing",
             Self::NeverMeets => "never-meets",
+            Self::Contact => "contact",
             Self::Friction => "friction",
             Self::Texture => "texture",
             Self::Cost => "cost",
@@ -120,6 +124,7 @@ impl Advice {
         setup::look(model, &mut advice);
         bending::look(model, &fits, &mut advice);
         hold::look(model, &fits, &mut advice);
+        everything::look(model, &mut advice);
         fit::look(model, &fits, &mut advice);
         setup::prescribed::look(model, &mut advice);
         sagitta::look(model, &fits, &mut advice);

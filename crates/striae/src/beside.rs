@@ -5,6 +5,7 @@
 //! DIR/deck.toml                the deck as it was when the run began
 //! DIR/law-PAIR.svg             coefficients of friction of a pair
 //! DIR/law-PAIR-STEP.svg        those that a step changes them to
+//! DIR/law-PAIR-coefficient.svg the same over what else they depend on
 //! ```
 
 use striae_files::{read_text, write_atomically};
@@ -13,7 +14,7 @@ use striae_solve::model::Model;
 
 use crate::{
     error::Error,
-    figures::law::{SAMPLES, coefficients, frictions},
+    figures::law::{SAMPLES, coefficients, dependence, frictions},
     log::Recording,
 };
 
@@ -40,6 +41,9 @@ pub(crate) fn write(recording: &Recording, model: &Model) -> Result<(), Error> {
             .collect();
         let file = folder.join(format!("law-{}.svg", named.file));
         coefficients(named.friction, &analyses).write_svg(&file)?;
+        if let Some(figure) = dependence(named.friction) {
+            figure.write_svg(&folder.join(format!("law-{}-coefficient.svg", named.file)))?;
+        }
     }
     Ok(())
 }

@@ -6,13 +6,15 @@ pub use crate::{
 pub use striae_contact::unknowns::{NodeResult, Status};
 pub use striae_law::{
     bulk::{Hyperelastic, Isochoric, LameConstants, Material, OgdenTerm, Volumetric},
-    friction::{Friction, SlipRule},
+    friction::{
+        Decay, Friction, Logarithm, PressureDependence, RateDependence, SlipDependence, SlipRule,
+    },
 };
 pub use striae_mesh::{Mesh, NodeId, Region, Vec3, generate::Block};
 pub use striae_model::{
     Component, Curve, Freedom, Initial, LoadExtent, LoadKind, Model, Validate, body,
-    circumferential, composite, model, pair, plane, rigid, section, step, surface, tie, tied,
-    uniform,
+    circumferential, composite, everything, itself, model, pair, plane, rigid, section, step,
+    surface, tie, tied, uniform,
 };
 pub use striae_output::{BodyField, ContactField, FieldOutput, Output, Probe, ProbePlace, Section};
 pub use striae_solve::outcome::Ending;

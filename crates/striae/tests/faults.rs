@@ -47,7 +47,7 @@ b = { rigid = "floor" }
 [[pair]]
 name = "self"
 a = { body = "one", facets = "xmin" }
-b = { body = "one", facets = "ymin" }
+b = { body = "one", facets = "xmin" }
 [[step]]
 name = "press"
 increments = { initial = 0.1, smallest = 0.5, largest = 1 }
@@ -105,6 +105,7 @@ fn joined(name: &str, a: ContactSurface, b: ContactSurface, friction: Friction) 
         initial: Initial::AsMeshed,
         interference: None,
         stabilised: false,
+        feature_angle: None,
     }
 }
 
@@ -137,7 +138,7 @@ fn eleven_faults() -> Model {
         joined(
             "self",
             side(&bodies, 0, "xmin"),
-            side(&bodies, 0, "ymin"),
+            side(&bodies, 0, "xmin"),
             Friction::frictionless(),
         ),
     ];

@@ -15,13 +15,34 @@ pub struct Exhibit {
 }
 
 /// All cases.
-pub const EXHIBITS: [Exhibit; 28] = [
+pub const EXHIBITS: [Exhibit; 30] = [
     Exhibit {
         case: "two-blocks",
         run: Some("deck"),
         options: &["--field", "pressure"],
         figure: Some("reactions"),
         caption: "Two blocks of the same rubber, pressed onto each other and slid, beside two other codes.",
+    },
+    Exhibit {
+        case: "stack",
+        run: Some("pile"),
+        options: &["--field", "cauchy_stress", "--component", "von Mises"],
+        figure: Some("forces"),
+        caption: "Blocks in a T and in a pile, everything in contact, with the forces of named pairs.",
+    },
+    Exhibit {
+        case: "sipes",
+        run: Some("tread"),
+        options: &[
+            "--field",
+            "cauchy_stress",
+            "--component",
+            "von Mises",
+            "--view",
+            "0,1,0",
+        ],
+        figure: Some("forces"),
+        caption: "A tread block of one piece, pressed onto a road and dragged until the walls of its slits meet, with the forces of named walls.",
     },
     Exhibit {
         case: "stiff-punch",

@@ -156,9 +156,13 @@ fn pair_line(pair: &Pair, model: &Model) -> String {
             )
         }
         ContactSurface::Rigid(rigid) => format!("rigid `{}`", model.rigid_surfaces[rigid.0].name),
+        ContactSurface::Itself => "itself".to_owned(),
     });
     let stabilised = if pair.stabilised { ", stabilised" } else { "" };
-    format!("  pair `{}`: {a} and {b}{stabilised}", pair.name)
+    let features = pair.feature_angle.map_or_else(String::new, |angle| {
+        format!(", faces part at edges of {angle} degrees")
+    });
+    format!("  pair `{}`: {a} and {b}{stabilised}{features}", pair.name)
 }
 
 fn step_line(model: &Model, index: usize) -> String {
@@ -180,7 +184,7 @@ fn side_nodes(side: &ContactSurface, model: &Model) -> BTreeSet<NodeId> {
                 .flat_map(|face| mesh.face_nodes(*face))
                 .collect()
         }
-        ContactSurface::Rigid(_) => BTreeSet::new(),
+        ContactSurface::Rigid(_) | ContactSurface::Itself => BTreeSet::new(),
     }
 }
 
@@ -202,7 +206,7 @@ mod tests {
             "{said}"
         );
         assert!(said.contains(
-            "pair `interface`: `lower` (16 facets, 25 nodes) and `upper` (9 facets, 16 nodes)"
+            "pair `lower-upper`: `lower` (64 facets, 66 nodes) and `upper` (42 facets, 44 nodes)"
         ));
         // 3 (75 + 48) displacements and three tractions of every node that is kept.
         let displacements = 3 * (75 + 48);
@@ -220,19 +224,21 @@ mod tests {
         }
     }
 
-    /// Nodes of the first pair that bear unknowns in the undeformed state.
+    /// Nodes of all pairs that bear unknowns in the undeformed state.
     fn kept_at_the_start(model: &Model) -> usize {
         let problem = Problem::new(model.clone()).unwrap();
         let state = State::undeformed(&problem);
         let context = StepContext::new(&problem, 0, &state);
-        let of_pair = &state.pairs[0];
-        let configuration = context.configuration(0, &state.positions, &state.rigid);
-        let selection = Selection::new(
-            &configuration,
-            None,
-            &of_pair.kept,
-            &context.fixed_on_pair[0],
-        );
-        selection.kept().len()
+        let kept = (0..problem.pairs.len()).map(|pair| {
+            let configuration = context.configuration(pair, &state.positions, &state.rigid);
+            let selection = Selection::new(
+                &configuration,
+                None,
+                &state.pairs[pair].kept,
+                &context.fixed_on_pair[pair],
+            );
+            selection.kept().len()
+        });
+        kept.sum()
     }
 }

@@ -367,9 +367,9 @@ mod tests {
         std::fs::write(&deck, include_str!("template.toml")).unwrap();
         let text = said(&[&deck.to_string_lossy()], &scratch.path().join("figures")).unwrap();
         assert!(
-            text.contains("pair `interface`: coulomb, mu = 0.3"),
+            text.contains("pair `lower-upper`: coulomb, mu = 0.3"),
             "{text}"
         );
-        assert!(scratch.path().join("figures/law-interface.csv").exists());
+        assert!(scratch.path().join("figures/law-lower-upper.csv").exists());
     }
 }

@@ -229,8 +229,14 @@ pub fn told(summary: &Summary) -> String {
     )];
     for pair in &summary.pairs {
         let [x, y, z] = pair.resultant_a;
+        // Forces of self-contact, and around a press fit, cancel.
+        let resultant = x.hypot(y).hypot(z);
+        let force = match resultant < 1e-6 * pair.pressure_integral {
+            true => format!("pressed together by {:.6e}", pair.pressure_integral),
+            false => format!("force on a ({x:.6e}, {y:.6e}, {z:.6e})"),
+        };
         lines.push(format!(
-            "pair `{}`: force on a ({x:.6e}, {y:.6e}, {z:.6e}), mismatch {:.1e}; stick {}, slip {}, open {}; dissipated {:.6e}",
+            "pair `{}`: {force}, mismatch {:.1e}; stick {}, slip {}, open {}; dissipated {:.6e}",
             pair.name, pair.mismatch, pair.stick, pair.slip, pair.open, pair.dissipated
         ));
     }

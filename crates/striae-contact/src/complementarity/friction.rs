@@ -11,10 +11,10 @@
 //!
 //! One that cannot slip at all has `z = 0`.
 //!
-//! Where friction decays with the slip rate it may fall faster with slip than the bodies let
+//! Where friction falls with the slip rate it may fall faster with slip than the bodies let
 //! go: with `f(d) = F - k d - varpi(d/dt)`, `f'(0)` is positive, and Newton's method goes
-//! backwards from rest. `varpi` is convex, so `f` is concave, and from the right of the
-//! solution Newton's method does not turn back. The kinetic coefficient leads there: a node
+//! backwards from rest. Where `varpi` is convex, as in a decay, `f` is concave, and from the right
+//! of the solution Newton's method does not turn back. The least friction leads there: a node
 //! that sticks, slips and sticks begins with it at every second time. Where `f` is negative
 //! throughout there is no slip, and Newton's method goes back and forth about its largest
 //! value. A node whose slip goes back and forth sticks, therefore.
@@ -41,7 +41,7 @@ pub(super) fn tangential(
     iteration: Iteration,
 ) -> (Status, [TangentialRow; 2]) {
     let z = [Q::variable(z1, TRACTION + 1), Q::variable(z2, TRACTION + 2)];
-    if state.friction.cap(1.0, 0.0) == 0.0 {
+    if state.friction.is_frictionless() {
         return (Status::Slip, z.map(traction));
     }
     let rate = match iteration {
@@ -58,7 +58,7 @@ pub(super) fn tangential(
         size: configuration.size(state.node.side, state.node.node),
         begun: match state.node.before.status {
             Status::Open | Status::Stick if state.node.before.begun % 2 == 1 => {
-                state.varpi(Rate::Endless)
+                state.varpi(Rate::Weakest)
             }
             Status::Open | Status::Stick | Status::Slip => varpi,
         },
@@ -78,7 +78,7 @@ struct Friction<'a> {
     mobility: Mobility,
     size: f64,
     varpi: Q,
-    /// The same for the row of slip: of endless slip where the node begins to slip again.
+    /// Radius for the row of slip: of the weakest friction where the node begins to slip again.
     begun: Q,
     z: [Q; 2],
 }
@@ -148,33 +148,34 @@ impl Friction<'_> {
         self.slip_or_stick(rows)
     }
 
-    /// The radius of the slip surface at which slip goes on: where friction decays with the
+    /// The radius of the slip surface at which slip goes on: where friction depends on the
     /// slip rate, `|z|` is that of the rate so far.
     fn continued_radius(&self) -> Q {
         let radius = self.reaching(&self.varpi, &self.z);
         let [z1, z2] = self.z.map(|z| z.re);
-        let share = match self.state.friction.decays() {
-            true if radius.re > 0.0 => (z1.hypot(z2) / radius.re).min(1.0),
+        let by_rate = self.state.friction.coefficient().by_rate();
+        let share = match by_rate.is_some() {
+            true if radius.re > 0.0 => (z1.hypot(z2) / radius.re).min(by_rate.largest_over_rest()),
             _ => 1.0,
         };
         Q::combination([(share, &radius)])
     }
 
-    /// The radius of the slip surface at the highest slip rates.
+    /// The radius of the slip surface at the slip rate where friction has fallen most.
     fn least_radius(&self) -> f64 {
-        let kinetic = self.state.varpi(Rate::Endless);
+        let kinetic = self.state.varpi(Rate::Weakest);
         self.reaching(&kinetic, &self.z).re
     }
 
     /// Whether a node slips, by the length of `y` and the radius of the slip surface in its
-    /// direction. Where friction decays with the slip rate, a node that turns around, or
+    /// direction. Where friction falls with the slip rate, a node that turns around, or
     /// whose slip goes back and forth, sticks first: from there its friction at rest decides.
     fn slips(&self, length: f64, radius: f64, y: [f64; 2]) -> bool {
         let [first, second] = &self.state.turned;
         let before = &self.state.node.before;
         let around = first.re * y[0] + second.re * y[1] < 0.0;
         let du = self.state.slip[0].re.hypot(self.state.slip[1].re);
-        let sticks = self.state.friction.decays()
+        let sticks = self.state.friction.weakens()
             && before.status == Status::Slip
             && (around || before.goes_back_and_forth(du));
         length > radius && !sticks

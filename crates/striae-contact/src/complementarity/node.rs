@@ -60,6 +60,8 @@ pub struct ContactNode<'a> {
     pub rate: &'a TrackedScalar,
     /// Whether it slipped in the last converged increment.
     pub slipped: bool,
+    /// Its slip up to the last converged state.
+    pub accumulated: f64,
     /// In which directions its friction is determined.
     pub freedom: SlipFreedom,
     /// What the iterations before made of it.

@@ -48,8 +48,8 @@ pub(super) enum Rate {
     Present,
     /// The present one where the slip goes along `y`, else none.
     Along([f64; 2]),
-    /// Slip without end.
-    Endless,
+    /// The one at which friction has fallen most.
+    Weakest,
 }
 
 /// Gap and slip of a node as functions of the unknowns.
@@ -221,9 +221,14 @@ impl<'a> NodeState<'a> {
                 let goes = y[0] * self.turned[0].re + y[1] * self.turned[1].re;
                 if goes > 0.0 { present } else { 0.0 }
             }
-            Rate::Endless => f64::INFINITY,
+            Rate::Weakest => self.friction.weakest_rate().unwrap_or(present),
         };
-        let cap = Cap::new(self.friction, self.bounding_pressure(), rate);
+        let cap = Cap::new(
+            self.friction,
+            self.node.accumulated,
+            self.bounding_pressure(),
+            rate,
+        );
         let mut varpi = Q::constant(cap.value);
         let lane = match self.node.kinematics.pressure {
             Pressure::AtNode => TRACTION,

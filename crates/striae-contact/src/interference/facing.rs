@@ -50,8 +50,13 @@ pub fn facing(configuration: &Configuration) -> Vec<Facing> {
             .collect();
         found
     };
-    let sides = configuration.pair.deformable_sides();
-    sides.iter().flat_map(of_side).collect()
+    match configuration.pair.is_in_one_body() {
+        true => Vec::new(),
+        false => {
+            let sides = configuration.pair.deformable_sides();
+            sides.iter().flat_map(of_side).collect()
+        }
+    }
 }
 
 /// What a node faces, without its share in the area.

@@ -7,6 +7,10 @@ use crate::{configuration::Configuration, side::Side};
 /// Largest motion of one side relative to the other.
 pub fn approach(start: &Configuration, end: &Configuration) -> f64 {
     let moves = |side: Side| -> [Vec3; 2] {
+        let side = match start.pair.is_self_contact() {
+            true => Side::A,
+            false => side,
+        };
         let (Some(from), Some(to)) = (&start.sides[side], &end.sides[side]) else {
             let way = start.plane().zip(end.plane());
             let way = way.map_or_else(Vec3::zeros, |((from, _), (to, _))| to - from);

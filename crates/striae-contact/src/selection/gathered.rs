@@ -13,6 +13,7 @@ use crate::{
     configuration::Configuration,
     coverage::Place,
     interface::{ClampedProjection, Interface, Opponent, Overlap},
+    pair::Geometry,
     pairing::{PairedFacets, Scope, paired_facets},
     segment::SegmentDerivatives,
     side::Side,
@@ -25,6 +26,7 @@ const SLIVER: f64 = 1e-3;
 
 /// What a basis is chosen from, in one or two configurations.
 pub(super) struct Gathered {
+    is_self_contact: bool,
     /// Facets of every overlap.
     facets: Vec<[Option<FacetId>; 2]>,
     overlaps: Vec<Overlap>,
@@ -51,11 +53,12 @@ impl Gathered {
                 }
             }
         }
+        let met = Met::new(configuration, &paired);
         let opposing = Side::BOTH.map(|side| {
             let nodes = near[side].iter().enumerate();
             nodes
                 .map(|(node, near)| {
-                    near.then(|| clamped(configuration, side, SurfaceNode::new(node)))
+                    near.then(|| clamped(configuration, side, SurfaceNode::new(node), &met))
                         .flatten()
                 })
                 .collect()
@@ -63,6 +66,7 @@ impl Gathered {
         let overlaps = paired.iter().map(|paired| Overlap {
             corners: paired.corners,
             mass: paired.segment.mass,
+            normal: paired.segment.normal,
         });
         let mut facing = vec![Vec3::zeros(); near[0].len()];
         for paired in &paired {
@@ -71,6 +75,7 @@ impl Gathered {
             }
         }
         Self {
+            is_self_contact: configuration.pair.is_self_contact(),
             facets: paired.iter().map(|paired| paired.facets).collect(),
             overlaps: overlaps.collect(),
             opposing,
@@ -98,7 +103,14 @@ impl Gathered {
 
     /// Facets that are paired, by side.
     fn paired(&self) -> [BTreeSet<FacetId>; 2] {
-        Side::BOTH.map(|side| self.facets.iter().filter_map(|pair| pair[side]).collect())
+        let of_side = [0, 1].map(|at| self.facets.iter().filter_map(move |pair| pair[at]));
+        match self.is_self_contact {
+            true => {
+                let both: BTreeSet<FacetId> = of_side.into_iter().flatten().collect();
+                [both.clone(), both]
+            }
+            false => of_side.map(Iterator::collect),
+        }
     }
 
     /// Halves the overlaps of facets that are paired in another configuration too.
@@ -121,34 +133,80 @@ impl Gathered {
     ) -> TractionBasis {
         let nodes =
             Side::BOTH.map(|side| surface_nodes(configuration, side, before, &prescribed[side]));
-        let whole = if configuration.pair.is_rigid() {
-            whole_facets(configuration, &self.facing)
-        } else {
-            Vec::new()
+        let (whole, mesh);
+        let opponent = match &configuration.pair.sides[Side::B].geometry {
+            Geometry::Deformable(_) => Opponent::Deformable,
+            Geometry::Rigid(_) | Geometry::Plane { .. } => {
+                whole = whole_facets(configuration, &self.facing);
+                Opponent::Rigid { whole: &whole }
+            }
+            Geometry::Itself => {
+                let own = configuration.side(Side::A);
+                mesh = own
+                    .surface
+                    .nodes()
+                    .iter()
+                    .map(|node| node.0)
+                    .collect::<Vec<u32>>();
+                Opponent::Itself {
+                    mesh: &mesh,
+                    normals: &own.normals,
+                }
+            }
         };
         TractionBasis::new(&Interface {
             nodes: [&nodes[0], &nodes[1]],
             overlaps: &self.overlaps,
             opposing: [&self.opposing[0], &self.opposing[1]],
-            opponent: if configuration.pair.is_rigid() {
-                Opponent::Rigid { whole: &whole }
-            } else {
-                Opponent::Deformable
-            },
+            opponent,
         })
+    }
+}
+
+/// Facets that those around each node are paired with, by side, where surfaces consist of faces;
+/// what faces a node there beside them belongs to another wall.
+struct Met(Option<[Vec<BTreeSet<FacetId>>; 2]>);
+
+impl Met {
+    fn new(configuration: &Configuration, paired: &[PairedFacets]) -> Self {
+        if !configuration.pair.is_by_faces() || configuration.pair.is_rigid() {
+            return Self(None);
+        }
+        let mut met = configuration.sides.each_ref().map(|side| {
+            let count = side.as_ref().map_or(0, |side| side.x.len());
+            vec![BTreeSet::new(); count]
+        });
+        for paired in paired {
+            let sides = paired.sides.iter();
+            for ((side, corners), other) in sides
+                .zip(&paired.corners)
+                .zip([paired.facets[1], paired.facets[0]])
+            {
+                for node in corners {
+                    met[*side][node.index()].extend(other);
+                }
+            }
+        }
+        Self(Some(met))
+    }
+
+    fn holds(&self, side: Side, node: SurfaceNode, facet: FacetId) -> bool {
+        let met = self.0.as_ref();
+        met.is_none_or(|met| met[side][node.index()].contains(&facet))
     }
 }
 
 /// Paired facets without patches that share next to no area.
 fn without_slivers(configuration: &Configuration, paired: Vec<PairedFacets>) -> Vec<PairedFacets> {
-    let sides = configuration.pair.deformable_sides();
     let is_sliver = |paired: &PairedFacets| {
-        let size = |&side: &Side| {
-            let sizes = &configuration.side(side).sizes;
-            let corners = paired.corners[side].iter();
+        let facets = paired.sides.iter().zip(&paired.corners);
+        let deformable = facets.filter(|(side, _)| configuration.pair.is_deformable(**side));
+        let size = |(side, corners): (&Side, &[SurfaceNode; 4])| {
+            let sizes = &configuration.side(*side).sizes;
+            let corners = corners.iter();
             corners.map(|&node| sizes[node]).fold(0.0, f64::max)
         };
-        let size = sides.iter().map(size).fold(f64::INFINITY, f64::min);
+        let size = deformable.map(size).fold(f64::INFINITY, f64::min);
         paired.segment.area < SLIVER * size * size
     };
     if paired.iter().all(is_sliver) {
@@ -163,11 +221,13 @@ fn clamped(
     configuration: &Configuration,
     side: Side,
     node: SurfaceNode,
+    met: &Met,
 ) -> Option<ClampedProjection> {
-    let (contact, _) = configuration.opposite(side, node)?;
+    let on = |facet: FacetId| met.holds(side, node, facet);
+    let (contact, _) = configuration.opposite_on(side, node, on)?;
     match contact.place {
         Place::Facet(hit) if !configuration.pair.is_rigid() => {
-            let corners = configuration.side(side.opposite()).corners(hit.facet);
+            let corners = configuration.facing(side).corners(hit.facet);
             let weights = Shape::of(&corners).weights(hit.xi, hit.eta).value;
             let weights = weights.map(|weight| weight.max(0.0));
             let sum: f64 = weights.iter().sum();

@@ -67,6 +67,12 @@ impl Selection {
         &self.basis.rows[side][node]
     }
 
+    /// Shares of the kept nodes in the friction at a node, in the order of [`Self::row`]: negative
+    /// for those that face its surface.
+    pub fn friction_row(&self, side: Side, node: SurfaceNode) -> &[f64] {
+        &self.basis.friction_rows[side][node]
+    }
+
     /// Number of nodes of a side.
     pub fn nodes(&self, side: Side) -> usize {
         self.basis.index[side].len()
@@ -133,11 +139,7 @@ impl Selection {
         if let Some(fitted) = &self.fitted {
             return fitted.at_corners(paired);
         }
-        let share = if configuration.pair.is_rigid() {
-            1.0
-        } else {
-            0.5
-        };
+        let share = configuration.pair.share();
         std::array::from_fn(|corner| {
             let node = paired.node(configuration, corner);
             node.map_or(0.0, |(side, node)| share * self.offset(side, node))

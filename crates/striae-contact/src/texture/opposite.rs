@@ -32,7 +32,7 @@ pub(super) fn opposite(
     (frame, frames): (&Frame, &Frames),
 ) -> Result<Option<Tracked>, CollapsedTexture> {
     let collapsed = CollapsedTexture { side, node };
-    let Some(texture) = &configuration.pair.sides[side.opposite()].texture else {
+    let Some(texture) = &configuration.pair.sides[configuration.pair.opposing(side)].texture else {
         return Ok(None);
     };
     let Some((contact, found)) = configuration.opposite(side, node) else {
@@ -134,15 +134,16 @@ fn on_deformable(
     (frame, frames): (&Frame, &Frames),
     (hit, found): (&Hit, Found),
 ) -> Result<Tracked, CollapsedTexture> {
-    let other = configuration.side(side.opposite());
+    let opposing = configuration.pair.opposing(side);
+    let other = configuration.side(opposing);
     let corners = other.corners(hit.facet);
-    let normals = corners.map(|corner| match &frames[side.opposite()][corner] {
+    let normals = corners.map(|corner| match &frames[opposing][corner] {
         Some(frame) => frame.n.clone(),
-        None => own_normal(configuration, side.opposite(), corner),
+        None => own_normal(configuration, opposing, corner),
     });
     let mut a = Vec::with_capacity(4);
     for (corner, n) in corners.iter().zip(&normals) {
-        a.push(own(configuration, side.opposite(), *corner, n)?.unwrap_or_default());
+        a.push(own(configuration, opposing, *corner, n)?.unwrap_or_default());
     }
     let mut lanes = lanes_of(configuration, (side, node), frame, &corners);
     for n in &normals {
@@ -157,30 +158,30 @@ fn on_deformable(
         Found::Inside => None,
         Found::Edge(nodes) => Some(on_edge(configuration, side, node, hit, nodes)),
     };
-    let opposing = match &on_edge {
+    let place = match &on_edge {
         None => Opposing::new(shape, hit, &n, &other.corner_positions(hit.facet)),
         Some(place) => Opposing::at(place.weights()),
     };
     let turned: [Transported; 4] = std::array::from_fn(|corner| {
         Transported::new(&a[corner].value, &-normals[corner].value, &n)
     });
-    let sum = opposing.sum(&turned);
+    let sum = place.sum(&turned);
     let length = sum.norm();
     let value = sum / length;
     let across = (Matrix3::identity() - value * value.transpose()) / length;
     let mut gradient = [[0.0; 3]; 43];
-    let by_r = opposing.spread_sum(&across, &turned, [3, 18, 30], &mut gradient);
+    let by_r = place.spread_sum(&across, &turned, [3, 18, 30], &mut gradient);
     let places = PlaceLanes {
         x: 0,
         n: 3,
         corners: 6,
     };
     match &on_edge {
-        None => opposing.spread(&by_r, places, &mut gradient),
-        Some(place) => {
-            let [start, end] = place.ends.map(|corner| turned[corner].value);
+        None => place.spread(&by_r, places, &mut gradient),
+        Some(on_edge) => {
+            let [start, end] = on_edge.ends.map(|corner| turned[corner].value);
             gradient[42] = (across * (start - end)).into();
-            lanes.push(Source::Scalar(&place.share.gradient));
+            lanes.push(Source::Scalar(&on_edge.share.gradient));
         }
     }
     Ok(Tracked {
@@ -205,7 +206,7 @@ fn lanes_of<'a>(
     lanes.push(Source::Vector(&frame.n.jacobian));
     for &corner in corners {
         lanes.push(Source::Unknowns {
-            first: numbering.position(side.opposite(), corner),
+            first: numbering.position(configuration.pair.opposing(side), corner),
             count: 3,
         });
     }

@@ -154,7 +154,11 @@ fn overlaps(faces: [&Face; 2]) -> Vec<Overlap> {
                     u.mass[a[0]][b[0]] * v.mass[a[1]][b[1]]
                 })
             });
-            overlaps.push(Overlap { corners, mass });
+            overlaps.push(Overlap {
+                corners,
+                mass,
+                normal: Vec3::z(),
+            });
         }
     }
     overlaps

@@ -171,6 +171,7 @@ fn relabelled(pair: &Pair, mut seed: u64, swap: usize) -> Relabelled {
         Overlap {
             corners: Side::BOTH.map(|side| corners(new_side(side), o.corners[new_side(side)])),
             mass: std::array::from_fn(|c| std::array::from_fn(|d| o.mass[old(c)][old(d)])),
+            normal: o.normal,
         }
     };
     let order = shuffled(pair.overlaps.len(), &mut seed);

@@ -5,7 +5,7 @@ use crate::write::value::{number, text};
 use striae_meshfile::{Keyword, Row};
 
 impl<'a> Model<'a> {
-    /// Reads pairs and ties, and general contact between surfaces that have names.
+    /// Reads pairs and ties, and general contact.
     pub(super) fn read_contact(&mut self) {
         let keywords = self.keywords;
         for keyword in keywords {
@@ -96,19 +96,20 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// General contact between surfaces that have names.
+    /// General contact of everything, or between surfaces that have names.
     fn inclusions(&mut self, keyword: &'a Keyword<'a>) {
         self.used.insert(keyword.line);
-        if keyword.parameter("ALL EXTERIOR").is_some() {
-            let what =
-                "*CONTACT INCLUSIONS, ALL EXTERIOR: name the surfaces that may touch in pairs";
-            self.list(keyword.line, what);
+        if keyword.parameter("ALL EXTERIOR").is_some() && !self.contact.contains("\n[contact]\n") {
+            let (interaction, line) = self.assigned(["", ""]);
+            let friction = self.friction(interaction, line.unwrap_or(keyword.line));
+            self.contact += &format!("\n[contact]\nall = true\n{friction}");
+            self.list_assigned();
         }
         for row in &keyword.rows {
             let sides = [0, 1].map(|at| row.words.get(at).copied().unwrap_or_default());
             if sides.contains(&"") {
                 let what = format!(
-                    "*CONTACT INCLUSIONS `{}`: contact of a surface with itself",
+                    "*CONTACT INCLUSIONS `{}`: contact of a surface with itself; make it a pair with `b = \"itself\"`",
                     row.words.join(", ")
                 );
                 self.list(row.line, what);
@@ -117,6 +118,24 @@ impl<'a> Model<'a> {
             let (interaction, line) = self.assigned(sides);
             let friction = self.friction(interaction, line.unwrap_or(keyword.line));
             self.pair(row, &friction);
+        }
+    }
+
+    /// Lists interactions of surfaces with names beside contact of everything.
+    fn list_assigned(&mut self) {
+        let keywords = self.keywords;
+        let assignments = keywords.iter();
+        let assignments =
+            assignments.filter(|keyword| keyword.name == "CONTACT PROPERTY ASSIGNMENT");
+        for row in assignments.flat_map(|keyword| &keyword.rows) {
+            let [a, b] = [0, 1].map(|at| row.words.get(at).copied().unwrap_or_default());
+            if !a.is_empty() || !b.is_empty() {
+                let what = format!(
+                    "*CONTACT PROPERTY ASSIGNMENT `{}`: state it in `[[contact.between]]`",
+                    row.words.join(", ")
+                );
+                self.list(row.line, what);
+            }
         }
     }
 

@@ -60,10 +60,10 @@ fn lower_pair(
         .a
         .as_ref()
         .and_then(|side| lower_side(&side.value, surfaces, faults));
-    let b = pair
-        .b
-        .as_ref()
-        .and_then(|side| lower_side(&side.value, surfaces, faults));
+    let b = pair.b.as_ref().and_then(|side| match &side.value {
+        raw::SecondSide::Itself => Some((ContactSurface::Itself, None)),
+        raw::SecondSide::Other(side) => lower_side(side, surfaces, faults),
+    });
     let ((a, texture_a), (b, texture_b)) = match (a?, b?) {
         (a @ (ContactSurface::Rigid(_), _), b @ (ContactSurface::Deformable { .. }, _)) => (b, a),
         sides => sides,
@@ -97,6 +97,7 @@ fn lower_pair(
             .map_or(Initial::AsMeshed, |initial| lower_initial(&initial.value)),
         interference,
         stabilised: pair.stabilise.as_ref().is_some_and(|truth| truth.value.0),
+        feature_angle: pair.feature_angle.as_ref().map(|angle| angle.value.0),
     })
 }
 
@@ -120,7 +121,7 @@ fn lower_interference(
     })
 }
 
-fn lower_initial(raw: &raw::Initial) -> Initial {
+pub(super) fn lower_initial(raw: &raw::Initial) -> Initial {
     match raw {
         raw::Initial::Word(raw::InitialWord::AsMeshed) => Initial::AsMeshed,
         raw::Initial::Word(raw::InitialWord::Close) => Initial::Close(ClosedGaps::default()),

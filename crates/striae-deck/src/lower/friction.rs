@@ -1,11 +1,14 @@
 //! Friction laws.
 
+use super::dependence;
 use crate::{
     fault::FaultKind,
     faults::{FaultList, Span},
     raw,
 };
-use striae_law::friction::{Friction, FrictionError, SlipRule};
+use striae_law::friction::{
+    Friction, FrictionError, PressureDependence, RateDependence, SlipDependence, SlipRule,
+};
 
 /// A friction law, or `None` after its faults have been noted.
 pub(crate) fn friction(
@@ -13,19 +16,55 @@ pub(crate) fn friction(
     span: &Span,
     faults: &mut FaultList<'_>,
 ) -> Option<Friction> {
-    lowered(raw)?
-        .map_err(|error| {
-            faults.push(
-                span,
-                FaultKind::Friction {
-                    cause: error.to_string(),
-                },
-            )
-        })
-        .ok()
+    let law = lowered(raw).and_then(|law| accepted(law, span, faults));
+    let by_pressure = match &raw.by_pressure {
+        Some(by_pressure) => dependence::by_pressure(&by_pressure.value)
+            .and_then(|found| accepted(found, &by_pressure.span, faults)),
+        None => Some(PressureDependence::default()),
+    };
+    let by_rate = match &raw.by_slip_rate {
+        Some(by_rate) => dependence::by_rate(&by_rate.value)
+            .and_then(|found| accepted(found, &by_rate.span, faults)),
+        None => Some(RateDependence::default()),
+    };
+    let by_slip = match &raw.by_accumulated_slip {
+        Some(by_slip) => dependence::by_slip(&by_slip.value)
+            .and_then(|found| accepted(found, &by_slip.span, faults)),
+        None => Some(SlipDependence::default()),
+    };
+    if let (Some(_), Some(by_rate)) = (&raw.decay, &raw.by_slip_rate) {
+        let cause = "it has both `decay` and `by_slip_rate`; give either, a decay with more \
+                     constants is `by_slip_rate = { form = \"stribeck\", .. }`";
+        faults.push(
+            &by_rate.span,
+            FaultKind::Friction {
+                cause: cause.to_owned(),
+            },
+        );
+        return None;
+    }
+    let mut law = law?.with_pressure(by_pressure?).with_slip(by_slip?);
+    let by_rate = by_rate?;
+    if raw.by_slip_rate.is_some() {
+        law = law.with_rate(by_rate);
+    }
+    Some(law)
 }
 
-/// The friction, or `None` where a constant could not be read.
+/// The accepted value, or `None` after its fault has been noted.
+fn accepted<T>(
+    found: Result<T, FrictionError>,
+    span: &Span,
+    faults: &mut FaultList<'_>,
+) -> Option<T> {
+    let noted = |error: FrictionError| {
+        let cause = error.to_string();
+        faults.push(span, FaultKind::Friction { cause });
+    };
+    found.map_err(noted).ok()
+}
+
+/// The law with its cap and decay, or `None` where a constant could not be read.
 fn lowered(raw: &raw::Friction) -> Option<Result<Friction, FrictionError>> {
     let mut friction = match raw.law.as_ref()? {
         raw::FrictionLaw::Frictionless(_) => Ok(Friction::frictionless()),

@@ -8,6 +8,8 @@ pub(crate) mod cards;
 mod condition;
 mod contact;
 mod curve;
+mod dependence;
+mod everything;
 mod fibres;
 mod formulation;
 mod friction;
@@ -41,11 +43,11 @@ use body::Bodies;
 use contact::LoweredPair;
 pub(super) use friction::friction;
 use listed::Listed;
-use place::StepSpans;
+use place::Places;
 use std::path::Path;
 use step::LoweredStep;
 use striae_model::{
-    Draft, DraftPair, DraftStep, Fault, FaultKind as ModelFault, Known, Named, fitted,
+    Draft, DraftPair, DraftStep, Fault, FaultKind as ModelFault, Known, Lowered, Named, fitted,
 };
 use striae_solve::model::{Backend, Model, RigidSurface, Solver, Strategy, Tie};
 
@@ -65,9 +67,16 @@ pub(super) fn deck(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_
     } else {
         Known::InPart
     };
-    let parts = parts(raw, base, faults);
-    let spans: Vec<StepSpans> = parts.steps.iter().map(|step| step.spans.clone()).collect();
-    note(parts.draft(raw, known).faults(), raw, &spans, faults);
+    let parts = parts(raw, base, known, faults);
+    let places = Places {
+        steps: parts.steps.iter().map(|step| step.spans.clone()).collect(),
+        origins: parts
+            .lowered
+            .iter()
+            .flat_map(|of| of.origins.clone())
+            .collect(),
+    };
+    note(parts.draft(raw, known).faults(), raw, &places, faults);
     nothing_missing(raw, faults);
     if !faults.is_empty() {
         return None;
@@ -78,7 +87,7 @@ pub(super) fn deck(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_
     }
     let notes = stated(raw).chain(parts.bodies.notes()).collect();
     let model = parts.model(raw)?;
-    let fitted = fitted(model).map_err(|found| note(found, raw, &spans, faults));
+    let fitted = fitted(model).map_err(|found| note(found, raw, &places, faults));
     Some(Deck {
         model: fitted.ok()?,
         output,
@@ -119,17 +128,19 @@ struct Parts {
     rigid: Vec<Option<RigidSurface>>,
     pairs: Vec<LoweredPair>,
     ties: Vec<Option<Tie>>,
+    /// Pairs of contact of everything, none where it is not asked for; `None` after faults.
+    lowered: Option<Lowered>,
     steps: Vec<LoweredStep>,
 }
 
-fn parts(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_>) -> Parts {
+fn parts(raw: &raw::Simulation, base: &Path, known: Known, faults: &mut FaultList<'_>) -> Parts {
     let materials = materials::Materials::new(list(&raw.material), faults);
     let bodies = Bodies::new(list(&raw.body), &materials, base, faults);
     let names = list(&raw.rigid).iter().map(|at| at.value.name.as_ref());
     let rigid_names = Names::new("rigid surface", names, faults);
     let rigid = rigid::bodies(list(&raw.rigid), &bodies, base, faults);
     let names = list(&raw.pair).iter().map(|at| at.value.name.as_ref());
-    let pair_names = Names::new("pair", names, faults);
+    let mut pair_names = Names::new("pair", names, faults);
     let surfaces = surfaces::Surfaces {
         bodies: &bodies,
         rigid_names: &rigid_names,
@@ -142,6 +153,15 @@ fn parts(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_>) -> Part
     let names = list(&raw.tie).iter().map(|at| at.value.name.as_ref());
     Names::new("tie", names, faults);
     let ties = contact::ties(list(&raw.tie), &surfaces, faults);
+    let draft = drafted(raw, &bodies, &rigid, &pairs, &ties, known);
+    let lowered = everything::lowered(raw, &draft, &surfaces, faults);
+    match &lowered {
+        Some(lowered) => {
+            let pairs = lowered.pairs.iter();
+            pair_names.extend(pairs.map(|pair| Some(pair.name.clone())));
+        }
+        None => pair_names.extend([None]),
+    }
     let scope = Scope {
         bodies: &bodies,
         rigid: &rigid_names,
@@ -154,42 +174,72 @@ fn parts(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_>) -> Part
         rigid,
         pairs,
         ties,
+        lowered,
         steps,
+    }
+}
+
+/// Parts that are known besides the steps and contact of everything.
+fn drafted<'a>(
+    raw: &'a raw::Simulation,
+    bodies: &'a Bodies,
+    rigid: &'a [Option<RigidSurface>],
+    pairs: &'a [LoweredPair],
+    ties: &'a [Option<Tie>],
+    known: Known,
+) -> Draft<'a> {
+    let rigid = list(&raw.rigid).iter().zip(rigid);
+    let rigid = rigid.map(|(raw, part)| Named {
+        name: name(&raw.value.name),
+        part: part.as_ref(),
+    });
+    let pairs = list(&raw.pair).iter().zip(pairs);
+    let pairs = pairs.map(|(raw, lowered)| DraftPair {
+        name: name(&raw.value.name),
+        pair: lowered.pair.as_ref(),
+        known: lowered.known,
+    });
+    let ties = list(&raw.tie).iter().zip(ties);
+    let ties = ties.map(|(raw, part)| Named {
+        name: name(&raw.value.name),
+        part: part.as_ref(),
+    });
+    Draft {
+        bodies: bodies.drafts(),
+        rigid_surfaces: rigid.collect(),
+        pairs: pairs.collect(),
+        ties: ties.collect(),
+        steps: Vec::new(),
+        known,
     }
 }
 
 impl Parts {
     /// What is known of the model.
     fn draft<'a>(&'a self, raw: &'a raw::Simulation, known: Known) -> Draft<'a> {
-        let rigid = list(&raw.rigid).iter().zip(&self.rigid);
-        let rigid = rigid.map(|(raw, part)| Named {
-            name: name(&raw.value.name),
-            part: part.as_ref(),
-        });
-        let pairs = list(&raw.pair).iter().zip(&self.pairs);
-        let pairs = pairs.map(|(raw, lowered)| DraftPair {
-            name: name(&raw.value.name),
-            pair: lowered.pair.as_ref(),
-            known: lowered.known,
-        });
-        let ties = list(&raw.tie).iter().zip(&self.ties);
-        let ties = ties.map(|(raw, part)| Named {
-            name: name(&raw.value.name),
-            part: part.as_ref(),
-        });
-        let steps = self.steps.iter().map(|lowered| DraftStep {
-            step: &lowered.step,
-            known: lowered.known,
-            displacements: lowered.displacements,
-        });
-        Draft {
-            bodies: self.bodies.drafts(),
-            rigid_surfaces: rigid.collect(),
-            pairs: pairs.collect(),
-            ties: ties.collect(),
-            steps: steps.collect(),
+        let known = match self.lowered {
+            Some(_) => known,
+            None => Known::InPart,
+        };
+        let mut draft = drafted(
+            raw,
+            &self.bodies,
+            &self.rigid,
+            &self.pairs,
+            &self.ties,
             known,
+        );
+        if let Some(lowered) = &self.lowered {
+            draft.extend(&lowered.pairs);
         }
+        draft
+            .steps
+            .extend(self.steps.iter().map(|lowered| DraftStep {
+                step: &lowered.step,
+                known: lowered.known,
+                displacements: lowered.displacements,
+            }));
+        draft
     }
 
     /// The model, if nothing is missing.
@@ -202,6 +252,7 @@ impl Parts {
                 .pairs
                 .into_iter()
                 .map(|lowered| lowered.pair)
+                .chain(self.lowered?.pairs.into_iter().map(Some))
                 .collect::<Option<_>>()?,
             ties: whole(self.ties)?,
             steps: self.steps.into_iter().map(|lowered| lowered.step).collect(),
@@ -211,7 +262,7 @@ impl Parts {
 }
 
 /// Notes faults of the model where the deck states what is wrong.
-fn note(found: Vec<Fault>, raw: &raw::Simulation, steps: &[StepSpans], faults: &mut FaultList<'_>) {
+fn note(found: Vec<Fault>, raw: &raw::Simulation, places: &Places, faults: &mut FaultList<'_>) {
     for Fault { path, kind } in found {
         let kind = match kind {
             // The deck notes them itself, in its own words.
@@ -222,14 +273,14 @@ fn note(found: Vec<Fault>, raw: &raw::Simulation, steps: &[StepSpans], faults: &
                 component,
                 set,
             } => ModelFault::NotPrescribed {
-                set: place::released_set(&path, raw, steps).unwrap_or(set),
+                set: place::released_set(&path, raw, places).unwrap_or(set),
                 step,
                 body,
                 component,
             },
             kind => kind,
         };
-        faults.push(&place::span(&path, raw, steps), kind);
+        faults.push(&place::span(&path, raw, places), kind);
     }
 }
 

@@ -60,6 +60,7 @@ fn nodes(side: &ContactSurface, surfaces: &Surfaces<'_>) -> Option<Vec<NodeId>> 
             RigidShape::Facets { facets, .. } => facets.clone(),
             RigidShape::Plane { .. } | RigidShape::Bare => return None,
         },
+        ContactSurface::Itself => return None,
     };
     Some(Surface::new(&facets).nodes().to_vec())
 }
@@ -85,6 +86,7 @@ fn mesh_file_of<'r>(side: &ContactSurface, surfaces: &Surfaces<'r>) -> Option<Me
             },
             raw::RigidShape::Plane(_) | raw::RigidShape::Tied(_) => return None,
         },
+        ContactSurface::Itself => return None,
     };
     let path = surfaces.base.join(&file.as_ref()?.value.0);
     Some((path, part.map(|part| part.value.0.as_str())))
@@ -95,6 +97,7 @@ fn numbers(side: &ContactSurface, (mesh, part): MeshFile<'_>) -> Result<Vec<u64>
     match side {
         ContactSurface::Deformable { .. } => mesh_file::node_numbers(mesh, part),
         ContactSurface::Rigid(_) => mesh_file::rigid_node_numbers(mesh, part),
+        ContactSurface::Itself => Ok(Vec::new()),
     }
 }
 
@@ -107,5 +110,6 @@ fn owner(side: &ContactSurface, surfaces: &Surfaces<'_>) -> String {
             let name = surfaces.rigid[rigid.0].as_ref().map(|rigid| &rigid.name);
             format!("rigid surface `{}`", name.map_or("", String::as_str))
         }
+        ContactSurface::Itself => "side `a`".to_owned(),
     }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use striae_model::{Path, Segment};
+use striae_model::{Origin, Path, Segment};
 
 use super::list;
 use crate::{faults::Span, raw, read::At, value::Text};
@@ -18,11 +18,28 @@ pub(super) struct StepSpans {
     pub(super) conditions: ConditionSpans,
 }
 
+/// Known places of parts that have none of their own in a deck.
+pub(super) struct Places {
+    pub(super) steps: Vec<StepSpans>,
+    /// Of pairs that contact of everything comes down to.
+    pub(super) origins: Vec<Origin>,
+}
+
 /// Where the part of a model at a path is written; the start of the deck where that is
 /// nowhere in particular.
-pub(super) fn span(path: &Path, raw: &raw::Simulation, steps: &[StepSpans]) -> Span {
+pub(super) fn span(path: &Path, raw: &raw::Simulation, places: &Places) -> Span {
     use Segment::{Field, Index};
+    let Places { steps, origins } = places;
+    let named = list(&raw.pair).len();
     let found = match path.segments() {
+        [Field("contact"), rest @ ..] => raw.contact.as_ref().map(|at| of_contact(at, rest)),
+        [Field("pairs"), Index(index), rest @ ..] if *index >= named => {
+            let origin = origins.get(index - named);
+            let contact = raw.contact.as_ref();
+            contact
+                .zip(origin)
+                .map(|(at, origin)| of_lowered(at, *origin, rest))
+        }
         [Field("pairs"), Index(index), rest @ ..] => {
             let pair = list(&raw.pair).get(*index);
             pair.map(|pair| of_pair(pair, rest))
@@ -49,12 +66,8 @@ pub(super) fn span(path: &Path, raw: &raw::Simulation, steps: &[StepSpans]) -> S
 }
 
 /// Name of the set that the release at a path is of.
-pub(super) fn released_set(
-    path: &Path,
-    raw: &raw::Simulation,
-    steps: &[StepSpans],
-) -> Option<String> {
-    let span = span(path, raw, steps);
+pub(super) fn released_set(path: &Path, raw: &raw::Simulation, places: &Places) -> Option<String> {
+    let span = span(path, raw, places);
     let releases = list(&raw.step)
         .iter()
         .flat_map(|step| list(&step.value.release));
@@ -109,11 +122,67 @@ fn of_tie(tie: &At<raw::BodyTie>, rest: &[Segment]) -> Span {
     found.unwrap_or(&tie.span).clone()
 }
 
+fn of_contact(at: &At<raw::Contact>, rest: &[Segment]) -> Span {
+    use Segment::{Field, Index};
+    let contact = &at.value;
+    let found = match rest {
+        [Field("friction"), ..] => contact.friction.as_ref().map(|at| &at.span),
+        [Field("feature_angle"), ..] => contact.feature_angle.as_ref().map(|at| &at.span),
+        [Field("search_distance"), ..] => contact.search_distance.as_ref().map(|at| &at.span),
+        [Field("stabilised"), ..] => contact.stabilise.as_ref().map(|at| &at.span),
+        [Field("initial"), ..] => contact.initial.as_ref().map(|at| &at.span),
+        [Field("exclude"), Index(index), side @ ..] => {
+            let stated = list(&contact.exclude).get(*index);
+            stated.map(|at| of_label([&at.value.a, &at.value.b], side).unwrap_or(&at.span))
+        }
+        [Field("between"), Index(index), Field("friction"), ..] => {
+            let stated = list(&contact.between).get(*index);
+            stated
+                .and_then(|at| at.value.friction.as_ref())
+                .map(|at| &at.span)
+        }
+        [Field("between"), Index(index), side @ ..] => {
+            let stated = list(&contact.between).get(*index);
+            stated.map(|at| of_label([&at.value.a, &at.value.b], side).unwrap_or(&at.span))
+        }
+        [Field("surface"), Index(index), rest @ ..] => {
+            let stated = list(&contact.surface).get(*index);
+            stated.map(|at| match (rest, &at.value.of) {
+                ([Field("of"), ..], Some(label)) => &label.span,
+                _ => &at.span,
+            })
+        }
+        _ => None,
+    };
+    found.unwrap_or(&at.span).clone()
+}
+
+/// A label of a statement about two surfaces.
+fn of_label<'r>([a, b]: [&'r Option<At<Text>>; 2], rest: &[Segment]) -> Option<&'r Span> {
+    let label = match rest {
+        [Segment::Field("a"), ..] => a,
+        [Segment::Field("b"), ..] => b,
+        _ => return None,
+    };
+    label.as_ref().map(|at| &at.span)
+}
+
+/// A pair that contact of everything comes down to.
+fn of_lowered(at: &At<raw::Contact>, origin: Origin, rest: &[Segment]) -> Span {
+    match (rest, origin) {
+        ([] | [Segment::Field("friction"), ..], origin) => {
+            of_contact(at, &origin.path().segments()[1..])
+        }
+        (rest, _) => of_contact(at, rest),
+    }
+}
+
 fn of_pair(pair: &At<raw::Pair>, rest: &[Segment]) -> Span {
     use Segment::{Field, Index};
     let raw = &pair.value;
     let found = match rest {
         [Field("friction"), ..] => raw.friction.as_ref().map(|at| &at.span),
+        [Field("feature_angle"), ..] => raw.feature_angle.as_ref().map(|at| &at.span),
         [Field("stabilised"), ..] => raw.stabilise.as_ref().map(|at| &at.span),
         [Field("interference"), ..] => raw.interference.as_ref().map(|at| &at.span),
         [Field("initial"), ..] => raw.name.as_ref().map(|at| &at.span),
@@ -140,7 +209,8 @@ fn rigid_name(raw: &raw::Pair, side: usize) -> Option<&At<Text>> {
 /// A side of the model's pair, of which a lone rigid surface is side `b` wherever it
 /// is written.
 fn side_as_written(raw: &raw::Pair, side: usize) -> Option<&raw::Side> {
-    let [a, b] = [&raw.a, &raw.b].map(|side| side.as_ref().map(|at| &at.value));
+    let a = raw.a.as_ref().map(|at| &at.value);
+    let b = raw.b.as_ref().and_then(|at| at.value.other());
     let is_rigid = |side: Option<&raw::Side>| {
         let surface = side.and_then(|side| side.surface.as_ref());
         matches!(surface, Some(raw::SideSurface::Rigid(_)))

@@ -1,12 +1,12 @@
 //! `[[pair]]` and its friction, `[[tie]]`.
 
-use super::Texture;
+use super::{ByAccumulatedSlip, ByPressure, BySlipRate, Decay, Texture};
 use crate::{
     declare::{choice, either, table, words},
     faults::FaultList,
     form::Form,
     read::{Place, Read, Value, read_table, unexpected},
-    value::{All, NonNegative, Number, Positive, Text, Truth},
+    value::{All, Angle, NonNegative, Number, Positive, Text, Truth},
 };
 use toml::de::DeValue;
 
@@ -17,8 +17,8 @@ table! {
         required name: Text,
         /// First side.
         required a: Side,
-        /// Second side.
-        required b: Side,
+        /// Second side, or `itself`: facets of side `a` that may touch each other.
+        required b: SecondSide,
         /// Friction from the start; steps may change it. Default: frictionless.
         optional friction: Friction,
         /// How contact is enforced. Default: `weighted`.
@@ -32,6 +32,8 @@ table! {
         optional interference: Interference,
         /// Whether viscous forces between the sides carry bodies that nothing else holds across a gap, in steps without inertia. They fall to zero in the course of each step. Default: false.
         optional stabilise: Truth,
+        /// Dihedral angle in degrees from which on an edge separates faces: nodes there have a normal and a traction for each of them. Default: one for all faces at a node.
+        optional feature_angle: Angle,
     }
 }
 
@@ -124,6 +126,49 @@ impl Read for Initial {
     }
 }
 
+/// The second side of a pair.
+#[derive(Clone, Debug)]
+pub(crate) enum SecondSide {
+    /// The first one once more.
+    Itself,
+    /// Another one.
+    Other(Box<Side>),
+}
+
+words! {
+    /// The first side once more.
+    SameSide {
+        /// Facets of side `a` that may touch each other.
+        Itself = "itself",
+    }
+}
+
+impl SecondSide {
+    /// The side, if it is another one.
+    pub(crate) fn other(&self) -> Option<&Side> {
+        match self {
+            Self::Itself => None,
+            Self::Other(side) => Some(side),
+        }
+    }
+}
+
+impl Read for SecondSide {
+    fn read(value: &Value<'_>, place: &Place, faults: &mut FaultList<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::String(_) => SameSide::read(value, place, faults).map(|_| Self::Itself),
+            DeValue::Table(_) => {
+                read_table(value, place, faults).map(|side| Self::Other(Box::new(side)))
+            }
+            _ => unexpected(value, place, faults, &Self::form()),
+        }
+    }
+
+    fn form() -> Form {
+        Form::Any(vec![SameSide::form(), Side::form()])
+    }
+}
+
 table! {
     /// One side of a pair.
     Side {
@@ -179,16 +224,12 @@ table! {
         optional shear_cap: Positive,
         /// Decay of all coefficients with the rate of slip. Default: none.
         optional decay: Decay,
-    }
-}
-
-table! {
-    /// Decay of friction from rest to fast slip, `kinetic + (static - kinetic) exp(-rate/slip_rate)`.
-    Decay {
-        /// Coefficients in fast slip over those at rest, which the law states.
-        required kinetic_over_static: NonNegative,
-        /// Rate of slip, length per time, at which the difference has fallen to 1/e.
-        required slip_rate: Positive,
+        /// How all coefficients depend on the pressure. Default: they do not.
+        optional by_pressure: ByPressure,
+        /// How all coefficients depend on the rate of slip; in place of `decay`. Default: they do not.
+        optional by_slip_rate: BySlipRate,
+        /// How all coefficients depend on the slip that a point of a surface has accumulated since the start of the run. Default: they do not.
+        optional by_accumulated_slip: ByAccumulatedSlip,
     }
 }
 

@@ -6,6 +6,8 @@
 
 mod body;
 mod contact;
+mod dependence;
+mod everything;
 mod fibres;
 mod material;
 mod mesh;
@@ -16,7 +18,8 @@ mod texture;
 
 use super::{declare::table, read::At};
 pub(crate) use {
-    body::*, contact::*, fibres::*, material::*, mesh::*, sets::*, settings::*, step::*, texture::*,
+    body::*, contact::*, dependence::*, everything::*, fibres::*, material::*, mesh::*, sets::*,
+    settings::*, step::*, texture::*,
 };
 
 use super::value::{NamedNumbers, OneOrMore, Text};
@@ -38,6 +41,8 @@ table! {
         optional rigid: Vec<At<Rigid>>,
         /// Pairs of surfaces that may touch.
         optional pair: Vec<At<Pair>>,
+        /// Contact of every surface with every surface, itself included. Default: only what `pair` names.
+        optional contact: Contact,
         /// Surfaces of bodies that are glued.
         optional tie: Vec<At<BodyTie>>,
         /// Curves along which conditions change.

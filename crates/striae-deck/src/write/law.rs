@@ -8,7 +8,10 @@ use striae_law::{
     friction::{Friction, Law, SlipRule},
 };
 
-use super::value::{degrees, list, number, read_as, vector};
+use super::{
+    dependence,
+    value::{degrees, list, number, read_as, vector},
+};
 
 /// The keys of a friction table in braces; `None` for a law of one's own.
 pub(super) fn friction(friction: &Friction) -> Option<String> {
@@ -57,10 +60,7 @@ pub(super) fn friction_keys(friction: &Friction) -> Option<String> {
     if let Some(cap) = friction.shear_cap() {
         text += &format!(", shear_cap = {}", number(cap));
     }
-    if let Some([ratio, rate]) = friction.coefficient().decay() {
-        let (ratio, rate) = (number(ratio), number(rate));
-        text += &format!(", decay = {{ kinetic_over_static = {ratio}, slip_rate = {rate} }}");
-    }
+    text += &dependence::keys(friction.coefficient());
     Some(text)
 }
 

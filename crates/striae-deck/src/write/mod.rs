@@ -9,6 +9,7 @@
 //! of any length, coefficients for their shares in the largest), the number that is written
 //! is the one that gives the same bits when it is read, see `value`.
 
+mod dependence;
 pub(crate) mod law;
 mod mesh;
 mod output;

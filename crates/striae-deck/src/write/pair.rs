@@ -37,9 +37,12 @@ impl Writer<'_> {
         let search = pair.search_distance.map_or_else(String::new, |distance| {
             format!("search_distance = {}\n", number(distance))
         });
+        let features = pair.feature_angle.map_or_else(String::new, |angle| {
+            format!("feature_angle = {}\n", number(angle))
+        });
         format!(
             "\n[[pair]]\nname = {}\na = {a}\nb = {b}\nfriction = {friction}\n\
-             enforcement = \"{enforcement}\"\n{search}initial = \"{initial}\"\n{interference}stabilise = {}\n",
+             enforcement = \"{enforcement}\"\n{search}initial = \"{initial}\"\n{interference}stabilise = {}\n{features}",
             text(&pair.name),
             pair.stabilised
         )
@@ -69,10 +72,14 @@ impl Writer<'_> {
                 let rigid = &self.model.rigid_surfaces[rigid.0].name;
                 format!("rigid = {}", text(rigid))
             }
+            ContactSurface::Itself => unreachable!("written as a word"),
         }
     }
 
     fn side(&mut self, pair: &Pair, side: usize) -> String {
+        if side == 1 && pair.is_on_itself() {
+            return text("itself");
+        }
         let surface = self.surface([&pair.a, &pair.b][side]);
         let texture = match &pair.textures[side] {
             None => String::new(),

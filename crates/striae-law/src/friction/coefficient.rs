@@ -1,89 +1,96 @@
-//! Coefficient of friction, constant or decaying with the slip rate.
+//! Coefficient of friction, constant or dependent on pressure, slip rate and accumulated slip.
 //!
 //! ```text
-//! mu(v) = mu_k + (mu_s - mu_k) exp(-v / v_d)
+//! varpi = mu R(v) W(s) P(p)
 //! ```
 //!
-//! with the static value `mu_s`, the kinetic value `mu_k`, the slip rate
-//! `v >= 0` and the decay rate `v_d` (length per time). Source: the exponential
-//! model of Oden & Martins (1985), "Models and computational methods for dynamic
-//! friction phenomena", Comput. Methods Appl. Mech. Engrg. 52, 527-634.
+//! with the stated coefficient `mu`, a function `R` of the slip rate, see
+//! [`RateDependence`], a function `W` of the accumulated slip, see [`SlipDependence`], and a
+//! function `P` of the pressure, see [`PressureDependence`].
 
 use num_dual::DualNum;
 use serde::Serialize;
 
-use super::error::{FrictionError, not_negative, positive};
+use super::by_pressure::PressureDependence;
+use super::by_rate::RateDependence;
+use super::by_slip::SlipDependence;
+use super::error::{FrictionError, not_negative};
 
-/// Coefficient of friction `mu(v)`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+/// Coefficient of friction `mu R(v) W(s) P(p)/p`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Coefficient {
     at_rest: f64,
-    decay: Option<Decay>,
-}
-
-/// How the coefficient falls from its static to its kinetic value.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-struct Decay {
-    kinetic_over_static: f64,
-    rate: f64,
+    by_pressure: PressureDependence,
+    by_rate: RateDependence,
+    by_slip: SlipDependence,
 }
 
 impl Coefficient {
-    /// The same coefficient at every slip rate.
+    /// A coefficient that is equal at every pressure and slip rate.
     ///
     /// # Errors
     /// When `mu` is negative or not finite.
     pub fn constant(mu: f64) -> Result<Self, FrictionError> {
         Ok(Self {
             at_rest: not_negative("mu", mu)?,
-            decay: None,
+            by_pressure: PressureDependence::default(),
+            by_rate: RateDependence::default(),
+            by_slip: SlipDependence::default(),
         })
     }
 
-    /// Lets the coefficient decay to `kinetic_over_static` times its value at
-    /// rest, with the slip rate `rate` as scale.
-    ///
-    /// # Errors
-    /// When the ratio is negative or the rate is not positive.
-    pub fn with_decay(self, kinetic_over_static: f64, rate: f64) -> Result<Self, FrictionError> {
-        let decay = Decay {
-            kinetic_over_static: not_negative("kinetic_over_static", kinetic_over_static)?,
-            rate: positive("decay_rate", rate)?,
-        };
-        Ok(Self {
-            at_rest: self.at_rest,
-            decay: Some(decay),
-        })
+    /// The coefficient with a dependence on the pressure, in place of one it had.
+    pub fn with_pressure(self, by_pressure: PressureDependence) -> Self {
+        Self {
+            by_pressure,
+            ..self
+        }
     }
 
-    /// Value at rest, `mu_s`.
+    /// The coefficient with a dependence on the slip rate, in place of one it had.
+    pub fn with_rate(self, by_rate: RateDependence) -> Self {
+        Self { by_rate, ..self }
+    }
+
+    /// The coefficient with a dependence on the accumulated slip, in place of one it had.
+    pub fn with_slip(self, by_slip: SlipDependence) -> Self {
+        Self { by_slip, ..self }
+    }
+
+    /// The stated value `mu`: at rest, without accumulated slip, and where
+    /// `P(p) = p`.
     pub fn at_rest(&self) -> f64 {
         self.at_rest
     }
 
-    /// Whether it depends on the slip rate.
-    pub fn decays(&self) -> bool {
-        self.decay.is_some()
+    /// How it depends on the pressure.
+    pub fn by_pressure(&self) -> &PressureDependence {
+        &self.by_pressure
     }
 
-    /// Kinetic over static value and decay rate, where it decays.
-    pub fn decay(&self) -> Option<[f64; 2]> {
-        self.decay
-            .map(|decay| [decay.kinetic_over_static, decay.rate])
+    /// How it depends on the slip rate.
+    pub fn by_rate(&self) -> &RateDependence {
+        &self.by_rate
     }
 
-    /// Value at the slip rate `v >= 0`.
+    /// How it depends on the accumulated slip.
+    pub fn by_slip(&self) -> &SlipDependence {
+        &self.by_slip
+    }
+
+    /// `mu R(v)` at the slip rate `v >= 0`.
     pub fn at_slip_rate<D: DualNum<Primitive = f64> + Copy>(&self, slip_rate: D) -> D {
-        let mu_s = D::from(self.at_rest);
-        match self.decay {
-            None => mu_s,
-            Some(Decay {
-                kinetic_over_static,
-                rate,
-            }) => {
-                let mu_k = mu_s * kinetic_over_static;
-                mu_k + (mu_s - mu_k) * (-slip_rate / rate).exp()
-            }
-        }
+        self.by_rate.of(self.at_rest, slip_rate)
+    }
+
+    /// `mu R(v) W(s) P(p)` at a pressure `p > 0`.
+    pub(super) fn bound<D: DualNum<Primitive = f64> + Copy>(
+        &self,
+        pressure: D,
+        slip_rate: D,
+        slip: f64,
+    ) -> D {
+        let bound = self.at_slip_rate(slip_rate) * self.by_pressure.at(self.at_rest, pressure);
+        bound * self.by_slip.at(slip)
     }
 }

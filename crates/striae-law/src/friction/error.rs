@@ -114,6 +114,42 @@ pub enum FrictionError {
         /// The last one, in degrees.
         last: f64,
     },
+    /// A table of factors is too short, or has not one factor a place.
+    #[error(
+        "the table has {of_places}: {places}, but {of_values}: {values}; as many of both are \
+         needed, at least two"
+    )]
+    FactorLengths {
+        /// Name of the places.
+        of_places: &'static str,
+        /// Their number.
+        places: usize,
+        /// Name of the values.
+        of_values: &'static str,
+        /// Their number.
+        values: usize,
+    },
+    /// The places of a table of factors do not ascend.
+    #[error("{of_places}: {place} after {before} is refused: they must ascend")]
+    FactorOrder {
+        /// Name of the places.
+        of_places: &'static str,
+        /// A place.
+        place: f64,
+        /// The one before it.
+        before: f64,
+    },
+    /// Friction that falls with the logarithm of the slip rate vanishes.
+    #[error(
+        "factor = {factor} lets friction vanish at the slip rate {rate:.6}: a factor below zero \
+         needs a limit below that rate, from which on friction is constant"
+    )]
+    LogarithmVanishes {
+        /// The factor.
+        factor: f64,
+        /// Where friction vanishes.
+        rate: f64,
+    },
 }
 
 /// Accepts a finite value that is positive.
@@ -131,7 +167,7 @@ pub(super) fn finite(name: &'static str, value: f64) -> Result<f64, FrictionErro
     within(name, value, "finite", true)
 }
 
-fn within(
+pub(super) fn within(
     name: &'static str,
     value: f64,
     expected: &'static str,

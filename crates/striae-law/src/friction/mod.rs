@@ -13,11 +13,15 @@
 
 mod analysis;
 mod battery;
+mod by_pressure;
+mod by_rate;
+mod by_slip;
 mod coefficient;
 mod coulomb;
 mod ellipse;
 mod error;
 mod kernel;
+mod monotone;
 mod nap;
 mod oblique;
 mod orthotropic;
@@ -35,6 +39,11 @@ mod tests;
 
 pub use analysis::Analysis;
 pub use battery::{Violation, battery};
+pub use by_pressure::{
+    FLOOR_OF_ADHESION, FLOOR_OF_POWER_LAW, PressureConstants, PressureDependence,
+};
+pub use by_rate::{Decay, Logarithm, RateConstants, RateDependence};
+pub use by_slip::{SlipConstants, SlipDependence};
 pub use coefficient::Coefficient;
 pub use ellipse::Ellipse;
 pub use error::FrictionError;
@@ -188,20 +197,49 @@ impl Friction {
         Ok(Self::new(Law::Own(Own::new(law)?), coefficient))
     }
 
-    /// Lets all coefficients decay with the slip rate, from the stated values
-    /// at rest to `kinetic_over_static` times them; see [`Coefficient`].
+    /// Lets all coefficients depend on the pressure; see [`PressureDependence`].
+    pub fn with_pressure(self, by_pressure: PressureDependence) -> Self {
+        let coefficient = self.coefficient.with_pressure(by_pressure);
+        Self {
+            coefficient,
+            ..self
+        }
+    }
+
+    /// Lets all coefficients depend on the slip rate; see [`RateDependence`].
+    pub fn with_rate(self, by_rate: RateDependence) -> Self {
+        let coefficient = self.coefficient.with_rate(by_rate);
+        Self {
+            coefficient,
+            ..self
+        }
+    }
+
+    /// Lets all coefficients depend on the accumulated slip; see [`SlipDependence`].
+    pub fn with_slip(self, by_slip: SlipDependence) -> Self {
+        let coefficient = self.coefficient.with_slip(by_slip);
+        Self {
+            coefficient,
+            ..self
+        }
+    }
+
+    /// Lets all coefficients decay exponentially with the slip rate, from the stated values
+    /// at rest to `kinetic_over_static` times them; see [`Decay`].
     ///
     /// # Errors
     /// When the ratio is negative or the rate is not positive.
     pub fn with_decay(self, kinetic_over_static: f64, rate: f64) -> Result<Self, FrictionError> {
-        let coefficient = self.coefficient.with_decay(kinetic_over_static, rate)?;
-        Ok(Self {
-            coefficient,
-            ..self
-        })
+        let decay = Decay {
+            kinetic_over_static,
+            slip_rate: rate,
+            exponent: 1.0,
+            viscous: 0.0,
+        };
+        Ok(self.with_rate(RateDependence::decay(decay)?))
     }
 
-    /// Bounds the radius of the slip surface: `varpi = min(mu p, tau_max)`.
+    /// Bounds the radius of the slip surface: `varpi = min(mu R(v) W(s) P(p), tau_max)`.
     ///
     /// # Errors
     /// When the bound is not positive.
@@ -225,9 +263,24 @@ impl Friction {
         matches!(self.law, Law::Tabulated(_))
     }
 
+    /// Returns whether there is none, at any pressure and slip rate.
+    pub fn is_frictionless(&self) -> bool {
+        self.coefficient.at_rest() == 0.0
+    }
+
     /// Whether `varpi` depends on the slip rate.
-    pub fn decays(&self) -> bool {
-        self.coefficient.decays()
+    pub fn depends_on_rate(&self) -> bool {
+        self.coefficient.by_rate().is_some()
+    }
+
+    /// Returns whether `varpi` falls with the slip rate anywhere.
+    pub fn weakens(&self) -> bool {
+        self.weakest_rate().is_some()
+    }
+
+    /// The slip rate at which `varpi` has fallen most, if it falls anywhere.
+    pub fn weakest_rate(&self) -> Option<f64> {
+        self.coefficient.by_rate().weakest_rate()
     }
 
     /// The bound on `varpi`, if any.
@@ -245,16 +298,27 @@ impl Friction {
         }
     }
 
-    /// Radius of the slip surface of `z`, over its reach: `varpi = mu(v) p`, at most the shear cap, and
-    /// zero where the pressure is not compressive.
+    /// Radius of the slip surface of `z`, over its reach: `varpi = mu R(v) P(p)`, at most
+    /// the shear cap, and zero where the pressure is not compressive. Without accumulated slip.
     ///
     /// Kinks, with one-sided derivatives taken on the side the value lies on: at
-    /// `p = 0` and where `mu p` meets the cap.
+    /// `p = 0`, where friction meets the cap, and at the ends of tables, floors and limits of
+    /// [`PressureDependence`] and [`RateDependence`].
     pub fn cap<D: DualNum<Primitive = f64> + Copy>(&self, pressure: D, slip_rate: D) -> D {
+        self.cap_after(0.0, pressure, slip_rate)
+    }
+
+    /// The bound after an accumulated slip `s >= 0`: `varpi = mu R(v) W(s) P(p)`.
+    pub fn cap_after<D: DualNum<Primitive = f64> + Copy>(
+        &self,
+        slip: f64,
+        pressure: D,
+        slip_rate: D,
+    ) -> D {
         if pressure.re() <= 0.0 {
             return D::zero();
         }
-        let varpi = self.coefficient.at_slip_rate(slip_rate) * pressure;
+        let varpi = self.coefficient.bound(pressure, slip_rate, slip);
         match self.shear_cap {
             Some(tau_max) if varpi.re() > tau_max => D::from(tau_max),
             _ => varpi,

@@ -4,6 +4,7 @@ use striae_mesh::{Face, NodeId, Sets};
 use striae_solve::model::{Body, BodyId, PairId, RigidId};
 
 use crate::{
+    check::Known,
     fault::{Fault, FaultKind},
     names::nearest,
     path::Path,
@@ -14,6 +15,8 @@ pub(super) struct Names<'a> {
     bodies: &'a [Body],
     rigid: Vec<&'a str>,
     pairs: Vec<&'a str>,
+    /// Returns whether there are no other pairs.
+    pairs_known: Known,
 }
 
 impl<'a> Names<'a> {
@@ -22,6 +25,15 @@ impl<'a> Names<'a> {
             bodies,
             rigid,
             pairs,
+            pairs_known: Known::Whole,
+        }
+    }
+
+    /// Returns the names where there may be other pairs, whose names are not known here.
+    pub(super) fn with_other_pairs(self) -> Self {
+        Self {
+            pairs_known: Known::InPart,
+            ..self
         }
     }
 
@@ -40,6 +52,10 @@ impl<'a> Names<'a> {
     }
 
     pub(super) fn pair(&self, name: &str, path: &Path, faults: &mut Vec<Fault>) -> Option<PairId> {
+        let position = self.pairs.iter().position(|known| *known == name);
+        if position.is_none() && self.pairs_known == Known::InPart {
+            return None;
+        }
         find("pair", name, &self.pairs, path, faults).map(PairId)
     }
 

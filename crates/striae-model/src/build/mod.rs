@@ -13,7 +13,7 @@ mod tie;
 
 pub use extend::extended;
 pub use paint::{axial, circumferential, nodal, painted, radial, turned, uniform};
-pub use pair::{PairBuilder, SideBuilder, pair, rigid, surface};
+pub use pair::{PairBuilder, SideBuilder, itself, pair, rigid, surface};
 pub use parts::{
     BodyBuilder, RigidBuilder, SectionBuilder, body, composite, plane, rigid_solid, rigid_surface,
     section, tied,
@@ -27,6 +27,7 @@ use crate::{
     check::{Draft, DraftPair, DraftStep, Known, Named, Validate},
     fault::{Fault, Faults},
     fit::fitted,
+    general::{Everything, Lowered},
     path::{Path, Segment},
 };
 use lookup::Names;
@@ -41,6 +42,7 @@ pub struct ModelBuilder {
     faults: Vec<Fault>,
     rigid: Vec<RigidBuilder>,
     pairs: Vec<PairBuilder>,
+    everything: Option<Everything>,
     ties: Vec<TieBuilder>,
     steps: Vec<StepBuilder>,
     solver: Solver,
@@ -54,6 +56,7 @@ pub fn model(title: impl Into<String>) -> ModelBuilder {
         faults: Vec::new(),
         rigid: Vec::new(),
         pairs: Vec::new(),
+        everything: None,
         ties: Vec::new(),
         steps: Vec::new(),
         solver: solver(),
@@ -92,6 +95,13 @@ impl ModelBuilder {
         self
     }
 
+    /// Lets everything touch everything, itself included, besides what pairs and ties name; see
+    /// [`everything`](crate::everything).
+    pub fn contact(mut self, everything: Everything) -> Self {
+        self.everything = Some(everything);
+        self
+    }
+
     /// Adds a tie.
     pub fn tie(mut self, tie: TieBuilder) -> Self {
         self.ties.push(tie);
@@ -116,9 +126,9 @@ impl ModelBuilder {
     /// All faults: unknown names, everything [`Validate`] finds, meshes that overlap.
     pub fn build(self) -> Result<Model, Faults> {
         let mut faults = self.faults.clone();
-        let rigid = self.rigid.iter().map(RigidBuilder::name).collect();
-        let pairs = self.pairs.iter().map(PairBuilder::name).collect();
-        let names = Names::new(&self.bodies, rigid, pairs);
+        let rigid_names: Vec<&str> = self.rigid.iter().map(RigidBuilder::name).collect();
+        let named: Vec<&str> = self.pairs.iter().map(PairBuilder::name).collect();
+        let names = Names::new(&self.bodies, rigid_names.clone(), named.clone());
         let rigid: Vec<Option<RigidSurface>> = (self.rigid.iter().enumerate())
             .map(|(index, rigid)| rigid.resolved(index, &names, &mut faults))
             .collect();
@@ -128,12 +138,31 @@ impl ModelBuilder {
         let ties: Vec<Option<Tie>> = (self.ties.iter().enumerate())
             .map(|(index, tie)| tie.resolved(index, &names, &mut faults))
             .collect();
+        let lowered = match &self.everything {
+            None => Some(Lowered::default()),
+            Some(everything) => {
+                let draft = self.draft(&rigid, &pairs, &ties, &[]);
+                everything.lowered(&draft, &mut faults)
+            }
+        };
+        // Where pairs are not known, no name of a pair is judged.
+        let of_lowered = lowered.iter().flat_map(|of| &of.pairs);
+        let all = named.iter().copied();
+        let all = all.chain(of_lowered.map(|pair| pair.name.as_str()));
+        let mut names = Names::new(&self.bodies, rigid_names, all.collect());
+        if lowered.is_none() {
+            names = names.with_other_pairs();
+        }
         let mut prescribed = Prescribed::default();
         let steps: Vec<Resolved> = (self.steps.iter().enumerate())
             .map(|(index, step)| step.resolved(index, &names, &mut prescribed, &mut faults))
             .collect();
         if !faults.is_empty() {
-            let draft = self.draft(&rigid, &pairs, &ties, &steps);
+            let mut draft = self.draft(&rigid, &pairs, &ties, &steps);
+            match &lowered {
+                Some(lowered) => draft.extend(&lowered.pairs),
+                None => draft.known = Known::InPart,
+            }
             let found = draft.faults().into_iter();
             faults.extend(found.map(|fault| placed(fault, 0, &steps)));
             return Err(Faults(faults));
@@ -142,7 +171,9 @@ impl ModelBuilder {
             title: self.title,
             bodies: self.bodies,
             rigid_surfaces: rigid.into_iter().flatten().collect(),
-            pairs: pairs.into_iter().flatten().collect(),
+            pairs: (pairs.into_iter().flatten())
+                .chain(lowered.into_iter().flat_map(|of| of.pairs))
+                .collect(),
             ties: ties.into_iter().flatten().collect(),
             steps: steps.into_iter().map(|resolved| resolved.step).collect(),
             solver: self.solver,

@@ -7,7 +7,7 @@ use striae_surface::texture::Paint;
 use super::lookup::Names;
 use crate::{fault::Fault, path::Path};
 
-/// A side of a pair; see [`surface`] and [`rigid`].
+/// A side of a pair; see [`surface`], [`rigid`] and [`itself`].
 #[derive(Clone, Debug)]
 pub struct SideBuilder {
     owner: Owner,
@@ -18,6 +18,7 @@ pub struct SideBuilder {
 enum Owner {
     Body { body: String, facets: String },
     Rigid(String),
+    Itself,
 }
 
 /// A facet set of a deformable body.
@@ -35,6 +36,14 @@ pub fn surface(body: impl Into<String>, facets: impl Into<String>) -> SideBuilde
 pub fn rigid(name: impl Into<String>) -> SideBuilder {
     SideBuilder {
         owner: Owner::Rigid(name.into()),
+        texture: None,
+    }
+}
+
+/// Side `a` once more, as side `b`: facets of a body that may touch each other.
+pub fn itself() -> SideBuilder {
+    SideBuilder {
+        owner: Owner::Itself,
         texture: None,
     }
 }
@@ -58,6 +67,7 @@ impl SideBuilder {
                 Some(ContactSurface::Deformable { body, faces })
             }
             Owner::Rigid(name) => names.rigid(name, path, faults).map(ContactSurface::Rigid),
+            Owner::Itself => Some(ContactSurface::Itself),
         }
     }
 }
@@ -85,6 +95,7 @@ pub struct PairBuilder {
     initial: Initial,
     interference: Option<InterferenceFit>,
     stabilised: bool,
+    feature_angle: Option<f64>,
 }
 
 /// Two surfaces that may touch, without friction. At least one is of a deformable body.
@@ -98,6 +109,7 @@ pub fn pair(name: impl Into<String>, a: SideBuilder, b: SideBuilder) -> PairBuil
         initial: Initial::AsMeshed,
         interference: None,
         stabilised: false,
+        feature_angle: None,
     }
 }
 
@@ -139,6 +151,13 @@ impl PairBuilder {
         self
     }
 
+    /// Dihedral angle in degrees from which on an edge separates faces, each of which has a
+    /// normal and a traction of its own there.
+    pub fn feature_angle(mut self, degrees: f64) -> Self {
+        self.feature_angle = Some(degrees);
+        self
+    }
+
     pub(super) fn name(&self) -> &str {
         &self.name
     }
@@ -152,9 +171,13 @@ impl PairBuilder {
     ) -> Option<Pair> {
         let [mut a, mut b] = sides(&self.sides, &Path::part("pairs", index), names, faults)?;
         let mut textures = self.sides.each_ref().map(|side| side.texture.clone());
-        if matches!(a, ContactSurface::Rigid(_)) {
-            std::mem::swap(&mut a, &mut b);
-            textures.reverse();
+        match (&a, &b) {
+            (_, ContactSurface::Itself) => {}
+            (ContactSurface::Rigid(_), _) => {
+                std::mem::swap(&mut a, &mut b);
+                textures.reverse();
+            }
+            _ => {}
         }
         Some(Pair {
             name: self.name.clone(),
@@ -167,6 +190,7 @@ impl PairBuilder {
             initial: self.initial,
             interference: self.interference.clone(),
             stabilised: self.stabilised,
+            feature_angle: self.feature_angle,
         })
     }
 }

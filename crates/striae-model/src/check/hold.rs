@@ -53,7 +53,8 @@ pub(super) fn is_tied(draft: &Draft<'_>, body: BodyId) -> bool {
 fn touches(draft: &Draft<'_>, body: BodyId) -> bool {
     let is = |side: &ContactSurface| matches!(side, ContactSurface::Deformable { body: other, .. } if *other == body);
     let mut pairs = draft.pairs.iter().filter_map(|pair| pair.pair);
-    pairs.any(|pair| is(&pair.a) || is(&pair.b))
+    // Contact of a body with itself holds it nowhere.
+    pairs.any(|pair| !pair.is_within_a_body() && (is(&pair.a) || is(&pair.b)))
 }
 
 pub(super) fn prescribe(prescribed: &mut BTreeSet<(NodeId, usize)>, step: &Step, body: BodyId) {

@@ -22,6 +22,7 @@ mod ties;
 mod triangles;
 
 pub use numbers::misshapen;
+pub(crate) use numbers::of_everything;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -142,11 +143,6 @@ impl<'a> Draft<'a> {
             name: &rigid.name,
             part: Some(rigid),
         });
-        let pairs = model.pairs.iter().map(|pair| DraftPair {
-            name: &pair.name,
-            pair: Some(pair),
-            known: Known::Whole,
-        });
         let ties = model.ties.iter().map(|tie| Named {
             name: &tie.name,
             part: Some(tie),
@@ -156,14 +152,16 @@ impl<'a> Draft<'a> {
             known: Known::Whole,
             displacements: Known::Whole,
         });
-        Self {
+        let mut draft = Self {
             bodies: Self::bodies(&model.bodies),
             rigid_surfaces: rigid.collect(),
-            pairs: pairs.collect(),
+            pairs: Vec::new(),
             ties: ties.collect(),
             steps: steps.collect(),
             known: Known::Whole,
-        }
+        };
+        draft.extend(&model.pairs);
+        draft
     }
 
     /// Whole bodies.
@@ -175,6 +173,15 @@ impl<'a> Draft<'a> {
             density: body.used_sections().contains(&0).then_some(body.density),
         });
         bodies.collect()
+    }
+
+    /// Adds pairs that are known.
+    pub fn extend(&mut self, pairs: &'a [Pair]) {
+        self.pairs.extend(pairs.iter().map(|pair| DraftPair {
+            name: &pair.name,
+            pair: Some(pair),
+            known: Known::Whole,
+        }));
     }
 
     /// Every fault of what is known.

@@ -15,6 +15,7 @@ use crate::{
 
 const POSITIVE: &str = "a positive number";
 const FINITE: &str = "a finite number";
+const HALF_TURN: &str = "an angle above 0 and up to 180 degrees";
 const NOT_NEGATIVE: &str = "a number of at least 0";
 
 /// Every number of a model that is out of its range.
@@ -34,12 +35,30 @@ pub(super) fn faults(model: &Model) -> Vec<Fault> {
     faults.0
 }
 
+/// The numbers of contact of everything that are out of their ranges.
+pub(crate) fn of_everything(feature_angle: f64, search_distance: Option<f64>) -> Vec<Fault> {
+    let (mut faults, path) = (List::default(), Path::of("contact"));
+    let angle = path.clone().field("feature_angle");
+    faults.range(
+        angle,
+        "the feature angle of contact",
+        feature_angle,
+        HALF_TURN,
+    );
+    if let Some(distance) = search_distance {
+        let path = path.field("search_distance");
+        faults.range(path, "the search distance of contact", distance, POSITIVE);
+    }
+    faults.0
+}
+
 impl List {
     fn range(&mut self, path: Path, what: &str, found: f64, expected: &'static str) {
         let holds = found.is_finite()
             && match expected {
                 POSITIVE => found > 0.0,
                 FINITE => true,
+                HALF_TURN => found > 0.0 && found <= 180.0,
                 _ => found >= 0.0,
             };
         if !holds {
@@ -129,6 +148,10 @@ fn of_pair(pair: &Pair, path: &Path, faults: &mut List) {
             distance,
             POSITIVE,
         );
+    }
+    if let Some(angle) = pair.feature_angle {
+        let what = format!("the feature angle of pair `{name}`");
+        faults.range(path.clone().field("feature_angle"), &what, angle, HALF_TURN);
     }
     if let Initial::Close(ClosedGaps::Share(gap) | ClosedGaps::UpTo(gap)) = pair.initial {
         let what = format!("the gap that pair `{name}` closes");

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use striae_law::friction::{Friction, RequiredTextures};
-use striae_mesh::{Face, Mesh, NodeId};
-use striae_solve::model::{ContactSurface, Initial, Pair, Procedure, RigidShape};
+use striae_mesh::Face;
+use striae_solve::model::{ContactSurface, Enforcement, Initial, Pair, Procedure, RigidShape};
 use striae_surface::texture::Paint;
 
 use super::{Draft, Known, List, Positions};
@@ -36,9 +36,12 @@ pub(super) fn check(draft: &Draft<'_>, faults: &mut List) -> Positions {
             continue;
         }
         if draft.known == Known::Whole
-            && let Some(kind) = textures(&pair.name, &pair.friction, &pair.textures)
+            && let Some(kind) = textures(pair, &pair.friction)
         {
             faults.push(path.clone().field("friction"), kind);
+        }
+        if let Some((field, kind)) = unsuited(pair) {
+            faults.push(path.clone().field(field), kind);
         }
         if pair.interference.is_some() && pair.initial == Initial::Resolve {
             let kind = FaultKind::InterferenceResolved {
@@ -83,19 +86,19 @@ pub(super) fn check_stabilised(
 }
 
 /// Friction without the textures that give it a direction, or with too many.
-pub(super) fn textures(
-    pair: &str,
-    friction: &Friction,
-    textures: &[Option<Paint>; 2],
-) -> Option<FaultKind> {
-    let found = textures.iter().flatten().count();
+pub(super) fn textures(pair: &Pair, friction: &Friction) -> Option<FaultKind> {
+    let found = match (pair.is_on_itself(), &pair.textures) {
+        // Both surfaces that touch have the one texture.
+        (true, [Some(_), _]) => 2,
+        (_, textures) => textures.iter().flatten().count(),
+    };
     let required = match friction.required_textures() {
         RequiredTextures::One if found != 1 => "one side",
         RequiredTextures::Both if found != 2 => "both sides",
         _ => return None,
     };
     Some(FaultKind::Textures {
-        pair: pair.into(),
+        pair: pair.name.clone(),
         required,
         found,
     })
@@ -123,9 +126,17 @@ fn impossible_sides(draft: &Draft<'_>, pair: &Pair) -> Vec<(Option<&'static str>
 /// Why two surfaces cannot touch each other.
 fn wrong_together(draft: &Draft<'_>, pair: &Pair) -> Option<FaultKind> {
     let name = || pair.name.clone();
+    let not_itself = |found| FaultKind::NotItself {
+        pair: name(),
+        found,
+    };
     match (&pair.a, &pair.b) {
         (ContactSurface::Rigid(_), ContactSurface::Rigid(_)) => {
             Some(FaultKind::TwoRigid { pair: name() })
+        }
+        (ContactSurface::Itself, _) => Some(not_itself("side `a` is `itself`")),
+        (ContactSurface::Rigid(_), ContactSurface::Itself) => {
+            Some(not_itself("a rigid surface does not touch itself"))
         }
         (
             ContactSurface::Deformable { body, faces: on_a },
@@ -134,15 +145,35 @@ fn wrong_together(draft: &Draft<'_>, pair: &Pair) -> Option<FaultKind> {
                 faces: on_b,
             },
         ) if body == other => {
-            let of = &draft.bodies[body.0];
-            let shared = of.mesh.map_or(0, |mesh| {
-                nodes(mesh, on_a).intersection(&nodes(mesh, on_b)).count()
-            });
-            Some(FaultKind::SelfContact {
+            let on_a: BTreeSet<&Face> = on_a.iter().collect();
+            let shared = on_b.iter().filter(|face| on_a.contains(face)).count();
+            (shared > 0).then(|| FaultKind::SharedFacets {
                 pair: name(),
-                body: of.name.into(),
+                body: draft.bodies[body.0].name.into(),
                 shared,
             })
+        }
+        _ => None,
+    }
+}
+
+/// Requests of a pair that its kind does not have, with the field.
+fn unsuited(pair: &Pair) -> Option<(&'static str, FaultKind)> {
+    let name = || pair.name.clone();
+    let collocated = pair.enforcement == Enforcement::Collocated;
+    let on_itself = |what| FaultKind::OnItself { pair: name(), what };
+    match pair.is_on_itself() {
+        true if collocated => Some(("enforcement", on_itself("is not collocated"))),
+        true if pair.interference.is_some() => {
+            Some(("interference", on_itself("has no `interference`")))
+        }
+        true if pair.stabilised => {
+            let why = "holds the body nowhere, so that `stabilise` has no sense";
+            Some(("stabilised", on_itself(why)))
+        }
+        _ if collocated && pair.feature_angle.is_some() => {
+            let kind = FaultKind::CollocatedFeatures { pair: name() };
+            Some(("feature_angle", kind))
         }
         _ => None,
     }
@@ -170,11 +201,6 @@ fn check_planes(draft: &Draft<'_>, pair: &Pair, path: &Path, faults: &mut List) 
     }
 }
 
-fn nodes(mesh: &Mesh, faces: &[Face]) -> BTreeSet<NodeId> {
-    let corners = faces.iter().flat_map(|face| mesh.face_nodes(*face));
-    corners.collect()
-}
-
 fn same_sides(one: &Pair, other: &Pair) -> bool {
     let same = |a: &ContactSurface, b: &ContactSurface| match (a, b) {
         (
@@ -188,6 +214,7 @@ fn same_sides(one: &Pair, other: &Pair) -> bool {
             },
         ) => i == j && on_i == on_j,
         (ContactSurface::Rigid(i), ContactSurface::Rigid(j)) => i == j,
+        (ContactSurface::Itself, ContactSurface::Itself) => true,
         _ => false,
     };
     same(&one.a, &other.a) && same(&one.b, &other.b)

@@ -45,12 +45,12 @@ pub(super) fn check(
 }
 
 fn both(draft: &Draft<'_>, pair: &Pair, prescribed: &[BTreeSet<(NodeId, usize)>]) -> bool {
-    [&pair.a, &pair.b].into_iter().all(|side| match side {
+    pair.surfaces().into_iter().all(|side| match side {
         ContactSurface::Deformable { body, faces } => {
             let mesh = draft.bodies[body.0].mesh;
             mesh.is_some_and(|mesh| all(mesh, faces, &prescribed[body.0]))
         }
-        ContactSurface::Rigid(_) => false,
+        ContactSurface::Rigid(_) | ContactSurface::Itself => false,
     })
 }
 

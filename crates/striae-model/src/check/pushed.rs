@@ -23,7 +23,7 @@ use crate::{fault::FaultKind, path::Path};
 
 /// Component of a push that is none.
 const ACROSS: f64 = 0.17;
-/// Friction over pressure at most, in multiples of the coefficient at rest.
+/// Friction over pressure at most, in multiples of the largest coefficient at rest.
 const LARGEST: f64 = 3.0;
 
 /// Notes every body, or piece of one, that can only be pushed away in the first step.
@@ -54,7 +54,12 @@ impl Contact<'_> {
     fn sign(&self, axis: usize) -> Option<f64> {
         let along = |v: &Vec3| -v[axis] / v.norm();
         let pushes = self.pairs.iter().flat_map(|(pair, areas)| {
-            let mu = LARGEST * pair.friction.coefficient().at_rest();
+            let coefficient = pair.friction.coefficient();
+            let factors = [
+                coefficient.by_pressure().largest_factor(),
+                coefficient.by_slip().largest_factor(),
+            ];
+            let mu = LARGEST * coefficient.at_rest() * factors.iter().product::<f64>();
             areas.iter().map(move |area| (along(area), mu))
         });
         let mut pushes = pushes.peekable();
@@ -150,6 +155,8 @@ fn contact_of<'a>(
         }
     };
     let pairs = draft.pairs.iter().filter_map(|pair| pair.pair);
+    // A body does not push itself anywhere.
+    let pairs = pairs.filter(|pair| !pair.is_within_a_body());
     let pairs = pairs.map(|pair| (pair, [areas(&pair.a), areas(&pair.b)].concat()));
     Contact {
         pairs: pairs.filter(|(_, areas)| !areas.is_empty()).collect(),

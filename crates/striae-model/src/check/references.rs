@@ -97,6 +97,7 @@ impl Check<'_> {
         match side {
             ContactSurface::Deformable { body, faces } => self.faces(*body, faces, path),
             ContactSurface::Rigid(rigid) => self.rigid(*rigid, &path),
+            ContactSurface::Itself => {}
         }
     }
 

@@ -115,9 +115,7 @@ fn frictions(
             faults.push(path.clone(), twice(step, what));
         }
         let known = named.pair.filter(|_| !impossible.contains(&pair.0));
-        if let Some(kind) =
-            known.and_then(|pair| pairs::textures(&pair.name, friction, &pair.textures))
-        {
+        if let Some(kind) = known.and_then(|pair| pairs::textures(pair, friction)) {
             faults.push(path, kind);
         }
     }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use striae_mesh::Face;
 use striae_solve::{
     model::{BodyId, ContactSurface, Tie},
-    tie::TieFault,
+    tie::{TieFault, covered},
 };
 
 use super::{Draft, List};
@@ -39,7 +39,7 @@ pub(super) fn check(draft: &Draft<'_>, faults: &mut List) {
             faults.push(path, FaultKind::Tie { fault });
             continue;
         }
-        if let Some(pair) = pair_of(draft, [a, b]) {
+        if let Some(pair) = pair_of(draft, [a, b], tie.within) {
             let (tie, pair) = (tie.name.clone(), pair.to_owned());
             faults.push(path.clone(), FaultKind::TiedPair { tie, pair });
         }
@@ -60,15 +60,28 @@ fn is_positive(number: f64) -> bool {
 fn faces(side: &ContactSurface) -> Option<Surface<'_>> {
     match side {
         ContactSurface::Deformable { body, faces } => Some((*body, faces)),
-        ContactSurface::Rigid(_) => None,
+        ContactSurface::Rigid(_) | ContactSurface::Itself => None,
     }
 }
 
-/// A pair that has facets of both surfaces on its two sides.
-fn pair_of<'d>(draft: &Draft<'d>, tied: [Surface<'_>; 2]) -> Option<&'d str> {
+/// A pair that has facets of both surfaces that are glued on its two sides.
+fn pair_of<'d>(draft: &Draft<'d>, tied: [Surface<'_>; 2], within: Option<f64>) -> Option<&'d str> {
     let pairs = draft.pairs.iter().filter_map(|named| named.pair);
-    let mut both = pairs.filter_map(|pair| Some((pair, [faces(&pair.a)?, faces(&pair.b)?])));
-    let found = both.find(|(_, sides)| share(*sides, tied));
+    let both = pairs.filter_map(|pair| Some((pair, [faces(&pair.a)?, faces(&pair.b)?])));
+    let mut both = both.filter(|(_, sides)| share(*sides, tied)).peekable();
+    both.peek()?;
+    let [Some(a), Some(b)] = tied.map(|(body, _)| draft.bodies[body.0].mesh) else {
+        return None;
+    };
+    let cover = covered([(a, tied[0].1), (b, tied[1].1)], within);
+    let glued = |side: usize| -> Vec<Face> {
+        let faces = tied[side].1.iter().zip(&cover[side]);
+        let glued = faces.filter(|(_, part)| **part > 0.0);
+        glued.map(|(face, _)| *face).collect()
+    };
+    let glued = [glued(0), glued(1)];
+    let glued = [(tied[0].0, &glued[0][..]), (tied[1].0, &glued[1][..])];
+    let found = both.find(|(_, sides)| share(*sides, glued));
     found.map(|(pair, _)| pair.name.as_str())
 }
 

@@ -45,7 +45,7 @@ pub const FILE: &str = "checkpoint.bin";
 pub const END: &str = "end.bin";
 
 /// Number of the format, to be raised when the content changes.
-pub const FORMAT: u64 = 18;
+pub const FORMAT: u64 = 19;
 
 /// A run under way.
 #[derive(Clone, Debug, Serialize, Deserialize)]

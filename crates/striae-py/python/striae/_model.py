@@ -12,8 +12,9 @@ import numpy as np
 
 from . import _check as check
 from . import _striae as native
-from ._body import Body
+from ._body import Body, BodySet
 from ._errors import refuse
+from ._everything import FEATURE_ANGLE, Everything, Excluded, Surface
 from ._friction import Friction, Frictionless
 from ._mesh import Mesh
 from ._pair import Pair, _change
@@ -85,7 +86,7 @@ class Remark(NamedTuple):
 
     topic: str
     """What it is about: ``shape``, ``units``, ``locking``, ``bending``, ``hold``, ``fit``,
-    ``facing``, ``never-meets``, ``friction``, ``texture`` or ``cost``."""
+    ``facing``, ``never-meets``, ``contact``, ``friction``, ``texture`` or ``cost``."""
     name: Optional[str]
     """Name of the body, pair or step it is about, if it is about one."""
     text: str
@@ -116,6 +117,7 @@ class Model:
     _bodies: list[Body]
     _rigid: list[Rigid]
     _pairs: list[Pair]
+    _everything: Optional[Everything]
     _ties: list[Tie]
     _steps: list[Step]
     _solver: Solver
@@ -156,6 +158,7 @@ class Model:
         self._base, self._earlier = None, []
         self._bodies, self._rigid, self._pairs, self._ties, self._steps = [], [], [], [], []
         self._solver = Solver()
+        self._everything = None
         self._running = 0
         self._last_run = None
 
@@ -224,6 +227,57 @@ class Model:
         self._steps.append(made)
         return made
 
+    def contact_all(
+        self,
+        friction: Optional[Friction] = None,
+        *,
+        exclude: Sequence[Excluded] = (),
+        between: Sequence[tuple[Surface, Surface, Friction]] = (),
+        textures: Sequence[Union[BodySet, Rigid]] = (),
+        feature_angle: float = FEATURE_ANGLE,
+        search_distance: Optional[float] = None,
+        initial: Union[Literal["as-meshed", "close", "resolve"], float] = "as-meshed",
+        stabilise: bool = False,
+    ) -> None:
+        """Lets every surface touch every surface: all skins of bodies and all rigid bodies with
+        each other, and each body with itself. Facets of a pair of the model are left to it, and
+        tied facets are left out.
+
+        It comes down to pairs, whose names are made of those of their surfaces, such as
+        ``tread-road``, ``tread-tread`` or ``tread.zmin-road``; see :attr:`pair_names`.
+
+        Surfaces are bodies, facet sets ``body["top"]``, rigid bodies, or labels: ``"tread"``,
+        ``"tread.zmin"``.
+
+        friction: law where ``between`` says nothing; steps may change it. Frictionless by
+            default.
+        exclude: surfaces that touch nothing, and tuples of two that do not touch each other.
+        between: tuples of two surfaces and their law; of several statements about the same
+            facets, here and in ``exclude``, the narrowest counts.
+        textures: surfaces with textures, ``body["top"].textured((1, 0, 0))``, for laws that need
+            one; those of rigid bodies and of surfaces in ``between`` are taken by themselves.
+        feature_angle: dihedral angle from which on an edge separates faces, each of which has a
+            normal and a traction of its own there (degrees).
+        search_distance: over which contact is looked for ahead (length); it bears on the
+            cost, not on the result.
+        initial: what is made of gaps and overlaps of the meshes of different bodies, as in
+            :class:`Pair`.
+        stabilise: whether viscous forces carry bodies that nothing else holds across a gap,
+            in steps without inertia.
+        """
+        if self._base is not None:
+            raise refuse("model", "the contact of a deck is stated in it")
+        self._everything = Everything(
+            friction,
+            exclude,
+            between,
+            textures,
+            feature_angle,
+            search_distance,
+            initial,
+            stabilise,
+        )
+
     @property
     def title(self) -> str:
         """A line that says what the model is."""
@@ -251,8 +305,13 @@ class Model:
 
     @property
     def pair_names(self) -> list[str]:
-        """Names of the pairs."""
-        return [pair.name for pair in self._pairs] if self._base is None else self._base.pairs()
+        """Names of the pairs, with those that :meth:`contact_all` comes down to; for these the
+        model must be whole, with its steps."""
+        if self._base is not None:
+            return self._base.pairs()
+        if self._everything is not None:
+            return self._compiled().pairs()
+        return self._named
 
     @property
     def tie_names(self) -> list[str]:
@@ -280,10 +339,11 @@ class Model:
     def friction(self, pair: Union[int, str]) -> Friction:
         """Friction of a pair from the start; pair: its name, or its number from 0."""
         index = self._position("pair", self.pair_names, pair)
-        if self._base is None:
+        if self._base is None and index < len(self._pairs):
             law = self._pairs[index].friction
             return Frictionless() if law is None else law
-        return Friction._of(self._base.friction(index), f"friction of {self.pair_names[index]}")
+        base = self._compiled() if self._base is None else self._base
+        return Friction._of(base.friction(index), f"friction of {base.pairs()[index]}")
 
     def change_friction(self, pair: Union[int, str], friction: Friction) -> Condition:
         """Changes the friction of a pair at the start of a step.
@@ -291,6 +351,9 @@ class Model:
         pair: its name, or its number from 0.
         friction: the new law.
         """
+        if self._everything is not None and isinstance(pair, str):
+            # Its pairs are not known before the steps are; the name is judged with them.
+            return _change(pair, friction)
         return _change(self.pair_names[self._position("pair", self.pair_names, pair)], friction)
 
     def check(self) -> Check:
@@ -298,8 +361,9 @@ class Model:
 
         Nothing is computed yet. :meth:`run` checks, too.
         """
-        unknowns, fits, warnings = self._compiled().check()
-        named = zip(self.pair_names, fits)
+        compiled = self._compiled()
+        unknowns, fits, warnings = compiled.check()
+        named = zip(compiled.pairs(), fits)
         return Check(unknowns, [Fit(name, *fit) for name, fit in named], warnings)
 
     def advice(self) -> Advice:
@@ -354,6 +418,10 @@ class Model:
         ended = self._ended(watching, record(output, None, fields_every))
         return closed(ended, self, "return", output)
 
+    @property
+    def _named(self) -> list[str]:
+        return [pair.name for pair in self._pairs]
+
     def _ended(
         self, watching: native.Watching, recording: native.Recording
     ) -> tuple[native.Run, Optional[BaseException]]:
@@ -374,6 +442,7 @@ class Model:
             [body._part() for body in self._bodies],
             [one._native for one in self._rigid if one._native is not None],
             [pair._native for pair in self._pairs],
+            None if self._everything is None else self._everything.native(self._rigid),
             [tie._native for tie in self._ties],
             steps,
             (solver.backend, solver.tolerance, solver.largest_iterations),
@@ -416,5 +485,5 @@ class Model:
     def __repr__(self) -> str:
         return (
             f"Model({self._title!r}, bodies {self.body_names}, rigid {self.rigid_names},"
-            f" pairs {self.pair_names}, ties {self.tie_names}, steps {self.step_names})"
+            f" pairs {self._named if self._base is None else self.pair_names}, ties {self.tie_names}, steps {self.step_names})"
         )

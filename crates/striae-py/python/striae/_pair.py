@@ -24,7 +24,7 @@ class Pair(Made):
     def __init__(
         self,
         a: Union[BodySet, Rigid],
-        b: Union[BodySet, Rigid],
+        b: Union[BodySet, Rigid, Literal["itself"]],
         friction: Optional[Friction] = None,
         *,
         name: Optional[str] = None,
@@ -34,10 +34,12 @@ class Pair(Made):
         stabilise: bool = False,
         enforcement: Literal["weighted", "collocated"] = "weighted",
         search_distance: Optional[float] = None,
+        feature_angle: Optional[float] = None,
     ) -> None:
         """Makes a pair.
 
-        a, b: facet sets of bodies, with their textures, or rigid bodies.
+        a, b: facet sets of bodies, with their textures, or rigid bodies; ``itself`` as ``b``
+            where facets of ``a`` may touch each other.
         friction: law from the start; steps may change it. Frictionless by default.
         name: unique name; made of the names of the bodies by default.
         initial: what is made of gaps and overlaps of the meshes: ``as-meshed`` takes gaps as
@@ -53,8 +55,12 @@ class Pair(Made):
         enforcement: ``weighted``, or ``collocated`` as in the paper, for comparison.
         search_distance: over which contact is looked for ahead (length); it bears on the
             cost, not on the result.
+        feature_angle: dihedral angle from which on an edge separates faces, each of which has a
+            normal and a traction of its own there (degrees); by default all faces at a node
+            have one.
         """
-        for side, path in [(a, "a"), (b, "b")]:
+        on_itself = isinstance(b, str) and check.word(b, ("itself",), "b") == "itself"
+        for side, path in [(a, "a"), (a if on_itself else b, "b")]:
             if not isinstance(side, (BodySet, Rigid)):
                 raise TypeError(
                     f"{path}: a set such as body['top'] or a rigid body is needed,"
@@ -62,17 +68,18 @@ class Pair(Made):
                 )
         if friction is not None:
             check.kind(friction, Friction, "friction")
-        owners = [side.body.name if isinstance(side, BodySet) else side.name for side in (a, b)]
+        two: list[Union[BodySet, Rigid]] = [a, a if isinstance(b, str) else b]
+        owners = [side.body.name if isinstance(side, BodySet) else side.name for side in two]
         self.name = "-".join(owners) if name is None else check.name(name, "name")
         """Unique name."""
         self.a = a
         """First side."""
         self.b = b
-        """Second side."""
+        """Second side, or ``itself``."""
         self.friction = friction
         """Friction law from the start."""
-        sides = [_side(a), _side(b)]
-        textures = [side.texture._native if side.texture is not None else None for side in (a, b)]
+        sides = (_side(a), None if isinstance(b, str) else _side(b))
+        textures = [side.texture._native if side.texture is not None else None for side in two]
         law = None if friction is None else friction._native
         made = native.Pair(self.name, sides, (textures[0], textures[1]), law)
         if isinstance(initial, str):
@@ -90,6 +97,8 @@ class Pair(Made):
             made = made.collocated()
         if search_distance is not None:
             made = made.searching(check.positive(search_distance, "search_distance"))
+        if feature_angle is not None:
+            made = made.divided(check.number(feature_angle, "feature_angle"))
         self._native = made.stabilised() if stabilise else made
 
     def change_friction(self, friction: Friction) -> Condition:

@@ -43,6 +43,8 @@ struct Layer<'a> {
     part: &'a Part,
     places: Vec<[f64; 3]>,
     values: Option<Vec<f64>>,
+    /// Points that are pressed; empty where all of the surface is drawn.
+    pressed: Vec<bool>,
 }
 
 impl<'a> Layers<'a> {
@@ -71,6 +73,10 @@ impl<'a> Layers<'a> {
         let layer = |part: &'a Part, values| Layer {
             part,
             places: places(part, parts, picture.magnification),
+            pressed: match &values {
+                Some(_) if on_contact(part) => pressed(part),
+                _ => Vec::new(),
+            },
             values,
         };
         let others = parts
@@ -134,7 +140,15 @@ impl Layer<'_> {
     fn draw(&self, view: &View, canvas: &mut Canvas, [least, largest]: [f64; 2]) {
         let seen: Vec<[f64; 3]> = self.places.iter().map(|x| view.seen(*x)).collect();
         let skin = &self.part.skin;
-        for triangle in &skin.triangles {
+        let is_drawn = |points: &[u32]| {
+            let mut points = points.iter();
+            self.pressed.is_empty() || points.any(|&point| self.pressed[point as usize])
+        };
+        for triangle in skin
+            .triangles
+            .iter()
+            .filter(|triangle| is_drawn(&triangle[..]))
+        {
             let corners = triangle.map(|corner| corner as usize);
             let brightness = self.brightness(corners, view);
             let color = |shares: [f64; 3]| {
@@ -156,6 +170,7 @@ impl Layer<'_> {
         let ends = skin
             .edges
             .iter()
+            .filter(|edge| is_drawn(&edge[..]))
             .map(|edge| edge.map(|end| seen[end as usize]));
         let ends: Vec<[[f64; 3]; 2]> = ends.collect();
         let darkness = darkness(&ends);
@@ -170,6 +185,19 @@ impl Layer<'_> {
         let side = |to: [f64; 3]| [0, 1, 2].map(|axis| to[axis] - a[axis]);
         let normal = unit(cross(side(b), side(c)));
         normal.map_or(1.0, |normal| view.brightness(normal))
+    }
+}
+
+/// Points of a contact surface that are pressed; none if there are none, or their pressure is not
+/// known. A whole skin would hide what touches, and has no colour where nothing does.
+fn pressed(part: &Part) -> Vec<bool> {
+    let Some(field) = known(part, "pressure") else {
+        return Vec::new();
+    };
+    let pressed: Vec<bool> = values(field, 0).iter().map(|value| *value > 0.0).collect();
+    match pressed.contains(&true) {
+        true => pressed,
+        false => Vec::new(),
     }
 }
 

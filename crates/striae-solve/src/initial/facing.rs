@@ -75,6 +75,9 @@ struct Seen {
 }
 
 fn of_side(stage: &Stage, side: Side) -> Vec<Seen> {
+    if stage.configuration.pair.is_in_one_body() {
+        return Vec::new();
+    }
     let own = stage.configuration.side(side);
     let nodes = own.x.iter().zip(&own.normals).zip(&own.sizes).enumerate();
     let seen = nodes.filter_map(|(node, ((x, normal), size))| {

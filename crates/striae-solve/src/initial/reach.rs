@@ -25,8 +25,10 @@ pub fn may_meet(model: &Model, pair: PairId, fit: &Fit) -> bool {
     let reach = |side: &ContactSurface| match side {
         ContactSurface::Deformable { body, .. } => body_reach(model, *body),
         ContactSurface::Rigid(rigid) => rigid_reach(model, *rigid),
+        ContactSurface::Itself => None,
     };
-    match (reach(&of_pair.a), reach(&of_pair.b)) {
+    let [a, b] = of_pair.surfaces();
+    match (reach(a), reach(b)) {
         (Some(a), Some(b)) => fit.distance <= DEFORMATION * (a + b) && comes_near(model, pair, fit),
         _ => true,
     }

@@ -72,6 +72,7 @@ fn extent(model: &Model, side: &ContactSurface, d: &Vec3) -> (f64, f64) {
             RigidShape::Facets { positions, .. } => over(&mut positions.iter().copied()),
             RigidShape::Bare => (f64::NEG_INFINITY, f64::INFINITY),
         },
+        ContactSurface::Itself => (f64::NEG_INFINITY, f64::INFINITY),
     }
 }
 
@@ -79,6 +80,7 @@ fn way(model: &Model, pair: PairId, side: &ContactSurface) -> Option<Ranges> {
     match side {
         ContactSurface::Deformable { body, .. } => body_way(model, pair, *body),
         ContactSurface::Rigid(rigid) => rigid_way(model, *rigid),
+        ContactSurface::Itself => None,
     }
 }
 

@@ -50,13 +50,16 @@ pub(super) fn accepted(
         .zip(selections)
         .zip(assembled.contacts)
         .zip(&state.pairs)
-        .map(|(((tractions, selection), evaluation), before)| PairState {
-            dissipated: before.dissipated + evaluation.dissipated,
-            kept: selection.kept_nodes(),
-            tractions,
-            carried: evaluation.carried,
-            nodes: evaluation.nodes,
-            facets: evaluation.facets,
+        .map(|(((mut tractions, selection), evaluation), before)| {
+            tractions.accumulate(&evaluation.nodes);
+            PairState {
+                dissipated: before.dissipated + evaluation.dissipated,
+                kept: selection.kept_nodes(),
+                tractions,
+                carried: evaluation.carried,
+                nodes: evaluation.nodes,
+                facets: evaluation.facets,
+            }
         })
         .collect();
     State {

@@ -126,7 +126,7 @@ fn restrict<'a>(
     configuration: impl Fn(usize) -> Configuration<'a>,
     nodes: &[&[Vec<NodeResult>; 2]],
 ) {
-    let has_friction = |pair: usize| context.plan.frictions[pair].cap(1.0, 0.0) != 0.0;
+    let has_friction = |pair: usize| !context.plan.frictions[pair].is_frictionless();
     let pairs = 0..selections.len();
     let prescribed = || context.fixed_on_pair.iter().flatten().flatten();
     if !pairs.clone().any(has_friction)

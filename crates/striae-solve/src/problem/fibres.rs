@@ -1,10 +1,10 @@
 //! Fibres through what is behind the facets of pairs.
 
 use striae_contact::{
-    interference::{Fibre, fibres},
+    interference::{Fibre, fibres, lengths},
     side::Side,
 };
-use striae_mesh::Vec3;
+use striae_mesh::{NodeId, Vec3};
 use striae_surface::topology::Surface;
 
 use super::PairGeometry;
@@ -31,6 +31,17 @@ pub(crate) fn add_fibres(model: &Model, pairs: &mut [PairGeometry]) {
             let skin = skins[body].get_or_insert_with(|| skin(body));
             of_body(&model.bodies[body].mesh.positions, surface, skin)
         });
+        if pair.contact.is_in_one_body() {
+            for side in Side::BOTH {
+                let own = pair.bodies[side].zip(pair.contact.sides[side].surface());
+                let Some((body, surface)) = own else { continue };
+                let positions = &model.bodies[body].mesh.positions;
+                let at = |node: NodeId| positions[node.index()];
+                let x: Vec<Vec3> = surface.nodes().iter().map(|node| at(*node)).collect();
+                let thickness = lengths(surface, &x, &pair.fibres[side], at);
+                pair.contact.sides[side].thickness = thickness;
+            }
+        }
     }
 }
 

@@ -1,10 +1,12 @@
 //! Painting of the textures of a pair on its sides, and why it may fail.
 
 use striae_contact::{pair::Geometry, texture::SideTexture};
-use striae_mesh::Vec3;
+use striae_mesh::{NodeId, Vec3};
 use striae_surface::{
+    node::SurfaceNode,
     normal::nodal_normals,
     texture::{Conditioning, Field, Lines, Paint, Texture, TextureError},
+    topology::Surface,
 };
 
 use super::ProblemError;
@@ -49,6 +51,35 @@ impl Undirected {
     }
 }
 
+/// Paint that is stated at nodes of the mesh, in their order, at those of a surface: on an edge
+/// between faces each of them has it.
+fn on_faces(surface: &Surface, paint: &Paint) -> Paint {
+    let mut stated = surface.nodes().to_vec();
+    stated.dedup();
+    if stated.len() == surface.nodes().len() {
+        return paint.clone();
+    }
+    let place = |node: &NodeId| stated.partition_point(|other| other < node);
+    match paint {
+        Paint::Nodal(directions) if directions.len() == stated.len() => {
+            let nodes = surface.nodes().iter();
+            Paint::Nodal(nodes.map(|node| directions[place(node)]).collect())
+        }
+        Paint::Nodes { directions, width } => {
+            let on_node = |&(at, direction): &(SurfaceNode, Vec3)| {
+                let nodes = SurfaceNode::all(surface.nodes().len());
+                let is_it = move |node: &SurfaceNode| place(&surface.nodes()[*node]) == at.index();
+                nodes.filter(is_it).map(move |node| (node, direction))
+            };
+            Paint::Nodes {
+                directions: directions.iter().flat_map(on_node).collect(),
+                width: *width,
+            }
+        }
+        Paint::Field(_) | Paint::Points { .. } | Paint::Nodal(_) => paint.clone(),
+    }
+}
+
 /// The texture of a side with nodes at `positions`.
 pub(super) fn painted(
     model: &Model,
@@ -68,8 +99,14 @@ pub(super) fn painted(
             });
         }
         (Geometry::Deformable(surface) | Geometry::Rigid(surface), _) => surface,
+        (Geometry::Itself, _) => {
+            return Err(ProblemError::TextureOfItself {
+                pair: pair.name.clone(),
+            });
+        }
     };
     let normals = nodal_normals(surface, positions);
+    let paint = &on_faces(surface, paint);
     let painted = Texture::new(positions, surface.facets(), &normals, paint);
     let (texture, conditioning) = painted.map_err(|error| {
         let node = error.node();
@@ -82,6 +119,7 @@ pub(super) fn painted(
             ContactSurface::Rigid(rigid) => {
                 format!("rigid surface `{}`", model.rigid_surfaces[rigid.0].name)
             }
+            ContactSurface::Itself => "side `a` itself".to_owned(),
         };
         match (&error, paint, node, of_mesh) {
             (TextureError::Vanishing { .. }, Paint::Field(field), Some(node), Some(of_mesh)) => {

@@ -103,6 +103,7 @@ fn local_side(side: &ContactSurface, numbers: &Numbers) -> ContactSurface {
                 .collect(),
         },
         ContactSurface::Rigid(rigid) => ContactSurface::Rigid(*rigid),
+        ContactSurface::Itself => ContactSurface::Itself,
     }
 }
 

@@ -9,7 +9,7 @@ use striae_contact::{
     side::Side,
     tie::{FacetRows, Joined, join},
 };
-use striae_mesh::{Face, NodeId, Vec3};
+use striae_mesh::{Face, Mesh, NodeId, Vec3};
 use striae_surface::{node::SurfaceNode, topology::Surface};
 
 use super::{Follower, Joint, TieFault, Weights, patch::Patch, side::finer};
@@ -73,7 +73,8 @@ impl Sides {
             let body = model.bodies[a].name.clone();
             return Err(TieFault::SameBody { tie: name(), body });
         }
-        let pair = contact_pair(model, [(a, faces_a), (b, faces_b)], of_tie.within);
+        let [mesh_a, mesh_b] = [a, b].map(|body| &model.bodies[body].mesh);
+        let pair = contact_pair([(mesh_a, faces_a), (mesh_b, faces_b)], of_tie.within);
         let positions = [(Side::A, a), (Side::B, b)].map(|(side, body)| {
             let nodes = pair.sides[side].surface().map_or(&[][..], Surface::nodes);
             let mesh = &model.bodies[body].mesh;
@@ -314,16 +315,13 @@ impl Sum {
     }
 }
 
-fn contact_pair(
-    model: &Model,
-    sides: [(usize, &Vec<Face>); 2],
-    within: Option<f64>,
-) -> ContactPair {
-    let sides = sides.map(|(body, faces)| {
-        let mesh = &model.bodies[body].mesh;
+/// Two surfaces as those of a pair.
+pub(super) fn contact_pair(sides: [(&Mesh, &[Face]); 2], within: Option<f64>) -> ContactPair {
+    let sides = sides.map(|(mesh, faces)| {
         let facets: Vec<_> = faces.iter().map(|face| mesh.face_nodes(*face)).collect();
         PairedSurface {
             geometry: Geometry::Deformable(Surface::new(&facets)),
+            thickness: Vec::new(),
             stiffness: 1.0,
             texture: None,
         }
@@ -333,6 +331,8 @@ fn contact_pair(
         sides,
         enforcement: Enforcement::Weighted,
         search_distance: within,
+        has_faces: false,
+        one_body: false,
     }
 }
 

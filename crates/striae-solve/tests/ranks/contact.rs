@@ -8,7 +8,7 @@ use striae_solve::model::{Formulation, LoadExtent, LoadKind, Model};
 use striae_surface::texture::{Field, Lines, Paint};
 
 use crate::{
-    scene::{Places, block, body, coulomb, increments, model, rubber, step},
+    scene::{Places, block, body, coulomb, increments, model, pieces, rubber, step},
     told::assert_same,
 };
 
@@ -45,6 +45,29 @@ fn two_blocks_of(cells: CellKind, friction: Friction) -> Model {
 fn blocks_that_stick_and_slide() {
     let told = assert_same(&two_blocks(0.3));
     assert_eq!(told.increments.len(), 5);
+}
+
+#[test]
+fn a_body_that_touches_itself() {
+    let lower = block([0.0; 3], [1.0, 1.0, 0.5], [4, 4, 2]).mesh().unwrap();
+    let upper = block([0.2, 0.2, 0.5], [0.6, 0.6, 0.5], [3, 3, 2])
+        .mesh()
+        .unwrap();
+    let mut mesh = pieces(&[lower, upper]);
+    let skin = mesh.boundary_faces();
+    mesh.facet_sets.insert("skin", skin);
+    let mut model = model(vec![body("both", mesh, rubber(1.0, 0.3))]);
+    model.touch_itself("both", &["skin"], coulomb(0.3));
+    let mut press = step();
+    press.displacements = vec![
+        model.hold("both", "0.zmin", [Some(0.0); 3]),
+        model.hold("both", "1.zmax", [Some(0.0), Some(0.0), Some(-0.02)]),
+    ];
+    let mut slide = step();
+    slide.displacements = vec![model.hold("both", "1.zmax", [Some(0.1), Some(0.03), None])];
+    slide.increments = increments(0.25, 0.01);
+    model.steps = vec![press, slide];
+    assert_same(&model);
 }
 
 #[test]

@@ -10,7 +10,7 @@ use striae_solve::model::{
 };
 use striae_surface::texture::{Field, Lines, Paint};
 
-use crate::scene::{Places, block, body, coulomb, model, plane, rubber, step};
+use crate::scene::{Places, block, body, coulomb, model, pieces, plane, rubber, step};
 
 /// All of them by name.
 pub fn all() -> Vec<(&'static str, Model)> {
@@ -22,6 +22,7 @@ pub fn all() -> Vec<(&'static str, Model)> {
         ("ridden", ridden()),
         ("peaks", peaks()),
         ("napped", napped()),
+        ("itself", itself()),
     ]
 }
 
@@ -114,6 +115,26 @@ pub fn napped() -> Model {
         model.hold("upper", "zmax", [Some(0.01), None, Some(-0.03)]),
     ];
     model.steps = vec![slide];
+    model
+}
+
+/// Two pieces of one body that touch each other.
+pub fn itself() -> Model {
+    let lower = block([0.0; 3], [2.0, 1.0, 1.0], [6, 3, 3]).mesh().unwrap();
+    let upper = block([0.3, 0.1, 1.0], [1.0, 0.8, 0.9], [4, 3, 2])
+        .mesh()
+        .unwrap();
+    let mut mesh = pieces(&[lower, upper]);
+    let skin = mesh.boundary_faces();
+    mesh.facet_sets.insert("skin", skin);
+    let mut model = model(vec![heavy("both", mesh, rubber(1.0, 0.4))]);
+    model.touch_itself("both", &["skin"], coulomb(0.3));
+    let mut press = step();
+    press.displacements = vec![
+        model.hold("both", "0.zmin", [Some(0.0); 3]),
+        model.hold("both", "1.zmax", [Some(0.01), None, Some(-0.03)]),
+    ];
+    model.steps = vec![press];
     model
 }
 

@@ -147,6 +147,7 @@ pub fn model(case: &Case, depth: f64) -> Model {
         initial: Initial::AsMeshed,
         interference: None,
         stabilised: false,
+        feature_angle: None,
     };
     let hold = |body: usize, set: &str, target: Vec3| Displacement {
         set: set.to_owned(),

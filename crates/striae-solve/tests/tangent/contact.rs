@@ -11,16 +11,17 @@ use striae_solve::{assembly::StepContext, problem::Problem, state::State};
 
 use crate::{
     pair::{PairFunction, Wanted},
-    placed::{dome, of_bodies, of_rigid, on_rigid, two_blocks},
+    placed::{dependent, dome, of_bodies, of_pieces, of_rigid, on_rigid, two_blocks, two_pieces},
     scene::{coulomb, plane},
 };
 
 const BOTH: [Enforcement; 2] = [Enforcement::Weighted, Enforcement::Collocated];
 
-fn laws() -> [Friction; 2] {
+fn laws() -> [Friction; 3] {
     [
         coulomb(0.5),
         coulomb(0.5).with_decay(0.4, 0.15).expect("in range"),
+        dependent(coulomb(0.5)),
     ]
 }
 
@@ -57,8 +58,8 @@ fn of_two_curved_surfaces_that_stick_slip_and_open() {
                     has_all.then_some((pair, u))
                 });
                 let (mut pair, u) = found.expect("nodes of every status");
-                let decays = context.plan.frictions[0].decays();
-                let name = format!("{enforcement:?} {moduli:?} {divisions:?}, decays: {decays}");
+                let law = context.plan.frictions[0].coefficient();
+                let name = format!("{enforcement:?} {moduli:?} {divisions:?}, {law:?}");
                 weak += pair.selection.ramp().len();
                 for of_pair in pair.selection.kept() {
                     kept[of_pair.side] += 1;
@@ -84,6 +85,33 @@ fn of_two_curved_surfaces_that_stick_slip_and_open() {
 }
 
 #[test]
+fn of_a_surface_that_touches_itself() {
+    let every = [Status::Open, Status::Stick, Status::Slip];
+    for (divisions, wanted, statuses) in [
+        ([3, 3], Wanted::Mixed, &every[..]),
+        ([4, 3], Wanted::Slip, &every[2..]),
+        ([2, 4], Wanted::Slip, &every[2..]),
+    ] {
+        for friction in laws() {
+            let problem = Problem::new(two_pieces(divisions, friction)).unwrap();
+            let state = State::undeformed(&problem);
+            let context = StepContext::new(&problem, 0, &state);
+            let first_of_second = 2 * (divisions[0] + 1).pow(2);
+            let found = (7..40).find_map(|seed| {
+                let [start, now] = of_pieces(&problem, first_of_second, seed);
+                let pair = PairFunction::new(&context, start, now, 0.5);
+                let u = pair.found(wanted)?;
+                let found = pair.statuses(&u);
+                let has_all = statuses.iter().all(|status| found.contains(status));
+                has_all.then_some((pair, u))
+            });
+            let (pair, u) = found.expect("nodes of every status");
+            pair.assert_order(&u, &format!("{divisions:?}"));
+        }
+    }
+}
+
+#[test]
 fn on_rigid_surfaces() {
     let inclined = plane([0.0, 0.0, 0.01], [0.02, -0.03, 1.0]);
     for enforcement in BOTH {
@@ -101,8 +129,8 @@ fn on_rigid_surfaces() {
                 let context = StepContext::new(&problem, 0, &state);
                 let [start, now] = of_rigid(&problem, bump, 11);
                 let pair = PairFunction::new(&context, start, now, 0.5);
-                let decays = context.plan.frictions[0].decays();
-                let name = format!("{enforcement:?} on {on}, decays: {decays}");
+                let law = context.plan.frictions[0].coefficient();
+                let name = format!("{enforcement:?} on {on}, {law:?}");
                 let u = pair.state(Wanted::Mixed);
                 let statuses = pair.statuses(&u);
                 for status in [Status::Open, Status::Stick, Status::Slip] {

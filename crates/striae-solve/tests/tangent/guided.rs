@@ -8,7 +8,7 @@ use striae_surface::texture::{Field, Lines, Paint};
 
 use crate::{
     pair::{PairFunction, Places, Wanted},
-    placed::{dome, of_bodies, of_rigid, on_rigid, two_blocks},
+    placed::{dependent, dome, of_bodies, of_rigid, on_rigid, two_blocks},
     scene::{coulomb, plane},
 };
 
@@ -59,10 +59,11 @@ fn check(name: &str, model: Model, guided: Guided, places: impl Fn(&Problem) -> 
     }
 }
 
-fn laws() -> [Friction; 2] {
+fn laws() -> [Friction; 3] {
     [
         coulomb(0.5),
         coulomb(0.5).with_decay(0.4, 0.15).expect("in range"),
+        dependent(coulomb(0.5)),
     ]
 }
 
@@ -73,7 +74,7 @@ fn on_rigid_surfaces() {
         for friction in laws() {
             for guided in [Guided::All, Guided::Most] {
                 let mut model = on_rigid(shape.clone());
-                let name = format!("bump {bump}, decays: {}", friction.decays());
+                let name = format!("bump {bump}, {:?}", friction.coefficient());
                 model.pairs[0].friction = friction.clone();
                 check(&name, model, guided, |problem| of_rigid(problem, bump, 11));
             }
@@ -100,7 +101,7 @@ fn on_a_textured_floor() {
 #[test]
 fn between_bodies() {
     for friction in laws() {
-        let name = format!("bodies, decays: {}", friction.decays());
+        let name = format!("bodies, {:?}", friction.coefficient());
         let model = two_blocks([1.0, 1.0], [3, 3], friction);
         check(&name, model, Guided::All, |problem| of_bodies(problem, 7));
     }

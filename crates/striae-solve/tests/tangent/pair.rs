@@ -131,6 +131,7 @@ impl<'a> PairFunction<'a> {
             tau_n: self.tau_n.clone(),
             slipped: self.counts.map(|count| vec![false; count]),
             bedded: self.counts.map(|count| vec![0.5; count]),
+            accumulated: self.counts.map(|count| vec![0.1; count]),
             // Every other one, so that both terms of the ramp count.
             stuck: self
                 .counts

@@ -2,7 +2,7 @@
 
 use nalgebra::Rotation3;
 use striae_contact::placement::Placement;
-use striae_law::friction::Friction;
+use striae_law::friction::{Decay, Friction, PressureDependence, RateDependence, SlipDependence};
 use striae_mesh::{CellKind, NodeId, Vec3};
 use striae_solve::{
     model::{Model, RigidShape},
@@ -13,8 +13,23 @@ use striae_verify::Random;
 
 use crate::{
     pair::Places,
-    scene::{Places as _, block, body, coulomb, model, rubber, step},
+    scene::{Places as _, block, body, coulomb, model, pieces, rubber, step},
 };
+
+/// The law with coefficients that depend on pressure, slip rate and accumulated slip.
+pub fn dependent(friction: Friction) -> Friction {
+    let power = PressureDependence::power_law(0.8, 0.5, None);
+    let stribeck = RateDependence::decay(Decay {
+        kinetic_over_static: 0.4,
+        slip_rate: 0.3,
+        exponent: 2.0,
+        viscous: 0.2,
+    });
+    let friction = friction.with_pressure(power.expect("in range"));
+    let run_in = SlipDependence::exponential(1.5, 0.2);
+    let friction = friction.with_rate(stribeck.expect("in range"));
+    friction.with_slip(run_in.expect("in range"))
+}
 
 /// Raises a point by a smooth bump.
 pub fn bumpy(x: &Vec3, height: f64) -> Vec3 {
@@ -61,6 +76,19 @@ pub fn on_rigid(shape: RigidShape) -> Model {
     model
 }
 
+/// Two such blocks of the same material as pieces of one body, whose faces touch each other.
+pub fn two_pieces(divisions: [usize; 2], friction: Friction) -> Model {
+    let [lower, upper] = two_blocks([1.0, 1.0], divisions, coulomb(0.0))
+        .bodies
+        .try_into()
+        .unwrap();
+    let mesh = pieces(&[lower.mesh, upper.mesh]);
+    let mut model = model(vec![body("blocks", mesh, rubber(1.0, 0.3))]);
+    model.touch_itself("blocks", &["0.zmax", "1.zmin"], friction);
+    model.steps = vec![step()];
+    model
+}
+
 /// Facets over `[-0.5, 0.85] x [-0.5, 1.5]`: the block overhangs on one side.
 pub fn dome(corners: usize) -> RigidShape {
     bumps(corners, 0.1)
@@ -98,6 +126,11 @@ pub fn bumps(corners: usize, height: f64) -> RigidShape {
 /// Two bodies curved and twisted, then all bent on and turned, the second also moved and
 /// turned on the first.
 pub fn of_bodies(problem: &Problem, seed: u64) -> [Places; 2] {
+    of_pieces(problem, problem.first_node[1], seed)
+}
+
+/// Two pieces of one body in the same way, the second one from a node on.
+pub fn of_pieces(problem: &Problem, first_of_second: usize, seed: u64) -> [Places; 2] {
     let mut random = Random::new(seed);
     let twisted = |x: &Vec3| bumpy(x, 0.08) + Vec3::z() * (0.1 * x.x * x.y);
     let before: Vec<Vec3> = problem.reference.iter().map(twisted).collect();
@@ -105,7 +138,7 @@ pub fn of_bodies(problem: &Problem, seed: u64) -> [Places; 2] {
     let about = Vec3::new(0.7, 0.5, 0.5);
     let spin = Rotation3::new(Vec3::new(0.004, -0.003, 0.05));
     let after = before.iter().enumerate().map(|(node, x)| {
-        let moved = if node < problem.first_node[1] {
+        let moved = if node < first_of_second {
             *x
         } else {
             spin * (x - about) + about + Vec3::new(0.023, 0.014, -0.004)

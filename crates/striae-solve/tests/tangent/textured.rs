@@ -13,6 +13,7 @@ use striae_surface::texture::{Axis, Field, Lines, Paint};
 use crate::{
     oblique::{Formula, uniform},
     pair::{PairFunction, Places, Wanted},
+    placed::dependent,
     scene::{Places as _, block, body, model, rubber, step},
     table::STRONG,
 };
@@ -76,15 +77,20 @@ fn slid(problem: &Problem) -> [Places; 2] {
     })
 }
 
-/// Checks a model as it is and with friction that decays with the slip rate.
+/// Checks a model as it is, with friction that decays with the slip rate and with friction that
+/// depends on both pressure and slip rate.
 fn check(name: &str, mut model: Model) {
     model.steps.push(step());
     let mut decaying = model.clone();
     for pair in &mut decaying.pairs {
         pair.friction = pair.friction.clone().with_decay(0.4, 0.15).unwrap();
     }
+    let mut depending = model.clone();
+    for pair in &mut depending.pairs {
+        pair.friction = dependent(pair.friction.clone());
+    }
     for enforcement in [Enforcement::Weighted, Enforcement::Collocated] {
-        for mut model in [model.clone(), decaying.clone()] {
+        for mut model in [model.clone(), decaying.clone(), depending.clone()] {
             model.pairs[0].enforcement = enforcement;
             let problem = Problem::new(model).unwrap();
             let state = State::undeformed(&problem);

@@ -69,7 +69,7 @@ fn a_gap_is_closed_alike_in_any_number_of_increments() {
             .collect();
         // Where friction slips, the way matters a little. The beddings of supports that are not
         // closed wholly are those of the increment before.
-        let is_rough = friction.cap(1.0, 0.0) > 0.0;
+        let is_rough = !friction.is_frictionless();
         let [lateral, normal] = if is_rough { [1e-5, 1e-3] } else { [1e-6, 1e-4] };
         let last = forces[4];
         for force in &forces {

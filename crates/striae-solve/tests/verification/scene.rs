@@ -1,11 +1,13 @@
 //! Models made in code and run without output.
+//!
+//! Longer than other files, as it is the one place where models of tests are made.
 
 use striae_contact::{evaluation::Evaluation, interference::Interference, pair::Enforcement};
 use striae_law::{
     bulk::{LameConstants, Material},
     friction::Friction,
 };
-use striae_mesh::{Face, Mesh, NodeId, Vec3, generate::Block};
+use striae_mesh::{CellBlock, Face, Mesh, NodeId, Vec3, generate::Block};
 use striae_solve::{
     drive::{Continue, Observer, Progress, run},
     model::{
@@ -197,6 +199,34 @@ pub fn body(name: &str, mesh: Mesh, material: Material) -> Body {
     }
 }
 
+/// Pieces of one mesh of hexahedra; sets of piece `k` have the names `k.NAME`.
+pub fn pieces(meshes: &[Mesh]) -> Mesh {
+    let (mut positions, mut cells, mut first) = (Vec::new(), Vec::new(), Vec::new());
+    for mesh in meshes {
+        first.push(positions.len());
+        let number = |node: &NodeId| NodeId::new(positions.len() + node.index());
+        let of_mesh = mesh.elements().map(|corners| {
+            let corners: Vec<NodeId> = corners.iter().map(number).collect();
+            <[NodeId; 8]>::try_from(corners).expect("hexahedra")
+        });
+        cells.extend(of_mesh.collect::<Vec<_>>());
+        positions.extend_from_slice(&mesh.positions);
+    }
+    let mut whole = Mesh::new(positions, vec![CellBlock::hexahedra(cells)]).unwrap();
+    for (piece, mesh) in meshes.iter().enumerate() {
+        for (name, nodes) in mesh.node_sets.iter() {
+            let nodes = nodes
+                .iter()
+                .map(|node| NodeId::new(first[piece] + node.index()));
+            let nodes: Vec<NodeId> = nodes.collect();
+            let name = format!("{piece}.{name}");
+            whole.facet_sets.insert(&name, whole.faces_of_nodes(&nodes));
+            whole.node_sets.insert(&name, nodes);
+        }
+    }
+    whole
+}
+
 /// A model without contact and steps.
 pub fn model(bodies: Vec<Body>) -> Model {
     Model {
@@ -255,6 +285,8 @@ pub trait Places {
     /// The node at a reference position.
     fn node_at(&self, body: &str, x: [f64; 3]) -> NodeId;
     fn touch(&mut self, a: (&str, &str), b: (&str, &str), friction: Friction) -> PairId;
+    /// Faces of a body that may touch each other.
+    fn touch_itself(&mut self, body: &str, sets: &[&str], friction: Friction) -> PairId;
     fn touch_rigid(&mut self, a: (&str, &str), shape: RigidShape, friction: Friction) -> PairId;
     fn hold(&self, body: &str, set: &str, components: [Option<f64>; 3]) -> Displacement;
     fn pin(&self, body: &str, x: [f64; 3], components: [Option<f64>; 3]) -> Displacement;
@@ -292,6 +324,18 @@ impl Places for Model {
             faces: self.faces(body, set),
         };
         let pair = pair("interface", side(a), side(b), friction);
+        self.pairs.push(pair);
+        PairId(self.pairs.len() - 1)
+    }
+
+    fn touch_itself(&mut self, body: &str, sets: &[&str], friction: Friction) -> PairId {
+        let faces = sets.iter().flat_map(|set| self.faces(body, set)).collect();
+        let side = ContactSurface::Deformable {
+            body: BodyId(self.body(body)),
+            faces,
+        };
+        let mut pair = pair("interface", side, ContactSurface::Itself, friction);
+        pair.feature_angle = Some(45.0);
         self.pairs.push(pair);
         PairId(self.pairs.len() - 1)
     }
@@ -351,6 +395,7 @@ fn pair(name: &str, a: ContactSurface, b: ContactSurface, friction: Friction) ->
         initial: Initial::AsMeshed,
         interference: None,
         stabilised: false,
+        feature_angle: None,
     }
 }
 

@@ -11,7 +11,7 @@ use striae_solve::{
 };
 
 /// A block with a slit half as high as its lips: `x` beyond 1, `z` from 1 to 1.5.
-fn jaw() -> Mesh {
+pub fn jaw() -> Mesh {
     let whole: Block = block([0.0; 3], [5.0, 1.0, 2.5], [10, 2, 5]);
     let mut mesh = whole.mesh().unwrap();
     let is_left = |corners: &&[NodeId]| {
@@ -54,7 +54,7 @@ fn jaw() -> Mesh {
 }
 
 /// The jaw, its top lowered in increments of a size.
-fn closing(way: f64, size: f64) -> Model {
+pub fn closing(way: f64, size: f64) -> Model {
     let mut model = model(vec![body("jaw", jaw(), rubber(2.0, 0.3))]);
     let mut step = step();
     step.increments = increments(size, 1e-3);

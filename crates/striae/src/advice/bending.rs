@@ -254,5 +254,7 @@ fn side_range(model: &Model, side: &ContactSurface, axis: &Vec3) -> [f64; 2] {
             RigidShape::Facets { positions, .. } => range(positions.iter().copied(), axis),
             RigidShape::Bare => [f64::INFINITY, f64::NEG_INFINITY],
         },
+        // It does not lie on itself.
+        ContactSurface::Itself => [f64::INFINITY, f64::NEG_INFINITY],
     }
 }

@@ -97,7 +97,7 @@ fn unknowns(model: &Model) -> usize {
     let facets: usize = sides
         .map(|side| match side {
             ContactSurface::Deformable { faces, .. } => faces.len(),
-            ContactSurface::Rigid(_) => 0,
+            ContactSurface::Rigid(_) | ContactSurface::Itself => 0,
         })
         .sum();
     3 * nodes + 3 * facets / 2

@@ -18,7 +18,9 @@ const PLANE: f64 = 0.95;
 /// Notes how every pair fits.
 pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
     for (index, (pair, fit)) in model.pairs.iter().zip(fits).enumerate() {
-        let Some(fit) = fit else { continue };
+        let Some(fit) = fit.as_ref().filter(|_| !pair.is_on_itself()) else {
+            continue;
+        };
         let text = format!("pair `{}`: {}", pair.name, words(model, PairId(index), fit));
         advice.note(Topic::Fit, &pair.name, text);
         if looks_away(model, pair) || turned(model, PairId(index)).is_some() {
@@ -79,6 +81,10 @@ fn words(model: &Model, pair: PairId, fit: &Fit) -> String {
 
 /// Whether no facets of the sides face each other, as far as their normals tell.
 fn looks_away(model: &Model, pair: &Pair) -> bool {
+    // Parts of one body may face each other only once it is bent.
+    if pair.is_within_a_body() {
+        return false;
+    }
     let a = area_vectors(model, &pair.a);
     let b = match &pair.b {
         ContactSurface::Rigid(rigid) => match &model.rigid_surfaces[rigid.0].shape {
@@ -89,6 +95,8 @@ fn looks_away(model: &Model, pair: &Pair) -> bool {
             _ => area_vectors(model, &pair.b),
         },
         ContactSurface::Deformable { .. } => area_vectors(model, &pair.b),
+        // Facets of a body that face each other now are no condition.
+        ContactSurface::Itself => return false,
     };
     match (plane(&a), plane(&b)) {
         (Some(a), Some(b)) => a.dot(&b) > FACING,
@@ -113,6 +121,7 @@ pub(super) fn area_vectors(model: &Model, side: &ContactSurface) -> Vec<Vec3> {
             }
             RigidShape::Plane { .. } | RigidShape::Bare => Vec::new(),
         },
+        ContactSurface::Itself => Vec::new(),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use striae_law::friction::{Friction, Law, RequiredTextures};
+use striae_law::friction::{Friction, Law, PressureConstants, RequiredTextures, SlipConstants};
 use striae_model::{Model, Pair};
 
 use super::{Advice, Topic};
@@ -48,6 +48,7 @@ fn unused(model: &Model, pair: &Pair, advice: &mut Advice) {
 }
 
 fn of_pair(name: &str, when: &str, friction: &Friction, advice: &mut Advice) {
+    of_dependences(name, when, friction, advice);
     if matches!(friction.law(), Law::Coulomb) && friction.coefficient().at_rest() > LARGEST {
         let mu = friction.coefficient().at_rest();
         large(name, when, mu, advice);
@@ -73,6 +74,52 @@ fn of_pair(name: &str, when: &str, friction: &Friction, advice: &mut Advice) {
             format!("{text}: in one of them there is hardly any friction"),
         );
     } else {
+        advice.note(Topic::Friction, name, text);
+    }
+}
+
+/// Notes how coefficients depend on pressure and slip rate, and warns where friction falls as
+/// the pressure rises.
+fn of_dependences(name: &str, when: &str, friction: &Friction, advice: &mut Advice) {
+    if friction.is_frictionless() {
+        return;
+    }
+    let coefficient = friction.coefficient();
+    let by_pressure = coefficient.by_pressure();
+    if by_pressure.constants() != PressureConstants::None {
+        let largest = by_pressure.largest_factor();
+        let reach = match largest.is_finite() {
+            true => format!("are up to {largest:.4} times those stated"),
+            false => "grow with the pressure".to_owned(),
+        };
+        let text = format!(
+            "pair `{name}`: friction{when} is mu P(p) with P(p) = {by_pressure}: coefficients {reach}"
+        );
+        advice.note(Topic::Friction, name, text);
+    }
+    let by_slip = coefficient.by_slip();
+    if by_slip.constants() != SlipConstants::None {
+        let text = format!(
+            "pair `{name}`: coefficients of friction{when} are those stated times {by_slip} with the accumulated slip s, at most times {:.4}",
+            by_slip.largest_factor()
+        );
+        advice.note(Topic::Friction, name, text);
+    }
+    if let Some([from, to]) = by_pressure.falling() {
+        let text = format!(
+            "pair `{name}`: friction{when} falls as the pressure rises from {from} to {to}, since factors fall faster than 1/p there; increments may have several solutions. Let factors times pressures ascend, if this is not measured"
+        );
+        advice.warn(Topic::Friction, name, text);
+    }
+    if let Some(rate) = friction.weakest_rate() {
+        let share = coefficient.at_slip_rate(rate) / coefficient.at_slip_rate(0.0);
+        let at = match rate.is_finite() {
+            true => format!("at the slip rate {rate:.4}"),
+            false => "in fast slip".to_owned(),
+        };
+        let text = format!(
+            "pair `{name}`: friction{when} falls with the slip rate, to {share:.4} of that at rest {at}: bodies may jump from stick to slip within an increment, and steps without inertia leave out how they move then"
+        );
         advice.note(Topic::Friction, name, text);
     }
 }

@@ -76,7 +76,8 @@ fn by_contact(
     let name = &body.name;
     let is = |side: &ContactSurface| matches!(side, ContactSurface::Deformable { body: of, .. } if *of == id);
     let pairs = model.pairs.iter().enumerate();
-    let pairs = pairs.filter(|(_, pair)| is(&pair.a) || is(&pair.b));
+    // Contact of a body with itself holds it nowhere.
+    let pairs = pairs.filter(|(_, pair)| (is(&pair.a) || is(&pair.b)) && !pair.is_within_a_body());
     let pairs: Vec<usize> = pairs.map(|(index, _)| index).collect();
     let list = |pairs: &[usize]| {
         let names = pairs

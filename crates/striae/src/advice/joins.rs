@@ -105,6 +105,7 @@ fn whole(bodies: [&Body; 2]) -> Pair {
         initial: Initial::AsMeshed,
         interference: None,
         stabilised: false,
+        feature_angle: None,
     }
 }
 

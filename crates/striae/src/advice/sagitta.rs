@@ -106,5 +106,6 @@ fn facets(model: &Model, side: &ContactSurface) -> Vec<Flat> {
             }
             RigidShape::Plane { .. } | RigidShape::Bare => Vec::new(),
         },
+        ContactSurface::Itself => Vec::new(),
     }
 }

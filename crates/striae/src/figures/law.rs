@@ -12,6 +12,9 @@ use striae_solve::model::Model;
 /// Points of a slip surface that is drawn.
 pub const SAMPLES: usize = 720;
 
+/// Points of a curve of coefficients.
+const POINTS: u32 = 500;
+
 /// A friction of a model.
 pub struct Named<'a> {
     /// Where it holds, in words.
@@ -54,6 +57,35 @@ pub fn figure(friction: &Friction, analyses: &[Analysis]) -> Figure {
 /// no cap on the shear stress is reached.
 pub fn coefficients(friction: &Friction, analyses: &[Analysis]) -> Figure {
     drawn(friction, analyses, friction.coefficient().at_rest(), "p")
+}
+
+/// Coefficients of friction over the pressure at rest, and over slip rate and accumulated slip
+/// at the pressure at which they are the stated ones; `None` where they depend on none of them.
+pub fn dependence(friction: &Friction) -> Option<Figure> {
+    let coefficient = friction.coefficient();
+    let (mu, by_pressure) = (coefficient.at_rest(), coefficient.by_pressure());
+    let curve = |last: f64, value: &dyn Fn(f64) -> f64| {
+        let points = (1..=POINTS).map(|i| last * f64::from(i) / f64::from(POINTS));
+        let points = points.map(|x| [x, value(x)]).collect();
+        Series::new(friction.law().name(), Content::line(points))
+    };
+    let mut panels = Vec::new();
+    if let Some(last) = by_pressure.scale() {
+        let capped = |p: f64| friction.cap(p, 0.0) / p;
+        let panel = Panel::new(Axis::linear("p", ""), Axis::linear("ϖ / p at rest", ""));
+        panels.push(panel.with(curve(last, &capped)).titled("pressure"));
+    }
+    if let Some(last) = coefficient.by_rate().scale() {
+        let at_rate = |v: f64| coefficient.at_slip_rate(v);
+        let panel = Panel::new(Axis::linear("v", ""), Axis::linear("μ R(v)", ""));
+        panels.push(panel.with(curve(last, &at_rate)).titled("slip rate"));
+    }
+    if let Some(last) = coefficient.by_slip().scale() {
+        let after = |s: f64| mu * coefficient.by_slip().at(s);
+        let panel = Panel::new(Axis::linear("s", ""), Axis::linear("μ W(s)", ""));
+        panels.push(panel.with(curve(last, &after)).titled("accumulated slip"));
+    }
+    (mu > 0.0 && !panels.is_empty()).then(|| Figure::new(Width::Page, panels))
 }
 
 /// Slip surfaces and friction times `mu`, over what is called `unit`.

@@ -15,10 +15,11 @@ use striae_solve::model::{ContactSurface, Model};
 /// What a side of a pair belongs to, in words.
 pub fn owner(model: &Model, pair: usize, side: Side) -> String {
     let pair = &model.pairs[pair];
-    match [&pair.a, &pair.b][side] {
+    match pair.surfaces()[side.index()] {
         ContactSurface::Deformable { body, .. } => format!("body `{}`", model.bodies[body.0].name),
         ContactSurface::Rigid(rigid) => {
             format!("rigid surface `{}`", model.rigid_surfaces[rigid.0].name)
         }
+        ContactSurface::Itself => "itself".to_owned(),
     }
 }

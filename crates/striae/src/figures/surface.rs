@@ -152,7 +152,7 @@ fn positions(problem: &Problem, pair: usize, side: Side) -> Vec<Vec3> {
             .map(|node| problem.reference[node])
             .collect(),
         Geometry::Rigid(_) => geometry.rigid_reference.clone(),
-        Geometry::Plane { .. } => Vec::new(),
+        Geometry::Itself | Geometry::Plane { .. } => Vec::new(),
     }
 }
 

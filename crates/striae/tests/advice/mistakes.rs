@@ -265,6 +265,36 @@ fn a_direction_without_friction() {
 }
 
 #[test]
+fn friction_that_falls() {
+    let law = |keys: &str| format!(r#"friction = {{ law = "coulomb", mu = 0.3, {keys} }}"#);
+    let falls = law(r#"by_pressure = { form = "table", pressures = [1, 2], factors = [1, 0.4] }"#);
+    assert_warned(
+        &[[COULOMB, &falls]],
+        Topic::Friction,
+        "falls as the pressure rises from 1 to 2",
+    );
+    let noted = |keys: &str, expected: &str| {
+        let advice = advice(&[[COULOMB, &law(keys)]]);
+        assert_eq!(advice.warnings, []);
+        let mut notes = advice.notes.iter();
+        let found = notes.any(|note| note.topic == Topic::Friction && note.text.contains(expected));
+        assert!(found, "{:?}", advice.notes);
+    };
+    noted(
+        r#"by_pressure = { form = "power-law", exponent = 0.5, pressure = 4 }"#,
+        "P(p) = 4 (p/4)^0.5, a parabola below p = 0.004: coefficients are up to 47.4342 times those stated",
+    );
+    noted(
+        r#"by_pressure = { form = "power-law", exponent = 1.5, pressure = 4 }"#,
+        "P(p) = 4 (p/4)^1.5: coefficients grow with the pressure",
+    );
+    noted(
+        "decay = { kinetic_over_static = 0.5, slip_rate = 1 }",
+        "falls with the slip rate, to 0.5000 of that at rest in fast slip",
+    );
+}
+
+#[test]
 fn a_texture_along_the_normal() {
     let law = r#"friction = { law = "orthotropic", mu_along = 0.2, mu_across = 0.4 }"#;
     for (part, textured) in [

@@ -216,7 +216,7 @@ fn constants_outside_their_range_are_named() {
     );
     assert_eq!(
         name(Friction::frictionless().with_decay(0.5, 0.0)),
-        "decay_rate"
+        "slip_rate"
     );
 }
 

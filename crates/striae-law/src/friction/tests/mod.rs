@@ -2,6 +2,7 @@
 
 mod admissibility;
 mod coefficient;
+mod dependence;
 mod errata;
 mod laws;
 mod own;

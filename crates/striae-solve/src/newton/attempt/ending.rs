@@ -21,13 +21,13 @@ pub enum Acceptance {
 
 impl Attempt<'_> {
     /// Whether the labels of all nodes are those of the iteration before, where friction
-    /// decays with the slip rate: a node that begins to slip may have the row of another rate.
+    /// falls with the slip rate: a node that begins to slip may have the row of another rate.
     pub(super) fn labels_rest(&self, assembled: &Assembled) -> bool {
         let frictions = &self.context.plan.frictions;
         let contacts = self.trial.tractions.iter().zip(&assembled.contacts);
         contacts
             .zip(frictions)
-            .filter(|(_, friction)| friction.decays())
+            .filter(|(_, friction)| friction.weakens())
             .all(|((before, now), _)| {
                 let sides = before.labels.iter().zip(&now.nodes);
                 sides

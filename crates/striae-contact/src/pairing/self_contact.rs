@@ -1,0 +1,209 @@
+//! Pairs of facets of one surface that are contact of the body with itself.
+//!
+//! Two facets of a body may face each other because the body lies between them, or another layer
+//! of it does. With `t` the thickness of the body behind a facet, `g` the mean gap of a segment
+//! and `i`, `j`, `k` facets, a pair is left out
+//!
+//! ```text
+//! back to back   -g_ij > min(t_i, t_j)/2
+//! hidden         {i, k} or {j, k} covers the middle of {i, j}, and is nearer by more than t_k/2
+//! around a node  i and j share one, and n_i . n_j >= -.71
+//! ```
+//!
+//! Facets that share a node are folded onto each other once they stand at more than 135 degrees;
+//! leaving all of them out would leave the root of a slit without pressure.
+
+use std::collections::BTreeMap;
+
+use striae_mesh::{FacetId, Vec3};
+use striae_surface::node::SurfaceNode;
+
+use super::PairedFacets;
+use crate::{
+    configuration::{Configuration, Snapshot},
+    segment::{Facet, facet_normal},
+    side::Side,
+};
+
+/// Cosine between the normals of facets that share a node from which on they are folded.
+const FOLDED: f64 = -0.71;
+
+/// Returns whether two facets do not share a node of the mesh, or are folded there.
+pub(super) fn may_touch(
+    snapshots: [&Snapshot; 2],
+    facets: [&Facet; 2],
+    corners: [&[SurfaceNode; 4]; 2],
+) -> bool {
+    let mesh = |at: usize, node: &SurfaceNode| snapshots[at].surface.nodes()[node.index()];
+    let shares = |node: &SurfaceNode| {
+        let mut others = corners[1].iter();
+        others.any(|other| mesh(1, other) == mesh(0, node))
+    };
+    let is_folded = || {
+        let [n_i, n_j] = facets.map(facet_normal);
+        n_i.zip(n_j)
+            .is_some_and(|(n_i, n_j)| n_i.dot(&n_j) < FOLDED)
+    };
+    !corners[0].iter().any(shares) || is_folded()
+}
+
+/// Returns whether the body does not lie between two facets.
+pub(super) fn is_outside(configuration: &Configuration, paired: &PairedFacets) -> bool {
+    let facets = places_of(paired);
+    let depths = facets.map(|(side, facet)| configuration.pair.sides[side].depth(facet));
+    -paired.mean_gap(configuration) <= depths.fold(f64::INFINITY, f64::min)
+}
+
+/// Leaves out facets that face each other through another layer.
+pub(super) fn drop_hidden(configuration: &Configuration, all: &mut Vec<PairedFacets>) {
+    let mut of_facet: BTreeMap<(Side, FacetId), Vec<usize>> = BTreeMap::new();
+    for (at, paired) in all.iter().enumerate() {
+        for facet in places_of(paired) {
+            of_facet.entry(facet).or_default().push(at);
+        }
+    }
+    let gaps: Vec<f64> = all
+        .iter()
+        .map(|paired| paired.mean_gap(configuration))
+        .collect();
+    let depth = |(side, facet): (Side, FacetId)| configuration.pair.sides[side].depth(facet);
+    let hides = |at: usize, facet: (Side, FacetId), by: usize| {
+        let between = places_of(&all[by]).find(|other| *other != facet);
+        by != at
+            && between.is_some_and(|k| gaps[at] - gaps[by] > depth(k))
+            && covers(&all[by], &all[at])
+    };
+    let is_hidden = |at: usize| {
+        places_of(&all[at]).any(|facet| of_facet[&facet].iter().any(|&by| hides(at, facet, by)))
+    };
+    let hidden: Vec<bool> = (0..all.len()).map(is_hidden).collect();
+    let mut hidden = hidden.into_iter();
+    all.retain(|_| !hidden.next().unwrap_or(false));
+}
+
+/// Sides and facets of a pair.
+fn places_of(paired: &PairedFacets) -> impl Iterator<Item = (Side, FacetId)> + use<> {
+    let facets = paired.sides.into_iter().zip(paired.facets);
+    facets.filter_map(|(side, facet)| Some((side, facet?)))
+}
+
+/// Returns whether a segment covers the middle of another one, seen along its own normal.
+fn covers(segment: &PairedFacets, other: &PairedFacets) -> bool {
+    let (Some(outline), Some(others)) = (places(segment), places(other)) else {
+        return false;
+    };
+    let middle = others.iter().sum::<Vec3>() / others.len() as f64;
+    let n = segment.segment.normal;
+    let sides = (0..outline.len()).map(|at| {
+        let (from, to) = (outline[at], outline[(at + 1) % outline.len()]);
+        (to - from).cross(&(middle - from)).dot(&n)
+    });
+    let [low, high] = sides.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], side| {
+        [low.min(side), high.max(side)]
+    });
+    low >= 0.0 || high <= 0.0
+}
+
+/// Places of the vertices of a segment on its first facet.
+fn places(paired: &PairedFacets) -> Option<Vec<Vec3>> {
+    let vertices = paired.segment.at_vertices()?;
+    let place = |n: &[f64; 8]| (0..4).map(|c| paired.x[c] * n[c]).sum();
+    Some(vertices.iter().map(place).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use striae_mesh::NodeId;
+    use striae_surface::topology::Surface;
+
+    use super::*;
+    use crate::{
+        pair::{ContactPair, Enforcement, Geometry, PairedSurface},
+        pairing::{Corners, Scope, compliances, paired_facets},
+        placement::Placement,
+        segment::SegmentDerivatives,
+    };
+
+    /// Upper and lower faces of sheets on top of each other.
+    fn sheets(count: usize, thickness: f64, gap: f64) -> (Vec<[NodeId; 4]>, Vec<Vec3>) {
+        const CELLS: usize = 4;
+        let (mut facets, mut x) = (Vec::new(), Vec::new());
+        for sheet in 0..count {
+            let z = (thickness + gap) * sheet as f64;
+            // Unlike meshes of the two faces, so that no facets match.
+            for (height, shift, up) in [(z, 0.0, false), (z + thickness, 0.07, true)] {
+                let first = x.len();
+                let node = |i: usize, j: usize| NodeId::new(first + i + (CELLS + 1) * j);
+                for j in 0..=CELLS {
+                    for i in 0..=CELLS {
+                        let at = [i, j].map(|k| 0.2 * k as f64 + shift);
+                        x.push(Vec3::new(at[0], at[1], height));
+                    }
+                }
+                for j in 0..CELLS {
+                    for i in 0..CELLS {
+                        let ring = [
+                            node(i, j),
+                            node(i + 1, j),
+                            node(i + 1, j + 1),
+                            node(i, j + 1),
+                        ];
+                        let [a, b, c, d] = ring;
+                        facets.push(if up { [a, b, c, d] } else { [a, d, c, b] });
+                    }
+                }
+            }
+        }
+        (facets, x)
+    }
+
+    fn gaps(count: usize, thickness: f64, gap: f64, known: bool) -> Vec<f64> {
+        let (facets, x) = sheets(count, thickness, gap);
+        let side = |geometry: Geometry, thickness: Vec<f64>| PairedSurface {
+            geometry,
+            stiffness: 1.0,
+            texture: None,
+            thickness,
+        };
+        let of_facets = if known {
+            vec![thickness; facets.len()]
+        } else {
+            Vec::new()
+        };
+        let pair = ContactPair {
+            name: "sheets".to_owned(),
+            sides: [
+                side(Geometry::Deformable(Surface::new(&facets)), of_facets),
+                side(Geometry::Itself, Vec::new()),
+            ],
+            enforcement: Enforcement::Weighted,
+            search_distance: Some(0.2),
+            has_faces: true,
+            one_body: false,
+        };
+        let at = Configuration::new(&pair, [x, Vec::new()], Placement::at_rest());
+        let compliances = compliances(&at);
+        let scope = Scope {
+            compliances: &compliances,
+            depth: 0.0,
+        };
+        let none = |_: &[Corners]| SegmentDerivatives::None;
+        let paired = paired_facets(&at, scope, &none, |_| true);
+        paired.iter().map(|paired| paired.mean_gap(&at)).collect()
+    }
+
+    #[test]
+    fn a_sheet_has_no_contact_through_itself_or_others() {
+        let (thickness, gap) = (0.06, 0.02);
+        for count in [1, 2, 3, 4] {
+            let found = gaps(count, thickness, gap, true);
+            assert!(
+                found.iter().all(|found| (found - gap).abs() < 1e-12),
+                "{found:?}"
+            );
+            assert!(found.len() >= 16 * (count - 1), "{count}: {}", found.len());
+            let all = gaps(count, thickness, gap, false);
+            assert!(all.len() > found.len(), "{count}: {}", all.len());
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! Contact of everything: the same from Rust and from a deck, and what advice says of it.
+
+use std::path::Path;
+
+use striae::{
+    advice::{Advice, Topic},
+    deck,
+    model::Faults,
+    prelude::*,
+};
+use striae_model::{ModelBuilder, rigid_surface};
+
+const DECK: &str = r#"
+title = "A tread on a road"
+[[material]]
+name = "rubber"
+law = "neo-hookean"
+youngs_modulus = 1
+poissons_ratio = 0.3
+[[body]]
+name = "tread"
+material = "rubber"
+mesh = { generator = "block", origin = [0, 0, 0.1], size = [3, 3, 0.4], divisions = [1, 1, 1] }
+[[body]]
+name = "carcass"
+material = "rubber"
+mesh = { generator = "block", origin = [0, 0, 1], size = [3, 3, 3], divisions = [2, 2, 2] }
+[[rigid]]
+name = "road"
+plane = { point = [0, 0, 0], normal = [0, 0, 1] }
+[[pair]]
+name = "slit"
+a = { body = "carcass", facets = "xmin" }
+b = "itself"
+feature_angle = 30
+[contact]
+all = true
+friction = { law = "coulomb", mu = 0.3 }
+feature_angle = 60
+exclude = [{ a = "carcass", b = "road" }, { a = "tread", b = "tread" }]
+[[contact.between]]
+a = "tread.zmin"
+b = "road"
+friction = { law = "nap", mu_forward = 0.3, mu_backward = 0.6, mu_lateral = 0.5 }
+[[contact.surface]]
+of = "tread.zmin"
+texture = { uniform = [0, 1, 0] }
+[[step]]
+name = "press"
+increments = 1
+displacement = [
+    { body = "tread", nodes = "zmax", x = 0, y = 0, z = -0.3 },
+    { body = "carcass", nodes = "zmax", x = 0, y = 0, z = 0 },
+]
+friction = [{ pair = "tread-carcass", law = "coulomb", mu = 0.1 }]
+"#;
+
+fn builder() -> Result<ModelBuilder, Error> {
+    let rubber = Material::neo_hookean(LameConstants::from_youngs_modulus(1.0, 0.3)?);
+    let tread = Block {
+        origin: [0.0, 0.0, 0.1].into(),
+        size: [3.0, 3.0, 0.4].into(),
+        divisions: [1, 1, 1],
+        ..Block::default()
+    };
+    let carcass = Block {
+        origin: [0.0, 0.0, 1.0].into(),
+        size: [3.0, 3.0, 3.0].into(),
+        divisions: [2, 2, 2],
+        ..Block::default()
+    };
+    Ok(model("A tread on a road")
+        .body(body("tread", tread.mesh()?, rubber.clone()))
+        .body(body("carcass", carcass.mesh()?, rubber))
+        .rigid(plane("road", [0.0; 3], [0.0, 0.0, 1.0]))
+        .pair(pair("slit", surface("carcass", "xmin"), itself()).feature_angle(30.0)))
+}
+
+fn built(friction_of: &str) -> Result<Result<Model, Faults>, Error> {
+    let all = everything()
+        .friction(Friction::coulomb(0.3)?)
+        .feature_angle(60.0)
+        .exclude_between("carcass", "road")
+        .exclude_between("tread", "tread")
+        .between("tread.zmin", "road", Friction::nap(0.3, 0.6, 0.5)?)
+        .textured("tread.zmin", uniform([0.0, 1.0, 0.0]));
+    let press = step("press")
+        .increments(1)
+        .displace("tread", "zmax", [0.0, 0.0, -0.3])
+        .displace("carcass", "zmax", [0.0; 3])
+        .friction(friction_of, Friction::coulomb(0.1)?);
+    Ok(builder()?.contact(all).step(press).build())
+}
+
+#[test]
+fn decks_and_rust_say_the_same() -> Result<(), Error> {
+    let from_rust = built("tread-carcass")?.unwrap_or_else(|faults| panic!("{faults}"));
+    let from_deck = deck::parse(DECK, "deck", Path::new("")).unwrap_or_else(|f| panic!("{f}"));
+    let [one, other] = [&from_rust, &from_deck.model]
+        .map(|model| format!("{:?} {:?}", model.pairs, model.steps[0].frictions));
+    assert_eq!(one, other);
+    Ok(())
+}
+
+#[test]
+fn what_follows_a_rigid_surface_does_not_touch_it() -> Result<(), Error> {
+    let corners = [[0.0, 0.0], [3.0, 0.0], [3.0, 3.0], [0.0, 3.0]];
+    let corners = corners.map(|[x, y]| Vec3::new(x, y, 4.0)).to_vec();
+    let facet = [0, 3, 2, 1].map(NodeId::new);
+    let plate = rigid_surface("plate", corners, vec![facet]).and_tied("carcass", "zmax");
+    let hold = step("hold").hold("tread", "zmax");
+    let model = builder()?
+        .rigid(plate)
+        .contact(everything())
+        .step(hold)
+        .build();
+    let model = model.unwrap_or_else(|faults| panic!("{faults}"));
+    let names: Vec<&str> = model.pairs.iter().map(|pair| pair.name.as_str()).collect();
+    assert!(names.contains(&"carcass.rest-2-plate"), "{names:?}");
+    assert!(names.contains(&"tread-plate"), "{names:?}");
+    Ok(())
+}
+
+#[test]
+fn faults_have_paths() -> Result<(), Error> {
+    let told = |faults: Faults| faults.0[0].to_string();
+    let unknown = told(built("tread-roof")?.unwrap_err());
+    assert!(
+        unknown.starts_with("steps[0].frictions[0]: no pair is named `tread-roof`"),
+        "{unknown}"
+    );
+    let twice = everything().exclude("road").exclude("road").exclude("rod");
+    let faults = builder()?.contact(twice).build().unwrap_err();
+    assert!(told(faults).starts_with("contact.exclude[2].a: no body or rigid surface is named"));
+    let angle = everything().feature_angle(0.0);
+    let faults = builder()?.contact(angle).build().unwrap_err();
+    assert!(told(faults).starts_with("contact.feature_angle: the feature angle of contact"));
+    Ok(())
+}
+
+#[test]
+fn advice_says_what_may_touch_and_what_is_thin() {
+    let deck = deck::parse(DECK, "deck", Path::new("")).unwrap_or_else(|f| panic!("{f}"));
+    let advice = Advice::of(&deck.model);
+    let told = |remarks: &[striae::advice::Remark]| -> Vec<String> {
+        let remarks = remarks
+            .iter()
+            .filter(|remark| remark.topic == Topic::Contact);
+        remarks.map(|remark| remark.text.clone()).collect()
+    };
+    assert_eq!(
+        told(&advice.notes)[..2],
+        [
+            "body `tread` may touch `carcass`, `road`; not itself",
+            "body `carcass` may touch `tread`, itself; not `road`"
+        ]
+    );
+    let [warning] = &told(&advice.warnings)[..] else {
+        panic!("{:?}", advice.warnings)
+    };
+    assert!(
+        warning.starts_with("body `tread` is 0.400 thick where facets are 3.000 wide, at (")
+            && warning.ends_with("increments must move its layers by less than 0.200, and those of step `press` prescribe up to 0.300; take more increments"),
+        "{warning}"
+    );
+}
