@@ -6,6 +6,7 @@
 //! overlaps fade over the first step.
 
 mod close;
+mod crowd;
 mod facing;
 mod offsets;
 mod reach;
@@ -16,6 +17,7 @@ use striae_contact::{
     configuration::Configuration,
     initial::{Fit, Lies, fit},
     interference::{Stage, Standing, nearest_of},
+    opposite::Opposite,
     placement::Placement,
     seating::Seating,
     side::Side,
@@ -30,6 +32,7 @@ use crate::{
 };
 
 pub use close::close;
+pub use crowd::opposite;
 pub use facing::{Turned, turned};
 pub use offsets::{Offsets, meant_depth};
 pub use reach::may_meet;
@@ -130,6 +133,21 @@ pub enum InitialFault {
         /// Rigid surface that is a side, if one is.
         rigid: Option<String>,
     },
+    /// Facets of one side are far smaller than those of the other.
+    #[error(
+        "pair `{pair}`: {} facets of `{body}` lie opposite one facet of `{other}`, at ({:.6}, {:.6}, {:.6}), too many for their contact to be computed. Refine `{other}` there, coarsen `{body}`, or make `{other}` a rigid surface if it hardly deforms",
+        found.count, found.at.x, found.at.y, found.at.z
+    )]
+    Crowded {
+        /// Name of the pair.
+        pair: String,
+        /// Body with the small facets.
+        body: String,
+        /// Body with the large one.
+        other: String,
+        /// How many lie opposite, and where.
+        found: Opposite,
+    },
     /// Moving nodes would turn an element inside out.
     #[error(
         "pair `{pair}`: `initial = \"close\"` would turn {element} of body `{body}` inside out. Set `initial = \"resolve\"` to press overlaps out in the first step instead, close only gaps that are small beside the elements, such as `initial = {{ close = 0 }}` for none, or mend the mesh"
@@ -176,9 +194,21 @@ impl InitialFault {
             | Self::Unseated { pair, .. }
             | Self::Behind { pair, .. }
             | Self::Away { pair, .. }
+            | Self::Crowded { pair, .. }
             | Self::Inverted { pair, .. } => pair,
         }
     }
+}
+
+/// The fault that many facets of a pair lie opposite to one.
+pub fn crowded(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
+    let found = crowd::crowd(model, pair, fit)?;
+    Some(InitialFault::Crowded {
+        pair: model.pairs[pair.0].name.clone(),
+        body: other_name(model, pair, found.side).to_owned(),
+        other: other_name(model, pair, found.side.opposite()).to_owned(),
+        found,
+    })
 }
 
 /// How all pairs fit; `None` for pairs that are no pairs.

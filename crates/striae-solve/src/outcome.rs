@@ -248,7 +248,7 @@ fn overlap_text(body: &str, node: striae_mesh::NodeId, other: &str, depth: f64) 
         false => format!("{node} of `{body}` is {depth:.3e} inside `{other}`"),
     };
     format!(
-        "{through}, and no pair lets the surfaces there touch; state a pair of them, or keep them apart"
+        "{through}, and no pair lets the surfaces there touch; let everything touch (`all = true` of `[contact]`), state a pair of them, or keep them apart"
     )
 }
 

@@ -136,7 +136,7 @@ impl Advice {
         friction::look(model, &mut advice);
         textures::look(model, &mut advice);
         if advice.faults.is_empty() {
-            cost::look(model, &mut advice);
+            cost::look(model, &fits, &mut advice);
         }
         advice
     }

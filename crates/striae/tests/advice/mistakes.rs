@@ -583,6 +583,49 @@ name = "sole""#;
 }
 
 #[test]
+fn facets_that_are_far_smaller_than_those_opposite() {
+    let with = |divisions: &str| {
+        let plate = format!(
+            r#"name = "pad"
+material = "rubber"
+mesh = {{ generator = "block", origin = [0, 0, 1], size = [1, 1, 0.1], divisions = {divisions} }}
+[[body]]
+name = "base"
+material = "rubber""#
+        );
+        let pairs = r#"[[pair]]
+name = "upper"
+a = { body = "base", facets = "zmax" }
+b = { body = "pad", facets = "zmin" }
+[[pair]]
+name = "sole""#;
+        let sole = r#"a = { body = "base", facets = "zmin" }"#;
+        read(&[
+            ["name = \"pad\"\nmaterial = \"rubber\"", &plate],
+            ["[[pair]]\nname = \"sole\"", pairs],
+            [r#"a = { body = "pad", facets = "zmin" }"#, sole],
+        ])
+    };
+    let warned = |divisions: &str| {
+        let warnings = Advice::of(&with(divisions).expect("a valid deck").model).warnings;
+        let mut about = warnings.into_iter().map(|warning| warning.text);
+        about.find(|text| text.contains("facets of `pad` lie opposite one facet of `base`"))
+    };
+    assert_eq!(warned("[20, 20, 1]"), None);
+    let told = warned("[400, 3, 1]").expect("a warning");
+    assert!(
+        told.contains("133 facets") || told.contains("134 facets"),
+        "{told}"
+    );
+    let refused = with("[3000, 3, 1]").expect_err("a fault").to_string();
+    assert!(
+        refused.contains("facets of `pad` lie opposite one facet of `base`")
+            && refused.contains("Refine `base` there"),
+        "{refused}"
+    );
+}
+
+#[test]
 fn thin_bending() {
     let strip = |divisions: &str| {
         format!("origin = [0, 0, 0.2], size = [10, 1, 0.1], divisions = {divisions}")
