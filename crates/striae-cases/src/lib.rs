@@ -25,6 +25,7 @@ mod bonded_pad;
 mod comparison;
 mod contact_face;
 mod cooks_membrane;
+mod crushed_ring;
 mod edge_contact;
 mod edge_release;
 mod failure;
@@ -112,6 +113,12 @@ pub const CASES: &[Case] = &[
         "sipes",
         "A tread block with two slits that close, everything in contact, beside named walls",
         sipes::run
+    ),
+    case!(
+        "crushed-ring",
+        "A ring crushed between planes and between jaws until its inner walls touch",
+        crushed_ring::run,
+        quick: "one of two meshes each"
     ),
     case!(
         "stiff-punch",
