@@ -139,7 +139,7 @@ impl Crushed {
 fn apart(one: &Crushed, other: &Crushed) -> f64 {
     let met = one.touch().min(other.touch());
     let ways = one.curve.iter().map(|row| row[0]);
-    let ways: Vec<f64> = ways.take_while(|way| !(*way >= met)).collect();
+    let ways: Vec<f64> = ways.take_while(|way| met.is_nan() || *way < met).collect();
     let differences = ways
         .iter()
         .map(|&way| (one.force(way) - other.force(way)).abs());
