@@ -36,7 +36,7 @@ pub struct Opposite {
     pub count: usize,
     /// Memory for the choice of unknowns about it.
     pub bytes: f64,
-    /// The same for all facets.
+    /// Memory for that of all facets.
     pub total: f64,
 }
 

@@ -21,7 +21,7 @@ const CHUNK: u64 = 500;
 /// Time over the processor time of a mutant, where others compute on the machine, too.
 const IDLE: u32 = 30;
 
-/// What came of the mutants of a target.
+/// Outcomes of the mutants of a target.
 #[derive(Clone, Debug, Default)]
 struct Counts {
     outcomes: BTreeMap<String, usize>,

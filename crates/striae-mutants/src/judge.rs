@@ -1,4 +1,4 @@
-//! What must hold of every input, however it is damaged.
+//! Rules that hold for every input, however it is damaged.
 //!
 //! No panic; every message has a place, a line or the name of a part; a deck that has passed
 //! `check` can begin to run, and what ends its first increment is told in words of the model.
@@ -43,11 +43,11 @@ pub enum Kind {
 pub struct Finding {
     /// Its kind.
     pub kind: Kind,
-    /// What happened.
+    /// Account of it.
     pub text: String,
 }
 
-/// Whether accepted decks begin to run.
+/// Depth to which accepted decks are tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depth {
     /// They are checked.

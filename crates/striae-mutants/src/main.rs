@@ -20,7 +20,7 @@ use striae_mutants::target::Target;
 
 const USAGE: &str = "usage: striae-mutants [--seeds A..B] [--targets NAMES] [--seconds N] [--megabytes N] [--jobs N] [--keep FOLDER]";
 
-/// What is asked for.
+/// Options of the command line.
 #[derive(Clone, Debug)]
 struct Options {
     seeds: Range<u64>,

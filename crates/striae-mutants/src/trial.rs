@@ -64,7 +64,7 @@ impl Mutants {
     /// Tries the mutant of a seed.
     ///
     /// # Errors
-    /// What fails.
+    /// The failure.
     pub fn tried(&self, seed: u64, judge: &Judge) -> Result<Reached, Finding> {
         let (target, sample, depth) = self.mutant(seed);
         judge.judge(target, &sample, depth)

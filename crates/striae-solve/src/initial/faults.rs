@@ -2,7 +2,7 @@
 
 use striae_mesh::{ElementId, NodeId, Vec3};
 
-/// What cannot be simulated as meshed.
+/// Faults of meshes that cannot be simulated as they lie.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum InitialFault {
     /// Bodies overlap.
@@ -17,15 +17,15 @@ pub enum InitialFault {
         body: String,
         /// The node.
         node: NodeId,
-        /// What it is inside of.
+        /// Name of the one that it is inside of.
         other: String,
         /// Where it is.
         at: Vec3,
         /// How deep.
         depth: f64,
-        /// The same over the local facet size.
+        /// Depth over the local facet size.
         share: f64,
-        /// Whether nodes have been moved against it.
+        /// Tells if nodes have been moved against it.
         closing: Closing,
     },
     /// Bodies overlap by so much that their other side is nearer.
@@ -40,7 +40,7 @@ pub enum InitialFault {
         body: String,
         /// The node.
         node: NodeId,
-        /// What it is inside of.
+        /// Name of the one that it is inside of.
         other: String,
         /// Where it is.
         at: Vec3,
@@ -123,7 +123,7 @@ pub enum InitialFault {
     },
 }
 
-/// Whether nodes of a pair have been moved to close its gaps and overlaps.
+/// Tells if nodes of a pair have been moved to close its gaps and overlaps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Closing {
     /// They have not.
@@ -133,7 +133,7 @@ pub enum Closing {
 }
 
 impl Closing {
-    /// What to do about an overlap that is there.
+    /// Returns advice on an overlap that is there.
     fn remedy(self) -> &'static str {
         match self {
             Self::Made => {

@@ -21,7 +21,7 @@ const NO_STRAIN_BY_FORCE: f64 = 1e-11;
 const PASCALS: [f64; 2] = [2e8, 2e12];
 /// Smallest modulus of soft matter that is in pascals.
 const SOFT: f64 = 1e5;
-/// The same for soft matter, beside moduli in pascals.
+/// Length for soft matter, beside moduli in pascals.
 const LONG_SOFT: f64 = 5.0;
 /// Moduli of metals in megapascals.
 const METALS: [f64; 2] = [3e4, 4.5e5];

@@ -1,5 +1,5 @@
-//! What prescribed nodes leave without an effect: loads on them, and contact of surfaces all of
-//! whose nodes are prescribed.
+//! Loads on prescribed nodes, and contact of surfaces all of whose nodes are prescribed: neither
+//! has an effect.
 
 use std::collections::BTreeSet;
 
