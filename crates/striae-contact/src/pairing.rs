@@ -13,7 +13,9 @@ use striae_surface::{facet::Shape, node::SurfaceNode};
 
 use crate::{
     configuration::Configuration,
-    segment::{FIRST, Facet, Segment, SegmentDerivatives, mixed, plane_segment, segment},
+    segment::{
+        FACING, FIRST, Facet, Segment, SegmentDerivatives, mixed, plane_segment, segment_facing,
+    },
     side::Side,
 };
 
@@ -250,15 +252,16 @@ fn of_facet(
             corners: positions_b,
             shape: Shape::of(&corners_b),
         };
-        if one_body && !self_contact::may_touch([own, other], [&a, &b], [&corners, &corners_b]) {
-            continue;
-        }
+        let limit = match one_body {
+            true => self_contact::facing_limit([own, other], [&corners, &corners_b]),
+            false => FACING,
+        };
         let weights = [
             scope.compliances[sides[0]][facet.index()],
             scope.compliances[sides[1]][opposite.index()],
         ];
         let slopes = slopes(&[(sides[0], corners), (sides[1], corners_b)]);
-        let Some(segment) = segment(&a, &b, weights, slopes) else {
+        let Some(segment) = segment_facing([&a, &b], limit, weights, slopes) else {
             continue;
         };
         let reach = if configuration.pair.is_rigid() {

@@ -8,7 +8,7 @@ use crate::{
     complementarity::Iteration,
     configuration::Configuration,
     pairing::{Corners, PairedFacets, corner_sign, paired_facets},
-    segment::{Facet, Pressed, Pressing, SegmentDerivatives, Support, pressed_on_plane},
+    segment::{Facet, Pressed, Pressing, SegmentDerivatives, Support},
     segment_rows::{Given, SegmentRows, Slip, segment_rows},
     selection::Selection,
     side::Side,
@@ -147,16 +147,12 @@ impl Pressures<'_> {
             Iteration::Later { .. } | Iteration::Corrected(_) => 0.0,
         };
         let pressing = Pressing::new(supports, heights, touching);
-        let on_plane = || {
-            let x = &paired.x;
-            let facet = Facet {
-                corners: [x[0], x[1], x[2], x[3]],
-                shape: Shape::of(&paired.corners[0]),
-            };
-            let slopes = segment.slopes.as_deref();
-            pressed_on_plane(&facet, &segment.normal, &pressing, &segment.mass, slopes)
+        let x = &paired.x;
+        let facet = Facet {
+            corners: [x[0], x[1], x[2], x[3]],
+            shape: Shape::of(&paired.corners[0]),
         };
-        segment.pressed(&pressing).unwrap_or_else(on_plane)
+        segment.pressed(&facet, &pressing)
     }
 }
 

@@ -21,6 +21,7 @@
 mod chain;
 mod closed;
 mod divided;
+mod facing;
 mod fan;
 mod moved;
 mod normal;
@@ -38,20 +39,21 @@ use pulp::{Simd, WithSimd};
 use striae_mesh::Vec3;
 use striae_surface::facet::Shape;
 
-pub(crate) use pressed_plane::pressed_on_plane;
+use pressed_plane::pressed_on_plane;
 pub use rigid_plane::plane_segment;
 pub use support::{Pressed, PressedSlopes, Pressing, Support};
 
 use chain::{CornerSlopes, Plane};
+use facing::{Facing, Faded};
 use fan::{Apex, Fan, fan};
 pub(crate) use normal::facet_normal;
-use normal::{pair_normal, pair_slopes};
+use normal::{facet_slopes, pair_normal, pair_slopes};
 use plane_facet::{PlaneFacet, Vec2};
 pub(crate) use polygon::{FIRST, mixed};
 use polygon::{Outline, Vertex, common, topology, twice_area};
 use sums::{PAIRS, PlaneSlopes, Triangle, add_triangle, functions};
 
-/// Facets face each other where `n_a . n_b` is not above this.
+/// Facets face each other where `n_a . n_b` is not above this; about it segments fade.
 pub const FACING: f64 = -0.2;
 /// Distance of a corner from an opposing edge, over the size of the smaller facet, up to
 /// which it counts as on it.
@@ -116,6 +118,8 @@ pub struct Segment {
     pub slopes: Option<Box<Slopes>>,
     /// What it is made of; none against a plane, where it is the whole facet.
     polygon: Option<Box<Polygon>>,
+    /// How much of it counts, if not all.
+    faded: Option<Box<Faded>>,
 }
 
 /// A common polygon and the facets that it is of.
@@ -126,10 +130,18 @@ struct Polygon {
 }
 
 impl Segment {
-    /// Integrals of pressure over the polygon; none against a plane.
-    pub(crate) fn pressed(&self, pressing: &Pressing) -> Option<Pressed> {
-        let polygon = self.polygon.as_ref()?;
-        Some(polygon.pressed(pressing, &self.mass, self.slopes.as_deref()))
+    /// Integrals of pressure over the segment of this facet of the first side.
+    pub(crate) fn pressed(&self, facet: &Facet, pressing: &Pressing) -> Pressed {
+        let mass = self.faded.as_ref().map_or(&self.mass, |faded| &faded.whole);
+        let slopes = self.slopes.as_deref();
+        let whole = match &self.polygon {
+            Some(polygon) => polygon.pressed(pressing, mass, slopes),
+            None => pressed_on_plane(facet, &self.normal, pressing, mass, slopes),
+        };
+        match &self.faded {
+            Some(faded) => faded.pressed(whole),
+            None => whole,
+        }
     }
 
     /// Interpolation functions at the vertices of the polygon; none against a plane.
@@ -157,6 +169,13 @@ pub fn pair_index(c: usize, d: usize) -> usize {
     c * (15 - c) / 2 + d
 }
 
+/// `c <= d` of a row of [`pair_index`].
+fn of_pair(row: usize) -> (usize, usize) {
+    let starts = |c: &usize| pair_index(*c, *c) <= row;
+    let c = (0..8).take_while(starts).last().unwrap_or(0);
+    (c, c + row - pair_index(c, c))
+}
+
 /// The normal of two facets with these compliances; `None` where they have none.
 pub(crate) fn normal_between(a: &Facet, b: &Facet, compliance: [f64; 2]) -> Option<Vec3> {
     let (n_a, n_b) = (facet_normal(a)?, facet_normal(b)?);
@@ -165,26 +184,36 @@ pub(crate) fn normal_between(a: &Facet, b: &Facet, compliance: [f64; 2]) -> Opti
 
 /// The segment of two facets with these compliances.
 ///
-/// `None` where they do not face each other ([`FACING`]), have no common area (thinner
-/// than a corner's tolerance counts as none), where neither side has a compliance, or where
-/// a facet is not convex seen along `n` ([`NOT_CONVEX`]), so that its map has no inverse.
+/// `None` as in [`segment_facing`], up to the cosine [`FACING`].
 pub fn segment(
     a: &Facet,
     b: &Facet,
     compliance: [f64; 2],
     derivatives: impl Into<SegmentDerivatives>,
 ) -> Option<Segment> {
+    segment_facing([a, b], FACING, compliance, derivatives)
+}
+
+/// The segment of two facets that oppose each other up to a cosine of their normals, about which
+/// it fades.
+///
+/// `None` where they do not face each other, have no common area (thinner
+/// than a corner's tolerance counts as none), where neither side has a compliance, or where
+/// a facet is not convex seen along `n` ([`NOT_CONVEX`]), so that its map has no inverse.
+pub fn segment_facing(
+    [a, b]: [&Facet; 2],
+    limit: f64,
+    compliance: [f64; 2],
+    derivatives: impl Into<SegmentDerivatives>,
+) -> Option<Segment> {
     let derivatives = derivatives.into();
     let (n_a, n_b) = (facet_normal(a)?, facet_normal(b)?);
-    let facing = n_a.dot(&n_b) <= FACING;
-    if !facing {
-        return None;
-    }
+    let facing = Facing::of(n_a.dot(&n_b), limit)?;
     let normal = pair_normal([&n_a, &n_b], compliance)?;
     let pair = PlanePair::new([a, b], normal)?;
     let polygon = pair.polygon()?;
     let (mass, plane_slopes) = pair.integrals(&polygon, derivatives);
-    let slopes = (derivatives != SegmentDerivatives::None).then(|| {
+    let mut slopes = (derivatives != SegmentDerivatives::None).then(|| {
         let normal = pair_slopes([a, b], [&n_a, &n_b], compliance);
         let mass = plane_slopes.map_or_else(Vec::new, |in_plane| {
             let by_pair = in_plane.in_space(&pair.plane, &pair.corners, &normal, None);
@@ -197,12 +226,28 @@ pub fn segment(
         });
         Box::new(Slopes { normal, mass })
     });
+    let (mut area, mut mass) = (0.5 * twice_area(&polygon), symmetric(&mass));
+    let faded = match facing {
+        Facing::Whole => None,
+        Facing::Part(share, by_cosine) => {
+            let normals = [(n_b, facet_slopes(a, &n_a)), (n_a, facet_slopes(b, &n_b))];
+            let integrals = (&mut area, &mut mass);
+            let slopes = slopes.as_deref_mut();
+            Some(Box::new(Faded::new(
+                (share, by_cosine),
+                &normals,
+                integrals,
+                slopes,
+            )))
+        }
+    };
     Some(Segment {
         normal,
-        area: 0.5 * twice_area(&polygon),
+        area,
         topology: topology(&polygon),
-        mass: symmetric(&mass),
+        mass,
         slopes,
+        faded,
         polygon: Some(Box::new(Polygon {
             pair,
             vertices: polygon,

@@ -3,7 +3,7 @@
 mod facets;
 
 use facets::{mirrored, parallelogram, random_quad, triangle};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Rotation3};
 use striae_contact::{
     segment::{Derivatives, Facet, Segment, Slopes, pair_index, plane_segment, segment},
     side::Side,
@@ -84,6 +84,22 @@ fn warped_tilted_quadrilaterals_have_the_right_derivatives() {
         for shift in [0.15, 0.35, -0.3] {
             let a = random_quad(&mut random, 0.15, 0.1);
             let b = mirrored(&random_quad(&mut random, 0.15, 0.1), shift);
+            assert_slopes(&a, &b, compliance);
+        }
+    }
+}
+
+#[test]
+fn facets_that_hardly_face_each_other_have_the_right_derivatives() {
+    let a = parallelogram();
+    for cosine in [-0.27f64, -0.2, -0.14] {
+        let turn = Rotation3::from_axis_angle(&Vec3::x_axis(), (-cosine).acos());
+        let [p, q, r, s] = a.corners;
+        let b = Facet {
+            corners: [p, s, r, q].map(|x| turn * (x + Vec3::new(0.1, -0.4, 0.0))),
+            shape: a.shape,
+        };
+        for compliance in [[1.0, 1.0], [1.0, 0.0], [0.2, 1.0]] {
             assert_slopes(&a, &b, compliance);
         }
     }

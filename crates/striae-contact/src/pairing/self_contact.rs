@@ -7,7 +7,7 @@
 //! ```text
 //! back to back   -g_ij > min(t_i, t_j)/2
 //! hidden         {i, k} or {j, k} covers the middle of {i, j}, and is nearer by more than t_k/2
-//! around a node  i and j share one, and n_i . n_j >= -.71
+//! around a node  i and j share one, and n_i . n_j > -.71
 //! ```
 //!
 //! Facets that share a node are folded onto each other once they stand at more than 135 degrees;
@@ -21,30 +21,25 @@ use striae_surface::node::SurfaceNode;
 use super::PairedFacets;
 use crate::{
     configuration::{Configuration, Snapshot},
-    segment::{Facet, facet_normal},
+    segment::FACING,
     side::Side,
 };
 
 /// Cosine between the normals of facets that share a node from which on they are folded.
 const FOLDED: f64 = -0.71;
 
-/// Returns whether two facets do not share a node of the mesh, or are folded there.
-pub(super) fn may_touch(
-    snapshots: [&Snapshot; 2],
-    facets: [&Facet; 2],
-    corners: [&[SurfaceNode; 4]; 2],
-) -> bool {
+/// Returns the cosine between the normals of two facets up to which they touch: facets that
+/// share a node of the mesh have to be folded there.
+pub(super) fn facing_limit(snapshots: [&Snapshot; 2], corners: [&[SurfaceNode; 4]; 2]) -> f64 {
     let mesh = |at: usize, node: &SurfaceNode| snapshots[at].surface.nodes()[node.index()];
     let shares = |node: &SurfaceNode| {
         let mut others = corners[1].iter();
         others.any(|other| mesh(1, other) == mesh(0, node))
     };
-    let is_folded = || {
-        let [n_i, n_j] = facets.map(facet_normal);
-        n_i.zip(n_j)
-            .is_some_and(|(n_i, n_j)| n_i.dot(&n_j) < FOLDED)
-    };
-    !corners[0].iter().any(shares) || is_folded()
+    match corners[0].iter().any(shares) {
+        true => FOLDED,
+        false => FACING,
+    }
 }
 
 /// Returns whether the body does not lie between two facets.

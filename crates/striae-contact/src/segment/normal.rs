@@ -29,7 +29,7 @@ fn spans(facet: &Facet) -> [Vec3; 2] {
 }
 
 /// `dn_i/dx_c` of a facet.
-fn facet_slopes(facet: &Facet, n: &Vec3) -> [Matrix3<f64>; 4] {
+pub(super) fn facet_slopes(facet: &Facet, n: &Vec3) -> [Matrix3<f64>; 4] {
     let [p, q] = spans(facet);
     let projector = across(n) / p.cross(&q).norm();
     let (by_q, by_p) = (projector * p.cross_matrix(), -projector * q.cross_matrix());

@@ -36,7 +36,7 @@ type FacetPoint = ([f64; 2], f64);
 
 /// Integrals of pressure over a facet against the plane with the normal `-n`, with derivatives
 /// if those of the segment are known.
-pub(crate) fn pressed_on_plane(
+pub(super) fn pressed_on_plane(
     facet: &Facet,
     n: &Vec3,
     pressing: &Pressing,

@@ -17,7 +17,12 @@ use striae_surface::{
     scalar::combination,
 };
 
-use super::{FACING, Facet, Segment, SegmentDerivatives, Slopes, normal::facet_normal, pair_index};
+use super::{
+    FACING, Facet, Segment, SegmentDerivatives, Slopes,
+    facing::{Facing, Faded},
+    normal::{facet_normal, facet_slopes},
+    pair_index,
+};
 use crate::quadrature::GAUSS_2;
 
 /// The segment of a facet and an unbounded rigid plane with the unit normal
@@ -31,10 +36,8 @@ pub fn plane_segment(
     plane_normal: &Vec3,
     derivatives: impl Into<SegmentDerivatives>,
 ) -> Option<Segment> {
-    let facing = facet_normal(facet)?.dot(plane_normal) <= FACING;
-    if !facing {
-        return None;
-    }
+    let own_normal = facet_normal(facet)?;
+    let facing = Facing::of(own_normal.dot(plane_normal), FACING)?;
     let normal = -plane_normal;
     let mut mass = [[0.0; 8]; 8];
     let mut slopes = match derivatives.into() {
@@ -67,13 +70,27 @@ pub fn plane_segment(
     for c in 0..4 {
         (0..c).for_each(|d| mass[c][d] = mass[d][c]);
     }
-    (area > 0.0).then_some(Segment {
+    if area <= 0.0 {
+        return None;
+    }
+    let faded = match facing {
+        Facing::Whole => None,
+        Facing::Part(share, by_cosine) => {
+            let normals = [(*plane_normal, facet_slopes(facet, &own_normal))];
+            let integrals = (&mut area, &mut mass);
+            let slopes = slopes.as_deref_mut();
+            let faded = Faded::new((share, by_cosine), &normals, integrals, slopes);
+            Some(Box::new(faded))
+        }
+    };
+    Some(Segment {
         normal,
         area,
         topology: 0,
         mass,
         slopes,
         polygon: None,
+        faded,
     })
 }
 
