@@ -124,8 +124,8 @@ mod tests {
     #[test]
     fn counting_stops_at_the_limit() {
         let sides = [grid([60, 3], 0.0), grid([3, 3], 0.0)];
-        let found = Opposite::of([&sides[0], &sides[1]], 0.0, 1.0).unwrap();
-        assert_eq!(found.bytes, found.total);
+        let found = Opposite::of([&sides[0], &sides[1]], 0.0, 1e6).unwrap();
         assert_eq!(found.bytes, bytes(20, 180));
+        assert_eq!(found.total, 180.0 * bytes(1, 9) + found.bytes);
     }
 }
