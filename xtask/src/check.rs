@@ -108,6 +108,16 @@ pub fn bench(arguments: &[String]) -> Result<(), Fault> {
     cargo(&all, &[])
 }
 
+/// Tries damaged decks and files with the given arguments.
+///
+/// # Errors
+/// When they cannot be built or some fail.
+pub fn mutants(arguments: &[String]) -> Result<(), Fault> {
+    let mut all: Vec<&str> = ["run", "--release", "-p", "striae-mutants", "--"].into();
+    all.extend(arguments.iter().map(String::as_str));
+    cargo(&all, &[])
+}
+
 fn timed(name: &str, check: impl FnOnce() -> Result<(), Fault>) -> Result<(), Fault> {
     println!("== {name}");
     let started = Instant::now();

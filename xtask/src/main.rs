@@ -11,6 +11,7 @@
 //! | `mathematics` | formulas of the book, for mdBook; see [`book::mathematics`] |
 //! | `endurance` | runs that are killed, interrupted, short of disk, damaged; see [`endurance`] |
 //! | `mpi` | the feature `petsc` on one to four ranks; see [`mpi`] |
+//! | `mutants` | damaged decks and files; see `crates/striae-mutants` |
 //! | `bench` | times of parts and of whole runs; see `crates/striae-bench/README.md` |
 //!
 //! Exit codes: 0 when all is well, 1 when a check failed, 2 for an unknown task.
@@ -30,7 +31,7 @@ mod scenes;
 
 use std::{env, process::ExitCode};
 
-const USAGE: &str = "usage: cargo xtask check | python | borders | scenes [OPTIONS] | report-test | book | endurance | mpi [--all] [PARTS] | bench [ARGUMENTS]";
+const USAGE: &str = "usage: cargo xtask check | python | borders | scenes [OPTIONS] | report-test | book | endurance | mpi [--all] [PARTS] | mutants [OPTIONS] | bench [ARGUMENTS]";
 
 fn main() -> ExitCode {
     let tasks: Vec<String> = env::args().skip(1).collect();
@@ -44,6 +45,7 @@ fn main() -> ExitCode {
         ["mathematics", ..] => book::mathematics::preprocess(&tasks[1..]),
         ["endurance", ..] => endurance::endurance(&tasks[1..]),
         ["mpi", ..] => mpi::check(&tasks[1..]),
+        ["mutants", ..] => check::mutants(&tasks[1..]),
         ["bench", ..] => check::bench(&tasks[1..]),
         _ => {
             eprintln!("{USAGE}");

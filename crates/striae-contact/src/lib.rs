@@ -54,6 +54,7 @@ pub mod frame;
 pub mod initial;
 pub mod interface;
 pub mod interference;
+pub mod opposite;
 pub mod pair;
 pub mod placement;
 pub mod roles;

@@ -11,6 +11,9 @@ pub enum FaultKind {
         /// What the operating system says.
         cause: String,
     },
+    /// The bytes are no text.
+    #[error("this is no UTF-8; save the deck as text in UTF-8")]
+    NotText,
     /// The text is not TOML.
     #[error("not valid TOML: {message}")]
     Syntax {
@@ -103,7 +106,7 @@ pub enum FaultKind {
     },
     /// A mesh that would take more memory than there is.
     #[error(
-        "the mesh of body `{body}` would have {elements} elements, which take about {:.1} GB, and {:.1} GB are available; use fewer divisions or larger elements",
+        "the mesh of body `{body}` would have {elements} elements, which take about {:.1} GB in a run, and {:.1} GB are available; use fewer divisions or larger elements",
         needed / 1e9, available / 1e9
     )]
     MeshMemory {
@@ -111,7 +114,7 @@ pub enum FaultKind {
         body: String,
         /// Its elements.
         elements: u128,
-        /// Bytes to make and check it.
+        /// Bytes to make it, check it and run with it.
         needed: f64,
         /// Bytes that there are.
         available: f64,

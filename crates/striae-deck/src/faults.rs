@@ -26,6 +26,15 @@ pub struct Position {
     pub column: usize,
 }
 
+/// A place in one of the files of a deck.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Location {
+    /// File as the author calls it.
+    pub file: String,
+    /// Where it is in the file.
+    pub position: Position,
+}
+
 /// One fault of a deck.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fault {
@@ -60,6 +69,14 @@ impl Faults {
             kind,
             excerpt: None,
         }])
+    }
+
+    /// The only fault: the bytes of the file are no UTF-8 from some byte on.
+    pub(crate) fn no_text(file: &str, bytes: &[u8], valid: usize) -> Self {
+        let text = String::from_utf8_lossy(bytes);
+        let start = String::from_utf8_lossy(&bytes[..valid]).len();
+        let kind = FaultKind::NotText;
+        Self(vec![locate(file, &text, &(start..start + 1), kind)])
     }
 
     /// The faults in the order of their positions.
@@ -179,6 +196,14 @@ impl<'s> FaultList<'s> {
     pub(crate) fn line(&self, span: &Span) -> usize {
         let (source, span) = self.source(span);
         position(&source.text, span.start).line
+    }
+
+    pub(crate) fn location(&self, span: &Span) -> Location {
+        let (source, span) = self.source(span);
+        Location {
+            file: source.file.clone().into_owned(),
+            position: position(&source.text, span.start),
+        }
     }
 
     /// A fault that is found later than others.

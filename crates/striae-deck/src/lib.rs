@@ -20,6 +20,7 @@ mod include;
 mod lower;
 mod names;
 mod parameters;
+mod places;
 mod raw;
 mod read;
 mod schema;
@@ -29,7 +30,8 @@ mod write;
 
 pub use convert::{Converted, convert};
 pub use fault::FaultKind;
-pub use faults::{Fault, Faults, Position};
+pub use faults::{Fault, Faults, Location, Position};
+pub use places::{Part, Places};
 pub use schema::{json_schema, reference};
 pub use settings::Setting;
 pub use write::{Unstated, write};
@@ -50,6 +52,8 @@ pub struct Deck {
     pub output: Output,
     /// What is made of mesh files that they do not say, a line each.
     pub notes: Vec<String>,
+    /// Where its named parts are written.
+    pub places: Places,
     /// What is wrong with it where there are no ranks.
     together: Option<Box<Faults>>,
 }
@@ -81,7 +85,11 @@ pub fn read(path: &Path) -> Result<Deck, Faults> {
 /// As [`read`], and where a setting is of no number of the deck.
 pub fn read_with(path: &Path, settings: &[Setting]) -> Result<Deck, Faults> {
     let file = path.display().to_string();
-    let text = std::fs::read_to_string(path).map_err(|cause| Faults::unreadable(&file, &cause))?;
+    let bytes = std::fs::read(path).map_err(|cause| Faults::unreadable(&file, &cause))?;
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        Faults::no_text(&file, error.as_bytes(), valid)
+    })?;
     let base = path.parent().unwrap_or(Path::new(""));
     parse_with(&text, &file, base, settings)
 }
@@ -161,8 +169,23 @@ fn tables<T: read::Part>(text: &str, faults: &mut FaultList<'_>) -> Option<T> {
 fn tree<'t>(text: &'t str, faults: &mut FaultList<'_>) -> Option<DeTable<'t>> {
     let (tree, errors) = DeTable::parse_recoverable(text);
     for error in &errors {
-        let message = error.message().to_owned();
-        faults.push(&error.span().unwrap_or(0..0), FaultKind::Syntax { message });
+        let span = error.span().unwrap_or(0..0);
+        let message = error.message().to_owned() + decimals(text, span.start);
+        faults.push(&span, FaultKind::Syntax { message });
     }
     errors.is_empty().then(|| tree.into_inner())
+}
+
+/// A word on decimal commas, where a line that cannot be read has one.
+fn decimals(text: &str, at: usize) -> &'static str {
+    let before = text.get(..at).unwrap_or("");
+    let start = before.rfind('\n').map_or(0, |start| start + 1);
+    let line = text[start..].lines().next().unwrap_or("").as_bytes();
+    let comma = line.windows(4).any(|four| {
+        four[0] == b' ' && four[1].is_ascii_digit() && four[2] == b',' && four[3].is_ascii_digit()
+    });
+    match comma {
+        true => "; decimals are written with a point, such as 0.3",
+        false => "",
+    }
 }

@@ -589,7 +589,7 @@ fn textures() {
             ),
         ],
         &[
-            "22:12: the friction of pair `interface` needs a texture on both sides; sides that have one: 1",
+            "22:12: the friction of pair `interface` needs a texture on both sides; sides that have one: 1; give a side its direction, such as `texture = { uniform = [1, 0, 0] }`",
         ],
     );
     misstated(
@@ -609,7 +609,7 @@ fn textures() {
             ),
         ],
         &[
-            "22:12: the friction of pair `interface` needs a texture on one side; sides that have one: 2",
+            "22:12: the friction of pair `interface` needs a texture on one side; sides that have one: 2; leave one of them out",
         ],
     );
     misstated(
@@ -619,7 +619,7 @@ fn textures() {
             r#"law = "tabulated", angles = [0, 120, 240], mu = [0.1, 0.2, 0.3]"#,
         )],
         &[
-            "40:13: the friction of pair `interface` needs a texture on one side; sides that have one: 0",
+            "40:13: the friction of pair `interface` needs a texture on one side; sides that have one: 0; give a side its direction, such as `texture = { uniform = [1, 0, 0] }`",
         ],
     );
     misstated(

@@ -35,6 +35,8 @@ pub(super) fn rigid_surface(bytes: &[u8]) -> Result<RigidSurfaceMesh, MeshFileFa
 
 const HEADER: usize = 84;
 const TRIANGLE: usize = 50;
+/// Area over the square of the longest edge that is none.
+const FLAT: f64 = 1e-12;
 
 /// The length of a binary file by its number of triangles.
 fn announced_length(bytes: &[u8]) -> Option<u64> {
@@ -113,14 +115,21 @@ fn starts_with(lines: &mut Lines<'_>, words: &str) -> Result<(), MeshFileFault> 
     Err(line.fault(words))
 }
 
+/// True where corners coincide or are in line.
+fn is_flat([a, b, c]: &[Vec3; 3]) -> bool {
+    let edges = [b - a, c - b, a - c];
+    let longest = edges.iter().map(Vec3::norm).fold(0.0, f64::max);
+    let area = (edges[0] / longest).cross(&(edges[1] / longest)).norm();
+    area.is_nan() || area <= FLAT
+}
+
 /// Facets that share corners at equal positions, without those of no extent.
 fn joined(triangles: &[[Vec3; 3]]) -> RigidSurfaceMesh {
     let mut ids: HashMap<[u64; 3], NodeId> = HashMap::new();
     let mut positions = Vec::new();
     let mut facets = Vec::new();
     for triangle in triangles {
-        let [a, b, c] = triangle;
-        if a == b || b == c || c == a {
+        if is_flat(triangle) {
             continue;
         }
         let [a, b, c] = triangle.map(|x| {

@@ -415,6 +415,43 @@ pub enum FaultKind {
         /// The rigid body.
         rigid: String,
     },
+    /// A length that cannot be computed with.
+    #[error(
+        "{what} has a length or coordinate of {length:.1e}; those from 1e-50 to 1e50 can be computed with: mend the mesh, or take another unit of length"
+    )]
+    Extent {
+        /// The body or rigid surface, as the subject of a sentence.
+        what: String,
+        /// The length.
+        length: f64,
+    },
+    /// A facet of a rigid surface without area.
+    #[error(
+        "facet {facet} of rigid surface `{rigid}`, with a corner at ({:.6}, {:.6}, {:.6}), has no area; leave it out, or mend its corners", at.x, at.y, at.z
+    )]
+    FlatFacet {
+        /// The rigid surface.
+        rigid: String,
+        /// The facet, from 0.
+        facet: usize,
+        /// Its first corner.
+        at: striae_mesh::Vec3,
+    },
+    /// Neighbouring facets of a rigid surface that look to opposite sides.
+    #[error(
+        "facets {first} and {second} of rigid surface `{rigid}` look to opposite sides at their edge from ({:.6}, {:.6}, {:.6}) to ({:.6}, {:.6}, {:.6}); turn one of them round, so that the corners of all go counter-clockwise as seen from where the body is",
+        ends[0].x, ends[0].y, ends[0].z, ends[1].x, ends[1].y, ends[1].z
+    )]
+    TurnedFacet {
+        /// The rigid surface.
+        rigid: String,
+        /// The earlier facet, from 0.
+        first: usize,
+        /// The later one.
+        second: usize,
+        /// Ends of their edge.
+        ends: [striae_mesh::Vec3; 2],
+    },
     /// A rigid body that nothing could move as it should.
     #[error(
         "step `{step}` frees coordinates of rigid body `{rigid}`; only bodies that nodes are tied to, that have a mass or that are a side of a pair can be free"
@@ -463,7 +500,7 @@ pub enum FaultKind {
     },
     /// Textures do not fit the friction law.
     #[error(
-        "the friction of pair `{pair}` needs a texture on {required}; sides that have one: {found}"
+        "the friction of pair `{pair}` needs a texture on {required}; sides that have one: {found}; {}", texturing(*found)
     )]
     Textures {
         /// The pair.
@@ -584,6 +621,13 @@ fn it_has(known: &[String]) -> String {
         "it has none".into()
     } else {
         format!("it has {}", quoted(known))
+    }
+}
+
+fn texturing(found: usize) -> &'static str {
+    match found {
+        2 => "leave one of them out",
+        _ => "give a side its direction, such as `texture = { uniform = [1, 0, 0] }`",
     }
 }
 

@@ -2,7 +2,7 @@
 //! for it, otherwise judged; textures without a direction; nodes of ties put where they belong.
 
 use striae_solve::{
-    initial::{InitialFault, away, close, fault, fits, turned},
+    initial::{InitialFault, away, close, crowded, fault, fits, turned},
     model::{Initial, Model, PairId},
     painting,
     tie::placed,
@@ -39,11 +39,11 @@ pub fn fitted(model: Model) -> Result<Model, Vec<Fault>> {
     let model = close(model).map_err(|fault| vec![located(fault)])?;
     let fits = fits(&model);
     let found = fits.iter().enumerate().filter_map(|(pair, fit)| {
+        let (id, fit) = (PairId(pair), fit.as_ref()?);
         // Two parts of one body have the body between them.
-        let fit = fit
-            .as_ref()
-            .filter(|_| !model.pairs[pair].is_within_a_body())?;
-        fault(&model, PairId(pair), fit)
+        let apart = !model.pairs[pair].is_within_a_body();
+        let judged = apart.then(|| fault(&model, id, fit)).flatten();
+        judged.or_else(|| crowded(&model, id, fit))
     });
     let faults: Vec<Fault> = found.map(located).collect();
     if !faults.is_empty() {

@@ -228,7 +228,8 @@ MODEL_ERRORS: list[tuple[Callable[[], Any], str]] = [
     (
         lambda: floored(st.Nap(0.2, 0.3, 0.25)).check(),
         "pairs[0].friction: the friction of pair `pad-floor` needs a texture on one side;"
-        " sides that have one: 0",
+        " sides that have one: 0; give a side its direction, such as"
+        " `texture = { uniform = [1, 0, 0] }`",
     ),
     (
         lambda: built(lambda body: [st.gravity((0, 0, -9.81)), body["zmin"].hold()]).check(),

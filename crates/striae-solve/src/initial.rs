@@ -6,7 +6,9 @@
 //! overlaps fade over the first step.
 
 mod close;
+mod crowd;
 mod facing;
+mod faults;
 mod offsets;
 mod reach;
 mod surfaces;
@@ -20,7 +22,7 @@ use striae_contact::{
     seating::Seating,
     side::Side,
 };
-use striae_mesh::{ElementId, NodeId, Vec3};
+use striae_mesh::{NodeId, Vec3};
 use striae_surface::node::SurfaceNode;
 
 use crate::{
@@ -30,7 +32,9 @@ use crate::{
 };
 
 pub use close::close;
+pub use crowd::opposite;
 pub use facing::{Turned, turned};
+pub use faults::{Closing, InitialFault};
 pub use offsets::{Offsets, meant_depth};
 pub use reach::may_meet;
 pub use surfaces::surfaces;
@@ -40,145 +44,16 @@ pub(crate) const LARGEST_OVERLAP: f64 = 0.02;
 /// Overlap over the local facet size that is round-off.
 pub const ROUND_OFF: f64 = 1e-9;
 
-/// What cannot be simulated as meshed.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum InitialFault {
-    /// Bodies overlap.
-    #[error(
-        "pair `{pair}`: `{body}` is {depth:.3e} inside `{other}` at ({:.6}, {:.6}, {:.6}), next to its {node}; that is {:.0} % of the local facet size. {}",
-        at.x, at.y, at.z, 100.0 * share, closing.remedy()
-    )]
-    Overlap {
-        /// Name of the pair.
-        pair: String,
-        /// Body or rigid surface of the node.
-        body: String,
-        /// The node.
-        node: NodeId,
-        /// What it is inside of.
-        other: String,
-        /// Where it is.
-        at: Vec3,
-        /// How deep.
-        depth: f64,
-        /// The same over the local facet size.
-        share: f64,
-        /// Whether nodes have been moved against it.
-        closing: Closing,
-    },
-    /// Bodies overlap by so much that their other side is nearer.
-    #[error(
-        "pair `{pair}`: `{body}` is {depth:.3e} inside `{other}` at ({:.6}, {:.6}, {:.6}), next to its {node}, which is {:.0} % of the thickness of `{other}` there, {thickness:.3e}, and {:.0} % of the local facet size {size:.3e}. Overlaps are pressed out up to half the thickness; beyond, the other side of `{other}` is nearer. Move the bodies apart in the mesh, or bring them together in a step",
-        at.x, at.y, at.z, 100.0 * depth / thickness, 100.0 * depth / size
-    )]
-    Deep {
-        /// Name of the pair.
-        pair: String,
-        /// Body or rigid surface of the node.
-        body: String,
-        /// The node.
-        node: NodeId,
-        /// What it is inside of.
-        other: String,
-        /// Where it is.
-        at: Vec3,
-        /// How deep.
-        depth: f64,
-        /// How thick the other one is there.
-        thickness: f64,
-        /// The local facet size.
-        size: f64,
-    },
-    /// No faces are near enough to be taken as touching.
-    #[error(
-        "pair `{pair}`: `interference` is measured from faces that touch, but none of the two sides face each other within the search distance of the pair, half a facet unless it is stated; the smallest gap is {gap:.3e}. Set `search_distance` to more than the gap between the faces that fit, or move them together in the mesh"
-    )]
-    Unseated {
-        /// Name of the pair.
-        pair: String,
-        /// The smallest gap.
-        gap: f64,
-    },
-    /// A body is on the wrong side of a rigid surface.
-    #[error(
-        "pair `{pair}`: body `{body}` is wholly behind `{rigid}`, whose normal points away from it; turn the normal of `{rigid}` round"
-    )]
-    Behind {
-        /// Name of the pair.
-        pair: String,
-        /// The body.
-        body: String,
-        /// The rigid surface.
-        rigid: String,
-    },
-    /// The sides look away from each other, as where facets are turned inside out.
-    #[error(
-        "pair `{pair}`: the surface of `{body}` looks away from that of `{other}`, so they cannot touch: at {node} of `{body}`, ({:.6}, {:.6}, {:.6}), both normals point the same way. {}",
-        at.x, at.y, at.z, turning(rigid)
-    )]
-    Away {
-        /// Name of the pair.
-        pair: String,
-        /// Body or rigid surface of the node.
-        body: String,
-        /// Name of the other one.
-        other: String,
-        /// The node.
-        node: NodeId,
-        /// Where it is.
-        at: Vec3,
-        /// Rigid surface that is a side, if one is.
-        rigid: Option<String>,
-    },
-    /// Moving nodes would turn an element inside out.
-    #[error(
-        "pair `{pair}`: `initial = \"close\"` would turn {element} of body `{body}` inside out. Set `initial = \"resolve\"` to press overlaps out in the first step instead, close only gaps that are small beside the elements, such as `initial = {{ close = 0 }}` for none, or mend the mesh"
-    )]
-    Inverted {
-        /// Name of the pair.
-        pair: String,
-        /// The body.
-        body: String,
-        /// The first such element.
-        element: ElementId,
-    },
-}
-
-/// Whether nodes of a pair have been moved to close its gaps and overlaps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Closing {
-    /// They have not.
-    Open,
-    /// They have.
-    Made,
-}
-
-impl Closing {
-    /// What to do about an overlap that is there.
-    fn remedy(self) -> &'static str {
-        match self {
-            Self::Made => {
-                "It is left after `initial = \"close\"` has moved the nodes of the smaller or finer side: between these nodes the other side reaches deeper. Set `initial = \"resolve\"` to press it out in the first step, refine the side that was moved, or mend the mesh"
-            }
-            Self::Open => {
-                "Mend the mesh, or set `initial = \"close\"` to move nodes or `initial = \"resolve\"` to press the overlap out in the first step"
-            }
-        }
-    }
-}
-
-impl InitialFault {
-    /// Name of the pair.
-    pub fn pair(&self) -> &str {
-        match self {
-            Self::Overlap { pair, .. }
-            | Self::Deep { pair, .. }
-            | Self::Unseated { pair, .. }
-            | Self::Behind { pair, .. }
-            | Self::Away { pair, .. }
-            | Self::Inverted { pair, .. } => pair,
-        }
-    }
+/// The fault that many facets of a pair lie opposite to one.
+pub fn crowded(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
+    let found = crowd::crowd(model, pair, fit)?;
+    Some(InitialFault::Crowded {
+        pair: model.pairs[pair.0].name.clone(),
+        body: other_name(model, pair, found.side).to_owned(),
+        other: other_name(model, pair, found.side.opposite()).to_owned(),
+        count: found.count,
+        at: found.at,
+    })
 }
 
 /// How all pairs fit; `None` for pairs that are no pairs.
@@ -269,16 +144,6 @@ pub fn away(model: &Model, pair: PairId, Turned { side, node, at }: Turned) -> I
         node,
         at,
         rigid,
-    }
-}
-
-/// Advice for surfaces that look away from each other.
-fn turning(rigid: &Option<String>) -> String {
-    match rigid {
-        Some(rigid) => format!(
-            "Turn the facets of `{rigid}` round (list their corners counter-clockwise as seen from where the body is), or name the facets of the body that face it"
-        ),
-        None => "Name the facets that face each other".to_owned(),
     }
 }
 

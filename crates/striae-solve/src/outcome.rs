@@ -32,7 +32,9 @@ pub enum CutBack {
         norms: Norms,
     },
     /// An element was turned inside out.
-    #[error("body `{body}`, {element}")]
+    #[error(
+        "body `{body}`, {element}; it is pressed or sheared too far there: move the body by less, load it less, or refine the mesh"
+    )]
     InvertedElement {
         /// Name of the body.
         body: String,
@@ -246,7 +248,7 @@ fn overlap_text(body: &str, node: striae_mesh::NodeId, other: &str, depth: f64) 
         false => format!("{node} of `{body}` is {depth:.3e} inside `{other}`"),
     };
     format!(
-        "{through}, and no pair lets the surfaces there touch; state a pair of them, or keep them apart"
+        "{through}, and no pair lets the surfaces there touch; let everything touch (`all = true` of `[contact]`), state a pair of them, or keep them apart"
     )
 }
 
@@ -258,6 +260,12 @@ fn solving(place: &str, error: &SolveError) -> String {
         }
         SolveError::Singular { .. } => {
             "; prescribe displacements that hold it, load it towards what it touches, or set `stabilise = true` in its pair".to_owned()
+        }
+        SolveError::NotFinite { .. } => {
+            " has a term that is infinite or not a number; are moduli, sizes and loads in one system of units, and have all facets there an area?".to_owned()
+        }
+        SolveError::NotPositiveDefinite { .. } => {
+            " resists some motion the wrong way round; take smaller increments, or other constants of the material".to_owned()
         }
         error => format!(": {error}"),
     }

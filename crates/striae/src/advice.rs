@@ -19,10 +19,13 @@ mod friction;
 mod hold;
 mod joins;
 mod parts;
+mod pressed;
 mod resolution;
+mod rim;
 mod sagitta;
 mod setup;
 mod shape;
+mod sizes;
 mod textures;
 mod ties;
 mod units;
@@ -123,15 +126,26 @@ impl Advice {
         hold::look(model, &fits, &mut advice);
         everything::look(model, &mut advice);
         fit::look(model, &fits, &mut advice);
+        setup::prescribed::look(model, &mut advice);
         sagitta::look(model, &fits, &mut advice);
-        resolution::look(model, &mut advice);
+        pressed::look(model, &fits, &mut advice);
+        resolution::look(model, &fits, &mut advice);
+        rim::look(model, &mut advice);
+        sizes::look(model, &mut advice);
         ties::look(model, &mut advice);
         friction::look(model, &mut advice);
         textures::look(model, &mut advice);
         if advice.faults.is_empty() {
-            cost::look(model, &mut advice);
+            cost::look(model, &fits, &mut advice);
         }
         advice
+    }
+
+    /// True where there is a warning of one of these topics about a part.
+    fn warns_of(&self, name: &str, topics: &[Topic]) -> bool {
+        self.warnings
+            .iter()
+            .any(|warning| topics.contains(&warning.topic) && warning.name.as_deref() == Some(name))
     }
 
     fn fault(&mut self, topic: Topic, name: &str, text: String) {

@@ -245,6 +245,11 @@ const LADDER: &[Row] = &[
         outside: &["faer", "nalgebra", "serde_json"],
     },
     Row {
+        name: "striae-mutants",
+        own: &["striae"],
+        outside: &["crc32fast"],
+    },
+    Row {
         name: VERIFICATION,
         own: &[],
         outside: &["nalgebra"],

@@ -51,7 +51,7 @@ impl Place {
             layer: match package {
                 // Build scripts speak to cargo by printing.
                 _ if path.ends_with("build.rs") => Layer::Program,
-                "striae-cli" | "striae-bench" | "xtask" => Layer::Program,
+                "striae-cli" | "striae-bench" | "striae-mutants" | "xtask" => Layer::Program,
                 name if FILE_CRATES.contains(&name) => Layer::Files,
                 _ => Layer::Pure,
             },

@@ -5,7 +5,8 @@ mod json;
 
 use crate::{failure::Failure, source::Source};
 use std::{collections::BTreeSet, io::Write};
-use striae::advice::Advice;
+use striae::advice::{Advice, Remark, Topic};
+use striae_deck::{Deck, Location, Part};
 use striae_law::bulk::{LameConstants, Material};
 use striae_mesh::NodeId;
 use striae_solve::{
@@ -36,12 +37,8 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     };
     let advice = Advice::of(&deck.model);
     match arguments.json {
-        true => writeln!(
-            out,
-            "{:#}",
-            json::of_model(&deck.model, &deck.notes, &advice)
-        )?,
-        false => write!(out, "{}", summary(&deck.model, &deck.notes, &advice))?,
+        true => writeln!(out, "{:#}", json::of_model(&deck, &advice))?,
+        false => write!(out, "{}", summary(&deck, &advice))?,
     }
     match advice.faults.len() {
         0 => Ok(()),
@@ -49,7 +46,8 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     }
 }
 
-fn summary(model: &Model, notes: &[String], advice: &Advice) -> String {
+fn summary(deck: &Deck, advice: &Advice) -> String {
+    let Deck { model, notes, .. } = deck;
     let mut lines = vec![model.title.clone()];
     for body in &model.bodies {
         lines.push(body_line(body));
@@ -64,7 +62,11 @@ fn summary(model: &Model, notes: &[String], advice: &Advice) -> String {
         ("warning", &advice.warnings),
         ("fault", &advice.faults),
     ] {
-        lines.extend(remarks.iter().map(|remark| format!("{class}: {remark}")));
+        lines.extend(remarks.iter().map(|remark| {
+            let at = place(deck, remark);
+            let at = at.map(|at| format!(" [{}:{}]", at.file, at.position.line));
+            format!("{class}: {remark}{}", at.unwrap_or_default())
+        }));
     }
     let counted = |count: usize, one: &str| match count {
         0 => format!("no {one}s"),
@@ -78,6 +80,17 @@ fn summary(model: &Model, notes: &[String], advice: &Advice) -> String {
         counted(warnings, "warning")
     ));
     lines.join("\n") + "\n"
+}
+
+/// Where the deck states what a remark is about.
+fn place<'d>(deck: &'d Deck, remark: &Remark) -> Option<&'d Location> {
+    let kinds = match remark.topic {
+        Topic::Fit | Topic::Facing | Topic::NeverMeets | Topic::Friction | Topic::Texture => {
+            [Part::Pair, Part::Body, Part::Tie, Part::Rigid, Part::Step]
+        }
+        _ => [Part::Body, Part::Rigid, Part::Step, Part::Pair, Part::Tie],
+    };
+    deck.places.of(&kinds, remark.name.as_deref()?)
 }
 
 fn body_line(body: &Body) -> String {
@@ -187,7 +200,7 @@ mod tests {
     fn the_summary_counts_what_the_deck_describes() {
         let text = include_str!("template.toml");
         let deck = deck::parse(text, "deck.toml", Path::new("")).unwrap();
-        let said = summary(&deck.model, &[], &Advice::of(&deck.model));
+        let said = summary(&deck, &Advice::of(&deck.model));
         assert!(
             said.contains("body `lower`: 75 nodes, 32 elements; neo-Hookean"),
             "{said}"

@@ -60,7 +60,27 @@ impl Generator {
                 let [core, band, layers] = *divisions;
                 Some(product(&[4, core, core.saturating_add(band), layers]))
             }
-            Self::HalfCylinder(_) => None,
+            Self::HalfCylinder(slice) => {
+                let layer = HalfCylinder {
+                    layers: 1,
+                    ..slice.clone()
+                };
+                let layer = layer.mesh().ok()?.element_count() as u128;
+                Some(layer.saturating_mul(slice.layers as u128))
+            }
+        }
+    }
+
+    /// About how many nodes the mesh will have, as far as that is known before it is made.
+    pub(super) fn nodes(&self) -> Option<u128> {
+        let beside = |counts: &[usize]| {
+            let counts = counts.iter().map(|count| *count as u128 + 1);
+            counts.fold(1, u128::saturating_mul)
+        };
+        match self {
+            Self::Block(block) => Some(beside(&block.divisions)),
+            Self::Annulus(ring) => Some(beside(&ring.divisions)),
+            _ => self.elements(),
         }
     }
 

@@ -17,6 +17,10 @@ use striae_output::available_bytes;
 
 /// Bytes that making and checking a mesh takes for each element, measured on blocks.
 const BYTES: f64 = 900.0;
+/// Bytes that the thriftiest solver takes for each node, by the formula of `striae check`.
+const RUN_BYTES: f64 = 15e3;
+/// Memory by formula over that which suffices.
+const UNCERTAIN: f64 = 1.5;
 
 /// The mesh of a body, with what there is to say about its file; `None` after its faults have been noted.
 ///
@@ -55,8 +59,14 @@ fn too_large(generator: &generator::Generator, body: &str) -> Option<FaultKind> 
     let elements = generator
         .elements()
         .filter(|count| *count <= MOST_ELEMENTS)?;
-    let needed = BYTES * elements as f64;
-    let available = available_bytes().filter(|available| needed > *available)?;
+    let made = BYTES * elements as f64;
+    let run = RUN_BYTES * generator.nodes().unwrap_or(0) as f64;
+    let available = available_bytes()?;
+    let needed = match (made > available, run > UNCERTAIN * available) {
+        (_, true) => run,
+        (true, false) => made,
+        (false, false) => return None,
+    };
     Some(FaultKind::MeshMemory {
         body: body.to_owned(),
         elements,

@@ -20,6 +20,7 @@ mod listed;
 mod material;
 mod materials;
 mod mesh;
+mod named;
 mod nodal;
 mod output;
 mod place;
@@ -92,6 +93,7 @@ pub(super) fn deck(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_
         model: fitted.ok()?,
         output,
         notes,
+        places: named::places(raw, faults),
         together: together(raw, faults),
     })
 }

@@ -52,9 +52,9 @@ pub(super) fn span(path: &Path, raw: &raw::Simulation, places: &Places) -> Span 
             let tie = list(&raw.tie).get(*index);
             tie.map(|tie| of_tie(tie, rest))
         }
-        [Field("rigid_surfaces"), Index(index), ..] => {
+        [Field("rigid_surfaces"), Index(index), rest @ ..] => {
             let rigid = list(&raw.rigid).get(*index);
-            rigid.map(|rigid| rigid.span.clone())
+            rigid.map(|rigid| of_rigid(rigid, rest))
         }
         [Field("bodies"), Index(index), rest @ ..] => {
             let body = list(&raw.body).get(*index);
@@ -74,6 +74,22 @@ pub(super) fn released_set(path: &Path, raw: &raw::Simulation, places: &Places) 
     let mut releases = releases.filter(|release| release.span == span);
     let set = releases.next()?.value.nodes.as_ref()?;
     Some(set.value.0.clone())
+}
+
+fn of_rigid(rigid: &At<raw::Rigid>, rest: &[Segment]) -> Span {
+    let shape = rigid.value.shape.as_ref();
+    let found = match (rest, shape) {
+        (
+            [Segment::Field("shape"), ..],
+            Some(raw::RigidShape::Mesh(raw::RigidMesh { mesh, .. })),
+        ) => mesh.as_ref().map(|at| &at.span),
+        (
+            [Segment::Field("shape"), ..],
+            Some(raw::RigidShape::Plane(raw::RigidPlane { plane, .. })),
+        ) => plane.as_ref().map(|at| &at.span),
+        _ => None,
+    };
+    found.unwrap_or(&rigid.span).clone()
 }
 
 fn of_body(body: &At<raw::Body>, rest: &[Segment]) -> Span {

@@ -206,7 +206,7 @@ impl Names {
 }
 
 /// Most members that one row may generate.
-const MOST_GENERATED: u64 = 100_000_000;
+const MOST_GENERATED: u64 = 10_000_000;
 
 fn generated(row: &Row<'_>) -> Result<Vec<u64>, MeshFileFault> {
     let expected = "first, last and step";

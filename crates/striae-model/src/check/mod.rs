@@ -6,6 +6,8 @@
 
 mod actuations;
 mod conditions;
+mod extents;
+mod facets;
 mod hold;
 mod inertia;
 mod numbers;
@@ -196,6 +198,10 @@ impl<'a> Draft<'a> {
         ties::check(self, &mut faults);
         let partial = steps::check(self, &impossible, &mut faults);
         triangles::check(self, &mut faults);
+        extents::check(self, &mut faults);
+        if faults.0.is_empty() {
+            facets::check(self, &mut faults);
+        }
         sections::check(self, &mut faults);
         if self.known == Known::Whole {
             if impossible.is_empty() && partial.is_empty() {

@@ -43,6 +43,7 @@ pub(super) fn linear_system(
     error: SolveError,
 ) -> CutBack {
     let place = match (&error, numbering) {
+        (SolveError::NotFinite { row }, None) => equilibrium(problem, layout, *row),
         (SolveError::Singular { unknown, .. }, None) => place(problem, layout, *unknown),
         (SolveError::Singular { unknown, .. }, Some(numbering)) => {
             let own = numbering.own.contains(unknown);
@@ -61,6 +62,24 @@ fn told(problem: &Problem, own: &str) -> String {
     let all = problem.share.team().gather(own.as_bytes());
     let words = all.iter().map(|words| String::from_utf8_lossy(words));
     words.collect()
+}
+
+/// Words for the equation of a global unknown.
+fn equilibrium(problem: &Problem, layout: &Layout, row: usize) -> String {
+    let offsets = layout.offsets();
+    let at = offsets.partition_point(|&offset| offset <= row) - 1;
+    let rigid = (0..problem.tied.len()).find(|&rigid| layout.rigid(rigid) == Some(offsets[at]));
+    match rigid {
+        Some(rigid) => {
+            let name = &problem.model.rigid_surfaces[rigid].name;
+            format!("the equilibrium of rigid body `{name}`")
+        }
+        None => {
+            let (body, node) = problem.named_node(GlobalNode(at));
+            let name = &problem.model.bodies[body].name;
+            format!("the equilibrium of {node} of body `{name}`")
+        }
+    }
 }
 
 /// Words for a global unknown.

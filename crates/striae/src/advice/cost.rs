@@ -1,8 +1,9 @@
 //! Unknowns, memory and time of a run.
 //!
-//! The linear systems of models up to [`COUNTED`] nodes are analysed. Beyond, factors have
-//! about as many entries and operations as nested dissection gives on blocks of `n`
-//! unknowns, and the iterative solver takes what it took on a million:
+//! The linear systems of models up to [`COUNTED`] nodes are analysed, unless their contact takes
+//! long to set up, as where many facets lie opposite to one. Beyond, factors have about as many
+//! entries and operations as nested dissection gives on blocks of `n` unknowns, and the
+//! iterative solver takes what it took on a million:
 //!
 //! ```text
 //! direct      180 MB (n/2e4)^(4/3),  1.3e10 (n/2e4)^2 operations
@@ -12,9 +13,11 @@
 //! Time is that of six iterations an increment, with the fewest increments, at 4e9
 //! operations a second.
 
-use striae_model::{Backend, ContactSurface, Model};
+use striae_contact::{initial::Fit, opposite::Opposite};
+use striae_model::{Backend, ContactSurface, Model, PairId};
 use striae_output::available_bytes;
 use striae_solve::{
+    initial::{opposite, other_name},
     newton::{Analysis, Estimate, estimate},
     problem::Problem,
 };
@@ -26,6 +29,8 @@ use crate::error::Error;
 const COUNTED: usize = 60_000;
 /// Unknowns from which on the solver that chooses by cost iterates.
 const ITERATED: usize = 450_000;
+/// Memory for the choice of the unknowns of a pair from which on it takes long.
+const CROWDED: f64 = 1.5e9;
 /// Iterations in an increment.
 const ITERATIONS: f64 = 6.0;
 /// Memory by formula over that which suffices.
@@ -111,9 +116,10 @@ fn increments(model: &Model) -> f64 {
 }
 
 /// Notes unknowns, memory and time.
-pub(super) fn look(model: &Model, advice: &mut Advice) {
+pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
     let nodes: usize = model.bodies.iter().map(|of| of.mesh.positions.len()).sum();
-    if nodes > COUNTED {
+    let is_crowded = crowded(model, fits, advice);
+    if nodes > COUNTED || is_crowded {
         let cost = Cost::estimated(model);
         let Cost {
             unknowns,
@@ -144,6 +150,37 @@ pub(super) fn look(model: &Model, advice: &mut Advice) {
             advice.fault(Topic::Cost, "", text);
         }
     }
+}
+
+/// Warns of pairs with many facets opposite to one; true where there is one.
+fn crowded(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) -> bool {
+    let mut found = false;
+    for (index, fit) in fits.iter().enumerate() {
+        let (pair, id) = (&model.pairs[index], PairId(index));
+        let opposite = fit.as_ref().and_then(|fit| opposite(model, id, fit));
+        let Some(opposite) = opposite.filter(|opposite| opposite.total > CROWDED) else {
+            continue;
+        };
+        found = true;
+        let Opposite {
+            side,
+            at,
+            count,
+            total,
+            ..
+        } = opposite;
+        let [fine, coarse] = [side, side.opposite()].map(|side| other_name(model, id, side));
+        let text = format!(
+            "pair `{}`: {count} facets of `{fine}` lie opposite one facet of `{coarse}`, at ({:.6}, {:.6}, {:.6}); contact of such different facets takes long, and up to {:.1} GB; refine `{coarse}` there, or make it a rigid surface if it hardly deforms",
+            pair.name,
+            at.x,
+            at.y,
+            at.z,
+            total / 1e9
+        );
+        advice.warn(Topic::Cost, &pair.name, text);
+    }
+    found
 }
 
 fn counted(model: &Model, estimate: &Estimate, advice: &mut Advice) {

@@ -104,7 +104,8 @@ fn looks_away(model: &Model, pair: &Pair) -> bool {
     }
 }
 
-fn area_vectors(model: &Model, side: &ContactSurface) -> Vec<Vec3> {
+/// Area vectors of the facets of a side; none of a plane.
+pub(super) fn area_vectors(model: &Model, side: &ContactSurface) -> Vec<Vec3> {
     match side {
         ContactSurface::Deformable { body, faces } => {
             let mesh = &model.bodies[body.0].mesh;

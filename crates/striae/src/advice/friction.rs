@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use striae_law::friction::{Friction, Law, PressureConstants, RequiredTextures, SlipConstants};
-use striae_model::Model;
+use striae_model::{Model, Pair};
 
 use super::{Advice, Topic};
 
@@ -20,12 +20,30 @@ const NONE: f64 = 0.02;
 pub(super) fn look(model: &Model, advice: &mut Advice) {
     for pair in &model.pairs {
         of_pair(&pair.name, "", &pair.friction, advice);
+        unused(model, pair, advice);
     }
     for step in &model.steps {
         for (pair, friction) in &step.frictions {
             let when = format!(" from step `{}` on", step.name);
             of_pair(&model.pairs[pair.0].name, &when, friction, advice);
         }
+    }
+}
+
+/// Notes textures that no friction of a pair looks at.
+fn unused(model: &Model, pair: &Pair, advice: &mut Advice) {
+    let changes = model.steps.iter().flat_map(|step| &step.frictions);
+    let changes = changes.filter(|(of, _)| model.pairs[of.0].name == pair.name);
+    let mut all = changes
+        .map(|(_, friction)| friction)
+        .chain([&pair.friction]);
+    let unused = all.all(|friction| matches!(friction.law(), Law::Frictionless | Law::Coulomb));
+    if unused && pair.textures.iter().any(Option::is_some) {
+        let name = &pair.name;
+        let text = format!(
+            "pair `{name}` has a texture, but its friction is the same in all directions; `law = \"orthotropic\"` is the simplest that looks at one"
+        );
+        advice.note(Topic::Friction, name, text);
     }
 }
 

@@ -8,9 +8,14 @@
 //! ```
 //!
 //! Of a flat side these are all nodes or none; of a curved one they span the contact, over
-//! whose radius pressures need about five elements.
+//! whose radius pressures need about five elements. Contact of other surfaces is as wide as
+//! [`width`] finds.
+
+mod width;
 
 use std::collections::BTreeSet;
+
+use striae_contact::initial::Fit;
 
 use striae_mesh::{NodeId, Vec3};
 use striae_model::{BodyId, ContactSurface, Freedom, Model, Pair, RigidId, RigidShape, Step};
@@ -21,11 +26,14 @@ use super::{Advice, Topic};
 const FEW: usize = 20;
 
 /// Notes contact of curved surfaces with planes that few nodes resolve.
-pub(super) fn look(model: &Model, advice: &mut Advice) {
+pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
     let Some(step) = model.steps.first() else {
         return;
     };
-    for pair in &model.pairs {
+    for (pair, fit) in model.pairs.iter().zip(fits) {
+        if let Some(fit) = fit {
+            width::look(model, pair, step, fit, advice);
+        }
         if let Some((touching, all)) = nodes(model, pair, step)
             && touching < FEW
             && 2 * touching < all
@@ -63,7 +71,7 @@ fn nodes(model: &Model, pair: &Pair, step: &Step) -> Option<(usize, usize)> {
 }
 
 /// How far a body is moved towards a plane of normal `n` that moves itself.
-fn approach(step: &Step, body: BodyId, rigid: RigidId, n: &Vec3) -> f64 {
+pub(super) fn approach(step: &Step, body: BodyId, rigid: RigidId, n: &Vec3) -> f64 {
     let own = step.displacements.iter().filter(|of| of.body == body);
     let own = own.map(|of| {
         let target = of.components.map(|component| component.unwrap_or(0.0));

@@ -1,6 +1,8 @@
 //! Steps beside the bodies they act on: displacements beside sizes, waves beside durations,
 //! driving forces on coordinates that are held.
 
+pub(super) mod prescribed;
+
 use striae_model::{Body, BodyId, ContactSurface, Freedom, Model, Procedure, RigidMotion, Step};
 
 use super::{Advice, Topic, parts::Part, shape::extent};

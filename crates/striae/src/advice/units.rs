@@ -21,6 +21,8 @@ const NO_STRAIN_BY_FORCE: f64 = 1e-11;
 const PASCALS: [f64; 2] = [2e8, 2e12];
 /// Smallest modulus of soft matter that is in pascals.
 const SOFT: f64 = 1e5;
+/// Length for soft matter, beside moduli in pascals.
+const LONG_SOFT: f64 = 5.0;
 /// Moduli of metals in megapascals.
 const METALS: [f64; 2] = [3e4, 4.5e5];
 /// Extent from which on lengths beside such moduli look like millimetres.
@@ -112,7 +114,7 @@ fn lengths(body: &Body, modulus: f64, advice: &mut Advice) {
     let [low, high] = extent(&body.mesh);
     let longest = (high - low).max();
     let name = &body.name;
-    if modulus > PASCALS[0] && modulus < PASCALS[1] && longest > LONG {
+    if modulus > PASCALS[0] && modulus < PASCALS[1] && longest >= LONG {
         advice.warn(
             Topic::Units,
             name,
@@ -130,7 +132,7 @@ fn soft(body: &Body, [least, most]: [f64; 2], advice: &mut Advice) {
     let name = &body.name;
     // Metals in MPa lie between, and are long in mm.
     let is_metal = METALS[0] <= least && most <= METALS[1];
-    if SOFT <= least && most < PASCALS[0] && longest > LONG && !is_metal {
+    if SOFT <= least && most < PASCALS[0] && longest >= LONG_SOFT && !is_metal {
         advice.note(
             Topic::Units,
             name,

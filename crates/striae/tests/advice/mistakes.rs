@@ -321,8 +321,12 @@ fn displacements_beside_sizes() {
     assert_warned(&[[PRESSED, &by("-50")]], Topic::Units, "50 times as much");
     let slides = PRESSED.replace("x = 0", "x = 50");
     assert_eq!(advice(&[[PRESSED, &slides]]).warnings, []);
+    assert_warned(
+        &[[PRESSED, &by("-3")]],
+        Topic::Units,
+        "by 3.000e0 towards each other, from a gap of 0.000e0, and what is pressed between is 1.000e0 high: nothing would be left",
+    );
     let noted = advice(&[[PRESSED, &by("-3")]]);
-    assert_eq!(noted.warnings, []);
     let mut notes = noted.notes.iter();
     assert!(notes.any(|note| {
         note.text
@@ -353,6 +357,101 @@ fn forces_on_what_is_held() {
     );
     let free = advice(&[[PRESSED, &driven(", free = [\"x\"]")]]);
     assert_eq!(free.warnings, []);
+}
+
+#[test]
+fn loads_on_prescribed_nodes() {
+    let loaded = |load: &str| format!("{PRESSED}\n{load}");
+    let pressure = loaded(r#"pressure = [{ body = "pad", facets = "zmax", value = 10 }]"#);
+    assert_warned(
+        &[[PRESSED, &pressure]],
+        Topic::Hold,
+        "the pressure on facets `zmax` of body `pad` acts on nodes whose displacements along z are all prescribed",
+    );
+    let beside = loaded(r#"traction = [{ body = "pad", facets = "xmax", vector = [10, 0, 0] }]"#);
+    assert_eq!(advice(&[[PRESSED, &beside]]).warnings, []);
+}
+
+#[test]
+fn a_contact_surface_that_is_prescribed() {
+    let sole = PRESSED.replace("zmax", "zmin");
+    assert_warned(
+        &[[PRESSED, &sole]],
+        Topic::Hold,
+        "displacements prescribe all nodes of the contact surface of `pad` along its normal",
+    );
+}
+
+#[test]
+fn a_displacement_of_the_wrong_sign() {
+    assert_warned(
+        &[[PRESSED, &PRESSED.replace("-0.02", "0.02")]],
+        Topic::NeverMeets,
+        "moves `pad` and `floor` apart by 2.000e-2",
+    );
+}
+
+#[test]
+fn a_tool_in_another_unit_of_length() {
+    let plane = "plane = { point = [0, 0, 0], normal = [0, 0, 1] }";
+    let facet = "mesh = { positions = [[0, 0, 0], [1e-3, 0, 0], [1e-3, 1e-3, 0], [0, 1e-3, 0]], facets = [[0, 1, 2, 3]] }";
+    let found = advice(&[[plane, facet]]);
+    let mut warnings = found.warnings.iter();
+    assert!(warnings.any(|warning| {
+        warning.topic == Topic::Units
+            && (warning.text).contains("are both meshes in one unit of length?")
+    }));
+}
+
+#[test]
+fn facets_of_a_tool_that_are_none_or_turned() {
+    let plane = "plane = { point = [0, 0, 0], normal = [0, 0, 1] }";
+    let tool = |facets: &str| {
+        format!(
+            "mesh = {{ positions = [[-1, -1, 0], [1, -1, 0], [3, -1, 0], [-1, 3, 0], [1, 3, 0], [3, 3, 0]], facets = [{facets}] }}"
+        )
+    };
+    assert!(read(&[[plane, &tool("[0, 1, 4, 3], [1, 2, 5, 4]")]]).is_ok());
+    let turned = refusal(&[[plane, &tool("[0, 1, 4, 3], [1, 4, 5, 2]")]]);
+    assert!(
+        turned.starts_with(
+            "deck.toml:17:8: facets 0 and 1 of rigid surface `floor` look to opposite sides at their edge from (1.000000, -1.000000, 0.000000) to (1.000000, 3.000000, 0.000000); turn one of them round"
+        ),
+        "{turned}"
+    );
+    let flat = refusal(&[[plane, &tool("[0, 1, 4, 3], [0, 1, 2, 1]")]]);
+    assert!(
+        flat.starts_with("deck.toml:17:8: facet 1 of rigid surface `floor`, with a corner at (-1.000000, -1.000000, 0.000000), has no area"),
+        "{flat}"
+    );
+}
+
+#[test]
+fn contact_that_spreads_onto_facets_outside_its_pair() {
+    let half = [
+        PAD,
+        "origin = [0, 0, 0], size = [1, 1, 1], divisions = [4, 4, 4]",
+    ];
+    let set = [
+        "material = \"rubber\"\nmesh",
+        "material = \"rubber\"\nfacet_sets = [{ name = \"half\", of = \"zmin\", from = [0, 0, 0], to = [0.5, 1, 0] }]\nmesh",
+    ];
+    assert_warned(
+        &[half, set, [r#"facets = "zmin""#, r#"facets = "half""#]],
+        Topic::Fit,
+        "contact with `floor` spreads that far, and the surface of `pad` goes on smoothly beyond the facets of the pair, as at (0.500000, 0.000000, 0.000000)",
+    );
+}
+
+#[test]
+fn a_texture_that_friction_does_not_look_at() {
+    let textured = [
+        FLOOR,
+        r#"b = { rigid = "floor", texture = { uniform = [1, 0, 0] } }"#,
+    ];
+    let noted = advice(&[textured]);
+    let mut notes = noted.notes.iter();
+    assert!(notes.any(|note| note.text.contains("friction is the same in all directions")));
 }
 
 #[test]
@@ -430,6 +529,33 @@ fn a_curved_contact_of_few_nodes() {
 
 /// A thin plate on a block whose faces have other numbers, and a body in two pairs.
 #[test]
+fn a_curved_contact_narrower_than_the_facets_of_the_other_body() {
+    let cap = r#"name = "cap"
+material = "rubber"
+mesh = { generator = "capped-block", apex = [0.5, 0.5, 1], size = [0.8, 0.8], height = 0.4, radius = 1, element_size = 0.1 }
+[[body]]
+name = "pad"
+material = "rubber""#;
+    let held = r#"displacement = [{ body = "pad", nodes = "zmin", x = 0, y = 0, z = 0 }, { body = "cap", nodes = "zmax", x = 0, y = 0, z = -0.005 }]"#;
+    let noted = advice(&[
+        ["name = \"pad\"\nmaterial = \"rubber\"", cap],
+        [
+            r#"a = { body = "pad", facets = "zmin" }"#,
+            r#"a = { body = "cap", facets = "cap" }"#,
+        ],
+        [FLOOR, r#"b = { body = "pad", facets = "zmax" }"#],
+        [PRESSED, held],
+    ]);
+    // 2 sqrt(2 R u) = .2 wide, .6 of a facet of 1/3.
+    let mut notes = noted.notes.iter();
+    assert!(
+        notes.any(|note| note.text.contains("0.6 facets of `pad`")),
+        "{:?}",
+        noted.notes
+    );
+}
+
+#[test]
 fn thin_bodies_between_others_are_judged_by_their_own_meshes() {
     for divisions in ["[2, 2, 1]", "[6, 6, 1]"] {
         let plate = format!(
@@ -454,6 +580,49 @@ name = "sole""#;
         ]);
         assert_eq!(found.faults, []);
     }
+}
+
+#[test]
+fn facets_that_are_far_smaller_than_those_opposite() {
+    let with = |divisions: &str| {
+        let plate = format!(
+            r#"name = "pad"
+material = "rubber"
+mesh = {{ generator = "block", origin = [0, 0, 1], size = [1, 1, 0.1], divisions = {divisions} }}
+[[body]]
+name = "base"
+material = "rubber""#
+        );
+        let pairs = r#"[[pair]]
+name = "upper"
+a = { body = "base", facets = "zmax" }
+b = { body = "pad", facets = "zmin" }
+[[pair]]
+name = "sole""#;
+        let sole = r#"a = { body = "base", facets = "zmin" }"#;
+        read(&[
+            ["name = \"pad\"\nmaterial = \"rubber\"", &plate],
+            ["[[pair]]\nname = \"sole\"", pairs],
+            [r#"a = { body = "pad", facets = "zmin" }"#, sole],
+        ])
+    };
+    let warned = |divisions: &str| {
+        let warnings = Advice::of(&with(divisions).expect("a valid deck").model).warnings;
+        let mut about = warnings.into_iter().map(|warning| warning.text);
+        about.find(|text| text.contains("facets of `pad` lie opposite one facet of `base`"))
+    };
+    assert_eq!(warned("[20, 20, 1]"), None);
+    let told = warned("[400, 3, 1]").expect("a warning");
+    assert!(
+        told.contains("133 facets") || told.contains("134 facets"),
+        "{told}"
+    );
+    let refused = with("[3000, 3, 1]").expect_err("a fault").to_string();
+    assert!(
+        refused.contains("facets of `pad` lie opposite one facet of `base`")
+            && refused.contains("Refine `base` there"),
+        "{refused}"
+    );
 }
 
 #[test]

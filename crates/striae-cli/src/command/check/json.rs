@@ -2,10 +2,9 @@
 
 use serde_json::{Value, json};
 use striae::advice::{Advice, Remark};
-use striae_deck::Faults;
-use striae_solve::model::Model;
+use striae_deck::{Deck, Faults};
 
-use super::side_nodes;
+use super::{place, side_nodes};
 
 /// Faults of a deck with their places.
 pub fn of_faults(faults: &Faults) -> Value {
@@ -21,7 +20,9 @@ pub fn of_faults(faults: &Faults) -> Value {
 }
 
 /// A model with what there is to say about it.
-pub fn of_model(model: &Model, notes: &[String], advice: &Advice) -> Value {
+pub fn of_model(deck: &Deck, advice: &Advice) -> Value {
+    let Deck { model, notes, .. } = deck;
+    let remarks = |all: &[Remark]| remarks(deck, all);
     let bodies = model.bodies.iter().map(|body| {
         json!({
             "name": body.name,
@@ -48,9 +49,16 @@ pub fn of_model(model: &Model, notes: &[String], advice: &Advice) -> Value {
     })
 }
 
-fn remarks(remarks: &[Remark]) -> Vec<Value> {
-    let all = remarks.iter().map(
-        |remark| json!({ "topic": remark.topic.name(), "name": remark.name, "text": remark.text }),
-    );
+fn remarks(deck: &Deck, remarks: &[Remark]) -> Vec<Value> {
+    let all = remarks.iter().map(|remark| {
+        let at = place(deck, remark);
+        json!({
+            "topic": remark.topic.name(),
+            "name": remark.name,
+            "text": remark.text,
+            "file": at.map(|at| &at.file),
+            "line": at.map(|at| at.position.line),
+        })
+    });
     all.collect()
 }

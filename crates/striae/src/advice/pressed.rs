@@ -1,0 +1,198 @@
+//! Bodies that a step would press to nothing, and pairs that it moves apart.
+//!
+//! A body of height `h` along the normal `n` of its contact surface, whose nodes are moved by
+//! `u` against a surface at a distance `g`, is left with
+//!
+//! ```text
+//! h - (u . n - g)
+//! ```
+
+use striae_contact::initial::Fit;
+use striae_mesh::{NodeId, Vec3};
+use striae_model::{BodyId, ContactSurface, Freedom, Model, Pair, Procedure, RigidId, Step};
+
+use super::{Advice, Topic, fit::area_vectors};
+
+/// Length of the sum of area vectors over the area from which on a surface has a normal.
+const NORMAL: f64 = 0.7;
+/// Part of the height by which pressing is worth a note, and a warning.
+const PRESSED: [f64; 2] = [0.5, 1.0];
+/// Part of the extent of a body over which nodes are prescribed that press it.
+const SPREAD: f64 = 0.5;
+/// Way over the height that is none.
+const NO_WAY: f64 = 1e-9;
+
+/// Notes bodies that lose much of their height.
+pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
+    for (pair, fit) in model.pairs.iter().zip(fits) {
+        let ways: Vec<Way> = model
+            .steps
+            .iter()
+            .filter_map(|step| Way::of(model, pair, step))
+            .collect();
+        let Some(fit) = fit else { continue };
+        pressed(pair, fit, &ways, advice);
+        apart(model, pair, &ways, advice);
+    }
+}
+
+/// How far a step moves the sides of a pair towards each other.
+struct Way<'m> {
+    step: &'m Step,
+    /// Names of the two sides.
+    names: [&'m str; 2],
+    /// Way towards each other along the normal.
+    towards: f64,
+    /// Height that can be pressed.
+    height: f64,
+}
+
+impl<'m> Way<'m> {
+    fn of(model: &'m Model, pair: &Pair, step: &'m Step) -> Option<Self> {
+        let ContactSurface::Deformable { body, .. } = &pair.a else {
+            return None;
+        };
+        let vectors = area_vectors(model, &pair.a);
+        let sum: Vec3 = vectors.iter().sum();
+        let area: f64 = vectors.iter().map(Vec3::norm).sum();
+        if area.is_nan() || sum.norm() <= NORMAL * area {
+            return None;
+        }
+        let n = sum.normalize();
+        let (own, other) = (of_body(model, *body, step, &n), &pair.b);
+        let (own, mut height) = (own?, height(model, *body, &n));
+        let (opposite, name) = if let ContactSurface::Deformable { body, .. } = other {
+            height += self::height(model, *body, &n);
+            let name = &model.bodies[body.0].name;
+            (of_body(model, *body, step, &n)?, name)
+        } else if let ContactSurface::Rigid(rigid) = other {
+            let name = &model.rigid_surfaces[rigid.0].name;
+            (of_rigid(step, *rigid, &n)?, name)
+        } else {
+            return None;
+        };
+        Some(Self {
+            step,
+            names: [&model.bodies[body.0].name, name],
+            towards: own - opposite,
+            height,
+        })
+    }
+}
+
+/// Extent of a body along a direction.
+fn height(model: &Model, body: BodyId, n: &Vec3) -> f64 {
+    let positions = model.bodies[body.0].mesh.positions.iter();
+    let along = positions.map(|x| x.dot(n));
+    let [low, high] = along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| {
+        [low.min(at), high.max(at)]
+    });
+    high - low
+}
+
+/// The farthest that prescribed nodes of a body go along a direction; `None` where loads, ties
+/// or inertia may move the body as well.
+fn of_body(model: &Model, body: BodyId, step: &Step, n: &Vec3) -> Option<f64> {
+    let tied = model.ties.iter().any(|tie| tie.joins(body));
+    let rigid = model.rigid_surfaces.iter();
+    let tied = tied
+        || rigid
+            .flat_map(|rigid| &rigid.ties)
+            .any(|(of, _)| *of == body);
+    let loaded = step.gravity.is_some() || step.loads.iter().any(|load| load.body == body);
+    if tied || loaded || step.procedure != Procedure::QuasiStatic {
+        return None;
+    }
+    let conditions = step.displacements.iter().filter(|of| of.body == body);
+    let conditions = conditions.filter(|of| spreads(model, body, &of.nodes, n));
+    let along = |axis: usize| n[axis].abs() > NORMAL;
+    let ways = conditions.filter_map(|of| {
+        let axis = (0..3).find(|axis| along(*axis) && of.components[*axis].is_some())?;
+        Some(of.components[axis]? * n[axis])
+    });
+    let farthest = ways.max_by(|a, b| a.abs().total_cmp(&b.abs()));
+    Some(farthest.unwrap_or(0.0))
+}
+
+/// True where nodes extend over much of a body across a direction; what is held at its ends is
+/// bent, not pressed.
+fn spreads(model: &Model, body: BodyId, nodes: &[NodeId], n: &Vec3) -> bool {
+    let positions = &model.bodies[body.0].mesh.positions;
+    let mut across = (0..3).filter(|axis| n[*axis].abs() <= NORMAL);
+    across.all(|axis| {
+        let extent = |all: &mut dyn Iterator<Item = &Vec3>| {
+            let start = [f64::INFINITY, f64::NEG_INFINITY];
+            let [low, high] = all.fold(start, |[low, high], x| {
+                [low.min(x[axis]), high.max(x[axis])]
+            });
+            high - low
+        };
+        let own = extent(&mut nodes.iter().map(|node| &positions[node.index()]));
+        own >= SPREAD * extent(&mut positions.iter())
+    })
+}
+
+/// How far a rigid surface goes along a direction; `None` where it is free or turns.
+fn of_rigid(step: &Step, rigid: RigidId, n: &Vec3) -> Option<f64> {
+    let mut way = Vec3::zeros();
+    for motion in step.rigid_motions.iter().filter(|of| of.surface == rigid) {
+        for (at, coordinate) in motion.coordinates.iter().enumerate() {
+            match coordinate {
+                Freedom::AsBefore => {}
+                Freedom::To(target) if at < 3 => way[at] = *target,
+                Freedom::To(angle) if *angle == 0.0 => {}
+                Freedom::To(_) | Freedom::Free => return None,
+            }
+        }
+    }
+    Some(way.dot(n))
+}
+
+fn pressed(pair: &Pair, fit: &Fit, ways: &[Way], advice: &mut Advice) {
+    let gap = fit
+        .gap
+        .as_ref()
+        .map_or(fit.distance, |gap| gap.gap)
+        .max(0.0);
+    let share = |way: &Way| (way.towards - gap) / way.height;
+    let Some(way) = ways.iter().max_by(|a, b| share(a).total_cmp(&share(b))) else {
+        return;
+    };
+    let [a, b] = way.names;
+    let is_told = advice.warnings.iter().any(|warning| {
+        let name = warning.name.as_deref();
+        warning.topic == Topic::Units && (name == Some(a) || name == Some(b))
+    });
+    if is_told {
+        return;
+    }
+    let text = format!(
+        "pair `{}`: step `{}` moves `{a}` and `{b}` by {:.3e} towards each other, from a gap of {gap:.3e}, and what is pressed between is {:.3e} high",
+        pair.name, way.step.name, way.towards, way.height
+    );
+    if share(way) >= PRESSED[1] {
+        let text = format!(
+            "{text}: nothing would be left of it; move it by less, and compare the units of mesh and displacements"
+        );
+        advice.warn(Topic::Units, &pair.name, text);
+    } else if share(way) > PRESSED[0] {
+        advice.note(Topic::Fit, &pair.name, text);
+    }
+}
+
+/// Warns of sides that all steps only move apart.
+fn apart(model: &Model, pair: &Pair, ways: &[Way], advice: &mut Advice) {
+    let none = |way: &Way| NO_WAY * way.height;
+    let never = ways.iter().all(|way| way.towards <= none(way));
+    let leaves = ways.iter().find(|way| way.towards < -none(way));
+    let meant = pair.interference.is_some() || model.steps.len() > ways.len();
+    let is_told = advice.warns_of(&pair.name, &[Topic::NeverMeets, Topic::Facing]);
+    if let Some(way) = leaves.filter(|_| never && !meant && !is_told) {
+        let [a, b] = way.names;
+        let text = format!(
+            "pair `{}`: step `{}` moves `{a}` and `{b}` apart by {:.3e}, and no step moves them together, so their contact has no force; is the sign of the displacement right?",
+            pair.name, way.step.name, -way.towards
+        );
+        advice.warn(Topic::NeverMeets, &pair.name, text);
+    }
+}

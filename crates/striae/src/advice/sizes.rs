@@ -1,0 +1,40 @@
+//! Rigid surfaces beside the bodies that they touch.
+
+use striae_mesh::Vec3;
+use striae_model::{ContactSurface, Model, RigidShape};
+
+use super::{Advice, Topic, shape::extent};
+
+/// Size of a rigid surface over that of a body below and above which units seem to differ.
+const SMALL: f64 = 2e-3;
+const LARGE: f64 = 500.0;
+
+/// Warns of rigid surfaces that are hardly in the unit of length of the bodies they touch.
+pub(super) fn look(model: &Model, advice: &mut Advice) {
+    for pair in &model.pairs {
+        let (ContactSurface::Deformable { body, .. }, ContactSurface::Rigid(rigid)) =
+            (&pair.a, &pair.b)
+        else {
+            continue;
+        };
+        let rigid = &model.rigid_surfaces[rigid.0];
+        let RigidShape::Facets { positions, .. } = &rigid.shape else {
+            continue;
+        };
+        let body = &model.bodies[body.0];
+        let [low, high] = extent(&body.mesh);
+        let size = (high - low).norm();
+        let start = [f64::INFINITY, f64::NEG_INFINITY].map(Vec3::repeat);
+        let [low, high] = positions
+            .iter()
+            .fold(start, |[low, high], x| [low.inf(x), high.sup(x)]);
+        let own = (high - low).norm();
+        if !(SMALL..LARGE).contains(&(own / size)) {
+            let (name, body) = (&rigid.name, &body.name);
+            let text = format!(
+                "rigid surface `{name}` is {own:.3e} long, and body `{body}`, which it is to touch, {size:.3e}; are both meshes in one unit of length?"
+            );
+            advice.warn(Topic::Units, name, text);
+        }
+    }
+}
