@@ -32,7 +32,7 @@ pub struct Opposite {
     pub side: Side,
     /// Its centre.
     pub at: Vec3,
-    /// How many lie opposite.
+    /// Number of facets that lie opposite.
     pub count: usize,
     /// Memory for the choice of unknowns about it.
     pub bytes: f64,

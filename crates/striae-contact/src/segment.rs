@@ -118,7 +118,7 @@ pub struct Segment {
     pub slopes: Option<Box<Slopes>>,
     /// What it is made of; none against a plane, where it is the whole facet.
     polygon: Option<Box<Polygon>>,
-    /// How much of it counts, if not all.
+    /// Share of it that counts, if not all.
     faded: Option<Box<Faded>>,
 }
 

@@ -64,9 +64,9 @@ pub enum FaultKind {
     UnknownPath {
         /// The path.
         path: String,
-        /// What of it is there.
+        /// The part of it that is there.
         place: String,
-        /// What that has.
+        /// Keys and names in that part.
         known: Vec<String>,
         /// The most similar of them.
         nearest: Option<String>,
@@ -79,9 +79,9 @@ pub enum FaultKind {
     NoNumber {
         /// The path.
         path: String,
-        /// What is there.
+        /// The value that is there.
         found: String,
-        /// What that has.
+        /// Keys and names in that part.
         known: Vec<String>,
     },
     /// A file that cannot be included.

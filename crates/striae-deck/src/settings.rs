@@ -103,7 +103,7 @@ pub(crate) fn placed(
     found
 }
 
-/// What is set by paths, as a note; none where nothing is.
+/// A note of the numbers that are set by paths; none where there are none.
 pub(crate) fn note(settings: &[Setting]) -> Option<String> {
     let paths = settings.iter();
     let paths: Vec<String> = paths
@@ -182,7 +182,7 @@ fn keys<'t, 'i>(table: &'t DeTable<'i>) -> Vec<(String, &'t Value<'i>)> {
         .collect()
 }
 
-/// What a table or a list holds: by keys, by names, or by positions where there are no names.
+/// Values of a table or a list: by keys, by names, or by positions where there are no names.
 fn held<'t, 'i>(value: &'t Value<'i>) -> Vec<(String, &'t Value<'i>)> {
     match value.get_ref() {
         DeValue::Table(table) => keys(table),

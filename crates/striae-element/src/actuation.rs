@@ -15,7 +15,7 @@
 //! of fibres in a law, and what its points remember, are those of the grown configuration; mass and
 //! densities are those of the reference configuration.
 //!
-//! What a change of `G` and `T` does at given positions is the work of actuation,
+//! The work of actuation is that of a change of `G` and `T` at given positions,
 //!
 //! ```text
 //! sum_g w ( det(G) (W tr(L) - P_e : F_e L) + sum dT |F a| ),    L = dG G^-1
@@ -48,7 +48,7 @@ pub struct Tension {
     pub value: f64,
 }
 
-/// What an element is made of, and how that is actuated.
+/// Material of an element, and its actuation.
 #[derive(Clone, Debug)]
 pub struct Driven<'a> {
     /// The material.

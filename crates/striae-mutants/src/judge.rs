@@ -14,7 +14,7 @@ use std::{
 
 use crate::target::{Sample, Target};
 
-/// How far an input gets.
+/// Stage that an input reaches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reached {
     /// It is refused.

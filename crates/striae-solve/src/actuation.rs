@@ -43,7 +43,7 @@ impl Actuations {
         found.acts().then_some(found)
     }
 
-    /// What this has more than another one; of what only one has, all.
+    /// Difference from another one, in which anything missing counts as zero.
     pub fn minus(&self, other: &Self) -> Self {
         let count = self.bodies.len().max(other.bodies.len());
         let of_body = |body: usize| {
@@ -62,7 +62,7 @@ impl Actuations {
 }
 
 impl SectionActuation {
-    /// Whether anything of it is not zero.
+    /// Returns whether any part is not zero.
     fn acts(&self) -> bool {
         self.strain != Matrix3::zeros()
             || self.fibre_strain != 0.0
@@ -148,7 +148,7 @@ impl ActuationKind {
         }
     }
 
-    /// Whether a later statement of another one takes it on from where this one is.
+    /// Returns whether a later statement of another one goes on from where this one is.
     pub fn is_like(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Tension { along, .. }, Self::Tension { along: other, .. }) => along == other,
@@ -188,7 +188,7 @@ impl ActuationKind {
         }
     }
 
-    /// The same strain in all directions.
+    /// Returns an equal strain in all directions.
     pub fn isotropic(strain: f64) -> Self {
         Self::Strain(Matrix3::identity() * strain)
     }

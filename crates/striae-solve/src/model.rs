@@ -463,7 +463,7 @@ pub struct Actuation {
     pub body: BodyId,
     /// Number of the section, counted from 1; `None` for all of the body, with all sections.
     pub section: Option<usize>,
-    /// What it takes on.
+    /// The strain or tension that it takes on.
     pub kind: ActuationKind,
     /// How the target is approached.
     pub curve: Curve,

@@ -34,7 +34,7 @@ struct Difference {
     last: [f64; 2],
     /// Largest difference.
     absolute: f64,
-    /// The same over the largest value of the column.
+    /// That over the largest value of the column.
     relative: f64,
     /// When that is.
     time: f64,

@@ -23,7 +23,7 @@ use super::{
 /// Range of the cosine over which segments fade.
 const RAMP: f64 = 0.2;
 
-/// How much of a segment counts, where it is less than all of it.
+/// Share of a segment that counts, where it is less than all of it.
 #[derive(Clone, Debug)]
 pub(super) struct Faded {
     /// `s`, above zero and below one.
@@ -34,7 +34,7 @@ pub(super) struct Faded {
     pub whole: [[f64; 8]; 8],
 }
 
-/// What becomes of a segment by the angle of its facets.
+/// Share of a segment that counts, by the angle of its facets.
 pub(super) enum Facing {
     /// All of it counts.
     Whole,
@@ -229,6 +229,24 @@ mod tests {
                 |z| slopes(&at(&place(z), Derivatives::First)) * 0.1,
                 &DVector::zeros(24),
             );
+        }
+    }
+
+    #[test]
+    fn swapped_sides_fade_by_the_same_share() {
+        let [a, b] = facets(&pair(-0.3));
+        for [c_a, c_b] in [[1.0, 1.0], [0.3, 1.0], [1.0, 0.0]] {
+            let at = |a: &Facet, b: &Facet, compliance| {
+                segment(a, b, compliance, Derivatives::First).expect("they overlap")
+            };
+            let (own, other) = (at(&a, &b, [c_a, c_b]), at(&b, &a, [c_b, c_a]));
+            assert!((own.area / other.area - 1.0).abs() < 1e-12);
+            let [own, other] = [own.faded, other.faded].map(|faded| faded.unwrap());
+            assert!((own.share - other.share).abs() < 1e-15);
+            for lane in 0..24 {
+                let swapped = other.slopes[(lane + 12) % 24];
+                assert!((own.slopes[lane] - swapped).abs() < 1e-13);
+            }
         }
     }
 

@@ -16,7 +16,7 @@ table! {
         required body: Text,
         /// Element set of the section of it that is actuated. Default: all of the body.
         optional section: Text,
-        /// What it takes on.
+        /// The strain or tension that it takes on.
         include kind: ActuationKind,
         /// How the target is approached: `ramp`, `constant`, `smooth` or the name of a curve. Default: `ramp`.
         optional curve: Text,
@@ -24,7 +24,7 @@ table! {
 }
 
 either! {
-    /// What a body takes on of itself.
+    /// A strain or tension that a body takes on of itself.
     ActuationKind {
         Stretch(Stretch),
         Strain(StressFreeStrain),

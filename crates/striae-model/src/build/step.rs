@@ -231,7 +231,7 @@ impl StepBuilder {
         self.with_actuation(body.into(), None, kind)
     }
 
-    /// The same of one of its sections, by the name of the element set.
+    /// Actuates one of its sections, by the name of the element set.
     pub fn actuate_section(
         self,
         body: impl Into<String>,

@@ -11,7 +11,7 @@ use crate::{fault::FaultKind, path::Path};
 /// Largest component of a strain, beyond all measure.
 const LARGEST: f64 = 1e6;
 
-/// What sections have come to by the steps before.
+/// Actuation of sections by the steps before.
 #[derive(Default)]
 pub(super) struct Reached(Vec<OfSection>);
 
@@ -51,7 +51,7 @@ pub(super) fn check(
     }
 }
 
-/// What is actuated, in words.
+/// Name of the body or section that is actuated, in words.
 fn name(draft: &Draft<'_>, stated: &Actuation) -> String {
     let body = &draft.bodies[stated.body.0];
     let section = stated

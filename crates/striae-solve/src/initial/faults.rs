@@ -21,7 +21,7 @@ pub enum InitialFault {
         other: String,
         /// Where it is.
         at: Vec3,
-        /// How deep.
+        /// Depth.
         depth: f64,
         /// Depth over the local facet size.
         share: f64,
@@ -44,9 +44,9 @@ pub enum InitialFault {
         other: String,
         /// Where it is.
         at: Vec3,
-        /// How deep.
+        /// Depth.
         depth: f64,
-        /// How thick the other one is there.
+        /// Thickness of the other one there.
         thickness: f64,
         /// The local facet size.
         size: f64,
@@ -104,7 +104,7 @@ pub enum InitialFault {
         body: String,
         /// Body with the large one.
         other: String,
-        /// How many lie opposite.
+        /// Number of facets that lie opposite.
         count: usize,
         /// Where the large one is.
         at: Vec3,

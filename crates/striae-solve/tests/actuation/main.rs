@@ -21,7 +21,7 @@ const FORMULATIONS: [Formulation; 3] = [
     Formulation::AssumedStrain,
 ];
 
-/// What all of the first body takes on, along a ramp.
+/// Actuation of all of the first body along a ramp.
 fn actuation(kind: ActuationKind) -> Actuation {
     Actuation {
         body: BodyId(0),
@@ -74,7 +74,7 @@ fn force(run: &scene::Run, height: f64) -> f64 {
     end.map(|(node, _)| reactions[node].z).sum()
 }
 
-/// The same step with inertia.
+/// Returns the step with inertia.
 fn dynamic(step: &Step) -> Step {
     Step {
         procedure: Procedure::Dynamic {

@@ -36,7 +36,7 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
     }
 }
 
-/// How far a step moves the sides of a pair towards each other.
+/// Approach of the sides of a pair in a step.
 struct Way<'m> {
     step: &'m Step,
     /// Names of the two sides.
@@ -132,7 +132,7 @@ fn spreads(model: &Model, body: BodyId, nodes: &[NodeId], n: &Vec3) -> bool {
     })
 }
 
-/// How far a rigid surface goes along a direction; `None` where it is free or turns.
+/// Returns the way of a rigid surface along a direction; `None` where it is free or turns.
 fn of_rigid(step: &Step, rigid: RigidId, n: &Vec3) -> Option<f64> {
     let mut way = Vec3::zeros();
     for motion in step.rigid_motions.iter().filter(|of| of.surface == rigid) {

@@ -89,7 +89,7 @@ fn edges(mesh: &Mesh, face: Face) -> impl Iterator<Item = [NodeId; 2]> {
     edges.map(|[from, to]| [from.min(to), from.max(to)])
 }
 
-/// How contact comes to the rim in a step.
+/// Returns the way in which contact comes to the rim in a step.
 fn reached(
     model: &Model,
     (body, faces): (BodyId, &[Face]),

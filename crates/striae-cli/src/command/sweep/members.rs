@@ -74,7 +74,7 @@ impl Member {
 /// All combinations, the last number changing fastest.
 ///
 /// # Errors
-/// What is stated twice.
+/// A name that is stated twice.
 pub(super) fn members(
     variations: &[Variation],
     fixed: &[Setting],

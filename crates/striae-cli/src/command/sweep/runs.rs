@@ -20,10 +20,10 @@ use striae::Interrupt;
 use super::members::Member;
 use crate::failure::{IMPOSSIBLE, INTERRUPTED};
 
-/// How often an interrupt is looked for.
+/// Time between two looks for an interrupt.
 const PAUSE: Duration = Duration::from_millis(50);
 
-/// What came of a run.
+/// State or end of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Outcome {
     /// It has not begun.
@@ -34,7 +34,7 @@ pub(super) enum Outcome {
     Failed {
         /// Exit code; none if a signal ended it, or it did not start.
         code: Option<i32>,
-        /// What it said.
+        /// Its message.
         reason: String,
     },
 }
@@ -181,7 +181,7 @@ fn ask_to_stop(child: &Child) {
 #[cfg(not(unix))]
 fn ask_to_stop(_: &Child) {}
 
-/// What a run said first that is no warning or progress.
+/// First line of a run's output that is no warning or progress.
 fn reason(said: &[u8]) -> String {
     let said = String::from_utf8_lossy(said);
     let mut lines = said.lines().map(str::trim).filter(|line| {
