@@ -54,6 +54,7 @@ use crate::{
     interface::{Interface, LastIncrement, Opponent},
     pivots::Pivots,
     roles::actions::Actions,
+    selection::Kept,
 };
 
 /// Pivot from which a node is kept.
@@ -86,7 +87,7 @@ impl Choice {
     pub fn new(interface: &Interface, mass: &CommonMass) -> Self {
         let flexibility = flexibility(interface, mass);
         let contest = Contest::new(interface, mass);
-        let mut chosen = match interface.opponent {
+        let chosen = match interface.opponent {
             Opponent::Deformable | Opponent::Itself { .. } => {
                 let surrogate = surrogate(interface, mass, &flexibility);
                 let chosen = contest.greedy(Pivots::new(surrogate.clone()));
@@ -94,6 +95,32 @@ impl Choice {
             }
             Opponent::Rigid { .. } => contest.all(&covered(mass)),
         };
+        Self::of(mass, flexibility, chosen)
+    }
+
+    /// Keeps given nodes, as far as they have overlaps.
+    pub fn given(interface: &Interface, mass: &CommonMass, kept: &Kept) -> Self {
+        let flexibility = flexibility(interface, mass);
+        let count = mass.nodes.len() as u32;
+        let is_kept = |&k: &u32| {
+            let (side, node) = mass.nodes[k as usize];
+            mass.weighted[k as usize] && kept[side][node]
+        };
+        let given = (0..count).filter(is_kept);
+        let chosen = match interface.opponent {
+            Opponent::Deformable | Opponent::Itself { .. } => {
+                let surrogate = surrogate(interface, mass, &flexibility);
+                independence(surrogate, given.map(|k| (k, 0.0)).collect())
+            }
+            Opponent::Rigid { .. } => {
+                let pivots = covered(mass);
+                given.map(|k| (k, pivots[k as usize])).collect()
+            }
+        };
+        Self::of(mass, flexibility, chosen)
+    }
+
+    fn of(mass: &CommonMass, flexibility: Vec<f64>, mut chosen: Vec<(u32, f64)>) -> Self {
         chosen.sort_by_key(|&(k, _)| mass.nodes[k as usize]);
         Self {
             flexibility: chosen

@@ -26,6 +26,15 @@ use gathered::Gathered;
 /// Nodes that are kept, by side.
 pub type Kept = [Vec<bool>; 2];
 
+/// Where the roles of nodes come from.
+#[derive(Clone, Copy)]
+enum Roles<'a> {
+    /// They are chosen, with an advantage for nodes that were kept in the last increment.
+    After(&'a Kept),
+    /// These nodes are kept.
+    Given(&'a Kept),
+}
+
 impl Selection {
     /// Chooses the kept nodes from the configuration that an increment starts from and, if
     /// it is known, the one that it is predicted to lead to; `before` are those of the last
@@ -34,6 +43,20 @@ impl Selection {
         start: &Configuration,
         predicted: Option<&Configuration>,
         before: &Kept,
+        prescribed: &Prescribed,
+    ) -> Self {
+        Self::in_roles(start, predicted, Roles::After(before), prescribed)
+    }
+
+    /// The traction field of given kept nodes in the configuration that an increment starts from.
+    pub fn with_kept(start: &Configuration, kept: &Kept, prescribed: &Prescribed) -> Self {
+        Self::in_roles(start, None, Roles::Given(kept), prescribed)
+    }
+
+    fn in_roles(
+        start: &Configuration,
+        predicted: Option<&Configuration>,
+        roles: Roles,
         prescribed: &Prescribed,
     ) -> Self {
         let compliances = compliances(start);
@@ -46,7 +69,7 @@ impl Selection {
         if let Some(predicted) = predicted {
             gathered.add(Gathered::new(predicted, scope));
         }
-        let mut basis = gathered.basis(start, before, prescribed);
+        let mut basis = gathered.basis(start, roles, prescribed);
         for (side, count) in Side::BOTH.into_iter().zip(start.pair.carriers()) {
             basis.index[side].resize(count, None);
             basis.rows[side].resize(count, Vec::new());

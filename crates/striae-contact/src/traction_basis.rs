@@ -25,6 +25,7 @@ use crate::{
     common_mass::CommonMass,
     interface::{Interface, Opponent},
     roles::{Choice, THETA_0},
+    selection::Kept,
     side::Side,
     transfer::{Share, Transfer},
 };
@@ -96,7 +97,18 @@ impl TractionBasis {
     pub fn new(interface: &Interface) -> Self {
         let mass = CommonMass::new(interface);
         let choice = Choice::new(interface, &mass);
-        let transfer = Transfer::new(interface, &mass, &choice.kept);
+        Self::of(interface, &mass, &choice)
+    }
+
+    /// Basis of unknowns at given nodes, of which those without an overlap are left out.
+    pub fn with_kept(interface: &Interface, kept: &Kept) -> Self {
+        let mass = CommonMass::new(interface);
+        let choice = Choice::given(interface, &mass, kept);
+        Self::of(interface, &mass, &choice)
+    }
+
+    fn of(interface: &Interface, mass: &CommonMass, choice: &Choice) -> Self {
+        let transfer = Transfer::new(interface, mass, &choice.kept);
         let kept: Vec<KeptNode> = choice
             .kept
             .iter()
@@ -110,7 +122,7 @@ impl TractionBasis {
             node_weights: Side::BOTH.map(|side| vec![0.0; interface.nodes[side].len()]),
             rows: Side::BOTH.map(|side| vec![Vec::new(); interface.nodes[side].len()]),
             friction_rows: Side::BOTH.map(|side| vec![Vec::new(); interface.nodes[side].len()]),
-            weights: weights(interface, &mass, &transfer, &choice.kept),
+            weights: weights(interface, mass, &transfer, &choice.kept),
             pivots: choice.pivots.clone(),
             flexibility: choice.flexibility.clone(),
             kept,
@@ -122,11 +134,11 @@ impl TractionBasis {
         }
         for (t, &(side, node)) in mass.nodes.iter().enumerate() {
             basis.node_weights[side][node] = mass.weights[t];
-            let row = basis.numbered(&mass, &transfer.rows[t]);
+            let row = basis.numbered(mass, &transfer.rows[t]);
             basis.rows[side][node] = row.iter().map(|&(k, [z, _])| (k, z)).collect();
             basis.friction_rows[side][node] = row.iter().map(|&(_, [_, y])| y).collect();
         }
-        basis.ramp = basis.ramp(interface, &mass, &transfer.released);
+        basis.ramp = basis.ramp(interface, mass, &transfer.released);
         let pressures = basis.ramp.iter().map(|weak| (weak.coefficient, &weak.row));
         basis.coupling = coupling(pressures, basis.kept.len());
         basis

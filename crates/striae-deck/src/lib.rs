@@ -84,13 +84,7 @@ pub fn read(path: &Path) -> Result<Deck, Faults> {
 /// # Errors
 /// As [`read`], and where a setting is of no number of the deck.
 pub fn read_with(path: &Path, settings: &[Setting]) -> Result<Deck, Faults> {
-    let file = path.display().to_string();
-    let bytes = std::fs::read(path).map_err(|cause| Faults::unreadable(&file, &cause))?;
-    let text = String::from_utf8(bytes).map_err(|error| {
-        let valid = error.utf8_error().valid_up_to();
-        Faults::no_text(&file, error.as_bytes(), valid)
-    })?;
-    let base = path.parent().unwrap_or(Path::new(""));
+    let (text, file, base) = text_of(path)?;
     parse_with(&text, &file, base, settings)
 }
 
@@ -143,6 +137,37 @@ pub fn friction(text: &str, file: &str) -> Result<Friction, Faults> {
     }
 }
 
+/// Reads parameters of a deck in a file, and other numbers of it by their paths.
+///
+/// # Errors
+/// All faults of the text, and where there is no such number.
+pub fn numbers(path: &Path, settings: &[Setting], names: &[String]) -> Result<Vec<f64>, Faults> {
+    let (text, file, base) = text_of(path)?;
+    let mut faults = FaultList::new(&file, &text);
+    let included = include::texts(&text, base, &mut faults);
+    let found = computed(&text, &included, settings, &mut faults, |tree, faults| {
+        let names = names.iter();
+        names
+            .map(|name| settings::number(tree, name, faults))
+            .collect()
+    });
+    match found {
+        Some(numbers) if faults.is_empty() => Ok(numbers),
+        _ => Err(faults.into_faults()),
+    }
+}
+
+/// The text of a file, its name in messages, and the folder that paths in it are relative to.
+fn text_of(path: &Path) -> Result<(String, String, &Path), Faults> {
+    let file = path.display().to_string();
+    let bytes = std::fs::read(path).map_err(|cause| Faults::unreadable(&file, &cause))?;
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        Faults::no_text(&file, error.as_bytes(), valid)
+    })?;
+    Ok((text, file, path.parent().unwrap_or(Path::new(""))))
+}
+
 /// The tables of a deck and of what it includes, with the values of expressions.
 fn simulation(
     text: &str,
@@ -150,6 +175,20 @@ fn simulation(
     settings: &[Setting],
     faults: &mut FaultList<'_>,
 ) -> Option<raw::Simulation> {
+    computed(text, included, settings, faults, |tree, faults| {
+        read::read_keys(tree, 0..0, &read::Place::root(), faults)
+    })
+}
+
+/// Reads something from the tables of a deck and of what it includes, in which expressions have
+/// been replaced by their values.
+fn computed<T>(
+    text: &str,
+    included: &[String],
+    settings: &[Setting],
+    faults: &mut FaultList<'_>,
+    read: impl FnOnce(&DeTable<'_>, &mut FaultList<'_>) -> Option<T>,
+) -> Option<T> {
     // They outlive the tree that they are put into.
     let mut values = Vec::new();
     let mut tree = tree(text, faults)?;
@@ -158,7 +197,7 @@ fn simulation(
     }
     values.extend(parameters::computed(&tree, settings, faults));
     parameters::replace(&mut tree, &values);
-    read::read_keys(&tree, 0..0, &read::Place::root(), faults)
+    read(&tree, faults)
 }
 
 /// The tables of a text.

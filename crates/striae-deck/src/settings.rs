@@ -113,8 +113,27 @@ pub(crate) fn note(settings: &[Setting]) -> Option<String> {
     (!paths.is_empty()).then(|| format!("set: {}", paths.join(", ")))
 }
 
+/// A parameter, or the number of a path, in tables without expressions; what is not there is a
+/// fault.
+pub(crate) fn number(tree: &DeTable<'_>, name: &str, faults: &mut FaultList<'_>) -> Option<f64> {
+    let path = match Setting::new(name, 0.0).parameter() {
+        Some(parameter) => format!("{TABLE}.{parameter}"),
+        None => name.to_owned(),
+    };
+    finite(found(tree, &path, faults)?.get_ref())
+}
+
 /// Where the number of a path stands; what is not there is a fault.
 fn at(tree: &DeTable<'_>, path: &str, faults: &mut FaultList<'_>) -> Option<Span> {
+    found(tree, path, faults).map(toml::Spanned::span)
+}
+
+/// The number of a path; what is not there is a fault.
+fn found<'t, 'i>(
+    tree: &'t DeTable<'i>,
+    path: &str,
+    faults: &mut FaultList<'_>,
+) -> Option<&'t Value<'i>> {
     let mut parts = keys(tree);
     let mut span = 0..0;
     let mut rest = path;
@@ -136,7 +155,7 @@ fn at(tree: &DeTable<'_>, path: &str, faults: &mut FaultList<'_>) -> Option<Span
         span = value.span();
         if after.is_empty() {
             if is_number(value.get_ref()) {
-                return Some(span);
+                return Some(value);
             }
             faults.push(&span, no_number(path, value));
             return None;

@@ -110,6 +110,7 @@ fn remove_results(folder: &Path) -> Result<(), OutputError> {
     }
     remove_where(folder, |name| {
         name.starts_with("law-") && name.ends_with(".svg")
+            || name.starts_with("sensitivity-") && name.ends_with(".csv")
     })?;
     remove_where(folder, checkpoint::is_piece)?;
     remove_where(&folder.join("fields"), |name| {
@@ -143,6 +144,7 @@ mod tests {
         let written = [
             "history.csv",
             "law-a.svg",
+            "sensitivity-mu.csv",
             "fields/a-00001.vtu",
             "report.html",
         ];
@@ -152,7 +154,7 @@ mod tests {
         }
         let refused = Claim::new(folder, Existing::Keep);
         assert!(matches!(refused, Err(OutputError::Occupied(_))));
-        assert_eq!(names(folder).len(), 6);
+        assert_eq!(names(folder).len(), 7);
         Claim::new(folder, Existing::Replace).unwrap();
         assert_eq!(names(folder), ["deck.toml", "fields", "notes.txt"]);
         assert_eq!(names(&folder.join("fields")), ["notes.txt"]);

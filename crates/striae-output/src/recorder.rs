@@ -43,7 +43,7 @@ use crate::{
     history::{History, Table},
     ranks::{agreed, from_first, is_first, on_first},
     row::row,
-    summary::Summary,
+    summary::{Summary, WarningSummary},
     tally::Tally,
     vtk::Snapshot,
     watched::{FILES, Watched},
@@ -320,7 +320,7 @@ impl Recorder {
         watched.append(problem, progress, state)
     }
 
-    /// Writes the last fields, if they are not there, and the summary.
+    /// Writes the last fields, if they are not there, and the summary with further warnings.
     ///
     /// # Errors
     /// When a file cannot be written.
@@ -329,13 +329,15 @@ impl Recorder {
         problem: &Problem,
         state: &State,
         ending: &Ending,
+        further: Vec<WarningSummary>,
     ) -> Result<Summary, OutputError> {
         let count = self.tally.iterations.len();
         if count > 0 && self.written != Some(count) {
             self.write_fields(problem, state)?;
         }
         let (case, seconds) = (&self.case, self.seconds());
-        let summary = self.tally.summary(case, problem, state, ending, seconds);
+        let tally = &self.tally;
+        let summary = tally.summary(case, problem, state, ending, seconds, further);
         let file = self.folder.join("summary.json");
         on_first(&self.share, || summary.write(&file))?;
         Ok(summary)

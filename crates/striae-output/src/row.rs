@@ -9,6 +9,7 @@ use striae_solve::{
     problem::Problem,
     report::{PairReport, TieReport, bodies, held_reactions, pairs, rigid_bodies, ties},
     resolved::resolved,
+    state::State,
 };
 
 /// Columns and values of the row of a converged increment, before which `cut_backs`
@@ -20,13 +21,21 @@ pub fn row(
     cut_backs: usize,
 ) -> Vec<(String, f64)> {
     let state = &increment.state;
+    let head = [
+        ("increment", progress.increment as f64),
+        ("step", (progress.step + 1) as f64),
+        ("time", state.time),
+        ("iterations", increment.iterations.len() as f64),
+        ("cutbacks", cut_backs as f64),
+    ];
+    let head = head.map(|(name, value)| (name.to_owned(), value));
+    head.into_iter().chain(state_row(problem, state)).collect()
+}
+
+/// Columns of a row that follow from the state alone, and their values.
+pub fn state_row(problem: &Problem, state: &State) -> Vec<(String, f64)> {
     let mut row: Vec<(String, f64)> = Vec::new();
     let mut add = |name: &str, value: f64| row.push((name.to_owned(), value));
-    add("increment", progress.increment as f64);
-    add("step", (progress.step + 1) as f64);
-    add("time", state.time);
-    add("iterations", increment.iterations.len() as f64);
-    add("cutbacks", cut_backs as f64);
     add("energy.kinetic", state.energies.kinetic);
     add("energy.strain", state.energies.strain);
     add("energy.external", state.energies.external);

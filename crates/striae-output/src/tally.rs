@@ -42,7 +42,7 @@ impl Tally {
         self.note_work(&increment.work);
     }
 
-    /// The summary of a run that has ended; collective.
+    /// The summary of a run that has ended, with further warnings; collective.
     pub fn summary(
         &self,
         case: &str,
@@ -50,6 +50,7 @@ impl Tally {
         state: &State,
         ending: &Ending,
         seconds: f64,
+        further: Vec<WarningSummary>,
     ) -> Summary {
         let (newton_total, newton_max, newton_median) = newton_counts(&self.iterations);
         Summary {
@@ -80,6 +81,7 @@ impl Tally {
                 .warnings(problem, ending)
                 .into_iter()
                 .map(WarningSummary::from)
+                .chain(further)
                 .collect(),
         }
     }

@@ -25,7 +25,8 @@ use numpy::{PyArray1, PyArrayMethods};
 use pyo3::{exceptions::PyRuntimeError, prelude::*};
 use striae::{
     Converged, Error, Finished, Interrupt, Next, Observer, Simulation, case_name,
-    output::{FieldOutput, Output, checkpoint::Checkpoint},
+    output::{FieldOutput, Output, checkpoint::Checkpoint, history::Table},
+    sensitivity::between,
     solve::{drive::Progress, outcome::Ending},
 };
 
@@ -104,11 +105,7 @@ impl Run {
 
     /// Names of the columns of the history, and its rows.
     fn history<'py>(&self, py: Python<'py>) -> PyResult<(Vec<String>, Array2<'py, f64>)> {
-        let table = &self.finished.history;
-        let (rows, columns) = (table.rows.len(), table.columns.len());
-        let numbers = table.rows.iter().flatten().copied().collect();
-        let array = PyArray1::from_vec(py, numbers).reshape([rows, columns])?;
-        Ok((table.columns.clone(), array))
+        table(py, &self.finished.history)
     }
 
     /// States that are kept.
@@ -118,6 +115,36 @@ impl Run {
             kept: kept.clone(),
         });
         kept.collect()
+    }
+
+    /// Derivatives of the history by a parameter: names of columns, and rows.
+    fn derivatives<'py>(
+        &self,
+        py: Python<'py>,
+        parameter: usize,
+    ) -> PyResult<(Vec<String>, Array2<'py, f64>)> {
+        table(py, &self.finished.sensitivities[parameter].history)
+    }
+
+    /// The run at its end with a parameter below and above its value.
+    fn neighbours(&self, parameter: usize) -> Vec<Results> {
+        let neighbours = self.finished.sensitivities[parameter].neighbours();
+        let last = self.kept.last();
+        let problems = neighbours.parameter.problems.iter();
+        let found = problems
+            .zip(&neighbours.states)
+            .filter_map(|(problem, state)| {
+                let last = last?;
+                Some(Results {
+                    problem: problem.clone(),
+                    kept: Arc::new(Kept {
+                        progress: last.progress,
+                        iterations: last.iterations,
+                        state: state.clone(),
+                    }),
+                })
+            });
+        found.collect()
     }
 
     /// The model that was run.
@@ -174,6 +201,14 @@ impl Run {
     }
 }
 
+/// Names of the columns of a table, and its rows.
+fn table<'py>(py: Python<'py>, table: &Table) -> PyResult<(Vec<String>, Array2<'py, f64>)> {
+    let (rows, columns) = (table.rows.len(), table.columns.len());
+    let numbers = table.rows.iter().flatten().copied().collect();
+    let array = PyArray1::from_vec(py, numbers).reshape([rows, columns])?;
+    Ok((table.columns.clone(), array))
+}
+
 /// What is told and kept of a run: the function that is called with the results of each
 /// increment, and stops the run by `False`; increments between states that are kept (0: the
 /// ends of steps); the number of threads, that of the machine if `None`.
@@ -183,16 +218,37 @@ type Watching = (Option<Py<PyAny>>, usize, Option<usize>);
 /// (0: the last only).
 type Recording = (PathBuf, Option<String>, Option<usize>);
 
-/// Runs a model.
+/// A parameter by which a run is differentiated: its name, its step, the models below and above.
+type Differentiated<'py> = (String, f64, PyRef<'py, Model>, PyRef<'py, Model>);
+
+/// Runs a model, with derivatives by parameters.
 #[pyfunction]
 pub fn run(
     py: Python<'_>,
     model: PyRef<'_, Model>,
     watching: Watching,
     recording: Option<Recording>,
+    parameters: Vec<Differentiated<'_>>,
 ) -> PyResult<Ended> {
     let (of, output) = (model.model.clone(), model.output.clone());
-    let simulation = py.detach(|| Simulation::new((*of).clone()));
+    let by: Vec<_> = parameters
+        .iter()
+        .map(|(name, step, less, more)| {
+            (
+                name.clone(),
+                *step,
+                [&less.model, &more.model].map(Arc::clone),
+            )
+        })
+        .collect();
+    let simulation = py.detach(|| {
+        let simulation = Simulation::new((*of).clone())?;
+        by.into_iter()
+            .try_fold(simulation, |simulation, (name, step, models)| {
+                let models = models.map(|model| (*model).clone());
+                Ok(simulation.differentiated(between(name, step, models)?))
+            })
+    });
     let simulation = simulation.map_err(|error| raised(error, "model"))?;
     let simulation = recorded(simulation, output, recording, model.deck.clone());
     watched(py, simulation, watching, model.raised.clone())

@@ -47,6 +47,7 @@ use crate::{
     node::GlobalNode,
     norms::Norms,
     outcome::CutBack,
+    problem::Problem,
     rigid::Pose,
     state::{NodalForces, State},
 };
@@ -60,6 +61,20 @@ pub struct Trial {
     pub tractions: Vec<Tractions>,
     /// Poses of the rigid bodies.
     pub rigid: Vec<Pose>,
+}
+
+impl Trial {
+    /// Puts nodes that are tied to rigid bodies, and those that follow others in ties, in place.
+    pub(crate) fn place_tied(&mut self, problem: &Problem) {
+        for (rigid, nodes) in problem.tied.iter().enumerate() {
+            let reference = &problem.model.rigid_surfaces[rigid].reference;
+            let placement = self.rigid[rigid].placement(reference);
+            for &node in nodes {
+                self.positions[node] = placement.point(&problem.reference[node]);
+            }
+        }
+        problem.ties.follow(&mut self.positions);
+    }
 }
 
 /// What does not change while an increment is iterated.

@@ -243,18 +243,18 @@ impl Division {
             _ => Ok(increment),
         }
     }
+}
 
-    /// After bodies have gone through each other, the next attempt looks for contact from
-    /// the start on over the distance that they went.
-    fn look_farther(&mut self, context: &StepContext, reason: &CutBack) {
-        let CutBack::Passage { pair, way, .. } = reason else {
-            return;
-        };
-        self.search.resize(context.pairs.len(), 0.0);
-        for (known, search) in context.pairs.iter().zip(&mut self.search) {
-            if known.name == *pair {
-                *search = search.max(*way);
-            }
+/// After bodies have gone through each other, the next attempt looks for contact from
+/// the start on over the distance that they went.
+pub(crate) fn look_farther(problem: &Problem, search: &mut Vec<f64>, reason: &CutBack) {
+    let CutBack::Passage { pair, way, .. } = reason else {
+        return;
+    };
+    search.resize(problem.pairs.len(), 0.0);
+    for (known, search) in problem.pairs.iter().zip(search) {
+        if known.contact.name == *pair {
+            *search = search.max(*way);
         }
     }
 }
@@ -334,7 +334,7 @@ fn run_step(
                     let reached = [division.done, fraction];
                     return Some(stopped(context, state, reached, workspace, reason));
                 }
-                division.look_farther(context, &reason);
+                look_farther(context.problem, &mut division.search, &reason);
                 division.size = size;
                 next
             }

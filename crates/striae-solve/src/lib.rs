@@ -31,6 +31,7 @@ pub mod resolved;
 mod restriction;
 pub mod rigid;
 pub mod section;
+pub mod sensitivity;
 pub mod share;
 pub mod skin;
 pub mod solid;

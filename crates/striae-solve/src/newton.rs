@@ -17,6 +17,7 @@ mod energy;
 mod failure;
 mod flight;
 mod linear;
+pub(crate) mod neighbour;
 mod passage;
 mod release;
 mod rest;
@@ -33,7 +34,7 @@ pub use workspace::{Memory, Workspace};
 pub use striae_condensed::{Analysis, Experience, FactoredInterior, SharedSolver};
 use striae_contact::{
     complementarity::Iteration, evaluation::Evaluation, interference::Interference,
-    segment::Derivatives,
+    segment::Derivatives, selection::Selection,
 };
 
 use crate::{
@@ -71,6 +72,10 @@ pub struct Increment {
     pub interferences: Vec<Vec<Interference>>,
     /// What came inside bodies where no pair sees it, by that depth.
     pub overlaps: Vec<BodyOverlap>,
+    /// Traction fields of all pairs.
+    pub selections: Vec<Selection>,
+    /// Returns whether these were chosen again in the course of the iterations.
+    pub has_reselected: bool,
     /// What it was accepted for.
     pub acceptance: Acceptance,
     /// What it is doubted for, as far as it has been looked at from outside.
@@ -228,6 +233,7 @@ pub fn advance(
         interferences,
         overlaps,
         acceptance,
+        has_reselected,
         ..
     } = attempt;
     given_up.extend(iterations);
@@ -252,9 +258,11 @@ pub fn advance(
             time,
             trial,
             imposed.clone(),
-            selections,
+            &selections,
             assembled,
         ),
+        selections,
+        has_reselected,
         iterations: given_up,
     })
 }

@@ -10,7 +10,7 @@ use striae_law::{
 use striae_mesh::MeshError;
 use striae_meshfile::MeshFileError;
 use striae_output::{OutputError, checkpoint::CheckpointError};
-use striae_solve::problem::ProblemError;
+use striae_solve::{problem::ProblemError, sensitivity::Unlike};
 
 /// Why a simulation could not be made or run. A run that stops for a reason that
 /// physics has is no error, but an ending.
@@ -60,6 +60,12 @@ pub enum Error {
     /// Further steps begin where a run has ended, not in the middle of its steps.
     #[error("only a completed run can be continued with further steps; this one was stopped")]
     NotCompleted,
+    /// A derivative is asked for by something that is no number of the model.
+    #[error(transparent)]
+    Unlike(#[from] Unlike),
+    /// Derivatives are asked for of a run that does not begin at rest on one rank.
+    #[error("derivatives are computed of runs that begin undeformed, in one process")]
+    NotFromTheStart,
     /// Results cannot be written or read.
     #[error(transparent)]
     Output(#[from] OutputError),

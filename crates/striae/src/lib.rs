@@ -206,6 +206,7 @@ mod observer;
 pub mod prelude;
 mod ranks;
 mod results;
+pub mod sensitivity;
 mod simulation;
 
 pub use error::Error;

@@ -8,7 +8,7 @@ use striae_output::{
     history::Table,
     recorder::Recorder,
     row,
-    summary::Summary,
+    summary::{Summary, WarningSummary},
 };
 use striae_solve::{
     drive::{Point, Progress},
@@ -212,18 +212,20 @@ impl Log {
         checkpoint.write_end(&files.recording.folder, problem)
     }
 
-    /// Summary and history of a run that has ended.
+    /// Summary, with further warnings, and history of a run that has ended.
     pub(crate) fn finish(
         self,
         problem: &Problem,
         state: &State,
         ending: &Ending,
+        further: Vec<WarningSummary>,
     ) -> Result<(Summary, Table), OutputError> {
         match self {
             Self::Memory(memory) => {
                 let seconds = memory.started.elapsed().as_secs_f64();
                 let case = &problem.model.title;
-                let summary = memory.tally.summary(case, problem, state, ending, seconds);
+                let tally = memory.tally;
+                let summary = tally.summary(case, problem, state, ending, seconds, further);
                 Ok((summary, memory.history))
             }
             Self::Files(files) => {
@@ -231,7 +233,7 @@ impl Log {
                     mut recorder,
                     recording,
                 } = *files;
-                let summary = recorder.finish(problem, state, ending)?;
+                let summary = recorder.finish(problem, state, ending, further)?;
                 if *ending == Ending::Completed {
                     Checkpoint::remove_shared(&recording.folder, &problem.share)?;
                 }

@@ -40,6 +40,7 @@ use striae_solve::{
     newton::{Memory, Workspace},
     outcome::Ending,
     problem::Problem,
+    sensitivity::{Parameter, Sensitivities},
     share::Division,
     stabilisation::first_increment,
     state::State,
@@ -54,6 +55,7 @@ use crate::{
     observer::Observer,
     ranks::{Ranks, agreed},
     results::Results,
+    sensitivity::{Followed, Sensitivity},
 };
 use watch::Watch;
 
@@ -66,6 +68,7 @@ pub struct Simulation {
     begun: Begun,
     interrupt: Interrupt,
     ranks: Option<Arc<dyn Ranks>>,
+    parameters: Vec<Parameter>,
 }
 
 /// Where a run begins.
@@ -98,6 +101,8 @@ pub struct Finished {
     pub summary: Summary,
     /// A row an increment: resultants, reactions, motions, energies.
     pub history: Table,
+    /// Derivatives by the parameters that were asked for, in their order.
+    pub sensitivities: Vec<Sensitivity>,
 }
 
 impl Finished {
@@ -147,6 +152,7 @@ impl Simulation {
             begun: Begun::Undeformed,
             interrupt: Interrupt::default(),
             ranks,
+            parameters: Vec::new(),
         })
     }
 
@@ -345,6 +351,13 @@ impl Simulation {
         self
     }
 
+    /// Computes derivatives by a parameter, too, see [`crate::sensitivity`]; such a run begins
+    /// undeformed, on one rank, and writes no checkpoints.
+    pub fn differentiated(mut self, by: Parameter) -> Self {
+        self.parameters.push(by);
+        self
+    }
+
     /// The problem: the model and what follows from it for the whole run.
     pub fn problem(&self) -> &Arc<Problem> {
         &self.problem
@@ -366,12 +379,24 @@ impl Simulation {
         let Self {
             problem,
             output,
-            recording,
+            mut recording,
             begun,
             interrupt,
             ranks,
+            parameters,
         } = self;
+        let is_plain = ranks.is_none() && matches!(begun, Begun::Undeformed);
+        let sensitivities = match parameters.is_empty() {
+            true => None,
+            false if is_plain => Some(Sensitivities::new(&problem, parameters)?),
+            false => return Err(Error::NotFromTheStart),
+        };
+        if let (Some(recording), true) = (&mut recording, sensitivities.is_some()) {
+            recording.source = None;
+        }
+        let folder = recording.as_ref().map(|recording| recording.folder.clone());
         let mut log = log(&problem, output, recording, &begun, ranks.as_ref())?;
+        let followed = sensitivities.map(|all| Followed::new(all, folder.as_deref()));
         let (start, before) = match &begun {
             Begun::Undeformed => (State::undeformed(&problem), 0),
             Begun::After(after) => (after.2.clone(), after.1),
@@ -387,6 +412,7 @@ impl Simulation {
         let mut watch = Watch {
             problem: &problem,
             log,
+            followed: followed.transpose()?,
             observer,
             interrupt,
             steps: Vec::new(),
@@ -413,6 +439,7 @@ impl Simulation {
         };
         let Watch {
             log,
+            followed,
             steps,
             increments,
             failure,
@@ -424,7 +451,9 @@ impl Simulation {
         if ending == Ending::Completed {
             log.end(&problem, increments, &state)?;
         }
-        let (summary, history) = log.finish(&problem, &state, &ending)?;
+        let warnings = followed.as_ref().map(Followed::warnings);
+        let warnings = warnings.unwrap_or_default();
+        let (summary, history) = log.finish(&problem, &state, &ending, warnings)?;
         Ok(Finished {
             problem,
             state,
@@ -433,6 +462,7 @@ impl Simulation {
             ending,
             summary,
             history,
+            sensitivities: followed.map(Followed::finish).unwrap_or_default(),
         })
     }
 }

@@ -5,7 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use striae::{Finished, Simulation, case_name};
+use striae::{Finished, Simulation, case_name, sensitivity::of_deck};
 use striae_output::{Existing, checkpoint::FILE, summary::Summary};
 use striae_solve::outcome::Ending;
 
@@ -26,6 +26,11 @@ pub struct Arguments {
     /// Folder for the output; by default results/NAME.
     #[arg(short, long, alias = "output")]
     out: Option<PathBuf>,
+    /// Compute derivatives of the history with respect to a parameter of the deck, or another
+    /// number by its path, such as `pair.pad.friction.mu`, and write them to
+    /// sensitivity-NAME.csv; may be given again.
+    #[arg(long, value_name = "NAME")]
+    wrt: Vec<String>,
     /// Remove the results of an earlier run from that folder first.
     #[arg(long)]
     overwrite: bool,
@@ -134,6 +139,12 @@ fn run_on(arguments: &Arguments, crew: &Crew, out: &mut dyn Write) -> Result<(),
         None => Simulation::open_with(deck, settings, &folder)?,
         Some(ranks) => Simulation::open_on(ranks, deck, settings, &folder)?,
     };
+    let wrt = arguments.wrt.iter();
+    let simulation = wrt
+        .map(|name| of_deck(deck, settings, name))
+        .try_fold(simulation, |simulation, by| {
+            Ok::<_, striae::Error>(simulation.differentiated(by?))
+        })?;
     let common = (&arguments.common, crew.voice());
     let report = arguments.report.of(&folder);
     finish(simulation.over(existing), &folder, common, report, out)

@@ -6,7 +6,7 @@ use striae_mesh::{FacetId, Vec3};
 use striae_surface::{facet::Shape, node::SurfaceNode};
 
 use super::{
-    Kept,
+    Roles,
     sides::{surface_nodes, whole_facets},
 };
 use crate::{
@@ -128,11 +128,12 @@ impl Gathered {
     pub(super) fn basis(
         &self,
         configuration: &Configuration,
-        before: &Kept,
+        roles: Roles,
         prescribed: &Prescribed,
     ) -> TractionBasis {
+        let (Roles::After(kept) | Roles::Given(kept)) = roles;
         let nodes =
-            Side::BOTH.map(|side| surface_nodes(configuration, side, before, &prescribed[side]));
+            Side::BOTH.map(|side| surface_nodes(configuration, side, kept, &prescribed[side]));
         let (whole, mesh);
         let opponent = match &configuration.pair.sides[Side::B].geometry {
             Geometry::Deformable(_) => Opponent::Deformable,
@@ -154,12 +155,16 @@ impl Gathered {
                 }
             }
         };
-        TractionBasis::new(&Interface {
+        let interface = Interface {
             nodes: [&nodes[0], &nodes[1]],
             overlaps: &self.overlaps,
             opposing: [&self.opposing[0], &self.opposing[1]],
             opponent,
-        })
+        };
+        match roles {
+            Roles::After(_) => TractionBasis::new(&interface),
+            Roles::Given(kept) => TractionBasis::with_kept(&interface, kept),
+        }
     }
 }
 

@@ -423,12 +423,15 @@ class Model:
         return [pair.name for pair in self._pairs]
 
     def _ended(
-        self, watching: native.Watching, recording: native.Recording
+        self,
+        watching: native.Watching,
+        recording: native.Recording,
+        parameters: Sequence[tuple[str, float, native.Model, native.Model]] = (),
     ) -> tuple[native.Run, Optional[BaseException]]:
         compiled = self._compiled()
         self._running += 1
         try:
-            return native.run(compiled, watching, recording)
+            return native.run(compiled, watching, recording, list(parameters))
         finally:
             self._running -= 1
 

@@ -7,6 +7,7 @@ import pathlib
 import tempfile
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, Optional, Union, overload
 
 import numpy as np
@@ -90,9 +91,16 @@ class History(Mapping[str, Floats]):
 class Run(Sequence[Increment]):
     """A run that has ended: the sequence of the increments that were kept."""
 
-    def __init__(self, run: native.Run, model: Model, folder: Optional[pathlib.Path] = None) -> None:
-        """Runs are made by :meth:`Model.run`."""
+    def __init__(
+        self,
+        run: native.Run,
+        model: Model,
+        folder: Optional[pathlib.Path] = None,
+        parameters: Mapping[str, float] = MappingProxyType({}),
+    ) -> None:
+        """Runs are made by :meth:`Model.run`; parameters: steps of those that it is differentiated by."""
         self._native, self._model, self._folder = run, model, folder
+        self._parameters = dict(parameters)
         self._history = History(*run.history())
         self._increments = [Increment(results, model) for results in run.kept()]
 
@@ -125,6 +133,34 @@ class Run(Sequence[Increment]):
     def history(self) -> History:
         """Resultants, reactions, motions and energies over the increments."""
         return self._history
+
+    @overload
+    def gradient(self, of: str, wrt: str) -> Floats: ...
+    @overload
+    def gradient(self, of: Callable[[Increment], float], wrt: str) -> float: ...
+    def gradient(
+        self, of: Union[str, Callable[[Increment], float]], wrt: str
+    ) -> Union[Floats, float]:
+        """Derivative of a result by a parameter of a run made by :func:`differentiate`.
+
+        of: a column of the history, for its derivative over the increments, of shape
+            (increments,); or a function of an increment that returns a number, for the
+            derivative of that at the end of the run. Units: those of the result over those of
+            the parameter.
+        wrt: the parameter.
+        """
+        if wrt not in self._parameters:
+            known = ", ".join(f"`{name}`" for name in self._parameters) or "none"
+            raise KeyError(f"the run is not differentiated by `{wrt}`; parameters are: {known}")
+        number = list(self._parameters).index(wrt)
+        if isinstance(of, str):
+            return History(*self._native.derivatives(number))[of]
+        if not callable(of):
+            raise TypeError(f"of: a column or a function of an increment is needed, not {of!r}")
+        below, above = (
+            of(Increment(results, self._model)) for results in self._native.neighbours(number)
+        )
+        return float((above - below) / (2.0 * self._parameters[wrt]))
 
     @property
     def unknowns(self) -> int:
@@ -267,9 +303,10 @@ def concluded(
     model: Model,
     on_stop: str,
     folder: Optional[Path],
+    parameters: Mapping[str, float] = MappingProxyType({}),
 ) -> Run:
     """The run with its warnings, or the exception that it ended with."""
-    run = closed(ended, model, on_stop, folder)
+    run = closed(ended, model, on_stop, folder, parameters)
     for text in run.warnings:
         warnings.warn(text, RunWarning, stacklevel=3)
     return run
@@ -280,10 +317,12 @@ def closed(
     model: Model,
     on_stop: str,
     folder: Optional[Path],
+    parameters: Mapping[str, float] = MappingProxyType({}),
 ) -> Run:
     """The run, or the exception that it ended with."""
     found, exception = ended
-    run = Run(found, model, None if folder is None else pathlib.Path(folder).absolute())
+    place = None if folder is None else pathlib.Path(folder).absolute()
+    run = Run(found, model, place, parameters)
     model._last_run = run
     if isinstance(exception, KeyboardInterrupt):
         raise RunInterrupted(run) from None

@@ -15,7 +15,7 @@ pub(super) fn accepted(
     time: f64,
     trial: Trial,
     imposed: Imposed,
-    selections: Vec<Selection>,
+    selections: &[Selection],
     assembled: Assembled,
 ) -> State {
     let (velocities, accelerations) = match &imposed.motion {

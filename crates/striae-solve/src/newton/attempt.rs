@@ -61,6 +61,8 @@ pub(super) struct Attempt<'a> {
     pub(super) acceptance: Acceptance,
     /// Which pairs are closed in the latest state.
     closed: Vec<bool>,
+    /// Whether the traction fields were chosen again.
+    pub(super) has_reselected: bool,
     /// What the first iteration goes by.
     first: Iteration,
     /// The tangent there is.
@@ -103,6 +105,7 @@ impl<'a> Attempt<'a> {
             overlaps: Vec::new(),
             acceptance: Acceptance::default(),
             closed: vec![true; context.pairs.len()],
+            has_reselected: false,
             first: Iteration::First,
             chord: Chord::default(),
         }
@@ -339,6 +342,7 @@ impl Attempt<'_> {
         workspace: &mut Workspace,
     ) -> Result<Assembled, CutBack> {
         self.selections = selected.selections;
+        self.has_reselected = true;
         self.trial.tractions = selected.tractions;
         workspace.extend(self.context.problem, &self.selections);
         self.ladder.restart(self.iterations.len());

@@ -74,16 +74,12 @@ pub(super) fn corrected(
         }
     }
     for (node, position) in problem.global_nodes().zip(&mut next.positions) {
-        if let Some(rigid) = problem.tie_of[node] {
-            let reference = &problem.model.rigid_surfaces[rigid].reference;
-            let placement = next.rigid[rigid].placement(reference);
-            *position = placement.point(&problem.reference[node]);
-            continue;
+        if problem.tie_of[node].is_none() {
+            let first = layout.position(node);
+            *position += Vec3::from_column_slice(&correction[first..first + 3]) * factor;
         }
-        let first = layout.position(node);
-        *position += Vec3::from_column_slice(&correction[first..first + 3]) * factor;
     }
-    problem.ties.follow(&mut next.positions);
+    next.place_tied(problem);
     for (pair, tractions) in next.tractions.iter_mut().enumerate() {
         let selection = &setting.selections[pair];
         add_tractions(tractions, correction, factor, |side, node| {

@@ -49,7 +49,7 @@ pub struct Course {
 
 impl Course {
     /// The course of an increment from `state` to a time.
-    pub(super) fn new(step: usize, state: &State, end: f64, before: Option<Self>) -> Self {
+    pub(crate) fn new(step: usize, state: &State, end: f64, before: Option<Self>) -> Self {
         let tractions = state.pairs.iter().map(|pair| pair.tractions.nodes.clone());
         Self {
             step,
@@ -95,20 +95,11 @@ impl Course {
         }
         let problem = context.problem;
         for (node, position) in trial.positions.iter_mut().enumerate() {
-            *position = match problem.tie_of[node] {
-                Some(rigid) => {
-                    let reference = &problem.model.rigid_surfaces[rigid].reference;
-                    let placement = trial.rigid[rigid].placement(reference);
-                    placement.point(&problem.reference[node])
-                }
-                None => {
-                    let (now, last) = (state.positions[node], self.positions[node]);
-                    let older = before.map(|before| before.positions[node]);
-                    Vec3::from_fn(|at, _| weights.on(now[at], last[at], older.map(|x| x[at])))
-                }
-            };
+            let (now, last) = (state.positions[node], self.positions[node]);
+            let older = before.map(|before| before.positions[node]);
+            *position = Vec3::from_fn(|at, _| weights.on(now[at], last[at], older.map(|x| x[at])));
         }
-        problem.ties.follow(&mut trial.positions);
+        trial.place_tied(problem);
         for (pair, tractions) in trial.tractions.iter_mut().enumerate() {
             for side in Side::BOTH {
                 let unknowns = tractions.nodes[side].iter_mut().enumerate();

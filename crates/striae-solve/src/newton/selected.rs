@@ -14,7 +14,7 @@ use striae_surface::node::SurfaceNode;
 use crate::{
     assembly::{Setting, StepContext, Trial},
     model::Strategy,
-    state::State,
+    state::{PairState, State},
 };
 
 /// Traction fields of all pairs and unknowns that fit them.
@@ -25,7 +25,17 @@ pub(super) struct Selected {
 
 /// The fields in the converged state. A node that was not kept starts with the old field.
 pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected {
-    let mut selected = without_freedoms(context, state, s);
+    selected_in(context, state, s, None)
+}
+
+/// The fields of given kept nodes in the converged state, chosen where there are none.
+pub(super) fn selected_in(
+    context: &StepContext,
+    state: &State,
+    s: f64,
+    given: Option<&[PairState]>,
+) -> Selected {
+    let mut selected = without_freedoms(context, state, s, given);
     let start = |pair| context.configuration(pair, &state.positions, &state.rigid);
     let nodes: Vec<_> = state.pairs.iter().map(|pair| &pair.nodes).collect();
     restrict(context, &mut selected.selections, start, &nodes);
@@ -33,7 +43,12 @@ pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected
 }
 
 /// The same where friction of all kept nodes is determined in all directions.
-fn without_freedoms(context: &StepContext, state: &State, s: f64) -> Selected {
+fn without_freedoms(
+    context: &StepContext,
+    state: &State,
+    s: f64,
+    given: Option<&[PairState]>,
+) -> Selected {
     let semismooth = context.problem.model.solver.strategy == Strategy::Semismooth;
     let (selections, tractions) = state
         .pairs
@@ -42,10 +57,15 @@ fn without_freedoms(context: &StepContext, state: &State, s: f64) -> Selected {
         .map(|(pair, of_pair)| {
             let start = context.configuration(pair, &state.positions, &state.rigid);
             let mut tractions = of_pair.tractions.clone();
+            let prescribed = &context.fixed_on_pair[pair];
+            let chosen = match given {
+                None => Selection::new(&start, None, &of_pair.kept, prescribed),
+                Some(given) => Selection::with_kept(&start, &given[pair].kept, prescribed),
+            };
             let selection = Selection {
                 offsets: context.offsets_left(pair, s),
                 fitted: context.fitted(pair, s),
-                ..Selection::new(&start, None, &of_pair.kept, &context.fixed_on_pair[pair])
+                ..chosen
             };
             tractions.tau_n = of_pair
                 .carried

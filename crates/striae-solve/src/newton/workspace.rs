@@ -213,11 +213,16 @@ impl Workspace {
     /// Poses to start iterating from: at the last converged state where they are
     /// unknowns, else where they are driven to.
     pub(super) fn first_poses(&mut self, imposed: &Imposed) -> Vec<Pose> {
+        self.poses_at(imposed, &imposed.before)
+    }
+
+    /// Poses of rigid bodies: those given where they are unknowns, else where they are driven to.
+    pub(super) fn poses_at(&mut self, imposed: &Imposed, poses: &[Pose]) -> Vec<Pose> {
         let layout = &self.system().layout;
         let bodies = imposed.before.iter().zip(&imposed.rigid).enumerate();
         bodies
             .map(|(rigid, (before, targets))| match layout.rigid(rigid) {
-                Some(_) => *before,
+                Some(_) => before.moved_to(&poses[rigid].coordinates()),
                 None => {
                     let present = before.coordinates();
                     before.moved_to(&std::array::from_fn(|at| {
@@ -277,6 +282,14 @@ impl Workspace {
         residual: &[f64],
         part: f64,
     ) -> Result<Vec<f64>, SolveError> {
+        self.factor()?;
+        let (correction, age) = self.solution(residual, part)?;
+        self.work.factorisations += usize::from(age == Age::Fresh);
+        Ok(correction)
+    }
+
+    /// Factors the tangent.
+    pub(super) fn factor(&mut self) -> Result<(), SolveError> {
         let solver = &mut self.solver;
         let system = self.system.as_mut().expect("the workspace was prepared");
         let times = &mut self.work.times;
@@ -287,9 +300,7 @@ impl Workspace {
         let report = solver.factor(&system.tangent)?;
         times.factorisation += analysed.elapsed();
         (self.work.method, self.work.fall_back) = (report.method, report.fall_back);
-        let (correction, age) = self.solution(residual, part)?;
-        self.work.factorisations += usize::from(age == Age::Fresh);
-        Ok(correction)
+        Ok(())
     }
 
     /// Solves for a correction with the matrix and the factors of the last one.

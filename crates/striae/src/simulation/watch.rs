@@ -16,12 +16,15 @@ use crate::{
     log::Log,
     observer::{Converged, Next, Observer},
     results::Results,
+    sensitivity::Followed,
 };
 
 /// Takes down a run, passes it on to the observer and stops it.
 pub(super) struct Watch<'a> {
     pub(super) problem: &'a Problem,
     pub(super) log: Log,
+    /// Neighbours for derivatives.
+    pub(super) followed: Option<Followed>,
     pub(super) observer: &'a mut dyn Observer,
     pub(super) interrupt: Interrupt,
     /// States at the end of the steps.
@@ -41,7 +44,11 @@ impl IterationObserver for Watch<'_> {
 }
 
 impl drive::Observer for Watch<'_> {
-    fn step(&mut self, _index: usize, _name: &str) {}
+    fn step(&mut self, index: usize, _name: &str) {
+        if let Some(followed) = &mut self.followed {
+            followed.step(index, self.before.time);
+        }
+    }
 
     fn increment(&mut self, progress: Progress, increment: &Increment) -> Continue {
         let next = self.observer.increment(&Converged {
@@ -57,6 +64,10 @@ impl drive::Observer for Watch<'_> {
         self.increments = progress.increment;
         let taken_down = self.log.increment(self.problem, progress, increment);
         self.failure = self.failure.take().or(taken_down.err());
+        if let Some(followed) = &mut self.followed {
+            let taken_down = followed.increment(progress, increment);
+            self.failure = self.failure.take().or(taken_down.err());
+        }
         if self.log.keeps(progress.increment) {
             self.proceed(next, Continue::Keep)
         } else {
@@ -72,6 +83,9 @@ impl drive::Observer for Watch<'_> {
 
     fn cut_back(&mut self, progress: Progress, reason: &CutBack) -> Continue {
         self.log.cut_back();
+        if let Some(followed) = &mut self.followed {
+            followed.cut_back(reason);
+        }
         let next = self.observer.cut_back(progress, reason);
         self.proceed(next, Continue::Yes)
     }

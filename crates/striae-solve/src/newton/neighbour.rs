@@ -1,0 +1,299 @@
+//! Increments of neighbouring problems, by the tangent of one that has converged.
+//!
+//! A parameter `p` of a model and the state `s` before an increment enter its residual
+//! `R(x; s, p)`. Two neighbours at `p - h` and `p + h` start from states `s_-`, `s_+` of their own.
+//! Where the increment has come to `x`, with the tangent `K = dR/dx` there,
+//!
+//! ```text
+//! K d = -(R(x; s_+, p + h) - R(x; s_-, p - h)) / 2,   x_- = x - d,   x_+ = x + d
+//! ```
+//!
+//! The error of `d` is of the order `h^3`, as even powers of `h` cancel, and so does what Newton's
+//! method left of the residual at `x`. No neighbour iterates: it takes kept nodes and branches of
+//! the laws from the increment. The error that is left is measured by what another such correction
+//! would change, and taken away by it where it is not small.
+
+use striae_contact::{complementarity::Iteration, segment::Derivatives, selection::Selection};
+
+use super::{
+    Increment, Workspace,
+    acceptance::accepted,
+    attempt::Attempt,
+    correction::corrected,
+    course::Course,
+    failure::linear_system,
+    selected::{Selected, selected_in},
+};
+use crate::{
+    assembly::{Assembled, Imposed, Setting, StepContext, Trial},
+    layout::Layout,
+    outcome::CutBack,
+    problem::Problem,
+    state::State,
+};
+
+/// Part of the residual of a correction that is as good as nothing.
+const EXACT: f64 = 1e-12;
+/// Part of the first correction below which another one changes nothing.
+const NOTHING: f64 = 1e-7;
+/// Part of positions and tractions below which a correction is round-off.
+const ROUND_OFF: f64 = 1e-11;
+/// Most corrections of an increment.
+const CORRECTIONS: usize = 4;
+
+/// A converged increment with where it came from.
+pub(crate) struct Base<'a> {
+    /// Its step.
+    pub context: &'a StepContext<'a>,
+    /// The state before it.
+    pub before: &'a State,
+    /// What it came to.
+    pub increment: &'a Increment,
+    /// Fraction of the step at its end.
+    pub fraction: f64,
+}
+
+/// A neighbouring problem at the start of an increment.
+pub(crate) struct Neighbour<'a> {
+    context: &'a StepContext<'a>,
+    before: &'a State,
+    time: f64,
+    imposed: Imposed,
+    selections: Vec<Selection>,
+    trial: Trial,
+}
+
+/// Two neighbours after an increment.
+pub(crate) struct Moved {
+    /// Their states.
+    pub states: [State; 2],
+    /// What a further correction would have changed, over the first one.
+    pub remainder: f64,
+}
+
+impl<'a> Neighbour<'a> {
+    /// A neighbour whose step has the same fraction, at its own time.
+    ///
+    /// # Errors
+    /// Why its own iterations fail, where the traction fields of the increment depend on those.
+    pub(crate) fn new(
+        base: &Base,
+        context: &'a StepContext<'a>,
+        before: &'a State,
+        course: Option<Course>,
+        workspace: &mut Workspace,
+    ) -> Result<Self, CutBack> {
+        let step = &context.problem.model.steps[context.index];
+        let time = context.start.time + base.fraction * step.duration;
+        let imposed = context.imposed_after(before, base.fraction, time);
+        let after = &base.increment.state.pairs;
+        let Selected {
+            mut selections,
+            mut tractions,
+        } = selected_in(context, before, base.fraction, Some(after));
+        if base.increment.has_reselected {
+            let place = (context, before, &imposed);
+            selections = iterated(place, base.fraction, time, course, workspace)?;
+        }
+        for (tractions, after) in tractions.iter_mut().zip(after) {
+            tractions.nodes.clone_from(&after.tractions.nodes);
+            tractions.labels.clone_from(&after.tractions.labels);
+        }
+        workspace.extend(context.problem, &selections);
+        let mut trial = Trial {
+            positions: base.increment.state.positions.clone(),
+            rigid: workspace.poses_at(&imposed, &base.increment.state.rigid),
+            tractions,
+        };
+        trial.place_tied(context.problem);
+        Ok(Self {
+            context,
+            before,
+            time,
+            imposed,
+            selections,
+            trial,
+        })
+    }
+
+    fn setting(&self) -> Setting<'_> {
+        Setting {
+            context: self.context,
+            state: self.before,
+            selections: &self.selections,
+            imposed: &self.imposed,
+        }
+    }
+
+    fn assembled(&self, workspace: &mut Workspace) -> Result<Assembled, CutBack> {
+        let (setting, iteration) = (self.setting(), Iteration::LATER);
+        workspace.assemble(&setting, &self.trial, iteration, Derivatives::None)
+    }
+}
+
+/// Traction fields that a neighbour's own iterations choose.
+fn iterated<'a>(
+    (context, before, imposed): (&'a StepContext<'a>, &'a State, &'a Imposed),
+    s: f64,
+    time: f64,
+    course: Option<Course>,
+    workspace: &mut Workspace,
+) -> Result<Vec<Selection>, CutBack> {
+    let course = course.filter(|course| course.leads_on(context, before));
+    let mut attempt = Attempt::new(context, before, imposed, s, workspace);
+    if let Some(course) = &course {
+        attempt.follow(course, time);
+    }
+    let mut solved = attempt.solved(workspace, &mut ());
+    if solved.is_err() && attempt.follows() {
+        attempt = attempt.anew(s, workspace);
+        solved = attempt.solved(workspace, &mut ());
+    }
+    solved?;
+    Ok(attempt.selections)
+}
+
+/// Evaluates and factors the tangent at the end of an increment.
+///
+/// # Errors
+/// Why it cannot be.
+pub(crate) fn linearise(base: &Base, workspace: &mut Workspace) -> Result<(), CutBack> {
+    let (context, increment) = (base.context, base.increment);
+    let state = &increment.state;
+    let imposed = context.imposed_after(base.before, base.fraction, state.time);
+    workspace.prepare(context.problem, &increment.selections);
+    let of_pairs = state.pairs.iter().zip(&base.before.pairs);
+    let tractions = of_pairs.map(|(after, before)| {
+        let mut tractions = after.tractions.clone();
+        // What the rows of the increment saw: slip up to its start.
+        tractions
+            .accumulated
+            .clone_from(&before.tractions.accumulated);
+        tractions
+    });
+    let trial = Trial {
+        positions: state.positions.clone(),
+        tractions: tractions.collect(),
+        rigid: state.rigid.clone(),
+    };
+    let setting = Setting {
+        context,
+        state: base.before,
+        selections: &increment.selections,
+        imposed: &imposed,
+    };
+    workspace.assemble(&setting, &trial, Iteration::LATER, Derivatives::First)?;
+    let factored = workspace.factor();
+    factored.map_err(|error| unsolved(context.problem, workspace, error))
+}
+
+fn unsolved(
+    problem: &Problem,
+    workspace: &mut Workspace,
+    error: striae_sparse::SolveError,
+) -> CutBack {
+    linear_system(problem, workspace.system().numbers(), error)
+}
+
+/// Moves two neighbours to the end of an increment whose tangent has been factored.
+///
+/// # Errors
+/// Why a state of theirs cannot be evaluated.
+pub(crate) fn moved(
+    base: &Base,
+    mut two: [Neighbour; 2],
+    workspace: &mut Workspace,
+) -> Result<Moved, CutBack> {
+    let problem = base.context.problem;
+    let mut assembled = [two[0].assembled(workspace)?, two[1].assembled(workspace)?];
+    let (mut first, mut remainder): (Option<Size>, f64) = (None, 0.0);
+    for _ in 0..CORRECTIONS {
+        let [less, more] = assembled.each_ref().map(|assembled| &assembled.residual);
+        let half: Vec<f64> = more
+            .iter()
+            .zip(less)
+            .map(|(more, less)| 0.5 * (more - less))
+            .collect();
+        let correction = workspace.chord_correction(&half, EXACT);
+        let correction = correction.map_err(|error| unsolved(problem, workspace, error))?;
+        let size = Size::of(&correction, problem, &workspace.system().layout);
+        let first = first.get_or_insert_with(|| size.max(&Size::round_off(base)));
+        remainder = size.over(first);
+        if remainder <= NOTHING {
+            break;
+        }
+        for (neighbour, factor) in two.iter_mut().zip([-1.0, 1.0]) {
+            let system = workspace.system();
+            let (setting, trial) = (neighbour.setting(), &neighbour.trial);
+            neighbour.trial = corrected(&setting, system, trial, &correction, factor);
+        }
+        assembled = [two[0].assembled(workspace)?, two[1].assembled(workspace)?];
+    }
+    let mut states = two
+        .into_iter()
+        .zip(assembled)
+        .map(|(neighbour, assembled)| {
+            let Neighbour {
+                context,
+                before,
+                time,
+                imposed,
+                selections,
+                trial,
+            } = neighbour;
+            accepted(
+                context,
+                before,
+                time,
+                trial,
+                imposed,
+                &selections,
+                assembled,
+            )
+        });
+    let states = [states.next(), states.next()].map(|state| state.expect("there are two"));
+    Ok(Moved { states, remainder })
+}
+
+/// Largest components of a correction: of positions, and of everything else.
+struct Size([f64; 2]);
+
+impl Size {
+    fn of(correction: &[f64], problem: &Problem, layout: &Layout) -> Self {
+        let mut is_position = vec![false; correction.len()];
+        for node in problem.global_nodes() {
+            let first = layout.position(node);
+            is_position[first..first + 3].fill(true);
+        }
+        let mut size = [0.0_f64; 2];
+        for (is_position, value) in is_position.iter().zip(correction) {
+            let of = &mut size[usize::from(!is_position)];
+            *of = of.max(value.abs());
+        }
+        Self(size)
+    }
+
+    /// Corrections that are round-off of the state an increment has come to.
+    fn round_off(base: &Base) -> Self {
+        let state = &base.increment.state;
+        let positions = state.positions.iter().map(|x| x.amax());
+        let pairs = state.pairs.iter();
+        let unknowns = pairs.flat_map(|pair| pair.tractions.nodes.iter().flatten().flatten());
+        let largest = [
+            positions.fold(0.0, f64::max),
+            unknowns.fold(0.0, |largest: f64, value| largest.max(value.abs())),
+        ];
+        Self(largest.map(|largest| ROUND_OFF * largest))
+    }
+
+    fn max(&self, other: &Self) -> Self {
+        Self([0, 1].map(|at| self.0[at].max(other.0[at])))
+    }
+
+    /// The largest of its shares in another one.
+    fn over(&self, first: &Self) -> f64 {
+        let shares = self.0.iter().zip(first.0);
+        let share = |(size, first): (&f64, f64)| if first > 0.0 { size / first } else { 0.0 };
+        shares.map(share).fold(0.0, f64::max)
+    }
+}

@@ -1,0 +1,211 @@
+//! Derivatives of runs beside closed forms, and beside central differences of whole runs.
+
+use std::path::Path;
+
+use striae::{
+    Error, Finished, Simulation,
+    deck::{Setting, parse_with},
+    model::Model,
+    sensitivity::parameter,
+    solve::outcome::Ending,
+};
+
+/// Two blocks, one of them textured, slid back and forth and then across.
+const BLOCKS: &str = include_str!("blocks.toml");
+/// A dome on a floor with nap, whose contact grows.
+const DOME: &str = include_str!("dome.toml");
+/// A billet that yields and is released.
+const BILLET: &str = include_str!("billet.toml");
+/// Blocks in dynamics, the upper one tied to a rigid plate that is free in one direction.
+const DYNAMIC: &str = include_str!("../../src/simulation/tests/dynamic.toml");
+/// A bar on a floor that it just touches at the end of the step.
+const BAR: &str = include_str!("bar.toml");
+
+fn model(text: &str, settings: &[Setting]) -> Model {
+    let deck = parse_with(text, "deck.toml", Path::new(""), settings);
+    let mut model = deck.unwrap_or_else(|faults| panic!("{faults}")).model;
+    // What iterations leave would be divided by the step.
+    model.solver.tolerance = 1e-12;
+    model.solver.further_iterations = 2;
+    model
+}
+
+fn differentiated(text: &str, name: &str, value: f64) -> Finished {
+    let set = |value: f64| vec![Setting::new(name, value)];
+    let by = parameter(name, value, |value| {
+        Ok::<_, Error>(model(text, &set(value)))
+    })
+    .unwrap();
+    let simulation = Simulation::new(model(text, &set(value))).unwrap();
+    let finished = simulation.differentiated(by).run().unwrap();
+    assert_eq!(finished.ending, Ending::Completed);
+    finished
+}
+
+/// Compares derivatives by a number of a deck with central differences of whole runs, column by
+/// column over all increments, by the largest derivative of the column.
+fn compare(text: &str, (name, value, step): (&str, f64, f64), bound: f64) {
+    let finished = differentiated(text, name, value);
+    let own = &finished.sensitivities[0];
+    assert!(own.ended.is_none() && own.kinks().is_empty());
+    assert!(
+        finished
+            .summary
+            .warnings
+            .iter()
+            .all(|warning| warning.kind != "sensitivity")
+    );
+    let [less, more] = [value - step, value + step].map(|value| {
+        let moved = model(text, &[Setting::new(name, value)]);
+        Simulation::new(moved).unwrap().run().unwrap().history
+    });
+    let mut compared = 0;
+    let wanted = [
+        "strain",
+        "external",
+        "friction",
+        "inelastic",
+        "dissipated",
+        "x",
+        "y",
+        "z",
+    ];
+    for column in &own.history.columns {
+        let last = column.rsplit('.').next().unwrap();
+        if !wanted.contains(&last) {
+            continue;
+        }
+        let [own, less, more] = [&own.history, &less, &more].map(|all| all.column(column).unwrap());
+        let whole = less
+            .iter()
+            .zip(&more)
+            .map(|(less, more)| (more - less) / (2.0 * step));
+        let whole: Vec<f64> = whole.collect();
+        let values = less
+            .iter()
+            .fold(0.0_f64, |size, value| size.max(value.abs()));
+        let size = whole
+            .iter()
+            .fold(0.0_f64, |size, value| size.max(value.abs()));
+        // What does not depend on the parameter but for round-off.
+        if size <= 1e-9 * values / value.abs() {
+            continue;
+        }
+        for (at, (own, whole)) in own.iter().zip(&whole).enumerate() {
+            let error = (own - whole).abs() / size;
+            let place = format!("{column} of increment {} by {name}", at + 1);
+            assert!(
+                error < bound,
+                "{place}: {own:e}, by differences {whole:e}, {error:.1e}"
+            );
+        }
+        compared += 1;
+    }
+    assert!(compared > 5, "{compared} columns depend on {name}");
+}
+
+#[test]
+fn by_constants_of_friction() {
+    compare(
+        BLOCKS,
+        ("pair.interface.friction.mu_along", 0.2, 1e-5),
+        1e-6,
+    );
+    compare(DOME, ("pair.contact.friction.mu_backward", 0.5, 1e-5), 1e-6);
+}
+
+#[test]
+fn by_the_angle_of_a_texture() {
+    compare(
+        BLOCKS,
+        ("pair.interface.a.texture.uniform.1", 1.0, 1e-5),
+        1e-6,
+    );
+}
+
+#[test]
+fn by_the_target_of_a_displacement() {
+    compare(BLOCKS, ("step.slide.displacement.0.x", 0.1, 1e-6), 1e-6);
+}
+
+#[test]
+fn by_the_height_of_a_body() {
+    compare(DOME, ("height", 1.0, 1e-5), 1e-5);
+}
+
+#[test]
+fn by_constants_of_metal_that_yields_and_is_released() {
+    compare(BILLET, ("material.metal.yield_stress", 250e6, 2.5e3), 1e-6);
+    compare(BILLET, ("pair.top.friction.mu", 0.1, 1e-6), 1e-6);
+}
+
+#[test]
+fn with_inertia_and_a_body_that_is_tied() {
+    compare(DYNAMIC, ("pair.interface.friction.mu", 0.3, 1e-5), 2e-6);
+    compare(DYNAMIC, ("material.solid.density", 1000.0, 0.1), 2e-6);
+}
+
+#[test]
+fn force_of_a_bar_by_its_modulus_and_by_its_friction() {
+    let pressed = BAR.replace("z = -0.01", "z = -0.02");
+    let finished = differentiated(&pressed, "material.elastic.youngs_modulus", 1e4);
+    // F = E A u / L of the linear bar without lateral strain.
+    let by_modulus = finished.sensitivities[0]
+        .history
+        .column("pair.foot.resultant_a.z")
+        .unwrap();
+    assert!((by_modulus.last().unwrap() - 0.01).abs() < 1e-10);
+    let by_state = finished.sensitivities[0].derivative(|results| {
+        let pair = results.pair("foot").unwrap();
+        pair.sides[0].force.z * pair.sides[0].force.z
+    });
+    let force = *finished
+        .history
+        .column("pair.foot.resultant_a.z")
+        .unwrap()
+        .last()
+        .unwrap();
+    assert!((by_state - 2.0 * force * 0.01).abs() < 1e-7 * by_state);
+}
+
+#[test]
+fn a_node_that_just_touches_is_named() {
+    let finished = differentiated(BAR, "step.press.displacement.0.z", -0.01);
+    let kinks = finished.sensitivities[0].kinks();
+    assert!(!kinks.is_empty());
+    let warnings = &finished.summary.warnings;
+    let kink = warnings
+        .iter()
+        .find(|warning| warning.kind == "kink")
+        .unwrap();
+    assert!(
+        kink.text.contains("one-sided") && kink.text.contains("pair `foot`"),
+        "{}",
+        kink.text
+    );
+}
+
+#[test]
+fn the_run_itself_stays_as_it_is() {
+    let alone = Simulation::new(model(DOME, &[])).unwrap().run().unwrap();
+    let with = differentiated(DOME, "height", 1.0);
+    assert_eq!(alone.history, with.history);
+}
+
+#[test]
+fn a_parameter_that_changes_the_mesh_is_refused() {
+    let divided = |value: f64| -> Result<Model, Error> {
+        let divisions = format!("divisions = [{}, 2, 2]", if value < 2.0 { 2 } else { 3 });
+        Ok(model(
+            &BAR.replace("divisions = [2, 2, 2]", &divisions),
+            &[],
+        ))
+    };
+    let simulation = Simulation::new(model(BAR, &[])).unwrap();
+    let by = parameter("divisions", 2.0, divided).unwrap();
+    let refused = simulation.differentiated(by).run().unwrap_err().to_string();
+    assert!(
+        refused.contains("`divisions` changes the elements"),
+        "{refused}"
+    );
+}
