@@ -153,7 +153,7 @@ struct Cells<const N: usize, const Q: usize> {
     /// Of each element.
     formulations: Vec<Formulation>,
     inertia: Inertia<N, Q>,
-    /// What continues values at the points to the corners, by corner.
+    /// Matrix that extrapolates values at the quadrature points to the corners, by corner.
     recovery: [[f64; Q]; N],
     elements: Vec<Reference<N, Q>>,
     /// Of each element, where the deformation gradient of any of them is enhanced.

@@ -69,7 +69,7 @@ struct Settled<const Q: usize> {
 }
 
 impl<const Q: usize> Fields<Q> {
-    /// Those of a hexahedron with the reference positions `X`.
+    /// Modes of a hexahedron with the reference positions `X`.
     pub(super) fn new(corners: &[Vec3]) -> Self {
         let shape = CellKind::Hexahedron.shape();
         let jacobian = |at: [f64; 3]| {

@@ -1,4 +1,4 @@
-//! What can be wrong with an element.
+//! Errors of elements.
 
 use striae_law::bulk::ResponseError;
 use striae_mesh::ElementId;
@@ -68,7 +68,7 @@ pub enum ElementError {
 pub struct ElementFault {
     /// The element.
     pub element: ElementId,
-    /// What is wrong with it.
+    /// Error of this element.
     pub error: ElementError,
 }
 

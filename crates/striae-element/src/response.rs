@@ -20,7 +20,7 @@ pub struct ElementResponse {
     pub stiffness: Stiffness,
     /// Energy that has been dissipated since the last converged state.
     pub dissipated: f64,
-    /// What the quadrature points have come to, one after the other.
+    /// New internal variables of the quadrature points, one point after the other.
     pub variables: Vec<f64>,
 }
 

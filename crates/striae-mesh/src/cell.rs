@@ -47,9 +47,9 @@ pub enum CellKind {
 /// Geometry of a kind of cell.
 #[derive(Debug)]
 pub struct CellShape {
-    /// What one of them is called.
+    /// Name of one such cell, singular.
     pub name: &'static str,
-    /// What several of them are called.
+    /// Plural of the name.
     pub plural: &'static str,
     /// Natural coordinates of the corners.
     pub corners: &'static [[f64; 3]],
@@ -174,7 +174,7 @@ impl CellBlock {
         self.nodes.len() / self.kind.corner_count()
     }
 
-    /// Whether there is no cell.
+    /// Returns whether there are no cells.
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }

@@ -1,8 +1,8 @@
-//! What can be wrong with a mesh or with the parameters of a generator.
+//! Errors of meshes and of the parameters of generators.
 
 use crate::{CellKind, ElementId, Face, NodeId};
 
-/// What can be wrong with a mesh or with the parameters of a generator.
+/// Error of a mesh or of the parameters of a generator.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MeshError {
     /// An element names a node that does not exist.
@@ -91,7 +91,7 @@ pub enum MeshError {
         name: &'static str,
         /// Its value.
         value: f64,
-        /// What it has to be, as the end of a sentence.
+        /// Requirement on the value, phrased to end a sentence.
         requirement: &'static str,
     },
     /// A capped block that has no height left at its corners.

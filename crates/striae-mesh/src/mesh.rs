@@ -24,7 +24,7 @@ impl Mesh {
     /// A mesh without sets.
     ///
     /// # Errors
-    /// Those of [`Mesh::check`].
+    /// Returns the errors of [`Mesh::check`].
     pub fn new(positions: Vec<Vec3>, blocks: Vec<CellBlock>) -> Result<Self, MeshError> {
         let mesh = Self {
             positions,

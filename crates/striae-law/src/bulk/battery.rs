@@ -1,11 +1,11 @@
-//! What every bulk law must do, in one call.
+//! Battery of properties that every bulk law must satisfy, checked in one call.
 //!
-//! A law of one's own is held against the laws of elasticity before it meets a mesh: free of
-//! energy and stress at rest, `P = dW/dF`, `A = dP/dF = A^T`, and `W(Q F) = W(F)` for every
-//! rotation `Q`. A law with a memory is led along a random path first; what it remembers is
-//! held while derivatives are taken, `P = dW/dF` is asked for only of laws without one, and
-//! the dissipation must not be negative. Derivatives are judged by the order at which finite-difference errors fall,
-//! so no tolerance has to be chosen.
+//! A user-defined law is checked against the laws of elasticity before it is used in a mesh: no
+//! energy and no stress at rest, `P = dW/dF`, `A = dP/dF = A^T`, and `W(Q F) = W(F)` for every
+//! rotation `Q`. A law with internal variables is first driven along a random path; these are held
+//! fixed while derivatives are taken. `P = dW/dF` is required only of laws without internal
+//! variables, and the dissipation must not be negative. Derivatives are judged by the order at
+//! which finite-difference errors fall, so no tolerance has to be chosen.
 
 use std::fmt;
 

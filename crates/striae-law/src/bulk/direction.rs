@@ -71,7 +71,7 @@ impl Direction {
         }
     }
 
-    /// Whether its vectors have a length.
+    /// Returns whether all its vectors have nonzero length.
     pub(super) fn has_length(&self) -> bool {
         let (vector, point) = match self {
             Self::Uniform(direction) => (direction, Vector3::zeros()),

@@ -93,7 +93,7 @@ pub enum InadmissibleFibres {
         name: &'static str,
         /// Its value.
         value: f64,
-        /// What it must be.
+        /// Requirement on the value.
         expected: &'static str,
     },
     /// A direction of no length.
@@ -137,7 +137,7 @@ impl Fibrous {
         })
     }
 
-    /// What is around the fibres.
+    /// Matrix material around the fibres.
     pub fn ground(&self) -> &Material {
         &self.ground
     }

@@ -45,7 +45,7 @@ pub enum InadmissibleHardening {
         name: &'static str,
         /// Its value.
         value: f64,
-        /// What it must be.
+        /// Requirement on the value.
         needed: &'static str,
     },
     /// Saturation below the first yield stress.

@@ -217,7 +217,7 @@ impl Material {
         }
     }
 
-    /// Whether all stress comes from an energy.
+    /// Returns whether all stress derives from an energy.
     fn is_elastic(&self) -> bool {
         self.variables() == 0 || matches!(self, Self::Fibrous(_))
     }

@@ -40,7 +40,7 @@ pub(super) struct Shape {
 /// How a constant follows from the parameters.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Meaning {
-    /// It is one of them.
+    /// One of the parameters.
     Parameter(usize),
     /// The first one over the second one.
     Quotient(usize, usize),
@@ -70,12 +70,12 @@ impl Shape {
         }
     }
 
-    /// Whether the vectors do not depend on the parameters.
+    /// Returns whether the vectors are independent of the parameters.
     pub(super) fn is_linear(&self) -> bool {
         self.sought != Sought::Orthotropic(SlipRule::Associated)
     }
 
-    /// Whether friction across slip bears on the parameters.
+    /// Returns whether friction across the slip direction depends on the parameters.
     pub(super) fn knows_across(&self) -> bool {
         !matches!(self.sought, Sought::Coulomb | Sought::Tabulated)
     }

@@ -95,7 +95,7 @@ pub struct Fit {
     pub degrees_of_freedom: usize,
     /// The level of the intervals, such as 0.95.
     pub level: f64,
-    /// Whether the measurements alone shape the law.
+    /// Constraints, besides the measurements, that determined the law.
     pub standing: Standing,
 }
 
@@ -134,7 +134,7 @@ impl fmt::Display for ConstantName {
     }
 }
 
-/// What shapes a fitted law.
+/// Constraints that determined a fitted law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standing {
     /// The measurements alone.
@@ -157,7 +157,7 @@ impl Sought {
         }
     }
 
-    /// What readings have to be like to determine the constants.
+    /// Requirement on measurements for the constants to be determined.
     fn needed(self) -> &'static str {
         match self {
             Self::Coulomb => "a reading",

@@ -1,6 +1,5 @@
-//! What a friction law looks like at one angle between the two textures: the slip
-//! surface for polar plots, the angle between traction and slip, extremes, and the
-//! margin by which slip dissipates.
+//! Shape of a friction law at one angle between the two textures: the slip surface for polar plots,
+//! the angle between traction and slip, extremes, and the margin by which slip dissipates.
 //!
 //! Shapes as in [`SlipSurface`]: over `varpi`, in the frame `(e, e_perp)` where `e`
 //! is the direction of `a_ba` (two textures) or the texture `a` (one texture), and

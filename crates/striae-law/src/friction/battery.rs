@@ -1,9 +1,9 @@
-//! What every friction law must do, in one call.
+//! Battery of properties that every friction law must satisfy, checked in one call.
 //!
-//! A law is held against mechanics at random places: forces stay inside the slip surface,
-//! slip dissipates, the answer turns with its arguments, is the same seen from the other
-//! surface and tangent to both, `K^-1` is the inverse of `K`, and derivatives are exact by
-//! the order at which finite-difference errors fall.
+//! A law is checked against mechanics at random places: tractions stay inside the slip surface,
+//! slip dissipates, the response rotates with its arguments, is independent of the side it is seen
+//! from and tangential to both surfaces, `K^-1` is the inverse of `K`, and derivatives are exact,
+//! judged by the order at which finite-difference errors decrease.
 
 use nalgebra::{DMatrix, DVector, Matrix3, SVector, Vector2, Vector3};
 use num_dual::{DualNum, jacobian};
@@ -20,7 +20,7 @@ pub enum Violation {
     SlipSurface {
         /// `Gamma(-tau)` by the slip surface.
         gauge: f64,
-        /// The same by the kernel.
+        /// Value given by the kernel.
         expected: f64,
     },
     /// Slip dissipates nothing, or friction creates energy.
@@ -116,7 +116,7 @@ impl Place {
             .collect()
     }
 
-    /// The same place seen from the other surface.
+    /// Returns this place as seen from the other surface.
     fn swapped(&self) -> Self {
         Self {
             normal: -self.normal,

@@ -1,4 +1,4 @@
-//! What can be wrong with the constants of a friction law.
+//! Errors in the constants of a friction law.
 
 use thiserror::Error;
 
@@ -12,7 +12,7 @@ pub enum FrictionError {
         name: &'static str,
         /// Its value.
         value: f64,
-        /// What it has to be, to complete "it must be ...".
+        /// Requirement on the value, to complete "it must be ...".
         expected: &'static str,
     },
     /// Friction between two textured surfaces would create energy.

@@ -258,7 +258,7 @@ impl Friction {
         &self.coefficient
     }
 
-    /// Whether how far `z` reaches depends on its direction; see [`Kernel::reach`].
+    /// Returns whether the reach of `z` depends on its direction; see [`Kernel::reach`].
     pub fn turns(&self) -> bool {
         matches!(self.law, Law::Tabulated(_))
     }
@@ -268,7 +268,7 @@ impl Friction {
         self.coefficient.at_rest() == 0.0
     }
 
-    /// Whether `varpi` depends on the slip rate.
+    /// Returns whether `varpi` depends on the slip rate.
     pub fn depends_on_rate(&self) -> bool {
         self.coefficient.by_rate().is_some()
     }

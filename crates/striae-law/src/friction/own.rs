@@ -162,7 +162,7 @@ fn seeded(x: &Vector3<f64>, first: usize) -> Vector3<Lane> {
     Vector3::from_fn(|i, _| Lane::from_re(x[i]).derivative(first + i))
 }
 
-/// What the arguments differ from their values by.
+/// Derivative parts of the arguments: each argument minus its value.
 fn change<D: DualNum<Primitive = f64> + Copy>(given: &[Vector3<D>; 3]) -> [D; 9] {
     std::array::from_fn(|at| {
         let x = given[at / 3][at % 3];

@@ -37,7 +37,8 @@ pub struct CappedBlock {
     pub growth: f64,
     /// How much of the block is meshed; default all of it.
     pub part: Part,
-    /// What the hexahedra are divided into; default hexahedra. Wedges stand along `z`.
+    /// Kind of cell that the hexahedra are divided into; hexahedra by default. Wedges extend along
+    /// `z`.
     pub cells: CellKind,
 }
 
@@ -46,7 +47,7 @@ pub struct CappedBlock {
 pub enum Part {
     /// All of it.
     Whole,
-    /// What lies at `y >= 0` from the apex; the side `ymin` is the plane of symmetry.
+    /// Half with `y >= 0` as seen from the apex; its side `ymin` is the plane of symmetry.
     Half,
 }
 

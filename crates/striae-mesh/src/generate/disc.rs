@@ -20,7 +20,7 @@ use std::f64::consts::FRAC_PI_2;
 pub enum Sector {
     /// All of it.
     Whole,
-    /// What lies at `x >= 0` and `y >= 0` from the middle.
+    /// Quarter with `x >= 0` and `y >= 0`, seen from the centre.
     Quarter,
 }
 

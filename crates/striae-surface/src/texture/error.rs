@@ -1,4 +1,4 @@
-//! What can be wrong with a texture.
+//! Errors of textures.
 
 use crate::node::SurfaceNode;
 use striae_mesh::FacetId;
@@ -9,7 +9,7 @@ pub enum TextureError {
     /// A list has another length than the surface has nodes.
     #[error("{found} {what} for a surface of {nodes} nodes")]
     Count {
-        /// What is listed.
+        /// Name of the listed quantity.
         what: &'static str,
         /// How many are given.
         found: usize,

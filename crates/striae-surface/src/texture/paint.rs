@@ -58,7 +58,7 @@ pub struct Field {
 /// Lines of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum Lines {
-    /// The same direction everywhere.
+    /// One direction everywhere.
     Uniform(Vec3),
     /// Circles about an axis, by the right-hand rule.
     Circumferential(Axis),

@@ -1,4 +1,4 @@
-//! What is particular to tabulated friction.
+//! Properties specific to tabulated friction.
 
 use nalgebra::Vector3;
 use num_dual::{Dual64, gradient};
@@ -52,7 +52,7 @@ fn upper(friction: &Friction, a: &Vector3<f64>, d: &Vector3<f64>) -> Vector3<f64
     -slipping(&friction.kernel(&-Vector3::z(), &textures), cap, d)
 }
 
-/// The same where the lower surface has the texture `a`.
+/// Traction where the lower surface has the texture `a`.
 fn lower(friction: &Friction, a: &Vector3<f64>, d: &Vector3<f64>) -> Vector3<f64> {
     let textures = Textures {
         own: None,
