@@ -18,7 +18,7 @@ use crate::common_mass::{SparseRow, SparseSum};
 /// Entries below it are dropped.
 const NOTHING: f64 = 1e-14;
 
-/// What a node is to the chain.
+/// Role of a node in the absorbing Markov chain.
 pub(crate) enum State {
     /// It takes values of others.
     Transient(SparseRow),

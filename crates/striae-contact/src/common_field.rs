@@ -32,7 +32,7 @@ use crate::{
     transported::Transported,
 };
 
-/// What the common field depends on.
+/// Quantities that the common field depends on.
 #[derive(Clone, Copy)]
 pub struct CommonField<'a> {
     /// Where everything is.

@@ -35,13 +35,13 @@ pub(crate) struct CommonMass {
     pub index: [Vec<Option<u32>>; 2],
     /// `D_kJ`.
     pub rows: Vec<SparseRow>,
-    /// The same over whole facets, against a rigid surface only.
+    /// Rows integrated over whole facets, against a rigid surface only.
     pub whole: Vec<SparseRow>,
     /// `w_k`.
     pub weights: Vec<f64>,
-    /// Whether a node has weight: it is a candidate.
+    /// `true` for nodes with nonzero weight, which are candidates.
     pub weighted: Vec<bool>,
-    /// Whether a node carries traction.
+    /// `true` for nodes that carry traction.
     pub carries: Vec<bool>,
     /// Patch of a node, `None` without an overlap.
     pub patch: Vec<Option<u32>>,
@@ -145,7 +145,7 @@ fn carriers(interface: &Interface) -> [Vec<bool>; 2] {
     carried
 }
 
-/// The same and, against a rigid surface, their neighbours.
+/// Carrying nodes and, against a rigid surface, their neighbours.
 fn with_neighbours(interface: &Interface, carried: &[Vec<bool>; 2]) -> [Vec<bool>; 2] {
     let mut wanted = carried.clone();
     if let Opponent::Rigid { whole } = interface.opponent {

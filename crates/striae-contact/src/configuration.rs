@@ -67,7 +67,7 @@ impl<'a> Configuration<'a> {
         }
     }
 
-    /// The same configuration reached in the time `elapsed`.
+    /// Copy of the configuration, reached in the time `elapsed`.
     pub fn lasting(self, elapsed: f64) -> Self {
         Self { elapsed, ..self }
     }

@@ -11,7 +11,7 @@ use crate::{
     side::Side,
 };
 
-/// What a node sees along its normal.
+/// Visibility of the other side along the normal of a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Coverage {
     /// The other side within reach.
@@ -172,7 +172,7 @@ impl Configuration<'_> {
         corners.any(|corner| other.surface.nodes()[corner.index()] == node)
     }
 
-    /// What a node of a deformable side sees.
+    /// Visibility of the other side from a node of a deformable side.
     pub fn coverage(&self, side: Side, node: SurfaceNode) -> Coverage {
         let reach = self.reach(side, node);
         match self.contact(side, node, HORIZON * reach) {

@@ -29,7 +29,7 @@ pub struct Fit {
     pub overlap: Option<Interference>,
     /// Distance of the sides where they are nearest, whatever faces what.
     pub distance: f64,
-    /// Whether all nodes of side `a` are behind a rigid side.
+    /// Position of side `a` relative to a rigid side.
     pub lies: Lies,
 }
 
@@ -125,13 +125,13 @@ pub fn overlaps(stage: &Stage) -> [Vec<f64>; 2] {
     all
 }
 
-/// What a point sees of the other side.
+/// View of the other side from a point.
 struct Seen {
     opening: Opening,
     standing: Standing,
-    /// Whether the point is in front of what it sees, and faces it.
+    /// `true` if the point is in front of the facet it sees and faces it.
     faces: bool,
-    /// Whether a point behind is inside.
+    /// `true` if a point behind the surface is inside the body.
     within: bool,
     /// Distance behind the plane of the nearest facet.
     depth: f64,

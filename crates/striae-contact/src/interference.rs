@@ -1,22 +1,22 @@
-//! Interference of the two sides of a pair, whatever contact has seen of it.
+//! Interference of the two sides of a pair, independent of what contact detected.
 //!
-//! It is found from two converged configurations on *all* facets, without a search
-//! distance and without a formulation of contact:
+//! Interference is found from two converged configurations on *all* facets, without a search
+//! distance and without a contact formulation:
 //!
 //! - **inside**: a point of one side is behind the other one, by less than the body is
 //!   thick there, see [`nearest`](Nearest) and [`Thickness`];
-//! - **passed**: a point goes through a facet of the other side on its way, both moving
-//!   in straight lines, and is behind it for a while. So a body that has gone through a
-//!   thin one is found, too.
+//! - **passed**: a point passes through a facet of the other side on its way, both moving along
+//!   straight lines, and is behind it for some time. This also finds bodies that went through a
+//!   thin one.
 //!
-//! Points are the nodes of the surfaces and the centres of their facets. What lies
-//! behind by less than a share of the local facet size (or of 2.5 times the thickness,
-//! if that is less) is none, as weighted contact lets nodes in a little, nor is what was in as deep before. Against a rigid plane
-//! what counts is the distance. Bodies whose swept boxes do not meet cost nothing,
-//! others `O(n log n)`. The motion of a rigid body that turns is that of its chords,
-//! so an increment should turn by much less than half a turn.
+//! Points are the nodes of the surfaces and the centres of their facets. Depths below a share of
+//! the local facet size (or of 2.5 times the thickness, if that is smaller) are ignored, as
+//! weighted contact lets nodes penetrate a little, and so are depths that were no smaller before.
+//! Against a rigid plane the distance decides. Bodies whose swept boxes do not meet cost nothing,
+//! others `O(n log n)`. Points of a rotating rigid body move along chords, so an increment should
+//! rotate it by much less than half a turn.
 //!
-//! Longer than other files, as it is the one audit of where points of a pair are.
+//! Longer than other files, as it holds the whole audit of where the points of a pair are.
 
 mod facing;
 mod nearest;
@@ -77,7 +77,7 @@ pub struct Interference {
     pub depth: f64,
     /// Local facet size, by which depth is judged.
     pub size: f64,
-    /// What it is in.
+    /// Body or surface that the point is in.
     pub place: Place,
     /// How it came there.
     pub kind: Kind,
@@ -99,7 +99,7 @@ pub enum Spot {
     Centre(FacetId),
 }
 
-/// What a point is behind.
+/// Part of the other side that a point is behind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// A rigid plane.
@@ -111,7 +111,7 @@ pub enum Place {
 /// How a point came to be where the other side is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// It is inside.
+    /// The point is inside.
     Inside,
     /// It has passed through the surface and is not inside any more.
     Passed,

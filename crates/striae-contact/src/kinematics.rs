@@ -7,7 +7,7 @@ use crate::{
     unknown::Gradient,
 };
 
-/// What contact and friction at a kept node depend on.
+/// Kinematic quantities that contact and friction at a kept node depend on.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Kinematics {
     /// Gap, positive when open.
@@ -23,7 +23,7 @@ pub struct Kinematics {
     /// Derivative of the mean gap over the support by the positions of nodes, whether or not
     /// points of it are open.
     pub reaches: Gradient,
-    /// Whether any segment of the present configuration bears on the node.
+    /// Presence of segments that contribute to the node in the present configuration.
     pub presence: Presence,
     /// How its pressure is decided.
     pub pressure: Pressure,
@@ -48,7 +48,7 @@ pub struct Supported {
     pub weight: TrackedScalar,
     /// Share of the support that is closed at the full bedding.
     pub closed: f64,
-    /// Whether any point is closed.
+    /// `true` if any point is closed.
     pub touches: bool,
     /// `r_k`.
     pub bedding: f64,
@@ -68,19 +68,20 @@ impl Kinematics {
     }
 }
 
-/// Whether a node faces the other side.
+/// Presence of the other side at a node.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Presence {
-    /// It does.
+    /// The node faces the other side.
     #[default]
     Facing,
-    /// It does, but no point of its support is closed, and nothing else gives it pressure.
+    /// The node faces the other side, but no point of its support is closed and nothing else gives
+    /// it pressure.
     Apart,
     /// It has left the other side in this increment.
     Gone,
 }
 
-/// What is reported of a node, kept or not.
+/// Values reported for a node, kept or not.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Report {
     /// Gap.

@@ -102,12 +102,12 @@ impl ContactPair {
         })
     }
 
-    /// Whether the nodes of a side are deformable.
+    /// Returns whether the nodes of a side are deformable.
     pub(crate) fn is_deformable(&self, side: Side) -> bool {
         matches!(self.sides[side].geometry, Geometry::Deformable(_))
     }
 
-    /// Whether side `b` is rigid.
+    /// Returns whether side `b` is rigid.
     pub fn is_rigid(&self) -> bool {
         let geometry = &self.sides[Side::B].geometry;
         matches!(geometry, Geometry::Rigid(_) | Geometry::Plane { .. })

@@ -1,4 +1,4 @@
-//! What was opposite to nodes at the start of an increment, for collocated slip.
+//! Points opposite to nodes at the start of an increment, for collocated slip.
 
 use striae_mesh::Vec3;
 use striae_surface::node::SurfaceNode;
@@ -32,7 +32,7 @@ impl Partner {
     }
 }
 
-/// What is opposite to the kept nodes, where rows are collocated.
+/// Points opposite to the kept nodes, where rows are collocated.
 pub(crate) fn partners(
     configuration: &Configuration,
     basis: &TractionBasis,

@@ -27,7 +27,7 @@ pub struct Patch {
     pub rows: SegmentRows,
     /// Kept nodes, in their order.
     pub kept: Vec<OnSegment>,
-    /// What pressure does, in the order of the kept nodes.
+    /// Integrals of pressure, in the order of the kept nodes.
     pub pressed: Pressed,
 }
 
@@ -84,7 +84,8 @@ pub(crate) fn kept_on(
     kept
 }
 
-/// Whether derivatives of what facets with these corners add to rows are wanted.
+/// Returns which derivatives are needed of the contributions of facets with these corners to the
+/// rows.
 pub(crate) fn wanted(
     configuration: &Configuration,
     selection: &Selection,
@@ -117,7 +118,7 @@ pub(crate) struct Pressures<'a> {
 }
 
 impl Pressures<'_> {
-    /// What they do on a segment.
+    /// Integrals of the pressures over a segment.
     fn on(
         &self,
         configuration: &Configuration,

@@ -71,7 +71,7 @@ impl Pivots {
         self.of[k as usize].value
     }
 
-    /// Whether the last value still holds.
+    /// Returns whether the last value is still valid.
     pub fn is_fresh(&self, k: u32) -> bool {
         self.of[k as usize].pending.is_empty()
     }

@@ -42,14 +42,14 @@ impl Placement {
         self.rotation.tr_mul(&(x - self.shift))
     }
 
-    /// The same for numbers with derivatives.
+    /// Inverse map for numbers with derivatives.
     pub(crate) fn back_of<D: Real>(&self, x: &Vector3<D>) -> Vector3<D> {
         self.rotation
             .map(D::from)
             .tr_mul(&(x - constant3(&self.shift)))
     }
 
-    /// The same for directions, from the reference configuration.
+    /// Map of directions from the reference configuration, for numbers with derivatives.
     pub(crate) fn direction_of<D: Real>(&self, reference: &Vector3<D>) -> Vector3<D> {
         self.rotation.map(D::from) * reference
     }

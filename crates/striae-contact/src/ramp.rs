@@ -110,7 +110,7 @@ fn given_pressure(selection: &Selection, kinematics: &[Kinematics]) -> Vec<bool>
     given
 }
 
-/// What the slips of the ramp depend on.
+/// Quantities that the slips of the ramp depend on.
 #[derive(Clone, Copy)]
 pub struct Ramp<'a> {
     /// Where everything is.

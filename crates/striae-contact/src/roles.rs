@@ -66,7 +66,7 @@ pub const SAME_PLACE: f64 = 1e-9;
 const STAY: f64 = 2.0;
 /// Coupling below which two nodes are no neighbours.
 const UNCOUPLED: f64 = 1e-14;
-/// What is added to the diagonal for pivots against all kept neighbours.
+/// Term added to the diagonal for pivots against all kept neighbours.
 const BLUR: f64 = 0.02;
 /// Pivot of an interior node.
 const INTERIOR: f64 = 0.25;
@@ -196,7 +196,7 @@ fn covered(mass: &CommonMass) -> Vec<f64> {
     mass.rows.iter().zip(&mass.whole).map(pivot).collect()
 }
 
-/// Who competes, and the order among equals.
+/// Competing nodes, and the order among equals.
 struct Contest<'a> {
     mass: &'a CommonMass,
     /// Candidates, the first to win a tie first.

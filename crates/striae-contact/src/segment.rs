@@ -74,7 +74,7 @@ pub struct Facet {
     pub shape: Shape,
 }
 
-/// Whether derivatives are wanted.
+/// Request for derivatives of a segment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Derivatives {
     /// Values only.
@@ -88,7 +88,8 @@ pub enum Derivatives {
 pub enum SegmentDerivatives {
     /// None.
     None,
-    /// Those of the normal and of what pressure does, not of `D`, which friction alone asks for.
+    /// Derivatives of the normal and of the pressure, without those of `D`, which only friction
+    /// needs.
     OfPressure,
     /// All.
     All,
@@ -116,7 +117,7 @@ pub struct Segment {
     pub mass: [[f64; 8]; 8],
     /// Derivatives, if asked for.
     pub slopes: Option<Box<Slopes>>,
-    /// What it is made of; none against a plane, where it is the whole facet.
+    /// Common polygon; `None` against a plane, where it is the whole facet.
     polygon: Option<Box<Polygon>>,
     /// Share of it that counts, if not all.
     faded: Option<Box<Faded>>,

@@ -48,24 +48,24 @@ pub struct SegmentRows {
     pub slip_slopes: Vec<[[f64; 9]; 8]>,
 }
 
-/// Whether slip is asked for beside the gap.
+/// Request for slip besides the gap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Slip {
-    /// It is.
+    /// Slip is computed.
     Wanted,
     /// There is no friction.
     Left,
 }
 
-/// What is given of a segment beside its facets.
+/// Inputs of a segment besides its facets.
 #[derive(Clone, Copy, Debug)]
 pub struct Given {
     /// Weights of the facets' normals.
     pub weights: [f64; 2],
-    /// What is added to the gap at the corners, in shares that sum up to the one at a point: the
-    /// overlap of the meshes that is not pressed out yet, or an interference.
+    /// Offsets of the gap at the corners, in shares that sum to the offset at a point: the part of
+    /// an initial overlap of the meshes that is not removed yet, or an interference.
     pub offsets: [f64; 8],
-    /// Whether slip is asked for.
+    /// Request for slip.
     pub slip: Slip,
 }
 
@@ -152,7 +152,7 @@ struct Moved {
     turn: Matrix3<f64>,
     /// The old normal, for a deformable pair.
     n_old: Option<Vec3>,
-    /// Whether side `b` is a plane, on which the points follow those of side `a`.
+    /// `true` if side `b` is a plane, on which the points follow those of side `a`.
     on_plane: bool,
 }
 

@@ -38,7 +38,7 @@ const LEAST: f64 = 0.2;
 /// Gap over the local size at which the inflation is over.
 const CLOSED: f64 = 1e-6;
 
-/// What the labels of an iteration depend on besides the node.
+/// Inputs of the labels of an iteration besides the node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Corrector {
     /// Overshoot `tol_s` of the slip surface at which a node leaves stick.
@@ -78,7 +78,7 @@ impl Inflation {
         }
     }
 
-    /// Whether the slip surface is the true one.
+    /// Returns whether the slip surface is the true one again.
     pub fn is_over(self) -> bool {
         self.omega == 1.0
     }

@@ -123,8 +123,8 @@ pub fn own(
     Ok(Some(tracked(&lanes, &a)))
 }
 
-/// Whether a node with unknowns faces nothing. No position changes its gap then, so it is open
-/// whatever the texture.
+/// Returns whether a node with unknowns faces nothing. Its gap then depends on no position, so it
+/// is open for any texture.
 fn is_beside(
     selection: &Selection,
     kinematics: &[Kinematics],

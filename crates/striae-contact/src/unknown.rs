@@ -27,7 +27,7 @@ pub struct Numbering {
     nodes: [u32; 2],
 }
 
-/// What a pair-local unknown is.
+/// Kind of a pair-local unknown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unknown {
     /// Component of the position of a surface node.
@@ -81,7 +81,7 @@ impl Numbering {
         6 * (self.nodes[0] + self.nodes[1])
     }
 
-    /// What the unknown `number` is.
+    /// Returns the kind of the unknown `number`.
     pub fn unknown(&self, number: u32) -> Unknown {
         let count = self.nodes[0] + self.nodes[1];
         let traction = number >= 3 * count;

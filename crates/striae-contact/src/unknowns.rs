@@ -11,18 +11,18 @@ pub struct Tractions {
     pub nodes: [Vec<[f64; 3]>; 2],
     /// Components of the converged friction traction `tau_n` along the nodal tangents, by side.
     pub tau_n: [Vec<[f64; 2]>; 2],
-    /// Whether each node slipped in the last converged increment, by side.
+    /// `true` for each node that slipped in the last converged increment, by side.
     pub slipped: [Vec<bool>; 2],
-    /// Whether each node stuck in it, by side.
+    /// `true` for each node that stuck in the last converged increment, by side.
     pub stuck: [Vec<bool>; 2],
     /// Closed share of the support of each node at the last converged state, by side, which its
     /// [bedding](crate::bedding) goes by.
     pub bedded: [Vec<f64>; 2],
     /// Slip `sum |du|` of each node up to the last converged state, by side.
     pub accumulated: [Vec<f64>; 2],
-    /// What the iterations so far made of each node, by side; before the first, slip where a
-    /// node slipped in the last increment and else open.
-    /// It counts with a corrector, and where friction decays with the slip rate.
+    /// Labels of the nodes after the iterations so far, by side; before the first iteration, slip
+    /// for nodes that slipped in the last increment and open for all others. They matter with a
+    /// corrector, and where friction falls with the slip rate.
     pub labels: [Vec<Label>; 2],
 }
 
@@ -66,7 +66,7 @@ impl Tractions {
     }
 }
 
-/// What the iterations of an increment made of a node.
+/// Label of a node from the iterations of an increment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Label {
     /// Status in the last iteration.
@@ -75,11 +75,12 @@ pub struct Label {
     pub begun: u32,
     /// `|du|` in the last iteration.
     pub slip: f64,
-    /// Whether `|du|` fell when it last changed, since a node last began or ceased to slip.
+    /// `true` if the last change of `|du|` was a fall, counted from when the node last began or
+    /// ceased to slip.
     pub fell: bool,
     /// How often `|du|` rose after a fall, since then.
     pub turns: u32,
-    /// Whether its pressure is known to be zero.
+    /// `true` if its pressure is known to be zero.
     pub apart: bool,
 }
 
@@ -118,7 +119,7 @@ impl Label {
         }
     }
 
-    /// Whether with this `|du|` slip has gone back and forth.
+    /// Returns whether slip has oscillated, given the new `|du|`.
     pub(crate) fn goes_back_and_forth(&self, slip: f64) -> bool {
         self.fell && self.rises_to(slip) && self.turns + 1 == Self::TURNS
     }
@@ -140,7 +141,7 @@ pub enum Status {
     Slip,
 }
 
-/// What is known of a contact node in one configuration.
+/// Results at a contact node in one configuration.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct NodeResult {
     /// Gap to the other side, as the contact rows see it.
@@ -163,7 +164,7 @@ pub struct NodeResult {
     pub status: Status,
     /// Closed share of the support, by the gap that opens a support at its full bedding.
     pub closed: f64,
-    /// Whether nothing gives a kept node pressure.
+    /// `true` if nothing gives a kept node pressure.
     pub apart: bool,
 }
 

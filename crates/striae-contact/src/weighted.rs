@@ -93,7 +93,7 @@ struct Sum<'a> {
     slip_blocks: Vec<Matrix3<f64>>,
     /// `alpha_ck` of the same nodes.
     alphas: Vec<f64>,
-    /// The same with the normals: how the mean gap over a closed support would change.
+    /// Reaches multiplied by the normals: change of the mean gap over a closed support.
     reaches: Vec<Vec3>,
 }
 
@@ -305,7 +305,7 @@ fn add_multiple<const N: usize>(sum: &mut [f64; N], factor: f64, part: &[f64; N]
         .for_each(|(sum, part)| *sum += factor * part);
 }
 
-/// What is reported of every node of both sides.
+/// Values reported for every node of both sides.
 pub fn reports(
     configuration: &Configuration,
     counts: [usize; 2],

@@ -28,7 +28,7 @@ use super::{
 };
 use crate::{configuration::Configuration, table_1::Corrector, term::Field, unknowns::Status};
 
-/// What a tangential row states, its residual and its gradient over the lanes.
+/// Tangential row: its field, its residual and its gradient over the lanes.
 pub(super) type TangentialRow = (Field, f64, [f64; N]);
 
 /// Status and tangential rows of a closed node with the unknowns `[z1, z2]`; `r` is the
@@ -167,9 +167,9 @@ impl Friction<'_> {
         self.reaching(&kinetic, &self.z).re
     }
 
-    /// Whether a node slips, by the length of `y` and the radius of the slip surface in its
-    /// direction. Where friction falls with the slip rate, a node that turns around, or
-    /// whose slip goes back and forth, sticks first: from there its friction at rest decides.
+    /// Returns whether a node slips, from the length of `y` and the radius of the slip surface in
+    /// its direction. Where friction falls with the slip rate, a node whose slip reverses or
+    /// oscillates sticks first; from then on its static friction decides.
     fn slips(&self, length: f64, radius: f64, y: [f64; 2]) -> bool {
         let [first, second] = &self.state.turned;
         let before = &self.state.node.before;

@@ -1,4 +1,4 @@
-//! What the rows of a kept node are made from.
+//! Inputs of the rows of a kept node.
 
 use striae_law::friction::Friction;
 use striae_mesh::Vec3;
@@ -30,7 +30,7 @@ impl Iteration {
     pub const LATER: Self = Self::Later { slip_weight: 1.0 };
 }
 
-/// What a pair is evaluated under.
+/// Conditions under which a pair is evaluated.
 #[derive(Clone, Copy, Debug)]
 pub struct Conditions<'a> {
     /// Friction law of the step.
@@ -58,18 +58,18 @@ pub struct ContactNode<'a> {
     pub textures: &'a NodeTextures,
     /// Slip rate, where friction asks for it.
     pub rate: &'a TrackedScalar,
-    /// Whether it slipped in the last converged increment.
+    /// `true` if the node slipped in the last converged increment.
     pub slipped: bool,
     /// Its slip up to the last converged state.
     pub accumulated: f64,
     /// In which directions its friction is determined.
     pub freedom: SlipFreedom,
-    /// What the iterations before made of it.
+    /// Label from the previous iterations.
     pub before: Label,
     /// `p`, `z1`, `z2`.
     pub unknowns: [f64; 3],
     /// Friction traction `tau`.
     pub tau: Vec3,
-    /// Whether derivatives of its rows are wanted.
+    /// Request for derivatives of the rows.
     pub derivatives: Derivatives,
 }

@@ -59,7 +59,7 @@ pub fn facing(configuration: &Configuration) -> Vec<Facing> {
     }
 }
 
-/// What a node faces, without its share in the area.
+/// Facet that a node faces, without its share in the area.
 pub fn across(configuration: &Configuration, side: Side, node: SurfaceNode) -> Option<Facing> {
     let (gap, opposite) = nearest(configuration, side, node)?;
     Some(Facing {

@@ -34,7 +34,7 @@ struct Passage {
     normal: Vec3,
 }
 
-/// What a point goes through.
+/// Result of the path of a point through a surface.
 pub(super) enum Through {
     /// Into the surface, and how deep.
     Surface(Nearest),
@@ -57,7 +57,7 @@ impl<'a> Moving<'a> {
         }
     }
 
-    /// Whether something of the sides, or what is behind their facets, can meet.
+    /// Returns whether any parts of the sides, or of the bodies behind their facets, can meet.
     pub(super) fn may_meet(&self, other: &Self) -> bool {
         let boxes = (self.tree.bounds(), other.tree.bounds());
         let (Some(own), Some(others)) = boxes else {

@@ -92,7 +92,7 @@ pub(super) fn passages(x: &[Vec3; 2], vertices: &[[Vec3; 3]; 2]) -> Vec<(f64, Wa
         .collect()
 }
 
-/// Whether `p` lies over the triangle `0 u v`.
+/// Returns whether `p` lies over the triangle `0 u v`.
 fn is_inside(p: &Vec3, u: &Vec3, v: &Vec3) -> bool {
     let n = u.cross(v);
     let twice_area = n.norm_squared();

@@ -17,7 +17,7 @@ pub(super) struct Outline {
     pub places: Vec<Vec2>,
 }
 
-/// What a vertex of the common polygon is.
+/// Origin of a vertex of the common polygon.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Label {
     /// A corner of one side, numbered 0..8 with those of the second after the first's.
@@ -69,7 +69,7 @@ pub const fn mixed(hash: u64, number: u64) -> u64 {
 pub(super) struct Vertex {
     /// Where it is.
     pub place: Vec2,
-    /// What moves it.
+    /// Origin of the vertex, which determines how it moves.
     pub label: Label,
 }
 

@@ -27,7 +27,7 @@ pub struct Selection {
     pub compliances: [Vec<f64>; 2],
     /// How far the two sides move towards each other in the increment, at most.
     pub depth: f64,
-    /// What is opposite to the kept nodes at the start, for collocated rows.
+    /// Points opposite to the kept nodes at the start, for collocated rows.
     pub partners: Vec<Option<Partner>>,
     /// Overlap of the meshes at the nodes that is not pressed out yet, by side; empty where
     /// there is none.
@@ -50,13 +50,13 @@ impl Selection {
         index.map(|side| side.iter().map(Option::is_some).collect())
     }
 
-    /// Whether the node has unknowns.
+    /// Returns whether the node has unknowns.
     pub fn is_kept(&self, side: Side, node: SurfaceNode) -> bool {
         let index = self.basis.index[side].get(node.index());
         index.is_some_and(Option::is_some)
     }
 
-    /// Whether the node has a share in the traction field.
+    /// Returns whether the node has a share in the traction field.
     pub fn carries(&self, side: Side, node: SurfaceNode) -> bool {
         let row = self.basis.rows[side].get(node.index());
         row.is_some_and(|row| !row.is_empty())
@@ -124,7 +124,7 @@ impl Selection {
         &self.basis.coupling
     }
 
-    /// What was opposite to a kept node at the start.
+    /// Point opposite to a kept node at the start.
     pub fn partner(&self, k: usize) -> Option<Partner> {
         self.partners[k]
     }
@@ -146,12 +146,12 @@ impl Selection {
         })
     }
 
-    /// Whether overlaps of the meshes are being pressed out.
+    /// Returns whether initial overlaps of the meshes are being removed.
     pub fn has_offsets(&self) -> bool {
         self.offsets.iter().flatten().any(|offset| *offset > 0.0)
     }
 
-    /// What is added to the gap at a node along its own normal.
+    /// Offset of the gap at a node along its own normal.
     pub fn offset_along_normal(&self, side: Side, node: SurfaceNode) -> f64 {
         let fitted = self.fitted.as_ref();
         fitted.map_or_else(
@@ -160,7 +160,7 @@ impl Selection {
         )
     }
 
-    /// What is left of the overlap of the meshes at a node.
+    /// Part of the initial overlap that remains at a node.
     fn offset(&self, side: Side, node: SurfaceNode) -> f64 {
         let offset = self.offsets[side].get(node.index());
         offset.copied().unwrap_or(0.0)
@@ -174,7 +174,7 @@ impl Selection {
         }
     }
 
-    /// Whether facets of the two sides overlap.
+    /// Returns whether facets of the two sides overlap.
     pub fn overlaps(&self, configuration: &Configuration) -> bool {
         !paired_facets(
             configuration,
