@@ -1,20 +1,18 @@
-//! The default solver: condensed where that works and pays, iterative where direct
-//! factors would be too large, multifrontal LU otherwise.
+//! The default solver: condensed where that works and is cheaper, iterative where direct factors
+//! would be too large, multifrontal LU otherwise.
 //!
-//! Factors of the interior of the bodies are kept while they are good enough as
-//! a preconditioner: the contact system is factored anew, and GMRES makes up for
-//! the change of the bulk. They are renewed when that takes, or last took, more
-//! iterations than a factorisation is worth, by a count of operations. Being
-//! preconditioners, they are made in single precision: that takes half the time and
-//! half the memory. Where it is too coarse for a problem, they are made in double
-//! precision from then on.
+//! Factors of the interior of the bodies are kept while they are good enough as a preconditioner:
+//! the contact system is factored again, and GMRES compensates for the change of the bulk. They are
+//! renewed if that takes, or last took, more iterations than a factorisation costs, counted in
+//! operations. As they only precondition, they are stored in single precision, which halves time
+//! and memory. If that is too coarse for a problem, they are stored in double precision from then
+//! on.
 //!
-//! What it falls back on is decided by counts and signs alone, so the same
-//! matrices are always solved in the same way: when the interface is so large
-//! that its dense algebra costs more than the LU, when the interior is not
-//! positive definite, when the contact system is singular (the LU then names
-//! the unknown), or when refinement does not reach an accurate answer. The iterative
-//! solver leaves what it cannot solve to the condensed one, if that fits.
+//! Fall-backs depend on counts and signs alone, so equal matrices are always solved in one way: it
+//! falls back if the interface is so large that its dense algebra costs more than the LU, if the
+//! interior is not positive definite, if the contact system is singular (the LU then names the
+//! unknown), or if refinement does not reach an accurate solution. Systems that the iterative
+//! solver cannot solve are passed to the condensed one, if that fits into memory.
 //!
 //! Longer than other files, as all choices are in one place.
 
@@ -84,13 +82,13 @@ pub struct Automatic {
     reason: Option<FallBack>,
     /// Iterations of GMRES that older factors are worth.
     allowance: usize,
-    /// What earlier matrices have taught.
+    /// Experience from earlier matrices.
     experience: Experience,
-    /// What made the last factors.
+    /// Method that made the last factors.
     factored: Option<Made>,
 }
 
-/// What made factors.
+/// Method that made the factors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Made {
     /// The iterative solver.
@@ -257,7 +255,7 @@ impl Automatic {
     }
 }
 
-/// What it is called with.
+/// Public interface of the solver.
 impl Automatic {
     /// Orders the unknowns and predicts the cost. Earlier factorisations are forgotten,
     /// unless what contact couples more matters to an LU alone: where the condensed solver
@@ -387,12 +385,12 @@ impl Automatic {
         }
     }
 
-    /// What earlier matrices have taught.
+    /// Experience from earlier matrices.
     pub fn experience(&self) -> &Experience {
         &self.experience
     }
 
-    /// What the factors there are were made of.
+    /// Interior that the present factors were made of.
     pub fn factored_interior(&self) -> Option<FactoredInterior> {
         self.condensed.as_ref().and_then(Condensed::factored)
     }
@@ -479,7 +477,7 @@ impl Automatic {
         }
     }
 
-    /// Whether [`solve_other_contact`](Self::solve_other_contact) is worth a call now.
+    /// Returns whether calling [`solve_other_contact`](Self::solve_other_contact) pays now.
     pub fn has_interior(&self) -> bool {
         let condensed = self.condensed.as_ref();
         matches!(self.factored, Some(Made::Condensed(_)))

@@ -148,7 +148,7 @@ impl Condensed {
         self.numeric = None;
     }
 
-    /// What the factors there are were made of.
+    /// Interior that the present factors were made of.
     pub(crate) fn factored(&self) -> Option<FactoredInterior> {
         let numeric = self.numeric.as_ref()?;
         let values = self.bodies.iter().map(|body| body.values().to_vec());

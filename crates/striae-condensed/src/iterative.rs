@@ -243,7 +243,7 @@ impl Iterative {
 }
 
 impl Nodes {
-    /// Those of a partition, in no part yet; `None` where the bulk does not have three
+    /// Nodes of a partition, assigned to no part yet; `None` if the bulk does not have three
     /// unknowns a node.
     fn new(partition: &Partition) -> Option<Self> {
         let mut nodes = Self {

@@ -1,4 +1,4 @@
-//! What a solver of the program's systems predicts, and what it tells of its work.
+//! Predictions of a solver of the program's systems, and reports of its work.
 
 use striae_sparse::{Cost, FactorReport};
 use thiserror::Error;
@@ -12,7 +12,7 @@ pub struct Analysis {
     pub method: Method,
 }
 
-/// What a factorisation came to.
+/// Result of a factorisation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Factored {
     /// Entries of the factors.

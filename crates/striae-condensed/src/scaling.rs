@@ -30,7 +30,7 @@ pub(crate) fn by_diagonal(
     Ok(with_multipliers(partition, bulk, (kept, rows)))
 }
 
-/// The same for the factors of bulk unknowns that there are.
+/// Scaling that reuses the existing factors of bulk unknowns.
 pub(crate) fn with_multipliers(
     partition: &Partition,
     bulk: Vec<f64>,

@@ -15,7 +15,7 @@ use crate::{Analysis, Factored, Partition, Tangent};
 pub struct Numbering {
     /// Unknowns of the whole system.
     pub count: usize,
-    /// Those that are this rank's own, one range after the other by rank.
+    /// Unknowns owned by this rank; the ranges of all ranks follow one another.
     pub own: Range<usize>,
     /// Number in the whole system of every unknown of the part.
     pub whole: Vec<usize>,

@@ -91,7 +91,7 @@ impl Borders {
         self.scatter.bring(&self.buffer, own, sum)
     }
 
-    /// The same, and what becomes of them back to all.
+    /// Combines shared values and returns the result to all ranks.
     pub(crate) fn join(&mut self, part: &mut [f64], sum: Sum) -> Result<(), Error> {
         let mut own = vec![0.0; self.own.len()];
         self.collect(part, &mut own, sum)?;

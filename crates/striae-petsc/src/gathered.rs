@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use striae_condensed::Group;
 use striae_sparse::Tier;
 
-/// What all ranks know of the interface.
+/// Data of the interface that all ranks hold.
 pub(crate) struct Gathered {
     pub(crate) groups: Vec<Group>,
     pub(crate) entries: Vec<(u32, u32, f64)>,

@@ -1,8 +1,9 @@
 //! FGMRES on the whole system, with the block factorisation as its preconditioner.
 //!
-//! The same as the [iterative solver](striae_condensed) of one rank, whose module docs give
-//! the formulas: only that the matrix is never put together, one cycle of PETSc's multigrid
-//! is the inverse of the bodies, and all ranks factor the contact system alike.
+//! The method is that of the [iterative solver](striae_condensed) on one rank, whose module docs
+//! give the formulas, except that the matrix is never assembled on one rank, one cycle of PETSc's
+//! multigrid approximates the inverse of the bodies, and every rank factors a copy of the contact
+//! system.
 
 use crate::{
     binding::{Krylov, Sum},

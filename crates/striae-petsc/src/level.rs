@@ -37,7 +37,7 @@ pub(crate) struct Level<const N: usize, const AREA: usize, const WIDE: usize> {
     x: Vec<f32>,
 }
 
-/// What takes the place of the inverse of the next level.
+/// Substitute for the inverse of the next level.
 #[derive(Debug)]
 enum Coarser {
     Level(Box<Level<MODES, COARSE, COARSE>>),
@@ -58,8 +58,8 @@ pub(crate) struct Problem<'a> {
     pub(crate) depth: usize,
 }
 
-/// What is known of own nodes: the near-kernel, as many rows as a node has unknowns by six,
-/// and the connected part that each is of.
+/// Data of own nodes: the near-kernel, with as many rows as a node has unknowns and six columns,
+/// and the connected part of each node.
 #[derive(Clone, Copy)]
 pub(crate) struct Kernel<'a> {
     pub(crate) motions: &'a [f64],
@@ -156,7 +156,7 @@ impl<const N: usize, const AREA: usize, const WIDE: usize> Level<N, AREA, WIDE> 
 }
 
 impl Coarser {
-    /// The same, of vectors with others' places after the own ones.
+    /// Applies the level to vectors with others' places after the own ones.
     fn apply(&mut self, b: &[f32], x: &mut [f32]) -> Result<(), Error> {
         match self {
             Self::Level(level) => {
@@ -277,8 +277,8 @@ impl Problem<'_> {
         })
     }
 
-    /// What takes the place of the inverse of this level, from what all ranks add to its
-    /// matrix; `None` where that is not definite.
+    /// Substitute for the inverse of this level, from the contributions of all ranks to its matrix;
+    /// `None` if that is not definite.
     fn solved(
         &self,
         part: &Blocks<MODES, MODES, f64>,

@@ -138,7 +138,7 @@ impl CompressedRows {
         self.starts.len().saturating_sub(1)
     }
 
-    /// Whether all entries are zero.
+    /// Returns whether all entries are zero.
     pub fn is_zero(&self) -> bool {
         self.values.is_empty()
     }
@@ -235,7 +235,7 @@ fn parts(structure: &Structure, blocks: &[PlacedBlock]) -> Vec<Part> {
     parts
 }
 
-/// What a thread sums in.
+/// Buffers in which one thread sums.
 #[derive(Default)]
 struct Buffers {
     /// Rows of an owner as the pattern has them.

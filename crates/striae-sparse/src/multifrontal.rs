@@ -41,7 +41,7 @@ struct Symbolic {
     tree: AssemblyTree,
 }
 
-/// Whether the numeric part can be used.
+/// State of the numeric factorisation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum State {
     #[default]

@@ -1,4 +1,4 @@
-//! What every solver offers: analyse once, factor per matrix, solve per right-hand side.
+//! Interface of all solvers: analyse once, factor per matrix, solve per right-hand side.
 
 use crate::{
     error::SolveError, matrix::SparseMatrix, products::LinearOperator, structure::Structure,
@@ -38,7 +38,7 @@ pub struct Cost {
     pub peak_bytes: usize,
 }
 
-/// What a factorisation met.
+/// Findings of a factorisation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FactorReport {
     /// Entries of the factors.

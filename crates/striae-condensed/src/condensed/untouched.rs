@@ -103,7 +103,7 @@ impl Untouched {
         }
     }
 
-    /// What is left of the complement.
+    /// Remaining block of the complement.
     pub(super) fn block(&self) -> Block<'_> {
         Block {
             places: &self.left,
@@ -224,7 +224,7 @@ fn smallest_pivot<T: Real>(columns: &[T], size: usize) -> f64 {
 pub(super) struct Touched {
     /// Which they are.
     pub(super) touched: Vec<bool>,
-    /// Whether there are more than before.
+    /// `true` if there are more than before.
     pub(super) is_more: bool,
 }
 

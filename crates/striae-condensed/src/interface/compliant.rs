@@ -39,7 +39,7 @@ const ROUGH: f64 = 1e-3;
 const SINGLE: f64 = 1e-6;
 const DOUBLE: f64 = 1e-10;
 
-/// What a solution is for.
+/// Purpose of a solution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Purpose {
     /// A preconditioner.
@@ -48,12 +48,12 @@ pub(crate) enum Purpose {
     Answer,
 }
 
-/// Whether factors are tried on a right-hand side.
+/// Decision on a trial solve with new factors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Trial {
     /// They are.
     Due,
-    /// Those of a similar system were.
+    /// Factors of a similar system passed the trial.
     Waived,
 }
 
@@ -102,7 +102,7 @@ impl Compliant {
         }
     }
 
-    /// Whether GMRES converges for one right-hand side.
+    /// Returns whether GMRES converges for one right-hand side.
     fn is_good(&self, blocks: &[Block<'_>], flexibility: &Flexibility) -> bool {
         let one = |kind: &Kind| f64::from(u8::from(*kind != Kind::Apart));
         let rhs: Vec<f64> = self.kinds.iter().map(one).collect();

@@ -26,7 +26,7 @@ pub(crate) fn freedom(kinds: &[Kind], rows: &[Row]) -> usize {
     bulk.saturating_sub(held)
 }
 
-/// Whether a row has no multiplier in it.
+/// Returns whether a row contains no multiplier.
 fn holds(kinds: &[Kind], row: &Row) -> bool {
     let largest = row.iter().fold(0.0_f64, |m, e| m.max(e.1.abs()));
     let counts = |a: f64| a.abs() > DROPPED * largest;

@@ -34,7 +34,7 @@ use striae_sparse::{
     LinearSolver, MultifrontalLu, SolveError, Supervariable, sparse_elimination::Row,
 };
 
-/// What is added to the diagonal in the row of a constraint.
+/// Term added to the diagonal in the row of a constraint.
 const SLIGHT: f64 = 1e-4;
 
 /// Couplings with the bulk and factors of what approximates the Schur complement.

@@ -41,7 +41,7 @@ pub(crate) struct Krylov {
     library: Arc<Library>,
 }
 
-/// What the functions that PETSc calls are given.
+/// Context passed to the functions that PETSc calls.
 struct Context<'a, 'b> {
     multiply: &'a mut Linear<'b>,
     precondition: &'a mut Linear<'b>,
@@ -115,7 +115,7 @@ impl Krylov {
     }
 }
 
-/// What is destroyed at the end of a solution.
+/// Objects destroyed at the end of a solution.
 struct Objects {
     ksp: ffi::Ksp,
     matrix: ffi::Mat,

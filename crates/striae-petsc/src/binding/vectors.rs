@@ -106,7 +106,7 @@ impl Drop for Vector {
     }
 }
 
-/// What becomes of values that meet at an entry.
+/// Combination of values at a shared entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Sum {
     /// They add up.

@@ -90,8 +90,8 @@ impl<const N: usize> SharedLevel<N> {
         self.0.interpolation(matrix, &aggregates, &tentative)
     }
 
-    /// What these rows add to the matrix of the next level, from the interpolation at their
-    /// nodes and at those that others have. Numbers of aggregates are below `count`.
+    /// Contribution of these rows to the matrix of the next level, from the interpolation at their
+    /// nodes and at those that others hold. Numbers of aggregates are below `count`.
     pub fn coarsen(
         &mut self,
         matrix: Blocks<N, N, f64>,
