@@ -62,23 +62,23 @@ pub struct Trial {
     pub rigid: Vec<Pose>,
 }
 
-/// What does not change while an increment is iterated.
+/// Data that stay constant during the iterations of an increment.
 #[derive(Clone, Copy, Debug)]
 pub struct Setting<'a> {
-    /// What does not change within the step.
+    /// Data that stay constant within the step.
     pub context: &'a StepContext<'a>,
     /// The last converged state.
     pub state: &'a State,
     /// Roles of every pair.
     pub selections: &'a [Selection],
-    /// What is imposed at the end of the increment.
+    /// Values imposed at the end of the increment.
     pub imposed: &'a Imposed,
 }
 
 /// Where contact at a trial state comes from.
 #[derive(Debug)]
 pub enum Contact {
-    /// It is evaluated.
+    /// Contact is evaluated.
     Evaluated(Iteration),
     /// It has been evaluated at this very state.
     Known(Vec<Evaluation>),
@@ -94,11 +94,11 @@ pub struct Assembled {
     pub norms: Norms,
     /// Nodal forces.
     pub forces: NodalForces,
-    /// What bodies store, lose and come to.
+    /// Energies, losses and internal variables of the bodies.
     pub bodies: OfBodies,
     /// Contact of every pair.
     pub contacts: Vec<Evaluation>,
-    /// Whether the matrix is of this state.
+    /// Derivatives requested; with them, the matrix is that of this state.
     pub derivatives: Derivatives,
     /// All but contact.
     pub background: Background,
@@ -221,11 +221,11 @@ struct System<'a> {
     layout: &'a Layout,
     /// The part of the bodies in the tangent.
     matrix: &'a mut SparseMatrix,
-    /// Whether the tangent is filled in.
+    /// Derivatives requested; with them, the tangent is filled in.
     derivatives: Derivatives,
-    /// Whether the bodies are linearised elsewhere, so that their part stays as it is.
+    /// `true` if the bodies are linearised elsewhere, so that their part remains unchanged.
     is_linearised: bool,
-    /// What contact couples but for the terms that are blocks as they are.
+    /// Couplings of contact, except for terms that already are blocks.
     blocks: Vec<PlacedBlock<'static>>,
     residual: Vec<f64>,
     forces: NodalForces,
@@ -281,7 +281,7 @@ impl<'a> System<'a> {
     }
 }
 
-/// What something returns, and how long it took.
+/// Result of some work, and the time it took.
 fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
     let started = Instant::now();
     let result = work();
@@ -370,7 +370,7 @@ impl System<'_> {
         }
     }
 
-    /// Whether this rank adds to the tangent what all ranks know of a row.
+    /// Returns whether this rank adds a row known to all ranks to the tangent.
     fn owns(&self, unknown: usize) -> bool {
         let problem = self.context.problem;
         problem.share.is_alone()

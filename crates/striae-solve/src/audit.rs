@@ -27,14 +27,14 @@ pub struct Jump {
     pub driven: f64,
 }
 
-/// What an increment is doubted for.
+/// Reason to doubt an increment.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Doubt {
     /// Friction pushes a node along its slip.
     Gain(Gain),
 }
 
-/// What an increment from `before` to `after` is doubted for.
+/// Reasons to doubt an increment from `before` to `after`.
 pub fn doubts(problem: &Problem, before: &State, after: &State) -> Vec<Doubt> {
     let pairs = 0..problem.pairs.len();
     let gains = pairs.filter_map(|pair| friction::gain(problem, pair, [before, after]));

@@ -1,4 +1,4 @@
-//! What every element of a problem is made of, and what its points remember.
+//! Materials of the elements of a problem, and internal variables of their points.
 
 use striae_element::{Driven, Element};
 use striae_law::bulk::Material;

@@ -38,19 +38,19 @@ pub trait Observer: IterationObserver {
     fn cut_back(&mut self, progress: Progress, reason: &CutBack) -> Continue;
 }
 
-/// Whether a run goes on.
+/// Decision whether a run continues.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Continue {
-    /// It does.
+    /// The run continues.
     Yes,
-    /// It does, and the observer is given the point it has come to.
+    /// The run continues, and the observer receives its present point.
     Keep,
     /// It ends after this increment, and the observer is given the point.
     Stop,
 }
 
 impl Continue {
-    /// What the ranks of a run do together: stop if one does, keep if one does; collective.
+    /// Common decision of all ranks of a run: to stop if one does, to keep if one does; collective.
     fn together(self, share: &Share) -> Self {
         let own = match self {
             Self::Yes => 0.0,
@@ -107,7 +107,7 @@ pub struct Point {
     pub start: State,
     /// Last converged state.
     pub state: State,
-    /// What the linear system has grown to.
+    /// Size of the linear system and experience of its solver.
     pub memory: Memory,
 }
 
@@ -129,8 +129,8 @@ pub fn run_after(
     run_in(workspace, problem, (first, increments), state, observer)
 }
 
-/// The same in a workspace, such as that of one of several ranks; collective there. The pair is
-/// the number of the first step and how many increments those before it took.
+/// Runs all steps in a given workspace, such as that of one of several ranks; collective there. The
+/// pair holds the number of the first step and the number of increments of all earlier steps.
 pub fn run_in(
     mut workspace: Workspace,
     problem: &Problem,
@@ -147,7 +147,7 @@ pub fn resume(problem: &Problem, point: Point, observer: &mut dyn Observer) -> (
     resume_in(workspace, problem, point, observer)
 }
 
-/// The same in a workspace, such as that of one of several ranks; collective there.
+/// Resumes a run in a given workspace, such as that of one of several ranks; collective there.
 pub fn resume_in(
     workspace: Workspace,
     problem: &Problem,

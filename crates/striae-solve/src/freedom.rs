@@ -28,7 +28,7 @@ use crate::{
     state::State,
 };
 
-/// What friction holds.
+/// Contact nodes at which friction holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Friction {
     /// All closed nodes of pairs that have friction.
@@ -43,10 +43,10 @@ pub enum Friction {
 const STICKING: f64 = 0.2;
 /// Eigenvalue, over the largest one, of a motion that nothing stops.
 const SINGULAR: f64 = 1e-9;
-/// The same for a motion that friction alone stops: normals of deformed surfaces tilt by some
-/// hundredths, which holds no body that friction cannot.
+/// Corresponding limit for a motion that friction alone stops: normals of deformed surfaces tilt by
+/// some hundredths, which holds no body that friction cannot.
 const TILTED: f64 = 1e-3;
-/// What a motion may be short of being free altogether.
+/// Amount by which a motion may fall short of being entirely free.
 const SHORT: f64 = 1e-6;
 
 /// Pairs of which all closed nodes slip, but for a few: at the middle of a turn nothing slips.
@@ -71,7 +71,7 @@ pub fn slipping<'n>(contacts: impl Iterator<Item = &'n [Vec<NodeResult>; 2]>) ->
 pub enum Bridged {
     /// None.
     None,
-    /// Those that are stabilised in the step.
+    /// Pairs that are stabilised in the step.
     Stabilised,
     /// These, as if they touched.
     Touching(usize),

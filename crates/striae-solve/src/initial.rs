@@ -64,7 +64,7 @@ pub fn fits(model: &Model) -> Vec<Option<Fit>> {
         .collect()
 }
 
-/// What is wrong with a pair that fits like this.
+/// Fault of a pair with this fit.
 pub fn fault(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
     let of_pair = &model.pairs[pair.0];
     if fit.lies == Lies::Behind && is_wholly_behind(model, pair) {
@@ -218,7 +218,7 @@ impl Reference {
     }
 }
 
-/// Whether all nodes of the body of side `a` are behind a rigid side.
+/// Returns whether all nodes of the body of side `a` are behind a rigid side.
 fn is_wholly_behind(model: &Model, pair: PairId) -> bool {
     let Some(reference) = Reference::new(model, pair) else {
         return false;

@@ -51,8 +51,8 @@ pub fn between(
     interferences(&start, &end, share)
 }
 
-/// What is deeper inside than it is `meant` to be by more than `share` of the facet size, with
-/// the depth beyond that; what has passed through as it is.
+/// Interferences that are deeper than `meant` by more than `share` of the facet size, with the
+/// excess depth; passages are returned unchanged.
 pub fn beyond(found: Vec<Interference>, meant: f64, share: f64) -> Vec<Interference> {
     let of_one = |found: Interference| {
         if found.kind != Kind::Inside {
@@ -78,7 +78,7 @@ pub fn configuration<'a>(problem: &'a Problem, pair: usize, at: Positions) -> Co
     placed(problem, pair, &problem.pairs[pair].contact, at)
 }
 
-/// The same of a pair of the problem that looks for contact in another distance.
+/// Configuration of a pair of the problem with another search distance.
 pub(crate) fn placed<'a>(
     problem: &Problem,
     pair: usize,
@@ -110,7 +110,7 @@ pub fn thickness(problem: &Problem, pair: usize, positions: &[Vec3]) -> Thicknes
     thickness_with(&problem.pairs[pair], at)
 }
 
-/// The same with the nodes of bodies anywhere.
+/// Thickness with the nodes of bodies at given places.
 pub(crate) fn thickness_with(
     geometry: &PairGeometry,
     at: impl Fn(usize, NodeId) -> Vec3,

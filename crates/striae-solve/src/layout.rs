@@ -1,10 +1,10 @@
 //! Global numbering of the unknowns.
 //!
-//! A node with its three position components and three traction unknowns for
-//! every contact surface it is active on is one supervariable, so that the
-//! factorisation meets gap rows and their multipliers together. The six coordinates of a
-//! rigid body that nodes are tied to or that contact may move are another one, kept for last.
-//! What the unknowns of a share are in the whole system is in `layout/shared.rs`.
+//! The supervariable of a node consists of its three position components and three traction
+//! unknowns for every contact surface it is active on, so that the factorisation treats gap rows
+//! and their multipliers together. The six coordinates of a rigid body that nodes are tied to or
+//! that contact may move form another one, eliminated last. The unknowns of a share in the whole
+//! system are described in `layout/shared.rs`.
 
 mod growth;
 mod shared;
@@ -99,7 +99,7 @@ impl Layout {
         }
     }
 
-    /// What has traction unknowns.
+    /// Nodes with traction unknowns.
     pub fn extent(&self) -> &Extent {
         &self.extent
     }
@@ -165,13 +165,13 @@ impl Layout {
         self.rigids[rigid].map(|supervariable| self.offsets[supervariable])
     }
 
-    /// Whether no rigid body has coordinates that are unknowns.
+    /// Returns whether no rigid body has coordinates that are unknowns.
     pub fn moves_no_body(&self) -> bool {
         self.rigids.iter().all(Option::is_none)
     }
 
-    /// Whether a supervariable is this rank's own: that of a node is with the node, that of a
-    /// rigid body with the first rank.
+    /// Returns whether this rank owns a supervariable: that of a node belongs to the owner of the
+    /// node, that of a rigid body to the first rank.
     pub fn is_own(&self, problem: &Problem, Supervariable(at): Supervariable) -> bool {
         match at < self.nodes {
             true => problem.share.owns(GlobalNode(at)),

@@ -1,8 +1,8 @@
-//! What is to be simulated: validated, immutable data that a deck is lowered to.
+//! Model of a simulation: validated, immutable data that a deck is lowered to.
 //!
 //! All quantities are in the consistent units of the user.
 //!
-//! Longer than other files, as it is the one list of all that a model can say.
+//! Longer than other files, as it is the one list of everything that a model can contain.
 
 use nalgebra::Matrix3;
 use serde::Serialize;
@@ -69,7 +69,7 @@ pub struct BodySection {
 /// Mass of the nodes of contact surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum ContactMass {
-    /// What the consistent mass matrix gives them.
+    /// Mass from the consistent mass matrix.
     Consistent,
     /// None: it is moved to the nodes behind, so that contact neither stops nor throws mass.
     Redistributed,
@@ -195,11 +195,11 @@ pub struct Pair {
     pub enforcement: Enforcement,
     /// Distance over which contact is looked for ahead; `None`: half the local facet size.
     pub search_distance: Option<f64>,
-    /// What is made of gaps and overlaps of the meshes.
+    /// Treatment of initial gaps and overlaps of the meshes.
     pub initial: Initial,
     /// By how much the sides interfere, measured from faces that touch.
     pub interference: Option<InterferenceFit>,
-    /// Whether viscous forces carry bodies that nothing else holds across the gap, see
+    /// `true` if viscous forces carry bodies without other restraints across the gap, see
     /// [`crate::stabilisation`].
     pub stabilised: bool,
     /// Dihedral angle in degrees from which on facets that share an edge belong to different
@@ -253,15 +253,15 @@ pub struct Tie {
 }
 
 impl Tie {
-    /// Whether a body is a side of it.
+    /// Returns whether a body is a side of it.
     pub fn joins(&self, body: BodyId) -> bool {
         let is = |side: &ContactSurface| matches!(side, ContactSurface::Deformable { body: of, .. } if *of == body);
         is(&self.a) || is(&self.b)
     }
 }
 
-/// What is made of the gaps and overlaps that the meshes of a pair have before anything
-/// has moved, see [`crate::initial`].
+/// Treatment of the gaps and overlaps that the meshes of a pair have before any motion, see
+/// [`crate::initial`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub enum Initial {
     /// Gaps are real, overlaps a fault.
@@ -326,7 +326,7 @@ pub struct Step {
     pub name: String,
     /// Duration in (pseudo) time.
     pub duration: f64,
-    /// Whether there is inertia.
+    /// Procedure: with or without inertia.
     pub procedure: Procedure,
     /// Increment control.
     pub increments: Increments,
@@ -348,7 +348,7 @@ pub struct Step {
     pub frictions: Vec<(PairId, Friction)>,
 }
 
-/// Whether a step has inertia.
+/// Procedure of a step: with or without inertia.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum Procedure {
     /// A sequence of equilibria.
@@ -437,7 +437,7 @@ pub struct Load {
     pub body: BodyId,
     /// Its faces.
     pub faces: Vec<Face>,
-    /// What acts on them.
+    /// Kind of load on the faces.
     pub kind: LoadKind,
     /// Which part of the faces is loaded.
     pub extent: LoadExtent,
@@ -503,7 +503,7 @@ pub enum LoadExtent {
     Exposed,
 }
 
-/// What a rigid body does in a step.
+/// Motion of a rigid body in a step.
 #[derive(Clone, Debug, Serialize)]
 pub struct RigidMotion {
     /// The body.
@@ -518,7 +518,7 @@ pub struct RigidMotion {
     pub curve: Curve,
 }
 
-/// What a coordinate of a rigid body does.
+/// Motion of a coordinate of a rigid body.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum Freedom {
     /// It stays free or where it is.

@@ -64,16 +64,16 @@ pub struct Increment {
     pub unknowns: usize,
     /// Predicted memory of the factorisation in bytes.
     pub peak_bytes: usize,
-    /// What the linear systems took.
+    /// Work spent on the linear systems.
     pub work: LinearWork,
-    /// What came inside or through in the increment, deeper than
+    /// Interferences that arose in the increment, deeper than
     /// [`SHARE`](striae_contact::interference::SHARE) of the facet size, by pair.
     pub interferences: Vec<Vec<Interference>>,
-    /// What came inside bodies where no pair sees it, by that depth.
+    /// Overlaps of bodies that no pair detects, deeper than that.
     pub overlaps: Vec<BodyOverlap>,
-    /// What it was accepted for.
+    /// Criterion by which the increment was accepted.
     pub acceptance: Acceptance,
-    /// What it is doubted for, as far as it has been looked at from outside.
+    /// Reasons to doubt the increment, as far as it has been audited.
     pub doubts: Vec<Doubt>,
 }
 

@@ -48,7 +48,7 @@ pub enum CutBack {
         body: String,
         /// Facet set.
         set: String,
-        /// What is wrong.
+        /// Error of the load.
         error: crate::load::LoadError,
     },
     /// A convected texture has no direction left at a node.
@@ -99,7 +99,7 @@ pub enum CutBack {
         body: String,
         /// The node, or the nearest one, that is in deepest.
         node: striae_mesh::NodeId,
-        /// What it went through.
+        /// Name of the body or surface that was passed through.
         other: String,
         /// How deep it was.
         depth: f64,
@@ -134,7 +134,7 @@ pub enum CutBack {
         node: striae_mesh::NodeId,
         /// Work that it gains in the increment.
         work: f64,
-        /// The same over the magnitudes of the work at all nodes of its side.
+        /// Ratio of this work to the sum of its magnitudes at all nodes of the side.
         share: f64,
     },
     /// A body has jumped.
@@ -220,7 +220,7 @@ pub enum CutBack {
         node: striae_mesh::NodeId,
         /// How far.
         way: f64,
-        /// The same over the size of the undeformed bodies.
+        /// Ratio to the size of the undeformed bodies.
         times: f64,
     },
     /// The linear system could not be solved.
@@ -228,7 +228,7 @@ pub enum CutBack {
     LinearSystem {
         /// Which unknown is involved.
         place: String,
-        /// What went wrong.
+        /// Error of the solver.
         error: SolveError,
     },
 }
@@ -296,7 +296,7 @@ fn gap_text(gap: f64) -> String {
 }
 
 impl CutBack {
-    /// What is to be done about it.
+    /// Remedy for the failure.
     pub fn remedy(&self) -> Remedy {
         match self {
             Self::Free { .. } => Remedy::None,
@@ -307,7 +307,7 @@ impl CutBack {
     }
 }
 
-/// What may help where an increment did not succeed.
+/// Remedies for an increment that did not succeed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Remedy {
     /// A smaller increment.
@@ -319,13 +319,13 @@ pub enum Remedy {
 /// A body that is free to move.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FreeMotion {
-    /// What it is.
+    /// Body or surface that is free to move.
     pub mover: FreeMover,
     /// The motions in words: `along x and about z`, or coordinates of a rigid body.
     pub motions: String,
 }
 
-/// What is free to move.
+/// Body that is free to move.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FreeMover {
     /// A deformable body of this name.

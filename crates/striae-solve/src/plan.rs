@@ -1,4 +1,4 @@
-//! What holds in each step: conditions accumulated over the steps before it.
+//! Conditions in force in each step, accumulated over the steps before it.
 
 use std::collections::BTreeMap;
 
@@ -152,7 +152,7 @@ impl VectorPlan {
         }
     }
 
-    /// What is reached at the end of the step, kept.
+    /// Copy in which values reached at the end of the step are held.
     fn held(&self) -> Self {
         Self {
             from: self.at(1.0),

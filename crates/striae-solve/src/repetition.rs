@@ -53,8 +53,8 @@ impl<'a> Repetition<'a> {
         }
     }
 
-    /// What came of every increment: how far the other solver's state is from that of the
-    /// run, or why that solver would cut the increment.
+    /// Results for every increment: the distance of the other solver's state from that of the run,
+    /// or the reason why that solver would cut the increment.
     pub fn differences(&self) -> &[Result<Difference, CutBack>] {
         &self.differences
     }

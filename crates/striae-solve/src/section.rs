@@ -105,10 +105,10 @@ impl Section {
         Self::cut(mesh, point, normal, &Borders::of_whole())
     }
 
-    /// What a rank holds of the cut of a body of a problem; collective.
+    /// Part of the cut of a body that a rank holds; collective.
     ///
     /// # Errors
-    /// When the plane does not divide the elements of the whole body.
+    /// If the plane does not divide the elements of the whole body.
     pub fn of(
         problem: &Problem,
         body: usize,

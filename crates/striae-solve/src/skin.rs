@@ -94,7 +94,7 @@ impl Skin {
         places
     }
 
-    /// Whether no pair sees a point of one body behind a facet.
+    /// Returns whether no contact pair and no tie covers a point and the facet it is behind.
     fn is_judged(&self, spot: Spot, facet: FacetId) -> bool {
         let [body, other] = [self.skins.body(spot), self.skins.bodies[facet.index()]];
         let [own, others] = [spot, Spot::Centre(facet)].map(|spot| self.sides_of(spot));

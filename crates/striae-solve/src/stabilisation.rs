@@ -60,13 +60,13 @@ pub struct Point {
     pub from: Vec3,
 }
 
-/// Whether a pair is stabilised in a step.
+/// Returns whether a pair is stabilised in a step.
 pub fn acts(model: &Model, step: usize, pair: usize) -> bool {
     let quasi_static = model.steps[step].procedure == Procedure::QuasiStatic;
     quasi_static && model.pairs[pair].stabilised
 }
 
-/// Whether any pair is stabilised in a step.
+/// Returns whether any pair is stabilised in a step.
 pub(crate) fn acts_in(model: &Model, step: usize) -> bool {
     (0..model.pairs.len()).any(|pair| acts(model, step, pair))
 }

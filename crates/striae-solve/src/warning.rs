@@ -1,4 +1,4 @@
-//! What a run should be read with care for.
+//! Warnings: reasons to distrust a converged result.
 //!
 //! Each converged increment is judged, and the worst of every kind is kept for every
 //! pair:
@@ -28,7 +28,7 @@
 //! | `never-touched` | the smallest distance at the start; after a completed run | - |
 //! | `never-meets` | the same, before the run | - |
 //!
-//! Longer than other files, as it is the one list of all that is judged.
+//! Longer than other files, as it is the one list of all checks.
 
 use serde::{Deserialize, Serialize};
 use striae_contact::{
@@ -59,7 +59,7 @@ const UNFELT: f64 = 0.02;
 /// Something that makes results doubtful, with the number it is judged by.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Warning {
-    /// What it is about.
+    /// Subject of the warning.
     pub kind: Kind,
     /// Name of the contact pair or tie, if it is about one.
     pub pair: Option<String>,
@@ -140,7 +140,7 @@ impl Kind {
         Self::NeverMeets,
     ];
 
-    /// What files call it.
+    /// Name in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Mismatch => "mismatch",
@@ -181,7 +181,7 @@ impl Kind {
     }
 }
 
-/// What has been judged of a run so far.
+/// Findings about a run so far.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Judgement {
     /// The worst of every kind and pair.
@@ -681,7 +681,7 @@ impl std::fmt::Display for Warning {
     }
 }
 
-/// What a model should be read with care for, given how its pairs fit.
+/// Warnings about a model before it is run, given how its pairs fit.
 pub fn warnings_at_start(model: &Model, fits: &[Option<Fit>]) -> Vec<Warning> {
     never(model, fits, |pair| {
         let fit = fits[pair].as_ref();

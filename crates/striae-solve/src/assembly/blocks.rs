@@ -57,7 +57,7 @@ impl System<'_> {
         growth
     }
 
-    /// What contact couples.
+    /// Couplings of contact.
     pub(super) fn all_blocks<'t>(&mut self, contacts: &'t [Evaluation]) -> Vec<PlacedBlock<'t>> {
         let mut blocks: Vec<PlacedBlock> = std::mem::take(&mut self.blocks);
         for (pair, evaluation) in contacts.iter().enumerate() {
@@ -69,7 +69,7 @@ impl System<'_> {
         blocks
     }
 
-    /// Whether the unknowns of a pair's terms are unknowns of the system as they are.
+    /// Returns whether the unknowns of a pair's terms are unknowns of the system.
     fn is_plain(&self, pair: usize) -> bool {
         let rigid = self.context.problem.pairs[pair].rigid;
         let moves = rigid.is_some_and(|rigid| self.moving[rigid].is_some());
@@ -119,7 +119,7 @@ impl System<'_> {
         }
     }
 
-    /// Whether this rank adds a row of contact to the tangent.
+    /// Returns whether this rank adds a row of contact to the tangent.
     fn adds(&self, pair: usize, row: u32) -> bool {
         match self.added.get(pair) {
             Some(Some(added)) => {

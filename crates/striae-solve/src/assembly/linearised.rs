@@ -96,7 +96,7 @@ pub fn assemble_contact(
 }
 
 impl System<'_> {
-    /// What there is before contact is added.
+    /// System before contact is added.
     pub(super) fn background(&self) -> Background {
         Background {
             blocks: self.blocks.clone(),

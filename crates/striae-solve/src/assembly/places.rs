@@ -42,7 +42,7 @@ impl ElementPlaces {
         blocks.for_each(|places| places.find(structure));
     }
 
-    /// Those of a block of a body.
+    /// Places of a block of a body.
     pub(super) fn of_block(&self, body: usize, block: usize) -> &CliquePlaces {
         &self.blocks[body][block]
     }

@@ -31,7 +31,7 @@ use super::{
 };
 use crate::node::GlobalNode;
 
-/// What answers the forces of a term.
+/// Reaction to the forces of a term.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Answer {
     /// The other side of the pair.
@@ -61,7 +61,7 @@ pub(super) struct Triple {
     pub(super) place: (Side, SurfaceNode),
     /// The node whose position it is.
     pub(super) position: Option<GlobalNode>,
-    /// Whether that node follows others.
+    /// `true` if that node depends on others.
     pub(super) follows: bool,
     /// The rigid body that moves on the other side.
     against: Option<usize>,
@@ -167,7 +167,7 @@ impl System<'_> {
         self.scatter(part, &rows, columns, &block);
     }
 
-    /// Whether a row is prescribed and answered by no moving body.
+    /// Returns whether a row is prescribed and no moving body reacts to it.
     fn is_left_out(&self, slot: &Slot) -> bool {
         let fixed = |(node, axis): (GlobalNode, usize)| self.context.fixed[node.component(axis)];
         slot.against.is_none() && slot.position.is_some_and(fixed)

@@ -98,7 +98,7 @@ impl System<'_> {
         self.ties.get(node.0).and_then(Option::as_ref)
     }
 
-    /// Whether the position of a node is no unknown of its own.
+    /// Returns whether the position of a node is not an unknown of its own.
     pub(super) fn is_bound(&self, node: GlobalNode) -> bool {
         self.tie(node).is_some() || self.context.problem.ties.follower(node).is_some()
     }

@@ -37,7 +37,7 @@ pub struct Gain {
     pub node: NodeId,
     /// Work that it gains in the increment.
     pub work: f64,
-    /// The same over the magnitudes of the work at all nodes of its side.
+    /// Ratio of this work to the sum of its magnitudes at all nodes of the side.
     pub share: f64,
 }
 

@@ -36,7 +36,7 @@ use crate::{
 /// Overlap over the thickness of the body beyond which its other side is nearer.
 const HALF: f64 = 0.5;
 
-/// What is added to the gaps of a pair in a step.
+/// Offsets of the gaps of a pair in a step.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Offsets {
     /// `o_I` of the surface nodes, by side; empty where nothing is resolved.
@@ -47,8 +47,8 @@ pub struct Offsets {
 }
 
 impl Offsets {
-    /// Those of a pair in a step; none after the first one, or unless the pair says that its
-    /// overlaps are resolved.
+    /// Offsets of a pair in a step; none after the first step, and none unless the pair is to
+    /// resolve its overlaps.
     pub fn new(problem: &Problem, step: usize, pair: usize) -> Self {
         let of_pair = &problem.model.pairs[pair];
         let resolves = step == 0 && of_pair.initial == Initial::Resolve;

@@ -1,9 +1,8 @@
-//! Whether the sides of a pair can ever meet.
+//! Test of whether the sides of a pair can ever meet.
 //!
-//! What only prescribed displacements move goes as far as the farthest of them, and its
-//! deformation adds no more than that again; what it moves as one piece goes where
-//! [`nearest_approach`] says. Loads, inertia, ties and free coordinates may take a body
-//! anywhere.
+//! Parts moved by prescribed displacements only move as far as the farthest of them, and their
+//! deformation adds at most as much again; parts moved as one piece follow [`nearest_approach`].
+//! Loads, inertia, ties and free coordinates may take a body anywhere.
 
 use striae_contact::initial::Fit;
 use striae_mesh::Vec3;
@@ -16,7 +15,7 @@ const ROUND_OFF: f64 = 1e-9;
 /// Motion that deformation may add, over that of what is prescribed.
 const DEFORMATION: f64 = 2.0;
 
-/// Whether a pair that fits like this may meet in some step.
+/// Returns whether a pair with this fit may meet in some step.
 pub fn may_meet(model: &Model, pair: PairId, fit: &Fit) -> bool {
     let of_pair = &model.pairs[pair.0];
     if fit.overlap.is_some() || of_pair.interference.is_some() {
@@ -34,7 +33,7 @@ pub fn may_meet(model: &Model, pair: PairId, fit: &Fit) -> bool {
     }
 }
 
-/// Whether sides that move as one piece come as near as round-off.
+/// Returns whether sides that move as one piece come as near as round-off.
 fn comes_near(model: &Model, pair: PairId, fit: &Fit) -> bool {
     let left = nearest_approach(model, pair);
     left.is_none_or(|left| left <= ROUND_OFF * fit.distance)

@@ -53,15 +53,15 @@ pub(super) struct Attempt<'a> {
     inflation: Inflation,
     /// Iterations of the present problem.
     ladder: Ladder,
-    /// What came inside or through, by pair; empty before the end.
+    /// Interferences, by pair; empty before the end.
     pub(super) interferences: Vec<Vec<Interference>>,
-    /// What came inside bodies where no pair sees it.
+    /// Overlaps of bodies that no pair detects.
     pub(super) overlaps: Vec<BodyOverlap>,
-    /// What the latest state is accepted for, at the end.
+    /// Criterion by which the latest state is accepted, at the end.
     pub(super) acceptance: Acceptance,
     /// Which pairs are closed in the latest state.
     closed: Vec<bool>,
-    /// What the first iteration goes by.
+    /// Rules of the first iteration.
     first: Iteration,
     /// The tangent there is.
     chord: Chord,
@@ -116,7 +116,7 @@ impl<'a> Attempt<'a> {
         }
     }
 
-    /// Whether it has started where the increment before leads to.
+    /// Returns whether the attempt started from the extrapolation of the previous increment.
     pub(super) fn follows(&self) -> bool {
         self.first != Iteration::First
     }
@@ -285,19 +285,19 @@ impl Attempt<'_> {
         workspace.assemble(&setting, &self.trial, iteration, Derivatives::First)
     }
 
-    /// Whether the matrix serves a correction from the latest state.
+    /// Returns whether the matrix can be used for a correction from the latest state.
     fn has_tangent(&self, assembled: &Assembled) -> bool {
         let tolerance = self.context.problem.model.solver.tolerance;
         assembled.derivatives == Derivatives::First || self.chord.serves(assembled, tolerance)
     }
 
-    /// Whether rows are those of an evaluation with derivatives, by which alone nodes change
-    /// their status.
+    /// Returns whether the rows come from an evaluation with derivatives; only these change the
+    /// status of nodes.
     fn is_sure(&self, assembled: &Assembled) -> bool {
         assembled.derivatives == Derivatives::First || self.chord.holds(assembled)
     }
 
-    /// What is wanted of the state that a correction from the latest one leads to.
+    /// Derivatives needed of the state that a correction from the latest one leads to.
     fn wanted(&self, assembled: &Assembled, iteration: Iteration) -> Derivatives {
         let solver = &self.context.problem.model.solver;
         let is_plain = matches!(iteration, Iteration::Later { .. });
@@ -345,7 +345,7 @@ impl Attempt<'_> {
         self.assembled(workspace, self.next_iteration())
     }
 
-    /// What the next iteration goes by, unless it is the first one.
+    /// Rules of the next iteration, unless it is the first one.
     fn next_iteration(&self) -> Iteration {
         let strategy = self.context.problem.model.solver.strategy;
         let number = self.ladder.next(self.iterations.len());

@@ -20,7 +20,7 @@ const LATE: f64 = 3e-3;
 /// How many corrections with an earlier tangent are as cheap as one with a new one.
 const CORRECTIONS: i32 = 2;
 
-/// What is wanted of the state that a correction from the residual `norm` leads to.
+/// Derivatives needed of the state that a correction from the residual `norm` leads to.
 pub(super) fn wanted(norm: f64) -> Derivatives {
     match norm <= LATE {
         true => Derivatives::None,
@@ -28,7 +28,7 @@ pub(super) fn wanted(norm: f64) -> Derivatives {
     }
 }
 
-/// What the tangent is of that the matrix holds, and what the last correction started from.
+/// State that the tangent in the matrix belongs to, and start of the last correction.
 #[derive(Debug, Default)]
 pub(super) struct Chord {
     statuses: Vec<Status>,
@@ -44,14 +44,16 @@ impl Chord {
         }
     }
 
-    /// Whether a few more corrections with the tangent bring a state to the tolerance.
+    /// Returns whether a few more corrections with this tangent would bring a state within the
+    /// tolerance.
     pub(super) fn serves(&self, assembled: &Assembled, tolerance: f64) -> bool {
         let norm = assembled.norms.largest();
         let rate = norm / self.norm;
         norm * rate.powi(CORRECTIONS) <= tolerance && self.holds(assembled)
     }
 
-    /// Whether nodes have the statuses that they had then; rows of others are different ones.
+    /// Returns whether nodes still have the statuses of the tangent; other statuses have other
+    /// rows.
     pub(super) fn holds(&self, assembled: &Assembled) -> bool {
         statuses(assembled).eq(self.statuses.iter().copied())
     }

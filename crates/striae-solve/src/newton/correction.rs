@@ -97,10 +97,10 @@ pub(super) fn corrected(
     next
 }
 
-/// What the rows of the tractions of a node state.
+/// Equations of the rows of a node's tractions.
 #[derive(Clone, Copy, PartialEq)]
 enum Rows {
-    /// What the status of the node asks for.
+    /// Equations of the status of the node.
     OfStatus,
     /// That they stay as they are.
     Idle,

@@ -28,7 +28,7 @@ use crate::{
     state::State,
 };
 
-/// What an increment started from: a continued step starts the next one where both lead to.
+/// Start of an increment: a continued step extrapolates from it to start the next one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Course {
     /// Number of the step.
@@ -67,7 +67,7 @@ impl Course {
         }
     }
 
-    /// Whether an increment from `state` continues this one.
+    /// Returns whether an increment from `state` continues this one.
     pub(super) fn leads_on(&self, context: &StepContext, state: &State) -> bool {
         let semismooth = context.problem.model.solver.strategy == Strategy::Semismooth;
         semismooth && self.step == context.index && self.end == state.time

@@ -1,4 +1,4 @@
-//! What solves the linear systems: a solver of one's own, or one of all ranks together.
+//! Solver of the linear systems: a user-defined one, or one of all ranks together.
 
 use striae_condensed::{
     Analysis, Automatic, Choice, Experience, Factored, FactoredInterior, Numbering, Partition,
@@ -104,12 +104,12 @@ impl Linear {
         }
     }
 
-    /// Whether there are factors of the bodies on which contact alone can be corrected.
+    /// Returns whether there are factors of the bodies with which contact alone can be corrected.
     pub(super) fn has_interior(&self) -> bool {
         matches!(self, Self::Alone(solver) if solver.has_interior())
     }
 
-    /// What earlier matrices have taught it, and what its older factors were made of.
+    /// Experience from earlier matrices, and the interior that the older factors were made of.
     pub(super) fn experience(&self) -> (Experience, Option<FactoredInterior>) {
         match self {
             Self::Alone(solver) => (solver.experience().clone(), solver.factored_interior()),

@@ -26,12 +26,12 @@ const LEFT: f64 = 0.01;
 /// Corrects contact on bodies linearised at `trial`, and evaluates the state that is
 /// reached.
 ///
-/// `correction` leads to the first state that contact is evaluated at, `before` is the
-/// norm at `trial` if it is known. `None` where the true norm is not better for it, or the
-/// state cannot be evaluated: the correction alone leads to another one.
+/// `correction` leads to the first state at which contact is evaluated, `before` is the norm at
+/// `trial` if it is known. Returns `None` if the true norm does not improve or the state cannot be
+/// evaluated: the correction alone leads to another state.
 ///
 /// # Errors
-/// What is no fault of the state that is reached.
+/// Returns errors that are not caused by the state that is reached.
 pub(super) fn contact_at_rest(
     workspace: &mut Workspace,
     setting: &Setting,
@@ -74,7 +74,7 @@ pub(super) fn contact_at_rest(
     Ok(None)
 }
 
-/// What was evaluated; `None` for a state at which there is nothing to evaluate.
+/// Result of an evaluation; `None` for a state at which it is not possible.
 fn evaluated<T>(found: Result<T, CutBack>) -> Result<Option<T>, CutBack> {
     match found {
         Ok(found) => Ok(Some(found)),

@@ -1,4 +1,4 @@
-//! What an iteration goes by, and how far its linear system is solved.
+//! Rules of an iteration, and accuracy to which its linear system is solved.
 
 use striae_condensed::REDUCTION;
 use striae_contact::{
@@ -28,7 +28,7 @@ impl Ladder {
     }
 }
 
-/// What an iteration of a problem after the first one of the increment goes by.
+/// Rules of an iteration after the first one of the increment.
 pub(super) fn later(strategy: Strategy, inflation: Inflation, number: usize) -> Iteration {
     match strategy {
         Strategy::Semismooth => Iteration::Later {
@@ -51,7 +51,7 @@ fn slip_weight(number: usize) -> f64 {
     }
 }
 
-/// Whether the friction of an iteration is the true one.
+/// Returns whether the friction of an iteration is the true one.
 pub(super) fn is_final(iteration: Iteration) -> bool {
     match iteration {
         Iteration::First | Iteration::Later { .. } => true,

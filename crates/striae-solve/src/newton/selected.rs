@@ -32,7 +32,7 @@ pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected
     selected
 }
 
-/// The same where friction of all kept nodes is determined in all directions.
+/// Selection in which friction of all kept nodes is determined in all directions.
 fn without_freedoms(context: &StepContext, state: &State, s: f64) -> Selected {
     let semismooth = context.problem.model.solver.strategy == Strategy::Semismooth;
     let (selections, tractions) = state

@@ -1,10 +1,10 @@
-//! What linear systems take, for reports and profiles.
+//! Work spent on linear systems, for reports and profiles.
 
 use std::time::Duration;
 
 use striae_condensed::{FallBack, Method};
 
-/// What the linear systems of an increment took.
+/// Work spent on the linear systems of an increment.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LinearWork {
     /// Factorisations of the bodies; others of contact were made on older ones.

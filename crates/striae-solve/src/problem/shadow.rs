@@ -13,7 +13,7 @@ use crate::{node::GlobalNode, tie::Ties};
 /// Weight over the largest one of a node that is not asked.
 const SMALL: f64 = 0.05;
 
-/// What a side faces: a rigid surface or a body.
+/// Opponent of a side: a rigid surface or a body.
 type Opponent = (Option<usize>, Option<usize>);
 
 /// Such nodes, by pair and side; no lists without ties.

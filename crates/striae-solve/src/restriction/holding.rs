@@ -12,7 +12,7 @@ use crate::{
     share::{Division, Holding, Whole},
 };
 
-/// What a rank holds.
+/// Description of what a rank holds.
 pub(super) fn holding(
     whole: &Frame,
     division: &Division,
@@ -94,7 +94,7 @@ fn common(
     common
 }
 
-/// What is known of the whole.
+/// Data of the whole problem that every rank keeps.
 fn known(whole: &Frame, points: &[Vec3], nodes: usize) -> Whole {
     let model = &whole.model;
     let at = whole.placed.as_ref().unwrap_or(model);

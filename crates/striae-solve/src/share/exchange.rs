@@ -57,7 +57,7 @@ impl Border {
     }
 }
 
-/// What fields have at nodes, node by node.
+/// Values of fields at nodes, node by node.
 fn values(fields: &[&mut [Vec3]], nodes: &[GlobalNode]) -> Vec<f64> {
     let mut values = Vec::with_capacity(3 * fields.len() * nodes.len());
     for &node in nodes {

@@ -51,7 +51,7 @@ pub enum TieFault {
         b: String,
         /// Distance.
         gap: f64,
-        /// The same over the facet size.
+        /// Distance relative to the facet size.
         share: f64,
         /// Where.
         at: Vec3,

@@ -1,4 +1,4 @@
-//! What fails on one rank ends or cuts increments on all.
+//! Failures on one rank, which end or cut increments on all.
 
 use striae_mesh::Vec3;
 use striae_solve::model::{LoadExtent, LoadKind, Model};

@@ -1,4 +1,4 @@
-//! What a run tells, on one rank or several, and how far two of them are apart.
+//! Output of a run, on one rank or several, and the distance between two outputs.
 
 use std::sync::Arc;
 
@@ -22,7 +22,7 @@ use striae_solve::{
 /// How far numbers may be apart, over the largest one of their kind.
 const CLOSE: f64 = 1e-8;
 
-/// What a run tells.
+/// Output of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Told {
     pub ending: String,
@@ -35,7 +35,7 @@ pub struct Told {
     pub warnings: Vec<String>,
 }
 
-/// What a rank tells, and where its nodes are by their numbers in the whole.
+/// Output of a rank, and positions of its nodes by their numbers in the whole.
 type OfRank = (Told, Vec<(usize, Vec3)>);
 
 #[derive(Default)]
@@ -70,8 +70,8 @@ impl Observer for Record {
     }
 }
 
-/// What a model tells on one rank, by a solver that does not correct contact on its own either:
-/// iterations are those of Newton's method then.
+/// Output of a model on one rank, with a solver that does not correct contact either, so that all
+/// iterations are those of Newton's method.
 pub fn alone(model: &Model) -> OfRank {
     let mut model = model.clone();
     model.solver.backend = Backend::Multifrontal;
@@ -79,7 +79,7 @@ pub fn alone(model: &Model) -> OfRank {
     told(&problem, None)
 }
 
-/// What it tells on several.
+/// Output of a model on several ranks.
 pub fn together(model: &Model, ranks: usize) -> Vec<OfRank> {
     let division = Division::new(model, ranks).unwrap();
     Together::run(ranks, |team| {

@@ -14,7 +14,7 @@ pub struct Case {
     pub mu: f64,
     /// Where the punch begins.
     pub origin: [f64; 2],
-    /// What follows.
+    /// Increments that follow.
     pub increments: Vec<Increment>,
 }
 

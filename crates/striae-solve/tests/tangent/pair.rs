@@ -24,7 +24,7 @@ pub struct Places {
     pub placement: Placement,
 }
 
-/// What the nodes of a state are to do.
+/// Status wanted for the nodes of a state.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Wanted {
     /// One in three each is open, sticks and slips.
@@ -191,7 +191,7 @@ impl<'a> PairFunction<'a> {
         self.found(wanted).expect("some node slips")
     }
 
-    /// The same; `None` where no node can be made to slip.
+    /// Positions with the wanted status; `None` if no node can be made to slip.
     pub fn found(&self, wanted: Wanted) -> Option<DVector<f64>> {
         let mut placed = PRESSURES.iter().map(|&pressure| {
             let mut u = self.placed(wanted, pressure);

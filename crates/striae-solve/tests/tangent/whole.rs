@@ -150,7 +150,7 @@ impl<'a> Whole<'a> {
         assert_eq!(kept.contact, tangent.contact);
     }
 
-    /// The same with all but contact linearised at `u`.
+    /// Asserts the order with everything but contact linearised at `u`.
     pub fn assert_order_of_contact(&self) {
         let u = self.unknowns();
         let (assembled, tangent) = self.evaluated(&u);

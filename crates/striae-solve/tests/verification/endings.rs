@@ -201,7 +201,7 @@ fn driven_off(friction: Friction, force: f64, divisions: [usize; 2]) -> Model {
     model
 }
 
-/// What lets go at the end, and after which part of the way.
+/// Body that comes loose at the end, and the fraction of the path at which it does.
 fn let_go(run: &Run) -> (FreeMover, String, f64) {
     let CutBack::Released { pair, motion } = reason(run) else {
         panic!("{}\n{:#?}", run.ending, run.cuts);

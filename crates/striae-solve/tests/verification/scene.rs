@@ -30,9 +30,9 @@ pub struct Run {
     pub states: Vec<State>,
     /// Norms of all iterations of every increment.
     pub iterations: Vec<Vec<Norms>>,
-    /// What the linear systems of every increment took.
+    /// Work spent on the linear systems of every increment.
     pub work: Vec<LinearWork>,
-    /// What came inside or through in every increment, by pair.
+    /// Interferences of every increment, by pair.
     pub interferences: Vec<Vec<Vec<Interference>>>,
     /// Where every increment ended.
     pub progress: Vec<Progress>,

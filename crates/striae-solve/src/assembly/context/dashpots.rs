@@ -110,8 +110,8 @@ fn loads(context: &StepContext, s: f64) -> f64 {
     problem.share.sum(sum) + gravity * points
 }
 
-/// What resists the motion of every pair from `state` to the fraction `s` of the step in
-/// the time `elapsed`; nothing at the end of the step.
+/// Dashpots that resist the motion of every pair from `state` to the fraction `s` of the step in
+/// the time `elapsed`; none at the end of the step.
 pub(super) fn dashpots(
     context: &StepContext,
     state: &State,
