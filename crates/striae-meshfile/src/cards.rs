@@ -20,7 +20,7 @@ use std::fmt;
 pub struct MaterialCard {
     /// Its name.
     pub name: String,
-    /// What it is, or why it cannot be used, with the file and line.
+    /// Card, or the reason why it cannot be used, with the file and line.
     pub card: Result<Card, String>,
 }
 
@@ -93,10 +93,10 @@ pub enum Elasticity {
 /// Which moduli the constants of a material that relaxes are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Moduli {
-    /// Those of slow deformations.
+    /// Moduli for slow deformations.
     #[default]
     LongTerm,
-    /// Those of sudden deformations.
+    /// Moduli for sudden deformations.
     Instantaneous,
 }
 

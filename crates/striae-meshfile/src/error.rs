@@ -1,4 +1,4 @@
-//! What can be wrong with a mesh file.
+//! Errors of mesh files.
 
 use std::path::{Path, PathBuf};
 use striae_mesh::MeshError;
@@ -9,7 +9,7 @@ use striae_mesh::MeshError;
 pub struct MeshFileError {
     /// The file.
     pub path: PathBuf,
-    /// What is wrong with it.
+    /// Fault in the file.
     #[source]
     pub fault: MeshFileFault,
 }
@@ -104,7 +104,7 @@ impl std::fmt::Display for Place {
     }
 }
 
-/// What is wrong with a mesh file.
+/// Fault in a mesh file.
 #[derive(Debug, thiserror::Error)]
 pub enum MeshFileFault {
     /// The operating system refuses to read it.
@@ -121,11 +121,11 @@ pub enum MeshFileFault {
     At {
         /// Where it is in the file.
         place: Place,
-        /// What should be there.
+        /// Expected content.
         expected: String,
-        /// What is there.
+        /// Content found.
         found: String,
-        /// What to do about it.
+        /// Remedy.
         remedy: Option<&'static str>,
     },
     /// A binary file that is shorter or longer than it says.
@@ -139,9 +139,9 @@ pub enum MeshFileFault {
     /// The file holds nothing of what is looked for.
     #[error("expected {expected}, found none; {remedy}")]
     Empty {
-        /// What is looked for.
+        /// Content searched for.
         expected: &'static str,
-        /// What to do about it.
+        /// Remedy.
         remedy: &'static str,
     },
     /// A part that the file does not have.
@@ -187,7 +187,7 @@ impl MeshFileFault {
         }
     }
 
-    /// The same fault with advice, if it is that of a place.
+    /// Adds advice to the fault, if it has a location.
     pub(super) fn with_remedy(mut self, advice: &'static str) -> Self {
         if let Self::At { remedy, .. } = &mut self {
             *remedy = Some(advice);

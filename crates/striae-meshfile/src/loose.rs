@@ -10,7 +10,7 @@ impl Loose {
         self.0[dimension] += more;
     }
 
-    /// What there is to say.
+    /// Note about them, if there are any.
     pub(super) fn note(&self) -> Option<String> {
         let [points, lines, surfaces] = self.0;
         let words = [

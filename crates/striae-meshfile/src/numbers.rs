@@ -17,12 +17,12 @@ pub struct Numbers {
 }
 
 impl Numbers {
-    /// What the file calls a node: a number, `instance.number` if it has several instances.
+    /// Number of a node in the file: `instance.number` if it has several instances.
     pub fn node(&self, node: NodeId) -> String {
         named(&self.instances, self.nodes[node.index()])
     }
 
-    /// What the file calls an element, or the one that it is a part of.
+    /// Number of an element in the file, or of the element that it was divided from.
     pub fn element(&self, element: ElementId) -> String {
         named(&self.instances, self.elements[element.index()])
     }

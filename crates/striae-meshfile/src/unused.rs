@@ -7,7 +7,7 @@ pub struct Unused {
     pub keyword: String,
     /// Where it stands.
     pub places: Vec<String>,
-    /// Whether it states a material.
+    /// `true` if it states a material.
     pub of_materials: bool,
 }
 

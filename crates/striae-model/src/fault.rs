@@ -1,6 +1,6 @@
-//! What can be wrong with a model, in words.
+//! Faults of a model, with their messages.
 //!
-//! Longer than other files, as it lists every kind of fault with its words.
+//! Longer than other files, as it lists every kind of fault with its message.
 
 use std::fmt;
 
@@ -13,7 +13,7 @@ use crate::path::Path;
 pub struct Fault {
     /// The part that is wrong.
     pub path: Path,
-    /// What is wrong.
+    /// Kind of fault.
     pub kind: FaultKind,
 }
 
@@ -59,7 +59,7 @@ pub enum FaultKind {
         "{what} needs facets with four corners, and body `{body}` has triangles there; mesh it with hexahedra, wedges or pyramids that show quadrilaterals"
     )]
     Triangles {
-        /// What needs them.
+        /// Feature that needs them.
         what: String,
         /// Name of the body.
         body: String,
@@ -85,11 +85,11 @@ pub enum FaultKind {
     /// A number outside its range.
     #[error("{what} must be {expected}, but is {found}")]
     Range {
-        /// What it is.
+        /// Name of the quantity.
         what: String,
-        /// What it must be.
+        /// Requirement on the value.
         expected: &'static str,
-        /// What it is instead.
+        /// Value given instead.
         found: f64,
     },
     /// A name that nothing has.
@@ -99,7 +99,7 @@ pub enum FaultKind {
         kind: &'static str,
         /// The name.
         name: String,
-        /// What there is.
+        /// Existing names.
         known: Vec<String>,
         /// The most similar of them.
         nearest: Option<String>,
@@ -159,7 +159,7 @@ pub enum FaultKind {
     Mesh {
         /// The body or rigid surface.
         owner: String,
-        /// What its maker says.
+        /// Message of its generator.
         cause: String,
     },
     /// A pair without a deformable side.
@@ -359,12 +359,12 @@ pub enum FaultKind {
         /// A component, or that there is none.
         component: String,
     },
-    /// The same thing is stated twice in one step.
+    /// A value is stated twice in one step.
     #[error("step `{step}` states {what} twice")]
     StatedTwice {
         /// The step.
         step: String,
-        /// What is stated.
+        /// Name of the value.
         what: String,
     },
     /// Sizes of increments that contradict each other.
@@ -479,7 +479,7 @@ pub enum FaultKind {
     BadCurve {
         /// The curve.
         curve: String,
-        /// What is wrong.
+        /// Description of the fault.
         found: String,
     },
     /// Elastic constants of a material that is not stable.

@@ -22,7 +22,7 @@ pub struct RigidMotions {
 }
 
 impl RigidMotions {
-    /// Those of a body that nothing stops.
+    /// Motions of an unrestrained body.
     pub fn of(mesh: &Mesh) -> Self {
         Self::around(mesh.positions.iter())
     }

@@ -16,7 +16,7 @@ pub(crate) fn sum(folder: &Path, name: &Path) -> Result<(String, [u64; 2]), Outp
     Ok((name.to_string_lossy().into_owned(), sum))
 }
 
-/// Whether all files begin with what they had in them; tables may have grown since.
+/// Checks that all files begin with their recorded content; tables may have grown since.
 pub(crate) fn check(folder: &Path, sums: &Checksums) -> Result<(), OutputError> {
     for (name, [length, sum]) in sums {
         let path = folder.join(name);

@@ -33,11 +33,11 @@ pub(crate) struct Collections {
     sums: Checksums,
 }
 
-/// What is written of contact beside the state.
+/// Contact quantities that are written besides the state.
 pub(crate) struct Contact<'a> {
     /// Results at the nodes, by pair and side.
     pub nodes: &'a [&'a [Vec<NodeResult>; 2]],
-    /// What slip has done.
+    /// Sums over slip.
     pub worn: &'a Worn,
     /// Time of the last increment.
     pub elapsed: f64,
@@ -59,7 +59,7 @@ impl Collections {
         }
     }
 
-    /// What has been written: bodies, contact, rigid surfaces, ties.
+    /// Snapshots written so far: bodies, contact, rigid surfaces, ties.
     pub(crate) fn snapshots(&self) -> [&[Snapshot]; 4] {
         [&self.bodies, &self.contact, &self.rigid, &self.ties].map(Series::snapshots)
     }

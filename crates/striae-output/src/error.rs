@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use striae_files::FileError;
 
-/// What can go wrong while writing results or reading them back.
+/// Error while writing results or reading them back.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
     /// A file cannot be written or read.
@@ -15,7 +15,7 @@ pub enum OutputError {
     Elsewhere {
         /// The rank.
         rank: usize,
-        /// What it says.
+        /// Message of the rank.
         cause: String,
     },
     /// The content of a file is not what it should be.
@@ -23,7 +23,7 @@ pub enum OutputError {
     Content {
         /// The file.
         path: PathBuf,
-        /// What is wrong, and where.
+        /// Description of the fault, and its place.
         cause: String,
     },
     /// A file of a run is not what the run wrote.
@@ -76,7 +76,7 @@ pub enum OutputError {
         row: usize,
         /// The column of the first row.
         expected: String,
-        /// What the row has in its place.
+        /// Column that the row has in its place.
         found: String,
     },
 }

@@ -18,7 +18,7 @@ use crate::{
     removal::{remove_where, removed},
 };
 
-/// What becomes of the results of an earlier run.
+/// Treatment of the results of an earlier run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Existing {
     /// They stay, and the new run does not begin.

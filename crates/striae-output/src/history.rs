@@ -202,13 +202,13 @@ fn line<'a>(numbers: impl Iterator<Item = (&'a str, f64)>) -> String {
     shortest.join(",") + "\n"
 }
 
-/// Whether the numbers of a column count something.
+/// Returns whether the numbers of a column are counts.
 fn is_count(column: &str) -> bool {
     let last = column.rsplit('.').next();
     last.is_some_and(|last| COUNTS.contains(&last))
 }
 
-/// Whether all digits of a number are before the point and known.
+/// Returns whether all digits of a number are before the point and known.
 fn is_whole(number: f64) -> bool {
     const LARGEST: f64 = (1_u64 << f64::MANTISSA_DIGITS) as f64;
     number.fract() == 0.0 && number.abs() <= LARGEST

@@ -31,10 +31,10 @@ struct Placed {
 }
 
 impl Probes {
-    /// Finds all probes, and goes on with their file after so many rows; collective.
+    /// Finds all probes, and continues their file after so many rows; collective.
     ///
     /// # Errors
-    /// What is wrong with the first probe that is nowhere, or when there are no such rows.
+    /// Returns the fault of the first probe that is nowhere, or an error if there are no such rows.
     pub(crate) fn open(
         path: PathBuf,
         problem: &Problem,

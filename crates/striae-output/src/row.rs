@@ -74,7 +74,7 @@ pub fn row(
     row
 }
 
-/// Whether any step has inertia.
+/// Returns whether any step has inertia.
 fn is_dynamic(problem: &Problem) -> bool {
     let mut steps = problem.model.steps.iter();
     steps.any(|step| step.procedure != Procedure::QuasiStatic)

@@ -13,7 +13,7 @@ use striae_solve::warning::Warning;
 use crate::OutputError;
 use striae_files::{read_text, write_atomically};
 
-/// What a run came to.
+/// Summary of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// Name of the case.
@@ -49,7 +49,7 @@ pub struct Summary {
     pub ties: Vec<TieSummary>,
     /// Reaction of every node set with prescribed displacements.
     pub reactions: BTreeMap<String, [f64; 3]>,
-    /// What makes the results doubtful.
+    /// Warnings: reasons to doubt the results.
     #[serde(default)]
     pub warnings: Vec<WarningSummary>,
 }
@@ -84,7 +84,7 @@ impl From<Warning> for WarningSummary {
     }
 }
 
-/// What the linear systems took.
+/// Work spent on the linear systems.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SolverSummary {
     /// How the last one was factored: `condensed`, `multifrontal` or `faer`.
@@ -97,11 +97,11 @@ pub struct SolverSummary {
     pub krylov_iterations: usize,
     /// Seconds on the clock for residuals and matrices in all accepted increments.
     pub assembly_s: f64,
-    /// The same for factorisations and preconditioners.
+    /// Seconds spent on factorisations and preconditioners.
     pub factorisation_s: f64,
-    /// The same for solutions with refinement.
+    /// Seconds spent on solutions with refinement.
     pub solution_s: f64,
-    /// The same for contact on linearised bodies.
+    /// Seconds spent on contact with linearised bodies.
     pub contact_s: f64,
     /// Accepted increments in which another solver stood in for the one that was asked for.
     pub fall_backs: usize,

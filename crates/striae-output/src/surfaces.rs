@@ -16,13 +16,13 @@ use crate::{
     worn::Sums,
 };
 
-/// What is written of a side of a pair beside its state.
+/// Quantities written of a side of a pair besides its state.
 pub(crate) struct Wanted<'a> {
     /// Fields.
     pub fields: &'a [ContactField],
     /// Coefficient of wear, if one is known.
     pub wear: Option<f64>,
-    /// What slip has done to the nodes.
+    /// Sums over slip at the nodes.
     pub worn: &'a [Sums],
     /// Results at the nodes, by side.
     pub nodes: &'a [Vec<NodeResult>; 2],

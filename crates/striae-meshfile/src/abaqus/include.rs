@@ -106,7 +106,7 @@ impl Text {
         Ok(())
     }
 
-    /// What comes next is a line of a file.
+    /// Starts a section that begins with a line of a file.
     fn begin(&mut self, file: usize, line: usize) {
         let first = self.count + 1;
         self.pieces.push(Piece { first, file, line });
@@ -146,14 +146,14 @@ fn included(
     }
 }
 
-/// Whether a line is the keyword `*INCLUDE`.
+/// Returns whether a line is the keyword `*INCLUDE`.
 fn is_include(line: &str) -> bool {
     let keyword = line.trim_start().strip_prefix('*');
     let name = keyword.map(|keyword| keyword.split(',').next().unwrap_or_default());
     name.is_some_and(|name| name.trim().eq_ignore_ascii_case("INCLUDE"))
 }
 
-/// What two paths to the same file have in common.
+/// Canonical path, equal for all paths to one file.
 fn identity(path: &Path) -> PathBuf {
     path.canonicalize().unwrap_or_else(|_| path.to_owned())
 }

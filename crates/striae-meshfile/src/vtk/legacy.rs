@@ -91,7 +91,7 @@ fn attributed(
     Err(words.fault(&format!("values of {expected} {of}"), count.to_string()))
 }
 
-/// What attributes belong to.
+/// Entities that attributes belong to.
 #[derive(Clone, Copy)]
 enum Of {
     Cells,

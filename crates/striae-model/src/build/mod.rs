@@ -181,7 +181,7 @@ impl ModelBuilder {
         fitted(model.checked()?).map_err(Faults)
     }
 
-    /// What is known where some names are not.
+    /// Draft of the model if some names are unknown.
     fn draft<'a>(
         &'a self,
         rigid: &'a [Option<RigidSurface>],

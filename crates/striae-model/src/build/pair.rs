@@ -132,7 +132,7 @@ impl PairBuilder {
         self
     }
 
-    /// What is made of gaps and overlaps of the meshes.
+    /// Sets the treatment of initial gaps and overlaps of the meshes.
     pub fn initial(mut self, initial: Initial) -> Self {
         self.initial = initial;
         self

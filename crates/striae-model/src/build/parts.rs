@@ -21,7 +21,7 @@ pub struct BodyBuilder {
     sections: Vec<SectionBuilder>,
 }
 
-/// Whether a body has a material besides those of its sections.
+/// Material of a body besides those of its sections.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Own {
     Given,
@@ -103,7 +103,7 @@ impl BodyBuilder {
         self
     }
 
-    /// What becomes of the mass of contact nodes.
+    /// Sets the treatment of the mass of contact nodes.
     pub fn contact_mass(mut self, contact_mass: ContactMass) -> Self {
         self.body.contact_mass = contact_mass;
         self

@@ -86,7 +86,7 @@ enum Owner {
     Rigid(String),
 }
 
-/// What was stated last.
+/// Condition stated last.
 #[derive(Clone, Copy, Debug)]
 enum Last {
     Nothing,
@@ -268,7 +268,8 @@ impl StepBuilder {
         self.drive_rigid(name, coordinates, None, None)
     }
 
-    /// The same with a force at the reference point and a torque.
+    /// Drives a rigid body, with a force at the reference point and a torque on its free
+    /// coordinates.
     pub fn drive_rigid(
         mut self,
         name: impl Into<String>,
@@ -444,7 +445,7 @@ impl StepBuilder {
     }
 }
 
-/// What is prescribed after the steps so far: components of nodes of bodies.
+/// Components of nodes of bodies that are prescribed after the steps so far.
 #[derive(Default)]
 pub(super) struct Prescribed(BTreeSet<(BodyId, NodeId, usize)>);
 
@@ -487,7 +488,7 @@ pub(super) struct Resolved {
 }
 
 impl Resolved {
-    /// Whether all displacement conditions are known.
+    /// Returns whether all displacement conditions are known.
     pub(super) fn displacements(&self) -> Known {
         let positions = self.positions.get("displacements");
         let gaps = positions.is_some_and(|known| known.len() < self.stated);

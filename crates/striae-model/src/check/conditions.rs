@@ -30,7 +30,7 @@ impl History {
     }
 }
 
-/// What a step has stated for a component so far.
+/// Value that a step has stated for a component so far.
 struct Statement<'s> {
     set: &'s str,
     target: f64,

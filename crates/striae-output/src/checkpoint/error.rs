@@ -31,11 +31,11 @@ pub enum CheckpointError {
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// Error of the operating system.
         #[source]
         cause: io::Error,
     },
-    /// It is another kind of file.
+    /// The file is of another kind.
     #[error("{} is no checkpoint", path.display())]
     Foreign {
         /// The file.
@@ -81,7 +81,7 @@ pub enum CheckpointError {
         "{part} is not the same in the run and in the new deck; only steps, solver and output may differ"
     )]
     Differs {
-        /// What it is called.
+        /// Name of the part.
         part: String,
     },
     /// The new deck does not begin with the steps that are done.
@@ -89,7 +89,7 @@ pub enum CheckpointError {
         "{step} is done, and the new deck does not begin with it as it was; state it again, and further steps after it"
     )]
     StepDiffers {
-        /// What it is called.
+        /// Name of the step.
         step: String,
     },
     /// The new deck has no step that is not done.

@@ -1,4 +1,4 @@
-//! What `expected.toml` says, checked.
+//! Content of `expected.toml`, checked.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -8,7 +8,7 @@ use serde::Deserialize;
 use crate::OutputError;
 use striae_files::read_text;
 
-/// What a case must give.
+/// Results that a case must give.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expected {
     /// Quantities in the order of the file.
@@ -65,7 +65,7 @@ impl Expected {
         })
     }
 
-    /// The same from text; the error is a sentence.
+    /// Parses a text; the error is a sentence.
     pub fn parse(text: &str) -> Result<Self, String> {
         let raw: RawFile = toml::from_str(text).map_err(|cause| cause.to_string())?;
         let mut names = BTreeSet::new();

@@ -17,7 +17,7 @@ use super::{
 use crate::OutputError;
 use striae_files::{FileError, read_text};
 
-/// What begins the appended section.
+/// Beginning of the appended section.
 const SECTION: &[u8] = b"<AppendedData encoding=\"raw\">";
 
 /// A grid in a file, or in the pieces that a `.pvtu` file names.
@@ -39,7 +39,7 @@ struct OneFile {
     time: f64,
 }
 
-/// What the text of a file says of an array.
+/// Description of an array in the text of a file.
 struct Described {
     /// `Points`, `Cells`, `PointData` or `CellData`.
     group: String,
