@@ -1,4 +1,4 @@
-//! What can be wrong with a deck, in the words shown to its author.
+//! Faults of a deck, with the messages shown to its author.
 //!
 //! Faults of what the deck describes are those of the model, [`striae_model::FaultKind`].
 
@@ -8,7 +8,7 @@ pub enum FaultKind {
     /// The file cannot be read at all.
     #[error("the deck cannot be read: {cause}")]
     Unreadable {
-        /// What the operating system says.
+        /// Error of the operating system.
         cause: String,
     },
     /// The bytes are no text.
@@ -17,7 +17,7 @@ pub enum FaultKind {
     /// The text is not TOML.
     #[error("not valid TOML: {message}")]
     Syntax {
-        /// What the parser says.
+        /// Message of the parser.
         message: String,
     },
     /// A key that no table of this place has.
@@ -126,7 +126,7 @@ pub enum FaultKind {
         key: String,
         /// The table.
         place: String,
-        /// What its value would be.
+        /// Expected value.
         expected: String,
     },
     /// A value of the wrong type or outside its range.
@@ -134,9 +134,9 @@ pub enum FaultKind {
     Unexpected {
         /// The key and its table.
         place: String,
-        /// What it must be.
+        /// Requirement on the value.
         expected: String,
-        /// What it is.
+        /// Value found.
         found: String,
     },
     /// A text that is none of the words allowed.
@@ -242,7 +242,7 @@ pub enum FaultKind {
     FileMaterials {
         /// The body.
         body: String,
-        /// What is wrong.
+        /// Description of the fault.
         cause: String,
     },
     /// A density of what is no solid.
@@ -250,13 +250,13 @@ pub enum FaultKind {
     RigidSolid {
         /// The rigid body.
         rigid: String,
-        /// What is wrong.
+        /// Description of the fault.
         cause: String,
     },
     /// Friction constants that the law refuses.
     #[error("this friction is not possible: {cause}")]
     Friction {
-        /// What the law says.
+        /// Message of the law.
         cause: String,
     },
     /// A texture that cannot be read from its file.
@@ -264,7 +264,7 @@ pub enum FaultKind {
     NodalTexture {
         /// The body or rigid surface.
         owner: String,
-        /// What its reader says.
+        /// Message of the reader.
         cause: String,
     },
     /// Two probes have the same name.
@@ -278,7 +278,7 @@ pub enum FaultKind {
     Probe {
         /// Its name.
         name: String,
-        /// What is wrong.
+        /// Description of the fault.
         cause: String,
     },
     /// Two sections have the same name.
@@ -292,7 +292,7 @@ pub enum FaultKind {
     Section {
         /// Its name.
         name: String,
-        /// What is wrong.
+        /// Error of the section.
         cause: striae_solve::section::SectionError,
     },
     /// A deck without bodies or steps.
@@ -308,7 +308,7 @@ pub enum FaultKind {
         "`backend = \"mumps\"` needs PETSc: build with `--features petsc` and run with `--petsc` or under `mpirun`; `backend = \"multifrontal\"` is a direct solver that needs neither"
     )]
     Together,
-    /// What the deck describes is not possible.
+    /// The deck describes an impossible model.
     #[error(transparent)]
     Model(Box<striae_model::FaultKind>),
 }

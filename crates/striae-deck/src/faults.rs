@@ -42,7 +42,7 @@ pub struct Fault {
     pub file: String,
     /// Where it is; `None` where there is no text at all.
     pub position: Option<Position>,
-    /// What is wrong.
+    /// Kind of fault.
     pub kind: FaultKind,
     excerpt: Option<Excerpt>,
 }

@@ -46,15 +46,15 @@ use toml::de::DeTable;
 /// A deck that has been found valid.
 #[derive(Clone, Debug)]
 pub struct Deck {
-    /// What is to be simulated.
+    /// Model to be simulated.
     pub model: Model,
-    /// What is to be written.
+    /// Output to be written.
     pub output: Output,
-    /// What is made of mesh files that they do not say, a line each.
+    /// Notes on parts of mesh files that were interpreted or replaced, one line each.
     pub notes: Vec<String>,
     /// Where its named parts are written.
     pub places: Places,
-    /// What is wrong with it where there are no ranks.
+    /// Faults of the deck if it is run without ranks.
     together: Option<Box<Faults>>,
 }
 

@@ -316,7 +316,7 @@ fn leading(group: &[Alternative]) -> String {
     ticked(common).replace(", ", " and ")
 }
 
-/// What to do about a table where a list of tables is expected.
+/// Remedy for a table where a list of tables is expected.
 fn remedy(value: &DeValue<'_>, place: &Place, form: &Form) -> String {
     match (value, form) {
         (DeValue::Table(_), Form::List(of, _)) if matches!(**of, Form::Table(_)) => {

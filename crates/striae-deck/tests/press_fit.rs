@@ -90,7 +90,7 @@ fn pressure_is_that_of_lame_whatever_the_meshes() {
     }
 }
 
-/// What counts after the first step is the end of the curve, not its way.
+/// The end of the curve decides after the first step, not its course.
 #[test]
 fn interference_follows_its_curve_and_stays() {
     let straight = format!("interference = {INTERFERENCE}");

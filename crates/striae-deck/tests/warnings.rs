@@ -1,4 +1,4 @@
-//! What is judged of increments, from states made by hand.
+//! Warnings about increments, from states made by hand.
 
 use std::path::Path;
 

@@ -12,7 +12,7 @@ pub enum FigureError {
     Description {
         /// The figure.
         path: PathBuf,
-        /// What is wrong with the description.
+        /// Fault of the description.
         cause: String,
     },
     /// A file cannot be written.

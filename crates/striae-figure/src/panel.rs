@@ -1,4 +1,4 @@
-//! What the series of a panel look like on the page.
+//! Appearance of the series of a panel on the page.
 
 use super::arrows::{ArrowScale, arrow, ends, group};
 use super::axis::Mapping;

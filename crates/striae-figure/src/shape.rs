@@ -5,7 +5,7 @@ use super::color::Rgb;
 /// A place on the page.
 pub(super) type Place = [f64; 2];
 
-/// What is drawn.
+/// Shape to be drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Shape {
     /// An open line.
@@ -64,7 +64,7 @@ impl Rectangle {
         self.top + self.height
     }
 
-    /// Whether a place is inside or nearer to it than `margin`.
+    /// Returns whether a place is inside or closer to the shape than `margin`.
     pub fn contains(&self, place: Place, margin: f64) -> bool {
         (self.left - margin..=self.right() + margin).contains(&place[0])
             && (self.top - margin..=self.bottom() + margin).contains(&place[1])
@@ -122,7 +122,7 @@ impl Rectangle {
     }
 }
 
-/// What is left of a polygon where `inside` is not negative.
+/// Part of a polygon where `inside` is not negative.
 fn clip_side(polygon: &[Place], inside: impl Fn(Place) -> f64) -> Vec<Place> {
     let mut kept = Vec::new();
     for (index, &to) in polygon.iter().enumerate() {

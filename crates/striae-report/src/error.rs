@@ -6,7 +6,7 @@ use striae_figure::FigureError;
 use striae_files::FileError;
 use striae_output::OutputError;
 
-/// What can go wrong.
+/// Error of a report.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
     /// The folder holds no results.
@@ -21,7 +21,7 @@ pub enum ReportError {
     /// There is no field of this name at the time.
     #[error("there is no field `{name}`; there are {known}")]
     Field {
-        /// What was asked for.
+        /// Requested name.
         name: String,
         /// All names.
         known: String,
@@ -31,7 +31,7 @@ pub enum ReportError {
     Component {
         /// The field.
         field: String,
-        /// What was asked for.
+        /// Requested name.
         name: String,
         /// All names.
         known: String,

@@ -30,7 +30,7 @@ const MOTION: &str = "motion";
 pub struct Part {
     /// Its name.
     pub name: String,
-    /// What it is.
+    /// Kind of the part.
     pub kind: Kind,
     /// Its file at every time, where there is one.
     files: Vec<Option<PathBuf>>,

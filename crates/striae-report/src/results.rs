@@ -1,4 +1,4 @@
-//! What a results folder holds, but for the fields.
+//! Content of a results folder except for the fields.
 
 use std::path::{Path, PathBuf};
 
@@ -27,7 +27,7 @@ pub struct Results {
     pub series: Vec<(Kind, Vec<Snapshot>)>,
 }
 
-/// What a collection is of.
+/// Subject of a collection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {

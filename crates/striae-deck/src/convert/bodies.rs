@@ -26,7 +26,7 @@ impl Instance<'_> {
         self.kinds.iter().any(|kind| kind.starts_with("C3D"))
     }
 
-    /// Whether it is a rigid surface of facets.
+    /// Returns whether it is a rigid surface of facets.
     pub(super) fn is_rigid(&self) -> bool {
         !self.is_solid() && self.kinds.iter().any(|kind| kind.starts_with("R3D"))
     }

@@ -115,7 +115,7 @@ fn lowered(raw: &raw::ActuationKind, faults: &mut FaultList<'_>) -> Option<Actua
 enum Line {
     /// Along a unit vector.
     Direction(Vec3),
-    /// Those of the material.
+    /// Fibres of the material.
     Fibres,
 }
 

@@ -25,7 +25,7 @@ use striae_mesh::Mesh;
 use striae_meshfile::{Card, Elasticity, MaterialCard, Moduli, SectionCard};
 use striae_solve::model::{BodySection, Formulation};
 
-/// What a mesh file says of materials.
+/// Materials stated by a mesh file.
 pub(super) struct Cards {
     pub(super) materials: Vec<MaterialCard>,
     pub(super) sections: Vec<SectionCard>,

@@ -24,7 +24,7 @@ impl<T> Listed<T> {
         }
     }
 
-    /// Whether every element is known.
+    /// Returns whether every element is known.
     pub(super) fn whole(&self) -> bool {
         self.items.len() == self.written
     }

@@ -120,7 +120,7 @@ fn inertia(
     }
 }
 
-/// What the rigid bodies do in a step.
+/// Motions of rigid bodies in a step.
 pub(super) fn motions(
     raw: &[At<raw::RigidMotion>],
     scope: &Scope<'_>,

@@ -60,7 +60,7 @@ words! {
 words! {
     /// Mass of the nodes of contact surfaces.
     ContactMass {
-        /// What the consistent mass matrix gives them.
+        /// Mass from the consistent mass matrix.
         Consistent = "consistent",
         /// None: it is moved to the nodes behind, against oscillations of contact.
         Redistributed = "redistributed",

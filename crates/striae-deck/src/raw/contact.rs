@@ -26,11 +26,17 @@ table! {
         /// Distance over which contact is looked for ahead. It bears on the cost, not on the
         /// result. Default: half the local facet size.
         optional search_distance: Positive,
-        /// What is made of gaps and overlaps of the meshes before anything has moved: `as-meshed` takes gaps as they are and refuses overlaps of more than 2 % of the local facet size; `close` moves nodes without strain until overlaps are gone, and gaps of up to a tenth of the local facet size or up to the one that is given; `resolve` presses overlaps out in the course of the first step. Default: `as-meshed`.
+        /// Treatment of gaps and overlaps of the meshes before any motion: `as-meshed` keeps gaps
+        /// and refuses overlaps of more than 2 % of the local facet size; `close` moves nodes
+        /// without strain until overlaps are gone, and closes gaps of up to a tenth of the local
+        /// facet size or up to a given size; `resolve` removes overlaps gradually during the first
+        /// step, which strains the bodies. Default: `as-meshed`.
         optional initial: Initial,
         /// Interference of a press fit, a length: the two sides are taken as touching at the start where they face each other within the search distance or overlap, whatever the gap between their facets is, and are then pressed apart by this much in the course of the first step. Negative for a clearance. Default: none, gaps are those of the meshes.
         optional interference: Interference,
-        /// Whether viscous forces between the sides carry bodies that nothing else holds across a gap, in steps without inertia. They fall to zero in the course of each step. Default: false.
+        /// `true`: viscous forces between the sides carry bodies without other restraints across a
+        /// gap, in steps without inertia. They fall to zero in the course of each step. Default:
+        /// false.
         optional stabilise: Truth,
         /// Dihedral angle in degrees from which on an edge separates faces: nodes there have a normal and a traction for each of them. Default: one for all faces at a node.
         optional feature_angle: Angle,
@@ -83,7 +89,7 @@ impl Read for Interference {
     }
 }
 
-/// What is made of gaps and overlaps of the meshes.
+/// Treatment of gaps and overlaps of the meshes.
 #[derive(Clone, Debug)]
 pub(crate) enum Initial {
     /// One of a few treatments.
@@ -93,7 +99,7 @@ pub(crate) enum Initial {
 }
 
 words! {
-    /// What is made of gaps and overlaps of the meshes.
+    /// Treatment of gaps and overlaps of the meshes.
     InitialWord {
         /// Gaps are as they are, overlaps a fault.
         AsMeshed = "as-meshed",

@@ -22,7 +22,8 @@ table! {
         required file: Text,
         /// The part of the file that the body is: an element set, a physical volume of Gmsh, or an instance of Abaqus. Its sets are restricted to it. Default: all of it.
         optional elements: Text,
-        /// Whether elements are of the materials that the file gives them, by `*SOLID SECTION` of Abaqus. Default: `false`.
+        /// `true`: elements have the materials that the file assigns to them, by `*SOLID SECTION`
+        /// of Abaqus. Default: `false`.
         optional materials: Truth,
     }
 }
@@ -68,7 +69,8 @@ table! {
         required size: [Positive; 3],
         /// Hexahedra along the edges.
         required divisions: [Count; 3],
-        /// What they are divided into. Default: `hexahedra`, which are left whole.
+        /// Kind of cells that the hexahedra are divided into. Default: `hexahedra`, which are not
+        /// divided.
         optional cells: Cells,
         /// Interval lengths along the edges. Default: equal.
         optional grading: Gradings,
@@ -181,7 +183,8 @@ table! {
         optional growth: Growth,
         /// How much of it is meshed. Default: `whole`.
         optional part: Part,
-        /// What its hexahedra are divided into. Default: `hexahedra`, which are left whole.
+        /// Kind of cells that its hexahedra are divided into. Default: `hexahedra`, which are not
+        /// divided.
         optional cells: Cells,
     }
 }

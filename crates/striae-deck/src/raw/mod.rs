@@ -50,7 +50,7 @@ table! {
         optional curve: Vec<At<NamedCurve>>,
         /// Parts of the loading history, in the order in which they are run.
         optional step: Vec<At<Step>>,
-        /// What is written.
+        /// Output of the run.
         optional output: OutputSettings,
         /// Newton's method and the linear solver.
         optional solver: SolverSettings,

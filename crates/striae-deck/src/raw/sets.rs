@@ -67,7 +67,7 @@ table! {
 }
 
 table! {
-    /// What several sets have in common.
+    /// Common members of several sets.
     CommonMembers {
         /// Names of the sets, of the mesh or of the deck.
         required common: Vec<At<Text>>,
@@ -83,7 +83,7 @@ table! {
 }
 
 table! {
-    /// What is in a box along the axes.
+    /// Members in a box along the axes.
     InBox {
         /// Corner of smallest coordinates.
         required from: [Number; 3],
@@ -93,7 +93,7 @@ table! {
 }
 
 table! {
-    /// What is in a ball.
+    /// Members in a ball.
     InSphere {
         /// The ball.
         required sphere: Sphere,
@@ -111,7 +111,7 @@ table! {
 }
 
 table! {
-    /// What is in a cylinder.
+    /// Members in a cylinder.
     InCylinder {
         /// The cylinder, without ends.
         required cylinder: Cylinder,
@@ -131,7 +131,7 @@ table! {
 }
 
 table! {
-    /// What is on one side of a plane.
+    /// Members on one side of a plane.
     InHalfSpace {
         /// That side.
         required half_space: HalfSpace,
@@ -173,7 +173,8 @@ table! {
 }
 
 table! {
-    /// What is between elements of a set and all else: nodes, or facets on the boundary of the body.
+    /// Border between the elements of a set and everything else: nodes, or facets on the boundary
+    /// of the body.
     OfBorder {
         /// Name of the element set.
         required border: Text,

@@ -7,7 +7,7 @@ use crate::{
 };
 
 table! {
-    /// What is written.
+    /// Output of the run.
     OutputSettings {
         /// Increments between files of fields; 0: only the last. Default: 1.
         optional fields_every: Whole<0>,

@@ -45,7 +45,7 @@ table! {
         optional pressure: Vec<At<Pressure>>,
         /// Strains without stress and tensions that bodies take on of themselves.
         optional actuation: Vec<At<Actuation>>,
-        /// What rigid bodies do.
+        /// Motions of rigid bodies.
         optional rigid: Vec<At<RigidMotion>>,
         /// Changes of friction at the start of the step.
         optional friction: Vec<At<FrictionChange>>,
@@ -75,7 +75,7 @@ table! {
 }
 
 either! {
-    /// What has a velocity.
+    /// Part that a velocity is given to.
     VelocityOf {
         Body(VelocityOfBody),
         Rigid(VelocityOfRigid),
@@ -194,7 +194,7 @@ table! {
         required facets: Text,
         /// Target of the traction.
         required vector: [Number; 3],
-        /// Whether it keeps its direction. Default: `dead`.
+        /// Direction of the force as the body deforms. Default: `dead`.
         optional direction: Direction,
         /// Which part of the facets is loaded. Default: `whole`.
         optional extent: Extent,
@@ -240,7 +240,7 @@ table! {
 }
 
 table! {
-    /// What a rigid body does. At first all its coordinates are held.
+    /// Motion of a rigid body. Initially all its coordinates are held.
     RigidMotion {
         /// Name of the rigid body.
         required surface: Text,

@@ -26,7 +26,7 @@ use striae_output::Output;
 use striae_solve::model::{Backend, Curve, Model, Solver, Strategy};
 use value::{number, text};
 
-/// What a model says and a deck cannot.
+/// Parts of a model that a deck cannot state.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub struct Unstated {
     /// Parts of the model and why a deck cannot state them.

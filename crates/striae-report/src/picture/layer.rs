@@ -1,4 +1,4 @@
-//! What is drawn: surfaces with the values of a field, and surfaces that are seen through.
+//! Layers of a picture: surfaces coloured by a field, and transparent surfaces.
 
 use striae_figure::color_map;
 
@@ -34,7 +34,7 @@ pub struct Layers<'a> {
     shown: Vec<Layer<'a>>,
     /// Surfaces without the field.
     others: Vec<Layer<'a>>,
-    /// Whether others are seen through.
+    /// `true` if other layers are seen through it.
     veiled: bool,
 }
 

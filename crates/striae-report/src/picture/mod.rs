@@ -33,7 +33,7 @@ pub const WIDTH: usize = 900;
 /// Size of words over the width of a picture.
 const WORDS: f64 = 0.016;
 
-/// What a picture shows.
+/// Content of a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
     /// The field; by default the contact pressure, or else the stress of the bodies.

@@ -1,6 +1,6 @@
 //! Members of a set, and what to say where there are none.
 
-/// What a definition chooses.
+/// Members that a definition selects.
 pub(super) struct Found<T> {
     pub(super) members: Vec<T>,
     /// Why there may be none.

@@ -1,4 +1,4 @@
-//! What is in a region.
+//! Members of sets in a region.
 
 use super::found::Found;
 use crate::{
@@ -24,7 +24,7 @@ impl Within {
         found(mesh, mesh.elements_of(&mesh.nodes_in(&self.0)))
     }
 
-    /// Those of some facets with all their corners in the region.
+    /// Facets, out of the given ones, with all corners in the region.
     pub(super) fn facets(&self, mesh: &Mesh, of: &[Face]) -> Found<Face> {
         found(mesh, mesh.faces_among(of, &mesh.nodes_in(&self.0)))
     }
