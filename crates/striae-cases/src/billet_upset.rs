@@ -250,7 +250,7 @@ struct Disc {
     slenderness: f64,
     /// Mean pressure over the yield stress.
     pressure: f64,
-    /// The same by the slab method.
+    /// Corresponding value of the slab method.
     known: f64,
 }
 

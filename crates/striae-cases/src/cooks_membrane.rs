@@ -60,7 +60,7 @@ pub fn run(study: &mut Study) -> Result<(), Failure> {
     study.draw(&figure, "convergence")
 }
 
-/// What a quick look does not give.
+/// Quantities that the quick run omits.
 const FULL_ONLY: [&str; 6] = [
     "plane-stress.hexahedra.finest",
     "plane-stress.tetrahedra.finest",

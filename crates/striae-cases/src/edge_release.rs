@@ -58,7 +58,7 @@ struct Scene {
     corner: [f64; 2],
 }
 
-/// What a run gave.
+/// Result of a run.
 struct Trial {
     name: String,
     friction: usize,

@@ -19,7 +19,7 @@ pub enum Failure {
     Unwritable {
         /// The file or folder.
         path: PathBuf,
-        /// What the operating system says.
+        /// Error of the operating system.
         cause: io::Error,
     },
     /// A figure cannot be drawn or written.

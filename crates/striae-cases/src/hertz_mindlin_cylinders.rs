@@ -34,7 +34,7 @@ const LOADS: [f64; 2] = [0.625, 0.05851];
 /// coarsest mesh; the contact zone is 1.4 wide.
 const NEAR: f64 = 0.1;
 
-/// What a mesh gives.
+/// Results on one mesh.
 struct Measured {
     size: f64,
     /// Place, pressure and friction of the nodes.
@@ -45,8 +45,8 @@ struct Measured {
     peak_friction: f64,
     /// Relative errors of pressure and friction.
     errors: [f64; 2],
-    /// The same without what lies near the edges of the contact zone and, for
-    /// friction, of the stick zone.
+    /// Relative errors away from the edges of the contact zone and, for friction, of the stick
+    /// zone.
     away: [f64; 2],
 }
 

@@ -23,7 +23,7 @@ const WAYS: [f64; 3] = [0.0, 0.03, 0.15];
 const WEIGHTED: &str = r#"enforcement = "weighted""#;
 const COLLOCATED: &str = r#"enforcement = "collocated""#;
 const MU: f64 = 0.1;
-/// What the deck says of friction.
+/// Part of the deck that states friction.
 const FRICTION: &str = r#"friction = { law = "coulomb", mu = 0.1 }"#;
 /// The step that makes all slip.
 const SLIDE: &str = r#"[[step]]
@@ -48,7 +48,7 @@ const SHALLOW: [[&str; 2]; 4] = [
     ["x = 0.03 }", "x = 0.0003 }"],
     [SLIDE, ""],
 ];
-/// What a quick look does not give.
+/// Quantities that the quick run omits.
 const FULL_ONLY: [&str; 12] = [
     "h-0.4.pressed.friction",
     "h-0.4.lateral",

@@ -1,4 +1,4 @@
-//! What a case works with: it runs decks and collects what they give.
+//! Environment of a case: runs decks and collects their results.
 
 use std::{
     fs,
@@ -53,7 +53,7 @@ pub struct Study<'a> {
     pub folder: PathBuf,
     /// Runs the simulations.
     pub runner: &'a dyn Runner,
-    /// What was measured.
+    /// Measured quantities.
     pub quantities: Vec<(String, f64)>,
     /// Quantities that are not measured in this extent.
     pub left_out: Vec<&'static str>,
@@ -142,7 +142,7 @@ impl<'a> Study<'a> {
         })
     }
 
-    /// Whether a run was stopped from outside.
+    /// Returns whether a run was stopped from outside.
     pub fn was_interrupted(&self) -> bool {
         self.interrupted
     }

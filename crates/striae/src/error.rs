@@ -51,7 +51,7 @@ pub enum Error {
     Elsewhere {
         /// Which one.
         rank: usize,
-        /// What it says.
+        /// Message of the cause.
         cause: String,
     },
     /// A run cannot be taken up again.

@@ -19,13 +19,13 @@ impl Interrupt {
         }
     }
 
-    /// Whether the runs are to stop.
+    /// Returns whether the runs are to stop.
     pub fn is_set(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 }
 
-/// What a flag was before it was set.
+/// State of a flag before it was set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Before {
     /// Not set.

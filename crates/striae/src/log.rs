@@ -1,4 +1,4 @@
-//! What a run leaves behind: files and checkpoints, or values in memory only.
+//! Output of a run: files and checkpoints, or values in memory only.
 
 use std::{path::PathBuf, time::Instant};
 
@@ -28,7 +28,7 @@ pub(crate) struct Recording {
     pub(crate) case: String,
     /// The deck, for checkpoints; without it there are none.
     pub(crate) source: Option<Source>,
-    /// What becomes of results that are there.
+    /// Treatment of existing results.
     pub(crate) existing: Existing,
 }
 
@@ -117,7 +117,7 @@ impl Log {
         }
     }
 
-    /// Whether a checkpoint is due.
+    /// Returns whether a checkpoint is due.
     pub(crate) fn keeps(&self, increment: usize) -> bool {
         match self {
             Self::Memory(_) => false,

@@ -102,7 +102,7 @@ pub struct Measured {
 /// All that is wrong with a file of measurements.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub struct MeasurementFaults {
-    /// What the file is called.
+    /// Name of the file.
     pub file: String,
     /// The faults, by place.
     pub faults: Vec<MeasurementFault>,
@@ -113,7 +113,7 @@ pub struct MeasurementFaults {
 pub struct MeasurementFault {
     /// Line and column of the text, from 1; `None` where the whole file is meant.
     pub place: Option<(usize, usize)>,
-    /// What was found and what is needed.
+    /// Message: what was found and what is needed.
     pub message: String,
 }
 

@@ -28,10 +28,10 @@ pub trait Observer {
 /// An observer that ignores everything.
 impl Observer for () {}
 
-/// Whether a run goes on.
+/// Decision whether a run continues.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Next {
-    /// It does.
+    /// The run continues.
     Continue,
     /// It ends after this increment, as if it had been interrupted.
     Stop,

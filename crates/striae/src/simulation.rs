@@ -94,7 +94,7 @@ pub struct Finished {
     pub increments: usize,
     /// How the run ended.
     pub ending: Ending,
-    /// What `summary.json` says: counts, resultants, warnings.
+    /// Content of `summary.json`: counts, resultants, warnings.
     pub summary: Summary,
     /// A row an increment: resultants, reactions, motions, energies.
     pub history: Table,
@@ -201,11 +201,11 @@ impl Simulation {
         Ok(simulation.recorded(folder, case).with_source(source))
     }
 
-    /// The same on several ranks, each of which reads the deck; collective. Results of the
-    /// run are those of what this rank holds, history and summary those of the whole.
+    /// Opens the deck on several ranks, each of which reads it; collective. Results of the run are
+    /// those of the part this rank holds, history and summary those of the whole.
     ///
     /// # Errors
-    /// As [`Self::open`], on all ranks.
+    /// Returns the errors of [`Self::open`], on all ranks.
     pub fn open_on(
         ranks: Arc<dyn Ranks>,
         deck: &Path,
@@ -294,7 +294,7 @@ impl Simulation {
         Ok(simulation)
     }
 
-    /// What is written and how often, if the run is recorded.
+    /// Sets what is written and how often, if the run is recorded.
     pub fn writing(mut self, output: Output) -> Self {
         self.output = output;
         self
@@ -330,8 +330,8 @@ impl Simulation {
         self
     }
 
-    /// What becomes of results that are in the folder already; without a word they stay,
-    /// and the run does not begin.
+    /// Sets the treatment of results that are in the folder already; by default they are kept and
+    /// the run does not begin.
     pub fn over(mut self, existing: Existing) -> Self {
         if let Some(recording) = &mut self.recording {
             recording.existing = existing;
@@ -481,7 +481,7 @@ fn log(
     Ok(log)
 }
 
-/// What a checkpoint knows of a deck.
+/// Record of the deck in a checkpoint.
 fn source(
     case: String,
     (deck, settings): (&Path, &[Setting]),

@@ -238,7 +238,7 @@ fn reactions_are_those_of_sets_that_something_holds() {
     assert!(history.column("reaction.floor.z").is_some());
 }
 
-/// What a cut transmits is what acts beyond it, whatever the elements that it goes through.
+/// A cut transmits the loads beyond it, through any kind of elements.
 #[test]
 fn cuts_transmit_what_acts_beyond_them() {
     for cells in ["hexahedra", "wedges", "pyramids", "tetrahedra"] {

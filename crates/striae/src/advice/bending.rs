@@ -139,7 +139,7 @@ fn range(positions: impl Iterator<Item = Vec3>, axis: &Vec3) -> [f64; 2] {
     })
 }
 
-/// Whether something pushes a body along an axis.
+/// Returns whether anything pushes a body along an axis.
 fn is_pushed(model: &Model, body: BodyId, axis: &Vec3) -> bool {
     let mesh = &model.bodies[body.0].mesh;
     let across = |faces: &[Face]| {
@@ -166,7 +166,7 @@ fn is_pushed(model: &Model, body: BodyId, axis: &Vec3) -> bool {
     model.steps.iter().any(pushes) || pairs.any(|pair| touches(&pair.a) || touches(&pair.b))
 }
 
-/// Whether one of the two large sides of a body is held across, or lies on something.
+/// Returns whether one of the two large sides of a body is held transversely, or lies on something.
 fn is_supported(model: &Model, fits: &[Option<Fit>], body: BodyId, frame: &Frame) -> bool {
     let mesh = &model.bodies[body.0].mesh;
     let axis = frame.axes[0];

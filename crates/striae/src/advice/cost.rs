@@ -38,7 +38,7 @@ const UNCERTAIN: f64 = 1.5;
 /// Operations a second.
 const PACE: f64 = 4e9;
 
-/// What a run will take, more or less.
+/// Estimated cost of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cost {
     /// Unknowns of a linear system.
@@ -74,10 +74,10 @@ impl Cost {
         }
     }
 
-    /// Whether that much memory does, for all that a formula can say.
+    /// Checks that the memory suffices, as far as a formula can tell.
     ///
     /// # Errors
-    /// [`Error::Memory`] where it certainly does not.
+    /// Returns [`Error::Memory`] if it certainly does not.
     pub fn fits(&self, available: f64) -> Result<(), Error> {
         if self.bytes <= UNCERTAIN * available {
             return Ok(());

@@ -79,7 +79,7 @@ fn words(model: &Model, pair: PairId, fit: &Fit) -> String {
     format!("{gap}; {overlap}")
 }
 
-/// Whether no facets of the sides face each other, as far as their normals tell.
+/// Returns whether no facets of the sides face each other, as far as their normals tell.
 fn looks_away(model: &Model, pair: &Pair) -> bool {
     // Parts of one body may face each other only once it is bent.
     if pair.is_within_a_body() {

@@ -1,8 +1,8 @@
-//! What holds each body in the first step: prescribed nodes, ties, contact.
+//! Restraint of each body in the first step: prescribed nodes, ties, contact.
 //!
-//! Rigid motions that prescribed nodes leave free have to be stopped by contact. A pair that
-//! touches stops all of them that its friction and normals reach, whatever its size; one
-//! that is open stops none unless it is stabilised. In later steps contact may have closed.
+//! Rigid motions that prescribed nodes leave free must be stopped by contact. A pair that touches
+//! stops all motions that its friction and normals resist, whatever its size; an open pair stops
+//! none unless it is stabilised. In later steps contact may have closed.
 
 use std::collections::BTreeSet;
 

@@ -8,7 +8,7 @@ use super::{Advice, Topic};
 
 /// Sine of the angle between a direction and the normal that is none.
 const ALONG: f64 = 1e-6;
-/// The same from which on the direction is in doubt: six degrees.
+/// Sine from which on the direction is doubtful: six degrees.
 const NEARLY: f64 = 0.1;
 
 /// Notes textures that cannot be painted, and those nearly along the normal of a plane.

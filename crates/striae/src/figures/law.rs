@@ -53,8 +53,8 @@ pub fn figure(friction: &Friction, analyses: &[Analysis]) -> Figure {
     drawn(friction, analyses, 1.0, "ϖ")
 }
 
-/// The same times the coefficient of friction at rest: `|tau|/p` under pressures at which
-/// no cap on the shear stress is reached.
+/// Slip surfaces and friction scaled by the static coefficient of friction: `|tau|/p` under
+/// pressures at which no cap on the shear stress is reached.
 pub fn coefficients(friction: &Friction, analyses: &[Analysis]) -> Figure {
     drawn(friction, analyses, friction.coefficient().at_rest(), "p")
 }

@@ -68,10 +68,10 @@ impl Simulation {
         Self::branched(None, folder, (deck, settings), out.into())
     }
 
-    /// The same on several ranks, however many wrote the checkpoint; collective.
+    /// Resumes on several ranks, for any number of ranks that wrote the checkpoint; collective.
     ///
     /// # Errors
-    /// As [`Self::resume_with_set`], on all ranks.
+    /// Returns the errors of [`Self::resume_with_set`], on all ranks.
     pub fn resume_with_on(
         ranks: Arc<dyn Ranks>,
         folder: &Path,

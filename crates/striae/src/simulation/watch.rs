@@ -1,4 +1,4 @@
-//! What stands between a run and its observer.
+//! Layer between a run and its observer.
 
 use striae_contact::evaluation::Evaluation;
 use striae_output::OutputError;
@@ -78,7 +78,7 @@ impl drive::Observer for Watch<'_> {
 }
 
 impl Watch<'_> {
-    /// What comes next if nothing stops the run.
+    /// Decision of a run that nothing stops.
     fn proceed(&self, next: Next, otherwise: Continue) -> Continue {
         if self.failure.is_some() || self.interrupt.is_set() || next == Next::Stop {
             Continue::Stop

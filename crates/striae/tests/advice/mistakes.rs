@@ -75,7 +75,7 @@ fn assert_warned(passages: &[[&str; 2]], topic: Topic, words: &str) {
     assert!(text.contains(words), "{text}");
 }
 
-/// What a deck that is refused says.
+/// Message for a deck that is refused.
 fn refusal(passages: &[[&str; 2]]) -> String {
     read(passages).expect_err("a fault").to_string()
 }

@@ -1,4 +1,4 @@
-//! Whether two folders say the same.
+//! Comparison of the content of two folders.
 
 use std::path::Path;
 

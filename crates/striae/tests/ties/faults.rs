@@ -1,4 +1,4 @@
-//! What is no tie, in words.
+//! Configurations that cannot be tied, and their messages.
 
 use std::path::Path;
 
